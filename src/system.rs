@@ -1,0 +1,196 @@
+//! The dimensionless system that every layer computes with.
+//!
+//! Lengths are divided by the clearance, time by the reciprocal natural frequency
+//! (`tau = omega0 t`), forces accordingly. With the mass ratio `eps`, the damping `lambda`, the
+//! frequency ratio `Omega`, the forcing per clearance `gamma = G / b` and the restitution `r`, the
+//! equation of motion is equation (1) of Li, Seguy, Berlioz (2016) divided by the clearance.
+
+use serde::Serialize;
+
+/// How the linear oscillator is driven.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Excitation {
+    /// The base moves by `F sin(omega t)`; spring and damper both transmit it, equation (1).
+    BaseDisplacement,
+    /// A force acts on the oscillator's mass; there is no damper term in the excitation.
+    Force,
+}
+
+/// The numbers of a [`System`] before they are proven valid.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Parameters {
+    /// `eps = m2 / m1`, dimensionless, above 0.
+    pub mass_ratio: f64,
+    /// `lambda = c1 / (m2 omega0)`, dimensionless, at least 0.
+    pub damping: f64,
+    /// `r`, dimensionless, from 0 to 1.
+    pub restitution: f64,
+    /// `Omega = omega / omega0`, dimensionless, above 0.
+    pub frequency_ratio: f64,
+    /// `gamma = G / b`, dimensionless, at least 0. For a force of amplitude `P` on the mass,
+    /// `G = P / (k1 eps)`.
+    pub forcing_per_clearance: f64,
+    /// Where the excitation enters.
+    pub excitation: Excitation,
+}
+
+/// A parameter that no physical system can have.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("{name} is {value}, expected {expected}")]
+pub struct InvalidParameter {
+    /// The parameter's name as in [`Parameters`].
+    pub name: &'static str,
+    /// The offending value.
+    pub value: f64,
+    /// What would have been accepted, as words.
+    pub expected: &'static str,
+}
+
+/// A dimensionless system whose parameters have been proven valid once, here.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct System(Parameters);
+
+impl System {
+    /// Accepts every physically meaningful combination, extremes included.
+    ///
+    /// # Errors
+    /// [`InvalidParameter`] names the first parameter that is not finite or out of its range.
+    pub fn new(parameters: Parameters) -> Result<Self, InvalidParameter> {
+        let p = &parameters;
+        let positive =
+            |name, value: f64| check(name, value, value > 0.0, "a finite number above 0");
+        let not_negative =
+            |name, value: f64| check(name, value, value >= 0.0, "a finite number, 0 or more");
+        positive("mass_ratio", p.mass_ratio)?;
+        not_negative("damping", p.damping)?;
+        let within = (0.0..=1.0).contains(&p.restitution);
+        check("restitution", p.restitution, within, "a number from 0 to 1")?;
+        positive("frequency_ratio", p.frequency_ratio)?;
+        not_negative("forcing_per_clearance", p.forcing_per_clearance)?;
+        Ok(Self(parameters))
+    }
+
+    /// `eps`, the mass ratio.
+    pub fn mass_ratio(&self) -> f64 {
+        self.0.mass_ratio
+    }
+
+    /// `lambda`, so that the damping term of the oscillator is `eps lambda x'`.
+    pub fn damping(&self) -> f64 {
+        self.0.damping
+    }
+
+    /// `r`, the coefficient of restitution.
+    pub fn restitution(&self) -> f64 {
+        self.0.restitution
+    }
+
+    /// `Omega`, the excitation frequency over the natural frequency.
+    pub fn frequency_ratio(&self) -> f64 {
+        self.0.frequency_ratio
+    }
+
+    /// `sigma = (Omega - 1) / eps`, the detuning of equation (7).
+    pub fn detuning(&self) -> f64 {
+        (self.0.frequency_ratio - 1.0) / self.0.mass_ratio
+    }
+
+    /// `gamma = G / b`, the reduced forcing per clearance.
+    pub fn forcing_per_clearance(&self) -> f64 {
+        self.0.forcing_per_clearance
+    }
+
+    /// Where the excitation enters.
+    pub fn excitation(&self) -> Excitation {
+        self.0.excitation
+    }
+
+    /// `2 pi / Omega`, the excitation period in fast time.
+    pub fn period(&self) -> f64 {
+        std::f64::consts::TAU / self.0.frequency_ratio
+    }
+
+    /// All parameters, to derive a neighbouring system from.
+    pub fn parameters(&self) -> Parameters {
+        self.0
+    }
+
+    /// The same excitation acting on a system whose clearance is `factor` times as large.
+    ///
+    /// # Errors
+    /// As [`System::new`], when `factor` is not a positive finite number.
+    pub fn with_clearance_scaled(&self, factor: f64) -> Result<Self, InvalidParameter> {
+        check("clearance factor", factor, factor > 0.0, "a finite number above 0")?;
+        let forcing_per_clearance = self.0.forcing_per_clearance / factor;
+        Self::new(Parameters { forcing_per_clearance, ..self.0 })
+    }
+
+    /// The same system driven at another frequency.
+    ///
+    /// # Errors
+    /// As [`System::new`].
+    pub fn with_frequency_ratio(&self, frequency_ratio: f64) -> Result<Self, InvalidParameter> {
+        Self::new(Parameters { frequency_ratio, ..self.0 })
+    }
+
+    /// Complex amplitude, over the clearance, of the steady motion without absorber impacts, so
+    /// that `x = re sin(Omega tau) + im cos(Omega tau)`. `None` for an undamped system driven
+    /// exactly at its natural frequency, which has no steady motion.
+    pub fn linear_response(&self) -> Option<LinearResponse> {
+        let omega = self.0.frequency_ratio;
+        let damping = self.0.mass_ratio * self.0.damping;
+        let (sine, cosine) = self.excitation_amplitudes();
+        let stiffness = (1.0 - omega) * (1.0 + omega);
+        let loss = damping * omega;
+        let scale = stiffness * stiffness + loss * loss;
+        if scale == 0.0 {
+            return None;
+        }
+        Some(LinearResponse {
+            sine: (sine * stiffness + cosine * loss) / scale,
+            cosine: (cosine * stiffness - sine * loss) / scale,
+        })
+    }
+
+    /// Amplitudes of the excitation's `sin(Omega tau)` and `cos(Omega tau)` on the right-hand side
+    /// of equation (1), over the clearance.
+    pub fn excitation_amplitudes(&self) -> (f64, f64) {
+        let Parameters { mass_ratio: eps, damping, frequency_ratio, .. } = self.0;
+        let sine = eps * self.0.forcing_per_clearance;
+        match self.0.excitation {
+            Excitation::BaseDisplacement => (sine, eps * damping * frequency_ratio * sine),
+            Excitation::Force => (sine, 0.0),
+        }
+    }
+}
+
+/// Steady motion of the oscillator alone, over the clearance: `sine sin(Omega tau) + cosine
+/// cos(Omega tau)`.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct LinearResponse {
+    /// Coefficient of `sin(Omega tau)`.
+    pub sine: f64,
+    /// Coefficient of `cos(Omega tau)`.
+    pub cosine: f64,
+}
+
+impl LinearResponse {
+    /// Amplitude over the clearance.
+    pub fn amplitude(&self) -> f64 {
+        libm::hypot(self.sine, self.cosine)
+    }
+}
+
+fn check(
+    name: &'static str,
+    value: f64,
+    within: bool,
+    expected: &'static str,
+) -> Result<(), InvalidParameter> {
+    if within && value.is_finite() {
+        Ok(())
+    } else {
+        Err(InvalidParameter { name, value, expected })
+    }
+}
