@@ -2,4 +2,7 @@
 #![warn(missing_docs)]
 #![forbid(unsafe_code)]
 
+pub mod numerics;
+pub mod regimes;
+pub mod simulation;
 pub mod system;

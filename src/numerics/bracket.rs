@@ -1,0 +1,92 @@
+//! Roots of a continuous function inside a bracket, with their evidence.
+
+use roots::{Convergency, find_root_brent};
+
+/// A root together with what proves it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Root {
+    /// Where.
+    pub at: f64,
+    /// The function's value there.
+    pub residual: f64,
+}
+
+/// Why no root is reported.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum NoRoot {
+    /// The ends do not bracket a sign change.
+    #[error("no sign change between {from} and {to}")]
+    NotBracketed {
+        /// Lower end.
+        from: f64,
+        /// Upper end.
+        to: f64,
+    },
+    /// The iteration did not shrink the bracket to the tolerance.
+    #[error("no convergence between {from} and {to}")]
+    NotConverged {
+        /// Lower end.
+        from: f64,
+        /// Upper end.
+        to: f64,
+    },
+}
+
+/// Stops on an exact zero or on a bracket of `width`; never on a small function value, which would
+/// accept a point far from the root of a badly scaled function.
+struct BracketWidth {
+    width: f64,
+}
+
+impl Convergency<f64> for BracketWidth {
+    fn is_root_found(&mut self, value: f64) -> bool {
+        value == 0.0
+    }
+    fn is_converged(&mut self, from: f64, to: f64) -> bool {
+        (to - from).abs() <= self.width
+    }
+    fn is_iteration_limit_reached(&mut self, iteration: usize) -> bool {
+        iteration > 200
+    }
+}
+
+/// Brent's method on `[from, to]` until the bracket is `width` wide.
+///
+/// # Errors
+/// [`NoRoot`] when the ends do not differ in sign, or the bracket does not shrink.
+pub fn brent(
+    from: f64,
+    to: f64,
+    width: f64,
+    mut function: impl FnMut(f64) -> f64,
+) -> Result<Root, NoRoot> {
+    let (at_from, at_to) = (function(from), function(to));
+    for (at, residual) in [(from, at_from), (to, at_to)] {
+        if residual == 0.0 {
+            return Ok(Root { at, residual });
+        }
+    }
+    if at_from.is_nan() || at_to.is_nan() || (at_from > 0.0) == (at_to > 0.0) {
+        return Err(NoRoot::NotBracketed { from, to });
+    }
+    let mut convergency = BracketWidth { width };
+    let at = find_root_brent(from, to, &mut function, &mut convergency)
+        .map_err(|_| NoRoot::NotConverged { from, to })?;
+    Ok(Root { at, residual: function(at) })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_badly_scaled_function_still_gives_its_root() {
+        let root = brent(0.0, 3.0, 1e-15, |x| 1e-16 * (x - 1.0)).expect("bracketed");
+        assert!((root.at - 1.0).abs() < 1e-14, "{root:?}");
+    }
+
+    #[test]
+    fn ends_of_one_sign_are_refused() {
+        assert!(matches!(brent(0.0, 1.0, 1e-15, |x| x + 1.0), Err(NoRoot::NotBracketed { .. })));
+    }
+}

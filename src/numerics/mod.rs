@@ -1,0 +1,7 @@
+//! Numerical methods that know nothing of physics. Each result carries its evidence: a bracket, a
+//! residual, a certified count, the number of evaluations.
+
+pub mod bracket;
+pub mod crossing;
+pub mod polynomial;
+pub mod quadrature;

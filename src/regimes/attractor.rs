@@ -1,0 +1,136 @@
+//! Long-term motions, found from many starts and matched by what they are.
+
+use serde::Serialize;
+
+use super::{Classification, Thresholds, classify};
+use crate::simulation::run::Nobody;
+use crate::simulation::{
+    Energy, Impact, ImpactLog, Simulation, StartError, State, Statistics, Stop, SustainedContact,
+};
+use crate::system::System;
+
+/// How long a trajectory is followed.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Effort {
+    /// Excitation periods left out as transient.
+    pub discard: u64,
+    /// Excitation periods measured.
+    pub periods: u64,
+    /// How often the transient is prolonged while the motion has neither repeated nor settled.
+    pub prolongations: u32,
+    /// Largest number of impacts in one stretch.
+    pub impact_limit: u64,
+}
+
+/// What a trajectory became.
+#[derive(Debug, Clone, Serialize)]
+pub struct Attractor {
+    /// Its regime, and why.
+    #[serde(flatten)]
+    pub classification: Classification,
+    /// Largest absolute displacement of the oscillator over the clearance.
+    pub peak: f64,
+    /// Root mean square displacement of the oscillator over the clearance.
+    pub rms: f64,
+    /// First harmonic of the oscillator: coefficients of `sin` and `cos` of the excitation's phase.
+    pub oscillator_harmonic: [f64; 2],
+    /// The same for the absorber.
+    pub absorber_harmonic: [f64; 2],
+    /// Energy balance of the measured window.
+    pub energy: Energy,
+    /// Sustained contact in the measured window.
+    pub sustained_contact: SustainedContact,
+    /// Periods measured.
+    pub periods: u64,
+    /// Why the measurement ended.
+    pub stop: Stop,
+    /// Largest penetration of a wall over the clearance.
+    pub penetration: f64,
+    /// A state on the attractor, at excitation phase 0.
+    pub state: State,
+    /// The impacts of the measured window.
+    #[serde(skip)]
+    pub impacts: Vec<Impact>,
+}
+
+/// Relative difference of rms displacement below which two repeating motions are one.
+const SAME_PERIODIC: f64 = 1e-3;
+/// The same for motions that do not repeat, whose averages over some hundred periods scatter.
+const SAME_MODULATED: f64 = 0.2;
+
+impl Attractor {
+    /// Follows a trajectory until its transient is over and measures it.
+    ///
+    /// # Errors
+    /// [`StartError`] for an impossible start.
+    pub fn reach(system: &System, start: State, effort: &Effort) -> Result<Self, StartError> {
+        let mut simulation = Simulation::new(system, start, 0.0)?;
+        let mut found = Self::measure(&mut simulation, effort);
+        for _ in 0..effort.prolongations {
+            let evidence = &found.classification.evidence;
+            let resting = evidence.impacts_per_period == 0.0 && evidence.settled;
+            if found.stop != Stop::EndTime || evidence.periodicity.is_some() || resting {
+                break;
+            }
+            // A strongly modulated motion never repeats; it only has to be stationary.
+            if evidence.settled && evidence.modulation_depth > 0.02 {
+                break;
+            }
+            found = Self::measure(&mut simulation, effort);
+        }
+        Ok(found)
+    }
+
+    /// Measures this attractor again from where it was left, over `periods`.
+    ///
+    /// # Errors
+    /// [`StartError`] if the attractor's state is not finite.
+    pub fn measured_over(&self, system: &System, periods: u64) -> Result<Self, StartError> {
+        let mut simulation = Simulation::new(system, self.state, 0.0)?;
+        let effort = Effort { discard: 0, periods, prolongations: 0, impact_limit: u64::MAX };
+        Ok(Self::measure(&mut simulation, &effort))
+    }
+
+    fn measure(simulation: &mut Simulation, effort: &Effort) -> Self {
+        let system = *simulation.system();
+        let mut stop = simulation.run(effort.discard, effort.impact_limit, &mut Nobody);
+        let mut statistics = Statistics::begin(&system, simulation.state());
+        let mut log = ImpactLog::default();
+        if stop == Stop::EndTime {
+            let observer = &mut (&mut statistics, &mut log);
+            stop = simulation.run(effort.periods, effort.impact_limit, observer);
+        }
+        let thresholds = Thresholds::default();
+        let (oscillator_harmonic, absorber_harmonic) = statistics.harmonics();
+        Self {
+            classification: classify(&statistics, &log.impacts, system.period(), &thresholds),
+            peak: statistics.peak(),
+            rms: statistics.rms(),
+            oscillator_harmonic,
+            absorber_harmonic,
+            energy: statistics.energy(),
+            sustained_contact: statistics.sustained_contact(),
+            periods: statistics.periods(),
+            stop,
+            penetration: statistics.penetration(),
+            state: simulation.state(),
+            impacts: log.impacts,
+        }
+    }
+
+    /// Whether two trajectories ended in the same long-term motion (or in its mirror image).
+    pub fn is_same(&self, other: &Self) -> bool {
+        let (mine, theirs) = (&self.classification, &other.classification);
+        if mine.regime != theirs.regime {
+            return false;
+        }
+        let difference = (self.rms - other.rms).abs() / self.rms.max(other.rms).max(f64::MIN_POSITIVE);
+        match (mine.evidence.periodicity, theirs.evidence.periodicity) {
+            (Some(a), Some(b)) => {
+                (a.impacts, a.periods) == (b.impacts, b.periods) && difference < SAME_PERIODIC
+            }
+            (None, None) => difference < SAME_MODULATED,
+            _ => false,
+        }
+    }
+}

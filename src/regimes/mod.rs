@@ -1,0 +1,155 @@
+//! What a trajectory is: at rest, `z > 2`, two impacts per period, strongly modulated, `z < 2`.
+//!
+//! `z` is the number of impacts per excitation period (section 3.1 of Li, Seguy, Berlioz 2016).
+//! Every name comes with the numbers that decided it.
+
+pub mod attractor;
+pub mod modulation;
+pub mod periodicity;
+pub mod return_map;
+
+use serde::Serialize;
+
+use crate::simulation::{Impact, Statistics};
+pub use attractor::Attractor;
+pub use modulation::Captures;
+pub use periodicity::Periodicity;
+
+/// The regimes of section 3.1, and rest.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Regime {
+    /// No impacts at all: the absorber stands still and the oscillator vibrates as if alone.
+    AtRest,
+    /// More than two impacts per period, Fig. 4a.
+    AboveTwo,
+    /// Two impacts per period at unequal intervals, Fig. 4b.
+    TwoAsymmetric,
+    /// Two impacts per period, half a period apart: steady 1:1 resonance, Fig. 4c.
+    TwoSymmetric,
+    /// Strongly modulated response: 1:1 captures alternate with escapes, Fig. 4d.
+    StronglyModulated,
+    /// Fewer than two impacts per period without captures, Fig. 4e.
+    BelowTwo,
+}
+
+impl Regime {
+    /// The regime in a few words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::AtRest => "absorber at rest, no impacts",
+            Self::AboveTwo => "more than two impacts per period",
+            Self::TwoAsymmetric => "two asymmetric impacts per period",
+            Self::TwoSymmetric => "two symmetric impacts per period",
+            Self::StronglyModulated => "strongly modulated response",
+            Self::BelowTwo => "fewer than two impacts per period",
+        }
+    }
+
+    /// Whether two impacts happen in every period.
+    pub fn is_two_per_period(self) -> bool {
+        matches!(self, Self::TwoAsymmetric | Self::TwoSymmetric)
+    }
+}
+
+/// Where one regime ends and another begins. Each field is a convention, with its reason.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Thresholds {
+    /// Distance of `z` from 2 that still counts as two impacts per period: in a few hundred periods
+    /// a single extra impact moves `z` by less.
+    pub impacts_per_period: f64,
+    /// Difference of successive impact intervals, over the period, above which a motion is
+    /// asymmetric. A periodic orbit repeats to 1e-6, so 1e-3 is a thousand times above its noise.
+    pub asymmetry: f64,
+    /// The same for a motion that does not repeat, where modulation itself makes intervals unequal.
+    pub asymmetry_modulated: f64,
+    /// Shortest capture, in periods: three successive periods with two alternating impacts cannot
+    /// be told from coincidence below that.
+    pub shortest_capture: usize,
+    /// Share of the time in captures above which a motion with `z < 2` is strongly modulated.
+    pub captured_share: f64,
+    /// Modulation depth above which modulation is strong.
+    pub modulation_depth: f64,
+}
+
+impl Default for Thresholds {
+    fn default() -> Self {
+        Self {
+            impacts_per_period: 0.01,
+            asymmetry: 1e-3,
+            asymmetry_modulated: 0.02,
+            shortest_capture: 3,
+            captured_share: 0.05,
+            modulation_depth: 0.1,
+        }
+    }
+}
+
+/// The numbers that a regime was decided by.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Evidence {
+    /// `z`.
+    pub impacts_per_period: f64,
+    /// The repetition found, if the motion repeats.
+    pub periodicity: Option<Periodicity>,
+    /// Mean difference of successive impact intervals over the excitation period.
+    pub asymmetry: f64,
+    /// `(max - min) / (max + min)` of the oscillator's peak per period.
+    pub modulation_depth: f64,
+    /// Stretches of 1:1 resonance.
+    pub captures: Captures,
+    /// Whether the second half of the window looks like the first: if not, the transient may not
+    /// be over.
+    pub settled: bool,
+}
+
+/// A regime with its evidence.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Classification {
+    /// The name.
+    pub regime: Regime,
+    /// Why.
+    pub evidence: Evidence,
+}
+
+/// Names the motion measured by `statistics` and `impacts` over one window.
+pub fn classify(
+    statistics: &Statistics,
+    impacts: &[Impact],
+    period: f64,
+    thresholds: &Thresholds,
+) -> Classification {
+    let evidence = Evidence {
+        impacts_per_period: statistics.impacts_per_period(),
+        periodicity: periodicity::find(statistics.records()),
+        asymmetry: periodicity::asymmetry(impacts, period),
+        modulation_depth: modulation::depth(statistics.records()),
+        captures: modulation::captures(statistics.records(), thresholds.shortest_capture),
+        settled: modulation::settled(statistics.records()),
+    };
+    Classification { regime: name(statistics.impacts(), &evidence, thresholds), evidence }
+}
+
+fn name(impacts: u64, evidence: &Evidence, thresholds: &Thresholds) -> Regime {
+    if impacts == 0 {
+        return Regime::AtRest;
+    }
+    let excess = evidence.impacts_per_period - 2.0;
+    if excess > thresholds.impacts_per_period {
+        return Regime::AboveTwo;
+    }
+    let escapes = evidence.captures.share < 1.0 - thresholds.captured_share;
+    let strong = evidence.modulation_depth > thresholds.modulation_depth;
+    let captured = evidence.captures.share > thresholds.captured_share;
+    if evidence.periodicity.is_none() && captured && escapes && strong {
+        return Regime::StronglyModulated;
+    }
+    if excess < -thresholds.impacts_per_period {
+        return Regime::BelowTwo;
+    }
+    let limit = match evidence.periodicity {
+        Some(_) => thresholds.asymmetry,
+        None => thresholds.asymmetry_modulated,
+    };
+    if evidence.asymmetry > limit { Regime::TwoAsymmetric } else { Regime::TwoSymmetric }
+}

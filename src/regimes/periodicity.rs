@@ -1,0 +1,75 @@
+//! Does a motion repeat, after how many periods, and is it symmetric?
+
+use serde::Serialize;
+
+use crate::simulation::{Impact, PeriodRecord, State};
+
+/// Longest repetition that is looked for, in excitation periods.
+const LONGEST: usize = 24;
+/// Largest distance between the states at the beginnings of two repetitions that counts as the
+/// same, over the size of the motion: far above the rounding of a simulation and far below the
+/// distance between distinct orbits.
+const CLOSURE: f64 = 1e-6;
+/// Repetitions that must be seen.
+const REPETITIONS: usize = 4;
+
+/// A repetition.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Periodicity {
+    /// `p`, impacts until the motion repeats.
+    pub impacts: u32,
+    /// `n`, excitation periods until the motion repeats.
+    pub periods: u32,
+    /// Largest distance between states that should be equal, over the size of the motion.
+    pub closure: f64,
+}
+
+/// The shortest repetition at the end of `records`, if there is one.
+pub fn find(records: &[PeriodRecord]) -> Option<Periodicity> {
+    (1..=LONGEST).find_map(|periods| repeats_after(records, periods))
+}
+
+fn repeats_after(records: &[PeriodRecord], periods: usize) -> Option<Periodicity> {
+    let needed = (REPETITIONS + 1) * periods;
+    if records.len() < needed {
+        return None;
+    }
+    let tail = &records[records.len() - needed..];
+    let size = tail.iter().map(|record| size(&record.end)).fold(0.0, f64::max);
+    let closure = tail
+        .iter()
+        .zip(&tail[periods..])
+        .map(|(before, after)| distance(&before.end, &after.end))
+        .fold(0.0, f64::max)
+        / size.max(f64::MIN_POSITIVE);
+    let last = &tail[tail.len() - periods..];
+    let impacts = last.iter().map(|record| record.impacts.iter().sum::<u32>()).sum();
+    (closure <= CLOSURE).then_some(Periodicity { impacts, periods: periods as u32, closure })
+}
+
+fn size(state: &State) -> f64 {
+    let State { x, x_velocity, y, y_velocity } = *state;
+    [x, x_velocity, y, y_velocity].iter().map(|c| c.abs()).fold(0.0, f64::max)
+}
+
+fn distance(a: &State, b: &State) -> f64 {
+    size(&State {
+        x: a.x - b.x,
+        x_velocity: a.x_velocity - b.x_velocity,
+        y: a.y - b.y,
+        y_velocity: a.y_velocity - b.y_velocity,
+    })
+}
+
+/// Mean absolute difference of successive impact intervals over the excitation period; 0 for
+/// fewer than three impacts.
+pub fn asymmetry(impacts: &[Impact], period: f64) -> f64 {
+    if impacts.len() < 3 {
+        return 0.0;
+    }
+    let sum: f64 = impacts
+        .windows(3)
+        .map(|three| (three[2].tau - 2.0 * three[1].tau + three[0].tau).abs() / period)
+        .sum();
+    sum / (impacts.len() - 2) as f64
+}

@@ -1,0 +1,106 @@
+//! What happens at a wall: impact by equation (2), the end of a chattering sequence, sustained
+//! contact.
+//!
+//! After an impact with separation speed `u` while the wall accelerates towards the absorber with
+//! `a`, the next impact follows after `2 u / a`, and the impacts crowd in geometrically: the
+//! sequence is over after `2 u / (a (1 - r))`, and the gap never opens further than `u^2 / (2 a)`.
+//! Once that excursion is below a named tolerance and the acceleration cannot change noticeably
+//! before the sequence is over, the rest of it is replaced by its end: the absorber sticks.
+
+use serde::Serialize;
+
+/// When a chattering sequence is replaced by its end.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct ContactTolerance {
+    /// Largest opening of the gap that is neglected, over the clearance. The default of 1e-12 is
+    /// far below any printed digit and a thousand times above rounding.
+    pub excursion: f64,
+    /// Largest relative change of the contact acceleration while the rest of the sequence lasts.
+    /// The default of 0.01 keeps the geometric decay, on which the replacement rests, provable.
+    pub drift: f64,
+}
+
+impl Default for ContactTolerance {
+    fn default() -> Self {
+        Self { excursion: 1e-12, drift: 0.01 }
+    }
+}
+
+/// Velocities around an impact, over the clearance and in fast time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rebound {
+    /// Oscillator after impact.
+    pub x_velocity: f64,
+    /// Absorber after impact.
+    pub y_velocity: f64,
+    /// Energy lost per unit of the oscillator's mass.
+    pub loss: f64,
+}
+
+/// Equation (2): total momentum is kept, the relative velocity is reversed and multiplied by `r`.
+pub fn rebound(mass_ratio: f64, restitution: f64, x_velocity: f64, y_velocity: f64) -> Rebound {
+    let approach = x_velocity - y_velocity;
+    let exchanged = (1.0 + restitution) * approach / (1.0 + mass_ratio);
+    let kept = 1.0 - restitution * restitution;
+    Rebound {
+        x_velocity: x_velocity - mass_ratio * exchanged,
+        y_velocity: y_velocity + exchanged,
+        loss: 0.5 * mass_ratio * kept * approach * approach / (1.0 + mass_ratio),
+    }
+}
+
+/// The state at a wall right after an impact or a touch, seen from the wall.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AtWall {
+    /// Speed at which the gap opens; 0 or more.
+    pub separation_speed: f64,
+    /// Acceleration of the wall towards the absorber, were the absorber flying.
+    pub closing_acceleration: f64,
+    /// Bound on the rate at which that acceleration changes.
+    pub jerk_bound: f64,
+}
+
+impl ContactTolerance {
+    /// Whether the absorber sticks to the wall from here on.
+    pub fn sticks(&self, restitution: f64, at: &AtWall) -> bool {
+        let AtWall { separation_speed: u, closing_acceleration: a, jerk_bound } = *at;
+        if a <= 0.0 {
+            return false;
+        }
+        if u == 0.0 {
+            return true;
+        }
+        let remaining = 2.0 * u / (a * (1.0 - restitution));
+        u * u <= 2.0 * a * self.excursion && jerk_bound * remaining <= self.drift * a
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_impact_keeps_momentum_and_reverses_the_relative_velocity() {
+        let (eps, r, x, y) = (0.3, 0.6, 1.4, -0.2);
+        let after = rebound(eps, r, x, y);
+        assert!((after.x_velocity + eps * after.y_velocity - (x + eps * y)).abs() < 1e-15);
+        assert!((after.x_velocity - after.y_velocity + r * (x - y)).abs() < 1e-15);
+        let kinetic = |x: f64, y: f64| 0.5 * (x * x + eps * y * y);
+        let lost = kinetic(x, y) - kinetic(after.x_velocity, after.y_velocity);
+        assert!((lost - after.loss).abs() < 1e-15);
+    }
+
+    #[test]
+    fn an_elastic_impact_loses_nothing_and_never_sticks() {
+        assert_eq!(rebound(0.1, 1.0, 1.0, -1.0).loss, 0.0);
+        let at = AtWall { separation_speed: 1e-9, closing_acceleration: 1.0, jerk_bound: 0.1 };
+        assert!(!ContactTolerance::default().sticks(1.0, &at));
+        assert!(ContactTolerance::default().sticks(0.6, &at));
+    }
+
+    #[test]
+    fn a_wall_that_recedes_does_not_hold_the_absorber() {
+        let at = AtWall { separation_speed: 0.0, closing_acceleration: -1.0, jerk_bound: 0.1 };
+        assert!(!ContactTolerance::default().sticks(0.0, &at));
+    }
+}

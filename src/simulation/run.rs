@@ -1,0 +1,527 @@
+//! One trajectory: from event to event, period by period.
+//!
+//! Time is kept as a count of whole excitation periods and a phase within the period, so that a
+//! phase is as accurate after a million periods as in the first one.
+
+use std::f64::consts::TAU;
+
+use serde::Serialize;
+
+use super::contact::{AtWall, ContactTolerance, rebound};
+use super::flow::{Kinematics, Motion, Oscillator, derivative_bounds};
+use crate::numerics::crossing::{Band, Curve, Edge, Sample, Search, first_crossing};
+use crate::system::System;
+
+/// Units in the last place of the largest length involved that count as touching a wall.
+const TOUCH_ULPS: f64 = 16.0;
+/// Fast time over which one curvature bound is used; shorter bounds are tighter, longer ones save
+/// evaluations. A sixth of the natural period is a fair middle.
+const HORIZON: f64 = 1.0;
+
+/// Displacements and velocities of oscillator and absorber, over the clearance, in fast time.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct State {
+    /// Oscillator displacement.
+    pub x: f64,
+    /// Oscillator velocity.
+    pub x_velocity: f64,
+    /// Absorber displacement.
+    pub y: f64,
+    /// Absorber velocity.
+    pub y_velocity: f64,
+}
+
+impl State {
+    /// Relative displacement `w = x - y`.
+    pub fn gap(&self) -> f64 {
+        self.x - self.y
+    }
+
+    /// Kinetic and potential energy per unit of the oscillator's mass.
+    pub fn energy(&self, mass_ratio: f64) -> f64 {
+        0.5 * (self.x * self.x
+            + self.x_velocity * self.x_velocity
+            + mass_ratio * self.y_velocity * self.y_velocity)
+    }
+}
+
+/// A start that no motion can have.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum StartError {
+    /// The absorber would start outside its cavity.
+    #[error(
+        "the start has x - y = {gap}, outside the cavity; choose X and Y with abs(X - Y) at most 1 \
+         (lengths are over the clearance)"
+    )]
+    OutsideCavity {
+        /// The relative displacement asked for.
+        gap: f64,
+    },
+    /// A number is infinite or not a number.
+    #[error("the start {state:?} is not finite; give four ordinary numbers X,XDOT,Y,YDOT")]
+    NotFinite {
+        /// The state asked for.
+        state: State,
+    },
+}
+
+/// A wall of the cavity: where `x - y = +b` or `x - y = -b`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
+pub enum Side {
+    /// `x - y = +b`.
+    Plus,
+    /// `x - y = -b`.
+    Minus,
+}
+
+impl Side {
+    /// +1 or -1.
+    pub fn sign(self) -> f64 {
+        match self {
+            Self::Plus => 1.0,
+            Self::Minus => -1.0,
+        }
+    }
+}
+
+/// One impact.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Impact {
+    /// Fast time since the start of the run.
+    pub tau: f64,
+    /// Excitation phase, `0 .. 2 pi`.
+    pub phase: f64,
+    /// Which wall.
+    pub side: Side,
+    /// Oscillator displacement over the clearance.
+    pub x: f64,
+    /// Oscillator velocity before.
+    pub x_velocity_before: f64,
+    /// Oscillator velocity after.
+    pub x_velocity_after: f64,
+    /// Absorber velocity before.
+    pub y_velocity_before: f64,
+    /// Absorber velocity after.
+    pub y_velocity_after: f64,
+    /// Energy lost, per unit of the oscillator's mass.
+    pub loss: f64,
+    /// How far past the wall the search stopped: rounding, over the clearance.
+    pub penetration: f64,
+}
+
+/// A stretch of smooth motion, as observers see it.
+#[derive(Debug, Clone, Copy)]
+pub struct Segment {
+    /// Motion of the oscillator.
+    pub motion: Motion,
+    /// Motion of the absorber.
+    pub absorber: Absorber,
+    /// Whole periods since the start of the run.
+    pub turns: u64,
+    /// Excitation phase at the beginning.
+    pub phase: f64,
+    /// Length in fast time.
+    pub duration: f64,
+}
+
+/// How the absorber moves during a [`Segment`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Absorber {
+    /// On a straight line.
+    Flying {
+        /// Displacement at the beginning.
+        y: f64,
+        /// Velocity.
+        y_velocity: f64,
+    },
+    /// At rest against a wall, moving with the oscillator.
+    Carried(Side),
+}
+
+impl Segment {
+    /// The state a time `s` after the beginning.
+    pub fn at(&self, s: f64) -> State {
+        let Kinematics { x, v } = self.motion.at(s);
+        match self.absorber {
+            Absorber::Flying { y, y_velocity } => {
+                State { x, x_velocity: v, y: y + y_velocity * s, y_velocity }
+            }
+            Absorber::Carried(side) => {
+                State { x, x_velocity: v, y: x - side.sign(), y_velocity: v }
+            }
+        }
+    }
+
+    /// Forcing per unit of the oscillator's mass, as it enters equation (1).
+    pub fn force(&self, s: f64, system: &System) -> f64 {
+        let (sine, cosine) = system.excitation_amplitudes();
+        let (sin, cos) = libm::sincos(self.phase + system.frequency_ratio() * s);
+        sine * sin + cosine * cos
+    }
+}
+
+/// Receives what happens, in order.
+pub trait Observer {
+    /// A stretch of smooth motion was completed.
+    fn segment(&mut self, _segment: &Segment) {}
+    /// An impact took place.
+    fn impact(&mut self, _impact: &Impact) {}
+    /// A chattering sequence ended: the absorber sticks, and the rest of its relative energy is
+    /// lost.
+    fn sticks(&mut self, _loss: f64) {}
+    /// An excitation period is over; the phase is 0 again.
+    fn period(&mut self, _state: &State) {}
+}
+
+/// An observer that ignores everything: for transients.
+pub struct Nobody;
+impl Observer for Nobody {}
+
+impl<A: Observer, B: Observer> Observer for (&mut A, &mut B) {
+    fn segment(&mut self, segment: &Segment) {
+        self.0.segment(segment);
+        self.1.segment(segment);
+    }
+    fn impact(&mut self, impact: &Impact) {
+        self.0.impact(impact);
+        self.1.impact(impact);
+    }
+    fn sticks(&mut self, loss: f64) {
+        self.0.sticks(loss);
+        self.1.sticks(loss);
+    }
+    fn period(&mut self, state: &State) {
+        self.0.period(state);
+        self.1.period(state);
+    }
+}
+
+/// Why a run ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Stop {
+    /// All periods asked for were simulated.
+    EndTime,
+    /// The limit on the number of impacts was reached first.
+    ImpactLimit,
+    /// A number overflowed.
+    NotFinite,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Mode {
+    Flight,
+    Contact(Side),
+}
+
+/// A trajectory that can be continued.
+#[derive(Debug, Clone)]
+pub struct Simulation {
+    system: System,
+    alone: Oscillator,
+    carrying: Oscillator,
+    tolerance: ContactTolerance,
+    state: State,
+    mode: Mode,
+    turns: u64,
+    phase: f64,
+    impacts: u64,
+    evaluations: u64,
+}
+
+impl Simulation {
+    /// A trajectory from `start` at excitation phase `phase` (radians, reduced to one period).
+    ///
+    /// A start on a wall is accepted: moving outwards it collides at once, moving inwards it flies.
+    ///
+    /// # Errors
+    /// [`StartError`] when the absorber would be outside its cavity or a number is not finite.
+    pub fn new(system: &System, start: State, phase: f64) -> Result<Self, StartError> {
+        let numbers = [start.x, start.x_velocity, start.y, start.y_velocity, phase];
+        if numbers.iter().any(|number| !number.is_finite()) {
+            return Err(StartError::NotFinite { state: start });
+        }
+        if start.gap().abs() > 1.0 + TOUCH_ULPS * f64::EPSILON * (1.0 + start.x.abs()) {
+            return Err(StartError::OutsideCavity { gap: start.gap() });
+        }
+        let mut simulation = Self {
+            system: *system,
+            alone: Oscillator::alone(system),
+            carrying: Oscillator::carrying_absorber(system),
+            tolerance: ContactTolerance::default(),
+            state: start,
+            mode: Mode::Flight,
+            turns: 0,
+            phase: phase.rem_euclid(TAU),
+            impacts: 0,
+            evaluations: 0,
+        };
+        // A start on a wall, without relative velocity, is sustained contact if the wall pushes.
+        let touching = 1.0 - start.gap().abs() <= simulation.touch();
+        if touching && start.x_velocity == start.y_velocity {
+            let side = if start.gap() > 0.0 { Side::Plus } else { Side::Minus };
+            simulation.perhaps_stick(side, &mut Nobody);
+        }
+        Ok(simulation)
+    }
+
+    /// Replaces the tolerance that ends chattering sequences.
+    pub fn with_tolerance(mut self, tolerance: ContactTolerance) -> Self {
+        self.tolerance = tolerance;
+        self
+    }
+
+    /// Where the trajectory stands.
+    pub fn state(&self) -> State {
+        self.state
+    }
+
+    /// Impacts since the start of the trajectory.
+    pub fn impacts(&self) -> u64 {
+        self.impacts
+    }
+
+    /// Evaluations of the closed form that event search has cost so far.
+    pub fn evaluations(&self) -> u64 {
+        self.evaluations
+    }
+
+    /// The system that moves.
+    pub fn system(&self) -> &System {
+        &self.system
+    }
+
+    /// Continues to the end of the `periods`-th excitation period from here, or until
+    /// `impact_limit` further impacts have happened.
+    pub fn run(&mut self, periods: u64, impact_limit: u64, observer: &mut impl Observer) -> Stop {
+        let last = self.turns + periods;
+        let impact_limit = self.impacts.saturating_add(impact_limit);
+        while self.turns < last {
+            if self.impacts >= impact_limit {
+                return Stop::ImpactLimit;
+            }
+            let stepped = match self.mode {
+                Mode::Flight => self.fly(observer),
+                Mode::Contact(side) => self.carry(side, observer),
+            };
+            if stepped.is_err() {
+                return Stop::NotFinite;
+            }
+        }
+        Stop::EndTime
+    }
+
+    fn remaining(&self) -> f64 {
+        (TAU - self.phase) / self.system.frequency_ratio()
+    }
+
+    /// Fast time since the start of the run at phase `phase` of the current period.
+    fn tau(&self, phase: f64) -> f64 {
+        (self.turns as f64 * TAU + phase) / self.system.frequency_ratio()
+    }
+
+    fn fly(&mut self, observer: &mut impl Observer) -> Result<(), Overflow> {
+        let start = self.state;
+        let motion = self.alone.motion(start.x, start.x_velocity, self.phase);
+        let curve = Gap { motion, y: start.y, y_velocity: start.y_velocity };
+        let touch = self.touch();
+        let band = Band { lower: -1.0, upper: 1.0, touch };
+        let remaining = self.remaining();
+        let from = self.tangential_start(&motion, touch).min(remaining);
+        let absorber = Absorber::Flying { y: start.y, y_velocity: start.y_velocity };
+        match first_crossing(&curve, from, remaining, band) {
+            Search::Clear => {
+                self.advance(motion, absorber, remaining, observer)?;
+                self.complete_period(observer);
+            }
+            Search::Crossed(crossing) => {
+                self.evaluations += u64::from(crossing.evaluations);
+                self.advance(motion, absorber, crossing.time, observer)?;
+                let side = match crossing.edge {
+                    Edge::Upper => Side::Plus,
+                    Edge::Lower => Side::Minus,
+                };
+                self.collide(side, observer);
+            }
+            Search::NotFinite(_) => return Err(Overflow),
+        }
+        Ok(())
+    }
+
+    fn carry(&mut self, side: Side, observer: &mut impl Observer) -> Result<(), Overflow> {
+        let motion = self.carrying.motion(self.state.x, self.state.x_velocity, self.phase);
+        let curve = ContactForce { motion, side };
+        let scale = self.alone.largest_force() + self.state.x.abs() + self.state.x_velocity.abs();
+        let band = Band {
+            lower: 0.0,
+            upper: f64::INFINITY,
+            touch: TOUCH_ULPS * f64::EPSILON * scale,
+        };
+        let remaining = self.remaining();
+        match first_crossing(&curve, 0.0, remaining, band) {
+            Search::Clear => {
+                self.advance(motion, Absorber::Carried(side), remaining, observer)?;
+                self.complete_period(observer);
+            }
+            Search::Crossed(crossing) => {
+                self.evaluations += u64::from(crossing.evaluations);
+                self.advance(motion, Absorber::Carried(side), crossing.time, observer)?;
+                self.mode = Mode::Flight;
+            }
+            Search::NotFinite(_) => return Err(Overflow),
+        }
+        Ok(())
+    }
+
+    /// Distance over the clearance that rounding can move the walls by.
+    fn touch(&self) -> f64 {
+        let State { x, x_velocity, y, y_velocity } = self.state;
+        let scale = 1.0 + x.abs() + x_velocity.abs() + y.abs() + y_velocity.abs();
+        TOUCH_ULPS * f64::EPSILON * scale
+    }
+
+    /// After a release, or an impact with `r = 0`, the absorber leaves the wall tangentially, and
+    /// the parabola that bounds the next step has no room. Third and fourth derivatives have: with
+    /// closing acceleration `a <= 0` the gap stays open for `3 |a| / jerk bound`, and with `a = 0`
+    /// and closing jerk `j < 0` for `4 |j| / snap bound`.
+    fn tangential_start(&self, motion: &Motion, touch: f64) -> f64 {
+        let gap = self.state.gap();
+        let at = Kinematics { x: self.state.x, v: self.state.x_velocity };
+        if self.state.x_velocity != self.state.y_velocity || 1.0 - gap.abs() > touch {
+            return 0.0;
+        }
+        let side = gap.signum();
+        let bounds = derivative_bounds(motion.oscillator(), at, HORIZON);
+        let acceleration = side * motion.acceleration(0.0, at);
+        let jerk = side * motion.jerk(0.0, at);
+        let by_acceleration = if acceleration < 0.0 { -3.0 * acceleration / bounds.jerk } else { 0.0 };
+        let noise = touch * (1.0 + motion.oscillator().decay);
+        let by_jerk = if acceleration <= noise && jerk < 0.0 { -4.0 * jerk / bounds.snap } else { 0.0 };
+        // Neither may outrun the way to the opposite wall.
+        by_acceleration.max(by_jerk).min((2.0 / bounds.acceleration).sqrt()).min(HORIZON)
+    }
+
+    fn advance(
+        &mut self,
+        motion: Motion,
+        absorber: Absorber,
+        duration: f64,
+        observer: &mut impl Observer,
+    ) -> Result<(), Overflow> {
+        let segment =
+            Segment { motion, absorber, turns: self.turns, phase: self.phase, duration };
+        self.state = segment.at(duration);
+        self.phase += self.system.frequency_ratio() * duration;
+        if !(self.state.x.is_finite() && self.state.y.is_finite()) {
+            return Err(Overflow);
+        }
+        if duration > 0.0 {
+            observer.segment(&segment);
+        }
+        Ok(())
+    }
+
+    fn complete_period(&mut self, observer: &mut impl Observer) {
+        self.turns += 1;
+        self.phase = 0.0;
+        observer.period(&self.state);
+    }
+
+    fn collide(&mut self, side: Side, observer: &mut impl Observer) {
+        let before = self.state;
+        let eps = self.system.mass_ratio();
+        let r = self.system.restitution();
+        let after = rebound(eps, r, before.x_velocity, before.y_velocity);
+        self.impacts += 1;
+        let penetration = (before.gap().abs() - 1.0).max(0.0);
+        self.state = State {
+            x: before.x,
+            x_velocity: after.x_velocity,
+            y: before.x - side.sign(),
+            y_velocity: after.y_velocity,
+        };
+        observer.impact(&Impact {
+            tau: self.tau(self.phase),
+            phase: self.phase,
+            side,
+            x: before.x,
+            x_velocity_before: before.x_velocity,
+            x_velocity_after: after.x_velocity,
+            y_velocity_before: before.y_velocity,
+            y_velocity_after: after.y_velocity,
+            loss: after.loss,
+            penetration,
+        });
+        if r == 0.0 {
+            // The relative velocity is zero, not what rounding leaves of it.
+            self.state.y_velocity = self.state.x_velocity;
+        }
+        self.perhaps_stick(side, observer);
+    }
+
+    fn perhaps_stick(&mut self, side: Side, observer: &mut impl Observer) {
+        let State { x, x_velocity, y_velocity, .. } = self.state;
+        let at = Kinematics { x, v: x_velocity };
+        let motion = self.alone.motion(x, x_velocity, self.phase);
+        let opening = -side.sign() * (x_velocity - y_velocity);
+        let wall = AtWall {
+            separation_speed: opening.max(0.0),
+            closing_acceleration: side.sign() * motion.acceleration(0.0, at),
+            jerk_bound: derivative_bounds(&self.alone, at, 0.0).jerk,
+        };
+        if self.tolerance.sticks(self.system.restitution(), &wall) {
+            let eps = self.system.mass_ratio();
+            let common = (x_velocity + eps * y_velocity) / (1.0 + eps);
+            self.state.x_velocity = common;
+            self.state.y_velocity = common;
+            self.mode = Mode::Contact(side);
+            observer.sticks(0.5 * eps * opening * opening / (1.0 + eps));
+        }
+    }
+}
+
+/// A state left the range of floating-point numbers.
+struct Overflow;
+
+/// Relative displacement `w = x - y` during a flight.
+struct Gap {
+    motion: Motion,
+    y: f64,
+    y_velocity: f64,
+}
+
+impl Curve for Gap {
+    fn sample(&self, s: f64) -> Sample {
+        let at = self.motion.at(s);
+        let bounds = derivative_bounds(self.motion.oscillator(), at, HORIZON);
+        Sample {
+            value: at.x - (self.y + self.y_velocity * s),
+            slope: at.v - self.y_velocity,
+            curvature_bound: bounds.acceleration,
+        }
+    }
+    fn horizon(&self) -> f64 {
+        HORIZON
+    }
+}
+
+/// Acceleration of the wall towards the absorber during sustained contact; the contact force is
+/// `eps` times it, and the absorber is released when it vanishes.
+struct ContactForce {
+    motion: Motion,
+    side: Side,
+}
+
+impl Curve for ContactForce {
+    fn sample(&self, s: f64) -> Sample {
+        let at = self.motion.at(s);
+        Sample {
+            value: self.side.sign() * self.motion.acceleration(s, at),
+            slope: self.side.sign() * self.motion.jerk(s, at),
+            curvature_bound: derivative_bounds(self.motion.oscillator(), at, HORIZON).snap,
+        }
+    }
+    fn horizon(&self) -> f64 {
+        HORIZON
+    }
+}

@@ -1,0 +1,263 @@
+//! What is measured along a trajectory: impacts, amplitudes, first harmonics, energy balance.
+//!
+//! Work of the excitation and loss in the damper are integrated independently of the change of
+//! stored energy, by quadrature that is exact to rounding for the closed-form motion, so that the
+//! balance is a check and not an identity.
+
+use serde::Serialize;
+
+use super::run::{Absorber, Impact, Observer, Segment, State};
+use crate::numerics::bracket::brent;
+use crate::numerics::quadrature;
+use crate::system::System;
+
+/// Energy balance over a window, per unit of the oscillator's mass, over the squared clearance.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Energy {
+    /// Work of the excitation.
+    pub input: f64,
+    /// Lost in the damper.
+    pub damper: f64,
+    /// Lost in impacts, including the ends of chattering sequences.
+    pub impact: f64,
+    /// Change of kinetic and potential energy.
+    pub stored: f64,
+    /// `abs(input - damper - impact - stored)` over the largest energy that appears in the balance.
+    pub relative_residual: f64,
+}
+
+/// Time spent in sustained contact.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct SustainedContact {
+    /// How often the absorber stuck to a wall.
+    pub intervals: u64,
+    /// Total fast time it stayed there.
+    pub duration_tau: f64,
+}
+
+/// What one excitation period looked like.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct PeriodRecord {
+    /// Impacts on the `+b` and on the `-b` side.
+    pub impacts: [u32; 2],
+    /// Largest absolute displacement of the oscillator.
+    pub peak: f64,
+    /// State at the end of the period, phase 0.
+    pub end: State,
+    /// First harmonic of the absorber: coefficients of `sin` and `cos` of the excitation's phase.
+    pub absorber_harmonic: [f64; 2],
+    /// The same for the oscillator.
+    pub oscillator_harmonic: [f64; 2],
+}
+
+/// An [`Observer`] that accumulates over whole excitation periods.
+#[derive(Debug, Clone)]
+pub struct Statistics {
+    system: System,
+    panel: f64,
+    start: State,
+    end: State,
+    impacts: u64,
+    peak: f64,
+    squared: f64,
+    input: f64,
+    damper: f64,
+    impact_loss: f64,
+    contact: SustainedContact,
+    penetration: f64,
+    largest_energy: f64,
+    current: Current,
+    records: Vec<PeriodRecord>,
+}
+
+/// Sums of the period under way.
+#[derive(Debug, Clone, Copy, Default)]
+struct Current {
+    impacts: [u32; 2],
+    peak: f64,
+    x_harmonic: [f64; 2],
+    y_harmonic: [f64; 2],
+}
+
+impl Statistics {
+    /// Begins to measure at `start`, at the beginning of an excitation period.
+    pub fn begin(system: &System, start: State) -> Self {
+        let decay = 0.5 * system.mass_ratio() * system.damping();
+        let fastest = 1.0_f64.max(system.frequency_ratio()).max(2.0 * decay);
+        Self {
+            system: *system,
+            panel: std::f64::consts::FRAC_PI_4 / fastest,
+            start,
+            end: start,
+            impacts: 0,
+            peak: start.x.abs(),
+            squared: 0.0,
+            input: 0.0,
+            damper: 0.0,
+            impact_loss: 0.0,
+            contact: SustainedContact::default(),
+            penetration: 0.0,
+            largest_energy: start.energy(system.mass_ratio()),
+            current: Current::default(),
+            records: Vec::new(),
+        }
+    }
+
+    /// Whole periods measured.
+    pub fn periods(&self) -> u64 {
+        self.records.len() as u64
+    }
+
+    /// Impacts in the window.
+    pub fn impacts(&self) -> u64 {
+        self.impacts
+    }
+
+    /// `z`, impacts per excitation period.
+    pub fn impacts_per_period(&self) -> f64 {
+        self.impacts as f64 / self.periods().max(1) as f64
+    }
+
+    /// Largest absolute displacement of the oscillator, over the clearance.
+    pub fn peak(&self) -> f64 {
+        self.peak
+    }
+
+    /// Root mean square of the oscillator's displacement, over the clearance.
+    pub fn rms(&self) -> f64 {
+        let duration = self.periods().max(1) as f64 * self.system.period();
+        (self.squared / duration).sqrt()
+    }
+
+    /// Largest penetration of a wall, over the clearance: rounding.
+    pub fn penetration(&self) -> f64 {
+        self.penetration
+    }
+
+    /// Sustained contact in the window.
+    pub fn sustained_contact(&self) -> SustainedContact {
+        self.contact
+    }
+
+    /// One record per period.
+    pub fn records(&self) -> &[PeriodRecord] {
+        &self.records
+    }
+
+    /// The energy balance over the window.
+    pub fn energy(&self) -> Energy {
+        let eps = self.system.mass_ratio();
+        let stored = self.end.energy(eps) - self.start.energy(eps);
+        let gap = self.input - self.damper - self.impact_loss - stored;
+        let scale = [self.input.abs(), self.damper, self.impact_loss, self.largest_energy];
+        let scale = scale.into_iter().fold(f64::MIN_POSITIVE, f64::max);
+        Energy {
+            input: self.input,
+            damper: self.damper,
+            impact: self.impact_loss,
+            stored,
+            relative_residual: gap.abs() / scale,
+        }
+    }
+
+    /// Mean first harmonics of oscillator and absorber: coefficients of `sin` and `cos`.
+    pub fn harmonics(&self) -> ([f64; 2], [f64; 2]) {
+        let count = self.records.len().max(1) as f64;
+        let mut mean = ([0.0; 2], [0.0; 2]);
+        for record in &self.records {
+            for k in 0..2 {
+                mean.0[k] += record.oscillator_harmonic[k] / count;
+                mean.1[k] += record.absorber_harmonic[k] / count;
+            }
+        }
+        mean
+    }
+
+    fn integrate(&mut self, segment: &Segment) {
+        let damping = self.system.mass_ratio() * self.system.damping();
+        let omega = self.system.frequency_ratio();
+        let (sine, cosine) = self.system.excitation_amplitudes();
+        let mut sums = [0.0; 7];
+        quadrature::nodes(0.0, segment.duration, self.panel, |s, weight| {
+            let State { x, x_velocity, y, .. } = segment.at(s);
+            let (sin, cos) = libm::sincos(segment.phase + omega * s);
+            let force = sine * sin + cosine * cos;
+            let terms = [
+                x * x,
+                force * x_velocity,
+                damping * x_velocity * x_velocity,
+                x * sin,
+                x * cos,
+                y * sin,
+                y * cos,
+            ];
+            for (sum, term) in sums.iter_mut().zip(terms) {
+                *sum += weight * term;
+            }
+        });
+        self.squared += sums[0];
+        self.input += sums[1];
+        self.damper += sums[2];
+        let scale = omega / std::f64::consts::PI;
+        for k in 0..2 {
+            self.current.x_harmonic[k] += scale * sums[3 + k];
+            self.current.y_harmonic[k] += scale * sums[5 + k];
+        }
+    }
+
+    /// Largest absolute displacement within a segment: at its ends, or where the velocity changes
+    /// sign between two points a panel apart.
+    fn find_peak(&mut self, segment: &Segment) {
+        let panels = (segment.duration / self.panel).ceil().max(1.0);
+        let step = segment.duration / panels;
+        let mut before = segment.motion.at(0.0);
+        for k in 0..panels as u64 {
+            let from = k as f64 * step;
+            let after = segment.motion.at(from + step);
+            let mut peak = before.x.abs().max(after.x.abs());
+            if (before.v > 0.0) != (after.v > 0.0)
+                && let Ok(root) = brent(from, from + step, 1e-12, |s| segment.motion.at(s).v)
+            {
+                peak = peak.max(segment.motion.at(root.at).x.abs());
+            }
+            self.current.peak = self.current.peak.max(peak);
+            before = after;
+        }
+    }
+}
+
+impl Observer for Statistics {
+    fn segment(&mut self, segment: &Segment) {
+        self.integrate(segment);
+        self.find_peak(segment);
+        if matches!(segment.absorber, Absorber::Carried(_)) {
+            self.contact.duration_tau += segment.duration;
+        }
+    }
+
+    fn impact(&mut self, impact: &Impact) {
+        self.impacts += 1;
+        self.impact_loss += impact.loss;
+        self.penetration = self.penetration.max(impact.penetration);
+        self.current.impacts[usize::from(impact.side.sign() < 0.0)] += 1;
+    }
+
+    fn sticks(&mut self, loss: f64) {
+        self.impact_loss += loss;
+        self.contact.intervals += 1;
+    }
+
+    fn period(&mut self, state: &State) {
+        let current = std::mem::take(&mut self.current);
+        self.peak = self.peak.max(current.peak);
+        self.end = *state;
+        self.largest_energy = self.largest_energy.max(state.energy(self.system.mass_ratio()));
+        self.records.push(PeriodRecord {
+            impacts: current.impacts,
+            peak: current.peak,
+            end: *state,
+            absorber_harmonic: current.y_harmonic,
+            oscillator_harmonic: current.x_harmonic,
+        });
+    }
+}
