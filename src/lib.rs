@@ -5,4 +5,5 @@
 pub mod numerics;
 pub mod regimes;
 pub mod simulation;
+pub mod study;
 pub mod system;

@@ -1,0 +1,79 @@
+//! What the asymptotic theory says of a system, in closed form: layers 1 and 2.
+//!
+//! Source: Li, Seguy, Berlioz (2016), equations (14) to (18), and what is derived from them in
+//! [`crate::equations`]. Valid at leading order in the mass ratio `eps`, near 1:1 resonance
+//! (`abs(eps sigma)` small), for motions with two symmetric impacts per period. Lengths are over
+//! the clearance. Nothing here simulates.
+
+pub mod areas;
+pub mod boundaries;
+pub mod fixed_points;
+pub mod frequency_response;
+pub mod manifold;
+
+use serde::Serialize;
+
+use crate::numerics::polynomial::PolynomialError;
+use crate::symbolic::{Symbol, Values};
+use crate::system::System;
+
+pub use areas::{Area, Strip, Zone};
+pub use boundaries::{BoundaryKind, Boundaries, SaddleNode};
+pub use fixed_points::{FixedPoint, Kind};
+pub use manifold::{Branch, Manifold, ManifoldPoint};
+
+/// Why a system cannot be analysed.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum AnalysisError {
+    /// The condition for fixed points is not a polynomial with finite coefficients, not all zero.
+    #[error(
+        "the theory's condition for fixed points cannot be solved: {0}; detuning, damping or \
+         forcing is too extreme for the asymptotic theory"
+    )]
+    Condition(#[from] PolynomialError),
+}
+
+/// Everything that the theory says of one system.
+#[derive(Debug, Clone, Serialize)]
+pub struct Analysis {
+    /// The system.
+    pub system: System,
+    /// The slow invariant manifold.
+    pub manifold: Manifold,
+    /// All fixed points of the slow flow, by ascending `B`.
+    pub fixed_points: Vec<FixedPoint>,
+    /// Where regimes end.
+    pub boundaries: Boundaries,
+    /// Where the system lies between them.
+    pub zone: Zone,
+}
+
+impl Analysis {
+    /// Analyses a system.
+    ///
+    /// # Errors
+    /// [`AnalysisError`] where the fixed-point condition overflows.
+    pub fn of(system: &System) -> Result<Self, AnalysisError> {
+        let manifold = Manifold::of(system.restitution());
+        let fixed_points = fixed_points::solve(system, &manifold)?;
+        let boundaries = Boundaries::of(system, &manifold)?;
+        let zone = Zone::of(system, &fixed_points, &boundaries);
+        Ok(Self { system: *system, manifold, fixed_points, boundaries, zone })
+    }
+
+    /// The fixed points that are stable motions.
+    pub fn stable_points(&self) -> impl Iterator<Item = &FixedPoint> {
+        self.fixed_points.iter().filter(|point| point.stable)
+    }
+}
+
+/// The parameters of a system as numbers for the symbols of the theory.
+pub fn values_of(system: &System, manifold: &Manifold) -> Values {
+    Values::new()
+        .with(Symbol::Damping, system.damping())
+        .with(Symbol::Restitution, system.restitution())
+        .with(Symbol::RestitutionRatio, manifold.restitution_ratio)
+        .with(Symbol::ManifoldCurvature, manifold.curvature)
+        .with(Symbol::Detuning, system.detuning())
+        .with(Symbol::ForcingPerClearance, system.forcing_per_clearance())
+}

@@ -1,0 +1,140 @@
+//! Numbers as a reader sees them: few digits, a unit, a true minus sign.
+
+use crate::case::{LengthUnit, Scales};
+
+/// The sign that a minus is in text.
+pub const MINUS: char = '\u{2212}';
+
+/// `value` with `digits` significant digits in plain notation, or in powers of ten where plain
+/// notation would need more than six digits before or four zeros after the point.
+pub fn significant(value: f64, digits: usize) -> String {
+    if value == 0.0 {
+        return "0".into();
+    }
+    if value.is_nan() {
+        return "undefined".into();
+    }
+    if value.is_infinite() {
+        return with_minus(if value > 0.0 { "infinite" } else { "-infinite" });
+    }
+    let scientific = format!("{:.*e}", digits - 1, value);
+    let (mantissa, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
+    let exponent: i32 = exponent.parse().unwrap_or(0);
+    if !(-4..6).contains(&exponent) {
+        return with_minus(&format!("{mantissa}e{exponent}"));
+    }
+    let decimals = (digits as i32 - 1 - exponent).max(0) as usize;
+    with_minus(&format!("{value:.decimals$}"))
+}
+
+/// `value` with a fixed number of decimals; a rounded zero has no sign.
+pub fn fixed(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    let zero = text.trim_start_matches('-').chars().all(|c| c == '0' || c == '.');
+    with_minus(if zero { text.trim_start_matches('-') } else { &text })
+}
+
+/// `value` as `fixed`, with its sign always shown.
+pub fn signed(value: f64, decimals: usize) -> String {
+    let text = fixed(value, decimals);
+    if text.starts_with(MINUS) || value == 0.0 { text } else { format!("+{text}") }
+}
+
+/// A share as a percentage: `0.256` is `26 %`.
+pub fn percent(share: f64) -> String {
+    let percent = 100.0 * share;
+    let decimals = match percent.abs() {
+        p if p < 0.095 => return format!("{} %", significant(percent, 1)),
+        p if p < 9.95 => 1,
+        _ => 0,
+    };
+    format!("{} %", fixed(percent, decimals))
+}
+
+/// `20 log10(ratio)` in decibels, with its sign.
+pub fn decibels(ratio: f64) -> String {
+    format!("{} dB", signed(20.0 * libm::log10(ratio), 1))
+}
+
+/// Text with its leading hyphen replaced by a minus sign, in mantissa and exponent.
+pub fn with_minus(text: &str) -> String {
+    text.replace('-', &MINUS.to_string())
+}
+
+/// Lengths of one case, all in the same unit: the prefix that suits its clearance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LengthFormat {
+    /// Case units (metres, or the case's own) in one displayed unit.
+    per_unit: f64,
+    /// The displayed unit.
+    pub unit: &'static str,
+}
+
+impl LengthFormat {
+    /// The format for a case.
+    pub fn of(scales: &Scales) -> Self {
+        if scales.length_unit() == LengthUnit::Own {
+            return Self { per_unit: 1.0, unit: "units" };
+        }
+        let clearance = scales.length(1.0);
+        let prefixes = [(1e3, "km"), (1.0, "m"), (1e-3, "mm"), (1e-6, "µm"), (1e-9, "nm")];
+        // 0.1 mm still reads better than 100 µm, and 300 mm better than 0.3 m.
+        let fitting = prefixes.into_iter().find(|(size, _)| clearance >= 0.1 * size && *size != 1.0 || clearance >= *size);
+        let (per_unit, unit) = fitting.unwrap_or((1e-9, "nm"));
+        Self { per_unit, unit }
+    }
+
+    /// A length in case units as a number of displayed units.
+    pub fn number(&self, length: f64) -> f64 {
+        length / self.per_unit
+    }
+
+    /// A length with three significant digits and its unit.
+    pub fn text(&self, length: f64) -> String {
+        self.with_digits(length, 3)
+    }
+
+    /// A length with the given number of significant digits and its unit.
+    pub fn with_digits(&self, length: f64, digits: usize) -> String {
+        let number = significant(self.number(length), digits);
+        format!("{number} {}", self.unit)
+    }
+}
+
+/// A physical quantity with the SI prefix an engineer would choose: `0.0032` J is `3.2 mJ`.
+pub fn with_prefix(value: f64, unit: &str, digits: usize) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return format!("{} {unit}", significant(value, digits));
+    }
+    let prefixes =
+        [(1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n")];
+    let (size, prefix) =
+        prefixes.into_iter().find(|(size, _)| value.abs() >= *size).unwrap_or((1e-9, "n"));
+    format!("{} {prefix}{unit}", significant(value / size, digits))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn digits_deserve_their_place() {
+        assert_eq!(significant(3.561_9, 3), "3.56");
+        assert_eq!(significant(0.000_123_4, 3), "0.000123");
+        assert_eq!(significant(-1_234.5, 3), "−1234");
+        assert_eq!(significant(9.999, 3), "10.00");
+        assert_eq!(significant(1.2e-9, 2), "1.2e−9");
+        assert_eq!(significant(0.0, 3), "0");
+        assert_eq!(fixed(-0.04, 1), "0.0");
+        assert_eq!(signed(1.45, 1), "+1.4");
+    }
+
+    #[test]
+    fn percentages_and_decibels_read_as_people_say_them() {
+        assert_eq!(percent(0.256), "26 %");
+        assert_eq!(percent(0.0512), "5.1 %");
+        assert_eq!(percent(0.00012), "0.01 %");
+        assert_eq!(decibels(3.587 / 6.395), "−5.0 dB");
+        assert_eq!(with_prefix(0.0032, "J", 2), "3.2 mJ");
+    }
+}

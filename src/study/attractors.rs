@@ -1,0 +1,92 @@
+//! Every long-term motion that a set of starts leads to, with the share of starts.
+
+use serde::Serialize;
+
+use super::starts::StartBox;
+use crate::regimes::Attractor;
+use crate::regimes::attractor::Effort;
+use crate::simulation::{StartError, State};
+use crate::system::System;
+
+/// An attractor and how it was found.
+#[derive(Debug, Clone, Serialize)]
+pub struct FoundAttractor {
+    /// The motion, measured over a long window.
+    #[serde(flatten)]
+    pub attractor: Attractor,
+    /// How many of the evenly spread starts led here.
+    pub starts: u32,
+    /// The same as a share of all evenly spread starts.
+    pub share: f64,
+    /// Whether a start on a predicted motion led here.
+    pub reached_from_theory: bool,
+}
+
+/// How thoroughly attractors are searched.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct SearchEffort {
+    /// Evenly spread starts.
+    pub starts: u32,
+    /// Each of them.
+    pub each: Effort,
+    /// Periods over which each distinct attractor is measured.
+    pub measured: u64,
+}
+
+/// Follows the evenly spread starts and those in `predicted`, and matches what they end in.
+///
+/// Ordered by share, largest first; ties by order of discovery.
+///
+/// # Errors
+/// [`StartError`] if a predicted start is impossible.
+pub fn find(
+    system: &System,
+    predicted: &[State],
+    effort: &SearchEffort,
+    progress: &mut dyn FnMut(u64),
+) -> Result<Vec<FoundAttractor>, StartError> {
+    let mut found: Vec<FoundAttractor> = Vec::new();
+    let sample = StartBox::around(system);
+    let spread = (0..effort.starts).map(|index| (sample.start(index), false));
+    for (start, from_theory) in predicted.iter().map(|start| (*start, true)).chain(spread) {
+        let reached = Attractor::reach(system, start, &effort.each)?;
+        let known = found.iter().position(|known| known.attractor.is_same(&reached));
+        let index = known.unwrap_or(found.len());
+        if known.is_none() {
+            found.push(FoundAttractor {
+                attractor: reached,
+                starts: 0,
+                share: 0.0,
+                reached_from_theory: false,
+            });
+        }
+        found[index].starts += u32::from(!from_theory);
+        found[index].reached_from_theory |= from_theory;
+        progress(1);
+    }
+    for one in &mut found {
+        one.share = f64::from(one.starts) / f64::from(effort.starts.max(1));
+        // A state that repeats needs no longer look; the others are averages.
+        if one.attractor.classification.evidence.periodicity.is_none() {
+            one.attractor = one.attractor.measured_over(system, effort.measured)?;
+        }
+    }
+    found.sort_by(|a, b| b.starts.cmp(&a.starts));
+    Ok(merged(found))
+}
+
+/// Merges attractors that the long measurement shows to be the same.
+fn merged(found: Vec<FoundAttractor>) -> Vec<FoundAttractor> {
+    let mut distinct: Vec<FoundAttractor> = Vec::new();
+    for one in found {
+        match distinct.iter_mut().find(|known| known.attractor.is_same(&one.attractor)) {
+            Some(known) => {
+                known.starts += one.starts;
+                known.share += one.share;
+                known.reached_from_theory |= one.reached_from_theory;
+            }
+            None => distinct.push(one),
+        }
+    }
+    distinct
+}

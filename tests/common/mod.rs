@@ -1,0 +1,35 @@
+//! Systems that several tests need.
+#![allow(dead_code)]
+
+use vinesink::system::{Excitation, Parameters, System};
+
+/// Table 1 of Li, Seguy, Berlioz (2016): `eps = m2 / m1`.
+pub const MASS_RATIO: f64 = 0.032 / 4.168;
+
+/// `omega0` of Table 1 in rad/s.
+pub fn natural_frequency() -> f64 {
+    (11.47e3_f64 / 4.168).sqrt()
+}
+
+/// `lambda` of Table 1.
+pub fn damping() -> f64 {
+    3.02 / (0.032 * natural_frequency())
+}
+
+/// `G` in mm with F = 0.25 mm, which is inferred, not published.
+pub fn forcing_mm() -> f64 {
+    0.25 / MASS_RATIO
+}
+
+/// Table 1 at a frequency in Hz and a clearance in mm.
+pub fn table_1(frequency_hz: f64, clearance_mm: f64) -> System {
+    System::new(Parameters {
+        mass_ratio: MASS_RATIO,
+        damping: damping(),
+        restitution: 0.6,
+        frequency_ratio: frequency_hz * std::f64::consts::TAU / natural_frequency(),
+        forcing_per_clearance: forcing_mm() / clearance_mm,
+        excitation: Excitation::BaseDisplacement,
+    })
+    .expect("Table 1 is a valid system")
+}
