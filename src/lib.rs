@@ -2,4 +2,6 @@
 #![warn(missing_docs)]
 #![forbid(unsafe_code)]
 
+pub mod equations;
+pub mod symbolic;
 pub mod system;
