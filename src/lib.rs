@@ -2,8 +2,11 @@
 #![warn(missing_docs)]
 #![forbid(unsafe_code)]
 
+pub mod analysis;
+pub mod equations;
 pub mod numerics;
 pub mod regimes;
 pub mod simulation;
 pub mod study;
+pub mod symbolic;
 pub mod system;
