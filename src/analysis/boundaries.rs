@@ -8,11 +8,11 @@
 use serde::Serialize;
 
 use super::manifold::{Branch, Manifold};
-use super::{AnalysisError, values_of};
+use super::AnalysisError;
 use crate::equations::equations;
 use crate::numerics::bracket::brent;
 use crate::numerics::polynomial::roots_above;
-use crate::symbolic::{Symbol, Values};
+use crate::symbolic::{MissingValue, Symbol, Values};
 use crate::system::System;
 
 /// The three boundaries of the theory.
@@ -78,22 +78,25 @@ impl Boundaries {
     /// # Errors
     /// [`AnalysisError::Condition`] when coefficients overflow.
     pub fn of(system: &System, manifold: &Manifold) -> Result<Self, AnalysisError> {
-        let values = values_of(system, manifold);
-        let sigma = system.detuning();
-        let roots = roots_above(&equations().saddle_node_coefficients(&values), -1.0)?;
-        let saddle_nodes = roots.iter().map(|root| SaddleNode {
-            forcing_over_clearance: forcing_at(&values, root.at).max(0.0).sqrt(),
-            absorber: 1.0 + root.at,
-            branch: manifold.branch(root.at),
+        let programs = &equations().programs;
+        let values = programs.values(system);
+        let roots = roots_above(&programs.saddle_node_coefficients(&values)?, -1.0)?;
+        let collisions = roots.iter().filter(|root| manifold.point(root.at).oscillator > 0.0);
+        let saddle_nodes = collisions.map(|root| {
+            Ok(SaddleNode {
+                forcing_over_clearance: forcing_squared(&values, root.at)?.max(0.0).sqrt(),
+                absorber: 1.0 + root.at,
+                branch: manifold.branch(root.at),
+            })
         });
-        let [p1_detuning, p1_square] = equations().codimension_two(&values);
+        let meeting = programs.meeting_point(&values)?;
         Ok(Self {
-            symmetry_breaking: quadratic(equations().breaking(&values), sigma).sqrt(),
-            hopf: quadratic(equations().hopf(&values), sigma).sqrt(),
-            saddle_nodes: saddle_nodes.collect(),
+            symmetry_breaking: programs.breaking_forcing(&values)?,
+            hopf: programs.hopf_forcing(&values)?,
+            saddle_nodes: saddle_nodes.collect::<Result<_, MissingValue>>()?,
             codimension_two: CodimensionTwo {
-                detuning: p1_detuning,
-                forcing_over_clearance: p1_square.sqrt(),
+                detuning: meeting.detuning,
+                forcing_over_clearance: meeting.forcing_per_clearance,
             },
         })
     }
@@ -114,14 +117,9 @@ impl Boundaries {
 }
 
 /// `gamma^2` of a fixed point with `B = b (1 + shift)`.
-fn forcing_at(values: &Values, shift: f64) -> f64 {
-    let square = equations().square(&values.clone().with(Symbol::Shift, shift));
-    let values = values
-        .clone()
-        .with(Symbol::Shift, shift)
-        .with(Symbol::AmplitudeRatio, 1.0 + shift)
-        .with(Symbol::ManifoldSquare, square);
-    equations().forcing_squared(&values)
+fn forcing_squared(values: &Values, shift: f64) -> Result<f64, MissingValue> {
+    let programs = &equations().programs;
+    programs.forcing_squared(&programs.at_shift(values, shift)?)
 }
 
 fn quadratic([constant, linear, square]: [f64; 3], at: f64) -> f64 {
@@ -155,40 +153,53 @@ pub struct BoundaryPoint {
     pub branch: Branch,
 }
 
-/// `gamma_c` and `gamma_H` over detuning.
+/// `gamma_c` or `gamma_H` over detuning.
+///
+/// # Errors
+/// [`AnalysisError::Missing`] never, for a system.
 pub fn explicit_boundary(
     kind: BoundaryKind,
     system: &System,
-    manifold: &Manifold,
     detunings: impl Iterator<Item = f64>,
-) -> Vec<BoundaryPoint> {
-    let values = values_of(system, manifold);
-    let coefficients = match kind {
-        BoundaryKind::Hopf => equations().hopf(&values),
-        _ => equations().breaking(&values),
+) -> Result<Vec<BoundaryPoint>, AnalysisError> {
+    let coefficients = explicit_coefficients(kind, system)?;
+    let point = |detuning| BoundaryPoint {
+        detuning,
+        forcing_over_clearance: quadratic(coefficients, detuning).max(0.0).sqrt(),
+        branch: Branch::Stable,
     };
-    detunings
-        .map(|detuning| BoundaryPoint {
-            detuning,
-            forcing_over_clearance: quadratic(coefficients, detuning).max(0.0).sqrt(),
-            branch: Branch::Stable,
-        })
-        .collect()
+    Ok(detunings.map(point).collect())
 }
 
-/// One arc of the saddle-node boundary, over the amplitude at which the collision happens.
+/// Coefficients of `gamma^2` by powers of `sigma`, for Hopf and symmetry breaking.
+fn explicit_coefficients(kind: BoundaryKind, system: &System) -> Result<[f64; 3], MissingValue> {
+    let programs = &equations().programs;
+    let values = programs.values(system);
+    match kind {
+        BoundaryKind::Hopf => programs.hopf_coefficients(&values),
+        _ => programs.breaking_coefficients(&values),
+    }
+}
+
+/// The two arcs of the saddle-node boundary, over the amplitude at which the collision happens.
 ///
-/// At a given `beta` the saddle-node condition is a quadratic in `sigma`, so that the boundary is
-/// two explicit curves, and needs no continuation.
-pub fn saddle_node_arcs(system: &System, manifold: &Manifold) -> [Vec<BoundaryPoint>; 2] {
-    let values = values_of(system, manifold);
+/// At a given amplitude the saddle-node condition is a quadratic in `sigma`, so that the boundary
+/// is two explicit curves, and needs no continuation.
+///
+/// # Errors
+/// [`AnalysisError::Missing`] never, for a system.
+pub fn saddle_node_arcs(
+    system: &System,
+    manifold: &Manifold,
+) -> Result<[Vec<BoundaryPoint>; 2], AnalysisError> {
+    let values = equations().programs.values(system);
     let mut arcs = [Vec::new(), Vec::new()];
     for shift in saddle_node_shifts(manifold) {
-        for (arc, point) in arcs.iter_mut().zip(saddle_node_pair(&values, manifold, shift)) {
+        for (arc, point) in arcs.iter_mut().zip(saddle_node_pair(&values, manifold, shift)?) {
             arc.extend(point);
         }
     }
-    arcs
+    Ok(arcs)
 }
 
 /// Amplitudes that resolve the boundary on both sides of the fold, where it turns quickly.
@@ -206,56 +217,55 @@ fn saddle_node_pair(
     values: &Values,
     manifold: &Manifold,
     shift: f64,
-) -> [Option<BoundaryPoint>; 2] {
+) -> Result<[Option<BoundaryPoint>; 2], MissingValue> {
     let at = values.clone().with(Symbol::Shift, shift);
-    let roots = quadratic_roots(equations().saddle_node_by_detuning(&at));
+    let roots = quadratic_roots(equations().programs.saddle_node_detunings(&at)?);
     let point = |detuning: f64| {
-        let squared = forcing_at(&values.clone().with(Symbol::Detuning, detuning), shift);
-        (squared > 0.0).then(|| BoundaryPoint {
+        let squared = forcing_squared(&values.clone().with(Symbol::Detuning, detuning), shift)?;
+        Ok((squared > 0.0).then(|| BoundaryPoint {
             detuning,
             forcing_over_clearance: squared.sqrt(),
             branch: manifold.branch(shift),
-        })
+        }))
     };
     match roots.as_slice() {
-        [lower, upper] => [point(*lower), point(*upper)],
-        _ => [None, None],
+        [lower, upper] => Ok([point(*lower)?, point(*upper)?]),
+        _ => Ok([None, None]),
     }
 }
 
 /// Detunings at which a boundary passes through the system's `gamma`, ascending.
-pub fn crossings(kind: BoundaryKind, system: &System, manifold: &Manifold) -> Vec<f64> {
-    let values = values_of(system, manifold);
+///
+/// # Errors
+/// [`AnalysisError::Missing`] never, for a system.
+pub fn crossings(
+    kind: BoundaryKind,
+    system: &System,
+    manifold: &Manifold,
+) -> Result<Vec<f64>, AnalysisError> {
+    if kind == BoundaryKind::SaddleNode {
+        return saddle_node_crossings(system, manifold);
+    }
     let gamma = system.forcing_per_clearance();
-    let [constant, linear, square] = match kind {
-        BoundaryKind::Hopf => equations().hopf(&values),
-        BoundaryKind::SymmetryBreaking => equations().breaking(&values),
-        BoundaryKind::SaddleNode => return saddle_node_crossings(&values, manifold, gamma),
-    };
-    quadratic_roots([constant - gamma * gamma, linear, square])
+    let [constant, linear, square] = explicit_coefficients(kind, system)?;
+    Ok(quadratic_roots([constant - gamma * gamma, linear, square]))
 }
 
-fn saddle_node_crossings(values: &Values, manifold: &Manifold, gamma: f64) -> Vec<f64> {
-    let mut found = Vec::new();
+fn saddle_node_crossings(system: &System, manifold: &Manifold) -> Result<Vec<f64>, AnalysisError> {
+    let values = equations().programs.values(system);
+    let gamma = system.forcing_per_clearance();
     let shifts: Vec<f64> = saddle_node_shifts(manifold).collect();
+    let mut found = Vec::new();
     for arc in 0..2 {
-        let excess = |shift: f64| {
-            saddle_node_pair(values, manifold, shift)[arc]
-                .map_or(f64::NAN, |point| point.forcing_over_clearance - gamma)
-        };
+        let at = |shift: f64| saddle_node_pair(&values, manifold, shift).ok()?[arc];
+        let excess =
+            |shift: f64| at(shift).map_or(f64::NAN, |point| point.forcing_over_clearance - gamma);
         for pair in shifts.windows(2) {
-            let (from, to) = (excess(pair[0]), excess(pair[1]));
-            if (from < 0.0) == (to < 0.0) || from.is_nan() || to.is_nan() {
-                continue;
-            }
             // Amplitudes are of order one; the crossing is a derived figure, not a certified root.
-            if let Ok(root) = brent(pair[0], pair[1], 1e-13, excess)
-                && let Some(point) = saddle_node_pair(values, manifold, root.at)[arc]
-            {
-                found.push(point.detuning);
-            }
+            let crossing = brent(pair[0], pair[1], 1e-13, excess).ok();
+            found.extend(crossing.and_then(|root| at(root.at)).map(|point| point.detuning));
         }
     }
     found.sort_by(f64::total_cmp);
-    found
+    Ok(found)
 }

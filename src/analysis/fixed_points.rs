@@ -8,9 +8,9 @@
 use serde::Serialize;
 
 use super::manifold::{Branch, Manifold};
-use super::{AnalysisError, values_of};
-use crate::equations::equations;
-use crate::numerics::polynomial::roots_above;
+use super::AnalysisError;
+use crate::equations::{Stability, equations};
+use crate::numerics::polynomial::{CertifiedRoot, roots_above};
 use crate::symbolic::Symbol;
 use crate::system::System;
 
@@ -101,46 +101,52 @@ pub struct FixedPoint {
 /// # Errors
 /// [`AnalysisError::Condition`] when the quartic's coefficients overflow.
 pub fn solve(system: &System, manifold: &Manifold) -> Result<Vec<FixedPoint>, AnalysisError> {
-    let values = values_of(system, manifold);
     if system.forcing_per_clearance() == 0.0 {
-        // Without forcing nothing keeps the motion going; the quartic is a sum of two squares.
+        // Without forcing nothing keeps a motion going; the quartic is a sum of two squares.
         return Ok(Vec::new());
     }
-    let roots = roots_above(&equations().fixed_point_coefficients(&values), -1.0)?;
-    let points = roots.iter().map(|root| {
-        let shift = root.at;
-        let values = values
-            .clone()
-            .with(Symbol::Shift, shift)
-            .with(Symbol::AmplitudeRatio, 1.0 + shift)
-            .with(Symbol::ManifoldSquare, equations().square(&values.clone().with(Symbol::Shift, shift)));
-        let [sine, cosine] = equations().phase_components(&values);
-        let eta = libm::atan2(sine, cosine);
-        let values = values.with(Symbol::ExcitationPhase, eta);
-        let [trace, determinant] = equations().jacobian_invariants(&values);
-        let branch = manifold.branch(shift);
-        let largest = manifold.largest_relative_displacement(shift);
-        let kind = Kind::of(trace, determinant);
-        let attracts = trace < 0.0 && determinant > 0.0;
-        FixedPoint {
-            absorber: 1.0 + shift,
-            oscillator: manifold.point(shift).oscillator,
-            eta,
-            absorber_phase: manifold.absorber_phase(shift),
-            branch,
-            trace,
-            determinant,
-            kind,
-            stable: attracts && branch == Branch::Stable,
-            residual: residual(system, manifold, shift, eta),
-            largest_relative_displacement: largest,
-            admissible: largest <= 1.0 + CAVITY_ROUNDING,
-            double: root.touching,
-            shift,
-            enclosure: root.upper - root.lower,
-        }
-    });
-    Ok(points.collect())
+    let programs = &equations().programs;
+    let coefficients = programs.fixed_point_coefficients(&programs.values(system))?;
+    roots_above(&coefficients, -1.0)?
+        .iter()
+        // For elastic impacts the condition, multiplied by C^2, also vanishes where C does: there
+        // the oscillator does not move, and (18) does not hold.
+        .filter(|root| manifold.point(root.at).oscillator > 0.0)
+        .map(|root| point(system, manifold, root))
+        .collect()
+}
+
+fn point(
+    system: &System,
+    manifold: &Manifold,
+    root: &CertifiedRoot,
+) -> Result<FixedPoint, AnalysisError> {
+    let programs = &equations().programs;
+    let shift = root.at;
+    let at = programs.at_shift(&programs.values(system), shift)?;
+    let eta = programs.excitation_phase(&at)?;
+    let Stability { trace, determinant, .. } =
+        programs.stability(&at.with(Symbol::ExcitationPhase, eta))?;
+    let branch = manifold.branch(shift);
+    let largest = manifold.largest_relative_displacement(shift);
+    let attracts = trace < 0.0 && determinant > 0.0;
+    Ok(FixedPoint {
+        absorber: 1.0 + shift,
+        oscillator: manifold.point(shift).oscillator,
+        eta,
+        absorber_phase: manifold.absorber_phase(shift),
+        branch,
+        trace,
+        determinant,
+        kind: Kind::of(trace, determinant),
+        stable: attracts && branch == Branch::Stable,
+        residual: residual(system, manifold, shift, eta),
+        largest_relative_displacement: largest,
+        admissible: largest <= 1.0 + CAVITY_ROUNDING,
+        double: root.touching,
+        shift,
+        enclosure: root.upper - root.lower,
+    })
 }
 
 /// The rates of (18) at a point, written out term by term, over the sizes of their terms. This is

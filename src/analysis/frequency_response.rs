@@ -7,9 +7,8 @@ use serde::Serialize;
 
 use super::boundaries::quadratic_roots;
 use super::manifold::{Branch, Manifold};
-use super::values_of;
+use super::AnalysisError;
 use crate::equations::equations;
-use crate::symbolic::Symbol;
 use crate::system::System;
 
 /// A point of the response curve.
@@ -29,35 +28,36 @@ pub struct ResponsePoint {
 
 /// The two sides of the response curve, by ascending amplitude: where the quadratic has no real
 /// root the sides are interrupted, which cuts them into pieces.
-pub fn response(system: &System, manifold: &Manifold, largest: f64) -> [Vec<Vec<ResponsePoint>>; 2] {
-    let values = values_of(system, manifold);
+///
+/// # Errors
+/// [`AnalysisError::Missing`] never, for a system.
+pub fn response(
+    system: &System,
+    manifold: &Manifold,
+    largest: f64,
+) -> Result<[Vec<Vec<ResponsePoint>>; 2], AnalysisError> {
+    let programs = &equations().programs;
+    let values = programs.values(system);
     let mut sides = [vec![Vec::new()], vec![Vec::new()]];
     for shift in amplitudes(manifold, largest) {
+        let at = programs.at_shift(&values, shift)?;
+        let roots = quadratic_roots(programs.detuning_coefficients(&at)?);
         let point = manifold.point(shift);
-        let at = values
-            .clone()
-            .with(Symbol::Shift, shift)
-            .with(Symbol::AmplitudeRatio, point.absorber)
-            .with(Symbol::ManifoldSquare, point.oscillator * point.oscillator);
-        let roots = quadratic_roots(equations().by_detuning(&at));
         for (index, side) in sides.iter_mut().enumerate() {
-            let piece = match roots.get(index) {
-                Some(&detuning) => Some(ResponsePoint {
-                    detuning,
-                    absorber: point.absorber,
-                    oscillator: point.oscillator,
-                    branch: manifold.branch(shift),
-                }),
-                None => None,
-            };
-            match (piece, side.last_mut()) {
-                (Some(piece), Some(last)) => last.push(piece),
+            let response = roots.get(index).map(|&detuning| ResponsePoint {
+                detuning,
+                absorber: point.absorber,
+                oscillator: point.oscillator,
+                branch: manifold.branch(shift),
+            });
+            match (response, side.last_mut()) {
+                (Some(response), Some(last)) => last.push(response),
                 (None, Some(last)) if !last.is_empty() => side.push(Vec::new()),
                 _ => {}
             }
         }
     }
-    sides.map(|side| side.into_iter().filter(|piece| piece.len() > 1).collect())
+    Ok(sides.map(|side| side.into_iter().filter(|piece| piece.len() > 1).collect()))
 }
 
 /// Values of `B/b - 1` from almost -1 to `largest - 1`, with the ends of the branches among them.

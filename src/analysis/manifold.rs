@@ -5,12 +5,8 @@ use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 
 use serde::Serialize;
 
-use crate::equations::equations;
-use crate::symbolic::{Symbol, Values};
-
-/// Smallest `rho` that formulas are evaluated with: elastic impacts, `rho = 0`, are the limit of
-/// inelastic ones, and several formulas are quotients of two quantities that vanish in it.
-const SMALLEST_RATIO: f64 = 1e-100;
+use crate::equations::{self, equations};
+use crate::symbolic::{MissingValue, Symbol, Values};
 
 /// A part of the manifold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -64,32 +60,35 @@ pub struct Manifold {
 
 impl Manifold {
     /// The manifold for restitution `r` in `0..=1`.
-    pub fn of(restitution: f64) -> Self {
-        let ratio = ((1.0 - restitution) / (1.0 + restitution)).max(SMALLEST_RATIO);
-        let curvature = 4.0 * ratio * ratio / (std::f64::consts::PI * std::f64::consts::PI);
-        let values = Values::new()
-            .with(Symbol::RestitutionRatio, ratio)
-            .with(Symbol::ManifoldCurvature, curvature);
-        let [fold_shift, fold_square, breaking_shift, breaking_square] =
-            equations().special_points(&values);
-        Self {
-            restitution_ratio: ratio,
-            curvature,
-            fold: ManifoldPoint { absorber: 1.0 + fold_shift, oscillator: fold_square.sqrt() },
-            symmetry_breaking: ManifoldPoint {
-                absorber: 1.0 + breaking_shift,
-                oscillator: breaking_square.sqrt(),
-            },
-            fold_shift,
-        }
+    ///
+    /// # Errors
+    /// [`MissingValue`] if a formula asks for more than `r`, which a test rules out.
+    pub fn of(restitution: f64) -> Result<Self, MissingValue> {
+        let programs = &equations().programs;
+        let values = programs.values_of(restitution);
+        let fold = programs.fold(&values)?;
+        let breaking = programs.symmetry_breaking(&values)?;
+        let point = |point: equations::ManifoldPoint| ManifoldPoint {
+            absorber: point.ratio,
+            oscillator: point.square.sqrt(),
+        };
+        Ok(Self {
+            restitution_ratio: values.require(Symbol::RestitutionRatio)?,
+            curvature: values.require(Symbol::ManifoldCurvature)?,
+            fold: point(fold),
+            symmetry_breaking: point(breaking),
+            fold_shift: fold.shift,
+        })
     }
 
-    /// The point whose absorber amplitude is `b (1 + shift)`.
+    /// The point whose absorber amplitude is `b (1 + shift)`, by (16) in its shifted form.
     pub fn point(&self, shift: f64) -> ManifoldPoint {
         let values = Values::new()
             .with(Symbol::ManifoldCurvature, self.curvature)
             .with(Symbol::Shift, shift);
-        ManifoldPoint { absorber: 1.0 + shift, oscillator: equations().square(&values).sqrt() }
+        // Both symbols of the formula have values; a test would see the NaN.
+        let square = equations().programs.manifold_square(&values).unwrap_or(f64::NAN);
+        ManifoldPoint { absorber: 1.0 + shift, oscillator: square.sqrt() }
     }
 
     /// The branch on which `B = b (1 + shift)` lies; the two ends of the stable branch belong to it.

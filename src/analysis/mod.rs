@@ -14,7 +14,7 @@ pub mod manifold;
 use serde::Serialize;
 
 use crate::numerics::polynomial::PolynomialError;
-use crate::symbolic::{Symbol, Values};
+use crate::symbolic::MissingValue;
 use crate::system::System;
 
 pub use areas::{Area, Strip, Zone};
@@ -31,6 +31,9 @@ pub enum AnalysisError {
          forcing is too extreme for the asymptotic theory"
     )]
     Condition(#[from] PolynomialError),
+    /// A formula was evaluated without a value for one of its symbols.
+    #[error(transparent)]
+    Missing(#[from] MissingValue),
 }
 
 /// Everything that the theory says of one system.
@@ -54,7 +57,7 @@ impl Analysis {
     /// # Errors
     /// [`AnalysisError`] where the fixed-point condition overflows.
     pub fn of(system: &System) -> Result<Self, AnalysisError> {
-        let manifold = Manifold::of(system.restitution());
+        let manifold = Manifold::of(system.restitution())?;
         let fixed_points = fixed_points::solve(system, &manifold)?;
         let boundaries = Boundaries::of(system, &manifold)?;
         let zone = Zone::of(system, &fixed_points, &boundaries);
@@ -65,15 +68,4 @@ impl Analysis {
     pub fn stable_points(&self) -> impl Iterator<Item = &FixedPoint> {
         self.fixed_points.iter().filter(|point| point.stable)
     }
-}
-
-/// The parameters of a system as numbers for the symbols of the theory.
-pub fn values_of(system: &System, manifold: &Manifold) -> Values {
-    Values::new()
-        .with(Symbol::Damping, system.damping())
-        .with(Symbol::Restitution, system.restitution())
-        .with(Symbol::RestitutionRatio, manifold.restitution_ratio)
-        .with(Symbol::ManifoldCurvature, manifold.curvature)
-        .with(Symbol::Detuning, system.detuning())
-        .with(Symbol::ForcingPerClearance, system.forcing_per_clearance())
 }

@@ -34,6 +34,8 @@ pub struct FixedPoints {
     pub saddle_node_by_ratio: [Expr; 6],
     /// The same by powers of `u`.
     pub saddle_node_by_shift: [Expr; 6],
+    /// The same by powers of `sigma`, in `u`: at a given amplitude the boundary is explicit.
+    pub saddle_node_by_detuning: [Expr; 3],
 }
 
 impl FixedPoints {
@@ -54,11 +56,14 @@ impl FixedPoints {
         let by_shift = collected(&in_shift, u)?;
         let unforced =
             |coefficients: &[Expr; 5]| coefficients.clone().map(|c| c.substitute(gamma, 0));
+        let saddle_node_by_shift =
+            saddle_node(&unforced(&by_shift), &manifold.shifted_square, u)?;
         Ok(Self {
             forcing_squared: condition.solve_linear(gamma.squared())?,
             by_detuning: collected(&with_shift(&condition), sigma)?,
             saddle_node_by_ratio: saddle_node(&unforced(&by_ratio), &manifold.ratio_square, beta)?,
-            saddle_node_by_shift: saddle_node(&unforced(&by_shift), &manifold.shifted_square, u)?,
+            saddle_node_by_detuning: collected(&polynomial(&saddle_node_by_shift, u), sigma)?,
+            saddle_node_by_shift,
             sine,
             cosine,
             condition,

@@ -50,6 +50,7 @@ pub struct Programs {
     by_shift: Compiled<5>,
     by_detuning: Compiled<3>,
     saddle_node: Compiled<6>,
+    saddle_node_by_detuning: Compiled<3>,
     forcing_squared: Compiled<1>,
     sides: Compiled<2>,
     hopf: Compiled<3>,
@@ -84,12 +85,15 @@ impl Programs {
             by_shift: Compiled::new(fixed_points.by_shift.each_ref()),
             by_detuning: Compiled::new(fixed_points.by_detuning.each_ref()),
             saddle_node: Compiled::new(fixed_points.saddle_node_by_shift.each_ref()),
+            saddle_node_by_detuning: Compiled::new(
+                fixed_points.saddle_node_by_detuning.each_ref(),
+            ),
             forcing_squared: Compiled::new([&with_shift(&fixed_points.forcing_squared)]),
             sides: Compiled::new([&fixed_points.sine, &with_shift(&fixed_points.cosine)]),
             hopf: Compiled::new(boundaries.hopf.each_ref()),
             breaking: Compiled::new(boundaries.breaking.each_ref()),
             meeting_detuning: Compiled::new([&boundaries.meeting_detuning]),
-            rates: Compiled::new(slow_flow.rates.each_ref()),
+            rates: Compiled::new([&slow_flow.ratio_rate, &slow_flow.phase_rate]),
             stability: Compiled::new([a, b, c, d, &slow_flow.trace, &slow_flow.determinant]),
         }
     }
@@ -184,6 +188,15 @@ impl Programs {
         self.saddle_node.evaluate(values)
     }
 
+    /// Coefficients, by ascending powers of `sigma`, of the condition that two fixed points collide
+    /// at `u`. Needs `lambda`, `rho`, `R`, `u`.
+    ///
+    /// # Errors
+    /// If a value is missing.
+    pub fn saddle_node_detunings(&self, values: &Values) -> Result<[f64; 3], MissingValue> {
+        self.saddle_node_by_detuning.evaluate(values)
+    }
+
     /// `gamma^2` for which a point of the manifold is a fixed point. Needs a point (see
     /// [`Programs::at_shift`]), `lambda`, `rho`, `sigma`.
     ///
@@ -257,13 +270,13 @@ impl Programs {
         Ok(MeetingPoint { detuning, forcing_per_clearance })
     }
 
-    /// Rates of `u` and `eta` in slow time. Needs `u`, `eta`, `lambda`, `rho`, `R`, `sigma`,
+    /// Rates of `u` and `eta` in slow time. Needs a point, `eta`, `lambda`, `rho`, `R`, `sigma`,
     /// `gamma`; infinite at the fold.
     ///
     /// # Errors
     /// If a value is missing.
-    pub fn slow_flow(&self, values: &Values) -> Result<[f64; 2], MissingValue> {
-        self.rates.evaluate(values)
+    pub fn slow_flow(&self, point: &Values) -> Result<[f64; 2], MissingValue> {
+        self.rates.evaluate(point)
     }
 
     /// Jacobian of the slow flow, its trace and determinant. Needs what [`Programs::slow_flow`]
@@ -271,8 +284,8 @@ impl Programs {
     ///
     /// # Errors
     /// If a value is missing.
-    pub fn stability(&self, values: &Values) -> Result<Stability, MissingValue> {
-        let [a, b, c, d, trace, determinant] = self.stability.evaluate(values)?;
+    pub fn stability(&self, point: &Values) -> Result<Stability, MissingValue> {
+        let [a, b, c, d, trace, determinant] = self.stability.evaluate(point)?;
         Ok(Stability { jacobian: [[a, b], [c, d]], trace, determinant })
     }
 }

@@ -264,7 +264,11 @@ impl ProductBuilder {
             return Expr::ZERO;
         }
         self.powers.retain(|(_, exponent)| *exponent != 0);
-        self.powers.sort_by_cached_key(|(base, exponent)| (base.rank(), base.clone(), *exponent));
+        if self.powers.len() > 1 {
+            self.powers.sort_by(|(left, _), (right, _)| {
+                left.rank().cmp(&right.rank()).then_with(|| left.cmp(right))
+            });
+        }
         let factors = self.powers.into_iter().map(|(base, exponent)| match exponent {
             1 => base,
             _ => Expr::Power(Box::new(base), exponent),
