@@ -10,3 +10,4 @@ pub mod simulation;
 pub mod study;
 pub mod symbolic;
 pub mod system;
+pub mod validation;

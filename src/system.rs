@@ -165,6 +165,33 @@ impl System {
     }
 }
 
+/// Displacements and velocities of oscillator and absorber, over the clearance, in fast time.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct State {
+    /// Oscillator displacement.
+    pub x: f64,
+    /// Oscillator velocity.
+    pub x_velocity: f64,
+    /// Absorber displacement.
+    pub y: f64,
+    /// Absorber velocity.
+    pub y_velocity: f64,
+}
+
+impl State {
+    /// Relative displacement `w = x - y`.
+    pub fn gap(&self) -> f64 {
+        self.x - self.y
+    }
+
+    /// Kinetic and potential energy per unit of the oscillator's mass.
+    pub fn energy(&self, mass_ratio: f64) -> f64 {
+        0.5 * (self.x * self.x
+            + self.x_velocity * self.x_velocity
+            + mass_ratio * self.y_velocity * self.y_velocity)
+    }
+}
+
 /// Steady motion of the oscillator alone, over the clearance: `sine sin(Omega tau) + cosine
 /// cos(Omega tau)`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -179,6 +206,13 @@ impl LinearResponse {
     /// Amplitude over the clearance.
     pub fn amplitude(&self) -> f64 {
         libm::hypot(self.sine, self.cosine)
+    }
+
+    /// The oscillator on its steady motion at excitation phase 0, the absorber resting in the
+    /// middle of its travel.
+    pub fn state(&self, system: &System) -> State {
+        let x_velocity = system.frequency_ratio() * self.sine;
+        State { x: self.cosine, x_velocity, y: 0.0, y_velocity: 0.0 }
     }
 }
 

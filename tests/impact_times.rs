@@ -7,8 +7,8 @@ use std::cell::RefCell;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use astro_float::{BigFloat, Consts, Radix, RoundingMode};
-use vinesink::simulation::{ImpactLog, Simulation, State, Stop};
-use vinesink::system::System;
+use vinesink::simulation::{ImpactLog, Simulation, Stop};
+use vinesink::system::{State, System};
 
 const BITS: usize = 256;
 const ROUND: RoundingMode = RoundingMode::ToEven;

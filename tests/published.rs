@@ -6,7 +6,7 @@ mod common;
 use vinesink::analysis::{Analysis, Area, Branch, Strip, Zone};
 use vinesink::regimes::Attractor;
 use vinesink::regimes::attractor::Effort;
-use vinesink::simulation::State;
+use vinesink::system::State;
 
 /// `value` rounded to `decimals` equals `printed`.
 fn prints_as(value: f64, decimals: usize, printed: &str) {

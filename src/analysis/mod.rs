@@ -10,6 +10,7 @@ pub mod boundaries;
 pub mod fixed_points;
 pub mod frequency_response;
 pub mod manifold;
+pub mod motion;
 
 use serde::Serialize;
 

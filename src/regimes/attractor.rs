@@ -5,9 +5,9 @@ use serde::Serialize;
 use super::{Classification, Thresholds, classify};
 use crate::simulation::run::Nobody;
 use crate::simulation::{
-    Energy, Impact, ImpactLog, Simulation, StartError, State, Statistics, Stop, SustainedContact,
+    Energy, Impact, ImpactLog, Simulation, StartError, Statistics, Stop, SustainedContact,
 };
-use crate::system::System;
+use crate::system::{State, System};
 
 /// How long a trajectory is followed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]

@@ -7,6 +7,8 @@ pub mod attractor;
 pub mod modulation;
 pub mod periodicity;
 pub mod return_map;
+pub mod search;
+pub mod starts;
 
 use serde::Serialize;
 
@@ -14,6 +16,7 @@ use crate::simulation::{Impact, Statistics};
 pub use attractor::Attractor;
 pub use modulation::Captures;
 pub use periodicity::Periodicity;
+pub use search::FoundAttractor;
 
 /// The regimes of section 3.1, and rest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]

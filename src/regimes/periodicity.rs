@@ -2,7 +2,8 @@
 
 use serde::Serialize;
 
-use crate::simulation::{Impact, PeriodRecord, State};
+use crate::simulation::{Impact, PeriodRecord};
+use crate::system::State;
 
 /// Longest repetition that is looked for, in excitation periods.
 const LONGEST: usize = 24;

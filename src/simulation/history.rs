@@ -2,7 +2,8 @@
 
 use serde::Serialize;
 
-use super::run::{Impact, Observer, Segment, State};
+use super::run::{Impact, Observer, Segment};
+use crate::system::State;
 
 /// Keeps every impact.
 #[derive(Debug, Clone, Default)]

@@ -12,5 +12,5 @@ pub mod statistics;
 
 pub use contact::ContactTolerance;
 pub use history::{ImpactLog, Trace, TracePoint};
-pub use run::{Impact, Observer, Segment, Side, Simulation, StartError, State, Stop};
+pub use run::{Impact, Observer, Segment, Side, Simulation, StartError, Stop};
 pub use statistics::{Energy, PeriodRecord, Statistics, SustainedContact};

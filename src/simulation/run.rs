@@ -10,40 +10,13 @@ use serde::Serialize;
 use super::contact::{AtWall, ContactTolerance, rebound};
 use super::flow::{Kinematics, Motion, Oscillator, derivative_bounds};
 use crate::numerics::crossing::{Band, Curve, Edge, Sample, Search, first_crossing};
-use crate::system::System;
+use crate::system::{State, System};
 
 /// Units in the last place of the largest length involved that count as touching a wall.
 const TOUCH_ULPS: f64 = 16.0;
 /// Fast time over which one curvature bound is used; shorter bounds are tighter, longer ones save
 /// evaluations. A sixth of the natural period is a fair middle.
 const HORIZON: f64 = 1.0;
-
-/// Displacements and velocities of oscillator and absorber, over the clearance, in fast time.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct State {
-    /// Oscillator displacement.
-    pub x: f64,
-    /// Oscillator velocity.
-    pub x_velocity: f64,
-    /// Absorber displacement.
-    pub y: f64,
-    /// Absorber velocity.
-    pub y_velocity: f64,
-}
-
-impl State {
-    /// Relative displacement `w = x - y`.
-    pub fn gap(&self) -> f64 {
-        self.x - self.y
-    }
-
-    /// Kinetic and potential energy per unit of the oscillator's mass.
-    pub fn energy(&self, mass_ratio: f64) -> f64 {
-        0.5 * (self.x * self.x
-            + self.x_velocity * self.x_velocity
-            + mass_ratio * self.y_velocity * self.y_velocity)
-    }
-}
 
 /// A start that no motion can have.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]

@@ -6,10 +6,10 @@
 
 use serde::Serialize;
 
-use super::run::{Absorber, Impact, Observer, Segment, State};
+use super::run::{Absorber, Impact, Observer, Segment};
 use crate::numerics::bracket::brent;
 use crate::numerics::quadrature;
-use crate::system::System;
+use crate::system::{State, System};
 
 /// Energy balance over a window, per unit of the oscillator's mass, over the squared clearance.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]

@@ -1,4 +1,162 @@
-//! Puts the layers together for one case: what is analysed, simulated and confronted.
+//! Puts the layers together for one case: what is analysed, simulated and confronted, and how far
+//! the nearest boundaries are.
 
-pub mod attractors;
-pub mod starts;
+pub mod margins;
+pub mod scenes;
+
+use serde::Serialize;
+
+use crate::analysis::motion::state_of;
+use crate::analysis::{Analysis, AnalysisError, Area, Branch};
+use crate::regimes::attractor::Effort;
+use crate::regimes::search::{self, SearchEffort};
+use crate::regimes::{Attractor, FoundAttractor, Regime};
+use crate::simulation::StartError;
+use crate::system::{State, System};
+use crate::validation::{self, Claim};
+
+pub use margins::Margins;
+
+/// Why a case cannot be studied.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum StudyError {
+    /// The theory cannot be evaluated.
+    #[error(transparent)]
+    Analysis(#[from] AnalysisError),
+    /// A predicted motion cannot be simulated.
+    #[error(transparent)]
+    Start(#[from] StartError),
+}
+
+/// How thoroughly a case is studied. The defaults settle every shipped case: transients of the 1:1
+/// motion die out within some hundred periods, and shares of 32 starts are good to about 9 %.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct StudyEffort {
+    /// Evenly spread starts.
+    pub starts: u32,
+    /// Periods left out as transient.
+    pub discard: u64,
+    /// Periods over which a motion that does not repeat is measured.
+    pub periods: u64,
+}
+
+impl Default for StudyEffort {
+    fn default() -> Self {
+        Self { starts: 32, discard: 400, periods: 1000 }
+    }
+}
+
+/// Periods in which a regime is recognised; several times the slowest modulation.
+const RECOGNITION: u64 = 200;
+/// Impacts after which a stretch is given up: some hundred per period, far above any settled motion
+/// that a design would want.
+const IMPACT_LIMIT: u64 = 200_000;
+
+impl StudyEffort {
+    fn each(&self) -> Effort {
+        Effort {
+            discard: self.discard,
+            periods: RECOGNITION.min(self.periods),
+            prolongations: 4,
+            impact_limit: IMPACT_LIMIT,
+        }
+    }
+}
+
+/// Everything that is known about a case.
+#[derive(Debug, Clone, Serialize)]
+pub struct CaseStudy {
+    /// The theory.
+    pub analysis: Analysis,
+    /// Area, settled by simulation where closed form cannot.
+    pub area: SettledArea,
+    /// Every long-term motion that was found, by share of starts.
+    pub attractors: Vec<FoundAttractor>,
+    /// Theory against simulation.
+    pub claims: Vec<Claim>,
+    /// Distances to the nearest boundaries.
+    pub margins: Margins,
+    /// How thoroughly.
+    pub effort: StudyEffort,
+}
+
+/// An area and which layer settled it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct SettledArea {
+    /// Z1 to Z4.
+    pub area: Area,
+    /// Whether simulation had to tell Z1 from Z2.
+    pub by_simulation: bool,
+}
+
+impl CaseStudy {
+    /// Studies a system; `progress` is told how much of [`CaseStudy::steps`] was done.
+    ///
+    /// # Errors
+    /// [`StudyError`] where theory or simulation cannot be carried out.
+    pub fn of(
+        system: &System,
+        effort: StudyEffort,
+        progress: &mut dyn FnMut(u64),
+    ) -> Result<Self, StudyError> {
+        let analysis = Analysis::of(system)?;
+        let search = SearchEffort {
+            starts: effort.starts,
+            each: effort.each(),
+            measured: effort.periods,
+        };
+        let predicted = predicted_starts(&analysis);
+        let attractors = search::find(system, &predicted, &search, progress)?;
+        let area = settle_area(&analysis)?;
+        let claims = validation::confront(&analysis, &attractors, &effort.each())?;
+        let margins = Margins::of(&analysis)?;
+        Ok(Self { area, attractors, claims, margins, effort, analysis })
+    }
+
+    /// Number of progress steps that a study takes, about.
+    pub fn steps(effort: &StudyEffort) -> u64 {
+        u64::from(effort.starts) + 2
+    }
+
+    /// The moving attractor that most starts lead to, or rest if there is no other.
+    pub fn main_attractor(&self) -> Option<&FoundAttractor> {
+        let rests = |found: &&FoundAttractor| found.regime() == Regime::AtRest;
+        self.attractors.iter().find(|found| !rests(found)).or_else(|| self.attractors.first())
+    }
+}
+
+/// Starts on every motion that theory predicts, rest included.
+fn predicted_starts(analysis: &Analysis) -> Vec<State> {
+    let system = &analysis.system;
+    let rest = system.linear_response().map(|linear| linear.state(system));
+    let rest = rest.filter(|state| state.gap().abs() < 1.0);
+    analysis.fixed_points.iter().map(|point| state_of(point, system)).chain(rest).collect()
+}
+
+/// The area of the theory; right of symmetry breaking, what a start on the predicted motion becomes
+/// tells Z1 (more than two impacts per period) from Z2.
+///
+/// # Errors
+/// [`StartError`] if the predicted motion lies outside the cavity.
+pub fn settle_area(analysis: &Analysis) -> Result<SettledArea, StartError> {
+    if let Some(area) = analysis.zone.area {
+        return Ok(SettledArea { area, by_simulation: false });
+    }
+    let beyond = analysis.fixed_points.iter().rfind(|point| point.branch == Branch::Right);
+    let regime = match beyond {
+        Some(point) => {
+            let start = state_of(point, &analysis.system);
+            // Enough to leave the unstable symmetric motion and count impacts.
+            let effort = Effort {
+                discard: 300,
+                periods: 50,
+                prolongations: 0,
+                impact_limit: IMPACT_LIMIT,
+            };
+            Attractor::reach(&analysis.system, start, &effort)?.classification.regime
+        }
+        None => Regime::TwoAsymmetric,
+    };
+    let area = if regime == Regime::AboveTwo { Area::Z1 } else { Area::Z2 };
+    Ok(SettledArea { area, by_simulation: true })
+}

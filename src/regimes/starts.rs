@@ -4,8 +4,7 @@
 //! powers of `1/g`, where `g` is the real root of `g^5 = g + 1`. Any stretch of it is spread evenly,
 //! so that shares of starts mean something with a few dozen of them.
 
-use crate::simulation::State;
-use crate::system::System;
+use crate::system::{State, System};
 
 /// Real root above 1 of `g^5 = g + 1`.
 const RATIO: f64 = 1.167_303_978_261_418_7;

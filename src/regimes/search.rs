@@ -2,11 +2,11 @@
 
 use serde::Serialize;
 
+use super::{Attractor, Regime};
+use super::attractor::Effort;
 use super::starts::StartBox;
-use crate::regimes::Attractor;
-use crate::regimes::attractor::Effort;
-use crate::simulation::{StartError, State};
-use crate::system::System;
+use crate::simulation::StartError;
+use crate::system::{State, System};
 
 /// An attractor and how it was found.
 #[derive(Debug, Clone, Serialize)]
@@ -20,6 +20,13 @@ pub struct FoundAttractor {
     pub share: f64,
     /// Whether a start on a predicted motion led here.
     pub reached_from_theory: bool,
+}
+
+impl FoundAttractor {
+    /// Its regime.
+    pub fn regime(&self) -> Regime {
+        self.attractor.classification.regime
+    }
 }
 
 /// How thoroughly attractors are searched.

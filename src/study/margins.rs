@@ -1,0 +1,102 @@
+//! How far the case is from the boundaries of its regime, in clearance, forcing and frequency.
+
+use serde::Serialize;
+
+use crate::analysis::{Analysis, AnalysisError, BoundaryKind, Branch, boundaries};
+use crate::validation::boundaries::{BoundaryAt, clearances, ends_steady_resonance};
+
+/// A boundary and where it is met when one parameter alone is changed.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Margin {
+    /// Which boundary.
+    pub kind: BoundaryKind,
+    /// For a saddle-node: the branch on which two fixed points collide.
+    pub branch: Branch,
+    /// Whether steady 1:1 resonance begins or ends there, as far as the theory says.
+    pub ends_steady_resonance: bool,
+    /// The parameter's value there over its value in the case.
+    pub factor: f64,
+}
+
+/// The nearest boundaries on either side, per parameter.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Margins {
+    /// All boundaries in clearance, ascending.
+    pub clearance: Vec<Margin>,
+    /// Nearest in frequency below and above the case's.
+    pub frequency: Neighbours,
+}
+
+/// The nearest boundary below and above.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Neighbours {
+    /// With a factor below 1.
+    pub below: Option<Margin>,
+    /// With a factor above 1.
+    pub above: Option<Margin>,
+}
+
+impl Margins {
+    /// Margins of an analysed system.
+    ///
+    /// # Errors
+    /// As [`Analysis::of`].
+    pub fn of(analysis: &Analysis) -> Result<Self, AnalysisError> {
+        let clearance: Vec<Margin> = clearances(analysis)
+            .iter()
+            .map(|at| Margin {
+                kind: at.kind,
+                branch: at.branch,
+                ends_steady_resonance: ends_steady_resonance(analysis, at),
+                factor: at.clearance,
+            })
+            .collect();
+        Ok(Self { clearance, frequency: in_frequency(analysis)? })
+    }
+
+    /// Nearest in clearance.
+    pub fn clearance_neighbours(&self) -> Neighbours {
+        Neighbours {
+            below: self.clearance.iter().rfind(|margin| margin.factor <= 1.0).copied(),
+            above: self.clearance.iter().find(|margin| margin.factor > 1.0).copied(),
+        }
+    }
+
+    /// Nearest in forcing: `gamma = G / b`, so a boundary at `k` times the clearance is met at `1/k`
+    /// times the forcing.
+    pub fn forcing_neighbours(&self) -> Neighbours {
+        let inverse = |margin: Margin| Margin { factor: 1.0 / margin.factor, ..margin };
+        let Neighbours { below, above } = self.clearance_neighbours();
+        Neighbours { below: above.map(inverse), above: below.map(inverse) }
+    }
+}
+
+/// Frequencies at which a boundary passes through the case's clearance and forcing. The branch and
+/// the meaning of each are those at that frequency.
+fn in_frequency(analysis: &Analysis) -> Result<Neighbours, AnalysisError> {
+    let system = &analysis.system;
+    let mut all = Vec::new();
+    for kind in [BoundaryKind::SymmetryBreaking, BoundaryKind::Hopf, BoundaryKind::SaddleNode] {
+        for detuning in boundaries::crossings(kind, system, &analysis.manifold)? {
+            let ratio = 1.0 + system.mass_ratio() * detuning;
+            let Ok(there) = system.with_frequency_ratio(ratio) else { continue };
+            let there = Analysis::of(&there)?;
+            // The boundary that passes through the case's clearance, as it is at that frequency.
+            let nearest = clearances(&there).into_iter().filter(|at| at.kind == kind).min_by(
+                |a, b| (a.clearance - 1.0).abs().total_cmp(&(b.clearance - 1.0).abs()),
+            );
+            let at = nearest.unwrap_or(BoundaryAt { kind, branch: Branch::Stable, clearance: 1.0 });
+            all.push(Margin {
+                kind,
+                branch: at.branch,
+                ends_steady_resonance: ends_steady_resonance(&there, &at),
+                factor: ratio / system.frequency_ratio(),
+            });
+        }
+    }
+    all.sort_by(|a, b| a.factor.total_cmp(&b.factor));
+    Ok(Neighbours {
+        below: all.iter().rfind(|margin| margin.factor < 1.0).copied(),
+        above: all.iter().find(|margin| margin.factor > 1.0).copied(),
+    })
+}

@@ -1,0 +1,1 @@
+//! Simulations that exist for a figure.

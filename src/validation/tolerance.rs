@@ -1,0 +1,41 @@
+//! How wrong the leading-order theory may be.
+
+use serde::Serialize;
+
+use crate::system::System;
+
+/// A tolerance with its reason.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Tolerance {
+    /// Relative for lengths, in radians for angles, 0 for outcomes in words.
+    pub value: f64,
+    /// Why this much.
+    pub reason: String,
+}
+
+/// Expected size of the theory's error: `eps (2 + abs(sigma) + lambda)`.
+///
+/// The expansion (6) neglects terms that are `eps` times the kept ones, with coefficients made of 1,
+/// `sigma` and `lambda`. Measured against simulation, the errors of `C`, `B` and `eta` fall in
+/// proportion to `eps` and stay below this sum (test `asymptotic_error`).
+pub fn asymptotic_error(system: &System) -> f64 {
+    system.mass_ratio() * (2.0 + system.detuning().abs() + system.damping())
+}
+
+/// The tolerance on amplitudes and phases.
+pub fn asymptotic(system: &System) -> Tolerance {
+    Tolerance {
+        value: asymptotic_error(system),
+        reason: "terms neglected by the expansion: ε (2 + |σ| + λ)".into(),
+    }
+}
+
+/// For closed forms of the full system, which only rounding separates from simulation.
+pub fn exact() -> Tolerance {
+    Tolerance { value: 1e-9, reason: "closed form of the full system, rounding only".into() }
+}
+
+/// For outcomes that either happen or do not.
+pub fn outcome(reason: impl Into<String>) -> Tolerance {
+    Tolerance { value: 0.0, reason: reason.into() }
+}
