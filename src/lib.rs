@@ -2,4 +2,6 @@
 #![warn(missing_docs)]
 #![forbid(unsafe_code)]
 
+pub mod case;
+pub mod store;
 pub mod system;
