@@ -22,19 +22,21 @@ fn problem(text: &str, error: &toml::de::Error) -> Problem {
     let span = error.span().unwrap_or(0..0);
     let (what, expected) = match error.message().split_once(", expected ") {
         Some((what, expected)) => (what, format!("expected {expected}")),
-        None => (error.message(), "here".to_owned()),
+        None => (error.message(), "expected something else here".to_owned()),
     };
     let message = format!("the file is not valid TOML: {what}");
-    let problem = Problem::new(text, span.clone(), message, expected);
+    let problem = Problem::new(text, span, message, expected);
     let line = line_around(text, problem.span.start);
-    let help = if what.contains("duplicate") {
-        "keep one of the two".to_owned()
-    } else if let Some(quoted) = unquoted_quantity(line) {
-        format!("a value with a unit is written in quotes: {quoted}")
-    } else {
-        "a line is `key = value`, a [table] or a # comment; text stands in \"quotes\"".to_owned()
-    };
-    problem.help(help)
+    if what.contains("duplicate") {
+        let expected =
+            "expected each key and table once, but this one stands above already".to_owned();
+        return Problem { expected, ..problem }.help("keep one of the two");
+    }
+    if let Some(quoted) = unquoted_quantity(line) {
+        let expected = "expected a value with a unit to be in quotes".to_owned();
+        return Problem { expected, ..problem }.help(format!("write {quoted}"));
+    }
+    problem.help("a line is `key = value`, a [table] or a # comment; text stands in \"quotes\"")
 }
 
 fn line_around(text: &str, at: usize) -> &str {

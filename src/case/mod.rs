@@ -117,7 +117,8 @@ impl Case {
 
 fn read(reader: &mut Reader, document: &DeTable) -> Option<Case> {
     if document.is_empty() {
-        let help = "`vinesink new NAME` writes a commented case to start from";
+        let help =
+            "write a title, a source and a design; `vinesink new NAME` writes a case to start from";
         reader.report(
             0..0,
             "the file describes no case",

@@ -51,7 +51,7 @@ impl Bound {
             Self::Positive => "above 0",
             Self::NotNegative => "0 or more",
             Self::UpToOne => "from 0 to 1",
-            Self::Any => "finite",
+            Self::Any => "of any size",
         }
     }
 }
@@ -67,10 +67,7 @@ pub(super) struct Reader<'t> {
 
 impl<'t> Reader<'t> {
     /// `tables` lists every table with the keys it may have, the top level under the name "".
-    pub fn new(
-        text: &'t str,
-        tables: &'static [(&'static str, &'static [&'static str])],
-    ) -> Self {
+    pub fn new(text: &'t str, tables: &'static [(&'static str, &'static [&'static str])]) -> Self {
         Self { text, problems: Vec::new(), inputs: Vec::new(), tables }
     }
 

@@ -157,8 +157,8 @@ impl<'t> Table<'t> {
             return Some(number);
         }
         let message = format!("`{}` is {as_written}", field.key);
-        let expected = format!("expected a finite value {}", field.bound.words());
-        let expected = expected.replace("finite value finite", "finite value");
+        let value_words = if number.is_finite() { "a value" } else { "a finite value" };
+        let expected = format!("expected {value_words} {}", field.bound.words());
         reader.report(
             value.span(),
             message,
@@ -177,7 +177,8 @@ impl<'t> Table<'t> {
     ) -> Option<u64> {
         let value = self.entries.get(field.key)?;
         let DeValue::Integer(integer) = value.get_ref() else {
-            let message = format!("`{}` is {}", field.key, kind(value.get_ref()));
+            let written = reader.as_written(value.span());
+            let message = format!("`{}` is {written}", field.key);
             let help = format!("write for example {}", field.line());
             reader.report(value.span(), message, "expected a whole number, without quotes", help);
             return None;
