@@ -176,3 +176,77 @@ fn stays_inside(file: &Path) -> bool {
 fn refused(action: &'static str, path: &Path, cause: io::Error) -> StoreError {
     StoreError::Refused { action, path: path.to_owned(), cause }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn folder() -> TempDir {
+        tempfile::tempdir().expect("a temporary folder")
+    }
+
+    fn files(list: &[(&str, &str)]) -> BTreeMap<PathBuf, Vec<u8>> {
+        list.iter().map(|(path, text)| (path.into(), text.as_bytes().to_vec())).collect()
+    }
+
+    fn names(folder: &Path) -> Vec<String> {
+        let entries = std::fs::read_dir(folder).expect("a folder");
+        let mut names: Vec<String> = entries
+            .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())
+            .collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn a_folder_is_replaced_whole() {
+        let folder = folder();
+        let target = folder.path().join("reports/case");
+        replace_folder(&target, &files(&[("a", "1"), ("figures/b.svg", "2")])).expect("written");
+        assert_eq!(names(&target), ["a", "figures"]);
+        assert_eq!(read_text(&target.join("figures/b.svg")).expect("text"), "2");
+        replace_folder(&target, &files(&[("c", "3")])).expect("written again");
+        assert_eq!(names(&target), ["c"]);
+        assert_eq!(names(&folder.path().join("reports")), ["case"]);
+    }
+
+    #[test]
+    fn a_folder_that_cannot_be_written_keeps_the_old_one() {
+        let folder = folder();
+        let target = folder.path().join("case");
+        replace_folder(&target, &files(&[("a", "1")])).expect("written");
+        // A file cannot also be a folder.
+        let error = replace_folder(&target, &files(&[("x", "1"), ("x/y", "2")]));
+        assert!(matches!(error, Err(StoreError::Refused { .. })), "{error:?}");
+        for outside in ["../b", "/b", "", "a/../../b"] {
+            let error = replace_folder(&target, &files(&[(outside, "1")]));
+            assert!(matches!(error, Err(StoreError::Unusable { .. })), "{outside:?}: {error:?}");
+        }
+        assert_eq!(names(folder.path()), ["case"]);
+        assert_eq!(names(&target), ["a"]);
+    }
+
+    #[test]
+    fn a_file_is_replaced_only_when_asked() {
+        let folder = folder();
+        let path = folder.path().join("file");
+        write_new(&path, b"1").expect("new");
+        assert!(matches!(write_new(&path, b"2"), Err(StoreError::Exists { .. })));
+        assert_eq!(read_text(&path).expect("text"), "1");
+        write_file(&path, b"3").expect("replaced");
+        assert_eq!(read_text(&path).expect("text"), "3");
+        assert_eq!(names(folder.path()), ["file"]);
+    }
+
+    #[test]
+    fn bytes_that_are_no_text_are_located() {
+        let folder = folder();
+        let path = folder.path().join("file");
+        write_new(&path, b"title\nb\xc3\xa9b\xe9").expect("new");
+        let error = read_text(&path).expect_err("Latin-1 is not UTF-8");
+        let place = "line 2 holds the byte 0xE9 at column 4";
+        assert!(error.to_string().ends_with(place), "{error}");
+        let missing = read_text(&folder.path().join("none")).expect_err("no such file");
+        assert!(missing.to_string().starts_with("cannot read "), "{missing}");
+    }
+}

@@ -192,6 +192,25 @@ impl Transform for WithoutNull {
         if let Some(Value::Array(values)) = schema.get_mut("enum") {
             values.retain(|value| !value.is_null());
         }
+        unwrap_alternative_to_null(schema);
         transform_subschemas(self, schema);
+    }
+}
+
+/// `anyOf: [X, null]` becomes `X`.
+fn unwrap_alternative_to_null(schema: &mut Schema) {
+    let Some(Value::Array(mut alternatives)) = schema.remove("anyOf") else { return };
+    let before = alternatives.len();
+    alternatives.retain(|alternative| alternative["type"] != "null");
+    match alternatives.as_slice() {
+        [Value::Object(only)] if before == 2 => {
+            let object = schema.ensure_object();
+            only.iter().for_each(|(key, value)| {
+                object.entry(key.clone()).or_insert_with(|| value.clone());
+            });
+        }
+        _ => {
+            schema.insert("anyOf".to_owned(), alternatives.into());
+        }
     }
 }
