@@ -100,6 +100,9 @@ pub fn replace_folder(path: &Path, files: &BTreeMap<PathBuf, Vec<u8>>) -> Result
     if let Some(outside) = files.keys().find(|file| !stays_inside(file)) {
         return Err(StoreError::Unusable { path: outside.clone() });
     }
+    if path.exists() && !path.is_dir() {
+        return Err(refused("replace", path, io::ErrorKind::NotADirectory.into()));
+    }
     let beside = folder_of(path)?;
     std::fs::create_dir_all(beside).map_err(|cause| refused("create", beside, cause))?;
     let new = temporary_folder(path)?;
@@ -222,6 +225,8 @@ mod tests {
             let error = replace_folder(&target, &files(&[(outside, "1")]));
             assert!(matches!(error, Err(StoreError::Unusable { .. })), "{outside:?}: {error:?}");
         }
+        let error = replace_folder(&target.join("a"), &files(&[("b", "1")]));
+        assert!(matches!(error, Err(StoreError::Refused { .. })), "a file is no folder: {error:?}");
         assert_eq!(names(folder.path()), ["case"]);
         assert_eq!(names(&target), ["a"]);
     }

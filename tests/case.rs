@@ -54,7 +54,7 @@ fn physical(text: &str) -> Physical {
 }
 
 fn refused(text: &str) -> CaseError {
-    *Case::parse("case.toml", text).expect_err("should be refused")
+    Case::parse("case.toml", text).expect_err("should be refused")
 }
 
 /// What a person sees, without colours, however wide.
@@ -223,6 +223,47 @@ fn every_dimension_reads_its_units() {
     reads::<Frequency>("2 rad/s", 2.0 / std::f64::consts::TAU);
     reads::<Force>("2.9 N", 2.9);
     reads::<Force>("2900 mN", 2.9);
+}
+
+#[test]
+fn prefixes_are_the_powers_of_ten_they_stand_for() {
+    for (unit, si) in [("m", 1.0), ("cm", 1e-2), ("mm", 1e-3), ("um", 1e-6), ("nm", 1e-9)] {
+        reads::<Length>(&format!("1 {unit}"), si);
+    }
+    for (unit, si) in [("kg", 1.0), ("g", 1e-3), ("mg", 1e-6), ("ug", 1e-9), ("µg", 1e-9)] {
+        reads::<Mass>(&format!("1 {unit}"), si);
+    }
+    for (unit, si) in [
+        ("N/m", 1.0),
+        ("kN/m", 1e3),
+        ("MN/m", 1e6),
+        ("mN/m", 1e-3),
+        ("N/mm", 1e3),
+        ("kN/mm", 1e6),
+        ("N/cm", 1e2),
+        ("N/um", 1e6),
+        ("N/µm", 1e6),
+    ] {
+        reads::<Stiffness>(&format!("1 {unit}"), si);
+    }
+    for (unit, si) in [
+        ("kN s/m", 1e3),
+        ("kNs/m", 1e3),
+        ("mN s/m", 1e-3),
+        ("mNs/m", 1e-3),
+        ("Ns/mm", 1e3),
+        ("g/s", 1e-3),
+    ] {
+        reads::<Damping>(&format!("1 {unit}"), si);
+    }
+    for (unit, si) in [("Hz", 1.0), ("mHz", 1e-3), ("kHz", 1e3), ("MHz", 1e6)] {
+        reads::<Frequency>(&format!("1 {unit}"), si);
+    }
+    for (unit, si) in
+        [("N", 1.0), ("mN", 1e-3), ("kN", 1e3), ("MN", 1e6), ("uN", 1e-6), ("nN", 1e-9)]
+    {
+        reads::<Force>(&format!("1 {unit}"), si);
+    }
 }
 
 #[test]
@@ -556,6 +597,15 @@ fn the_text_is_identified_by_its_sha256() {
     assert_eq!(case.text_hash.len(), 64);
     assert_ne!(case.text_hash, parsed(&(REDUCED.to_owned() + "\n")).text_hash);
     assert_eq!(case.text_hash, parsed(REDUCED).text_hash);
+}
+
+#[test]
+fn errors_travel_as_reports() {
+    fn report(text: &str) -> miette::Result<Case> {
+        Ok(Case::parse("case.toml", text)?)
+    }
+    let error = report(&with(PHYSICAL, "0.6", "6")).expect_err("beyond 1");
+    assert!(error.downcast_ref::<CaseError>().is_some());
 }
 
 #[test]

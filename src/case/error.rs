@@ -79,20 +79,20 @@ impl Diagnostic for Problem {
 /// As a `miette` diagnostic it shows each place in the file's text.
 #[derive(Debug)]
 pub struct CaseError {
-    source: NamedSource<String>,
-    first: Problem,
+    source: Box<NamedSource<String>>,
+    first: Box<Problem>,
     more: Vec<Problem>,
 }
 
 impl CaseError {
-    pub(super) fn new(name: &str, text: &str, mut problems: Vec<Problem>) -> Box<Self> {
+    pub(super) fn new(name: &str, text: &str, mut problems: Vec<Problem>) -> Self {
         problems.sort_by_key(|problem| problem.span.start);
         let mut problems = problems.into_iter();
-        let source = NamedSource::new(name, text.to_owned());
         let first = problems.next().unwrap_or_else(|| {
             Problem::new(text, 0..0, "the case could not be read", "expected a case")
         });
-        Box::new(Self { source, first, more: problems.collect() })
+        let source = Box::new(NamedSource::new(name, text.to_owned()));
+        Self { source, first: Box::new(first), more: problems.collect() }
     }
 
     /// The name under which the text was parsed, usually the file's path.
@@ -102,7 +102,7 @@ impl CaseError {
 
     /// The problems, in the order of the file's lines.
     pub fn problems(&self) -> impl Iterator<Item = &Problem> {
-        std::iter::once(&self.first).chain(&self.more)
+        std::iter::once(self.first.as_ref()).chain(&self.more)
     }
 }
 
@@ -119,11 +119,11 @@ impl fmt::Display for CaseError {
 
 impl Diagnostic for CaseError {
     fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
-        self.more.is_empty().then(|| Diagnostic::help(&self.first)).flatten()
+        self.more.is_empty().then(|| Diagnostic::help(self.first.as_ref())).flatten()
     }
 
     fn source_code(&self) -> Option<&dyn SourceCode> {
-        Some(&self.source)
+        Some(self.source.as_ref())
     }
 
     fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {

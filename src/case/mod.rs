@@ -82,7 +82,7 @@ impl Case {
     /// # Errors
     /// [`CaseError`] with everything that is wrong: TOML that does not parse, unknown or missing
     /// keys and tables, units that are missing or do not fit, values out of their range.
-    pub fn parse(name: &str, text: &str) -> Result<Self, Box<CaseError>> {
+    pub fn parse(name: &str, text: &str) -> Result<Self, CaseError> {
         // A byte order mark is no part of the text that errors count columns in.
         let visible = text.strip_prefix('\u{feff}').unwrap_or(text);
         let document = match document::parse(visible) {

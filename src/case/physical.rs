@@ -2,8 +2,9 @@
 
 use libm::sqrt;
 
-use super::quantity::Dimension;
-use super::quantity::{Damping, Force, Frequency, Length, Mass, Stiffness, dimension_of};
+use super::quantity::{
+    Damping, Dimension, Force, Frequency, Length, Mass, Stiffness, dimension_of,
+};
 use super::reader::{Bound, Field, Reader};
 use super::suggest::nearest;
 use super::table::Table;
@@ -77,26 +78,17 @@ pub(super) const OSCILLATOR: &[&str] = &["mass", "stiffness", "damping", "dampin
 pub(super) const ABSORBER: &[&str] = &["mass", "mass_ratio", "clearance", "restitution"];
 pub(super) const EXCITATION: &[&str] = &["kind", "amplitude", "frequency"];
 
-const fn field(
-    key: &'static str,
-    symbol: &'static str,
-    bound: Bound,
-    example: &'static str,
-) -> Field {
-    Field { key, symbol, bound, example }
-}
-
-const MASS: Field = field("mass", "m_1", Bound::Positive, "\"4.168 kg\"");
-const STIFFNESS: Field = field("stiffness", "k_1", Bound::Positive, "\"11.47 kN/m\"");
-const DAMPING: Field = field("damping", "c_1", Bound::NotNegative, "\"3.02 N s/m\"");
-const DAMPING_RATIO: Field = field("damping_ratio", r"\zeta_1", Bound::NotNegative, "0.0069");
-const ABSORBER_MASS: Field = field("mass", "m_2", Bound::Positive, "\"32 g\"");
-const MASS_RATIO: Field = field("mass_ratio", r"\varepsilon", Bound::Positive, "0.0077");
-const CLEARANCE: Field = field("clearance", "b", Bound::Positive, "\"7.5 mm\"");
-pub(super) const RESTITUTION: Field = field("restitution", "r", Bound::UpToOne, "0.6");
-const BASE: Field = field("amplitude", "F", Bound::NotNegative, "\"0.25 mm\"");
-const FORCE: Field = field("amplitude", "P", Bound::NotNegative, "\"2.9 N\"");
-const FREQUENCY: Field = field("frequency", "f", Bound::Positive, "\"8 Hz\"");
+const MASS: Field = Field::new("mass", "m_1", Bound::Positive, "\"4.168 kg\"");
+const STIFFNESS: Field = Field::new("stiffness", "k_1", Bound::Positive, "\"11.47 kN/m\"");
+const DAMPING: Field = Field::new("damping", "c_1", Bound::NotNegative, "\"3.02 N s/m\"");
+const DAMPING_RATIO: Field = Field::new("damping_ratio", r"\zeta_1", Bound::NotNegative, "0.0069");
+const ABSORBER_MASS: Field = Field::new("mass", "m_2", Bound::Positive, "\"32 g\"");
+const MASS_RATIO: Field = Field::new("mass_ratio", r"\varepsilon", Bound::Positive, "0.0077");
+const CLEARANCE: Field = Field::new("clearance", "b", Bound::Positive, "\"7.5 mm\"");
+pub(super) const RESTITUTION: Field = Field::new("restitution", "r", Bound::UpToOne, "0.6");
+const BASE: Field = Field::new("amplitude", "F", Bound::NotNegative, "\"0.25 mm\"");
+const FORCE: Field = Field::new("amplitude", "P", Bound::NotNegative, "\"2.9 N\"");
+const FREQUENCY: Field = Field::new("frequency", "f", Bound::Positive, "\"8 Hz\"");
 
 /// Reads the three tables; `None` when something was reported.
 pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Physical> {

@@ -22,6 +22,15 @@ pub(super) struct Field {
 }
 
 impl Field {
+    pub const fn new(
+        key: &'static str,
+        symbol: &'static str,
+        bound: Bound,
+        example: &'static str,
+    ) -> Self {
+        Self { key, symbol, bound, example }
+    }
+
     pub fn line(&self) -> String {
         format!("{} = {}", self.key, self.example)
     }
@@ -118,17 +127,18 @@ impl<'t> Reader<'t> {
         table: bool,
     ) -> Option<&'static str> {
         let written = key.get_ref().as_ref();
-        let guess = nearest(written, known);
+        let homes = self.homes_of(written);
+        let guess = if homes.is_empty() { nearest(written, known) } else { None };
         let what = if table { "table" } else { "key" };
         let place = if name.is_empty() { String::new() } else { format!(" in [{name}]") };
         let expected = format!("expected one of {}", known.join(", "));
-        let help = match (guess, self.homes_of(written)) {
-            (Some(guess), _) => format!("did you mean `{guess}`?"),
-            (None, homes) if !homes.is_empty() => format!("`{written}` belongs in {homes}"),
-            (None, _) => format!("remove `{written}`, or write one of the keys named above"),
+        let help = match guess {
+            Some(guess) => format!("did you mean `{guess}`?"),
+            None if !homes.is_empty() => format!("`{written}` belongs in {homes}"),
+            None => format!("remove `{written}`, or write one of the keys named above"),
         };
         self.report(key.span(), format!("unknown {what} `{written}`{place}"), expected, help);
-        guess.and_then(|guess| known.iter().copied().find(|key| *key == guess))
+        guess
     }
 
     fn homes_of(&self, key: &str) -> String {

@@ -46,21 +46,12 @@ pub(super) const KEYS: &[&str] = &[
     "kind",
 ];
 
-const fn field(
-    key: &'static str,
-    symbol: &'static str,
-    bound: Bound,
-    example: &'static str,
-) -> Field {
-    Field { key, symbol, bound, example }
-}
-
-const MASS_RATIO: Field = field("mass_ratio", r"\varepsilon", Bound::Positive, "0.0077");
-const DAMPING: Field = field("damping", r"\lambda", Bound::NotNegative, "1.799");
-const CLEARANCE: Field = field("clearance", "b", Bound::Positive, "1.0");
-const FORCING: Field = field("forcing", "G", Bound::NotNegative, "4.342");
-const RATIO: Field = field("frequency_ratio", r"\Omega", Bound::Positive, "0.958");
-const DETUNING: Field = field("detuning", r"\sigma", Bound::Any, "-5.446");
+const MASS_RATIO: Field = Field::new("mass_ratio", r"\varepsilon", Bound::Positive, "0.0077");
+const DAMPING: Field = Field::new("damping", r"\lambda", Bound::NotNegative, "1.799");
+const CLEARANCE: Field = Field::new("clearance", "b", Bound::Positive, "1.0");
+const FORCING: Field = Field::new("forcing", "G", Bound::NotNegative, "4.342");
+const RATIO: Field = Field::new("frequency_ratio", r"\Omega", Bound::Positive, "0.958");
+const DETUNING: Field = Field::new("detuning", r"\sigma", Bound::Any, "-5.446");
 
 /// Reads the table; `None` when there is none or something was reported.
 pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Reduced> {

@@ -24,18 +24,14 @@ const PERIODS: RangeInclusive<u64> = 1..=MOST_PERIODS;
 const DISCARD: RangeInclusive<u64> = 0..=MOST_PERIODS;
 const STARTS: RangeInclusive<u64> = 1..=10_000;
 
-const fn field(key: &'static str, symbol: &'static str, example: &'static str) -> Field {
-    Field { key, symbol, bound: Bound::Any, example }
-}
-
 /// Reads the table, which may be missing.
 pub(super) fn read(reader: &mut Reader, root: &Table) -> SimulationSettings {
     let Some(table) = reader.table(root, TABLE) else { return SimulationSettings::default() };
     let mut whole = |key, symbol, example, range| {
-        table.whole_number(reader, field(key, symbol, example), range)
+        table.whole_number(reader, Field::new(key, symbol, Bound::Any, example), range)
     };
     SimulationSettings {
-        periods: whole("periods", r"N", "2000", PERIODS),
+        periods: whole("periods", "N", "2000", PERIODS),
         discard: whole("discard", r"N_\mathrm{discard}", "500", DISCARD),
         starts: whole("starts", r"N_\mathrm{starts}", "64", STARTS),
     }

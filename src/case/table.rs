@@ -128,7 +128,11 @@ impl<'t> Table<'t> {
         let value = self.required(reader, field.key, &field.line())?;
         let number = match value.get_ref() {
             DeValue::Float(float) => float.as_str().parse::<f64>().ok(),
-            DeValue::Integer(integer) => as_integer(integer).map(|whole| whole as f64),
+            // A whole number too long for an integer is still a number.
+            DeValue::Integer(integer) => match as_integer(integer) {
+                Some(whole) => Some(whole as f64),
+                None => integer.as_str().parse::<f64>().ok(),
+            },
             _ => None,
         };
         if let Some(number) = number {
