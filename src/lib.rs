@@ -3,10 +3,12 @@
 #![forbid(unsafe_code)]
 
 pub mod analysis;
+pub mod case;
 pub mod equations;
 pub mod numerics;
 pub mod regimes;
 pub mod simulation;
+pub mod store;
 pub mod study;
 pub mod symbolic;
 pub mod system;

@@ -49,7 +49,18 @@ pub struct InvalidParameter {
 
 /// A dimensionless system whose parameters have been proven valid once, here.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct System(Parameters);
+#[serde(into = "Parameters")]
+pub struct System {
+    parameters: Parameters,
+    // Held beside the frequency ratio, because 1 + eps sigma forgets sigma when eps is tiny.
+    detuning: f64,
+}
+
+impl From<System> for Parameters {
+    fn from(system: System) -> Self {
+        system.parameters
+    }
+}
 
 impl System {
     /// Accepts every physically meaningful combination, extremes included.
@@ -68,52 +79,54 @@ impl System {
         check("restitution", p.restitution, within, "a number from 0 to 1")?;
         positive("frequency_ratio", p.frequency_ratio)?;
         not_negative("forcing_per_clearance", p.forcing_per_clearance)?;
-        Ok(Self(parameters))
+        let detuning = (p.frequency_ratio - 1.0) / p.mass_ratio;
+        check("detuning", detuning, true, "a finite number")?;
+        Ok(Self { parameters, detuning })
     }
 
     /// `eps`, the mass ratio.
     pub fn mass_ratio(&self) -> f64 {
-        self.0.mass_ratio
+        self.parameters.mass_ratio
     }
 
     /// `lambda`, so that the damping term of the oscillator is `eps lambda x'`.
     pub fn damping(&self) -> f64 {
-        self.0.damping
+        self.parameters.damping
     }
 
     /// `r`, the coefficient of restitution.
     pub fn restitution(&self) -> f64 {
-        self.0.restitution
+        self.parameters.restitution
     }
 
     /// `Omega`, the excitation frequency over the natural frequency.
     pub fn frequency_ratio(&self) -> f64 {
-        self.0.frequency_ratio
+        self.parameters.frequency_ratio
     }
 
     /// `sigma = (Omega - 1) / eps`, the detuning of equation (7).
     pub fn detuning(&self) -> f64 {
-        (self.0.frequency_ratio - 1.0) / self.0.mass_ratio
+        self.detuning
     }
 
     /// `gamma = G / b`, the reduced forcing per clearance.
     pub fn forcing_per_clearance(&self) -> f64 {
-        self.0.forcing_per_clearance
+        self.parameters.forcing_per_clearance
     }
 
     /// Where the excitation enters.
     pub fn excitation(&self) -> Excitation {
-        self.0.excitation
+        self.parameters.excitation
     }
 
     /// `2 pi / Omega`, the excitation period in fast time.
     pub fn period(&self) -> f64 {
-        std::f64::consts::TAU / self.0.frequency_ratio
+        std::f64::consts::TAU / self.parameters.frequency_ratio
     }
 
     /// All parameters, to derive a neighbouring system from.
     pub fn parameters(&self) -> Parameters {
-        self.0
+        self.parameters
     }
 
     /// The same excitation acting on a system whose clearance is `factor` times as large.
@@ -122,8 +135,9 @@ impl System {
     /// As [`System::new`], when `factor` is not a positive finite number.
     pub fn with_clearance_scaled(&self, factor: f64) -> Result<Self, InvalidParameter> {
         check("clearance factor", factor, factor > 0.0, "a finite number above 0")?;
-        let forcing_per_clearance = self.0.forcing_per_clearance / factor;
-        Self::new(Parameters { forcing_per_clearance, ..self.0 })
+        let forcing_per_clearance = self.parameters.forcing_per_clearance / factor;
+        let scaled = Self::new(Parameters { forcing_per_clearance, ..self.parameters })?;
+        Ok(Self { detuning: self.detuning, ..scaled })
     }
 
     /// The same system driven at another frequency.
@@ -131,15 +145,25 @@ impl System {
     /// # Errors
     /// As [`System::new`].
     pub fn with_frequency_ratio(&self, frequency_ratio: f64) -> Result<Self, InvalidParameter> {
-        Self::new(Parameters { frequency_ratio, ..self.0 })
+        Self::new(Parameters { frequency_ratio, ..self.parameters })
+    }
+
+    /// The same system driven at the detuning `sigma`, which [`System::detuning`] then returns
+    /// exactly, however small the mass ratio; `Omega = 1 + eps sigma`.
+    ///
+    /// # Errors
+    /// As [`System::new`], when `sigma` is not finite or leaves no positive frequency.
+    pub fn with_detuning(&self, detuning: f64) -> Result<Self, InvalidParameter> {
+        let frequency_ratio = libm::fma(self.parameters.mass_ratio, detuning, 1.0);
+        Ok(Self { detuning, ..self.with_frequency_ratio(frequency_ratio)? })
     }
 
     /// Complex amplitude, over the clearance, of the steady motion without absorber impacts, so
     /// that `x = re sin(Omega tau) + im cos(Omega tau)`. `None` for an undamped system driven
     /// exactly at its natural frequency, which has no steady motion.
     pub fn linear_response(&self) -> Option<LinearResponse> {
-        let omega = self.0.frequency_ratio;
-        let damping = self.0.mass_ratio * self.0.damping;
+        let omega = self.parameters.frequency_ratio;
+        let damping = self.parameters.mass_ratio * self.parameters.damping;
         let (sine, cosine) = self.excitation_amplitudes();
         let stiffness = (1.0 - omega) * (1.0 + omega);
         let loss = damping * omega;
@@ -156,9 +180,9 @@ impl System {
     /// Amplitudes of the excitation's `sin(Omega tau)` and `cos(Omega tau)` on the right-hand side
     /// of equation (1), over the clearance.
     pub fn excitation_amplitudes(&self) -> (f64, f64) {
-        let Parameters { mass_ratio: eps, damping, frequency_ratio, .. } = self.0;
-        let sine = eps * self.0.forcing_per_clearance;
-        match self.0.excitation {
+        let Parameters { mass_ratio: eps, damping, frequency_ratio, .. } = self.parameters;
+        let sine = eps * self.parameters.forcing_per_clearance;
+        match self.parameters.excitation {
             Excitation::BaseDisplacement => (sine, eps * damping * frequency_ratio * sine),
             Excitation::Force => (sine, 0.0),
         }

@@ -1,0 +1,54 @@
+//! The numbers of a case for display: as its author wrote them, and what follows from them.
+
+use serde::Serialize;
+
+use super::Case;
+use std::f64::consts::TAU;
+
+/// One number of a case, given or derived.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Input {
+    /// The table it stands in; empty for a derived number.
+    pub table: &'static str,
+    /// The key in the case file, or the name of what was derived.
+    pub name: &'static str,
+    /// The symbol in LaTeX.
+    pub symbol: &'static str,
+    /// The value in `unit`.
+    pub value: f64,
+    /// SI unit symbol, "1" for a pure number (lengths of a reduced case included).
+    pub unit: &'static str,
+    /// The text in the case file, with its own unit and without quotes; empty when derived.
+    pub as_written: String,
+}
+
+impl Case {
+    /// The numbers of the case file, in the order in which its tables are documented.
+    pub fn inputs(&self) -> &[Input] {
+        &self.inputs
+    }
+
+    /// The numbers that follow from the inputs, the dimensionless ones that decide the dynamics
+    /// among them.
+    pub fn derived(&self) -> Vec<Input> {
+        let (system, scales) = (&self.system, &self.scales);
+        let unit = scales.length_unit().symbol();
+        let damping_ratio = system.mass_ratio() * system.damping() / 2.0;
+        let natural = scales.natural_frequency_rad_per_s.map(|omega0| omega0 / TAU);
+        let natural = natural.map(|f0| derived("natural_frequency", "f_0", f0, "Hz"));
+        let numbers = [
+            derived("mass_ratio", r"\varepsilon", system.mass_ratio(), "1"),
+            derived("damping", r"\lambda", system.damping(), "1"),
+            derived("damping_ratio", r"\zeta_1", damping_ratio, "1"),
+            derived("frequency_ratio", r"\Omega", system.frequency_ratio(), "1"),
+            derived("detuning", r"\sigma", system.detuning(), "1"),
+            derived("forcing", "G", scales.forcing, unit),
+            derived("forcing_per_clearance", r"\gamma", system.forcing_per_clearance(), "1"),
+        ];
+        natural.into_iter().chain(numbers).collect()
+    }
+}
+
+fn derived(name: &'static str, symbol: &'static str, value: f64, unit: &'static str) -> Input {
+    Input { table: "", name, symbol, value, unit, as_written: String::new() }
+}

@@ -1,0 +1,189 @@
+//! The case file: what a person writes about a design, proven valid, and the only place where
+//! physical units and dimensionless numbers meet.
+//!
+//! A case is TOML. It gives a design either in physical units (`[oscillator]`, `[absorber]`,
+//! `[excitation]`) or dimensionless (`[reduced]`), and may carry settings in optional tables. To
+//! add an optional table: a file like `simulation.rs`, a line in `TABLES`, a field in [`Case`] and
+//! one in the schema.
+
+mod document;
+mod error;
+mod inputs;
+mod physical;
+mod quantity;
+mod reader;
+mod reduced;
+mod scales;
+mod schema;
+mod simulation;
+mod suggest;
+mod table;
+
+use sha2::{Digest, Sha256};
+use toml::de::DeTable;
+
+pub use error::{CaseError, Problem};
+pub use inputs::Input;
+pub use physical::{Physical, PhysicalExcitation};
+pub use quantity::{
+    Damping, Dimension, Force, Frequency, Length, Mass, Quantity, QuantityError, Stiffness, Unit,
+};
+pub use reduced::{Reduced, Tuning};
+pub use scales::{LengthUnit, Scales};
+pub use schema::{FILE_NAME as SCHEMA_FILE_NAME, schema};
+pub use simulation::SimulationSettings;
+
+use crate::system::System;
+use reader::Reader;
+use table::Table;
+
+/// A design case: what its file says, and the system that follows from it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Case {
+    /// What the case is, in a line.
+    pub title: String,
+    /// Where its numbers come from.
+    pub source: String,
+    /// SHA-256 of the file's text, in hexadecimal.
+    pub text_hash: String,
+    /// The design.
+    pub design: Design,
+    /// The table `[simulation]`.
+    pub simulation: SimulationSettings,
+    inputs: Vec<Input>,
+    system: System,
+    scales: Scales,
+}
+
+/// A design in the units its author chose.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Design {
+    /// From `[oscillator]`, `[absorber]` and `[excitation]`.
+    Physical(Physical),
+    /// From `[reduced]`.
+    Reduced(Reduced),
+}
+
+/// Every table with the keys it may have; the top level is "".
+const TABLES: &[(&str, &[&str])] = &[
+    ("", &["title", "source", "oscillator", "absorber", "excitation", "reduced", "simulation"]),
+    (physical::TABLES[0], physical::OSCILLATOR),
+    (physical::TABLES[1], physical::ABSORBER),
+    (physical::TABLES[2], physical::EXCITATION),
+    (reduced::TABLE, reduced::KEYS),
+    (simulation::TABLE, simulation::KEYS),
+];
+
+const STARTING_CASE: &str = include_str!("starting_case.toml");
+
+impl Case {
+    /// Reads a case from its text; `name`, usually the file's path, is for messages only.
+    ///
+    /// # Errors
+    /// [`CaseError`] with everything that is wrong: TOML that does not parse, unknown or missing
+    /// keys and tables, units that are missing or do not fit, values out of their range.
+    pub fn parse(name: &str, text: &str) -> Result<Self, CaseError> {
+        // A byte order mark is no part of the text that errors count columns in.
+        let visible = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let document = match document::parse(visible) {
+            Ok(document) => document,
+            Err(problems) => return Err(CaseError::new(name, visible, problems)),
+        };
+        let mut reader = Reader::new(visible, TABLES);
+        match read(&mut reader, &document) {
+            Some(case) if reader.problems.is_empty() => {
+                Ok(Self { text_hash: sha256(text), inputs: reader.inputs, ..case })
+            }
+            _ => Err(CaseError::new(name, visible, reader.problems)),
+        }
+    }
+
+    /// The dimensionless system.
+    pub fn system(&self) -> System {
+        self.system
+    }
+
+    /// What turns the system's results back into the case's units.
+    pub fn scales(&self) -> Scales {
+        self.scales
+    }
+
+    /// The text of a commented case to start from, with the given title.
+    pub fn starting_text(title: &str) -> String {
+        let quoted = toml::Value::from(title).to_string();
+        STARTING_CASE.replacen("\"TITLE\"", &quoted, 1)
+    }
+}
+
+fn read(reader: &mut Reader, document: &DeTable) -> Option<Case> {
+    if document.is_empty() {
+        let help =
+            "write a title, a source and a design; `vinesink new NAME` writes a case to start from";
+        reader.report(
+            0..0,
+            "the file describes no case",
+            "expected a title, a source and a design",
+            help,
+        );
+        return None;
+    }
+    let root = reader.root(document);
+    let title = root.text(reader, "title", "title = \"what this case is, in a line\"");
+    let cited = "source = \"where the numbers come from: a publication, a measurement, a guess\"";
+    let source = root.text(reader, "source", cited);
+    let design = read_design(reader, &root);
+    let simulation = simulation::read(reader, &root);
+    let design = design?;
+    let system = system_of(reader, &root, &design)?;
+    Some(Case {
+        title: title?.to_owned(),
+        source: source?.to_owned(),
+        text_hash: String::new(),
+        design,
+        simulation,
+        inputs: Vec::new(),
+        system,
+        scales: design.scales(),
+    })
+}
+
+fn read_design(reader: &mut Reader, root: &Table) -> Option<Design> {
+    let physical = physical::TABLES.into_iter().find(|table| root.has(table));
+    match (physical, root.has(reduced::TABLE)) {
+        (Some(_), false) => physical::read(reader, root).map(Design::Physical),
+        (None, true) => reduced::read(reader, root).map(Design::Reduced),
+        (Some(table), true) => {
+            let message = format!("[reduced] and [{table}] both describe the design");
+            let expected = "expected a design in one way only";
+            let help = "keep [reduced], or keep [oscillator], [absorber] and [excitation]";
+            reader.report(root.span_of(reduced::TABLE), message, expected, help);
+            None
+        }
+        (None, false) => {
+            let expected = "expected [oscillator], [absorber] and [excitation], or [reduced]";
+            let help = "add the tables; `vinesink new NAME` writes a commented case to start from";
+            reader.report(0..reader.first_line(), "the file describes no design", expected, help);
+            None
+        }
+    }
+}
+
+/// The system of values each valid by itself, whose combination may still overflow.
+fn system_of(reader: &mut Reader, root: &Table, design: &Design) -> Option<System> {
+    let error = match design.system() {
+        Ok(system) => return Some(system),
+        Err(error) => error,
+    };
+    let table = match design {
+        Design::Physical(_) => physical::TABLES[0],
+        Design::Reduced(_) => reduced::TABLE,
+    };
+    let message = format!("the values together give a {} of {}", error.name, error.value);
+    let help = "check the units: one value is many orders of magnitude away from the others";
+    reader.report(root.span_of(table), message, format!("expected {}", error.expected), help);
+    None
+}
+
+fn sha256(text: &str) -> String {
+    Sha256::digest(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect()
+}

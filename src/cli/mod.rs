@@ -1,0 +1,72 @@
+//! The command line. A command is a variant of [`Command`] and a file with its arguments and
+//! `pub fn run(arguments) -> Result<Outcome, miette::Report>`.
+
+mod completions;
+mod new;
+mod output;
+mod schema;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// Design vibro-impact nonlinear energy sinks.
+///
+/// A case is a TOML file that describes an oscillator, the small mass that rattles inside it, and
+/// what drives it. `vinesink new NAME` writes a commented one to start from.
+///
+/// Exit codes: 0 done, 1 done but a check does not hold, 2 could not be done.
+#[derive(Debug, Parser)]
+#[command(version, arg_required_else_help = true, after_help = EXAMPLES)]
+pub struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  vinesink new damper                           write damper.toml, a case to start from
+  vinesink schema > vinesink.schema.json        let the editor complete and check cases
+  vinesink help new                             what a command does, with examples";
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    New(new::Arguments),
+    Schema(schema::Arguments),
+    Completions(completions::Arguments),
+}
+
+/// How a command that could be carried out ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Outcome {
+    /// Done, and every check asked for holds.
+    Done,
+    /// Done, and a check or criterion does not hold.
+    DoesNotHold,
+}
+
+impl From<Outcome> for ExitCode {
+    fn from(outcome: Outcome) -> Self {
+        match outcome {
+            Outcome::Done => Self::SUCCESS,
+            Outcome::DoesNotHold => Self::from(1),
+        }
+    }
+}
+
+impl Cli {
+    /// Carries out the command.
+    pub fn run(self) -> Result<Outcome, miette::Report> {
+        match self.command {
+            Command::New(arguments) => new::run(arguments),
+            Command::Schema(arguments) => schema::run(arguments),
+            Command::Completions(arguments) => completions::run(arguments),
+        }
+    }
+}
+
+/// Says on standard error why a command could not be carried out.
+pub fn could_not(error: &miette::Report) -> ExitCode {
+    output::complain(&format!("{error:?}"));
+    ExitCode::from(2)
+}

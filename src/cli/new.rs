@@ -1,0 +1,54 @@
+//! `vinesink new NAME`
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use miette::{Result, miette};
+use vinesink::case::Case;
+use vinesink::store;
+
+use super::{Outcome, output};
+
+/// Write a commented case to start from
+///
+/// Writes NAME.toml, in the current folder or under the path given. An existing file is never
+/// overwritten.
+#[derive(Debug, Args)]
+#[command(after_long_help = EXAMPLES)]
+pub struct Arguments {
+    /// Name or path of the case, with or without `.toml`
+    #[arg(value_name = "NAME")]
+    path: PathBuf,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  vinesink new damper                write damper.toml
+  vinesink new cases/footbridge      write cases/footbridge.toml; the folder must exist";
+
+pub fn run(arguments: Arguments) -> Result<Outcome> {
+    let path = with_extension(&arguments.path);
+    let title = path.file_stem().ok_or_else(|| {
+        miette!(
+            help = "write for example `vinesink new damper`",
+            "`{}` is not a file's name",
+            arguments.path.display()
+        )
+    })?;
+    let text = Case::starting_text(&title.to_string_lossy());
+    store::write_new(&path, text.as_bytes())?;
+    output::print(format!("{}\n", path.display()))?;
+    Ok(Outcome::Done)
+}
+
+/// Adds `.toml`, also behind a dot that is part of the name, as in `8.5hz`.
+fn with_extension(path: &Path) -> PathBuf {
+    match path.file_name() {
+        Some(name) if path.extension().is_none_or(|extension| extension != "toml") => {
+            let mut name = name.to_owned();
+            name.push(".toml");
+            path.with_file_name(name)
+        }
+        _ => path.to_owned(),
+    }
+}

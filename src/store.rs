@@ -1,0 +1,257 @@
+//! The one place that touches the file system. Files and folders appear whole or not at all.
+
+use std::collections::BTreeMap;
+use std::io::{self, Write as _};
+use std::path::{Component, Path, PathBuf};
+
+use tempfile::{Builder, NamedTempFile, TempDir};
+
+/// What could not be done with a file or folder, and why.
+#[derive(Debug, thiserror::Error, miette::Diagnostic)]
+pub enum StoreError {
+    /// The operating system refused.
+    #[error("cannot {action} {}: {cause}", path.display())]
+    Refused {
+        /// What was tried, such as "read".
+        action: &'static str,
+        /// The file or folder.
+        path: PathBuf,
+        /// The operating system's reason.
+        cause: io::Error,
+    },
+    /// A file that should be new is there already.
+    #[error("{} exists already and is left as it is", path.display())]
+    #[diagnostic(help("choose another name, or remove the file first"))]
+    Exists {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A text file that is not UTF-8.
+    #[error("{} is not UTF-8 text: line {line} holds the byte 0x{byte:02X} at column {column}", path.display())]
+    #[diagnostic(help("save the file with the encoding UTF-8"))]
+    NotUtf8 {
+        /// The file.
+        path: PathBuf,
+        /// Line of the first byte that fits no character, from 1.
+        line: usize,
+        /// Its column in characters, from 1.
+        column: usize,
+        /// The byte.
+        byte: u8,
+    },
+    /// A path that names no file, or leads out of its folder.
+    #[error("{} does not name a file inside a folder", path.display())]
+    Unusable {
+        /// The path.
+        path: PathBuf,
+    },
+}
+
+/// Reads a UTF-8 text file whole.
+///
+/// # Errors
+/// [`StoreError::Refused`] when it cannot be read, [`StoreError::NotUtf8`] when it is not text.
+pub fn read_text(path: &Path) -> Result<String, StoreError> {
+    let bytes = std::fs::read(path).map_err(|cause| refused("read", path, cause))?;
+    String::from_utf8(bytes).map_err(|error| {
+        let at = error.utf8_error().valid_up_to();
+        let before = String::from_utf8_lossy(&error.as_bytes()[..at]).into_owned();
+        let byte = error.as_bytes()[at];
+        let line = 1 + before.matches('\n').count();
+        let column = 1 + before.chars().rev().take_while(|c| *c != '\n').count();
+        StoreError::NotUtf8 { path: path.to_owned(), line, column, byte }
+    })
+}
+
+/// Writes a file that must not exist yet, whole or not at all. Its folder must exist.
+///
+/// # Errors
+/// [`StoreError::Exists`] leaves the existing file alone; [`StoreError::Refused`] otherwise.
+pub fn write_new(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
+    // The rename below refuses as well; asking first spares a folder that cannot be written to
+    // from hiding the better reason.
+    if path.symlink_metadata().is_ok() {
+        return Err(StoreError::Exists { path: path.to_owned() });
+    }
+    let file = temporary_file(path, bytes)?;
+    file.persist_noclobber(path).map(drop).map_err(|error| match error.error.kind() {
+        io::ErrorKind::AlreadyExists => StoreError::Exists { path: path.to_owned() },
+        _ => refused("write", path, error.error),
+    })
+}
+
+/// Writes a file whole or not at all, in place of an earlier one. Its folder must exist.
+///
+/// # Errors
+/// [`StoreError::Refused`]; an earlier file is then unchanged.
+pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
+    let file = temporary_file(path, bytes)?;
+    file.persist(path).map(drop).map_err(|error| refused("write", path, error.error))
+}
+
+/// Replaces a folder, which may be missing, by one that holds exactly `files` (paths relative to
+/// it). The new folder is written beside the old one and takes its place when it is complete, so
+/// the old one stays as it was on any failure. Everything else in the old folder is removed.
+///
+/// # Errors
+/// [`StoreError::Unusable`] for a path that leads out of the folder, [`StoreError::Refused`] when
+/// something cannot be written, moved or removed.
+pub fn replace_folder(path: &Path, files: &BTreeMap<PathBuf, Vec<u8>>) -> Result<(), StoreError> {
+    if let Some(outside) = files.keys().find(|file| !stays_inside(file)) {
+        return Err(StoreError::Unusable { path: outside.clone() });
+    }
+    if path.exists() && !path.is_dir() {
+        return Err(refused("replace", path, io::ErrorKind::NotADirectory.into()));
+    }
+    let beside = folder_of(path)?;
+    std::fs::create_dir_all(beside).map_err(|cause| refused("create", beside, cause))?;
+    let new = temporary_folder(path)?;
+    for (file, bytes) in files {
+        write_inside(&new.path().join(file), bytes)?;
+    }
+    swap(path, new)
+}
+
+/// Moves the old folder aside, the new one in, and the old one back should that fail.
+fn swap(path: &Path, new: TempDir) -> Result<(), StoreError> {
+    let replace = |cause| refused("replace", path, cause);
+    let aside = temporary_folder(path)?;
+    let old = aside.path().join("old");
+    let had_old = match std::fs::rename(path, &old) {
+        Ok(()) => true,
+        Err(cause) if cause.kind() == io::ErrorKind::NotFound => false,
+        Err(cause) => return Err(replace(cause)),
+    };
+    if let Err(cause) = std::fs::rename(new.path(), path) {
+        if had_old && std::fs::rename(&old, path).is_err() {
+            // The old folder could not go back: keep it where it is rather than delete it.
+            let _ = aside.keep();
+        }
+        return Err(replace(cause));
+    }
+    let _ = new.keep();
+    aside.close().map_err(|cause| refused("remove the earlier", path, cause))
+}
+
+fn write_inside(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
+    let folder = folder_of(path)?;
+    std::fs::create_dir_all(folder).map_err(|cause| refused("create", folder, cause))?;
+    std::fs::write(path, bytes).map_err(|cause| refused("write", path, cause))
+}
+
+fn temporary_file(path: &Path, bytes: &[u8]) -> Result<NamedTempFile, StoreError> {
+    let write = |cause| refused("write", path, cause);
+    let mut file = ordinary(0o666).tempfile_in(folder_of(path)?).map_err(write)?;
+    file.write_all(bytes).and_then(|()| file.as_file().sync_all()).map_err(write)?;
+    Ok(file)
+}
+
+fn temporary_folder(path: &Path) -> Result<TempDir, StoreError> {
+    let folder = folder_of(path)?;
+    ordinary(0o777).tempdir_in(folder).map_err(|cause| refused("write in", folder, cause))
+}
+
+/// Temporary names that get the permissions of any other new file, not those of a secret.
+fn ordinary(mode: u32) -> Builder<'static, 'static> {
+    let mut builder = Builder::new();
+    builder.prefix(".vinesink-");
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(mode));
+    #[cfg(not(unix))]
+    let _ = mode;
+    builder
+}
+
+/// The folder that holds `path`, which must name something in it.
+fn folder_of(path: &Path) -> Result<&Path, StoreError> {
+    match (path.file_name(), path.parent()) {
+        (Some(_), Some(folder)) if folder == Path::new("") => Ok(Path::new(".")),
+        (Some(_), Some(folder)) => Ok(folder),
+        _ => Err(StoreError::Unusable { path: path.to_owned() }),
+    }
+}
+
+fn stays_inside(file: &Path) -> bool {
+    let mut components = file.components().peekable();
+    components.peek().is_some() && components.all(|part| matches!(part, Component::Normal(_)))
+}
+
+fn refused(action: &'static str, path: &Path, cause: io::Error) -> StoreError {
+    StoreError::Refused { action, path: path.to_owned(), cause }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn folder() -> TempDir {
+        tempfile::tempdir().expect("a temporary folder")
+    }
+
+    fn files(list: &[(&str, &str)]) -> BTreeMap<PathBuf, Vec<u8>> {
+        list.iter().map(|(path, text)| (path.into(), text.as_bytes().to_vec())).collect()
+    }
+
+    fn names(folder: &Path) -> Vec<String> {
+        let entries = std::fs::read_dir(folder).expect("a folder");
+        let mut names: Vec<String> = entries
+            .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())
+            .collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn a_folder_is_replaced_whole() {
+        let folder = folder();
+        let target = folder.path().join("reports/case");
+        replace_folder(&target, &files(&[("a", "1"), ("figures/b.svg", "2")])).expect("written");
+        assert_eq!(names(&target), ["a", "figures"]);
+        assert_eq!(read_text(&target.join("figures/b.svg")).expect("text"), "2");
+        replace_folder(&target, &files(&[("c", "3")])).expect("written again");
+        assert_eq!(names(&target), ["c"]);
+        assert_eq!(names(&folder.path().join("reports")), ["case"]);
+    }
+
+    #[test]
+    fn a_folder_that_cannot_be_written_keeps_the_old_one() {
+        let folder = folder();
+        let target = folder.path().join("case");
+        replace_folder(&target, &files(&[("a", "1")])).expect("written");
+        // A file cannot also be a folder.
+        let error = replace_folder(&target, &files(&[("x", "1"), ("x/y", "2")]));
+        assert!(matches!(error, Err(StoreError::Refused { .. })), "{error:?}");
+        for outside in ["../b", "/b", "", "a/../../b"] {
+            let error = replace_folder(&target, &files(&[(outside, "1")]));
+            assert!(matches!(error, Err(StoreError::Unusable { .. })), "{outside:?}: {error:?}");
+        }
+        let error = replace_folder(&target.join("a"), &files(&[("b", "1")]));
+        assert!(matches!(error, Err(StoreError::Refused { .. })), "a file is no folder: {error:?}");
+        assert_eq!(names(folder.path()), ["case"]);
+        assert_eq!(names(&target), ["a"]);
+    }
+
+    #[test]
+    fn a_file_is_replaced_only_when_asked() {
+        let folder = folder();
+        let path = folder.path().join("file");
+        write_new(&path, b"1").expect("new");
+        assert!(matches!(write_new(&path, b"2"), Err(StoreError::Exists { .. })));
+        assert_eq!(read_text(&path).expect("text"), "1");
+        write_file(&path, b"3").expect("replaced");
+        assert_eq!(read_text(&path).expect("text"), "3");
+        assert_eq!(names(folder.path()), ["file"]);
+    }
+
+    #[test]
+    fn bytes_that_are_no_text_are_located() {
+        let folder = folder();
+        let path = folder.path().join("file");
+        write_new(&path, b"title\nb\xc3\xa9b\xe9").expect("new");
+        let error = read_text(&path).expect_err("Latin-1 is not UTF-8");
+        let place = "line 2 holds the byte 0xE9 at column 4";
+        assert!(error.to_string().ends_with(place), "{error}");
+        let missing = read_text(&folder.path().join("none")).expect_err("no such file");
+        assert!(missing.to_string().starts_with("cannot read "), "{missing}");
+    }
+}

@@ -1,0 +1,624 @@
+//! What a case file means, and what is said about one that is wrong.
+
+use vinesink::case::{
+    Case, CaseError, Damping, Design, Dimension, Force, Frequency, Length, LengthUnit, Mass,
+    Physical, PhysicalExcitation, Quantity, Stiffness, Tuning,
+};
+use vinesink::system::Excitation;
+
+const PHYSICAL: &str = r#"title = "Li 2016, 8 Hz, b = 7.5 mm"
+source = "Li, Seguy, Berlioz 2016, Table 1"
+
+[oscillator]
+mass = "4.168 kg"
+stiffness = "11.47 kN/m"
+damping = "3.02 N s/m"
+
+[absorber]
+mass = "32 g"
+clearance = "7.5 mm"
+restitution = 0.6
+
+[excitation]
+kind = "base-displacement"
+amplitude = "0.25 mm"
+frequency = "8 Hz"
+"#;
+
+const REDUCED: &str = r#"title = "reduced"
+source = "made up"
+
+[reduced]
+mass_ratio = 0.0076775
+damping = 1.799
+restitution = 0.6
+clearance = 1.0
+forcing = 4.342
+frequency_ratio = 0.95818
+"#;
+
+fn with(text: &str, from: &str, to: &str) -> String {
+    assert!(text.contains(from), "the test replaces {from:?}, which is not there");
+    text.replacen(from, to, 1)
+}
+
+fn parsed(text: &str) -> Case {
+    Case::parse("case.toml", text).unwrap_or_else(|error| panic!("{}", rendered(&error)))
+}
+
+fn physical(text: &str) -> Physical {
+    match parsed(text).design {
+        Design::Physical(physical) => physical,
+        Design::Reduced(_) => panic!("a physical design"),
+    }
+}
+
+fn refused(text: &str) -> CaseError {
+    Case::parse("case.toml", text).expect_err("should be refused")
+}
+
+/// What a person sees, without colours, however wide.
+fn rendered(error: &CaseError) -> String {
+    let theme = miette::GraphicalTheme::unicode_nocolor();
+    let handler = miette::GraphicalReportHandler::new_themed(theme).with_width(400);
+    let mut shown = String::new();
+    handler.render_report(&mut shown, error).expect("writing to a string");
+    shown
+}
+
+/// The text is refused for one reason: this message about this underlined text at this line.
+#[track_caller]
+fn refused_with(text: &str, line: usize, underlined: &str, message: &str) -> CaseError {
+    let error = refused(text);
+    let problems: Vec<_> = error.problems().collect();
+    assert_eq!(problems.len(), 1, "{}", rendered(&error));
+    assert_eq!(problems[0].message, message);
+    assert_eq!((problems[0].line, problems[0].underlined.as_str()), (line, underlined));
+    assert_eq!(&text.trim_start_matches('\u{feff}')[problems[0].span.clone()], underlined);
+    let shown = rendered(&error);
+    assert!(shown.contains(&format!("case.toml:{line}:{}", problems[0].column)), "{shown}");
+    assert!(problems[0].help.is_some(), "nothing says what to do: {shown}");
+    error
+}
+
+#[track_caller]
+fn says(error: &CaseError, words: &str) {
+    let shown = rendered(error);
+    assert!(shown.contains(words), "{words:?} is not in\n{shown}");
+}
+
+#[test]
+fn physical_case_gives_the_system_of_table_1() {
+    let case = parsed(PHYSICAL);
+    let system = case.system();
+    let close =
+        |value: f64, expected: f64| assert!((value / expected - 1.0).abs() < 5e-5, "{value}");
+    close(system.mass_ratio(), 0.0076775);
+    close(system.damping(), 1.7990);
+    close(system.frequency_ratio(), 8.0 / 8.3491);
+    close(system.forcing_per_clearance(), 0.25 / 0.0076775 / 7.5);
+    assert_eq!(system.restitution(), 0.6);
+    let scales = case.scales();
+    close(scales.frequency_hz(1.0).expect("a physical case"), 8.3491);
+    close(scales.forcing, 0.25e-3 / 0.0076775);
+    assert_eq!((scales.clearance, scales.length_unit()), (0.0075, LengthUnit::Metre));
+    assert_eq!(scales.oscillator_mass_kg, Some(4.168));
+}
+
+#[test]
+fn scales_have_the_dimensions_they_claim() {
+    let case = parsed(PHYSICAL);
+    let scales = case.scales();
+    let omega0 = (11470.0_f64 / 4.168).sqrt();
+    let close = |value: Option<f64>, expected: f64| {
+        let value = value.expect("a physical case");
+        assert!((value / expected - 1.0).abs() < 1e-14, "{value} {expected}");
+    };
+    close(scales.time_s(3.0), 3.0 / omega0);
+    close(scales.velocity_m_per_s(3.0), 3.0 * 0.0075 * omega0);
+    close(scales.acceleration_m_per_s2(3.0), 3.0 * 0.0075 * omega0 * omega0);
+    // Half the spring's energy unit: k1 b^2 is m1 omega0^2 b^2.
+    close(scales.energy_j(0.5), 0.5 * 11470.0 * 0.0075 * 0.0075);
+    close(scales.frequency_ratio(8.0), case.system().frequency_ratio());
+    close(Some(scales.over_clearance(scales.length(2.5))), 2.5);
+}
+
+#[test]
+fn reduced_case_keeps_its_numbers_and_its_own_unit() {
+    let case = parsed(REDUCED);
+    let system = case.system();
+    assert_eq!(system.frequency_ratio(), 0.95818);
+    assert_eq!(system.forcing_per_clearance(), 4.342);
+    assert_eq!(system.excitation(), Excitation::BaseDisplacement);
+    assert_eq!(case.scales().length_unit(), LengthUnit::Own);
+    assert_eq!(case.scales().frequency_hz(1.0), None);
+    let force = parsed(&(REDUCED.to_owned() + "kind = \"force\"\n"));
+    assert_eq!(force.system().excitation(), Excitation::Force);
+}
+
+#[test]
+fn detuning_is_exact_however_small_the_mass_ratio() {
+    for mass_ratio in ["0.0076775", "1e-9", "1e-15", "1e-40"] {
+        let text = with(REDUCED, "frequency_ratio = 0.95818", "detuning = -0.3");
+        let case = parsed(&with(&text, "0.0076775", mass_ratio));
+        assert_eq!(case.system().detuning(), -0.3, "mass ratio {mass_ratio}");
+        let doubled = case.system().with_clearance_scaled(2.0).expect("a valid clearance");
+        assert_eq!(doubled.detuning(), -0.3, "mass ratio {mass_ratio}");
+        let Design::Reduced(reduced) = case.design else { panic!("a reduced design") };
+        assert_eq!(reduced.tuning, Tuning::Detuning(-0.3));
+    }
+}
+
+#[test]
+fn force_of_stiffness_times_displacement_reduces_to_the_same_forcing() {
+    let base = parsed(&with(PHYSICAL, "0.25 mm", "1 mm")).system();
+    let text = with(PHYSICAL, "base-displacement", "force");
+    let force = parsed(&with(&text, "0.25 mm", "11.47 N")).system();
+    let ratio = force.forcing_per_clearance() / base.forcing_per_clearance();
+    assert!((ratio - 1.0).abs() < 1e-15);
+    assert_eq!(force.excitation(), Excitation::Force);
+}
+
+#[test]
+fn ratios_may_replace_mass_and_damping() {
+    let text = with(PHYSICAL, "mass = \"32 g\"", "mass_ratio = 0.5");
+    let half = physical(&with(&text, "damping = \"3.02 N s/m\"", "damping_ratio = 0.01"));
+    assert_eq!(half.absorber_mass_kg, 2.084);
+    let critical = 2.0 * (11470.0_f64 * 4.168).sqrt();
+    assert!((half.damping_n_s_per_m / critical - 0.01).abs() < 1e-16);
+}
+
+#[test]
+fn extremes_with_a_physical_meaning_are_accepted() {
+    for (from, to) in [
+        ("restitution = 0.6", "restitution = 0"),
+        ("restitution = 0.6", "restitution = 1"),
+        ("restitution = 0.6", "restitution = 1.0"),
+        ("7.5 mm", "1 um"),
+        ("7.5 mm", "1 µm"),
+        ("3.02 N s/m", "0 N s/m"),
+        ("damping = \"3.02 N s/m\"", "damping_ratio = 0"),
+        ("mass = \"32 g\"", "mass_ratio = 0.5"),
+        ("0.25 mm", "0 mm"),
+        ("0.25 mm", "-0 mm"),
+    ] {
+        let system = parsed(&with(PHYSICAL, from, to)).system();
+        assert!(system.forcing_per_clearance().is_sign_positive(), "{to}");
+    }
+}
+
+#[track_caller]
+fn reads<D: Dimension>(text: &str, si: f64) {
+    assert_eq!(Quantity::<D>::parse(text).map(Quantity::si), Ok(si), "{text}");
+}
+
+#[test]
+fn units_are_converted_with_a_single_rounding() {
+    reads::<Length>("7.5 mm", 0.0075);
+    reads::<Length>("7.5mm", 0.0075);
+    reads::<Length>("  +.3 mm ", 0.0003);
+    reads::<Length>("5. cm", 0.05);
+    reads::<Length>("1e3 um", 0.001);
+    reads::<Length>("1 \u{b5}m", 1e-6);
+    reads::<Length>("1 \u{3bc}m", 1e-6);
+    // 0.001 * 2.1 is an ulp away from 0.0021; moving the decimal point is not.
+    assert_ne!(2.1 * 1e-3, 0.0021);
+    reads::<Length>("2.1 mm", 0.0021);
+}
+
+#[test]
+fn every_dimension_reads_its_units() {
+    reads::<Mass>("32 g", 0.032);
+    reads::<Mass>("4.168 kg", 4.168);
+    reads::<Mass>("250 mg", 0.00025);
+    reads::<Stiffness>("11.47 kN/m", 11470.0);
+    reads::<Stiffness>("11.47 N/mm", 11470.0);
+    reads::<Stiffness>("2 MN / m", 2e6);
+    for unit in ["N s/m", "N*s/m", "N·s/m", "N⋅s/m", "Ns/m", "N  s / m", "N * s/m", "kg/s"] {
+        reads::<Damping>(&format!("3.02 {unit}"), 3.02);
+    }
+    reads::<Damping>("3.02 N s/mm", 3020.0);
+    reads::<Frequency>("8 Hz", 8.0);
+    reads::<Frequency>("0.008 kHz", 8.0);
+    reads::<Frequency>("2 rad/s", 2.0 / std::f64::consts::TAU);
+    reads::<Force>("2.9 N", 2.9);
+    reads::<Force>("2900 mN", 2.9);
+}
+
+#[test]
+fn prefixes_are_the_powers_of_ten_they_stand_for() {
+    for (unit, si) in [("m", 1.0), ("cm", 1e-2), ("mm", 1e-3), ("um", 1e-6), ("nm", 1e-9)] {
+        reads::<Length>(&format!("1 {unit}"), si);
+    }
+    for (unit, si) in [("kg", 1.0), ("g", 1e-3), ("mg", 1e-6), ("ug", 1e-9), ("µg", 1e-9)] {
+        reads::<Mass>(&format!("1 {unit}"), si);
+    }
+    for (unit, si) in [
+        ("N/m", 1.0),
+        ("kN/m", 1e3),
+        ("MN/m", 1e6),
+        ("mN/m", 1e-3),
+        ("N/mm", 1e3),
+        ("kN/mm", 1e6),
+        ("N/cm", 1e2),
+        ("N/um", 1e6),
+        ("N/µm", 1e6),
+    ] {
+        reads::<Stiffness>(&format!("1 {unit}"), si);
+    }
+    for (unit, si) in [
+        ("kN s/m", 1e3),
+        ("kNs/m", 1e3),
+        ("mN s/m", 1e-3),
+        ("mNs/m", 1e-3),
+        ("Ns/mm", 1e3),
+        ("g/s", 1e-3),
+    ] {
+        reads::<Damping>(&format!("1 {unit}"), si);
+    }
+    for (unit, si) in [("Hz", 1.0), ("mHz", 1e-3), ("kHz", 1e3), ("MHz", 1e6)] {
+        reads::<Frequency>(&format!("1 {unit}"), si);
+    }
+    for (unit, si) in
+        [("N", 1.0), ("mN", 1e-3), ("kN", 1e3), ("MN", 1e6), ("uN", 1e-6), ("nN", 1e-9)]
+    {
+        reads::<Force>(&format!("1 {unit}"), si);
+    }
+}
+
+#[test]
+fn quantities_of_one_dimension_divide_to_a_number() {
+    let length = |text| Quantity::<Length>::parse(text).expect("a length");
+    assert_eq!(length("7.5 mm") / length("0.25 mm"), 30.0);
+    assert_eq!(length("7.5 mm").to_string(), "0.0075 m");
+}
+
+#[test]
+fn empty_files_are_told_how_to_begin() {
+    for text in ["", "\u{feff}", "# nothing yet\n", "\r\n\r\n"] {
+        let error = refused_with(text, 1, "", "the file describes no case");
+        says(&error, "vinesink new NAME");
+    }
+}
+
+#[test]
+fn restitution_beyond_1() {
+    let text = with(PHYSICAL, "restitution = 0.6", "restitution = 1.2");
+    let error = refused_with(&text, 12, "1.2", "`restitution` is 1.2");
+    says(&error, "expected a value from 0 to 1");
+    says(&error, "restitution = 1.2");
+}
+
+#[test]
+fn values_out_of_their_range() {
+    for (from, to, line, underlined, message, expected) in [
+        ("\"4.168 kg\"", "\"0 kg\"", 5, "\"0 kg\"", "`mass` is 0 kg", "above 0"),
+        ("11.47 kN/m", "-1 N/m", 6, "\"-1 N/m\"", "`stiffness` is -1 N/m", "above 0"),
+        ("3.02 N s/m", "-1 kg/s", 7, "\"-1 kg/s\"", "`damping` is -1 kg/s", "0 or more"),
+        ("7.5 mm", "0 mm", 11, "\"0 mm\"", "`clearance` is 0 mm", "above 0"),
+        ("0.6", "-0.1", 12, "-0.1", "`restitution` is -0.1", "from 0 to 1"),
+        ("0.25 mm", "-1 mm", 16, "\"-1 mm\"", "`amplitude` is -1 mm", "0 or more"),
+        ("8 Hz\"\n", "0 Hz\"\n", 17, "\"0 Hz\"", "`frequency` is 0 Hz", "above 0"),
+    ] {
+        // The title mentions 8 Hz and 7.5 mm too: replace behind it only.
+        let (head, body) = PHYSICAL.split_at(PHYSICAL.find("[oscillator]").expect("there"));
+        let error =
+            refused_with(&(head.to_owned() + &with(body, from, to)), line, underlined, message);
+        says(&error, &format!("expected a value {expected}"));
+    }
+}
+
+#[test]
+fn numbers_that_are_not_finite() {
+    let error = refused_with(
+        &with(PHYSICAL, "restitution = 0.6", "restitution = nan"),
+        12,
+        "nan",
+        "`restitution` is nan",
+    );
+    says(&error, "expected a finite value from 0 to 1");
+    let text = with(PHYSICAL, "mass = \"32 g\"", "mass_ratio = inf");
+    refused_with(&text, 10, "inf", "`mass_ratio` is inf");
+    let text = with(REDUCED, "frequency_ratio = 0.95818", "detuning = -inf");
+    refused_with(&text, 10, "-inf", "`detuning` is -inf");
+    for (written, message) in [
+        ("inf mm", "`clearance` is \"inf mm\", which is not a finite number"),
+        ("NaN mm", "`clearance` is \"NaN mm\", which is not a finite number"),
+        ("1e999 mm", "`clearance` is 1e999 mm, too large"),
+        ("1e-999 mm", "`clearance` is 1e-999 mm, too small to be told from 0"),
+    ] {
+        let text = with(PHYSICAL, "clearance = \"7.5 mm\"", &format!("clearance = \"{written}\""));
+        let error = refused(&text);
+        assert_eq!(error.to_string(), message);
+        says(&error, "expected a length such as \"7.5 mm\"");
+    }
+}
+
+#[test]
+fn a_unit_of_another_dimension() {
+    let text = with(PHYSICAL, "clearance = \"7.5 mm\"", "clearance = \"7.5 kg\"");
+    let message = "`clearance` is a length, but `kg` is the unit of a mass";
+    let error = refused_with(&text, 11, "kg", message);
+    says(&error, "a length is accepted in mm, m, cm, um, nm");
+}
+
+#[test]
+fn an_amplitude_that_suits_the_other_kind() {
+    let text = with(PHYSICAL, "0.25 mm", "2.9 N");
+    let message = "`amplitude` is a length, but `N` is the unit of a force";
+    says(&refused_with(&text, 16, "N", message), "if a force is meant, write kind = \"force\"");
+    let text = with(PHYSICAL, "base-displacement", "force");
+    let message = "`amplitude` is a force, but `mm` is the unit of a length";
+    says(&refused_with(&text, 16, "mm", message), "write kind = \"base-displacement\"");
+}
+
+#[test]
+fn a_missing_unit() {
+    let text = with(PHYSICAL, "clearance = \"7.5 mm\"", "clearance = 7.5");
+    let error = refused_with(&text, 11, "7.5", "`clearance` has no unit");
+    says(&error, "clearance = \"7.5 mm\"");
+    let text = with(PHYSICAL, "clearance = \"7.5 mm\"", "clearance = \"7.5\"");
+    let error = refused_with(&text, 11, "\"7.5\"", "`clearance` has no unit");
+    says(&error, "expected a length such as \"7.5 mm\"");
+}
+
+#[test]
+fn a_misspelled_unit() {
+    let text = with(PHYSICAL, "\"8 Hz\"\n", "\"8 hz\"\n");
+    says(
+        &refused_with(&text, 17, "hz", "`frequency` has the unknown unit `hz`"),
+        "did you mean `Hz`?",
+    );
+    let text = with(PHYSICAL, "\"32 g\"", "\"32 gr\"");
+    refused_with(&text, 10, "gr", "`mass` has the unknown unit `gr`");
+    let text = with(PHYSICAL, "clearance = \"7.5 mm\"", "clearance = \"0.3 in\"");
+    refused_with(&text, 11, "in", "`clearance` has the unknown unit `in`");
+}
+
+#[test]
+fn texts_that_are_no_quantity() {
+    for (written, message) in [
+        ("7,5 mm", "`clearance` has a comma where a decimal point belongs"),
+        ("mm", "`clearance` is \"mm\", a unit without a number"),
+        ("wide", "`clearance` is \"wide\", which does not begin with a number"),
+        ("", "`clearance` is empty"),
+        (".", "`clearance` is \".\", which does not begin with a number"),
+        ("7.5 m m", "`clearance` has the unknown unit `m m`"),
+        ("1e99999999999 m", "`clearance` has an absurd exponent in 1e99999999999"),
+    ] {
+        let text = with(PHYSICAL, "clearance = \"7.5 mm\"", &format!("clearance = \"{written}\""));
+        assert_eq!(refused(&text).to_string(), message);
+    }
+}
+
+#[test]
+fn a_quantity_where_a_plain_number_belongs_and_the_reverse() {
+    let text = with(REDUCED, "damping = 1.799", "damping = \"3.02 N s/m\"");
+    let message = "`damping` is text, but it is a plain number";
+    refused_with(&text, 6, "\"3.02 N s/m\"", message);
+    let text = with(PHYSICAL, "clearance = \"7.5 mm\"", "clearance = true");
+    refused_with(&text, 11, "true", "`clearance` is true or false");
+}
+
+#[test]
+fn a_misspelled_key_is_one_error_not_two() {
+    let text = with(PHYSICAL, "clearance =", "clearence =");
+    let error = refused_with(&text, 11, "clearence", "unknown key `clearence` in [absorber]");
+    says(&error, "did you mean `clearance`?");
+    says(&error, "expected one of mass, mass_ratio, clearance, restitution");
+}
+
+#[test]
+fn keys_and_tables_nobody_knows() {
+    let text = PHYSICAL.to_owned() + "\n[colour]\nred = 1\n";
+    let error = refused_with(&text, 19, "colour", "unknown table `colour`");
+    says(&error, "oscillator, absorber, excitation, reduced, simulation");
+    let text = with(PHYSICAL, "[excitation]", "[exitation]");
+    let error = refused_with(&text, 14, "exitation", "unknown table `exitation`");
+    says(&error, "did you mean `excitation`?");
+    let text = with(PHYSICAL, "restitution = 0.6", "restitution = 0.6\nstiffness = \"1 N/m\"");
+    let error = refused_with(&text, 13, "stiffness", "unknown key `stiffness` in [absorber]");
+    says(&error, "`stiffness` belongs in [oscillator]");
+}
+
+#[test]
+fn missing_keys_and_tables_point_at_their_table() {
+    let text = with(PHYSICAL, "clearance = \"7.5 mm\"\n", "");
+    let error = refused_with(&text, 9, "absorber", "`clearance` is missing in [absorber]");
+    says(&error, "add the line clearance = \"7.5 mm\"");
+    let text = with(PHYSICAL, "damping = \"3.02 N s/m\"\n", "");
+    let message = "`damping` or `damping_ratio` is missing in [oscillator]";
+    refused_with(&text, 4, "oscillator", message);
+    let absorber = &PHYSICAL
+        [PHYSICAL.find("[absorber]").expect("there")..PHYSICAL.find("[exc").expect("there")];
+    let error = refused_with(
+        &with(PHYSICAL, absorber, ""),
+        4,
+        "oscillator",
+        "the table [absorber] is missing",
+    );
+    says(&error, "add a line [absorber]");
+    let text = with(PHYSICAL, "source = \"Li, Seguy, Berlioz 2016, Table 1\"\n", "");
+    let first = "title = \"Li 2016, 8 Hz, b = 7.5 mm\"";
+    says(&refused_with(&text, 1, first, "`source` is missing"), "where the numbers come from");
+    refused_with(
+        "title = \"a\"\nsource = \"b\"\n",
+        1,
+        "title = \"a\"",
+        "the file describes no design",
+    );
+}
+
+#[test]
+fn alternatives_exclude_each_other() {
+    let text = with(PHYSICAL, "mass = \"32 g\"", "mass_ratio = 0.01\nmass = \"32 g\"");
+    let message = "`mass` and `mass_ratio` say the same thing twice";
+    refused_with(&text, 11, "mass", message);
+    let text = REDUCED.to_owned() + "detuning = -5\n";
+    let message = "`frequency_ratio` and `detuning` say the same thing twice";
+    refused_with(&text, 11, "detuning", message);
+    let both = PHYSICAL.to_owned() + &REDUCED[REDUCED.find("[reduced]").expect("there")..];
+    let message = "[reduced] and [oscillator] both describe the design";
+    refused_with(&both, 18, "reduced", message);
+}
+
+#[test]
+fn texts_that_are_missing_or_blank_or_unknown() {
+    let text = with(PHYSICAL, "\"Li, Seguy, Berlioz 2016, Table 1\"", "\" \"");
+    says(&refused_with(&text, 2, "\" \"", "`source` is empty"), "where the numbers come from");
+    let text = with(PHYSICAL, "\"Li 2016, 8 Hz, b = 7.5 mm\"", "7");
+    refused_with(&text, 1, "7", "`title` is a number");
+    let text = with(PHYSICAL, "\"base-displacement\"", "\"base_displacement\"");
+    let error = refused_with(&text, 15, "\"base_displacement\"", "`kind` is \"base_displacement\"");
+    says(&error, "did you mean \"base-displacement\"?");
+}
+
+#[test]
+fn a_detuning_that_leaves_no_frequency() {
+    let text = with(REDUCED, "frequency_ratio = 0.95818", "detuning = -200");
+    let error = refused(&text);
+    assert!(error.to_string().starts_with("`detuning` is -200, so that"), "{error}");
+    says(&error, "expected a detuning that leaves the frequency ratio finite and above 0");
+}
+
+#[test]
+fn values_that_only_together_cannot_be_held() {
+    let text = with(PHYSICAL, "0.25 mm", "1e300 mm");
+    let message = "the values together give a forcing_per_clearance of inf";
+    refused_with(
+        &with(&text, "clearance = \"7.5 mm\"", "clearance = \"1e-300 m\""),
+        4,
+        "oscillator",
+        message,
+    );
+}
+
+#[test]
+fn toml_that_does_not_parse() {
+    let text = with(PHYSICAL, "clearance = \"7.5 mm\"", "clearance = 7.5 mm # half the gap");
+    let error = refused(&text);
+    assert!(error.to_string().starts_with("the file is not valid TOML: "), "{error}");
+    assert_eq!(error.problems().map(|problem| problem.line).collect::<Vec<_>>(), [11]);
+    says(&error, "write clearance = \"7.5 mm\"");
+    let text = with(PHYSICAL, "restitution = 0.6", "restitution = 0.6\nrestitution = 0.7");
+    let error = refused_with(&text, 13, "restitution", "the file is not valid TOML: duplicate key");
+    says(&error, "keep one of the two");
+    for text in ["[oscillator", "title = \"unfinished\n", "= 1\n", "title\n", "\0", "a = \"\\q\"\n"]
+    {
+        let error = refused(text);
+        assert!(
+            error.problems().all(|problem| problem.message.contains("not valid TOML")),
+            "{text:?}"
+        );
+        rendered(&error);
+    }
+}
+
+#[test]
+fn several_errors_are_shown_together_in_the_order_of_the_lines() {
+    let text = with(PHYSICAL, "restitution = 0.6", "restitution = 2");
+    let text = with(&text, "\"4.168 kg\"", "4.168");
+    let error = refused(&with(&text, "frequency", "frequancy"));
+    let lines: Vec<usize> = error.problems().map(|problem| problem.line).collect();
+    assert_eq!(lines, [5, 12, 17]);
+    assert_eq!(error.to_string(), "case.toml has 3 errors");
+    for place in ["case.toml:5:8", "case.toml:12:15", "case.toml:17:1"] {
+        says(&error, place);
+    }
+}
+
+#[test]
+fn line_ends_and_byte_order_marks_change_nothing_but_the_hash() {
+    let plain = parsed(PHYSICAL);
+    for text in [PHYSICAL.replace('\n', "\r\n"), format!("\u{feff}{PHYSICAL}")] {
+        let case = parsed(&text);
+        assert_eq!((case.design, case.system()), (plain.design, plain.system()));
+        assert_ne!(case.text_hash, plain.text_hash);
+    }
+    let windows = with(PHYSICAL, "= \"7.5 mm\"", "= 7.5").replace('\n', "\r\n");
+    refused_with(&format!("\u{feff}{windows}"), 11, "7.5", "`clearance` has no unit");
+}
+
+#[test]
+fn columns_count_characters() {
+    let text = with(PHYSICAL, "clearance = \"7.5 mm\"", "clearance = \"7.5 µg\"");
+    let error =
+        refused_with(&text, 11, "µg", "`clearance` is a length, but `µg` is the unit of a mass");
+    assert_eq!(error.problems().next().map(|problem| problem.column), Some(18));
+}
+
+#[test]
+fn simulation_settings_are_whole_numbers_within_bounds() {
+    let settings = |lines: &str| PHYSICAL.to_owned() + "[simulation]\n" + lines;
+    let case = parsed(&settings("periods = 100_000_000\ndiscard = 0\n"));
+    assert_eq!(case.simulation.periods, Some(100_000_000));
+    assert_eq!((case.simulation.discard, case.simulation.starts), (Some(0), None));
+    for (line, underlined, message) in [
+        ("periods = 0", "0", "`periods` is 0"),
+        ("periods = 100_000_001", "100_000_001", "`periods` is 100000001"),
+        ("discard = -1", "-1", "`discard` is -1"),
+        ("starts = 10001", "10001", "`starts` is 10001"),
+        ("starts = 1.5", "1.5", "`starts` is 1.5"),
+        ("starts = \"8\"", "\"8\"", "`starts` is 8"),
+    ] {
+        says(&refused_with(&settings(line), 19, underlined, message), "expected a whole number");
+    }
+}
+
+#[test]
+fn inputs_are_listed_as_written_and_in_si() {
+    let case = parsed(PHYSICAL);
+    let listed: Vec<_> =
+        case.inputs().iter().map(|i| (i.name, i.value, i.unit, i.as_written.as_str())).collect();
+    assert_eq!(
+        listed,
+        [
+            ("mass", 4.168, "kg", "4.168 kg"),
+            ("stiffness", 11470.0, "N/m", "11.47 kN/m"),
+            ("damping", 3.02, "N s/m", "3.02 N s/m"),
+            ("mass", 0.032, "kg", "32 g"),
+            ("clearance", 0.0075, "m", "7.5 mm"),
+            ("restitution", 0.6, "1", "0.6"),
+            ("amplitude", 0.00025, "m", "0.25 mm"),
+            ("frequency", 8.0, "Hz", "8 Hz"),
+        ]
+    );
+    let derived = case.derived();
+    let value =
+        |name: &str| derived.iter().find(|i| i.name == name).map(|i| i.value).expect("derived");
+    assert!((value("natural_frequency") - 8.3491).abs() < 5e-5);
+    assert!((value("damping_ratio") - 3.02 / (2.0 * (11470.0_f64 * 4.168).sqrt())).abs() < 1e-15);
+    assert_eq!(value("forcing_per_clearance"), case.system().forcing_per_clearance());
+}
+
+#[test]
+fn the_text_is_identified_by_its_sha256() {
+    let case = parsed(REDUCED);
+    assert_eq!(case.text_hash.len(), 64);
+    assert_ne!(case.text_hash, parsed(&(REDUCED.to_owned() + "\n")).text_hash);
+    assert_eq!(case.text_hash, parsed(REDUCED).text_hash);
+}
+
+#[test]
+fn errors_travel_as_reports() {
+    fn report(text: &str) -> miette::Result<Case> {
+        Ok(Case::parse("case.toml", text)?)
+    }
+    let error = report(&with(PHYSICAL, "0.6", "6")).expect_err("beyond 1");
+    assert!(error.downcast_ref::<CaseError>().is_some());
+}
+
+#[test]
+fn a_physical_excitation_knows_its_kind() {
+    let excitation = PhysicalExcitation::Force { amplitude_n: 1.0 };
+    assert_eq!(excitation.kind(), Excitation::Force);
+}
+
+#[test]
+fn the_starting_case_parses_under_any_title() {
+    for title in ["damper", "quote \" and back\\slash", "line\nbreak", "été"] {
+        let case = parsed(&Case::starting_text(title));
+        assert_eq!(case.title, title);
+    }
+    assert!(Case::starting_text("x").starts_with("#:schema vinesink.schema.json\n"));
+}

@@ -1,0 +1,178 @@
+//! Properties of every case: text and numbers, physical and reduced, are the same thing.
+
+use proptest::prelude::*;
+use vinesink::case::{
+    Case, Damping, Design, Dimension, Force, Frequency, Length, Mass, Physical, PhysicalExcitation,
+    Quantity, Reduced, Stiffness, Tuning,
+};
+use vinesink::system::Excitation;
+
+/// Values whose order of magnitude, not only whose size, is random.
+fn scale(low: i32, high: i32) -> impl Strategy<Value = f64> {
+    (1.0..10.0_f64, low..high)
+        .prop_map(|(digits, power)| format!("{digits}e{power}").parse::<f64>().expect("a number"))
+}
+
+fn zero_or(values: impl Strategy<Value = f64>) -> impl Strategy<Value = f64> {
+    (values, 0..8).prop_map(|(value, dice)| if dice == 0 { 0.0 } else { value })
+}
+
+prop_compose! {
+    fn physical()(
+        mass_kg in scale(-6, 6),
+        stiffness_n_per_m in scale(-3, 9),
+        damping_n_s_per_m in zero_or(scale(-6, 4)),
+        absorber_mass_kg in scale(-9, 3),
+        clearance_m in scale(-6, 1),
+        restitution in 0.0..=1.0,
+        amplitude in zero_or(scale(-6, 3)),
+        force in any::<bool>(),
+        frequency_hz in scale(-3, 5),
+    ) -> Physical {
+        let excitation = match force {
+            true => PhysicalExcitation::Force { amplitude_n: amplitude },
+            false => PhysicalExcitation::BaseDisplacement { amplitude_m: amplitude },
+        };
+        Physical {
+            mass_kg, stiffness_n_per_m, damping_n_s_per_m, absorber_mass_kg, clearance_m,
+            restitution, excitation, frequency_hz,
+        }
+    }
+}
+
+prop_compose! {
+    fn reduced()(
+        mass_ratio in scale(-12, 1),
+        damping in zero_or(scale(-4, 4)),
+        restitution in 0.0..=1.0,
+        clearance in scale(-6, 3),
+        forcing in zero_or(scale(-6, 6)),
+        tuning in prop_oneof![
+            scale(-3, 2).prop_map(Tuning::FrequencyRatio),
+            (-0.009..10.0).prop_map(Tuning::Detuning),
+        ],
+        force in any::<bool>(),
+    ) -> Reduced {
+        let excitation = if force { Excitation::Force } else { Excitation::BaseDisplacement };
+        Reduced { mass_ratio, damping, restitution, clearance, forcing, excitation, tuning }
+    }
+}
+
+fn quantity<D: Dimension>(si: f64) -> String {
+    let quantity = Quantity::<D>::from_si(si).expect("a finite value");
+    format!("\"{quantity}\"")
+}
+
+fn physical_text(p: &Physical) -> String {
+    let (kind, amplitude) = match p.excitation {
+        PhysicalExcitation::Force { amplitude_n } => ("force", quantity::<Force>(amplitude_n)),
+        PhysicalExcitation::BaseDisplacement { amplitude_m } => {
+            ("base-displacement", quantity::<Length>(amplitude_m))
+        }
+    };
+    format!(
+        "title = 't'\nsource = 's'\n[oscillator]\nmass = {}\nstiffness = {}\ndamping = {}\n\
+         [absorber]\nmass = {}\nclearance = {}\nrestitution = {:?}\n\
+         [excitation]\nkind = '{kind}'\namplitude = {amplitude}\nfrequency = {}\n",
+        quantity::<Mass>(p.mass_kg),
+        quantity::<Stiffness>(p.stiffness_n_per_m),
+        quantity::<Damping>(p.damping_n_s_per_m),
+        quantity::<Mass>(p.absorber_mass_kg),
+        quantity::<Length>(p.clearance_m),
+        p.restitution,
+        quantity::<Frequency>(p.frequency_hz),
+    )
+}
+
+fn reduced_text(r: &Reduced) -> String {
+    let kind = match r.excitation {
+        Excitation::Force => "force",
+        Excitation::BaseDisplacement => "base-displacement",
+    };
+    let tuning = match r.tuning {
+        Tuning::FrequencyRatio(ratio) => format!("frequency_ratio = {ratio:?}"),
+        Tuning::Detuning(detuning) => format!("detuning = {detuning:?}"),
+    };
+    format!(
+        "title = 't'\nsource = 's'\n[reduced]\nmass_ratio = {:?}\ndamping = {:?}\n\
+         restitution = {:?}\nclearance = {:?}\nforcing = {:?}\nkind = '{kind}'\n{tuning}\n",
+        r.mass_ratio, r.damping, r.restitution, r.clearance, r.forcing,
+    )
+}
+
+/// The numbers of a design in one order, and the kind of its excitation.
+fn numbers(design: &Design) -> ([f64; 8], Excitation) {
+    match *design {
+        Design::Physical(p) => {
+            let amplitude = match p.excitation {
+                PhysicalExcitation::Force { amplitude_n } => amplitude_n,
+                PhysicalExcitation::BaseDisplacement { amplitude_m } => amplitude_m,
+            };
+            let Physical {
+                mass_kg, stiffness_n_per_m, damping_n_s_per_m, absorber_mass_kg, ..
+            } = p;
+            let rest = [p.clearance_m, p.restitution, amplitude, p.frequency_hz];
+            let [clearance, restitution, amplitude, frequency] = rest;
+            let all = [
+                mass_kg,
+                stiffness_n_per_m,
+                damping_n_s_per_m,
+                absorber_mass_kg,
+                clearance,
+                restitution,
+                amplitude,
+                frequency,
+            ];
+            (all, p.excitation.kind())
+        }
+        Design::Reduced(r) => {
+            let detuning = match r.tuning {
+                Tuning::FrequencyRatio(ratio) => (ratio - 1.0) / r.mass_ratio,
+                Tuning::Detuning(detuning) => detuning,
+            };
+            let all = [r.mass_ratio, r.damping, r.restitution, r.clearance, r.forcing, detuning];
+            let [mass_ratio, damping, restitution, clearance, forcing, detuning] = all;
+            let all = [mass_ratio, damping, restitution, clearance, forcing, detuning, 0.0, 0.0];
+            (all, r.excitation)
+        }
+    }
+}
+
+proptest! {
+    #[test]
+    fn text_reads_back_to_the_same_design(physical in physical(), reduced in reduced()) {
+        let case = Case::parse("physical", &physical_text(&physical)).expect("a valid case");
+        prop_assert_eq!(case.design, Design::Physical(physical));
+        let case = Case::parse("reduced", &reduced_text(&reduced)).expect("a valid case");
+        prop_assert_eq!(case.design, Design::Reduced(reduced));
+    }
+
+    #[test]
+    fn restoring_a_reduced_design_gives_it_back(physical in physical(), reduced in reduced()) {
+        for design in [Design::Physical(physical), Design::Reduced(reduced)] {
+            let system = design.system().expect("a valid design");
+            let (restored, kind) = numbers(&design.scales().restore(&system));
+            let (expected, expected_kind) = numbers(&design);
+            prop_assert_eq!(kind, expected_kind);
+            for (value, expected) in restored.into_iter().zip(expected) {
+                // A handful of roundings, each half an ulp.
+                prop_assert!((value - expected).abs() <= 16.0 * f64::EPSILON * expected.abs());
+            }
+        }
+    }
+
+    #[test]
+    fn no_text_makes_the_parser_panic(text in "(?s).{0,200}", at in 0..400_usize, byte in any::<char>()) {
+        let _ = Case::parse("any", &text);
+        let mut near: Vec<char> = Case::starting_text("case").chars().collect();
+        let at = at * near.len() / 400;
+        near[at] = byte;
+        let _ = Case::parse("nearly right", &near.into_iter().collect::<String>());
+    }
+
+    #[test]
+    fn any_quantity_prints_as_it_reads(si in any::<f64>().prop_filter("finite", |si| si.is_finite())) {
+        let quantity = Quantity::<Length>::from_si(si).expect("a finite value");
+        prop_assert_eq!(Quantity::<Length>::parse(&quantity.to_string()), Ok(quantity));
+    }
+}

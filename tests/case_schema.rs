@@ -1,0 +1,233 @@
+//! The schema that editors use and the parser agree about what a case may hold.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::PathBuf;
+
+use regex::Regex;
+use serde_json::Value;
+use vinesink::case::{
+    Case, Damping, Dimension, Force, Frequency, Length, Mass, Quantity, Stiffness, schema,
+};
+
+fn shipped() -> Vec<(PathBuf, String)> {
+    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("cases");
+    let entries = fs::read_dir(folder).expect("the folder of cases");
+    let paths = entries.map(|entry| entry.expect("an entry").path());
+    let mut cases: Vec<PathBuf> =
+        paths.filter(|path| path.extension().is_some_and(|e| e == "toml")).collect();
+    cases.sort();
+    cases.into_iter().map(|path| (path.clone(), fs::read_to_string(path).expect("text"))).collect()
+}
+
+fn toml(text: &str) -> Value {
+    let table: toml::Table = text.parse().expect("TOML");
+    serde_json::to_value(table).expect("JSON")
+}
+
+/// The part of JSON Schema that the case's schema uses; panics on a keyword it does not know, so
+/// that the schema cannot outgrow it unnoticed.
+fn valid(schema: &Value, value: &Value) -> bool {
+    let object = schema.as_object().expect("a schema is an object");
+    object.iter().all(|(keyword, expected)| holds(keyword, expected, schema, value))
+}
+
+fn holds(keyword: &str, expected: &Value, schema: &Value, value: &Value) -> bool {
+    let list = || expected.as_array().expect("a list");
+    let limit = |keeps: fn(f64, f64) -> bool| {
+        let limit = expected.as_f64().expect("a number");
+        value.as_f64().is_none_or(|number| keeps(number, limit))
+    };
+    match keyword {
+        "$schema" | "title" | "description" | "examples" | "format" => true,
+        "type" => match expected.as_str().expect("one type") {
+            "object" => value.is_object(),
+            "string" => value.is_string(),
+            "number" => value.is_number(),
+            "integer" => value.is_i64() || value.is_u64(),
+            other => panic!("unknown type {other}"),
+        },
+        "const" => value == expected,
+        "enum" => list().contains(value),
+        "pattern" => {
+            let pattern = Regex::new(expected.as_str().expect("text")).expect("a pattern");
+            value.as_str().is_none_or(|text| pattern.is_match(text))
+        }
+        "minimum" => limit(|number, limit| number >= limit),
+        "maximum" => limit(|number, limit| number <= limit),
+        "exclusiveMinimum" => limit(|number, limit| number > limit),
+        "required" => value.as_object().is_none_or(|object| {
+            list().iter().all(|key| object.contains_key(key.as_str().expect("a key")))
+        }),
+        "properties" => expected
+            .as_object()
+            .expect("properties")
+            .iter()
+            .all(|(key, inner)| value.get(key).is_none_or(|value| valid(inner, value))),
+        "additionalProperties" => {
+            assert_eq!(expected, &Value::Bool(false));
+            let known = schema["properties"].as_object().expect("properties");
+            value.as_object().is_none_or(|object| object.keys().all(|key| known.contains_key(key)))
+        }
+        "oneOf" => list().iter().filter(|inner| valid(inner, value)).count() == 1,
+        "anyOf" => list().iter().any(|inner| valid(inner, value)),
+        "not" => !valid(expected, value),
+        other => panic!("the schema uses {other}, which this test does not check"),
+    }
+}
+
+#[test]
+fn shipped_cases_parse_and_fit_the_schema() {
+    let schema = schema();
+    let cases = shipped();
+    assert!(cases.len() >= 14, "{} cases", cases.len());
+    for (path, text) in cases {
+        let name = path.display().to_string();
+        let case = Case::parse(&name, &text).unwrap_or_else(|error| panic!("{error:?}"));
+        assert!(valid(&schema, &toml(&text)), "{name}");
+        assert!(text.starts_with("#:schema vinesink.schema.json\n"), "{name}");
+        assert!(!case.title.is_empty() && !case.source.is_empty(), "{name}");
+    }
+    assert!(valid(&schema, &toml(&Case::starting_text("a title"))));
+}
+
+#[test]
+fn shipped_schema_is_current() {
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("cases/vinesink.schema.json");
+    let shipped: Value =
+        serde_json::from_str(&fs::read_to_string(path).expect("the file")).expect("JSON");
+    assert_eq!(shipped, schema(), "run: vinesink schema > cases/vinesink.schema.json");
+}
+
+#[test]
+fn schema_names_its_draft_and_describes_every_key() {
+    let schema = schema();
+    assert_eq!(schema["$schema"], "https://json-schema.org/draft/2020-12/schema");
+    let tables = schema["properties"].as_object().expect("properties");
+    let mut keys = 0;
+    for (name, table) in tables {
+        assert!(table["description"].is_string(), "{name} is not described");
+        for (key, inner) in table["properties"].as_object().into_iter().flatten() {
+            assert!(inner["description"].is_string(), "{name}.{key} is not described");
+            keys += 1;
+        }
+    }
+    assert!(keys >= 20, "{keys} keys");
+}
+
+/// The keys that the parser names when it refuses one it does not know.
+fn accepted_by_parser(table: &str) -> BTreeSet<String> {
+    let text = match table {
+        "" => "zzzzzzzzzz = 1\n".to_owned(),
+        table => format!("[{table}]\nzzzzzzzzzz = 1\n"),
+    };
+    let design = ["oscillator", "absorber", "excitation"];
+    let start = if design.contains(&table) || table == "reduced" { "" } else { "reduced = {}\n" };
+    let error = Case::parse("", &(start.to_owned() + &text)).expect_err("an unknown key");
+    let problem = error.problems().find(|problem| problem.message.contains("zzzzzzzzzz"));
+    let expected = &problem.expect("the key is refused").expected;
+    let list = expected.strip_prefix("expected one of ").expect("the keys");
+    list.split(", ").map(str::to_owned).collect()
+}
+
+#[test]
+fn parser_and_schema_accept_the_same_keys() {
+    let schema = schema();
+    let keys = |schema: &Value| -> BTreeSet<String> {
+        schema["properties"].as_object().expect("properties").keys().cloned().collect()
+    };
+    assert_eq!(accepted_by_parser(""), keys(&schema));
+    for (table, inner) in schema["properties"].as_object().expect("properties") {
+        if inner["type"] == "object" {
+            assert_eq!(accepted_by_parser(table), keys(inner), "[{table}]");
+        }
+    }
+}
+
+/// Changes to a case, which parser and schema must both accept or both refuse.
+#[test]
+fn parser_and_schema_agree_on_changes_to_a_case() {
+    let physical = Case::starting_text("physical");
+    let reduced = shipped()
+        .into_iter()
+        .find(|(path, _)| path.ends_with("reduced-unit-clearance.toml"))
+        .map(|(_, text)| text)
+        .expect("the reduced case");
+    let schema = schema();
+    let mut accepted = 0;
+    for (text, from, to) in [
+        (&physical, "\"20 mm\"", "\"20 µm\""),
+        (&physical, "\"20 mm\"", "\"20 kg\""),
+        (&physical, "\"20 mm\"", "20"),
+        (&physical, "clearance", "clearence"),
+        (&physical, "restitution = 0.6", "restitution = 0"),
+        (&physical, "restitution = 0.6", "restitution = 1.01"),
+        (&physical, "restitution = 0.6", ""),
+        (&physical, "restitution = 0.6", "restitution = \"0.6\""),
+        (&physical, "mass = \"32 g\"", "mass_ratio = 0.5"),
+        (&physical, "mass = \"32 g\"", "mass_ratio = 0"),
+        (&physical, "mass = \"32 g\"", "mass_ratio = 0.5\nmass = \"32 g\""),
+        (&physical, "mass = \"32 g\"", ""),
+        (&physical, "damping = \"3.02 N s/m\"", "damping_ratio = 0"),
+        (&physical, "damping = \"3.02 N s/m\"", "damping_ratio = -0.1"),
+        (&physical, "damping = \"3.02 N s/m\"", ""),
+        (&physical, "\"base-displacement\"", "\"force\""),
+        (&physical, "\"base-displacement\"", "\"base\""),
+        (&physical, "\"0.25 mm\"", "\"2.9 N\""),
+        (&physical, "\"8.5 Hz\"", "\"53 rad/s\""),
+        (&physical, "[excitation]", "[excitement]"),
+        (&physical, "title = \"physical\"", ""),
+        (&physical, "title = \"physical\"", "title = \" \""),
+        (&physical, "# [simulation]", "[simulation]\nperiods = 1"),
+        (&physical, "# [simulation]", "[simulation]\nperiods = 0"),
+        (&physical, "# [simulation]", "[simulation]\nstarts = 10001"),
+        (&physical, "# [simulation]", "[simulation]\ndiscard = 1.5"),
+        (&physical, "# [simulation]", "[reduced]"),
+        (&reduced, "[reduced]", "[reduced]\nkind = \"force\""),
+        (&reduced, "[reduced]", "[reduced]\nkind = \"forces\""),
+        (&reduced, "[reduced]", "[reduced]\ndetuning = -5.4"),
+        (&reduced, "frequency_ratio = 0.95818", "detuning = -5.4"),
+        (&reduced, "frequency_ratio = 0.95818", "frequency_ratio = 0"),
+        (&reduced, "frequency_ratio = 0.95818", ""),
+        (&reduced, "clearance = 1.0", "clearance = 1"),
+        (&reduced, "clearance = 1.0", "clearance = 0"),
+        (&reduced, "forcing = 4.342", "forcing = -1"),
+    ] {
+        assert!(text.contains(from), "{from:?} is not in the case");
+        let changed = text.replacen(from, to, 1);
+        let parses = Case::parse("changed", &changed).is_ok();
+        assert_eq!(valid(&schema, &toml(&changed)), parses, "{from:?} -> {to:?}");
+        accepted += usize::from(parses);
+    }
+    assert_eq!(accepted, 9, "of the changes above");
+}
+
+fn patterns_agree<D: Dimension>(schema: &Value) {
+    let pattern = Regex::new(schema["pattern"].as_str().expect("a pattern")).expect("a pattern");
+    let known = D::UNITS.iter().map(|unit| unit.symbol.to_owned());
+    let others = [
+        "", "m m", "mm m", "N s / m", "N*s/m", "N·s/m", "N⋅ s/m", "N.s/m", "KG", "μm", "µg", "µN",
+        "hz", "rad / s", "rad s", "in", "N/µm", "kg / s", "sN/m", "km",
+    ];
+    for unit in known.chain(others.map(str::to_owned)) {
+        for number in ["7.5 ", "7.5", "+.5e-3 ", " 5. ", "1e ", "", ". ", "1,5 ", "0x1 ", "1_0 "] {
+            let text = format!("{number}{unit}");
+            let parses = Quantity::<D>::parse(&text).is_ok();
+            assert_eq!(pattern.is_match(&text), parses, "{text:?} as {}", D::NAME);
+        }
+    }
+}
+
+#[test]
+fn patterns_match_what_the_parser_reads() {
+    let schema = schema();
+    let of = |table: &str, key: &str| schema["properties"][table]["properties"][key].clone();
+    patterns_agree::<Mass>(&of("oscillator", "mass"));
+    patterns_agree::<Stiffness>(&of("oscillator", "stiffness"));
+    patterns_agree::<Damping>(&of("oscillator", "damping"));
+    patterns_agree::<Length>(&of("absorber", "clearance"));
+    patterns_agree::<Frequency>(&of("excitation", "frequency"));
+    let kinds = &schema["properties"]["excitation"]["oneOf"];
+    patterns_agree::<Length>(&kinds[0]["properties"]["amplitude"]);
+    patterns_agree::<Force>(&kinds[1]["properties"]["amplitude"]);
+}
