@@ -1,13 +1,19 @@
-use vinesink::system::*; use vinesink::regimes::attractor::*; use vinesink::study::attractors::*;
+use vinesink::case::Case; use vinesink::study::*;
 fn main(){
- let w0=(11470.0f64/4.168).sqrt(); let eps=0.032/4.168; let lam=3.02/(0.032*w0);
- let args:Vec<f64>=std::env::args().skip(1).map(|a|a.parse().unwrap()).collect();
- let list:Vec<(f64,f64)>= if args.len()>1 {args[1..].iter().map(|b|(args[0],*b)).collect()} else {vec![(8.0,0.3),(8.0,2.5),(8.,4.),(8.,7.5),(8.,11.5),(8.,15.),(8.,16.4),(8.,20.)]};
- for (f,b) in list {
-  let om=f*std::f64::consts::TAU/w0;
-  let sys=System::new(Parameters{mass_ratio:eps,damping:lam,restitution:0.6,frequency_ratio:om,forcing_per_clearance:0.25/eps/b,excitation:Excitation::BaseDisplacement}).unwrap();
+ for p in std::env::args().skip(1) {
+  let case=Case::parse(&p,&std::fs::read_to_string(&p).unwrap()).unwrap();
   let t=std::time::Instant::now();
-  let a=find(&sys,&[],&SearchEffort{starts:32,each:Effort{discard:400,periods:200,prolongations:4,impact_limit:1_000_000},measured:1000},&mut |_|()).unwrap();
-  println!("f{f} b{b} {:?}",t.elapsed());
-  for x in a { let e=x.attractor.classification.evidence; println!("   {:?} n={} z={:.4} {:?} asym={:.4} mod={:.3} cap={:?} settled={} peak={:.3} rms={:.4}", x.attractor.classification.regime,x.starts,e.impacts_per_period,e.periodicity.map(|p|(p.impacts,p.periods)),e.asymmetry,e.modulation_depth,(e.captures.count,e.captures.share,e.captures.longest),e.settled,x.attractor.peak*b,x.attractor.rms*b); }
+  let sys=case.system();
+  let s=CaseStudy::of(&sys,StudyEffort::default(),&mut |_|()).unwrap();
+  println!("== {p} {:?} area {:?} zone {:?}",t.elapsed(),s.area,s.analysis.zone);
+  for f in &s.analysis.fixed_points { println!("  fp B {:.4} C {:.4} eta {:.3} {:?} tr {:.3} det {:.3} {:?} stable {} res {:.1e} wmax {:.3}",f.absorber,f.oscillator,f.eta,f.branch,f.trace,f.determinant,f.kind,f.stable,f.residual,f.largest_relative_displacement); }
+  for a in &s.attractors { let e=a.attractor.classification.evidence; println!("  att {:?} {} theory {} z={:.3} {:?} mod {:.3} settled {} peak {:.4} cap {:.3}",a.regime(),a.starts,a.reached_from_theory,e.impacts_per_period,e.periodicity.map(|p|(p.impacts,p.periods)),e.modulation_depth,e.settled,case.scales().length(a.attractor.peak)*1e3,e.captures.share); }
+  for c in &s.claims { println!("  claim {} | {:?} | {:?} | {:?} tol {:.3} {:?}",c.statement,c.predicted,c.observed,c.difference,c.tolerance.value,c.verdict); }
+  for m in &s.margins.clearance { println!("  margin {:?} {:?} {:.3} ends {}",m.kind,m.branch,m.factor,m.ends_steady_resonance); }
+  println!("  freq {:?}",s.margins.frequency);
+  let om=sys.frequency_ratio(); let t=std::time::Instant::now();
+  let fs:Vec<f64>=(0..13).map(|k| 0.9+0.02*k as f64).collect();
+  let g=scenes::grazing_line(&sys,&fs).unwrap(); println!("  grazing {:?} {:?}",t.elapsed(),g.iter().map(|p|(p.frequency_ratio,p.clearance*case.scales().clearance*1e3)).collect::<Vec<_>>());
+  let t=std::time::Instant::now();
+  let g=scenes::sweep(&sys,&fs).unwrap(); println!("  sweep {:?} {:?}",t.elapsed(),g.iter().map(|p|(p.regime,p.peak)).collect::<Vec<_>>()); let _=om;
  }}

@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::{Attractor, Regime};
 use super::attractor::Effort;
 use super::starts::StartBox;
-use crate::simulation::StartError;
+use crate::simulation::{StartError, Stop};
 use crate::system::{State, System};
 
 /// An attractor and how it was found.
@@ -28,6 +28,9 @@ impl FoundAttractor {
         self.attractor.classification.regime
     }
 }
+
+/// How many long windows a motion may take to show the same averages in both halves.
+const LONGEST_WAIT: u32 = 5;
 
 /// How thoroughly attractors are searched.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -73,8 +76,14 @@ pub fn find(
     }
     for one in &mut found {
         one.share = f64::from(one.starts) / f64::from(effort.starts.max(1));
-        // A state that repeats needs no longer look; the others are averages.
-        if one.attractor.classification.evidence.periodicity.is_none() {
+        // A motion that repeats needs no longer look; the others are averages, which intermittent
+        // motions take long to give.
+        for _ in 0..LONGEST_WAIT {
+            let evidence = &one.attractor.classification.evidence;
+            let known = one.attractor.periods >= effort.measured && evidence.settled;
+            if known || evidence.periodicity.is_some() || one.attractor.stop != Stop::EndTime {
+                break;
+            }
             one.attractor = one.attractor.measured_over(system, effort.measured)?;
         }
     }

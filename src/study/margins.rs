@@ -3,14 +3,14 @@
 use serde::Serialize;
 
 use crate::analysis::{Analysis, AnalysisError, BoundaryKind, Branch, boundaries};
-use crate::validation::boundaries::{BoundaryAt, clearances, ends_steady_resonance};
+use crate::validation::boundaries::{clearances, ends_steady_resonance};
 
 /// A boundary and where it is met when one parameter alone is changed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Margin {
     /// Which boundary.
     pub kind: BoundaryKind,
-    /// For a saddle-node: the branch on which two fixed points collide.
+    /// For a saddle-node in clearance: the branch on which two fixed points collide.
     pub branch: Branch,
     /// Whether steady 1:1 resonance begins or ends there, as far as the theory says.
     pub ends_steady_resonance: bool,
@@ -47,7 +47,7 @@ impl Margins {
             .map(|at| Margin {
                 kind: at.kind,
                 branch: at.branch,
-                ends_steady_resonance: ends_steady_resonance(analysis, at),
+                ends_steady_resonance: ends_steady_resonance(&analysis.system, at.clearance),
                 factor: at.clearance,
             })
             .collect();
@@ -71,8 +71,7 @@ impl Margins {
     }
 }
 
-/// Frequencies at which a boundary passes through the case's clearance and forcing. The branch and
-/// the meaning of each are those at that frequency.
+/// Frequencies at which a boundary passes through the case's clearance and forcing.
 fn in_frequency(analysis: &Analysis) -> Result<Neighbours, AnalysisError> {
     let system = &analysis.system;
     let mut all = Vec::new();
@@ -80,16 +79,15 @@ fn in_frequency(analysis: &Analysis) -> Result<Neighbours, AnalysisError> {
         for detuning in boundaries::crossings(kind, system, &analysis.manifold)? {
             let ratio = 1.0 + system.mass_ratio() * detuning;
             let Ok(there) = system.with_frequency_ratio(ratio) else { continue };
-            let there = Analysis::of(&there)?;
-            // The boundary that passes through the case's clearance, as it is at that frequency.
-            let nearest = clearances(&there).into_iter().filter(|at| at.kind == kind).min_by(
-                |a, b| (a.clearance - 1.0).abs().total_cmp(&(b.clearance - 1.0).abs()),
-            );
-            let at = nearest.unwrap_or(BoundaryAt { kind, branch: Branch::Stable, clearance: 1.0 });
+            // A saddle-node where another stable 1:1 motion remains only leans the response.
+            let ends = ends_steady_resonance(&there, 1.0);
+            if kind == BoundaryKind::SaddleNode && !ends {
+                continue;
+            }
             all.push(Margin {
                 kind,
-                branch: at.branch,
-                ends_steady_resonance: ends_steady_resonance(&there, &at),
+                branch: Branch::Stable,
+                ends_steady_resonance: ends,
                 factor: ratio / system.frequency_ratio(),
             });
         }

@@ -7,6 +7,7 @@ use crate::analysis::{Analysis, BoundaryKind, Branch, FixedPoint};
 use crate::regimes::attractor::Effort;
 use crate::regimes::{Attractor, Regime};
 use crate::simulation::StartError;
+use crate::system::System;
 
 /// Boundaries further than this factor in clearance are not this case's business.
 const FAR: f64 = 3.0;
@@ -48,24 +49,25 @@ pub fn clearances(analysis: &Analysis) -> Vec<BoundaryAt> {
 pub fn either_side(analysis: &Analysis, effort: &Effort) -> Result<Vec<Claim>, StartError> {
     let decidable: Vec<BoundaryAt> = clearances(analysis)
         .into_iter()
-        .filter(|at| ends_steady_resonance(analysis, at))
         .filter(|at| (1.0 / FAR..FAR).contains(&at.clearance))
+        .filter(|at| ends_steady_resonance(&analysis.system, at.clearance))
         .collect();
     let below = decidable.iter().rfind(|at| at.clearance <= 1.0);
     let above = decidable.iter().find(|at| at.clearance > 1.0);
     below.into_iter().chain(above).filter_map(|at| across(analysis, at, effort).transpose()).collect()
 }
 
-/// Symmetry breaking always does; the Hopf boundary where the collision happens on the left branch,
-/// the saddle-node where it happens on the stable one.
-pub fn ends_steady_resonance(analysis: &Analysis, at: &BoundaryAt) -> bool {
-    let collides_stable =
-        analysis.boundaries.saddle_nodes.iter().any(|node| node.branch == Branch::Stable);
-    match at.kind {
-        BoundaryKind::SymmetryBreaking => true,
-        BoundaryKind::Hopf => !collides_stable,
-        BoundaryKind::SaddleNode => at.branch == Branch::Stable,
-    }
+/// Relative distance to either side of a boundary at which the theory is asked what it separates:
+/// close enough that no other boundary lies between, except exactly at P1.
+const EITHER_SIDE: f64 = 1e-4;
+
+/// Whether theory has a stable 1:1 motion on exactly one side of a clearance.
+pub fn ends_steady_resonance(system: &System, clearance: f64) -> bool {
+    let steady = |factor: f64| {
+        let there = system.with_clearance_scaled(clearance * factor).ok()?;
+        Some(Analysis::of(&there).ok()?.stable_points().next().is_some())
+    };
+    steady(1.0 - EITHER_SIDE) != steady(1.0 + EITHER_SIDE)
 }
 
 /// Simulates a little below and a little above a boundary, from the motion that the theory predicts
@@ -80,13 +82,13 @@ fn across(
     let sides = [1.0 - margin, 1.0 + margin]
         .map(|factor| analysis.system.with_clearance_scaled(at.clearance * factor).ok())
         .map(|system| system.and_then(|system| Analysis::of(&system).ok()));
-    let [Some(below), Some(above)] = &sides else { return Ok(None) };
+    let [Some(before), Some(beyond)] = &sides else { return Ok(None) };
     let (Some(below), Some(above)) =
-        (reached_regime(below, above, effort)?, reached_regime(above, below, effort)?)
+        (reached_regime(before, beyond, effort)?, reached_regime(beyond, before, effort)?)
     else {
         return Ok(None);
     };
-    let steady_above = at.kind == BoundaryKind::SymmetryBreaking;
+    let steady_above = beyond.stable_points().next().is_some();
     let words = |regime: Regime| regime.words().to_owned();
     let name = |steady: bool| if steady { "steady 1:1" } else { "not steady 1:1" };
     let holds = (below == Regime::TwoSymmetric) != steady_above

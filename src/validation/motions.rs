@@ -1,5 +1,6 @@
 //! Claims about the motions of the case itself.
 
+use super::boundaries::{BoundaryAt, clearances};
 use super::tolerance::{asymptotic, exact, outcome};
 use super::{Claim, Finding, Measure, Verdict};
 use crate::analysis::motion::{read_off, state_of, wrapped};
@@ -153,9 +154,26 @@ pub fn area(analysis: &Analysis, attractors: &[FoundAttractor]) -> Option<Claim>
         predicted: Finding::Words(predicted.into()),
         observed: Finding::Words(listed(attractors)),
         difference: None,
-        tolerance: outcome("regimes over all starts"),
+        tolerance: outcome(near_boundary(analysis)),
         verdict: if found.is_empty() { Verdict::Undecided } else { Verdict::of(holds) },
     })
+}
+
+/// An area is only as certain as the boundary next to it.
+fn near_boundary(analysis: &Analysis) -> String {
+    let error = asymptotic(&analysis.system).value;
+    let distance = |at: &BoundaryAt| (at.clearance - 1.0).abs();
+    let nearest = clearances(analysis).into_iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+    match nearest {
+        Some(at) if distance(&at) < error => format!(
+            "regimes over all starts; the {} boundary is {:.1} % away, within the theory's error of \
+             {:.1} %",
+            at.kind.words(),
+            100.0 * distance(&at),
+            100.0 * error
+        ),
+        _ => "regimes over all starts".into(),
+    }
 }
 
 fn listed(attractors: &[FoundAttractor]) -> String {
