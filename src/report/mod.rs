@@ -1,0 +1,3 @@
+//! The report: plain data, and the figures that go with it.
+
+pub mod figure;
