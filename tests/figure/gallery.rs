@@ -172,7 +172,7 @@ fn motion() -> Figure {
     };
     let impacts = (0..80)
         .map(|k| (f64::from(k) * 0.5 + 0.25 - 0.6 / (2.0 * PI)) / 8.3)
-        .filter(|t| *t > 0.0 && envelope(*t) > 1.7);
+        .filter(|t| *t > 0.0 && *t < 4.0 && envelope(*t) > 1.7);
     let impacts: Vec<MarkedPoint> = impacts
         .map(|t| MarkedPoint::new(t, w(t)).with_tooltip(format!("impact at {t:.3} s")))
         .collect();

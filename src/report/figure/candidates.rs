@@ -32,8 +32,8 @@ pub(super) struct Candidate {
 pub(super) enum Target {
     /// Lines; the words go beside one of them.
     Lines(Vec<Vec<[f64; 2]>>),
-    /// Points that are named together.
-    Dots(Vec<[f64; 2]>),
+    /// Points that are named together, with the radius of their markers.
+    Dots(Vec<[f64; 2]>, f64),
     /// An area; the words go into it.
     Area(Vec<[f64; 2]>),
     /// One point, with the radius of its marker.
@@ -50,9 +50,9 @@ pub(super) fn candidates(
 ) -> Vec<Candidate> {
     let mut all = match target {
         Target::Lines(lines) => along(lines, size),
-        Target::Dots(dots) => {
+        Target::Dots(dots, radius) => {
             let every = dots.len().div_ceil(60).max(1);
-            dots.iter().step_by(every).flat_map(|at| around(*at, 8.0, size)).collect()
+            dots.iter().step_by(every).flat_map(|at| around(*at, radius + 5.0, size)).collect()
         }
         Target::Area(area) => within(area, size),
         Target::Point(at, radius) => rings(*at, *radius, size),
@@ -69,7 +69,6 @@ pub(super) fn candidates(
 
 /// The words on one side of a point.
 fn beside(at: [f64; 2], side: [f64; 2], gap: f64, size: [f64; 2]) -> Candidate {
-    let gap = if side[0] != 0.0 && side[1] != 0.0 { 0.72 * gap } else { gap };
     let center = [at[0] + side[0] * (size[0] / 2.0 + gap), at[1] + side[1] * (size[1] / 2.0 + gap)];
     let anchor = if side[0] > 0.0 {
         Anchor::Start

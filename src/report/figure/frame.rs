@@ -1,14 +1,14 @@
 //! What the drawing library draws: background, grid, frame, ticks and the words of the axes.
 
 use plotters::coord::Shift;
-use plotters::element::{PathElement, Rectangle};
+use plotters::element::PathElement;
 use plotters::prelude::{DrawingArea, IntoDrawingArea, SVGBackend};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color, FontTransform, IntoFont, IntoTextStyle, RGBColor, WHITE};
 
 use super::data::Figure;
 use super::error::FigureError;
-use super::layout::{Frame, LINE, TICK, tick_width};
+use super::layout::{Frame, LINE, TICK};
 use super::text::{Anchor, FAMILY, LARGE, SMALL, Words, tenths};
 
 const GRID: RGBColor = RGBColor(0xE9, 0xE9, 0xE9);
@@ -75,8 +75,11 @@ fn lines<'a>(area: &Area<'a>, frame: &Frame) -> Result<(), Refused<'a>> {
         let y = up(mark.value);
         line(point(plot.left, y), point(plot.left - length(&mark.words), y), EDGE)?;
     }
-    let corners = [point(plot.left, plot.top), point(plot.right, plot.bottom)];
-    area.draw(&Rectangle::new(corners, EDGE.stroke_width(8)))
+    let [left, right] = [plot.left, plot.right];
+    let corners = [(left, plot.top), (right, plot.top), (right, plot.bottom), (left, plot.bottom)];
+    let around: Vec<(i32, i32)> =
+        corners.iter().chain(&corners[..2]).map(|(x, y)| point(*x, *y)).collect();
+    area.draw(&PathElement::new(around, EDGE.stroke_width(8)))
 }
 
 /// The words around a plot.
@@ -98,7 +101,7 @@ fn frame_words(frame: &Frame) -> Vec<Words> {
         let y = plot.bottom + TICK + SMALL + 6.0 + LINE * (i as f64 + 0.5);
         all.push(dark(Words::new(text.clone(), [cx, y], Anchor::Middle, LARGE)));
     }
-    let first = plot.left - TICK - tick_width(frame) - 4.0;
+    let first = plot.left - TICK - frame.tick_room - 4.0;
     for (i, text) in frame.y_label.iter().rev().enumerate() {
         let x = first - LINE * (i as f64 + 0.5);
         let words = Words::new(text.clone(), [x, cy], Anchor::Middle, LARGE);

@@ -6,7 +6,7 @@ use super::geometry::Rect;
 use super::layout::{Frame, label_of};
 use super::raster::{Raster, bit, words};
 use super::shapes::Shape;
-use super::text::{Anchor, SMALL, Words};
+use super::text::{Anchor, LARGE, SMALL, Words};
 
 /// White around every label, pixels.
 const AIR: f64 = 2.0;
@@ -167,7 +167,8 @@ fn requests(panel: &Panel, frame: &Frame, shapes: &[Shape]) -> Vec<Request> {
                 }
             }
             (Layer::Note { text, color, .. }, Shape::Place(at)) => {
-                all.push(fixed(words(text, color.text_hex()), Target::Place(*at)));
+                let words = Words { size: LARGE, ..words(text, color.text_hex()) };
+                all.push(fixed(words, Target::Place(*at)));
             }
             (Layer::ThisCase { .. }, Shape::Place(at)) => {
                 let words = Words { bold: true, ..words("this case", "#000000") };
@@ -177,7 +178,7 @@ fn requests(panel: &Panel, frame: &Frame, shapes: &[Shape]) -> Vec<Request> {
         }
         let named = frame.legend.iter().any(|(k, _)| *k == layer);
         let Some(label) = label_of(data).filter(|_| !named) else { continue };
-        let Some(target) = target(shape) else { continue };
+        let Some(target) = target(data, shape) else { continue };
         let near =
             label.near.map(|at| frame.map(at)).filter(|p| p[0].is_finite() && p[1].is_finite());
         let words = words(&label.text, color_of(data));
@@ -187,13 +188,14 @@ fn requests(panel: &Panel, frame: &Frame, shapes: &[Shape]) -> Vec<Request> {
 }
 
 /// What a layer's name can be put beside; nothing if nothing of it is visible.
-fn target(shape: &Shape) -> Option<Target> {
-    match shape {
-        Shape::Lines(lines) if !lines.is_empty() => Some(Target::Lines(lines.clone())),
-        Shape::Dots(dots) if !dots.is_empty() => {
-            Some(Target::Dots(dots.iter().map(|dot| dot.at).collect()))
+fn target(layer: &Layer, shape: &Shape) -> Option<Target> {
+    match (layer, shape) {
+        (_, Shape::Lines(lines)) if !lines.is_empty() => Some(Target::Lines(lines.clone())),
+        (Layer::Points { marker, .. }, Shape::Dots(dots)) if !dots.is_empty() => {
+            let places = dots.iter().map(|dot| dot.at).collect();
+            Some(Target::Dots(places, marker.diameter / 2.0))
         }
-        Shape::Area(area) if !area.is_empty() => Some(Target::Area(area.clone())),
+        (_, Shape::Area(area)) if !area.is_empty() => Some(Target::Area(area.clone())),
         _ => None,
     }
 }

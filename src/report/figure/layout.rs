@@ -13,9 +13,11 @@ pub(super) const TICK: f64 = 8.0;
 pub(super) const LINE: f64 = 16.0;
 /// Height of a row of the legend, pixels.
 pub(super) const LEGEND: f64 = 18.0;
-/// Width of a legend's sample of line, and with the gap to its words, pixels.
-pub(super) const SWATCH: f64 = 28.0;
-const SWATCH_AND_GAP: f64 = 34.0;
+/// Width of a legend's sample of line or marker, pixels.
+const SWATCH: f64 = 28.0;
+const MARKER: f64 = 10.0;
+/// From the sample to its words, pixels.
+pub(super) const GAP: f64 = 6.0;
 /// Between two entries of a legend, pixels.
 const BETWEEN: f64 = 18.0;
 /// The least plot, pixels.
@@ -34,6 +36,8 @@ pub(super) struct Frame {
     pub x_label: Vec<String>,
     pub y_label: Vec<String>,
     pub heading: Option<String>,
+    /// Room for the words of the vertical ticks, the same for all panels of a column, pixels.
+    pub tick_room: f64,
     /// Layers and the left middle of their legend entries, relative to the plot's top left.
     pub legend: Vec<(usize, [f64; 2])>,
 }
@@ -152,8 +156,21 @@ pub(super) fn lay_out(figure: &Figure, legends: &[Vec<usize>]) -> Result<Vec<Fra
             let plot = if figure.panels[i].equal_aspect { equal(plot, &spans[i]) } else { plot };
             frames[i] = dress(&figure.panels[i], plot, spans[i], lowest(i), &legends[i]);
         }
+        align(&grid, &mut frames);
     }
     Ok(frames)
+}
+
+/// Gives the vertical axes of a column their words at the same distance.
+fn align(grid: &Grid, frames: &mut [Frame]) {
+    for column in 0..grid.widths.len() {
+        let of = |i: &usize| grid.cells[*i].column == column;
+        let members: Vec<usize> = (0..frames.len()).filter(of).collect();
+        let room = members.iter().map(|&i| frames[i].tick_room).fold(0.0, f64::max);
+        for i in members {
+            frames[i].tick_room = room;
+        }
+    }
 }
 
 /// The plot, made smaller so that one unit is equally long on both axes.
@@ -169,13 +186,15 @@ fn equal(plot: Rect, spans: &Spans) -> Rect {
 
 /// Ticks and words for a plot.
 fn dress(panel: &Panel, plot: Rect, spans: Spans, x_words: bool, legend: &[usize]) -> Frame {
+    let y_ticks = fitting(&panel.y, &spans.y, plot.height(), plot.height() / 40.0, true);
     Frame {
         x_ticks: fitting(&panel.x, &spans.x, plot.width(), plot.width() / 68.0, false),
-        y_ticks: fitting(&panel.y, &spans.y, plot.height(), plot.height() / 44.0, true),
         x_label: wrap(&panel.x.label, LARGE, plot.width() + 40.0),
         y_label: wrap(&panel.y.label, LARGE, plot.height() + 8.0),
         heading: panel.heading.clone(),
+        tick_room: y_ticks.iter().map(|m| width(&m.words, SMALL)).fold(0.0, f64::max),
         legend: legend_places(panel, legend, plot.width()),
+        y_ticks,
         plot,
         spans,
         x_words,
@@ -200,26 +219,23 @@ fn fitting(axis: &Axis, span: &Span, length: f64, most: f64, ordinate: bool) -> 
         }
         return marks;
     }
-    let mut most = most.max(2.0).floor();
-    loop {
-        let marks = ticks(span.scale, span.first, span.last, most);
+    // Not so few that they say nothing, not so many that their words touch.
+    let named = |marks: &[Mark]| marks.iter().filter(|m| !m.words.is_empty()).count();
+    let apart = |marks: &[Mark]| {
         let named: Vec<&Mark> = marks.iter().filter(|m| !m.words.is_empty()).collect();
-        if most <= 1.0 || named.windows(2).all(|pair| free(pair[0], pair[1])) {
-            return marks;
-        }
-        most -= 1.0;
-    }
-}
-
-/// The width that the words of the vertical ticks take.
-pub(super) fn tick_width(frame: &Frame) -> f64 {
-    frame.y_ticks.iter().map(|m| width(&m.words, SMALL)).fold(0.0, f64::max)
+        named.windows(2).all(|pair| free(pair[0], pair[1]))
+    };
+    let most = most.max(2.0).floor() as usize;
+    let tries = || (1..=most + 6).map(|n| ticks(span.scale, span.first, span.last, n as f64));
+    let fits: Vec<Vec<Mark>> = tries().filter(|marks| apart(marks)).collect();
+    let enough = fits.iter().rev().find(|marks| named(marks) <= most.max(3));
+    enough.or(fits.first()).cloned().unwrap_or_default()
 }
 
 /// Left, top, right and bottom margins of a panel.
 fn margins(frame: &Frame) -> [f64; 4] {
     let labels = frame.y_label.len() as f64 * LINE;
-    let left = 6.0 + labels + 4.0 + tick_width(frame) + TICK;
+    let left = 6.0 + labels + 4.0 + frame.tick_room + TICK;
     let overhang = |m: &Mark| {
         let outside = (1.0 - frame.spans.x.part(m.value)) * frame.plot.width();
         width(&m.words, SMALL) / 2.0 - outside
@@ -291,7 +307,7 @@ fn legend_places(panel: &Panel, legend: &[usize], room: f64) -> Vec<(usize, [f64
     let (mut x, mut row, mut places) = (0.0, 0, Vec::new());
     for &layer in legend {
         let Some(label) = label_of(&panel.layers[layer]) else { continue };
-        let size = SWATCH_AND_GAP + text::width(&label.text, SMALL);
+        let size = swatch(&panel.layers[layer]) + GAP + text::width(&label.text, SMALL);
         if x > 0.0 && x + size > room {
             (x, row) = (0.0, row + 1);
         }
@@ -304,7 +320,7 @@ fn legend_places(panel: &Panel, legend: &[usize], room: f64) -> Vec<(usize, [f64
     places
 }
 
-/// From the left end of a legend entry to its words, pixels.
-pub(super) const fn legend_gap() -> f64 {
-    SWATCH_AND_GAP
+/// The width of a layer's sample in the legend, pixels.
+pub(super) const fn swatch(layer: &Layer) -> f64 {
+    if matches!(layer, Layer::Points { .. }) { MARKER } else { SWATCH }
 }

@@ -32,6 +32,14 @@ pub(super) fn paint(marker: Marker, color: Color) -> String {
     }
 }
 
+/// White below all dots of a layer, so that they stand out from the line they lie on; clouds of
+/// small dots go without.
+pub(super) fn underlay(marker: Marker) -> Option<String> {
+    let white = Marker { diameter: marker.diameter + 2.0, ..marker };
+    (is_dot(marker) && marker.diameter > 4.0)
+        .then(|| paint(white, Color::Black).replace(Color::Black.hex(), "#FFFFFF"))
+}
+
 /// A marker as path data.
 pub(super) fn outline(marker: Marker, at: [f64; 2]) -> String {
     let [x, y] = at.map(tenths);

@@ -139,6 +139,9 @@ fn points_of(svg: &mut String, points: &[MarkedPoint], dots: &[Dot], marker: Mar
         .collect();
     let paint = markers::paint(marker, color);
     if !silent.is_empty() {
+        if let Some(below) = markers::underlay(marker) {
+            let _ = writeln!(svg, "<path d=\"{silent}\" {below}/>");
+        }
         let _ = writeln!(svg, "<path d=\"{silent}\" {paint}/>");
     }
     let telling = || dots.iter().filter(|dot| points[dot.index].tooltip.is_some());

@@ -7,7 +7,7 @@ use super::error::FigureError;
 use super::frame;
 use super::geometry::Rect;
 use super::labels::{Labels, color_of, place};
-use super::layout::{Frame, SWATCH, label_of, lay_out, legend_gap};
+use super::layout::{Frame, GAP, label_of, lay_out, swatch};
 use super::markers;
 use super::paint;
 use super::shapes::{Shape, shapes};
@@ -147,24 +147,25 @@ fn head(figure: &Figure) -> String {
 /// A sample of a layer and its name.
 fn entry(svg: &mut String, layer: &Layer, at: [f64; 2]) -> Option<Words> {
     let label = label_of(layer)?;
-    let middle = [at[0] + SWATCH / 2.0, at[1]];
+    let width = swatch(layer);
+    let middle = [at[0] + width / 2.0, at[1]];
     match layer {
         Layer::Points { marker, color, .. } => {
             let (d, paint) = (markers::outline(*marker, middle), markers::paint(*marker, *color));
             let _ = writeln!(svg, "<path d=\"{d}\" {paint}/>");
         }
         Layer::Band { .. } => {
-            let [left, right] = [at[0] + 3.0, at[0] + SWATCH - 3.0];
+            let [left, right] = [at[0] + 3.0, at[0] + width - 3.0];
             let [top, bottom] = [at[1] - 6.0, at[1] + 6.0];
             let corners = vec![[left, top], [right, top], [right, bottom], [left, bottom]];
             paint::layer(svg, layer, &Shape::Area(corners));
         }
         _ => {
-            let line = vec![at, [at[0] + SWATCH, at[1]]];
+            let line = vec![at, [at[0] + width, at[1]]];
             paint::layer(svg, layer, &Shape::Lines(vec![line]));
         }
     }
-    let at = [at[0] + legend_gap(), at[1]];
+    let at = [at[0] + width + GAP, at[1]];
     let color = color_of(layer);
     let words = Words { color, ..Words::new(label.text.clone(), at, Anchor::Start, SMALL) };
     words.write(svg);

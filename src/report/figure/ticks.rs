@@ -52,14 +52,16 @@ fn decadic(first: f64, last: f64, most: f64) -> Vec<Mark> {
         2 if most >= 8.0 => &[1, 2, 5],
         _ => &[1],
     };
+    let digits = from >= -3 && to <= 4;
     let mut marks = Vec::new();
     for exponent in from..=to {
         for digit in 1..=9_u32 {
             let value = f64::from(digit) * libm::pow(10.0, f64::from(exponent));
             let inside = value >= first * (1.0 - 1e-9) && value <= last * (1.0 + 1e-9);
             let words = named.contains(&digit) && exponent.rem_euclid(every) == 0;
-            if inside && (words || (every == 1 && to - from <= 6)) {
-                let words = if words { power(digit, exponent) } else { String::new() };
+            let minor = digit == 1 || (every == 1 && to - from <= 6);
+            if inside && (words || minor) {
+                let words = if words { power(digit, exponent, digits) } else { String::new() };
                 marks.push(Mark { value, words });
             }
         }
@@ -67,11 +69,11 @@ fn decadic(first: f64, last: f64, most: f64) -> Vec<Mark> {
     marks
 }
 
-/// A digit times a power of ten, in plain digits where these are few.
-fn power(digit: u32, exponent: i32) -> String {
+/// A digit times a power of ten, in plain digits where all of an axis are short.
+fn power(digit: u32, exponent: i32, digits: bool) -> String {
     match exponent {
-        0..=4 => format!("{digit}{}", "0".repeat(exponent as usize)),
-        -3..=-1 => format!("0.{}{digit}", "0".repeat((-exponent - 1) as usize)),
+        0.. if digits => format!("{digit}{}", "0".repeat(exponent as usize)),
+        _ if digits => format!("0.{}{digit}", "0".repeat((-exponent - 1) as usize)),
         _ if digit == 1 => format!("10{}", raised(exponent)),
         _ => format!("{digit}×10{}", raised(exponent)),
     }
@@ -80,8 +82,8 @@ fn power(digit: u32, exponent: i32) -> String {
 /// The words for values that are multiples of a step: same number of decimals for all, as few as
 /// tell them apart; powers of ten where plain digits would be many.
 pub(super) fn labels(values: &[f64], step: f64) -> Vec<String> {
-    let largest = values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-    if largest >= 1e5 || (largest < 1e-3 && largest > 0.0) {
+    let largest = values.iter().fold(step, |m, v| m.max(v.abs()));
+    if !(1e-3..1e5).contains(&largest) {
         let exponent = libm::floor(libm::log10(largest) + 1e-12) as i32;
         let unit = libm::pow(10.0, f64::from(exponent));
         let places = decimals(step / unit);
