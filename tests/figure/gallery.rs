@@ -105,7 +105,10 @@ fn boundaries() -> Figure {
         Axis::linear("excitation frequency f (Hz)").with_range(7.4, 9.4),
         Axis::linear("clearance b (mm)").with_range(0.0, 50.0),
     )
-    .with(strip(7.4, 8.3036, Fill::hatched(Color::Orange, Hatch::Rising)).labelled("A1"))
+    .with(
+        strip(7.4, 8.3036, Fill::hatched(Color::Orange, Hatch::Rising))
+            .labelled(Label::near("A1", [8.1, 31.0])),
+    )
     .with(strip(8.3036, 9.4, Fill::hatched(Color::SkyBlue, Hatch::Falling)).labelled("A2"))
     .with(
         Layer::curve(Role::SymmetryBreaking, sampled(7.4, 9.4, 400, broken))

@@ -108,8 +108,7 @@ fn frame_words(frame: &Frame) -> Vec<Words> {
         all.push(dark(Words { upright: true, ..words }));
     }
     if let Some(heading) = &frame.heading {
-        let rows = frame.legend.iter().map(|(_, at)| -at[1]).fold(0.0, f64::max);
-        let y = plot.top - rows - LINE / 2.0 - 6.0;
+        let y = plot.top - frame.legend_room - LINE / 2.0 - 4.0;
         let words = Words::new(heading.clone(), [plot.left, y], Anchor::Start, LARGE);
         all.push(dark(Words { bold: true, ..words }));
     }

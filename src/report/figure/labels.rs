@@ -12,6 +12,8 @@ use super::text::{Anchor, LARGE, SMALL, Words};
 const AIR: f64 = 2.0;
 /// Other data this near to a label make it ambiguous, pixels.
 const AMBIGUOUS: f64 = 10.0;
+/// Within this distance of a line's label, other lines must be less than half of its own, pixels.
+const CLOSEST: f64 = 7.0;
 /// From labels to the plot's edge, pixels.
 const INSET: f64 = 3.0;
 /// The radius of the mark for the case at hand, pixels.
@@ -43,7 +45,7 @@ pub(super) fn place(panel: &Panel, frame: &Frame, shapes: &[Shape]) -> Labels {
     let mut open: Vec<(Request, Vec<Candidate>)> = requests(panel, frame, shapes)
         .into_iter()
         .map(|request| {
-            let found = free(&request, frame, &raster);
+            let found = free(&request, panel, frame, &raster);
             (request, found)
         })
         .collect();
@@ -91,12 +93,19 @@ fn settle(request: &Request, place: &Candidate, raster: &mut Raster, labels: &mu
 }
 
 /// The places on free ground, best first.
-fn free(request: &Request, frame: &Frame, raster: &Raster) -> Vec<Candidate> {
+fn free(request: &Request, panel: &Panel, frame: &Frame, raster: &Raster) -> Vec<Candidate> {
     let inside = frame.plot.grown(-INSET);
     let own = bit(request.layer);
+    let lines = lines_of(panel);
+    let clear = |c: &Candidate| {
+        let near = c.room.grown(CLOSEST);
+        let line = matches!(request.target, Target::Lines(_));
+        !line || 2 * raster.count(&near, lines & !own) <= raster.count(&near, own)
+    };
     let mut found: Vec<Candidate> = all_candidates(request)
         .into_iter()
         .filter(|c| inside.contains(&c.room) && !raster.any(&c.room.grown(AIR), u64::MAX))
+        .filter(clear)
         .map(|c| {
             let near = c.room.grown(AMBIGUOUS);
             let (others, own) = (raster.count(&near, !own), raster.count(&near, own));
@@ -106,6 +115,13 @@ fn free(request: &Request, frame: &Frame, raster: &Raster) -> Vec<Candidate> {
         .collect();
     found.sort_by(|a, b| a.penalty.total_cmp(&b.penalty));
     found
+}
+
+/// The bits of all lines.
+fn lines_of(panel: &Panel) -> u64 {
+    let line = |l: &Layer| matches!(l, Layer::Curve { .. } | Layer::Rule { .. });
+    let layers = panel.layers.iter().enumerate().filter(|(_, layer)| line(layer));
+    layers.fold(0, |bits, (index, _)| bits | bit(index))
 }
 
 fn all_candidates(request: &Request) -> Vec<Candidate> {

@@ -38,6 +38,8 @@ pub(super) struct Frame {
     pub heading: Option<String>,
     /// Room for the words of the vertical ticks, the same for all panels of a column, pixels.
     pub tick_room: f64,
+    /// Room for legends below the headings, the same for all panels of a row, pixels.
+    pub legend_room: f64,
     /// Layers and the left middle of their legend entries, relative to the plot's top left.
     pub legend: Vec<(usize, [f64; 2])>,
 }
@@ -161,7 +163,8 @@ pub(super) fn lay_out(figure: &Figure, legends: &[Vec<usize>]) -> Result<Vec<Fra
     Ok(frames)
 }
 
-/// Gives the vertical axes of a column their words at the same distance.
+/// Gives the vertical axes of a column their words at the same distance, and the panels of a row
+/// their headings at the same height.
 fn align(grid: &Grid, frames: &mut [Frame]) {
     for column in 0..grid.widths.len() {
         let of = |i: &usize| grid.cells[*i].column == column;
@@ -169,6 +172,14 @@ fn align(grid: &Grid, frames: &mut [Frame]) {
         let room = members.iter().map(|&i| frames[i].tick_room).fold(0.0, f64::max);
         for i in members {
             frames[i].tick_room = room;
+        }
+    }
+    for row in 0..grid.heights.len() {
+        let of = |i: &usize| grid.cells[*i].row == row;
+        let members: Vec<usize> = (0..frames.len()).filter(of).collect();
+        let room = members.iter().map(|&i| frames[i].legend_room).fold(0.0, f64::max);
+        for i in members {
+            frames[i].legend_room = room;
         }
     }
 }
@@ -187,13 +198,15 @@ fn equal(plot: Rect, spans: &Spans) -> Rect {
 /// Ticks and words for a plot.
 fn dress(panel: &Panel, plot: Rect, spans: Spans, x_words: bool, legend: &[usize]) -> Frame {
     let y_ticks = fitting(&panel.y, &spans.y, plot.height(), plot.height() / 40.0, true);
+    let places = legend_places(panel, legend, plot.width());
     Frame {
         x_ticks: fitting(&panel.x, &spans.x, plot.width(), plot.width() / 68.0, false),
         x_label: wrap(&panel.x.label, LARGE, plot.width() + 40.0),
         y_label: wrap(&panel.y.label, LARGE, plot.height() + 8.0),
         heading: panel.heading.clone(),
         tick_room: y_ticks.iter().map(|m| width(&m.words, SMALL)).fold(0.0, f64::max),
-        legend: legend_places(panel, legend, plot.width()),
+        legend_room: legend_room(&places),
+        legend: places,
         y_ticks,
         plot,
         spans,
@@ -228,8 +241,9 @@ fn fitting(axis: &Axis, span: &Span, length: f64, most: f64, ordinate: bool) -> 
     let most = most.max(2.0).floor() as usize;
     let tries = || (1..=most + 6).map(|n| ticks(span.scale, span.first, span.last, n as f64));
     let fits: Vec<Vec<Mark>> = tries().filter(|marks| apart(marks)).collect();
-    let enough = fits.iter().rev().find(|marks| named(marks) <= most.max(3));
-    enough.or(fits.first()).cloned().unwrap_or_default()
+    let wanted = fits.iter().rev().find(|marks| (3..=most.max(3)).contains(&named(marks)));
+    let enough = || fits.iter().find(|marks| named(marks) >= 3);
+    wanted.or_else(enough).or(fits.last()).cloned().unwrap_or_default()
 }
 
 /// Left, top, right and bottom margins of a panel.
@@ -241,9 +255,8 @@ fn margins(frame: &Frame) -> [f64; 4] {
         width(&m.words, SMALL) / 2.0 - outside
     };
     let right = 4.0 + frame.x_ticks.iter().map(overhang).fold(10.0, f64::max);
-    let rows = frame.legend.iter().map(|(_, at)| (-at[1] / LEGEND).round()).fold(0.0, f64::max);
     let heading = if frame.heading.is_some() { LINE + 4.0 } else { 0.0 };
-    let top = 11.0 + heading + rows * LEGEND;
+    let top = 11.0 + heading + frame.legend_room;
     let bottom = if frame.x_words {
         TICK + SMALL + 6.0 + frame.x_label.len() as f64 * LINE + 4.0
     } else {
@@ -318,6 +331,11 @@ fn legend_places(panel: &Panel, legend: &[usize], room: f64) -> Vec<(usize, [f64
         at[1] = -(f64::from(row) - at[1] + 1.0) * LEGEND + 0.3 * LEGEND;
     }
     places
+}
+
+/// The height that rows of legend entries take.
+fn legend_room(places: &[(usize, [f64; 2])]) -> f64 {
+    places.iter().map(|(_, at)| 0.3 * LEGEND - at[1]).fold(0.0, f64::max)
 }
 
 /// The width of a layer's sample in the legend, pixels.

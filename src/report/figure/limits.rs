@@ -12,6 +12,8 @@ const OUTLYING: f64 = 0.01;
 const FAR: f64 = 2.0;
 /// Values beyond this size are taken as not drawable; pixels are computed without overflow below.
 const HUGE: f64 = 1e150;
+/// Places further outside a panel than this many times its size are drawn there.
+const FAR_OFF: f64 = 1e9;
 
 /// What an axis shows, proven valid.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,11 +29,12 @@ impl Span {
         if value.is_nan() || value.abs() > HUGE {
             return f64::NAN;
         }
-        match self.scale {
+        let part = match self.scale {
             Scale::Linear => (value - self.first) / (self.last - self.first),
             Scale::Log if value <= 0.0 => f64::NAN,
             Scale::Log => libm::log(value / self.first) / libm::log(self.last / self.first),
-        }
+        };
+        part.clamp(-FAR_OFF, FAR_OFF)
     }
 
     fn joined(self, other: Self) -> Self {
@@ -68,7 +71,7 @@ pub(super) fn spans(figure: &Figure, shared: &[Vec<usize>]) -> Result<Vec<Spans>
 fn resolve(name: &str, panel: &Panel, axis: &Axis, index: usize) -> Result<Span, FigureError> {
     let scale = axis.scale;
     if let Some((first, last)) = axis.range {
-        let positive = scale == Scale::Linear || first > 0.0;
+        let positive = scale == Scale::Linear || first >= 1.0 / HUGE;
         let wide = (last - first) / first.abs().max(last.abs()) > 1e-12;
         if !(first < last && last - first < HUGE && positive && wide) {
             let (name, axis) = (name.to_owned(), axis.label.clone());
@@ -77,7 +80,7 @@ fn resolve(name: &str, panel: &Panel, axis: &Axis, index: usize) -> Result<Span,
         return Ok(Span { first, last, scale });
     }
     let data = collect(panel, index);
-    let usable = |v: &f64| v.abs() <= HUGE && (scale == Scale::Linear || *v > 0.0);
+    let usable = |v: &f64| v.abs() <= HUGE && (scale == Scale::Linear || *v >= 1.0 / HUGE);
     let to_scale = |v: f64| if scale == Scale::Log { libm::log10(v) } else { v };
     let keep = |values: &[f64]| values.iter().copied().filter(usable).map(to_scale).collect();
     let (lines, marks, must): (Vec<f64>, Vec<f64>, Vec<f64>) =

@@ -35,7 +35,7 @@ pub(super) fn paint(marker: Marker, color: Color) -> String {
 /// White below all dots of a layer, so that they stand out from the line they lie on; clouds of
 /// small dots go without.
 pub(super) fn underlay(marker: Marker) -> Option<String> {
-    let white = Marker { diameter: marker.diameter + 2.0, ..marker };
+    let white = Marker { diameter: marker.diameter + 1.2, ..marker };
     (is_dot(marker) && marker.diameter > 4.0)
         .then(|| paint(white, Color::Black).replace(Color::Black.hex(), "#FFFFFF"))
 }

@@ -76,7 +76,7 @@ pub(super) struct Words {
 
 impl Words {
     pub(super) fn new(text: impl Into<String>, at: [f64; 2], anchor: Anchor, size: f64) -> Self {
-        let (text, color) = (text.into(), "#333333");
+        let (text, color) = (legal(&text.into()), "#333333");
         Self { text, at, anchor, size, color, bold: false, upright: false, halo: false }
     }
 
@@ -123,21 +123,23 @@ pub(super) fn tenths(pixels: f64) -> i32 {
     (pixels * 10.0).round() as i32
 }
 
-/// Text as XML has it. Characters that XML forbids become U+FFFD.
+/// Text with nothing in it that XML forbids; such characters become U+FFFD.
+pub(super) fn legal(text: &str) -> String {
+    let replaced = |c: char| match c {
+        '\n' | '\t' => ' ',
+        c if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => '\u{fffd}',
+        c => c,
+    };
+    text.chars().map(replaced).collect()
+}
+
+/// Text as XML has it.
 pub(super) fn escape(text: &str) -> String {
-    let mut escaped = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '<' => escaped.push_str("&lt;"),
-            '>' => escaped.push_str("&gt;"),
-            '&' => escaped.push_str("&amp;"),
-            '"' => escaped.push_str("&quot;"),
-            '\n' | '\t' => escaped.push(' '),
-            c if c.is_control() || c == '\u{fffe}' || c == '\u{ffff}' => escaped.push('\u{fffd}'),
-            c => escaped.push(c),
-        }
-    }
-    escaped
+    legal(text)
+        .replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
+        .replace('"', "&quot;")
 }
 
 /// Breaks words at spaces so that no line is wider than `limit` where that is possible; lines are
