@@ -3,7 +3,8 @@
 use std::f64::consts::PI;
 
 use vinesink::report::figure::{
-    Axis, Color, Figure, Fill, Hatch, Label, Layer, Layout, MarkedPoint, Panel, Role, Rule, Style,
+    Axis, Color, Figure, Fill, Hatch, Label, Layer, Layout, MarkedPoint, Marker, Panel, Role, Rule,
+    Style,
 };
 
 /// All figures of the gallery.
@@ -215,7 +216,7 @@ fn motion() -> Figure {
 fn return_map() -> Figure {
     let point = |i: usize| {
         let (x, y) = (0.5 + 0.42 * noise(i), 0.5 + 0.3 * noise(7 * i + 3));
-        if i % 3 == 0 {
+        if i.is_multiple_of(3) {
             [x, 1.0 - x + 0.03 * noise(i + 11)]
         } else if i % 3 == 1 {
             [x, x + 0.04 * y]
@@ -232,7 +233,7 @@ fn return_map() -> Figure {
         .with(Layer::rule(Rule::Horizontal(1.0), line).labelled("L3"))
         .with(sloped([0.0, 0.0], 1.0).labelled(Label::near("L4", [1.2, 1.2])))
         .with(
-            Layer::points(Role::Simulation, (0..400).map(point))
+            Layer::marked(Marker::dot(), Role::Simulation.color(), (0..400).map(point))
                 .labelled("simulated pairs of impacts"),
         )
         .with_equal_aspect();

@@ -78,7 +78,7 @@ fn lines<'a>(area: &Area<'a>, frame: &Frame) -> Result<(), Refused<'a>> {
     let [left, right] = [plot.left, plot.right];
     let corners = [(left, plot.top), (right, plot.top), (right, plot.bottom), (left, plot.bottom)];
     let around: Vec<(i32, i32)> =
-        corners.iter().chain(&corners[..2]).map(|(x, y)| point(*x, *y)).collect();
+        corners.iter().chain(&corners[..1]).map(|(x, y)| point(*x, *y)).collect();
     area.draw(&PathElement::new(around, EDGE.stroke_width(8)))
 }
 
@@ -88,7 +88,7 @@ fn frame_words(frame: &Frame) -> Vec<Words> {
     let mut all = Vec::new();
     for mark in frame.x_ticks.iter().filter(|m| frame.x_words && !m.words.is_empty()) {
         let x = frame.map([mark.value, frame.spans.y.first])[0];
-        let at = [x, plot.bottom + TICK + SMALL / 2.0 - 1.0];
+        let at = [x, plot.bottom + TICK + SMALL / 2.0 + 0.5];
         all.push(Words::new(mark.words.clone(), at, Anchor::Middle, SMALL));
     }
     for mark in frame.y_ticks.iter().filter(|m| !m.words.is_empty()) {

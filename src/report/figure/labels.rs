@@ -1,8 +1,9 @@
 //! Names beside the data, so that nothing covers anything.
 
 use super::candidates::{Candidate, Target, candidates};
-use super::data::{Layer, Panel};
+use super::data::Panel;
 use super::geometry::Rect;
+use super::layers::Layer;
 use super::layout::{Frame, label_of};
 use super::raster::{Raster, bit, words};
 use super::shapes::Shape;

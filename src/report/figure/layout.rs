@@ -1,18 +1,19 @@
 //! Where the panels are: margins adapt to the words, so that nothing is cut.
 
-use super::data::{Axis, Cell, Figure, Layer, Layout, Panel, Scale};
+use super::data::{Axis, Cell, Figure, Layout, Panel, Scale};
 use super::error::FigureError;
 use super::geometry::Rect;
+use super::layers::Layer;
 use super::limits::{Span, Spans, spans};
 use super::text::{self, LARGE, SMALL, width, wrap};
 use super::ticks::{Mark, shortest, ticks};
 
 /// From the plot to the nearest tick label, pixels.
-pub(super) const TICK: f64 = 8.0;
+pub(super) const TICK: f64 = 9.0;
 /// From one line of words to the next, pixels.
-pub(super) const LINE: f64 = 16.0;
+pub(super) const LINE: f64 = 18.0;
 /// Height of a row of the legend, pixels.
-pub(super) const LEGEND: f64 = 18.0;
+pub(super) const LEGEND: f64 = 20.0;
 /// Width of a legend's sample of line or marker, pixels.
 const SWATCH: f64 = 28.0;
 const MARKER: f64 = 10.0;
@@ -305,7 +306,7 @@ fn tracks(before: &[f64], weights: &[f64], after: &[f64], total: f64) -> Vec<(f6
 }
 
 /// The words of a layer's label.
-pub(super) fn label_of(layer: &Layer) -> Option<&super::data::Label> {
+pub(super) fn label_of(layer: &Layer) -> Option<&super::layers::Label> {
     match layer {
         Layer::Curve { label, .. }
         | Layer::Points { label, .. }

@@ -1,7 +1,8 @@
 //! Which part of each axis a panel shows.
 
-use super::data::{Axis, Figure, Layer, Panel, Rule, Scale};
+use super::data::{Axis, Figure, Panel, Scale};
 use super::error::FigureError;
+use super::layers::{Layer, Rule};
 use super::ticks::round_step;
 
 /// The margin beside the data, as a part of their span.
@@ -128,7 +129,7 @@ fn collect(panel: &Panel, index: usize) -> Coordinates {
     }
     let axis = if index == 0 { &panel.x } else { &panel.y };
     let values = || all.lines.iter().chain(&all.marks).chain(&all.must);
-    let floor = axis.scale == Scale::Linear && values().all(|v| !(*v < 0.0));
+    let floor = axis.scale == Scale::Linear && !values().any(|v| *v < 0.0);
     Coordinates { floor, ..all }
 }
 
@@ -140,7 +141,7 @@ fn extent(lines: &[f64], marks: &[f64], must: &[f64], ordinate: bool, floor: boo
     for v in must {
         (low, high) = (low.min(*v), high.max(*v));
     }
-    if !(low <= high) {
+    if low > high {
         (low, high) = (0.0, 1.0);
     }
     let size = low.abs().max(high.abs());

@@ -16,6 +16,7 @@ mod error;
 mod frame;
 mod geometry;
 mod labels;
+mod layers;
 mod layout;
 mod limits;
 mod markers;
@@ -28,10 +29,9 @@ mod simplify;
 mod text;
 mod ticks;
 
-pub use data::{
-    Axis, Cell, Figure, Fill, Hatch, Label, Layer, Layout, MarkedPoint, Panel, Rule, Scale, Tick,
-};
+pub use data::{Axis, Cell, Figure, Layout, Panel, Scale, Tick};
 pub use error::FigureError;
 pub use geometry::Rect;
+pub use layers::{Fill, Hatch, Label, Layer, MarkedPoint, Rule};
 pub use palette::{Color, Dash, Marker, Role, Shape, Style};
 pub use render::{Drawing, LIMIT, PlacedText, draw, render};

@@ -2,9 +2,9 @@
 
 use std::fmt::Write;
 
-use super::data::{Fill, Hatch, Layer, MarkedPoint};
 use super::geometry::in_polygon;
 use super::labels::STAR;
+use super::layers::{Fill, Hatch, Layer, MarkedPoint};
 use super::markers;
 use super::palette::{Color, Marker, Style};
 use super::shapes::{Dot, Shape};

@@ -233,7 +233,7 @@ impl Role {
     #[must_use]
     pub const fn marker(self) -> Marker {
         match self {
-            Self::Simulation => Marker::dot().sized(4.6),
+            Self::Simulation => Marker::dot().sized(5.4),
             Self::ExactOrbit | Self::Hopf => Marker::hollow(Shape::Circle),
             Self::SaddleNode => Marker::filled(Shape::Cross),
             Self::SymmetryBreaking => Marker::hollow(Shape::Triangle),

@@ -2,11 +2,12 @@
 
 use std::fmt::Write;
 
-use super::data::{Figure, Layer};
+use super::data::Figure;
 use super::error::FigureError;
 use super::frame;
 use super::geometry::Rect;
 use super::labels::{Labels, color_of, place};
+use super::layers::Layer;
 use super::layout::{Frame, GAP, label_of, lay_out, swatch};
 use super::markers;
 use super::paint;

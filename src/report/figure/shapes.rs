@@ -1,7 +1,8 @@
 //! Layers in pixels: cut at the plot and reduced to what can be seen.
 
-use super::data::{Layer, MarkedPoint, Panel, Rule};
+use super::data::Panel;
 use super::geometry::{Rect, clip_polygon, clip_polyline};
+use super::layers::{Layer, MarkedPoint, Rule};
 use super::layout::Frame;
 use super::simplify::{merge, simplify};
 

@@ -7,9 +7,9 @@ use super::geometry::Rect;
 /// The fonts asked for; all have close to Helvetica's widths but for the generic one at the end.
 pub(super) const FAMILY: &str = "Helvetica, Arial, Liberation Sans, sans-serif";
 /// Tick labels, direct labels and legends, pixels.
-pub(super) const SMALL: f64 = 12.0;
+pub(super) const SMALL: f64 = 14.0;
 /// Axis labels and headings, pixels.
-pub(super) const LARGE: f64 = 13.0;
+pub(super) const LARGE: f64 = 15.0;
 /// Widths are multiplied by this, for the fonts that run wider than Helvetica.
 const CAUTION: f64 = 1.1;
 
