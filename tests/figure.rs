@@ -206,10 +206,14 @@ fn an_outlier_does_not_decide_the_limits_but_the_case_at_hand_does() {
         layers.extend(extra);
         draw(&simple(layers)).unwrap()
     };
-    assert!(has_text(&with(None), "0.8"));
+    let near = with(None);
+    assert!(!has_text(&near, "10000"), "{:?}", near.texts);
     let far = with(Some(Layer::this_case([0.5, 1e4], None)));
-    assert!(!has_text(&far, "0.8") || has_text(&far, "10000"), "{:?}", far.texts);
+    assert!(has_text(&far, "10000"), "{:?}", far.texts);
     assert!(has_text(&far, "this case"));
+    let named = MarkedPoint::new(0.5, 1e4).with_label("fold");
+    let far = with(Some(Layer::points(Role::Stable, [named])));
+    assert!(has_text(&far, "10000") && has_text(&far, "fold"), "{:?}", far.texts);
 }
 
 #[test]
