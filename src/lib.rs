@@ -7,6 +7,7 @@ pub mod case;
 pub mod equations;
 pub mod numerics;
 pub mod regimes;
+pub mod report;
 pub mod simulation;
 pub mod store;
 pub mod study;

@@ -1,0 +1,210 @@
+//! What a figure is: plain data, in the units of its axes.
+
+use serde::Serialize;
+
+use super::layers::Layer;
+
+/// A figure: one or more panels, and the words that go with them.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Figure {
+    /// The file's stem.
+    pub name: String,
+    /// The accessible title, first child of the SVG; it is not drawn.
+    pub title: String,
+    /// What to see, for print below the figure; it is not drawn.
+    pub caption: String,
+    /// What to see, for those who cannot see the figure; it is not drawn.
+    pub alt: String,
+    /// Width and height in pixels.
+    pub size: (u32, u32),
+    /// The panels, in the order of the layout's cells.
+    pub panels: Vec<Panel>,
+    /// Where the panels go.
+    pub layout: Layout,
+}
+
+impl Figure {
+    /// A figure of the usual size, without panels yet.
+    pub fn new(name: impl Into<String>, title: impl Into<String>) -> Self {
+        Self {
+            name: name.into(),
+            title: title.into(),
+            caption: String::new(),
+            alt: String::new(),
+            size: (720, 450),
+            panels: Vec::new(),
+            layout: Layout::Row,
+        }
+    }
+
+    /// Sets the caption and the alternative text.
+    #[must_use]
+    pub fn with_words(mut self, caption: impl Into<String>, alt: impl Into<String>) -> Self {
+        self.caption = caption.into();
+        self.alt = alt.into();
+        self
+    }
+
+    /// Sets the size in pixels.
+    #[must_use]
+    pub fn with_size(mut self, width: u32, height: u32) -> Self {
+        self.size = (width, height);
+        self
+    }
+
+    /// Sets the layout.
+    #[must_use]
+    pub fn with_layout(mut self, layout: Layout) -> Self {
+        self.layout = layout;
+        self
+    }
+
+    /// Adds a panel.
+    #[must_use]
+    pub fn with_panel(mut self, panel: Panel) -> Self {
+        self.panels.push(panel);
+        self
+    }
+}
+
+/// Where the panels go. Panels one above the other whose x axes have the same label and scale share
+/// that axis: one range, and the words only at the lowest.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Layout {
+    /// Side by side; also right for a single panel.
+    Row,
+    /// One above the other.
+    Column,
+    /// Row by row, with that many columns.
+    Grid {
+        /// The number of columns.
+        columns: usize,
+    },
+    /// All panels but the last one above the other on the left, the last one on the right over the full height.
+    TimeSeriesAndProjection,
+    /// Anything else.
+    Cells {
+        /// Relative widths of the columns.
+        widths: Vec<f64>,
+        /// Relative heights of the rows.
+        heights: Vec<f64>,
+        /// One cell for each panel.
+        cells: Vec<Cell>,
+    },
+}
+
+/// A rectangle of grid cells.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct Cell {
+    /// First column, from 0.
+    pub column: usize,
+    /// First row, from 0 at the top.
+    pub row: usize,
+    /// Number of columns.
+    pub columns: usize,
+    /// Number of rows.
+    pub rows: usize,
+}
+
+/// One pair of axes and what is drawn between them.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Panel {
+    /// The horizontal axis.
+    pub x: Axis,
+    /// The vertical axis.
+    pub y: Axis,
+    /// What is drawn, from the back to the front.
+    pub layers: Vec<Layer>,
+    /// Whether one unit is equally long on both axes.
+    pub equal_aspect: bool,
+    /// A few words above the panel.
+    pub heading: Option<String>,
+}
+
+impl Panel {
+    /// An empty panel.
+    #[must_use]
+    pub const fn new(x: Axis, y: Axis) -> Self {
+        Self { x, y, layers: Vec::new(), equal_aspect: false, heading: None }
+    }
+
+    /// Adds a layer in front of the others.
+    #[must_use]
+    pub fn with(mut self, layer: Layer) -> Self {
+        self.layers.push(layer);
+        self
+    }
+
+    /// Makes one unit equally long on both axes.
+    #[must_use]
+    pub fn with_equal_aspect(mut self) -> Self {
+        self.equal_aspect = true;
+        self
+    }
+
+    /// Sets the words above the panel.
+    #[must_use]
+    pub fn with_heading(mut self, heading: impl Into<String>) -> Self {
+        self.heading = Some(heading.into());
+        self
+    }
+}
+
+/// An axis.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Axis {
+    /// Name, symbol and unit: `clearance b (mm)`.
+    pub label: String,
+    /// First and last value; chosen from the data if absent.
+    pub range: Option<(f64, f64)>,
+    /// Linear or logarithmic.
+    pub scale: Scale,
+    /// The ticks; chosen round if absent.
+    pub ticks: Option<Vec<Tick>>,
+}
+
+impl Axis {
+    /// A linear axis that fits the data.
+    pub fn linear(label: impl Into<String>) -> Self {
+        Self { label: label.into(), range: None, scale: Scale::Linear, ticks: None }
+    }
+
+    /// A logarithmic axis that fits the data.
+    pub fn log(label: impl Into<String>) -> Self {
+        Self { scale: Scale::Log, ..Self::linear(label) }
+    }
+
+    /// Fixes the range.
+    #[must_use]
+    pub const fn with_range(mut self, first: f64, last: f64) -> Self {
+        self.range = Some((first, last));
+        self
+    }
+
+    /// Fixes the ticks.
+    #[must_use]
+    pub fn with_ticks(mut self, ticks: Vec<Tick>) -> Self {
+        self.ticks = Some(ticks);
+        self
+    }
+}
+
+/// How values become lengths.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Scale {
+    /// In proportion.
+    Linear,
+    /// By their decimal logarithm; values at or below 0 are not drawn.
+    Log,
+}
+
+/// A tick at a given value.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Tick {
+    /// Where.
+    pub value: f64,
+    /// What to write; the number itself if absent.
+    pub label: Option<String>,
+}

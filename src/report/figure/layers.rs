@@ -1,0 +1,256 @@
+//! What is drawn in a panel: plain data, in the units of its axes.
+
+use serde::Serialize;
+
+use super::palette::{Color, Marker, Role, Style};
+
+/// Something drawn in a panel.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case", tag = "kind")]
+pub enum Layer {
+    /// A line through points; a value that is not finite interrupts it.
+    Curve {
+        /// The points, `[x, y]`.
+        points: Vec<[f64; 2]>,
+        /// How it looks.
+        style: Style,
+        /// What it is called.
+        label: Option<Label>,
+    },
+    /// Separate points.
+    Points {
+        /// The points.
+        points: Vec<MarkedPoint>,
+        /// How each looks.
+        marker: Marker,
+        /// In which colour.
+        color: Color,
+        /// What they are called.
+        label: Option<Label>,
+    },
+    /// A shaded area.
+    Band {
+        /// The corners, `[x, y]`; the last is joined to the first.
+        outline: Vec<[f64; 2]>,
+        /// How it is filled.
+        fill: Fill,
+        /// What it is called.
+        label: Option<Label>,
+    },
+    /// A straight line across the whole panel.
+    Rule {
+        /// Where.
+        rule: Rule,
+        /// How it looks.
+        style: Style,
+        /// What it is called.
+        label: Option<Label>,
+    },
+    /// Words at a place; they move a little where they would cover something.
+    Note {
+        /// The middle of the words.
+        at: [f64; 2],
+        /// The words.
+        text: String,
+        /// Their colour.
+        color: Color,
+    },
+    /// The case at hand: one unmistakable mark.
+    ThisCase {
+        /// Where.
+        at: [f64; 2],
+        /// Shown on hovering.
+        tooltip: Option<String>,
+    },
+}
+
+impl Layer {
+    /// A curve in the style of its role.
+    #[must_use]
+    pub const fn curve(role: Role, points: Vec<[f64; 2]>) -> Self {
+        Self::Curve { points, style: role.style(), label: None }
+    }
+
+    /// A curve in a style of its own.
+    #[must_use]
+    pub const fn styled(style: Style, points: Vec<[f64; 2]>) -> Self {
+        Self::Curve { points, style, label: None }
+    }
+
+    /// Points with the marker and colour of their role.
+    pub fn points<P: Into<MarkedPoint>>(role: Role, points: impl IntoIterator<Item = P>) -> Self {
+        let points = points.into_iter().map(Into::into).collect();
+        Self::Points { points, marker: role.marker(), color: role.color(), label: None }
+    }
+
+    /// Points with a marker and a colour of their own.
+    pub fn marked<P: Into<MarkedPoint>>(
+        marker: Marker,
+        color: Color,
+        points: impl IntoIterator<Item = P>,
+    ) -> Self {
+        let points = points.into_iter().map(Into::into).collect();
+        Self::Points { points, marker, color, label: None }
+    }
+
+    /// The area between two curves with the same abscissae or not.
+    #[must_use]
+    pub fn between(lower: &[[f64; 2]], upper: &[[f64; 2]], fill: Fill) -> Self {
+        let outline = lower.iter().chain(upper.iter().rev()).copied().collect();
+        Self::Band { outline, fill, label: None }
+    }
+
+    /// A straight line across the whole panel.
+    #[must_use]
+    pub const fn rule(rule: Rule, style: Style) -> Self {
+        Self::Rule { rule, style, label: None }
+    }
+
+    /// Words at a place.
+    pub fn note(at: [f64; 2], text: impl Into<String>) -> Self {
+        Self::Note { at, text: text.into(), color: Color::Grey }
+    }
+
+    /// The case at hand.
+    #[must_use]
+    pub const fn this_case(at: [f64; 2], tooltip: Option<String>) -> Self {
+        Self::ThisCase { at, tooltip }
+    }
+
+    /// Names the layer; notes and the case at hand have their words already and stay as they are.
+    #[must_use]
+    pub fn labelled(mut self, name: impl Into<Label>) -> Self {
+        match &mut self {
+            Self::Curve { label, .. }
+            | Self::Points { label, .. }
+            | Self::Band { label, .. }
+            | Self::Rule { label, .. } => *label = Some(name.into()),
+            Self::Note { .. } | Self::ThisCase { .. } => {}
+        }
+        self
+    }
+}
+
+/// The name of a layer. It is written beside the data where that is possible without covering
+/// anything, and in a row above the panel where it is not.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Label {
+    /// The words.
+    pub text: String,
+    /// A place to prefer, `[x, y]`.
+    pub near: Option<[f64; 2]>,
+}
+
+impl Label {
+    /// A label that prefers to be near a place, `[x, y]`.
+    pub fn near(text: impl Into<String>, place: [f64; 2]) -> Self {
+        Self { text: text.into(), near: Some(place) }
+    }
+}
+
+impl From<&str> for Label {
+    fn from(text: &str) -> Self {
+        Self { text: text.to_owned(), near: None }
+    }
+}
+
+impl From<String> for Label {
+    fn from(text: String) -> Self {
+        Self { text, near: None }
+    }
+}
+
+/// A point with what can be said about it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct MarkedPoint {
+    /// Abscissa.
+    pub x: f64,
+    /// Ordinate.
+    pub y: f64,
+    /// Shown on hovering.
+    pub tooltip: Option<String>,
+    /// Written beside it.
+    pub label: Option<String>,
+}
+
+impl MarkedPoint {
+    /// A point without words.
+    #[must_use]
+    pub const fn new(x: f64, y: f64) -> Self {
+        Self { x, y, tooltip: None, label: None }
+    }
+
+    /// Sets what is shown on hovering.
+    #[must_use]
+    pub fn with_tooltip(mut self, tooltip: impl Into<String>) -> Self {
+        self.tooltip = Some(tooltip.into());
+        self
+    }
+
+    /// Sets what is written beside it.
+    #[must_use]
+    pub fn with_label(mut self, label: impl Into<String>) -> Self {
+        self.label = Some(label.into());
+        self
+    }
+}
+
+impl From<[f64; 2]> for MarkedPoint {
+    fn from([x, y]: [f64; 2]) -> Self {
+        Self::new(x, y)
+    }
+}
+
+/// How an area is filled.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Fill {
+    /// Its colour.
+    pub color: Color,
+    /// From 0, invisible, to 1.
+    pub opacity: f64,
+    /// Plain, or hatched so that two areas differ in grey as well.
+    pub hatch: Hatch,
+}
+
+impl Fill {
+    /// A plain tint.
+    #[must_use]
+    pub const fn tint(color: Color) -> Self {
+        Self { color, opacity: 0.22, hatch: Hatch::None }
+    }
+
+    /// A tint with lines across.
+    #[must_use]
+    pub const fn hatched(color: Color, hatch: Hatch) -> Self {
+        Self { color, opacity: 0.12, hatch }
+    }
+}
+
+/// Lines across an area.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Hatch {
+    /// None.
+    None,
+    /// Rising to the right.
+    Rising,
+    /// Falling to the right.
+    Falling,
+}
+
+/// A straight line, in data coordinates.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Rule {
+    /// At one ordinate.
+    Horizontal(f64),
+    /// At one abscissa.
+    Vertical(f64),
+    /// Through a point with a slope, on linear axes.
+    Sloped {
+        /// The point, `[x, y]`.
+        through: [f64; 2],
+        /// The slope, ordinate per abscissa.
+        slope: f64,
+    },
+}

@@ -1,0 +1,345 @@
+//! Where the panels are: margins adapt to the words, so that nothing is cut.
+
+use super::data::{Axis, Cell, Figure, Layout, Panel, Scale};
+use super::error::FigureError;
+use super::geometry::Rect;
+use super::layers::Layer;
+use super::limits::{Span, Spans, spans};
+use super::text::{self, LARGE, SMALL, width, wrap};
+use super::ticks::{Mark, shortest, ticks};
+
+/// From the plot to the nearest tick label, pixels.
+pub(super) const TICK: f64 = 9.0;
+/// From one line of words to the next, pixels.
+pub(super) const LINE: f64 = 18.0;
+/// Height of a row of the legend, pixels.
+pub(super) const LEGEND: f64 = 20.0;
+/// Width of a legend's sample of line or marker, pixels.
+const SWATCH: f64 = 28.0;
+const MARKER: f64 = 10.0;
+/// From the sample to its words, pixels.
+pub(super) const GAP: f64 = 6.0;
+/// Between two entries of a legend, pixels.
+const BETWEEN: f64 = 18.0;
+/// The least plot, pixels.
+const LEAST: f64 = 40.0;
+
+/// A panel in its place.
+#[derive(Debug, Clone)]
+pub(super) struct Frame {
+    /// The rectangle of the data.
+    pub plot: Rect,
+    pub spans: Spans,
+    pub x_ticks: Vec<Mark>,
+    pub y_ticks: Vec<Mark>,
+    /// Whether the horizontal axis has words, or leaves them to a panel below.
+    pub x_words: bool,
+    pub x_label: Vec<String>,
+    pub y_label: Vec<String>,
+    pub heading: Option<String>,
+    /// Room for the words of the vertical ticks, the same for all panels of a column, pixels.
+    pub tick_room: f64,
+    /// Room for legends below the headings, the same for all panels of a row, pixels.
+    pub legend_room: f64,
+    /// Layers and the left middle of their legend entries, relative to the plot's top left.
+    pub legend: Vec<(usize, [f64; 2])>,
+}
+
+impl Frame {
+    /// From data to pixels; NaN where a value cannot be drawn.
+    pub(super) fn map(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let [px, py] = [self.spans.x.part(x), self.spans.y.part(y)];
+        let plot = &self.plot;
+        [plot.left + px * plot.width(), plot.bottom - py * plot.height()]
+    }
+}
+
+/// The grid that a layout stands for.
+struct Grid {
+    widths: Vec<f64>,
+    heights: Vec<f64>,
+    cells: Vec<Cell>,
+}
+
+fn grid(figure: &Figure) -> Result<Grid, FigureError> {
+    let count = figure.panels.len();
+    let cell = |column, row| Cell { column, row, columns: 1, rows: 1 };
+    let even = |columns: usize, rows: usize, cells| Grid {
+        widths: vec![1.0; columns],
+        heights: vec![1.0; rows],
+        cells,
+    };
+    let grid = match &figure.layout {
+        Layout::Row => even(count, 1, (0..count).map(|i| cell(i, 0)).collect()),
+        Layout::Column => even(1, count, (0..count).map(|i| cell(0, i)).collect()),
+        Layout::Grid { columns } => {
+            let n = (*columns).clamp(1, count);
+            even(n, count.div_ceil(n), (0..count).map(|i| cell(i % n, i / n)).collect())
+        }
+        Layout::TimeSeriesAndProjection => {
+            let rows = (count - 1).max(1);
+            let mut cells: Vec<Cell> = (0..count - 1).map(|i| cell(0, i)).collect();
+            cells.push(Cell { column: usize::from(count > 1), row: 0, columns: 1, rows });
+            let widths = if count > 1 { vec![1.15, 1.0] } else { vec![1.0] };
+            Grid { widths, heights: vec![1.0; rows], cells }
+        }
+        Layout::Cells { widths, heights, cells } => {
+            Grid { widths: widths.clone(), heights: heights.clone(), cells: cells.clone() }
+        }
+    };
+    check(figure, grid)
+}
+
+fn check(figure: &Figure, grid: Grid) -> Result<Grid, FigureError> {
+    let wrong = |reason: String| FigureError::Layout { name: figure.name.clone(), reason };
+    if grid.cells.len() != figure.panels.len() {
+        let (cells, panels) = (grid.cells.len(), figure.panels.len());
+        return Err(wrong(format!("{panels} panels, but {cells} cells for them")));
+    }
+    if let Some(w) = grid.widths.iter().chain(&grid.heights).find(|w| !(**w > 0.0 && **w < 1e6)) {
+        return Err(wrong(format!("a relative width or height is {w}, expected above 0")));
+    }
+    for (i, c) in grid.cells.iter().enumerate() {
+        let inside =
+            c.column + c.columns <= grid.widths.len() && c.row + c.rows <= grid.heights.len();
+        if !inside || c.columns == 0 || c.rows == 0 {
+            return Err(wrong(format!("the cell of panel {i} is empty or outside the grid")));
+        }
+    }
+    Ok(grid)
+}
+
+/// Panels one above the other with the same horizontal axis.
+fn shared(figure: &Figure, grid: &Grid) -> Vec<Vec<usize>> {
+    let mut groups: Vec<Vec<usize>> = Vec::new();
+    for (i, cell) in grid.cells.iter().enumerate() {
+        let same = |k: usize| {
+            let (a, b, other) = (&figure.panels[i].x, &figure.panels[k].x, grid.cells[k]);
+            let column = (cell.column, cell.columns) == (other.column, other.columns);
+            column && a.label == b.label && a.scale == b.scale && a.range == b.range
+        };
+        match groups.iter_mut().find(|group| same(group[0])) {
+            Some(group) => group.push(i),
+            None => groups.push(vec![i]),
+        }
+    }
+    groups
+}
+
+/// Lays the panels out. `legends` lists, for each panel, the layers named above it.
+pub(super) fn lay_out(figure: &Figure, legends: &[Vec<usize>]) -> Result<Vec<Frame>, FigureError> {
+    if figure.panels.is_empty() {
+        return Err(FigureError::NoPanels { name: figure.name.clone() });
+    }
+    let grid = grid(figure)?;
+    let groups = shared(figure, &grid);
+    let spans = spans(figure, &groups)?;
+    let lowest = |i: usize| {
+        let row = grid.cells[i].row;
+        !groups.iter().any(|g| g.contains(&i) && g.iter().any(|&k| grid.cells[k].row > row))
+    };
+    let [width, height] = [figure.size.0, figure.size.1].map(f64::from);
+    let mut frames: Vec<Frame> = (0..figure.panels.len())
+        .map(|i| {
+            let [columns, rows] = [grid.widths.len(), grid.heights.len()].map(|n| n as f64);
+            let plot = Rect::new(0.0, 0.0, 0.8 * width / columns, 0.8 * height / rows);
+            dress(&figure.panels[i], plot, spans[i], lowest(i), &legends[i])
+        })
+        .collect();
+    // Words decide margins, margins decide plots, plots decide ticks, hence words: settles at once
+    // or alternates between two; a fixed number of rounds ends with plots that fit their words.
+    for _ in 0..4 {
+        let plots = plots(&grid, &frames, width, height);
+        for (i, plot) in plots.into_iter().enumerate() {
+            if !(plot.width() >= LEAST && plot.height() >= LEAST) {
+                let (width, height) = (plot.width(), plot.height());
+                let name = figure.name.clone();
+                return Err(FigureError::TooSmall { name, panel: i, width, height });
+            }
+            let plot = if figure.panels[i].equal_aspect { equal(plot, &spans[i]) } else { plot };
+            frames[i] = dress(&figure.panels[i], plot, spans[i], lowest(i), &legends[i]);
+        }
+        align(&grid, &mut frames);
+    }
+    Ok(frames)
+}
+
+/// Gives the vertical axes of a column their words at the same distance, and the panels of a row
+/// their headings at the same height.
+fn align(grid: &Grid, frames: &mut [Frame]) {
+    for column in 0..grid.widths.len() {
+        let of = |i: &usize| grid.cells[*i].column == column;
+        let members: Vec<usize> = (0..frames.len()).filter(of).collect();
+        let room = members.iter().map(|&i| frames[i].tick_room).fold(0.0, f64::max);
+        for i in members {
+            frames[i].tick_room = room;
+        }
+    }
+    for row in 0..grid.heights.len() {
+        let of = |i: &usize| grid.cells[*i].row == row;
+        let members: Vec<usize> = (0..frames.len()).filter(of).collect();
+        let room = members.iter().map(|&i| frames[i].legend_room).fold(0.0, f64::max);
+        for i in members {
+            frames[i].legend_room = room;
+        }
+    }
+}
+
+/// The plot, made smaller so that one unit is equally long on both axes.
+fn equal(plot: Rect, spans: &Spans) -> Rect {
+    let size = |s: &Span| match s.scale {
+        Scale::Linear => s.last - s.first,
+        Scale::Log => libm::log10(s.last / s.first),
+    };
+    let (sx, sy) = (size(&spans.x), size(&spans.y));
+    let unit = (plot.width() / sx).min(plot.height() / sy);
+    Rect::around(plot.center(), unit * sx, unit * sy)
+}
+
+/// Ticks and words for a plot.
+fn dress(panel: &Panel, plot: Rect, spans: Spans, x_words: bool, legend: &[usize]) -> Frame {
+    let y_ticks = fitting(&panel.y, &spans.y, plot.height(), plot.height() / 40.0, true);
+    let places = legend_places(panel, legend, plot.width());
+    Frame {
+        x_ticks: fitting(&panel.x, &spans.x, plot.width(), plot.width() / 68.0, false),
+        x_label: wrap(&panel.x.label, LARGE, plot.width() + 40.0),
+        y_label: wrap(&panel.y.label, LARGE, plot.height() + 8.0),
+        heading: panel.heading.clone(),
+        tick_room: y_ticks.iter().map(|m| width(&m.words, SMALL)).fold(0.0, f64::max),
+        legend_room: legend_room(&places),
+        legend: places,
+        y_ticks,
+        plot,
+        spans,
+        x_words,
+    }
+}
+
+/// As many ticks as the axis has room for.
+fn fitting(axis: &Axis, span: &Span, length: f64, most: f64, ordinate: bool) -> Vec<Mark> {
+    let extent = |m: &Mark| if ordinate { SMALL } else { width(&m.words, SMALL) };
+    let gap = if ordinate { 4.0 } else { 9.0 };
+    let free = |a: &Mark, b: &Mark| {
+        let distance = (span.part(b.value) - span.part(a.value)).abs() * length;
+        distance >= f64::midpoint(extent(a), extent(b)) + gap
+    };
+    if let Some(given) = &axis.ticks {
+        let words = |v: f64, l: &Option<String>| l.clone().unwrap_or_else(|| shortest(v));
+        let mut marks: Vec<Mark> = Vec::new();
+        for tick in given.iter().filter(|t| (-1e-9..=1.0 + 1e-9).contains(&span.part(t.value))) {
+            let mark = Mark { value: tick.value, words: words(tick.value, &tick.label) };
+            let clear = marks.iter().filter(|m| !m.words.is_empty()).all(|m| free(m, &mark));
+            marks.push(if clear { mark } else { Mark { words: String::new(), ..mark } });
+        }
+        return marks;
+    }
+    // Not so few that they say nothing, not so many that their words touch.
+    let named = |marks: &[Mark]| marks.iter().filter(|m| !m.words.is_empty()).count();
+    let apart = |marks: &[Mark]| {
+        let named: Vec<&Mark> = marks.iter().filter(|m| !m.words.is_empty()).collect();
+        named.windows(2).all(|pair| free(pair[0], pair[1]))
+    };
+    let most = most.max(2.0).floor() as usize;
+    let tries = || (1..=most + 6).map(|n| ticks(span.scale, span.first, span.last, n as f64));
+    let fits: Vec<Vec<Mark>> = tries().filter(|marks| apart(marks)).collect();
+    let wanted = fits.iter().rev().find(|marks| (3..=most.max(3)).contains(&named(marks)));
+    let enough = || fits.iter().find(|marks| named(marks) >= 3);
+    wanted.or_else(enough).or(fits.last()).cloned().unwrap_or_default()
+}
+
+/// Left, top, right and bottom margins of a panel.
+fn margins(frame: &Frame) -> [f64; 4] {
+    let labels = frame.y_label.len() as f64 * LINE;
+    let left = 6.0 + labels + 4.0 + frame.tick_room + TICK;
+    let overhang = |m: &Mark| {
+        let outside = (1.0 - frame.spans.x.part(m.value)) * frame.plot.width();
+        width(&m.words, SMALL) / 2.0 - outside
+    };
+    let right = 4.0 + frame.x_ticks.iter().map(overhang).fold(10.0, f64::max);
+    let heading = if frame.heading.is_some() { LINE + 4.0 } else { 0.0 };
+    let top = 11.0 + heading + frame.legend_room;
+    let bottom = if frame.x_words {
+        TICK + SMALL + 6.0 + frame.x_label.len() as f64 * LINE + 4.0
+    } else {
+        7.0
+    };
+    [left, top, right, bottom]
+}
+
+/// The plots' rectangles: what the margins leave, shared by the relative widths and heights.
+fn plots(grid: &Grid, frames: &[Frame], width: f64, height: f64) -> Vec<Rect> {
+    let (columns, rows) = (grid.widths.len(), grid.heights.len());
+    let mut before = [vec![0.0_f64; columns], vec![0.0_f64; rows]];
+    let mut after = before.clone();
+    for (frame, cell) in frames.iter().zip(&grid.cells) {
+        let [left, top, right, bottom] = margins(frame);
+        let (last_column, last_row) = (cell.column + cell.columns - 1, cell.row + cell.rows - 1);
+        before[0][cell.column] = before[0][cell.column].max(left);
+        before[1][cell.row] = before[1][cell.row].max(top);
+        after[0][last_column] = after[0][last_column].max(right);
+        after[1][last_row] = after[1][last_row].max(bottom);
+    }
+    let [across, down] = [(&grid.widths, width), (&grid.heights, height)];
+    let columns = tracks(&before[0], across.0, &after[0], across.1);
+    let rows = tracks(&before[1], down.0, &after[1], down.1);
+    let place = |cell: &Cell| {
+        let (first, last) = (columns[cell.column], columns[cell.column + cell.columns - 1]);
+        let (top, bottom) = (rows[cell.row], rows[cell.row + cell.rows - 1]);
+        Rect::new(first.0, top.0, last.1, bottom.1)
+    };
+    grid.cells.iter().map(place).collect()
+}
+
+/// Start and end of every track.
+fn tracks(before: &[f64], weights: &[f64], after: &[f64], total: f64) -> Vec<(f64, f64)> {
+    let margins: f64 = before.iter().chain(after).sum();
+    let unit = (total - margins) / weights.iter().sum::<f64>();
+    let mut position = 0.0;
+    let mut tracks = Vec::new();
+    for ((before, weight), after) in before.iter().zip(weights).zip(after) {
+        let start = position + before;
+        let end = start + weight * unit;
+        tracks.push((start, end));
+        position = end + after;
+    }
+    tracks
+}
+
+/// The words of a layer's label.
+pub(super) fn label_of(layer: &Layer) -> Option<&super::layers::Label> {
+    match layer {
+        Layer::Curve { label, .. }
+        | Layer::Points { label, .. }
+        | Layer::Band { label, .. }
+        | Layer::Rule { label, .. } => label.as_ref(),
+        Layer::Note { .. } | Layer::ThisCase { .. } => None,
+    }
+}
+
+/// Legend entries in rows, the last row just above the plot.
+fn legend_places(panel: &Panel, legend: &[usize], room: f64) -> Vec<(usize, [f64; 2])> {
+    let (mut x, mut row, mut places) = (0.0, 0, Vec::new());
+    for &layer in legend {
+        let Some(label) = label_of(&panel.layers[layer]) else { continue };
+        let size = swatch(&panel.layers[layer]) + GAP + text::width(&label.text, SMALL);
+        if x > 0.0 && x + size > room {
+            (x, row) = (0.0, row + 1);
+        }
+        places.push((layer, [x, f64::from(row)]));
+        x += size + BETWEEN;
+    }
+    for (_, at) in &mut places {
+        at[1] = -(f64::from(row) - at[1] + 1.0) * LEGEND + 0.3 * LEGEND;
+    }
+    places
+}
+
+/// The height that rows of legend entries take.
+fn legend_room(places: &[(usize, [f64; 2])]) -> f64 {
+    places.iter().map(|(_, at)| 0.3 * LEGEND - at[1]).fold(0.0, f64::max)
+}
+
+/// The width of a layer's sample in the legend, pixels.
+pub(super) const fn swatch(layer: &Layer) -> f64 {
+    if matches!(layer, Layer::Points { .. }) { MARKER } else { SWATCH }
+}

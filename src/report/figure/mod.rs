@@ -1,0 +1,37 @@
+//! Figures: plain data, and one renderer that turns them into SVG.
+//!
+//! The figures know nothing of physics. [`render`] is a function of its argument alone: the same
+//! figure gives the same bytes. The way from one to the other:
+//!
+//! ```text
+//! Figure ─> limits ─> layout ─> shapes ─> labels ─┬─> frame (plotters: grid, axes, their words)
+//!                       ^                   │     └─> paint (data, names, tooltips)
+//!                       └── names without ──┘
+//!                           a place go to a legend
+//! ```
+
+mod candidates;
+mod data;
+mod error;
+mod frame;
+mod geometry;
+mod labels;
+mod layers;
+mod layout;
+mod limits;
+mod markers;
+mod paint;
+mod palette;
+mod raster;
+mod render;
+mod shapes;
+mod simplify;
+mod text;
+mod ticks;
+
+pub use data::{Axis, Cell, Figure, Layout, Panel, Scale, Tick};
+pub use error::FigureError;
+pub use geometry::Rect;
+pub use layers::{Fill, Hatch, Label, Layer, MarkedPoint, Rule};
+pub use palette::{Color, Dash, Marker, Role, Shape, Style};
+pub use render::{Drawing, LIMIT, PlacedText, draw, render};

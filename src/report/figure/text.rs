@@ -1,0 +1,165 @@
+//! How wide words are, without a font at hand, and how they are written into SVG.
+
+use std::fmt::Write;
+
+use super::geometry::Rect;
+
+/// The fonts asked for; all have close to Helvetica's widths but for the generic one at the end.
+pub(super) const FAMILY: &str = "Helvetica, Arial, Liberation Sans, sans-serif";
+/// Tick labels, direct labels and legends, pixels.
+pub(super) const SMALL: f64 = 14.0;
+/// Axis labels and headings, pixels.
+pub(super) const LARGE: f64 = 15.0;
+/// Widths are multiplied by this, for the fonts that run wider than Helvetica.
+const CAUTION: f64 = 1.1;
+
+/// Helvetica's advance widths from space to tilde, in thousandths of the font size.
+const WIDTHS: [u16; 95] = [
+    278, 278, 355, 556, 556, 889, 667, 191, 333, 333, 389, 584, 278, 333, 278, 278, 556, 556, 556,
+    556, 556, 556, 556, 556, 556, 556, 278, 278, 584, 584, 584, 556, 1015, 667, 667, 722, 722, 667,
+    611, 778, 722, 278, 500, 667, 556, 833, 722, 778, 667, 778, 722, 667, 611, 722, 667, 944, 667,
+    667, 611, 278, 278, 278, 469, 556, 333, 556, 556, 500, 556, 556, 278, 556, 556, 222, 222, 500,
+    222, 833, 556, 556, 556, 556, 333, 500, 278, 556, 500, 722, 500, 500, 500, 334, 260, 334, 584,
+];
+
+/// A cautious estimate of the width of words, pixels.
+pub(super) fn width(text: &str, size: f64) -> f64 {
+    let thousandths: u32 = text
+        .chars()
+        .map(|c| match c {
+            ' '..='~' => u32::from(WIDTHS[c as usize - ' ' as usize]),
+            '\u{2070}'..='\u{209c}' | '\u{b2}' | '\u{b3}' | '\u{b9}' => 370,
+            '\u{300}'..='\u{36f}' => 0,
+            '\u{2212}' | '\u{d7}' | '\u{b1}' => 584,
+            '\u{b7}' | '\u{3b9}' => 333,
+            '\u{370}'..='\u{3ff}' => 620,
+            '\u{1100}'.. => 1000,
+            _ => 700,
+        })
+        .sum();
+    f64::from(thousandths) / 1000.0 * size * CAUTION
+}
+
+/// Where the words' reference point is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Anchor {
+    Start,
+    Middle,
+    End,
+}
+
+impl Anchor {
+    pub(super) const fn name(self) -> &'static str {
+        match self {
+            Self::Start => "start",
+            Self::Middle => "middle",
+            Self::End => "end",
+        }
+    }
+}
+
+/// Words in their place.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Words {
+    pub text: String,
+    /// The reference point: horizontally by the anchor, vertically the middle of the digits.
+    pub at: [f64; 2],
+    pub anchor: Anchor,
+    pub size: f64,
+    pub color: &'static str,
+    pub bold: bool,
+    /// Reads from bottom to top.
+    pub upright: bool,
+    /// White around the letters.
+    pub halo: bool,
+}
+
+impl Words {
+    pub(super) fn new(text: impl Into<String>, at: [f64; 2], anchor: Anchor, size: f64) -> Self {
+        let (text, color) = (legal(&text.into()), "#333333");
+        Self { text, at, anchor, size, color, bold: false, upright: false, halo: false }
+    }
+
+    /// The room that the words take.
+    pub(super) fn bounds(&self) -> Rect {
+        let width = width(&self.text, self.size) * if self.bold { 1.06 } else { 1.0 };
+        let height = self.size * 1.05;
+        let start = match self.anchor {
+            Anchor::Start => 0.0,
+            Anchor::Middle => -width / 2.0,
+            Anchor::End => -width,
+        };
+        let [x, y] = self.at;
+        if self.upright {
+            return Rect::new(x - height / 2.0, y - start - width, x + height / 2.0, y - start);
+        }
+        Rect::new(x + start, y - height / 2.0, x + start + width, y + height / 2.0)
+    }
+
+    /// Writes the words; a halo is the same words below, drawn broad and white.
+    pub(super) fn write(&self, svg: &mut String) {
+        let [x, y] = [self.at[0], self.at[1] + 0.35 * self.size].map(tenths);
+        let size = tenths(self.size);
+        let bold = if self.bold { " font-weight=\"bold\"" } else { "" };
+        let anchor = match self.anchor {
+            Anchor::Start => String::new(),
+            other => format!(" text-anchor=\"{}\"", other.name()),
+        };
+        let text = escape(&self.text);
+        let place = format!("x=\"{x}\" y=\"{y}\" font-size=\"{size}\"{bold}{anchor}");
+        if self.halo {
+            let _ = writeln!(
+                svg,
+                "<text {place} fill=\"#FFFFFF\" stroke=\"#FFFFFF\" stroke-width=\"30\" \
+                 stroke-linejoin=\"round\">{text}</text>"
+            );
+        }
+        let _ = writeln!(svg, "<text {place} fill=\"{}\">{text}</text>", self.color);
+    }
+}
+
+/// A length as it is written: tenths of a pixel, whole.
+pub(super) fn tenths(pixels: f64) -> i32 {
+    (pixels * 10.0).round() as i32
+}
+
+/// Text with nothing in it that XML forbids; such characters become U+FFFD.
+pub(super) fn legal(text: &str) -> String {
+    let replaced = |c: char| match c {
+        '\n' | '\t' => ' ',
+        c if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => '\u{fffd}',
+        c => c,
+    };
+    text.chars().map(replaced).collect()
+}
+
+/// Text as XML has it.
+pub(super) fn escape(text: &str) -> String {
+    legal(text)
+        .replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
+        .replace('"', "&quot;")
+}
+
+/// Breaks words at spaces so that no line is wider than `limit` where that is possible; lines are
+/// about equally long.
+pub(super) fn wrap(text: &str, size: f64, limit: f64) -> Vec<String> {
+    let total = width(text, size);
+    if total <= limit || limit <= 0.0 {
+        return vec![text.to_owned()];
+    }
+    let share = total / (total / limit).ceil();
+    let mut lines: Vec<String> = vec![String::new()];
+    for word in text.split_whitespace() {
+        let line = lines.last_mut().expect("starts with one line");
+        let joined = if line.is_empty() { word.to_owned() } else { format!("{line} {word}") };
+        let full = width(line, size) >= 0.8 * share || width(&joined, size) > limit;
+        if line.is_empty() || !full {
+            *line = joined;
+        } else {
+            lines.push(word.to_owned());
+        }
+    }
+    lines
+}

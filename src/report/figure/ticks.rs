@@ -1,0 +1,145 @@
+//! Round ticks with as few digits as tell them apart.
+
+use super::data::Scale;
+
+/// A tick; one without words is a minor one.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Mark {
+    pub value: f64,
+    pub words: String,
+}
+
+/// The smallest of 1, 2, 5 times a power of ten that divides a span into at most `most` parts.
+pub(super) fn round_step(span: f64, most: f64) -> f64 {
+    let raw = span / most.max(1.0);
+    let power = libm::pow(10.0, libm::floor(libm::log10(raw)));
+    let tolerance = 1.0 - 1e-9;
+    [1.0, 2.0, 5.0]
+        .map(|m| m * power)
+        .into_iter()
+        .find(|s| *s >= raw * tolerance)
+        .unwrap_or(10.0 * power)
+}
+
+/// Ticks for a range, at most about `most` of them with words.
+pub(super) fn ticks(scale: Scale, first: f64, last: f64, most: f64) -> Vec<Mark> {
+    match scale {
+        Scale::Linear => linear(first, last, most),
+        Scale::Log => {
+            let decades = libm::log10(last / first);
+            if decades < 0.8 { linear(first, last, most) } else { decadic(first, last, most) }
+        }
+    }
+}
+
+fn linear(first: f64, last: f64, most: f64) -> Vec<Mark> {
+    let step = round_step(last - first, most);
+    let from = libm::ceil(first / step - 1e-9);
+    let to = libm::floor(last / step + 1e-9);
+    let count = (to - from).clamp(0.0, 100.0) as usize;
+    let values: Vec<f64> = (0..=count).map(|i| (from + i as f64) * step).collect();
+    let words = labels(&values, step);
+    values.into_iter().zip(words).map(|(value, words)| Mark { value, words }).collect()
+}
+
+fn decadic(first: f64, last: f64, most: f64) -> Vec<Mark> {
+    let from = libm::floor(libm::log10(first) + 1e-9) as i32;
+    let to = libm::floor(libm::log10(last) + 1e-9) as i32;
+    let whole = (libm::ceil(libm::log10(first) - 1e-9) as i32..=to).count();
+    let every = (whole as f64 / most).ceil().max(1.0) as i32;
+    let named: &[u32] = match whole {
+        0..=1 if most >= 4.0 => &[1, 2, 5],
+        2 if most >= 8.0 => &[1, 2, 5],
+        _ => &[1],
+    };
+    let digits = from >= -3 && to <= 4;
+    let mut marks = Vec::new();
+    for exponent in from..=to {
+        for digit in 1..=9_u32 {
+            let value = f64::from(digit) * libm::pow(10.0, f64::from(exponent));
+            let inside = value >= first * (1.0 - 1e-9) && value <= last * (1.0 + 1e-9);
+            let words = named.contains(&digit) && exponent.rem_euclid(every) == 0;
+            let minor = digit == 1 || (every == 1 && to - from <= 6);
+            if inside && (words || minor) {
+                let words = if words { power(digit, exponent, digits) } else { String::new() };
+                marks.push(Mark { value, words });
+            }
+        }
+    }
+    marks
+}
+
+/// A digit times a power of ten, in plain digits where all of an axis are short.
+fn power(digit: u32, exponent: i32, digits: bool) -> String {
+    match exponent {
+        0.. if digits => format!("{digit}{}", "0".repeat(exponent as usize)),
+        _ if digits => format!("0.{}{digit}", "0".repeat((-exponent - 1) as usize)),
+        _ if digit == 1 => format!("10{}", raised(exponent)),
+        _ => format!("{digit}×10{}", raised(exponent)),
+    }
+}
+
+/// The words for values that are multiples of a step: same number of decimals for all, as few as
+/// tell them apart; powers of ten where plain digits would be many.
+pub(super) fn labels(values: &[f64], step: f64) -> Vec<String> {
+    let largest = values.iter().fold(step, |m, v| m.max(v.abs()));
+    if !(1e-3..1e5).contains(&largest) {
+        let exponent = libm::floor(libm::log10(largest) + 1e-12) as i32;
+        let unit = libm::pow(10.0, f64::from(exponent));
+        let places = decimals(step / unit);
+        let word = |v: &f64| match plain(v / unit, places) {
+            zero if zero.chars().all(|c| "0.".contains(c)) => "0".to_owned(),
+            mantissa => format!("{mantissa}×10{}", raised(exponent)),
+        };
+        return values.iter().map(word).collect();
+    }
+    values.iter().map(|v| plain(*v, decimals(step))).collect()
+}
+
+/// How many decimals a step needs.
+fn decimals(step: f64) -> usize {
+    let mut scaled = step;
+    for places in 0..15 {
+        if (scaled - scaled.round()).abs() < 1e-6 * scaled.max(1e-300) {
+            return places;
+        }
+        scaled *= 10.0;
+    }
+    15
+}
+
+/// A number with a true minus sign, and no minus before zero.
+pub(super) fn plain(value: f64, places: usize) -> String {
+    let digits = format!("{:.places$}", value.abs());
+    if value < 0.0 && digits.chars().any(|c| ('1'..='9').contains(&c)) {
+        format!("\u{2212}{digits}")
+    } else {
+        digits
+    }
+}
+
+/// A number as short as it can be, for ticks that were given without words.
+pub(super) fn shortest(value: f64) -> String {
+    let (sign, size) = (if value < 0.0 { "\u{2212}" } else { "" }, value.abs());
+    if size != 0.0 && !(1e-4..1e6).contains(&size) {
+        let exponent = libm::floor(libm::log10(size) + 1e-12) as i32;
+        let mantissa = size / libm::pow(10.0, f64::from(exponent));
+        return format!("{sign}{}×10{}", (mantissa * 1e6).round() / 1e6, raised(exponent));
+    }
+    format!("{sign}{}", (size * 1e9).round() / 1e9)
+}
+
+/// An exponent, raised.
+fn raised(exponent: i32) -> String {
+    exponent
+        .to_string()
+        .chars()
+        .map(|c| match c {
+            '-' => '⁻',
+            '1' => '¹',
+            '2' => '²',
+            '3' => '³',
+            d => char::from_u32(0x2070 + d.to_digit(10).unwrap_or(0)).unwrap_or('⁰'),
+        })
+        .collect()
+}

@@ -1,0 +1,4 @@
+//! The report: plain data, and the figures that go with it.
+
+pub mod figure;
+pub mod numbers;
