@@ -1,10 +1,14 @@
 //! The command line. A command is a variant of [`Command`] and a file with its arguments and
 //! `pub fn run(arguments) -> Result<Outcome, miette::Report>`.
 
+mod analyze;
+mod case_file;
 mod completions;
 mod new;
 mod output;
+mod progress;
 mod schema;
+mod simulate;
 
 use std::process::ExitCode;
 
@@ -26,12 +30,16 @@ pub struct Cli {
 const EXAMPLES: &str = "\
 Examples:
   vinesink new damper                           write damper.toml, a case to start from
+  vinesink analyze damper.toml                  what the theory says of it
+  vinesink simulate damper.toml                 what it does, from many starts
   vinesink schema > vinesink.schema.json        let the editor complete and check cases
   vinesink help new                             what a command does, with examples";
 
 #[derive(Debug, Subcommand)]
 enum Command {
     New(new::Arguments),
+    Analyze(analyze::Arguments),
+    Simulate(simulate::Arguments),
     Schema(schema::Arguments),
     Completions(completions::Arguments),
 }
@@ -59,6 +67,8 @@ impl Cli {
     pub fn run(self) -> Result<Outcome, miette::Report> {
         match self.command {
             Command::New(arguments) => new::run(arguments),
+            Command::Analyze(arguments) => analyze::run(arguments),
+            Command::Simulate(arguments) => simulate::run(arguments),
             Command::Schema(arguments) => schema::run(arguments),
             Command::Completions(arguments) => completions::run(arguments),
         }

@@ -3,6 +3,7 @@
 use std::io::{self, ErrorKind, Write};
 
 use miette::{IntoDiagnostic, Result, WrapErr};
+use serde::Serialize;
 
 /// Writes a result to standard output. A reader that stops early, such as `head`, is no error.
 pub fn print(text: impl AsRef<[u8]>) -> Result<()> {
@@ -13,6 +14,12 @@ pub fn print(text: impl AsRef<[u8]>) -> Result<()> {
         }
         _ => Ok(()),
     }
+}
+
+/// Writes one JSON document to standard output.
+pub fn print_json(document: &impl Serialize) -> Result<()> {
+    let text = serde_json::to_string_pretty(document).into_diagnostic()?;
+    print(format!("{text}\n"))
 }
 
 /// Writes to standard error; when even that fails, nobody is left to be told.

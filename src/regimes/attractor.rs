@@ -42,17 +42,21 @@ pub struct Attractor {
     pub sustained_contact: SustainedContact,
     /// Periods measured.
     pub periods: u64,
+    /// Impacts in them.
+    pub impact_count: u64,
     /// Why the measurement ended.
     pub stop: Stop,
     /// Largest penetration of a wall over the clearance.
     pub penetration: f64,
     /// A state on the attractor, at excitation phase 0.
     pub state: State,
-    /// The impacts of the measured window.
+    /// The last impacts of the measured window.
     #[serde(skip)]
     pub impacts: Vec<Impact>,
 }
 
+/// Impacts that are kept of each attractor, at least: enough for every figure and every average.
+const KEPT_IMPACTS: usize = 20_000;
 /// Relative difference of rms displacement below which two repeating motions are one.
 const SAME_PERIODIC: f64 = 1e-3;
 /// The same for motions that do not repeat, whose averages over some hundred periods scatter.
@@ -91,13 +95,23 @@ impl Attractor {
         Ok(Self::measure(&mut simulation, &effort))
     }
 
-    fn measure(simulation: &mut Simulation, effort: &Effort) -> Self {
+    /// Continues a trajectory through its transient and measures what follows.
+    pub fn measure(simulation: &mut Simulation, effort: &Effort) -> Self {
+        let mut log = ImpactLog::of_the_last(KEPT_IMPACTS);
+        Self::measure_with(simulation, effort, &mut log)
+    }
+
+    /// The same, the impacts of the measured window being kept in `log`.
+    pub fn measure_with(
+        simulation: &mut Simulation,
+        effort: &Effort,
+        log: &mut ImpactLog,
+    ) -> Self {
         let system = *simulation.system();
         let mut stop = simulation.run(effort.discard, effort.impact_limit, &mut Nobody);
         let mut statistics = Statistics::begin(&system, simulation.state());
-        let mut log = ImpactLog::default();
         if stop == Stop::EndTime {
-            let observer = &mut (&mut statistics, &mut log);
+            let observer = &mut (&mut statistics, &mut *log);
             stop = simulation.run(effort.periods, effort.impact_limit, observer);
         }
         let thresholds = Thresholds::default();
@@ -111,10 +125,11 @@ impl Attractor {
             energy: statistics.energy(),
             sustained_contact: statistics.sustained_contact(),
             periods: statistics.periods(),
+            impact_count: statistics.impacts(),
             stop,
             penetration: statistics.penetration(),
             state: simulation.state(),
-            impacts: log.impacts,
+            impacts: log.impacts.clone(),
         }
     }
 

@@ -5,15 +5,32 @@ use serde::Serialize;
 use super::run::{Impact, Observer, Segment};
 use crate::system::State;
 
-/// Keeps every impact.
-#[derive(Debug, Clone, Default)]
+/// Keeps impacts: all of them, or the last ones.
+#[derive(Debug, Clone)]
 pub struct ImpactLog {
     /// In order of time.
     pub impacts: Vec<Impact>,
+    kept: usize,
+}
+
+impl Default for ImpactLog {
+    fn default() -> Self {
+        Self { impacts: Vec::new(), kept: usize::MAX / 2 }
+    }
+}
+
+impl ImpactLog {
+    /// Keeps at least the last `kept` impacts and at most twice as many.
+    pub fn of_the_last(kept: usize) -> Self {
+        Self { impacts: Vec::new(), kept }
+    }
 }
 
 impl Observer for ImpactLog {
     fn impact(&mut self, impact: &Impact) {
+        if self.impacts.len() >= 2 * self.kept {
+            self.impacts.drain(..self.kept);
+        }
         self.impacts.push(*impact);
     }
 }

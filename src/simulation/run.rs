@@ -181,6 +181,17 @@ pub enum Stop {
     NotFinite,
 }
 
+impl Stop {
+    /// The reason in words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::EndTime => "its end time",
+            Self::ImpactLimit => "its limit on the number of impacts",
+            Self::NotFinite => "a number that overflowed",
+        }
+    }
+}
+
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Mode {
     Flight,

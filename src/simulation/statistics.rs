@@ -67,8 +67,13 @@ pub struct Statistics {
     penetration: f64,
     largest_energy: f64,
     current: Current,
+    periods: u64,
     records: Vec<PeriodRecord>,
 }
+
+/// At least this many of the last periods are kept one by one; sums run over all of them. It bounds
+/// the memory of a run of any length, and no regime needs longer to show.
+const KEPT: usize = 20_000;
 
 /// Sums of the period under way.
 #[derive(Debug, Clone, Copy, Default)]
@@ -99,13 +104,14 @@ impl Statistics {
             penetration: 0.0,
             largest_energy: start.energy(system.mass_ratio()),
             current: Current::default(),
+            periods: 0,
             records: Vec::new(),
         }
     }
 
     /// Whole periods measured.
     pub fn periods(&self) -> u64 {
-        self.records.len() as u64
+        self.periods
     }
 
     /// Impacts in the window.
@@ -139,7 +145,7 @@ impl Statistics {
         self.contact
     }
 
-    /// One record per period.
+    /// One record per period, for the last periods of a long run.
     pub fn records(&self) -> &[PeriodRecord] {
         &self.records
     }
@@ -160,7 +166,7 @@ impl Statistics {
         }
     }
 
-    /// Mean first harmonics of oscillator and absorber: coefficients of `sin` and `cos`.
+    /// Mean first harmonics of oscillator and absorber over the kept periods: coefficients of `sin` and `cos`.
     pub fn harmonics(&self) -> ([f64; 2], [f64; 2]) {
         let count = self.records.len().max(1) as f64;
         let mut mean = ([0.0; 2], [0.0; 2]);
@@ -252,6 +258,10 @@ impl Observer for Statistics {
         self.peak = self.peak.max(current.peak);
         self.end = *state;
         self.largest_energy = self.largest_energy.max(state.energy(self.system.mass_ratio()));
+        self.periods += 1;
+        if self.records.len() >= 2 * KEPT {
+            self.records.drain(..KEPT);
+        }
         self.records.push(PeriodRecord {
             impacts: current.impacts,
             peak: current.peak,

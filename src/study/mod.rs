@@ -8,6 +8,7 @@ use serde::Serialize;
 
 use crate::analysis::motion::state_of;
 use crate::analysis::{Analysis, AnalysisError, Area, Branch};
+use crate::case::SimulationSettings;
 use crate::regimes::attractor::Effort;
 use crate::regimes::search::{self, SearchEffort};
 use crate::regimes::{Attractor, FoundAttractor, Regime};
@@ -53,6 +54,17 @@ const RECOGNITION: u64 = 200;
 const IMPACT_LIMIT: u64 = 200_000;
 
 impl StudyEffort {
+    /// The effort that a case asks for; the default where it leaves the choice.
+    pub fn of(settings: &SimulationSettings) -> Self {
+        let default = Self::default();
+        let starts = settings.starts.and_then(|starts| u32::try_from(starts).ok());
+        Self {
+            starts: starts.unwrap_or(default.starts),
+            discard: settings.discard.unwrap_or(default.discard),
+            periods: settings.periods.unwrap_or(default.periods),
+        }
+    }
+
     fn each(&self) -> Effort {
         Effort {
             discard: self.discard,
@@ -100,13 +112,7 @@ impl CaseStudy {
         progress: &mut dyn FnMut(u64),
     ) -> Result<Self, StudyError> {
         let analysis = Analysis::of(system)?;
-        let search = SearchEffort {
-            starts: effort.starts,
-            each: effort.each(),
-            measured: effort.periods,
-        };
-        let predicted = predicted_starts(&analysis);
-        let attractors = search::find(system, &predicted, &search, progress)?;
+        let attractors = attractors(&analysis, &effort, progress)?;
         let area = settle_area(&analysis)?;
         let claims = validation::confront(&analysis, &attractors, &effort.each())?;
         let margins = Margins::of(&analysis)?;
@@ -120,9 +126,28 @@ impl CaseStudy {
 
     /// The moving attractor that most starts lead to, or rest if there is no other.
     pub fn main_attractor(&self) -> Option<&FoundAttractor> {
-        let rests = |found: &&FoundAttractor| found.regime() == Regime::AtRest;
-        self.attractors.iter().find(|found| !rests(found)).or_else(|| self.attractors.first())
+        main_attractor(&self.attractors)
     }
+}
+
+/// The moving attractor that most starts lead to, or rest if there is no other.
+pub fn main_attractor(found: &[FoundAttractor]) -> Option<&FoundAttractor> {
+    let rests = |found: &&FoundAttractor| found.regime() == Regime::AtRest;
+    found.iter().find(|found| !rests(found)).or_else(|| found.first())
+}
+
+/// Every long-term motion that evenly spread starts and the theory's predictions lead to.
+///
+/// # Errors
+/// [`StartError`] if a predicted motion cannot be simulated.
+pub fn attractors(
+    analysis: &Analysis,
+    effort: &StudyEffort,
+    progress: &mut dyn FnMut(u64),
+) -> Result<Vec<FoundAttractor>, StartError> {
+    let search =
+        SearchEffort { starts: effort.starts, each: effort.each(), measured: effort.periods };
+    search::find(&analysis.system, &predicted_starts(analysis), &search, progress)
 }
 
 /// Starts on every motion that theory predicts, rest included.

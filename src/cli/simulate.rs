@@ -1,0 +1,161 @@
+//! `vinesink simulate CASE`
+
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+use clap::Args;
+use miette::{IntoDiagnostic, Result, miette};
+use vinesink::analysis::Analysis;
+use vinesink::case::Case;
+use vinesink::regimes::attractor::Effort;
+use vinesink::regimes::{Attractor, FoundAttractor};
+use vinesink::report::documents::SimulationDocument;
+use vinesink::report::summary;
+use vinesink::simulation::{Impact, ImpactLog, Simulation};
+use vinesink::store;
+use vinesink::study::{self, StudyEffort};
+use vinesink::system::State;
+
+use super::case_file::{CaseArgument, Format};
+use super::progress::Progress;
+use super::{Outcome, output};
+
+/// Simulate a case directly, impact by impact
+///
+/// Without --initial the case is simulated from many starts, because answers coexist: every
+/// long-term motion is listed with the share of starts that led to it, and the numbers are those of
+/// the moving one that most starts lead to. With --initial one trajectory is followed.
+#[derive(Debug, Args)]
+#[command(after_long_help = EXAMPLES)]
+pub struct Arguments {
+    #[command(flatten)]
+    case: CaseArgument,
+    /// Excitation periods to measure [default: the case's, or 1000]
+    #[arg(long, value_name = "N", value_parser = whole_number)]
+    periods: Option<u64>,
+    /// Excitation periods to leave out before measuring [default: the case's, or 400]
+    #[arg(long, value_name = "N", value_parser = whole_number)]
+    discard: Option<u64>,
+    /// One start at excitation phase 0 instead of many: lengths over the clearance, velocities per
+    /// fast time tau = omega0 t
+    #[arg(long, value_name = "X,XDOT,Y,YDOT", value_parser = state, allow_hyphen_values = true)]
+    initial: Option<State>,
+    /// Write every impact of the measured window to this file
+    #[arg(long, value_name = "FILE.csv")]
+    impacts: Option<PathBuf>,
+    /// Text for people or JSON for programs
+    #[arg(long, value_enum, default_value = "text")]
+    format: Format,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  vinesink simulate cases/li2016-8hz-b15mm.toml
+  vinesink simulate damper.toml --initial 0,0,0,1 --discard 0 --periods 50 --impacts impacts.csv
+
+The CSV file has one line an impact: tau,side,x,xdot_before,xdot_after,ydot_before,ydot_after;
+lengths over the clearance, tau counted from the start of the run, side +1 where x - y = +b.";
+
+/// Impacts after which a run is ended; at a million impacts a second this is some minutes.
+const IMPACT_LIMIT: u64 = 200_000_000;
+
+pub fn run(arguments: Arguments) -> Result<Outcome> {
+    let case = arguments.case.read()?;
+    let effort = arguments.effort(&case);
+    let (motion, found) = match arguments.initial {
+        Some(start) => (follow(&case, start, &effort, &arguments)?, None),
+        None => {
+            let found = search(&case, &effort)?;
+            let main = study::main_attractor(&found)
+                .ok_or_else(|| miette!("no start led anywhere; ask for more than 0 starts"))?;
+            let continued = StudyEffort { discard: 0, ..effort };
+            let motion = follow(&case, main.attractor.state, &continued, &arguments)?;
+            (motion, Some(found))
+        }
+    };
+    let document = SimulationDocument::new(&motion, found.as_deref(), &case.scales());
+    match arguments.format {
+        Format::Text => output::print(summary::simulation(&case, &motion, found.as_deref()))?,
+        Format::Json => output::print_json(&document)?,
+    }
+    Ok(Outcome::Done)
+}
+
+impl Arguments {
+    fn effort(&self, case: &Case) -> StudyEffort {
+        let asked = StudyEffort::of(&case.simulation);
+        StudyEffort {
+            periods: self.periods.unwrap_or(asked.periods),
+            discard: self.discard.unwrap_or(asked.discard),
+            ..asked
+        }
+    }
+}
+
+/// Follows one trajectory and writes its impacts if asked to.
+fn follow(
+    case: &Case,
+    start: State,
+    effort: &StudyEffort,
+    arguments: &Arguments,
+) -> Result<Attractor> {
+    let mut simulation = Simulation::new(&case.system(), start, 0.0).into_diagnostic()?;
+    let effort = Effort {
+        discard: effort.discard,
+        periods: effort.periods,
+        prolongations: 0,
+        impact_limit: IMPACT_LIMIT,
+    };
+    let Some(path) = &arguments.impacts else {
+        return Ok(Attractor::measure(&mut simulation, &effort));
+    };
+    let mut log = ImpactLog::default();
+    let motion = Attractor::measure_with(&mut simulation, &effort, &mut log);
+    store::write_file(path, csv(&log.impacts).as_bytes())?;
+    Ok(motion)
+}
+
+fn search(case: &Case, effort: &StudyEffort) -> Result<Vec<FoundAttractor>> {
+    let analysis = Analysis::of(&case.system()).into_diagnostic()?;
+    let progress = Progress::new("simulating", u64::from(effort.starts));
+    study::attractors(&analysis, effort, &mut |done| progress.advance(done)).into_diagnostic()
+}
+
+fn csv(impacts: &[Impact]) -> String {
+    let mut text = String::from("tau,side,x,xdot_before,xdot_after,ydot_before,ydot_after\n");
+    for impact in impacts {
+        let side = if impact.side.sign() > 0.0 { "+1" } else { "-1" };
+        // Rust prints the shortest text that reads back to the same number.
+        let _ = writeln!(
+            text,
+            "{},{side},{},{},{},{},{}",
+            impact.tau,
+            impact.x,
+            impact.x_velocity_before,
+            impact.x_velocity_after,
+            impact.y_velocity_before,
+            impact.y_velocity_after
+        );
+    }
+    text
+}
+
+/// A whole number, also as `1e6`.
+fn whole_number(text: &str) -> Result<u64, String> {
+    let plain = text.replace('_', "");
+    if let Ok(number) = plain.parse() {
+        return Ok(number);
+    }
+    match plain.parse::<f64>() {
+        Ok(number) if (0.0..=1e15).contains(&number) && number.fract() == 0.0 => Ok(number as u64),
+        _ => Err("expected a whole number, for example 1000 or 1e6".into()),
+    }
+}
+
+fn state(text: &str) -> Result<State, String> {
+    let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
+    match numbers.as_deref() {
+        Ok(&[x, x_velocity, y, y_velocity]) => Ok(State { x, x_velocity, y, y_velocity }),
+        _ => Err("expected four numbers X,XDOT,Y,YDOT, for example 0,0.01,0,0".into()),
+    }
+}

@@ -1,0 +1,130 @@
+//! Readable summaries for a terminal.
+
+use std::fmt::Write as _;
+
+use super::numbers::{LengthFormat, fixed, percent, significant};
+use crate::analysis::{Analysis, Strip};
+use crate::case::Case;
+use crate::regimes::{Attractor, FoundAttractor};
+use crate::study::SettledArea;
+use crate::validation::boundaries::clearances;
+
+/// What the theory says of a case.
+pub fn analysis(case: &Case, analysis: &Analysis, area: SettledArea) -> String {
+    let scales = case.scales();
+    let lengths = LengthFormat::of(&scales);
+    let length = |over_clearance: f64| lengths.text(scales.length(over_clearance));
+    let mut text = format!("{}\n\n", case.title);
+    let strip = match analysis.zone.strip {
+        Some(Strip::A1) => ", strip A1: steady 1:1 resonance beside a modulated response",
+        Some(Strip::A2) => ", strip A2: strongly modulated response",
+        None => "",
+    };
+    let how = if area.by_simulation { " (Z1 or Z2 told apart by a short simulation)" } else { "" };
+    let _ = writeln!(text, "Area {:?}{strip}{how}", area.area);
+    let manifold = &analysis.manifold;
+    let _ = writeln!(
+        text,
+        "Slow invariant manifold: fold at B = {}, C = {}; symmetry breaking at B = {}, C = {}",
+        length(manifold.fold.absorber),
+        length(manifold.fold.oscillator),
+        length(manifold.symmetry_breaking.absorber),
+        length(manifold.symmetry_breaking.oscillator),
+    );
+    text.push_str("\nFixed points of the slow flow (1:1 resonance, leading order in the mass ratio)\n");
+    if analysis.fixed_points.is_empty() {
+        text.push_str("  none\n");
+    }
+    for point in &analysis.fixed_points {
+        let _ = writeln!(
+            text,
+            "  C = {}, B = {}, eta = {} rad: {} on the {} branch, {}{}",
+            length(point.oscillator),
+            length(point.absorber),
+            fixed(point.eta, 3),
+            point.kind.words(),
+            point.branch.words(),
+            if point.stable { "a stable motion" } else { "not a stable motion" },
+            if point.admissible { "" } else { ", and not a motion: the absorber would leave its cavity" },
+        );
+    }
+    text.push_str("\nBoundaries at this frequency and forcing, as clearances\n");
+    for at in clearances(analysis) {
+        let branch = match at.kind {
+            crate::analysis::BoundaryKind::SaddleNode => {
+                format!(", on the {} branch", at.branch.words())
+            }
+            _ => String::new(),
+        };
+        let _ = writeln!(text, "  {}: b = {}{branch}", at.kind.words(), length(at.clearance));
+    }
+    let p1 = analysis.boundaries.codimension_two;
+    let frequency = scales.frequency_hz(1.0 + analysis.system.mass_ratio() * p1.detuning);
+    let _ = writeln!(
+        text,
+        "  P1, where saddle-node and Hopf meet: sigma = {}, gamma = {}{}",
+        significant(p1.detuning, 4),
+        significant(p1.forcing_over_clearance, 4),
+        frequency.map(|f| format!(", f = {} Hz", significant(f, 4))).unwrap_or_default(),
+    );
+    text
+}
+
+/// What simulation found.
+pub fn simulation(case: &Case, motion: &Attractor, found: Option<&[FoundAttractor]>) -> String {
+    let scales = case.scales();
+    let lengths = LengthFormat::of(&scales);
+    let mut text = format!("{}\n\n", case.title);
+    let evidence = &motion.classification.evidence;
+    let _ = writeln!(text, "{}", sentence(motion.classification.regime.words()));
+    let _ = writeln!(
+        text,
+        "  {} impacts per period over {} periods; peak displacement {}, rms {}",
+        significant(evidence.impacts_per_period, 4),
+        motion.periods,
+        lengths.text(scales.length(motion.peak)),
+        lengths.text(scales.length(motion.rms)),
+    );
+    if let Some(repeats) = evidence.periodicity {
+        let _ = writeln!(
+            text,
+            "  repeats every {} after {}",
+            counted(u64::from(repeats.periods), "period"),
+            counted(u64::from(repeats.impacts), "impact")
+        );
+    }
+    let _ = writeln!(
+        text,
+        "  modulation depth {}, captured in 1:1 resonance {} of the time",
+        percent(evidence.modulation_depth),
+        percent(evidence.captures.share)
+    );
+    let _ = writeln!(
+        text,
+        "  energy balance closed to {}, run ended by {}",
+        significant(motion.energy.relative_residual, 1),
+        motion.stop.words()
+    );
+    if let Some(found) = found {
+        text.push_str("\nLong-term motions found, by share of starts\n");
+        for one in found {
+            let _ = writeln!(
+                text,
+                "  {:>5}  {}, peak {}",
+                percent(one.share),
+                one.regime().words(),
+                lengths.text(scales.length(one.attractor.peak))
+            );
+        }
+    }
+    text
+}
+
+fn sentence(words: &str) -> String {
+    let mut letters = words.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
+fn counted(count: u64, noun: &str) -> String {
+    if count == 1 { format!("{count} {noun}") } else { format!("{count} {noun}s") }
+}
