@@ -61,7 +61,7 @@ impl Manifold {
         let cosine = stated.impact_position.residual().solve_linear(cos(Theta))?;
         let sine = stated.impact_velocity.residual().solve_linear(sin(Theta))?;
         let sine = sine.substitute(r, restitution).cancel();
-        let circle = eliminate_angle(&(C * &sine), &(C * &cosine), &C.into());
+        let circle = eliminate_angle(&(C * &cosine), &(C * &sine), &C.into());
         let square = circle.substitute(rho.squared(), curvature).solve_linear(C.squared())?;
         let slope = square.differentiate(B).descending_in(B)?;
         let fold_amplitude = slope.solve_linear(B)?.cancel();

@@ -152,9 +152,10 @@ impl Expr {
     }
 }
 
-/// What `sin^2 + cos^2 = 1` says about `a sin`, `a cos` and `a`: the expression that vanishes.
-pub fn eliminate_angle(a_sine: &Expr, a_cosine: &Expr, a: &Expr) -> Expr {
-    a_sine.squared() + a_cosine.squared() - a.squared()
+/// What `sin^2 + cos^2 = 1` says about `a sin`, `a cos` (in either order) and `a`: the expression
+/// that vanishes.
+pub fn eliminate_angle(first_side: &Expr, second_side: &Expr, a: &Expr) -> Expr {
+    first_side.squared() + second_side.squared() - a.squared()
 }
 
 fn add_by_power(terms: &[Vec<Expr>]) -> Vec<Expr> {

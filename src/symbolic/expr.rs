@@ -109,6 +109,9 @@ impl Expr {
     /// # Panics
     /// For a negative power of the number 0.
     pub fn power(&self, exponent: i32) -> Expr {
+        if matches!(self, Expr::Sum(_)) && exponent > 1 {
+            return Expr::Power(Box::new(self.clone()), exponent);
+        }
         let mut builder = ProductBuilder { coefficient: Rational::ONE, powers: Vec::new() };
         builder.push(self.clone(), exponent);
         builder.finish()

@@ -1,0 +1,249 @@
+//! The equations in the order in which a reader meets them, with what each one gives.
+
+use super::Equations;
+use crate::symbolic::Symbol::{
+    AmplitudeRatio as beta, Detuning as sigma, ExcitationPhase as eta,
+    ForcingPerClearance as gamma, ManifoldSquare as c_2, RatioRate, Shift as u,
+};
+use crate::symbolic::{Equation, Expr, Values, cos, format_number, sin, sqrt};
+
+/// An equation with its explanation.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ReportEquation {
+    /// The number in the paper, if it has one.
+    pub number: Option<&'static str>,
+    /// A title.
+    pub title: &'static str,
+    /// What it is for.
+    pub gives: &'static str,
+    /// Where it comes from.
+    pub source: &'static str,
+    /// The left side, in LaTeX.
+    pub left: String,
+    /// The right side: the very expression that is evaluated.
+    pub right: Expr,
+}
+
+impl ReportEquation {
+    /// The general formula.
+    pub fn to_latex(&self) -> String {
+        format!("{} = {}", self.left, self.right.to_latex())
+    }
+
+    /// The formula with a case's numbers, and the value if all symbols have one.
+    pub fn to_latex_with(&self, values: &Values, digits: usize) -> String {
+        let formula = self.right.to_latex_with(values, digits);
+        match self.right.evaluate(values) {
+            Ok(value) => {
+                let value = format_number(value, digits);
+                if value == formula {
+                    format!("{} = {value}", self.left)
+                } else {
+                    format!("{} = {formula} = {value}", self.left)
+                }
+            }
+            Err(_) => format!("{} = {formula}", self.left),
+        }
+    }
+}
+
+const DERIVED: &str = "derived here";
+
+fn stated(equation: &Equation, gives: &'static str) -> ReportEquation {
+    ReportEquation {
+        number: equation.number,
+        title: equation.name,
+        gives,
+        source: equation.source,
+        left: equation.left.to_latex(),
+        right: equation.right.clone(),
+    }
+}
+
+fn derived(
+    title: &'static str,
+    gives: &'static str,
+    left: impl Into<String>,
+    right: &Expr,
+) -> ReportEquation {
+    let (left, right) = (left.into(), right.clone());
+    ReportEquation { number: None, title, gives, source: DERIVED, left, right }
+}
+
+fn by_powers<const N: usize>(
+    title: &'static str,
+    gives: &'static str,
+    name: &str,
+    coefficients: &[Expr; N],
+) -> Vec<ReportEquation> {
+    let one = |(power, right)| derived(title, gives, format!("{name}_{{{power}}}"), right);
+    coefficients.iter().enumerate().map(one).collect()
+}
+
+fn latex(expression: impl Into<Expr>) -> String {
+    expression.into().to_latex()
+}
+
+impl Equations {
+    /// All equations in reading order: what is assumed, the manifold, the fixed points, the
+    /// boundaries, the slow flow.
+    pub fn for_report(&self) -> Vec<ReportEquation> {
+        [self.assumptions(), self.manifold(), self.fixed_points(), self.boundaries(), self.flow()]
+            .concat()
+    }
+
+    fn assumptions(&self) -> Vec<ReportEquation> {
+        let s = &self.stated;
+        vec![
+            stated(&s.motion_of_base, "the motion that is simulated when the base moves"),
+            stated(&s.motion_by_force, "the motion that is simulated when a force acts"),
+            stated(&s.absorber_motion, "a straight line between impacts"),
+            stated(&s.restitution, "the velocity after an impact"),
+            stated(&s.reduced_forcing, "the size of the excitation"),
+            stated(&s.detuning, "how far the excitation is from resonance"),
+            stated(&s.forcing_per_clearance, "the one measure of excitation against clearance"),
+            stated(&s.restitution_ratio, "the loss at an impact"),
+            stated(&s.curvature, "the shape of the manifold"),
+            stated(&s.impact_position, "one relation of the amplitudes at an impact"),
+            stated(&s.impact_velocity, "the other relation of the amplitudes at an impact"),
+            stated(&s.first_harmonic, "the absorber's action on the oscillator"),
+            stated(&s.amplitude_rate, "growth or decay of the oscillator's motion"),
+            stated(&s.phase_rate, "drift of the phase against the excitation"),
+            stated(&s.trace, "stability of the impacts at order 0"),
+            stated(&s.determinant, "stability of the impacts at order 0"),
+        ]
+    }
+
+    fn manifold(&self) -> Vec<ReportEquation> {
+        let m = &self.manifold;
+        let square = self.stated.manifold.left.to_latex();
+        vec![
+            ReportEquation {
+                number: self.stated.manifold.number,
+                source: "derived here from (14) and (15); paper (16)",
+                ..derived(
+                    "Slow invariant manifold",
+                    "every motion with two symmetric impacts per cycle",
+                    square,
+                    &m.square_by_powers,
+                )
+            },
+            derived("Fold", "where the manifold's stable branch begins", "B", &m.fold_amplitude),
+            derived(
+                "Fold",
+                "the smallest amplitude that sustains impacts",
+                "C",
+                &m.fold_oscillator,
+            ),
+            derived(
+                "Symmetry breaking",
+                "where the stable branch ends: a multiplier is -1",
+                latex(beta),
+                &m.breaking_ratio,
+            ),
+            derived(
+                "Manifold over the clearance",
+                "the form that is evaluated",
+                latex(c_2),
+                &m.shifted_square,
+            ),
+            stated(&self.stated.shift, "the unknown that is solved for"),
+        ]
+    }
+
+    fn fixed_points(&self) -> Vec<ReportEquation> {
+        let f = &self.fixed_points;
+        let side = |function: Expr| latex(gamma * sqrt(c_2) * function);
+        let mut list = vec![
+            derived("Fixed point", "the phase of a fixed point", side(sin(eta)), &f.sine),
+            derived("Fixed point", "the phase of a fixed point", side(cos(eta)), &f.cosine),
+            derived(
+                "Forcing of a fixed point",
+                "which excitation holds an amplitude",
+                latex(gamma.squared()),
+                &f.forcing_squared,
+            ),
+        ];
+        list.extend(by_powers(
+            "Quartic of the fixed points",
+            "coefficients of powers of u; its real roots are the fixed points",
+            "p",
+            &f.by_shift,
+        ));
+        list.extend(by_powers(
+            "Saddle-node condition",
+            "coefficients of powers of u; two fixed points meet at its roots",
+            "q",
+            &f.saddle_node_by_shift,
+        ));
+        list.extend(by_powers(
+            "Frequency response",
+            "coefficients of powers of the detuning at a given amplitude",
+            "f",
+            &f.by_detuning,
+        ));
+        list
+    }
+
+    fn boundaries(&self) -> Vec<ReportEquation> {
+        let b = &self.boundaries;
+        let mut list = by_powers(
+            "Hopf boundary",
+            "squared forcing per clearance by powers of the detuning: the fixed point at the fold",
+            "h",
+            &b.hopf,
+        );
+        list.extend(by_powers(
+            "Symmetry-breaking boundary",
+            "squared forcing per clearance by powers of the detuning",
+            "a",
+            &b.breaking,
+        ));
+        let detuning = format!(r"{}_{{P1}}", latex(sigma));
+        list.push(derived(
+            "Meeting point P1",
+            "the detuning at which the saddle-node boundary reaches the Hopf boundary",
+            detuning,
+            &b.meeting_detuning,
+        ));
+        list
+    }
+
+    fn flow(&self) -> Vec<ReportEquation> {
+        let f = &self.slow_flow;
+        let slope = |row: usize, by: &str| format!("J_{{{} {by}}}", ["u", r"\eta"][row]);
+        vec![
+            derived("Slow flow", "the amplitude's rate", latex(RatioRate), &f.ratio_rate),
+            derived(
+                "Slow flow",
+                "the phase's rate",
+                self.stated.phase_rate.left.to_latex(),
+                &f.phase_rate,
+            ),
+            derived(
+                "Jacobian",
+                "stability of a fixed point",
+                slope(0, &latex(u)),
+                &f.jacobian[0][0],
+            ),
+            derived(
+                "Jacobian",
+                "stability of a fixed point",
+                slope(0, &latex(eta)),
+                &f.jacobian[0][1],
+            ),
+            derived(
+                "Jacobian",
+                "stability of a fixed point",
+                slope(1, &latex(u)),
+                &f.jacobian[1][0],
+            ),
+            derived(
+                "Jacobian",
+                "stability of a fixed point",
+                slope(1, &latex(eta)),
+                &f.jacobian[1][1],
+            ),
+        ]
+    }
+}
