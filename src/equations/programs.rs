@@ -89,7 +89,7 @@ impl Programs {
             hopf: Compiled::new(boundaries.hopf.each_ref()),
             breaking: Compiled::new(boundaries.breaking.each_ref()),
             meeting_detuning: Compiled::new([&boundaries.meeting_detuning]),
-            rates: Compiled::new(slow_flow.rates.each_ref()),
+            rates: Compiled::new([&slow_flow.ratio_rate, &slow_flow.phase_rate]),
             stability: Compiled::new([a, b, c, d, &slow_flow.trace, &slow_flow.determinant]),
         }
     }
@@ -257,13 +257,13 @@ impl Programs {
         Ok(MeetingPoint { detuning, forcing_per_clearance })
     }
 
-    /// Rates of `u` and `eta` in slow time. Needs `u`, `eta`, `lambda`, `rho`, `R`, `sigma`,
+    /// Rates of `u` and `eta` in slow time. Needs a point, `eta`, `lambda`, `rho`, `R`, `sigma`,
     /// `gamma`; infinite at the fold.
     ///
     /// # Errors
     /// If a value is missing.
-    pub fn slow_flow(&self, values: &Values) -> Result<[f64; 2], MissingValue> {
-        self.rates.evaluate(values)
+    pub fn slow_flow(&self, point: &Values) -> Result<[f64; 2], MissingValue> {
+        self.rates.evaluate(point)
     }
 
     /// Jacobian of the slow flow, its trace and determinant. Needs what [`Programs::slow_flow`]
@@ -271,8 +271,8 @@ impl Programs {
     ///
     /// # Errors
     /// If a value is missing.
-    pub fn stability(&self, values: &Values) -> Result<Stability, MissingValue> {
-        let [a, b, c, d, trace, determinant] = self.stability.evaluate(values)?;
+    pub fn stability(&self, point: &Values) -> Result<Stability, MissingValue> {
+        let [a, b, c, d, trace, determinant] = self.stability.evaluate(point)?;
         Ok(Stability { jacobian: [[a, b], [c, d]], trace, determinant })
     }
 }

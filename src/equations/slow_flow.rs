@@ -5,7 +5,7 @@
 //! fold, where `dC^2/dB` vanishes.
 
 use super::Stated;
-use super::fixed_points::on_manifold;
+use super::fixed_points::{on_manifold, with_shift};
 use super::manifold::{Manifold, in_shift};
 use crate::symbolic::Expr;
 use crate::symbolic::Symbol::{
@@ -13,15 +13,13 @@ use crate::symbolic::Symbol::{
     OscillatorAmplitude as C, Shift as u,
 };
 
-/// Rates and their Jacobian.
+/// Rates and their Jacobian, in `beta`, `u`, `c_2` of a point of the manifold, and `eta`.
 #[derive(Debug, Clone)]
 pub struct SlowFlow {
-    /// `d(beta)/dtau1` in `beta`, `c_2`, `eta`.
+    /// `d(beta)/dtau1`.
     pub ratio_rate: Expr,
-    /// `d(eta)/dtau1` in `beta`, `c_2`, `eta`.
+    /// `d(eta)/dtau1`.
     pub phase_rate: Expr,
-    /// Both rates in `u`, `eta`; these are evaluated.
-    pub rates: [Expr; 2],
     /// Derivatives of the rates, by rows, by `u` and `eta`.
     pub jacobian: [[Expr; 2]; 2],
     /// Trace of the Jacobian.
@@ -34,14 +32,20 @@ impl SlowFlow {
     /// Derives the flow from (18) and the manifold.
     pub fn derive(stated: &Stated, manifold: &Manifold) -> Self {
         let square_rate = (2 * C * &stated.amplitude_rate.right).distribute();
-        let slope = manifold.ratio_square.differentiate(beta);
+        let slope = manifold.shifted_square.differentiate(u).substitute(1 + u, beta);
         let ratio_rate = on_manifold(&square_rate, stated, manifold) / slope;
-        let phase_rate = on_manifold(&stated.phase_rate.right, stated, manifold);
-        let rates = [&ratio_rate, &phase_rate]
-            .map(|rate| in_shift(&rate.substitute(c_2, &manifold.ratio_square)));
-        let jacobian = [0, 1].map(|row| [u, eta].map(|by| rates[row].differentiate(by)));
+        let phase_rate = with_shift(&on_manifold(&stated.phase_rate.right, stated, manifold));
+        let jacobian = [&ratio_rate, &phase_rate].map(|rate| {
+            let in_shift = in_shift(&rate.substitute(c_2, &manifold.ratio_square));
+            [u, eta].map(|by| in_point(&in_shift.differentiate(by), manifold))
+        });
         let [[a, b], [c, d]] = &jacobian;
         let (trace, determinant) = (a + d, a * d - b * c);
-        Self { ratio_rate, phase_rate, rates, trace, determinant, jacobian }
+        Self { ratio_rate, phase_rate, trace, determinant, jacobian }
     }
+}
+
+/// Writes `c_2` and `beta` again for what they are in `u`.
+fn in_point(expression: &Expr, manifold: &Manifold) -> Expr {
+    expression.substitute(&manifold.shifted_square, c_2).substitute(1 + u, beta)
 }

@@ -258,13 +258,34 @@ impl ProductBuilder {
         }
     }
 
+    /// `-(-a + b)` is written `(a - b)`.
+    fn absorb_sign(&mut self) {
+        let starts_negative = |(base, exponent): &(Expr, i32)| {
+            let Expr::Sum(terms) = base else { return false };
+            exponent % 2 != 0 && terms[0].coefficient().is_negative()
+        };
+        if !self.coefficient.is_negative() {
+            return;
+        }
+        if let Some(place) = self.powers.iter().position(starts_negative) {
+            self.coefficient = -self.coefficient;
+            let base = std::mem::replace(&mut self.powers[place].0, Expr::ZERO);
+            self.powers[place].0 = base.scaled(Rational::MINUS_ONE);
+        }
+    }
+
     fn finish(mut self) -> Expr {
         self.unroot();
         if self.coefficient.is_zero() {
             return Expr::ZERO;
         }
         self.powers.retain(|(_, exponent)| *exponent != 0);
-        self.powers.sort_by_cached_key(|(base, exponent)| (base.rank(), base.clone(), *exponent));
+        self.absorb_sign();
+        if self.powers.len() > 1 {
+            self.powers.sort_by(|(left, _), (right, _)| {
+                left.rank().cmp(&right.rank()).then_with(|| left.cmp(right))
+            });
+        }
         let factors = self.powers.into_iter().map(|(base, exponent)| match exponent {
             1 => base,
             _ => Expr::Power(Box::new(base), exponent),

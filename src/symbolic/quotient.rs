@@ -70,7 +70,7 @@ impl Expr {
         let coefficients = self.expand().collect(variable.clone())?;
         let terms = coefficients.iter().enumerate().rev();
         Ok(Expr::sum(terms.map(|(power, coefficient)| match i32::try_from(power) {
-            Ok(power) => coefficient * variable.power(power),
+            Ok(power) => coefficient.expand() * variable.power(power),
             Err(_) => unreachable!("exponents are 32 bit integers"),
         })))
     }
