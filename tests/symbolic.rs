@@ -158,7 +158,7 @@ fn like_terms_and_factors_merge() {
     assert_eq!(sqrt(B) * sqrt(B), B.into());
     assert_eq!(sqrt(B).power(3), B * sqrt(B));
     assert_eq!((B * b).power(-2) * B.power(3) * b.squared(), B.into());
-    assert_eq!(0 * sin(eta), Expr::ZERO);
+    assert_eq!(Expr::ZERO * sin(eta), Expr::ZERO);
     assert_eq!(fraction(6, -4), fraction(-3, 2));
 }
 

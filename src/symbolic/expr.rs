@@ -228,6 +228,9 @@ impl ProductBuilder {
             }
             Expr::Sum(terms) => {
                 let content = content(&terms);
+                if content == Rational::ONE {
+                    return self.merge(Expr::Sum(terms), exponent);
+                }
                 self.coefficient = self.coefficient * content.power(exponent);
                 let scale = content.reciprocal();
                 let terms = terms.into_iter().map(|term| term.scaled(scale)).collect();
