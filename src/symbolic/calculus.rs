@@ -113,7 +113,10 @@ impl Expr {
                 Some(add_by_power(&terms?))
             }
             Expr::Product(factors) => {
-                factors.iter().try_fold(vec![Expr::ONE], |product, factor| {
+                let (dependent, free): (Vec<&Expr>, Vec<&Expr>) =
+                    factors.iter().partition(|factor| factor.contains(variable));
+                let free = vec![Expr::product(free.into_iter().cloned())];
+                dependent.into_iter().try_fold(free, |product, factor| {
                     Some(convolve(&product, &factor.coefficients_of(variable)?))
                 })
             }
