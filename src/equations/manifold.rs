@@ -7,7 +7,7 @@
 use super::Stated;
 use crate::symbolic::Symbol::{
     AbsorberAmplitude as B, AbsorberPhase as Theta, AmplitudeRatio as beta, Clearance as b,
-    CosineLength, ImpactFactor, ManifoldCurvature as R, OscillatorAmplitude as C, Restitution as r,
+    CosineLength, ImpactFactor, OscillatorAmplitude as C, Restitution as r,
     RestitutionRatio as rho, Shift as u, SineLength,
 };
 use crate::symbolic::{AlgebraError, Expr, cos, eliminate_angle, sin, sqrt};
@@ -120,9 +120,8 @@ pub(super) fn in_shift(expression: &Expr) -> Expr {
     expression.substitute(beta, 1 + u)
 }
 
-/// `R` from `rho`, to tell powers of `rho` apart from powers of `R`.
+/// Writes even powers of `rho` as powers of `R`, so that a division by `R` can cancel.
 pub(super) fn with_curvature(expression: &Expr, stated: &Stated) -> Result<Expr, AlgebraError> {
     let square = stated.curvature.residual().solve_linear(rho.squared())?;
-    debug_assert!(square.contains(&R.into()));
     Ok(expression.expand().substitute(rho.squared(), square))
 }

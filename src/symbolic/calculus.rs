@@ -23,27 +23,33 @@ impl Expr {
     /// Replaces every occurrence of `part` by `replacement`. A `part` that is itself a power, such
     /// as `C^2`, is also found in the multiples of that power, such as `C^4`.
     pub fn substitute(&self, part: impl Into<Expr>, replacement: impl Into<Expr>) -> Expr {
-        self.replace(&part.into(), &replacement.into())
+        self.replaced(&part.into(), &replacement.into()).unwrap_or_else(|| self.clone())
     }
 
-    fn replace(&self, part: &Expr, replacement: &Expr) -> Expr {
+    /// The expression after replacement; nothing if the part does not occur.
+    fn replaced(&self, part: &Expr, replacement: &Expr) -> Option<Expr> {
         if self == part {
-            return replacement.clone();
+            return Some(replacement.clone());
         }
+        let in_all = |parts: &[Expr]| -> Option<Vec<Expr>> {
+            let replaced: Vec<_> = parts.iter().map(|p| p.replaced(part, replacement)).collect();
+            replaced.iter().any(Option::is_some).then(|| {
+                let pairs = replaced.into_iter().zip(parts);
+                pairs.map(|(new, old)| new.unwrap_or_else(|| old.clone())).collect()
+            })
+        };
         match self {
-            Expr::Number(_) | Expr::Symbol(_) => self.clone(),
+            Expr::Number(_) | Expr::Symbol(_) => None,
             Expr::Function(function, inner) => {
-                Expr::function(*function, inner.replace(part, replacement))
+                Some(Expr::function(*function, inner.replaced(part, replacement)?))
             }
-            Expr::Sum(terms) => Expr::sum(terms.iter().map(|term| term.replace(part, replacement))),
-            Expr::Product(factors) => {
-                Expr::product(factors.iter().map(|factor| factor.replace(part, replacement)))
-            }
+            Expr::Sum(terms) => in_all(terms).map(Expr::sum),
+            Expr::Product(factors) => in_all(factors).map(Expr::product),
             Expr::Power(base, exponent) => match part {
                 Expr::Power(known, divisor) if known == base && exponent % divisor == 0 => {
-                    replacement.power(exponent / divisor)
+                    Some(replacement.power(exponent / divisor))
                 }
-                _ => base.replace(part, replacement).power(*exponent),
+                _ => Some(base.replaced(part, replacement)?.power(*exponent)),
             },
         }
     }
@@ -54,12 +60,13 @@ impl Expr {
             Expr::Number(_) => Expr::ZERO,
             Expr::Symbol(known) => Expr::from(i32::from(*known == symbol)),
             Expr::Sum(terms) => Expr::sum(terms.iter().map(|term| term.differentiate(symbol))),
-            Expr::Product(factors) => Expr::sum((0..factors.len()).map(|place| {
-                let differentiated = factors.iter().enumerate().map(|(other, factor)| {
-                    if other == place { factor.differentiate(symbol) } else { factor.clone() }
-                });
-                Expr::product(differentiated)
-            })),
+            Expr::Product(factors) => {
+                Expr::sum(factors.iter().enumerate().filter_map(|(place, factor)| {
+                    let slope = factor.differentiate(symbol);
+                    let others = factors[..place].iter().chain(&factors[place + 1..]).cloned();
+                    (!slope.is_zero()).then(|| Expr::product(others.chain([slope.clone()])))
+                }))
+            }
             Expr::Power(base, exponent) => {
                 *exponent * base.power(exponent - 1) * base.differentiate(symbol)
             }
@@ -106,7 +113,10 @@ impl Expr {
                 Some(add_by_power(&terms?))
             }
             Expr::Product(factors) => {
-                factors.iter().try_fold(vec![Expr::ONE], |product, factor| {
+                let (dependent, free): (Vec<&Expr>, Vec<&Expr>) =
+                    factors.iter().partition(|factor| factor.contains(variable));
+                let free = vec![Expr::product(free.into_iter().cloned())];
+                dependent.into_iter().try_fold(free, |product, factor| {
                     Some(convolve(&product, &factor.coefficients_of(variable)?))
                 })
             }

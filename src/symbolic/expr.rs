@@ -5,6 +5,7 @@
 //! ones vanish. Nothing is multiplied out unless [`Expr::expand`] is asked for.
 
 use super::{Rational, Symbol};
+use std::sync::Arc;
 
 /// A function of one argument.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -18,7 +19,8 @@ pub enum Function {
 }
 
 /// An expression. Build it with operators, [`Expr::power`], [`sqrt`], [`sin`], [`cos`]; the
-/// variants are public to be read, and hold what the constructors guarantee.
+/// variants are public to be read, and hold what the constructors guarantee. Parts are shared, so a
+/// clone costs nothing.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Expr {
     /// An exact number.
@@ -26,13 +28,13 @@ pub enum Expr {
     /// A named quantity.
     Symbol(Symbol),
     /// A function of an expression.
-    Function(Function, Box<Expr>),
+    Function(Function, Arc<Expr>),
     /// Two terms or more, in the order in which they were stated.
-    Sum(Vec<Expr>),
+    Sum(Arc<Vec<Expr>>),
     /// Two factors or more in the order of the table of symbols, a number first.
-    Product(Vec<Expr>),
+    Product(Arc<Vec<Expr>>),
     /// A symbol, function or sum to a power other than 0 and 1.
-    Power(Box<Expr>, i32),
+    Power(Arc<Expr>, i32),
 }
 
 /// `numerator / denominator` as an expression.
@@ -73,7 +75,7 @@ impl Expr {
             Function::Sqrt | Function::Sin if argument.is_zero() => Expr::ZERO,
             Function::Sqrt if is_one => Expr::ONE,
             Function::Cos if argument.is_zero() => Expr::ONE,
-            _ => Expr::Function(function, Box::new(argument)),
+            _ => Expr::Function(function, Arc::new(argument)),
         }
     }
 
@@ -82,7 +84,9 @@ impl Expr {
         let mut merged: Vec<(Expr, Rational)> = Vec::new();
         for term in terms {
             match term {
-                Expr::Sum(inner) => inner.into_iter().for_each(|term| merge(&mut merged, term)),
+                Expr::Sum(inner) => {
+                    owned(inner).into_iter().for_each(|term| merge(&mut merged, term))
+                }
                 term => merge(&mut merged, term),
             }
         }
@@ -94,7 +98,7 @@ impl Expr {
         if terms.iter().any(|term| matches!(term, Expr::Sum(_))) && terms.len() > 1 {
             return Expr::sum(terms);
         }
-        single_or(terms, Expr::ZERO, Expr::Sum)
+        single_or(terms, Expr::ZERO, many_terms)
     }
 
     /// The product of factors, like factors merged into powers.
@@ -110,7 +114,7 @@ impl Expr {
     /// For a negative power of the number 0.
     pub fn power(&self, exponent: i32) -> Expr {
         if matches!(self, Expr::Sum(_)) && exponent > 1 {
-            return Expr::Power(Box::new(self.clone()), exponent);
+            return Expr::Power(Arc::new(self.clone()), exponent);
         }
         let mut builder = ProductBuilder { coefficient: Rational::ONE, powers: Vec::new() };
         builder.push(self.clone(), exponent);
@@ -137,10 +141,10 @@ impl Expr {
     pub(super) fn split_coefficient(self) -> (Rational, Expr) {
         match self {
             Expr::Number(number) => (number, Expr::ONE),
-            Expr::Product(mut factors) => match factors[0] {
+            Expr::Product(factors) => match factors[0] {
                 Expr::Number(number) => {
-                    factors.remove(0);
-                    (number, single_or(factors, Expr::ONE, Expr::Product))
+                    let rest = factors[1..].to_vec();
+                    (number, single_or(rest, Expr::ONE, many_factors))
                 }
                 _ => (Rational::ONE, Expr::Product(factors)),
             },
@@ -168,7 +172,7 @@ impl Expr {
         match self {
             Expr::Number(number) => Expr::Number(number * factor),
             Expr::Sum(terms) if factor == Rational::MINUS_ONE => {
-                Expr::Sum(terms.into_iter().map(|term| term.scaled(factor)).collect())
+                many_terms(owned(terms).into_iter().map(|term| term.scaled(factor)).collect())
             }
             Expr::Product(_) => {
                 let (coefficient, rest) = self.split_coefficient();
@@ -186,12 +190,11 @@ impl Expr {
             return Expr::ZERO;
         }
         match self {
-            Expr::Product(mut factors) => {
-                factors.insert(0, Expr::Number(number));
-                Expr::Product(factors)
+            Expr::Product(factors) => {
+                many_factors([&[Expr::Number(number)], factors.as_slice()].concat())
             }
             Expr::Sum(_) if number == Rational::MINUS_ONE => self.scaled(number),
-            other => Expr::Product(vec![Expr::Number(number), other]),
+            other => many_factors(vec![Expr::Number(number), other]),
         }
     }
 }
@@ -202,6 +205,18 @@ fn merge(merged: &mut Vec<(Expr, Rational)>, term: Expr) {
         Some((_, sum)) => *sum = *sum + coefficient,
         None => merged.push((rest, coefficient)),
     }
+}
+
+fn owned(parts: Arc<Vec<Expr>>) -> Vec<Expr> {
+    Arc::unwrap_or_clone(parts)
+}
+
+fn many_terms(terms: Vec<Expr>) -> Expr {
+    Expr::Sum(Arc::new(terms))
+}
+
+fn many_factors(factors: Vec<Expr>) -> Expr {
+    Expr::Product(Arc::new(factors))
 }
 
 fn single_or(mut parts: Vec<Expr>, none: Expr, many: fn(Vec<Expr>) -> Expr) -> Expr {
@@ -222,16 +237,19 @@ impl ProductBuilder {
         match factor {
             _ if exponent == 0 => {}
             Expr::Number(number) => self.coefficient = self.coefficient * number.power(exponent),
-            Expr::Power(base, inner) => self.push(*base, inner * exponent),
+            Expr::Power(base, inner) => self.push(Arc::unwrap_or_clone(base), inner * exponent),
             Expr::Product(factors) => {
-                factors.into_iter().for_each(|factor| self.push(factor, exponent));
+                owned(factors).into_iter().for_each(|factor| self.push(factor, exponent));
             }
             Expr::Sum(terms) => {
                 let content = content(&terms);
+                if content == Rational::ONE {
+                    return self.merge(Expr::Sum(terms), exponent);
+                }
                 self.coefficient = self.coefficient * content.power(exponent);
                 let scale = content.reciprocal();
-                let terms = terms.into_iter().map(|term| term.scaled(scale)).collect();
-                self.merge(Expr::Sum(terms), exponent);
+                let terms = owned(terms).into_iter().map(|term| term.scaled(scale)).collect();
+                self.merge(many_terms(terms), exponent);
             }
             other => self.merge(other, exponent),
         }
@@ -258,12 +276,29 @@ impl ProductBuilder {
         }
     }
 
+    /// `-(-a + b)` is written `(a - b)`.
+    fn absorb_sign(&mut self) {
+        let starts_negative = |(base, exponent): &(Expr, i32)| {
+            let Expr::Sum(terms) = base else { return false };
+            exponent % 2 != 0 && terms[0].coefficient().is_negative()
+        };
+        if !self.coefficient.is_negative() {
+            return;
+        }
+        if let Some(place) = self.powers.iter().position(starts_negative) {
+            self.coefficient = -self.coefficient;
+            let base = std::mem::replace(&mut self.powers[place].0, Expr::ZERO);
+            self.powers[place].0 = base.scaled(Rational::MINUS_ONE);
+        }
+    }
+
     fn finish(mut self) -> Expr {
         self.unroot();
         if self.coefficient.is_zero() {
             return Expr::ZERO;
         }
         self.powers.retain(|(_, exponent)| *exponent != 0);
+        self.absorb_sign();
         if self.powers.len() > 1 {
             self.powers.sort_by(|(left, _), (right, _)| {
                 left.rank().cmp(&right.rank()).then_with(|| left.cmp(right))
@@ -271,9 +306,9 @@ impl ProductBuilder {
         }
         let factors = self.powers.into_iter().map(|(base, exponent)| match exponent {
             1 => base,
-            _ => Expr::Power(Box::new(base), exponent),
+            _ => Expr::Power(Arc::new(base), exponent),
         });
-        single_or(factors.collect(), Expr::ONE, Expr::Product).with_number(self.coefficient)
+        single_or(factors.collect(), Expr::ONE, many_factors).with_number(self.coefficient)
     }
 }
 

@@ -1,7 +1,8 @@
 //! LaTeX of an expression, with symbols or with a case's numbers in their place.
 //!
 //! Only commands that both MathJax and the converter to MathML know: `\frac`, `\sqrt`, `\sin`,
-//! `\cos`, `\left( \right)`, `\cdot`, `\times`, and the symbols of the table.
+//! `\cos`, `\left( \right)`, `\cdot`, `\times`, and the symbols of the table. Hosts of Markdown
+//! forbid some macros, `\operatorname` among them: none is used.
 
 use super::expr::Function;
 use super::{Expr, Symbol, Values};

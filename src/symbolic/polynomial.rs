@@ -147,6 +147,23 @@ impl Polynomial {
         lowest
     }
 
+    /// What a single term has in common with another polynomial; nothing if this has more terms.
+    pub(super) fn common_monomial(&self, other: &Self) -> Option<Self> {
+        let [(monomial, _)] = self.terms.iter().collect::<Vec<_>>().try_into().ok()?;
+        let shared = monomial.iter().filter_map(|(variable, exponent)| {
+            let others = other.terms.keys().map(|monomial| exponent_of(monomial, variable));
+            let lowest = others.min().unwrap_or(0).min(*exponent);
+            (lowest > 0).then(|| (variable.clone(), lowest))
+        });
+        Some(Self::term(shared.collect(), Rational::ONE))
+    }
+
+    /// Whether something other than a symbol stands in a denominator.
+    pub(super) fn has_composite_denominator(&self) -> bool {
+        let mut powers = self.terms.keys().flatten();
+        powers.any(|(variable, exponent)| *exponent < 0 && !matches!(variable, Expr::Symbol(_)))
+    }
+
     /// All variables, in the fixed order.
     pub(super) fn variables(&self) -> Vec<Expr> {
         let mut variables: Vec<Expr> =

@@ -30,12 +30,15 @@ impl Expr {
 
     /// Whether the expression is 0 once it is brought to a single quotient.
     pub fn vanishes(&self) -> bool {
-        self.is_zero() || Quotient::of(self).numerator.is_zero()
+        let expanded = Polynomial::of(self);
+        expanded.is_zero()
+            || (expanded.has_composite_denominator() && Quotient::of(self).numerator.is_zero())
     }
 
     /// Brings what stands in a denominator to a quotient of its own, so that it has none inside.
     fn with_simple_denominators(&self) -> Expr {
         match self {
+            _ if !self.has_nested_denominator() => self.clone(),
             Expr::Number(_) | Expr::Symbol(_) => self.clone(),
             Expr::Function(function, inner) => {
                 Expr::function(*function, inner.with_simple_denominators())
@@ -49,6 +52,19 @@ impl Expr {
                 let base =
                     if is_quotient { base.cancel() } else { base.with_simple_denominators() };
                 base.power(*exponent)
+            }
+        }
+    }
+
+    fn has_nested_denominator(&self) -> bool {
+        match self {
+            Expr::Number(_) | Expr::Symbol(_) => false,
+            Expr::Function(_, inner) => inner.has_nested_denominator(),
+            Expr::Sum(parts) | Expr::Product(parts) => {
+                parts.iter().any(Expr::has_nested_denominator)
+            }
+            Expr::Power(base, exponent) => {
+                (*exponent < 0 && base.has_denominator()) || base.has_nested_denominator()
             }
         }
     }
@@ -90,9 +106,14 @@ impl Quotient {
             if below.is_empty() {
                 return Self { numerator, denominators };
             }
+            let mut is_composite = false;
             for (variable, exponent) in below {
+                is_composite |= !matches!(variable, Expr::Symbol(_));
                 numerator = numerator.times(&Polynomial::variable_power(&variable, -exponent));
                 denominators.push((Polynomial::of(&variable), -exponent));
+            }
+            if !is_composite {
+                return Self { numerator, denominators };
             }
             // A sum that was cleared from one term is now a factor of the others: multiply it out.
             numerator = Polynomial::of(&numerator.to_expr());
@@ -102,10 +123,10 @@ impl Quotient {
     fn in_lowest_terms(mut self) -> Self {
         let mut kept: Vec<(Polynomial, i32)> = Vec::new();
         while let Some((factor, power)) = self.denominators.pop() {
-            let common = common_factor(&self.numerator, &factor);
             if power == 0 || factor == Polynomial::one() {
                 continue;
             }
+            let common = common_factor(&self.numerator, &factor);
             if common == Polynomial::one() || self.numerator.is_zero() {
                 kept.push((factor, power));
                 continue;
@@ -131,6 +152,9 @@ fn common_factor(left: &Polynomial, right: &Polynomial) -> Polynomial {
     }
     if right.is_zero() {
         return left.primitive().1;
+    }
+    if let Some(common) = left.common_monomial(right).or_else(|| right.common_monomial(left)) {
+        return common;
     }
     let right_variables = right.variables();
     let Some(variable) = left.variables().into_iter().find(|v| right_variables.contains(v)) else {
@@ -163,10 +187,13 @@ fn common_factor_in(left: Polynomial, right: Polynomial, variable: &Expr) -> Pol
 /// What all coefficients of `variable` have in common, and the polynomial without it.
 fn content_and_rest(polynomial: &Polynomial, variable: &Expr) -> (Polynomial, Polynomial) {
     let coefficients = polynomial.coefficients(variable);
-    let content = coefficients
-        .iter()
-        .filter(|coefficient| !coefficient.is_zero())
-        .fold(Polynomial::zero(), |content, coefficient| common_factor(&content, coefficient));
+    let mut content = Polynomial::zero();
+    for coefficient in coefficients.iter().filter(|coefficient| !coefficient.is_zero()) {
+        content = common_factor(&content, coefficient);
+        if content == Polynomial::one() {
+            return (content, polynomial.primitive().1);
+        }
+    }
     let rest = divided(polynomial, &content).unwrap_or_else(|| polynomial.clone());
     (content, rest.primitive().1)
 }

@@ -26,8 +26,14 @@ impl Rational {
     /// # Panics
     /// If the denominator is 0.
     pub fn new(numerator: i128, denominator: i128) -> Self {
+        if denominator == 1 {
+            return Self { numerator, denominator };
+        }
         assert!(denominator != 0, "a rational number needs a denominator other than 0");
         let divisor = greatest_common_divisor(numerator, denominator) * denominator.signum();
+        if divisor == 1 {
+            return Self { numerator, denominator };
+        }
         Self { numerator: numerator / divisor, denominator: denominator / divisor }
     }
 
@@ -91,6 +97,9 @@ impl Add for Rational {
     type Output = Self;
 
     fn add(self, other: Self) -> Self {
+        if self.is_zero() {
+            return other;
+        }
         let left = times(self.numerator, other.denominator);
         let right = times(other.numerator, self.denominator);
         let numerator = left.checked_add(right).unwrap_or_else(|| overflow("sum"));
@@ -138,7 +147,12 @@ fn overflow(what: &str) -> i128 {
 fn greatest_common_divisor(left: i128, right: i128) -> i128 {
     let (mut larger, mut smaller) = (left.abs(), right.abs());
     while smaller != 0 {
-        (larger, smaller) = (smaller, larger % smaller);
+        // Division of 64 bit numbers is several times as fast, and nearly always enough.
+        let remainder = match (u64::try_from(larger), u64::try_from(smaller)) {
+            (Ok(larger), Ok(smaller)) => i128::from(larger % smaller),
+            _ => larger % smaller,
+        };
+        (larger, smaller) = (smaller, remainder);
     }
     larger
 }

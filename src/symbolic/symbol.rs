@@ -61,7 +61,7 @@ symbol_table! {
     CosineLength: "s", "s", "length", "C cos Theta";
     SineLength: "c", "c", "length", "C sin Theta";
     ImpactFactor: "k", "k", "1/length", "sensitivity of the impact time, pi (1 - r)/(2 c)";
-    Trace: "T", r"\operatorname{tr}", "1", "trace of the half-period map of the impact pair";
+    Trace: "T", r"\mathrm{tr}", "1", "trace of the half-period map of the impact pair";
     Determinant: "D", r"\det", "1", "determinant of the half-period map of the impact pair";
     FrequencyRatio: "Omega", r"\Omega", "1", "excitation frequency over natural frequency";
     X: "x", "x", "length", "displacement of the oscillator";
