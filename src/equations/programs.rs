@@ -50,6 +50,7 @@ pub struct Programs {
     by_shift: Compiled<5>,
     by_detuning: Compiled<3>,
     saddle_node: Compiled<6>,
+    saddle_node_by_detuning: Compiled<3>,
     forcing_squared: Compiled<1>,
     sides: Compiled<2>,
     hopf: Compiled<3>,
@@ -84,6 +85,9 @@ impl Programs {
             by_shift: Compiled::new(fixed_points.by_shift.each_ref()),
             by_detuning: Compiled::new(fixed_points.by_detuning.each_ref()),
             saddle_node: Compiled::new(fixed_points.saddle_node_by_shift.each_ref()),
+            saddle_node_by_detuning: Compiled::new(
+                fixed_points.saddle_node_by_detuning.each_ref(),
+            ),
             forcing_squared: Compiled::new([&with_shift(&fixed_points.forcing_squared)]),
             sides: Compiled::new([&fixed_points.sine, &with_shift(&fixed_points.cosine)]),
             hopf: Compiled::new(boundaries.hopf.each_ref()),
@@ -182,6 +186,15 @@ impl Programs {
     /// If a value is missing.
     pub fn saddle_node_coefficients(&self, values: &Values) -> Result<[f64; 6], MissingValue> {
         self.saddle_node.evaluate(values)
+    }
+
+    /// Coefficients, by ascending powers of `sigma`, of the condition that two fixed points collide
+    /// at `u`. Needs `lambda`, `rho`, `R`, `u`.
+    ///
+    /// # Errors
+    /// If a value is missing.
+    pub fn saddle_node_detunings(&self, values: &Values) -> Result<[f64; 3], MissingValue> {
+        self.saddle_node_by_detuning.evaluate(values)
     }
 
     /// `gamma^2` for which a point of the manifold is a fixed point. Needs a point (see
