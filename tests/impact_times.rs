@@ -110,10 +110,7 @@ impl Reference {
         let phase = &self.omega * tau;
         let (sin, cos) = (phase.sin(), phase.cos());
         let [p, q] = &self.steady;
-        [
-            &(p * &sin) + &(q * &cos),
-            &self.omega * &(&(p * &cos) - &(q * &sin)),
-        ]
+        [&(p * &sin) + &(q * &cos), &self.omega * &(&(p * &cos) - &(q * &sin))]
     }
 
     fn flight(&self, start: Real, state: &[Real; 4]) -> Flight<'_> {
@@ -188,12 +185,8 @@ fn impact_times_agree_with_the_multiple_precision_reference_over_fifty_periods()
         let [x, v, _, u] = flight.at(&s);
         let one = Real::of(1.0);
         let exchanged = &(&(&one + &reference.restitution) * &(&v - &u)) / &(&one + &reference.eps);
-        state = [
-            x.clone(),
-            &v - &(&reference.eps * &exchanged),
-            &x - &Real::of(side),
-            &u + &exchanged,
-        ];
+        state =
+            [x.clone(), &v - &(&reference.eps * &exchanged), &x - &Real::of(side), &u + &exchanged];
         assert_eq!(impact.side.sign(), side);
         worst = worst.max((impact.tau - time.to_f64()).abs());
     }

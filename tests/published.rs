@@ -77,7 +77,8 @@ fn areas_of_the_experiments() {
 fn fixed_points_satisfy_the_slow_flow() {
     for frequency in [7.5, 8.0, 8.3, 8.5, 9.0] {
         for clearance in [0.3, 2.5, 4.0, 7.5, 11.5, 15.0, 16.2, 20.0, 34.9, 60.0] {
-            let analysis = Analysis::of(&common::table_1(frequency, clearance)).expect("analysable");
+            let analysis =
+                Analysis::of(&common::table_1(frequency, clearance)).expect("analysable");
             for point in &analysis.fixed_points {
                 assert!(point.residual < 1e-12, "{frequency} Hz, {clearance} mm: {point:?}");
             }
@@ -101,8 +102,7 @@ fn peaks_of_the_symmetric_orbits() {
 #[test]
 fn order_of_regimes_at_8_hz() {
     use vinesink::regimes::Regime::{AboveTwo, BelowTwo, TwoAsymmetric, TwoSymmetric};
-    let table =
-        [(2.5, AboveTwo), (4.0, TwoAsymmetric), (7.5, TwoSymmetric), (20.0, BelowTwo)];
+    let table = [(2.5, AboveTwo), (4.0, TwoAsymmetric), (7.5, TwoSymmetric), (20.0, BelowTwo)];
     for (clearance, regime) in table {
         let system = common::table_1(8.0, clearance);
         let start = State { x: 0.3, x_velocity: 0.2, y: 0.1, y_velocity: 0.8 };

@@ -7,8 +7,8 @@
 
 use serde::Serialize;
 
-use super::manifold::{Branch, Manifold};
 use super::AnalysisError;
+use super::manifold::{Branch, Manifold};
 use crate::equations::equations;
 use crate::numerics::bracket::brent;
 use crate::numerics::polynomial::roots_above;
@@ -103,16 +103,13 @@ impl Boundaries {
 
     /// All boundaries as `(kind, gamma)`.
     pub fn all(&self) -> impl Iterator<Item = (BoundaryKind, f64)> {
-        [
-            (BoundaryKind::SymmetryBreaking, self.symmetry_breaking),
-            (BoundaryKind::Hopf, self.hopf),
-        ]
-        .into_iter()
-        .chain(
-            self.saddle_nodes
-                .iter()
-                .map(|node| (BoundaryKind::SaddleNode, node.forcing_over_clearance)),
-        )
+        [(BoundaryKind::SymmetryBreaking, self.symmetry_breaking), (BoundaryKind::Hopf, self.hopf)]
+            .into_iter()
+            .chain(
+                self.saddle_nodes
+                    .iter()
+                    .map(|node| (BoundaryKind::SaddleNode, node.forcing_over_clearance)),
+            )
     }
 }
 

@@ -7,8 +7,8 @@
 
 use serde::Serialize;
 
-use super::manifold::{Branch, Manifold};
 use super::AnalysisError;
+use super::manifold::{Branch, Manifold};
 use crate::equations::{Stability, equations};
 use crate::numerics::polynomial::{CertifiedRoot, roots_above};
 use crate::symbolic::Symbol;

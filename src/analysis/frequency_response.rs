@@ -5,9 +5,9 @@
 
 use serde::Serialize;
 
+use super::AnalysisError;
 use super::boundaries::quadratic_roots;
 use super::manifold::{Branch, Manifold};
-use super::AnalysisError;
 use crate::equations::equations;
 use crate::system::System;
 

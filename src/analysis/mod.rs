@@ -19,7 +19,7 @@ use crate::symbolic::MissingValue;
 use crate::system::System;
 
 pub use areas::{Area, Strip, Zone};
-pub use boundaries::{BoundaryKind, Boundaries, SaddleNode};
+pub use boundaries::{Boundaries, BoundaryKind, SaddleNode};
 pub use fixed_points::{FixedPoint, Kind};
 pub use manifold::{Branch, Manifold, ManifoldPoint};
 

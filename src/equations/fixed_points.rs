@@ -56,8 +56,7 @@ impl FixedPoints {
         let by_shift = collected(&in_shift, u)?;
         let unforced =
             |coefficients: &[Expr; 5]| coefficients.clone().map(|c| c.substitute(gamma, 0));
-        let saddle_node_by_shift =
-            saddle_node(&unforced(&by_shift), &manifold.shifted_square, u)?;
+        let saddle_node_by_shift = saddle_node(&unforced(&by_shift), &manifold.shifted_square, u)?;
         Ok(Self {
             forcing_squared: condition.solve_linear(gamma.squared())?,
             by_detuning: collected(&with_shift(&condition), sigma)?,

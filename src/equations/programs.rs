@@ -85,9 +85,7 @@ impl Programs {
             by_shift: Compiled::new(fixed_points.by_shift.each_ref()),
             by_detuning: Compiled::new(fixed_points.by_detuning.each_ref()),
             saddle_node: Compiled::new(fixed_points.saddle_node_by_shift.each_ref()),
-            saddle_node_by_detuning: Compiled::new(
-                fixed_points.saddle_node_by_detuning.each_ref(),
-            ),
+            saddle_node_by_detuning: Compiled::new(fixed_points.saddle_node_by_detuning.each_ref()),
             forcing_squared: Compiled::new([&with_shift(&fixed_points.forcing_squared)]),
             sides: Compiled::new([&fixed_points.sine, &with_shift(&fixed_points.cosine)]),
             hopf: Compiled::new(boundaries.hopf.each_ref()),

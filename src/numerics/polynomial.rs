@@ -165,9 +165,8 @@ fn refine(
     };
     // The lower end is excluded, so a zero there belongs to another interval.
     let touching = enclosed.is_none() && below != 0;
-    let (lower, upper) = enclosed.unwrap_or_else(|| {
-        bisect(interval, |at| chain.sign_changes(at) < interval.changes_lower)
-    });
+    let (lower, upper) = enclosed
+        .unwrap_or_else(|| bisect(interval, |at| chain.sign_changes(at) < interval.changes_lower));
     let at = best_of(lower, upper, numbers);
     CertifiedRoot { at, lower, upper, residual: numbers.scaled(at, exact), touching }
 }

@@ -102,11 +102,7 @@ impl Attractor {
     }
 
     /// The same, the impacts of the measured window being kept in `log`.
-    pub fn measure_with(
-        simulation: &mut Simulation,
-        effort: &Effort,
-        log: &mut ImpactLog,
-    ) -> Self {
+    pub fn measure_with(simulation: &mut Simulation, effort: &Effort, log: &mut ImpactLog) -> Self {
         let system = *simulation.system();
         let mut stop = simulation.run(effort.discard, effort.impact_limit, &mut Nobody);
         let mut statistics = Statistics::begin(&system, simulation.state());
@@ -139,7 +135,8 @@ impl Attractor {
         if mine.regime != theirs.regime {
             return false;
         }
-        let difference = (self.rms - other.rms).abs() / self.rms.max(other.rms).max(f64::MIN_POSITIVE);
+        let difference =
+            (self.rms - other.rms).abs() / self.rms.max(other.rms).max(f64::MIN_POSITIVE);
         match (mine.evidence.periodicity, theirs.evidence.periodicity) {
             (Some(a), Some(b)) => {
                 (a.impacts, a.periods) == (b.impacts, b.periods) && difference < SAME_PERIODIC

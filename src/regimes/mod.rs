@@ -141,7 +141,9 @@ fn name(impacts: u64, evidence: &Evidence, thresholds: &Thresholds) -> Regime {
     if excess > thresholds.impacts_per_period {
         return Regime::AboveTwo;
     }
-    let escapes = evidence.captures.share < 1.0 - thresholds.captured_share;
+    // One capture and one escape are a transient; modulation returns.
+    let escapes =
+        evidence.captures.count > 1 && evidence.captures.share < 1.0 - thresholds.captured_share;
     let strong = evidence.modulation_depth > thresholds.modulation_depth;
     let captured = evidence.captures.share > thresholds.captured_share;
     if evidence.periodicity.is_none() && captured && escapes && strong {

@@ -21,11 +21,9 @@ pub struct Captures {
 
 /// `(max - min) / (max + min)` of the oscillator's peak per period.
 pub fn depth(records: &[PeriodRecord]) -> f64 {
-    let (low, high) = records
-        .iter()
-        .fold((f64::INFINITY, 0.0_f64), |(low, high), record| {
-            (low.min(record.peak), high.max(record.peak))
-        });
+    let (low, high) = records.iter().fold((f64::INFINITY, 0.0_f64), |(low, high), record| {
+        (low.min(record.peak), high.max(record.peak))
+    });
     if high > 0.0 { (high - low) / (high + low) } else { 0.0 }
 }
 

@@ -9,6 +9,8 @@ use crate::simulation::Impact;
 pub fn pairs(impacts: &[Impact], period: f64) -> Vec<[f64; 2]> {
     impacts
         .windows(3)
-        .map(|three| [(three[1].tau - three[0].tau) / period, (three[2].tau - three[1].tau) / period])
+        .map(|three| {
+            [(three[1].tau - three[0].tau) / period, (three[2].tau - three[1].tau) / period]
+        })
         .collect()
 }

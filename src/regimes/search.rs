@@ -2,9 +2,9 @@
 
 use serde::Serialize;
 
-use super::{Attractor, Regime};
 use super::attractor::Effort;
 use super::starts::StartBox;
+use super::{Attractor, Regime};
 use crate::simulation::{StartError, Stop};
 use crate::system::{State, System};
 

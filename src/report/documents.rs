@@ -161,9 +161,8 @@ impl SimulationDocument {
         Self {
             format: "vinesink/simulation@1",
             motion: MotionDocument::new(motion, scales),
-            attractors: others.map(|found| {
-                found.iter().map(|one| AttractorDocument::new(one, scales)).collect()
-            }),
+            attractors: others
+                .map(|found| found.iter().map(|one| AttractorDocument::new(one, scales)).collect()),
         }
     }
 }

@@ -31,7 +31,9 @@ pub fn analysis(case: &Case, analysis: &Analysis, area: SettledArea) -> String {
         length(manifold.symmetry_breaking.absorber),
         length(manifold.symmetry_breaking.oscillator),
     );
-    text.push_str("\nFixed points of the slow flow (1:1 resonance, leading order in the mass ratio)\n");
+    text.push_str(
+        "\nFixed points of the slow flow (1:1 resonance, leading order in the mass ratio)\n",
+    );
     if analysis.fixed_points.is_empty() {
         text.push_str("  none\n");
     }
@@ -45,7 +47,11 @@ pub fn analysis(case: &Case, analysis: &Analysis, area: SettledArea) -> String {
             point.kind.words(),
             point.branch.words(),
             if point.stable { "a stable motion" } else { "not a stable motion" },
-            if point.admissible { "" } else { ", and not a motion: the absorber would leave its cavity" },
+            if point.admissible {
+                ""
+            } else {
+                ", and not a motion: the absorber would leave its cavity"
+            },
         );
     }
     text.push_str("\nBoundaries at this frequency and forcing, as clearances\n");

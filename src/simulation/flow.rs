@@ -248,7 +248,8 @@ pub fn derivative_bounds(o: &Oscillator, at: Kinematics, horizon: f64) -> Deriva
     let speed = (at.v * at.v + o.stiffness * at.x * at.x).sqrt() + force * horizon;
     let acceleration = force + (2.0 * o.decay + o.stiffness.sqrt()) * speed;
     let jerk = o.frequency * force + 2.0 * o.decay * acceleration + o.stiffness * speed;
-    let snap = o.frequency * o.frequency * force + 2.0 * o.decay * jerk + o.stiffness * acceleration;
+    let snap =
+        o.frequency * o.frequency * force + 2.0 * o.decay * jerk + o.stiffness * acceleration;
     DerivativeBounds { acceleration, jerk, snap }
 }
 
@@ -275,8 +276,7 @@ fn mean_of_exponential(z: [f64; 2]) -> [f64; 2] {
     }
     let (sin, cos) = libm::sincos(z[1]);
     let half = libm::sin(0.5 * z[1]);
-    let numerator =
-        [libm::expm1(z[0]) * cos - 2.0 * half * half, libm::exp(z[0]) * sin];
+    let numerator = [libm::expm1(z[0]) * cos - 2.0 * half * half, libm::exp(z[0]) * sin];
     let scale = size * size;
     [
         (numerator[0] * z[0] + numerator[1] * z[1]) / scale,

@@ -336,11 +336,8 @@ impl Simulation {
         let motion = self.carrying.motion(self.state.x, self.state.x_velocity, self.phase);
         let curve = ContactForce { motion, side };
         let scale = self.alone.largest_force() + self.state.x.abs() + self.state.x_velocity.abs();
-        let band = Band {
-            lower: 0.0,
-            upper: f64::INFINITY,
-            touch: TOUCH_ULPS * f64::EPSILON * scale,
-        };
+        let band =
+            Band { lower: 0.0, upper: f64::INFINITY, touch: TOUCH_ULPS * f64::EPSILON * scale };
         let remaining = self.remaining();
         match first_crossing(&curve, 0.0, remaining, band) {
             Search::Clear => {
@@ -378,9 +375,11 @@ impl Simulation {
         let bounds = derivative_bounds(motion.oscillator(), at, HORIZON);
         let acceleration = side * motion.acceleration(0.0, at);
         let jerk = side * motion.jerk(0.0, at);
-        let by_acceleration = if acceleration < 0.0 { -3.0 * acceleration / bounds.jerk } else { 0.0 };
+        let by_acceleration =
+            if acceleration < 0.0 { -3.0 * acceleration / bounds.jerk } else { 0.0 };
         let noise = touch * (1.0 + motion.oscillator().decay);
-        let by_jerk = if acceleration <= noise && jerk < 0.0 { -4.0 * jerk / bounds.snap } else { 0.0 };
+        let by_jerk =
+            if acceleration <= noise && jerk < 0.0 { -4.0 * jerk / bounds.snap } else { 0.0 };
         // Neither may outrun the way to the opposite wall.
         by_acceleration.max(by_jerk).min((2.0 / bounds.acceleration).sqrt()).min(HORIZON)
     }
@@ -392,8 +391,7 @@ impl Simulation {
         duration: f64,
         observer: &mut impl Observer,
     ) -> Result<(), Overflow> {
-        let segment =
-            Segment { motion, absorber, turns: self.turns, phase: self.phase, duration };
+        let segment = Segment { motion, absorber, turns: self.turns, phase: self.phase, duration };
         self.state = segment.at(duration);
         self.phase += self.system.frequency_ratio() * duration;
         if !(self.state.x.is_finite() && self.state.y.is_finite()) {

@@ -172,12 +172,8 @@ pub fn settle_area(analysis: &Analysis) -> Result<SettledArea, StartError> {
         Some(point) => {
             let start = state_of(point, &analysis.system);
             // Enough to leave the unstable symmetric motion and count impacts.
-            let effort = Effort {
-                discard: 300,
-                periods: 50,
-                prolongations: 0,
-                impact_limit: IMPACT_LIMIT,
-            };
+            let effort =
+                Effort { discard: 300, periods: 50, prolongations: 0, impact_limit: IMPACT_LIMIT };
             Attractor::reach(&analysis.system, start, &effort)?.classification.regime
         }
         None => Regime::TwoAsymmetric,

@@ -90,8 +90,11 @@ pub fn grazing_line(
     for &frequency_ratio in frequency_ratios {
         let Ok(there) = system.with_frequency_ratio(frequency_ratio) else { continue };
         let at = there.detuning();
-        let found =
-            boundaries::explicit_boundary(BoundaryKind::SymmetryBreaking, &there, [at].into_iter())?;
+        let found = boundaries::explicit_boundary(
+            BoundaryKind::SymmetryBreaking,
+            &there,
+            [at].into_iter(),
+        )?;
         let Some(breaking) = found.first() else { continue };
         let top = system.forcing_per_clearance() / breaking.forcing_over_clearance;
         if !(top.is_finite() && top > 0.0) {

@@ -54,7 +54,11 @@ pub fn either_side(analysis: &Analysis, effort: &Effort) -> Result<Vec<Claim>, S
         .collect();
     let below = decidable.iter().rfind(|at| at.clearance <= 1.0);
     let above = decidable.iter().find(|at| at.clearance > 1.0);
-    below.into_iter().chain(above).filter_map(|at| across(analysis, at, effort).transpose()).collect()
+    below
+        .into_iter()
+        .chain(above)
+        .filter_map(|at| across(analysis, at, effort).transpose())
+        .collect()
 }
 
 /// Relative distance to either side of a boundary at which the theory is asked what it separates:

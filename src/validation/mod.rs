@@ -13,9 +13,9 @@ use serde::Serialize;
 pub use tolerance::Tolerance;
 
 use crate::analysis::Analysis;
+use crate::regimes::FoundAttractor;
 use crate::regimes::attractor::Effort;
 use crate::simulation::StartError;
-use crate::regimes::FoundAttractor;
 
 /// What a comparison came to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]

@@ -163,7 +163,8 @@ pub fn area(analysis: &Analysis, attractors: &[FoundAttractor]) -> Option<Claim>
 fn near_boundary(analysis: &Analysis) -> String {
     let error = asymptotic(&analysis.system).value;
     let distance = |at: &BoundaryAt| (at.clearance - 1.0).abs();
-    let nearest = clearances(analysis).into_iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+    let nearest =
+        clearances(analysis).into_iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
     match nearest {
         Some(at) if distance(&at) < error => format!(
             "regimes over all starts; the {} boundary is {:.1} % away, within the theory's error of \
