@@ -3,6 +3,7 @@
 
 pub mod documents;
 pub mod figure;
+pub mod figures;
 pub mod numbers;
 pub mod render;
 pub mod summary;
