@@ -4,9 +4,10 @@ use serde::Serialize;
 
 use super::numbers::LengthFormat;
 use crate::case::Case;
-use crate::equations::equations;
+use crate::equations::{ReportEquation, equations};
 use crate::study::CaseStudy;
 use crate::symbolic::{Symbol, Values};
+use crate::system::Excitation;
 
 /// Digits of the numbers that are put into formulas.
 const DIGITS: usize = 4;
@@ -18,8 +19,8 @@ pub struct EquationGroup {
     pub title: &'static str,
     /// What they are for.
     pub gives: &'static str,
-    /// Where they come from.
-    pub source: &'static str,
+    /// Where they come from, with the paper's number if they have one.
+    pub source: String,
     /// Each in general and with numbers, in LaTeX.
     pub formulas: Vec<Formula>,
 }
@@ -37,7 +38,12 @@ pub struct Formula {
 pub fn groups(case: &Case, study: &CaseStudy) -> Vec<EquationGroup> {
     let values = values(case, study);
     let mut groups: Vec<EquationGroup> = Vec::new();
-    for equation in equations().for_report() {
+    let elsewhere = match study.analysis.system.excitation() {
+        Excitation::BaseDisplacement => equations().stated.motion_by_force.name,
+        Excitation::Force => equations().stated.motion_of_base.name,
+    };
+    let of_this_case = |equation: &ReportEquation| equation.title != elsewhere;
+    for equation in equations().for_report().into_iter().filter(of_this_case) {
         let formula = Formula {
             general: equation.to_latex(),
             numbers: equation.to_latex_with(&values, DIGITS),
@@ -47,12 +53,21 @@ pub fn groups(case: &Case, study: &CaseStudy) -> Vec<EquationGroup> {
             _ => groups.push(EquationGroup {
                 title: equation.title,
                 gives: equation.gives,
-                source: equation.source,
+                source: cited(&equation),
                 formulas: vec![formula],
             }),
         }
     }
     groups
+}
+
+fn cited(equation: &ReportEquation) -> String {
+    match equation.number {
+        Some(number) if !equation.source.contains(number) => {
+            format!("paper {number}; {}", equation.source)
+        }
+        _ => equation.source.to_owned(),
+    }
 }
 
 /// The case's numbers: dimensionless ones, lengths in the report's unit, and the amplitudes of the

@@ -65,6 +65,8 @@ pub struct Tables {
     pub boundaries: Table,
     /// Theory against simulation.
     pub claims: Table,
+    /// Why the tolerances in `claims` are what they are, by letter.
+    pub tolerance_reasons: Vec<String>,
     /// Quality of the numerics.
     pub numerics: Table,
     /// All numbers of the case.
@@ -130,6 +132,7 @@ impl Report {
                 fixed_points: tables::fixed_points(case, study),
                 boundaries: tables::boundaries(case, study),
                 claims: tables::claims(case, study),
+                tolerance_reasons: tables::lettered_reasons(study),
                 numerics: tables::numerics(study),
                 inputs: tables::inputs(case),
             },

@@ -44,7 +44,9 @@ pub fn signed(value: f64, decimals: usize) -> String {
 pub fn percent(share: f64) -> String {
     let percent = 100.0 * share;
     let decimals = match percent.abs() {
-        p if p < 0.095 => return format!("{} %", significant(percent, 1)),
+        0.0 => 0,
+        p if p < 0.005 => return "< 0.01 %".into(),
+        p if p < 0.095 => 2,
         p if p < 9.95 => 1,
         _ => 0,
     };
@@ -124,6 +126,8 @@ mod tests {
         assert_eq!(percent(0.256), "26 %");
         assert_eq!(percent(0.0512), "5.1 %");
         assert_eq!(percent(0.00012), "0.01 %");
+        assert_eq!(percent(3e-16), "< 0.01 %");
+        assert_eq!(percent(0.0), "0 %");
         assert_eq!(decibels(3.587 / 6.395), "−5.0 dB");
     }
 }

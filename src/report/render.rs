@@ -117,7 +117,11 @@ fn engine(name: &str, template: &str) -> Result<Tera, RenderError> {
     let mut tera = Tera::new();
     tera.register_filter("md_text", |text: &str, _: Kwargs, _: &State| markdown_text(text));
     tera.register_filter("md_cell", |text: &str, _: Kwargs, _: &State| {
-        if dollars(text).is_some() { text.to_owned() } else { markdown_text(text).replace('|', "\\|") }
+        if dollars(text).is_some() {
+            text.to_owned()
+        } else {
+            markdown_text(text).replace('|', "\\|")
+        }
     });
     tera.register_filter("md_attribute", |text: &str, _: Kwargs, _: &State| attribute(text));
     tera.register_filter("latex_of", |text: &str, _: Kwargs, _: &State| {
@@ -150,7 +154,10 @@ fn markdown_text(text: &str) -> String {
 }
 
 fn attribute(text: &str) -> String {
-    text.replace('&', "&amp;").replace('"', "&quot;").replace('<', "&lt;").replace(['\n', '\r'], " ")
+    text.replace('&', "&amp;")
+        .replace('"', "&quot;")
+        .replace('<', "&lt;")
+        .replace(['\n', '\r'], " ")
 }
 
 fn without_repeated_blank_lines(text: &str) -> String {

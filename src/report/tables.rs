@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::numbers::{LengthFormat, decibels, fixed, percent, significant};
+use super::numbers::{LengthFormat, decibels, fixed, percent, signed, significant};
 use super::verdict::finding;
 use crate::analysis::BoundaryKind;
 use crate::case::{Case, Input};
@@ -68,10 +68,16 @@ pub fn key_rows(case: &Case, study: &CaseStudy) -> Vec<KeyRow> {
     let length = |over_clearance: f64| lengths.text(scales.length(over_clearance));
     let mut rows = key_inputs(case);
     let system = &study.analysis.system;
-    rows.push(row("Mass ratio ε", percent(system.mass_ratio()), "case file", "inputs"));
+    let mass_ratio = format!("{} %", significant(100.0 * system.mass_ratio(), 3));
+    rows.push(row("Mass ratio ε", mass_ratio, "case file", "inputs"));
     let bare = system.linear_response().map(|bare| bare.amplitude());
     if let Some(bare) = bare {
-        rows.push(row("Vibration of the bare oscillator", length(bare), "closed form, (1)", "inputs"));
+        rows.push(row(
+            "Vibration of the bare oscillator",
+            length(bare),
+            "closed form, (1)",
+            "inputs",
+        ));
     }
     if let Some(main) = study.main_attractor() {
         let simulation = "simulation";
@@ -83,7 +89,12 @@ pub fn key_rows(case: &Case, study: &CaseStudy) -> Vec<KeyRow> {
             "motions",
         ));
         if let Some(bare) = bare.filter(|bare| *bare > 0.0) {
-            rows.push(row("Change of the peak", decibels(attractor.peak / bare), simulation, "motions"));
+            rows.push(row(
+                "Change of the peak",
+                decibels(attractor.peak / bare),
+                simulation,
+                "motions",
+            ));
         }
         let z = attractor.classification.evidence.impacts_per_period;
         rows.push(row("Impacts per period z", significant(z, 4), simulation, "motions"));
@@ -107,7 +118,8 @@ pub fn key_rows(case: &Case, study: &CaseStudy) -> Vec<KeyRow> {
 
 fn key_inputs(case: &Case) -> Vec<KeyRow> {
     let inputs = case.inputs();
-    let shown = |input: &&Input, name: &str, table: &str| input.name == name && input.table == table;
+    let shown =
+        |input: &&Input, name: &str, table: &str| input.name == name && input.table == table;
     let mut rows: Vec<KeyRow> = KEY_INPUTS
         .iter()
         .filter_map(|(name, table, words)| {
@@ -138,7 +150,12 @@ fn words(name: &str) -> String {
 /// Every number of the case.
 pub fn inputs(case: &Case) -> Table {
     let given = case.inputs().iter().map(|input| {
-        [words(input.name), format!("${}$", input.symbol), input.as_written.clone(), input.table.to_owned()]
+        [
+            words(input.name),
+            format!("${}$", input.symbol),
+            input.as_written.clone(),
+            input.table.to_owned(),
+        ]
     });
     let lengths = LengthFormat::of(&case.scales());
     let derived = case.derived();
@@ -213,7 +230,7 @@ pub fn boundaries(case: &Case, study: &CaseStudy) -> Table {
             ("Boundary", false),
             ("Clearance", true),
             ("From this case", true),
-            ("Steady 1:1 begins or ends", false),
+            ("Bounds steady 1:1", false),
         ],
         rows.collect(),
     )
@@ -252,7 +269,8 @@ pub fn attractors(case: &Case, study: &CaseStudy) -> Table {
 
 fn repetition(evidence: &Evidence) -> String {
     match evidence.periodicity {
-        Some(found) => format!("{}/{} impacts/periods", found.impacts, found.periods),
+        Some(found) if found.periods == 1 => "every period".into(),
+        Some(found) => format!("every {} periods", found.periods),
         None if evidence.captures.count > 1 => format!(
             "no; captured {} of the time, up to {} periods",
             percent(evidence.captures.share),
@@ -264,6 +282,7 @@ fn repetition(evidence: &Evidence) -> String {
 
 /// Theory against simulation.
 pub fn claims(case: &Case, study: &CaseStudy) -> Table {
+    let reasons = reasons(study);
     let rows = study.claims.iter().map(|claim| {
         [
             claim.statement.clone(),
@@ -271,7 +290,7 @@ pub fn claims(case: &Case, study: &CaseStudy) -> Table {
             finding(case, &claim.predicted),
             finding(case, &claim.observed),
             difference(claim),
-            allowed(claim),
+            allowed(claim, &reasons),
             claim.verdict.words().to_owned(),
         ]
     });
@@ -282,16 +301,39 @@ pub fn claims(case: &Case, study: &CaseStudy) -> Table {
             ("Predicted", false),
             ("Observed", false),
             ("Difference", true),
-            ("Allowed, and why", false),
+            ("Allowed", false),
             ("Verdict", false),
         ],
         rows.collect(),
     )
 }
 
+/// The distinct reasons for the tolerances of a study's claims, in order of appearance; the table
+/// refers to them by letter.
+fn reasons(study: &CaseStudy) -> Vec<String> {
+    let mut reasons: Vec<String> = Vec::new();
+    for claim in &study.claims {
+        if !reasons.contains(&claim.tolerance.reason) {
+            reasons.push(claim.tolerance.reason.clone());
+        }
+    }
+    reasons
+}
+
+/// The same with their letters.
+pub fn lettered_reasons(study: &CaseStudy) -> Vec<String> {
+    let reasons = reasons(study).into_iter().enumerate();
+    reasons.map(|(index, reason)| format!("({}) {reason}", letter(index))).collect()
+}
+
+fn letter(index: usize) -> char {
+    char::from(b'a' + (index % 26) as u8)
+}
+
 fn difference(claim: &Claim) -> String {
     match (claim.difference, &claim.predicted) {
-        (Some(value), Finding::Number(_, Measure::Angle)) => format!("{} rad", fixed(value, 4)),
+        (Some(value), Finding::Number(_, Measure::Angle)) => format!("{} rad", signed(value, 4)),
+        (Some(value), _) if claim.tolerance.value < FINE => significant(value, 1),
         (Some(value), _) => {
             let sign = if value < 0.0 { "\u{2212}" } else { "+" };
             format!("{sign}{}", percent(value.abs()))
@@ -300,13 +342,19 @@ fn difference(claim: &Claim) -> String {
     }
 }
 
-fn allowed(claim: &Claim) -> String {
+/// Relative tolerances below this are shown as plain numbers: nobody says 1e-7 %.
+const FINE: f64 = 1e-6;
+
+fn allowed(claim: &Claim, reasons: &[String]) -> String {
+    let index = reasons.iter().position(|reason| *reason == claim.tolerance.reason).unwrap_or(0);
+    let letter = letter(index);
     match (&claim.predicted, claim.tolerance.value) {
-        (_, 0.0) => claim.tolerance.reason.clone(),
+        (_, 0.0) => format!("({letter})"),
         (Finding::Number(_, Measure::Angle), value) => {
-            format!("{} rad: {}", significant(value, 2), claim.tolerance.reason)
+            format!("{} rad ({letter})", significant(value, 2))
         }
-        (_, value) => format!("{}: {}", percent(value), claim.tolerance.reason),
+        (_, value) if value < FINE => format!("{} ({letter})", significant(value, 1)),
+        (_, value) => format!("{} ({letter})", percent(value)),
     }
 }
 

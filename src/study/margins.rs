@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use crate::analysis::{Analysis, AnalysisError, BoundaryKind, Branch, boundaries};
 use crate::validation::boundaries::{clearances, ends_steady_resonance};
+use crate::validation::tolerance::LARGEST_OFFSET;
 
 /// A boundary and where it is met when one parameter alone is changed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -84,6 +85,10 @@ fn in_frequency(analysis: &Analysis) -> Result<Neighbours, AnalysisError> {
     for kind in [BoundaryKind::SymmetryBreaking, BoundaryKind::Hopf, BoundaryKind::SaddleNode] {
         for detuning in boundaries::crossings(kind, system, &analysis.manifold)? {
             let ratio = 1.0 + system.mass_ratio() * detuning;
+            // Far from resonance a boundary of this theory means nothing.
+            if (ratio - 1.0).abs() > LARGEST_OFFSET {
+                continue;
+            }
             let Ok(there) = system.with_frequency_ratio(ratio) else { continue };
             // A saddle-node where another stable 1:1 motion remains only leans the response.
             let ends = ends_steady_resonance(&there, 1.0);
@@ -137,6 +142,9 @@ impl BestClearance {
         let tried: Vec<Self> = tried.collect();
         let best = *tried.iter().min_by(|a, b| a.amplitude.total_cmp(&b.amplitude))?;
         let at_upper_end = tried.last().is_some_and(|last| last.factor == best.factor);
-        Some(Self { at_upper_end, ..best })
+        // The boundary that ends the scan is known exactly.
+        let end = boundaries.iter().map(|at| at.clearance).find(|at| *at >= best.factor);
+        let factor = end.filter(|_| at_upper_end).unwrap_or(best.factor);
+        Some(Self { at_upper_end, factor, ..best })
     }
 }

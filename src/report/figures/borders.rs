@@ -76,27 +76,28 @@ impl Borders {
         };
         let mut layers = vec![Layer::between(&finite(&breaking), &finite(&hopf), aim)];
         for (strip, fill, name) in [
-            (Strip::A1, Fill { opacity: 0.25, ..Fill::hatched(Color::Orange, Hatch::Rising) }, "A1"),
-            (Strip::A2, Fill { opacity: 0.22, ..Fill::hatched(Color::SkyBlue, Hatch::Falling) }, "A2"),
+            (
+                Strip::A1,
+                Fill { opacity: 0.25, ..Fill::hatched(Color::Orange, Hatch::Rising) },
+                "A1",
+            ),
+            (
+                Strip::A2,
+                Fill { opacity: 0.22, ..Fill::hatched(Color::SkyBlue, Hatch::Falling) },
+                "A2",
+            ),
         ] {
             layers.extend(self.strip(strip, fill, place).map(|band| band.labelled(name)));
         }
-        layers.push(
-            Layer::curve(Role::SymmetryBreaking, breaking).labelled("symmetry breaking"),
-        );
+        layers.push(Layer::curve(Role::SymmetryBreaking, breaking).labelled("symmetry breaking"));
         layers.push(Layer::curve(Role::Hopf, hopf).labelled("Hopf"));
-        layers.push(
-            Layer::curve(Role::SaddleNode, line(|at| at.saddle)).labelled("saddle-node"),
-        );
+        layers.push(Layer::curve(Role::SaddleNode, line(|at| at.saddle)).labelled("saddle-node"));
         if let Some([detuning, gamma]) = self.meeting {
             let [x, y] = place(detuning, gamma);
-            let tooltip = "P1: saddle-node and Hopf boundaries meet; A1 on one side, A2 on the other";
+            let tooltip =
+                "P1: saddle-node and Hopf boundaries meet; A1 on one side, A2 on the other";
             let p1 = MarkedPoint::new(x, y).with_label("P1").with_tooltip(tooltip);
-            layers.push(Layer::marked(
-                Role::Guide.marker(),
-                Color::Black,
-                [p1],
-            ));
+            layers.push(Layer::marked(Role::Guide.marker(), Color::Black, [p1]));
         }
         layers
     }

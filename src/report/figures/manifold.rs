@@ -56,7 +56,10 @@ pub(super) fn describe(point: &FixedPoint) -> String {
 }
 
 /// Fixed points: stable ones filled, unstable ones hollow.
-pub(super) fn fixed_points(points: &[FixedPoint], place: impl Fn(&FixedPoint) -> [f64; 2]) -> Vec<Layer> {
+pub(super) fn fixed_points(
+    points: &[FixedPoint],
+    place: impl Fn(&FixedPoint) -> [f64; 2],
+) -> Vec<Layer> {
     [(true, "stable fixed point"), (false, "unstable fixed point")]
         .into_iter()
         .filter_map(|(stable, name)| {
