@@ -9,7 +9,7 @@ use crate::report::numbers::significant;
 use super::Scene;
 
 /// `B/b` up to which the manifold is always shown.
-const WIDEST: f64 = 3.0;
+const WIDEST: f64 = 2.5;
 /// Samples of each branch.
 const SAMPLES: u32 = 200;
 
@@ -56,24 +56,30 @@ pub(super) fn describe(point: &FixedPoint) -> String {
 }
 
 /// Fixed points: stable ones filled, unstable ones hollow.
-pub(super) fn fixed_points(
+pub(super) fn markers(
     points: &[FixedPoint],
-    place: impl Fn(&FixedPoint) -> [f64; 2],
+    place: &dyn Fn(&FixedPoint) -> [f64; 2],
 ) -> Vec<Layer> {
-    [(true, "stable fixed point"), (false, "unstable fixed point")]
-        .into_iter()
-        .filter_map(|(stable, name)| {
-            let chosen: Vec<MarkedPoint> = points
-                .iter()
-                .filter(|point| point.stable == stable)
-                .map(|point| MarkedPoint::from(place(point)).with_tooltip(describe(point)))
-                .collect();
-            let role = if stable { Role::Stable } else { Role::Unstable };
-            let name = if chosen.len() > 1 { format!("{name}s") } else { name.to_owned() };
-            let marker = role.marker().sized(9.0);
-            (!chosen.is_empty()).then(|| Layer::marked(marker, role.color(), chosen).labelled(name))
-        })
-        .collect()
+    let layer = |role: Role, stable: bool| {
+        let chosen = points.iter().filter(|point| point.stable == stable);
+        let marks = chosen.map(|at| MarkedPoint::from(place(at)).with_tooltip(describe(at)));
+        Layer::marked(role.marker().sized(9.0), role.color(), marks.collect::<Vec<_>>())
+    };
+    vec![layer(Role::Stable, true), layer(Role::Unstable, false)]
+}
+
+/// Fixed points with their names.
+fn named_markers(points: &[FixedPoint]) -> Vec<Layer> {
+    let count = |stable| points.iter().filter(|point| point.stable == stable).count();
+    let names = [(true, "stable fixed point"), (false, "unstable fixed point")].map(|(stable, name)| {
+        match count(stable) {
+            0 => None,
+            1 => Some(name.to_owned()),
+            _ => Some(format!("{name}s")),
+        }
+    });
+    let layers = markers(points, &|point| [point.absorber, point.oscillator]);
+    layers.into_iter().zip(names).filter_map(|(layer, name)| Some(layer.labelled(name?))).collect()
 }
 
 pub(super) fn figure(scene: &Scene) -> Figure {
@@ -109,7 +115,7 @@ pub(super) fn figure(scene: &Scene) -> Figure {
     .with(right)
     .with(stable.labelled("stable"))
     .with(Layer::marked(Role::Guide.marker().sized(6.0), Color::Black, special));
-    panel.layers.extend(fixed_points(&analysis.fixed_points, |p| [p.absorber, p.oscillator]));
+    panel.layers.extend(named_markers(&analysis.fixed_points));
     if !seen.is_empty() {
         let points = seen.iter().map(|(at, regime)| {
             MarkedPoint::from(*at).with_tooltip(format!(
@@ -149,6 +155,7 @@ fn words(scene: &Scene, seen: &[([f64; 2], Regime)]) -> (String, String) {
             "The only fixed point (C = {}) is unstable.",
             scene.units.length_text(analysis.fixed_points[0].oscillator)
         ),
+        (None, 2) => "Both fixed points are unstable.".to_owned(),
         (None, n) => format!("All {n} fixed points are unstable."),
     };
     let close = predicted.and_then(|point| {

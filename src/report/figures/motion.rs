@@ -7,7 +7,7 @@ use crate::report::figure::{Axis, Figure, Layer, Layout, MarkedPoint, Panel, Rol
 use crate::report::numbers::{percent, significant};
 use crate::simulation::{Stop, Trace};
 use crate::study::{StudyError, scenes};
-use crate::system::System;
+use crate::system::{State, System};
 
 use super::Scene;
 use super::manifold::branches;
@@ -104,7 +104,7 @@ fn series(scene: &Scene, system: &System, trace: &Trace) -> [Panel; 2] {
 /// between impacts, and `C` from displacement and velocity of the centre of mass.
 fn projection(scene: &Scene, system: &System, trace: &Trace) -> Panel {
     let (eps, omega) = (system.mass_ratio(), system.frequency_ratio());
-    let project = |state: &crate::system::State| {
+    let project = |state: &State| {
         let v = state.x + eps * state.y;
         let velocity = state.x_velocity + eps * state.y_velocity;
         [FRAC_PI_2 * (1.0 + eps) * state.y_velocity.abs() / omega, libm::hypot(v, velocity / omega)]
@@ -114,16 +114,24 @@ fn projection(scene: &Scene, system: &System, trace: &Trace) -> Panel {
     let highest = path.iter().map(|at| at[1]).fold(0.0, f64::max);
     let manifold = &scene.study.analysis.manifold;
     let last = (1.1 * farthest).max(2.2);
-    let top = (1.15 * highest).max(1.1);
+    let top = (1.15 * highest).max(1.3 * manifold.symmetry_breaking.oscillator);
     let [left, right, stable] = branches(manifold, last);
+    // A motion that hardly moves in this plane would be lost without marks.
+    let landed = trace.impacts.iter().map(|(_, impact)| {
+        let y = impact.x - impact.side.sign();
+        let (x_velocity, y_velocity) = (impact.x_velocity_after, impact.y_velocity_after);
+        project(&State { x: impact.x, x_velocity, y, y_velocity })
+    });
+    let marks = if trace.impacts.len() > TOOLTIPS { Vec::new() } else { landed.collect() };
     Panel::new(
         Axis::linear("absorber amplitude B/b (1)").with_range(0.0, last),
         Axis::linear("oscillator amplitude C/b (1)").with_range(0.0, top),
     )
-    .with(Layer::curve(Role::Simulation, path).labelled("motion"))
     .with(left)
     .with(right)
     .with(stable)
+    .with(Layer::curve(Role::Simulation, path).labelled("motion"))
+    .with(Layer::points(Role::Simulation, marks))
     .with_heading("on the manifold")
 }
 
