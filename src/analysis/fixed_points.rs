@@ -1,7 +1,7 @@
 //! Fixed points of the slow flow (18) on the manifold, with a certified count.
 //!
 //! They are the roots `beta = B/b > 0` of a quartic, solved in `u = beta - 1`, which keeps the
-//! accuracy of `R` near the fold. The Jacobian of the flow in `(B, eta)` gives their stability
+//! accuracy of `R` near the fold; small ones in `beta` itself, which keeps that of a tiny forcing. The Jacobian of the flow in `(B, eta)` gives their stability
 //! within the slow flow; a point is a stable motion when it also lies on the manifold's stable
 //! branch.
 
@@ -105,25 +105,58 @@ pub fn solve(system: &System, manifold: &Manifold) -> Result<Vec<FixedPoint>, An
         // Without forcing nothing keeps a motion going; the quartic is a sum of two squares.
         return Ok(Vec::new());
     }
-    let programs = &equations().programs;
-    let coefficients = programs.fixed_point_coefficients(&programs.values(system))?;
-    roots_above(&coefficients, -1.0)?
+    amplitudes(system)?
         .iter()
         // For elastic impacts the condition, multiplied by C^2, also vanishes where C does: there
         // the oscillator does not move, and (18) does not hold.
-        .filter(|root| manifold.point(root.at).oscillator > 0.0)
-        .map(|root| point(system, manifold, root))
+        .filter(|amplitude| manifold.point(amplitude.shift).oscillator > 0.0)
+        .map(|amplitude| point(system, manifold, amplitude))
         .collect()
+}
+
+/// A root of the condition: `beta` and `u = beta - 1`, each to full relative accuracy where it is
+/// the small one.
+#[derive(Debug, Clone, Copy)]
+struct Amplitude {
+    ratio: f64,
+    shift: f64,
+    enclosure: f64,
+    double: bool,
+}
+
+/// Where roots in `beta` hand over to roots in `u`. Four roots cannot crowd out five seams.
+const SEAMS: [f64; 5] = [0.5, 0.4, 0.6, 0.45, 0.55];
+/// Distance of every root from the seam, far above rounding, so that none is lost or counted twice.
+const SEAM_MARGIN: f64 = 1e-3;
+
+fn amplitudes(system: &System) -> Result<Vec<Amplitude>, AnalysisError> {
+    let programs = &equations().programs;
+    let values = programs.values(system);
+    let of = |root: &CertifiedRoot, ratio, shift| {
+        let enclosure = root.upper - root.lower;
+        Amplitude { ratio, shift, enclosure, double: root.touching }
+    };
+    let by_ratio = roots_above(&programs.fixed_point_coefficients_by_ratio(&values)?, 0.0)?;
+    let by_shift = roots_above(&programs.fixed_point_coefficients(&values)?, -1.0)?;
+    let small: Vec<Amplitude> = by_ratio.iter().map(|r| of(r, r.at, r.at - 1.0)).collect();
+    let large: Vec<Amplitude> = by_shift.iter().map(|r| of(r, 1.0 + r.at, r.at)).collect();
+    let clear = |seam: &f64| {
+        small.iter().chain(&large).all(|amplitude| (amplitude.ratio - seam).abs() > SEAM_MARGIN)
+    };
+    let seam = SEAMS.into_iter().find(clear).unwrap_or(SEAMS[0]);
+    let below = small.iter().filter(|amplitude| amplitude.ratio < seam);
+    Ok(below.chain(large.iter().filter(|amplitude| amplitude.ratio >= seam)).copied().collect())
 }
 
 fn point(
     system: &System,
     manifold: &Manifold,
-    root: &CertifiedRoot,
+    amplitude: &Amplitude,
 ) -> Result<FixedPoint, AnalysisError> {
     let programs = &equations().programs;
-    let shift = root.at;
+    let Amplitude { ratio, shift, enclosure, double } = *amplitude;
     let at = programs.at_shift(&programs.values(system), shift)?;
+    let at = at.with(Symbol::AmplitudeRatio, ratio);
     let eta = programs.excitation_phase(&at)?;
     let Stability { trace, determinant, .. } =
         programs.stability(&at.with(Symbol::ExcitationPhase, eta))?;
@@ -131,30 +164,31 @@ fn point(
     let largest = manifold.largest_relative_displacement(shift);
     let attracts = trace < 0.0 && determinant > 0.0;
     Ok(FixedPoint {
-        absorber: 1.0 + shift,
+        absorber: ratio,
         oscillator: manifold.point(shift).oscillator,
         eta,
-        absorber_phase: manifold.absorber_phase(shift),
+        absorber_phase: manifold.absorber_phase(ratio, shift),
         branch,
         trace,
         determinant,
         kind: Kind::of(trace, determinant),
         stable: attracts && branch == Branch::Stable,
-        residual: residual(system, manifold, shift, eta),
+        residual: residual(system, manifold, amplitude, eta),
         largest_relative_displacement: largest,
         admissible: largest <= 1.0 + CAVITY_ROUNDING,
-        double: root.touching,
+        double,
         shift,
-        enclosure: root.upper - root.lower,
+        enclosure,
     })
 }
 
 /// The rates of (18) at a point, written out term by term, over the sizes of their terms. This is
 /// on purpose not the derived quartic: it checks it.
-fn residual(system: &System, manifold: &Manifold, shift: f64, eta: f64) -> f64 {
+fn residual(system: &System, manifold: &Manifold, amplitude: &Amplitude, eta: f64) -> f64 {
+    let Amplitude { ratio, shift, .. } = *amplitude;
     let point = manifold.point(shift);
-    let theta = manifold.absorber_phase(shift);
-    let harmonic = 8.0 * point.absorber / (std::f64::consts::PI * std::f64::consts::PI);
+    let theta = manifold.absorber_phase(ratio, shift);
+    let harmonic = 8.0 * ratio / (std::f64::consts::PI * std::f64::consts::PI);
     let gamma = system.forcing_per_clearance();
     let amplitude_terms = [
         -system.damping() * point.oscillator,

@@ -102,9 +102,10 @@ impl Manifold {
         }
     }
 
-    /// `Theta`, the phase of the absorber against the oscillator, from (14) and (15).
-    pub fn absorber_phase(&self, shift: f64) -> f64 {
-        libm::atan2(FRAC_2_PI * self.restitution_ratio * (1.0 + shift), -shift)
+    /// `Theta`, the phase of the absorber against the oscillator, from (14) and (15), at `B = b
+    /// ratio`; `shift` is `ratio - 1`, each being passed with its own accuracy.
+    pub fn absorber_phase(&self, ratio: f64, shift: f64) -> f64 {
+        libm::atan2(FRAC_2_PI * self.restitution_ratio * ratio, -shift)
     }
 
     /// Largest `abs(w0)` over the clearance between two impacts of the motion (12): above 1 the
@@ -114,7 +115,7 @@ impl Manifold {
     /// `pi/2`, with turning points where `cos(z - Theta) = -(2/pi) B / C`.
     pub fn largest_relative_displacement(&self, shift: f64) -> f64 {
         let ManifoldPoint { absorber, oscillator } = self.point(shift);
-        let theta = self.absorber_phase(shift);
+        let theta = self.absorber_phase(1.0 + shift, shift);
         let displacement =
             |z: f64| (oscillator * libm::sin(z - theta) + FRAC_2_PI * absorber * z).abs();
         let cosine = -FRAC_2_PI * absorber / oscillator;

@@ -13,7 +13,8 @@ use serde::Serialize;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct ContactTolerance {
     /// Largest opening of the gap that is neglected, over the clearance. The default of 1e-12 is
-    /// far below any printed digit and a thousand times above rounding.
+    /// far below any printed digit and a thousand times above rounding, as long as the motion is
+    /// not a thousand clearances large; then rounding takes its place.
     pub excursion: f64,
     /// Largest relative change of the contact acceleration while the rest of the sequence lasts.
     /// The default of 0.01 keeps the geometric decay, on which the replacement rests, provable.

@@ -451,7 +451,13 @@ impl Simulation {
             closing_acceleration: side.sign() * motion.acceleration(0.0, at),
             jerk_bound: derivative_bounds(&self.alone, at, 0.0).jerk,
         };
-        if self.tolerance.sticks(self.system.restitution(), &wall) {
+        // Rounding adds up to a touch to each excursion, an impact takes the share 1 - r^2 of it:
+        // where the two balance a sequence would never end.
+        let r = self.system.restitution();
+        let floor = self.touch() / ((1.0 - r) * (1.0 + r));
+        let excursion = self.tolerance.excursion.max(floor);
+        let tolerance = ContactTolerance { excursion, ..self.tolerance };
+        if tolerance.sticks(r, &wall) {
             let eps = self.system.mass_ratio();
             let common = (x_velocity + eps * y_velocity) / (1.0 + eps);
             self.state.x_velocity = common;
