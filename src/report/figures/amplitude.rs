@@ -108,7 +108,7 @@ fn top(scene: &Scene, bare: &[[f64; 2]], simulated: &[SweepPoint], here: Option<
 fn peak(mass_ratio: f64, manifold: &Manifold, point: &ResponsePoint) -> f64 {
     let ManifoldPoint { absorber, oscillator } =
         ManifoldPoint { absorber: point.absorber, oscillator: point.oscillator };
-    let theta = manifold.absorber_phase(absorber - 1.0);
+    let theta = manifold.absorber_phase(absorber, absorber - 1.0);
     let share = mass_ratio / (1.0 + mass_ratio) * FRAC_2_PI * absorber;
     let displacement =
         |z: f64| oscillator * libm::sin(z) + share * libm::asin(libm::sin(z + theta));
