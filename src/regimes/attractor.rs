@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{Classification, Thresholds, classify};
+use super::{Classification, Regime, Thresholds, classify};
 use crate::simulation::run::Nobody;
 use crate::simulation::{
     Energy, Impact, ImpactLog, Simulation, StartError, Statistics, Stop, SustainedContact,
@@ -125,9 +125,11 @@ impl Attractor {
         let system = *simulation.system();
         let mut stop = simulation.run(effort.discard, effort.impact_limit, &mut Nobody);
         let mut statistics = Statistics::begin(&system, simulation.state());
-        if stop == Stop::EndTime {
+        // A transient given up for its impacts is measured all the same: the impacts are the regime.
+        if stop != Stop::NotFinite {
             let observer = &mut (&mut statistics, &mut *log);
-            stop = simulation.run(effort.periods, effort.impact_limit, observer);
+            let measured = simulation.run(effort.periods, effort.impact_limit, observer);
+            stop = if stop == Stop::EndTime { measured } else { stop };
         }
         let thresholds = Thresholds::default();
         let (oscillator_harmonic, absorber_harmonic) = statistics.harmonics();
@@ -153,6 +155,10 @@ impl Attractor {
         let (mine, theirs) = (&self.classification, &other.classification);
         if mine.regime != theirs.regime {
             return false;
+        }
+        if mine.regime == Regime::AtRest {
+            // A damped oscillator has one steady motion without impacts.
+            return true;
         }
         let difference =
             (self.rms - other.rms).abs() / self.rms.max(other.rms).max(f64::MIN_POSITIVE);

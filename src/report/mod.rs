@@ -84,7 +84,12 @@ pub struct FigureRow {
     pub caption: String,
     /// The same for those who cannot see it.
     pub alt: String,
+    /// Width in pixels at which it is shown.
+    pub width: u32,
 }
+
+/// Width of a page's column in pixels.
+const PAGE_WIDTH: u32 = 720;
 
 /// What made the report.
 #[derive(Debug, Clone, Serialize)]
@@ -166,6 +171,7 @@ impl FigureRow {
             title: figure.title.clone(),
             caption: figure.caption.clone(),
             alt: figure.alt.clone(),
+            width: figure.size.0.min(PAGE_WIDTH),
         }
     }
 }

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::numbers::{LengthFormat, decibels, fixed, percent, signed, significant};
-use super::verdict::finding;
+use super::verdict::{finding, relative};
 use crate::analysis::BoundaryKind;
 use crate::case::{Case, Input};
 use crate::regimes::Evidence;
@@ -216,12 +216,10 @@ pub fn boundaries(case: &Case, study: &CaseStudy) -> Table {
             }
             kind => kind.words().to_owned(),
         };
-        let change = margin.factor - 1.0;
-        let sign = if change > 0.0 { "+" } else { "\u{2212}" };
         [
             name,
             lengths.with_digits(scales.length(margin.factor), 4),
-            format!("{sign}{}", percent(change.abs())),
+            relative(margin.factor),
             if margin.ends_steady_resonance { "yes" } else { "no" }.to_owned(),
         ]
     });

@@ -60,6 +60,14 @@ pub fn verdict(case: &Case, study: &CaseStudy) -> Verdict {
             sentences: Vec::new(),
         };
     };
+    if study.analysis.system.forcing_per_clearance() == 0.0 {
+        return Verdict {
+            tone: Tone::Mixed,
+            headline: "Nothing drives this case: every vibration dies out or goes on by itself."
+                .into(),
+            sentences: vec!["Give an excitation amplitude above 0 for a design report.".into()],
+        };
+    }
     let (tone, headline) = writer.headline(main);
     let sentences = [
         Some(writer.standing(main)),
@@ -162,8 +170,9 @@ impl Writer<'_> {
         };
         let claims = match self.study.claims.len() {
             0 => "it makes no claim that simulation could decide".into(),
+            1 if confirmed == 1 => "its one claim is confirmed by simulation".into(),
             all if all == confirmed => format!("all its {all} claims are confirmed by simulation"),
-            all => format!("{confirmed} of its {all} claims are confirmed by simulation"),
+            all => format!("simulation confirms {confirmed} of its {all} claims"),
         };
         format!(
             "Simulation: {}; {led}. Theory: area {area:?}{strip}, {criterion}; {claims}.",
@@ -200,8 +209,8 @@ impl Writer<'_> {
         let scales = self.case.scales();
         let describe = |margin: Margin, way: &str| {
             format!(
-                "{way} by {} (to {}) {}",
-                percent((margin.factor - 1.0).abs()),
+                "{way} {} (to {}) {}",
+                extent(margin.factor),
                 self.lengths.text(scales.length(margin.factor)),
                 self.consequence(&margin, margin.factor > 1.0)
             )
@@ -250,11 +259,8 @@ impl Writer<'_> {
     fn forcing_and_frequency(&self) -> Option<String> {
         let forcing = self.study.margins.forcing_neighbours();
         let frequency = self.study.margins.frequency;
-        let change = |margin: Margin| {
-            let sign = if margin.factor > 1.0 { "+" } else { "\u{2212}" };
-            let limit = percent((margin.factor - 1.0).abs());
-            format!("{sign}{limit} ({})", margin.kind.words())
-        };
+        let change =
+            |margin: Margin| format!("{} ({})", relative(margin.factor), margin.kind.words());
         let list = |below: Option<Margin>, above: Option<Margin>| {
             let both: Vec<String> = below.into_iter().chain(above).map(change).collect();
             (!both.is_empty()).then(|| both.join(" and "))
@@ -339,6 +345,28 @@ impl Writer<'_> {
         ))
     }
 }
+
+/// By how much a quantity grows or shrinks by a factor, in words.
+fn extent(factor: f64) -> String {
+    match factor {
+        f if f >= MANY_FOLD => format!("{}-fold", significant(f, 2)),
+        f if f <= 1.0 / MANY_FOLD => format!("to one part in {}", significant(1.0 / f, 2)),
+        f => format!("by {}", percent((f - 1.0).abs())),
+    }
+}
+
+/// The same with a sign, for lists and tables.
+pub fn relative(factor: f64) -> String {
+    match factor {
+        f if f >= MANY_FOLD => format!("× {}", significant(f, 2)),
+        f if f <= 1.0 / MANY_FOLD => format!("÷ {}", significant(1.0 / f, 2)),
+        f if f >= 1.0 => format!("+{}", percent(f - 1.0)),
+        f => format!("\u{2212}{}", percent(1.0 - f)),
+    }
+}
+
+/// Factor from which people say "ten-fold" instead of "900 % more".
+const MANY_FOLD: f64 = 10.0;
 
 /// Everything that limits what the report says.
 pub fn notes(case: &Case, study: &CaseStudy) -> Vec<Note> {

@@ -4,6 +4,8 @@
 //! stored energy, by quadrature that is exact to rounding for the closed-form motion, so that the
 //! balance is a check and not an identity.
 
+use std::f64::consts::FRAC_PI_4;
+
 use serde::Serialize;
 
 use super::run::{Absorber, Impact, Observer, Segment};
@@ -55,6 +57,7 @@ pub struct PeriodRecord {
 pub struct Statistics {
     system: System,
     panel: f64,
+    first_panel: f64,
     start: State,
     end: State,
     impacts: u64,
@@ -87,11 +90,12 @@ struct Current {
 impl Statistics {
     /// Begins to measure at `start`, at the beginning of an excitation period.
     pub fn begin(system: &System, start: State) -> Self {
-        let decay = 0.5 * system.mass_ratio() * system.damping();
-        let fastest = 1.0_f64.max(system.frequency_ratio()).max(2.0 * decay);
+        let oscillating = 1.0_f64.max(system.frequency_ratio());
+        let decaying = oscillating.max(system.mass_ratio() * system.damping());
         Self {
             system: *system,
-            panel: std::f64::consts::FRAC_PI_4 / fastest,
+            panel: FRAC_PI_4 / oscillating,
+            first_panel: FRAC_PI_4 / decaying,
             start,
             end: start,
             impacts: 0,
@@ -184,7 +188,7 @@ impl Statistics {
         let omega = self.system.frequency_ratio();
         let (sine, cosine) = self.system.excitation_amplitudes();
         let mut sums = [0.0; 7];
-        quadrature::nodes(0.0, segment.duration, self.panel, |s, weight| {
+        quadrature::graded_nodes(segment.duration, self.first_panel, self.panel, |s, weight| {
             let State { x, x_velocity, y, .. } = segment.at(s);
             let (sin, cos) = libm::sincos(segment.phase + omega * s);
             let force = sine * sin + cosine * cos;

@@ -78,6 +78,9 @@ impl Margins {
     }
 }
 
+/// A boundary at half or twice the frequency is not a neighbour.
+const FAR: f64 = 2.0;
+
 /// Frequencies at which a boundary passes through the case's clearance and forcing.
 fn in_frequency(analysis: &Analysis) -> Result<Neighbours, AnalysisError> {
     let system = &analysis.system;
@@ -104,9 +107,10 @@ fn in_frequency(analysis: &Analysis) -> Result<Neighbours, AnalysisError> {
         }
     }
     all.sort_by(|a, b| a.factor.total_cmp(&b.factor));
+    let near = |margin: &&Margin| (1.0 / FAR..FAR).contains(&margin.factor);
     Ok(Neighbours {
-        below: all.iter().rfind(|margin| margin.factor < 1.0).copied(),
-        above: all.iter().find(|margin| margin.factor > 1.0).copied(),
+        below: all.iter().rfind(|margin| margin.factor < 1.0).filter(near).copied(),
+        above: all.iter().find(|margin| margin.factor > 1.0).filter(near).copied(),
     })
 }
 

@@ -12,9 +12,9 @@ use crate::system::{State, System};
 
 use super::StudyError;
 
-/// Effort of one point of a map: enough to recognise a regime.
-const POINT: Effort =
-    Effort { discard: 400, periods: 100, prolongations: 1, impact_limit: 100_000 };
+/// Effort of one point of a map: enough to recognise a regime. More than ten thousand impacts in a
+/// few hundred periods are recognised as more than two per period without going on.
+const POINT: Effort = Effort { discard: 400, periods: 100, prolongations: 1, impact_limit: 10_000 };
 
 /// The motion on an attractor, from its state at phase 0.
 ///

@@ -103,9 +103,9 @@ pub fn rest(analysis: &Analysis, effort: &Effort) -> Result<Option<Claim>, Start
     let Some(linear) = system.linear_response() else {
         return Ok(None);
     };
-    let exists = linear.amplitude() < 1.0;
-    if !exists {
-        // An absorber resting in the middle is hit; nothing to simulate beyond the attractors.
+    // A larger oscillation hits an absorber that rests in the middle; without excitation there is
+    // no oscillation to compare.
+    if linear.amplitude() >= 1.0 || linear.amplitude() == 0.0 {
         return Ok(None);
     }
     let reached = Attractor::reach(system, linear.state(system), effort)?;
