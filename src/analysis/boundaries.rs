@@ -206,7 +206,7 @@ fn saddle_node_shifts(manifold: &Manifold) -> impl Iterator<Item = f64> {
     (-HALF..=HALF).map(move |k| {
         let t = f64::from(k) / f64::from(HALF);
         let reach = if k < 0 { 0.98 + fold } else { 2.0 };
-        fold + reach * t * t * t.abs()
+        fold + reach * t * t * t
     })
 }
 
@@ -265,4 +265,18 @@ fn saddle_node_crossings(system: &System, manifold: &Manifold) -> Result<Vec<f64
     }
     found.sort_by(f64::total_cmp);
     Ok(found)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn amplitudes_reach_from_almost_none_through_the_fold() {
+        let manifold = Manifold::of(0.6).expect("has all values");
+        let shifts: Vec<f64> = saddle_node_shifts(&manifold).collect();
+        assert!((shifts[0] + 0.98).abs() < 1e-12, "{}", shifts[0]);
+        assert!(shifts.contains(&manifold.fold_shift));
+        assert!(shifts.windows(2).all(|pair| pair[0] < pair[1]));
+    }
 }

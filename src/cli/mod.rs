@@ -7,6 +7,7 @@ mod completions;
 mod new;
 mod output;
 mod progress;
+mod report;
 mod schema;
 mod simulate;
 
@@ -32,6 +33,7 @@ Examples:
   vinesink new damper                           write damper.toml, a case to start from
   vinesink analyze damper.toml                  what the theory says of it
   vinesink simulate damper.toml                 what it does, from many starts
+  vinesink report damper.toml                   the design report, in reports/damper
   vinesink schema > vinesink.schema.json        let the editor complete and check cases
   vinesink help new                             what a command does, with examples";
 
@@ -40,6 +42,7 @@ enum Command {
     New(new::Arguments),
     Analyze(analyze::Arguments),
     Simulate(simulate::Arguments),
+    Report(report::Arguments),
     Schema(schema::Arguments),
     Completions(completions::Arguments),
 }
@@ -69,6 +72,7 @@ impl Cli {
             Command::New(arguments) => new::run(arguments),
             Command::Analyze(arguments) => analyze::run(arguments),
             Command::Simulate(arguments) => simulate::run(arguments),
+            Command::Report(arguments) => report::run(arguments),
             Command::Schema(arguments) => schema::run(arguments),
             Command::Completions(arguments) => completions::run(arguments),
         }

@@ -20,6 +20,8 @@ pub struct ReportEquation {
     pub source: &'static str,
     /// The left side, in LaTeX.
     pub left: String,
+    /// The left side where it is more than a name, so that numbers can be put in.
+    pub left_expression: Option<Expr>,
     /// The right side: the very expression that is evaluated.
     pub right: Expr,
 }
@@ -33,16 +35,20 @@ impl ReportEquation {
     /// The formula with a case's numbers, and the value if all symbols have one.
     pub fn to_latex_with(&self, values: &Values, digits: usize) -> String {
         let formula = self.right.to_latex_with(values, digits);
+        let left = match &self.left_expression {
+            Some(left) => left.to_latex_with(values, digits),
+            None => self.left.clone(),
+        };
         match self.right.evaluate(values) {
             Ok(value) => {
                 let value = format_number(value, digits);
                 if value == formula {
-                    format!("{} = {value}", self.left)
+                    format!("{left} = {value}")
                 } else {
-                    format!("{} = {formula} = {value}", self.left)
+                    format!("{left} = {formula} = {value}")
                 }
             }
-            Err(_) => format!("{} = {formula}", self.left),
+            Err(_) => format!("{left} = {formula}"),
         }
     }
 }
@@ -56,6 +62,7 @@ fn stated(equation: &Equation, gives: &'static str) -> ReportEquation {
         gives,
         source: equation.source,
         left: equation.left.to_latex(),
+        left_expression: (!matches!(equation.left, Expr::Symbol(_))).then(|| equation.left.clone()),
         right: equation.right.clone(),
     }
 }
@@ -67,7 +74,15 @@ fn derived(
     right: &Expr,
 ) -> ReportEquation {
     let (left, right) = (left.into(), right.clone());
-    ReportEquation { number: None, title, gives, source: DERIVED, left, right }
+    ReportEquation {
+        number: None,
+        title,
+        gives,
+        source: DERIVED,
+        left,
+        left_expression: None,
+        right,
+    }
 }
 
 fn by_powers<const N: usize>(

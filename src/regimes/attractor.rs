@@ -82,17 +82,36 @@ impl Attractor {
             }
             found = Self::measure(&mut simulation, effort);
         }
+        if found.arrived_late() {
+            found = Self::measure(&mut simulation, effort);
+        }
         Ok(found)
     }
 
-    /// Measures this attractor again from where it was left, over `periods`.
+    /// Measures this attractor again from where it was left, over `periods`; twice, if a transient
+    /// turns out to have ended on the way.
     ///
     /// # Errors
     /// [`StartError`] if the attractor's state is not finite.
     pub fn measured_over(&self, system: &System, periods: u64) -> Result<Self, StartError> {
         let mut simulation = Simulation::new(system, self.state, 0.0)?;
         let effort = Effort { discard: 0, periods, prolongations: 0, impact_limit: u64::MAX };
-        Ok(Self::measure(&mut simulation, &effort))
+        let found = Self::measure(&mut simulation, &effort);
+        if found.arrived_late() {
+            return Ok(Self::measure(&mut simulation, &effort));
+        }
+        Ok(found)
+    }
+
+    /// Whether the motion repeats at the end of the window but did not from its beginning: a chaotic
+    /// transient, which may last thousands of periods, ended within it.
+    fn arrived_late(&self) -> bool {
+        let evidence = &self.classification.evidence;
+        evidence.periodicity.is_some_and(|found| {
+            let z = f64::from(found.impacts) / f64::from(found.periods);
+            let threshold = Thresholds::default().impacts_per_period;
+            (evidence.impacts_per_period - z).abs() > threshold || !evidence.settled
+        })
     }
 
     /// Continues a trajectory through its transient and measures what follows.

@@ -1,6 +1,171 @@
-//! The report: plain data, and the figures that go with it.
+//! The report of a case: plain data, decided and formatted here, so that templates only loop and
+//! print. [`render`] turns it into Markdown, HTML and JSON; figures are data too ([`figure`]).
 
 pub mod documents;
 pub mod figure;
+pub mod figures;
 pub mod numbers;
+pub mod render;
 pub mod summary;
+
+mod equations;
+mod tables;
+mod verdict;
+
+use serde::Serialize;
+
+use crate::case::Case;
+use crate::study::{CaseStudy, StudyEffort};
+use crate::validation::Claim;
+use documents::{AnalysisDocument, AttractorDocument};
+use figure::Figure;
+
+pub use equations::EquationGroup;
+pub use tables::{KeyRow, Table};
+pub use verdict::{Note, Tone, Verdict};
+
+/// A whole report.
+#[derive(Debug, Clone, Serialize)]
+pub struct Report {
+    /// `vinesink/report@1`.
+    pub format: &'static str,
+    /// Stem of the case file.
+    pub name: String,
+    /// What the case is.
+    pub title: String,
+    /// Where its numbers come from.
+    pub source: String,
+    /// The answer, in a few sentences.
+    pub verdict: Verdict,
+    /// What was refuted, has not settled, or lies outside the theory's range.
+    pub notes: Vec<Note>,
+    /// Inputs and the results that matter most.
+    pub key_rows: Vec<KeyRow>,
+    /// Everything else, as tables.
+    pub tables: Tables,
+    /// The figures, in reading order; the first belongs to the first screen.
+    pub figures: Vec<FigureRow>,
+    /// The equations with this case's numbers; in Markdown and HTML only.
+    #[serde(skip)]
+    pub equations: Vec<EquationGroup>,
+    /// What made this report.
+    pub provenance: Provenance,
+    /// The numbers behind the text.
+    pub data: ReportData,
+}
+
+/// The tables below the first screen.
+#[derive(Debug, Clone, Serialize)]
+pub struct Tables {
+    /// Every long-term motion.
+    pub attractors: Table,
+    /// Fixed points of the slow flow.
+    pub fixed_points: Table,
+    /// Boundaries in clearance.
+    pub boundaries: Table,
+    /// Theory against simulation.
+    pub claims: Table,
+    /// Why the tolerances in `claims` are what they are, by letter.
+    pub tolerance_reasons: Vec<String>,
+    /// Quality of the numerics.
+    pub numerics: Table,
+    /// All numbers of the case.
+    pub inputs: Table,
+}
+
+/// A figure's words; the drawing is a file of its own.
+#[derive(Debug, Clone, Serialize)]
+pub struct FigureRow {
+    /// File stem under `figures/`.
+    pub name: String,
+    /// Title.
+    pub title: String,
+    /// What to see.
+    pub caption: String,
+    /// The same for those who cannot see it.
+    pub alt: String,
+}
+
+/// What made the report.
+#[derive(Debug, Clone, Serialize)]
+pub struct Provenance {
+    /// The program.
+    pub program: &'static str,
+    /// Its version.
+    pub version: &'static str,
+    /// SHA-256 of the case file's text.
+    pub case_sha256: String,
+    /// How thoroughly the case was simulated.
+    pub effort: StudyEffort,
+}
+
+/// The numbers behind a report, in full precision.
+#[derive(Debug, Clone, Serialize)]
+pub struct ReportData {
+    /// As `vinesink analyze` prints it.
+    pub analysis: AnalysisDocument,
+    /// Every attractor.
+    pub attractors: Vec<AttractorDocument>,
+    /// Every claim.
+    pub claims: Vec<Claim>,
+    /// Distances to boundaries.
+    pub margins: crate::study::Margins,
+    /// Amplitude of the oscillator without absorber impacts, in the case's unit of length.
+    pub bare_amplitude: Option<f64>,
+}
+
+impl Report {
+    /// Writes the report of a study; `figures` are the ones that will be rendered beside it.
+    pub fn new(name: &str, case: &Case, study: &CaseStudy, figures: &[Figure]) -> Self {
+        let scales = case.scales();
+        let bare = study.analysis.system.linear_response();
+        Self {
+            format: "vinesink/report@1",
+            name: name.to_owned(),
+            title: case.title.clone(),
+            source: case.source.clone(),
+            verdict: verdict::verdict(case, study),
+            notes: verdict::notes(case, study),
+            key_rows: tables::key_rows(case, study),
+            tables: Tables {
+                attractors: tables::attractors(case, study),
+                fixed_points: tables::fixed_points(case, study),
+                boundaries: tables::boundaries(case, study),
+                claims: tables::claims(case, study),
+                tolerance_reasons: tables::lettered_reasons(study),
+                numerics: tables::numerics(study),
+                inputs: tables::inputs(case),
+            },
+            figures: figures.iter().map(FigureRow::of).collect(),
+            equations: equations::groups(case, study),
+            provenance: Provenance {
+                program: env!("CARGO_PKG_NAME"),
+                version: env!("CARGO_PKG_VERSION"),
+                case_sha256: case.text_hash.clone(),
+                effort: study.effort,
+            },
+            data: ReportData {
+                analysis: AnalysisDocument::new(&study.analysis, study.area, &scales),
+                attractors: study
+                    .attractors
+                    .iter()
+                    .map(|found| AttractorDocument::new(found, &scales))
+                    .collect(),
+                claims: study.claims.clone(),
+                margins: study.margins.clone(),
+                bare_amplitude: bare.map(|bare| scales.length(bare.amplitude())),
+            },
+        }
+    }
+}
+
+impl FigureRow {
+    fn of(figure: &Figure) -> Self {
+        Self {
+            name: figure.name.clone(),
+            title: figure.title.clone(),
+            caption: figure.caption.clone(),
+            alt: figure.alt.clone(),
+        }
+    }
+}

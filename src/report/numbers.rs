@@ -44,7 +44,9 @@ pub fn signed(value: f64, decimals: usize) -> String {
 pub fn percent(share: f64) -> String {
     let percent = 100.0 * share;
     let decimals = match percent.abs() {
-        p if p < 0.095 => return format!("{} %", significant(percent, 1)),
+        0.0 => 0,
+        p if p < 0.005 => return "< 0.01 %".into(),
+        p if p < 0.095 => 2,
         p if p < 9.95 => 1,
         _ => 0,
     };
@@ -103,18 +105,6 @@ impl LengthFormat {
     }
 }
 
-/// A physical quantity with the SI prefix an engineer would choose: `0.0032` J is `3.2 mJ`.
-pub fn with_prefix(value: f64, unit: &str, digits: usize) -> String {
-    if value == 0.0 || !value.is_finite() {
-        return format!("{} {unit}", significant(value, digits));
-    }
-    let prefixes =
-        [(1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n")];
-    let (size, prefix) =
-        prefixes.into_iter().find(|(size, _)| value.abs() >= *size).unwrap_or((1e-9, "n"));
-    format!("{} {prefix}{unit}", significant(value / size, digits))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -136,7 +126,8 @@ mod tests {
         assert_eq!(percent(0.256), "26 %");
         assert_eq!(percent(0.0512), "5.1 %");
         assert_eq!(percent(0.00012), "0.01 %");
+        assert_eq!(percent(3e-16), "< 0.01 %");
+        assert_eq!(percent(0.0), "0 %");
         assert_eq!(decibels(3.587 / 6.395), "−5.0 dB");
-        assert_eq!(with_prefix(0.0032, "J", 2), "3.2 mJ");
     }
 }

@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use crate::analysis::{Analysis, AnalysisError, BoundaryKind, Branch, boundaries};
 use crate::validation::boundaries::{clearances, ends_steady_resonance};
+use crate::validation::tolerance::LARGEST_OFFSET;
 
 /// A boundary and where it is met when one parameter alone is changed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -25,6 +26,8 @@ pub struct Margins {
     pub clearance: Vec<Margin>,
     /// Nearest in frequency below and above the case's.
     pub frequency: Neighbours,
+    /// Where the theory expects the smallest steady vibration.
+    pub best_clearance: Option<BestClearance>,
 }
 
 /// The nearest boundary below and above.
@@ -51,7 +54,11 @@ impl Margins {
                 factor: at.clearance,
             })
             .collect();
-        Ok(Self { clearance, frequency: in_frequency(analysis)? })
+        Ok(Self {
+            clearance,
+            frequency: in_frequency(analysis)?,
+            best_clearance: BestClearance::of(analysis),
+        })
     }
 
     /// Nearest in clearance.
@@ -78,6 +85,10 @@ fn in_frequency(analysis: &Analysis) -> Result<Neighbours, AnalysisError> {
     for kind in [BoundaryKind::SymmetryBreaking, BoundaryKind::Hopf, BoundaryKind::SaddleNode] {
         for detuning in boundaries::crossings(kind, system, &analysis.manifold)? {
             let ratio = 1.0 + system.mass_ratio() * detuning;
+            // Far from resonance a boundary of this theory means nothing.
+            if (ratio - 1.0).abs() > LARGEST_OFFSET {
+                continue;
+            }
             let Ok(there) = system.with_frequency_ratio(ratio) else { continue };
             // A saddle-node where another stable 1:1 motion remains only leans the response.
             let ends = ends_steady_resonance(&there, 1.0);
@@ -97,4 +108,43 @@ fn in_frequency(analysis: &Analysis) -> Result<Neighbours, AnalysisError> {
         below: all.iter().rfind(|margin| margin.factor < 1.0).copied(),
         above: all.iter().find(|margin| margin.factor > 1.0).copied(),
     })
+}
+
+/// The clearance at which theory predicts the smallest steady 1:1 vibration at the case's forcing.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct BestClearance {
+    /// Clearance over the case's.
+    pub factor: f64,
+    /// Amplitude of the oscillator over the case's clearance.
+    pub amplitude: f64,
+    /// Whether it is the largest clearance that still has a stable 1:1 motion.
+    pub at_upper_end: bool,
+}
+
+/// Clearances tried per unit of the logarithm; the optimum is an estimate to one percent, or an end
+/// of the stable range.
+const STEPS_PER_E_FOLD: f64 = 100.0;
+
+impl BestClearance {
+    /// Scans the clearances between the outermost boundaries at which a stable 1:1 motion exists.
+    pub fn of(analysis: &Analysis) -> Option<Self> {
+        let boundaries = clearances(analysis);
+        let (first, last) = (boundaries.first()?.clearance, boundaries.last()?.clearance);
+        let steps = (libm::log(last / first) * STEPS_PER_E_FOLD).ceil().clamp(1.0, 2000.0);
+        let tried = (0..=steps as u32).filter_map(|k| {
+            let factor = first * libm::exp(libm::log(last / first) * f64::from(k) / steps);
+            let there = analysis.system.with_clearance_scaled(factor).ok()?;
+            let there = Analysis::of(&there).ok()?;
+            let smallest = there.stable_points().map(|point| point.oscillator * factor);
+            let amplitude = smallest.min_by(f64::total_cmp)?;
+            Some(Self { factor, amplitude, at_upper_end: false })
+        });
+        let tried: Vec<Self> = tried.collect();
+        let best = *tried.iter().min_by(|a, b| a.amplitude.total_cmp(&b.amplitude))?;
+        let at_upper_end = tried.last().is_some_and(|last| last.factor == best.factor);
+        // The boundary that ends the scan is known exactly.
+        let end = boundaries.iter().map(|at| at.clearance).find(|at| *at >= best.factor);
+        let factor = end.filter(|_| at_upper_end).unwrap_or(best.factor);
+        Some(Self { at_upper_end, factor, ..best })
+    }
 }

@@ -28,7 +28,7 @@ pub fn fixed_points(analysis: &Analysis, effort: &Effort) -> Result<Vec<Claim>, 
                 format!("leaves for {}", reached.classification.regime.words())
             }),
             difference: None,
-            tolerance: outcome("a start on the point must stay near it, or leave it"),
+            tolerance: outcome("a start on the point stays near it, or leaves it"),
             verdict: Verdict::of(stays == point.stable),
         });
         if point.stable && stays {

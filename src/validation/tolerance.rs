@@ -4,6 +4,12 @@ use serde::Serialize;
 
 use crate::system::System;
 
+/// Mass ratio above which the expansion in `eps` is out of its depth: neglected terms reach ten
+/// percent.
+pub const LARGEST_MASS_RATIO: f64 = 0.1;
+/// Distance of the frequency ratio from 1 above which "near resonance" no longer holds.
+pub const LARGEST_OFFSET: f64 = 0.2;
+
 /// A tolerance with its reason.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Tolerance {

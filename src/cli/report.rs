@@ -1,0 +1,78 @@
+//! `vinesink report CASE...`
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use miette::{IntoDiagnostic, Result, WrapErr, miette};
+use vinesink::report::{Report, figures, render};
+use vinesink::store;
+use vinesink::study::{CaseStudy, StudyEffort};
+
+use super::case_file;
+use super::progress::Progress;
+use super::{Outcome, output};
+
+/// Write the design report of each case
+///
+/// Writes report.md, report.html, report.json and figures/ into OUT/<name of the case file>. A folder
+/// appears whole or not at all, and the same case gives the same bytes.
+#[derive(Debug, Args)]
+#[command(after_long_help = EXAMPLES)]
+pub struct Arguments {
+    /// The case files
+    #[arg(value_name = "CASE", required = true)]
+    cases: Vec<PathBuf>,
+    /// The folder that receives a folder per case
+    #[arg(long, value_name = "OUT", default_value = "reports")]
+    out: PathBuf,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  vinesink report cases/li2016-8p5hz-fig4c.toml
+  vinesink report cases/*.toml --out /somewhere/else";
+
+/// Steps of the progress bar beyond the study: figures, files.
+const FURTHER_STEPS: u64 = 8;
+
+pub fn run(arguments: Arguments) -> Result<Outcome> {
+    let names = names(&arguments.cases)?;
+    for (path, name) in arguments.cases.iter().zip(names) {
+        let folder = arguments.out.join(&name);
+        write(path, &name, &folder)
+            .wrap_err_with(|| format!("no report was written for {}", path.display()))?;
+        output::print(format!("{}\n", folder.join("report.md").display()))?;
+    }
+    Ok(Outcome::Done)
+}
+
+/// The folder's name for each case; two cases must not share one.
+fn names(cases: &[PathBuf]) -> Result<Vec<String>> {
+    let mut names: Vec<String> = Vec::new();
+    for path in cases {
+        let stem = path.file_stem().ok_or_else(|| miette!("{} is not a file", path.display()))?;
+        let name = stem.to_string_lossy().into_owned();
+        if names.contains(&name) {
+            return Err(miette!(
+                help = "rename one, or write them to different folders with --out",
+                "two cases are called `{name}` and would overwrite each other's report"
+            ));
+        }
+        names.push(name);
+    }
+    Ok(names)
+}
+
+fn write(path: &Path, name: &str, folder: &Path) -> Result<()> {
+    let case = case_file::read(path)?;
+    let effort = StudyEffort::of(&case.simulation);
+    let progress = Progress::new(name, CaseStudy::steps(&effort) + FURTHER_STEPS);
+    let study = CaseStudy::of(&case.system(), effort, &mut |done| progress.advance(done))
+        .into_diagnostic()?;
+    let drawn = figures::all(&case, &study).into_diagnostic()?;
+    progress.advance(FURTHER_STEPS / 2);
+    let report = Report::new(name, &case, &study, &drawn);
+    let files = render::files(&report, &case, &drawn).into_diagnostic()?;
+    store::replace_folder(folder, &files)?;
+    Ok(())
+}

@@ -1,0 +1,50 @@
+//! The figures of a report, made from what is known about a case.
+//!
+//! Each file makes one kind of figure as plain data for [`super::figure`]. A figure that has
+//! nothing to say for a case is left out.
+
+mod amplitude;
+mod borders;
+mod branches;
+mod canvas;
+mod manifold;
+mod map;
+mod motion;
+mod plane;
+mod response;
+mod return_map;
+mod units;
+
+use crate::case::Case;
+use crate::study::{CaseStudy, StudyError};
+
+use super::figure::Figure;
+use units::Units;
+
+/// So many attractors are drawn.
+const ATTRACTORS: usize = 3;
+
+/// What every figure is made from.
+struct Scene<'a> {
+    study: &'a CaseStudy,
+    units: Units,
+}
+
+/// All figures in reading order, the case among its boundaries first.
+///
+/// # Errors
+/// [`StudyError`] where theory or simulation cannot be carried out.
+pub fn all(case: &Case, study: &CaseStudy) -> Result<Vec<Figure>, StudyError> {
+    let scene = Scene { study, units: Units::of(case) };
+    let mut figures = Vec::new();
+    figures.extend(map::figure(&scene)?);
+    figures.push(plane::figure(&scene)?);
+    figures.push(manifold::figure(&scene));
+    figures.extend(response::figure(&scene)?);
+    figures.push(amplitude::figure(&scene)?);
+    for index in 0..study.attractors.len().min(ATTRACTORS) {
+        figures.extend(motion::figure(&scene, index)?);
+        figures.extend(return_map::figure(&scene, index));
+    }
+    Ok(figures)
+}

@@ -1,0 +1,83 @@
+//! Numbers in the units that the case's reader uses.
+
+use crate::case::{Case, Scales};
+use crate::report::numbers::{LengthFormat, significant};
+use crate::system::System;
+
+/// Turns dimensionless numbers into numbers of displayed units.
+pub(super) struct Units {
+    scales: Scales,
+    lengths: LengthFormat,
+}
+
+impl Units {
+    pub(super) fn of(case: &Case) -> Self {
+        let scales = case.scales();
+        Self { scales, lengths: LengthFormat::of(&scales) }
+    }
+
+    /// A frequency ratio in Hz, or as it is for a reduced case.
+    pub(super) fn frequency(&self, ratio: f64) -> f64 {
+        self.scales.frequency_hz(ratio).unwrap_or(ratio)
+    }
+
+    /// The label of a frequency axis.
+    pub(super) const fn frequency_axis(&self) -> &'static str {
+        match self.scales.natural_frequency_rad_per_s {
+            Some(_) => "excitation frequency f (Hz)",
+            None => "frequency ratio Ω (1)",
+        }
+    }
+
+    /// A frequency in words.
+    pub(super) fn frequency_text(&self, ratio: f64) -> String {
+        let number = trimmed(&significant(self.frequency(ratio), 4));
+        match self.scales.natural_frequency_rad_per_s {
+            Some(_) => format!("{number} Hz"),
+            None => format!("Ω = {number}"),
+        }
+    }
+
+    /// A length over the clearance in displayed units.
+    pub(super) fn length(&self, over_clearance: f64) -> f64 {
+        self.lengths.number(self.scales.length(over_clearance))
+    }
+
+    /// A length over the clearance in words.
+    pub(super) fn length_text(&self, over_clearance: f64) -> String {
+        self.lengths.text(self.scales.length(over_clearance))
+    }
+
+    /// The label of an axis with a length.
+    pub(super) fn length_axis(&self, name: &str) -> String {
+        format!("{name} ({})", self.lengths.unit)
+    }
+
+    /// A number of excitation periods in seconds, or as it is for a reduced case.
+    pub(super) fn time(&self, system: &System, periods: f64) -> f64 {
+        self.scales.time_s(periods * system.period()).unwrap_or(periods)
+    }
+
+    /// The label of a time axis.
+    pub(super) const fn time_axis(&self) -> &'static str {
+        match self.scales.natural_frequency_rad_per_s {
+            Some(_) => "time t (s)",
+            None => "time in excitation periods t/T (1)",
+        }
+    }
+
+    /// Case and operating point in words: `8 Hz, 7.50 mm`.
+    pub(super) fn place_text(&self, system: &System) -> String {
+        let frequency = self.frequency_text(system.frequency_ratio());
+        format!("{frequency}, {}", self.length_text(1.0))
+    }
+}
+
+/// A decimal number without zeros at its end.
+fn trimmed(number: &str) -> String {
+    if number.contains('.') && !number.contains('e') {
+        number.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        number.to_owned()
+    }
+}

@@ -1,0 +1,177 @@
+//! From a report to the files of its folder. Nothing is decided here.
+
+use std::collections::{BTreeMap, HashMap};
+use std::path::PathBuf;
+
+use tera::{Context, Kwargs, State, Tera, Value};
+
+use super::Report;
+use super::figure::{self, Figure, FigureError};
+use super::numbers::LengthFormat;
+use crate::case::Case;
+use crate::symbolic::{MathError, to_mathml};
+
+const MARKDOWN: &str = include_str!("../../templates/report.md.tera");
+const HTML: &str = include_str!("../../templates/report.html.tera");
+const STYLE: &str = include_str!("../../templates/report.css");
+
+/// Why a report cannot be rendered.
+#[derive(Debug, thiserror::Error)]
+pub enum RenderError {
+    /// A template does not fit the report.
+    #[error("a template cannot be filled in: {0}")]
+    Template(#[from] tera::Error),
+    /// A figure cannot be drawn.
+    #[error(transparent)]
+    Figure(#[from] FigureError),
+    /// A formula cannot be shown.
+    #[error(transparent)]
+    Formula(#[from] MathError),
+    /// The numbers cannot be written down.
+    #[error("the report cannot be written as JSON: {0}")]
+    Json(#[from] serde_json::Error),
+}
+
+/// The files of a report's folder, by their path in it.
+///
+/// # Errors
+/// [`RenderError`] says which part cannot be rendered.
+pub fn files(
+    report: &Report,
+    case: &Case,
+    figures: &[Figure],
+) -> Result<BTreeMap<PathBuf, Vec<u8>>, RenderError> {
+    let mut drawings = BTreeMap::new();
+    for figure in figures {
+        drawings.insert(figure.name.clone(), figure::render(figure)?);
+    }
+    let mut files = BTreeMap::from([
+        (PathBuf::from("report.md"), markdown(report, case)?.into_bytes()),
+        (PathBuf::from("report.html"), html(report, case, &drawings)?.into_bytes()),
+        (PathBuf::from("report.json"), json(report)?.into_bytes()),
+    ]);
+    for (name, drawing) in drawings {
+        files.insert(PathBuf::from(format!("figures/{name}.svg")), drawing.into_bytes());
+    }
+    Ok(files)
+}
+
+/// The report as Markdown that reads well as plain text and on GitHub.
+///
+/// # Errors
+/// [`RenderError::Template`] if template and report do not fit.
+pub fn markdown(report: &Report, case: &Case) -> Result<String, RenderError> {
+    let text = engine("report.md", MARKDOWN)?.render("report.md", &context(report, case)?)?;
+    Ok(without_repeated_blank_lines(&text))
+}
+
+/// The report as one HTML page that needs nothing from outside.
+///
+/// # Errors
+/// [`RenderError`] if template and report do not fit, or a formula is not understood.
+pub fn html(
+    report: &Report,
+    case: &Case,
+    drawings: &BTreeMap<String, String>,
+) -> Result<String, RenderError> {
+    let mut context = context(report, case)?;
+    context.insert("style", STYLE);
+    context.insert("drawings", drawings);
+    context.insert("math", &formulas(report)?);
+    Ok(engine("report.html", HTML)?.render("report.html", &context)?)
+}
+
+fn json(report: &Report) -> Result<String, RenderError> {
+    Ok(serde_json::to_string_pretty(report)? + "\n")
+}
+
+fn context(report: &Report, case: &Case) -> Result<Context, RenderError> {
+    let mut context = Context::new();
+    context.insert("report", report);
+    // The equations are left out of the JSON document, and with it out of the serialised report.
+    context.insert("equations", &report.equations);
+    context.insert("length_unit", LengthFormat::of(&case.scales()).unit);
+    Ok(context)
+}
+
+/// Every formula of the report in MathML, by its LaTeX.
+fn formulas(report: &Report) -> Result<HashMap<String, String>, RenderError> {
+    let formulas = report.equations.iter().flat_map(|group| &group.formulas);
+    let equations = formulas.flat_map(|formula| [formula.general.clone(), formula.numbers.clone()]);
+    let cells = report.tables.inputs.rows.iter().flatten();
+    let symbols = cells.filter_map(|cell| Some(dollars(cell)?.to_owned()));
+    let mut math = HashMap::new();
+    for latex in equations.chain(symbols) {
+        let mathml = to_mathml(&latex)?;
+        math.insert(latex, mathml);
+    }
+    Ok(math)
+}
+
+/// The formula in a cell that is nothing but one.
+fn dollars(cell: &str) -> Option<&str> {
+    cell.strip_prefix('$')?.strip_suffix('$')
+}
+
+fn engine(name: &str, template: &str) -> Result<Tera, RenderError> {
+    let mut tera = Tera::new();
+    tera.register_filter("md_text", |text: &str, _: Kwargs, _: &State| markdown_text(text));
+    tera.register_filter("md_cell", |text: &str, _: Kwargs, _: &State| {
+        if dollars(text).is_some() {
+            text.to_owned()
+        } else {
+            markdown_text(text).replace('|', "\\|")
+        }
+    });
+    tera.register_filter("md_attribute", |text: &str, _: Kwargs, _: &State| attribute(text));
+    tera.register_filter("latex_of", |text: &str, _: Kwargs, _: &State| {
+        dollars(text).unwrap_or_default().to_owned()
+    });
+    tera.register_filter("first_only", |list: Vec<Value>, _: Kwargs, _: &State| {
+        list.into_iter().take(1).collect::<Vec<Value>>()
+    });
+    tera.register_filter("rest_only", |list: Vec<Value>, _: Kwargs, _: &State| {
+        list.into_iter().skip(1).collect::<Vec<Value>>()
+    });
+    tera.add_raw_template(name, template)?;
+    Ok(tera)
+}
+
+/// Text whose characters mean nothing to Markdown; a line of its own stays one line.
+fn markdown_text(text: &str) -> String {
+    let mut safe = String::with_capacity(text.len());
+    for letter in text.chars() {
+        match letter {
+            '\n' | '\r' => safe.push(' '),
+            '\\' | '`' | '*' | '_' | '<' | '>' | '[' | ']' | '#' | '$' => {
+                safe.push('\\');
+                safe.push(letter);
+            }
+            _ => safe.push(letter),
+        }
+    }
+    safe
+}
+
+fn attribute(text: &str) -> String {
+    text.replace('&', "&amp;")
+        .replace('"', "&quot;")
+        .replace('<', "&lt;")
+        .replace(['\n', '\r'], " ")
+}
+
+fn without_repeated_blank_lines(text: &str) -> String {
+    let mut result = String::with_capacity(text.len());
+    let mut blank = true;
+    for line in text.lines().map(str::trim_end) {
+        if !(blank && line.is_empty()) {
+            result.push_str(line);
+            result.push('\n');
+        }
+        blank = line.is_empty();
+    }
+    while result.ends_with("\n\n") {
+        result.pop();
+    }
+    result
+}

@@ -1,0 +1,388 @@
+//! Tables of a report, formatted: every number with its unit and no more digits than it deserves.
+
+use serde::Serialize;
+
+use super::numbers::{LengthFormat, decibels, fixed, percent, signed, significant};
+use super::verdict::finding;
+use crate::analysis::BoundaryKind;
+use crate::case::{Case, Input};
+use crate::regimes::Evidence;
+use crate::study::CaseStudy;
+use crate::validation::{Claim, Finding, Measure};
+
+/// A table of text.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Table {
+    /// Column heads; at most seven.
+    pub columns: Vec<Column>,
+    /// Rows, as long as the columns.
+    pub rows: Vec<Vec<String>>,
+}
+
+/// A column head.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Column {
+    /// Its text.
+    pub title: &'static str,
+    /// Whether its cells are numbers, to be aligned on the right.
+    pub numeric: bool,
+}
+
+/// A row of the table on the first screen.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct KeyRow {
+    /// What.
+    pub quantity: String,
+    /// How much, with its unit.
+    pub value: String,
+    /// The layer that gave it.
+    pub from: &'static str,
+    /// Anchor of the section that says more.
+    pub anchor: &'static str,
+}
+
+fn table<const N: usize>(columns: [(&'static str, bool); N], rows: Vec<[String; N]>) -> Table {
+    Table {
+        columns: columns.into_iter().map(|(title, numeric)| Column { title, numeric }).collect(),
+        rows: rows.into_iter().map(Vec::from).collect(),
+    }
+}
+
+fn row(quantity: &str, value: String, from: &'static str, anchor: &'static str) -> KeyRow {
+    KeyRow { quantity: quantity.to_owned(), value, from, anchor }
+}
+
+/// Names of the inputs that the first screen shows.
+const KEY_INPUTS: [(&str, &str, &str); 5] = [
+    ("clearance", "absorber", "Clearance b"),
+    ("restitution", "absorber", "Restitution r"),
+    ("mass", "absorber", "Absorber mass m₂"),
+    ("amplitude", "excitation", "Excitation amplitude"),
+    ("frequency", "excitation", "Excitation frequency"),
+];
+
+/// Inputs and key results.
+pub fn key_rows(case: &Case, study: &CaseStudy) -> Vec<KeyRow> {
+    let scales = case.scales();
+    let lengths = LengthFormat::of(&scales);
+    let length = |over_clearance: f64| lengths.text(scales.length(over_clearance));
+    let mut rows = key_inputs(case);
+    let system = &study.analysis.system;
+    let mass_ratio = format!("{} %", significant(100.0 * system.mass_ratio(), 3));
+    rows.push(row("Mass ratio ε", mass_ratio, "case file", "inputs"));
+    let bare = system.linear_response().map(|bare| bare.amplitude());
+    if let Some(bare) = bare {
+        rows.push(row(
+            "Vibration of the bare oscillator",
+            length(bare),
+            "closed form, (1)",
+            "inputs",
+        ));
+    }
+    if let Some(main) = study.main_attractor() {
+        let simulation = "simulation";
+        let attractor = &main.attractor;
+        rows.push(row(
+            "Vibration with the absorber, peak",
+            length(attractor.peak),
+            simulation,
+            "motions",
+        ));
+        if let Some(bare) = bare.filter(|bare| *bare > 0.0) {
+            rows.push(row(
+                "Change of the peak",
+                decibels(attractor.peak / bare),
+                simulation,
+                "motions",
+            ));
+        }
+        let z = attractor.classification.evidence.impacts_per_period;
+        rows.push(row("Impacts per period z", significant(z, 4), simulation, "motions"));
+    }
+    if let Some(point) = study.analysis.stable_points().last() {
+        rows.push(row(
+            "Amplitude C of the stable fixed point",
+            length(point.oscillator),
+            "slow flow, (18)",
+            "theory",
+        ));
+    }
+    let area = match study.analysis.zone.strip {
+        Some(strip) => format!("{:?}, strip {strip:?}", study.area.area),
+        None => format!("{:?}", study.area.area),
+    };
+    let from = if study.area.by_simulation { "theory and simulation" } else { "theory" };
+    rows.push(row("Area of the case", area, from, "theory"));
+    rows
+}
+
+fn key_inputs(case: &Case) -> Vec<KeyRow> {
+    let inputs = case.inputs();
+    let shown =
+        |input: &&Input, name: &str, table: &str| input.name == name && input.table == table;
+    let mut rows: Vec<KeyRow> = KEY_INPUTS
+        .iter()
+        .filter_map(|(name, table, words)| {
+            let input = inputs.iter().find(|input| shown(input, name, table))?;
+            Some(row(words, input.as_written.clone(), "case file", "inputs"))
+        })
+        .collect();
+    if rows.is_empty() {
+        rows = inputs
+            .iter()
+            .map(|input| KeyRow {
+                quantity: words(input.name),
+                value: input.as_written.clone(),
+                from: "case file",
+                anchor: "inputs",
+            })
+            .collect();
+    }
+    rows
+}
+
+fn words(name: &str) -> String {
+    let text = name.replace('_', " ");
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
+/// Every number of the case.
+pub fn inputs(case: &Case) -> Table {
+    let given = case.inputs().iter().map(|input| {
+        [
+            words(input.name),
+            format!("${}$", input.symbol),
+            input.as_written.clone(),
+            input.table.to_owned(),
+        ]
+    });
+    let lengths = LengthFormat::of(&case.scales());
+    let derived = case.derived();
+    let derived = derived.iter().map(|input| {
+        let value = match input.unit {
+            "1" => significant(input.value, 5),
+            "m" => lengths.with_digits(input.value, 4),
+            unit => format!("{} {unit}", significant(input.value, 5)),
+        };
+        [words(input.name), format!("${}$", input.symbol), value, "derived".to_owned()]
+    });
+    table(
+        [("Quantity", false), ("Symbol", false), ("Value", true), ("From", false)],
+        given.chain(derived).collect(),
+    )
+}
+
+/// Fixed points of the slow flow.
+pub fn fixed_points(case: &Case, study: &CaseStudy) -> Table {
+    let scales = case.scales();
+    let lengths = LengthFormat::of(&scales);
+    let rows = study.analysis.fixed_points.iter().enumerate().map(|(index, point)| {
+        [
+            (index + 1).to_string(),
+            lengths.with_digits(scales.length(point.oscillator), 4),
+            lengths.with_digits(scales.length(point.absorber), 4),
+            format!("{} rad", fixed(point.eta, 3)),
+            point.branch.words().to_owned(),
+            format!(
+                "{}, trace {}, det {}",
+                point.kind.words(),
+                significant(point.trace, 3),
+                significant(point.determinant, 3)
+            ),
+            if point.stable { "stable" } else { "unstable" }.to_owned(),
+        ]
+    });
+    let columns = [
+        ("No.", true),
+        ("C", true),
+        ("B", true),
+        ("η", true),
+        ("Branch", false),
+        ("Slow flow", false),
+        ("Motion", false),
+    ];
+    table(columns, rows.collect())
+}
+
+/// Boundaries in clearance at the case's frequency and forcing.
+pub fn boundaries(case: &Case, study: &CaseStudy) -> Table {
+    let scales = case.scales();
+    let lengths = LengthFormat::of(&scales);
+    let rows = study.margins.clearance.iter().map(|margin| {
+        let name = match margin.kind {
+            BoundaryKind::SaddleNode => {
+                format!("saddle-node on the {} branch", margin.branch.words())
+            }
+            kind => kind.words().to_owned(),
+        };
+        let change = margin.factor - 1.0;
+        let sign = if change > 0.0 { "+" } else { "\u{2212}" };
+        [
+            name,
+            lengths.with_digits(scales.length(margin.factor), 4),
+            format!("{sign}{}", percent(change.abs())),
+            if margin.ends_steady_resonance { "yes" } else { "no" }.to_owned(),
+        ]
+    });
+    table(
+        [
+            ("Boundary", false),
+            ("Clearance", true),
+            ("From this case", true),
+            ("Bounds steady 1:1", false),
+        ],
+        rows.collect(),
+    )
+}
+
+/// Every long-term motion.
+pub fn attractors(case: &Case, study: &CaseStudy) -> Table {
+    let scales = case.scales();
+    let lengths = LengthFormat::of(&scales);
+    let rows = study.attractors.iter().map(|found| {
+        let attractor = &found.attractor;
+        let evidence = &attractor.classification.evidence;
+        [
+            found.regime().words().to_owned(),
+            percent(found.share),
+            significant(evidence.impacts_per_period, 4),
+            repetition(evidence),
+            lengths.text(scales.length(attractor.peak)),
+            lengths.text(scales.length(attractor.rms)),
+            percent(evidence.modulation_depth),
+        ]
+    });
+    table(
+        [
+            ("Motion", false),
+            ("Starts", true),
+            ("z", true),
+            ("Repeats", false),
+            ("Peak of x", true),
+            ("rms of x", true),
+            ("Modulation", true),
+        ],
+        rows.collect(),
+    )
+}
+
+fn repetition(evidence: &Evidence) -> String {
+    match evidence.periodicity {
+        Some(found) if found.periods == 1 => "every period".into(),
+        Some(found) => format!("every {} periods", found.periods),
+        None if evidence.captures.count > 1 => format!(
+            "no; captured {} of the time, up to {} periods",
+            percent(evidence.captures.share),
+            evidence.captures.longest
+        ),
+        None => "no".into(),
+    }
+}
+
+/// Theory against simulation.
+pub fn claims(case: &Case, study: &CaseStudy) -> Table {
+    let reasons = reasons(study);
+    let rows = study.claims.iter().map(|claim| {
+        [
+            claim.statement.clone(),
+            claim.source.to_owned(),
+            finding(case, &claim.predicted),
+            finding(case, &claim.observed),
+            difference(claim),
+            allowed(claim, &reasons),
+            claim.verdict.words().to_owned(),
+        ]
+    });
+    table(
+        [
+            ("Claim", false),
+            ("Layer", false),
+            ("Predicted", false),
+            ("Observed", false),
+            ("Difference", true),
+            ("Allowed", false),
+            ("Verdict", false),
+        ],
+        rows.collect(),
+    )
+}
+
+/// The distinct reasons for the tolerances of a study's claims, in order of appearance; the table
+/// refers to them by letter.
+fn reasons(study: &CaseStudy) -> Vec<String> {
+    let mut reasons: Vec<String> = Vec::new();
+    for claim in &study.claims {
+        if !reasons.contains(&claim.tolerance.reason) {
+            reasons.push(claim.tolerance.reason.clone());
+        }
+    }
+    reasons
+}
+
+/// The same with their letters.
+pub fn lettered_reasons(study: &CaseStudy) -> Vec<String> {
+    let reasons = reasons(study).into_iter().enumerate();
+    reasons.map(|(index, reason)| format!("({}) {reason}", letter(index))).collect()
+}
+
+fn letter(index: usize) -> char {
+    char::from(b'a' + (index % 26) as u8)
+}
+
+fn difference(claim: &Claim) -> String {
+    match (claim.difference, &claim.predicted) {
+        (Some(value), Finding::Number(_, Measure::Angle)) => format!("{} rad", signed(value, 4)),
+        (Some(value), _) if claim.tolerance.value < FINE => significant(value, 1),
+        (Some(value), _) => {
+            let sign = if value < 0.0 { "\u{2212}" } else { "+" };
+            format!("{sign}{}", percent(value.abs()))
+        }
+        (None, _) => "\u{2013}".into(),
+    }
+}
+
+/// Relative tolerances below this are shown as plain numbers: nobody says 1e-7 %.
+const FINE: f64 = 1e-6;
+
+fn allowed(claim: &Claim, reasons: &[String]) -> String {
+    let index = reasons.iter().position(|reason| *reason == claim.tolerance.reason).unwrap_or(0);
+    let letter = letter(index);
+    match (&claim.predicted, claim.tolerance.value) {
+        (_, 0.0) => format!("({letter})"),
+        (Finding::Number(_, Measure::Angle), value) => {
+            format!("{} rad ({letter})", significant(value, 2))
+        }
+        (_, value) if value < FINE => format!("{} ({letter})", significant(value, 1)),
+        (_, value) => format!("{} ({letter})", percent(value)),
+    }
+}
+
+/// Quality of the numerics, per motion.
+pub fn numerics(study: &CaseStudy) -> Table {
+    let rows = study.attractors.iter().map(|found| {
+        let attractor = &found.attractor;
+        let contact = attractor.sustained_contact;
+        [
+            found.regime().words().to_owned(),
+            attractor.periods.to_string(),
+            significant(attractor.energy.relative_residual, 1),
+            format!("{} b", significant(attractor.penetration, 1)),
+            contact.intervals.to_string(),
+            if attractor.classification.evidence.settled { "yes" } else { "no" }.to_owned(),
+            attractor.stop.words().to_owned(),
+        ]
+    });
+    table(
+        [
+            ("Motion", false),
+            ("Periods", true),
+            ("Energy residual", true),
+            ("Penetration", true),
+            ("Sustained contacts", true),
+            ("Settled", false),
+            ("Run ended by", false),
+        ],
+        rows.collect(),
+    )
+}

@@ -1,0 +1,431 @@
+//! The verdict: what an engineer wants to know first, in a few sentences.
+
+use serde::Serialize;
+
+use super::numbers::{LengthFormat, decibels, percent, significant};
+use crate::analysis::{Area, BoundaryKind, Branch, Strip};
+use crate::case::Case;
+use crate::regimes::{FoundAttractor, Regime};
+use crate::simulation::Stop;
+use crate::study::CaseStudy;
+use crate::study::margins::Margin;
+use crate::validation::Verdict as Outcome;
+use crate::validation::tolerance::{LARGEST_MASS_RATIO, LARGEST_OFFSET};
+use crate::validation::{Finding, Measure};
+
+/// Relative change of the vibration that is worth calling a change.
+const NOTICEABLE: f64 = 0.02;
+/// The energy balance that a sound simulation closes.
+const ENERGY_RESIDUAL: f64 = 1e-9;
+
+/// Whether the news is good.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Tone {
+    /// The absorber reduces the vibration in steady 1:1 resonance.
+    Good,
+    /// Something between.
+    Mixed,
+    /// It does not help.
+    Bad,
+}
+
+/// The answer.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Verdict {
+    /// Good, mixed or bad.
+    pub tone: Tone,
+    /// One or two short sentences.
+    pub headline: String,
+    /// What follows, a sentence each.
+    pub sentences: Vec<String>,
+}
+
+/// Something that must not be overlooked.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Note {
+    /// One of `refuted`, `unsettled`, `validity`, `numerics`.
+    pub kind: &'static str,
+    /// What.
+    pub text: String,
+}
+
+/// Writes the verdict of a study.
+pub fn verdict(case: &Case, study: &CaseStudy) -> Verdict {
+    let writer = Writer { case, study, lengths: LengthFormat::of(&case.scales()) };
+    let Some(main) = study.main_attractor() else {
+        return Verdict {
+            tone: Tone::Bad,
+            headline: "No long-term motion was found: no start was simulated.".into(),
+            sentences: Vec::new(),
+        };
+    };
+    let (tone, headline) = writer.headline(main);
+    let sentences = [
+        Some(writer.standing(main)),
+        writer.reason(main),
+        writer.clearance(),
+        writer.forcing_and_frequency(),
+        writer.best_clearance(main),
+        writer.coexistence(main),
+        writer.theory_error(),
+    ];
+    Verdict { tone, headline, sentences: sentences.into_iter().flatten().collect() }
+}
+
+struct Writer<'a> {
+    case: &'a Case,
+    study: &'a CaseStudy,
+    lengths: LengthFormat,
+}
+
+impl Writer<'_> {
+    fn length(&self, over_clearance: f64) -> String {
+        self.lengths.text(self.case.scales().length(over_clearance))
+    }
+
+    fn bare(&self) -> Option<f64> {
+        let amplitude = self.study.analysis.system.linear_response()?.amplitude();
+        (amplitude > 0.0).then_some(amplitude)
+    }
+
+    fn headline(&self, main: &FoundAttractor) -> (Tone, String) {
+        let peak = main.attractor.peak;
+        let steady = main.regime() == Regime::TwoSymmetric;
+        let regime = self.regime(main);
+        let Some(bare) = self.bare() else {
+            let text = format!(
+                "{regime}. Vibration {}; alone it would have no steady vibration.",
+                self.length(peak)
+            );
+            return (if steady { Tone::Good } else { Tone::Mixed }, text);
+        };
+        let change = format!(
+            "{} instead of {} ({})",
+            self.length(peak),
+            self.length(bare),
+            decibels(peak / bare)
+        );
+        let ratio = peak / bare;
+        if main.regime() == Regime::AtRest {
+            let text =
+                format!("{regime}: the oscillator vibrates as if alone, {}.", self.length(peak));
+            return (Tone::Bad, text);
+        }
+        if ratio > 1.0 + NOTICEABLE {
+            (Tone::Bad, format!("{regime}, but the absorber makes it worse: {change}."))
+        } else if ratio > 1.0 - NOTICEABLE {
+            (Tone::Mixed, format!("{regime}, but it changes little: {change}."))
+        } else if steady {
+            (Tone::Good, format!("{regime}: the absorber works. Vibration {change}."))
+        } else {
+            (Tone::Mixed, format!("{regime}. Vibration up to {change}."))
+        }
+    }
+
+    fn regime(&self, main: &FoundAttractor) -> String {
+        let z = main.attractor.classification.evidence.impacts_per_period;
+        let z = significant(z, 3);
+        match main.regime() {
+            Regime::TwoSymmetric => "Steady 1:1 resonance".into(),
+            Regime::TwoAsymmetric => "Two asymmetric impacts per period".into(),
+            Regime::AboveTwo => format!("More than two impacts per period (z = {z})"),
+            Regime::StronglyModulated => format!("Strongly modulated response (z = {z})"),
+            Regime::BelowTwo => format!("Fewer than two impacts per period (z = {z})"),
+            Regime::AtRest => "The absorber rests".into(),
+        }
+    }
+
+    /// Regime, area, and how firmly both stand.
+    fn standing(&self, main: &FoundAttractor) -> String {
+        let area = self.study.area.area;
+        let strip = match self.study.analysis.zone.strip {
+            Some(Strip::A1) => ", hysteresis strip A1",
+            Some(Strip::A2) => ", beat strip A2",
+            None => "",
+        };
+        let confirmed =
+            self.study.claims.iter().filter(|claim| claim.verdict == Outcome::Confirmed).count();
+        let starts = self.study.effort.starts;
+        let led = match main.starts {
+            all if all == starts => format!("all {starts} starts lead to it"),
+            0 => "only starts on the predicted motion lead to it".into(),
+            some => format!("{some} of {starts} starts lead to it"),
+        };
+        let criterion = match (area, self.study.analysis.zone.strip) {
+            (Area::Z3, Some(Strip::A1)) => "steady 1:1 resonance beside a modulated response",
+            (Area::Z3, Some(Strip::A2)) => "1:1 resonance in transient captures only",
+            (Area::Z3, None) => "where the paper wants a design to be",
+            (Area::Z4, _) => "no 1:1 resonance",
+            (Area::Z2, _) => "past symmetry breaking",
+            (Area::Z1, _) => "far past symmetry breaking",
+        };
+        let claims = match self.study.claims.len() {
+            0 => "it makes no claim that simulation could decide".into(),
+            all if all == confirmed => format!("all its {all} claims are confirmed by simulation"),
+            all => format!("{confirmed} of its {all} claims are confirmed by simulation"),
+        };
+        format!(
+            "Simulation: {}; {led}. Theory: area {area:?}{strip}, {criterion}; {claims}.",
+            main.regime().words(),
+        )
+    }
+
+    /// Why an absorber that works may still make things worse.
+    fn reason(&self, main: &FoundAttractor) -> Option<String> {
+        let bare = self.bare()?;
+        if main.attractor.peak <= bare * (1.0 + NOTICEABLE) || main.regime() == Regime::AtRest {
+            return None;
+        }
+        let offset = self.study.analysis.system.frequency_ratio() - 1.0;
+        let side = if offset < 0.0 { "below" } else { "above" };
+        let why = match main.regime() {
+            Regime::TwoSymmetric | Regime::TwoAsymmetric | Regime::AboveTwo if offset < 0.0 => {
+                "where the moving mass mainly adds inertia and draws the resonance nearer"
+            }
+            Regime::StronglyModulated => {
+                "and between captures the oscillator grows past its own steady vibration"
+            }
+            Regime::BelowTwo => "and sparse impacts disturb it more than they drain it",
+            _ => "where the oscillator alone already vibrates little",
+        };
+        Some(format!(
+            "The excitation lies {} {side} the oscillator's natural frequency, {why}.",
+            percent(offset.abs())
+        ))
+    }
+
+    fn clearance(&self) -> Option<String> {
+        let neighbours = self.study.margins.clearance_neighbours();
+        let scales = self.case.scales();
+        let describe = |margin: Margin, way: &str| {
+            format!(
+                "{way} by {} (to {}) {}",
+                percent((margin.factor - 1.0).abs()),
+                self.lengths.text(scales.length(margin.factor)),
+                self.consequence(&margin, margin.factor > 1.0)
+            )
+        };
+        let above = neighbours.above.map(|margin| describe(margin, "grow"));
+        let below = neighbours.below.map(|margin| describe(margin, "shrink"));
+        match (above, below) {
+            (None, None) => None,
+            (Some(one), None) | (None, Some(one)) => Some(format!("Clearance can {one}.")),
+            (Some(above), Some(below)) => Some(format!("Clearance can {above}, and {below}.")),
+        }
+    }
+
+    /// What happens where the case meets a boundary, `outwards` in clearance or not.
+    fn consequence(&self, margin: &Margin, outwards: bool) -> &'static str {
+        match (margin.kind, outwards) {
+            (BoundaryKind::SymmetryBreaking, false) => {
+                "before the impacts turn asymmetric (symmetry breaking)"
+            }
+            (BoundaryKind::SymmetryBreaking, true) => {
+                "before the impacts turn symmetric (symmetry breaking)"
+            }
+            (BoundaryKind::Hopf, true) if margin.ends_steady_resonance => {
+                "before the response becomes modulated (Hopf)"
+            }
+            (BoundaryKind::Hopf, true) => "before a modulated response may coexist (Hopf)",
+            (BoundaryKind::Hopf, false) if margin.ends_steady_resonance => {
+                "before steady 1:1 resonance sets in (Hopf)"
+            }
+            (BoundaryKind::Hopf, false) => "before 1:1 resonance is the only response (Hopf)",
+            (BoundaryKind::SaddleNode, true) if margin.branch == Branch::Stable => {
+                "before 1:1 resonance ends (saddle-node)"
+            }
+            (BoundaryKind::SaddleNode, true) => {
+                "before no 1:1 resonance is left, not even a transient one (saddle-node)"
+            }
+            (BoundaryKind::SaddleNode, false) if margin.branch == Branch::Stable => {
+                "before 1:1 resonance becomes possible (saddle-node)"
+            }
+            (BoundaryKind::SaddleNode, false) => {
+                "before captures in 1:1 resonance begin (saddle-node)"
+            }
+        }
+    }
+
+    fn forcing_and_frequency(&self) -> Option<String> {
+        let forcing = self.study.margins.forcing_neighbours();
+        let frequency = self.study.margins.frequency;
+        let change = |margin: Margin| {
+            let sign = if margin.factor > 1.0 { "+" } else { "\u{2212}" };
+            let limit = percent((margin.factor - 1.0).abs());
+            format!("{sign}{limit} ({})", margin.kind.words())
+        };
+        let list = |below: Option<Margin>, above: Option<Margin>| {
+            let both: Vec<String> = below.into_iter().chain(above).map(change).collect();
+            (!both.is_empty()).then(|| both.join(" and "))
+        };
+        let hertz = |margin: Margin| {
+            let system = &self.study.analysis.system;
+            let ratio = margin.factor * system.frequency_ratio();
+            match self.case.scales().frequency_hz(ratio) {
+                Some(hertz) => format!("{} Hz ({})", significant(hertz, 4), margin.kind.words()),
+                None => format!("Ω = {} ({})", significant(ratio, 4), margin.kind.words()),
+            }
+        };
+        let in_frequency: Vec<String> =
+            frequency.below.into_iter().chain(frequency.above).map(hertz).collect();
+        let in_forcing = list(forcing.below, forcing.above);
+        match (in_forcing, in_frequency.is_empty()) {
+            (None, true) => None,
+            (Some(forcing), true) => {
+                Some(format!("Nearest boundaries in forcing: {forcing}; none in frequency."))
+            }
+            (None, false) => {
+                Some(format!("Nearest boundaries in frequency: {}.", in_frequency.join(" and ")))
+            }
+            (Some(forcing), false) => Some(format!(
+                "Nearest boundaries in forcing: {forcing}; in frequency: {}.",
+                in_frequency.join(" and ")
+            )),
+        }
+    }
+
+    /// Where the theory would put the clearance; not said when the case is there already.
+    fn best_clearance(&self, main: &FoundAttractor) -> Option<String> {
+        let best = self.study.margins.best_clearance?;
+        let bare = self.bare()?;
+        let at = self.length(best.factor);
+        let amplitude = self.length(best.amplitude);
+        let place =
+            if best.at_upper_end { format!("just below {at}") } else { format!("near {at}") };
+        let against = decibels(best.amplitude / bare);
+        let worth = if main.attractor.peak < best.amplitude * (1.0 + NOTICEABLE)
+            && main.regime() == Regime::TwoSymmetric
+        {
+            "; this case is as good"
+        } else {
+            ""
+        };
+        Some(format!(
+            "Best clearance for steady 1:1 resonance at this frequency and forcing, by theory: {place} ({amplitude}, {against} against the bare oscillator){worth}."
+        ))
+    }
+
+    fn coexistence(&self, main: &FoundAttractor) -> Option<String> {
+        let others: Vec<String> = self
+            .study
+            .attractors
+            .iter()
+            .filter(|found| !std::ptr::eq(*found, main))
+            .map(|found| {
+                let peak = self.length(found.attractor.peak);
+                let share = match (found.starts, found.regime()) {
+                    (0, Regime::AtRest) => "only if the absorber starts at rest".into(),
+                    (0, _) => "only from the motion that theory predicts".into(),
+                    _ => format!("{} of the starts", percent(found.share)),
+                };
+                format!("{} (peak {peak}, {share})", found.regime().words())
+            })
+            .collect();
+        if others.is_empty() {
+            return Some("No other long-term motion was found.".into());
+        }
+        Some(format!("Coexisting answers: {}.", others.join("; ")))
+    }
+
+    /// Error of the predicted amplitude, where one was compared.
+    fn theory_error(&self) -> Option<String> {
+        let claim = self.study.claims.iter().find(|claim| claim.id.ends_with("-C"))?;
+        let difference = claim.difference?;
+        let way = if difference > 0.0 { "low" } else { "high" };
+        Some(format!(
+            "Leading-order theory is {} {way} in the amplitude C.",
+            percent(difference.abs())
+        ))
+    }
+}
+
+/// Everything that limits what the report says.
+pub fn notes(case: &Case, study: &CaseStudy) -> Vec<Note> {
+    let mut notes = Vec::new();
+    let mut note = |kind, text: String| notes.push(Note { kind, text });
+    for claim in study.claims.iter().filter(|claim| claim.verdict == Outcome::Refuted) {
+        note(
+            "refuted",
+            format!(
+                "{}: predicted {}, observed {}. Allowed: {}.",
+                claim.statement,
+                finding(case, &claim.predicted),
+                finding(case, &claim.observed),
+                claim.tolerance.reason
+            ),
+        );
+    }
+    for found in &study.attractors {
+        let attractor = &found.attractor;
+        let evidence = &attractor.classification.evidence;
+        let regime = found.regime().words();
+        if attractor.stop != Stop::EndTime {
+            note(
+                "unsettled",
+                format!("{regime}: the run was ended by {}.", attractor.stop.words()),
+            );
+        } else if !evidence.settled {
+            note(
+                "unsettled",
+                format!(
+                    "{regime}: two halves of {} periods differ; the motion is intermittent or its transient is not over.",
+                    attractor.periods
+                ),
+            );
+        }
+        if attractor.energy.relative_residual > ENERGY_RESIDUAL {
+            note(
+                "numerics",
+                format!(
+                    "{regime}: the energy balance closes only to {}.",
+                    significant(attractor.energy.relative_residual, 1)
+                ),
+            );
+        }
+    }
+    let system = &study.analysis.system;
+    if system.mass_ratio() > LARGEST_MASS_RATIO {
+        note(
+            "validity",
+            format!(
+                "The mass ratio {} is not small: the theory, an expansion in it, is out of its range.",
+                significant(system.mass_ratio(), 3)
+            ),
+        );
+    }
+    if (system.frequency_ratio() - 1.0).abs() > LARGEST_OFFSET {
+        note(
+            "validity",
+            format!(
+                "The excitation is {} away from resonance: the theory holds near 1:1 resonance only.",
+                percent((system.frequency_ratio() - 1.0).abs())
+            ),
+        );
+    }
+    for point in study.analysis.fixed_points.iter().filter(|point| !point.admissible) {
+        note(
+            "validity",
+            format!(
+                "The fixed point at B/b = {} is not a motion: the absorber would reach {} times the clearance between impacts.",
+                significant(point.absorber, 3),
+                significant(point.largest_relative_displacement, 3)
+            ),
+        );
+    }
+    notes
+}
+
+/// A finding with its unit.
+pub fn finding(case: &Case, finding: &Finding) -> String {
+    let scales = case.scales();
+    match finding {
+        Finding::Number(value, Measure::LengthOverClearance) => {
+            LengthFormat::of(&scales).with_digits(scales.length(*value), 4)
+        }
+        Finding::Number(value, Measure::Angle) => {
+            format!("{} rad", super::numbers::fixed(*value, 3))
+        }
+        Finding::Words(words) => words.clone(),
+    }
+}
