@@ -6,12 +6,10 @@ use crate::analysis::Manifold;
 use crate::analysis::frequency_response::ResponsePoint;
 use crate::analysis::manifold::ManifoldPoint;
 use crate::regimes::Regime;
-use crate::report::figure::{
-    Axis, Figure, Layer, MarkedPoint, Marker, Panel, Role, Shape,
-};
+use crate::report::figure::{Axis, Figure, Layer, MarkedPoint, Marker, Panel, Role, Shape};
 use crate::report::numbers::decibels;
-use crate::study::scenes::{SweepPoint, sweep};
 use crate::study::StudyError;
+use crate::study::scenes::{SweepPoint, sweep};
 use crate::system::System;
 
 use super::Scene;
@@ -60,7 +58,8 @@ pub(super) fn figure(scene: &Scene) -> Result<Figure, StudyError> {
     panel.layers.extend(markers(scene, &simulated));
     if let Some(peak) = here {
         let at = shown([system.frequency_ratio(), peak]);
-        let words = format!("this case: {}, peak {}", units.place_text(system), units.length_text(peak));
+        let words =
+            format!("this case: {}, peak {}", units.place_text(system), units.length_text(peak));
         panel = panel.with(Layer::this_case(at, Some(words)));
     }
     let (caption, alt) = words(scene, here);

@@ -71,13 +71,14 @@ pub(super) fn markers(
 /// Fixed points with their names.
 fn named_markers(points: &[FixedPoint]) -> Vec<Layer> {
     let count = |stable| points.iter().filter(|point| point.stable == stable).count();
-    let names = [(true, "stable fixed point"), (false, "unstable fixed point")].map(|(stable, name)| {
-        match count(stable) {
-            0 => None,
-            1 => Some(name.to_owned()),
-            _ => Some(format!("{name}s")),
-        }
-    });
+    let names =
+        [(true, "stable fixed point"), (false, "unstable fixed point")].map(|(stable, name)| {
+            match count(stable) {
+                0 => None,
+                1 => Some(name.to_owned()),
+                _ => Some(format!("{name}s")),
+            }
+        });
     let layers = markers(points, &|point| [point.absorber, point.oscillator]);
     layers.into_iter().zip(names).filter_map(|(layer, name)| Some(layer.labelled(name?))).collect()
 }

@@ -45,19 +45,32 @@ pub(super) fn figure(scene: &Scene, index: usize) -> Option<Figure> {
         mark.with_tooltip(format!("{x} T, then {y} T"))
     });
     let near = |part: f64| 0.94 * end * part;
-    let panel = Panel::new(axis("time between impacts Δtₖ/T (1)"), axis("the next one Δtₖ₊₁/T (1)"))
-        .with(sloped([0.0, 1.0], -1.0).labelled(Label::near("L1: sum is T", [0.7, 0.35])))
-        .with(Layer::rule(Rule::Vertical(1.0), line).labelled(Label::near("L2", [1.0, near(1.0)])))
-        .with(Layer::rule(Rule::Horizontal(1.0), line).labelled(Label::near("L3", [near(1.0), 1.0])))
-        .with(sloped([0.0, 0.0], 1.0).labelled(Label::near("L4: equal", [near(0.95), near(0.95)])))
-        .with(Layer::marked(marker, Role::Simulation.color(), marks))
-        .with_equal_aspect();
+    let panel =
+        Panel::new(axis("time between impacts Δtₖ/T (1)"), axis("the next one Δtₖ₊₁/T (1)"))
+            .with(sloped([0.0, 1.0], -1.0).labelled(Label::near("L1: sum is T", [0.7, 0.35])))
+            .with(
+                Layer::rule(Rule::Vertical(1.0), line)
+                    .labelled(Label::near("L2", [1.0, near(1.0)])),
+            )
+            .with(
+                Layer::rule(Rule::Horizontal(1.0), line)
+                    .labelled(Label::near("L3", [near(1.0), 1.0])),
+            )
+            .with(
+                sloped([0.0, 0.0], 1.0)
+                    .labelled(Label::near("L4: equal", [near(0.95), near(0.95)])),
+            )
+            .with(Layer::marked(marker, Role::Simulation.color(), marks))
+            .with_equal_aspect();
     let number = index + 1;
     let (caption, alt) = words(&all, &points, largest > LARGEST_END);
-    let figure = Figure::new(format!("return-map-{number}"), format!("Times between impacts of motion {number}"))
-        .with_size(480, 450)
-        .with_panel(panel)
-        .with_words(caption, alt);
+    let figure = Figure::new(
+        format!("return-map-{number}"),
+        format!("Times between impacts of motion {number}"),
+    )
+    .with_size(480, 450)
+    .with_panel(panel)
+    .with_words(caption, alt);
     Some(figure)
 }
 
@@ -78,7 +91,9 @@ fn words(all: &[[f64; 2]], distinct: &[[f64; 2]], cut: bool) -> (String, String)
     let share = percent(on_line as f64 / all.len() as f64);
     let t = |value: f64| format!("{} T", significant(value, 3));
     let mut caption = match distinct {
-        [[x, _]] => format!("A single point: the impacts follow each other evenly, every {}.", t(*x)),
+        [[x, _]] => {
+            format!("A single point: the impacts follow each other evenly, every {}.", t(*x))
+        }
         [[x, y], _] => format!(
             "Two points: intervals of {} and {} take turns, so that the impacts are uneven.",
             t(*x),
@@ -87,9 +102,16 @@ fn words(all: &[[f64; 2]], distinct: &[[f64; 2]], cut: bool) -> (String, String)
         _ if distinct.len() <= SINGLE => {
             let least = distinct.iter().map(|point| point[0]).fold(f64::INFINITY, f64::min);
             let most = distinct.iter().map(|point| point[0]).fold(0.0, f64::max);
-            format!("{} points that repeat: intervals from {} to {}.", distinct.len(), t(least), t(most))
+            format!(
+                "{} points that repeat: intervals from {} to {}.",
+                distinct.len(),
+                t(least),
+                t(most)
+            )
         }
-        _ => format!("The points scatter; {share} lie on L1 (within 0.02 T), where two impacts take one period."),
+        _ => format!(
+            "The points scatter; {share} lie on L1 (within 0.02 T), where two impacts take one period."
+        ),
     };
     if cut {
         caption.push_str(&format!(" Intervals above {} are not shown.", t(LARGEST_END)));
