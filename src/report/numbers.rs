@@ -114,7 +114,7 @@ mod tests {
         assert_eq!(significant(3.561_9, 3), "3.56");
         assert_eq!(significant(0.000_123_4, 3), "0.000123");
         assert_eq!(significant(-1_234.5, 3), "−1234");
-        assert_eq!(significant(9.999, 3), "10.00");
+        assert_eq!(significant(9.999, 3), "10.0");
         assert_eq!(significant(1.2e-9, 2), "1.2e−9");
         assert_eq!(significant(0.0, 3), "0");
         assert_eq!(fixed(-0.04, 1), "0.0");

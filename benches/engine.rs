@@ -1,0 +1,187 @@
+//! The event engine against what one would write by hand, in the same run on the same work: the
+//! classical Runge-Kutta method with a two-hundredth of the period as its step and bisection of each
+//! impact. And the analysis of a case against a hundred simulated periods.
+//!
+//! The first lines printed are the ratio of the two and the impacts per second; then criterion's own
+//! report. Nothing here asserts a time.
+
+use std::hint::black_box;
+use std::time::{Duration, Instant};
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use vinesink::analysis::Analysis;
+use vinesink::simulation::run::Nobody;
+use vinesink::simulation::{Simulation, Stop};
+use vinesink::system::{Excitation, Parameters, State, System};
+
+const PERIODS: u64 = 200;
+/// Clearances in mm: strongly modulated, and two impacts per period.
+const CLEARANCES: [f64; 2] = [11.5, 7.5];
+const START: State = State { x: 0.0, x_velocity: 0.01, y: 0.0, y_velocity: 0.0 };
+
+/// Table 1 of Li, Seguy, Berlioz (2016) at resonance, with F = 0.25 mm.
+fn system(clearance_mm: f64) -> System {
+    let mass_ratio = 0.032 / 4.168;
+    System::new(Parameters {
+        mass_ratio,
+        damping: 3.02 / (0.032 * (11.47e3_f64 / 4.168).sqrt()),
+        restitution: 0.6,
+        frequency_ratio: 1.0,
+        forcing_per_clearance: 0.25 / mass_ratio / clearance_mm,
+        excitation: Excitation::BaseDisplacement,
+    })
+    .expect("a valid system")
+}
+
+fn engine(system: &System, periods: u64) -> u64 {
+    let mut simulation = Simulation::new(system, START, 0.0).expect("inside the cavity");
+    assert_eq!(simulation.run(periods, u64::MAX, &mut Nobody), Stop::EndTime);
+    simulation.impacts()
+}
+
+/// Steps of the hand-written integrator in a period.
+const STEPS: u32 = 200;
+/// Halvings of a step that locate an impact to rounding.
+const HALVINGS: u32 = 50;
+
+struct RungeKutta {
+    system: System,
+    damping: f64,
+    force: [f64; 2],
+}
+
+impl RungeKutta {
+    fn new(system: &System) -> Self {
+        let force = system.excitation_amplitudes();
+        let damping = system.mass_ratio() * system.damping();
+        Self { system: *system, damping, force: [force.0, force.1] }
+    }
+
+    fn acceleration(&self, time: f64, x: f64, v: f64) -> f64 {
+        let (sin, cos) = libm::sincos(self.system.frequency_ratio() * time);
+        self.force[0] * sin + self.force[1] * cos - self.damping * v - x
+    }
+
+    fn step(&self, time: f64, at: &State, h: f64) -> State {
+        let (x, v) = (at.x, at.x_velocity);
+        let half = 0.5 * h;
+        let a1 = self.acceleration(time, x, v);
+        let v2 = v + half * a1;
+        let a2 = self.acceleration(time + half, x + half * v, v2);
+        let v3 = v + half * a2;
+        let a3 = self.acceleration(time + half, x + half * v2, v3);
+        let v4 = v + h * a3;
+        let a4 = self.acceleration(time + h, x + h * v3, v4);
+        State {
+            x: x + h / 6.0 * (v + 2.0 * v2 + 2.0 * v3 + v4),
+            x_velocity: v + h / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4),
+            y: at.y + at.y_velocity * h,
+            y_velocity: at.y_velocity,
+        }
+    }
+
+    fn collide(&self, at: &mut State) {
+        let (eps, r) = (self.system.mass_ratio(), self.system.restitution());
+        let exchanged = (1.0 + r) * (at.x_velocity - at.y_velocity) / (1.0 + eps);
+        at.y = at.x - at.gap().signum();
+        at.x_velocity -= eps * exchanged;
+        at.y_velocity += exchanged;
+    }
+
+    /// Impacts in so many periods.
+    fn run(&self, periods: u64) -> u64 {
+        let h = self.system.period() / f64::from(STEPS);
+        let (mut state, mut impacts) = (START, 0);
+        for step in 0..periods * u64::from(STEPS) {
+            let (mut time, mut left) = (step as f64 * h, h);
+            loop {
+                let next = self.step(time, &state, left);
+                let outwards = next.gap() * (next.x_velocity - next.y_velocity) > 0.0;
+                if next.gap().abs() <= 1.0 || !outwards {
+                    state = next;
+                    break;
+                }
+                let (mut before, mut after) = (0.0, left);
+                for _ in 0..HALVINGS {
+                    let middle = 0.5 * (before + after);
+                    if self.step(time, &state, middle).gap().abs() > 1.0 {
+                        after = middle;
+                    } else {
+                        before = middle;
+                    }
+                }
+                state = self.step(time, &state, after);
+                self.collide(&mut state);
+                impacts += 1;
+                time += after;
+                left -= after;
+            }
+        }
+        impacts
+    }
+}
+
+fn timed(work: &mut impl FnMut() -> u64) -> (Duration, u64) {
+    let begin = Instant::now();
+    let count = black_box(work());
+    (begin.elapsed(), count)
+}
+
+/// Shortest of several runs of either, taken in turns so that both see the same machine.
+fn compare(mut one: impl FnMut() -> u64, mut other: impl FnMut() -> u64) -> [(Duration, u64); 2] {
+    let mut best = [timed(&mut one), timed(&mut other)];
+    for _ in 0..30 {
+        for (best, now) in best.iter_mut().zip([timed(&mut one), timed(&mut other)]) {
+            best.0 = best.0.min(now.0);
+        }
+    }
+    best
+}
+
+fn impacts(criterion: &mut Criterion) {
+    for clearance in CLEARANCES {
+        let system = system(clearance);
+        let by_hand = RungeKutta::new(&system);
+        let [ours, theirs] = compare(|| engine(&system, PERIODS), || by_hand.run(PERIODS));
+        println!(
+            "b = {clearance} mm, {PERIODS} periods: engine {} impacts in {:.0} us, {:.2e} a second; \
+             Runge-Kutta {} impacts in {:.0} us; ratio {:.1}",
+            ours.1,
+            ours.0.as_secs_f64() * 1e6,
+            ours.1 as f64 / ours.0.as_secs_f64(),
+            theirs.1,
+            theirs.0.as_secs_f64() * 1e6,
+            theirs.0.as_secs_f64() / ours.0.as_secs_f64(),
+        );
+        let mut group = criterion.benchmark_group(format!("{PERIODS} periods, b = {clearance} mm"));
+        group.bench_function("event engine", |bench| bench.iter(|| engine(&system, PERIODS)));
+        group.bench_function("Runge-Kutta, T/200", |bench| bench.iter(|| by_hand.run(PERIODS)));
+        group.finish();
+    }
+}
+
+fn analysis(criterion: &mut Criterion) {
+    let system = system(7.5);
+    let analyse = || Analysis::of(&system).expect("analysable").fixed_points.len() as u64;
+    let [theory, simulation] = compare(analyse, || engine(&system, 100));
+    println!(
+        "b = 7.5 mm: analysis in {:.0} us, 100 simulated periods in {:.0} us; ratio {:.1}",
+        theory.0.as_secs_f64() * 1e6,
+        simulation.0.as_secs_f64() * 1e6,
+        simulation.0.as_secs_f64() / theory.0.as_secs_f64(),
+    );
+    let mut group = criterion.benchmark_group("one case, b = 7.5 mm");
+    group.bench_function("analysis", |bench| bench.iter(|| Analysis::of(&system)));
+    group.bench_function("100 periods", |bench| bench.iter(|| engine(&system, 100)));
+    group.finish();
+}
+
+criterion_group! {
+    name = benches;
+    config = Criterion::default()
+        .sample_size(10)
+        .warm_up_time(Duration::from_millis(300))
+        .measurement_time(Duration::from_secs(1));
+    targets = impacts, analysis
+}
+criterion_main!(benches);

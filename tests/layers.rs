@@ -1,0 +1,300 @@
+//! Who may use whom: the independence that makes agreement between layers evidence.
+//!
+//! The truth is the list of rooms below and what each may import. The source is read as text, with
+//! comments left out; every path that leads from one room into another is judged. The judge itself
+//! is tested on made-up sources, which it must refuse.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use regex::Regex;
+
+/// Every room of the library and the rooms that it may use besides itself. Analysis, orbits and
+/// simulation are three independent answers to one question and never meet below `validation`.
+const ROOMS: &[(&str, &[&str])] = &[
+    ("symbolic", &[]),
+    ("numerics", &[]),
+    ("system", &[]),
+    ("equations", &["symbolic", "system"]),
+    ("analysis", &["equations", "numerics", "symbolic", "system"]),
+    ("orbits", &["numerics", "system"]),
+    ("simulation", &["numerics", "system"]),
+    ("regimes", &["numerics", "simulation", "system"]),
+    (
+        "validation",
+        &["analysis", "equations", "numerics", "orbits", "regimes", "simulation", "system"],
+    ),
+    (
+        "study",
+        &[
+            "analysis",
+            "case",
+            "equations",
+            "numerics",
+            "orbits",
+            "regimes",
+            "simulation",
+            "system",
+            "validation",
+        ],
+    ),
+    ("case", &["numerics", "system"]),
+    (
+        "report",
+        &[
+            "analysis",
+            "case",
+            "equations",
+            "numerics",
+            "orbits",
+            "regimes",
+            "simulation",
+            "study",
+            "symbolic",
+            "system",
+            "validation",
+        ],
+    ),
+    ("store", &[]),
+];
+
+/// Rooms in which there is physics and nothing else: no files, no clock, no printing, no threads, no
+/// randomness.
+const PURE: [&str; 10] = [
+    "analysis",
+    "equations",
+    "numerics",
+    "orbits",
+    "regimes",
+    "simulation",
+    "study",
+    "symbolic",
+    "system",
+    "validation",
+];
+
+/// Paths that reach outside of the program.
+const OUTSIDE: [&str; 8] = [
+    "std::env",
+    "std::fs",
+    "std::io",
+    "std::net",
+    "std::process",
+    "std::thread",
+    "std::time",
+    "rand",
+];
+
+/// The room of a file of `src/`, and how many modules deep its items lie below the crate.
+fn place(path: &str) -> (&str, usize) {
+    let parts: Vec<&str> = path.trim_end_matches(".rs").split('/').collect();
+    let depth = parts.len() - usize::from(parts.last() == Some(&"mod"));
+    (parts[0], depth)
+}
+
+/// The source without comments. Text in quotes is kept, so a comment sign in one hides the rest of
+/// its line; no path stands there.
+fn code(source: &str) -> String {
+    source.lines().map(|line| line.split("//").next().unwrap_or("")).collect::<Vec<_>>().join("\n")
+}
+
+/// `a::{b, c::{d, e}}` as `a::b`, `a::c::d`, `a::c::e`.
+fn expanded(tree: &str) -> Vec<String> {
+    let tree = tree.trim();
+    let Some((prefix, rest)) = tree.split_once('{') else {
+        return vec![tree.to_owned()];
+    };
+    let inside = rest.rsplit_once('}').map_or(rest, |(inside, _)| inside);
+    let (mut branches, mut depth) = (vec![String::new()], 0);
+    for letter in inside.chars() {
+        match letter {
+            '{' => depth += 1,
+            '}' => depth -= 1,
+            ',' if depth == 0 => {
+                branches.push(String::new());
+                continue;
+            }
+            _ => {}
+        }
+        branches.last_mut().expect("never empty").push(letter);
+    }
+    let branches = branches.iter().filter(|branch| !branch.trim().is_empty());
+    branches.flat_map(|branch| expanded(&format!("{prefix}{}", branch.trim()))).collect()
+}
+
+/// Every path that a source mentions and that may lead out of its module.
+fn paths(source: &str) -> Vec<String> {
+    let code = code(source);
+    let statement = Regex::new(r"(?s)\buse\s+([^;]+);").expect("a pattern");
+    let inline = Regex::new(r"\b(?:crate|super|vinesink|std|rand)(?:::\w+)+").expect("a pattern");
+    let mut found: Vec<String> =
+        statement.captures_iter(&code).flat_map(|use_| expanded(&use_[1])).collect();
+    let rest = statement.replace_all(&code, "");
+    found.extend(inline.find_iter(&rest).map(|path| path.as_str().to_owned()));
+    found
+}
+
+/// The room that a path leads to, seen from a module `depth` deep.
+fn destination(path: &str, depth: usize) -> Option<&str> {
+    let mut steps = path.split("::").map(str::trim);
+    let supers = path.split("::").take_while(|step| step.trim() == "super").count();
+    let first = match steps.next()? {
+        "crate" | "vinesink" => steps.next()?,
+        "super" if supers >= depth => steps.nth(supers - 1)?,
+        _ => return None,
+    };
+    ROOMS.iter().map(|(room, _)| *room).chain(["cli"]).find(|room| *room == first)
+}
+
+/// What a file of `src/` does that its room may not do.
+fn violations(path: &str, source: &str) -> Vec<String> {
+    let (room, depth) = place(path);
+    let mut found = Vec::new();
+    let paths = paths(source);
+    let allowed = ROOMS.iter().find(|(name, _)| *name == room).map(|(_, allowed)| *allowed);
+    match (allowed, room) {
+        (Some(allowed), _) => {
+            for path in &paths {
+                let Some(to) = destination(path, depth) else { continue };
+                if to != room && !allowed.contains(&to) {
+                    found.push(format!("{room} uses {to}: {path}"));
+                }
+            }
+        }
+        (None, "cli" | "main" | "lib") => {}
+        (None, _) => found.push(format!("{room} is no known room: say here what it may use")),
+    }
+    let reaches = |path: &str, outside: &str| {
+        path == outside || path.strip_prefix(outside).is_some_and(|rest| rest.starts_with("::"))
+    };
+    for path in &paths {
+        let outside = OUTSIDE.iter().find(|outside| reaches(path, outside));
+        if PURE.contains(&room) && outside.is_some() {
+            found.push(format!("{room} is pure, yet has {path}"));
+        }
+        if !["store", "cli"].contains(&room) && reaches(path, "std::fs") && !PURE.contains(&room) {
+            found.push(format!("only store and cli touch files, yet {room} has {path}"));
+        }
+    }
+    if PURE.contains(&room) {
+        let code = code(source);
+        let printing = Regex::new(r"\b(?:println|eprintln|print|eprint|dbg)!").expect("a pattern");
+        found.extend(printing.find_iter(&code).map(|at| format!("{room} prints: {}", at.as_str())));
+    }
+    found
+}
+
+fn sources() -> Vec<(String, String)> {
+    fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
+        for entry in fs::read_dir(folder).expect("a folder") {
+            let path = entry.expect("an entry").path();
+            if path.is_dir() {
+                collect(&path, files);
+            } else if path.extension().is_some_and(|extension| extension == "rs") {
+                files.push(path);
+            }
+        }
+    }
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut files = Vec::new();
+    collect(&root, &mut files);
+    files.sort();
+    let name = |path: &Path| {
+        let inside = path.strip_prefix(&root).expect("inside src");
+        inside.to_str().expect("UTF-8").replace('\\', "/")
+    };
+    files.iter().map(|path| (name(path), fs::read_to_string(path).expect("a source"))).collect()
+}
+
+#[test]
+fn every_source_keeps_to_its_room() {
+    let sources = sources();
+    assert!(sources.len() > 50, "{} files are not the whole program", sources.len());
+    let found: Vec<String> = sources
+        .iter()
+        .flat_map(|(path, source)| {
+            violations(path, source).into_iter().map(move |what| format!("src/{path}: {what}"))
+        })
+        .collect();
+    assert_eq!(found, [""; 0]);
+}
+
+/// The judge sees the program's real imports: a pattern that matches nothing would forbid nothing.
+#[test]
+fn the_imports_of_the_program_are_seen() {
+    let of = |wanted: &str| {
+        let sources = sources();
+        let (_, source) = sources.iter().find(|(path, _)| path == wanted).expect("a source");
+        let depth = place(wanted).1;
+        let mut rooms: Vec<String> = paths(source)
+            .iter()
+            .filter_map(|path| destination(path, depth))
+            .map(str::to_owned)
+            .collect();
+        rooms.sort();
+        rooms.dedup();
+        rooms
+    };
+    assert_eq!(of("simulation/run.rs"), ["numerics", "system"]);
+    assert_eq!(of("analysis/mod.rs"), ["numerics", "symbolic", "system"]);
+    let study = of("study/mod.rs");
+    assert!(study.contains(&"validation".into()) && study.contains(&"case".into()), "{study:?}");
+}
+
+#[test]
+fn made_up_sources_are_refused() {
+    let wrong = [
+        ("analysis/areas.rs", "use crate::simulation::Simulation;"),
+        ("analysis/areas.rs", "use crate::{system::System, simulation::{run}};"),
+        ("analysis/areas.rs", "fn f() -> crate::simulation::Stop { todo!() }"),
+        ("analysis/areas.rs", "use super::super::simulation::Stop;"),
+        ("analysis/mod.rs", "use super::orbits::Orbit;"),
+        ("analysis/deep/er.rs", "pub(crate) use super::super::super::regimes;"),
+        ("analysis.rs", "use super::simulation;"),
+        ("simulation/run.rs", "use crate::analysis::Analysis;"),
+        ("simulation/run.rs", "use crate::orbits::Orbit;"),
+        ("simulation/run.rs", "use crate::{\n    numerics,\n    equations::equations,\n};"),
+        ("orbits/mod.rs", "use crate::simulation::flow;"),
+        ("orbits/mod.rs", "use crate::analysis::Manifold;"),
+        ("numerics/bracket.rs", "use crate::system::System;"),
+        ("symbolic/expr.rs", "use crate::numerics::bracket;"),
+        ("validation/mod.rs", "use crate::study::CaseStudy;"),
+        ("regimes/mod.rs", "use crate::analysis::Analysis;"),
+        ("case/mod.rs", "use crate::report::numbers;"),
+        ("study/mod.rs", "use crate::store;"),
+        ("report/mod.rs", "let x = crate::store::read_text(path);"),
+        ("simulation/run.rs", "use std::time::Instant;"),
+        ("simulation/run.rs", "use std::{fs, f64::consts::TAU};"),
+        ("study/mod.rs", "let n = std::thread::available_parallelism();"),
+        ("study/mod.rs", "let seed = rand::random();"),
+        ("study/mod.rs", "use rand::Rng;"),
+        ("system.rs", "fn f() { std::env::var(\"X\"); }"),
+        ("validation/mod.rs", "fn f() { println!(\"{}\", 1); }"),
+        ("validation/mod.rs", "fn f() { dbg!(1); }"),
+        ("case/mod.rs", "let text = std::fs::read_to_string(path);"),
+        ("main.rs", "use std::fs;"),
+        ("attic/mod.rs", "fn f() {}"),
+    ];
+    for (path, source) in wrong {
+        assert_eq!(violations(path, source).len(), 1, "{path}: {source}");
+    }
+}
+
+#[test]
+fn made_up_sources_that_keep_to_their_rooms_pass() {
+    let right = [
+        ("analysis/areas.rs", "use super::manifold::Branch;\nuse crate::system::System;"),
+        ("analysis/areas.rs", "//! See [`crate::simulation`].\n/// println!\nuse super::Analysis;"),
+        ("analysis/areas.rs", "use crate::numerics::bracket::brent; // not crate::simulation"),
+        ("case/mod.rs", "use simulation::SimulationSettings;\nmod simulation;"),
+        ("case/table.rs", "use super::simulation::KEYS;"),
+        ("study/mod.rs", "use crate::validation::{self, Claim};"),
+        ("simulation/run.rs", "mod tests { use super::*; use crate::system::System; }"),
+        ("numerics/bracket.rs", "use roots::find_root_brent;"),
+        ("store.rs", "use std::fs;"),
+        ("cli/output.rs", "use std::io; fn f() { println!(); }"),
+    ];
+    for (path, source) in right {
+        assert_eq!(violations(path, source), [""; 0], "{path}: {source}");
+    }
+}
