@@ -73,23 +73,26 @@ fn names(borders: &Borders, canvas: &Canvas, case: [f64; 2]) -> Vec<Layer> {
 fn words(scene: &Scene, borders: &Borders, numbers: &str) -> (String, String) {
     let boundaries = &scene.study.analysis.boundaries;
     let gamma = scene.study.analysis.system.forcing_per_clearance();
-    let limits = format!(
-        "at this detuning steady 1:1 resonance needs γ from {} (Hopf) to {} (symmetry breaking)",
-        significant(boundaries.hopf, 3),
-        significant(boundaries.symmetry_breaking, 3)
-    );
-    let side = if gamma < boundaries.hopf {
-        "too little forcing, or too large a clearance"
+    let verdict = if gamma < boundaries.hopf {
+        "less: too little forcing, or too large a clearance"
     } else if gamma > boundaries.symmetry_breaking {
-        "too much forcing, or too small a clearance"
+        "more: too much forcing, or too small a clearance"
     } else {
-        "within"
+        "between them"
     };
     let meeting = borders.meeting.map_or_else(String::new, |at| {
-        format!(" A1 and A2 meet at P1, σ = {}, γ = {}.", significant(at[0], 3), significant(at[1], 3))
+        format!(
+            " The strips A1 and A2 meet at P1, σ = {}, γ = {}.",
+            significant(at[0], 3),
+            significant(at[1], 3)
+        )
     });
     let caption = format!(
-        "With {numbers} (both of unit 1) the case is {side}: {limits}.{meeting}"
+        "At the detuning of {} steady 1:1 resonance needs γ from {} (Hopf) to {} (symmetry breaking); the case has {numbers}, \
+         {verdict}.{meeting}",
+        scene.units.frequency_text(scene.study.analysis.system.frequency_ratio()),
+        significant(boundaries.hopf, 3),
+        significant(boundaries.symmetry_breaking, 3)
     );
     let alt = format!(
         "Plane of detuning and forcing per clearance. Three boundaries are lowest near resonance and rise to both sides. {caption}"
