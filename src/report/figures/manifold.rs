@@ -33,9 +33,8 @@ pub(super) fn observed(scene: &Scene, found: &FoundAttractor) -> Option<[f64; 2]
     let attractor = &found.attractor;
     let system = &scene.study.analysis.system;
     let seen = read_off(system, attractor.oscillator_harmonic, attractor.absorber_harmonic);
-    let moves = found.regime() != Regime::AtRest;
     let finite = seen.absorber.is_finite() && seen.oscillator.is_finite();
-    (moves && finite && attractor.periods > 0).then_some([seen.absorber, seen.oscillator])
+    finite.then_some([seen.absorber, seen.oscillator])
 }
 
 /// A fixed point in words.
@@ -90,6 +89,8 @@ pub(super) fn figure(scene: &Scene) -> Figure {
         .study
         .attractors
         .iter()
+        .enumerate()
+        .filter_map(|(index, _)| scene.drawn(index))
         .filter_map(|found| Some((observed(scene, found)?, found.regime())))
         .collect();
     let farthest = analysis
@@ -142,22 +143,22 @@ fn words(scene: &Scene, seen: &[([f64; 2], Regime)]) -> (String, String) {
         let length = |value| scene.units.length_text(value);
         format!("C = {} and B = {}", length(c), length(b))
     };
+    let place = scene.units.place_text(&analysis.system);
     let first = match (predicted, count) {
-        (Some(point), 1) => format!(
-            "The only fixed point is a stable motion, with {}.",
-            amplitudes(point.oscillator, point.absorber)
-        ),
-        (Some(point), n) => format!(
-            "One of {n} fixed points is a stable motion, with {}.",
-            amplitudes(point.oscillator, point.absorber)
-        ),
-        (None, 0) => "There is no fixed point: no steady 1:1 motion at any amplitude.".to_owned(),
+        (None, 0) => {
+            format!("At {place} there is no fixed point: no steady 1:1 motion at any amplitude.")
+        }
         (None, 1) => format!(
-            "The only fixed point (C = {}) is unstable.",
+            "At {place} the only fixed point is unstable (C = {}).",
             scene.units.length_text(analysis.fixed_points[0].oscillator)
         ),
-        (None, 2) => "Both fixed points are unstable.".to_owned(),
-        (None, n) => format!("All {n} fixed points are unstable."),
+        (None, 2) => format!("At {place} both fixed points are unstable."),
+        (None, n) => format!("At {place} all {n} fixed points are unstable."),
+        (Some(point), n) => format!(
+            "At {place} {} a stable motion, with {}.",
+            if n == 1 { "the only fixed point is".to_owned() } else { format!("one of {n} fixed points is") },
+            amplitudes(point.oscillator, point.absorber)
+        ),
     };
     let close = predicted.and_then(|point| {
         let two = seen.iter().filter(|(_, regime)| regime.is_two_per_period());

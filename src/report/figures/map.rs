@@ -189,7 +189,7 @@ fn words(scene: &Scene) -> (String, String) {
             BoundaryKind::SaddleNode => "the saddle-node boundary",
         };
         let distance = match margin.factor {
-            f if f > 3.0 => format!("{} times the clearance", significant(f, 2)),
+            f if f > 2.0 => format!("{} times as large", significant(f, 2)),
             f => format!("{} {}", percent((f - 1.0).abs()), if f > 1.0 { "more" } else { "less" }),
         };
         format!("{name} at {} ({distance})", units.length_text(margin.factor))

@@ -16,6 +16,8 @@ mod return_map;
 mod units;
 
 use crate::case::Case;
+use crate::regimes::{FoundAttractor, Regime};
+use crate::simulation::Stop;
 use crate::study::{CaseStudy, StudyError};
 
 use super::figure::Figure;
@@ -28,6 +30,22 @@ const ATTRACTORS: usize = 3;
 struct Scene<'a> {
     study: &'a CaseStudy,
     units: Units,
+}
+
+impl<'a> Scene<'a> {
+    /// An attractor that moves and was followed to the end. One that was measured while it turned
+    /// into another (its average is not that of the repetition it ends with) is none.
+    fn drawn(&self, index: usize) -> Option<&'a FoundAttractor> {
+        let found = self.study.attractors.get(index)?;
+        let evidence = &found.attractor.classification.evidence;
+        let lasts = evidence.periodicity.is_none_or(|repetition| {
+            let repeated = f64::from(repetition.impacts) / f64::from(repetition.periods);
+            let least = 0.05 * repeated.max(1.0);
+            (evidence.impacts_per_period - repeated).abs() < least
+        });
+        let followed = found.attractor.stop == Stop::EndTime;
+        (found.regime() != Regime::AtRest && followed && lasts).then_some(found)
+    }
 }
 
 /// All figures in reading order, the case among its boundaries first.

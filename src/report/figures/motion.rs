@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use crate::regimes::{Attractor, Regime};
 use crate::report::figure::{Axis, Figure, Layer, Layout, MarkedPoint, Panel, Role, Rule};
 use crate::report::numbers::{percent, significant};
-use crate::simulation::{Stop, Trace};
+use crate::simulation::Trace;
 use crate::study::{StudyError, scenes};
 use crate::system::{State, System};
 
@@ -16,6 +16,8 @@ use super::manifold::branches;
 const FEW: u64 = 6;
 /// Periods shown of a motion that neither repeats nor is modulated much.
 const SOME: u64 = 12;
+/// The same for one with fewer than two impacts per period, which come irregularly.
+const RARE: u64 = 30;
 /// Periods shown of a modulated motion: several modulations.
 const MANY: u64 = 70;
 /// Modulation below this is not what there is to see.
@@ -27,14 +29,11 @@ const TOOLTIPS: usize = 40;
 
 /// The figure of an attractor; none for rest or for one that could not be followed.
 pub(super) fn figure(scene: &Scene, index: usize) -> Result<Option<Figure>, StudyError> {
-    let Some(found) = scene.study.attractors.get(index) else { return Ok(None) };
+    let Some(found) = scene.drawn(index) else { return Ok(None) };
     let attractor = &found.attractor;
-    if found.regime() == Regime::AtRest || attractor.stop != Stop::EndTime {
-        return Ok(None);
-    }
     let system = &scene.study.analysis.system;
     let periods = shown_periods(attractor);
-    let density = if periods > SOME { 24.0 } else { 60.0 };
+    let density = if periods > RARE { 24.0 } else { 60.0 };
     let trace = scenes::trace(system, attractor.state, periods, density)?;
     let [top, low] = series(scene, system, &trace);
     let (caption, alt) = words(scene, attractor, periods);
@@ -58,6 +57,7 @@ fn shown_periods(attractor: &Attractor) -> u64 {
     let wanted = match evidence.periodicity {
         Some(repetition) => FEW.max(2 * u64::from(repetition.periods)).min(MANY),
         None if evidence.modulation_depth > MODULATED => MANY,
+        None if attractor.classification.regime == Regime::BelowTwo => RARE,
         None => SOME,
     };
     let most = (IMPACTS / evidence.impacts_per_period.max(0.1)).max(1.0);
@@ -131,7 +131,7 @@ fn projection(scene: &Scene, system: &System, trace: &Trace) -> Panel {
     .with(right)
     .with(stable)
     .with(Layer::curve(Role::Simulation, path).labelled("motion"))
-    .with(Layer::points(Role::Simulation, marks))
+    .with(Layer::marked(Role::Simulation.marker().sized(9.0), Role::Simulation.color(), marks))
     .with_heading("on the manifold")
 }
 

@@ -3,7 +3,7 @@
 use crate::analysis::FixedPoint;
 use crate::analysis::frequency_response::ResponsePoint;
 use crate::report::figure::{
-    Axis, Cell, Color, Dash, Figure, Layer, Layout, Panel, Role, Scale, Style,
+    Axis, Cell, Color, Dash, Figure, Layer, Layout, Panel, Role, Rule, Scale, Style,
 };
 use crate::study::StudyError;
 use crate::system::{Parameters, System};
@@ -55,10 +55,10 @@ pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
 
     let units = &scene.units;
     let (from, to) = window(system);
-    let x =
-        Axis::linear(units.frequency_axis()).with_range(units.frequency(from), units.frequency(to));
-    let mut second = Panel::new(x, axis()).with_heading("response at clearances");
-    let colors = [Color::Orange, Color::BluishGreen, Color::ReddishPurple];
+    let x = Axis::linear(units.frequency_axis()).with_range(units.frequency(from), units.frequency(to));
+    let here = Layer::rule(Rule::Vertical(units.frequency(system.frequency_ratio())), Role::Guide.style());
+    let mut second = Panel::new(x, axis()).with(here).with_heading("response at four clearances");
+    let colors = [Color::Orange, Color::BluishGreen, Color::SkyBlue];
     let mut drawn: Vec<(f64, Color)> = others.into_iter().zip(colors).collect();
     drawn.push((gamma, Color::Black));
     for (at, color) in drawn {
@@ -69,7 +69,8 @@ pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
             [units.frequency(1.0 + there.mass_ratio() * point.detuning), point.oscillator]
         };
         let pieces = branches_of(&there, manifold, last, &place)?;
-        let name = format!("b = {}", units.length_text(gamma / at));
+        let own = if color == Color::Black { ", this case" } else { "" };
+        let name = format!("b = {}{own}", units.length_text(gamma / at));
         second.layers.extend(curves(&pieces, color, emphasis, name));
     }
     let ratio = system.frequency_ratio();
@@ -94,11 +95,7 @@ fn others(case: f64, breaking: f64, hopf: f64) -> Vec<f64> {
     let wanted = [1.4 * breaking, (breaking * hopf).sqrt(), 0.75 * hopf];
     let apart = |gamma: f64| {
         let distance = libm::log(gamma / case);
-        if distance.abs() > DISTINCT {
-            gamma
-        } else {
-            case * libm::exp(1.5 * DISTINCT.copysign(distance))
-        }
+        if distance.abs() > DISTINCT { gamma } else { case * libm::exp(1.5 * DISTINCT.copysign(distance)) }
     };
     let usable = wanted.into_iter().filter(|gamma| gamma.is_finite() && *gamma > 0.0);
     usable.map(apart).collect()
@@ -117,8 +114,7 @@ fn curves(pieces: &[Piece], color: Color, emphasis: f64, name: String) -> Vec<La
         Style { width: style.width * emphasis, ..style }
     };
     let dashed = Style { dash: Dash::Dashed, ..style(Role::Unstable) };
-    let mut layers =
-        vec![Layer::styled(dashed, unstable), Layer::styled(style(Role::Stable), stable.clone())];
+    let mut layers = vec![Layer::styled(dashed, unstable), Layer::styled(style(Role::Stable), stable.clone())];
     let named = usize::from(!stable.is_empty());
     layers[named] = layers[named].clone().labelled(name);
     layers
@@ -145,8 +141,8 @@ fn words(scene: &Scene) -> (String, String) {
     let points: Vec<String> = analysis.fixed_points.iter().map(describe).collect();
     let alt = format!(
         "Left, the manifold; right, the oscillator's amplitude over frequency for four clearances, stable only between fold and \
-         symmetry breaking. {caption} {}",
-        points.join("; ")
+         symmetry breaking. Marked: {}. {caption}",
+        if points.is_empty() { "no fixed point".to_owned() } else { points.join("; ") }
     );
     (caption, alt)
 }

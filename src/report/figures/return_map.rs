@@ -5,7 +5,6 @@ use crate::report::figure::{
     Axis, Color, Figure, Label, Layer, MarkedPoint, Marker, Panel, Role, Rule,
 };
 use crate::report::numbers::{percent, significant};
-use crate::simulation::Stop;
 
 use super::Scene;
 
@@ -21,11 +20,11 @@ const LARGEST_END: f64 = 4.0;
 
 /// The figure of an attractor; none where there are too few impacts.
 pub(super) fn figure(scene: &Scene, index: usize) -> Option<Figure> {
-    let attractor = &scene.study.attractors.get(index)?.attractor;
+    let attractor = &scene.drawn(index)?.attractor;
     let period = scene.study.analysis.system.period();
     let first = attractor.impacts.len().saturating_sub(POINTS + 2);
     let all = pairs(&attractor.impacts[first..], period);
-    if all.is_empty() || attractor.stop != Stop::EndTime {
+    if all.is_empty() {
         return None;
     }
     let points = distinct(&all);
@@ -44,33 +43,23 @@ pub(super) fn figure(scene: &Scene, index: usize) -> Option<Figure> {
         let [x, y] = [*x, *y].map(|value| significant(value, 3));
         mark.with_tooltip(format!("{x} T, then {y} T"))
     });
+    let wide = end < 2.0;
+    let (sum, equal) = if wide { ("L1: sum is T", "L4: equal") } else { ("L1", "L4") };
     let near = |part: f64| 0.94 * end * part;
-    let panel =
-        Panel::new(axis("time between impacts Δtₖ/T (1)"), axis("the next one Δtₖ₊₁/T (1)"))
-            .with(sloped([0.0, 1.0], -1.0).labelled(Label::near("L1: sum is T", [0.7, 0.35])))
-            .with(
-                Layer::rule(Rule::Vertical(1.0), line)
-                    .labelled(Label::near("L2", [1.0, near(1.0)])),
-            )
-            .with(
-                Layer::rule(Rule::Horizontal(1.0), line)
-                    .labelled(Label::near("L3", [near(1.0), 1.0])),
-            )
-            .with(
-                sloped([0.0, 0.0], 1.0)
-                    .labelled(Label::near("L4: equal", [near(0.95), near(0.95)])),
-            )
-            .with(Layer::marked(marker, Role::Simulation.color(), marks))
-            .with_equal_aspect();
+    let panel = Panel::new(axis("time between impacts Δtₖ/T (1)"), axis("the next one Δtₖ₊₁/T (1)"))
+        .with(sloped([0.0, 1.0], -1.0).labelled(Label::near(sum, [0.7, 0.35])))
+        .with(Layer::rule(Rule::Vertical(1.0), line).labelled(Label::near("L2", [1.0, near(1.0)])))
+        .with(Layer::rule(Rule::Horizontal(1.0), line).labelled(Label::near("L3", [near(1.0), 1.0])))
+        .with(sloped([0.0, 0.0], 1.0).labelled(Label::near(equal, [near(0.95), near(0.95)])))
+        .with(Layer::marked(marker, Role::Simulation.color(), marks))
+        .with_equal_aspect();
     let number = index + 1;
-    let (caption, alt) = words(&all, &points, largest > LARGEST_END);
-    let figure = Figure::new(
-        format!("return-map-{number}"),
-        format!("Times between impacts of motion {number}"),
-    )
-    .with_size(480, 450)
-    .with_panel(panel)
-    .with_words(caption, alt);
+    let z = attractor.classification.evidence.impacts_per_period;
+    let (caption, alt) = words(&all, &points, z, largest > LARGEST_END);
+    let figure = Figure::new(format!("return-map-{number}"), format!("Times between impacts of motion {number}"))
+        .with_size(480, 450)
+        .with_panel(panel)
+        .with_words(caption, alt);
     Some(figure)
 }
 
@@ -86,14 +75,16 @@ fn distinct(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     kept
 }
 
-fn words(all: &[[f64; 2]], distinct: &[[f64; 2]], cut: bool) -> (String, String) {
+fn words(all: &[[f64; 2]], distinct: &[[f64; 2]], z: f64, cut: bool) -> (String, String) {
     let on_line = all.iter().filter(|[x, y]| (x + y - 1.0).abs() < 0.02).count();
-    let share = percent(on_line as f64 / all.len() as f64);
+    let share = match on_line {
+        0 => "none lies".to_owned(),
+        _ => format!("{} lie", percent(on_line as f64 / all.len() as f64)),
+    };
+    let z = format!("z = {} impacts per period", significant(z, 3));
     let t = |value: f64| format!("{} T", significant(value, 3));
     let mut caption = match distinct {
-        [[x, _]] => {
-            format!("A single point: the impacts follow each other evenly, every {}.", t(*x))
-        }
+        [[x, _]] => format!("A single point: the impacts follow each other evenly, every {}.", t(*x)),
         [[x, y], _] => format!(
             "Two points: intervals of {} and {} take turns, so that the impacts are uneven.",
             t(*x),
@@ -102,15 +93,10 @@ fn words(all: &[[f64; 2]], distinct: &[[f64; 2]], cut: bool) -> (String, String)
         _ if distinct.len() <= SINGLE => {
             let least = distinct.iter().map(|point| point[0]).fold(f64::INFINITY, f64::min);
             let most = distinct.iter().map(|point| point[0]).fold(0.0, f64::max);
-            format!(
-                "{} points that repeat: intervals from {} to {}.",
-                distinct.len(),
-                t(least),
-                t(most)
-            )
+            format!("{} points that repeat, with {z}: intervals from {} to {}.", distinct.len(), t(least), t(most))
         }
         _ => format!(
-            "The points scatter; {share} lie on L1 (within 0.02 T), where two impacts take one period."
+            "Many different intervals, with {z}: {share} on L1 (within 0.02 T), where two intervals make one period."
         ),
     };
     if cut {

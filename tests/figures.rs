@@ -1,0 +1,190 @@
+//! What the figures of a case owe their reader, for shipped cases and for systems at the edge of
+//! what a case can be.
+
+use std::fs;
+
+use vinesink::case::Case;
+use vinesink::report::figure::{Figure, Layer, Rect, Scale, draw};
+use vinesink::report::figures::all;
+use vinesink::study::{CaseStudy, StudyEffort};
+
+const QUICK: StudyEffort = StudyEffort { starts: 6, discard: 150, periods: 150 };
+
+fn shipped(name: &str) -> Case {
+    let path = format!("cases/{name}.toml");
+    let text = fs::read_to_string(&path).expect("is shipped");
+    Case::parse(&path, &text).expect("is valid")
+}
+
+/// Table 1 of the paper at 8 Hz and 7.5 mm, with some lines replaced.
+fn changed(changes: &[(&str, &str)]) -> Case {
+    let path = "cases/li2016-8hz-b7p5mm.toml";
+    let mut text = fs::read_to_string(path).expect("is shipped");
+    for (key, value) in changes {
+        let line = text.lines().find(|line| line.starts_with(&format!("{key} ="))).expect("is a key");
+        text = text.replace(&line.to_owned(), &format!("{key} = {value}"));
+    }
+    Case::parse(path, &text).expect("is valid")
+}
+
+fn figures(case: &Case) -> Vec<Figure> {
+    let study = CaseStudy::of(&case.system(), QUICK, &mut |_| {}).expect("can be studied");
+    all(case, &study).expect("can be drawn")
+}
+
+/// Everything that holds for every case; returns the figures' names.
+fn check(case: &Case) -> Vec<String> {
+    let figures = figures(case);
+    let mut sum = 0;
+    for figure in &figures {
+        let name = &figure.name;
+        let drawing = draw(figure).unwrap_or_else(|error| panic!("{}: {error}", case.title));
+        let size = drawing.svg.len();
+        sum += size;
+        assert!((2_000..60_000).contains(&size), "{}: {name} has {size} bytes", case.title);
+        assert!(!drawing.svg.contains("NaN") && !drawing.svg.contains("inf\""), "{name}");
+        for words in [&figure.caption, &figure.alt] {
+            assert!(words.len() > 30 && words.ends_with('.'), "{name}: {words}");
+            assert!(!words.contains("NaN") && !words.contains("undefined"), "{name}: {words}");
+            assert!(has_unit(words), "{}: no unit in {name}: {words}", case.title);
+        }
+        assert!(figure.alt.contains(&figure.caption), "{name}");
+        words_are_apart(figure, &drawing.texts);
+    }
+    assert!(sum < 170_000, "{}: {sum} bytes", case.title);
+    let mut names: Vec<String> = figures.iter().map(|figure| figure.name.clone()).collect();
+    if let Some(map) = figures.iter().find(|figure| figure.name == "map") {
+        assert_eq!(names[0], "map");
+        case_is_inside(map);
+    }
+    names.sort();
+    names.dedup();
+    assert_eq!(names.len(), figures.len(), "two figures with one name");
+    figures.into_iter().map(|figure| figure.name).collect()
+}
+
+fn has_unit(words: &str) -> bool {
+    let units = ["mm", "µm", "Hz", "units", "Ω =", " T", "period"];
+    units.iter().any(|unit| words.contains(unit))
+}
+
+fn words_are_apart(figure: &Figure, texts: &[vinesink::report::figure::PlacedText]) {
+    let (right, bottom) = (f64::from(figure.size.0), f64::from(figure.size.1));
+    let page = Rect { left: 0.0, top: 0.0, right, bottom };
+    for (i, a) in texts.iter().enumerate() {
+        assert!(page.contains(&a.room), "{}: {a:?} is cut", figure.name);
+        for b in &texts[i + 1..] {
+            assert!(!a.room.overlaps(&b.room), "{}: {a:?} touches {b:?}", figure.name);
+        }
+    }
+}
+
+/// The case's mark is well inside the map, and there is one.
+fn case_is_inside(map: &Figure) {
+    let panel = &map.panels[0];
+    let marks: Vec<[f64; 2]> = panel
+        .layers
+        .iter()
+        .filter_map(|layer| match layer {
+            Layer::ThisCase { at, tooltip: Some(_) } => Some(*at),
+            _ => None,
+        })
+        .collect();
+    let [at] = marks.as_slice() else { panic!("{} marks", marks.len()) };
+    for (axis, value) in [&panel.x, &panel.y].into_iter().zip(at) {
+        let (first, last) = axis.range.expect("is fixed");
+        let part = match axis.scale {
+            Scale::Linear => (value - first) / (last - first),
+            Scale::Log => (value / first).ln() / (last / first).ln(),
+        };
+        assert!((0.01..0.99).contains(&part), "{}: {value} in {first}..{last}", axis.label);
+    }
+}
+
+fn has(names: &[String], name: &str) -> bool {
+    names.iter().any(|one| one == name)
+}
+
+#[test]
+fn shipped_cases_have_every_figure() {
+    for name in [
+        "li2016-8hz-b7p5mm",
+        "li2016-8hz-b0p3mm",
+        "li2016-8p5hz-fig4b",
+        "li2016-8p5hz-fig4d",
+        "li2016-8p5hz-fig4e",
+        "reduced-unit-clearance",
+        "force-on-mass",
+    ] {
+        let names = check(&shipped(name));
+        for wanted in ["map", "plane", "sim", "response", "amplitude", "motion-1", "return-map-1"] {
+            assert!(has(&names, wanted), "{name} lacks {wanted}: {names:?}");
+        }
+    }
+}
+
+#[test]
+fn figures_are_the_same_each_time() {
+    let case = shipped("li2016-8p5hz-fig4d");
+    let drawn = || -> Vec<String> {
+        figures(&case).iter().map(|figure| draw(figure).expect("can be drawn").svg).collect()
+    };
+    assert!(drawn() == drawn());
+}
+
+#[test]
+fn captions_say_what_the_case_does() {
+    let figures = figures(&shipped("li2016-8hz-b7p5mm"));
+    let caption = |name: &str| {
+        let figure = figures.iter().find(|figure| figure.name == name).expect("is there");
+        figure.caption.as_str()
+    };
+    assert!(caption("map").contains("Z3") && caption("map").contains("4.69 mm"));
+    assert!(caption("amplitude").contains("3.56 mm instead of 3.01 mm (+1.4 dB)"));
+    assert!(caption("return-map-1").contains("every 0.500 T"));
+    assert!(caption("motion-1").contains("3.56 mm"));
+}
+
+#[test]
+fn without_forcing_nothing_moves() {
+    let names = check(&changed(&[("amplitude", "\"0 mm\"")]));
+    assert!(!has(&names, "map") && !has(&names, "motion-1") && has(&names, "sim"), "{names:?}");
+}
+
+#[test]
+fn restitution_at_its_ends() {
+    for r in ["0.0", "1.0"] {
+        let names = check(&changed(&[("restitution", r)]));
+        assert!(has(&names, "map") && has(&names, "sim"), "{names:?}");
+    }
+}
+
+#[test]
+fn undamped_at_resonance_there_is_no_linear_response() {
+    let text = "title = \"t\"\nsource = \"s\"\n[reduced]\nmass_ratio = 0.0076775\ndamping = 0.0\n\
+        restitution = 0.6\nclearance = 1.0\nforcing = 1.5\nfrequency_ratio = 1.0\n";
+    let names = check(&Case::parse("undamped", text).expect("is valid"));
+    assert!(has(&names, "map") && has(&names, "amplitude"), "{names:?}");
+}
+
+#[test]
+fn clearances_far_from_every_boundary() {
+    for clearance in ["\"1 um\"", "\"2 m\""] {
+        let names = check(&changed(&[("clearance", clearance)]));
+        assert!(has(&names, "map"), "{names:?}");
+    }
+}
+
+#[test]
+fn an_absorber_half_as_heavy_as_the_oscillator() {
+    let names = check(&changed(&[("mass", "\"2.084 kg\"")]));
+    assert!(has(&names, "map"), "{names:?}");
+}
+
+#[test]
+fn far_from_resonance() {
+    for frequency in ["\"0.5 Hz\"", "\"60 Hz\""] {
+        let names = check(&changed(&[("frequency", frequency)]));
+        assert!(has(&names, "map"), "{names:?}");
+    }
+}
