@@ -10,7 +10,7 @@ use crate::simulation::Stop;
 use crate::study::CaseStudy;
 use crate::study::margins::Margin;
 use crate::validation::Verdict as Outcome;
-use crate::validation::tolerance::{LARGEST_MASS_RATIO, LARGEST_OFFSET};
+use crate::validation::tolerance::{LARGEST_DAMPING, LARGEST_MASS_RATIO, LARGEST_OFFSET};
 use crate::validation::{Finding, Measure};
 
 /// Relative change of the vibration that is worth calling a change.
@@ -428,6 +428,16 @@ pub fn notes(case: &Case, study: &CaseStudy) -> Vec<Note> {
             format!(
                 "The excitation is {} away from resonance: the theory holds near 1:1 resonance only.",
                 percent((system.frequency_ratio() - 1.0).abs())
+            ),
+        );
+    }
+    let damping = system.mass_ratio() * system.damping();
+    if damping > LARGEST_DAMPING {
+        note(
+            "validity",
+            format!(
+                "The oscillator is heavily damped (damping ratio {}): it has no resonance, and the theory is out of its range.",
+                significant(0.5 * damping, 3)
             ),
         );
     }

@@ -9,6 +9,7 @@ use crate::regimes::attractor::Effort;
 use crate::regimes::{Attractor, Regime};
 use crate::simulation::{Simulation, StartError, Trace};
 use crate::system::{State, System};
+use crate::validation::tolerance::LARGEST_DAMPING;
 
 use super::StudyError;
 
@@ -87,6 +88,10 @@ pub fn grazing_line(
     frequency_ratios: &[f64],
 ) -> Result<Vec<GrazingPoint>, StudyError> {
     let mut line = Vec::new();
+    // Without a resonance the boundaries, and this line beside them, mean nothing.
+    if system.mass_ratio() * system.damping() > LARGEST_DAMPING {
+        return Ok(line);
+    }
     for &frequency_ratio in frequency_ratios {
         let Ok(there) = system.with_frequency_ratio(frequency_ratio) else { continue };
         let at = there.detuning();

@@ -10,6 +10,10 @@ pub const LARGEST_MASS_RATIO: f64 = 0.1;
 /// Distance of the frequency ratio from 1 above which "near resonance" no longer holds.
 pub const LARGEST_OFFSET: f64 = 0.2;
 
+/// Damping `eps lambda`, twice the damping ratio, above which an oscillator has no resonance that
+/// the theory could speak of.
+pub const LARGEST_DAMPING: f64 = 0.5;
+
 /// A tolerance with its reason.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Tolerance {

@@ -156,7 +156,11 @@ fn words(scene: &Scene, seen: &[([f64; 2], Regime)]) -> (String, String) {
         (None, n) => format!("At {place} all {n} fixed points are unstable."),
         (Some(point), n) => format!(
             "At {place} {} a stable motion, with {}.",
-            if n == 1 { "the only fixed point is".to_owned() } else { format!("one of {n} fixed points is") },
+            if n == 1 {
+                "the only fixed point is".to_owned()
+            } else {
+                format!("one of {n} fixed points is")
+            },
             amplitudes(point.oscillator, point.absorber)
         ),
     };
