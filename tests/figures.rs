@@ -21,7 +21,8 @@ fn changed(changes: &[(&str, &str)]) -> Case {
     let path = "cases/li2016-8hz-b7p5mm.toml";
     let mut text = fs::read_to_string(path).expect("is shipped");
     for (key, value) in changes {
-        let line = text.lines().find(|line| line.starts_with(&format!("{key} ="))).expect("is a key");
+        let line =
+            text.lines().find(|line| line.starts_with(&format!("{key} ="))).expect("is a key");
         text = text.replace(&line.to_owned(), &format!("{key} = {value}"));
     }
     Case::parse(path, &text).expect("is valid")
@@ -110,6 +111,7 @@ fn shipped_cases_have_every_figure() {
     for name in [
         "li2016-8hz-b7p5mm",
         "li2016-8hz-b0p3mm",
+        "li2016-8hz-b15mm",
         "li2016-8p5hz-fig4b",
         "li2016-8p5hz-fig4d",
         "li2016-8p5hz-fig4e",

@@ -69,7 +69,8 @@ impl Canvas {
             let (height, middle) = (high - low, f64::midpoint(low, high));
             let near = marks.iter().map(|mark| {
                 let dx = (x(column(k)) - mark[0]) / (self.x.1 - self.x.0) * PLOT[0];
-                let free = libm::hypot((dx.abs() - width / 2.0).max(0.0), middle - self.height(mark[1]));
+                let free =
+                    libm::hypot((dx.abs() - width / 2.0).max(0.0), middle - self.height(mark[1]));
                 (AWAY - free).max(0.0)
             });
             // More height than words need is worth little; the middle of the figure is worth something.

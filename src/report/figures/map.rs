@@ -1,9 +1,7 @@
 //! The case among its boundaries, in frequency and clearance (Figs. 5 and 6c).
 
 use crate::analysis::{BoundaryKind, Strip};
-use crate::report::figure::{
-    Axis, Figure, Layer, MarkedPoint, Marker, Panel, Role, Scale, Shape,
-};
+use crate::report::figure::{Axis, Figure, Layer, MarkedPoint, Marker, Panel, Role, Scale, Shape};
 use crate::report::numbers::{percent, significant};
 use crate::study::margins::Margin;
 use crate::study::{StudyError, scenes};
@@ -24,7 +22,7 @@ const FAR: f64 = 5.0;
 /// The same for a case below its boundaries.
 const DEEP: f64 = 0.02;
 /// A peak higher than this many times the middle height of its line is cut.
-const PEAK: f64 = 8.0;
+const PEAK: f64 = 5.0;
 /// Frequencies at which simulation tells Z1 from Z2.
 const GRAZING: u32 = 12;
 
@@ -120,7 +118,8 @@ fn grazing(scene: &Scene) -> Result<Vec<[f64; 2]>, StudyError> {
 fn simulated(scene: &Scene, grazing: &[[f64; 2]]) -> Layer {
     let unit = scene.units.length_axis("").trim().trim_matches(['(', ')']).to_owned();
     let points = grazing.iter().map(|[f, b]| {
-        let words = format!("below {} {unit}: more than two impacts per period", significant(*b, 3));
+        let words =
+            format!("below {} {unit}: more than two impacts per period", significant(*b, 3));
         MarkedPoint::new(*f, *b).with_tooltip(words)
     });
     Layer::marked(Marker::hollow(Shape::Circle).sized(6.0), Role::Simulation.color(), points)
@@ -142,13 +141,10 @@ fn names(
     };
     let breaking = line(&|k| borders.samples[k].breaking);
     let hopf = line(&|k| borders.samples[k].hopf);
-    let outer = line(&|k| borders.samples[k].saddle.min(borders.samples[k].hopf));
+    let outer = line(&|k| borders.samples[k].last);
     let (bottom, top) = (|_: f64| canvas.y.0, |_: f64| canvas.y.1);
     let at = |line: &'_ [[f64; 2]], x: f64| interpolated(line, x);
-    let note = |long: &str,
-                short: &str,
-                lower: &dyn Fn(f64) -> f64,
-                upper: &dyn Fn(f64) -> f64| {
+    let note = |long: &str, short: &str, lower: &dyn Fn(f64) -> f64, upper: &dyn Fn(f64) -> f64| {
         [(long, 9.0), (short, 9.0)].into_iter().find_map(|(words, size)| {
             let width = size * words.chars().count() as f64;
             let room = canvas.roomiest(lower, upper, width, &[case])?;
@@ -214,4 +210,3 @@ fn words(scene: &Scene) -> (String, String) {
     );
     (caption, alt)
 }
-

@@ -3,9 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use crate::regimes::{Attractor, Regime};
-use crate::report::figure::{
-    Axis, Figure, Layer, Layout, MarkedPoint, Panel, Role, Rule,
-};
+use crate::report::figure::{Axis, Figure, Layer, Layout, MarkedPoint, Panel, Role, Rule};
 use crate::report::numbers::{percent, significant};
 use crate::simulation::Trace;
 use crate::study::{StudyError, scenes};
@@ -40,13 +38,16 @@ pub(super) fn figure(scene: &Scene, index: usize) -> Result<Option<Figure>, Stud
     let [top, low] = series(scene, system, &trace);
     let (caption, alt) = words(scene, attractor, periods);
     let number = index + 1;
-    let figure = Figure::new(format!("motion-{number}"), format!("Motion {number}: {}", found.regime().words()))
-        .with_size(860, 420)
-        .with_layout(Layout::TimeSeriesAndProjection)
-        .with_panel(top)
-        .with_panel(low)
-        .with_panel(projection(scene, system, &trace))
-        .with_words(caption, alt);
+    let figure = Figure::new(
+        format!("motion-{number}"),
+        format!("Motion {number}: {}", found.regime().words()),
+    )
+    .with_size(860, 420)
+    .with_layout(Layout::TimeSeriesAndProjection)
+    .with_panel(top)
+    .with_panel(low)
+    .with_panel(projection(scene, system, &trace))
+    .with_words(caption, alt);
     Ok(Some(figure))
 }
 
@@ -106,10 +107,7 @@ fn projection(scene: &Scene, system: &System, trace: &Trace) -> Panel {
     let project = |state: &State| {
         let v = state.x + eps * state.y;
         let velocity = state.x_velocity + eps * state.y_velocity;
-        [
-            FRAC_PI_2 * (1.0 + eps) * state.y_velocity.abs() / omega,
-            libm::hypot(v, velocity / omega),
-        ]
+        [FRAC_PI_2 * (1.0 + eps) * state.y_velocity.abs() / omega, libm::hypot(v, velocity / omega)]
     };
     let path: Vec<[f64; 2]> = trace.points.iter().map(|point| project(&point.state)).collect();
     let farthest = path.iter().map(|at| at[0]).fold(0.0, f64::max);
@@ -168,4 +166,3 @@ fn words(scene: &Scene, attractor: &Attractor, periods: u64) -> (String, String)
     );
     (caption, alt)
 }
-

@@ -33,8 +33,7 @@ pub(super) fn figure(scene: &Scene) -> Result<Figure, StudyError> {
     let canvas = Canvas { x, y, log_y };
     let mut axis = Axis::linear("forcing per clearance γ = G/b (1)").with_range(y.0, y.1);
     axis.scale = if log_y { Scale::Log } else { Scale::Linear };
-    let mut panel =
-        Panel::new(Axis::linear("detuning σ (1)").with_range(x.0, x.1), axis);
+    let mut panel = Panel::new(Axis::linear("detuning σ (1)").with_range(x.0, x.1), axis);
     panel.layers = borders.layers(&|detuning, gamma| [detuning, gamma]);
     panel.layers.extend(names(&borders, &canvas, case));
     let numbers = format!("σ = {}, γ = {}", significant(case[0], 3), significant(case[1], 3));
@@ -51,18 +50,21 @@ fn names(borders: &Borders, canvas: &Canvas, case: [f64; 2]) -> Vec<Layer> {
         points.filter(|point| point[1].is_finite()).collect()
     };
     let [breaking, hopf] = [line(|at| at.breaking), line(|at| at.hopf)];
-    let outer = line(|at| at.saddle.min(at.hopf));
+    let outer = line(|at| at.last);
     let note = |words: &str, lower: &dyn Fn(f64) -> f64, upper: &dyn Fn(f64) -> f64| {
         let room = canvas.roomiest(lower, upper, 9.0 * words.chars().count() as f64, &[case])?;
         (room.height > 20.0).then(|| Layer::note(room.at, words))
     };
-    let either = |[long, short]: [&str; 2], lower: &dyn Fn(f64) -> f64, upper: &dyn Fn(f64) -> f64| {
-        note(long, lower, upper).or_else(|| note(short, lower, upper))
-    };
+    let either =
+        |[long, short]: [&str; 2], lower: &dyn Fn(f64) -> f64, upper: &dyn Fn(f64) -> f64| {
+            note(long, lower, upper).or_else(|| note(short, lower, upper))
+        };
     let (bottom, top) = (|_: f64| canvas.y.0, |_: f64| canvas.y.1);
     [
         either(["Z4: no 1:1", "Z4"], &bottom, &|x| interpolated(&outer, x)),
-        either(["Z3: steady 1:1", "Z3"], &|x| interpolated(&hopf, x), &|x| interpolated(&breaking, x)),
+        either(["Z3: steady 1:1", "Z3"], &|x| interpolated(&hopf, x), &|x| {
+            interpolated(&breaking, x)
+        }),
         either(["Z1, Z2: not symmetric", "Z1, Z2"], &|x| interpolated(&breaking, x), &top),
     ]
     .into_iter()
@@ -88,7 +90,7 @@ fn words(scene: &Scene, borders: &Borders, numbers: &str) -> (String, String) {
         )
     });
     let caption = format!(
-        "At the detuning of {} steady 1:1 resonance needs γ from {} (Hopf) to {} (symmetry breaking); the case has {numbers}, \
+        "At {} steady 1:1 resonance needs γ from {} (Hopf) to {} (symmetry breaking); the case has {numbers}, \
          {verdict}.{meeting}",
         scene.units.frequency_text(scene.study.analysis.system.frequency_ratio()),
         significant(boundaries.hopf, 3),

@@ -32,7 +32,7 @@ pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
     let highest = analysis.fixed_points.iter().map(|point| point.oscillator).fold(0.0, f64::max);
     let top = (1.15 * highest).max(ABOVE_BREAKING * breaking.oscillator);
     let log = top > FAR * breaking.oscillator;
-    let bottom = if log { (0.7 * manifold.fold.oscillator).max(2e-3 * top) } else { 0.0 };
+    let bottom = if log { (0.7 * manifold.fold.oscillator).max(1e-5 * top) } else { 0.0 };
     let axis = || {
         let axis = Axis::linear("oscillator amplitude C/b (1)").with_range(bottom, top);
         Axis { scale: if log { Scale::Log } else { Scale::Linear }, ..axis }
@@ -55,8 +55,10 @@ pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
 
     let units = &scene.units;
     let (from, to) = window(system);
-    let x = Axis::linear(units.frequency_axis()).with_range(units.frequency(from), units.frequency(to));
-    let here = Layer::rule(Rule::Vertical(units.frequency(system.frequency_ratio())), Role::Guide.style());
+    let x =
+        Axis::linear(units.frequency_axis()).with_range(units.frequency(from), units.frequency(to));
+    let here =
+        Layer::rule(Rule::Vertical(units.frequency(system.frequency_ratio())), Role::Guide.style());
     let mut second = Panel::new(x, axis()).with(here).with_heading("response at four clearances");
     let colors = [Color::Orange, Color::BluishGreen, Color::SkyBlue];
     let mut drawn: Vec<(f64, Color)> = others.into_iter().zip(colors).collect();
@@ -95,7 +97,11 @@ fn others(case: f64, breaking: f64, hopf: f64) -> Vec<f64> {
     let wanted = [1.4 * breaking, (breaking * hopf).sqrt(), 0.75 * hopf];
     let apart = |gamma: f64| {
         let distance = libm::log(gamma / case);
-        if distance.abs() > DISTINCT { gamma } else { case * libm::exp(1.5 * DISTINCT.copysign(distance)) }
+        if distance.abs() > DISTINCT {
+            gamma
+        } else {
+            case * libm::exp(1.5 * DISTINCT.copysign(distance))
+        }
     };
     let usable = wanted.into_iter().filter(|gamma| gamma.is_finite() && *gamma > 0.0);
     usable.map(apart).collect()
@@ -114,7 +120,8 @@ fn curves(pieces: &[Piece], color: Color, emphasis: f64, name: String) -> Vec<La
         Style { width: style.width * emphasis, ..style }
     };
     let dashed = Style { dash: Dash::Dashed, ..style(Role::Unstable) };
-    let mut layers = vec![Layer::styled(dashed, unstable), Layer::styled(style(Role::Stable), stable.clone())];
+    let mut layers =
+        vec![Layer::styled(dashed, unstable), Layer::styled(style(Role::Stable), stable.clone())];
     let named = usize::from(!stable.is_empty());
     layers[named] = layers[named].clone().labelled(name);
     layers

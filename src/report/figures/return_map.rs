@@ -46,20 +46,30 @@ pub(super) fn figure(scene: &Scene, index: usize) -> Option<Figure> {
     let wide = end < 2.0;
     let (sum, equal) = if wide { ("L1: sum is T", "L4: equal") } else { ("L1", "L4") };
     let near = |part: f64| 0.94 * end * part;
-    let panel = Panel::new(axis("time between impacts Δtₖ/T (1)"), axis("the next one Δtₖ₊₁/T (1)"))
-        .with(sloped([0.0, 1.0], -1.0).labelled(Label::near(sum, [0.7, 0.35])))
-        .with(Layer::rule(Rule::Vertical(1.0), line).labelled(Label::near("L2", [1.0, near(1.0)])))
-        .with(Layer::rule(Rule::Horizontal(1.0), line).labelled(Label::near("L3", [near(1.0), 1.0])))
-        .with(sloped([0.0, 0.0], 1.0).labelled(Label::near(equal, [near(0.95), near(0.95)])))
-        .with(Layer::marked(marker, Role::Simulation.color(), marks))
-        .with_equal_aspect();
+    let panel =
+        Panel::new(axis("time between impacts Δtₖ/T (1)"), axis("the next one Δtₖ₊₁/T (1)"))
+            .with(sloped([0.0, 1.0], -1.0).labelled(Label::near(sum, [0.7, 0.35])))
+            .with(
+                Layer::rule(Rule::Vertical(1.0), line)
+                    .labelled(Label::near("L2", [1.0, near(1.0)])),
+            )
+            .with(
+                Layer::rule(Rule::Horizontal(1.0), line)
+                    .labelled(Label::near("L3", [near(1.0), 1.0])),
+            )
+            .with(sloped([0.0, 0.0], 1.0).labelled(Label::near(equal, [near(0.95), near(0.95)])))
+            .with(Layer::marked(marker, Role::Simulation.color(), marks))
+            .with_equal_aspect();
     let number = index + 1;
     let z = attractor.classification.evidence.impacts_per_period;
     let (caption, alt) = words(&all, &points, z, largest > LARGEST_END);
-    let figure = Figure::new(format!("return-map-{number}"), format!("Times between impacts of motion {number}"))
-        .with_size(480, 450)
-        .with_panel(panel)
-        .with_words(caption, alt);
+    let figure = Figure::new(
+        format!("return-map-{number}"),
+        format!("Times between impacts of motion {number}"),
+    )
+    .with_size(480, 450)
+    .with_panel(panel)
+    .with_words(caption, alt);
     Some(figure)
 }
 
@@ -84,16 +94,24 @@ fn words(all: &[[f64; 2]], distinct: &[[f64; 2]], z: f64, cut: bool) -> (String,
     let z = format!("z = {} impacts per period", significant(z, 3));
     let t = |value: f64| format!("{} T", significant(value, 3));
     let mut caption = match distinct {
-        [[x, _]] => format!("A single point: the impacts follow each other evenly, every {}.", t(*x)),
+        [[x, _]] => {
+            format!("A single point: the impacts follow each other evenly, every {}.", t(*x))
+        }
         [[x, y], _] => format!(
             "Two points: intervals of {} and {} take turns, so that the impacts are uneven.",
             t(*x),
             t(*y)
         ),
-        _ if distinct.len() <= SINGLE => {
+        // Each of them seen several times.
+        _ if distinct.len() <= SINGLE && all.len() >= 4 * distinct.len() => {
             let least = distinct.iter().map(|point| point[0]).fold(f64::INFINITY, f64::min);
             let most = distinct.iter().map(|point| point[0]).fold(0.0, f64::max);
-            format!("{} points that repeat, with {z}: intervals from {} to {}.", distinct.len(), t(least), t(most))
+            format!(
+                "{} points that repeat, with {z}: intervals from {} to {}.",
+                distinct.len(),
+                t(least),
+                t(most)
+            )
         }
         _ => format!(
             "Many different intervals, with {z}: {share} on L1 (within 0.02 T), where two intervals make one period."
