@@ -73,11 +73,13 @@ impl Borders {
             self.samples.iter().map(|at| place(at.detuning, value(at))).collect()
         };
         let [breaking, hopf] = [line(|at| at.breaking), line(|at| at.hopf)];
+        // With little damping symmetry breaks before the fold is reached: no room for Z3 there.
+        let top = line(|at| at.breaking.max(at.hopf));
         let aim = Fill { color: Color::BluishGreen, opacity: 0.1, hatch: Hatch::None };
         let finite = |points: &[[f64; 2]]| -> Vec<[f64; 2]> {
             points.iter().copied().filter(|p| p[0].is_finite() && p[1].is_finite()).collect()
         };
-        let mut layers = vec![Layer::between(&finite(&breaking), &finite(&hopf), aim)];
+        let mut layers = vec![Layer::between(&finite(&top), &finite(&hopf), aim)];
         for (strip, fill, name) in [
             (
                 Strip::A1,
