@@ -7,7 +7,7 @@ use crate::analysis::motion::state_of;
 use crate::analysis::{Analysis, BoundaryKind, boundaries};
 use crate::regimes::attractor::Effort;
 use crate::regimes::{Attractor, Regime};
-use crate::simulation::{Simulation, StartError, Trace};
+use crate::simulation::{Simulation, StartError, Stop, Trace};
 use crate::system::{State, System};
 use crate::validation::tolerance::LARGEST_DAMPING;
 
@@ -54,6 +54,10 @@ pub fn sweep(system: &System, frequency_ratios: &[f64]) -> Result<Vec<SweepPoint
     for &frequency_ratio in frequency_ratios {
         let Ok(there) = system.with_frequency_ratio(frequency_ratio) else { continue };
         let reached = Attractor::reach(&there, moving_start(&Analysis::of(&there)?), &POINT)?;
+        if reached.stop != Stop::EndTime {
+            // Nothing was measured.
+            continue;
+        }
         let regime = reached.classification.regime;
         points.push(SweepPoint { frequency_ratio, peak: reached.peak, regime });
     }
@@ -116,7 +120,8 @@ fn bisect(system: &System, top: f64) -> Result<Option<f64>, StudyError> {
     let above_two = |clearance: f64| -> Result<bool, StudyError> {
         let Ok(there) = system.with_clearance_scaled(clearance) else { return Ok(false) };
         let reached = Attractor::reach(&there, moving_start(&Analysis::of(&there)?), &POINT)?;
-        Ok(reached.classification.regime == Regime::AboveTwo)
+        let crowded = reached.stop == Stop::ImpactLimit;
+        Ok(crowded || reached.classification.regime == Regime::AboveTwo)
     };
     let (mut low, mut high) = (0.15 * top, 0.98 * top);
     if !above_two(low)? || above_two(high)? {

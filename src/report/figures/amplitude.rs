@@ -8,6 +8,7 @@ use crate::analysis::manifold::ManifoldPoint;
 use crate::regimes::Regime;
 use crate::report::figure::{Axis, Figure, Layer, MarkedPoint, Marker, Panel, Role, Shape};
 use crate::report::numbers::decibels;
+use crate::simulation::Stop;
 use crate::study::StudyError;
 use crate::study::scenes::{SweepPoint, sweep};
 use crate::system::System;
@@ -23,9 +24,13 @@ const BARE: u32 = 600;
 /// The resonance of the bare oscillator is cut at this many times the absorber's highest peak.
 const CUT: f64 = 2.2;
 
-pub(super) fn figure(scene: &Scene) -> Result<Figure, StudyError> {
+pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
     let analysis = &scene.study.analysis;
     let (system, manifold, units) = (&analysis.system, &analysis.manifold, &scene.units);
+    if system.forcing_per_clearance() == 0.0 {
+        // Everything comes to rest.
+        return Ok(None);
+    }
     let (first, last) = window(system);
     let even = |k: f64, count: u32| first + (last - first) * k / f64::from(count);
     let bare: Vec<[f64; 2]> = (0..=BARE)
@@ -63,15 +68,15 @@ pub(super) fn figure(scene: &Scene) -> Result<Figure, StudyError> {
         panel = panel.with(Layer::this_case(at, Some(words)));
     }
     let (caption, alt) = words(scene, here);
-    Ok(Figure::new("amplitude", "Peak displacement with and without absorber")
-        .with_panel(panel)
-        .with_words(caption, alt))
+    let title = "Peak displacement with and without absorber";
+    Ok(Some(Figure::new("amplitude", title).with_panel(panel).with_words(caption, alt)))
 }
 
 /// Peak over the clearance of the case's main attractor.
 fn observed(scene: &Scene) -> Option<f64> {
-    let peak = scene.study.main_attractor()?.attractor.peak;
-    (peak.is_finite() && peak > 0.0).then_some(peak)
+    let attractor = &scene.study.main_attractor()?.attractor;
+    let known = attractor.stop == Stop::EndTime && attractor.periods > 0;
+    (known && attractor.peak.is_finite()).then_some(attractor.peak)
 }
 
 fn bare_amplitude(system: &System, ratio: f64) -> f64 {
@@ -176,7 +181,10 @@ fn words(scene: &Scene, here: Option<f64>) -> (String, String) {
             "At {place} the oscillator peaks at {}; without absorber it has no steady motion.",
             units.length_text(peak)
         ),
-        None => format!("At {place} the oscillator comes to rest."),
+        None => format!(
+            "At {place} the absorber hits its walls too often to be followed; without it the peak would be {}.",
+            units.length_text(alone)
+        ),
     };
     let alt = format!(
         "Peak displacement over frequency: a resonance peak without absorber, and with it a curve that is flat where 1:1 resonance is \

@@ -21,6 +21,9 @@ pub(super) struct Border {
     pub hopf: f64,
     /// NaN where no collision bounds the strip beside Z3.
     pub saddle: f64,
+    /// Below it there is no fixed point: the collision, or where `B` has shrunk to nothing, or the
+    /// Hopf boundary itself.
+    pub last: f64,
     /// The strip between Hopf and saddle-node.
     strip: Option<Strip>,
 }
@@ -59,7 +62,7 @@ impl Borders {
         detunings.dedup();
         let mut samples = Vec::new();
         for detuning in detunings {
-            samples.extend(of(detuning)?.map(|at| Border::of(detuning, &at)));
+            samples.extend(of(detuning)?.map(|at| Border::of(system, detuning, &at)));
         }
         Ok(Self { samples, meeting })
     }
@@ -70,11 +73,13 @@ impl Borders {
             self.samples.iter().map(|at| place(at.detuning, value(at))).collect()
         };
         let [breaking, hopf] = [line(|at| at.breaking), line(|at| at.hopf)];
+        // With little damping symmetry breaks before the fold is reached: no room for Z3 there.
+        let top = line(|at| at.breaking.max(at.hopf));
         let aim = Fill { color: Color::BluishGreen, opacity: 0.1, hatch: Hatch::None };
         let finite = |points: &[[f64; 2]]| -> Vec<[f64; 2]> {
             points.iter().copied().filter(|p| p[0].is_finite() && p[1].is_finite()).collect()
         };
-        let mut layers = vec![Layer::between(&finite(&breaking), &finite(&hopf), aim)];
+        let mut layers = vec![Layer::between(&finite(&top), &finite(&hopf), aim)];
         for (strip, fill, name) in [
             (
                 Strip::A1,
@@ -117,7 +122,7 @@ impl Borders {
         let line = |value: fn(&Border) -> f64| {
             run.iter().map(move |at| place(at.detuning, value(at))).collect::<Vec<_>>()
         };
-        let (mut lower, upper) = (line(|at| at.hopf), line(|at| at.saddle));
+        let (mut lower, upper) = (line(|at| at.hopf), line(|at| at.last));
         match (tip, strip) {
             (Some(tip), Strip::A1) => lower.push(tip),
             (Some(tip), Strip::A2) => lower.insert(0, tip),
@@ -128,22 +133,29 @@ impl Borders {
 }
 
 impl Border {
-    fn of(detuning: f64, at: &Boundaries) -> Self {
+    fn of(system: &System, detuning: f64, at: &Boundaries) -> Self {
         let outer = at
             .saddle_nodes
             .iter()
             .filter(|node| node.forcing_over_clearance > 0.0)
             .filter(|node| node.forcing_over_clearance <= at.hopf * (1.0 + 1e-9))
             .min_by(|a, b| a.forcing_over_clearance.total_cmp(&b.forcing_over_clearance));
-        let strip = outer.map(|node| match node.branch {
-            Branch::Left => Strip::A2,
-            Branch::Stable | Branch::Right => Strip::A1,
-        });
+        // Without a collision a fixed point that passes the fold lives on until B = 0, where C = b.
+        let vanishing = libm::hypot(system.damping(), 2.0 * detuning);
+        let (last, strip) = match outer {
+            Some(node) if node.branch == Branch::Left => {
+                (node.forcing_over_clearance, Some(Strip::A2))
+            }
+            Some(node) => (node.forcing_over_clearance, Some(Strip::A1)),
+            None if vanishing < at.hopf => (vanishing, Some(Strip::A2)),
+            None => (at.hopf, None),
+        };
         Self {
             detuning,
             breaking: at.symmetry_breaking,
             hopf: at.hopf,
             saddle: outer.map_or(f64::NAN, |node| node.forcing_over_clearance),
+            last,
             strip,
         }
     }

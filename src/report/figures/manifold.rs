@@ -10,6 +10,9 @@ use super::Scene;
 
 /// `B/b` up to which the manifold is always shown.
 const WIDEST: f64 = 2.5;
+/// Beyond this `B/b` both axes are logarithmic, from this on.
+const FAR: f64 = 40.0;
+const LEAST: f64 = 0.05;
 /// Samples of each branch.
 const SAMPLES: u32 = 200;
 
@@ -112,11 +115,17 @@ pub(super) fn figure(scene: &Scene) -> Figure {
     let mut panel = Panel::new(
         Axis::linear("absorber amplitude B/b (1)").with_range(0.0, last),
         Axis::linear("oscillator amplitude C/b (1)"),
-    )
-    .with(left.labelled("unstable"))
-    .with(right)
-    .with(stable.labelled("stable"))
-    .with(Layer::marked(Role::Guide.marker().sized(6.0), Color::Black, special));
+    );
+    if last > FAR {
+        let bottom = (0.6 * fold.oscillator).max(LEAST);
+        panel.x = Axis::log(panel.x.label).with_range(LEAST, last);
+        panel.y = Axis::log(panel.y.label).with_range(bottom, 1.3 * last);
+    }
+    let mut panel = panel
+        .with(left.labelled("unstable"))
+        .with(right)
+        .with(stable.labelled("stable"))
+        .with(Layer::marked(Role::Guide.marker().sized(6.0), Color::Black, special));
     panel.layers.extend(named_markers(&analysis.fixed_points));
     if !seen.is_empty() {
         let points = seen.iter().map(|(at, regime)| {

@@ -22,7 +22,7 @@ const FAR: f64 = 5.0;
 /// The same for a case below its boundaries.
 const DEEP: f64 = 0.02;
 /// A peak higher than this many times the middle height of its line is cut.
-const PEAK: f64 = 8.0;
+const PEAK: f64 = 5.0;
 /// Frequencies at which simulation tells Z1 from Z2.
 const GRAZING: u32 = 12;
 
@@ -141,7 +141,7 @@ fn names(
     };
     let breaking = line(&|k| borders.samples[k].breaking);
     let hopf = line(&|k| borders.samples[k].hopf);
-    let outer = line(&|k| borders.samples[k].saddle.min(borders.samples[k].hopf));
+    let outer = line(&|k| borders.samples[k].last);
     let (bottom, top) = (|_: f64| canvas.y.0, |_: f64| canvas.y.1);
     let at = |line: &'_ [[f64; 2]], x: f64| interpolated(line, x);
     let note = |long: &str, short: &str, lower: &dyn Fn(f64) -> f64, upper: &dyn Fn(f64) -> f64| {

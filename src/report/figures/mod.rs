@@ -59,7 +59,7 @@ pub fn all(case: &Case, study: &CaseStudy) -> Result<Vec<Figure>, StudyError> {
     figures.push(plane::figure(&scene)?);
     figures.push(manifold::figure(&scene));
     figures.extend(response::figure(&scene)?);
-    figures.push(amplitude::figure(&scene)?);
+    figures.extend(amplitude::figure(&scene)?);
     for index in 0..study.attractors.len().min(ATTRACTORS) {
         figures.extend(motion::figure(&scene, index)?);
         figures.extend(return_map::figure(&scene, index));

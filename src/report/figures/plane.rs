@@ -50,7 +50,7 @@ fn names(borders: &Borders, canvas: &Canvas, case: [f64; 2]) -> Vec<Layer> {
         points.filter(|point| point[1].is_finite()).collect()
     };
     let [breaking, hopf] = [line(|at| at.breaking), line(|at| at.hopf)];
-    let outer = line(|at| at.saddle.min(at.hopf));
+    let outer = line(|at| at.last);
     let note = |words: &str, lower: &dyn Fn(f64) -> f64, upper: &dyn Fn(f64) -> f64| {
         let room = canvas.roomiest(lower, upper, 9.0 * words.chars().count() as f64, &[case])?;
         (room.height > 20.0).then(|| Layer::note(room.at, words))
@@ -90,7 +90,7 @@ fn words(scene: &Scene, borders: &Borders, numbers: &str) -> (String, String) {
         )
     });
     let caption = format!(
-        "At the detuning of {} steady 1:1 resonance needs γ from {} (Hopf) to {} (symmetry breaking); the case has {numbers}, \
+        "At {} steady 1:1 resonance needs γ from {} (Hopf) to {} (symmetry breaking); the case has {numbers}, \
          {verdict}.{meeting}",
         scene.units.frequency_text(scene.study.analysis.system.frequency_ratio()),
         significant(boundaries.hopf, 3),

@@ -17,6 +17,8 @@ use super::map::window;
 const ABOVE_BREAKING: f64 = 1.6;
 /// Beyond this many symmetry-breaking amplitudes a linear axis would hide the stable branch.
 const FAR: f64 = 5.0;
+/// The other responses are drawn up to this `B/b`.
+const OTHERS: f64 = 15.0;
 /// Forcings closer than this to the case's would be drawn over it.
 const DISTINCT: f64 = 0.18;
 
@@ -32,7 +34,7 @@ pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
     let highest = analysis.fixed_points.iter().map(|point| point.oscillator).fold(0.0, f64::max);
     let top = (1.15 * highest).max(ABOVE_BREAKING * breaking.oscillator);
     let log = top > FAR * breaking.oscillator;
-    let bottom = if log { (0.7 * manifold.fold.oscillator).max(2e-3 * top) } else { 0.0 };
+    let bottom = if log { (0.7 * manifold.fold.oscillator).max(1e-5 * top) } else { 0.0 };
     let axis = || {
         let axis = Axis::linear("oscillator amplitude C/b (1)").with_range(bottom, top);
         Axis { scale: if log { Scale::Log } else { Scale::Linear }, ..axis }
@@ -67,10 +69,12 @@ pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
         let emphasis = if color == Color::Black { 1.3 } else { 0.8 };
         let there = with_forcing(system, at);
         let Some(there) = there else { continue };
+        // The samples are spread evenly: a curve that matters only below must not be coarse there.
+        let reach = if at == gamma { last } else { last.min(OTHERS) };
         let place = |point: &ResponsePoint| {
             [units.frequency(1.0 + there.mass_ratio() * point.detuning), point.oscillator]
         };
-        let pieces = branches_of(&there, manifold, last, &place)?;
+        let pieces = branches_of(&there, manifold, reach, &place)?;
         let own = if color == Color::Black { ", this case" } else { "" };
         let name = format!("b = {}{own}", units.length_text(gamma / at));
         second.layers.extend(curves(&pieces, color, emphasis, name));

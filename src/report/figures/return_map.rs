@@ -102,7 +102,8 @@ fn words(all: &[[f64; 2]], distinct: &[[f64; 2]], z: f64, cut: bool) -> (String,
             t(*x),
             t(*y)
         ),
-        _ if distinct.len() <= SINGLE => {
+        // Each of them seen several times.
+        _ if distinct.len() <= SINGLE && all.len() >= 4 * distinct.len() => {
             let least = distinct.iter().map(|point| point[0]).fold(f64::INFINITY, f64::min);
             let most = distinct.iter().map(|point| point[0]).fold(0.0, f64::max);
             format!(
