@@ -87,7 +87,7 @@ pub fn find(
             one.attractor = one.attractor.measured_over(system, effort.measured)?;
         }
     }
-    found.sort_by(|a, b| b.starts.cmp(&a.starts));
+    found.sort_by_key(|one| std::cmp::Reverse(one.starts));
     Ok(merged(found))
 }
 

@@ -105,7 +105,7 @@ impl Oscillator {
                     v: self.frequency * (sine * cos - cosine * sin),
                 }
             }
-            ForcedForm::FromRest => self.from_rest(phase, s, propagator),
+            ForcedForm::FromRest => self.response_from_rest(phase, s, propagator),
         }
     }
 
@@ -113,7 +113,7 @@ impl Oscillator {
     ///
     /// With the poles `p = -d + i w`, `conj p` and `E(p) = (e^{i Omega s} - e^{p s})/(i Omega - p)`
     /// the response to `e^{i Omega s}` is `(E(p) - E(conj p)) / (p - conj p)`.
-    fn from_rest(&self, phase: f64, s: f64, propagator: &Propagator) -> Kinematics {
+    fn response_from_rest(&self, phase: f64, s: f64, propagator: &Propagator) -> Kinematics {
         if s == 0.0 {
             return Kinematics { x: 0.0, v: 0.0 };
         }
