@@ -44,6 +44,8 @@ pub struct Attractor {
     pub periods: u64,
     /// Impacts in them.
     pub impact_count: u64,
+    /// Periods since the start, transient included.
+    pub followed: u64,
     /// Why the measurement ended.
     pub stop: Stop,
     /// Largest penetration of a wall over the clearance.
@@ -88,19 +90,29 @@ impl Attractor {
         Ok(found)
     }
 
-    /// Measures this attractor again from where it was left, over `periods`; twice, if a transient
-    /// turns out to have ended on the way.
+    /// Continues from where this attractor was left, leaves out `discard` periods and measures over
+    /// `periods`; twice, if a transient turns out to have ended on the way.
     ///
     /// # Errors
     /// [`StartError`] if the attractor's state is not finite.
-    pub fn measured_over(&self, system: &System, periods: u64) -> Result<Self, StartError> {
+    pub fn continued(
+        &self,
+        system: &System,
+        discard: u64,
+        periods: u64,
+    ) -> Result<Self, StartError> {
         let mut simulation = Simulation::new(system, self.state, 0.0)?;
-        let effort = Effort { discard: 0, periods, prolongations: 0, impact_limit: u64::MAX };
-        let found = Self::measure(&mut simulation, &effort);
+        let effort = Effort { discard, periods, prolongations: 0, impact_limit: u64::MAX };
+        let mut found = Self::measure(&mut simulation, &effort);
         if found.arrived_late() {
-            return Ok(Self::measure(&mut simulation, &effort));
+            found = Self::measure(&mut simulation, &Effort { discard: 0, ..effort });
         }
-        Ok(found)
+        Ok(Self { followed: self.followed + found.followed, ..found })
+    }
+
+    /// Whether the motion was seen to repeat.
+    pub fn repeats(&self) -> bool {
+        self.classification.evidence.periodicity.is_some()
     }
 
     /// Whether the motion repeats at the end of the window but did not from its beginning: a chaotic
@@ -143,6 +155,7 @@ impl Attractor {
             sustained_contact: statistics.sustained_contact(),
             periods: statistics.periods(),
             impact_count: statistics.impacts(),
+            followed: simulation.periods(),
             stop,
             penetration: statistics.penetration(),
             state: simulation.state(),

@@ -20,6 +20,10 @@ pub struct FoundAttractor {
     pub share: f64,
     /// Whether a start on a predicted motion led here.
     pub reached_from_theory: bool,
+    /// How many of `starts` came here out of a transient that looked like a motion of its own.
+    pub late_starts: u32,
+    /// Periods after which the last such transient was over, as far as it was followed.
+    pub longest_transient: u64,
 }
 
 impl FoundAttractor {
@@ -41,6 +45,9 @@ pub struct SearchEffort {
     pub each: Effort,
     /// Periods over which each distinct attractor is measured.
     pub measured: u64,
+    /// Periods for which a motion that does not repeat is watched first, beside one that does: a
+    /// chaotic transient may last as long.
+    pub patience: u64,
 }
 
 /// Follows the evenly spread starts and those in `predicted`, and matches what they end in.
@@ -68,27 +75,47 @@ pub fn find(
                 starts: 0,
                 share: 0.0,
                 reached_from_theory: false,
+                late_starts: 0,
+                longest_transient: 0,
             });
         }
         found[index].starts += u32::from(!from_theory);
         found[index].reached_from_theory |= from_theory;
         progress(1);
     }
+    let some_repeat = found.iter().any(|one| one.attractor.repeats());
     for one in &mut found {
         one.share = f64::from(one.starts) / f64::from(effort.starts.max(1));
-        // A motion that repeats needs no longer look; the others are averages, which intermittent
-        // motions take long to give.
-        for _ in 0..LONGEST_WAIT {
-            let evidence = &one.attractor.classification.evidence;
-            let known = one.attractor.periods >= effort.measured && evidence.settled;
-            if known || evidence.periodicity.is_some() || one.attractor.stop != Stop::EndTime {
-                break;
-            }
-            one.attractor = one.attractor.measured_over(system, effort.measured)?;
-        }
+        look_longer(system, one, some_repeat, effort)?;
     }
     found.sort_by_key(|one| std::cmp::Reverse(one.starts));
     Ok(merged(found))
+}
+
+/// A motion that repeats needs no longer look. The others are averages, which intermittent motions
+/// take long to give; and beside a motion that repeats they may be transients.
+fn look_longer(
+    system: &System,
+    one: &mut FoundAttractor,
+    some_repeat: bool,
+    effort: &SearchEffort,
+) -> Result<(), StartError> {
+    if one.attractor.repeats() || one.attractor.stop != Stop::EndTime {
+        return Ok(());
+    }
+    let patience = if some_repeat { effort.patience } else { 0 };
+    one.attractor = one.attractor.continued(system, patience, effort.measured)?;
+    for _ in 0..LONGEST_WAIT {
+        if one.attractor.repeats() || one.attractor.classification.evidence.settled {
+            break;
+        }
+        one.attractor = one.attractor.continued(system, 0, effort.measured)?;
+    }
+    if one.attractor.repeats() {
+        one.late_starts = one.starts;
+        one.longest_transient = one.attractor.followed;
+    }
+    Ok(())
 }
 
 /// Merges attractors that the long measurement shows to be the same.
@@ -99,6 +126,8 @@ fn merged(found: Vec<FoundAttractor>) -> Vec<FoundAttractor> {
             Some(known) => {
                 known.starts += one.starts;
                 known.share += one.share;
+                known.late_starts += one.late_starts;
+                known.longest_transient = known.longest_transient.max(one.longest_transient);
                 known.reached_from_theory |= one.reached_from_theory;
             }
             None => distinct.push(one),

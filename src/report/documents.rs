@@ -151,6 +151,8 @@ pub struct AttractorDocument {
     starts: u32,
     share_of_starts: f64,
     reached_from_theory: bool,
+    late_starts: u32,
+    longest_transient_periods: u64,
     #[serde(flatten)]
     motion: MotionDocument,
 }
@@ -174,6 +176,8 @@ impl AttractorDocument {
             starts: found.starts,
             share_of_starts: found.share,
             reached_from_theory: found.reached_from_theory,
+            late_starts: found.late_starts,
+            longest_transient_periods: found.longest_transient,
             motion: MotionDocument::new(&found.attractor, scales),
         }
     }

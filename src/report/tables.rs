@@ -245,7 +245,7 @@ pub fn attractors(case: &Case, study: &CaseStudy) -> Table {
             found.regime().words().to_owned(),
             percent(found.share),
             significant(evidence.impacts_per_period, 4),
-            repetition(evidence),
+            repetition(evidence, attractor.followed),
             lengths.text(scales.length(attractor.peak)),
             lengths.text(scales.length(attractor.rms)),
             percent(evidence.modulation_depth),
@@ -265,16 +265,16 @@ pub fn attractors(case: &Case, study: &CaseStudy) -> Table {
     )
 }
 
-fn repetition(evidence: &Evidence) -> String {
+fn repetition(evidence: &Evidence, followed: u64) -> String {
     match evidence.periodicity {
         Some(found) if found.periods == 1 => "every period".into(),
         Some(found) => format!("every {} periods", found.periods),
         None if evidence.captures.count > 1 => format!(
-            "no; captured {} of the time, up to {} periods",
+            "not in {followed} periods; captured {} of the time, up to {} periods",
             percent(evidence.captures.share),
             evidence.captures.longest
         ),
-        None => "no".into(),
+        None => format!("not in {followed} periods"),
     }
 }
 

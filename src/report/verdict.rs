@@ -155,10 +155,17 @@ impl Writer<'_> {
         let confirmed =
             self.study.claims.iter().filter(|claim| claim.verdict == Outcome::Confirmed).count();
         let starts = self.study.effort.starts;
+        let late = match main.late_starts {
+            0 => String::new(),
+            late => format!(
+                ", {late} of them only after transients of up to {} periods",
+                main.longest_transient
+            ),
+        };
         let led = match main.starts {
-            all if all == starts => format!("all {starts} starts lead to it"),
+            all if all == starts => format!("all {starts} starts lead to it{late}"),
             0 => "only starts on the predicted motion lead to it".into(),
-            some => format!("{some} of {starts} starts lead to it"),
+            some => format!("{some} of {starts} starts lead to it{late}"),
         };
         let criterion = match (area, self.study.analysis.zone.strip) {
             (Area::Z3, Some(Strip::A1)) => "steady 1:1 resonance beside a modulated response",

@@ -260,6 +260,11 @@ impl Simulation {
         self.state
     }
 
+    /// Whole excitation periods since the start of the trajectory.
+    pub fn periods(&self) -> u64 {
+        self.turns
+    }
+
     /// Impacts since the start of the trajectory.
     pub fn impacts(&self) -> u64 {
         self.impacts

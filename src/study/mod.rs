@@ -49,6 +49,8 @@ impl Default for StudyEffort {
 
 /// Periods in which a regime is recognised; several times the slowest modulation.
 const RECOGNITION: u64 = 200;
+/// How many times the measured periods a motion is watched for being a transient.
+const PATIENCE: u64 = 20;
 /// Impacts after which a stretch is given up: some hundred per period, far above any settled motion
 /// that a design would want.
 const IMPACT_LIMIT: u64 = 200_000;
@@ -145,8 +147,12 @@ pub fn attractors(
     effort: &StudyEffort,
     progress: &mut dyn FnMut(u64),
 ) -> Result<Vec<FoundAttractor>, StartError> {
-    let search =
-        SearchEffort { starts: effort.starts, each: effort.each(), measured: effort.periods };
+    let search = SearchEffort {
+        starts: effort.starts,
+        each: effort.each(),
+        measured: effort.periods,
+        patience: PATIENCE * effort.periods,
+    };
     search::find(&analysis.system, &predicted_starts(analysis), &search, progress)
 }
 
