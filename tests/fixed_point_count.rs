@@ -171,14 +171,10 @@ proptest! {
                 let (below, above) = (at(1.0 - distance), at(1.0 + distance));
                 let difference = above.len() as i64 - below.len() as i64;
                 prop_assert_eq!(difference.abs(), 2, "{} {:?} {:?}", distance, below, above);
-                // The quartic's coefficients are of order 1 + sigma^2 and rounded once, while what they
-                // leave at the root is gamma^2.
-                let sigma = system.detuning();
-                let rounding = 4.0 * f64::EPSILON * (1.0 + sigma * sigma) / (gamma * gamma);
                 let first = more_above.get_or_insert(difference);
                 prop_assert_eq!(*first, difference, "the side changes at {}", distance);
                 for point in below.iter().chain(&above) {
-                    prop_assert!(point.residual < rounding.max(1e-12), "{} {:?}", distance, point);
+                    prop_assert!(point.residual < 1e-12, "{} {:?}", distance, point);
                 }
             }
         }

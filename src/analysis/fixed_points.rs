@@ -148,12 +148,43 @@ fn amplitudes(system: &System) -> Result<Vec<Amplitude>, AnalysisError> {
     Ok(below.chain(large.iter().filter(|amplitude| amplitude.ratio >= seam)).copied().collect())
 }
 
+/// Newton steps on `gamma^2(beta)` as a sum of squares, not expanded into powers: near a collision
+/// with little forcing the expanded quartic loses digits that this form keeps.
+fn polished(system: &System, amplitude: Amplitude) -> Result<Amplitude, AnalysisError> {
+    let programs = &equations().programs;
+    let values = programs.values(system);
+    let gamma = system.forcing_per_clearance();
+    let excess = |change: f64| -> Result<f64, AnalysisError> {
+        let at = programs.at_shift(&values, amplitude.shift + change)?;
+        let at = at.with(Symbol::AmplitudeRatio, amplitude.ratio + change);
+        Ok(programs.forcing_squared(&at)? - gamma * gamma)
+    };
+    // Wide enough for a difference, small beside the distance of any two roots that were isolated.
+    let width = 1e-7 * amplitude.ratio.min(1.0);
+    let slope = (excess(width)? - excess(-width)?) / (2.0 * width);
+    let mut best = (0.0, excess(0.0)?);
+    for _ in 0..2 {
+        let change = best.0 - best.1 / slope;
+        // At a double root the slope vanishes, and the isolated root is all there is.
+        if change.is_nan() || change.abs() > width {
+            break;
+        }
+        let value = excess(change)?;
+        if value.abs() < best.1.abs() {
+            best = (change, value);
+        }
+    }
+    let (ratio, shift) = (amplitude.ratio + best.0, amplitude.shift + best.0);
+    Ok(Amplitude { ratio, shift, ..amplitude })
+}
+
 fn point(
     system: &System,
     manifold: &Manifold,
     amplitude: &Amplitude,
 ) -> Result<FixedPoint, AnalysisError> {
     let programs = &equations().programs;
+    let amplitude = &polished(system, *amplitude)?;
     let Amplitude { ratio, shift, enclosure, double } = *amplitude;
     let at = programs.at_shift(&programs.values(system), shift)?;
     let at = at.with(Symbol::AmplitudeRatio, ratio);
