@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use vinesink::analysis::Analysis;
-use vinesink::simulation::run::Nobody;
+use vinesink::simulation::Nobody;
 use vinesink::simulation::{Simulation, Stop};
 use vinesink::system::{Excitation, Parameters, State, System};
 

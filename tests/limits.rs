@@ -8,7 +8,7 @@ mod common;
 use std::f64::consts::PI;
 
 use vinesink::analysis::{Analysis, Manifold};
-use vinesink::simulation::run::{Absorber, Nobody};
+use vinesink::simulation::{Absorber, Nobody};
 use vinesink::simulation::{
     Impact, ImpactLog, Observer, Segment, Simulation, Statistics, Stop, Trace, TracePoint,
 };

@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use vinesink::simulation::run::Absorber;
+use vinesink::simulation::Absorber;
 use vinesink::simulation::{
     Impact, ImpactLog, Observer, Segment, Side, Simulation, StartError, Statistics, Stop, Trace,
 };

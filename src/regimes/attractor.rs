@@ -3,9 +3,8 @@
 use serde::Serialize;
 
 use super::{Classification, Regime, Thresholds, classify};
-use crate::simulation::run::Nobody;
 use crate::simulation::{
-    Energy, Impact, ImpactLog, Simulation, StartError, Statistics, Stop, SustainedContact,
+    Energy, Impact, ImpactLog, Nobody, Simulation, StartError, Statistics, Stop, SustainedContact,
 };
 use crate::system::{State, System};
 

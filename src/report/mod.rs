@@ -9,6 +9,7 @@ pub mod render;
 pub mod summary;
 
 mod equations;
+mod notes;
 mod tables;
 mod verdict;
 
@@ -21,8 +22,9 @@ use documents::{AnalysisDocument, AttractorDocument};
 use figure::Figure;
 
 pub use equations::EquationGroup;
+pub use notes::Note;
 pub use tables::{KeyRow, Table};
-pub use verdict::{Note, Tone, Verdict};
+pub use verdict::{Tone, Verdict};
 
 /// A whole report.
 #[derive(Debug, Clone, Serialize)]
@@ -130,7 +132,7 @@ impl Report {
             title: case.title.clone(),
             source: case.source.clone(),
             verdict: verdict::verdict(case, study),
-            notes: verdict::notes(case, study),
+            notes: notes::notes(case, study),
             key_rows: tables::key_rows(case, study),
             tables: Tables {
                 attractors: tables::attractors(case, study),

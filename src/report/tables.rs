@@ -2,8 +2,9 @@
 
 use serde::Serialize;
 
+use super::notes::finding;
 use super::numbers::{LengthFormat, decibels, fixed, percent, signed, significant};
-use super::verdict::{finding, relative};
+use super::verdict::relative;
 use crate::analysis::BoundaryKind;
 use crate::case::{Case, Input};
 use crate::regimes::Evidence;

@@ -6,18 +6,12 @@ use super::numbers::{LengthFormat, decibels, percent, significant};
 use crate::analysis::{Area, BoundaryKind, Branch, Strip};
 use crate::case::Case;
 use crate::regimes::{FoundAttractor, Regime};
-use crate::simulation::Stop;
 use crate::study::CaseStudy;
 use crate::study::margins::Margin;
 use crate::validation::Verdict as Outcome;
-use crate::validation::tolerance::{LARGEST_DAMPING, LARGEST_MASS_RATIO, LARGEST_OFFSET};
-use crate::validation::{Finding, Measure};
 
 /// Relative change of the vibration that is worth calling a change.
 const NOTICEABLE: f64 = 0.02;
-/// The energy balance that a sound simulation closes.
-const ENERGY_RESIDUAL: f64 = 1e-9;
-
 /// Whether the news is good.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
@@ -39,15 +33,6 @@ pub struct Verdict {
     pub headline: String,
     /// What follows, a sentence each.
     pub sentences: Vec<String>,
-}
-
-/// Something that must not be overlooked.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Note {
-    /// One of `refuted`, `unsettled`, `validity`, `numerics`.
-    pub kind: &'static str,
-    /// What.
-    pub text: String,
 }
 
 /// Writes the verdict of a study.
@@ -374,103 +359,3 @@ pub fn relative(factor: f64) -> String {
 
 /// Factor from which people say "ten-fold" instead of "900 % more".
 const MANY_FOLD: f64 = 10.0;
-
-/// Everything that limits what the report says.
-pub fn notes(case: &Case, study: &CaseStudy) -> Vec<Note> {
-    let mut notes = Vec::new();
-    let mut note = |kind, text: String| notes.push(Note { kind, text });
-    for claim in study.claims.iter().filter(|claim| claim.verdict == Outcome::Refuted) {
-        note(
-            "refuted",
-            format!(
-                "{}: predicted {}, observed {}. Allowed: {}.",
-                claim.statement,
-                finding(case, &claim.predicted),
-                finding(case, &claim.observed),
-                claim.tolerance.reason
-            ),
-        );
-    }
-    for found in &study.attractors {
-        let attractor = &found.attractor;
-        let evidence = &attractor.classification.evidence;
-        let regime = found.regime().words();
-        if attractor.stop != Stop::EndTime {
-            note(
-                "unsettled",
-                format!("{regime}: the run was ended by {}.", attractor.stop.words()),
-            );
-        } else if !evidence.settled {
-            note(
-                "unsettled",
-                format!(
-                    "{regime}: two halves of {} periods differ; the motion is intermittent or its transient is not over.",
-                    attractor.periods
-                ),
-            );
-        }
-        if attractor.energy.relative_residual > ENERGY_RESIDUAL {
-            note(
-                "numerics",
-                format!(
-                    "{regime}: the energy balance closes only to {}.",
-                    significant(attractor.energy.relative_residual, 1)
-                ),
-            );
-        }
-    }
-    let system = &study.analysis.system;
-    if system.mass_ratio() > LARGEST_MASS_RATIO {
-        note(
-            "validity",
-            format!(
-                "The mass ratio {} is not small: the theory, an expansion in it, is out of its range.",
-                significant(system.mass_ratio(), 3)
-            ),
-        );
-    }
-    if (system.frequency_ratio() - 1.0).abs() > LARGEST_OFFSET {
-        note(
-            "validity",
-            format!(
-                "The excitation is {} away from resonance: the theory holds near 1:1 resonance only.",
-                percent((system.frequency_ratio() - 1.0).abs())
-            ),
-        );
-    }
-    let damping = system.mass_ratio() * system.damping();
-    if damping > LARGEST_DAMPING {
-        note(
-            "validity",
-            format!(
-                "The oscillator is heavily damped (damping ratio {}): it has no resonance, and the theory is out of its range.",
-                significant(0.5 * damping, 3)
-            ),
-        );
-    }
-    for point in study.analysis.fixed_points.iter().filter(|point| !point.admissible) {
-        note(
-            "validity",
-            format!(
-                "The fixed point at B/b = {} is not a motion: the absorber would reach {} times the clearance between impacts.",
-                significant(point.absorber, 3),
-                significant(point.largest_relative_displacement, 3)
-            ),
-        );
-    }
-    notes
-}
-
-/// A finding with its unit.
-pub fn finding(case: &Case, finding: &Finding) -> String {
-    let scales = case.scales();
-    match finding {
-        Finding::Number(value, Measure::LengthOverClearance) => {
-            LengthFormat::of(&scales).with_digits(scales.length(*value), 4)
-        }
-        Finding::Number(value, Measure::Angle) => {
-            format!("{} rad", super::numbers::fixed(*value, 3))
-        }
-        Finding::Words(words) => words.clone(),
-    }
-}

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::run::{Impact, Observer, Segment};
+use super::events::{Impact, Observer, Segment};
 use crate::system::State;
 
 /// Keeps impacts: all of them, or the last ones.

@@ -5,12 +5,14 @@
 //! strings it together and tells observers. Nothing here knows of the asymptotic theory.
 
 pub mod contact;
+pub mod events;
 pub mod flow;
 pub mod history;
 pub mod run;
 pub mod statistics;
 
 pub use contact::ContactTolerance;
+pub use events::{Absorber, Impact, Nobody, Observer, Segment, Side, StartError};
 pub use history::{ImpactLog, Trace, TracePoint};
-pub use run::{Impact, Observer, Segment, Side, Simulation, StartError, Stop};
+pub use run::{Simulation, Stop};
 pub use statistics::{Energy, PeriodRecord, Statistics, SustainedContact};

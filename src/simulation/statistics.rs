@@ -8,7 +8,7 @@ use std::f64::consts::FRAC_PI_4;
 
 use serde::Serialize;
 
-use super::run::{Absorber, Impact, Observer, Segment};
+use super::events::{Absorber, Impact, Observer, Segment};
 use crate::numerics::bracket::brent;
 use crate::numerics::quadrature;
 use crate::system::{State, System};

@@ -1,0 +1,151 @@
+//! What happens along a trajectory, as observers are told: smooth stretches, impacts, sticking, the
+//! end of each excitation period.
+
+use serde::Serialize;
+
+use super::flow::{Kinematics, Motion};
+use crate::system::State;
+
+/// A start that no motion can have.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum StartError {
+    /// The absorber would start outside its cavity.
+    #[error(
+        "the start has x - y = {gap}, outside the cavity; choose X and Y with abs(X - Y) at most 1 \
+         (lengths are over the clearance)"
+    )]
+    OutsideCavity {
+        /// The relative displacement asked for.
+        gap: f64,
+    },
+    /// A number is infinite or not a number.
+    #[error("the start {state:?} is not finite; give four ordinary numbers X,XDOT,Y,YDOT")]
+    NotFinite {
+        /// The state asked for.
+        state: State,
+    },
+}
+
+/// A wall of the cavity: where `x - y = +b` or `x - y = -b`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
+pub enum Side {
+    /// `x - y = +b`.
+    Plus,
+    /// `x - y = -b`.
+    Minus,
+}
+
+impl Side {
+    /// +1 or -1.
+    pub fn sign(self) -> f64 {
+        match self {
+            Self::Plus => 1.0,
+            Self::Minus => -1.0,
+        }
+    }
+}
+
+/// One impact.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Impact {
+    /// Fast time since the start of the run.
+    pub tau: f64,
+    /// Excitation phase, `0 .. 2 pi`.
+    pub phase: f64,
+    /// Which wall.
+    pub side: Side,
+    /// Oscillator displacement over the clearance.
+    pub x: f64,
+    /// Oscillator velocity before.
+    pub x_velocity_before: f64,
+    /// Oscillator velocity after.
+    pub x_velocity_after: f64,
+    /// Absorber velocity before.
+    pub y_velocity_before: f64,
+    /// Absorber velocity after.
+    pub y_velocity_after: f64,
+    /// Energy lost, per unit of the oscillator's mass.
+    pub loss: f64,
+    /// How far past the wall the search stopped: rounding, over the clearance.
+    pub penetration: f64,
+}
+
+/// A stretch of smooth motion, as observers see it.
+#[derive(Debug, Clone, Copy)]
+pub struct Segment {
+    /// Motion of the oscillator.
+    pub motion: Motion,
+    /// Motion of the absorber.
+    pub absorber: Absorber,
+    /// Whole periods since the start of the run.
+    pub turns: u64,
+    /// Excitation phase at the beginning.
+    pub phase: f64,
+    /// Length in fast time.
+    pub duration: f64,
+}
+
+/// How the absorber moves during a [`Segment`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Absorber {
+    /// On a straight line.
+    Flying {
+        /// Displacement at the beginning.
+        y: f64,
+        /// Velocity.
+        y_velocity: f64,
+    },
+    /// At rest against a wall, moving with the oscillator.
+    Carried(Side),
+}
+
+impl Segment {
+    /// The state a time `s` after the beginning.
+    pub fn at(&self, s: f64) -> State {
+        let Kinematics { x, v } = self.motion.at(s);
+        match self.absorber {
+            Absorber::Flying { y, y_velocity } => {
+                State { x, x_velocity: v, y: y + y_velocity * s, y_velocity }
+            }
+            Absorber::Carried(side) => {
+                State { x, x_velocity: v, y: x - side.sign(), y_velocity: v }
+            }
+        }
+    }
+}
+
+/// Receives what happens, in order.
+pub trait Observer {
+    /// A stretch of smooth motion was completed.
+    fn segment(&mut self, _segment: &Segment) {}
+    /// An impact took place.
+    fn impact(&mut self, _impact: &Impact) {}
+    /// A chattering sequence ended: the absorber sticks, and the rest of its relative energy is
+    /// lost.
+    fn sticks(&mut self, _loss: f64) {}
+    /// An excitation period is over; the phase is 0 again.
+    fn period(&mut self, _state: &State) {}
+}
+
+/// An observer that ignores everything: for transients.
+pub struct Nobody;
+impl Observer for Nobody {}
+
+impl<A: Observer, B: Observer> Observer for (&mut A, &mut B) {
+    fn segment(&mut self, segment: &Segment) {
+        self.0.segment(segment);
+        self.1.segment(segment);
+    }
+    fn impact(&mut self, impact: &Impact) {
+        self.0.impact(impact);
+        self.1.impact(impact);
+    }
+    fn sticks(&mut self, loss: f64) {
+        self.0.sticks(loss);
+        self.1.sticks(loss);
+    }
+    fn period(&mut self, state: &State) {
+        self.0.period(state);
+        self.1.period(state);
+    }
+}
