@@ -2,12 +2,14 @@
 
 use std::f64::consts::PI;
 use vinesink::equations::{Equations, Programs, equations};
+use vinesink::simulation::contact::rebound;
+use vinesink::simulation::flow::Oscillator;
 use vinesink::symbolic::Symbol::{
     AbsorberAmplitude, AbsorberPhase, AmplitudeRatio, Clearance, Damping, Detuning,
     ExcitationPhase, FirstHarmonic, ForcingPerClearance, ManifoldCurvature, OscillatorAmplitude,
     ReducedForcing, Restitution, RestitutionRatio, Shift,
 };
-use vinesink::symbolic::{Expr, Values, to_mathml};
+use vinesink::symbolic::{Expr, Symbol, Values, to_mathml};
 use vinesink::system::{Excitation, Parameters, System};
 
 /// A few dozen operations on numbers of order 1: a hundred units in the last place.
@@ -530,4 +532,50 @@ fn what_the_report_prints_is_what_is_evaluated() {
         "{}",
         p0.to_latex_with(&values, 4)
     );
+}
+
+/// What is simulated is what is stated: (1) with the closed-form motion put in leaves nothing, for
+/// either kind of excitation, and so does (2) with the velocities around an impact.
+#[test]
+fn the_simulated_motion_satisfies_the_stated_equations() {
+    for kind in [Excitation::BaseDisplacement, Excitation::Force] {
+        let parameters = Parameters {
+            mass_ratio: 0.03,
+            damping: 2.5,
+            restitution: 0.7,
+            frequency_ratio: 1.1,
+            forcing_per_clearance: 3.0,
+            excitation: kind,
+        };
+        let system = System::new(parameters).expect("valid");
+        let stated = &equations().stated;
+        let motion = match kind {
+            Excitation::BaseDisplacement => &stated.motion_of_base,
+            Excitation::Force => &stated.motion_by_force,
+        };
+        let phase = 0.4;
+        let flight = Oscillator::alone(&system).motion(0.3, -0.8, phase);
+        for s in [0.0, 0.7, 2.9] {
+            let at = flight.at(s);
+            let values = equations()
+                .programs
+                .values(&system)
+                .with(Symbol::ReducedForcing, system.forcing_per_clearance())
+                .with(Symbol::FastTime, phase / system.frequency_ratio() + s)
+                .with(Symbol::X, at.x)
+                .with(Symbol::XDot, at.v)
+                .with(Symbol::XDotDot, flight.acceleration(s, at));
+            let residual = motion.residual().evaluate(&values).expect("all symbols have values");
+            // Terms of order one, some ten roundings.
+            assert!(residual.abs() < 2e-15, "{kind:?} {s} {residual}");
+        }
+        let (before, after) = ([0.9, -0.4], rebound(0.03, 0.7, 0.9, -0.4));
+        let values = equations()
+            .programs
+            .values(&system)
+            .with(Symbol::WDotBefore, before[0] - before[1])
+            .with(Symbol::WDotAfter, after.x_velocity - after.y_velocity);
+        let residual = stated.restitution.residual().evaluate(&values).expect("values");
+        assert!(residual.abs() < 1e-15, "{residual}");
+    }
 }
