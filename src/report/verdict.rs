@@ -105,7 +105,18 @@ impl Writer<'_> {
                 format!("{regime}: the oscillator vibrates as if alone, {}.", self.length(peak));
             return (Tone::Bad, text);
         }
-        if ratio > 1.0 + NOTICEABLE {
+        // A modulated vibration may peak higher and still be smaller on average.
+        let rms = main.attractor.rms;
+        let bare_rms = bare * std::f64::consts::FRAC_1_SQRT_2;
+        if ratio > 1.0 + NOTICEABLE && rms < bare_rms * (1.0 - NOTICEABLE) {
+            let text = format!(
+                "{regime}: higher peaks, {change}, but less on average, rms {} instead of {} ({}).",
+                self.length(rms),
+                self.length(bare_rms),
+                decibels(rms / bare_rms)
+            );
+            (Tone::Mixed, text)
+        } else if ratio > 1.0 + NOTICEABLE {
             (Tone::Bad, format!("{regime}, but the absorber makes it worse: {change}."))
         } else if ratio > 1.0 - NOTICEABLE {
             (Tone::Mixed, format!("{regime}, but it changes little: {change}."))
