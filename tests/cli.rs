@@ -430,3 +430,12 @@ fn the_same_input_gives_the_same_bytes() {
     };
     assert_eq!(run("one.csv"), run("two.csv"));
 }
+
+#[test]
+fn no_period_to_measure_is_refused() {
+    let mut command = Command::cargo_bin("vinesink").expect("built");
+    command.args(["simulate", "cases/li2016-8hz-b7p5mm.toml", "--periods", "0"]);
+    let assert = command.current_dir(env!("CARGO_MANIFEST_DIR")).assert().code(2);
+    let message = String::from_utf8_lossy(&assert.get_output().stderr).into_owned();
+    assert!(message.contains("at least 1 period"), "{message}");
+}

@@ -182,3 +182,18 @@ fn extremes_get_a_report() {
         drop(assert);
     }
 }
+
+/// A bad case among others is named, the others are written, and the exit code says that not all
+/// could be done.
+#[test]
+fn a_bad_case_does_not_keep_the_others_from_being_written() {
+    let out = TempDir::new().expect("a folder");
+    let missing = out.path().join("missing.toml");
+    let mut command = Command::cargo_bin("vinesink").expect("built");
+    command.arg("report").arg(&missing).arg(case("li2016-8hz-b4mm")).arg("--out").arg(out.path());
+    let assert = command.assert().code(2);
+    let message = String::from_utf8_lossy(&assert.get_output().stderr).into_owned();
+    assert!(message.contains("missing.toml"), "{message}");
+    assert!(out.path().join("li2016-8hz-b4mm/report.md").is_file());
+    assert!(!out.path().join("missing").exists());
+}

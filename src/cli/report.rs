@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use miette::{IntoDiagnostic, Result, WrapErr, miette};
+use miette::{IntoDiagnostic, Result, miette};
 use vinesink::report::{Report, figures, render};
 use vinesink::store;
 use vinesink::study::{CaseStudy, StudyEffort};
@@ -37,13 +37,21 @@ const FURTHER_STEPS: u64 = 8;
 
 pub fn run(arguments: Arguments) -> Result<Outcome> {
     let names = names(&arguments.cases)?;
+    let mut failures = Vec::new();
     for (path, name) in arguments.cases.iter().zip(names) {
         let folder = arguments.out.join(&name);
-        write(path, &name, &folder)
-            .wrap_err_with(|| format!("no report was written for {}", path.display()))?;
-        output::print(format!("{}\n", folder.join("report.md").display()))?;
+        match write(path, &name, &folder) {
+            Ok(()) => output::print(format!("{}\n", folder.join("report.md").display()))?,
+            Err(error) => failures
+                .push(error.wrap_err(format!("no report was written for {}", path.display()))),
+        }
     }
-    Ok(Outcome::Done)
+    // One bad case does not keep the others from being written; each is named.
+    let last = failures.pop();
+    for error in failures {
+        output::complain(&format!("{error:?}"));
+    }
+    last.map_or(Ok(Outcome::Done), Err)
 }
 
 /// The folder's name for each case; two cases must not share one.

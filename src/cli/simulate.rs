@@ -31,7 +31,7 @@ pub struct Arguments {
     #[command(flatten)]
     case: CaseArgument,
     /// Excitation periods to measure [default: the case's, or 1000]
-    #[arg(long, value_name = "N", value_parser = whole_number)]
+    #[arg(long, value_name = "N", value_parser = positive_number)]
     periods: Option<u64>,
     /// Excitation periods to leave out before measuring [default: the case's, or 400]
     #[arg(long, value_name = "N", value_parser = whole_number)]
@@ -138,6 +138,14 @@ fn csv(impacts: &[Impact]) -> String {
         );
     }
     text
+}
+
+/// A whole number above 0, also as `1e6`.
+fn positive_number(text: &str) -> Result<u64, String> {
+    match whole_number(text)? {
+        0 => Err("expected at least 1 period to measure".into()),
+        number => Ok(number),
+    }
 }
 
 /// A whole number, also as `1e6`.

@@ -49,6 +49,18 @@ impl Regime {
         }
     }
 
+    /// The regime in as few words as a table has room for.
+    pub fn short(self) -> &'static str {
+        match self {
+            Self::AtRest => "rest",
+            Self::AboveTwo => "z > 2",
+            Self::TwoAsymmetric => "asymmetric",
+            Self::TwoSymmetric => "symmetric 1:1",
+            Self::StronglyModulated => "strongly modulated",
+            Self::BelowTwo => "z < 2",
+        }
+    }
+
     /// Whether two impacts happen in every period.
     pub fn is_two_per_period(self) -> bool {
         matches!(self, Self::TwoAsymmetric | Self::TwoSymmetric)

@@ -115,8 +115,10 @@ pub struct ReportData {
     pub attractors: Vec<AttractorDocument>,
     /// Every claim.
     pub claims: Vec<Claim>,
-    /// Distances to boundaries.
+    /// Distances to boundaries, by theory.
     pub margins: crate::study::Margins,
+    /// What simulation says of them.
+    pub confirmations: crate::study::Confirmations,
     /// Amplitude of the oscillator without absorber impacts, in the case's unit of length.
     pub bare_amplitude: Option<f64>,
 }
@@ -160,6 +162,7 @@ impl Report {
                     .collect(),
                 claims: study.claims.clone(),
                 margins: study.margins.clone(),
+                confirmations: study.confirmations.clone(),
                 bare_amplitude: bare.map(|bare| scales.length(bare.amplitude())),
             },
         }

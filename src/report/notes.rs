@@ -6,6 +6,7 @@ use super::numbers::{LengthFormat, fixed, percent, significant};
 use crate::case::Case;
 use crate::simulation::Stop;
 use crate::study::CaseStudy;
+use crate::system::System;
 use crate::validation::tolerance::{LARGEST_DAMPING, LARGEST_MASS_RATIO, LARGEST_OFFSET};
 use crate::validation::{Finding, Measure, Verdict};
 
@@ -21,6 +22,15 @@ pub struct Note {
     pub text: String,
 }
 
+/// Whether a system lies where the theory, near resonance and at leading order in the mass ratio,
+/// says nothing.
+pub fn outside_range(system: &System) -> bool {
+    system.mass_ratio() > LARGEST_MASS_RATIO
+        || (system.frequency_ratio() - 1.0).abs() > LARGEST_OFFSET
+        || system.mass_ratio() * system.damping() > LARGEST_DAMPING
+        || system.restitution() == 1.0
+}
+
 /// Everything that limits what the report says.
 pub fn notes(case: &Case, study: &CaseStudy) -> Vec<Note> {
     let mut notes = Vec::new();
@@ -29,7 +39,7 @@ pub fn notes(case: &Case, study: &CaseStudy) -> Vec<Note> {
         note(
             "refuted",
             format!(
-                "{}: predicted {}, observed {}. Allowed: {}.",
+                "{}: predicted {}, observed {}. Judged by: {}.",
                 claim.statement,
                 finding(case, &claim.predicted),
                 finding(case, &claim.observed),
@@ -66,6 +76,13 @@ pub fn notes(case: &Case, study: &CaseStudy) -> Vec<Note> {
         }
     }
     let system = &study.analysis.system;
+    if system.restitution() == 1.0 {
+        note(
+            "validity",
+            "Elastic impacts lose nothing: at leading order the manifold attracts no motion."
+                .into(),
+        );
+    }
     if system.mass_ratio() > LARGEST_MASS_RATIO {
         note(
             "validity",

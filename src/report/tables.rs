@@ -98,7 +98,8 @@ pub fn key_rows(case: &Case, study: &CaseStudy) -> Vec<KeyRow> {
             ));
         }
         let z = attractor.classification.evidence.impacts_per_period;
-        rows.push(row("Impacts per period z", significant(z, 4), simulation, "motions"));
+        let digits = if attractor.repeats() { 4 } else { 2 };
+        rows.push(row("Impacts per period z", significant(z, digits), simulation, "motions"));
     }
     if let Some(point) = study.analysis.stable_points().last() {
         rows.push(row(
@@ -152,7 +153,7 @@ fn words(name: &str) -> String {
 pub fn inputs(case: &Case) -> Table {
     let given = case.inputs().iter().map(|input| {
         [
-            words(input.name),
+            words(&format!("{} {}", input.table, input.name)),
             format!("${}$", input.symbol),
             input.as_written.clone(),
             input.table.to_owned(),
@@ -162,9 +163,9 @@ pub fn inputs(case: &Case) -> Table {
     let derived = case.derived();
     let derived = derived.iter().map(|input| {
         let value = match input.unit {
-            "1" => significant(input.value, 5),
+            "1" => significant(input.value, 4),
             "m" => lengths.with_digits(input.value, 4),
-            unit => format!("{} {unit}", significant(input.value, 5)),
+            unit => format!("{} {unit}", significant(input.value, 4)),
         };
         [words(input.name), format!("${}$", input.symbol), value, "derived".to_owned()]
     });
@@ -245,7 +246,7 @@ pub fn attractors(case: &Case, study: &CaseStudy) -> Table {
         [
             found.regime().words().to_owned(),
             percent(found.share),
-            significant(evidence.impacts_per_period, 4),
+            significant(evidence.impacts_per_period, if attractor.repeats() { 4 } else { 2 }),
             repetition(evidence, attractor.followed),
             lengths.text(scales.length(attractor.peak)),
             lengths.text(scales.length(attractor.rms)),
@@ -284,24 +285,24 @@ pub fn claims(case: &Case, study: &CaseStudy) -> Table {
     let reasons = reasons(study);
     let rows = study.claims.iter().map(|claim| {
         [
+            claim.verdict.words().to_owned(),
             claim.statement.clone(),
             claim.source.to_owned(),
             finding(case, &claim.predicted),
             finding(case, &claim.observed),
             difference(claim),
             allowed(claim, &reasons),
-            claim.verdict.words().to_owned(),
         ]
     });
     table(
         [
+            ("Verdict", false),
             ("Claim", false),
             ("Layer", false),
             ("Predicted", false),
             ("Observed", false),
             ("Difference", true),
             ("Allowed", false),
-            ("Verdict", false),
         ],
         rows.collect(),
     )

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::notes;
 use super::numbers::{LengthFormat, decibels, percent, significant};
 use crate::analysis::{Area, BoundaryKind, Branch, Strip};
 use crate::case::Case;
@@ -58,8 +59,9 @@ pub fn verdict(case: &Case, study: &CaseStudy) -> Verdict {
         Some(writer.standing(main)),
         writer.reason(main),
         writer.clearance(),
+        writer.simulated_limit(),
         writer.forcing_and_frequency(),
-        writer.best_clearance(main),
+        writer.best_clearance(),
         writer.coexistence(main),
         writer.theory_error(),
     ];
@@ -117,9 +119,11 @@ impl Writer<'_> {
             );
             (Tone::Mixed, text)
         } else if ratio > 1.0 + NOTICEABLE {
-            (Tone::Bad, format!("{regime}, but the absorber makes it worse: {change}."))
+            let joint = if steady { ", but the" } else { ". The" };
+            (Tone::Bad, format!("{regime}{joint} absorber makes it worse: {change}."))
         } else if ratio > 1.0 - NOTICEABLE {
-            (Tone::Mixed, format!("{regime}, but it changes little: {change}."))
+            let joint = if steady { ", but it" } else { ". It" };
+            (Tone::Mixed, format!("{regime}{joint} changes little: {change}."))
         } else if steady {
             (Tone::Good, format!("{regime}: the absorber works. Vibration {change}."))
         } else {
@@ -128,9 +132,15 @@ impl Writer<'_> {
     }
 
     fn regime(&self, main: &FoundAttractor) -> String {
-        let z = main.attractor.classification.evidence.impacts_per_period;
-        let z = significant(z, 3);
+        let evidence = &main.attractor.classification.evidence;
+        // Averages of motions that do not repeat are known to two digits.
+        let digits = if evidence.periodicity.is_some() { 3 } else { 2 };
+        let z = significant(evidence.impacts_per_period, digits);
         match main.regime() {
+            Regime::AboveTwo if self.resting_share(main) > 0.0 => format!(
+                "Chattering: impacts crowd in until the absorber rests on a wall, {} of the time",
+                percent(self.resting_share(main))
+            ),
             Regime::TwoSymmetric => "Steady 1:1 resonance".into(),
             Regime::TwoAsymmetric => "Two asymmetric impacts per period".into(),
             Regime::AboveTwo => format!("More than two impacts per period (z = {z})"),
@@ -138,6 +148,13 @@ impl Writer<'_> {
             Regime::BelowTwo => format!("Fewer than two impacts per period (z = {z})"),
             Regime::AtRest => "The absorber rests".into(),
         }
+    }
+
+    /// Share of the time in sustained contact.
+    fn resting_share(&self, main: &FoundAttractor) -> f64 {
+        let attractor = &main.attractor;
+        let duration = attractor.periods.max(1) as f64 * self.study.analysis.system.period();
+        attractor.sustained_contact.duration_tau / duration
     }
 
     /// Regime, area, and how firmly both stand.
@@ -153,10 +170,14 @@ impl Writer<'_> {
         let starts = self.study.effort.starts;
         let late = match main.late_starts {
             0 => String::new(),
-            late => format!(
-                ", {late} of them only after transients of up to {} periods",
-                main.longest_transient
-            ),
+            late => {
+                let some =
+                    if late == main.starts { "all".into() } else { format!("{late} of them") };
+                format!(
+                    ", {some} only after transients of up to {} periods",
+                    main.longest_transient
+                )
+            }
         };
         let led = match main.starts {
             all if all == starts => format!("all {starts} starts lead to it{late}"),
@@ -193,12 +214,12 @@ impl Writer<'_> {
         let side = if offset < 0.0 { "below" } else { "above" };
         let why = match main.regime() {
             Regime::TwoSymmetric | Regime::TwoAsymmetric | Regime::AboveTwo if offset < 0.0 => {
-                "where the moving mass mainly adds inertia and draws the resonance nearer"
+                "where the moving mass lowers the resonance towards the excitation"
             }
             Regime::StronglyModulated => {
                 "and between captures the oscillator grows past its own steady vibration"
             }
-            Regime::BelowTwo => "and sparse impacts disturb it more than they drain it",
+            Regime::BelowTwo => return None,
             _ => "where the oscillator alone already vibrates little",
         };
         Some(format!(
@@ -222,8 +243,12 @@ impl Writer<'_> {
         let below = neighbours.below.map(|margin| describe(margin, "shrink"));
         match (above, below) {
             (None, None) => None,
-            (Some(one), None) | (None, Some(one)) => Some(format!("Clearance can {one}.")),
-            (Some(above), Some(below)) => Some(format!("Clearance can {above}, and {below}.")),
+            (Some(one), None) | (None, Some(one)) => {
+                Some(format!("By theory, clearance can {one}."))
+            }
+            (Some(above), Some(below)) => {
+                Some(format!("By theory, clearance can {above}, and {below}."))
+            }
         }
     }
 
@@ -239,7 +264,7 @@ impl Writer<'_> {
             (BoundaryKind::Hopf, true) if margin.ends_steady_resonance => {
                 "before the response becomes modulated (Hopf)"
             }
-            (BoundaryKind::Hopf, true) => "before a modulated response may coexist (Hopf)",
+            (BoundaryKind::Hopf, true) => "before a modulated response coexists (Hopf)",
             (BoundaryKind::Hopf, false) if margin.ends_steady_resonance => {
                 "before steady 1:1 resonance sets in (Hopf)"
             }
@@ -294,24 +319,61 @@ impl Writer<'_> {
         }
     }
 
-    /// Where the theory would put the clearance; not said when the case is there already.
-    fn best_clearance(&self, main: &FoundAttractor) -> Option<String> {
-        let best = self.study.margins.best_clearance?;
-        let bare = self.bare()?;
-        let at = self.length(best.factor);
-        let amplitude = self.length(best.amplitude);
-        let place =
-            if best.at_upper_end { format!("just below {at}") } else { format!("near {at}") };
-        let against = decibels(best.amplitude / bare);
-        let worth = if main.attractor.peak < best.amplitude * (1.0 + NOTICEABLE)
-            && main.regime() == Regime::TwoSymmetric
-        {
-            "; this case is as good"
+    /// What simulation says of the margin that theory gives upwards in clearance.
+    fn simulated_limit(&self) -> Option<String> {
+        let limit = self.study.confirmations.upper_limit?;
+        let at = |factor: f64| self.length(factor);
+        let other = limit.lost.other.map_or("another motion", Regime::words);
+        let way = if limit.kept > 1.0 {
+            format!(
+                "all starts keep 1:1 resonance up to {} ({})",
+                at(limit.kept),
+                relative(limit.kept)
+            )
         } else {
-            ""
+            "no larger clearance keeps 1:1 resonance from all starts".into()
         };
         Some(format!(
-            "Best clearance for steady 1:1 resonance at this frequency and forcing, by theory: {place} ({amplitude}, {against} against the bare oscillator){worth}."
+            "Simulated from {} starts each, {way}; at {} some end in {other} (peak {}).",
+            limit.lost.starts,
+            at(limit.lost.factor),
+            at(limit.lost.other_peak),
+        ))
+    }
+
+    /// Where theory would put the clearance, and what simulation finds there; not said where the
+    /// theory is out of its range.
+    fn best_clearance(&self) -> Option<String> {
+        if notes::outside_range(&self.study.analysis.system) {
+            return None;
+        }
+        let bare = self.bare()?;
+        let Some(best) = self.study.margins.best_clearance else {
+            return Some(
+                "By theory, no clearance gives steady 1:1 resonance at this frequency and forcing."
+                    .into(),
+            );
+        };
+        let found = self.study.confirmations.best?;
+        let at = self.length(best.factor);
+        if best.amplitude > bare * (1.0 - NOTICEABLE) {
+            return Some(format!(
+                "No clearance with steady 1:1 resonance reduces the vibration at this frequency and forcing; by theory the best is near {at} ({}, {} against the bare oscillator).",
+                self.length(best.amplitude),
+                decibels(best.amplitude / bare),
+            ));
+        }
+        let outcome = match found.steady {
+            0 => format!("simulated there, none of {} starts ends in 1:1 resonance", found.starts),
+            some => format!(
+                "simulated there {} ({}), from {some} of {} starts",
+                self.length(found.steady_peak),
+                decibels(found.steady_peak / bare),
+                found.starts
+            ),
+        };
+        Some(format!(
+            "Best clearance for steady 1:1 resonance at this frequency and forcing: near {at} by theory; {outcome}."
         ))
     }
 
@@ -324,8 +386,8 @@ impl Writer<'_> {
             .map(|found| {
                 let peak = self.length(found.attractor.peak);
                 let share = match (found.starts, found.regime()) {
-                    (0, Regime::AtRest) => "only if the absorber starts at rest".into(),
-                    (0, _) => "only from the motion that theory predicts".into(),
+                    (0, Regime::AtRest) => "from a start at rest".into(),
+                    (0, _) => "from a start on the predicted motion".into(),
                     _ => format!("{} of the starts", percent(found.share)),
                 };
                 format!("{} (peak {peak}, {share})", found.regime().words())
@@ -343,7 +405,7 @@ impl Writer<'_> {
         let difference = claim.difference?;
         let way = if difference > 0.0 { "low" } else { "high" };
         Some(format!(
-            "Leading-order theory is {} {way} in the amplitude C.",
+            "Leading-order theory is {} {way} in the amplitude C of this motion.",
             percent(difference.abs())
         ))
     }

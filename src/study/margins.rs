@@ -2,9 +2,10 @@
 
 use serde::Serialize;
 
-use crate::analysis::{Analysis, AnalysisError, BoundaryKind, Branch, boundaries};
-use crate::validation::boundaries::{clearances, ends_steady_resonance};
-use crate::validation::tolerance::LARGEST_OFFSET;
+use crate::analysis::{Analysis, AnalysisError, Area, BoundaryKind, Branch, Zone, boundaries};
+use crate::system::System;
+use crate::validation::boundaries::{EITHER_SIDE, clearances, ends_steady_resonance};
+use crate::validation::tolerance::{LARGEST_OFFSET, asymptotic_error};
 
 /// A boundary and where it is met when one parameter alone is changed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -78,6 +79,13 @@ impl Margins {
     }
 }
 
+/// Whether the area or strip differs a little below and a little above the clearance of `system`.
+fn changes_area(system: &System) -> bool {
+    let zone =
+        |factor: f64| Some(Analysis::of(&system.with_clearance_scaled(factor).ok()?).ok()?.zone);
+    zone(1.0 - EITHER_SIDE) != zone(1.0 + EITHER_SIDE)
+}
+
 /// A boundary at half or twice the frequency is not a neighbour.
 const FAR: f64 = 2.0;
 
@@ -93,9 +101,9 @@ fn in_frequency(analysis: &Analysis) -> Result<Neighbours, AnalysisError> {
                 continue;
             }
             let Ok(there) = system.with_frequency_ratio(ratio) else { continue };
-            // A saddle-node where another stable 1:1 motion remains only leans the response.
             let ends = ends_steady_resonance(&there, 1.0);
-            if kind == BoundaryKind::SaddleNode && !ends {
+            // A saddle-node within an area only leans the response.
+            if kind == BoundaryKind::SaddleNode && !ends && !changes_area(&there) {
                 continue;
             }
             all.push(Margin {
@@ -121,10 +129,10 @@ pub struct BestClearance {
     pub factor: f64,
     /// Amplitude of the oscillator over the case's clearance.
     pub amplitude: f64,
-    /// Whether it is the largest clearance that still has a stable 1:1 motion.
-    pub at_upper_end: bool,
 }
 
+/// Where steady 1:1 resonance is the only prediction.
+const STEADY: Zone = Zone { area: Some(Area::Z3), strip: None };
 /// Clearances tried per unit of the logarithm; the optimum is an estimate to one percent, or an end
 /// of the stable range.
 const STEPS_PER_E_FOLD: f64 = 100.0;
@@ -134,21 +142,23 @@ impl BestClearance {
     pub fn of(analysis: &Analysis) -> Option<Self> {
         let boundaries = clearances(analysis);
         let (first, last) = (boundaries.first()?.clearance, boundaries.last()?.clearance);
+        let error = asymptotic_error(&analysis.system);
         let steps = (libm::log(last / first) * STEPS_PER_E_FOLD).ceil().clamp(1.0, 2000.0);
         let tried = (0..=steps as u32).filter_map(|k| {
             let factor = first * libm::exp(libm::log(last / first) * f64::from(k) / steps);
             let there = analysis.system.with_clearance_scaled(factor).ok()?;
             let there = Analysis::of(&there).ok()?;
+            // Strips, and the last stretch before a boundary that is known to this accuracy only,
+            // are no place for a design.
+            let beyond = there.system.with_clearance_scaled(1.0 + error).ok()?;
+            let room = Analysis::of(&beyond).ok()?.zone == STEADY;
+            if there.zone != STEADY || !room {
+                return None;
+            }
             let smallest = there.stable_points().map(|point| point.oscillator * factor);
             let amplitude = smallest.min_by(f64::total_cmp)?;
-            Some(Self { factor, amplitude, at_upper_end: false })
+            Some(Self { factor, amplitude })
         });
-        let tried: Vec<Self> = tried.collect();
-        let best = *tried.iter().min_by(|a, b| a.amplitude.total_cmp(&b.amplitude))?;
-        let at_upper_end = tried.last().is_some_and(|last| last.factor == best.factor);
-        // The boundary that ends the scan is known exactly.
-        let end = boundaries.iter().map(|at| at.clearance).find(|at| *at >= best.factor);
-        let factor = end.filter(|_| at_upper_end).unwrap_or(best.factor);
-        Some(Self { at_upper_end, factor, ..best })
+        tried.min_by(|a, b| a.amplitude.total_cmp(&b.amplitude))
     }
 }

@@ -1,6 +1,7 @@
 //! Puts the layers together for one case: what is analysed, simulated and confronted, and how far
 //! the nearest boundaries are.
 
+pub mod confirmations;
 pub mod margins;
 pub mod scenes;
 
@@ -16,6 +17,7 @@ use crate::simulation::StartError;
 use crate::system::{State, System};
 use crate::validation::{self, Claim};
 
+pub use confirmations::Confirmations;
 pub use margins::Margins;
 
 /// Why a case cannot be studied.
@@ -88,8 +90,10 @@ pub struct CaseStudy {
     pub attractors: Vec<FoundAttractor>,
     /// Theory against simulation.
     pub claims: Vec<Claim>,
-    /// Distances to the nearest boundaries.
+    /// Distances to the nearest boundaries, by theory.
     pub margins: Margins,
+    /// What simulation says of them.
+    pub confirmations: Confirmations,
     /// How thoroughly.
     pub effort: StudyEffort,
 }
@@ -118,7 +122,8 @@ impl CaseStudy {
         let area = settle_area(&analysis)?;
         let claims = validation::confront(&analysis, &attractors, &effort.each())?;
         let margins = Margins::of(&analysis)?;
-        Ok(Self { area, attractors, claims, margins, effort, analysis })
+        let confirmations = Confirmations::of(&analysis, &margins)?;
+        Ok(Self { area, attractors, claims, margins, confirmations, effort, analysis })
     }
 
     /// Number of progress steps that a study takes, about.

@@ -63,7 +63,7 @@ pub fn either_side(analysis: &Analysis, effort: &Effort) -> Result<Vec<Claim>, S
 
 /// Relative distance to either side of a boundary at which the theory is asked what it separates:
 /// close enough that no other boundary lies between, except exactly at P1.
-const EITHER_SIDE: f64 = 1e-4;
+pub const EITHER_SIDE: f64 = 1e-4;
 
 /// Whether theory has a stable 1:1 motion on exactly one side of a clearance.
 pub fn ends_steady_resonance(system: &System, clearance: f64) -> bool {
@@ -93,13 +93,16 @@ fn across(
         return Ok(None);
     };
     let steady_above = beyond.stable_points().next().is_some();
-    let words = |regime: Regime| regime.words().to_owned();
+    let words = |regime: Regime| regime.short().to_owned();
     let name = |steady: bool| if steady { "steady 1:1" } else { "not steady 1:1" };
     let holds = (below == Regime::TwoSymmetric) != steady_above
         && (above == Regime::TwoSymmetric) == steady_above;
     Ok(Some(Claim {
         id: format!("boundary-{}", at.kind.words().replace(' ', "-")),
-        statement: format!("{} boundary: regimes on either side", at.kind.words()),
+        statement: format!(
+            "{} boundary: what the predicted motion becomes on either side",
+            at.kind.words()
+        ),
         source: "boundaries of the slow flow",
         predicted: Finding::Words(format!(
             "{} below, {} above",
@@ -109,7 +112,7 @@ fn across(
         observed: Finding::Words(format!("{} below, {} above", words(below), words(above))),
         difference: None,
         tolerance: outcome(format!(
-            "probed {:.1} % to either side, twice ε (2 + |σ| + λ)",
+            "started on the predicted motion, {:.1} % to either side: twice ε (2 + |σ| + λ)",
             100.0 * margin
         )),
         verdict: Verdict::of(holds),

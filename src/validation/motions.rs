@@ -25,7 +25,7 @@ pub fn fixed_points(analysis: &Analysis, effort: &Effort) -> Result<Vec<Claim>, 
             observed: Finding::Words(if stays {
                 "stays".into()
             } else {
-                format!("leaves for {}", reached.classification.regime.words())
+                format!("leaves for {}", reached.classification.regime.short())
             }),
             difference: None,
             tolerance: outcome("a start on the point stays near it, or leaves it"),
@@ -167,23 +167,19 @@ fn near_boundary(analysis: &Analysis) -> String {
         clearances(analysis).into_iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
     match nearest {
         Some(at) if distance(&at) < error => format!(
-            "regimes over all starts; the {} boundary is {:.1} % away, within the theory's error of \
-             {:.1} %",
+            "share of all starts; the {} boundary is {:.1} % away, within the theory's error of {:.1} %",
             at.kind.words(),
             100.0 * distance(&at),
             100.0 * error
         ),
-        _ => "regimes over all starts".into(),
+        _ => "share of all starts".into(),
     }
 }
 
 fn listed(attractors: &[FoundAttractor]) -> String {
     let words: Vec<String> = attractors
         .iter()
-        .map(|found| {
-            let regime = found.attractor.classification.regime.words();
-            format!("{regime} ({:.0} % of starts)", 100.0 * found.share)
-        })
+        .map(|found| format!("{} {:.0} %", found.regime().short(), 100.0 * found.share))
         .collect();
-    words.join("; ")
+    words.join(", ")
 }

@@ -49,8 +49,7 @@ pub(super) fn describe(point: &FixedPoint) -> String {
         Branch::Right => "right branch",
     };
     format!(
-        "fixed point, {} {}, {branch}: B/b = {}, C/b = {}",
-        stability,
+        "fixed point, {} of the slow flow on the {branch}, {stability} motion: B/b = {}, C/b = {}",
         point.kind.words(),
         significant(point.absorber, 4),
         significant(point.oscillator, 4)

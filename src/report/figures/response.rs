@@ -144,7 +144,7 @@ fn words(scene: &Scene) -> (String, String) {
             "At {place} the stable response has C = {}",
             units.length_text(point.oscillator)
         ),
-        None => format!("At {place} no part of the response is stable"),
+        None => format!("Nothing is stable at {place}"),
     };
     let caption = format!(
         "{case}; at this frequency the response is stable for clearances from {narrowest} to about {widest}."

@@ -1,0 +1,135 @@
+//! What simulation from several starts says of the clearances that theory recommends or allows: a
+//! stable 1:1 motion is of little use where few starts lead to it.
+
+use serde::Serialize;
+
+use super::margins::Margins;
+use crate::analysis::Analysis;
+use crate::regimes::attractor::Effort;
+use crate::regimes::starts::StartBox;
+use crate::regimes::{Attractor, Regime};
+use crate::simulation::StartError;
+use crate::system::System;
+use crate::validation::tolerance::asymptotic_error;
+
+/// Evenly spread starts per clearance: a motion that half of all starts lead to is missed by all of
+/// them once in 256 times.
+const STARTS: u32 = 8;
+/// Effort of each: transients of the 1:1 motion die out within some hundred periods.
+const EACH: Effort = Effort { discard: 400, periods: 100, prolongations: 1, impact_limit: 50_000 };
+/// Relative width to which a limit is bracketed.
+const WIDTH: f64 = 0.01;
+
+/// Where several starts lead at another clearance, all else being the case's.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Probe {
+    /// Clearance over the case's.
+    pub factor: f64,
+    /// How many starts were followed.
+    pub starts: u32,
+    /// How many of them ended in steady 1:1 resonance.
+    pub steady: u32,
+    /// Largest peak of the oscillator in steady 1:1 resonance, over the case's clearance.
+    pub steady_peak: f64,
+    /// What most of the others became.
+    pub other: Option<Regime>,
+    /// Largest peak of the oscillator among the others, over the case's clearance.
+    pub other_peak: f64,
+}
+
+impl Probe {
+    /// Simulates at `factor` times the clearance; `None` if there is no such system.
+    ///
+    /// # Errors
+    /// [`StartError`] never, for starts inside the cavity.
+    pub fn at(system: &System, factor: f64) -> Result<Option<Self>, StartError> {
+        let Ok(there) = system.with_clearance_scaled(factor) else { return Ok(None) };
+        let starts = StartBox::around(&there);
+        let mut probe = Self {
+            factor,
+            starts: STARTS,
+            steady: 0,
+            steady_peak: 0.0,
+            other: None,
+            other_peak: 0.0,
+        };
+        for index in 0..STARTS {
+            let reached = Attractor::reach(&there, starts.start(index), &EACH)?;
+            let peak = reached.peak * factor;
+            if reached.classification.regime == Regime::TwoSymmetric {
+                probe.steady += 1;
+                probe.steady_peak = probe.steady_peak.max(peak);
+            } else if peak > probe.other_peak {
+                probe.other = Some(reached.classification.regime);
+                probe.other_peak = peak;
+            }
+        }
+        Ok(Some(probe))
+    }
+
+    /// Whether every start ended in steady 1:1 resonance.
+    pub fn all_steady(&self) -> bool {
+        self.steady == self.starts
+    }
+}
+
+/// The clearance up to which all starts end in steady 1:1 resonance, by bisection.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct SimulatedLimit {
+    /// The largest clearance found at which they all do, over the case's.
+    pub kept: f64,
+    /// The smallest found at which some do not.
+    pub lost: Probe,
+}
+
+/// What simulation adds to the margins of theory.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Confirmations {
+    /// Upwards in clearance; `None` where the case itself is not steady from all starts, or stays so
+    /// up to where theory ends it.
+    pub upper_limit: Option<SimulatedLimit>,
+    /// At the clearance that theory likes best.
+    pub best: Option<Probe>,
+}
+
+impl Confirmations {
+    /// Simulates what the margins of an analysed case speak of.
+    ///
+    /// # Errors
+    /// [`StartError`] never, for starts inside the cavity.
+    pub fn of(analysis: &Analysis, margins: &Margins) -> Result<Self, StartError> {
+        let best = match margins.best_clearance {
+            Some(best) => Probe::at(&analysis.system, best.factor)?,
+            None => None,
+        };
+        Ok(Self { upper_limit: upper_limit(analysis, margins)?, best })
+    }
+}
+
+fn upper_limit(
+    analysis: &Analysis,
+    margins: &Margins,
+) -> Result<Option<SimulatedLimit>, StartError> {
+    let system = &analysis.system;
+    let ends = margins.clearance.iter().find(|at| at.factor > 1.0 && at.ends_steady_resonance);
+    let Some(end) = ends.filter(|_| analysis.stable_points().next().is_some()) else {
+        return Ok(None);
+    };
+    if !Probe::at(system, 1.0)?.is_some_and(|here| here.all_steady()) {
+        return Ok(None);
+    }
+    let mut kept = 1.0;
+    let beyond = end.factor * (1.0 + asymptotic_error(system));
+    let Some(mut lost) = Probe::at(system, beyond)?.filter(|probe| !probe.all_steady()) else {
+        return Ok(None);
+    };
+    while lost.factor > kept * (1.0 + WIDTH) {
+        let middle = 0.5 * (kept + lost.factor);
+        match Probe::at(system, middle)? {
+            Some(probe) if probe.all_steady() => kept = middle,
+            Some(probe) => lost = probe,
+            None => break,
+        }
+    }
+    Ok(Some(SimulatedLimit { kept, lost }))
+}
