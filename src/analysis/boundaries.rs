@@ -178,27 +178,6 @@ fn explicit_coefficients(kind: BoundaryKind, system: &System) -> Result<[f64; 3]
     }
 }
 
-/// The two arcs of the saddle-node boundary, over the amplitude at which the collision happens.
-///
-/// At a given amplitude the saddle-node condition is a quadratic in `sigma`, so that the boundary
-/// is two explicit curves, and needs no continuation.
-///
-/// # Errors
-/// [`AnalysisError::Missing`] never, for a system.
-pub fn saddle_node_arcs(
-    system: &System,
-    manifold: &Manifold,
-) -> Result<[Vec<BoundaryPoint>; 2], AnalysisError> {
-    let values = equations().programs.values(system);
-    let mut arcs = [Vec::new(), Vec::new()];
-    for shift in saddle_node_shifts(manifold) {
-        for (arc, point) in arcs.iter_mut().zip(saddle_node_pair(&values, manifold, shift)?) {
-            arc.extend(point);
-        }
-    }
-    Ok(arcs)
-}
-
 /// Amplitudes that resolve the boundary on both sides of the fold, where it turns quickly.
 fn saddle_node_shifts(manifold: &Manifold) -> impl Iterator<Item = f64> {
     const HALF: i32 = 400;
@@ -210,6 +189,8 @@ fn saddle_node_shifts(manifold: &Manifold) -> impl Iterator<Item = f64> {
     })
 }
 
+/// The two detunings at which fixed points collide at a given amplitude: the saddle-node condition is
+/// a quadratic in `sigma` there, so that the boundary is explicit and needs no continuation.
 fn saddle_node_pair(
     values: &Values,
     manifold: &Manifold,

@@ -62,13 +62,9 @@ impl Physical {
     pub fn natural_frequency_rad_per_s(&self) -> f64 {
         sqrt(self.stiffness_n_per_m) / sqrt(self.mass_kg)
     }
-
-    /// `2 sqrt(k1 m1)`, the critical damping in N s/m.
-    pub fn critical_damping_n_s_per_m(&self) -> f64 {
-        critical_damping(self.stiffness_n_per_m, self.mass_kg)
-    }
 }
 
+/// `2 sqrt(k1 m1)` in N s/m.
 fn critical_damping(stiffness: f64, mass: f64) -> f64 {
     2.0 * sqrt(stiffness) * sqrt(mass)
 }

@@ -38,14 +38,18 @@ pub fn fixed_points(analysis: &Analysis, effort: &Effort) -> Result<Vec<Claim>, 
     Ok(claims)
 }
 
-/// A motion stays if it ends in two symmetric impacts per period with this point's amplitude: twice
-/// the expected error of the theory tells it from another orbit.
+/// A motion stays if it ends in two symmetric impacts per period with this point's amplitude, to
+/// twice the expected error of the theory, and no other fixed point is nearer: two that are about
+/// to collide lie within that error of each other.
 fn stays(analysis: &Analysis, point: &FixedPoint, reached: &Attractor) -> bool {
     let observed =
         read_off(&analysis.system, reached.oscillator_harmonic, reached.absorber_harmonic);
     let relative = observed.absorber / point.absorber - 1.0;
     reached.classification.regime == Regime::TwoSymmetric
         && relative.abs() < 2.0 * asymptotic(&analysis.system).value
+        && analysis.fixed_points.iter().all(|other| {
+            (observed.absorber - other.absorber).abs() >= (observed.absorber - point.absorber).abs()
+        })
 }
 
 fn amplitudes(
