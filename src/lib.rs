@@ -6,6 +6,7 @@ pub mod analysis;
 pub mod case;
 pub mod equations;
 pub mod numerics;
+pub mod orbits;
 pub mod regimes;
 pub mod report;
 pub mod simulation;

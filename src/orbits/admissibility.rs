@@ -1,0 +1,161 @@
+//! Is an orbit a motion? Only if the absorber stays inside its cavity between impacts and meets
+//! each wall from inside.
+//!
+//! Whether it does is proven by a search that cannot step over a contact
+//! ([`crate::numerics::crossing`]); how much room it has is measured at the turning points of the
+//! relative displacement.
+
+use serde::Serialize;
+
+use super::flight::Kinematics;
+use super::impact_map::{AfterImpact, ImpactMap, Wall};
+use crate::numerics::bracket::brent;
+use crate::numerics::crossing::{Band, Curve, Edge, Sample, Search, first_crossing};
+
+/// Units in the last place of the largest length involved that count as touching a wall.
+const TOUCH_ULPS: f64 = 64.0;
+/// Share of a flight by which its end may be met early: rounding of a transversal impact.
+const EARLY: f64 = 1e-7;
+/// Fast time for which one bound on the curvature is used.
+const HORIZON: f64 = 1.0;
+/// Pieces per radian of the fastest oscillation in which turning points are looked for. Two of them
+/// within one piece leave the relative displacement where it was, to the fourth power of the piece.
+const PIECES_PER_RADIAN: f64 = 8.0;
+
+/// The evidence.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Admissibility {
+    /// Proven: no contact between the impacts, and each wall met from inside.
+    pub admissible: bool,
+    /// Smallest distance to a wall at a turning point between impacts, over the clearance; negative
+    /// where a wall is penetrated, 2 where there is no turning point.
+    pub room: f64,
+    /// The flight, counted from 0, in which the room is smallest, and how far into it, 0 to 1.
+    pub narrowest: Option<Narrowest>,
+    /// Smallest speed at which a wall is met, over the clearance, in fast time; negative where an
+    /// impact would come from outside.
+    pub slowest_impact: f64,
+}
+
+/// Where an orbit comes closest to an impact that it does not have.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Narrowest {
+    /// Which flight, counted from 0.
+    pub flight: usize,
+    /// How far into it, 0 to 1.
+    pub fraction: f64,
+    /// The wall that is close.
+    pub wall: Wall,
+}
+
+impl Admissibility {
+    /// Of a sequence of flights: state after the impact, wall left, wall met, duration.
+    pub fn of(map: &ImpactMap, flights: &[(AfterImpact, Wall, Wall, f64)]) -> Self {
+        let mut found =
+            Self { admissible: true, room: 2.0, narrowest: None, slowest_impact: f64::INFINITY };
+        for (index, (start, from, to, duration)) in flights.iter().enumerate() {
+            let approach = to.sign() * map.gap_at(start, *from, *duration).v;
+            found.slowest_impact = found.slowest_impact.min(approach);
+            found.admissible &= approach > 0.0 && free_of_contact(map, start, *from, *to, *duration);
+            for (at, value) in turning_points(map, start, *from, *duration) {
+                let wall = if value > 0.0 { Wall::Plus } else { Wall::Minus };
+                if 1.0 - value.abs() < found.room {
+                    found.room = 1.0 - value.abs();
+                    let fraction = at / duration;
+                    found.narrowest = Some(Narrowest { flight: index, fraction, wall });
+                }
+            }
+        }
+        found
+    }
+}
+
+struct Gap<'a> {
+    map: &'a ImpactMap,
+    start: &'a AfterImpact,
+    from: Wall,
+}
+
+impl Curve for Gap<'_> {
+    fn sample(&self, s: f64) -> Sample {
+        let oscillator = self.map.oscillator_at(self.start, s);
+        let Kinematics { x, v } = self.map.gap_at(self.start, self.from, s);
+        let curvature_bound = self.map.flight.acceleration_bound(oscillator, HORIZON);
+        Sample { value: x, slope: v, curvature_bound }
+    }
+    fn horizon(&self) -> f64 {
+        HORIZON
+    }
+}
+
+/// Whether the flight's first contact is its end, on the wall where it is said to end.
+fn free_of_contact(
+    map: &ImpactMap,
+    start: &AfterImpact,
+    from: Wall,
+    to: Wall,
+    duration: f64,
+) -> bool {
+    let positive = duration.is_finite() && duration > 0.0;
+    if !positive {
+        return false;
+    }
+    let at = Kinematics { x: start.x, v: start.x_velocity };
+    let scale = 1.0 + at.x.abs() + at.v.abs() + start.y_velocity.abs();
+    let touch = TOUCH_ULPS * f64::EPSILON * scale;
+    let separation = -from.sign() * (start.x_velocity - start.y_velocity);
+    let closing = from.sign() * map.flight.acceleration(start.phase, at);
+    // An absorber that leaves without relative velocity must be left behind by the wall.
+    if separation <= touch && closing >= 0.0 {
+        return false;
+    }
+    let begin = if separation <= touch { (touch / -closing).sqrt().min(EARLY * duration) } else { 0.0 };
+    let curve = Gap { map, start, from };
+    let band = Band { lower: -1.0, upper: 1.0, touch };
+    let until = duration * (1.0 + EARLY);
+    match first_crossing(&curve, begin, until, band) {
+        Search::Crossed(contact) => {
+            let wall = if contact.edge == Edge::Upper { Wall::Plus } else { Wall::Minus };
+            wall == to && contact.time >= duration * (1.0 - EARLY)
+        }
+        Search::Clear | Search::NotFinite(_) => false,
+    }
+}
+
+/// Times and values at which the relative displacement turns within a flight.
+fn turning_points(
+    map: &ImpactMap,
+    start: &AfterImpact,
+    from: Wall,
+    duration: f64,
+) -> Vec<(f64, f64)> {
+    let mut found = Vec::new();
+    sign_changes(duration, map.frequency(), |s| map.gap_at(start, from, s).v, |at| {
+        found.push((at, map.gap_at(start, from, at).x));
+    });
+    found
+}
+
+/// Calls `found` at each sign change of `function` within `(0, duration)`.
+pub(super) fn sign_changes(
+    duration: f64,
+    frequency: f64,
+    function: impl Fn(f64) -> f64,
+    mut found: impl FnMut(f64),
+) {
+    let pieces = (duration * frequency.max(1.0) * PIECES_PER_RADIAN).ceil().clamp(4.0, 1e5);
+    let step = duration / pieces;
+    let mut before = function(0.0);
+    for k in 0..pieces as u32 {
+        let (from, to) = (f64::from(k) * step, f64::from(k + 1) * step);
+        let after = function(to);
+        if (before > 0.0) != (after > 0.0)
+            && let Ok(root) = brent(from, to, 1e-13 * duration, &function)
+            && root.at > 0.0
+            && root.at < duration
+        {
+            found(root.at);
+        }
+        before = after;
+    }
+}

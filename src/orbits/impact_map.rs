@@ -1,0 +1,222 @@
+//! From one impact to the next: the map whose cycles are the periodic orbits, with its exact
+//! Jacobian.
+//!
+//! The state right after an impact on side `s` is `(phase, x, x', y')`; the absorber's place is
+//! `y = x - s`. A flight of length `D` leads to the wall on side `s1` where `w(D) = s1`; the impact
+//! follows equation (2). The length depends on the state through that condition, so that
+//! `dD = -dw / w'` enters every derivative: the saltation of a discontinuous system. Written with `D`
+//! as an unknown of its own, the map has no event to search for, and Newton's method sees it whole.
+
+use nalgebra::{Matrix4, Vector4};
+
+use super::flight::{Flight, Kinematics};
+use crate::system::{State, System};
+
+/// A wall of the cavity: where `x - y = +b` or `x - y = -b`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, serde::Serialize)]
+pub enum Wall {
+    /// `x - y = +b`.
+    #[serde(rename = "+")]
+    Plus,
+    /// `x - y = -b`.
+    #[serde(rename = "-")]
+    Minus,
+}
+
+impl Wall {
+    /// +1 or -1.
+    pub fn sign(self) -> f64 {
+        match self {
+            Self::Plus => 1.0,
+            Self::Minus => -1.0,
+        }
+    }
+
+    /// The opposite wall.
+    pub fn opposite(self) -> Self {
+        match self {
+            Self::Plus => Self::Minus,
+            Self::Minus => Self::Plus,
+        }
+    }
+
+    /// `+` or `-`.
+    pub fn symbol(self) -> char {
+        match self {
+            Self::Plus => '+',
+            Self::Minus => '-',
+        }
+    }
+}
+
+/// The state right after an impact; lengths over the clearance, fast time.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+pub struct AfterImpact {
+    /// Phase of the excitation, radians.
+    pub phase: f64,
+    /// Displacement of the oscillator.
+    pub x: f64,
+    /// Velocity of the oscillator.
+    pub x_velocity: f64,
+    /// Velocity of the absorber.
+    pub y_velocity: f64,
+}
+
+impl AfterImpact {
+    /// As a vector `(phase, x, x', y')`.
+    pub fn vector(&self) -> Vector4<f64> {
+        Vector4::new(self.phase, self.x, self.x_velocity, self.y_velocity)
+    }
+
+    /// From a vector `(phase, x, x', y')`.
+    pub fn from_vector(vector: &Vector4<f64>) -> Self {
+        Self { phase: vector[0], x: vector[1], x_velocity: vector[2], y_velocity: vector[3] }
+    }
+
+    /// The mirror image: the same motion half an excitation period later with opposite sign.
+    pub fn mirrored(&self) -> Self {
+        Self {
+            phase: self.phase - std::f64::consts::PI,
+            x: -self.x,
+            x_velocity: -self.x_velocity,
+            y_velocity: -self.y_velocity,
+        }
+    }
+
+    /// All four displacements and velocities, the absorber touching `wall`.
+    pub fn state(&self, wall: Wall) -> State {
+        State {
+            x: self.x,
+            x_velocity: self.x_velocity,
+            y: self.x - wall.sign(),
+            y_velocity: self.y_velocity,
+        }
+    }
+
+    fn kinematics(&self) -> Kinematics {
+        Kinematics { x: self.x, v: self.x_velocity }
+    }
+}
+
+/// What the map does to one state, and everything that depends on it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Step {
+    /// The state after the next impact.
+    pub next: AfterImpact,
+    /// `w(D)` minus the wall's side: 0 where the flight really ends at that wall.
+    pub gap: f64,
+    /// `w'` just before the impact.
+    pub approach: f64,
+    /// Derivatives of `next` at fixed `D`.
+    pub next_by_state: Matrix4<f64>,
+    /// Derivative of `next` by `D`.
+    pub next_by_duration: Vector4<f64>,
+    /// Derivatives of `gap` by the state at fixed `D`; by `D` it is `approach`.
+    pub gap_by_state: Vector4<f64>,
+    /// Derivatives of `next` by the forcing, the frequency and the restitution, in this order.
+    pub next_by_parameter: [Vector4<f64>; 3],
+    /// The same for `gap`.
+    pub gap_by_parameter: [f64; 3],
+}
+
+impl Step {
+    /// The Jacobian of the impact map: `next` by the state, the duration following it.
+    pub fn jacobian(&self) -> Matrix4<f64> {
+        self.next_by_state - self.next_by_duration * self.gap_by_state.transpose() / self.approach
+    }
+}
+
+/// The impact map of a system.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ImpactMap {
+    /// The oscillator between impacts.
+    pub flight: Flight,
+    mass_ratio: f64,
+    restitution: f64,
+    frequency: f64,
+}
+
+impl ImpactMap {
+    /// The map of `system`.
+    ///
+    /// # Errors
+    /// [`super::OrbitError::NoSteadyMotion`] for an undamped oscillator driven at its natural
+    /// frequency.
+    pub fn of(system: &System) -> Result<Self, super::OrbitError> {
+        Ok(Self {
+            flight: Flight::of(system)?,
+            mass_ratio: system.mass_ratio(),
+            restitution: system.restitution(),
+            frequency: system.frequency_ratio(),
+        })
+    }
+
+    /// The map under another forcing `gamma`; the present one must not be 0.
+    pub fn with_forcing(&self, forcing: f64) -> Self {
+        Self { flight: self.flight.with_forcing(forcing), ..*self }
+    }
+
+    /// Flies for `duration` from the wall `from` and collides with the wall `to`.
+    pub fn step(&self, start: &AfterImpact, from: Wall, to: Wall, duration: f64) -> Step {
+        let arrival = self.flight.arrival(start.phase, start.kinematics(), duration);
+        let [x_phase, x_x, x_v] = arrival.x_by_start;
+        let [v_phase, v_x, v_v] = arrival.v_by_start;
+        let (v, yv) = (arrival.at.v, start.y_velocity);
+        let approach = v - yv;
+        // Equation (2): the absorber gains `gain` times the approach, the oscillator loses eps of it.
+        let eps = self.mass_ratio;
+        let gain = (1.0 + self.restitution) / (1.0 + eps);
+        let rebound = |dv: f64, dyv: f64| {
+            (dv - eps * gain * (dv - dyv), dyv + gain * (dv - dyv))
+        };
+        let (after_v, after_yv) = rebound(v, yv);
+        let column = |phase: f64, x: f64, dv: f64, dyv: f64| {
+            let (dv, dyv) = rebound(dv, dyv);
+            Vector4::new(phase, x, dv, dyv)
+        };
+        let restitution_share = approach / (1.0 + eps);
+        Step {
+            next: AfterImpact {
+                phase: start.phase + self.frequency * duration,
+                x: arrival.at.x,
+                x_velocity: after_v,
+                y_velocity: after_yv,
+            },
+            gap: arrival.at.x - start.x + from.sign() - yv * duration - to.sign(),
+            approach,
+            next_by_state: Matrix4::from_columns(&[
+                column(1.0, x_phase, v_phase, 0.0),
+                column(0.0, x_x, v_x, 0.0),
+                column(0.0, x_v, v_v, 0.0),
+                column(0.0, 0.0, 0.0, 1.0),
+            ]),
+            next_by_duration: column(self.frequency, v, arrival.acceleration, 0.0),
+            gap_by_state: Vector4::new(x_phase, x_x - 1.0, x_v, -duration),
+            next_by_parameter: [
+                column(0.0, arrival.by_forcing.x, arrival.by_forcing.v, 0.0),
+                column(duration, arrival.by_frequency.x, arrival.by_frequency.v, 0.0),
+                Vector4::new(0.0, 0.0, -eps * restitution_share, restitution_share),
+            ],
+            gap_by_parameter: [arrival.by_forcing.x, arrival.by_frequency.x, 0.0],
+        }
+    }
+
+    /// `Omega`.
+    pub fn frequency(&self) -> f64 {
+        self.frequency
+    }
+
+    /// Relative displacement and its rate a time `s` after `start`.
+    pub fn gap_at(&self, start: &AfterImpact, from: Wall, s: f64) -> Kinematics {
+        let at = self.flight.at(start.phase, start.kinematics(), s);
+        Kinematics {
+            x: at.x - start.x + from.sign() - start.y_velocity * s,
+            v: at.v - start.y_velocity,
+        }
+    }
+
+    /// The oscillator a time `s` after `start`.
+    pub fn oscillator_at(&self, start: &AfterImpact, s: f64) -> Kinematics {
+        self.flight.at(start.phase, start.kinematics(), s)
+    }
+}

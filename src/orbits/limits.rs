@@ -1,0 +1,232 @@
+//! Where symmetric 1:1 orbits begin and end: the stability limits of the full system at one
+//! frequency, over all clearances and forcings at once.
+//!
+//! Each value of `beta` belongs to one forcing per clearance ([`super::symmetric`]), so that the whole
+//! family is a curve over `beta` and its bifurcations are roots of functions of one variable; the
+//! saddle-node is explicit.
+
+use serde::Serialize;
+
+use super::OrbitError;
+use super::impact_map::ImpactMap;
+use super::multipliers::{Multipliers, minus_one, unit_product};
+use super::special::Bifurcation;
+use super::symmetric::{SymmetricCurve, SymmetricOrbit, symmetric_orbit};
+use crate::numerics::bracket::brent;
+use crate::system::{Parameters, System};
+
+/// Largest amplitude of the absorber that is looked at, over the clearance: far beyond symmetry
+/// breaking, which the leading-order theory puts at 1.68.
+const LARGEST: f64 = 5.0;
+/// Pieces of that range in which sign changes are looked for.
+const PIECES: u32 = 250;
+/// Width to which a root in `beta` is bracketed.
+const WIDTH: f64 = 1e-14;
+
+/// A limit of the family.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Limit {
+    /// What happens there.
+    pub kind: Bifurcation,
+    /// `beta` there.
+    pub absorber: f64,
+    /// `gamma` there.
+    pub forcing_over_clearance: f64,
+    /// Clearance over the system's own at its own forcing.
+    pub clearance: f64,
+    /// Clearances between which it was bracketed, over the system's own.
+    pub bracket: [f64; 2],
+    /// The test function's value there.
+    pub test: f64,
+    /// Whether an attracting orbit exists on one side of it and not on the other.
+    pub bounds_stability: bool,
+}
+
+/// A stretch of clearances with an attracting symmetric 1:1 orbit.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct StableStretch {
+    /// Clearances over the system's own, ascending.
+    pub clearance: [f64; 2],
+    /// What ends it at either; `None` at the edge of the range that was looked at.
+    pub ends: [Option<Bifurcation>; 2],
+}
+
+/// All symmetric 1:1 orbits at one frequency.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SymmetricFamily {
+    /// Limits in order of `beta`.
+    pub limits: Vec<Limit>,
+    /// Clearances with an attracting orbit.
+    pub stable: Vec<StableStretch>,
+}
+
+/// The family while it is looked at: a unit of forcing, scaled to each `beta`.
+struct Family {
+    system: System,
+    map: ImpactMap,
+    curve: SymmetricCurve,
+    forcing: f64,
+}
+
+impl Family {
+    fn of(system: &System) -> Result<Self, OrbitError> {
+        let unit = Parameters { forcing_per_clearance: 1.0, ..system.parameters() };
+        // Every other parameter has been proven valid.
+        let unit = System::new(unit).map_err(|_| OrbitError::NoSteadyMotion)?;
+        let map = ImpactMap::of(&unit)?;
+        let curve = SymmetricCurve::with(&unit, &map.flight);
+        Ok(Self { system: unit, map, curve, forcing: system.forcing_per_clearance() })
+    }
+
+    fn map_at(&self, beta: f64) -> ImpactMap {
+        self.map.with_forcing(self.curve.forcing(beta))
+    }
+
+    fn orbit(&self, beta: f64) -> Option<SymmetricOrbit> {
+        symmetric_orbit(&self.system, &self.map_at(beta), &self.curve, beta)
+    }
+
+    fn test(&self, kind: Bifurcation, beta: f64) -> f64 {
+        let map = self.map_at(beta);
+        let cycle = self.curve.cycle(&map.flight, beta);
+        match kind {
+            Bifurcation::SymmetryBreaking => minus_one(&cycle.jacobian(&map)),
+            Bifurcation::NeimarkSacker => unit_product(&cycle.jacobian(&map)),
+            Bifurcation::Grazing => {
+                super::admissibility::Admissibility::of(&map, &cycle.flights()).room
+            }
+            _ => beta - self.curve.turning(),
+        }
+    }
+
+    fn attracts(&self, beta: f64) -> bool {
+        beta > 0.0 && self.orbit(beta).is_some_and(|orbit| orbit.orbit.attracts())
+    }
+
+    fn limit(&self, kind: Bifurcation, beta: f64, bracket: [f64; 2]) -> Limit {
+        let forcing = self.curve.forcing(beta);
+        let clearance = |beta: f64| self.forcing / self.curve.forcing(beta);
+        let [a, b] = bracket.map(clearance);
+        // Close beside the limit, and far outside its rounding.
+        let aside = 1e-5 * beta;
+        Limit {
+            kind,
+            absorber: beta,
+            forcing_over_clearance: forcing,
+            clearance: clearance(beta),
+            bracket: [a.min(b), a.max(b)],
+            test: self.test(kind, beta),
+            bounds_stability: self.attracts(beta - aside) != self.attracts(beta + aside),
+        }
+    }
+}
+
+impl SymmetricFamily {
+    /// The family of `system`'s frequency, mass ratio, damping and restitution.
+    ///
+    /// # Errors
+    /// [`OrbitError::NoSteadyMotion`] for an undamped oscillator driven at its natural frequency.
+    pub fn of(system: &System) -> Result<Self, OrbitError> {
+        let family = Family::of(system)?;
+        let turning = family.curve.turning();
+        let mut limits = Vec::new();
+        if turning > 0.0 && turning < LARGEST {
+            let width = WIDTH * turning;
+            limits.push(family.limit(
+                Bifurcation::SaddleNode,
+                turning,
+                [turning - width, turning + width],
+            ));
+        }
+        for kind in
+            [Bifurcation::SymmetryBreaking, Bifurcation::NeimarkSacker, Bifurcation::Grazing]
+        {
+            limits.extend(family.roots(kind));
+        }
+        limits.sort_by(|a, b| a.absorber.total_cmp(&b.absorber));
+        let stable = family.stable_stretches(&limits);
+        Ok(Self { limits, stable })
+    }
+
+    /// The nearest limit of stability of either kind on each side of a clearance factor, among
+    /// stretches that contain it.
+    pub fn stretch_around(&self, clearance: f64) -> Option<&StableStretch> {
+        self.stable.iter().find(|stretch| {
+            stretch.clearance[0] <= clearance && clearance <= stretch.clearance[1]
+        })
+    }
+}
+
+impl Family {
+    fn roots(&self, kind: Bifurcation) -> Vec<Limit> {
+        let step = LARGEST / f64::from(PIECES);
+        let mut found = Vec::new();
+        let mut before = self.test(kind, 0.5 * step);
+        for k in 1..PIECES {
+            let (from, to) = ((f64::from(k) - 0.5) * step, (f64::from(k) + 0.5) * step);
+            let after = self.test(kind, to);
+            if before * after < 0.0
+                && let Ok(root) = brent(from, to, WIDTH, |beta| self.test(kind, beta))
+                && self.is_real(kind, root.at, before.abs().max(after.abs()))
+            {
+                found.push(self.limit(kind, root.at, [root.at - WIDTH, root.at + WIDTH]));
+            }
+            before = after;
+        }
+        found
+    }
+
+    /// Not a jump of the test function, and not two real reciprocal multipliers.
+    fn is_real(&self, kind: Bifurcation, beta: f64, scale: f64) -> bool {
+        if self.test(kind, beta).abs() > 1e-6 * scale {
+            return false;
+        }
+        if kind != Bifurcation::NeimarkSacker {
+            return true;
+        }
+        let map = self.map_at(beta);
+        let jacobian = self.curve.cycle(&map.flight, beta).jacobian(&map);
+        Multipliers::of(&jacobian).is_some_and(|found| {
+            found.values.iter().any(|[re, im]| *im != 0.0 && (libm::hypot(*re, *im) - 1.0).abs() < 1e-6)
+        })
+    }
+
+    /// Between neighbouring limits stability is one and the same.
+    fn stable_stretches(&self, limits: &[Limit]) -> Vec<StableStretch> {
+        let mut edges: Vec<(f64, Option<Bifurcation>)> = vec![(0.5 * LARGEST / f64::from(PIECES), None)];
+        edges.extend(limits.iter().map(|limit| (limit.absorber, Some(limit.kind))));
+        edges.push((LARGEST, None));
+        let mut found: Vec<StableStretch> = Vec::new();
+        let clearance = |beta: f64| self.forcing / self.curve.forcing(beta);
+        let mut open: Option<(f64, Option<Bifurcation>)> = None;
+        for pair in edges.windows(2) {
+            let middle = 0.5 * (pair[0].0 + pair[1].0);
+            let attracts = self.attracts(middle);
+            if attracts && open.is_none() {
+                open = Some(pair[0]);
+            }
+            let last = pair[1].0 == LARGEST;
+            if let Some(begin) = open
+                && (!attracts || last)
+            {
+                let end = if attracts { pair[1] } else { pair[0] };
+                found.push(stretch(begin, end, &clearance));
+                open = None;
+            }
+        }
+        found
+    }
+}
+
+fn stretch(
+    begin: (f64, Option<Bifurcation>),
+    end: (f64, Option<Bifurcation>),
+    clearance: &impl Fn(f64) -> f64,
+) -> StableStretch {
+    let (a, b) = (clearance(begin.0), clearance(end.0));
+    if a <= b {
+        StableStretch { clearance: [a, b], ends: [begin.1, end.1] }
+    } else {
+        StableStretch { clearance: [b, a], ends: [end.1, begin.1] }
+    }
+}

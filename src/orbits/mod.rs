@@ -1,0 +1,61 @@
+//! Exact periodic orbits of the full system, at any mass ratio: layer 3.
+//!
+//! Nothing is expanded in the mass ratio and nothing is integrated step by step. Between impacts the
+//! motion is closed form ([`flight`]); from one impact to the next it is a map with an exact Jacobian
+//! ([`impact_map`]). Its symmetric two-impact cycles solve one quadratic ([`symmetric`]); all others
+//! are found by Newton's method ([`newton`]) and followed by continuation ([`branch`]), with their
+//! bifurcations. Where the symmetric ones begin and end is [`limits`]. Nothing here knows of the
+//! asymptotic theory, or of simulation.
+
+pub mod admissibility;
+pub mod branch;
+pub mod flight;
+pub mod impact_map;
+pub mod limits;
+pub mod multipliers;
+pub mod newton;
+pub mod orbit;
+pub mod special;
+pub mod symmetric;
+pub mod switching;
+
+pub use admissibility::Admissibility;
+pub use branch::{Branch, BranchEnd, BranchPoint, Parameter};
+pub use impact_map::{AfterImpact, ImpactMap, Wall};
+pub use limits::{Limit, SymmetricFamily};
+pub use multipliers::{Leading, Multipliers};
+pub use newton::Convergence;
+pub use orbit::{Closure, Cycle, Orbit, Origin};
+pub use special::{Bifurcation, SpecialPoint};
+pub use symmetric::{SymmetricOrbit, symmetric_orbits};
+
+/// Why an orbit is not returned.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum OrbitError {
+    /// The steady motion between impacts does not exist.
+    #[error(
+        "an undamped oscillator driven exactly at its natural frequency has no steady motion \
+         between impacts; add damping or change the frequency"
+    )]
+    NoSteadyMotion,
+    /// Newton's method did not converge.
+    #[error(
+        "Newton's method stopped after {iterations} steps with a residual of {residual:.1e}; \
+         start closer to the orbit"
+    )]
+    NotConverged {
+        /// Steps taken.
+        iterations: u32,
+        /// Largest closure defect over the size of the orbit.
+        residual: f64,
+    },
+    /// The equations are singular at this orbit: at a grazing impact or a bifurcation.
+    #[error("the orbit's equations are singular: it grazes a wall or lies on a bifurcation")]
+    Singular,
+    /// A cycle needs at least one impact, a positive duration each, and a period.
+    #[error("the start is not a cycle: {reason}")]
+    NotACycle {
+        /// What is wrong with it.
+        reason: &'static str,
+    },
+}

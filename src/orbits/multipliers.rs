@@ -1,0 +1,161 @@
+//! Multipliers of an orbit: the eigenvalues of its map's Jacobian, with the checks that make them
+//! evidence, and what they say of stability.
+
+use nalgebra::linalg::Schur;
+use nalgebra::{Complex, Matrix4, SMatrix};
+use serde::Serialize;
+
+/// Sweeps that the eigenvalue iteration may take; three or four per eigenvalue are usual.
+const LARGEST_SWEEPS: usize = 300;
+/// Shifts of the spectrum, over the matrix's size, that are tried in turn. The unshifted iteration
+/// stalls on spectra symmetric about 0 (a biquadratic characteristic polynomial), which any shift
+/// makes unsymmetric.
+const SHIFTS: [f64; 3] = [0.0, 0.37, -0.61];
+
+/// The four multipliers of a map, largest modulus first, conjugates next to one another.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Multipliers {
+    /// `[re, im]`, dimensionless.
+    pub values: [[f64; 2]; 4],
+    /// `abs(sum - trace)`, over the size of the matrix: rounding.
+    pub trace_residual: f64,
+}
+
+impl Multipliers {
+    /// Eigenvalues of `jacobian`; `None` where it is not finite or the iteration does not converge.
+    pub fn of(jacobian: &Matrix4<f64>) -> Option<Self> {
+        let size = jacobian.amax();
+        if !size.is_finite() {
+            return None;
+        }
+        let mut values = SHIFTS.iter().find_map(|shift| eigenvalues(jacobian, shift * size))?;
+        values.sort_by(|a, b| {
+            let key = |c: &Complex<f64>| libm::hypot(c.re, c.im);
+            // Conjugates have equal moduli to the last bit; the positive imaginary part comes first.
+            key(b).total_cmp(&key(a)).then(b.re.total_cmp(&a.re)).then(b.im.total_cmp(&a.im))
+        });
+        let sum: f64 = values.iter().map(|value| value.re).sum();
+        let trace_residual = (sum - jacobian.trace()).abs() / size.max(f64::MIN_POSITIVE);
+        Some(Self { values: values.map(|value| [value.re, value.im]), trace_residual })
+    }
+
+    /// Largest modulus.
+    pub fn spectral_radius(&self) -> f64 {
+        let [re, im] = self.values[0];
+        libm::hypot(re, im)
+    }
+
+    /// Whether every multiplier lies inside the unit circle.
+    pub fn stable(&self) -> bool {
+        self.spectral_radius() < 1.0
+    }
+
+    /// What kind of multiplier is the largest.
+    pub fn leading(&self) -> Leading {
+        match self.values[0] {
+            [_, im] if im != 0.0 => Leading::ComplexPair,
+            [re, _] if re < 0.0 => Leading::Negative,
+            _ => Leading::Positive,
+        }
+    }
+}
+
+/// The kind of the largest multiplier: through which it is that stability is, or would be, lost.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Leading {
+    /// Real and positive: towards +1, a saddle-node.
+    Positive,
+    /// Real and negative: towards -1, a symmetry breaking or a period doubling.
+    Negative,
+    /// A complex pair: towards a Neimark-Sacker bifurcation, the Hopf of the slow flow.
+    ComplexPair,
+}
+
+fn eigenvalues(jacobian: &Matrix4<f64>, shift: f64) -> Option<[Complex<f64>; 4]> {
+    let shifted = jacobian + Matrix4::identity() * shift;
+    let schur = Schur::try_new(shifted, f64::EPSILON, LARGEST_SWEEPS)?;
+    let found = schur.complex_eigenvalues();
+    let values = [0, 1, 2, 3].map(|k| found[k] - shift);
+    values.iter().all(|value| value.re.is_finite() && value.im.is_finite()).then_some(values)
+}
+
+/// `det(J - I)`: 0 where a multiplier is +1.
+pub fn plus_one(jacobian: &Matrix4<f64>) -> f64 {
+    (jacobian - Matrix4::identity()).determinant()
+}
+
+/// `det(J + I)`: 0 where a multiplier is -1.
+pub fn minus_one(jacobian: &Matrix4<f64>) -> f64 {
+    (jacobian + Matrix4::identity()).determinant()
+}
+
+/// `det(J^(2) - I)` with the second compound matrix, whose eigenvalues are the products of two
+/// different multipliers: 0 where a complex pair has modulus 1 (and where two real multipliers are
+/// each other's reciprocals, which is no bifurcation).
+pub fn unit_product(jacobian: &Matrix4<f64>) -> f64 {
+    const PAIRS: [(usize, usize); 6] = [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)];
+    let compound = SMatrix::<f64, 6, 6>::from_fn(|row, column| {
+        let ((a, b), (c, d)) = (PAIRS[row], PAIRS[column]);
+        jacobian[(a, c)] * jacobian[(b, d)] - jacobian[(a, d)] * jacobian[(b, c)]
+    });
+    (compound - SMatrix::<f64, 6, 6>::identity()).determinant()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn companion(roots: [f64; 4]) -> Matrix4<f64> {
+        // Coefficients of the monic polynomial, ascending.
+        let mut p = vec![1.0];
+        for root in roots {
+            let mut q = vec![0.0; p.len() + 1];
+            for (k, c) in p.iter().enumerate() {
+                q[k + 1] += c;
+                q[k] -= root * c;
+            }
+            p = q;
+        }
+        Matrix4::from_fn(|row, column| {
+            if column == 3 { -p[row] } else { f64::from(u8::from(row == column + 1)) }
+        })
+    }
+
+    #[test]
+    fn known_spectra_are_found_the_symmetric_ones_included() {
+        for roots in [[0.9, 0.5, -0.3, 0.1], [2.0, 1.0, -1.0, -2.0], [0.0, 0.0, 0.5, -0.5]] {
+            let found = Multipliers::of(&companion(roots)).expect("finite");
+            let mut found: Vec<f64> = found.values.iter().map(|value| value[0]).collect();
+            let mut roots = roots.to_vec();
+            found.sort_by(f64::total_cmp);
+            roots.sort_by(f64::total_cmp);
+            // A double root of a companion matrix is known to the root of the precision.
+            assert!(found.iter().zip(&roots).all(|(a, b)| (a - b).abs() < 1e-7), "{found:?}");
+        }
+    }
+
+    #[test]
+    fn a_matrix_that_is_not_finite_has_no_multipliers() {
+        let mut broken = Matrix4::identity();
+        broken[(2, 1)] = f64::NAN;
+        assert!(Multipliers::of(&broken).is_none());
+    }
+
+    #[test]
+    fn test_functions_vanish_where_they_should() {
+        let turn = |modulus: f64| {
+            let (sin, cos) = libm::sincos(0.7);
+            let mut m = Matrix4::identity() * 0.3;
+            m[(0, 0)] = modulus * cos;
+            m[(1, 1)] = modulus * cos;
+            m[(0, 1)] = -modulus * sin;
+            m[(1, 0)] = modulus * sin;
+            m
+        };
+        assert!(unit_product(&turn(1.0)).abs() < 1e-15);
+        assert!(unit_product(&turn(0.99)) * unit_product(&turn(1.01)) < 0.0);
+        assert!(plus_one(&companion([1.0, 0.5, 0.2, -0.3])).abs() < 1e-15);
+        assert!(minus_one(&companion([-1.0, 0.5, 0.2, -0.3])).abs() < 1e-15);
+    }
+}

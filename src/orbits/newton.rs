@@ -1,0 +1,187 @@
+//! Newton's method on the impact map: any cycle of impacts, of any length, at once.
+//!
+//! Unknown are the state after every impact and the time to the next (multiple shooting), so that no
+//! impact is searched for and no long unstable flight is shot through. The defects are carried round
+//! the cycle by the exact Jacobians, which leaves a system of four equations (five with a parameter
+//! and the arclength) whatever the number of impacts.
+
+use nalgebra::{Matrix4, Matrix5, Vector4, Vector5};
+use serde::Serialize;
+
+use super::OrbitError;
+use super::impact_map::{AfterImpact, ImpactMap, Step};
+use super::orbit::{Cycle, Orbit, Origin};
+use crate::system::System;
+
+/// Steps before the iteration is given up; from a good start five are enough.
+const LARGEST_STEPS: u32 = 40;
+/// Update over the orbit's size below which a step that no longer improves has converged: a hundred
+/// units in the last place.
+const CONVERGED: f64 = 2e-14;
+/// Residual over the orbit's size above which a stalled iteration has failed: rounding grows with
+/// the multipliers, and no orbit worth naming has larger ones than 1e5.
+const ACCEPTED: f64 = 1e-10;
+
+/// How well a cycle closes.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Convergence {
+    /// Largest defect of the closure and of the impact conditions, over the size of the orbit.
+    pub residual: f64,
+    /// Newton steps taken.
+    pub iterations: u32,
+}
+
+/// The defects of a cycle and its linearisation, condensed to its first state.
+pub(super) struct Linearised {
+    steps: Vec<Step>,
+    defects: Vec<Vector4<f64>>,
+    /// Largest defect, absolute.
+    pub residual: f64,
+    /// `C` times the product of the Jacobians.
+    pub jacobian: Matrix4<f64>,
+    /// The defects carried to the cycle's end, times `C`.
+    pub carried: Vector4<f64>,
+    /// The same for a parameter's influence.
+    pub by_parameter: Vector4<f64>,
+}
+
+impl Linearised {
+    /// Linearises `cycle`; `weights` are the derivatives of forcing, frequency and restitution by
+    /// the parameter.
+    pub fn of(map: &ImpactMap, cycle: &Cycle, weights: [f64; 3]) -> Self {
+        let steps = cycle.steps(map);
+        let close = cycle.closure.matrix();
+        let mut product = Matrix4::identity();
+        let (mut carried, mut by_parameter) = (Vector4::zeros(), Vector4::zeros());
+        let mut defects = Vec::with_capacity(steps.len());
+        let mut residual: f64 = 0.0;
+        for (k, step) in steps.iter().enumerate() {
+            let defect = step.next.vector() - target(cycle, k);
+            residual = residual.max(defect.amax()).max(step.gap.abs());
+            let jacobian = step.jacobian();
+            let per_gap = step.next_by_duration / step.approach;
+            carried = jacobian * carried + defect - per_gap * step.gap;
+            by_parameter = jacobian * by_parameter + parameter_influence(step, weights);
+            product = jacobian * product;
+            defects.push(defect);
+        }
+        Self {
+            steps,
+            defects,
+            residual,
+            jacobian: close * product,
+            carried: close * carried,
+            by_parameter: close * by_parameter,
+        }
+    }
+
+    /// The cycle moved by `first` in its first state and by `parameter`, everything else following.
+    pub fn moved(&self, cycle: &Cycle, first: Vector4<f64>, parameter: f64, weights: [f64; 3]) -> Cycle {
+        let mut moved = cycle.clone();
+        let mut change = first;
+        for (k, step) in self.steps.iter().enumerate() {
+            moved.impacts[k] = AfterImpact::from_vector(&(cycle.impacts[k].vector() + change));
+            let gap_by_parameter = weighted(step.gap_by_parameter, weights);
+            let gap = step.gap + step.gap_by_state.dot(&change) + gap_by_parameter * parameter;
+            moved.durations[k] -= gap / step.approach;
+            change = step.jacobian() * change + self.defects[k]
+                - step.next_by_duration * (step.gap / step.approach)
+                + parameter_influence(step, weights) * parameter;
+        }
+        moved
+    }
+}
+
+/// Where the flight `k` must lead: to the next state, or, through the closure, to the first.
+fn target(cycle: &Cycle, k: usize) -> Vector4<f64> {
+    match cycle.impacts.get(k + 1) {
+        Some(next) => next.vector(),
+        None => {
+            let turn = Vector4::new(cycle.closure.turn(), 0.0, 0.0, 0.0);
+            cycle.closure.matrix() * cycle.impacts[0].vector() + turn
+        }
+    }
+}
+
+fn weighted(values: [f64; 3], weights: [f64; 3]) -> f64 {
+    values.iter().zip(weights).map(|(value, weight)| value * weight).sum()
+}
+
+fn parameter_influence(step: &Step, weights: [f64; 3]) -> Vector4<f64> {
+    let next: Vector4<f64> =
+        (0..3).map(|k| step.next_by_parameter[k] * weights[k]).sum::<Vector4<f64>>();
+    next - step.next_by_duration * (weighted(step.gap_by_parameter, weights) / step.approach)
+}
+
+/// Size of an orbit, against which defects are measured.
+pub(super) fn size(cycle: &Cycle) -> f64 {
+    let largest = |after: &AfterImpact| {
+        after.x.abs().max(after.x_velocity.abs()).max(after.y_velocity.abs())
+    };
+    cycle.impacts.iter().map(largest).fold(1.0, f64::max)
+}
+
+/// Solves for the cycle near `start`.
+///
+/// # Errors
+/// [`OrbitError`] when `start` is no cycle, or Newton's method does not converge.
+pub fn solve(system: &System, start: &Cycle, origin: Origin) -> Result<Orbit, OrbitError> {
+    let map = ImpactMap::of(system)?;
+    let (cycle, convergence) = converge(&map, start)?;
+    Orbit::measured(&map, cycle, convergence, origin)
+}
+
+/// Newton's iteration at fixed parameters.
+pub(super) fn converge(
+    map: &ImpactMap,
+    start: &Cycle,
+) -> Result<(Cycle, Convergence), OrbitError> {
+    start.check()?;
+    iterate(start.clone(), |cycle| {
+        let linear = Linearised::of(map, cycle, [0.0; 3]);
+        let matrix = Matrix4::identity() - linear.jacobian;
+        let first = matrix.lu().solve(&linear.carried).ok_or(OrbitError::Singular)?;
+        let update = first.amax();
+        Ok((linear.moved(cycle, first, 0.0, [0.0; 3]), linear.residual, update))
+    })
+}
+
+/// Repeats `step` (next cycle, residual of the present one, size of the update) until the update is
+/// rounding, or no longer shrinks with a residual that is.
+pub(super) fn iterate(
+    mut cycle: Cycle,
+    mut step: impl FnMut(&Cycle) -> Result<(Cycle, f64, f64), OrbitError>,
+) -> Result<(Cycle, Convergence), OrbitError> {
+    let mut last = f64::INFINITY;
+    for iterations in 0..LARGEST_STEPS {
+        let (next, residual, update) = step(&cycle)?;
+        let residual = residual / size(&cycle);
+        let failed = OrbitError::NotConverged { iterations, residual };
+        if !(residual.is_finite() && update.is_finite()) || next.check().is_err() {
+            return Err(failed);
+        }
+        let update = update / size(&cycle);
+        let stalled = update >= 0.5 * last && residual < ACCEPTED && update < 1e-6;
+        if update < CONVERGED || stalled {
+            return Ok((cycle, Convergence { residual, iterations }));
+        }
+        last = update;
+        cycle = next;
+    }
+    Err(OrbitError::NotConverged { iterations: LARGEST_STEPS, residual: last })
+}
+
+/// The bordered system of pseudo-arclength continuation: `(I - J) dz - q dp = rhs`,
+/// `tangent . (dz, dp) = along`.
+pub(super) fn bordered(
+    linear: &Linearised,
+    tangent: &Vector5<f64>,
+    right: &Vector5<f64>,
+) -> Option<Vector5<f64>> {
+    let mut matrix = Matrix5::zeros();
+    matrix.fixed_view_mut::<4, 4>(0, 0).copy_from(&(Matrix4::identity() - linear.jacobian));
+    matrix.fixed_view_mut::<4, 1>(0, 4).copy_from(&(-linear.by_parameter));
+    matrix.fixed_view_mut::<1, 5>(4, 0).copy_from(&tangent.transpose());
+    let solution = matrix.lu().solve(right)?;
+    solution.iter().all(|value| value.is_finite()).then_some(solution)
+}

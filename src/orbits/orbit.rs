@@ -1,0 +1,295 @@
+//! A periodic orbit: which walls it meets in which order, after how many periods it repeats, its
+//! states, and the evidence that it exists and is or is not stable.
+
+use std::f64::consts::{PI, TAU};
+
+use nalgebra::Matrix4;
+use serde::Serialize;
+
+use super::OrbitError;
+use super::admissibility::{Admissibility, sign_changes};
+use super::impact_map::{AfterImpact, ImpactMap, Step, Wall};
+use super::multipliers::Multipliers;
+use super::newton::Convergence;
+use crate::system::System;
+
+/// How a cycle of impacts closes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Closure {
+    /// On itself, after so many excitation periods.
+    Repeats {
+        /// `n`.
+        periods: u32,
+    },
+    /// On its mirror image after so many half periods (an odd number): a symmetric orbit, of which
+    /// half is computed.
+    Mirrors {
+        /// `n`, the number of excitation periods of the whole orbit.
+        periods: u32,
+    },
+}
+
+impl Closure {
+    /// Advance of the excitation's phase over the computed part, radians.
+    pub fn turn(self) -> f64 {
+        match self {
+            Self::Repeats { periods } => f64::from(periods) * TAU,
+            Self::Mirrors { periods } => f64::from(periods) * PI,
+        }
+    }
+
+    /// The linear map that takes the end of the computed part to its beginning, on
+    /// `(phase, x, x', y')`.
+    pub fn matrix(self) -> Matrix4<f64> {
+        match self {
+            Self::Repeats { .. } => Matrix4::identity(),
+            Self::Mirrors { .. } => {
+                Matrix4::from_diagonal(&nalgebra::Vector4::new(1.0, -1.0, -1.0, -1.0))
+            }
+        }
+    }
+}
+
+/// A closed sequence of impacts: the state after each, the wall it happened on, and the time to the
+/// next.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Cycle {
+    /// How it closes.
+    pub closure: Closure,
+    /// The walls in order; for [`Closure::Mirrors`] of half the orbit.
+    pub walls: Vec<Wall>,
+    /// The state after each of those impacts.
+    pub impacts: Vec<AfterImpact>,
+    /// Fast time from each to the next.
+    pub durations: Vec<f64>,
+}
+
+impl Cycle {
+    /// The wall that ends flight `index`.
+    pub fn next_wall(&self, index: usize) -> Wall {
+        match (self.walls.get(index + 1), self.closure) {
+            (Some(wall), _) => *wall,
+            (None, Closure::Repeats { .. }) => self.walls[0],
+            (None, Closure::Mirrors { .. }) => self.walls[0].opposite(),
+        }
+    }
+
+    /// The whole orbit's sequence of walls over one repetition, as `+-`: rotated and mirrored to the
+    /// first in the alphabet, so that one motion has one name.
+    pub fn sequence(&self) -> String {
+        let mut walls = self.walls.clone();
+        if matches!(self.closure, Closure::Mirrors { .. }) {
+            walls.extend(self.walls.iter().map(|wall| wall.opposite()));
+        }
+        let mirrored: Vec<Wall> = walls.iter().map(|wall| wall.opposite()).collect();
+        let rotations = (0..walls.len()).flat_map(|shift| {
+            [&walls, &mirrored].map(|walls| {
+                walls[shift..].iter().chain(&walls[..shift]).map(|wall| wall.symbol()).collect()
+            })
+        });
+        rotations.min().unwrap_or_default()
+    }
+
+    /// `p`, impacts of the whole orbit.
+    pub fn impact_count(&self) -> usize {
+        match self.closure {
+            Closure::Repeats { .. } => self.walls.len(),
+            Closure::Mirrors { .. } => 2 * self.walls.len(),
+        }
+    }
+
+    /// `n`, excitation periods of the whole orbit.
+    pub fn periods(&self) -> u32 {
+        match self.closure {
+            Closure::Repeats { periods } | Closure::Mirrors { periods } => periods,
+        }
+    }
+
+    /// The same orbit written out over a whole repetition.
+    pub fn unfolded(&self) -> Self {
+        let Closure::Mirrors { periods } = self.closure else { return self.clone() };
+        // The second half begins where the mirror image of the first begins, half a turn later.
+        let later = |after: &AfterImpact| {
+            let mirror = after.mirrored();
+            AfterImpact { phase: mirror.phase + PI * f64::from(periods + 1), ..mirror }
+        };
+        let whole = |half: &[AfterImpact]| {
+            half.iter().copied().chain(half.iter().map(later)).collect::<Vec<_>>()
+        };
+        let opposite = self.walls.iter().map(|wall| wall.opposite());
+        Self {
+            closure: Closure::Repeats { periods },
+            walls: self.walls.iter().copied().chain(opposite).collect(),
+            impacts: whole(&self.impacts),
+            durations: self.durations.repeat(2),
+        }
+    }
+
+    /// Half of the cycle, if its second half is the mirror image of the first to within `tolerance`
+    /// over the clearance (radians for the phase).
+    pub fn folded(&self, tolerance: f64) -> Option<Self> {
+        let Closure::Repeats { periods } = self.closure else { return None };
+        let count = self.walls.len();
+        if periods % 2 == 0 || count % 2 == 1 {
+            return None;
+        }
+        let half = count / 2;
+        let turn = PI * f64::from(periods + 1);
+        let mirrors = (0..half).all(|k| {
+            let mirror = self.impacts[k].mirrored();
+            let mirror = AfterImpact { phase: mirror.phase + turn, ..mirror };
+            let distance = (mirror.vector() - self.impacts[k + half].vector()).amax();
+            self.walls[k + half] == self.walls[k].opposite() && distance <= tolerance
+        });
+        mirrors.then(|| Self {
+            closure: Closure::Mirrors { periods },
+            walls: self.walls[..half].to_vec(),
+            impacts: self.impacts[..half].to_vec(),
+            durations: self.durations[..half].to_vec(),
+        })
+    }
+
+    /// The steps of the impact map along the cycle.
+    pub fn steps(&self, map: &ImpactMap) -> Vec<Step> {
+        (0..self.walls.len())
+            .map(|k| {
+                map.step(&self.impacts[k], self.walls[k], self.next_wall(k), self.durations[k])
+            })
+            .collect()
+    }
+
+    /// Its flights, as [`Admissibility::of`] reads them.
+    pub fn flights(&self) -> Vec<(AfterImpact, Wall, Wall, f64)> {
+        (0..self.walls.len())
+            .map(|k| (self.impacts[k], self.walls[k], self.next_wall(k), self.durations[k]))
+            .collect()
+    }
+
+    /// Jacobian of the map around the cycle, its closure included.
+    pub fn jacobian(&self, map: &ImpactMap) -> Matrix4<f64> {
+        let product = self
+            .steps(map)
+            .iter()
+            .fold(Matrix4::identity(), |product, step| step.jacobian() * product);
+        self.closure.matrix() * product
+    }
+
+    /// # Errors
+    /// [`OrbitError::NotACycle`] where lengths disagree or a duration is not positive.
+    pub(super) fn check(&self) -> Result<(), OrbitError> {
+        let count = self.walls.len();
+        let refuse = |reason| Err(OrbitError::NotACycle { reason });
+        if count == 0 || self.periods() == 0 {
+            return refuse("it has no impact or no period");
+        }
+        if self.impacts.len() != count || self.durations.len() != count {
+            return refuse("each impact needs a state and a time to the next");
+        }
+        if matches!(self.closure, Closure::Mirrors { periods } if periods % 2 == 0) {
+            return refuse("a motion equals its mirror image after an odd number of half periods");
+        }
+        if !self.durations.iter().all(|duration| duration.is_finite() && *duration > 0.0) {
+            return refuse("a time between impacts is not positive");
+        }
+        Ok(())
+    }
+}
+
+/// How an orbit was found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Origin {
+    /// From the quadratic of the symmetric orbits.
+    ClosedForm,
+    /// Newton's method started from states of a simulated motion.
+    Simulation,
+    /// By continuation from another parameter value.
+    Continuation,
+    /// By stepping off another orbit's bifurcation.
+    Switching,
+}
+
+/// A periodic orbit with its evidence.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Orbit {
+    /// The impacts.
+    pub cycle: Cycle,
+    /// How well it closes, and in how many steps that was reached.
+    pub convergence: Convergence,
+    /// Multipliers of the map around [`Orbit::cycle`]: of half the orbit for
+    /// [`Closure::Mirrors`].
+    pub multipliers: Multipliers,
+    /// Whether it is a motion.
+    pub admissibility: Admissibility,
+    /// How it was found.
+    pub origin: Origin,
+}
+
+impl Orbit {
+    /// Measures a converged cycle.
+    ///
+    /// # Errors
+    /// [`OrbitError::Singular`] where its multipliers do not exist: at a grazing impact.
+    pub fn measured(
+        map: &ImpactMap,
+        cycle: Cycle,
+        convergence: Convergence,
+        origin: Origin,
+    ) -> Result<Self, OrbitError> {
+        let multipliers = Multipliers::of(&cycle.jacobian(map)).ok_or(OrbitError::Singular)?;
+        let admissibility = Admissibility::of(map, &cycle.flights());
+        Ok(Self { cycle, convergence, multipliers, admissibility, origin })
+    }
+
+    /// A motion that nearby motions approach.
+    pub fn attracts(&self) -> bool {
+        self.admissibility.admissible && self.multipliers.stable()
+    }
+
+    /// Largest modulus of the multipliers over one excitation period.
+    pub fn radius_per_period(&self) -> f64 {
+        let computed = self.cycle.closure.turn() / TAU;
+        libm::pow(self.multipliers.spectral_radius(), 1.0 / computed)
+    }
+
+    /// Largest displacement and velocity of the oscillator along the orbit, over the clearance.
+    ///
+    /// # Errors
+    /// As [`ImpactMap::of`].
+    pub fn peaks(&self, system: &System) -> Result<Peaks, OrbitError> {
+        Ok(Peaks::of(&ImpactMap::of(system)?, &self.cycle))
+    }
+}
+
+/// Largest values along an orbit, over the clearance, fast time.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Peaks {
+    /// Of the absolute displacement of the oscillator.
+    pub displacement: f64,
+    /// Of its absolute velocity.
+    pub velocity: f64,
+}
+
+impl Peaks {
+    /// Along a cycle: at impacts and where displacement or velocity turns between them.
+    pub fn of(map: &ImpactMap, cycle: &Cycle) -> Self {
+        let mut peaks = Self { displacement: 0.0, velocity: 0.0 };
+        for (start, _, _, duration) in cycle.flights() {
+            let mut note = |s: f64| {
+                let at = map.oscillator_at(&start, s);
+                peaks.displacement = peaks.displacement.max(at.x.abs());
+                peaks.velocity = peaks.velocity.max(at.v.abs());
+            };
+            note(0.0);
+            note(duration);
+            let frequency = map.frequency();
+            sign_changes(duration, frequency, |s| map.oscillator_at(&start, s).v, &mut note);
+            let acceleration = |s: f64| {
+                map.flight.acceleration(start.phase + frequency * s, map.oscillator_at(&start, s))
+            };
+            sign_changes(duration, frequency, acceleration, &mut note);
+        }
+        peaks
+    }
+}

@@ -1,0 +1,76 @@
+//! Bifurcations of periodic orbits: their names, and the evidence that one was located.
+
+use serde::Serialize;
+
+use super::orbit::Orbit;
+
+/// What happens to an orbit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Bifurcation {
+    /// Two orbits collide and vanish: a multiplier passes +1 where the branch turns back.
+    SaddleNode,
+    /// A symmetric orbit gives way to two asymmetric ones, mirror images of one another: the
+    /// multiplier of the half-period map passes -1.
+    SymmetryBreaking,
+    /// An orbit of twice the period branches off: a multiplier passes -1.
+    PeriodDoubling,
+    /// A complex pair of multipliers passes the unit circle, and a modulated motion branches off:
+    /// what the slow flow calls Hopf.
+    NeimarkSacker,
+    /// Between two impacts the absorber touches a wall: an impact appears.
+    Grazing,
+    /// An impact loses its speed: it disappears.
+    VanishingImpact,
+    /// Another branch passes through, without this one turning back.
+    BranchPoint,
+}
+
+impl Bifurcation {
+    /// The field's name for it.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::SaddleNode => "saddle-node",
+            Self::SymmetryBreaking => "symmetry breaking",
+            Self::PeriodDoubling => "period doubling",
+            Self::NeimarkSacker => "Neimark–Sacker",
+            Self::Grazing => "grazing",
+            Self::VanishingImpact => "vanishing impact",
+            Self::BranchPoint => "branch point",
+        }
+    }
+
+    /// The function whose zero it is.
+    pub fn test_function(self) -> &'static str {
+        match self {
+            Self::SaddleNode => "parameter component of the branch's tangent",
+            Self::SymmetryBreaking | Self::PeriodDoubling => "det(J + I)",
+            Self::NeimarkSacker => "det(J^(2) - I), second compound",
+            Self::Grazing => "smallest room between impacts",
+            Self::VanishingImpact => "smallest impact speed",
+            Self::BranchPoint => "det(J - I)",
+        }
+    }
+}
+
+/// A located bifurcation on a branch.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SpecialPoint {
+    /// Which.
+    pub kind: Bifurcation,
+    /// Value of the branch's parameter.
+    pub value: f64,
+    /// Values of the parameter between which it was located.
+    pub bracket: [f64; 2],
+    /// Width, over the parameter, to which it was located.
+    pub precision: f64,
+    /// The test function before, at and after it.
+    pub test: [f64; 3],
+    /// Whether the test function really vanishes there, rather than jump.
+    pub converged: bool,
+    /// The sequence of walls beyond, where an impact appears or disappears and Newton's method found
+    /// the orbit that goes on.
+    pub sequence_beyond: Option<String>,
+    /// The orbit there.
+    pub orbit: Orbit,
+}

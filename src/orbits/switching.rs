@@ -1,0 +1,117 @@
+//! From one branch to another: off a symmetry breaking, off a period doubling, across a grazing.
+
+use nalgebra::linalg::SVD;
+use nalgebra::{Matrix4, Vector4, Vector5};
+
+use super::OrbitError;
+use super::branch::{Branch, Parameter, Point, Settings, Tracer, trace};
+use super::impact_map::{AfterImpact, ImpactMap};
+use super::orbit::{Closure, Cycle, Orbit, Origin};
+use super::special::{Bifurcation, SpecialPoint};
+use crate::system::System;
+
+/// How far a new branch is entered, in the norm of the first state: far enough to tell it from the
+/// old one, near enough for its linearisation.
+const ENTRY: f64 = 1e-3;
+/// Relative changes of the parameter at which an orbit with one more impact is looked for beyond a
+/// grazing. It is born with a square root, so that Newton's method needs some room.
+const BEYOND: [f64; 6] = [1e-5, -1e-5, 1e-4, -1e-4, 1e-3, -1e-3];
+
+/// The branch that leaves another at a symmetry breaking or a period doubling, on the side where it
+/// exists; both orbits of a broken symmetry are mirror images, of which one is followed.
+///
+/// # Errors
+/// [`OrbitError`] where the special point is of another kind, or Newton's method does not find the
+/// branch.
+pub fn branch_off(
+    base: &System,
+    parameter: Parameter,
+    special: &SpecialPoint,
+    settings: &Settings,
+) -> Result<Branch, OrbitError> {
+    let tracer = Tracer::new(base, parameter);
+    let doubled = match (special.kind, special.orbit.cycle.closure) {
+        (Bifurcation::SymmetryBreaking, Closure::Mirrors { .. }) => special.orbit.cycle.unfolded(),
+        (Bifurcation::PeriodDoubling, Closure::Repeats { .. }) => twice(&special.orbit.cycle),
+        _ => return Err(OrbitError::NotACycle { reason: "no branch leaves there" }),
+    };
+    let system = parameter.applied(base, special.value).ok_or(OrbitError::Singular)?;
+    let map = ImpactMap::of(&system)?;
+    let direction = kernel(&(special.orbit.cycle.jacobian(&map) + Matrix4::identity()))
+        .ok_or(OrbitError::Singular)?;
+    let scaled = special.value / tracer.scale();
+    let mut along = Vector5::zeros();
+    along.fixed_rows_mut::<4>(0).copy_from(&direction);
+    let start = super::newton::Linearised::of(&map, &doubled, [0.0; 3]).moved(
+        &doubled,
+        direction * ENTRY,
+        0.0,
+        [0.0; 3],
+    );
+    let point = tracer.correct(start, scaled, &along, &along)?;
+    Ok(trace(&tracer, point, Origin::Switching, settings))
+}
+
+/// The cycle traversed twice.
+fn twice(cycle: &Cycle) -> Cycle {
+    let turn = cycle.closure.turn();
+    let later = cycle
+        .impacts
+        .iter()
+        .map(|impact| AfterImpact { phase: impact.phase + turn, ..*impact });
+    Cycle {
+        closure: Closure::Repeats { periods: 2 * cycle.periods() },
+        walls: cycle.walls.repeat(2),
+        impacts: cycle.impacts.iter().copied().chain(later).collect(),
+        durations: cycle.durations.repeat(2),
+    }
+}
+
+/// The unit vector that `matrix` shrinks most.
+fn kernel(matrix: &Matrix4<f64>) -> Option<Vector4<f64>> {
+    let svd = SVD::try_new(*matrix, false, true, f64::EPSILON, 300)?;
+    let rows = svd.v_t?;
+    let smallest = svd.singular_values.imin();
+    let vector: Vector4<f64> = rows.row(smallest).transpose();
+    // One of the two signs, always the same.
+    let sign = vector[vector.iamax()].signum();
+    Some(vector * sign)
+}
+
+/// The sequence of walls of the orbit that goes on beyond a grazing, if Newton's method finds it.
+pub(super) fn beyond_grazing(tracer: &Tracer, point: &Point, orbit: &Orbit) -> Option<String> {
+    across(tracer, point, orbit).map(|(found, _)| found.cycle.sequence())
+}
+
+/// The orbit with one more impact where `orbit` grazes, and the scaled parameter at which it was
+/// found.
+fn across(tracer: &Tracer, point: &Point, orbit: &Orbit) -> Option<(Orbit, f64)> {
+    let with_contact = inserted(tracer, point, orbit)?;
+    BEYOND.iter().find_map(|change| {
+        let scaled = point.parameter * (1.0 + change);
+        let found = tracer.at(&with_contact, scaled)?;
+        found.admissibility.admissible.then_some((found, scaled))
+    })
+}
+
+/// The cycle with the grazing contact counted as an impact.
+fn inserted(tracer: &Tracer, point: &Point, orbit: &Orbit) -> Option<Cycle> {
+    let at = orbit.admissibility.narrowest?;
+    let map = tracer.map_at(point.parameter)?;
+    let mut cycle = point.cycle.clone();
+    let start = cycle.impacts[at.flight];
+    let duration = cycle.durations[at.flight];
+    let first = at.fraction * duration;
+    let there = map.oscillator_at(&start, first);
+    let contact = AfterImpact {
+        phase: start.phase + map.frequency() * first,
+        x: there.x,
+        x_velocity: there.v,
+        y_velocity: start.y_velocity,
+    };
+    cycle.durations[at.flight] = first;
+    cycle.durations.insert(at.flight + 1, duration - first);
+    cycle.impacts.insert(at.flight + 1, contact);
+    cycle.walls.insert(at.flight + 1, at.wall);
+    Some(cycle)
+}
