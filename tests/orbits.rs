@@ -1,33 +1,226 @@
-//! Exact symmetric orbits of the full system against PHYSICS-level check values, simulation and
-//! properties.
-use vinesink::orbits::*;
-use vinesink::system::*;
+//! Exact periodic orbits of the full system.
+//!
+//! Truth, in this order: published check values, closed-form identities, the event-driven simulation,
+//! which shares no code with the orbits.
 
-fn table1(f: f64, b_mm: f64) -> System {
-    let (m1, k1, c1, m2): (f64, f64, f64, f64) = (4.168, 11.47e3, 3.02, 0.032);
-    let omega0 = (k1 / m1).sqrt();
-    let eps = m2 / m1;
-    System::new(Parameters {
-        mass_ratio: eps,
-        damping: c1 / (m2 * omega0),
-        restitution: 0.6,
-        frequency_ratio: std::f64::consts::TAU * f / omega0,
-        forcing_per_clearance: 0.25 / eps / b_mm,
-        excitation: Excitation::BaseDisplacement,
-    })
-    .unwrap()
+mod common;
+
+use common::{simulated_half_map, simulated_impacts, table1};
+use proptest::prelude::*;
+use vinesink::orbits::{
+    Bifurcation, Leading, Multipliers, OrbitError, SymmetricFamily, symmetric_orbits,
+};
+use vinesink::simulation::{Nobody, Simulation};
+use vinesink::system::{Excitation, Parameters, System};
+
+/// Half a unit of the last printed digit.
+fn agrees(printed: f64, digits: i32, value: f64) -> bool {
+    let unit = 10f64.powi(-digits);
+    (printed - value).abs() <= 0.5 * unit
+}
+
+/// Check values of the symmetric orbits: displacement at impact and peak in mm, largest multiplier.
+#[test]
+fn published_orbits_are_reproduced_to_all_printed_digits() {
+    for (frequency, clearance, impact, peak, radius) in [
+        (8.0, 7.5, -3.110, 3.562, 0.9726),
+        (8.0, 15.0, -1.938, 3.364, 0.9650),
+        (8.5, 20.0, -1.117, 3.587, 0.9667),
+    ] {
+        let orbits = symmetric_orbits(&table1(frequency, clearance)).expect("damped");
+        assert_eq!(orbits.len(), 2);
+        let stable = &orbits[1];
+        assert!(agrees(impact, 3, stable.impact_displacement * clearance));
+        assert!(agrees(peak, 3, stable.peaks.displacement * clearance));
+        assert!(agrees(radius, 4, stable.orbit.multipliers.spectral_radius()));
+        assert_eq!(stable.orbit.multipliers.leading(), Leading::ComplexPair);
+        assert!(stable.orbit.attracts());
+        assert!(!orbits[0].orbit.attracts(), "the other root is the unstable one");
+    }
+}
+
+/// Exact stability limits at 8 and 8.5 Hz, in mm.
+#[test]
+fn published_limits_are_reproduced_to_all_printed_digits() {
+    use Bifurcation::{NeimarkSacker, SaddleNode, SymmetryBreaking};
+    for (frequency, expected) in [
+        (8.0, vec![(SymmetryBreaking, 4.846, true), (SaddleNode, 16.695, true)]),
+        (
+            8.5,
+            vec![
+                (SymmetryBreaking, 6.441, true),
+                (NeimarkSacker, 25.219, true),
+                (SaddleNode, 34.230, false),
+            ],
+        ),
+    ] {
+        let family = SymmetricFamily::of(&table1(frequency, 10.0)).expect("damped");
+        for (kind, clearance, bounds) in expected {
+            let limit = family.limits.iter().find(|limit| limit.kind == kind).expect("exists");
+            assert!(agrees(clearance, 3, 10.0 * limit.clearance), "{limit:?}");
+            assert_eq!(limit.bounds_stability, bounds, "{limit:?}");
+        }
+        assert_eq!(family.stable.len(), 1);
+    }
+}
+
+/// A simulation started on an orbit comes back to it: 1e-10 over a period, in the norm of the states.
+#[test]
+fn a_simulation_started_on_an_orbit_follows_it() {
+    for (frequency, clearance) in [(8.0, 7.5), (8.0, 15.0), (8.5, 20.0), (8.5, 30.0)] {
+        let system = table1(frequency, clearance);
+        for orbit in symmetric_orbits(&system).expect("damped") {
+            let impacts = simulated_impacts(&system, &orbit, 4);
+            let after = orbit.orbit.cycle.unfolded();
+            for (k, impact) in impacts.iter().enumerate() {
+                let expected = after.impacts[(k + 1) % 2];
+                // An unstable orbit multiplies rounding by its multiplier in each half period.
+                let growth = orbit.orbit.multipliers.spectral_radius().max(1.0).powi(k as i32 + 1);
+                let tolerance = 1e-12 * growth;
+                assert!(tolerance < 1e-9, "{tolerance}");
+                assert!((impact.x - expected.x).abs() < tolerance, "{impact:?} {expected:?}");
+                assert!((impact.x_velocity_after - expected.x_velocity).abs() < tolerance);
+                assert!((impact.y_velocity_after - expected.y_velocity).abs() < tolerance);
+            }
+        }
+    }
+}
+
+/// Multipliers against differences of the simulated half-period map.
+#[test]
+fn multipliers_are_those_of_the_simulated_map() {
+    for (frequency, clearance) in [(8.0, 7.5), (8.0, 15.0), (8.5, 20.0), (8.5, 30.0)] {
+        let system = table1(frequency, clearance);
+        for orbit in symmetric_orbits(&system).expect("damped") {
+            let simulated = simulated_half_map(&system, &orbit, 1e-5);
+            let exact = orbit.orbit.cycle.jacobian(&map_of(&system));
+            // Central differences: h^2 times third derivatives, plus rounding over h.
+            assert!((simulated - exact).amax() < 1e-6 * exact.amax(), "{simulated} {exact}");
+            let simulated = Multipliers::of(&simulated).expect("finite").values;
+            for (a, b) in simulated.iter().zip(orbit.orbit.multipliers.values) {
+                assert!((a[0] - b[0]).abs() < 1e-6 * (1.0 + b[0].abs()), "{a:?} {b:?}");
+                assert!((a[1] - b[1]).abs() < 1e-6 * (1.0 + b[0].abs()), "{a:?} {b:?}");
+            }
+        }
+    }
+}
+
+fn map_of(system: &System) -> vinesink::orbits::ImpactMap {
+    vinesink::orbits::ImpactMap::of(system).expect("damped")
+}
+
+/// Flights shrink volumes by the damping and each impact by `r^2`: the product of the multipliers of
+/// half a period is `r^2 exp(-eps lambda T/2)`, whatever the orbit.
+fn shrinkage(system: &System) -> f64 {
+    let r = system.restitution();
+    let damping = system.mass_ratio() * system.damping();
+    r * r * (-damping * 0.5 * system.period()).exp()
 }
 
 #[test]
-fn probe() {
-    for (f, b) in [(8.0, 7.5), (8.0, 15.0), (8.5, 20.0)] {
-        let s = table1(f, b);
-        for o in symmetric_orbits(&s).unwrap() {
-            println!("{f} {b}: x0 {} peak {} rho {} {:?} adm {:?} res {:e} dim {:e}", o.impact_displacement * b, o.peaks.displacement * b,
-                o.orbit.multipliers.spectral_radius(), o.orbit.multipliers.leading(), o.orbit.admissibility, o.orbit.convergence.residual, o.orbit.multipliers.trace_residual);
+fn an_undamped_oscillator_at_resonance_has_no_orbits_to_offer() {
+    let parameters =
+        Parameters { damping: 0.0, frequency_ratio: 1.0, ..table1(8.0, 7.5).parameters() };
+    let system = System::new(parameters).expect("valid");
+    assert_eq!(symmetric_orbits(&system), Err(OrbitError::NoSteadyMotion));
+}
+
+fn any_system() -> impl Strategy<Value = System> {
+    (
+        -5.0..-0.5229f64,
+        prop_oneof![4 => 0.0..=1.0, 1 => Just(0.0), 1 => Just(1.0)],
+        prop_oneof![4 => 0.0..50.0, 1 => Just(0.0)],
+        0.5..2.0f64,
+        -2.0..2.0f64,
+        any::<bool>(),
+    )
+        .prop_map(|(mass, restitution, damping, frequency_ratio, forcing, base)| {
+            System::new(Parameters {
+                mass_ratio: 10f64.powf(mass),
+                damping,
+                restitution,
+                frequency_ratio,
+                forcing_per_clearance: 10f64.powf(forcing),
+                excitation: if base { Excitation::BaseDisplacement } else { Excitation::Force },
+            })
+            .expect("valid")
+        })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 2000, ..ProptestConfig::default() })]
+
+    /// Whatever the parameters: at most two orbits; each closes; the product of its multipliers is
+    /// the shrinkage of volumes.
+    #[test]
+    fn orbits_close_and_shrink_volumes_as_they_must(system in any_system()) {
+        let orbits = symmetric_orbits(&system).expect("never exactly at resonance");
+        prop_assert!(orbits.len() <= 2);
+        for orbit in &orbits {
+            // Near a nearly undamped resonance the steady motion dwarfs the orbit.
+            let linear = system.linear_response().expect("exists").amplitude();
+            let scale = 1.0 + linear / (1.0 + orbit.impact_displacement.abs());
+            prop_assert!(orbit.orbit.convergence.residual < 1e-13 * scale, "{orbit:?}");
+            let jacobian = orbit.orbit.cycle.jacobian(&map_of(&system));
+            let product = jacobian.determinant();
+            // Rounding of a determinant is that of its largest products.
+            let size = jacobian.amax().max(1.0);
+            let noise = 1e-13 * scale * size * size;
+            prop_assert!((product - shrinkage(&system)).abs() < noise, "{product} {}", shrinkage(&system));
         }
-        let fam = SymmetricFamily::of(&s).unwrap();
-        for l in &fam.limits { println!("   {:?} beta {} b {} stab {} test {:e}", l.kind, l.absorber, l.clearance * b, l.bounds_stability, l.test); }
-        for l in &fam.stable { println!("   stable {:?} {:?}", l.clearance.map(|c| c * b), l.ends); }
     }
+
+    /// An admissible orbit is a motion of the simulated system, and one that is not, is none.
+    #[test]
+    fn simulation_agrees_on_what_is_admissible(system in any_system()) {
+        for orbit in symmetric_orbits(&system).expect("never exactly at resonance") {
+            let radius = orbit.orbit.multipliers.spectral_radius();
+            // Beyond that a simulation cannot be expected to stay near for half a period.
+            prop_assume!(radius < 1e4);
+            // Too close to grazing to tell.
+            prop_assume!(orbit.orbit.admissibility.room.abs() > 1e-6);
+            prop_assume!(orbit.impact_speed * system.restitution() > 1e-6);
+            let linear = system.linear_response().expect("exists").amplitude();
+            let impacts = simulated_impacts(&system, &orbit, 1);
+            let expected = orbit.orbit.cycle.impacts[0].mirrored();
+            let tolerance = 1e-11 * (1.0 + linear) * radius.max(1.0);
+            let meets = impacts.first().is_some_and(|impact| {
+                (impact.x - expected.x).abs() < tolerance
+                    && (impact.y_velocity_after - expected.y_velocity).abs() < tolerance
+            });
+            prop_assert_eq!(meets, orbit.orbit.admissibility.admissible, "{:?} {:?}", orbit, impacts);
+        }
+    }
+}
+
+/// The largest multiplier governs how fast a nearby motion comes back.
+#[test]
+fn a_disturbed_motion_returns_at_the_rate_of_the_multiplier() {
+    let system = table1(8.0, 7.5);
+    let orbit = &symmetric_orbits(&system).expect("damped")[1];
+    let after = orbit.orbit.cycle.impacts[0];
+    let mut start = after.state(orbit.orbit.cycle.walls[0]);
+    start.y_velocity *= 1.0 + 1e-6;
+    let mut simulation = Simulation::new(&system, start, after.phase).expect("inside");
+    let distance = |simulation: &Simulation, reference: &Simulation| {
+        (simulation.state().x - reference.state().x)
+            .hypot(simulation.state().x_velocity - reference.state().x_velocity)
+    };
+    let undisturbed = after.state(orbit.orbit.cycle.walls[0]);
+    let mut reference = Simulation::new(&system, undisturbed, after.phase).expect("inside");
+    // A complex pair turns as it shrinks: the largest distance within a turn is compared.
+    let mut largest = |periods: u64| {
+        (0..periods)
+            .map(|_| {
+                simulation.run(1, u64::MAX, &mut Nobody);
+                reference.run(1, u64::MAX, &mut Nobody);
+                distance(&simulation, &reference)
+            })
+            .fold(0.0, f64::max)
+    };
+    let (first, _, last) = (largest(40), largest(20), largest(40));
+    let rate = (last / first).powf(1.0 / 120.0);
+    let expected = orbit.orbit.multipliers.spectral_radius();
+    // Of 120 half periods; the turn's phase moves the largest of 40 samples by a few percent.
+    assert!((rate / expected - 1.0).abs() < 2e-3, "{rate} {expected}");
 }

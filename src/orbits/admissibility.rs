@@ -56,7 +56,8 @@ impl Admissibility {
         for (index, (start, from, to, duration)) in flights.iter().enumerate() {
             let approach = to.sign() * map.gap_at(start, *from, *duration).v;
             found.slowest_impact = found.slowest_impact.min(approach);
-            found.admissible &= approach > 0.0 && free_of_contact(map, start, *from, *to, *duration);
+            found.admissible &=
+                approach > 0.0 && free_of_contact(map, start, *from, *to, *duration);
             for (at, value) in turning_points(map, start, *from, *duration) {
                 let wall = if value > 0.0 { Wall::Plus } else { Wall::Minus };
                 if 1.0 - value.abs() < found.room {
@@ -109,7 +110,8 @@ fn free_of_contact(
     if separation <= touch && closing >= 0.0 {
         return false;
     }
-    let begin = if separation <= touch { (touch / -closing).sqrt().min(EARLY * duration) } else { 0.0 };
+    let begin =
+        if separation <= touch { (touch / -closing).sqrt().min(EARLY * duration) } else { 0.0 };
     let curve = Gap { map, start, from };
     let band = Band { lower: -1.0, upper: 1.0, touch };
     let until = duration * (1.0 + EARLY);
@@ -130,9 +132,14 @@ fn turning_points(
     duration: f64,
 ) -> Vec<(f64, f64)> {
     let mut found = Vec::new();
-    sign_changes(duration, map.frequency(), |s| map.gap_at(start, from, s).v, |at| {
-        found.push((at, map.gap_at(start, from, at).x));
-    });
+    sign_changes(
+        duration,
+        map.frequency(),
+        |s| map.gap_at(start, from, s).v,
+        |at| {
+            found.push((at, map.gap_at(start, from, at).x));
+        },
+    );
     found
 }
 

@@ -46,9 +46,7 @@ impl Parameter {
             Self::Clearance => base.with_clearance_scaled(value).ok(),
             Self::Frequency => base.with_frequency_ratio(value).ok(),
             Self::Forcing => base.with_clearance_scaled(1.0 / value).ok(),
-            Self::Restitution => {
-                System::new(Parameters { restitution: value, ..parameters }).ok()
-            }
+            Self::Restitution => System::new(Parameters { restitution: value, ..parameters }).ok(),
         }
     }
 
@@ -127,6 +125,11 @@ pub enum BranchEnd {
     /// The orbit stops being a motion: an impact appears or disappears.
     Grazing {
         /// Value of the parameter.
+        value: f64,
+    },
+    /// The branch came back to where it began.
+    Closed {
+        /// Value of the parameter there.
         value: f64,
     },
     /// So many points were asked for.
@@ -307,45 +310,91 @@ pub fn follow(
 }
 
 /// Follows a branch from a point on it, along its tangent.
-pub(super) fn trace(
-    tracer: &Tracer,
-    first: Point,
-    origin: Origin,
-    settings: &Settings,
-) -> Branch {
+pub(super) fn trace(tracer: &Tracer, first: Point, origin: Origin, settings: &Settings) -> Branch {
+    let begin = first.parameter * tracer.scale;
     let mut branch = Branch {
         parameter: tracer.parameter,
         points: Vec::new(),
         specials: Vec::new(),
-        end: BranchEnd::PointLimit { value: first.parameter * tracer.scale },
+        end: BranchEnd::PointLimit { value: begin },
     };
-    branch.points.extend(tracer.orbit(&first, origin).map(|orbit| BranchPoint {
-        value: first.parameter * tracer.scale,
-        orbit,
-    }));
-    let mut here = first;
+    let orbit = tracer.orbit(&first, origin);
+    branch.points.extend(orbit.map(|orbit| BranchPoint { value: begin, orbit }));
+    let mut here = first.clone();
     let mut step = settings.first_step;
     while branch.points.len() < settings.most_points {
-        match next_point(tracer, &here, step, settings) {
-            Ok((there, taken)) => {
-                if let Some(end) = record(tracer, &here, &there, taken, settings, &mut branch) {
-                    branch.end = end;
-                    return branch;
-                }
-                // Few corrector steps: the branch is straight here.
-                let factor = if there.steps <= 3 { 1.5 } else { 0.8 };
-                step = (taken * factor).min(settings.largest_step);
-                here = there;
+        let stepped = match at_edge(tracer, &here, step, settings) {
+            Some((there, edge)) => Ok((there, step, Some(BranchEnd::Range { value: edge }))),
+            None => {
+                next_point(tracer, &here, step, settings).map(|(there, taken)| (there, taken, None))
             }
+        };
+        let (there, taken, last) = match stepped {
+            Ok(found) => found,
             Err(reason) => {
                 let value = here.parameter * tracer.scale;
                 branch.end = BranchEnd::NotConverged { value, reason: reason.to_string() };
                 return branch;
             }
+        };
+        let met = returns(&first, &here, &there, branch.points.len());
+        let last = last.or(met.then_some(BranchEnd::Closed { value: begin }));
+        if let Some(end) = record(tracer, &here, &there, taken, settings, &mut branch).or(last) {
+            branch.end = end;
+            return branch;
         }
+        // Few corrector steps: the branch is straight here.
+        let factor = if there.steps <= 3 { 1.5 } else { 0.8 };
+        step = (taken * factor).min(settings.largest_step);
+        here = there;
     }
     branch.end = BranchEnd::PointLimit { value: here.parameter * tracer.scale };
     branch
+}
+
+/// Whether the stretch from `here` to `there` passes the branch's first point, along its tangent.
+fn returns(first: &Point, here: &Point, there: &Point, passed: usize) -> bool {
+    let along = |point: &Point| place(point) - place(first);
+    // Phases count whole turns; a closed branch may come back a turn later.
+    let stretch = (place(there) - place(here)).norm();
+    let near = along(here).norm() <= 2.0 * stretch && along(there).norm() <= 2.0 * stretch;
+    let side = |point: &Point| first.tangent.dot(&along(point));
+    passed > 3 && near && side(here) < 0.0 && side(there) >= 0.0
+}
+
+/// First state and parameter of a point, as the arclength measures them.
+fn place(point: &Point) -> Vector5<f64> {
+    let mut place = Vector5::zeros();
+    place.fixed_rows_mut::<4>(0).copy_from(&point.cycle.impacts[0].vector());
+    place[4] = point.parameter;
+    place
+}
+
+/// The orbit at the edge of the range, if the next step would leave it: parameters need not exist
+/// beyond (a restitution above 1).
+fn at_edge(tracer: &Tracer, here: &Point, step: f64, settings: &Settings) -> Option<(Point, f64)> {
+    let [low, high] = settings.range.map(|edge| edge / tracer.scale);
+    let ahead = here.parameter + step * here.tangent[4];
+    let edge = if ahead > high {
+        high
+    } else if ahead < low {
+        low
+    } else {
+        return None;
+    };
+    let (map, weights) = tracer.map(here.parameter)?;
+    let linear = Linearised::of(&map, &here.cycle, weights);
+    let share = (edge - here.parameter) / here.tangent[4];
+    let first: Vector4<f64> = here.tangent.fixed_rows::<4>(0).into();
+    let change = edge - here.parameter;
+    let cycle = linear.moved(&here.cycle, first * share, change, weights);
+    let mut upright = Vector5::zeros();
+    upright[4] = 1.0;
+    let there = tracer.correct(cycle, edge, &upright, &here.tangent).ok()?;
+    // A branch that turns back before the edge must not be left for another one.
+    let close = (place(&there) - place(here)).norm() <= 2.0 * step.max(share.abs());
+    (close && there.tangent.dot(&here.tangent) >= LARGEST_TURN)
+        .then_some((there, edge * tracer.scale))
 }
 
 /// The next point, with the step that reached it: halved until the corrector converges and the branch
@@ -381,11 +430,9 @@ fn record(
     settings: &Settings,
     branch: &mut Branch,
 ) -> Option<BranchEnd> {
-    let scale = tracer.scale;
     let mut found = located(tracer, here, there, step);
     let [low, high] = settings.range;
-    let inside = |value: f64| (low..=high).contains(&value);
-    found.retain(|special| inside(special.value));
+    found.retain(|special| (low..=high).contains(&special.value));
     let leaves = |special: &SpecialPoint| {
         matches!(special.kind, Bifurcation::Grazing | Bifurcation::VanishingImpact)
     };
@@ -398,30 +445,10 @@ fn record(
     if let Some(value) = stops {
         return Some(BranchEnd::Grazing { value });
     }
-    let value = there.parameter * scale;
-    if !inside(value) {
-        let last = here.parameter * scale;
-        let edge = if value > high { high } else { low };
-        if let Some(orbit) = at_value(tracer, here, step, edge) {
-            branch.points.push(BranchPoint { value: edge, orbit });
-            return Some(BranchEnd::Range { value: edge });
-        }
-        return Some(BranchEnd::Range { value: last });
-    }
-    branch.points.extend(
-        tracer.orbit(there, Origin::Continuation).map(|orbit| BranchPoint { value, orbit }),
-    );
+    let value = there.parameter * tracer.scale;
+    let orbit = tracer.orbit(there, Origin::Continuation);
+    branch.points.extend(orbit.map(|orbit| BranchPoint { value, orbit }));
     None
-}
-
-/// The orbit at which the branch passes `value` within `step` of `here`.
-fn at_value(tracer: &Tracer, here: &Point, step: f64, value: f64) -> Option<Orbit> {
-    let offset = |s: f64| {
-        let point = if s == 0.0 { Ok(here.clone()) } else { tracer.advance(here, s) };
-        point.map_or(f64::NAN, |point| point.parameter * tracer.scale - value)
-    };
-    let root = brent(0.0, step, LOCATED * step, offset).ok()?;
-    tracer.orbit(&tracer.advance(here, root.at).ok()?, Origin::Continuation)
 }
 
 /// A test function: the bifurcation that it shows, and its value at a point.
@@ -464,6 +491,11 @@ fn located(tracer: &Tracer, here: &Point, there: &Point, step: f64) -> Vec<Speci
     let turns: Vec<f64> =
         found.iter().filter(|one| one.1.kind == Bifurcation::SaddleNode).map(|one| one.0).collect();
     found.retain(|(at, special)| {
+        // A determinant passes through a pole where an impact vanishes.
+        let measured = matches!(special.kind, Bifurcation::Grazing | Bifurcation::VanishingImpact);
+        if !(special.converged || measured) {
+            return false;
+        }
         special.kind != Bifurcation::BranchPoint
             || turns.iter().all(|turn| (turn - at).abs() > 1e-3 * step)
     });
@@ -490,8 +522,9 @@ fn locate(
     let (left, right) = (near((root.at - width).max(0.0)), near((root.at + width).min(step)));
     let value = point.parameter * tracer.scale;
     let grazes = kind == Bifurcation::Grazing && orbit.admissibility.narrowest.is_some();
-    let sequence_beyond = if grazes { switching::beyond_grazing(tracer, &point, &orbit) } else { None };
-    let bracket = [left.min(right), left.max(right)];
+    let sequence_beyond =
+        if grazes { switching::beyond_grazing(tracer, point.parameter, &orbit) } else { None };
+    let bracket = [left.min(right).min(value), left.max(right).max(value)];
     Some((
         root.at,
         SpecialPoint {
@@ -512,7 +545,8 @@ fn locate(
 fn renamed(kind: Bifurcation, orbit: &Orbit) -> Option<Bifurcation> {
     match kind {
         Bifurcation::NeimarkSacker => {
-            let on_circle = |[re, im]: [f64; 2]| im != 0.0 && (libm::hypot(re, im) - 1.0).abs() < 1e-4;
+            let on_circle =
+                |[re, im]: [f64; 2]| im != 0.0 && (libm::hypot(re, im) - 1.0).abs() < 1e-4;
             orbit.multipliers.values.iter().any(|value| on_circle(*value)).then_some(kind)
         }
         // A branch of asymmetric orbits turns back where it meets its own mirror image.

@@ -166,9 +166,7 @@ impl ImpactMap {
         // Equation (2): the absorber gains `gain` times the approach, the oscillator loses eps of it.
         let eps = self.mass_ratio;
         let gain = (1.0 + self.restitution) / (1.0 + eps);
-        let rebound = |dv: f64, dyv: f64| {
-            (dv - eps * gain * (dv - dyv), dyv + gain * (dv - dyv))
-        };
+        let rebound = |dv: f64, dyv: f64| (dv - eps * gain * (dv - dyv), dyv + gain * (dv - dyv));
         let (after_v, after_yv) = rebound(v, yv);
         let column = |phase: f64, x: f64, dv: f64, dyv: f64| {
             let (dv, dyv) = rebound(dv, dyv);

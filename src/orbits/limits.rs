@@ -151,9 +151,9 @@ impl SymmetricFamily {
     /// The nearest limit of stability of either kind on each side of a clearance factor, among
     /// stretches that contain it.
     pub fn stretch_around(&self, clearance: f64) -> Option<&StableStretch> {
-        self.stable.iter().find(|stretch| {
-            stretch.clearance[0] <= clearance && clearance <= stretch.clearance[1]
-        })
+        self.stable
+            .iter()
+            .find(|stretch| stretch.clearance[0] <= clearance && clearance <= stretch.clearance[1])
     }
 }
 
@@ -187,13 +187,17 @@ impl Family {
         let map = self.map_at(beta);
         let jacobian = self.curve.cycle(&map.flight, beta).jacobian(&map);
         Multipliers::of(&jacobian).is_some_and(|found| {
-            found.values.iter().any(|[re, im]| *im != 0.0 && (libm::hypot(*re, *im) - 1.0).abs() < 1e-6)
+            found
+                .values
+                .iter()
+                .any(|[re, im]| *im != 0.0 && (libm::hypot(*re, *im) - 1.0).abs() < 1e-6)
         })
     }
 
     /// Between neighbouring limits stability is one and the same.
     fn stable_stretches(&self, limits: &[Limit]) -> Vec<StableStretch> {
-        let mut edges: Vec<(f64, Option<Bifurcation>)> = vec![(0.5 * LARGEST / f64::from(PIECES), None)];
+        let mut edges: Vec<(f64, Option<Bifurcation>)> =
+            vec![(0.5 * LARGEST / f64::from(PIECES), None)];
         edges.extend(limits.iter().map(|limit| (limit.absorber, Some(limit.kind))));
         edges.push((LARGEST, None));
         let mut found: Vec<StableStretch> = Vec::new();

@@ -16,8 +16,8 @@ pub mod multipliers;
 pub mod newton;
 pub mod orbit;
 pub mod special;
-pub mod symmetric;
 pub mod switching;
+pub mod symmetric;
 
 pub use admissibility::Admissibility;
 pub use branch::{Branch, BranchEnd, BranchPoint, Parameter};

@@ -117,9 +117,11 @@ mod tests {
             }
             p = q;
         }
-        Matrix4::from_fn(|row, column| {
-            if column == 3 { -p[row] } else { f64::from(u8::from(row == column + 1)) }
-        })
+        Matrix4::from_fn(
+            |row, column| {
+                if column == 3 { -p[row] } else { f64::from(u8::from(row == column + 1)) }
+            },
+        )
     }
 
     #[test]

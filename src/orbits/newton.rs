@@ -76,7 +76,13 @@ impl Linearised {
     }
 
     /// The cycle moved by `first` in its first state and by `parameter`, everything else following.
-    pub fn moved(&self, cycle: &Cycle, first: Vector4<f64>, parameter: f64, weights: [f64; 3]) -> Cycle {
+    pub fn moved(
+        &self,
+        cycle: &Cycle,
+        first: Vector4<f64>,
+        parameter: f64,
+        weights: [f64; 3],
+    ) -> Cycle {
         let mut moved = cycle.clone();
         let mut change = first;
         for (k, step) in self.steps.iter().enumerate() {
@@ -115,9 +121,8 @@ fn parameter_influence(step: &Step, weights: [f64; 3]) -> Vector4<f64> {
 
 /// Size of an orbit, against which defects are measured.
 pub(super) fn size(cycle: &Cycle) -> f64 {
-    let largest = |after: &AfterImpact| {
-        after.x.abs().max(after.x_velocity.abs()).max(after.y_velocity.abs())
-    };
+    let largest =
+        |after: &AfterImpact| after.x.abs().max(after.x_velocity.abs()).max(after.y_velocity.abs());
     cycle.impacts.iter().map(largest).fold(1.0, f64::max)
 }
 
@@ -132,10 +137,7 @@ pub fn solve(system: &System, start: &Cycle, origin: Origin) -> Result<Orbit, Or
 }
 
 /// Newton's iteration at fixed parameters.
-pub(super) fn converge(
-    map: &ImpactMap,
-    start: &Cycle,
-) -> Result<(Cycle, Convergence), OrbitError> {
+pub(super) fn converge(map: &ImpactMap, start: &Cycle) -> Result<(Cycle, Convergence), OrbitError> {
     start.check()?;
     iterate(start.clone(), |cycle| {
         let linear = Linearised::of(map, cycle, [0.0; 3]);

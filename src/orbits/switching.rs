@@ -4,7 +4,7 @@ use nalgebra::linalg::SVD;
 use nalgebra::{Matrix4, Vector4, Vector5};
 
 use super::OrbitError;
-use super::branch::{Branch, Parameter, Point, Settings, Tracer, trace};
+use super::branch::{Branch, Parameter, Settings, Tracer, trace};
 use super::impact_map::{AfterImpact, ImpactMap};
 use super::orbit::{Closure, Cycle, Orbit, Origin};
 use super::special::{Bifurcation, SpecialPoint};
@@ -55,10 +55,8 @@ pub fn branch_off(
 /// The cycle traversed twice.
 fn twice(cycle: &Cycle) -> Cycle {
     let turn = cycle.closure.turn();
-    let later = cycle
-        .impacts
-        .iter()
-        .map(|impact| AfterImpact { phase: impact.phase + turn, ..*impact });
+    let later =
+        cycle.impacts.iter().map(|impact| AfterImpact { phase: impact.phase + turn, ..*impact });
     Cycle {
         closure: Closure::Repeats { periods: 2 * cycle.periods() },
         walls: cycle.walls.repeat(2),
@@ -78,27 +76,50 @@ fn kernel(matrix: &Matrix4<f64>) -> Option<Vector4<f64>> {
     Some(vector * sign)
 }
 
+/// The branch that goes on, with one more impact, where another one grazes.
+///
+/// # Errors
+/// [`OrbitError`] where the special point is no grazing, or Newton's method finds no orbit near it.
+pub fn continue_beyond(
+    base: &System,
+    parameter: Parameter,
+    special: &SpecialPoint,
+    settings: &Settings,
+) -> Result<Branch, OrbitError> {
+    if special.kind != Bifurcation::Grazing {
+        return Err(OrbitError::NotACycle { reason: "no branch goes on there" });
+    }
+    let tracer = Tracer::new(base, parameter);
+    let scaled = special.value / tracer.scale();
+    let found = across(&tracer, scaled, &special.orbit).ok_or(OrbitError::Singular)?;
+    let (orbit, there) = found;
+    let mut along = Vector5::zeros();
+    along[4] = (there - scaled).signum();
+    let point = tracer.correct(orbit.cycle, there, &along, &along)?;
+    Ok(trace(&tracer, point, Origin::Switching, settings))
+}
+
 /// The sequence of walls of the orbit that goes on beyond a grazing, if Newton's method finds it.
-pub(super) fn beyond_grazing(tracer: &Tracer, point: &Point, orbit: &Orbit) -> Option<String> {
-    across(tracer, point, orbit).map(|(found, _)| found.cycle.sequence())
+pub(super) fn beyond_grazing(tracer: &Tracer, scaled: f64, orbit: &Orbit) -> Option<String> {
+    across(tracer, scaled, orbit).map(|(found, _)| found.cycle.sequence())
 }
 
 /// The orbit with one more impact where `orbit` grazes, and the scaled parameter at which it was
 /// found.
-fn across(tracer: &Tracer, point: &Point, orbit: &Orbit) -> Option<(Orbit, f64)> {
-    let with_contact = inserted(tracer, point, orbit)?;
+fn across(tracer: &Tracer, scaled: f64, orbit: &Orbit) -> Option<(Orbit, f64)> {
+    let with_contact = inserted(tracer, scaled, orbit)?;
     BEYOND.iter().find_map(|change| {
-        let scaled = point.parameter * (1.0 + change);
+        let scaled = scaled * (1.0 + change);
         let found = tracer.at(&with_contact, scaled)?;
         found.admissibility.admissible.then_some((found, scaled))
     })
 }
 
 /// The cycle with the grazing contact counted as an impact.
-fn inserted(tracer: &Tracer, point: &Point, orbit: &Orbit) -> Option<Cycle> {
+fn inserted(tracer: &Tracer, scaled: f64, orbit: &Orbit) -> Option<Cycle> {
     let at = orbit.admissibility.narrowest?;
-    let map = tracer.map_at(point.parameter)?;
-    let mut cycle = point.cycle.clone();
+    let map = tracer.map_at(scaled)?;
+    let mut cycle = orbit.cycle.clone();
     let start = cycle.impacts[at.flight];
     let duration = cycle.durations[at.flight];
     let first = at.fraction * duration;

@@ -187,4 +187,3 @@ pub(super) fn symmetric_orbit(
 fn closure_defect(map: &ImpactMap, cycle: &Cycle) -> f64 {
     super::newton::Linearised::of(map, cycle, [0.0; 3]).residual / super::newton::size(cycle)
 }
-
