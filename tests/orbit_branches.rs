@@ -4,8 +4,10 @@
 //! event-driven simulation; identities of the bifurcations themselves.
 
 mod common;
+mod orbit_support;
 
-use common::{impacts_from, table1};
+use common::table_1;
+use orbit_support::impacts_from;
 use vinesink::orbits::branch::{Direction, Settings, follow};
 use vinesink::orbits::newton::solve;
 use vinesink::orbits::switching::{branch_off, continue_beyond};
@@ -33,7 +35,7 @@ fn first(branch: &Branch, kind: Bifurcation) -> &SpecialPoint {
 fn continuation_and_closed_form_agree_on_the_limits() {
     use Bifurcation::{Grazing, NeimarkSacker, SaddleNode, SymmetryBreaking};
     for (frequency, clearance) in [(8.0, 7.5), (8.5, 20.0)] {
-        let system = table1(frequency, clearance);
+        let system = table_1(frequency, clearance);
         let family = SymmetricFamily::of(&system).expect("damped");
         let up = branch(&system, Parameter::Clearance, Direction::Up, [0.05, 10.0]);
         let down = branch(&system, Parameter::Clearance, Direction::Down, [0.05, 10.0]);
@@ -57,7 +59,7 @@ fn continuation_and_closed_form_agree_on_the_limits() {
 /// Every point of a branch is an orbit: it closes, and at its own clearance it is the closed form's.
 #[test]
 fn every_point_of_a_branch_is_an_orbit() {
-    let system = table1(8.5, 20.0);
+    let system = table_1(8.5, 20.0);
     let up = branch(&system, Parameter::Clearance, Direction::Up, [0.05, 10.0]);
     assert!(up.points.len() > 50);
     for point in &up.points {
@@ -76,7 +78,7 @@ fn every_point_of_a_branch_is_an_orbit() {
 /// At a fixed clearance and forcing the orbits over the frequency form a closed curve (an isola).
 #[test]
 fn a_closed_branch_says_that_it_is_closed() {
-    let system = table1(8.5, 20.0);
+    let system = table_1(8.5, 20.0);
     let isola = branch(&system, Parameter::Frequency, Direction::Up, [0.5, 1.5]);
     assert!(matches!(isola.end, BranchEnd::Closed { .. }), "{:?}", isola.end);
     let turns = isola.specials.iter().filter(|s| s.kind == Bifurcation::SaddleNode).count();
@@ -86,7 +88,7 @@ fn a_closed_branch_says_that_it_is_closed() {
 /// Parameters that end do end the branch, at their last value.
 #[test]
 fn a_branch_reaches_an_elastic_impact_and_stops_there() {
-    let system = table1(8.0, 7.5);
+    let system = table_1(8.0, 7.5);
     let up = branch(&system, Parameter::Restitution, Direction::Up, [0.0, 1.0]);
     assert_eq!(up.end, BranchEnd::Range { value: 1.0 });
     assert_eq!(up.points.last().expect("some").value, 1.0);
@@ -95,7 +97,7 @@ fn a_branch_reaches_an_elastic_impact_and_stops_there() {
 /// Two routes to the same asymmetric orbit: from simulation, and off the symmetry breaking.
 #[test]
 fn the_branch_off_a_symmetry_breaking_is_the_simulated_asymmetric_motion() {
-    let system = table1(8.0, 7.5);
+    let system = table_1(8.0, 7.5);
     let down = branch(&system, Parameter::Clearance, Direction::Down, [0.05, 10.0]);
     let breaking = first(&down, Bifurcation::SymmetryBreaking);
     let settings = Settings::within([0.05, 10.0]);
@@ -107,7 +109,7 @@ fn the_branch_off_a_symmetry_breaking_is_the_simulated_asymmetric_motion() {
         .iter()
         .min_by(|a, b| (a.value - target).abs().total_cmp(&(b.value - target).abs()))
         .expect("some");
-    let there = table1(8.0, 4.0);
+    let there = table_1(8.0, 4.0);
     let orbit = solve(&there, &nearest.orbit.cycle, Origin::Continuation).expect("near");
     assert!(orbit.attracts(), "{orbit:?}");
     assert_eq!(orbit.cycle.sequence(), "+-");
@@ -134,7 +136,7 @@ fn common_start(system: &System) -> vinesink::orbits::AfterImpact {
 /// Newton's method refines impacts of a simulation to the orbit, whatever its sequence.
 #[test]
 fn newton_refines_a_disturbed_orbit_of_three_impacts() {
-    let system = table1(8.0, 7.5);
+    let system = table_1(8.0, 7.5);
     let settings = Settings::within([0.05, 10.0]);
     let down = branch(&system, Parameter::Clearance, Direction::Down, [0.05, 10.0]);
     let breaking = first(&down, Bifurcation::SymmetryBreaking);
@@ -166,7 +168,7 @@ fn newton_refines_a_disturbed_orbit_of_three_impacts() {
 /// bifurcation has the squared multipliers of the single one.
 #[test]
 fn a_doubled_branch_leaves_with_squared_multipliers() {
-    let system = table1(8.5, 20.0);
+    let system = table_1(8.5, 20.0);
     let settings = Settings::within([0.05, 10.0]);
     let down = branch(&system, Parameter::Clearance, Direction::Down, [0.05, 10.0]);
     let breaking = first(&down, Bifurcation::SymmetryBreaking);
@@ -197,7 +199,7 @@ fn a_doubled_branch_leaves_with_squared_multipliers() {
 /// A branch that cannot go on says where and why.
 #[test]
 fn a_cycle_that_is_none_is_refused() {
-    let system = table1(8.0, 7.5);
+    let system = table_1(8.0, 7.5);
     let orbit = stable_orbit(&system);
     let broken = Cycle { durations: vec![-1.0], ..orbit.cycle.clone() };
     let error = solve(&system, &broken, Origin::Simulation).expect_err("negative duration");
@@ -212,7 +214,7 @@ fn a_cycle_that_is_none_is_refused() {
 #[test]
 fn sequences_are_named_once() {
     use vinesink::orbits::Wall::{Minus, Plus};
-    let orbit = stable_orbit(&table1(8.0, 7.5));
+    let orbit = stable_orbit(&table_1(8.0, 7.5));
     let named = |walls: Vec<vinesink::orbits::Wall>, closure| {
         let count = walls.len();
         Cycle {

@@ -4,13 +4,16 @@
 //! which shares no code with the orbits.
 
 mod common;
+mod orbit_support;
 
-use common::{simulated_half_map, simulated_impacts, table1};
+use common::table_1;
+use orbit_support::{simulated_half_map, simulated_impacts};
 use proptest::prelude::*;
 use vinesink::orbits::{
-    Bifurcation, Leading, Multipliers, OrbitError, SymmetricFamily, symmetric_orbits,
+    Bifurcation, Leading, Measures, Multipliers, OrbitError, SymmetricFamily, Wall,
+    symmetric_orbits,
 };
-use vinesink::simulation::{Nobody, Simulation};
+use vinesink::simulation::{Nobody, Simulation, Statistics};
 use vinesink::system::{Excitation, Parameters, System};
 
 /// Half a unit of the last printed digit.
@@ -27,7 +30,7 @@ fn published_orbits_are_reproduced_to_all_printed_digits() {
         (8.0, 15.0, -1.938, 3.364, 0.9650),
         (8.5, 20.0, -1.117, 3.587, 0.9667),
     ] {
-        let orbits = symmetric_orbits(&table1(frequency, clearance)).expect("damped");
+        let orbits = symmetric_orbits(&table_1(frequency, clearance)).expect("damped");
         assert_eq!(orbits.len(), 2);
         let stable = &orbits[1];
         assert!(agrees(impact, 3, stable.impact_displacement * clearance));
@@ -54,7 +57,7 @@ fn published_limits_are_reproduced_to_all_printed_digits() {
             ],
         ),
     ] {
-        let family = SymmetricFamily::of(&table1(frequency, 10.0)).expect("damped");
+        let family = SymmetricFamily::of(&table_1(frequency, 10.0)).expect("damped");
         for (kind, clearance, bounds) in expected {
             let limit = family.limits.iter().find(|limit| limit.kind == kind).expect("exists");
             assert!(agrees(clearance, 3, 10.0 * limit.clearance), "{limit:?}");
@@ -68,7 +71,7 @@ fn published_limits_are_reproduced_to_all_printed_digits() {
 #[test]
 fn a_simulation_started_on_an_orbit_follows_it() {
     for (frequency, clearance) in [(8.0, 7.5), (8.0, 15.0), (8.5, 20.0), (8.5, 30.0)] {
-        let system = table1(frequency, clearance);
+        let system = table_1(frequency, clearance);
         for orbit in symmetric_orbits(&system).expect("damped") {
             let impacts = simulated_impacts(&system, &orbit, 4);
             let after = orbit.orbit.cycle.unfolded();
@@ -90,7 +93,7 @@ fn a_simulation_started_on_an_orbit_follows_it() {
 #[test]
 fn multipliers_are_those_of_the_simulated_map() {
     for (frequency, clearance) in [(8.0, 7.5), (8.0, 15.0), (8.5, 20.0), (8.5, 30.0)] {
-        let system = table1(frequency, clearance);
+        let system = table_1(frequency, clearance);
         for orbit in symmetric_orbits(&system).expect("damped") {
             let simulated = simulated_half_map(&system, &orbit, 1e-5);
             let exact = orbit.orbit.cycle.jacobian(&map_of(&system));
@@ -120,7 +123,7 @@ fn shrinkage(system: &System) -> f64 {
 #[test]
 fn an_undamped_oscillator_at_resonance_has_no_orbits_to_offer() {
     let parameters =
-        Parameters { damping: 0.0, frequency_ratio: 1.0, ..table1(8.0, 7.5).parameters() };
+        Parameters { damping: 0.0, frequency_ratio: 1.0, ..table_1(8.0, 7.5).parameters() };
     let system = System::new(parameters).expect("valid");
     assert_eq!(symmetric_orbits(&system), Err(OrbitError::NoSteadyMotion));
 }
@@ -196,7 +199,7 @@ proptest! {
 /// The largest multiplier governs how fast a nearby motion comes back.
 #[test]
 fn a_disturbed_motion_returns_at_the_rate_of_the_multiplier() {
-    let system = table1(8.0, 7.5);
+    let system = table_1(8.0, 7.5);
     let orbit = &symmetric_orbits(&system).expect("damped")[1];
     let after = orbit.orbit.cycle.impacts[0];
     let mut start = after.state(orbit.orbit.cycle.walls[0]);
@@ -223,4 +226,62 @@ fn a_disturbed_motion_returns_at_the_rate_of_the_multiplier() {
     let expected = orbit.orbit.multipliers.spectral_radius();
     // Of 120 half periods; the turn's phase moves the largest of 40 samples by a few percent.
     assert!((rate / expected - 1.0).abs() < 2e-3, "{rate} {expected}");
+}
+
+/// Averages along an orbit are those that a simulation on it measures.
+#[test]
+fn measures_of_an_orbit_are_those_of_its_simulation() {
+    for (frequency, clearance) in [(8.0, 7.5), (8.5, 20.0)] {
+        let system = table_1(frequency, clearance);
+        let orbit = &symmetric_orbits(&system).expect("damped")[1];
+        let exact = Measures::of(&system, &orbit.orbit.cycle).expect("damped");
+        let after = orbit.orbit.cycle.impacts[0];
+        let start = after.state(orbit.orbit.cycle.walls[0]);
+        let mut simulation = Simulation::new(&system, start, after.phase).expect("on the wall");
+        simulation.run(2000, u64::MAX, &mut Nobody);
+        let mut statistics = Statistics::begin(&system, simulation.state());
+        simulation.run(10, u64::MAX, &mut statistics);
+        let close = |a: f64, b: f64| (a - b).abs() < 1e-11 * (1.0 + a.abs());
+        assert!(close(exact.peaks.displacement, statistics.peak()));
+        assert!(close(exact.rms, statistics.rms()));
+        let (x, y) = statistics.harmonics();
+        for k in 0..2 {
+            assert!(close(exact.oscillator_harmonic[k], x[k]), "{exact:?} {x:?}");
+            assert!(close(exact.absorber_harmonic[k], y[k]), "{exact:?} {y:?}");
+        }
+        let energy = statistics.energy();
+        assert!(close(exact.energy.input, energy.input / 10.0), "{exact:?} {energy:?}");
+        assert!(close(exact.energy.damper, energy.damper / 10.0));
+        assert!(close(exact.energy.impact, energy.impact / 10.0));
+        assert!(exact.energy.relative_residual < 1e-12, "{exact:?}");
+    }
+}
+
+/// Derivatives of the impact map by forcing, frequency and restitution, against differences.
+#[test]
+fn derivatives_by_parameters_are_those_of_the_map() {
+    let system = table_1(8.5, 20.0);
+    let orbit = &symmetric_orbits(&system).expect("damped")[1].orbit;
+    let start = orbit.cycle.impacts[0];
+    let duration = orbit.cycle.durations[0];
+    let step = |parameters: Parameters| {
+        let map = map_of(&System::new(parameters).expect("valid"));
+        map.step(&start, Wall::Plus, Wall::Minus, duration)
+    };
+    let base = system.parameters();
+    let exact = step(base);
+    let h = 1e-6;
+    let varied: [fn(Parameters, f64) -> Parameters; 3] = [
+        |p, h| Parameters { forcing_per_clearance: p.forcing_per_clearance + h, ..p },
+        |p, h| Parameters { frequency_ratio: p.frequency_ratio + h, ..p },
+        |p, h| Parameters { restitution: p.restitution + h, ..p },
+    ];
+    for (k, vary) in varied.iter().enumerate() {
+        let (up, down) = (step(vary(base, h)), step(vary(base, -h)));
+        let next = (up.next.vector() - down.next.vector()) / (2.0 * h);
+        let gap = (up.gap - down.gap) / (2.0 * h);
+        // The gain near resonance is some thirty: its third derivative times h^2.
+        assert!((next - exact.next_by_parameter[k]).amax() < 1e-5, "{k} {next}");
+        assert!((gap - exact.gap_by_parameter[k]).abs() < 1e-5, "{k} {gap}");
+    }
 }

@@ -7,11 +7,10 @@ use nalgebra::Matrix4;
 use serde::Serialize;
 
 use super::OrbitError;
-use super::admissibility::{Admissibility, sign_changes};
+use super::admissibility::Admissibility;
 use super::impact_map::{AfterImpact, ImpactMap, Step, Wall};
 use super::multipliers::Multipliers;
 use super::newton::Convergence;
-use crate::system::System;
 
 /// How a cycle of impacts closes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -251,45 +250,5 @@ impl Orbit {
     pub fn radius_per_period(&self) -> f64 {
         let computed = self.cycle.closure.turn() / TAU;
         libm::pow(self.multipliers.spectral_radius(), 1.0 / computed)
-    }
-
-    /// Largest displacement and velocity of the oscillator along the orbit, over the clearance.
-    ///
-    /// # Errors
-    /// As [`ImpactMap::of`].
-    pub fn peaks(&self, system: &System) -> Result<Peaks, OrbitError> {
-        Ok(Peaks::of(&ImpactMap::of(system)?, &self.cycle))
-    }
-}
-
-/// Largest values along an orbit, over the clearance, fast time.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Peaks {
-    /// Of the absolute displacement of the oscillator.
-    pub displacement: f64,
-    /// Of its absolute velocity.
-    pub velocity: f64,
-}
-
-impl Peaks {
-    /// Along a cycle: at impacts and where displacement or velocity turns between them.
-    pub fn of(map: &ImpactMap, cycle: &Cycle) -> Self {
-        let mut peaks = Self { displacement: 0.0, velocity: 0.0 };
-        for (start, _, _, duration) in cycle.flights() {
-            let mut note = |s: f64| {
-                let at = map.oscillator_at(&start, s);
-                peaks.displacement = peaks.displacement.max(at.x.abs());
-                peaks.velocity = peaks.velocity.max(at.v.abs());
-            };
-            note(0.0);
-            note(duration);
-            let frequency = map.frequency();
-            sign_changes(duration, frequency, |s| map.oscillator_at(&start, s).v, &mut note);
-            let acceleration = |s: f64| {
-                map.flight.acceleration(start.phase + frequency * s, map.oscillator_at(&start, s))
-            };
-            sign_changes(duration, frequency, acceleration, &mut note);
-        }
-        peaks
     }
 }

@@ -20,8 +20,9 @@ use serde::Serialize;
 use super::OrbitError;
 use super::flight::Flight;
 use super::impact_map::{AfterImpact, ImpactMap, Wall};
+use super::measures::Peaks;
 use super::newton::Convergence;
-use super::orbit::{Closure, Cycle, Orbit, Origin, Peaks};
+use super::orbit::{Closure, Cycle, Orbit, Origin};
 use crate::system::System;
 
 /// The coefficients that all symmetric orbits of a system share; the forcing enters nowhere.

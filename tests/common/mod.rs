@@ -1,68 +1,35 @@
-//! What tests of orbits share.
+//! Systems that several tests need.
+#![allow(dead_code)]
 
-#![allow(dead_code, reason = "each test file uses a part")]
-
-use nalgebra::Matrix4;
-use vinesink::orbits::{AfterImpact, SymmetricOrbit, Wall};
-use vinesink::simulation::{Impact, ImpactLog, Simulation, Stop};
 use vinesink::system::{Excitation, Parameters, System};
 
-/// The experiment of Li, Seguy, Berlioz (2016), Table 1, with the inferred shaker amplitude of
-/// 0.25 mm; frequency in Hz, clearance in mm.
-pub fn table1(frequency: f64, clearance: f64) -> System {
-    let (m1, k1, c1, m2): (f64, f64, f64, f64) = (4.168, 11.47e3, 3.02, 0.032);
-    let omega0 = (k1 / m1).sqrt();
-    let mass_ratio = m2 / m1;
+/// Table 1 of Li, Seguy, Berlioz (2016): `eps = m2 / m1`.
+pub const MASS_RATIO: f64 = 0.032 / 4.168;
+
+/// `omega0` of Table 1 in rad/s.
+pub fn natural_frequency() -> f64 {
+    (11.47e3_f64 / 4.168).sqrt()
+}
+
+/// `lambda` of Table 1.
+pub fn damping() -> f64 {
+    3.02 / (0.032 * natural_frequency())
+}
+
+/// `G` in mm with F = 0.25 mm, which is inferred, not published.
+pub fn forcing_mm() -> f64 {
+    0.25 / MASS_RATIO
+}
+
+/// Table 1 at a frequency in Hz and a clearance in mm.
+pub fn table_1(frequency_hz: f64, clearance_mm: f64) -> System {
     System::new(Parameters {
-        mass_ratio,
-        damping: c1 / (m2 * omega0),
+        mass_ratio: MASS_RATIO,
+        damping: damping(),
         restitution: 0.6,
-        frequency_ratio: std::f64::consts::TAU * frequency / omega0,
-        forcing_per_clearance: 0.25 / mass_ratio / clearance,
+        frequency_ratio: frequency_hz * std::f64::consts::TAU / natural_frequency(),
+        forcing_per_clearance: forcing_mm() / clearance_mm,
         excitation: Excitation::BaseDisplacement,
     })
-    .expect("valid")
-}
-
-/// The next impacts of a simulation that starts at `after` on `wall`.
-pub fn impacts_from(system: &System, after: &AfterImpact, wall: Wall, count: u64) -> Vec<Impact> {
-    let mut simulation =
-        Simulation::new(system, after.state(wall), after.phase).expect("on the wall");
-    let mut log = ImpactLog::default();
-    let stop = simulation.run(20 + count, count, &mut log);
-    assert!(matches!(stop, Stop::ImpactLimit | Stop::EndTime));
-    log.impacts
-}
-
-/// The same, on a symmetric orbit.
-pub fn simulated_impacts(system: &System, orbit: &SymmetricOrbit, count: u64) -> Vec<Impact> {
-    let cycle = &orbit.orbit.cycle;
-    impacts_from(system, &cycle.impacts[0], cycle.walls[0], count)
-}
-
-/// Jacobian of the half-period map, mirrored, by central differences of the simulation.
-pub fn simulated_half_map(system: &System, orbit: &SymmetricOrbit, h: f64) -> Matrix4<f64> {
-    let cycle = &orbit.orbit.cycle;
-    let base = cycle.impacts[0].vector();
-    let close = cycle.closure.matrix();
-    let mapped = |k: usize, h: f64| {
-        let mut vector = base;
-        vector[k] += h;
-        let start = AfterImpact::from_vector(&vector);
-        let impact = impacts_from(system, &start, cycle.walls[0], 1)[0];
-        // The simulation reduces phases to one turn.
-        let turns = (start.phase.div_euclid(std::f64::consts::TAU)) * std::f64::consts::TAU;
-        let begun = start.phase - turns;
-        let passed = impact.tau * system.frequency_ratio();
-        let phase = turns + if passed >= begun { passed } else { passed + std::f64::consts::TAU };
-        AfterImpact {
-            phase,
-            x: impact.x,
-            x_velocity: impact.x_velocity_after,
-            y_velocity: impact.y_velocity_after,
-        }
-        .vector()
-    };
-    let columns = [0, 1, 2, 3].map(|k| close * (mapped(k, h) - mapped(k, -h)) / (2.0 * h));
-    Matrix4::from_columns(&columns)
+    .expect("Table 1 is a valid system")
 }

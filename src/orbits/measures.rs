@@ -1,0 +1,147 @@
+//! What an orbit means for a design: amplitudes, first harmonics, and where its energy goes.
+//!
+//! Integrals along the orbit are taken by a quadrature that is exact to rounding for the closed-form
+//! motion; the energy balance over a period is therefore a check and not an identity.
+
+use std::f64::consts::{FRAC_PI_4, PI, TAU};
+
+use serde::Serialize;
+
+use super::OrbitError;
+use super::admissibility::sign_changes;
+use super::impact_map::ImpactMap;
+use super::orbit::Cycle;
+use crate::numerics::quadrature;
+use crate::system::System;
+
+/// Largest values along an orbit, over the clearance, fast time.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Peaks {
+    /// Of the absolute displacement of the oscillator.
+    pub displacement: f64,
+    /// Of its absolute velocity.
+    pub velocity: f64,
+}
+
+impl Peaks {
+    /// Along a cycle: at impacts and where displacement or velocity turns between them.
+    pub fn of(map: &ImpactMap, cycle: &Cycle) -> Self {
+        let mut peaks = Self { displacement: 0.0, velocity: 0.0 };
+        for (start, _, _, duration) in cycle.flights() {
+            let mut note = |s: f64| {
+                let at = map.oscillator_at(&start, s);
+                peaks.displacement = peaks.displacement.max(at.x.abs());
+                peaks.velocity = peaks.velocity.max(at.v.abs());
+            };
+            note(0.0);
+            note(duration);
+            let frequency = map.frequency();
+            sign_changes(duration, frequency, |s| map.oscillator_at(&start, s).v, &mut note);
+            let acceleration = |s: f64| {
+                map.flight.acceleration(start.phase + frequency * s, map.oscillator_at(&start, s))
+            };
+            sign_changes(duration, frequency, acceleration, &mut note);
+        }
+        peaks
+    }
+}
+
+/// Energy per excitation period, per unit of the oscillator's mass, over the squared clearance.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct EnergyPerPeriod {
+    /// Work of the excitation.
+    pub input: f64,
+    /// Lost in the damper.
+    pub damper: f64,
+    /// Lost in impacts.
+    pub impact: f64,
+    /// `abs(input - damper - impact)` over the largest of the three: rounding.
+    pub relative_residual: f64,
+}
+
+/// Averages along an orbit; lengths over the clearance, fast time.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Measures {
+    /// Largest values.
+    pub peaks: Peaks,
+    /// Root mean square of the oscillator's displacement.
+    pub rms: f64,
+    /// First harmonic of the oscillator: coefficients of `sin` and `cos` of the excitation's phase.
+    pub oscillator_harmonic: [f64; 2],
+    /// The same for the absorber.
+    pub absorber_harmonic: [f64; 2],
+    /// Where the energy goes.
+    pub energy: EnergyPerPeriod,
+}
+
+impl Measures {
+    /// Along a cycle of `system`.
+    ///
+    /// # Errors
+    /// [`OrbitError::NoSteadyMotion`] for an undamped oscillator driven at its natural frequency.
+    pub fn of(system: &System, cycle: &Cycle) -> Result<Self, OrbitError> {
+        let map = ImpactMap::of(system)?;
+        let sums = integrals(system, &map, cycle);
+        let omega = map.frequency();
+        let turn = cycle.closure.turn();
+        let periods = turn / TAU;
+        // Of half an orbit that equals its mirror image: quadratic terms and products with the
+        // excitation repeat.
+        let harmonic = |k: usize| omega * sums[k] / (periods * PI);
+        let impact = impact_loss(system, &map, cycle) / periods;
+        let (input, damper) = (sums[1] / periods, sums[2] / periods);
+        let largest = input.abs().max(damper).max(impact).max(f64::MIN_POSITIVE);
+        Ok(Self {
+            peaks: Peaks::of(&map, cycle),
+            rms: (sums[0] * omega / turn).sqrt(),
+            oscillator_harmonic: [harmonic(3), harmonic(4)],
+            absorber_harmonic: [harmonic(5), harmonic(6)],
+            energy: EnergyPerPeriod {
+                input,
+                damper,
+                impact,
+                relative_residual: (input - damper - impact).abs() / largest,
+            },
+        })
+    }
+}
+
+/// Over the computed part of the cycle: `x^2`, power of the excitation, power of the damper, `x` and
+/// `y` times `sin` and `cos` of the phase.
+fn integrals(system: &System, map: &ImpactMap, cycle: &Cycle) -> [f64; 7] {
+    let omega = map.frequency();
+    let damping = map.flight.damping();
+    let (sine, cosine) = system.excitation_amplitudes();
+    let oscillating = 1.0_f64.max(omega);
+    let panels = [FRAC_PI_4 / oscillating.max(damping), FRAC_PI_4 / oscillating];
+    let mut sums = [0.0; 7];
+    for (start, from, _, duration) in cycle.flights() {
+        let place = start.x - from.sign();
+        quadrature::graded_nodes(duration, panels[0], panels[1], |s, weight| {
+            let at = map.oscillator_at(&start, s);
+            let y = place + start.y_velocity * s;
+            let (sin, cos) = libm::sincos(start.phase + omega * s);
+            let force = sine * sin + cosine * cos;
+            let terms = [
+                at.x * at.x,
+                force * at.v,
+                damping * at.v * at.v,
+                at.x * sin,
+                at.x * cos,
+                y * sin,
+                y * cos,
+            ];
+            for (sum, term) in sums.iter_mut().zip(terms) {
+                *sum += weight * term;
+            }
+        });
+    }
+    sums
+}
+
+/// Each impact loses `eps (1 - r^2) w'^2 / (2 (1 + eps))`.
+fn impact_loss(system: &System, map: &ImpactMap, cycle: &Cycle) -> f64 {
+    let (eps, r) = (system.mass_ratio(), system.restitution());
+    let share = 0.5 * eps * (1.0 - r) * (1.0 + r) / (1.0 + eps);
+    cycle.steps(map).iter().map(|step| share * step.approach * step.approach).sum()
+}
