@@ -12,7 +12,7 @@ use vinesink::orbits::branch::{Direction, Settings, follow};
 use vinesink::orbits::newton::solve;
 use vinesink::orbits::switching::{branch_off, continue_beyond};
 use vinesink::orbits::{
-    Bifurcation, Branch, BranchEnd, Closure, Cycle, Orbit, OrbitError, Origin, Parameter,
+    Bifurcation, Boundaries, Branch, BranchEnd, Closure, Cycle, Orbit, OrbitError, Origin, Parameter,
     SpecialPoint, SymmetricFamily, symmetric_orbits,
 };
 use vinesink::system::System;
@@ -232,4 +232,36 @@ fn sequences_are_named_once() {
     let mirrors = Closure::Mirrors { periods: 1 };
     assert_eq!(named(vec![Plus, Plus], mirrors), "++--");
     assert_eq!(named(vec![Minus], mirrors), named(vec![Plus, Minus], repeats));
+}
+
+/// The whole column of boundaries over a band of frequencies: the asymmetric orbits begin where the
+/// symmetric ones end, and simulation sees two impacts a period above the grazing and another regime
+/// far below it.
+#[test]
+fn the_border_between_two_and_more_impacts_is_a_grazing() {
+    for frequency in [7.6, 7.8, 8.0, 8.2, 8.4, 8.5, 8.7, 9.0] {
+        let system = table_1(frequency, 10.0);
+        let boundaries = Boundaries::of(&system).expect("damped");
+        let asymmetric = boundaries.asymmetric.expect("below resonance and above");
+        let grazing = asymmetric.grazing.expect("the branch ends by grazing");
+        assert!(asymmetric.attracting, "{frequency}");
+        assert!(matches!(asymmetric.end, BranchEnd::Grazing { .. }));
+        assert!(grazing < asymmetric.symmetry_breaking);
+        let doubling = asymmetric.period_doubling.expect("before the grazing");
+        assert!(grazing < doubling && doubling < asymmetric.symmetry_breaking);
+        println!(
+            "{frequency} Hz: {:.3} {:.3} {:.3} {:?}",
+            10.0 * asymmetric.symmetry_breaking,
+            10.0 * doubling,
+            10.0 * grazing,
+            asymmetric.sequence_beyond
+        );
+        // Between symmetry breaking and period doubling a simulation settles on two impacts.
+        let middle = 0.5 * (doubling + asymmetric.symmetry_breaking);
+        let there = system.with_clearance_scaled(middle).expect("valid");
+        let impacts = impacts_from(&there, &common_start(&there), vinesink::orbits::Wall::Plus, 4000);
+        let last = &impacts[impacts.len() - 5..];
+        let passed = (last[4].tau - last[0].tau) / there.period();
+        assert!((passed - 2.0).abs() < 1e-6, "{passed}");
+    }
 }

@@ -9,6 +9,7 @@ use serde::Serialize;
 
 use super::OrbitError;
 use super::impact_map::ImpactMap;
+use super::orbit::Cycle;
 use super::multipliers::{Multipliers, minus_one, unit_product};
 use super::special::Bifurcation;
 use super::symmetric::{SymmetricCurve, SymmetricOrbit, symmetric_orbit};
@@ -118,6 +119,17 @@ impl Family {
             test: self.test(kind, beta),
             bounds_stability: self.attracts(beta - aside) != self.attracts(beta + aside),
         }
+    }
+}
+
+impl Limit {
+    /// The orbit at the limit, as half a cycle; lengths over the clearance there.
+    ///
+    /// # Errors
+    /// As [`SymmetricFamily::of`].
+    pub fn cycle(&self, system: &System) -> Result<Cycle, OrbitError> {
+        let family = Family::of(system)?;
+        Ok(family.curve.cycle(&family.map_at(self.absorber).flight, self.absorber))
     }
 }
 

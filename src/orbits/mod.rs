@@ -4,10 +4,12 @@
 //! motion is closed form ([`flight`]); from one impact to the next it is a map with an exact Jacobian
 //! ([`impact_map`]). Its symmetric two-impact cycles solve one quadratic ([`symmetric`]); all others
 //! are found by Newton's method ([`newton`]) and followed by continuation ([`branch`]), with their
-//! bifurcations. Where the symmetric ones begin and end is [`limits`]. Nothing here knows of the
+//! bifurcations. Where the symmetric ones begin and end is [`limits`]; with the asymmetric ones that
+//! follow them, [`boundaries`]. Nothing here knows of the
 //! asymptotic theory, or of simulation.
 
 pub mod admissibility;
+pub mod boundaries;
 pub mod branch;
 pub mod flight;
 pub mod impact_map;
@@ -21,6 +23,7 @@ pub mod switching;
 pub mod symmetric;
 
 pub use admissibility::Admissibility;
+pub use boundaries::{AsymmetricOrbits, Boundaries};
 pub use branch::{Branch, BranchEnd, BranchPoint, Parameter};
 pub use impact_map::{AfterImpact, ImpactMap, Wall};
 pub use limits::{Limit, SymmetricFamily};

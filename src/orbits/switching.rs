@@ -5,7 +5,7 @@ use nalgebra::{Matrix4, Vector4, Vector5};
 
 use super::OrbitError;
 use super::branch::{Branch, Parameter, Settings, Tracer, trace};
-use super::impact_map::{AfterImpact, ImpactMap};
+use super::impact_map::AfterImpact;
 use super::orbit::{Closure, Cycle, Orbit, Origin};
 use super::special::{Bifurcation, SpecialPoint};
 use crate::system::System;
@@ -29,25 +29,42 @@ pub fn branch_off(
     special: &SpecialPoint,
     settings: &Settings,
 ) -> Result<Branch, OrbitError> {
-    let tracer = Tracer::new(base, parameter);
-    let doubled = match (special.kind, special.orbit.cycle.closure) {
-        (Bifurcation::SymmetryBreaking, Closure::Mirrors { .. }) => special.orbit.cycle.unfolded(),
-        (Bifurcation::PeriodDoubling, Closure::Repeats { .. }) => twice(&special.orbit.cycle),
-        _ => return Err(OrbitError::NotACycle { reason: "no branch leaves there" }),
+    let fits = match special.orbit.cycle.closure {
+        Closure::Mirrors { .. } => special.kind == Bifurcation::SymmetryBreaking,
+        Closure::Repeats { .. } => special.kind == Bifurcation::PeriodDoubling,
     };
-    let system = parameter.applied(base, special.value).ok_or(OrbitError::Singular)?;
-    let map = ImpactMap::of(&system)?;
-    let direction = kernel(&(special.orbit.cycle.jacobian(&map) + Matrix4::identity()))
-        .ok_or(OrbitError::Singular)?;
-    let scaled = special.value / tracer.scale();
+    if !fits {
+        return Err(OrbitError::NotACycle { reason: "no branch leaves there" });
+    }
+    leave(base, parameter, special.value, &special.orbit.cycle, settings)
+}
+
+/// The branch that leaves the orbit `cycle` at `value` of the parameter, where its map has the
+/// multiplier -1.
+///
+/// # Errors
+/// [`OrbitError`] where Newton's method does not find the branch.
+pub(super) fn leave(
+    base: &System,
+    parameter: Parameter,
+    value: f64,
+    cycle: &Cycle,
+    settings: &Settings,
+) -> Result<Branch, OrbitError> {
+    let tracer = Tracer::new(base, parameter);
+    let doubled = match cycle.closure {
+        Closure::Mirrors { .. } => cycle.unfolded(),
+        Closure::Repeats { .. } => twice(cycle),
+    };
+    let scaled = value / tracer.scale();
+    let map = tracer.map_at(scaled).ok_or(OrbitError::Singular)?;
+    let direction =
+        kernel(&(cycle.jacobian(&map) + Matrix4::identity())).ok_or(OrbitError::Singular)?;
     let mut along = Vector5::zeros();
     along.fixed_rows_mut::<4>(0).copy_from(&direction);
-    let start = super::newton::Linearised::of(&map, &doubled, [0.0; 3]).moved(
-        &doubled,
-        direction * ENTRY,
-        0.0,
-        [0.0; 3],
-    );
+    let still = [0.0; 3];
+    let linear = super::newton::Linearised::of(&map, &doubled, still);
+    let start = linear.moved(&doubled, direction * ENTRY, 0.0, still);
     let point = tracer.correct(start, scaled, &along, &along)?;
     Ok(trace(&tracer, point, Origin::Switching, settings))
 }

@@ -1,0 +1,92 @@
+//! Boundaries of the full system in clearance, at one frequency and forcing: where two symmetric
+//! impacts per period begin and end, and how far the two asymmetric ones that follow them reach.
+//!
+//! The last is the border between Z2 and Z1, which no closed form gives: the asymmetric orbit is
+//! followed from the symmetry breaking, towards smaller clearances, until another impact appears.
+
+use serde::Serialize;
+
+use super::OrbitError;
+use super::branch::{Branch, BranchEnd, Parameter, Settings};
+use super::limits::{Limit, SymmetricFamily};
+use super::special::{Bifurcation, SpecialPoint};
+use super::switching::leave;
+use crate::system::System;
+
+/// Clearances, over that of the symmetry breaking, in which the asymmetric orbits are followed; past
+/// a hundredth impacts crowd in whatever the parameters.
+const RANGE: [f64; 2] = [0.01, 2.0];
+
+/// The two asymmetric impacts per period beyond a symmetry breaking. Clearances are over the
+/// system's own.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct AsymmetricOrbits {
+    /// Where the symmetric orbit gives way to them.
+    pub symmetry_breaking: f64,
+    /// Where they double their period; none if a wall is grazed first.
+    pub period_doubling: Option<f64>,
+    /// Where the absorber grazes a wall and a third impact appears.
+    pub grazing: Option<f64>,
+    /// The sequence of walls beyond the grazing, where an orbit was found there.
+    pub sequence_beyond: Option<String>,
+    /// Whether they exist on the side of smaller clearances, as attracting orbits.
+    pub attracting: bool,
+    /// Why the branch ends.
+    pub end: BranchEnd,
+}
+
+/// All boundaries at one frequency and forcing.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Boundaries {
+    /// `Omega`.
+    pub frequency_ratio: f64,
+    /// Of the symmetric orbits.
+    pub symmetric: SymmetricFamily,
+    /// Of the asymmetric ones next to them; `None` where no symmetry breaking bounds the symmetric
+    /// ones, or their branch could not be entered.
+    pub asymmetric: Option<AsymmetricOrbits>,
+}
+
+impl Boundaries {
+    /// At the frequency and forcing of `system`.
+    ///
+    /// # Errors
+    /// [`OrbitError::NoSteadyMotion`] for an undamped oscillator driven at its natural frequency.
+    pub fn of(system: &System) -> Result<Self, OrbitError> {
+        let symmetric = SymmetricFamily::of(system)?;
+        let breaking = symmetric.limits.iter().find(|limit| {
+            limit.kind == Bifurcation::SymmetryBreaking && limit.bounds_stability
+        });
+        // A branch that cannot be entered is a boundary that is not drawn.
+        let asymmetric = breaking.and_then(|limit| asymmetric(system, limit).ok());
+        Ok(Self { frequency_ratio: system.frequency_ratio(), symmetric, asymmetric })
+    }
+}
+
+/// The branch of asymmetric orbits of `system` over the clearance, from the symmetry breaking at
+/// `limit`.
+///
+/// # Errors
+/// [`OrbitError`] where the branch cannot be entered.
+pub fn asymmetric_branch(system: &System, limit: &Limit) -> Result<Branch, OrbitError> {
+    let cycle = limit.cycle(system)?;
+    let settings = Settings::within(RANGE.map(|factor| factor * limit.clearance));
+    leave(system, Parameter::Clearance, limit.clearance, &cycle, &settings)
+}
+
+fn asymmetric(system: &System, limit: &Limit) -> Result<AsymmetricOrbits, OrbitError> {
+    let branch = asymmetric_branch(system, limit)?;
+    let first = |kind| branch.specials.iter().find(|special| special.kind == kind);
+    let value = |special: &SpecialPoint| special.value;
+    let grazing = first(Bifurcation::Grazing);
+    // Beyond its entry, which is close to the symmetric orbit.
+    let attracting = branch.points.iter().take(4).any(|point| point.orbit.attracts());
+    Ok(AsymmetricOrbits {
+        symmetry_breaking: limit.clearance,
+        period_doubling: first(Bifurcation::PeriodDoubling).map(value),
+        grazing: grazing.map(value),
+        sequence_beyond: grazing.and_then(|special| special.sequence_beyond.clone()),
+        attracting,
+        end: branch.end,
+    })
+}
