@@ -8,10 +8,14 @@ use serde::Serialize;
 
 use crate::analysis::{Analysis, Area, Branch, FixedPoint, ManifoldPoint, Strip};
 use crate::case::Scales;
+use crate::orbits::{
+    AsymmetricOrbits, Bifurcation, FullSystem, Leading, Origin, SymmetricOrbit,
+};
 use crate::regimes::{Attractor, Evidence, FoundAttractor, Regime};
 use crate::simulation::{Energy, Stop, SustainedContact};
-use crate::study::SettledArea;
+use crate::study::{SettledArea, SettledBy};
 use crate::system::{Excitation, System};
+use crate::validation::price::prices;
 
 /// `vinesink/analysis@1`.
 #[derive(Debug, Clone, Serialize)]
@@ -22,11 +26,63 @@ pub struct AnalysisDocument {
     fixed_points: Vec<FixedPoint>,
     boundaries: BoundariesDocument,
     area: Area,
-    /// Whether simulation had to tell Z1 from Z2, which closed form cannot.
-    area_settled_by_simulation: bool,
+    /// The layer that told the area; closed form cannot tell Z1 from Z2.
+    area_settled_by: SettledBy,
     strip: Option<Strip>,
-    /// Exact symmetric orbits of the full system; none are computed yet.
-    orbits: [(); 0],
+    /// Exact symmetric orbits of the full system.
+    orbits: Vec<OrbitDocument>,
+    /// Boundaries of the full system, beside those of the theory.
+    exact_boundaries: Vec<ExactBoundaryDocument>,
+    /// The two asymmetric impacts beyond symmetry breaking.
+    asymmetric_orbits: Option<AsymmetricDocument>,
+}
+
+/// A symmetric 1:1 orbit of the full system.
+#[derive(Debug, Clone, Serialize)]
+struct OrbitDocument {
+    impact_displacement: f64,
+    peak_displacement: f64,
+    /// In metres a second for a physical case, else in the case's unit per fast time.
+    peak_velocity: f64,
+    /// Relative, in the same unit.
+    impact_speed: f64,
+    /// Momentum handed over in an impact, over the oscillator's mass, in the same unit.
+    impulse_per_mass: f64,
+    phase: f64,
+    multipliers: [[f64; 2]; 4],
+    spectral_radius: f64,
+    leading_multiplier: Leading,
+    admissible: bool,
+    /// Smallest distance to a wall between impacts.
+    room_over_clearance: f64,
+    stable: bool,
+    residual: f64,
+    sequence: String,
+    impacts: usize,
+    periods: u32,
+    origin: Origin,
+}
+
+#[derive(Debug, Clone, Serialize)]
+struct ExactBoundaryDocument {
+    kind: Bifurcation,
+    clearance: Option<f64>,
+    bracket: Option<[f64; 2]>,
+    test_function: &'static str,
+    test: Option<f64>,
+    theory: Option<f64>,
+    /// Theory over exact, minus 1.
+    error_of_theory: Option<f64>,
+    bounds_stability: bool,
+}
+
+#[derive(Debug, Clone, Serialize)]
+struct AsymmetricDocument {
+    symmetry_breaking_clearance: f64,
+    period_doubling_clearance: Option<f64>,
+    grazing_clearance: Option<f64>,
+    sequence_beyond_grazing: Option<String>,
+    attracting: bool,
 }
 
 #[derive(Debug, Clone, Serialize)]
@@ -64,7 +120,12 @@ struct SaddleNodeDocument {
 
 impl AnalysisDocument {
     /// The document of an analysis whose area has been settled.
-    pub fn new(analysis: &Analysis, area: SettledArea, scales: &Scales) -> Self {
+    pub fn new(
+        analysis: &Analysis,
+        exact: &FullSystem,
+        area: SettledArea,
+        scales: &Scales,
+    ) -> Self {
         let boundaries = &analysis.boundaries;
         let clearance = |gamma: f64| scales.forcing / gamma;
         Self {
@@ -90,11 +151,83 @@ impl AnalysisDocument {
                 codimension_two: boundaries.codimension_two,
             },
             area: area.area,
-            area_settled_by_simulation: area.by_simulation,
+            area_settled_by: area.by,
             strip: analysis.zone.strip,
-            orbits: [],
+            orbits: exact.orbits.iter().map(|orbit| OrbitDocument::new(orbit, scales)).collect(),
+            exact_boundaries: exact_boundaries(analysis, exact, scales),
+            asymmetric_orbits: exact
+                .boundaries
+                .as_ref()
+                .and_then(|found| found.asymmetric.as_ref())
+                .map(|found| AsymmetricDocument::new(found, scales)),
         }
     }
+}
+
+impl OrbitDocument {
+    fn new(orbit: &SymmetricOrbit, scales: &Scales) -> Self {
+        let SymmetricOrbit { orbit: found, .. } = orbit;
+        let velocity = |value: f64| {
+            scales.velocity_m_per_s(value).unwrap_or_else(|| scales.length(value))
+        };
+        Self {
+            impact_displacement: scales.length(orbit.impact_displacement),
+            peak_displacement: scales.length(orbit.peaks.displacement),
+            peak_velocity: velocity(orbit.peaks.velocity),
+            impact_speed: velocity(orbit.impact_speed),
+            impulse_per_mass: velocity(orbit.impulse),
+            phase: orbit.phase,
+            multipliers: found.multipliers.values,
+            spectral_radius: found.multipliers.spectral_radius(),
+            leading_multiplier: found.multipliers.leading(),
+            admissible: found.admissibility.admissible,
+            room_over_clearance: found.admissibility.room,
+            stable: found.attracts(),
+            residual: found.convergence.residual,
+            sequence: found.cycle.sequence(),
+            impacts: found.cycle.impact_count(),
+            periods: found.cycle.periods(),
+            origin: found.origin,
+        }
+    }
+}
+
+impl AsymmetricDocument {
+    fn new(found: &AsymmetricOrbits, scales: &Scales) -> Self {
+        Self {
+            symmetry_breaking_clearance: scales.length(found.symmetry_breaking),
+            period_doubling_clearance: found.period_doubling.map(|at| scales.length(at)),
+            grazing_clearance: found.grazing.map(|at| scales.length(at)),
+            sequence_beyond_grazing: found.sequence_beyond.clone(),
+            attracting: found.attracting,
+        }
+    }
+}
+
+/// The boundaries of both layers, with the evidence of the exact ones.
+fn exact_boundaries(
+    analysis: &Analysis,
+    exact: &FullSystem,
+    scales: &Scales,
+) -> Vec<ExactBoundaryDocument> {
+    let limits = exact.boundaries.iter().flat_map(|found| &found.symmetric.limits);
+    let limits: Vec<_> = limits.collect();
+    prices(analysis, exact)
+        .into_iter()
+        .map(|price| {
+            let limit = limits.iter().find(|limit| Some(limit.clearance) == price.exact);
+            ExactBoundaryDocument {
+                kind: price.kind,
+                clearance: price.exact.map(|at| scales.length(at)),
+                bracket: limit.map(|limit| limit.bracket.map(|at| scales.length(at))),
+                test_function: price.kind.test_function(),
+                test: limit.map(|limit| limit.test),
+                theory: price.theory.map(|at| scales.length(at)),
+                error_of_theory: price.difference,
+                bounds_stability: price.bounds_stability,
+            }
+        })
+        .collect()
 }
 
 impl Reduced {

@@ -9,6 +9,7 @@ pub mod render;
 pub mod summary;
 
 mod equations;
+mod exact_tables;
 mod notes;
 mod tables;
 mod verdict;
@@ -63,9 +64,11 @@ pub struct Tables {
     pub attractors: Table,
     /// Fixed points of the slow flow.
     pub fixed_points: Table,
-    /// Boundaries in clearance.
+    /// Exact symmetric orbits.
+    pub orbits: Table,
+    /// Boundaries in clearance, of the theory and of the full system.
     pub boundaries: Table,
-    /// Theory against simulation.
+    /// The layers against one another.
     pub claims: Table,
     /// Why the tolerances in `claims` are what they are, by letter.
     pub tolerance_reasons: Vec<String>,
@@ -139,7 +142,8 @@ impl Report {
             tables: Tables {
                 attractors: tables::attractors(case, study),
                 fixed_points: tables::fixed_points(case, study),
-                boundaries: tables::boundaries(case, study),
+                orbits: exact_tables::orbits(case, study),
+                boundaries: exact_tables::boundaries(case, study),
                 claims: tables::claims(case, study),
                 tolerance_reasons: tables::lettered_reasons(study),
                 numerics: tables::numerics(study),
@@ -154,7 +158,12 @@ impl Report {
                 effort: study.effort,
             },
             data: ReportData {
-                analysis: AnalysisDocument::new(&study.analysis, study.area, &scales),
+                analysis: AnalysisDocument::new(
+                    &study.analysis,
+                    &study.exact,
+                    study.area,
+                    &scales,
+                ),
                 attractors: study
                     .attractors
                     .iter()

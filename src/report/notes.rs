@@ -22,15 +22,6 @@ pub struct Note {
     pub text: String,
 }
 
-/// Whether a system lies where the theory, near resonance and at leading order in the mass ratio,
-/// says nothing.
-pub fn outside_range(system: &System) -> bool {
-    system.mass_ratio() > LARGEST_MASS_RATIO
-        || (system.frequency_ratio() - 1.0).abs() > LARGEST_OFFSET
-        || system.mass_ratio() * system.damping() > LARGEST_DAMPING
-        || system.restitution() == 1.0
-}
-
 /// Everything that limits what the report says.
 pub fn notes(case: &Case, study: &CaseStudy) -> Vec<Note> {
     let mut notes = Vec::new();

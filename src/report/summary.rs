@@ -4,13 +4,19 @@ use std::fmt::Write as _;
 
 use super::numbers::{LengthFormat, fixed, percent, significant};
 use crate::analysis::{Analysis, Strip};
+use crate::orbits::FullSystem;
 use crate::case::Case;
 use crate::regimes::{Attractor, FoundAttractor};
-use crate::study::SettledArea;
-use crate::validation::boundaries::clearances;
+use crate::study::{SettledArea, SettledBy};
+use crate::validation::price::prices;
 
-/// What the theory says of a case.
-pub fn analysis(case: &Case, analysis: &Analysis, area: SettledArea) -> String {
+/// What the theory and the exact orbits say of a case.
+pub fn analysis(
+    case: &Case,
+    analysis: &Analysis,
+    exact: &FullSystem,
+    area: SettledArea,
+) -> String {
     let scales = case.scales();
     let lengths = LengthFormat::of(&scales);
     let length = |over_clearance: f64| lengths.text(scales.length(over_clearance));
@@ -20,7 +26,11 @@ pub fn analysis(case: &Case, analysis: &Analysis, area: SettledArea) -> String {
         Some(Strip::A2) => ", strip A2: strongly modulated response",
         None => "",
     };
-    let how = if area.by_simulation { " (Z1 or Z2 told apart by a short simulation)" } else { "" };
+    let how = match area.by {
+        SettledBy::ClosedForm => "",
+        SettledBy::ExactOrbit => " (Z1 or Z2 told apart by the grazing of the exact orbit)",
+        SettledBy::Simulation => " (Z1 or Z2 told apart by a short simulation)",
+    };
     let _ = writeln!(text, "Area {:?}{strip}{how}", area.area);
     let manifold = &analysis.manifold;
     let _ = writeln!(
@@ -54,15 +64,36 @@ pub fn analysis(case: &Case, analysis: &Analysis, area: SettledArea) -> String {
             },
         );
     }
-    text.push_str("\nBoundaries at this frequency and forcing, as clearances\n");
-    for at in clearances(analysis) {
-        let branch = match at.kind {
-            crate::analysis::BoundaryKind::SaddleNode => {
-                format!(", on the {} branch", at.branch.words())
-            }
-            _ => String::new(),
-        };
-        let _ = writeln!(text, "  {}: b = {}{branch}", at.kind.words(), length(at.clearance));
+    text.push_str("\nExact symmetric 1:1 orbits of the full system\n");
+    if exact.orbits.is_empty() {
+        text.push_str("  none\n");
+    }
+    for orbit in &exact.orbits {
+        let found = &orbit.orbit;
+        let _ = writeln!(
+            text,
+            "  x = {} at impact, peak {}: {}, largest multiplier {}",
+            length(orbit.impact_displacement),
+            length(orbit.peaks.displacement),
+            match (found.admissibility.admissible, found.attracts()) {
+                (false, _) => "not a motion, the absorber would leave its cavity",
+                (true, true) => "stable",
+                (true, false) => "unstable",
+            },
+            significant(found.multipliers.spectral_radius(), 4),
+        );
+    }
+    text.push_str("\nBoundaries at this frequency and forcing, as clearances: theory, exact\n");
+    for price in prices(analysis, exact) {
+        let shown = |at: Option<f64>| at.map_or_else(|| "none".into(), length);
+        let _ = writeln!(
+            text,
+            "  {}: {}, {}{}",
+            price.kind.words(),
+            shown(price.theory),
+            shown(price.exact),
+            if price.bounds_stability { ", bounds the stable orbit" } else { "" },
+        );
     }
     let p1 = analysis.boundaries.codimension_two;
     let frequency = scales.frequency_hz(1.0 + analysis.system.mass_ratio() * p1.detuning);

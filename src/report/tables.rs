@@ -4,8 +4,6 @@ use serde::Serialize;
 
 use super::notes::finding;
 use super::numbers::{LengthFormat, decibels, fixed, percent, signed, significant};
-use super::verdict::relative;
-use crate::analysis::BoundaryKind;
 use crate::case::{Case, Input};
 use crate::regimes::Evidence;
 use crate::study::CaseStudy;
@@ -42,7 +40,7 @@ pub struct KeyRow {
     pub anchor: &'static str,
 }
 
-fn table<const N: usize>(columns: [(&'static str, bool); N], rows: Vec<[String; N]>) -> Table {
+pub(super) fn table<const N: usize>(columns: [(&'static str, bool); N], rows: Vec<[String; N]>) -> Table {
     Table {
         columns: columns.into_iter().map(|(title, numeric)| Column { title, numeric }).collect(),
         rows: rows.into_iter().map(Vec::from).collect(),
@@ -101,6 +99,21 @@ pub fn key_rows(case: &Case, study: &CaseStudy) -> Vec<KeyRow> {
         let digits = if attractor.repeats() { 4 } else { 2 };
         rows.push(row("Impacts per period z", significant(z, digits), simulation, "motions"));
     }
+    if let Some(orbit) = study.exact.attracting() {
+        let radius = orbit.orbit.multipliers.spectral_radius();
+        rows.push(row(
+            "Peak of the exact symmetric orbit",
+            length(orbit.peaks.displacement),
+            "exact orbit",
+            "orbits",
+        ));
+        rows.push(row(
+            "Its largest multiplier, per half period",
+            significant(radius, 3),
+            "exact orbit",
+            "orbits",
+        ));
+    }
     if let Some(point) = study.analysis.stable_points().last() {
         rows.push(row(
             "Amplitude C of the stable fixed point",
@@ -113,8 +126,7 @@ pub fn key_rows(case: &Case, study: &CaseStudy) -> Vec<KeyRow> {
         Some(strip) => format!("{:?}, strip {strip:?}", study.area.area),
         None => format!("{:?}", study.area.area),
     };
-    let from = if study.area.by_simulation { "theory and simulation" } else { "theory" };
-    rows.push(row("Area of the case", area, from, "theory"));
+    rows.push(row("Area of the case", area, study.area.by.words(), "theory"));
     rows
 }
 
@@ -207,35 +219,6 @@ pub fn fixed_points(case: &Case, study: &CaseStudy) -> Table {
     table(columns, rows.collect())
 }
 
-/// Boundaries in clearance at the case's frequency and forcing.
-pub fn boundaries(case: &Case, study: &CaseStudy) -> Table {
-    let scales = case.scales();
-    let lengths = LengthFormat::of(&scales);
-    let rows = study.margins.clearance.iter().map(|margin| {
-        let name = match margin.kind {
-            BoundaryKind::SaddleNode => {
-                format!("saddle-node on the {} branch", margin.branch.words())
-            }
-            kind => kind.words().to_owned(),
-        };
-        [
-            name,
-            lengths.with_digits(scales.length(margin.factor), 4),
-            relative(margin.factor),
-            if margin.ends_steady_resonance { "yes" } else { "no" }.to_owned(),
-        ]
-    });
-    table(
-        [
-            ("Boundary", false),
-            ("Clearance", true),
-            ("From this case", true),
-            ("Bounds steady 1:1", false),
-        ],
-        rows.collect(),
-    )
-}
-
 /// Every long-term motion.
 pub fn attractors(case: &Case, study: &CaseStudy) -> Table {
     let scales = case.scales();
@@ -280,7 +263,7 @@ fn repetition(evidence: &Evidence, followed: u64) -> String {
     }
 }
 
-/// Theory against simulation.
+/// The layers against one another.
 pub fn claims(case: &Case, study: &CaseStudy) -> Table {
     let reasons = reasons(study);
     let rows = study.claims.iter().map(|claim| {
@@ -288,21 +271,21 @@ pub fn claims(case: &Case, study: &CaseStudy) -> Table {
             claim.verdict.words().to_owned(),
             claim.statement.clone(),
             claim.source.to_owned(),
+            claim.checked_by.words().to_owned(),
             finding(case, &claim.predicted),
             finding(case, &claim.observed),
-            difference(claim),
-            allowed(claim, &reasons),
+            difference(claim, &reasons),
         ]
     });
     table(
         [
             ("Verdict", false),
             ("Claim", false),
-            ("Layer", false),
+            ("Claimed by", false),
+            ("Checked by", false),
             ("Predicted", false),
             ("Observed", false),
-            ("Difference", true),
-            ("Allowed", false),
+            ("Difference, allowed", true),
         ],
         rows.collect(),
     )
@@ -330,33 +313,28 @@ fn letter(index: usize) -> char {
     char::from(b'a' + (index % 26) as u8)
 }
 
-fn difference(claim: &Claim) -> String {
+/// The difference, what was allowed, and the letter of the reason.
+fn difference(claim: &Claim, reasons: &[String]) -> String {
+    let index = reasons.iter().position(|reason| *reason == claim.tolerance.reason).unwrap_or(0);
+    let letter = letter(index);
+    let allowed = claim.tolerance.value;
     match (claim.difference, &claim.predicted) {
-        (Some(value), Finding::Number(_, Measure::Angle)) => format!("{} rad", signed(value, 4)),
-        (Some(value), _) if claim.tolerance.value < FINE => significant(value, 1),
+        (Some(value), Finding::Number(_, Measure::Angle)) => {
+            format!("{} rad of {} rad ({letter})", signed(value, 4), significant(allowed, 2))
+        }
+        (Some(value), _) if allowed < FINE => {
+            format!("{} of {} ({letter})", significant(value, 1), significant(allowed, 1))
+        }
         (Some(value), _) => {
             let sign = if value < 0.0 { "\u{2212}" } else { "+" };
-            format!("{sign}{}", percent(value.abs()))
+            format!("{sign}{} of {} ({letter})", percent(value.abs()), percent(allowed))
         }
-        (None, _) => "\u{2013}".into(),
+        (None, _) => format!("({letter})"),
     }
 }
 
 /// Relative tolerances below this are shown as plain numbers: nobody says 1e-7 %.
 const FINE: f64 = 1e-6;
-
-fn allowed(claim: &Claim, reasons: &[String]) -> String {
-    let index = reasons.iter().position(|reason| *reason == claim.tolerance.reason).unwrap_or(0);
-    let letter = letter(index);
-    match (&claim.predicted, claim.tolerance.value) {
-        (_, 0.0) => format!("({letter})"),
-        (Finding::Number(_, Measure::Angle), value) => {
-            format!("{} rad ({letter})", significant(value, 2))
-        }
-        (_, value) if value < FINE => format!("{} ({letter})", significant(value, 1)),
-        (_, value) => format!("{} ({letter})", percent(value)),
-    }
-}
 
 /// Quality of the numerics, per motion.
 pub fn numerics(study: &CaseStudy) -> Table {

@@ -1,16 +1,15 @@
-//! What simulation from several starts says of the clearances that theory recommends or allows: a
-//! stable 1:1 motion is of little use where few starts lead to it.
+//! What simulation from several starts says of the clearances that the exact orbits recommend or
+//! allow: a stable 1:1 motion is of little use where few starts lead to it.
 
 use serde::Serialize;
 
 use super::margins::Margins;
-use crate::analysis::Analysis;
+use crate::orbits::FullSystem;
 use crate::regimes::attractor::Effort;
 use crate::regimes::starts::StartBox;
 use crate::regimes::{Attractor, Regime};
 use crate::simulation::StartError;
 use crate::system::System;
-use crate::validation::tolerance::asymptotic_error;
 
 /// Evenly spread starts per clearance: a motion that half of all starts lead to is missed by all of
 /// them once in 256 times.
@@ -86,40 +85,38 @@ pub struct SimulatedLimit {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Confirmations {
     /// Upwards in clearance; `None` where the case itself is not steady from all starts, or stays so
-    /// up to where theory ends it.
+    /// up to where its orbit ends.
     pub upper_limit: Option<SimulatedLimit>,
-    /// At the clearance that theory likes best.
+    /// At the clearance where the exact orbit vibrates least.
     pub best: Option<Probe>,
 }
 
 impl Confirmations {
-    /// Simulates what the margins of an analysed case speak of.
+    /// Simulates what the margins of a case speak of.
     ///
     /// # Errors
     /// [`StartError`] never, for starts inside the cavity.
-    pub fn of(analysis: &Analysis, margins: &Margins) -> Result<Self, StartError> {
+    pub fn of(exact: &FullSystem, margins: &Margins) -> Result<Self, StartError> {
         let best = match margins.best_clearance {
-            Some(best) => Probe::at(&analysis.system, best.factor)?,
+            Some(best) => Probe::at(&exact.system, best.factor)?,
             None => None,
         };
-        Ok(Self { upper_limit: upper_limit(analysis, margins)?, best })
+        Ok(Self { upper_limit: upper_limit(&exact.system, margins)?, best })
     }
 }
 
-fn upper_limit(
-    analysis: &Analysis,
-    margins: &Margins,
-) -> Result<Option<SimulatedLimit>, StartError> {
-    let system = &analysis.system;
-    let ends = margins.clearance.iter().find(|at| at.factor > 1.0 && at.ends_steady_resonance);
-    let Some(end) = ends.filter(|_| analysis.stable_points().next().is_some()) else {
+/// Relative distance past the end of the orbit at which it must be gone.
+const PAST: f64 = 0.01;
+
+fn upper_limit(system: &System, margins: &Margins) -> Result<Option<SimulatedLimit>, StartError> {
+    let Some(end) = margins.exact.and_then(|exact| exact.clearance[1]) else {
         return Ok(None);
     };
     if !Probe::at(system, 1.0)?.is_some_and(|here| here.all_steady()) {
         return Ok(None);
     }
     let mut kept = 1.0;
-    let beyond = end.factor * (1.0 + asymptotic_error(system));
+    let beyond = end.factor * (1.0 + PAST);
     let Some(mut lost) = Probe::at(system, beyond)?.filter(|probe| !probe.all_steady()) else {
         return Ok(None);
     };

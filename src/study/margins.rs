@@ -1,11 +1,13 @@
-//! How far the case is from the boundaries of its regime, in clearance, forcing and frequency.
+//! How far the case is from the boundaries of its regime, in clearance, forcing and frequency: by
+//! theory, and exactly.
 
 use serde::Serialize;
 
-use crate::analysis::{Analysis, AnalysisError, Area, BoundaryKind, Branch, Zone, boundaries};
+use crate::analysis::{Analysis, AnalysisError, BoundaryKind, Branch, boundaries};
+use crate::orbits::{BestClearance, Bifurcation, FullSystem};
 use crate::system::System;
 use crate::validation::boundaries::{EITHER_SIDE, clearances, ends_steady_resonance};
-use crate::validation::tolerance::{LARGEST_OFFSET, asymptotic_error};
+use crate::validation::tolerance::LARGEST_OFFSET;
 
 /// A boundary and where it is met when one parameter alone is changed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -27,7 +29,9 @@ pub struct Margins {
     pub clearance: Vec<Margin>,
     /// Nearest in frequency below and above the case's.
     pub frequency: Neighbours,
-    /// Where the theory expects the smallest steady vibration.
+    /// Exactly, where an attracting symmetric orbit exists.
+    pub exact: Option<ExactMargins>,
+    /// Where the attracting symmetric orbit vibrates least, exactly.
     pub best_clearance: Option<BestClearance>,
 }
 
@@ -45,7 +49,7 @@ impl Margins {
     ///
     /// # Errors
     /// As [`Analysis::of`].
-    pub fn of(analysis: &Analysis) -> Result<Self, AnalysisError> {
+    pub fn of(analysis: &Analysis, exact: &FullSystem) -> Result<Self, AnalysisError> {
         let clearance: Vec<Margin> = clearances(analysis)
             .iter()
             .map(|at| Margin {
@@ -58,7 +62,8 @@ impl Margins {
         Ok(Self {
             clearance,
             frequency: in_frequency(analysis)?,
-            best_clearance: BestClearance::of(analysis),
+            exact: ExactMargins::of(exact),
+            best_clearance: exact.best_clearance(),
         })
     }
 
@@ -122,43 +127,42 @@ fn in_frequency(analysis: &Analysis) -> Result<Neighbours, AnalysisError> {
     })
 }
 
-/// The clearance at which theory predicts the smallest steady 1:1 vibration at the case's forcing.
+/// A limit of the attracting exact orbit and where it is met when one parameter alone is changed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct BestClearance {
-    /// Clearance over the case's.
+pub struct ExactMargin {
+    /// What happens there.
+    pub kind: Bifurcation,
+    /// The parameter's value there over its value in the case.
     pub factor: f64,
-    /// Amplitude of the oscillator over the case's clearance.
-    pub amplitude: f64,
 }
 
-/// Where steady 1:1 resonance is the only prediction.
-const STEADY: Zone = Zone { area: Some(Area::Z3), strip: None };
-/// Clearances tried per unit of the logarithm; the optimum is an estimate to one percent, or an end
-/// of the stable range.
-const STEPS_PER_E_FOLD: f64 = 100.0;
+/// How far the attracting symmetric orbit of the case persists, exactly.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct ExactMargins {
+    /// Below and above in clearance; in forcing they are the reciprocals, the other way round.
+    pub clearance: [Option<ExactMargin>; 2],
+    /// Below and above in frequency, by continuation.
+    pub frequency: [Option<ExactMargin>; 2],
+}
 
-impl BestClearance {
-    /// Scans the clearances between the outermost boundaries at which a stable 1:1 motion exists.
-    pub fn of(analysis: &Analysis) -> Option<Self> {
-        let boundaries = clearances(analysis);
-        let (first, last) = (boundaries.first()?.clearance, boundaries.last()?.clearance);
-        let error = asymptotic_error(&analysis.system);
-        let steps = (libm::log(last / first) * STEPS_PER_E_FOLD).ceil().clamp(1.0, 2000.0);
-        let tried = (0..=steps as u32).filter_map(|k| {
-            let factor = first * libm::exp(libm::log(last / first) * f64::from(k) / steps);
-            let there = analysis.system.with_clearance_scaled(factor).ok()?;
-            let there = Analysis::of(&there).ok()?;
-            // Strips, and the last stretch before a boundary that is known to this accuracy only,
-            // are no place for a design.
-            let beyond = there.system.with_clearance_scaled(1.0 + error).ok()?;
-            let room = Analysis::of(&beyond).ok()?.zone == STEADY;
-            if there.zone != STEADY || !room {
-                return None;
-            }
-            let smallest = there.stable_points().map(|point| point.oscillator * factor);
-            let amplitude = smallest.min_by(f64::total_cmp)?;
-            Some(Self { factor, amplitude })
+impl ExactMargins {
+    fn of(exact: &FullSystem) -> Option<Self> {
+        let stretch = exact.stretch()?;
+        let at = |k: usize| {
+            stretch.ends[k].map(|kind| ExactMargin { kind, factor: stretch.clearance[k] })
+        };
+        let own = exact.system.frequency_ratio();
+        let frequency = exact.frequency_limits().map(|limit| {
+            limit.map(|special| ExactMargin { kind: special.kind, factor: special.value / own })
         });
-        tried.min_by(|a, b| a.amplitude.total_cmp(&b.amplitude))
+        Some(Self { clearance: [at(0), at(1)], frequency })
+    }
+
+    /// Below and above in forcing: `gamma = G / b`, so a limit at `k` times the clearance is met at
+    /// `1/k` times the forcing.
+    pub fn forcing(&self) -> [Option<ExactMargin>; 2] {
+        let inverse = |margin: ExactMargin| ExactMargin { factor: 1.0 / margin.factor, ..margin };
+        let [below, above] = self.clearance;
+        [above.map(inverse), below.map(inverse)]
     }
 }

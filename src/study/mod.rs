@@ -10,12 +10,14 @@ use serde::Serialize;
 use crate::analysis::motion::state_of;
 use crate::analysis::{Analysis, AnalysisError, Area, Branch};
 use crate::case::SimulationSettings;
+use crate::orbits::FullSystem;
 use crate::regimes::attractor::Effort;
 use crate::regimes::search::{self, SearchEffort};
 use crate::regimes::{Attractor, FoundAttractor, Regime};
 use crate::simulation::StartError;
 use crate::system::{State, System};
-use crate::validation::{self, Claim};
+use crate::validation::price::prices;
+use crate::validation::{self, Claim, Price};
 
 pub use confirmations::Confirmations;
 pub use margins::Margins;
@@ -90,7 +92,11 @@ pub struct CaseStudy {
     pub attractors: Vec<FoundAttractor>,
     /// Theory against simulation.
     pub claims: Vec<Claim>,
-    /// Distances to the nearest boundaries, by theory.
+    /// The exact layer: symmetric orbits and the boundaries around them.
+    pub exact: FullSystem,
+    /// The theory's boundaries beside the exact ones.
+    pub prices: Vec<Price>,
+    /// Distances to the nearest boundaries.
     pub margins: Margins,
     /// What simulation says of them.
     pub confirmations: Confirmations,
@@ -103,8 +109,31 @@ pub struct CaseStudy {
 pub struct SettledArea {
     /// Z1 to Z4.
     pub area: Area,
-    /// Whether simulation had to tell Z1 from Z2.
-    pub by_simulation: bool,
+    /// What told it.
+    pub by: SettledBy,
+}
+
+/// The layer that told the area.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SettledBy {
+    /// Fixed points and boundaries of the slow flow.
+    ClosedForm,
+    /// The grazing of the exact asymmetric orbits, which separates Z1 from Z2.
+    ExactOrbit,
+    /// A short simulation, where there is no such orbit.
+    Simulation,
+}
+
+impl SettledBy {
+    /// The layer's name in a report.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::ClosedForm => "theory",
+            Self::ExactOrbit => "theory and exact orbits",
+            Self::Simulation => "theory and simulation",
+        }
+    }
 }
 
 impl CaseStudy {
@@ -119,11 +148,23 @@ impl CaseStudy {
     ) -> Result<Self, StudyError> {
         let analysis = Analysis::of(system)?;
         let attractors = attractors(&analysis, &effort, progress)?;
-        let area = settle_area(&analysis)?;
-        let claims = validation::confront(&analysis, &attractors, &effort.each())?;
-        let margins = Margins::of(&analysis)?;
-        let confirmations = Confirmations::of(&analysis, &margins)?;
-        Ok(Self { area, attractors, claims, margins, confirmations, effort, analysis })
+        let exact = FullSystem::of(system);
+        let area = settle_area(&analysis, &exact)?;
+        let claims = validation::confront(&analysis, &exact, &attractors, &effort.each())?;
+        let prices = prices(&analysis, &exact);
+        let margins = Margins::of(&analysis, &exact)?;
+        let confirmations = Confirmations::of(&exact, &margins)?;
+        Ok(Self {
+            area,
+            attractors,
+            claims,
+            exact,
+            prices,
+            margins,
+            confirmations,
+            effort,
+            analysis,
+        })
     }
 
     /// Number of progress steps that a study takes, about.
@@ -169,14 +210,20 @@ fn predicted_starts(analysis: &Analysis) -> Vec<State> {
     analysis.fixed_points.iter().map(|point| state_of(point, system)).chain(rest).collect()
 }
 
-/// The area of the theory; right of symmetry breaking, what a start on the predicted motion becomes
-/// tells Z1 (more than two impacts per period) from Z2.
+/// The area of the theory; right of symmetry breaking, the grazing of the exact asymmetric orbits
+/// tells Z1 (more than two impacts per period) from Z2, and where they do not exist, what a start on
+/// the predicted motion becomes.
 ///
 /// # Errors
 /// [`StartError`] if the predicted motion lies outside the cavity.
-pub fn settle_area(analysis: &Analysis) -> Result<SettledArea, StartError> {
+pub fn settle_area(analysis: &Analysis, exact: &FullSystem) -> Result<SettledArea, StartError> {
     if let Some(area) = analysis.zone.area {
-        return Ok(SettledArea { area, by_simulation: false });
+        return Ok(SettledArea { area, by: SettledBy::ClosedForm });
+    }
+    let asymmetric = exact.boundaries.as_ref().and_then(|found| found.asymmetric.as_ref());
+    if let Some(grazing) = asymmetric.and_then(|found| found.grazing) {
+        let area = if grazing > 1.0 { Area::Z1 } else { Area::Z2 };
+        return Ok(SettledArea { area, by: SettledBy::ExactOrbit });
     }
     let beyond = analysis.fixed_points.iter().rfind(|point| point.branch == Branch::Right);
     let regime = match beyond {
@@ -190,5 +237,5 @@ pub fn settle_area(analysis: &Analysis) -> Result<SettledArea, StartError> {
         None => Regime::TwoAsymmetric,
     };
     let area = if regime == Regime::AboveTwo { Area::Z1 } else { Area::Z2 };
-    Ok(SettledArea { area, by_simulation: true })
+    Ok(SettledArea { area, by: SettledBy::Simulation })
 }

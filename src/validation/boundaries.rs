@@ -1,12 +1,10 @@
-//! Claims about the boundaries nearest to the case: the regime must change across them.
+//! Claims about the boundaries around the case: where they lie.
 
-use super::tolerance::{asymptotic_error, outcome};
-use super::{Claim, Finding, Verdict};
-use crate::analysis::motion::state_of;
-use crate::analysis::{Analysis, BoundaryKind, Branch, FixedPoint};
-use crate::regimes::attractor::Effort;
-use crate::regimes::{Attractor, Regime};
-use crate::simulation::StartError;
+use super::price::{Price, prices};
+use super::tolerance::{Tolerance, asymptotic_error};
+use super::{Check, Claim, Finding, Measure, Verdict};
+use crate::analysis::{Analysis, BoundaryKind, Branch};
+use crate::orbits::{Bifurcation, FullSystem};
 use crate::system::System;
 
 /// Boundaries further than this factor in clearance are not this case's business.
@@ -44,21 +42,44 @@ pub fn clearances(analysis: &Analysis) -> Vec<BoundaryAt> {
     all
 }
 
-/// One claim for the nearest boundary below the case's clearance and one for the nearest above, of
-/// those that a single trajectory can decide: where steady 1:1 resonance begins or ends.
-pub fn either_side(analysis: &Analysis, effort: &Effort) -> Result<Vec<Claim>, StartError> {
-    let decidable: Vec<BoundaryAt> = clearances(analysis)
+/// Where each boundary of steady 1:1 resonance lies, against the exact one.
+pub fn positions(analysis: &Analysis, exact: &FullSystem) -> Vec<Claim> {
+    let error = asymptotic_error(&analysis.system);
+    let tolerance = Tolerance {
+        value: 2.0 * error,
+        reason: "twice ε (2 + |σ| + λ): at a boundary two conditions meet, each with that error"
+            .into(),
+    };
+    let near = |price: &Price| {
+        price.exact.or(price.theory).is_some_and(|at| (1.0 / FAR..FAR).contains(&at))
+    };
+    prices(analysis, exact)
         .into_iter()
-        .filter(|at| (1.0 / FAR..FAR).contains(&at.clearance))
-        .filter(|at| ends_steady_resonance(&analysis.system, at.clearance))
-        .collect();
-    let below = decidable.iter().rfind(|at| at.clearance <= 1.0);
-    let above = decidable.iter().find(|at| at.clearance > 1.0);
-    below
-        .into_iter()
-        .chain(above)
-        .filter_map(|at| across(analysis, at, effort).transpose())
+        .filter(|price| price.bounds_stability && near(price))
+        .filter_map(|price| {
+            let (predicted, observed) = (price.theory?, price.exact?);
+            let difference = observed / predicted - 1.0;
+            Some(Claim {
+                id: format!("boundary-{}", price.kind.words().replace([' ', '–'], "-")),
+                statement: format!("clearance of the {} boundary", name(price.kind)),
+                source: "boundaries of the slow flow",
+                predicted: Finding::Number(predicted, Measure::LengthOverClearance),
+                observed: Finding::Number(observed, Measure::LengthOverClearance),
+                checked_by: Check::ExactOrbit,
+                difference: Some(difference),
+                verdict: Verdict::of(difference.abs() <= tolerance.value),
+                tolerance: tolerance.clone(),
+            })
+        })
         .collect()
+}
+
+/// Both names where theory and full system differ in theirs.
+fn name(kind: Bifurcation) -> &'static str {
+    match kind {
+        Bifurcation::NeimarkSacker => "Hopf (Neimark–Sacker)",
+        other => other.words(),
+    }
 }
 
 /// Relative distance to either side of a boundary at which the theory is asked what it separates:
@@ -72,68 +93,4 @@ pub fn ends_steady_resonance(system: &System, clearance: f64) -> bool {
         Some(Analysis::of(&there).ok()?.stable_points().next().is_some())
     };
     steady(1.0 - EITHER_SIDE) != steady(1.0 + EITHER_SIDE)
-}
-
-/// Simulates a little below and a little above a boundary, from the motion that the theory predicts
-/// there, or from the last one that it predicts.
-fn across(
-    analysis: &Analysis,
-    at: &BoundaryAt,
-    effort: &Effort,
-) -> Result<Option<Claim>, StartError> {
-    // The boundary itself may be off by the theory's error; twice that must be past it.
-    let margin = (2.0 * asymptotic_error(&analysis.system)).min(0.5);
-    let sides = [1.0 - margin, 1.0 + margin]
-        .map(|factor| analysis.system.with_clearance_scaled(at.clearance * factor).ok())
-        .map(|system| system.and_then(|system| Analysis::of(&system).ok()));
-    let [Some(before), Some(beyond)] = &sides else { return Ok(None) };
-    let (Some(below), Some(above)) =
-        (reached_regime(before, beyond, effort)?, reached_regime(beyond, before, effort)?)
-    else {
-        return Ok(None);
-    };
-    let steady_above = beyond.stable_points().next().is_some();
-    let words = |regime: Regime| regime.short().to_owned();
-    let name = |steady: bool| if steady { "steady 1:1" } else { "not steady 1:1" };
-    let holds = (below == Regime::TwoSymmetric) != steady_above
-        && (above == Regime::TwoSymmetric) == steady_above;
-    Ok(Some(Claim {
-        id: format!("boundary-{}", at.kind.words().replace(' ', "-")),
-        statement: format!(
-            "{} boundary: what the predicted motion becomes on either side",
-            at.kind.words()
-        ),
-        source: "boundaries of the slow flow",
-        predicted: Finding::Words(format!(
-            "{} below, {} above",
-            name(!steady_above),
-            name(steady_above)
-        )),
-        observed: Finding::Words(format!("{} below, {} above", words(below), words(above))),
-        difference: None,
-        tolerance: outcome(format!(
-            "started on the predicted motion, {:.1} % to either side: twice ε (2 + |σ| + λ)",
-            100.0 * margin
-        )),
-        verdict: Verdict::of(holds),
-    }))
-}
-
-/// What a start on the predicted steady motion becomes; where theory predicts none, on the one that
-/// it predicts at the other side of the boundary.
-fn reached_regime(
-    here: &Analysis,
-    other_side: &Analysis,
-    effort: &Effort,
-) -> Result<Option<Regime>, StartError> {
-    let Some(start) = most_nearly_stable(here).or_else(|| most_nearly_stable(other_side)) else {
-        return Ok(None);
-    };
-    let reached = Attractor::reach(&here.system, state_of(start, &here.system), effort)?;
-    Ok(Some(reached.classification.regime))
-}
-
-/// A stable fixed point, else the one with the largest amplitude.
-fn most_nearly_stable(analysis: &Analysis) -> Option<&FixedPoint> {
-    analysis.stable_points().last().or_else(|| analysis.fixed_points.last())
 }

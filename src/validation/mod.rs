@@ -1,18 +1,24 @@
-//! Confronts what the theory claims with what simulation shows, claim by claim.
+//! Confronts the layers with one another, claim by claim.
 //!
-//! Each claim is predicted without simulation and observed without theory. The theory is
-//! asymptotic: its error grows in proportion to the mass ratio, and the tolerance of each claim says
-//! how. A refuted claim is a result, not an error. Only claims that the case raises are simulated.
+//! What the slow flow claims is checked against the exact orbits of the full system, which need no
+//! simulation; what the exact orbits claim is checked by simulations started on them; only what no
+//! orbit can decide is left to long simulations. The theory is asymptotic: its error grows in
+//! proportion to the mass ratio, and the tolerance of each claim says how. A refuted claim is a
+//! result, not an error. Only claims that the case raises are checked.
 
 pub mod boundaries;
 pub mod motions;
+pub mod orbits;
+pub mod price;
 pub mod tolerance;
 
 use serde::Serialize;
 
+pub use price::Price;
 pub use tolerance::Tolerance;
 
 use crate::analysis::Analysis;
+use crate::orbits::FullSystem;
 use crate::regimes::FoundAttractor;
 use crate::regimes::attractor::Effort;
 use crate::simulation::StartError;
@@ -40,6 +46,26 @@ impl Verdict {
             Self::Confirmed => "confirmed",
             Self::Refuted => "refuted",
             Self::Undecided => "undecided",
+        }
+    }
+}
+
+/// The layer that a claim is checked by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Check {
+    /// The exact orbits of the full system.
+    ExactOrbit,
+    /// Direct simulation.
+    Simulation,
+}
+
+impl Check {
+    /// The name in a report.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::ExactOrbit => "exact orbit",
+            Self::Simulation => "simulation",
         }
     }
 }
@@ -75,8 +101,10 @@ pub struct Claim {
     pub source: &'static str,
     /// By the theory.
     pub predicted: Finding,
-    /// In simulation.
+    /// By the layer that checks it.
     pub observed: Finding,
+    /// That layer.
+    pub checked_by: Check,
     /// Relative difference for lengths, absolute for angles.
     pub difference: Option<f64>,
     /// How much difference the theory allows, and why.
@@ -85,19 +113,22 @@ pub struct Claim {
     pub verdict: Verdict,
 }
 
-/// Confronts the analysis with the attractors that were found, and with the few further simulations
-/// that its own claims ask for.
+/// Confronts the theory with the exact orbits, the exact orbits with simulation, and both with the
+/// attractors that were found.
 ///
 /// # Errors
 /// [`StartError`] if a predicted motion lies outside the cavity.
 pub fn confront(
     analysis: &Analysis,
+    exact: &FullSystem,
     attractors: &[FoundAttractor],
     effort: &Effort,
 ) -> Result<Vec<Claim>, StartError> {
-    let mut claims = motions::fixed_points(analysis, effort)?;
+    let mut claims = motions::fixed_points(analysis, exact);
+    claims.extend(boundaries::positions(analysis, exact));
+    claims.extend(orbits::simulated(exact)?);
+    claims.extend(orbits::limits(exact)?);
     claims.extend(motions::rest(analysis, effort)?);
     claims.extend(motions::area(analysis, attractors));
-    claims.extend(boundaries::either_side(analysis, effort)?);
     Ok(claims)
 }

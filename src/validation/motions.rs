@@ -2,64 +2,85 @@
 
 use super::boundaries::{BoundaryAt, clearances};
 use super::tolerance::{asymptotic, exact, outcome};
-use super::{Claim, Finding, Measure, Verdict};
-use crate::analysis::motion::{read_off, state_of, wrapped};
+use super::{Check, Claim, Finding, Measure, Verdict};
+use crate::analysis::motion::{read_off, wrapped};
 use crate::analysis::{Analysis, Area, FixedPoint, Strip};
+use crate::orbits::{FullSystem, Measures, SymmetricOrbit};
 use crate::regimes::attractor::Effort;
 use crate::regimes::{Attractor, FoundAttractor, Regime};
 use crate::simulation::StartError;
 
-/// For each fixed point: stable or not; for a stable one: amplitudes and phases.
-pub fn fixed_points(analysis: &Analysis, effort: &Effort) -> Result<Vec<Claim>, StartError> {
+/// For each fixed point: stable or not, and if an exact orbit is near it: amplitudes and phases.
+pub fn fixed_points(analysis: &Analysis, exact: &FullSystem) -> Vec<Claim> {
     let mut claims = Vec::new();
     for (index, point) in analysis.fixed_points.iter().enumerate() {
-        let start = state_of(point, &analysis.system);
-        let reached = Attractor::reach(&analysis.system, start, effort)?;
-        let name = format!("fixed point {} (B/b = {:.3})", index + 1, point.absorber);
-        let stays = stays(analysis, point, &reached);
+        let number = index + 1;
+        let orbit = counterpart(analysis, exact, point);
+        let observed = match orbit {
+            Some(orbit) => {
+                let radius = orbit.orbit.multipliers.spectral_radius();
+                let stable = if orbit.orbit.attracts() { "stable" } else { "unstable" };
+                format!("{stable}, largest multiplier {radius:.3}")
+            }
+            None => "no orbit near it".into(),
+        };
+        let attracts = orbit.is_some_and(|orbit| orbit.orbit.attracts());
         claims.push(Claim {
-            id: format!("fixed-point-{}-stability", index + 1),
-            statement: format!("{name} is {}", if point.stable { "stable" } else { "unstable" }),
+            id: format!("fixed-point-{number}-stability"),
+            statement: format!(
+                "fixed point {number} (B/b = {:.3}) is {}",
+                point.absorber,
+                if point.stable { "stable" } else { "unstable" }
+            ),
             source: "manifold and slow flow (18)",
-            predicted: Finding::Words(if point.stable { "stays" } else { "leaves" }.into()),
-            observed: Finding::Words(if stays {
-                "stays".into()
-            } else {
-                format!("leaves for {}", reached.classification.regime.short())
-            }),
+            predicted: Finding::Words(if point.stable { "stable" } else { "unstable" }.into()),
+            observed: Finding::Words(observed),
+            checked_by: Check::ExactOrbit,
             difference: None,
-            tolerance: outcome("a start on the point stays near it, or leaves it"),
-            verdict: Verdict::of(stays == point.stable),
+            tolerance: outcome(
+                "multipliers of the exact orbit nearest to the point, within twice ε (2 + |σ| + λ) \
+                 or, next to a saddle-node, its root",
+            ),
+            verdict: Verdict::of(orbit.is_some() && attracts == point.stable),
         });
-        if point.stable && stays {
-            claims.extend(amplitudes(analysis, point, &reached, index + 1));
-        }
+        claims.extend(orbit.into_iter().flat_map(|orbit| amplitudes(analysis, point, orbit, number)));
     }
-    Ok(claims)
+    claims
 }
 
-/// A motion stays if it ends in two symmetric impacts per period with this point's amplitude, to
-/// twice the expected error of the theory, and no other fixed point is nearer: two that are about
-/// to collide lie within that error of each other.
-fn stays(analysis: &Analysis, point: &FixedPoint, reached: &Attractor) -> bool {
-    let observed =
-        read_off(&analysis.system, reached.oscillator_harmonic, reached.absorber_harmonic);
-    let relative = observed.absorber / point.absorber - 1.0;
-    reached.classification.regime == Regime::TwoSymmetric
-        && relative.abs() < 2.0 * asymptotic(&analysis.system).value
-        && analysis.fixed_points.iter().all(|other| {
-            (observed.absorber - other.absorber).abs() >= (observed.absorber - point.absorber).abs()
-        })
+/// The exact orbit that a fixed point stands for: the nearest in the absorber's amplitude, if no
+/// other fixed point is nearer to it. Next to a saddle-node two points move apart with the root of
+/// the distance from it, and so does their error.
+fn counterpart<'a>(
+    analysis: &Analysis,
+    exact: &'a FullSystem,
+    point: &FixedPoint,
+) -> Option<&'a SymmetricOrbit> {
+    let distance = |orbit: &SymmetricOrbit, point: &FixedPoint| {
+        (orbit.absorber / point.absorber - 1.0).abs()
+    };
+    let nearest = exact
+        .orbits
+        .iter()
+        .min_by(|a, b| distance(a, point).total_cmp(&distance(b, point)))?;
+    let mine = distance(nearest, point);
+    let error = asymptotic(&analysis.system).value;
+    let others = analysis.fixed_points.iter();
+    let nearer = others.filter(|other| distance(nearest, other) < mine).count();
+    (nearer == 0 && mine < (2.0 * error).max(error.sqrt())).then_some(nearest)
 }
 
 fn amplitudes(
     analysis: &Analysis,
     point: &FixedPoint,
-    reached: &Attractor,
+    orbit: &SymmetricOrbit,
     number: usize,
 ) -> Vec<Claim> {
+    let Ok(measures) = Measures::of(&analysis.system, &orbit.orbit.cycle) else {
+        return Vec::new();
+    };
     let observed =
-        read_off(&analysis.system, reached.oscillator_harmonic, reached.absorber_harmonic);
+        read_off(&analysis.system, measures.oscillator_harmonic, measures.absorber_harmonic);
     let tolerance = asymptotic(&analysis.system);
     let compare = |id: &str, statement: &str, source, predicted: f64, observed: f64, measure| {
         let difference = match measure {
@@ -72,30 +93,26 @@ fn amplitudes(
             source,
             predicted: Finding::Number(predicted, measure),
             observed: Finding::Number(observed, measure),
+            checked_by: Check::ExactOrbit,
             difference: Some(difference),
             tolerance: tolerance.clone(),
             verdict: Verdict::of(difference.abs() <= tolerance.value),
         }
     };
     let length = Measure::LengthOverClearance;
+    let (c, b) = (point.oscillator, point.absorber);
+    let angle = Measure::Angle;
     vec![
-        compare(
-            "C",
-            "amplitude C",
-            "slow flow (18)",
-            point.oscillator,
-            observed.oscillator,
-            length,
-        ),
-        compare("B", "amplitude B", "manifold (16)", point.absorber, observed.absorber, length),
-        compare("eta", "phase η", "slow flow (18)", point.eta, observed.eta, Measure::Angle),
+        compare("C", "amplitude C", "slow flow (18)", c, observed.oscillator, length),
+        compare("B", "amplitude B", "manifold (16)", b, observed.absorber, length),
+        compare("eta", "phase η", "slow flow (18)", point.eta, observed.eta, angle),
         compare(
             "Theta",
             "phase Θ",
             "manifold (14), (15)",
             point.absorber_phase,
             observed.absorber_phase,
-            Measure::Angle,
+            angle,
         ),
     ]
 }
@@ -123,6 +140,7 @@ pub fn rest(analysis: &Analysis, effort: &Effort) -> Result<Option<Claim>, Start
         source: "equation of motion (1)",
         predicted: Finding::Number(linear.amplitude(), Measure::LengthOverClearance),
         observed: Finding::Number(reached.peak, Measure::LengthOverClearance),
+        checked_by: Check::Simulation,
         difference: Some(difference),
         tolerance,
         verdict,
@@ -157,6 +175,7 @@ pub fn area(analysis: &Analysis, attractors: &[FoundAttractor]) -> Option<Claim>
         source: "fixed points and boundaries",
         predicted: Finding::Words(predicted.into()),
         observed: Finding::Words(listed(attractors)),
+        checked_by: Check::Simulation,
         difference: None,
         tolerance: outcome(near_boundary(analysis)),
         verdict: if found.is_empty() { Verdict::Undecided } else { Verdict::of(holds) },

@@ -1,14 +1,14 @@
 //! The verdict: what an engineer wants to know first, in a few sentences.
 
+mod margins;
+
 use serde::Serialize;
 
-use super::notes;
 use super::numbers::{LengthFormat, decibels, percent, significant};
-use crate::analysis::{Area, BoundaryKind, Branch, Strip};
+use crate::analysis::{Area, Strip};
 use crate::case::Case;
 use crate::regimes::{FoundAttractor, Regime};
 use crate::study::CaseStudy;
-use crate::study::margins::Margin;
 use crate::validation::Verdict as Outcome;
 
 /// Relative change of the vibration that is worth calling a change.
@@ -193,14 +193,24 @@ impl Writer<'_> {
             (Area::Z1, _) => "far past symmetry breaking",
         };
         let claims = match self.study.claims.len() {
-            0 => "it makes no claim that simulation could decide".into(),
-            1 if confirmed == 1 => "its one claim is confirmed by simulation".into(),
-            all if all == confirmed => format!("all its {all} claims are confirmed by simulation"),
-            all => format!("simulation confirms {confirmed} of its {all} claims"),
+            0 => "it makes no claim that could be checked".into(),
+            1 if confirmed == 1 => "the one claim that could be checked is confirmed".into(),
+            all if all == confirmed => {
+                format!("all {all} claims of theory and orbits are confirmed")
+            }
+            all => format!("{confirmed} of {all} claims of theory and orbits are confirmed"),
+        };
+        let orbit = match self.study.exact.attracting() {
+            Some(orbit) => format!(
+                "exact orbit stable (largest multiplier {})",
+                significant(orbit.orbit.multipliers.spectral_radius(), 3)
+            ),
+            None if self.study.exact.orbits.is_empty() => "no exact symmetric orbit exists".into(),
+            None => "no exact symmetric orbit is stable".into(),
         };
         format!(
-            "Simulation: {}; {led}. Theory: area {area:?}{strip}, {criterion}; {claims}.",
-            main.regime().words(),
+            "{} (area {area:?}{strip}, {criterion}): {led}; {orbit}; {claims}.",
+            capitalised(main.regime().words()),
         )
     }
 
@@ -228,155 +238,6 @@ impl Writer<'_> {
         ))
     }
 
-    fn clearance(&self) -> Option<String> {
-        let neighbours = self.study.margins.clearance_neighbours();
-        let scales = self.case.scales();
-        let describe = |margin: Margin, way: &str| {
-            format!(
-                "{way} {} (to {}) {}",
-                extent(margin.factor),
-                self.lengths.text(scales.length(margin.factor)),
-                self.consequence(&margin, margin.factor > 1.0)
-            )
-        };
-        let above = neighbours.above.map(|margin| describe(margin, "grow"));
-        let below = neighbours.below.map(|margin| describe(margin, "shrink"));
-        match (above, below) {
-            (None, None) => None,
-            (Some(one), None) | (None, Some(one)) => {
-                Some(format!("By theory, clearance can {one}."))
-            }
-            (Some(above), Some(below)) => {
-                Some(format!("By theory, clearance can {above}, and {below}."))
-            }
-        }
-    }
-
-    /// What happens where the case meets a boundary, `outwards` in clearance or not.
-    fn consequence(&self, margin: &Margin, outwards: bool) -> &'static str {
-        match (margin.kind, outwards) {
-            (BoundaryKind::SymmetryBreaking, false) => {
-                "before the impacts turn asymmetric (symmetry breaking)"
-            }
-            (BoundaryKind::SymmetryBreaking, true) => {
-                "before the impacts turn symmetric (symmetry breaking)"
-            }
-            (BoundaryKind::Hopf, true) if margin.ends_steady_resonance => {
-                "before the response becomes modulated (Hopf)"
-            }
-            (BoundaryKind::Hopf, true) => "before a modulated response coexists (Hopf)",
-            (BoundaryKind::Hopf, false) if margin.ends_steady_resonance => {
-                "before steady 1:1 resonance sets in (Hopf)"
-            }
-            (BoundaryKind::Hopf, false) => "before 1:1 resonance is the only response (Hopf)",
-            (BoundaryKind::SaddleNode, true) if margin.branch == Branch::Stable => {
-                "before 1:1 resonance ends (saddle-node)"
-            }
-            (BoundaryKind::SaddleNode, true) => {
-                "before no 1:1 resonance is left, not even a transient one (saddle-node)"
-            }
-            (BoundaryKind::SaddleNode, false) if margin.branch == Branch::Stable => {
-                "before 1:1 resonance becomes possible (saddle-node)"
-            }
-            (BoundaryKind::SaddleNode, false) => {
-                "before captures in 1:1 resonance begin (saddle-node)"
-            }
-        }
-    }
-
-    fn forcing_and_frequency(&self) -> Option<String> {
-        let forcing = self.study.margins.forcing_neighbours();
-        let frequency = self.study.margins.frequency;
-        let change =
-            |margin: Margin| format!("{} ({})", relative(margin.factor), margin.kind.words());
-        let list = |below: Option<Margin>, above: Option<Margin>| {
-            let both: Vec<String> = below.into_iter().chain(above).map(change).collect();
-            (!both.is_empty()).then(|| both.join(" and "))
-        };
-        let hertz = |margin: Margin| {
-            let system = &self.study.analysis.system;
-            let ratio = margin.factor * system.frequency_ratio();
-            match self.case.scales().frequency_hz(ratio) {
-                Some(hertz) => format!("{} Hz ({})", significant(hertz, 4), margin.kind.words()),
-                None => format!("Ω = {} ({})", significant(ratio, 4), margin.kind.words()),
-            }
-        };
-        let in_frequency: Vec<String> =
-            frequency.below.into_iter().chain(frequency.above).map(hertz).collect();
-        let in_forcing = list(forcing.below, forcing.above);
-        match (in_forcing, in_frequency.is_empty()) {
-            (None, true) => None,
-            (Some(forcing), true) => {
-                Some(format!("Nearest boundaries in forcing: {forcing}; none in frequency."))
-            }
-            (None, false) => {
-                Some(format!("Nearest boundaries in frequency: {}.", in_frequency.join(" and ")))
-            }
-            (Some(forcing), false) => Some(format!(
-                "Nearest boundaries in forcing: {forcing}; in frequency: {}.",
-                in_frequency.join(" and ")
-            )),
-        }
-    }
-
-    /// What simulation says of the margin that theory gives upwards in clearance.
-    fn simulated_limit(&self) -> Option<String> {
-        let limit = self.study.confirmations.upper_limit?;
-        let at = |factor: f64| self.length(factor);
-        let other = limit.lost.other.map_or("another motion", Regime::words);
-        let way = if limit.kept > 1.0 {
-            format!(
-                "all starts keep 1:1 resonance up to {} ({})",
-                at(limit.kept),
-                relative(limit.kept)
-            )
-        } else {
-            "no larger clearance keeps 1:1 resonance from all starts".into()
-        };
-        Some(format!(
-            "Simulated from {} starts each, {way}; at {} some end in {other} (peak {}).",
-            limit.lost.starts,
-            at(limit.lost.factor),
-            at(limit.lost.other_peak),
-        ))
-    }
-
-    /// Where theory would put the clearance, and what simulation finds there; not said where the
-    /// theory is out of its range.
-    fn best_clearance(&self) -> Option<String> {
-        if notes::outside_range(&self.study.analysis.system) {
-            return None;
-        }
-        let bare = self.bare()?;
-        let Some(best) = self.study.margins.best_clearance else {
-            return Some(
-                "By theory, no clearance gives steady 1:1 resonance at this frequency and forcing."
-                    .into(),
-            );
-        };
-        let found = self.study.confirmations.best?;
-        let at = self.length(best.factor);
-        if best.amplitude > bare * (1.0 - NOTICEABLE) {
-            return Some(format!(
-                "No clearance with steady 1:1 resonance reduces the vibration at this frequency and forcing; by theory the best is near {at} ({}, {} against the bare oscillator).",
-                self.length(best.amplitude),
-                decibels(best.amplitude / bare),
-            ));
-        }
-        let outcome = match found.steady {
-            0 => format!("simulated there, none of {} starts ends in 1:1 resonance", found.starts),
-            some => format!(
-                "simulated there {} ({}), from {some} of {} starts",
-                self.length(found.steady_peak),
-                decibels(found.steady_peak / bare),
-                found.starts
-            ),
-        };
-        Some(format!(
-            "Best clearance for steady 1:1 resonance at this frequency and forcing: near {at} by theory; {outcome}."
-        ))
-    }
-
     fn coexistence(&self, main: &FoundAttractor) -> Option<String> {
         let others: Vec<String> = self
             .study
@@ -399,16 +260,23 @@ impl Writer<'_> {
         Some(format!("Coexisting answers: {}.", others.join("; ")))
     }
 
-    /// Error of the predicted amplitude, where one was compared.
+    /// Error of the predicted amplitude of the stable motion, where an exact orbit tells it.
     fn theory_error(&self) -> Option<String> {
-        let claim = self.study.claims.iter().find(|claim| claim.id.ends_with("-C"))?;
-        let difference = claim.difference?;
+        let points = &self.study.analysis.fixed_points;
+        let number = points.iter().rposition(|point| point.stable)? + 1;
+        let id = format!("fixed-point-{number}-C");
+        let difference = self.study.claims.iter().find(|claim| claim.id == id)?.difference?;
         let way = if difference > 0.0 { "low" } else { "high" };
         Some(format!(
-            "Leading-order theory is {} {way} in the amplitude C of this motion.",
+            "Leading-order theory is {} {way} in the amplitude C of the steady motion.",
             percent(difference.abs())
         ))
     }
+}
+
+fn capitalised(words: &str) -> String {
+    let mut letters = words.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
 /// By how much a quantity grows or shrinks by a factor, in words.

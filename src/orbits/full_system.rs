@@ -1,0 +1,118 @@
+//! Everything exact that is known of one system: its symmetric 1:1 orbits and the boundaries around
+//! them.
+
+use serde::Serialize;
+
+use super::boundaries::Boundaries;
+use super::branch::{Direction, Parameter, Settings, follow};
+use super::limits::{Limit, StableStretch};
+use super::special::{Bifurcation, SpecialPoint};
+use super::symmetric::{SymmetricOrbit, symmetric_orbits};
+use crate::system::System;
+
+/// Band of the frequency ratio, over the system's own, in which limits are looked for: one at half
+/// or twice the frequency is no neighbour.
+const FREQUENCIES: [f64; 2] = [0.5, 2.0];
+/// Clearances looked at per unit of their logarithm for the smallest vibration: the optimum is
+/// known to one percent.
+const CLEARANCES_PER_E_FOLD: f64 = 100.0;
+
+/// The exact layer of one system.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FullSystem {
+    /// The system.
+    pub system: System,
+    /// Its symmetric 1:1 orbits, at most two, ascending in the absorber's amplitude.
+    pub orbits: Vec<SymmetricOrbit>,
+    /// The boundaries at its frequency and forcing; `None` without forcing, and for an undamped
+    /// oscillator driven at its natural frequency, which has no steady motion between impacts.
+    pub boundaries: Option<Boundaries>,
+}
+
+impl FullSystem {
+    /// Solves `system`. Nothing here iterates but one-dimensional roots.
+    pub fn of(system: &System) -> Self {
+        let driven = system.forcing_per_clearance() > 0.0;
+        Self {
+            system: *system,
+            orbits: symmetric_orbits(system).unwrap_or_default(),
+            boundaries: driven.then(|| Boundaries::of(system).ok()).flatten(),
+        }
+    }
+
+    /// The symmetric orbit that attracts, if there is one.
+    pub fn attracting(&self) -> Option<&SymmetricOrbit> {
+        self.orbits.iter().find(|orbit| orbit.orbit.attracts())
+    }
+
+    /// The stretch of clearances, over the system's own, in which the attracting orbit of this
+    /// system persists.
+    pub fn stretch(&self) -> Option<&StableStretch> {
+        self.attracting()?;
+        self.boundaries.as_ref()?.symmetric.stretch_around(1.0)
+    }
+
+    /// Every stretch of clearances with an attracting symmetric orbit.
+    pub fn stable_stretches(&self) -> &[StableStretch] {
+        self.boundaries.as_ref().map_or(&[], |found| &found.symmetric.stable)
+    }
+
+    /// Limits of the symmetric orbits that bound stability.
+    pub fn stability_limits(&self) -> impl Iterator<Item = &Limit> {
+        let limits = self.boundaries.iter().flat_map(|found| &found.symmetric.limits);
+        limits.filter(|limit| limit.bounds_stability)
+    }
+
+    /// Where the attracting orbit loses stability or ends as the frequency alone is lowered and
+    /// raised, by continuation; values are frequency ratios.
+    pub fn frequency_limits(&self) -> [Option<SpecialPoint>; 2] {
+        [Direction::Down, Direction::Up].map(|direction| self.frequency_limit(direction))
+    }
+
+    fn frequency_limit(&self, direction: Direction) -> Option<SpecialPoint> {
+        let start = self.attracting()?;
+        let range = FREQUENCIES.map(|factor| factor * self.system.frequency_ratio());
+        let settings = Settings::within(range);
+        let branch =
+            follow(&self.system, &start.orbit, Parameter::Frequency, direction, &settings).ok()?;
+        // The branch sets out stable: whichever of these comes first ends that.
+        branch.specials.into_iter().find(|special| {
+            matches!(
+                special.kind,
+                Bifurcation::SaddleNode
+                    | Bifurcation::SymmetryBreaking
+                    | Bifurcation::NeimarkSacker
+                    | Bifurcation::Grazing
+                    | Bifurcation::VanishingImpact
+            )
+        })
+    }
+
+    /// The clearance at which the attracting symmetric orbit vibrates least.
+    pub fn best_clearance(&self) -> Option<BestClearance> {
+        let candidates = self.stable_stretches().iter().flat_map(|stretch| {
+            let [from, to] = stretch.clearance;
+            let steps = (libm::log(to / from) * CLEARANCES_PER_E_FOLD).ceil().clamp(2.0, 2000.0);
+            // Its ends are where it stops attracting.
+            (1..steps as u32).map(move |k| {
+                from * libm::exp(libm::log(to / from) * f64::from(k) / steps)
+            })
+        });
+        let tried = candidates.filter_map(|factor| {
+            let there = self.system.with_clearance_scaled(factor).ok()?;
+            let orbits = symmetric_orbits(&there).ok()?;
+            let orbit = orbits.iter().find(|orbit| orbit.orbit.attracts())?;
+            Some(BestClearance { factor, peak: factor * orbit.peaks.displacement })
+        });
+        tried.min_by(|a, b| a.peak.total_cmp(&b.peak))
+    }
+}
+
+/// A clearance and the vibration there.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct BestClearance {
+    /// Clearance over the system's own.
+    pub factor: f64,
+    /// Peak displacement of the oscillator over the system's own clearance.
+    pub peak: f64,
+}

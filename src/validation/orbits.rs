@@ -1,0 +1,170 @@
+//! Claims of the exact orbits, confirmed by simulations that start on them.
+//!
+//! The two share no code: an orbit is a root of closed equations, a simulation goes from event to
+//! event. A motion near an orbit that attracts is never simulated for longer than it takes to see
+//! its disturbance shrink.
+
+use super::tolerance::outcome;
+use super::{Check, Claim, Finding, Tolerance, Verdict};
+use crate::orbits::{AfterImpact, FullSystem, Limit, SymmetricOrbit, Wall};
+use crate::regimes::attractor::Effort;
+use crate::regimes::{Attractor, Regime};
+use crate::simulation::{Nobody, Simulation, StartError};
+use crate::system::{State, System};
+
+/// Disturbance of the absorber's speed, relative: linear, and far above rounding.
+const DISTURBANCE: f64 = 1e-6;
+/// Factor by which a disturbance must shrink or grow to be seen.
+const SEEN: f64 = 100.0;
+/// Periods that this may take.
+const LONGEST: f64 = 5000.0;
+/// Distance after a period, over the size of the motion, per unit of growth of a disturbance.
+const CLOSES: f64 = 1e-10;
+/// Relative distance in clearance at which the two sides of a limit are simulated: small against the
+/// theory's error, large enough for motions to leave within some thousand periods.
+const ASIDE: f64 = 0.01;
+/// Relative disturbance there: small beside the basin of an orbit that is about to lose stability.
+const SMALL: f64 = 1e-3;
+/// Long enough to leave an orbit one percent beyond its limit.
+const EFFORT: Effort =
+    Effort { discard: 4000, periods: 100, prolongations: 0, impact_limit: 100_000 };
+
+/// For each admissible symmetric orbit: a simulation started on it repeats, and a small disturbance
+/// shrinks or grows as its multipliers say.
+pub fn simulated(exact: &FullSystem) -> Result<Vec<Claim>, StartError> {
+    let mut claims = Vec::new();
+    for (index, orbit) in exact.orbits.iter().enumerate() {
+        if !orbit.orbit.admissibility.admissible {
+            continue;
+        }
+        let number = index + 1;
+        claims.push(repeats(&exact.system, orbit, number)?);
+        claims.extend(shrinks(&exact.system, orbit, number)?);
+    }
+    Ok(claims)
+}
+
+/// The state at the next end of an excitation period on the orbit, by simulation from its impact.
+fn begun(system: &System, after: &AfterImpact, wall: Wall) -> Result<Simulation, StartError> {
+    let mut simulation = Simulation::new(system, after.state(wall), after.phase)?;
+    simulation.run(1, u64::MAX, &mut Nobody);
+    Ok(simulation)
+}
+
+fn distance(a: State, b: State) -> f64 {
+    [a.x - b.x, a.x_velocity - b.x_velocity, a.y - b.y, a.y_velocity - b.y_velocity]
+        .iter()
+        .fold(0.0, |largest: f64, part| largest.max(part.abs()))
+}
+
+fn repeats(system: &System, orbit: &SymmetricOrbit, number: usize) -> Result<Claim, StartError> {
+    let cycle = &orbit.orbit.cycle;
+    let mut simulation = begun(system, &cycle.impacts[0], cycle.walls[0])?;
+    let before = simulation.state();
+    simulation.run(1, u64::MAX, &mut Nobody);
+    let size = 1.0 + orbit.peaks.displacement + orbit.peaks.velocity;
+    let missed = distance(before, simulation.state()) / size;
+    let growth = orbit.orbit.radius_per_period().max(1.0);
+    let tolerance = Tolerance {
+        value: CLOSES * growth,
+        reason: "1e−10 of the motion's size, times the growth of a disturbance in a period".into(),
+    };
+    Ok(Claim {
+        id: format!("orbit-{number}-repeats"),
+        statement: format!("exact orbit {number} repeats after one period"),
+        source: "exact orbit",
+        predicted: Finding::Words("repeats".into()),
+        observed: Finding::Words(format!("misses itself by {missed:.0e}")),
+        checked_by: Check::Simulation,
+        difference: Some(missed),
+        verdict: Verdict::of(missed <= tolerance.value),
+        tolerance,
+    })
+}
+
+fn shrinks(
+    system: &System,
+    orbit: &SymmetricOrbit,
+    number: usize,
+) -> Result<Option<Claim>, StartError> {
+    let radius = orbit.orbit.radius_per_period();
+    let needed = (libm::log(SEEN) / libm::log(radius).abs()).ceil();
+    // Too close to a bifurcation to be seen, or too fast to be followed.
+    if !(needed <= LONGEST) || needed < 1.0 {
+        return Ok(None);
+    }
+    let stable = radius < 1.0;
+    let cycle = &orbit.orbit.cycle;
+    let after = cycle.impacts[0];
+    let disturbed = AfterImpact { y_velocity: after.y_velocity * (1.0 + DISTURBANCE), ..after };
+    let mut reference = begun(system, &after, cycle.walls[0])?;
+    let mut simulation = begun(system, &disturbed, cycle.walls[0])?;
+    let periods = needed as u64;
+    let first = distance(reference.state(), simulation.state());
+    // An unstable reference leaves as well: rounding grows with the disturbance, from far below it.
+    for _ in 0..periods {
+        reference.run(1, u64::MAX, &mut Nobody);
+        simulation.run(1, u64::MAX, &mut Nobody);
+    }
+    let ratio = distance(reference.state(), simulation.state()) / first;
+    let word = |stable: bool| if stable { "dies out" } else { "grows" };
+    Ok(Some(Claim {
+        id: format!("orbit-{number}-stability"),
+        statement: format!(
+            "a small disturbance of exact orbit {number} {} (multiplier {radius:.3} per period)",
+            word(stable)
+        ),
+        source: "exact orbit",
+        predicted: Finding::Words(word(stable).into()),
+        observed: Finding::Words(format!("{ratio:.1e} of it after {periods} periods")),
+        checked_by: Check::Simulation,
+        difference: None,
+        tolerance: outcome("a disturbance of 1e−6 is followed until it should change a hundredfold"),
+        verdict: Verdict::of((ratio < 1.0) == stable),
+    }))
+}
+
+/// On either side of each limit of stability next to the case: the motion stays, or leaves.
+pub fn limits(exact: &FullSystem) -> Result<Vec<Claim>, StartError> {
+    let around = |limit: &&Limit| (0.5..2.0).contains(&limit.clearance);
+    let mut claims = Vec::new();
+    for limit in exact.stability_limits().filter(around) {
+        let Ok(cycle) = limit.cycle(&exact.system) else { continue };
+        let side = |factor: f64| -> Result<Option<(bool, Regime)>, StartError> {
+            let scaled = exact.system.with_clearance_scaled(limit.clearance * factor);
+            let Ok(there) = scaled else { return Ok(None) };
+            let found = FullSystem::of(&there);
+            // Where no orbit attracts, the one at the limit is the place to start.
+            let after = match found.attracting() {
+                Some(orbit) => orbit.orbit.cycle.impacts[0],
+                None => cycle.impacts[0],
+            };
+            let start =
+                AfterImpact { y_velocity: after.y_velocity * (1.0 - SMALL), ..after };
+            let reached = stays(&there, &start)?;
+            Ok(Some((found.attracting().is_some(), reached)))
+        };
+        let (Some(below), Some(above)) = (side(1.0 - ASIDE)?, side(1.0 + ASIDE)?) else {
+            continue;
+        };
+        let name = |steady: bool| if steady { "steady 1:1" } else { "not steady 1:1" };
+        let agrees = |(attracts, regime): (bool, Regime)| attracts == (regime == Regime::TwoSymmetric);
+        claims.push(Claim {
+            id: format!("limit-{}", limit.kind.words().replace([' ', '–'], "-")),
+            statement: format!("{}: what the motion becomes on either side", limit.kind.words()),
+            source: "exact limit",
+            predicted: Finding::Words(format!("{} below, {} above", name(below.0), name(above.0))),
+            observed: Finding::Words(format!("{} below, {} above", below.1.short(), above.1.short())),
+            checked_by: Check::Simulation,
+            difference: None,
+            tolerance: outcome("started on the orbit, disturbed by 1e−3, 1 % to either side of the limit"),
+            verdict: Verdict::of(agrees(below) && agrees(above)),
+        });
+    }
+    Ok(claims)
+}
+
+fn stays(system: &System, after: &AfterImpact) -> Result<Regime, StartError> {
+    let simulation = begun(system, after, Wall::Plus)?;
+    Ok(Attractor::reach(system, simulation.state(), &EFFORT)?.classification.regime)
+}

@@ -1,0 +1,83 @@
+//! The price of the asymptotics: how far the theory's boundaries lie from those of the full system.
+
+use serde::Serialize;
+
+use super::boundaries::{BoundaryAt, clearances};
+use crate::analysis::{Analysis, BoundaryKind};
+use crate::orbits::{Bifurcation, FullSystem, Limit};
+
+/// A boundary of the theory beside its exact counterpart; clearances over the case's own.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Price {
+    /// The bifurcation of the full system.
+    pub kind: Bifurcation,
+    /// Where the theory puts it; `None` where it has none.
+    pub theory: Option<f64>,
+    /// Where it is; `None` where the full system has none.
+    pub exact: Option<f64>,
+    /// `theory / exact - 1`.
+    pub difference: Option<f64>,
+    /// Whether an attracting symmetric orbit begins or ends there, in the full system.
+    pub bounds_stability: bool,
+}
+
+/// What the full system calls a boundary of the theory.
+pub fn counterpart(kind: BoundaryKind) -> Bifurcation {
+    match kind {
+        BoundaryKind::SymmetryBreaking => Bifurcation::SymmetryBreaking,
+        BoundaryKind::Hopf => Bifurcation::NeimarkSacker,
+        BoundaryKind::SaddleNode => Bifurcation::SaddleNode,
+    }
+}
+
+/// Every boundary of the case's frequency and forcing, by theory and exactly, by ascending clearance.
+pub fn prices(analysis: &Analysis, exact: &FullSystem) -> Vec<Price> {
+    let theory = clearances(analysis);
+    let limits: Vec<&Limit> =
+        exact.boundaries.iter().flat_map(|found| &found.symmetric.limits).collect();
+    let compared = |limit: &&&Limit| {
+        theory.iter().any(|at| counterpart(at.kind) == limit.kind) || limit.bounds_stability
+    };
+    let mut prices: Vec<Price> = limits
+        .iter()
+        .filter(compared)
+        .map(|limit| {
+            let near = nearest(&theory, limit);
+            Price {
+                kind: limit.kind,
+                theory: near.map(|at| at.clearance),
+                exact: Some(limit.clearance),
+                difference: near.map(|at| at.clearance / limit.clearance - 1.0),
+                bounds_stability: limit.bounds_stability,
+            }
+        })
+        .collect();
+    for at in &theory {
+        let taken = prices.iter().any(|price| price.theory == Some(at.clearance));
+        if !taken {
+            prices.push(Price {
+                kind: counterpart(at.kind),
+                theory: Some(at.clearance),
+                exact: None,
+                difference: None,
+                bounds_stability: false,
+            });
+        }
+    }
+    let place = |price: &Price| price.exact.or(price.theory).unwrap_or(0.0);
+    prices.sort_by(|a, b| place(a).total_cmp(&place(b)));
+    prices
+}
+
+/// Relative distance in clearance beyond which two boundaries of one kind are not counterparts.
+const LARGEST_DISTANCE: f64 = 0.5;
+
+fn nearest(theory: &[BoundaryAt], limit: &Limit) -> Option<BoundaryAt> {
+    let distance = |at: &BoundaryAt| libm::log(at.clearance / limit.clearance).abs();
+    theory
+        .iter()
+        .filter(|at| counterpart(at.kind) == limit.kind)
+        .filter(|at| distance(at) < LARGEST_DISTANCE)
+        .min_by(|a, b| distance(a).total_cmp(&distance(b)))
+        .copied()
+}
