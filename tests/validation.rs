@@ -6,7 +6,7 @@ mod common;
 use vinesink::analysis::{Analysis, Strip};
 use vinesink::regimes::Regime;
 use vinesink::study::{CaseStudy, StudyEffort};
-use vinesink::validation::{Finding, Verdict};
+use vinesink::validation::{Check, Finding, Verdict};
 
 #[test]
 fn in_strip_a1_answers_coexist_and_close_fixed_points_are_told_apart() {
@@ -21,11 +21,17 @@ fn in_strip_a1_answers_coexist_and_close_fixed_points_are_told_apart() {
         study.claims.iter().find(|claim| claim.id == id).unwrap_or_else(|| panic!("no {id}"))
     };
     assert_eq!(claim("area").verdict, Verdict::Confirmed, "{:?}", claim("area"));
-    // The two fixed points are 6 % apart in B, less than the theory's own error: a start on the
-    // unstable one must still be seen to leave it for the other.
+    // The two fixed points are 6 % apart in B, less than the theory's own error: each must still be
+    // held against its own exact orbit.
     let [unstable, stable] = ["fixed-point-1-stability", "fixed-point-2-stability"].map(claim);
-    assert_eq!(unstable.predicted, Finding::Words("leaves".into()));
+    assert_eq!(unstable.predicted, Finding::Words("unstable".into()));
     assert_eq!(unstable.verdict, Verdict::Confirmed, "{unstable:?}");
-    assert_eq!(stable.predicted, Finding::Words("stays".into()));
+    assert_eq!(stable.predicted, Finding::Words("stable".into()));
     assert_eq!(stable.verdict, Verdict::Confirmed, "{stable:?}");
+    assert!([unstable, stable].iter().all(|claim| claim.checked_by == Check::ExactOrbit));
+    // Simulation, in turn, confirms both orbits: one repeats and holds, one repeats and is left.
+    for id in ["orbit-1-repeats", "orbit-2-repeats", "orbit-1-stability", "orbit-2-stability"] {
+        assert_eq!(claim(id).checked_by, Check::Simulation);
+        assert_eq!(claim(id).verdict, Verdict::Confirmed, "{:?}", claim(id));
+    }
 }

@@ -6,7 +6,6 @@ use super::numbers::{LengthFormat, fixed, percent, significant};
 use crate::case::Case;
 use crate::simulation::Stop;
 use crate::study::CaseStudy;
-use crate::system::System;
 use crate::validation::tolerance::{LARGEST_DAMPING, LARGEST_MASS_RATIO, LARGEST_OFFSET};
 use crate::validation::{Finding, Measure, Verdict};
 
