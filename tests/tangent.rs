@@ -1,0 +1,168 @@
+//! Tangent dynamics and the largest Lyapunov exponent.
+//!
+//! The truth is, in this order: the spectral radius of the half-period map of the exact orbits; the
+//! volume that a motion without losses keeps and each impact shrinks by `r^2`; central differences of
+//! the simulated flow.
+
+mod common;
+
+use vinesink::simulation::{Observer, Simulation, Statistics, Tangent};
+use vinesink::system::{Excitation, Parameters, State, System};
+
+const UNIT: [[f64; 4]; 4] =
+    [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
+
+fn state([x, x_velocity, y, y_velocity]: [f64; 4]) -> State {
+    State { x, x_velocity, y, y_velocity }
+}
+
+fn numbers(state: State) -> [f64; 4] {
+    [state.x, state.x_velocity, state.y, state.y_velocity]
+}
+
+/// Where a start leads after `periods`, with the impacts and the times it stuck.
+fn end(system: &System, start: State, periods: u64) -> (State, u64, u64) {
+    let mut simulation = Simulation::new(system, start, 0.0).expect("inside the cavity");
+    let mut statistics = Statistics::begin(system, start);
+    simulation.run(periods, 1_000_000, &mut statistics);
+    (simulation.state(), statistics.impacts(), statistics.sustained_contact().intervals)
+}
+
+/// Columns of the derivative of the flow over `periods`.
+fn tangent_map(system: &System, start: State, periods: u64) -> [[f64; 4]; 4] {
+    UNIT.map(|unit| {
+        let mut simulation = Simulation::new(system, start, 0.0).expect("inside the cavity");
+        let mut tangent = Tangent::begin(system, state(unit));
+        simulation.run(periods, 1_000_000, &mut tangent);
+        numbers(tangent.change).map(|c| c * libm::exp(tangent.logarithm()))
+    })
+}
+
+fn by_differences(system: &System, start: State, periods: u64, h: f64) -> [[f64; 4]; 4] {
+    UNIT.map(|unit| {
+        let shifted = |sign: f64| {
+            let base = numbers(start);
+            let moved = std::array::from_fn(|k| base[k] + sign * h * unit[k]);
+            numbers(end(system, state(moved), periods).0)
+        };
+        let (ahead, behind) = (shifted(1.0), shifted(-1.0));
+        std::array::from_fn(|k| (ahead[k] - behind[k]) / (2.0 * h))
+    })
+}
+
+fn determinant(columns: [[f64; 4]; 4]) -> f64 {
+    let mut rows = columns;
+    let mut product = 1.0;
+    for k in 0..4 {
+        let pivot = (k..4).max_by(|a, b| rows[*a][k].abs().total_cmp(&rows[*b][k].abs()));
+        let pivot = pivot.expect("not empty");
+        if pivot != k {
+            rows.swap(pivot, k);
+            product = -product;
+        }
+        product *= rows[k][k];
+        for row in k + 1..4 {
+            let factor = rows[row][k] / rows[k][k];
+            for column in k..4 {
+                rows[row][column] -= factor * rows[k][column];
+            }
+        }
+    }
+    product
+}
+
+/// Differences of a simulated flow are good to `h^2` and to rounding over `h`; both are below 1e-6 of
+/// the largest entry for these starts.
+#[test]
+fn the_tangent_map_is_the_derivative_of_the_simulated_flow() {
+    let heavy = System::new(Parameters {
+        mass_ratio: 0.3,
+        damping: 1.2,
+        restitution: 0.7,
+        frequency_ratio: 1.1,
+        forcing_per_clearance: 2.0,
+        excitation: Excitation::BaseDisplacement,
+    })
+    .expect("valid");
+    let start = State { x: 0.3, x_velocity: 0.2, y: 0.1, y_velocity: 0.8 };
+    for (system, periods) in
+        [(common::table_1(8.0, 7.5), 5), (common::table_1(8.5, 20.0), 5), (heavy, 3)]
+    {
+        let (_, impacts, _) = end(&system, start, periods);
+        assert!(impacts >= 4, "{impacts} impacts are too few");
+        let exact = tangent_map(&system, start, periods);
+        let differences = by_differences(&system, start, periods, 1e-6);
+        let size = exact.iter().flatten().fold(0.0_f64, |a, b| a.max(b.abs()));
+        for (exact, difference) in exact.iter().flatten().zip(differences.iter().flatten()) {
+            assert!((exact - difference).abs() < 1e-6 * size, "{exact} {difference} of {size}");
+        }
+    }
+}
+
+#[test]
+fn the_tangent_map_is_the_derivative_through_sticking() {
+    for (eps, restitution) in [(0.0076775, 0.6), (0.3, 0.6), (0.3, 0.0)] {
+        let table = common::table_1(8.0, 0.3);
+        let system = System::new(Parameters {
+            mass_ratio: eps,
+            restitution,
+            damping: 1.799,
+            frequency_ratio: 0.958,
+            ..table.parameters()
+        })
+        .expect("valid");
+        let start = State { x: 0.3, x_velocity: 0.2, y: 0.1, y_velocity: 0.8 };
+        for periods in [1, 3] {
+            let (_, _, stuck) = end(&system, start, periods);
+            assert!(stuck >= 1, "it never stuck at eps = {eps}, r = {restitution}");
+            let exact = tangent_map(&system, start, periods);
+            let differences = by_differences(&system, start, periods, 1e-6);
+            let size = exact.iter().flatten().fold(0.0_f64, |a, b| a.max(b.abs()));
+            for (exact, difference) in exact.iter().flatten().zip(differences.iter().flatten()) {
+                assert!((exact - difference).abs() < 1e-6 * size, "{exact} {difference} {size}");
+            }
+        }
+    }
+}
+
+/// Divergence of the flow is `-eps lambda`; an impact multiplies volume by `r^2`, whatever its
+/// acceleration.
+#[test]
+fn volume_shrinks_by_damping_and_by_r_squared_at_each_impact() {
+    for (eps, damping, restitution) in
+        [(0.3, 0.0, 1.0), (0.01, 0.0, 1.0), (0.3, 1.0, 1.0), (0.3, 0.0, 0.8), (0.2, 0.7, 0.9)]
+    {
+        let system = System::new(Parameters {
+            mass_ratio: eps,
+            damping,
+            restitution,
+            frequency_ratio: 1.1,
+            forcing_per_clearance: 1.0,
+            excitation: Excitation::Force,
+        })
+        .expect("valid");
+        let start = State { x: 0.3, x_velocity: 0.9, y: 0.1, y_velocity: 0.4 };
+        let (_, impacts, stuck) = end(&system, start, 3);
+        assert!(impacts > 2 && stuck == 0, "{impacts} {stuck}");
+        let columns = tangent_map(&system, start, 3);
+        let shrunk = libm::exp(-eps * damping * 3.0 * system.period())
+            * libm::pow(restitution, 2.0 * impacts as f64);
+        let found = determinant(columns);
+        let size = columns.iter().flatten().fold(1.0_f64, |a, b| a.max(b.abs()));
+        let rounding = 1e-14 * size * size * size * size;
+        assert!((found - shrunk).abs() < rounding.min(1e-3 * shrunk), "{found} {shrunk} {rounding}");
+    }
+}
+
+/// An observer that is told nothing but its own periods: the observer trait's defaults do nothing.
+#[test]
+fn a_change_of_size_one_has_no_logarithm_yet() {
+    let system = common::table_1(8.0, 7.5);
+    let mut tangent = Tangent::begin(&system, state([3.0, 0.0, 4.0, 0.0]));
+    tangent.period(&state([0.0; 4]));
+    assert_eq!((tangent.size(), tangent.logarithm()), (5.0, 0.0));
+    assert!(tangent.normalize());
+    assert!((tangent.logarithm() - libm::log(5.0)).abs() < 1e-15 && tangent.size() == 1.0);
+    let mut gone = Tangent::begin(&system, state([0.0; 4]));
+    assert!(!gone.normalize());
+}
