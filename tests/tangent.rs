@@ -6,6 +6,7 @@
 
 mod common;
 
+use vinesink::regimes::lyapunov::{Exponent, Lyapunov};
 use vinesink::simulation::{Observer, Simulation, Statistics, Tangent};
 use vinesink::system::{Excitation, Parameters, State, System};
 
@@ -99,6 +100,7 @@ fn the_tangent_map_is_the_derivative_of_the_simulated_flow() {
     }
 }
 
+/// As above; the end of a chattering sequence is found to 1e-13, so that the step is longer.
 #[test]
 fn the_tangent_map_is_the_derivative_through_sticking() {
     for (eps, restitution) in [(0.0076775, 0.6), (0.3, 0.6), (0.3, 0.0)] {
@@ -116,7 +118,7 @@ fn the_tangent_map_is_the_derivative_through_sticking() {
             let (_, _, stuck) = end(&system, start, periods);
             assert!(stuck >= 1, "it never stuck at eps = {eps}, r = {restitution}");
             let exact = tangent_map(&system, start, periods);
-            let differences = by_differences(&system, start, periods, 1e-6);
+            let differences = by_differences(&system, start, periods, 1e-5);
             let size = exact.iter().flatten().fold(0.0_f64, |a, b| a.max(b.abs()));
             for (exact, difference) in exact.iter().flatten().zip(differences.iter().flatten()) {
                 assert!((exact - difference).abs() < 1e-6 * size, "{exact} {difference} {size}");
@@ -154,7 +156,6 @@ fn volume_shrinks_by_damping_and_by_r_squared_at_each_impact() {
     }
 }
 
-/// An observer that is told nothing but its own periods: the observer trait's defaults do nothing.
 #[test]
 fn a_change_of_size_one_has_no_logarithm_yet() {
     let system = common::table_1(8.0, 7.5);
@@ -165,4 +166,64 @@ fn a_change_of_size_one_has_no_logarithm_yet() {
     assert!((tangent.logarithm() - libm::log(5.0)).abs() < 1e-15 && tangent.size() == 1.0);
     let mut gone = Tangent::begin(&system, state([0.0; 4]));
     assert!(!gone.normalize());
+}
+
+/// The exponent of `system` over `periods`, once `discard` of them have passed.
+fn exponent(system: &System, start: State, discard: u64, periods: u64) -> Exponent {
+    let mut simulation = Simulation::new(system, start, 0.0).expect("inside the cavity");
+    simulation.run(discard, u64::MAX, &mut vinesink::simulation::Nobody);
+    let mut lyapunov = Lyapunov::begin(system);
+    simulation.run(periods, u64::MAX, &mut lyapunov);
+    lyapunov.exponent().expect("long enough")
+}
+
+const START: State = State { x: 0.2, x_velocity: 0.2, y: 0.0, y_velocity: 0.8 };
+
+/// The spectral radius of the half-period map of the exact orbit, to the four digits that an
+/// independent program printed; a complex pair makes the estimate swing by a bounded amount over the
+/// number of periods.
+#[test]
+fn a_stable_motion_has_the_exponent_of_its_multipliers() {
+    for (frequency, clearance, radius) in
+        [(8.0, 7.5, 0.9726), (8.0, 15.0, 0.9650), (8.5, 20.0, 0.9667)]
+    {
+        let system = common::table_1(frequency, clearance);
+        let found = exponent(&system, START, 2000, 20_000);
+        let expected = 2.0 * libm::log(radius);
+        assert!((found.per_period - expected).abs() < 2e-4, "{found:?}, not {expected}");
+        assert!(found.converged && found.interval[1] < 0.0, "{found:?}");
+        assert!(found.interval[0] <= expected + 1e-4 && expected - 1e-4 <= found.interval[1]);
+    }
+}
+
+/// Two neighbours on a chaotic motion part at the rate of the exponent: the mean logarithm of how far
+/// they are apart after some periods, an estimate that knows nothing of tangents.
+#[test]
+fn neighbours_part_at_the_rate_of_a_positive_exponent() {
+    let system = common::table_1(8.0, 20.0);
+    let found = exponent(&system, START, 500, 20_000);
+    assert!(found.converged && found.interval[0] > 0.0, "{found:?}");
+    let mut simulation = Simulation::new(&system, START, 0.0).expect("inside the cavity");
+    simulation.run(500, u64::MAX, &mut vinesink::simulation::Nobody);
+    let (apart, periods, pairs) = (1e-10, 10, 1000);
+    let mut sum = 0.0;
+    for _ in 0..pairs {
+        let here = simulation.state();
+        let neighbour = State { x_velocity: here.x_velocity + apart, ..here };
+        let mut other = Simulation::new(&system, neighbour, 0.0).expect("inside the cavity");
+        let distance = |a: State, b: State| {
+            let (a, b) = (numbers(a), numbers(b));
+            libm::sqrt((0..4).map(|k| (a[k] - b[k]) * (a[k] - b[k])).sum())
+        };
+        // Alignment is no growth: it is over after a few periods.
+        simulation.run(5, u64::MAX, &mut vinesink::simulation::Nobody);
+        other.run(5, u64::MAX, &mut vinesink::simulation::Nobody);
+        let aligned = distance(simulation.state(), other.state());
+        simulation.run(periods, u64::MAX, &mut vinesink::simulation::Nobody);
+        other.run(periods, u64::MAX, &mut vinesink::simulation::Nobody);
+        let later = distance(simulation.state(), other.state());
+        sum += libm::log(later / aligned) / periods as f64;
+    }
+    let mean = sum / f64::from(pairs);
+    assert!((mean - found.per_period).abs() < 0.1 * found.per_period, "{mean} {found:?}");
 }

@@ -4,6 +4,7 @@
 //! Every name comes with the numbers that decided it.
 
 pub mod attractor;
+pub mod lyapunov;
 pub mod modulation;
 pub mod periodicity;
 pub mod return_map;
