@@ -2,7 +2,9 @@
 
 use serde::Serialize;
 
-use super::{Classification, Regime, Thresholds, classify};
+use super::lyapunov::Lyapunov;
+use super::modulation::{self, Amplitudes};
+use super::{Classification, Energetics, Nature, Periodicity, Regime, Thresholds, classify, periodicity};
 use crate::simulation::{
     Energy, Impact, ImpactLog, Nobody, Simulation, StartError, Statistics, Stop, SustainedContact,
 };
@@ -37,6 +39,8 @@ pub struct Attractor {
     pub absorber_harmonic: [f64; 2],
     /// Energy balance of the measured window.
     pub energy: Energy,
+    /// What that balance means for the absorber.
+    pub energetics: Energetics,
     /// Sustained contact in the measured window.
     pub sustained_contact: SustainedContact,
     /// Periods measured.
@@ -54,12 +58,18 @@ pub struct Attractor {
     /// The last impacts of the measured window.
     #[serde(skip)]
     pub impacts: Vec<Impact>,
+    /// `C`, `E` and the peak in every period that was kept of the measured window.
+    #[serde(skip)]
+    pub amplitudes: Vec<Amplitudes>,
 }
 
 /// Impacts that are kept of each attractor, at least: enough for every figure and every average.
 const KEPT_IMPACTS: usize = 20_000;
-/// Relative difference of rms displacement below which two repeating motions are one.
+/// Relative difference of rms and of peak displacement below which two repeating motions with the
+/// same impacts are one: a thousand times what a repetition to 1e-6 leaves open.
 const SAME_PERIODIC: f64 = 1e-3;
+/// The same for a motion that is still settling and the one that it settles on.
+const SAME_SETTLING: f64 = 0.02;
 /// The same for motions that do not repeat, whose averages over some hundred periods scatter.
 const SAME_MODULATED: f64 = 0.2;
 
@@ -136,21 +146,26 @@ impl Attractor {
         let system = *simulation.system();
         let mut stop = simulation.run(effort.discard, effort.impact_limit, &mut Nobody);
         let mut statistics = Statistics::begin(&system, simulation.state());
+        let mut lyapunov = Lyapunov::begin(&system);
         // A transient given up for its impacts is measured all the same: the impacts are the regime.
         if stop != Stop::NotFinite {
-            let observer = &mut (&mut statistics, &mut *log);
+            let mut counts = (&mut statistics, &mut *log);
+            let observer = &mut (&mut counts, &mut lyapunov);
             let measured = simulation.run(effort.periods, effort.impact_limit, observer);
             stop = if stop == Stop::EndTime { measured } else { stop };
         }
         let thresholds = Thresholds::default();
         let (oscillator_harmonic, absorber_harmonic) = statistics.harmonics();
+        let exponent = lyapunov.exponent();
+        let period = system.period();
         Self {
-            classification: classify(&statistics, &log.impacts, system.period(), &thresholds),
+            classification: classify(&statistics, &log.impacts, exponent, period, &thresholds),
             peak: statistics.peak(),
             rms: statistics.rms(),
             oscillator_harmonic,
             absorber_harmonic,
             energy: statistics.energy(),
+            energetics: Energetics::of(&system, &statistics),
             sustained_contact: statistics.sustained_contact(),
             periods: statistics.periods(),
             impact_count: statistics.impacts(),
@@ -159,6 +174,7 @@ impl Attractor {
             penetration: statistics.penetration(),
             state: simulation.state(),
             impacts: log.impacts.clone(),
+            amplitudes: modulation::amplitudes(statistics.records(), thresholds.shortest_capture),
         }
     }
 
@@ -172,14 +188,28 @@ impl Attractor {
             // A damped oscillator has one steady motion without impacts.
             return true;
         }
-        let difference =
-            (self.rms - other.rms).abs() / self.rms.max(other.rms).max(f64::MIN_POSITIVE);
+        let within = |a: f64, b: f64, limit: f64| (a - b).abs() <= limit * a.max(b);
+        let alike = |limit| {
+            within(self.rms, other.rms, limit) && within(self.peak, other.peak, limit)
+        };
+        let settling = |one: &Self| one.classification.nature == Nature::TransientNotOver;
         match (mine.evidence.periodicity, theirs.evidence.periodicity) {
             (Some(a), Some(b)) => {
-                (a.impacts, a.periods) == (b.impacts, b.periods) && difference < SAME_PERIODIC
+                (a.impacts, a.periods) == (b.impacts, b.periods)
+                    && mine.evidence.sequence == theirs.evidence.sequence
+                    && alike(SAME_PERIODIC)
             }
-            (None, None) => difference < SAME_MODULATED,
-            _ => false,
+            // Near the end of its stability a motion takes thousands of periods to settle.
+            (Some(_), None) => settling(other) && alike(SAME_SETTLING),
+            (None, Some(_)) => settling(self) && alike(SAME_SETTLING),
+            (None, None) => within(self.rms, other.rms, SAME_MODULATED),
         }
+    }
+
+    /// The impacts of one repetition, each a complete state of the motion; `None` if it does not
+    /// repeat. An exact orbit solver can begin here.
+    pub fn last_repetition(&self) -> Option<(Periodicity, &[Impact])> {
+        let found = self.classification.evidence.periodicity?;
+        Some((found, periodicity::last_repetition(found, &self.impacts)?))
     }
 }

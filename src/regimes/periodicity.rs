@@ -25,6 +25,12 @@ pub struct Periodicity {
     pub closure: f64,
 }
 
+/// The impacts of one repetition, the last `found.impacts` of `impacts`, in order of time; `None` if
+/// fewer were kept. Together they determine the motion: each is a state, with its phase.
+pub fn last_repetition(found: Periodicity, impacts: &[Impact]) -> Option<&[Impact]> {
+    impacts.get(impacts.len().checked_sub(found.impacts as usize)?..)
+}
+
 /// The shortest repetition at the end of `records`, if there is one.
 pub fn find(records: &[PeriodRecord]) -> Option<Periodicity> {
     (1..=LONGEST).find_map(|periods| repeats_after(records, periods))

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::attractor::Effort;
 use super::starts::StartBox;
-use super::{Attractor, Regime};
+use super::{Attractor, Nature, Regime, share};
 use crate::simulation::{StartError, Stop};
 use crate::system::{State, System};
 
@@ -18,6 +18,8 @@ pub struct FoundAttractor {
     pub starts: u32,
     /// The same as a share of all evenly spread starts.
     pub share: f64,
+    /// 95 % interval of the share that infinitely many starts would give (Wilson).
+    pub share_interval: [f64; 2],
     /// Whether a start on a predicted motion led here.
     pub reached_from_theory: bool,
     /// How many of `starts` came here out of a transient that looked like a motion of its own.
@@ -33,7 +35,7 @@ impl FoundAttractor {
     }
 }
 
-/// How many long windows a motion may take to show the same averages in both halves.
+/// How many long windows a motion may take to show that its transient is over.
 const LONGEST_WAIT: u32 = 5;
 
 /// How thoroughly attractors are searched.
@@ -74,6 +76,7 @@ pub fn find(
                 attractor: reached,
                 starts: 0,
                 share: 0.0,
+                share_interval: [0.0, 1.0],
                 reached_from_theory: false,
                 late_starts: 0,
                 longest_transient: 0,
@@ -85,11 +88,15 @@ pub fn find(
     }
     let some_repeat = found.iter().any(|one| one.attractor.repeats());
     for one in &mut found {
-        one.share = f64::from(one.starts) / f64::from(effort.starts.max(1));
         look_longer(system, one, some_repeat, effort)?;
     }
     found.sort_by_key(|one| std::cmp::Reverse(one.starts));
-    Ok(merged(found))
+    let mut distinct = merged(found);
+    for one in &mut distinct {
+        one.share = f64::from(one.starts) / f64::from(effort.starts.max(1));
+        one.share_interval = share::wilson(one.starts, effort.starts);
+    }
+    Ok(distinct)
 }
 
 /// A motion that repeats needs no longer look. The others are averages, which intermittent motions
@@ -106,7 +113,8 @@ fn look_longer(
     let patience = if some_repeat { effort.patience } else { 0 };
     one.attractor = one.attractor.continued(system, patience, effort.measured)?;
     for _ in 0..LONGEST_WAIT {
-        if one.attractor.repeats() || one.attractor.classification.evidence.settled {
+        let settling = one.attractor.classification.nature == Nature::TransientNotOver;
+        if one.attractor.repeats() || !settling {
             break;
         }
         one.attractor = one.attractor.continued(system, 0, effort.measured)?;
@@ -125,7 +133,6 @@ fn merged(found: Vec<FoundAttractor>) -> Vec<FoundAttractor> {
         match distinct.iter_mut().find(|known| known.attractor.is_same(&one.attractor)) {
             Some(known) => {
                 known.starts += one.starts;
-                known.share += one.share;
                 known.late_starts += one.late_starts;
                 known.longest_transient = known.longest_transient.max(one.longest_transient);
                 known.reached_from_theory |= one.reached_from_theory;

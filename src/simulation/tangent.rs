@@ -61,8 +61,7 @@ impl Tangent {
         }
     }
 
-    /// Size of the change: the square root of its energy norm, in which an absorber of the
-    /// oscillator's mass would count as much as the oscillator; growth rates do not depend on it.
+    /// Size of the change: the root of the sum of squares. Growth rates do not depend on the norm.
     pub fn size(&self) -> f64 {
         let State { x, x_velocity, y, y_velocity } = self.change;
         libm::hypot(libm::hypot(x, x_velocity), libm::hypot(y, y_velocity))

@@ -1,0 +1,89 @@
+//! What kind of dynamics a motion is, decided from what was measured and never guessed.
+
+use serde::Serialize;
+
+use super::{Evidence, Exponent};
+
+/// What kind of dynamics a motion is; the regime says what its impacts do.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+pub enum Nature {
+    /// No impacts, and every period like the one before.
+    AtRest,
+    /// It was seen to repeat.
+    Periodic {
+        /// `p`, impacts until it repeats.
+        impacts: u32,
+        /// `n`, excitation periods until it repeats.
+        periods: u32,
+    },
+    /// It never repeats, and neighbours neither part nor come together: the largest Lyapunov
+    /// exponent is zero.
+    QuasiPeriodic,
+    /// Neighbours part exponentially: the largest Lyapunov exponent is above zero.
+    Chaotic,
+    /// It is still on its way: to a motion that it approaches, or with averages that drift.
+    TransientNotOver,
+    /// The window was too short to tell.
+    Undecided,
+}
+
+impl Nature {
+    /// The nature in a few words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::AtRest => "at rest",
+            Self::Periodic { .. } => "periodic",
+            Self::QuasiPeriodic => "quasi-periodic",
+            Self::Chaotic => "chaotic",
+            Self::TransientNotOver => "transient not over",
+            Self::Undecided => "undecided",
+        }
+    }
+}
+
+/// Largest distance of either end of the exponent's interval from zero, in nats per period, at which
+/// an exponent is called zero: neighbours then need over 500 periods to part or approach by a factor
+/// of e, longer than any modulation of these systems, and a faster approach would show in the depth
+/// of modulation.
+const ZERO: f64 = 2e-3;
+/// Depth of modulation in the second half of a window over that in the first which still counts as
+/// the same: quasi-periodic motion keeps its depth, which is sampled to a few percent.
+const SAME_DEPTH: std::ops::Range<f64> = 0.9..1.1;
+
+impl Nature {
+    /// Decides by the evidence, in this order:
+    ///
+    /// 1. what repeats is periodic, or at rest without impacts;
+    /// 2. without impacts and not repeating: not over if it drifts, undecided otherwise;
+    /// 3. a converged exponent with its interval above zero: chaotic;
+    /// 4. an interval below zero: it approaches something that it has not reached, so not over;
+    /// 5. averages of both halves differ: not over;
+    /// 6. a converged exponent with zero in a narrow interval, and a modulation that stays:
+    ///    quasi-periodic;
+    /// 7. undecided.
+    pub fn of(evidence: &Evidence) -> Self {
+        let silent = evidence.impacts_per_period == 0.0;
+        if let Some(found) = evidence.periodicity {
+            let (impacts, periods) = (found.impacts, found.periods);
+            return if silent { Self::AtRest } else { Self::Periodic { impacts, periods } };
+        }
+        let exponent = if silent { None } else { evidence.exponent };
+        let converged = exponent.filter(|exponent| exponent.converged);
+        if converged.is_some_and(|exponent| exponent.is_positive()) {
+            Self::Chaotic
+        } else if exponent.is_some_and(|exponent| exponent.is_negative()) || !evidence.settled {
+            Self::TransientNotOver
+        } else if converged.is_some_and(is_zero) && SAME_DEPTH.contains(&evidence.modulation_growth)
+        {
+            Self::QuasiPeriodic
+        } else {
+            Self::Undecided
+        }
+    }
+}
+
+fn is_zero(exponent: Exponent) -> bool {
+    let [low, high] = exponent.interval;
+    (-ZERO..=0.0).contains(&low) && (0.0..=ZERO).contains(&high)
+}
