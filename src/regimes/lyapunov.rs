@@ -26,6 +26,9 @@ const STUDENT: f64 = 2.365;
 /// Autocorrelation of successive block means above which blocks are not independent: its standard
 /// error is `1/sqrt(blocks)`, 0.25 for 16 blocks, of which this is twice.
 const DEPENDENT: f64 = 0.5;
+/// Standard errors by which the halves of a window may differ: four are no chance even where many
+/// motions are looked at, and a chaotic transient that gives way to another motion differs by more.
+const AGREEMENT: f64 = 4.0;
 /// Means of blocks that all lie within this (nats per period) need not be independent: growth by a
 /// factor of e in 200 periods is nothing against the transients that are waited for.
 const RESOLUTION: f64 = 5e-3;
@@ -120,7 +123,7 @@ impl Lyapunov {
         let half = count / 2;
         let (first, second) = (Sample::of(&means[..half]), Sample::of(&means[half..]));
         let apart = (first.mean - second.mean).abs();
-        let agree = apart <= STUDENT * libm::hypot(first.error, second.error);
+        let agree = apart <= AGREEMENT * libm::hypot(first.error, second.error);
         let block_correlation = correlation(&means, all.mean);
         let independent = block_correlation < DEPENDENT;
         let low = means.iter().copied().fold(f64::INFINITY, f64::min);

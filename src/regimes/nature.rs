@@ -47,16 +47,25 @@ impl Nature {
 /// of e, longer than any modulation of these systems, and a faster approach would show in the depth
 /// of modulation.
 const ZERO: f64 = 2e-3;
+/// What an exponent of zero may still look like after `periods`, in nats per period: without damping
+/// and losses neighbours drift apart in proportion to time, by `ln(periods)/periods` a period, and
+/// the worst of it is in the first of them; twice that is no such drift.
+fn drift(periods: u64) -> f64 {
+    let count = periods.max(2) as f64;
+    2.0 * libm::log(count) / count
+}
 /// Depth of modulation in the second half of a window over that in the first which still counts as
 /// the same: quasi-periodic motion keeps its depth, which is sampled to a few percent.
 const SAME_DEPTH: std::ops::Range<f64> = 0.9..1.1;
 
 impl Nature {
-    /// Decides by the evidence, in this order:
+    /// Decides by the evidence, in this order (of a chaotic motion no window says whether it stays:
+    /// beside a motion that repeats it may be a transient of any length):
     ///
     /// 1. what repeats is periodic, or at rest without impacts;
     /// 2. without impacts and not repeating: not over if it drifts, undecided otherwise;
-    /// 3. a converged exponent with its interval above zero: chaotic;
+    /// 3. a converged exponent with its interval above zero, and above what a linear drift gives:
+    ///    chaotic;
     /// 4. an interval below zero: it approaches something that it has not reached, so not over;
     /// 5. averages of both halves differ: not over;
     /// 6. a converged exponent with zero in a narrow interval, and a modulation that stays:
@@ -70,7 +79,7 @@ impl Nature {
         }
         let exponent = if silent { None } else { evidence.exponent };
         let converged = exponent.filter(|exponent| exponent.converged);
-        if converged.is_some_and(|exponent| exponent.is_positive()) {
+        if converged.is_some_and(|exponent| exponent.interval[0] > drift(exponent.periods)) {
             Self::Chaotic
         } else if exponent.is_some_and(|exponent| exponent.is_negative()) || !evidence.settled {
             Self::TransientNotOver

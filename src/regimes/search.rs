@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::attractor::Effort;
 use super::starts::StartBox;
-use super::{Attractor, Nature, Regime, share};
+use super::{Attractor, Classification, Nature, Regime, share};
 use crate::simulation::{StartError, Stop};
 use crate::system::{State, System};
 
@@ -35,8 +35,10 @@ impl FoundAttractor {
     }
 }
 
-/// How many long windows a motion may take to show that its transient is over.
-const LONGEST_WAIT: u32 = 5;
+/// How often the window is doubled for a motion whose averages still drift or whose nature is still
+/// open: an exponent's error shrinks with the window, and sixteen of them settle all but the rarest
+/// intermittency.
+const LONGEST_WAIT: u32 = 4;
 
 /// How thoroughly attractors are searched.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -112,12 +114,15 @@ fn look_longer(
     }
     let patience = if some_repeat { effort.patience } else { 0 };
     one.attractor = one.attractor.continued(system, patience, effort.measured)?;
+    let mut measured = effort.measured;
     for _ in 0..LONGEST_WAIT {
-        let settling = one.attractor.classification.nature == Nature::TransientNotOver;
-        if one.attractor.repeats() || !settling {
+        let Classification { nature, evidence, .. } = &one.attractor.classification;
+        let open = matches!(nature, Nature::TransientNotOver | Nature::Undecided);
+        if one.attractor.repeats() || (evidence.settled && !open) {
             break;
         }
-        one.attractor = one.attractor.continued(system, 0, effort.measured)?;
+        measured = measured.saturating_mul(2);
+        one.attractor = one.attractor.continued(system, 0, measured)?;
     }
     if one.attractor.repeats() {
         one.late_starts = one.starts;
