@@ -152,7 +152,10 @@ fn volume_shrinks_by_damping_and_by_r_squared_at_each_impact() {
         let found = determinant(columns);
         let size = columns.iter().flatten().fold(1.0_f64, |a, b| a.max(b.abs()));
         let rounding = 1e-14 * size * size * size * size;
-        assert!((found - shrunk).abs() < rounding.min(1e-3 * shrunk), "{found} {shrunk} {rounding}");
+        assert!(
+            (found - shrunk).abs() < rounding.min(1e-3 * shrunk),
+            "{found} {shrunk} {rounding}"
+        );
     }
 }
 

@@ -4,7 +4,9 @@ use serde::Serialize;
 
 use super::lyapunov::Lyapunov;
 use super::modulation::{self, Amplitudes};
-use super::{Classification, Energetics, Nature, Periodicity, Regime, Thresholds, classify, periodicity};
+use super::{
+    Classification, Energetics, Nature, Periodicity, Regime, Thresholds, classify, periodicity,
+};
 use crate::simulation::{
     Energy, Impact, ImpactLog, Nobody, Simulation, StartError, Statistics, Stop, SustainedContact,
 };
@@ -189,9 +191,8 @@ impl Attractor {
             return true;
         }
         let within = |a: f64, b: f64, limit: f64| (a - b).abs() <= limit * a.max(b);
-        let alike = |limit| {
-            within(self.rms, other.rms, limit) && within(self.peak, other.peak, limit)
-        };
+        let alike =
+            |limit| within(self.rms, other.rms, limit) && within(self.peak, other.peak, limit);
         let settling = |one: &Self| one.classification.nature == Nature::TransientNotOver;
         match (mine.evidence.periodicity, theirs.evidence.periodicity) {
             (Some(a), Some(b)) => {

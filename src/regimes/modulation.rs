@@ -164,3 +164,84 @@ pub fn settled(records: &[PeriodRecord]) -> bool {
 fn close(a: f64, b: f64) -> bool {
     (a - b).abs() <= UNSETTLED * 0.5 * (a + b)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::system::State;
+
+    fn record(impacts: [u32; 2], oscillator: f64, absorber: f64) -> PeriodRecord {
+        PeriodRecord {
+            impacts,
+            visits: impacts,
+            peak: oscillator,
+            end: State { x: 0.0, x_velocity: 0.0, y: 0.0, y_velocity: 0.0 },
+            absorber_harmonic: [0.6 * absorber, -0.8 * absorber],
+            oscillator_harmonic: [0.0, oscillator],
+        }
+    }
+
+    fn series(pattern: &str) -> Vec<PeriodRecord> {
+        pattern.chars().map(|c| record(if c == 'c' { [1, 1] } else { [2, 0] }, 1.0, 0.5)).collect()
+    }
+
+    #[test]
+    fn captures_are_counted_and_measured() {
+        // Lengths 3, 5, 1 (too short), 4: mean 4, median 4, 12 of 17 periods.
+        let found = captures(&series("ccc.ccccc.c..cccc"), 3);
+        assert_eq!((found.count, found.longest, found.mean, found.median), (3, 5, 4.0, 4.0));
+        assert!((found.share - 12.0 / 17.0).abs() < 1e-15);
+        let even = captures(&series("ccc.cccccccc"), 3);
+        assert_eq!((even.mean, even.median), (5.5, 5.5));
+        let uneven = captures(&series("ccc.ccc.cccccccccc.cccc"), 3);
+        assert_eq!((uneven.mean, uneven.median), (5.0, 3.5));
+        assert_eq!(captures(&series("cc.cc"), 3), Captures::default());
+    }
+
+    #[test]
+    fn periods_know_whether_they_are_captured() {
+        let pattern = "ccc.ccccc.c..cccc";
+        let flags: Vec<bool> = amplitudes(&series(pattern), 3).iter().map(|a| a.captured).collect();
+        let expected: Vec<bool> = "ccc.ccccc....cccc".chars().map(|c| c == 'c').collect();
+        assert_eq!(flags, expected);
+    }
+
+    #[test]
+    fn the_absorbers_amplitude_is_summed_up_in_and_between_captures() {
+        let records: Vec<PeriodRecord> = (0..12)
+            .map(|k| record(if k % 4 == 3 { [0, 0] } else { [1, 1] }, 2.0, f64::from(k)))
+            .collect();
+        let found = absorber_amplitude(&amplitudes(&records, 3));
+        let near = |a: Option<f64>, b: f64| (a.expect("some") - b).abs() < 1e-12;
+        assert!(
+            near(found.in_captures, 45.0 / 9.0) && near(found.between, 21.0 / 3.0),
+            "{found:?}"
+        );
+        assert!(found.smallest == 0.0 && (found.largest - 11.0).abs() < 1e-12);
+        assert_eq!(found.correlation_with_growth, None, "C is constant");
+        assert_eq!(absorber_amplitude(&[]), AbsorberAmplitude::default());
+    }
+
+    /// C(k+1) - C(k-1) = -2 E(k) by construction.
+    #[test]
+    fn a_vibration_that_falls_with_e_is_fully_anticorrelated() {
+        let e = |k: u32| 1.0 + f64::from(k * k % 7);
+        let mut c = vec![100.0, 100.0];
+        (1..30).for_each(|k| c.push(c[k as usize - 1] - 2.0 * e(k)));
+        let records: Vec<_> = (0..31).map(|k| record([1, 1], c[k as usize], e(k))).collect();
+        let found = absorber_amplitude(&amplitudes(&records, 3)).correlation_with_growth;
+        assert!((found.expect("both vary") + 1.0).abs() < 1e-12, "{found:?}");
+    }
+
+    #[test]
+    fn modulation_that_dies_out_has_a_growth_below_one() {
+        let fading: Vec<_> = (0..8)
+            .map(|k| {
+                let swing = if k < 4 { 0.4 } else { 0.1 };
+                record([1, 1], if k % 2 == 0 { 1.0 + swing } else { 1.0 - swing }, 1.0)
+            })
+            .collect();
+        assert!((growth(&fading) - 0.25).abs() < 1e-12);
+        assert_eq!(growth(&series("cccc")), 1.0);
+    }
+}

@@ -57,6 +57,9 @@ fn drift(periods: u64) -> f64 {
 /// Depth of modulation in the second half of a window over that in the first which still counts as
 /// the same: quasi-periodic motion keeps its depth, which is sampled to a few percent.
 const SAME_DEPTH: std::ops::Range<f64> = 0.9..1.1;
+/// The same ratio outside of which a modulation fades or builds up; a modulation that stays, even a
+/// chaotic one in a short window, keeps within a factor of two.
+const STEADY_DEPTH: std::ops::Range<f64> = 0.5..2.0;
 
 impl Nature {
     /// Decides by the evidence, in this order (of a chaotic motion no window says whether it stays:
@@ -67,7 +70,7 @@ impl Nature {
     /// 3. a converged exponent with its interval above zero, and above what a linear drift gives:
     ///    chaotic;
     /// 4. an interval below zero: it approaches something that it has not reached, so not over;
-    /// 5. averages of both halves differ: not over;
+    /// 5. averages of both halves differ, or the modulation fades or builds up: not over;
     /// 6. a converged exponent with zero in a narrow interval, and a modulation that stays:
     ///    quasi-periodic;
     /// 7. undecided.
@@ -81,7 +84,10 @@ impl Nature {
         let converged = exponent.filter(|exponent| exponent.converged);
         if converged.is_some_and(|exponent| exponent.interval[0] > drift(exponent.periods)) {
             Self::Chaotic
-        } else if exponent.is_some_and(|exponent| exponent.is_negative()) || !evidence.settled {
+        } else if exponent.is_some_and(|exponent| exponent.is_negative())
+            || !evidence.settled
+            || !STEADY_DEPTH.contains(&evidence.modulation_growth)
+        {
             Self::TransientNotOver
         } else if converged.is_some_and(is_zero) && SAME_DEPTH.contains(&evidence.modulation_growth)
         {

@@ -23,8 +23,7 @@ pub struct ImpactSequence {
 impl ImpactSequence {
     /// The sequence of the impacts of one repetition; `None` without impacts or with more than 128.
     pub fn of(repetition: &[Impact]) -> Option<Self> {
-        let sides: Vec<bool> =
-            repetition.iter().map(|impact| impact.side == Side::Minus).collect();
+        let sides: Vec<bool> = repetition.iter().map(|impact| impact.side == Side::Minus).collect();
         Self::canonical(&sides)
     }
 
@@ -36,8 +35,7 @@ impl ImpactSequence {
             (0..count).map(move |k| sides[(from + k) % count] != mirrored)
         };
         let candidates = (0..count).flat_map(|from| [(from, false), (from, true)]);
-        let (from, mirrored) =
-            candidates.min_by(|a, b| word(a.0, a.1).cmp(word(b.0, b.1)))?;
+        let (from, mirrored) = candidates.min_by(|a, b| word(a.0, a.1).cmp(word(b.0, b.1)))?;
         let bit = |minus: u128, (k, side): (usize, bool)| minus | (u128::from(side) << k);
         Some(Self { minus: word(from, mirrored).enumerate().fold(0, bit), length })
     }
@@ -50,9 +48,8 @@ impl ImpactSequence {
 
 impl Display for ImpactSequence {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        (0..self.length).try_for_each(|k| {
-            f.write_str(if self.minus >> k & 1 == 1 { "-" } else { "+" })
-        })
+        (0..self.length)
+            .try_for_each(|k| f.write_str(if self.minus >> k & 1 == 1 { "-" } else { "+" }))
     }
 }
 

@@ -107,8 +107,8 @@ impl Tangent {
         let eps = self.mass_ratio;
         let whole = 1.0 + eps;
         let common = x - eps / whole * (x - y);
-        let velocity =
-            x_velocity - eps / whole * (x_velocity - y_velocity) + self.damping() * (x - common) / whole;
+        let velocity = x_velocity - eps / whole * (x_velocity - y_velocity)
+            + self.damping() * (x - common) / whole;
         self.change = State { x: common, x_velocity: velocity, y: common, y_velocity: velocity };
     }
 }
