@@ -64,9 +64,7 @@ fn determinant(columns: [[f64; 4]; 4]) -> f64 {
         product *= rows[k][k];
         for row in k + 1..4 {
             let factor = rows[row][k] / rows[k][k];
-            for column in k..4 {
-                rows[row][column] -= factor * rows[k][column];
-            }
+            rows[row] = std::array::from_fn(|at| rows[row][at] - factor * rows[k][at]);
         }
     }
     product
