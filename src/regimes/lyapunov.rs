@@ -226,4 +226,24 @@ mod tests {
         assert!((found.interval[1] - 2.0 - STUDENT * found.standard_error).abs() < 1e-15);
         assert!(found.converged && found.is_positive() && !found.is_negative());
     }
+
+    /// A growth that swings slowly and regularly: each block mean resembles the one before, and only
+    /// their range is a safe interval.
+    #[test]
+    fn blocks_that_depend_on_each_other_widen_the_interval() {
+        let found = fed(|k| libm::sin(0.4 * f64::from(k)), 24);
+        assert!(found.block == 1 && found.block_correlation > DEPENDENT, "{found:?}");
+        let expected = (0..24).map(|k| libm::sin(0.4 * f64::from(k)));
+        let low = expected.clone().fold(f64::INFINITY, f64::min);
+        let high = expected.fold(f64::NEG_INFINITY, f64::max);
+        assert_eq!(found.interval, [low, high]);
+        assert!(!found.converged && found.standard_error < 0.5 * (high - low));
+    }
+
+    /// Swings that no transient would show are no reason for doubt.
+    #[test]
+    fn a_narrow_range_is_converged_however_regular() {
+        let found = fed(|k| 0.3 + 1e-3 * libm::sin(0.4 * f64::from(k)), 24);
+        assert!(found.converged && found.block_correlation > DEPENDENT, "{found:?}");
+    }
 }

@@ -102,3 +102,83 @@ fn is_zero(exponent: Exponent) -> bool {
     let [low, high] = exponent.interval;
     (-ZERO..=0.0).contains(&low) && (0.0..=ZERO).contains(&high)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::regimes::{AbsorberAmplitude, Captures, Periodicity};
+
+    fn exponent(low: f64, high: f64) -> Exponent {
+        Exponent {
+            per_period: 0.5 * (low + high),
+            standard_error: 0.0,
+            interval: [low, high],
+            periods: 1000,
+            block: 50,
+            block_correlation: 0.0,
+            converged: true,
+        }
+    }
+
+    fn evidence(exponent: Option<Exponent>) -> Evidence {
+        Evidence {
+            impacts_per_period: 1.0,
+            visits_per_period: 1.0,
+            periodicity: None,
+            sequence: None,
+            asymmetry: 0.1,
+            modulation_depth: 0.5,
+            modulation_growth: 1.0,
+            captures: Captures::default(),
+            absorber_amplitude: AbsorberAmplitude::default(),
+            exponent,
+            settled: true,
+        }
+    }
+
+    #[test]
+    fn the_exponent_decides_where_nothing_repeats() {
+        let of = |low, high| Nature::of(&evidence(Some(exponent(low, high))));
+        assert_eq!(of(0.3, 0.4), Nature::Chaotic);
+        assert_eq!(of(-0.4, -0.3), Nature::TransientNotOver);
+        assert_eq!(of(-1e-3, 1e-3), Nature::QuasiPeriodic);
+        // Too wide to tell, on either side of zero.
+        assert_eq!(of(-0.1, 1e-3), Nature::Undecided);
+        assert_eq!(of(-1e-3, 0.1), Nature::Undecided);
+        // Above zero by no more than a linear drift over 1000 periods, 2 ln(1000)/1000 = 0.0138.
+        assert_eq!(of(0.013, 0.3), Nature::Undecided);
+        assert_eq!(of(0.0145, 0.3), Nature::Chaotic);
+        assert_eq!(Nature::of(&evidence(None)), Nature::Undecided);
+    }
+
+    #[test]
+    fn what_has_not_converged_or_settled_decides_nothing() {
+        let loose = |low, high| Some(Exponent { converged: false, ..exponent(low, high) });
+        assert_eq!(Nature::of(&evidence(loose(0.3, 0.4))), Nature::Undecided);
+        assert_eq!(Nature::of(&evidence(loose(-1e-3, 1e-3))), Nature::Undecided);
+        let zero = evidence(Some(exponent(-1e-3, 1e-3)));
+        let drifting = Evidence { settled: false, ..zero };
+        assert_eq!(Nature::of(&drifting), Nature::TransientNotOver);
+        for (growth, expected) in [
+            (0.4, Nature::TransientNotOver),
+            (0.8, Nature::Undecided),
+            (1.05, Nature::QuasiPeriodic),
+            (2.5, Nature::TransientNotOver),
+        ] {
+            let modulated = Evidence { modulation_growth: growth, ..zero };
+            assert_eq!(Nature::of(&modulated), expected, "{growth}");
+        }
+    }
+
+    #[test]
+    fn what_repeats_is_periodic_whatever_its_exponent_looks_like() {
+        let found = Periodicity { impacts: 3, periods: 2, closure: 1e-9 };
+        let repeating = Evidence { periodicity: Some(found), ..evidence(Some(exponent(0.3, 0.4))) };
+        assert_eq!(Nature::of(&repeating), Nature::Periodic { impacts: 3, periods: 2 });
+        let silent = Evidence { impacts_per_period: 0.0, ..repeating };
+        assert_eq!(Nature::of(&silent), Nature::AtRest);
+        // An absorber that drifts through its cavity is not at rest.
+        let drifting = Evidence { periodicity: None, ..silent };
+        assert_eq!(Nature::of(&drifting), Nature::Undecided);
+    }
+}

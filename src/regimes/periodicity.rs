@@ -80,3 +80,30 @@ pub fn asymmetry(impacts: &[Impact], period: f64) -> f64 {
         .sum();
     sum / (impacts.len() - 2) as f64
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simulation::Side;
+
+    #[test]
+    fn the_last_repetition_is_at_the_end() {
+        let impact = |tau: f64| Impact {
+            tau,
+            phase: 0.0,
+            side: Side::Plus,
+            x: 0.0,
+            x_velocity_before: 1.0,
+            x_velocity_after: 1.0,
+            y_velocity_before: 0.0,
+            y_velocity_after: 0.0,
+            loss: 0.0,
+            penetration: 0.0,
+        };
+        let all: Vec<Impact> = (0..5).map(|k| impact(f64::from(k))).collect();
+        let found = |impacts| Periodicity { impacts, periods: 1, closure: 0.0 };
+        assert_eq!(last_repetition(found(2), &all), Some(&all[3..]));
+        assert_eq!(last_repetition(found(5), &all), Some(&all[..]));
+        assert_eq!(last_repetition(found(6), &all), None);
+    }
+}
