@@ -153,3 +153,53 @@ impl Observer for Tangent {
         self.project();
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simulation::Side;
+    use crate::system::{Excitation, Parameters};
+
+    /// No force between the masses changes the centre of mass or its momentum, whose rate of change
+    /// holds `-eps lambda x'`: what a wall does to a change of state leaves both.
+    #[test]
+    fn a_wall_changes_neither_centre_of_mass_nor_momentum() {
+        let (eps, damping) = (0.3, 1.7);
+        let system = System::new(Parameters {
+            mass_ratio: eps,
+            damping,
+            restitution: 0.6,
+            frequency_ratio: 1.1,
+            forcing_per_clearance: 2.0,
+            excitation: Excitation::Force,
+        })
+        .expect("valid");
+        let kept = |change: State| {
+            let State { x, x_velocity, y, y_velocity } = change;
+            [x + eps * y, x_velocity + eps * y_velocity + eps * damping * x]
+        };
+        let same = |a: [f64; 2], b: [f64; 2]| (0..2).all(|k| (a[k] - b[k]).abs() < 1e-14);
+        let change = State { x: 0.3, x_velocity: -0.7, y: 0.9, y_velocity: 0.2 };
+        let mut struck = Tangent::begin(&system, change);
+        struck.impact(&Impact {
+            tau: 1.0,
+            phase: 0.4,
+            side: Side::Plus,
+            x: 0.5,
+            x_velocity_before: 0.8,
+            x_velocity_after: 0.0,
+            y_velocity_before: -0.1,
+            y_velocity_after: 0.0,
+            loss: 0.0,
+            penetration: 0.0,
+        });
+        assert!(same(kept(struck.change), kept(change)), "{struck:?}");
+        // The gap's change is reversed and shrinks by r.
+        assert!((struck.change.gap() + 0.6 * change.gap()).abs() < 1e-14, "{struck:?}");
+        let mut stuck = Tangent::begin(&system, change);
+        stuck.sticks(0.0);
+        assert!(same(kept(stuck.change), kept(change)), "{stuck:?}");
+        assert_eq!(stuck.change.gap(), 0.0);
+        assert_eq!(stuck.change.x_velocity, stuck.change.y_velocity);
+    }
+}
