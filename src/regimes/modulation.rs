@@ -150,15 +150,16 @@ fn correlation(pairs: impl Iterator<Item = (f64, f64)> + Clone, scale: f64) -> O
     (varies(aa, a) && varies(bb, scale)).then(|| ab / (aa * bb).sqrt())
 }
 
-/// Whether mean peak and number of impacts agree between the halves of the window.
+/// Whether mean peak and number of visits to the walls agree between the halves of the window; rare
+/// chattering sequences of dozens of impacts each would make numbers of impacts differ.
 pub fn settled(records: &[PeriodRecord]) -> bool {
     let half = records.len() / 2;
     let (first, second) = (&records[..half], &records[half..2 * half]);
     let peak = |part: &[PeriodRecord]| part.iter().map(|record| record.peak).sum::<f64>();
-    let impacts = |part: &[PeriodRecord]| {
-        part.iter().map(|record| f64::from(record.impacts.iter().sum::<u32>())).sum::<f64>()
+    let visits = |part: &[PeriodRecord]| {
+        part.iter().map(|record| f64::from(record.visits.iter().sum::<u32>())).sum::<f64>()
     };
-    close(peak(first), peak(second)) && close(impacts(first), impacts(second))
+    close(peak(first), peak(second)) && close(visits(first), visits(second))
 }
 
 fn close(a: f64, b: f64) -> bool {
