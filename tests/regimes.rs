@@ -8,7 +8,8 @@ use std::f64::consts::PI;
 use vinesink::regimes::attractor::Effort;
 use vinesink::regimes::basins::{Axis, Basins, Cell, Coordinate, Plane};
 use vinesink::regimes::diagram::{Swept, Way, sweep};
-use vinesink::regimes::{Attractor, Regime};
+use vinesink::regimes::search::{self, SearchEffort};
+use vinesink::regimes::{Attractor, Nature, Regime, share};
 use vinesink::simulation::{Impact, Nobody, Observer, Side, Simulation, Statistics};
 use vinesink::system::{State, System};
 
@@ -199,6 +200,66 @@ fn a_motion_and_its_mirror_image_are_one() {
     let third = reached(&common::table_1(8.3, 10.0), START);
     assert_eq!(third.classification.evidence.sequence.expect("repeats").to_string(), "++-++-+-");
     assert!(!one.is_same(&third));
+}
+
+/// One thing at a time is changed of a motion, and it is another one.
+#[test]
+fn motions_differ_by_what_they_are() {
+    let found = reached(&common::table_1(8.0, 7.5), START);
+    let changed = |change: fn(&mut Attractor)| {
+        let mut other = found.clone();
+        change(&mut other);
+        let same = found.is_same(&other);
+        assert_eq!(same, other.is_same(&found), "not symmetric");
+        same
+    };
+    assert!(changed(|_| ()));
+    assert!(!changed(|other| other.rms *= 1.002) && changed(|other| other.rms *= 1.0005));
+    assert!(!changed(|other| other.peak *= 1.002) && changed(|other| other.peak *= 1.0005));
+    assert!(!changed(|other| other.classification.evidence.sequence = None));
+    assert!(!changed(|other| other.classification.regime = Regime::TwoAsymmetric));
+    fn open(other: &mut Attractor, nature: Nature) {
+        other.classification.evidence.periodicity = None;
+        other.classification.evidence.sequence = None;
+        other.classification.nature = nature;
+    }
+    // Still on its way to the motion that repeats; its intervals may still be unequal.
+    assert!(changed(|other| {
+        open(other, Nature::TransientNotOver);
+        other.classification.regime = Regime::TwoAsymmetric;
+        other.peak *= 1.01;
+    }));
+    assert!(!changed(|other| {
+        open(other, Nature::TransientNotOver);
+        other.peak *= 1.03;
+    }));
+    assert!(!changed(|other| {
+        open(other, Nature::TransientNotOver);
+        other.classification.evidence.visits_per_period = 2.5;
+    }));
+    assert!(!changed(|other| open(other, Nature::Chaotic)));
+    let chaotic = reached(&common::table_1(8.0, 20.0), START);
+    let mut other = Attractor { rms: 1.1 * chaotic.rms, ..chaotic.clone() };
+    assert!(chaotic.is_same(&other), "averages of some hundred periods scatter");
+    other.classification.nature = Nature::Undecided;
+    assert!(chaotic.is_same(&other));
+    other.classification.nature = Nature::QuasiPeriodic;
+    assert!(!chaotic.is_same(&other));
+}
+
+#[test]
+fn a_search_gives_every_share_with_its_interval() {
+    let system = common::table_1(8.0, 16.4);
+    let each = Effort { discard: 600, periods: 200, prolongations: 2, impact_limit: 100_000 };
+    let effort = SearchEffort { starts: 12, each, measured: 400, patience: 400 };
+    let found = search::find(&system, &[], &effort, &mut |_| ()).expect("inside the cavity");
+    assert!(found.len() > 1, "two motions coexist");
+    assert_eq!(found.iter().map(|one| one.starts).sum::<u32>(), 12);
+    for one in &found {
+        assert!((one.share - f64::from(one.starts) / 12.0).abs() < 1e-15);
+        assert_eq!(one.share_interval, share::wilson(one.starts, 12));
+        assert!(one.share_interval[0] <= one.share && one.share <= one.share_interval[1]);
+    }
 }
 
 /// Each impact of the last repetition is a complete state: from it the motion goes on as it did.

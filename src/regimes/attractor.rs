@@ -181,30 +181,48 @@ impl Attractor {
     }
 
     /// Whether two trajectories ended in the same long-term motion (or in its mirror image).
+    ///
+    /// Motions that repeat are one if their impacts are, in number, periods and order of walls, and
+    /// rms and peak agree. A motion that is still settling is the one that it settles on. Motions
+    /// that never repeat are known by averages only.
     pub fn is_same(&self, other: &Self) -> bool {
         let (mine, theirs) = (&self.classification, &other.classification);
-        if mine.regime != theirs.regime {
-            return false;
-        }
-        if mine.regime == Regime::AtRest {
+        let same_regime = mine.regime == theirs.regime;
+        if same_regime && mine.regime == Regime::AtRest {
             // A damped oscillator has one steady motion without impacts.
             return true;
         }
-        let within = |a: f64, b: f64, limit: f64| (a - b).abs() <= limit * a.max(b);
-        let alike =
-            |limit| within(self.rms, other.rms, limit) && within(self.peak, other.peak, limit);
-        let settling = |one: &Self| one.classification.nature == Nature::TransientNotOver;
         match (mine.evidence.periodicity, theirs.evidence.periodicity) {
             (Some(a), Some(b)) => {
-                (a.impacts, a.periods) == (b.impacts, b.periods)
+                same_regime
+                    && (a.impacts, a.periods) == (b.impacts, b.periods)
                     && mine.evidence.sequence == theirs.evidence.sequence
-                    && alike(SAME_PERIODIC)
+                    && self.is_alike(other, SAME_PERIODIC)
             }
-            // Near the end of its stability a motion takes thousands of periods to settle.
-            (Some(_), None) => settling(other) && alike(SAME_SETTLING),
-            (None, Some(_)) => settling(self) && alike(SAME_SETTLING),
-            (None, None) => within(self.rms, other.rms, SAME_MODULATED),
+            (Some(_), None) => other.settles_on(self),
+            (None, Some(_)) => self.settles_on(other),
+            (None, None) => {
+                let decided = |nature| matches!(nature, Nature::Chaotic | Nature::QuasiPeriodic);
+                let contradict =
+                    decided(mine.nature) && decided(theirs.nature) && mine.nature != theirs.nature;
+                same_regime && !contradict && within(self.rms, other.rms, SAME_MODULATED)
+            }
         }
+    }
+
+    /// Whether this motion, which does not repeat yet, is on its way to the other, which does. Near
+    /// the end of its stability a motion takes thousands of periods to settle. Its regime may still
+    /// change: what is left of the transient makes intervals unequal.
+    fn settles_on(&self, other: &Self) -> bool {
+        let visits = |one: &Self| one.classification.evidence.visits_per_period;
+        let apart = (visits(self) - visits(other)).abs();
+        self.classification.nature == Nature::TransientNotOver
+            && apart <= Thresholds::default().impacts_per_period
+            && self.is_alike(other, SAME_SETTLING)
+    }
+
+    fn is_alike(&self, other: &Self, limit: f64) -> bool {
+        within(self.rms, other.rms, limit) && within(self.peak, other.peak, limit)
     }
 
     /// The impacts of one repetition, each a complete state of the motion; `None` if it does not
@@ -213,4 +231,9 @@ impl Attractor {
         let found = self.classification.evidence.periodicity?;
         Some((found, periodicity::last_repetition(found, &self.impacts)?))
     }
+}
+
+/// Whether two sizes differ by no more than `limit`, relative to the larger.
+fn within(a: f64, b: f64, limit: f64) -> bool {
+    (a - b).abs() <= limit * a.max(b)
 }
