@@ -6,6 +6,7 @@
 
 mod common;
 
+use vinesink::regimes::diagram::carried_over;
 use vinesink::regimes::lyapunov::{Exponent, Lyapunov};
 use vinesink::simulation::{Observer, Simulation, Statistics, Tangent};
 use vinesink::system::{Excitation, Parameters, State, System};
@@ -227,4 +228,29 @@ fn neighbours_part_at_the_rate_of_a_positive_exponent() {
     }
     let mean = sum / f64::from(pairs);
     assert!((mean - found.per_period).abs() < 0.1 * found.per_period, "{mean} {found:?}");
+}
+
+/// The 1:1 motion at 8 Hz ends at b = 16.695 mm, where a multiplier of the exact orbit reaches +1. Near
+/// a saddle-node the exponent is proportional to the root of the distance, so that its square meets
+/// zero on a straight line.
+#[test]
+fn the_exponent_vanishes_where_the_exact_orbit_ends() {
+    let settled = |clearance: f64, start: State| {
+        let system = common::table_1(8.0, clearance);
+        let mut simulation = Simulation::new(&system, start, 0.0).expect("inside the cavity");
+        simulation.run(3000, u64::MAX, &mut vinesink::simulation::Nobody);
+        simulation.state()
+    };
+    let mut state = settled(16.0, START);
+    let mut last = 16.0;
+    let squares = [16.5, 16.65, 16.68, 16.69, 16.693, 16.694].map(|clearance| {
+        state = settled(clearance, carried_over(state, last / clearance));
+        last = clearance;
+        let found = exponent(&common::table_1(8.0, clearance), state, 0, 2000);
+        assert!(found.converged && found.is_negative(), "{clearance} mm: {found:?}");
+        found.per_period * found.per_period
+    });
+    let slope = (squares[5] - squares[4]) / 0.001;
+    let end = 16.694 - squares[5] / slope;
+    assert!((end - 16.695).abs() < 5e-4, "ends at {end} mm");
 }

@@ -210,6 +210,13 @@ impl Attractor {
         }
     }
 
+    /// Takes over the other's measurement of the same motion if that one repeats and this does not.
+    pub fn replace_if_settled(&mut self, other: Self) {
+        if other.repeats() && !self.repeats() {
+            *self = other;
+        }
+    }
+
     /// Whether this motion, which does not repeat yet, is on its way to the other, which does. Near
     /// the end of its stability a motion takes thousands of periods to settle. Its regime may still
     /// change: what is left of the transient makes intervals unequal.

@@ -129,6 +129,7 @@ impl Basins {
 
     fn matched(&mut self, reached: Attractor) -> Cell {
         if let Some(known) = self.attractors.iter().position(|known| known.is_same(&reached)) {
+            self.attractors[known].replace_if_settled(reached);
             return Cell::Leads(known);
         }
         let open = reached.classification.nature == Nature::TransientNotOver;

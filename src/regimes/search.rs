@@ -73,7 +73,9 @@ pub fn find(
         let reached = Attractor::reach(system, start, &effort.each)?;
         let known = found.iter().position(|known| known.attractor.is_same(&reached));
         let index = known.unwrap_or(found.len());
-        if known.is_none() {
+        if let Some(known) = known {
+            found[known].attractor.replace_if_settled(reached);
+        } else {
             found.push(FoundAttractor {
                 attractor: reached,
                 starts: 0,
@@ -141,6 +143,7 @@ fn merged(found: Vec<FoundAttractor>) -> Vec<FoundAttractor> {
                 known.late_starts += one.late_starts;
                 known.longest_transient = known.longest_transient.max(one.longest_transient);
                 known.reached_from_theory |= one.reached_from_theory;
+                known.attractor.replace_if_settled(one.attractor);
             }
             None => distinct.push(one),
         }
