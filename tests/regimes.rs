@@ -248,6 +248,19 @@ fn motions_differ_by_what_they_are() {
 }
 
 #[test]
+fn a_settled_measurement_replaces_one_that_was_not() {
+    let system = common::table_1(8.5, 20.0);
+    let short = Effort { discard: 80, periods: 90, prolongations: 0, impact_limit: 100_000 };
+    let early = Attractor::reach(&system, START, &short).expect("inside the cavity");
+    let late = reached(&system, START);
+    let mut kept = early.clone();
+    kept.replace_if_settled(late.clone());
+    assert!(kept.repeats() && kept.followed == late.followed);
+    kept.replace_if_settled(early);
+    assert!(kept.repeats());
+}
+
+#[test]
 fn a_search_gives_every_share_with_its_interval() {
     let system = common::table_1(8.0, 16.4);
     let each = Effort { discard: 600, periods: 200, prolongations: 2, impact_limit: 100_000 };

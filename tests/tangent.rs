@@ -8,6 +8,7 @@ mod common;
 
 use vinesink::regimes::diagram::carried_over;
 use vinesink::regimes::lyapunov::{Exponent, Lyapunov};
+use vinesink::regimes::starts::StartBox;
 use vinesink::simulation::{Observer, Simulation, Statistics, Tangent};
 use vinesink::system::{Excitation, Parameters, State, System};
 
@@ -156,6 +157,43 @@ fn volume_shrinks_by_damping_and_by_r_squared_at_each_impact() {
             "{found} {shrunk} {rounding}"
         );
     }
+}
+
+/// The same for systems spread over the whole range of parameters, as far as rounding of the
+/// determinant leaves two digits.
+#[test]
+fn volume_shrinks_as_it_must_in_every_system() {
+    let place = |k: u32, prime: f64| (0.5 + prime.sqrt() * f64::from(k)).fract();
+    let mut judged = 0;
+    for k in 0..400 {
+        let system = System::new(Parameters {
+            mass_ratio: libm::exp(-4.0 * place(k, 2.0)) * 0.5,
+            damping: 2.0 * place(k, 3.0),
+            restitution: 0.5 + 0.5 * place(k, 5.0),
+            frequency_ratio: 0.6 + place(k, 7.0),
+            forcing_per_clearance: 4.0 * place(k, 11.0),
+            excitation: Excitation::BaseDisplacement,
+        })
+        .expect("valid");
+        let start = StartBox::around(&system).start(k);
+        let (_, impacts, stuck) = end(&system, start, 1);
+        let columns = tangent_map(&system, start, 1);
+        let eps = system.mass_ratio();
+        let shrunk = libm::exp(-eps * system.damping() * system.period())
+            * libm::pow(system.restitution(), 2.0 * impacts as f64);
+        let size = columns.iter().flatten().fold(1.0_f64, |a, b| a.max(b.abs()));
+        let rounding = 1e-14 * size * size * size * size;
+        if stuck > 0 || impacts == 0 || rounding > 0.01 * shrunk {
+            continue;
+        }
+        judged += 1;
+        let found = determinant(columns);
+        assert!(
+            (found - shrunk).abs() < rounding.max(1e-9 * shrunk),
+            "{found} {shrunk} {system:?}"
+        );
+    }
+    assert!(judged > 100, "{judged} systems are too few");
 }
 
 #[test]
