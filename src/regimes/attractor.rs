@@ -2,7 +2,11 @@
 
 use serde::Serialize;
 
-use super::{Classification, Regime, Thresholds, classify};
+use super::lyapunov::Lyapunov;
+use super::modulation::{self, Amplitudes};
+use super::{
+    Classification, Energetics, Nature, Periodicity, Regime, Thresholds, classify, periodicity,
+};
 use crate::simulation::{
     Energy, Impact, ImpactLog, Nobody, Simulation, StartError, Statistics, Stop, SustainedContact,
 };
@@ -37,6 +41,8 @@ pub struct Attractor {
     pub absorber_harmonic: [f64; 2],
     /// Energy balance of the measured window.
     pub energy: Energy,
+    /// What that balance means for the absorber.
+    pub energetics: Energetics,
     /// Sustained contact in the measured window.
     pub sustained_contact: SustainedContact,
     /// Periods measured.
@@ -54,12 +60,18 @@ pub struct Attractor {
     /// The last impacts of the measured window.
     #[serde(skip)]
     pub impacts: Vec<Impact>,
+    /// `C`, `E` and the peak in every period that was kept of the measured window.
+    #[serde(skip)]
+    pub amplitudes: Vec<Amplitudes>,
 }
 
 /// Impacts that are kept of each attractor, at least: enough for every figure and every average.
 const KEPT_IMPACTS: usize = 20_000;
-/// Relative difference of rms displacement below which two repeating motions are one.
+/// Relative difference of rms and of peak displacement below which two repeating motions with the
+/// same impacts are one: a thousand times what a repetition to 1e-6 leaves open.
 const SAME_PERIODIC: f64 = 1e-3;
+/// The same for a motion that is still settling and the one that it settles on.
+const SAME_SETTLING: f64 = 0.02;
 /// The same for motions that do not repeat, whose averages over some hundred periods scatter.
 const SAME_MODULATED: f64 = 0.2;
 
@@ -136,21 +148,26 @@ impl Attractor {
         let system = *simulation.system();
         let mut stop = simulation.run(effort.discard, effort.impact_limit, &mut Nobody);
         let mut statistics = Statistics::begin(&system, simulation.state());
+        let mut lyapunov = Lyapunov::begin(&system);
         // A transient given up for its impacts is measured all the same: the impacts are the regime.
         if stop != Stop::NotFinite {
-            let observer = &mut (&mut statistics, &mut *log);
+            let mut counts = (&mut statistics, &mut *log);
+            let observer = &mut (&mut counts, &mut lyapunov);
             let measured = simulation.run(effort.periods, effort.impact_limit, observer);
             stop = if stop == Stop::EndTime { measured } else { stop };
         }
         let thresholds = Thresholds::default();
         let (oscillator_harmonic, absorber_harmonic) = statistics.harmonics();
+        let exponent = lyapunov.exponent();
+        let period = system.period();
         Self {
-            classification: classify(&statistics, &log.impacts, system.period(), &thresholds),
+            classification: classify(&statistics, &log.impacts, exponent, period, &thresholds),
             peak: statistics.peak(),
             rms: statistics.rms(),
             oscillator_harmonic,
             absorber_harmonic,
             energy: statistics.energy(),
+            energetics: Energetics::of(&system, &statistics),
             sustained_contact: statistics.sustained_contact(),
             periods: statistics.periods(),
             impact_count: statistics.impacts(),
@@ -159,27 +176,71 @@ impl Attractor {
             penetration: statistics.penetration(),
             state: simulation.state(),
             impacts: log.impacts.clone(),
+            amplitudes: modulation::amplitudes(statistics.records(), thresholds.shortest_capture),
         }
     }
 
     /// Whether two trajectories ended in the same long-term motion (or in its mirror image).
+    ///
+    /// Motions that repeat are one if their impacts are, in number, periods and order of walls, and
+    /// rms and peak agree. A motion that is still settling is the one that it settles on. Motions
+    /// that never repeat are known by averages only.
     pub fn is_same(&self, other: &Self) -> bool {
         let (mine, theirs) = (&self.classification, &other.classification);
-        if mine.regime != theirs.regime {
-            return false;
-        }
-        if mine.regime == Regime::AtRest {
+        let same_regime = mine.regime == theirs.regime;
+        if same_regime && mine.regime == Regime::AtRest {
             // A damped oscillator has one steady motion without impacts.
             return true;
         }
-        let difference =
-            (self.rms - other.rms).abs() / self.rms.max(other.rms).max(f64::MIN_POSITIVE);
         match (mine.evidence.periodicity, theirs.evidence.periodicity) {
             (Some(a), Some(b)) => {
-                (a.impacts, a.periods) == (b.impacts, b.periods) && difference < SAME_PERIODIC
+                same_regime
+                    && (a.impacts, a.periods) == (b.impacts, b.periods)
+                    && mine.evidence.sequence == theirs.evidence.sequence
+                    && self.is_alike(other, SAME_PERIODIC)
             }
-            (None, None) => difference < SAME_MODULATED,
-            _ => false,
+            (Some(_), None) => other.settles_on(self),
+            (None, Some(_)) => self.settles_on(other),
+            (None, None) => {
+                let decided = |nature| matches!(nature, Nature::Chaotic | Nature::QuasiPeriodic);
+                let contradict =
+                    decided(mine.nature) && decided(theirs.nature) && mine.nature != theirs.nature;
+                same_regime && !contradict && within(self.rms, other.rms, SAME_MODULATED)
+            }
         }
     }
+
+    /// Takes over the other's measurement of the same motion if that one repeats and this does not.
+    pub fn replace_if_settled(&mut self, other: Self) {
+        if other.repeats() && !self.repeats() {
+            *self = other;
+        }
+    }
+
+    /// Whether this motion, which does not repeat yet, is on its way to the other, which does. Near
+    /// the end of its stability a motion takes thousands of periods to settle. Its regime may still
+    /// change: what is left of the transient makes intervals unequal.
+    fn settles_on(&self, other: &Self) -> bool {
+        let visits = |one: &Self| one.classification.evidence.visits_per_period;
+        let apart = (visits(self) - visits(other)).abs();
+        self.classification.nature == Nature::TransientNotOver
+            && apart <= Thresholds::default().impacts_per_period
+            && self.is_alike(other, SAME_SETTLING)
+    }
+
+    fn is_alike(&self, other: &Self, limit: f64) -> bool {
+        within(self.rms, other.rms, limit) && within(self.peak, other.peak, limit)
+    }
+
+    /// The impacts of one repetition, each a complete state of the motion; `None` if it does not
+    /// repeat. An exact orbit solver can begin here.
+    pub fn last_repetition(&self) -> Option<(Periodicity, &[Impact])> {
+        let found = self.classification.evidence.periodicity?;
+        Some((found, periodicity::last_repetition(found, &self.impacts)?))
+    }
+}
+
+/// Whether two sizes differ by no more than `limit`, relative to the larger.
+fn within(a: f64, b: f64, limit: f64) -> bool {
+    (a - b).abs() <= limit * a.max(b)
 }

@@ -4,19 +4,30 @@
 //! Every name comes with the numbers that decided it.
 
 pub mod attractor;
+pub mod basins;
+pub mod diagram;
+pub mod energetics;
+pub mod lyapunov;
 pub mod modulation;
+pub mod nature;
 pub mod periodicity;
 pub mod return_map;
 pub mod search;
+pub mod sequence;
+pub mod share;
 pub mod starts;
 
 use serde::Serialize;
 
 use crate::simulation::{Impact, Statistics};
 pub use attractor::Attractor;
-pub use modulation::Captures;
+pub use energetics::Energetics;
+pub use lyapunov::Exponent;
+pub use modulation::{AbsorberAmplitude, Amplitudes, Captures};
+pub use nature::Nature;
 pub use periodicity::Periodicity;
 pub use search::FoundAttractor;
+pub use sequence::ImpactSequence;
 
 /// The regimes of section 3.1, and rest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
@@ -105,14 +116,24 @@ impl Default for Thresholds {
 pub struct Evidence {
     /// `z`.
     pub impacts_per_period: f64,
+    /// The same with every chattering sequence that ended in sustained contact counted once.
+    pub visits_per_period: f64,
     /// The repetition found, if the motion repeats.
     pub periodicity: Option<Periodicity>,
+    /// Which walls are hit in what order over one repetition.
+    pub sequence: Option<ImpactSequence>,
     /// Mean difference of successive impact intervals over the excitation period.
     pub asymmetry: f64,
     /// `(max - min) / (max + min)` of the oscillator's peak per period.
     pub modulation_depth: f64,
+    /// Depth of modulation in the second half of the window over that in the first.
+    pub modulation_growth: f64,
     /// Stretches of 1:1 resonance.
     pub captures: Captures,
+    /// The amplitude `E` of equation (17).
+    pub absorber_amplitude: AbsorberAmplitude,
+    /// The largest Lyapunov exponent; `None` where the window was too short.
+    pub exponent: Option<Exponent>,
     /// Whether the second half of the window looks like the first: if not, the transient may not
     /// be over.
     pub settled: bool,
@@ -121,8 +142,10 @@ pub struct Evidence {
 /// A regime with its evidence.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Classification {
-    /// The name.
+    /// The name: what the impacts do.
     pub regime: Regime,
+    /// What kind of dynamics it is.
+    pub nature: Nature,
     /// Why.
     pub evidence: Evidence,
 }
@@ -131,26 +154,43 @@ pub struct Classification {
 pub fn classify(
     statistics: &Statistics,
     impacts: &[Impact],
+    exponent: Option<Exponent>,
     period: f64,
     thresholds: &Thresholds,
 ) -> Classification {
+    let records = statistics.records();
+    let periodicity = periodicity::find(records);
+    let repetition = periodicity.and_then(|found| periodicity::last_repetition(found, impacts));
+    let amplitudes = modulation::amplitudes(records, thresholds.shortest_capture);
     let evidence = Evidence {
         impacts_per_period: statistics.impacts_per_period(),
-        periodicity: periodicity::find(statistics.records()),
+        visits_per_period: statistics.visits_per_period(),
+        periodicity,
+        sequence: repetition.and_then(ImpactSequence::of),
         asymmetry: periodicity::asymmetry(impacts, period),
-        modulation_depth: modulation::depth(statistics.records()),
-        captures: modulation::captures(statistics.records(), thresholds.shortest_capture),
-        settled: modulation::settled(statistics.records()),
+        modulation_depth: modulation::depth(records),
+        modulation_growth: modulation::growth(records),
+        captures: modulation::captures(records, thresholds.shortest_capture),
+        absorber_amplitude: modulation::absorber_amplitude(&amplitudes),
+        exponent,
+        settled: modulation::settled(records),
     };
-    Classification { regime: name(statistics.impacts(), &evidence, thresholds), evidence }
+    Classification {
+        regime: name(statistics.impacts(), &evidence, thresholds),
+        nature: Nature::of(&evidence),
+        evidence,
+    }
 }
 
 fn name(impacts: u64, evidence: &Evidence, thresholds: &Thresholds) -> Regime {
     if impacts == 0 {
         return Regime::AtRest;
     }
+    // Many impacts make a motion of more than two per period only where the absorber goes to and
+    // fro in every period; a chattering sequence now and then is one visit to a wall.
+    let to_and_fro = evidence.visits_per_period > 2.0 - thresholds.impacts_per_period;
     let excess = evidence.impacts_per_period - 2.0;
-    if excess > thresholds.impacts_per_period {
+    if excess > thresholds.impacts_per_period && to_and_fro {
         return Regime::AboveTwo;
     }
     // One capture and one escape are a transient; modulation returns.
@@ -161,7 +201,7 @@ fn name(impacts: u64, evidence: &Evidence, thresholds: &Thresholds) -> Regime {
     if evidence.periodicity.is_none() && captured && escapes && strong {
         return Regime::StronglyModulated;
     }
-    if excess < -thresholds.impacts_per_period {
+    if !to_and_fro {
         return Regime::BelowTwo;
     }
     let limit = match evidence.periodicity {

@@ -25,6 +25,12 @@ pub struct Periodicity {
     pub closure: f64,
 }
 
+/// The impacts of one repetition, the last `found.impacts` of `impacts`, in order of time; `None` if
+/// fewer were kept. Together they determine the motion: each is a state, with its phase.
+pub fn last_repetition(found: Periodicity, impacts: &[Impact]) -> Option<&[Impact]> {
+    impacts.get(impacts.len().checked_sub(found.impacts as usize)?..)
+}
+
 /// The shortest repetition at the end of `records`, if there is one.
 pub fn find(records: &[PeriodRecord]) -> Option<Periodicity> {
     (1..=LONGEST).find_map(|periods| repeats_after(records, periods))
@@ -73,4 +79,31 @@ pub fn asymmetry(impacts: &[Impact], period: f64) -> f64 {
         .map(|three| (three[2].tau - 2.0 * three[1].tau + three[0].tau).abs() / period)
         .sum();
     sum / (impacts.len() - 2) as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simulation::Side;
+
+    #[test]
+    fn the_last_repetition_is_at_the_end() {
+        let impact = |tau: f64| Impact {
+            tau,
+            phase: 0.0,
+            side: Side::Plus,
+            x: 0.0,
+            x_velocity_before: 1.0,
+            x_velocity_after: 1.0,
+            y_velocity_before: 0.0,
+            y_velocity_after: 0.0,
+            loss: 0.0,
+            penetration: 0.0,
+        };
+        let all: Vec<Impact> = (0..5).map(|k| impact(f64::from(k))).collect();
+        let found = |impacts| Periodicity { impacts, periods: 1, closure: 0.0 };
+        assert_eq!(last_repetition(found(2), &all), Some(&all[3..]));
+        assert_eq!(last_repetition(found(5), &all), Some(&all[..]));
+        assert_eq!(last_repetition(found(6), &all), None);
+    }
 }

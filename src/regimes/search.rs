@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::attractor::Effort;
 use super::starts::StartBox;
-use super::{Attractor, Regime};
+use super::{Attractor, Classification, Nature, Regime, share};
 use crate::simulation::{StartError, Stop};
 use crate::system::{State, System};
 
@@ -18,6 +18,8 @@ pub struct FoundAttractor {
     pub starts: u32,
     /// The same as a share of all evenly spread starts.
     pub share: f64,
+    /// 95 % interval of the share that infinitely many starts would give (Wilson).
+    pub share_interval: [f64; 2],
     /// Whether a start on a predicted motion led here.
     pub reached_from_theory: bool,
     /// How many of `starts` came here out of a transient that looked like a motion of its own.
@@ -33,8 +35,10 @@ impl FoundAttractor {
     }
 }
 
-/// How many long windows a motion may take to show the same averages in both halves.
-const LONGEST_WAIT: u32 = 5;
+/// How often the window is doubled for a motion whose averages still drift or whose nature is still
+/// open: an exponent's error shrinks with the window, and sixteen of them settle all but the rarest
+/// intermittency.
+const LONGEST_WAIT: u32 = 4;
 
 /// How thoroughly attractors are searched.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -69,11 +73,14 @@ pub fn find(
         let reached = Attractor::reach(system, start, &effort.each)?;
         let known = found.iter().position(|known| known.attractor.is_same(&reached));
         let index = known.unwrap_or(found.len());
-        if known.is_none() {
+        if let Some(known) = known {
+            found[known].attractor.replace_if_settled(reached);
+        } else {
             found.push(FoundAttractor {
                 attractor: reached,
                 starts: 0,
                 share: 0.0,
+                share_interval: [0.0, 1.0],
                 reached_from_theory: false,
                 late_starts: 0,
                 longest_transient: 0,
@@ -85,11 +92,15 @@ pub fn find(
     }
     let some_repeat = found.iter().any(|one| one.attractor.repeats());
     for one in &mut found {
-        one.share = f64::from(one.starts) / f64::from(effort.starts.max(1));
         look_longer(system, one, some_repeat, effort)?;
     }
     found.sort_by_key(|one| std::cmp::Reverse(one.starts));
-    Ok(merged(found))
+    let mut distinct = merged(found);
+    for one in &mut distinct {
+        one.share = f64::from(one.starts) / f64::from(effort.starts.max(1));
+        one.share_interval = share::wilson(one.starts, effort.starts);
+    }
+    Ok(distinct)
 }
 
 /// A motion that repeats needs no longer look. The others are averages, which intermittent motions
@@ -105,11 +116,15 @@ fn look_longer(
     }
     let patience = if some_repeat { effort.patience } else { 0 };
     one.attractor = one.attractor.continued(system, patience, effort.measured)?;
+    let mut measured = effort.measured;
     for _ in 0..LONGEST_WAIT {
-        if one.attractor.repeats() || one.attractor.classification.evidence.settled {
+        let Classification { nature, evidence, .. } = &one.attractor.classification;
+        let open = matches!(nature, Nature::TransientNotOver | Nature::Undecided);
+        if one.attractor.repeats() || (evidence.settled && !open) {
             break;
         }
-        one.attractor = one.attractor.continued(system, 0, effort.measured)?;
+        measured = measured.saturating_mul(2);
+        one.attractor = one.attractor.continued(system, 0, measured)?;
     }
     if one.attractor.repeats() {
         one.late_starts = one.starts;
@@ -125,10 +140,10 @@ fn merged(found: Vec<FoundAttractor>) -> Vec<FoundAttractor> {
         match distinct.iter_mut().find(|known| known.attractor.is_same(&one.attractor)) {
             Some(known) => {
                 known.starts += one.starts;
-                known.share += one.share;
                 known.late_starts += one.late_starts;
                 known.longest_transient = known.longest_transient.max(one.longest_transient);
                 known.reached_from_theory |= one.reached_from_theory;
+                known.attractor.replace_if_settled(one.attractor);
             }
             None => distinct.push(one),
         }

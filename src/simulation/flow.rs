@@ -96,6 +96,17 @@ impl Oscillator {
         Motion { oscillator: *self, phase, free_x: x - steady.x, free_v: v - steady.v }
     }
 
+    /// Free motion, `x'' + 2 d x' + k x = 0`, a time `s` after it had displacement `x` and velocity
+    /// `v`; the difference of two motions under the same excitation is one.
+    pub fn free(&self, x: f64, v: f64, s: f64) -> Kinematics {
+        self.propagator(s).carry(self, x, v)
+    }
+
+    /// Acceleration at a phase, displacement and velocity, equation (1).
+    pub fn acceleration(&self, phase: f64, at: Kinematics) -> f64 {
+        self.force(phase) - 2.0 * self.decay * at.v - self.stiffness * at.x
+    }
+
     fn forced(&self, phase: f64, s: f64, propagator: &Propagator) -> Kinematics {
         match self.form {
             ForcedForm::Steady { sine, cosine } => {
@@ -168,6 +179,15 @@ impl Propagator {
     fn identity() -> Self {
         Self { impulse: 0.0, step: 1.0, ringing: 0.0 }
     }
+
+    /// Free motion that began with displacement `x` and velocity `v`.
+    fn carry(&self, o: &Oscillator, x: f64, v: f64) -> Kinematics {
+        let Self { impulse, step, .. } = *self;
+        Kinematics {
+            x: x * (step + 2.0 * o.decay * impulse) + v * impulse,
+            v: v * step - o.stiffness * x * impulse,
+        }
+    }
 }
 
 /// Displacement and velocity of the oscillator, over the clearance and in fast time.
@@ -194,12 +214,9 @@ impl Motion {
     pub fn at(&self, s: f64) -> Kinematics {
         let o = &self.oscillator;
         let propagator = o.propagator(s);
-        let Propagator { impulse, step, .. } = propagator;
+        let free = propagator.carry(o, self.free_x, self.free_v);
         let forced = o.forced(self.phase, s, &propagator);
-        Kinematics {
-            x: self.free_x * (step + 2.0 * o.decay * impulse) + self.free_v * impulse + forced.x,
-            v: self.free_v * step - o.stiffness * self.free_x * impulse + forced.v,
-        }
+        Kinematics { x: free.x + forced.x, v: free.v + forced.v }
     }
 
     /// Forcing a time `s` after the stretch began.
@@ -210,7 +227,7 @@ impl Motion {
     /// Acceleration, by equation (1) from the displacement and velocity at the same time.
     pub fn acceleration(&self, s: f64, at: Kinematics) -> f64 {
         let o = &self.oscillator;
-        self.force(s) - 2.0 * o.decay * at.v - o.stiffness * at.x
+        o.acceleration(self.phase + o.frequency * s, at)
     }
 
     /// Jerk, by the derivative of equation (1).

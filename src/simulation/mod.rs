@@ -10,9 +10,11 @@ pub mod flow;
 pub mod history;
 pub mod run;
 pub mod statistics;
+pub mod tangent;
 
 pub use contact::ContactTolerance;
 pub use events::{Absorber, Impact, Nobody, Observer, Segment, Side, StartError};
 pub use history::{ImpactLog, Trace, TracePoint};
 pub use run::{Simulation, Stop};
 pub use statistics::{Energy, PeriodRecord, Statistics, SustainedContact};
+pub use tangent::Tangent;

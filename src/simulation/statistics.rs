@@ -8,7 +8,7 @@ use std::f64::consts::FRAC_PI_4;
 
 use serde::Serialize;
 
-use super::events::{Absorber, Impact, Observer, Segment};
+use super::events::{Absorber, Impact, Observer, Segment, Side};
 use crate::numerics::bracket::brent;
 use crate::numerics::quadrature;
 use crate::system::{State, System};
@@ -42,6 +42,9 @@ pub struct SustainedContact {
 pub struct PeriodRecord {
     /// Impacts on the `+b` and on the `-b` side.
     pub impacts: [u32; 2],
+    /// Visits to the walls: as impacts, but a chattering sequence that ended in sustained contact
+    /// is one visit, counted where it began.
+    pub visits: [u32; 2],
     /// Largest absolute displacement of the oscillator.
     pub peak: f64,
     /// State at the end of the period, phase 0.
@@ -61,6 +64,9 @@ pub struct Statistics {
     start: State,
     end: State,
     impacts: u64,
+    visits: u64,
+    /// Successive impacts on one wall since the last impact on the other or the last contact.
+    run: Option<(Side, u32)>,
     peak: f64,
     squared: f64,
     input: f64,
@@ -82,6 +88,7 @@ const KEPT: usize = 20_000;
 #[derive(Debug, Clone, Copy, Default)]
 struct Current {
     impacts: [u32; 2],
+    visits: [u32; 2],
     peak: f64,
     x_harmonic: [f64; 2],
     y_harmonic: [f64; 2],
@@ -99,6 +106,8 @@ impl Statistics {
             start,
             end: start,
             impacts: 0,
+            visits: 0,
+            run: None,
             peak: start.x.abs(),
             squared: 0.0,
             input: 0.0,
@@ -126,6 +135,12 @@ impl Statistics {
     /// `z`, impacts per excitation period.
     pub fn impacts_per_period(&self) -> f64 {
         self.impacts as f64 / self.periods().max(1) as f64
+    }
+
+    /// Visits to a wall per excitation period: as `z`, but a chattering sequence that was seen to end
+    /// in sustained contact is one visit, however many impacts it takes.
+    pub fn visits_per_period(&self) -> f64 {
+        self.visits as f64 / self.periods().max(1) as f64
     }
 
     /// Largest absolute displacement of the oscillator, over the clearance.
@@ -183,6 +198,24 @@ impl Statistics {
         mean
     }
 
+    /// Turns the chattering sequence that has just ended into the visit that its first impact began.
+    fn close_sequence(&mut self) {
+        let Some((side, length)) = self.run.take() else { return };
+        let wall = index(side);
+        let mut further = length.saturating_sub(1);
+        self.visits -= u64::from(further);
+        // The latest impacts on this wall are the sequence's; it may have lasted several periods.
+        let earlier = self.records.iter_mut().rev().map(|record| &mut record.visits[wall]);
+        for visits in std::iter::once(&mut self.current.visits[wall]).chain(earlier) {
+            if further == 0 {
+                break;
+            }
+            let here = further.min(*visits);
+            *visits -= here;
+            further -= here;
+        }
+    }
+
     fn integrate(&mut self, segment: &Segment) {
         let damping = self.system.mass_ratio() * self.system.damping();
         let omega = self.system.frequency_ratio();
@@ -236,6 +269,11 @@ impl Statistics {
     }
 }
 
+/// Place of a wall in a pair.
+fn index(side: Side) -> usize {
+    usize::from(side == Side::Minus)
+}
+
 impl Observer for Statistics {
     fn segment(&mut self, segment: &Segment) {
         self.integrate(segment);
@@ -249,10 +287,18 @@ impl Observer for Statistics {
         self.impacts += 1;
         self.impact_loss += impact.loss;
         self.penetration = self.penetration.max(impact.penetration);
-        self.current.impacts[usize::from(impact.side.sign() < 0.0)] += 1;
+        let wall = index(impact.side);
+        self.current.impacts[wall] += 1;
+        self.current.visits[wall] += 1;
+        self.visits += 1;
+        self.run = match self.run {
+            Some((side, length)) if side == impact.side => Some((side, length + 1)),
+            _ => Some((impact.side, 1)),
+        };
     }
 
     fn sticks(&mut self, loss: f64) {
+        self.close_sequence();
         self.impact_loss += loss;
         self.contact.intervals += 1;
     }
@@ -268,6 +314,7 @@ impl Observer for Statistics {
         }
         self.records.push(PeriodRecord {
             impacts: current.impacts,
+            visits: current.visits,
             peak: current.peak,
             end: *state,
             absorber_harmonic: current.y_harmonic,

@@ -1,0 +1,131 @@
+//! What kind of dynamics a motion is.
+//!
+//! The truth is what is known of these motions otherwise: the 1:1 motion's multipliers, the
+//! published order of regimes, and that a quasi-periodic motion keeps its exponent at zero however
+//! long it is watched.
+
+mod common;
+
+use vinesink::regimes::attractor::Effort;
+use vinesink::regimes::{Attractor, Nature, Regime};
+use vinesink::system::{Excitation, Parameters, State, System};
+
+const START: State = State { x: 0.3, x_velocity: 0.2, y: 0.1, y_velocity: 0.8 };
+
+fn reached(system: &System, discard: u64, periods: u64) -> Attractor {
+    let effort = Effort { discard, periods, prolongations: 0, impact_limit: 1_000_000 };
+    Attractor::reach(system, START, &effort).expect("inside the cavity")
+}
+
+fn nature(system: &System, discard: u64, periods: u64) -> (Regime, Nature) {
+    let classification = reached(system, discard, periods).classification;
+    (classification.regime, classification.nature)
+}
+
+#[test]
+fn the_published_regimes_have_their_natures() {
+    let once = Nature::Periodic { impacts: 2, periods: 1 };
+    for (frequency, clearance, regime, expected) in [
+        (8.0, 4.0, Regime::TwoAsymmetric, once),
+        (8.0, 7.5, Regime::TwoSymmetric, once),
+        (8.5, 20.0, Regime::TwoSymmetric, once),
+        (8.0, 20.0, Regime::BelowTwo, Nature::Chaotic),
+        (8.5, 27.0, Regime::StronglyModulated, Nature::Chaotic),
+        (8.5, 30.0, Regime::StronglyModulated, Nature::Chaotic),
+        (8.5, 35.0, Regime::BelowTwo, Nature::Chaotic),
+    ] {
+        let found = nature(&common::table_1(frequency, clearance), 1500, 2000);
+        assert_eq!(found, (regime, expected), "{frequency} Hz, b = {clearance} mm");
+    }
+}
+
+/// Slowly decaying modulation around the 1:1 motion: the exponent tells before the motion repeats.
+#[test]
+fn a_motion_that_is_still_settling_is_not_over() {
+    let system = common::table_1(8.5, 20.0);
+    let early = reached(&system, 80, 90);
+    assert!(!early.repeats(), "{:?}", early.classification.evidence);
+    assert_eq!(early.classification.nature, Nature::TransientNotOver);
+    assert!(early.classification.evidence.modulation_growth < 0.5);
+    let late = reached(&system, 1500, 200);
+    assert_eq!(late.classification.nature, Nature::Periodic { impacts: 2, periods: 1 });
+    assert!(early.is_same(&late) && late.is_same(&early), "one motion would be listed twice");
+}
+
+/// A chaotic transient cannot be told from chaos that stays until it is over: at b = 14.5 mm it gives
+/// way to the 1:1 motion after some thousand periods.
+#[test]
+fn a_chaotic_transient_is_chaotic_until_it_is_over() {
+    let system = common::table_1(8.0, 14.5);
+    let start = State { x: 0.0, x_velocity: 0.1, y: 0.0, y_velocity: -0.2 };
+    let effort = Effort { discard: 400, periods: 1000, prolongations: 0, impact_limit: 1_000_000 };
+    let early = Attractor::reach(&system, start, &effort).expect("inside the cavity");
+    assert_eq!(early.classification.nature, Nature::Chaotic, "{:?}", early.classification);
+    let late = early.continued(&system, 5000, 1000).expect("finite");
+    assert_eq!(late.classification.nature, Nature::Periodic { impacts: 2, periods: 1 });
+    assert!(!early.is_same(&late));
+}
+
+/// A window of 20 periods decides nothing that does not repeat.
+#[test]
+fn a_short_window_leaves_chaos_undecided_or_open() {
+    let (_, found) = nature(&common::table_1(8.0, 20.0), 1500, 20);
+    assert!(matches!(found, Nature::Undecided | Nature::TransientNotOver), "{found:?}");
+}
+
+/// Past a Neimark-Sacker bifurcation that is not abrupt: two symmetric impacts, modulated for ever.
+#[test]
+fn a_modulation_that_never_repeats_nor_parts_neighbours_is_quasi_periodic() {
+    let system = System::new(Parameters {
+        mass_ratio: 0.17,
+        damping: 0.387,
+        restitution: 0.5635,
+        frequency_ratio: 0.966,
+        forcing_per_clearance: 0.7276,
+        excitation: Excitation::Force,
+    })
+    .expect("valid");
+    let found = reached(&system, 2000, 16_000);
+    assert_eq!(found.classification.nature, Nature::QuasiPeriodic, "{:?}", found.classification);
+    assert!(found.classification.evidence.modulation_depth > 0.2);
+    // Less of it is no proof.
+    let (_, short) = nature(&system, 2000, 200);
+    assert_eq!(short, Nature::Undecided);
+}
+
+/// Neighbours of an undamped elastic motion drift apart in proportion to time, which must not be
+/// called chaos: its exponent is zero.
+#[test]
+fn linear_drift_of_a_motion_without_losses_is_not_chaos() {
+    let system = System::new(Parameters {
+        mass_ratio: 0.1,
+        damping: 0.0,
+        restitution: 1.0,
+        frequency_ratio: 1.2,
+        forcing_per_clearance: 0.0,
+        excitation: Excitation::Force,
+    })
+    .expect("valid");
+    // The oscillator hardly moves: the absorber flies to and fro at nearly constant speed.
+    let start = State { x: 1e-7, x_velocity: 0.0, y: 0.0, y_velocity: 1e-7 };
+    for periods in [200, 1000, 5000] {
+        let effort = Effort { discard: 0, periods, prolongations: 0, impact_limit: 1_000_000 };
+        let found = Attractor::reach(&system, start, &effort).expect("inside the cavity");
+        assert_ne!(found.classification.nature, Nature::Chaotic, "{:?}", found.classification);
+    }
+}
+
+#[test]
+fn rest_is_rest_only_once_the_oscillator_has_settled() {
+    let system = common::table_1(7.0, 30.0);
+    let rest = State { y: 0.0, ..system.linear_response().expect("damped").state(&system) };
+    let effort = Effort { discard: 0, periods: 100, prolongations: 0, impact_limit: 1000 };
+    let found = Attractor::reach(&system, rest, &effort).expect("inside the cavity");
+    assert_eq!(found.classification.regime, Regime::AtRest);
+    assert_eq!(found.classification.nature, Nature::AtRest);
+    // From a start off the steady motion the oscillator is on its way for hundreds of periods.
+    let away = State { x: rest.x + 0.1, y: rest.y + 0.1, ..rest };
+    let found = Attractor::reach(&system, away, &effort).expect("inside the cavity");
+    assert_eq!(found.classification.regime, Regime::AtRest);
+    assert_ne!(found.classification.nature, Nature::AtRest);
+}

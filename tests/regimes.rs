@@ -1,0 +1,398 @@
+//! What is measured of a long-term motion: visits to walls, energy, captures, the order of impacts;
+//! and what is made of many of them: basins and diagrams.
+
+mod common;
+
+use std::f64::consts::PI;
+
+use vinesink::regimes::attractor::Effort;
+use vinesink::regimes::basins::{Axis, Basins, Cell, Coordinate, Plane};
+use vinesink::regimes::diagram::{Swept, Way, sweep};
+use vinesink::regimes::search::{self, SearchEffort};
+use vinesink::regimes::{Attractor, Nature, Regime, share};
+use vinesink::simulation::{Impact, Nobody, Observer, Side, Simulation, Statistics};
+use vinesink::system::{State, System};
+
+const START: State = State { x: 0.3, x_velocity: 0.2, y: 0.1, y_velocity: 0.8 };
+const EFFORT: Effort =
+    Effort { discard: 800, periods: 200, prolongations: 3, impact_limit: 200_000 };
+
+fn reached(system: &System, start: State) -> Attractor {
+    Attractor::reach(system, start, &EFFORT).expect("inside the cavity")
+}
+
+/// The walls in the order in which they are hit, and where the absorber stuck.
+#[derive(Default)]
+struct Diary(Vec<Option<Side>>);
+
+impl Observer for Diary {
+    fn impact(&mut self, impact: &Impact) {
+        self.0.push(Some(impact.side));
+    }
+    fn sticks(&mut self, _loss: f64) {
+        self.0.push(None);
+    }
+}
+
+impl Diary {
+    /// Visits, counted backwards: before a sticking all impacts on its wall belong to one visit.
+    fn visits(&self) -> u64 {
+        let mut visits = 0;
+        let mut sequence = None;
+        let mut sticking = false;
+        for entry in self.0.iter().rev() {
+            match entry {
+                None => (sticking, sequence) = (true, None),
+                Some(side) if sticking && sequence == Some(*side) => {}
+                Some(side) => {
+                    sticking &= sequence.is_none();
+                    sequence = Some(*side);
+                    visits += 1;
+                }
+            }
+        }
+        visits
+    }
+}
+
+#[test]
+fn a_chattering_sequence_is_one_visit() {
+    for (frequency, clearance) in [(8.0, 0.3), (8.01, 20.0), (8.0, 20.0), (8.5, 27.0), (8.0, 7.5)] {
+        let system = common::table_1(frequency, clearance);
+        let mut simulation = Simulation::new(&system, START, 0.0).expect("inside the cavity");
+        let mut statistics = Statistics::begin(&system, START);
+        let mut diary = Diary::default();
+        simulation.run(300, 1_000_000, &mut (&mut statistics, &mut diary));
+        let expected = diary.visits();
+        let counted = statistics.visits_per_period() * statistics.periods() as f64;
+        let records = statistics.records();
+        let sum: u32 = records.iter().map(|record| record.visits.iter().sum::<u32>()).sum();
+        assert!((counted - expected as f64).abs() < 1e-6, "{counted} {expected} at {clearance}");
+        assert_eq!(u64::from(sum), expected);
+        let fewer =
+            records.iter().all(|r| r.visits[0] <= r.impacts[0] && r.visits[1] <= r.impacts[1]);
+        assert!(fewer && (frequency == 8.0 && clearance == 7.5 || expected < statistics.impacts()));
+    }
+}
+
+/// Few visits of dozens of impacts each: the weak-forcing side. Two visits a period of dozens of
+/// impacts: the strong-forcing side, where the paper has z > 2.
+#[test]
+fn chattering_now_and_then_is_not_more_than_two_impacts_per_period() {
+    let weak = reached(&common::table_1(8.01, 20.0), START).classification;
+    assert_eq!(weak.regime, Regime::BelowTwo);
+    assert!(weak.evidence.impacts_per_period > 2.0 && weak.evidence.visits_per_period < 1.0);
+    let strong = reached(&common::table_1(8.0, 0.3), START).classification;
+    assert_eq!(strong.regime, Regime::AboveTwo);
+    assert!(strong.evidence.impacts_per_period > 20.0, "{strong:?}");
+    assert!((strong.evidence.visits_per_period - 2.0).abs() < 0.01, "{strong:?}");
+}
+
+/// On the exact 1:1 motion the absorber's path is a triangle of height u T / 4, whose first harmonic
+/// is 8/pi^2 of it, and both impacts lose `eps (1 - r^2) w'^2 / (2 (1 + eps))`.
+#[test]
+fn the_symmetric_motion_has_the_harmonic_and_the_losses_of_its_impacts() {
+    for (frequency, clearance) in [(8.0, 7.5), (8.0, 15.0), (8.5, 20.0)] {
+        let system = common::table_1(frequency, clearance);
+        let found = reached(&system, START);
+        let (repetition, impacts) = found.last_repetition().expect("it repeats");
+        assert_eq!((repetition.impacts, repetition.periods, impacts.len()), (2, 1, 2));
+        let impact = impacts[0];
+        let e = 8.0 / (PI * PI) * impact.y_velocity_after.abs() * system.period() / 4.0;
+        let amplitude = found.classification.evidence.absorber_amplitude;
+        assert!((amplitude.smallest - e).abs() < 1e-6 && (amplitude.largest - e).abs() < 1e-6);
+        assert!((amplitude.in_captures.expect("all of it") - e).abs() < 1e-6);
+        assert_eq!(amplitude.between, None);
+        let approach = impact.x_velocity_before - impact.y_velocity_before;
+        let eps = system.mass_ratio();
+        let loss = eps * (1.0 - 0.36) * approach * approach / (2.0 * (1.0 + eps));
+        let energetics = found.energetics;
+        let near = |a: f64, b: f64| (a - b).abs() < 1e-6 * b;
+        assert!(near(energetics.loss_per_impact.expect("impacts"), loss), "{energetics:?} {loss}");
+        assert!(near(energetics.loss_per_period, 2.0 * loss));
+        assert!(near(energetics.impact_power, 2.0 * loss / system.period()));
+        // Nothing is stored on average: what comes in goes out.
+        let out = energetics.impact_power + energetics.damper_power;
+        assert!(near(out, energetics.input_power), "{energetics:?}");
+        let efficiency = energetics.transfer_efficiency.expect("driven");
+        assert!(near(efficiency, energetics.impact_power / energetics.input_power));
+    }
+}
+
+/// 3.587 mm instead of 6.40 mm at 8.5 Hz, 3.562 mm instead of 3.01 mm at 8 Hz.
+#[test]
+fn reductions_are_against_the_bare_oscillator() {
+    for (frequency, clearance, ratio) in [(8.5, 20.0, 3.587 / 6.395), (8.0, 7.5, 3.562 / 3.015)] {
+        let found = reached(&common::table_1(frequency, clearance), START).energetics;
+        let expected = 20.0 * libm::log10(ratio);
+        assert!((found.peak_change_db.expect("driven") - expected).abs() < 0.01, "{found:?}");
+        // Nearly a sine.
+        assert!((found.rms_change_db.expect("driven") - expected).abs() < 0.1, "{found:?}");
+    }
+}
+
+/// Without impacts the oscillator is alone: all work goes into the damper, `d a^2 Omega^2` of it per
+/// unit of time with `2 d = eps lambda`.
+#[test]
+fn a_resting_absorber_changes_nothing() {
+    let system = common::table_1(7.0, 30.0);
+    let linear = system.linear_response().expect("damped");
+    let found = reached(&system, linear.state(&system));
+    let energetics = found.energetics;
+    let swing = linear.amplitude() * system.frequency_ratio();
+    let power = 0.5 * system.mass_ratio() * system.damping() * swing * swing;
+    assert!((energetics.damper_power / power - 1.0).abs() < 1e-9, "{energetics:?} {power}");
+    assert!((energetics.input_power / power - 1.0).abs() < 1e-9, "{energetics:?}");
+    assert_eq!((energetics.impact_power, energetics.loss_per_impact), (0.0, None));
+    assert_eq!(energetics.transfer_efficiency, Some(0.0));
+    assert!(energetics.peak_change_db.expect("driven").abs() < 1e-6);
+    assert!(energetics.rms_change_db.expect("driven").abs() < 1e-6);
+}
+
+#[test]
+fn without_excitation_there_is_no_efficiency() {
+    let system = common::table_1(8.0, 1.0).with_clearance_scaled(1e12).expect("valid");
+    let parameters =
+        vinesink::system::Parameters { forcing_per_clearance: 0.0, ..system.parameters() };
+    let system = System::new(parameters).expect("valid");
+    let mut simulation = Simulation::new(&system, START, 0.0).expect("inside the cavity");
+    let effort = Effort { discard: 0, periods: 5, ..EFFORT };
+    let found = Attractor::measure(&mut simulation, &effort).energetics;
+    assert!(found.impact_power > 0.0);
+    assert_eq!((found.transfer_efficiency, found.peak_change_db), (None, None));
+}
+
+/// Section 4.2: during captures E is large, and the vibration decreases; between them it grows.
+#[test]
+fn a_strongly_modulated_vibration_falls_while_e_is_large() {
+    let found = reached(&common::table_1(8.5, 27.0), START);
+    let evidence = &found.classification.evidence;
+    assert_eq!(found.classification.regime, Regime::StronglyModulated);
+    let amplitude = evidence.absorber_amplitude;
+    let (inside, between) =
+        (amplitude.in_captures.expect("some"), amplitude.between.expect("some"));
+    assert!(inside > 1.5 * between, "{amplitude:?}");
+    assert!(amplitude.smallest < between && amplitude.largest > inside);
+    assert!(amplitude.correlation_with_growth.expect("both vary") < -0.5, "{amplitude:?}");
+    let captured = found.amplitudes.iter().filter(|one| one.captured).count();
+    assert_eq!(found.amplitudes.len() as u64, found.periods);
+    let captures = evidence.captures;
+    assert!((captures.mean * captures.count as f64 - captured as f64).abs() < 1e-9);
+    let highest = found.amplitudes.iter().map(|one| one.peak).fold(0.0, f64::max);
+    assert_eq!(highest, found.peak);
+}
+
+/// The equations are odd: the mirror image of a start half a period later leads to the mirror image.
+#[test]
+fn a_motion_and_its_mirror_image_are_one() {
+    let system = common::table_1(8.0, 4.0);
+    let one = reached(&system, START);
+    let mut half = Simulation::new(&system, one.state, PI).expect("inside the cavity");
+    half.run(1, 1000, &mut Nobody);
+    // One half-period further on, at phase 0 after pi .. 2 pi, the state's negative is a start.
+    let State { x, x_velocity, y, y_velocity } = half.state();
+    let mirrored = State { x: -x, x_velocity: -x_velocity, y: -y, y_velocity: -y_velocity };
+    let other = reached(&system, mirrored);
+    assert!(one.is_same(&other), "{:?} {:?}", one.classification, other.classification);
+    let sequence = one.classification.evidence.sequence.expect("it repeats");
+    assert_eq!(sequence.to_string(), "+-");
+    // Another motion with another order of impacts is another one.
+    let third = reached(&common::table_1(8.3, 10.0), START);
+    assert_eq!(third.classification.evidence.sequence.expect("repeats").to_string(), "++-++-+-");
+    assert!(!one.is_same(&third));
+}
+
+/// One thing at a time is changed of a motion, and it is another one.
+#[test]
+fn motions_differ_by_what_they_are() {
+    let found = reached(&common::table_1(8.0, 7.5), START);
+    let changed = |change: fn(&mut Attractor)| {
+        let mut other = found.clone();
+        change(&mut other);
+        let same = found.is_same(&other);
+        assert_eq!(same, other.is_same(&found), "not symmetric");
+        same
+    };
+    assert!(changed(|_| ()));
+    assert!(!changed(|other| other.rms *= 1.002) && changed(|other| other.rms *= 1.0005));
+    assert!(!changed(|other| other.peak *= 1.002) && changed(|other| other.peak *= 1.0005));
+    assert!(!changed(|other| other.classification.evidence.sequence = None));
+    assert!(!changed(|other| other.classification.regime = Regime::TwoAsymmetric));
+    fn open(other: &mut Attractor, nature: Nature) {
+        other.classification.evidence.periodicity = None;
+        other.classification.evidence.sequence = None;
+        other.classification.nature = nature;
+    }
+    // Still on its way to the motion that repeats; its intervals may still be unequal.
+    assert!(changed(|other| {
+        open(other, Nature::TransientNotOver);
+        other.classification.regime = Regime::TwoAsymmetric;
+        other.peak *= 1.01;
+    }));
+    assert!(!changed(|other| {
+        open(other, Nature::TransientNotOver);
+        other.peak *= 1.03;
+    }));
+    assert!(!changed(|other| {
+        open(other, Nature::TransientNotOver);
+        other.classification.evidence.visits_per_period = 2.5;
+    }));
+    assert!(!changed(|other| open(other, Nature::Chaotic)));
+    let chaotic = reached(&common::table_1(8.0, 20.0), START);
+    let mut other = Attractor { rms: 1.1 * chaotic.rms, ..chaotic.clone() };
+    assert!(chaotic.is_same(&other), "averages of some hundred periods scatter");
+    other.classification.nature = Nature::Undecided;
+    assert!(chaotic.is_same(&other));
+    other.classification.nature = Nature::QuasiPeriodic;
+    assert!(!chaotic.is_same(&other));
+}
+
+#[test]
+fn a_settled_measurement_replaces_one_that_was_not() {
+    let system = common::table_1(8.5, 20.0);
+    let short = Effort { discard: 80, periods: 90, prolongations: 0, impact_limit: 100_000 };
+    let early = Attractor::reach(&system, START, &short).expect("inside the cavity");
+    let late = reached(&system, START);
+    let mut kept = early.clone();
+    kept.replace_if_settled(late.clone());
+    assert!(kept.repeats() && kept.followed == late.followed);
+    kept.replace_if_settled(early);
+    assert!(kept.repeats());
+}
+
+#[test]
+fn a_search_gives_every_share_with_its_interval() {
+    let system = common::table_1(8.0, 16.4);
+    let each = Effort { discard: 600, periods: 200, prolongations: 2, impact_limit: 100_000 };
+    let effort = SearchEffort { starts: 12, each, measured: 400, patience: 400 };
+    let found = search::find(&system, &[], &effort, &mut |_| ()).expect("inside the cavity");
+    assert!(found.len() > 1, "two motions coexist");
+    assert_eq!(found.iter().map(|one| one.starts).sum::<u32>(), 12);
+    for one in &found {
+        assert!((one.share - f64::from(one.starts) / 12.0).abs() < 1e-15);
+        assert_eq!(one.share_interval, share::wilson(one.starts, 12));
+        assert!(one.share_interval[0] <= one.share && one.share <= one.share_interval[1]);
+    }
+}
+
+/// Each impact of the last repetition is a complete state: from it the motion goes on as it did.
+#[test]
+fn an_impact_of_the_last_repetition_restarts_the_motion() {
+    let system = common::table_1(8.3, 10.0);
+    let found = reached(&system, START);
+    let (repetition, impacts) = found.last_repetition().expect("it repeats");
+    assert_eq!(impacts.len(), repetition.impacts as usize);
+    for impact in impacts {
+        let state = State {
+            x: impact.x,
+            x_velocity: impact.x_velocity_after,
+            y: impact.x - impact.side.sign(),
+            y_velocity: impact.y_velocity_after,
+        };
+        let mut again = Simulation::new(&system, state, impact.phase).expect("on the wall");
+        let mut log = vinesink::simulation::ImpactLog::default();
+        again.run(u64::from(repetition.periods) + 1, 1000, &mut log);
+        let next = log.impacts[repetition.impacts as usize - 1];
+        assert_eq!(next.side, impact.side);
+        assert!((next.x - impact.x).abs() < 1e-5 && (next.phase - impact.phase).abs() < 1e-5);
+    }
+}
+
+#[test]
+fn basins_hold_both_answers_at_8_hz_and_16_4_mm() {
+    let system = common::table_1(8.0, 16.4);
+    let axis = |coordinate, reach: f64, cells| Axis { coordinate, range: [-reach, reach], cells };
+    let plane = Plane {
+        horizontal: axis(Coordinate::Gap, 1.5, 6),
+        vertical: axis(Coordinate::AbsorberVelocity, 0.6, 4),
+        fixed: [0.2, 0.1, 0.0, 0.0],
+    };
+    let effort = Effort { discard: 600, periods: 200, prolongations: 2, impact_limit: 100_000 };
+    let mut told = 0;
+    let basins =
+        Basins::of(&system, plane, Vec::new(), &effort, &mut |n| told += n).expect("finite");
+    assert_eq!((told, basins.cells.len()), (24, 24));
+    let regimes: Vec<Regime> =
+        basins.attractors.iter().map(|found| found.classification.regime).collect();
+    assert!(regimes.contains(&Regime::TwoSymmetric) && regimes.contains(&Regime::BelowTwo));
+    assert_eq!(regimes.len(), 2, "{regimes:?}");
+    for row in 0..4 {
+        for column in 0..6 {
+            let start = plane.start(column, row);
+            let cell = basins.cell(column, row).expect("inside");
+            // Middles at -1.25, -0.75, .. 1.25: the outermost are outside the cavity.
+            assert_eq!(cell == Cell::Impossible, column == 0 || column == 5, "{cell:?} {start:?}");
+            if let Cell::Leads(index) = cell {
+                let again = Attractor::reach(&system, start, &effort).expect("inside");
+                assert_eq!(again.classification.regime, regimes[index]);
+            }
+        }
+    }
+    assert_eq!((basins.cell(6, 0), basins.cell(0, 4)), (None, None));
+    let settled = basins.counts().iter().sum::<usize>();
+    assert!(settled >= 12 && basins.counts().iter().all(|count| *count > 0), "{settled}");
+    // What is known keeps its place.
+    let known = basins.attractors.clone();
+    let again = Basins::of(&system, plane, known, &effort, &mut |_| ()).expect("finite");
+    assert_eq!((again.cells, again.attractors.len()), (basins.cells, 2));
+}
+
+/// 1:1 resonance is kept upwards to the exact saddle-node at b = 16.695 mm, and comes back downwards
+/// only where the modulated response no longer lasts.
+#[test]
+fn resonance_is_lost_later_upwards_than_it_returns_downwards() {
+    let base = common::table_1(8.0, 10.0);
+    let values: Vec<f64> = (0..=8).map(|k| 1.375 + 0.05 * f64::from(k)).collect();
+    let effort = Effort { discard: 300, periods: 200, prolongations: 2, impact_limit: 100_000 };
+    let mut told = 0;
+    let points = sweep(&base, Swept::Clearance, &values, START, &effort, &mut |n| told += n)
+        .expect("systems");
+    assert_eq!((points.len(), told), (18, 18));
+    let last_kept = |way| {
+        let kept = points.iter().filter(|point| point.way == way);
+        let kept = kept.filter(|point| point.regime == Regime::TwoSymmetric);
+        kept.map(|point| 10.0 * point.value).fold(0.0, f64::max)
+    };
+    let (up, down) = (last_kept(Way::Up), last_kept(Way::Down));
+    assert!((16.2..16.695).contains(&up), "kept up to {up} mm");
+    assert!(down > 0.0 && down < up - 1.0, "back at {down} mm");
+    for point in &points {
+        assert!(!point.lost_to_impact_limit && point.period_peaks.len() == 40, "{point:?}");
+        let highest = point.period_peaks.iter().copied().fold(0.0, f64::max);
+        assert!(highest <= point.peak * (1.0 + 1e-12));
+        if point.regime == Regime::TwoSymmetric {
+            assert!((point.peak - highest).abs() < 1e-4 * highest);
+            assert!(point.intervals.iter().all(|dt| (dt - 0.5).abs() < 1e-4), "{point:?}");
+        }
+    }
+    // The peak at b = 15 mm is the exact orbit's, in the base's clearances of 10 mm.
+    let fine =
+        sweep(&base, Swept::Clearance, &[1.5], START, &EFFORT, &mut |_| ()).expect("systems");
+    assert!(fine.iter().any(|point| (10.0 * point.peak - 3.364).abs() < 5e-4), "{fine:?}");
+}
+
+#[test]
+fn other_parameters_are_swept_in_their_own_units() {
+    let base = common::table_1(8.0, 7.5);
+    for (swept, value) in [
+        (Swept::FrequencyRatio, base.frequency_ratio()),
+        (Swept::Forcing, 1.0),
+        (Swept::Restitution, base.restitution()),
+        (Swept::Clearance, 1.0),
+    ] {
+        let points = sweep(&base, swept, &[value], START, &EFFORT, &mut |_| ()).expect("systems");
+        assert_eq!(points.len(), 2);
+        assert!(points.iter().all(|point| (7.5 * point.peak - 3.562).abs() < 5e-4), "{points:?}");
+        assert!(sweep(&base, swept, &[-1.0], START, &EFFORT, &mut |_| ()).is_err());
+    }
+}
+
+/// A motion that chatters without end is told from one that settles.
+#[test]
+fn the_limit_on_impacts_shows_in_the_diagram() {
+    let base = common::table_1(8.0, 0.3);
+    let effort = Effort { impact_limit: 100, ..EFFORT };
+    let points =
+        sweep(&base, Swept::Clearance, &[1.0], START, &effort, &mut |_| ()).expect("system");
+    assert!(points.iter().all(|point| point.lost_to_impact_limit));
+}
