@@ -1,8 +1,8 @@
 //! What a case file means, and what is said about one that is wrong.
 
 use vinesink::case::{
-    Case, CaseError, Damping, Design, Dimension, ExtraFigure, Force, Frequency, Length, LengthUnit, Mass,
-    Physical, PhysicalExcitation, Quantity, Stiffness, Tuning,
+    Case, CaseError, Damping, Design, Dimension, ExtraFigure, Force, Frequency, Length, LengthUnit,
+    Mass, Physical, PhysicalExcitation, Quantity, Stiffness, Tuning,
 };
 use vinesink::system::Excitation;
 
@@ -582,13 +582,11 @@ fn figures_that_do_not_exist_are_refused() {
     let unknown = list("figures = [\"areas\", \"tranfser\"]");
     let error = refused_with(&unknown, 20, "\"tranfser\"", "unknown figure \"tranfser\"");
     says(&error, "did you mean \"transfer\"?");
-    says(&error, "expected one of areas, bifurcations, forcing-responses, modulation, restitutions");
-    let usual = refused_with(
-        &list("figures = [\"map\"]"),
-        20,
-        "\"map\"",
-        "unknown figure \"map\"",
+    says(
+        &error,
+        "expected one of areas, bifurcations, forcing-responses, modulation, restitutions",
     );
+    let usual = refused_with(&list("figures = [\"map\"]"), 20, "\"map\"", "unknown figure \"map\"");
     says(&usual, "the usual figures are in every report");
     let twice = list("figures = [\"areas\",\n  \"areas\"]");
     let error = refused_with(&twice, 21, "\"areas\"", "`figures` names \"areas\" twice");
@@ -598,7 +596,10 @@ fn figures_that_do_not_exist_are_refused() {
     let text = "`figures` is text, but it is a list of names";
     says(&refused_with(&list("figures = \"areas\""), 20, "\"areas\"", text), "between brackets");
     let key = "unknown key `figure` in [report]";
-    says(&refused_with(&list("figure = [\"areas\"]"), 20, "figure", key), "did you mean `figures`?");
+    says(
+        &refused_with(&list("figure = [\"areas\"]"), 20, "figure", key),
+        "did you mean `figures`?",
+    );
 }
 
 #[test]

@@ -108,7 +108,8 @@ fn figure(reader: &mut Reader, item: &Spanned<DeValue>) -> Option<ExtraFigure> {
     let known = ExtraFigure::ALL.map(ExtraFigure::name);
     let expected = format!("expected one of {}", known.join(", "));
     let DeValue::String(name) = item.get_ref() else {
-        let message = format!("`figures` holds {}, but it is a list of names", kind(item.get_ref()));
+        let message =
+            format!("`figures` holds {}, but it is a list of names", kind(item.get_ref()));
         reader.report(item.span(), message, expected, format!("write for example {EXAMPLE}"));
         return None;
     };
@@ -117,7 +118,9 @@ fn figure(reader: &mut Reader, item: &Spanned<DeValue>) -> Option<ExtraFigure> {
         let help = match nearest(name, &known) {
             Some(guess) => format!("did you mean \"{guess}\"?"),
             None => {
-                format!("remove \"{name}\"; the usual figures are in every report without being named")
+                format!(
+                    "remove \"{name}\"; the usual figures are in every report without being named"
+                )
             }
         };
         reader.report(item.span(), format!("unknown figure \"{name}\""), expected, help);

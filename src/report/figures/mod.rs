@@ -4,18 +4,26 @@
 //! nothing to say for a case is left out.
 
 mod amplitude;
+mod areas;
+mod bifurcations;
 mod borders;
 mod branches;
 mod canvas;
+mod clearances;
+mod forcing_responses;
+mod levels;
 mod manifold;
 mod map;
+mod modulation;
 mod motion;
 mod plane;
 mod response;
+mod restitutions;
 mod return_map;
+mod transfer;
 mod units;
 
-use crate::case::Case;
+use crate::case::{Case, ExtraFigure};
 use crate::regimes::{FoundAttractor, Regime};
 use crate::simulation::Stop;
 use crate::study::{CaseStudy, StudyError};
@@ -46,9 +54,15 @@ impl<'a> Scene<'a> {
         let followed = found.attractor.stop == Stop::EndTime;
         (found.regime() != Regime::AtRest && followed && lasts).then_some(found)
     }
+
+    /// The first attractor that can be drawn: the one that most starts lead to.
+    fn first_drawn(&self) -> Option<&'a FoundAttractor> {
+        (0..self.study.attractors.len()).find_map(|index| self.drawn(index))
+    }
 }
 
-/// All figures in reading order, the case among its boundaries first.
+/// All figures in reading order, the case among its boundaries first, those that the case asks for
+/// last.
 ///
 /// # Errors
 /// [`StudyError`] where theory or simulation cannot be carried out.
@@ -64,5 +78,22 @@ pub fn all(case: &Case, study: &CaseStudy) -> Result<Vec<Figure>, StudyError> {
         figures.extend(motion::figure(&scene, index)?);
         figures.extend(return_map::figure(&scene, index));
     }
+    for wanted in &case.report.figures {
+        figures.extend(further(&scene, *wanted)?);
+    }
     Ok(figures)
+}
+
+/// A figure that is made only where a case asks for it.
+fn further(scene: &Scene, wanted: ExtraFigure) -> Result<Option<Figure>, StudyError> {
+    match wanted {
+        ExtraFigure::Areas => areas::figure(scene),
+        ExtraFigure::Bifurcations => bifurcations::figure(scene),
+        ExtraFigure::ForcingResponses => forcing_responses::figure(scene),
+        ExtraFigure::Modulation => modulation::figure(scene),
+        ExtraFigure::Restitutions => restitutions::figure(scene),
+        ExtraFigure::Clearances => clearances::figure(scene),
+        ExtraFigure::Transfer => transfer::figure(scene),
+        ExtraFigure::TransferStretches => transfer::stretches(scene),
+    }
 }
