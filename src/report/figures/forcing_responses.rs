@@ -39,18 +39,18 @@ pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
     if gamma == 0.0 || manifold.fold.oscillator == 0.0 {
         return Ok(None);
     }
-    let least = |kind| least(kind, system);
-    let (hopf, breaking) = (least(BoundaryKind::Hopf)?, least(BoundaryKind::SymmetryBreaking)?);
+    let family = family(system)?;
     let top = ABOVE_BREAKING * manifold.symmetry_breaking.oscillator;
     let last = top + 1.0;
     let units = &scene.units;
     let mut members = Vec::new();
-    for (at, color, dash) in [
-        (2.5 * breaking, Color::Black, Dash::Dotted),
-        (breaking, Color::Vermillion, Dash::Dashed),
-        ((hopf * breaking).sqrt(), Color::BluishGreen, Dash::Solid),
-        (0.85 * hopf, Color::Blue, Dash::LongDashed),
-    ] {
+    let looks = [
+        (Color::Black, Dash::Dotted),
+        (Color::Vermillion, Dash::Dashed),
+        (Color::BluishGreen, Dash::Solid),
+        (Color::Blue, Dash::LongDashed),
+    ];
+    for (at, (color, dash)) in family.into_iter().zip(looks) {
         let there = Parameters { forcing_per_clearance: at, ..system.parameters() };
         let Ok(there) = System::new(there) else { return Ok(None) };
         let place = |point: &ResponsePoint| {
@@ -92,6 +92,30 @@ pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
             .with_panel(second)
             .with_words(caption, alt),
     ))
+}
+
+/// The four forcings per clearance, from the largest: one that lifts the response far beyond
+/// symmetry breaking, one with which its top just reaches it, one inside Z3, and one below the fold
+/// at every frequency.
+fn family(system: &System) -> Result<[f64; 4], AnalysisError> {
+    let least = |kind| least(kind, system);
+    let (hopf, breaking) = (least(BoundaryKind::Hopf)?, least(BoundaryKind::SymmetryBreaking)?);
+    Ok([2.5 * breaking, breaking, (hopf * breaking).sqrt(), 0.85 * hopf])
+}
+
+/// The clearances of the four over the case's, each with the share of the band that lies in Z3.
+///
+/// # Errors
+/// As the theory's boundaries.
+pub(in crate::report) fn shares(system: &System) -> Result<Vec<(f64, f64)>, AnalysisError> {
+    let mut shares = Vec::new();
+    for gamma in family(system)? {
+        let there = Parameters { forcing_per_clearance: gamma, ..system.parameters() };
+        if let Ok(there) = System::new(there) {
+            shares.push((system.forcing_per_clearance() / gamma, share(&there)?));
+        }
+    }
+    Ok(shares)
 }
 
 /// The smallest forcing per clearance on a boundary, over all detunings of the band.

@@ -10,15 +10,15 @@ mod borders;
 mod branches;
 mod canvas;
 mod clearances;
-mod forcing_responses;
+pub(super) mod forcing_responses;
 mod levels;
 mod manifold;
 mod map;
-mod modulation;
+pub(super) mod modulation;
 mod motion;
 mod plane;
 mod response;
-mod restitutions;
+pub(super) mod restitutions;
 mod return_map;
 mod transfer;
 mod units;
@@ -35,12 +35,16 @@ use units::Units;
 const ATTRACTORS: usize = 3;
 
 /// What every figure is made from.
-struct Scene<'a> {
+pub(super) struct Scene<'a> {
     study: &'a CaseStudy,
     units: Units,
 }
 
 impl<'a> Scene<'a> {
+    pub(super) fn new(case: &Case, study: &'a CaseStudy) -> Self {
+        Self { study, units: Units::of(case) }
+    }
+
     /// An attractor that moves and was followed to the end. One that was measured while it turned
     /// into another (its average is not that of the repetition it ends with) is none.
     fn drawn(&self, index: usize) -> Option<&'a FoundAttractor> {
@@ -67,7 +71,7 @@ impl<'a> Scene<'a> {
 /// # Errors
 /// [`StudyError`] where theory or simulation cannot be carried out.
 pub fn all(case: &Case, study: &CaseStudy) -> Result<Vec<Figure>, StudyError> {
-    let scene = Scene { study, units: Units::of(case) };
+    let scene = Scene::new(case, study);
     let mut figures = Vec::new();
     figures.extend(map::figure(&scene)?);
     figures.push(plane::figure(&scene)?);

@@ -22,6 +22,24 @@ const DENSITY: f64 = 4.0;
 /// Periods at the beginning of a capture that belong to the transition.
 const TRANSITION: usize = 3;
 
+/// How far from the stable branch a case's first motion is while captured, relative in `C` (rms).
+///
+/// # Errors
+/// As the simulation.
+pub(in crate::report) fn away_from_branch(scene: &Scene) -> Result<Option<f64>, StudyError> {
+    let Some(found) = scene.first_drawn() else { return Ok(None) };
+    let system = &scene.study.analysis.system;
+    let trace = scenes::trace(system, found.attractor.state, PERIODS, DENSITY)?;
+    let captures = Periods::of(&trace).captures();
+    Ok(distance(scene, &landed(system, &trace), &captures))
+}
+
+/// Where every impact leaves the motion, with its time in periods.
+fn landed(system: &System, trace: &Trace) -> Vec<(f64, [f64; 2])> {
+    let impacts = trace.impacts.iter();
+    impacts.map(|(at, impact)| (*at, projected_after(system, impact))).collect()
+}
+
 pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
     let Some(found) = scene.first_drawn() else { return Ok(None) };
     let analysis = &scene.study.analysis;
@@ -44,8 +62,7 @@ pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
         inside.map(|point| projected(system, &point.state)).collect()
     };
     let all = path(&|_| true);
-    let landed: Vec<(f64, [f64; 2])> =
-        trace.impacts.iter().map(|(at, impact)| (*at, projected_after(system, impact))).collect();
+    let landed = landed(system, &trace);
     let away = distance(scene, &landed, &captures);
     let last = 1.08 * all.iter().map(|at| at[0]).fold(2.0, f64::max);
     let top = 1.12 * all.iter().map(|at| at[1]).fold(0.0, f64::max);

@@ -41,16 +41,11 @@ struct Taken {
 
 pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
     let Some(level) = level(scene) else { return Ok(None) };
-    let mut all = Vec::new();
-    for k in 0..=STEPS {
-        all.extend(taken(f64::from(k) / f64::from(STEPS), level)?);
-    }
-    if all.is_empty() {
-        return Ok(None);
-    }
+    let all = over_all(level)?;
+    let Some(strongest) = strongest(&all) else { return Ok(None) };
     let first = manifolds(level)?;
     let second = over_restitution(&all);
-    let (caption, alt) = words(scene, level, &all)?;
+    let (caption, alt) = words(scene, level, &strongest)?;
     Ok(Some(
         Figure::new("restitutions", "The manifold and what it takes, for five restitutions")
             .with_size(860, 450)
@@ -63,6 +58,47 @@ pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
             .with_panel(second)
             .with_words(caption, alt),
     ))
+}
+
+/// Which restitutions matter at an oscillator amplitude.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(in crate::report) struct Strongest {
+    /// Where `E` is largest.
+    pub harmonic: f64,
+    /// Where `E sin(Theta)` is largest.
+    pub damping: f64,
+    /// The smallest and the largest with a steady 1:1 motion.
+    pub stable: Option<(f64, f64)>,
+}
+
+/// The same for a case, by its own oscillator amplitude.
+///
+/// # Errors
+/// As the manifold.
+pub(in crate::report) fn strongest_of(scene: &Scene) -> Result<Option<Strongest>, StudyError> {
+    let Some(level) = level(scene) else { return Ok(None) };
+    Ok(strongest(&over_all(level)?))
+}
+
+fn strongest(all: &[Taken]) -> Option<Strongest> {
+    let largest = |value: fn(&Taken) -> f64| {
+        let at = all.iter().max_by(|a, b| value(a).total_cmp(&value(b)))?;
+        Some(at.restitution)
+    };
+    let stable = || all.iter().filter(|at| at.branch == Branch::Stable).map(|at| at.restitution);
+    Some(Strongest {
+        harmonic: largest(|at| at.harmonic)?,
+        damping: largest(|at| at.damping)?,
+        stable: stable().next().zip(stable().last()),
+    })
+}
+
+fn over_all(level: f64) -> Result<Vec<Taken>, StudyError> {
+    let mut all = Vec::new();
+    for k in 0..=STEPS {
+        all.extend(taken(f64::from(k) / f64::from(STEPS), level)?);
+    }
+    Ok(all)
 }
 
 /// The oscillator's amplitude `C/b`: the stable fixed point's, else the observed one.
@@ -192,18 +228,12 @@ fn best(system: &System) -> Result<Option<(f64, f64)>, StudyError> {
     Ok(best)
 }
 
-fn words(scene: &Scene, level: f64, all: &[Taken]) -> Result<(String, String), StudyError> {
-    let largest = |value: fn(&Taken) -> f64| {
-        all.iter().max_by(|a, b| value(a).total_cmp(&value(b))).map_or(0.0, |at| at.restitution)
-    };
-    let (most_e, most_taken) = (largest(|at| at.harmonic), largest(|at| at.damping));
-    let stable: Vec<f64> =
-        all.iter().filter(|at| at.branch == Branch::Stable).map(|at| at.restitution).collect();
-    let range = match (stable.first(), stable.last()) {
-        (Some(first), Some(last)) => {
-            format!("steady 1:1 for r from {} to {}", significant(*first, 2), significant(*last, 2))
+fn words(scene: &Scene, level: f64, strongest: &Strongest) -> Result<(String, String), StudyError> {
+    let range = match strongest.stable {
+        Some((first, last)) => {
+            format!("steady 1:1 for r from {} to {}", significant(first, 2), significant(last, 2))
         }
-        _ => "no steady 1:1 for any r".to_owned(),
+        None => "no steady 1:1 for any r".to_owned(),
     };
     let least = match best(&scene.study.analysis.system)? {
         Some((restitution, amplitude)) => format!(
@@ -216,8 +246,8 @@ fn words(scene: &Scene, level: f64, all: &[Taken]) -> Result<(String, String), S
     let caption = format!(
         "For an oscillator amplitude of {} there is {range}; E is largest for r = {}, what damps the oscillator, E sin Θ, for r = {}.{least}",
         scene.units.length_text(level),
-        significant(most_e, 2),
-        significant(most_taken, 2)
+        significant(strongest.harmonic, 2),
+        significant(strongest.damping, 2)
     );
     let alt = format!(
         "Left, the manifold for five restitutions and the oscillator's amplitude; right, E and E sin Θ over the restitution at that \
