@@ -1,8 +1,8 @@
 //! What a case file means, and what is said about one that is wrong.
 
 use vinesink::case::{
-    Case, CaseError, Damping, Design, Dimension, Force, Frequency, Length, LengthUnit, Mass,
-    Physical, PhysicalExcitation, Quantity, Stiffness, Tuning,
+    Case, CaseError, Damping, Design, Dimension, ExtraFigure, Force, Frequency, Length, LengthUnit,
+    Mass, Physical, PhysicalExcitation, Quantity, Stiffness, Tuning,
 };
 use vinesink::system::Excitation;
 
@@ -563,6 +563,43 @@ fn simulation_settings_are_whole_numbers_within_bounds() {
     ] {
         says(&refused_with(&settings(line), 19, underlined, message), "expected a whole number");
     }
+}
+
+#[test]
+fn a_report_may_hold_further_figures() {
+    assert!(parsed(PHYSICAL).report.figures.is_empty());
+    let names = ExtraFigure::ALL.map(|figure| format!("\"{}\"", figure.name()));
+    let text = format!("{PHYSICAL}\n[report]\nfigures = [{}]\n", names.join(", "));
+    assert_eq!(parsed(&text).report.figures, ExtraFigure::ALL);
+    assert_eq!(parsed(&text).system(), parsed(PHYSICAL).system());
+    assert_eq!(parsed(&text).inputs(), parsed(PHYSICAL).inputs());
+    assert!(parsed(&format!("{REDUCED}\n[report]\n")).report.figures.is_empty());
+}
+
+#[test]
+fn figures_that_do_not_exist_are_refused() {
+    let list = |line: &str| format!("{PHYSICAL}\n[report]\n{line}\n");
+    let unknown = list("figures = [\"areas\", \"tranfser\"]");
+    let error = refused_with(&unknown, 20, "\"tranfser\"", "unknown figure \"tranfser\"");
+    says(&error, "did you mean \"transfer\"?");
+    says(
+        &error,
+        "expected one of areas, bifurcations, forcing-responses, modulation, restitutions",
+    );
+    let usual = refused_with(&list("figures = [\"map\"]"), 20, "\"map\"", "unknown figure \"map\"");
+    says(&usual, "the usual figures are in every report");
+    let twice = list("figures = [\"areas\",\n  \"areas\"]");
+    let error = refused_with(&twice, 21, "\"areas\"", "`figures` names \"areas\" twice");
+    says(&error, "expected each figure once");
+    let number = "`figures` holds a number, but it is a list of names";
+    refused_with(&list("figures = [7]"), 20, "7", number);
+    let text = "`figures` is text, but it is a list of names";
+    says(&refused_with(&list("figures = \"areas\""), 20, "\"areas\"", text), "between brackets");
+    let key = "unknown key `figure` in [report]";
+    says(
+        &refused_with(&list("figure = [\"areas\"]"), 20, "figure", key),
+        "did you mean `figures`?",
+    );
 }
 
 #[test]

@@ -13,6 +13,7 @@ mod physical;
 mod quantity;
 mod reader;
 mod reduced;
+mod report;
 mod scales;
 mod schema;
 mod simulation;
@@ -29,6 +30,7 @@ pub use quantity::{
     Damping, Dimension, Force, Frequency, Length, Mass, Quantity, QuantityError, Stiffness, Unit,
 };
 pub use reduced::{Reduced, Tuning};
+pub use report::{ExtraFigure, ReportSettings};
 pub use scales::{LengthUnit, Scales};
 pub use schema::{FILE_NAME as SCHEMA_FILE_NAME, schema};
 pub use simulation::SimulationSettings;
@@ -50,6 +52,8 @@ pub struct Case {
     pub design: Design,
     /// The table `[simulation]`.
     pub simulation: SimulationSettings,
+    /// The table `[report]`.
+    pub report: ReportSettings,
     inputs: Vec<Input>,
     system: System,
     scales: Scales,
@@ -66,12 +70,25 @@ pub enum Design {
 
 /// Every table with the keys it may have; the top level is "".
 const TABLES: &[(&str, &[&str])] = &[
-    ("", &["title", "source", "oscillator", "absorber", "excitation", "reduced", "simulation"]),
+    (
+        "",
+        &[
+            "title",
+            "source",
+            "oscillator",
+            "absorber",
+            "excitation",
+            "reduced",
+            "simulation",
+            "report",
+        ],
+    ),
     (physical::TABLES[0], physical::OSCILLATOR),
     (physical::TABLES[1], physical::ABSORBER),
     (physical::TABLES[2], physical::EXCITATION),
     (reduced::TABLE, reduced::KEYS),
     (simulation::TABLE, simulation::KEYS),
+    (report::TABLE, report::KEYS),
 ];
 
 const STARTING_CASE: &str = include_str!("starting_case.toml");
@@ -133,6 +150,7 @@ fn read(reader: &mut Reader, document: &DeTable) -> Option<Case> {
     let source = root.text(reader, "source", cited);
     let design = read_design(reader, &root);
     let simulation = simulation::read(reader, &root);
+    let report = report::read(reader, &root);
     let design = design?;
     let system = system_of(reader, &root, &design)?;
     Some(Case {
@@ -141,6 +159,7 @@ fn read(reader: &mut Reader, document: &DeTable) -> Option<Case> {
         text_hash: String::new(),
         design,
         simulation,
+        report,
         inputs: Vec::new(),
         system,
         scales: design.scales(),

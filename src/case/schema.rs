@@ -12,6 +12,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde_json::{Value, json};
 
 use super::quantity::{Damping, Dimension, Force, Frequency, Length, Mass, Quantity, Stiffness};
+use super::report::ReportTable;
 use super::simulation::SimulationTable;
 
 /// The name under which a case's first line refers to its schema.
@@ -41,6 +42,7 @@ struct CaseFile {
     excitation: Option<ExcitationTable>,
     reduced: Option<ReducedTable>,
     simulation: Option<SimulationTable>,
+    report: Option<ReportTable>,
 }
 
 /// The linear oscillator whose vibration is to be reduced.

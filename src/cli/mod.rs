@@ -6,6 +6,7 @@ mod case_file;
 mod completions;
 mod new;
 mod output;
+mod paper;
 mod progress;
 mod report;
 mod schema;
@@ -34,6 +35,7 @@ Examples:
   vinesink analyze damper.toml                  what the theory says of it
   vinesink simulate damper.toml                 what it does, from many starts
   vinesink report damper.toml                   the design report, in reports/damper
+  vinesink paper                                the paper's figures against the reports
   vinesink schema > vinesink.schema.json        let the editor complete and check cases
   vinesink help new                             what a command does, with examples";
 
@@ -43,6 +45,7 @@ enum Command {
     Analyze(analyze::Arguments),
     Simulate(simulate::Arguments),
     Report(report::Arguments),
+    Paper(paper::Arguments),
     Schema(schema::Arguments),
     Completions(completions::Arguments),
 }
@@ -73,6 +76,7 @@ impl Cli {
             Command::Analyze(arguments) => analyze::run(arguments),
             Command::Simulate(arguments) => simulate::run(arguments),
             Command::Report(arguments) => report::run(arguments),
+            Command::Paper(arguments) => paper::run(arguments),
             Command::Schema(arguments) => schema::run(arguments),
             Command::Completions(arguments) => completions::run(arguments),
         }

@@ -5,6 +5,7 @@ pub mod documents;
 pub mod figure;
 pub mod figures;
 pub mod numbers;
+pub mod paper;
 pub mod render;
 pub mod summary;
 

@@ -8,11 +8,13 @@ use tera::{Context, Kwargs, State, Tera, Value};
 use super::Report;
 use super::figure::{self, Figure, FigureError};
 use super::numbers::LengthFormat;
+use super::paper::Paper;
 use crate::case::Case;
 use crate::symbolic::{MathError, to_mathml};
 
 const MARKDOWN: &str = include_str!("../../templates/report.md.tera");
 const HTML: &str = include_str!("../../templates/report.html.tera");
+const PAPER: &str = include_str!("../../templates/paper.md.tera");
 const STYLE: &str = include_str!("../../templates/report.css");
 
 /// Why a report cannot be rendered.
@@ -62,6 +64,17 @@ pub fn files(
 /// [`RenderError::Template`] if template and report do not fit.
 pub fn markdown(report: &Report, case: &Case) -> Result<String, RenderError> {
     let text = engine("report.md", MARKDOWN)?.render("report.md", &context(report, case)?)?;
+    Ok(without_repeated_blank_lines(&text))
+}
+
+/// The page that compares the paper's figures, as Markdown.
+///
+/// # Errors
+/// [`RenderError::Template`] if template and page do not fit.
+pub fn paper(page: &Paper) -> Result<String, RenderError> {
+    let mut context = Context::new();
+    context.insert("paper", page);
+    let text = engine("paper.md", PAPER)?.render("paper.md", &context)?;
     Ok(without_repeated_blank_lines(&text))
 }
 
@@ -127,6 +140,7 @@ fn engine(name: &str, template: &str) -> Result<Tera, RenderError> {
     tera.register_filter("latex_of", |text: &str, _: Kwargs, _: &State| {
         dollars(text).unwrap_or_default().to_owned()
     });
+    tera.register_filter("lower_first", |text: &str, _: Kwargs, _: &State| lower_first(text));
     tera.register_filter("first_only", |list: Vec<Value>, _: Kwargs, _: &State| {
         list.into_iter().take(1).collect::<Vec<Value>>()
     });
@@ -151,6 +165,14 @@ fn markdown_text(text: &str) -> String {
         }
     }
     safe
+}
+
+/// A sentence that goes on after a colon.
+fn lower_first(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| {
+        first.to_lowercase().collect::<String>() + letters.as_str()
+    })
 }
 
 fn attribute(text: &str) -> String {

@@ -4,6 +4,7 @@
 pub mod confirmations;
 pub mod margins;
 pub mod scenes;
+pub mod stretches;
 
 use serde::Serialize;
 

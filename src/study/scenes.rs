@@ -1,13 +1,15 @@
 //! Simulations that exist for a figure: the motion itself, the neighbourhood in frequency, and the
 //! line between two asymmetric impacts and more.
 
+use std::f64::consts::FRAC_PI_2;
+
 use serde::Serialize;
 
-use crate::analysis::motion::state_of;
+use crate::analysis::motion::{read_off, state_of};
 use crate::analysis::{Analysis, BoundaryKind, boundaries};
 use crate::regimes::attractor::Effort;
 use crate::regimes::{Attractor, Regime};
-use crate::simulation::{Simulation, StartError, Stop, Trace};
+use crate::simulation::{Impact, Simulation, StartError, Stop, Trace};
 use crate::system::{State, System};
 use crate::validation::tolerance::LARGEST_DAMPING;
 
@@ -31,6 +33,25 @@ pub fn trace(
     let mut trace = Trace::new(samples_per_period);
     simulation.run(periods, u64::MAX, &mut trace);
     Ok(trace)
+}
+
+/// `[B/b, C/b]` of a state, in the plane of the manifold: `B` from the absorber's speed, which is
+/// constant between impacts and is `(2/pi) B Omega/(1 + eps)` in the sawtooth of (12); `C` from
+/// displacement and velocity of the centre of mass, `v` of (3).
+#[must_use]
+pub fn projected(system: &System, state: &State) -> [f64; 2] {
+    let (eps, omega) = (system.mass_ratio(), system.frequency_ratio());
+    let v = state.x + eps * state.y;
+    let velocity = state.x_velocity + eps * state.y_velocity;
+    [FRAC_PI_2 * (1.0 + eps) * state.y_velocity.abs() / omega, libm::hypot(v, velocity / omega)]
+}
+
+/// The same right after an impact.
+#[must_use]
+pub fn projected_after(system: &System, impact: &Impact) -> [f64; 2] {
+    let y = impact.x - impact.side.sign();
+    let (x_velocity, y_velocity) = (impact.x_velocity_after, impact.y_velocity_after);
+    projected(system, &State { x: impact.x, x_velocity, y, y_velocity })
 }
 
 /// What simulation finds at one frequency, everything else being the case's.
@@ -62,6 +83,61 @@ pub fn sweep(system: &System, frequency_ratios: &[f64]) -> Result<Vec<SweepPoint
         points.push(SweepPoint { frequency_ratio, peak: reached.peak, regime });
     }
     Ok(points)
+}
+
+/// What simulation finds at one clearance, everything else being the case's.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct WalkPoint {
+    /// Clearance over the case's.
+    pub clearance: f64,
+    /// Largest displacement of the oscillator over the case's clearance.
+    pub peak: f64,
+    /// Its regime.
+    pub regime: Regime,
+    /// `B/b` and `C/b`, over the clearance there: by the first harmonics; for a modulated motion, or
+    /// one with few impacts, by the mean over all impacts, since harmonics average away where phases
+    /// wander.
+    pub amplitudes: [f64; 2],
+}
+
+/// What simulation finds at the given clearances (over the case's), each from the motion that the
+/// theory predicts there, or from a moving absorber where it predicts none. Clearances at which the
+/// absorber hits its walls too often to be followed are left out.
+///
+/// # Errors
+/// [`StudyError`] where theory or simulation cannot be carried out.
+pub fn walk(system: &System, clearances: &[f64]) -> Result<Vec<WalkPoint>, StudyError> {
+    let mut points = Vec::new();
+    for &clearance in clearances {
+        let Ok(there) = system.with_clearance_scaled(clearance) else { continue };
+        let reached = Attractor::reach(&there, moving_start(&Analysis::of(&there)?), &POINT)?;
+        if reached.stop != Stop::EndTime {
+            continue;
+        }
+        points.push(WalkPoint {
+            clearance,
+            peak: clearance * reached.peak,
+            regime: reached.classification.regime,
+            amplitudes: amplitudes(&there, &reached),
+        });
+    }
+    Ok(points)
+}
+
+fn amplitudes(system: &System, reached: &Attractor) -> [f64; 2] {
+    let wanders =
+        matches!(reached.classification.regime, Regime::StronglyModulated | Regime::BelowTwo);
+    if !wanders || reached.impacts.is_empty() {
+        let seen = read_off(system, reached.oscillator_harmonic, reached.absorber_harmonic);
+        return [seen.absorber, seen.oscillator];
+    }
+    let mut mean = [0.0; 2];
+    for impact in &reached.impacts {
+        let [absorber, oscillator] = projected_after(system, impact);
+        mean[0] += absorber / reached.impacts.len() as f64;
+        mean[1] += oscillator / reached.impacts.len() as f64;
+    }
+    mean
 }
 
 /// On the largest motion that the theory predicts; else an absorber that crosses its cavity.

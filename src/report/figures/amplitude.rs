@@ -72,6 +72,19 @@ pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
     Ok(Some(Figure::new("amplitude", title).with_panel(panel).with_words(caption, alt)))
 }
 
+/// How simulated regimes are marked.
+pub(super) const KINDS: [(&str, Marker, &[Regime]); 5] = [
+    ("symmetric 1:1", Marker::filled(Shape::Circle), &[Regime::TwoSymmetric]),
+    ("asymmetric", Marker::hollow(Shape::Triangle), &[Regime::TwoAsymmetric]),
+    ("more impacts", Marker::hollow(Shape::Square), &[Regime::AboveTwo]),
+    (
+        "modulated or fewer",
+        Marker::filled(Shape::Cross).sized(8.0),
+        &[Regime::StronglyModulated, Regime::BelowTwo],
+    ),
+    ("at rest", Marker::hollow(Shape::Circle), &[Regime::AtRest]),
+];
+
 /// Peak over the clearance of the case's main attractor.
 fn observed(scene: &Scene) -> Option<f64> {
     let attractor = &scene.study.main_attractor()?.attractor;
@@ -127,17 +140,6 @@ fn peak(mass_ratio: f64, manifold: &Manifold, point: &ResponsePoint) -> f64 {
 /// Simulated peaks, by regime.
 fn markers(scene: &Scene, simulated: &[SweepPoint]) -> Vec<Layer> {
     let units = &scene.units;
-    let kinds: [(&str, Marker, &[Regime]); 5] = [
-        ("symmetric 1:1", Marker::filled(Shape::Circle), &[Regime::TwoSymmetric]),
-        ("asymmetric", Marker::hollow(Shape::Triangle), &[Regime::TwoAsymmetric]),
-        ("more impacts", Marker::hollow(Shape::Square), &[Regime::AboveTwo]),
-        (
-            "modulated or fewer",
-            Marker::filled(Shape::Cross).sized(8.0),
-            &[Regime::StronglyModulated, Regime::BelowTwo],
-        ),
-        ("at rest", Marker::hollow(Shape::Circle), &[Regime::AtRest]),
-    ];
     let layer = |(name, marker, regimes): (&str, Marker, &[Regime])| {
         let chosen = simulated.iter().filter(|point| regimes.contains(&point.regime));
         let marks: Vec<MarkedPoint> = chosen
@@ -155,7 +157,7 @@ fn markers(scene: &Scene, simulated: &[SweepPoint]) -> Vec<Layer> {
         let color = Role::Simulation.color();
         (!marks.is_empty()).then(|| Layer::marked(marker, color, marks).labelled(name))
     };
-    kinds.into_iter().filter_map(layer).collect()
+    KINDS.into_iter().filter_map(layer).collect()
 }
 
 fn words(scene: &Scene, here: Option<f64>) -> (String, String) {

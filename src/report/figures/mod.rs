@@ -4,18 +4,26 @@
 //! nothing to say for a case is left out.
 
 mod amplitude;
+mod areas;
+mod bifurcations;
 mod borders;
 mod branches;
 mod canvas;
+mod clearances;
+pub(super) mod forcing_responses;
+mod levels;
 mod manifold;
 mod map;
+pub(super) mod modulation;
 mod motion;
 mod plane;
 mod response;
+pub(super) mod restitutions;
 mod return_map;
+mod transfer;
 mod units;
 
-use crate::case::Case;
+use crate::case::{Case, ExtraFigure};
 use crate::regimes::{FoundAttractor, Regime};
 use crate::simulation::Stop;
 use crate::study::{CaseStudy, StudyError};
@@ -27,12 +35,16 @@ use units::Units;
 const ATTRACTORS: usize = 3;
 
 /// What every figure is made from.
-struct Scene<'a> {
+pub(super) struct Scene<'a> {
     study: &'a CaseStudy,
     units: Units,
 }
 
 impl<'a> Scene<'a> {
+    pub(super) fn new(case: &Case, study: &'a CaseStudy) -> Self {
+        Self { study, units: Units::of(case) }
+    }
+
     /// An attractor that moves and was followed to the end. One that was measured while it turned
     /// into another (its average is not that of the repetition it ends with) is none.
     fn drawn(&self, index: usize) -> Option<&'a FoundAttractor> {
@@ -46,14 +58,20 @@ impl<'a> Scene<'a> {
         let followed = found.attractor.stop == Stop::EndTime;
         (found.regime() != Regime::AtRest && followed && lasts).then_some(found)
     }
+
+    /// The first attractor that can be drawn: the one that most starts lead to.
+    fn first_drawn(&self) -> Option<&'a FoundAttractor> {
+        (0..self.study.attractors.len()).find_map(|index| self.drawn(index))
+    }
 }
 
-/// All figures in reading order, the case among its boundaries first.
+/// All figures in reading order, the case among its boundaries first, those that the case asks for
+/// last.
 ///
 /// # Errors
 /// [`StudyError`] where theory or simulation cannot be carried out.
 pub fn all(case: &Case, study: &CaseStudy) -> Result<Vec<Figure>, StudyError> {
-    let scene = Scene { study, units: Units::of(case) };
+    let scene = Scene::new(case, study);
     let mut figures = Vec::new();
     figures.extend(map::figure(&scene)?);
     figures.push(plane::figure(&scene)?);
@@ -64,5 +82,22 @@ pub fn all(case: &Case, study: &CaseStudy) -> Result<Vec<Figure>, StudyError> {
         figures.extend(motion::figure(&scene, index)?);
         figures.extend(return_map::figure(&scene, index));
     }
+    for wanted in &case.report.figures {
+        figures.extend(further(&scene, *wanted)?);
+    }
     Ok(figures)
+}
+
+/// A figure that is made only where a case asks for it.
+fn further(scene: &Scene, wanted: ExtraFigure) -> Result<Option<Figure>, StudyError> {
+    match wanted {
+        ExtraFigure::Areas => areas::figure(scene),
+        ExtraFigure::Bifurcations => bifurcations::figure(scene),
+        ExtraFigure::ForcingResponses => forcing_responses::figure(scene),
+        ExtraFigure::Modulation => modulation::figure(scene),
+        ExtraFigure::Restitutions => restitutions::figure(scene),
+        ExtraFigure::Clearances => clearances::figure(scene),
+        ExtraFigure::Transfer => transfer::figure(scene),
+        ExtraFigure::TransferStretches => transfer::stretches(scene),
+    }
 }

@@ -1,13 +1,12 @@
 //! A motion over time, and projected on the manifold (Figs. 4 and 8).
 
-use std::f64::consts::FRAC_PI_2;
-
 use crate::regimes::{Attractor, Regime};
 use crate::report::figure::{Axis, Figure, Layer, Layout, MarkedPoint, Panel, Role, Rule};
 use crate::report::numbers::{percent, significant};
 use crate::simulation::Trace;
+use crate::study::scenes::{projected, projected_after};
 use crate::study::{StudyError, scenes};
-use crate::system::{State, System};
+use crate::system::System;
 
 use super::Scene;
 use super::manifold::branches;
@@ -100,16 +99,10 @@ fn series(scene: &Scene, system: &System, trace: &Trace) -> [Panel; 2] {
     [top, low]
 }
 
-/// The motion in the amplitudes of the theory: `B` from the absorber's speed, which is constant
-/// between impacts, and `C` from displacement and velocity of the centre of mass.
+/// The motion in the amplitudes of the theory.
 fn projection(scene: &Scene, system: &System, trace: &Trace) -> Panel {
-    let (eps, omega) = (system.mass_ratio(), system.frequency_ratio());
-    let project = |state: &State| {
-        let v = state.x + eps * state.y;
-        let velocity = state.x_velocity + eps * state.y_velocity;
-        [FRAC_PI_2 * (1.0 + eps) * state.y_velocity.abs() / omega, libm::hypot(v, velocity / omega)]
-    };
-    let path: Vec<[f64; 2]> = trace.points.iter().map(|point| project(&point.state)).collect();
+    let path: Vec<[f64; 2]> =
+        trace.points.iter().map(|point| projected(system, &point.state)).collect();
     let farthest = path.iter().map(|at| at[0]).fold(0.0, f64::max);
     let highest = path.iter().map(|at| at[1]).fold(0.0, f64::max);
     let manifold = &scene.study.analysis.manifold;
@@ -117,11 +110,7 @@ fn projection(scene: &Scene, system: &System, trace: &Trace) -> Panel {
     let top = (1.15 * highest).max(1.3 * manifold.symmetry_breaking.oscillator);
     let [left, right, stable] = branches(manifold, last);
     // A motion that hardly moves in this plane would be lost without marks.
-    let landed = trace.impacts.iter().map(|(_, impact)| {
-        let y = impact.x - impact.side.sign();
-        let (x_velocity, y_velocity) = (impact.x_velocity_after, impact.y_velocity_after);
-        project(&State { x: impact.x, x_velocity, y, y_velocity })
-    });
+    let landed = trace.impacts.iter().map(|(_, impact)| projected_after(system, impact));
     let marks = if trace.impacts.len() > TOOLTIPS { Vec::new() } else { landed.collect() };
     Panel::new(
         Axis::linear("absorber amplitude B/b (1)").with_range(0.0, last),

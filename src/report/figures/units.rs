@@ -58,6 +58,34 @@ impl Units {
         self.scales.time_s(periods * system.period()).unwrap_or(periods)
     }
 
+    /// An acceleration over `omega0^2 b` in m/s², or as it is for a reduced case.
+    pub(super) fn acceleration(&self, dimensionless: f64) -> f64 {
+        self.scales.acceleration_m_per_s2(dimensionless).unwrap_or(dimensionless)
+    }
+
+    /// The label of an axis with an acceleration.
+    pub(super) const fn acceleration_axis(&self) -> &'static str {
+        match self.scales.natural_frequency_rad_per_s {
+            Some(_) => "acceleration (m/s²)",
+            None => "acceleration over ω₀²b (1)",
+        }
+    }
+
+    /// An impulse over `m1 omega0 b` in mN s, or in thousandths for a reduced case.
+    pub(super) fn impulse(&self, dimensionless: f64) -> f64 {
+        let physical =
+            self.scales.oscillator_mass_kg.zip(self.scales.velocity_m_per_s(dimensionless));
+        1e3 * physical.map_or(dimensionless, |(mass, velocity)| mass * velocity)
+    }
+
+    /// The unit of [`Self::impulse`].
+    pub(super) const fn impulse_unit(&self) -> &'static str {
+        match self.scales.natural_frequency_rad_per_s {
+            Some(_) => "mN s",
+            None => "10⁻³ m₁ω₀b",
+        }
+    }
+
     /// The label of a time axis.
     pub(super) const fn time_axis(&self) -> &'static str {
         match self.scales.natural_frequency_rad_per_s {

@@ -1,0 +1,52 @@
+//! `vinesink paper`
+
+use std::path::PathBuf;
+
+use clap::Args;
+use miette::{IntoDiagnostic, Result};
+use vinesink::report::figures;
+use vinesink::report::paper::{CASES, Member, Paper, TRANSFER};
+use vinesink::store;
+use vinesink::study::{CaseStudy, StudyEffort};
+
+use super::progress::Progress;
+use super::{Outcome, case_file, output};
+
+/// Compare every figure of the paper with what the program finds
+///
+/// Writes OUT/paper.md from the shipped cases. Its images are those of the cases' reports, which
+/// `vinesink report` writes into the same folder.
+#[derive(Debug, Args)]
+#[command(after_long_help = EXAMPLES)]
+pub struct Arguments {
+    /// The folder with the shipped cases
+    #[arg(long, value_name = "CASES", default_value = "cases")]
+    cases: PathBuf,
+    /// The folder that receives the page, beside the reports
+    #[arg(long, value_name = "OUT", default_value = "reports")]
+    out: PathBuf,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  vinesink report cases/*.toml && vinesink paper
+  vinesink paper --cases cases --out /somewhere/else";
+
+pub fn run(arguments: Arguments) -> Result<Outcome> {
+    let names: Vec<&str> = CASES.into_iter().chain([TRANSFER]).collect();
+    let progress = Progress::new("paper", names.len() as u64);
+    let mut members = Vec::new();
+    for name in names {
+        let case = case_file::read(&arguments.cases.join(format!("{name}.toml")))?;
+        let effort = StudyEffort::of(&case.simulation);
+        let study = CaseStudy::of(&case.system(), effort, &mut |_| {}).into_diagnostic()?;
+        let figures = figures::all(&case, &study).into_diagnostic()?;
+        members.push(Member { name: name.to_owned(), case, study, figures });
+        progress.advance(1);
+    }
+    let text = Paper::of(&members).and_then(|page| page.markdown()).into_diagnostic()?;
+    let path = arguments.out.join("paper.md");
+    store::write_file(&path, text.as_bytes())?;
+    output::print(format!("{}\n", path.display()))?;
+    Ok(Outcome::Done)
+}

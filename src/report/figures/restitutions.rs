@@ -1,0 +1,257 @@
+//! The manifold, and what it takes from the oscillator, for five restitutions (Fig. 9).
+
+use std::f64::consts::{FRAC_2_PI, PI};
+
+use crate::analysis::{Branch, Manifold, fixed_points};
+use crate::report::figure::{
+    Axis, Cell, Color, Dash, Figure, Label, Layer, Layout, MarkedPoint, Marker, Panel, Role, Rule,
+    Shape, Style,
+};
+use crate::report::numbers::significant;
+use crate::study::StudyError;
+use crate::system::{Parameters, System};
+
+use super::Scene;
+use super::manifold::observed;
+
+/// The restitutions of Fig. 9.
+const SHOWN: [(f64, Color, Dash); 5] = [
+    (1.0, Color::Vermillion, Dash::LongDashed),
+    (0.8, Color::Orange, Dash::Dashed),
+    (0.6, Color::BluishGreen, Dash::Solid),
+    (0.4, Color::Blue, Dash::DashDot),
+    (0.2, Color::Black, Dash::Dotted),
+];
+/// Steps in restitution of everything over `r`.
+const STEPS: u32 = 200;
+/// Samples of a branch of the manifold.
+const SAMPLES: u32 = 160;
+
+/// What the manifold gives at one restitution for the oscillator's amplitude.
+#[derive(Debug, Clone, Copy)]
+struct Taken {
+    restitution: f64,
+    absorber: f64,
+    /// `E/b = 8 B/(pi^2 b)`.
+    harmonic: f64,
+    /// `E sin(Theta)/b`, the part that enters the first equation of (18).
+    damping: f64,
+    branch: Branch,
+}
+
+pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
+    let Some(level) = level(scene) else { return Ok(None) };
+    let all = over_all(level)?;
+    let Some(strongest) = strongest(&all) else { return Ok(None) };
+    let first = manifolds(level)?;
+    let second = over_restitution(&all);
+    let (caption, alt) = words(scene, level, &strongest)?;
+    Ok(Some(
+        Figure::new("restitutions", "The manifold and what it takes, for five restitutions")
+            .with_size(860, 450)
+            .with_layout(Layout::Cells {
+                widths: vec![1.0, 1.0],
+                heights: vec![1.0],
+                cells: [0, 1].map(|column| Cell { column, row: 0, columns: 1, rows: 1 }).to_vec(),
+            })
+            .with_panel(first)
+            .with_panel(second)
+            .with_words(caption, alt),
+    ))
+}
+
+/// Which restitutions matter at an oscillator amplitude.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(in crate::report) struct Strongest {
+    /// Where `E` is largest.
+    pub harmonic: f64,
+    /// Where `E sin(Theta)` is largest.
+    pub damping: f64,
+    /// The smallest and the largest with a steady 1:1 motion.
+    pub stable: Option<(f64, f64)>,
+}
+
+/// The same for a case, by its own oscillator amplitude.
+///
+/// # Errors
+/// As the manifold.
+pub(in crate::report) fn strongest_of(scene: &Scene) -> Result<Option<Strongest>, StudyError> {
+    let Some(level) = level(scene) else { return Ok(None) };
+    Ok(strongest(&over_all(level)?))
+}
+
+fn strongest(all: &[Taken]) -> Option<Strongest> {
+    let largest = |value: fn(&Taken) -> f64| {
+        let at = all.iter().max_by(|a, b| value(a).total_cmp(&value(b)))?;
+        Some(at.restitution)
+    };
+    let stable = || all.iter().filter(|at| at.branch == Branch::Stable).map(|at| at.restitution);
+    Some(Strongest {
+        harmonic: largest(|at| at.harmonic)?,
+        damping: largest(|at| at.damping)?,
+        stable: stable().next().zip(stable().last()),
+    })
+}
+
+fn over_all(level: f64) -> Result<Vec<Taken>, StudyError> {
+    let mut all = Vec::new();
+    for k in 0..=STEPS {
+        all.extend(taken(f64::from(k) / f64::from(STEPS), level)?);
+    }
+    Ok(all)
+}
+
+/// The oscillator's amplitude `C/b`: the stable fixed point's, else the observed one.
+fn level(scene: &Scene) -> Option<f64> {
+    let stable = scene.study.analysis.stable_points().last().map(|point| point.oscillator);
+    stable.or_else(|| Some(observed(scene, scene.first_drawn()?)?[1]))
+}
+
+/// The right one of the two points of the manifold at a given `C/b`, from (16) as a quadratic in
+/// `B/b`; none below the fold.
+fn taken(restitution: f64, level: f64) -> Result<Option<Taken>, StudyError> {
+    let manifold = manifold(restitution)?;
+    let r = manifold.curvature;
+    let root = level * level * (1.0 + r) - r;
+    if root < 0.0 {
+        return Ok(None);
+    }
+    let absorber = (1.0 + root.sqrt()) / (1.0 + r);
+    let harmonic = 8.0 / (PI * PI) * absorber;
+    let sine = FRAC_2_PI * manifold.restitution_ratio * absorber / level;
+    let branch = manifold.branch(absorber - 1.0);
+    Ok(Some(Taken { restitution, absorber, harmonic, damping: harmonic * sine, branch }))
+}
+
+fn manifold(restitution: f64) -> Result<Manifold, StudyError> {
+    Ok(Manifold::of(restitution).map_err(crate::analysis::AnalysisError::from)?)
+}
+
+fn manifolds(level: f64) -> Result<Panel, StudyError> {
+    let (last, top) = (2.4_f64.max(1.3 + level), 1.5_f64.max(1.3 * level));
+    let x = Axis::linear("absorber amplitude B/b (1)").with_range(0.0, last);
+    let y = Axis::linear("oscillator amplitude C/b (1)").with_range(0.0, top);
+    let rule = Layer::rule(Rule::Horizontal(level), Role::Guide.style().colored(Color::Grey));
+    let mut panel = Panel::new(x, y)
+        .with_heading("manifolds: stable part thick")
+        .with(rule.labelled(Label::near("this case", [0.25 * last, level])));
+    let mut marks = Vec::new();
+    for (restitution, color, dash) in SHOWN {
+        let manifold = manifold(restitution)?;
+        let breaking = manifold.symmetry_breaking.absorber - 1.0;
+        let part = |first: f64, end: f64| -> Vec<[f64; 2]> {
+            (0..=SAMPLES)
+                .map(|k| manifold.point(first + (end - first) * f64::from(k) / f64::from(SAMPLES)))
+                .map(|point| [point.absorber, point.oscillator])
+                .collect()
+        };
+        let thin = Style::new(color, 1.0, dash);
+        let unstable = [part(-1.0, manifold.fold_shift), part(breaking, last - 1.0)];
+        let unstable = unstable.join(&[f64::NAN; 2]);
+        let stable = part(manifold.fold_shift, breaking);
+        panel = panel.with(Layer::styled(thin, unstable)).with(
+            Layer::styled(Style { width: 2.6, ..thin }, stable)
+                .labelled(format!("r = {restitution}")),
+        );
+        if let Some(at) = taken(restitution, level)? {
+            let shape = Shape::Circle;
+            let stable = at.branch == Branch::Stable;
+            let marker = if stable { Marker::filled(shape) } else { Marker::hollow(shape) };
+            let words = format!("r = {restitution}: B/b = {}", significant(at.absorber, 3));
+            let mark = MarkedPoint::new(at.absorber, level).with_tooltip(words);
+            marks.push(Layer::marked(marker.sized(8.0), color, [mark]));
+        }
+    }
+    panel.layers.extend(marks);
+    Ok(panel)
+}
+
+fn over_restitution(all: &[Taken]) -> Panel {
+    let x = Axis::linear("restitution r (1)").with_range(0.0, 1.0);
+    let highest = all.iter().map(|at| at.harmonic.max(at.damping)).fold(0.0, f64::max);
+    let y = Axis::linear("over the clearance (1)").with_range(0.0, 1.12 * highest);
+    let mut panel = Panel::new(x, y).with_heading("at this amplitude: stable part thick");
+    let values: [(&str, Color, fn(&Taken) -> f64); 2] = [
+        ("E/b", Color::SkyBlue, |at| at.harmonic),
+        ("E sin Θ/b", Color::Vermillion, |at| at.damping),
+    ];
+    for (name, color, value) in values {
+        let line = |stable: bool| -> Vec<[f64; 2]> {
+            let part = |at: &Taken| (at.branch == Branch::Stable) == stable;
+            let pairs = all.windows(2).filter(|pair| part(&pair[1]));
+            pairs
+                .flat_map(|pair| {
+                    let ends = [&pair[0], &pair[1]].map(|at| [at.restitution, value(at)]);
+                    [ends[0], ends[1], [f64::NAN; 2]]
+                })
+                .collect()
+        };
+        let [thick, thin] = [true, false].map(|stable| continuous(line(stable)));
+        panel = panel
+            .with(Layer::styled(Style::new(color, 1.2, Dash::Dashed), thin.clone()))
+            .with(Layer::styled(Style::new(color, 2.6, Dash::Solid), thick.clone()));
+        let named = if thick.is_empty() { 2 } else { 1 };
+        let at = panel.layers.len() - named;
+        panel.layers[at] = panel.layers[at].clone().labelled(name);
+    }
+    panel
+}
+
+/// Pairs that follow each other as one line.
+fn continuous(pairs: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+    let mut line: Vec<[f64; 2]> = Vec::new();
+    for pair in pairs.chunks(3) {
+        if line.last() != Some(&pair[0]) {
+            line.extend([[f64::NAN; 2], pair[0]]);
+        }
+        line.push(pair[1]);
+    }
+    line
+}
+
+/// The restitution with the smallest steady amplitude at the case's forcing, with that amplitude.
+fn best(system: &System) -> Result<Option<(f64, f64)>, StudyError> {
+    let mut best: Option<(f64, f64)> = None;
+    for k in 1..100 {
+        let restitution = f64::from(k) / 100.0;
+        let Ok(there) = System::new(Parameters { restitution, ..system.parameters() }) else {
+            continue;
+        };
+        let points = fixed_points::solve(&there, &manifold(restitution)?)?;
+        let stable = points.iter().filter(|point| point.stable).map(|point| point.oscillator);
+        if let Some(least) = stable.min_by(f64::total_cmp)
+            && best.is_none_or(|(_, so_far)| least < so_far)
+        {
+            best = Some((restitution, least));
+        }
+    }
+    Ok(best)
+}
+
+fn words(scene: &Scene, level: f64, strongest: &Strongest) -> Result<(String, String), StudyError> {
+    let range = match strongest.stable {
+        Some((first, last)) => {
+            format!("steady 1:1 for r from {} to {}", significant(first, 2), significant(last, 2))
+        }
+        None => "no steady 1:1 for any r".to_owned(),
+    };
+    let least = match best(&scene.study.analysis.system)? {
+        Some((restitution, amplitude)) => format!(
+            " At this forcing the smallest steady amplitude, {}, comes with r = {}.",
+            scene.units.length_text(amplitude),
+            significant(restitution, 2)
+        ),
+        None => String::new(),
+    };
+    let caption = format!(
+        "For an oscillator amplitude of {} there is {range}; E is largest for r = {}, what damps the oscillator, E sin Θ, for r = {}.{least}",
+        scene.units.length_text(level),
+        significant(strongest.harmonic, 2),
+        significant(strongest.damping, 2)
+    );
+    let alt = format!(
+        "Left, the manifold for five restitutions and the oscillator's amplitude; right, E and E sin Θ over the restitution at that \
+         amplitude. {caption}"
+    );
+    Ok((caption, alt))
+}
