@@ -4,11 +4,14 @@
 //! [`SlowFlow`] hold what follows from them, as expressions. [`Programs`] evaluates exactly these
 //! expressions, and [`Equations::for_report`] lists them for a reader. All of the asymptotic
 //! results hold at first order in the mass ratio, near 1:1 resonance, for two symmetric impacts
-//! per cycle.
+//! per cycle; [`SymmetricOrbits`] holds such motions exactly, at any mass ratio and frequency.
 
 mod boundaries;
 mod fixed_points;
 mod manifold;
+mod orbit_programs;
+mod orbit_report;
+mod orbits;
 mod programs;
 mod report;
 mod slow_flow;
@@ -17,8 +20,10 @@ mod stated;
 pub use boundaries::Boundaries;
 pub use fixed_points::FixedPoints;
 pub use manifold::Manifold;
+pub use orbit_programs::{OrbitPrograms, Turning};
+pub use orbits::{OrbitConditions, SteadyMotion, SymmetricOrbits};
 pub use programs::{ManifoldPoint, MeetingPoint, Programs, Stability};
-pub use report::ReportEquation;
+pub use report::{Motion, ReportEquation};
 pub use slow_flow::SlowFlow;
 pub use stated::Stated;
 
@@ -38,6 +43,8 @@ pub struct Equations {
     pub boundaries: Boundaries,
     /// The slow flow on the manifold.
     pub slow_flow: SlowFlow,
+    /// Exact symmetric orbits.
+    pub orbits: SymmetricOrbits,
     /// Evaluation of the above.
     pub programs: Programs,
 }
@@ -53,8 +60,10 @@ impl Equations {
         let fixed_points = FixedPoints::derive(&stated, &manifold)?;
         let boundaries = Boundaries::derive(&stated, &manifold, &fixed_points)?;
         let slow_flow = SlowFlow::derive(&stated, &manifold);
-        let programs = Programs::new(&stated, &manifold, &fixed_points, &boundaries, &slow_flow);
-        Ok(Self { stated, manifold, fixed_points, boundaries, slow_flow, programs })
+        let orbits = SymmetricOrbits::derive(&stated)?;
+        let programs =
+            Programs::new(&stated, &manifold, &fixed_points, &boundaries, &slow_flow, &orbits);
+        Ok(Self { stated, manifold, fixed_points, boundaries, slow_flow, orbits, programs })
     }
 }
 

@@ -4,7 +4,7 @@
 //! have values is said at each; [`Programs::values`] and [`Programs::at_shift`] set them.
 
 use super::fixed_points::with_shift;
-use super::{Boundaries, FixedPoints, Manifold, SlowFlow, Stated};
+use super::{Boundaries, FixedPoints, Manifold, OrbitPrograms, SlowFlow, Stated, SymmetricOrbits};
 use crate::symbolic::{Compiled, MissingValue, Symbol, Values};
 use crate::system::System;
 
@@ -58,6 +58,8 @@ pub struct Programs {
     meeting_detuning: Compiled<1>,
     rates: Compiled<2>,
     stability: Compiled<6>,
+    /// Exact symmetric orbits.
+    pub orbits: OrbitPrograms,
 }
 
 impl Programs {
@@ -67,6 +69,7 @@ impl Programs {
         fixed_points: &FixedPoints,
         boundaries: &Boundaries,
         slow_flow: &SlowFlow,
+        orbits: &SymmetricOrbits,
     ) -> Self {
         let [[a, b], [c, d]] = &slow_flow.jacobian;
         Self {
@@ -93,6 +96,7 @@ impl Programs {
             meeting_detuning: Compiled::new([&boundaries.meeting_detuning]),
             rates: Compiled::new([&slow_flow.ratio_rate, &slow_flow.phase_rate]),
             stability: Compiled::new([a, b, c, d, &slow_flow.trace, &slow_flow.determinant]),
+            orbits: OrbitPrograms::new(orbits),
         }
     }
 

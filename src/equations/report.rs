@@ -6,6 +6,16 @@ use crate::symbolic::Symbol::{
     ForcingPerClearance as gamma, ManifoldSquare as c_2, RatioRate, Shift as u,
 };
 use crate::symbolic::{Equation, Expr, Values, cos, format_number, sin, sqrt};
+use crate::system::Excitation;
+
+/// The motion whose numbers belong into an equation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Motion {
+    /// A fixed point of the slow flow: first order in the mass ratio.
+    FixedPoint,
+    /// An exact symmetric orbit; amplitudes have the same symbols and other values.
+    SymmetricOrbit,
+}
 
 /// An equation with its explanation.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,6 +28,10 @@ pub struct ReportEquation {
     pub gives: &'static str,
     /// Where it comes from.
     pub source: &'static str,
+    /// The motion that its amplitudes are of.
+    pub motion: Motion,
+    /// The kind of excitation that it is for, if not for all.
+    pub only: Option<Excitation>,
     /// The left side, in LaTeX.
     pub left: String,
     /// The left side where it is more than a name, so that numbers can be put in.
@@ -55,19 +69,21 @@ impl ReportEquation {
 
 const DERIVED: &str = "derived here";
 
-fn stated(equation: &Equation, gives: &'static str) -> ReportEquation {
+pub(super) fn stated(equation: &Equation, gives: &'static str) -> ReportEquation {
     ReportEquation {
         number: equation.number,
         title: equation.name,
         gives,
         source: equation.source,
+        motion: Motion::FixedPoint,
+        only: None,
         left: equation.left.to_latex(),
         left_expression: (!matches!(equation.left, Expr::Symbol(_))).then(|| equation.left.clone()),
         right: equation.right.clone(),
     }
 }
 
-fn derived(
+pub(super) fn derived(
     title: &'static str,
     gives: &'static str,
     left: impl Into<String>,
@@ -79,6 +95,8 @@ fn derived(
         title,
         gives,
         source: DERIVED,
+        motion: Motion::FixedPoint,
+        only: None,
         left,
         left_expression: None,
         right,
@@ -95,23 +113,36 @@ fn by_powers<const N: usize>(
     coefficients.iter().enumerate().map(one).collect()
 }
 
-fn latex(expression: impl Into<Expr>) -> String {
+pub(super) fn latex(expression: impl Into<Expr>) -> String {
     expression.into().to_latex()
 }
 
 impl Equations {
     /// All equations in reading order: what is assumed, the manifold, the fixed points, the
-    /// boundaries, the slow flow.
+    /// boundaries, the slow flow, the exact symmetric orbits.
     pub fn for_report(&self) -> Vec<ReportEquation> {
-        [self.assumptions(), self.manifold(), self.fixed_points(), self.boundaries(), self.flow()]
-            .concat()
+        [
+            self.assumptions(),
+            self.manifold(),
+            self.fixed_points(),
+            self.boundaries(),
+            self.flow(),
+            self.symmetric_orbits(),
+        ]
+        .concat()
     }
 
     fn assumptions(&self) -> Vec<ReportEquation> {
         let s = &self.stated;
         vec![
-            stated(&s.motion_of_base, "the motion that is simulated when the base moves"),
-            stated(&s.motion_by_force, "the motion that is simulated when a force acts"),
+            ReportEquation {
+                only: Some(Excitation::BaseDisplacement),
+                ..stated(&s.motion_of_base, "the motion that is simulated when the base moves")
+            },
+            ReportEquation {
+                only: Some(Excitation::Force),
+                ..stated(&s.motion_by_force, "the motion that is simulated when a force acts")
+            },
             stated(&s.absorber_motion, "a straight line between impacts"),
             stated(&s.restitution, "the velocity after an impact"),
             stated(&s.reduced_forcing, "the size of the excitation"),

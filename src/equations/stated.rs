@@ -70,7 +70,7 @@ pub struct Stated {
     pub determinant: Equation,
 }
 
-fn equation(
+pub(super) fn equation(
     number: Option<&'static str>,
     name: &'static str,
     left: impl Into<Expr>,
@@ -80,7 +80,7 @@ fn equation(
     Equation { number, name, left: left.into(), right: right.into(), source }
 }
 
-fn definition(name: &'static str, symbol: Symbol, right: impl Into<Expr>) -> Equation {
+pub(super) fn definition(name: &'static str, symbol: Symbol, right: impl Into<Expr>) -> Equation {
     equation(None, name, symbol, right, "definition")
 }
 

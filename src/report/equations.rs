@@ -4,10 +4,12 @@ use serde::Serialize;
 
 use super::numbers::LengthFormat;
 use crate::case::Case;
-use crate::equations::{ReportEquation, equations};
+use crate::equations::{Motion, ReportEquation, equations};
+use crate::orbits::flight::Flight;
+use crate::orbits::symmetric_orbits;
 use crate::study::CaseStudy;
 use crate::symbolic::{Symbol, Values};
-use crate::system::Excitation;
+use crate::system::System;
 
 /// Digits of the numbers that are put into formulas.
 const DIGITS: usize = 4;
@@ -36,17 +38,19 @@ pub struct Formula {
 
 /// All equations with the case's numbers.
 pub fn groups(case: &Case, study: &CaseStudy) -> Vec<EquationGroup> {
-    let values = values(case, study);
+    let (at_fixed_point, on_orbit) = (values(case, study), orbit_values(case, study));
     let mut groups: Vec<EquationGroup> = Vec::new();
-    let elsewhere = match study.analysis.system.excitation() {
-        Excitation::BaseDisplacement => equations().stated.motion_by_force.name,
-        Excitation::Force => equations().stated.motion_of_base.name,
-    };
-    let of_this_case = |equation: &ReportEquation| equation.title != elsewhere;
+    let excitation = study.analysis.system.excitation();
+    let of_this_case =
+        |equation: &ReportEquation| equation.only.is_none_or(|only| only == excitation);
     for equation in equations().for_report().into_iter().filter(of_this_case) {
+        let values = match equation.motion {
+            Motion::FixedPoint => &at_fixed_point,
+            Motion::SymmetricOrbit => &on_orbit,
+        };
         let formula = Formula {
             general: equation.to_latex(),
-            numbers: equation.to_latex_with(&values, DIGITS),
+            numbers: equation.to_latex_with(values, DIGITS),
         };
         match groups.last_mut() {
             Some(last) if last.title == equation.title => last.formulas.push(formula),
@@ -70,19 +74,49 @@ fn cited(equation: &ReportEquation) -> String {
     }
 }
 
-/// The case's numbers: dimensionless ones, lengths in the report's unit, and the amplitudes of the
-/// stable fixed point, else of the last one.
+/// The case's numbers that belong to no motion: dimensionless ones, and lengths in the report's unit.
+fn case_values(case: &Case, system: &System) -> Values {
+    let scales = case.scales();
+    let lengths = LengthFormat::of(&scales);
+    equations()
+        .programs
+        .values(system)
+        .with(Symbol::Clearance, lengths.number(scales.length(1.0)))
+        .with(Symbol::ReducedForcing, lengths.number(scales.forcing))
+        .with(Symbol::BaseAmplitude, lengths.number(scales.forcing) * system.mass_ratio())
+}
+
+/// The case's numbers with those of the exact symmetric orbit: of the larger attracting one, else of
+/// the last one. Symbols of an orbit have no numbers where there is none, and those of the steady
+/// motion none where there is no such motion.
+fn orbit_values(case: &Case, study: &CaseStudy) -> Values {
+    let programs = &equations().programs.orbits;
+    let system = &study.analysis.system;
+    let values = case_values(case, system);
+    let (Ok(flight), Ok(orbits)) = (Flight::of(system), symmetric_orbits(system)) else {
+        return values;
+    };
+    let free = flight.free(0.5 * system.period());
+    let propagator = values
+        .with(Symbol::ImpulseResponse, free.impulse)
+        .with(Symbol::ImpulseResponseRate, free.impulse_rate);
+    // All symbols that the programs need are set: the values stay as they are otherwise.
+    let curve = programs.curve(&propagator, system.excitation()).unwrap_or(propagator);
+    let shown = orbits.iter().rfind(|orbit| orbit.orbit.attracts()).or_else(|| orbits.last());
+    match shown {
+        Some(orbit) => programs.at_ratio(&curve, orbit.absorber).unwrap_or(curve),
+        None => curve,
+    }
+}
+
+/// The case's numbers with the amplitudes of the stable fixed point, else of the last one.
 fn values(case: &Case, study: &CaseStudy) -> Values {
     let programs = &equations().programs;
     let system = &study.analysis.system;
     let scales = case.scales();
     let lengths = LengthFormat::of(&scales);
     let length = |over_clearance: f64| lengths.number(scales.length(over_clearance));
-    let mut values = programs
-        .values(system)
-        .with(Symbol::Clearance, length(1.0))
-        .with(Symbol::ReducedForcing, lengths.number(scales.forcing))
-        .with(Symbol::BaseAmplitude, lengths.number(scales.forcing) * system.mass_ratio());
+    let mut values = case_values(case, system);
     let points = &study.analysis.fixed_points;
     let shown = points.iter().rfind(|point| point.stable).or_else(|| points.last());
     if let Some(point) = shown {
