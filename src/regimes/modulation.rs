@@ -245,4 +245,18 @@ mod tests {
         assert!((growth(&fading) - 0.25).abs() < 1e-12);
         assert_eq!(growth(&series("cccc")), 1.0);
     }
+
+    #[test]
+    fn a_rare_chattering_sequence_is_no_drift_and_more_visits_are() {
+        let quiet = record([1, 0], 1.0, 0.5);
+        let chatter = PeriodRecord { impacts: [40, 0], ..quiet };
+        let mut records = vec![quiet; 20];
+        records[15] = chatter;
+        assert!(settled(&records));
+        records[10..].fill(record([1, 1], 1.0, 0.5));
+        assert!(!settled(&records), "twice as many visits");
+        records.fill(quiet);
+        records[10..].fill(record([1, 0], 1.3, 0.5));
+        assert!(!settled(&records), "a larger peak");
+    }
 }
