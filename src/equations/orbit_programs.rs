@@ -135,7 +135,7 @@ impl OrbitPrograms {
     /// If a value is missing.
     pub fn ratios(&self, curve: &Values) -> Result<Option<[f64; 2]>, MissingValue> {
         let [discriminant] = self.discriminant.evaluate(curve)?;
-        if !(discriminant >= 0.0) {
+        if discriminant.is_nan() || discriminant < 0.0 {
             return Ok(None);
         }
         let curve = curve.clone().with(Symbol::Discriminant, discriminant);
