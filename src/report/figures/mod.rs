@@ -21,6 +21,7 @@ mod response;
 pub(super) mod restitutions;
 mod return_map;
 mod transfer;
+pub(super) mod transfer_stretches;
 mod units;
 
 use crate::case::{Case, ExtraFigure};
@@ -98,6 +99,6 @@ fn further(scene: &Scene, wanted: ExtraFigure) -> Result<Option<Figure>, StudyEr
         ExtraFigure::Restitutions => restitutions::figure(scene),
         ExtraFigure::Clearances => clearances::figure(scene),
         ExtraFigure::Transfer => transfer::figure(scene),
-        ExtraFigure::TransferStretches => transfer::stretches(scene),
+        ExtraFigure::TransferStretches => transfer_stretches::figure(scene),
     }
 }

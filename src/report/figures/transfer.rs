@@ -1,38 +1,33 @@
-//! Displacement, acceleration and every impact's strength over some seconds (Fig. 12), and three
-//! short stretches of the same (Figs. 12d to 12f).
+//! Displacement, acceleration and every impact's strength over some seconds (Fig. 12).
 
 use std::f64::consts::TAU;
 
-use crate::report::figure::{
-    Axis, Color, Dash, Figure, Layer, Layout, MarkedPoint, Panel, Role, Style,
-};
-use crate::report::numbers::{percent, signed, significant};
+use crate::report::figure::{Axis, Color, Dash, Figure, Layer, Layout, Panel, Role, Style};
+use crate::report::numbers::{percent, significant};
 use crate::simulation::{Trace, TracePoint};
-use crate::study::stretches::{Periods, SHORTEST_CAPTURE, Stretch, impulse};
+use crate::study::stretches::{Periods, Stretch, impulse};
 use crate::study::{StudyError, scenes};
 use crate::system::{Excitation, System};
 
 use super::Scene;
 
 /// Periods searched for a typical window.
-const PERIODS: u64 = 400;
+pub(super) const PERIODS: u64 = 400;
 /// Samples per period: enough for smooth displacements.
 const DENSITY: f64 = 24.0;
 /// Seconds shown, as in the paper; a reduced case shows so many periods.
 const SECONDS: f64 = 5.0;
 const REDUCED: usize = 42;
-/// Periods of a short stretch.
-const SHORT: usize = 5;
 
 /// A motion, the window that is shown of it, and what its periods look like.
-struct Window {
-    trace: Trace,
-    periods: Periods,
-    window: Stretch,
+pub(super) struct Window {
+    pub trace: Trace,
+    pub periods: Periods,
+    pub window: Stretch,
 }
 
 impl Window {
-    fn of(scene: &Scene) -> Result<Option<Self>, StudyError> {
+    pub fn of(scene: &Scene) -> Result<Option<Self>, StudyError> {
         let Some(found) = scene.first_drawn() else { return Ok(None) };
         let system = &scene.study.analysis.system;
         let trace = scenes::trace(system, found.attractor.state, PERIODS, DENSITY)?;
@@ -48,7 +43,7 @@ impl Window {
         Ok(Some(Self { trace, periods, window }))
     }
 
-    fn points(&self, stretch: Stretch) -> impl Iterator<Item = &TracePoint> {
+    pub fn points(&self, stretch: Stretch) -> impl Iterator<Item = &TracePoint> {
         self.trace.points.iter().filter(move |point| stretch.holds(point.periods))
     }
 }
@@ -63,11 +58,11 @@ fn acceleration(system: &System, point: &TracePoint) -> f64 {
 
 /// Displacement of the base over the clearance, `F sin(Omega tau)`; for a force the displacement
 /// that it would give at rest.
-fn excitation(system: &System, periods: f64) -> f64 {
+pub(super) fn excitation(system: &System, periods: f64) -> f64 {
     system.mass_ratio() * system.forcing_per_clearance() * libm::sin(TAU * periods.fract())
 }
 
-fn excitation_name(system: &System) -> &'static str {
+pub(super) fn excitation_name(system: &System) -> &'static str {
     match system.excitation() {
         Excitation::BaseDisplacement => "base",
         Excitation::Force => "force over stiffness",
@@ -163,91 +158,4 @@ fn words(scene: &Scene, shown: &Window, largest: f64) -> (String, String) {
          impulse of every impact. {caption}"
     );
     (caption, alt)
-}
-
-/// Three short stretches.
-pub(super) fn stretches(scene: &Scene) -> Result<Option<Figure>, StudyError> {
-    let Some(shown) = Window::of(scene)? else { return Ok(None) };
-    let all = Stretch { first: 0, periods: shown.periods.count() };
-    // The window that is shown as a whole, or else the whole motion that was searched.
-    let pick =
-        |choose: &dyn Fn(Stretch) -> Option<Stretch>| choose(shown.window).or_else(|| choose(all));
-    let chosen = [
-        ("d", "1:1, yet it grows", pick(&|outer| weak(&shown.periods, outer))),
-        ("e", "1:1, it falls", pick(&|outer| shown.periods.decrease(outer, SHORT))),
-        ("f", "few impacts", pick(&|outer| shown.periods.sparse(outer, SHORT))),
-    ];
-    let system = &scene.study.analysis.system;
-    let units = &scene.units;
-    let mut figure = Figure::new("transfer-stretches", "Three short stretches of the transfer")
-        .with_size(720, 640)
-        .with_layout(Layout::Column);
-    let mut told = Vec::new();
-    for (letter, name, stretch) in chosen {
-        let Some(stretch) = stretch else { continue };
-        let strengths: Vec<f64> = shown
-            .trace
-            .impacts
-            .iter()
-            .filter(|(at, _)| stretch.holds(*at))
-            .map(|(_, impact)| units.impulse(impulse(system.mass_ratio(), impact)))
-            .collect();
-        let change = shown.periods.growth(stretch) - 1.0;
-        let mean = strengths.iter().sum::<f64>() / strengths.len().max(1) as f64;
-        let each = match strengths.len() {
-            0 => String::new(),
-            _ => format!(" of {} {} on average", significant(mean, 3), units.impulse_unit()),
-        };
-        let change = format!("{} %", signed(100.0 * change, 0));
-        let (periods, impacts) = (stretch.periods, strengths.len());
-        told.push(format!("{letter}: {impacts} impacts in {periods} periods{each}, peak {change}"));
-        let heading = format!("{letter}: {name}: {impacts} impacts{each}, peak {change}");
-        figure = figure.with_panel(panel(scene, &shown, stretch).with_heading(heading));
-    }
-    if figure.panels.is_empty() {
-        return Ok(None);
-    }
-    let missing = match told.iter().any(|words| words.starts_with("d:")) {
-        true => String::new(),
-        false => format!(
-            " No stretch d: in {PERIODS} periods the peak never grows over {SHORTEST_CAPTURE} captured ones."
-        ),
-    };
-    let caption = format!("{}.{missing}", told.join("; "));
-    let alt = format!(
-        "Displacement of oscillator and base over up to {SHORT} excitation periods, three times, with the impacts marked. {caption}"
-    );
-    Ok(Some(figure.with_words(caption, alt)))
-}
-
-/// The longest stretch, up to the usual one, that grows although captured.
-fn weak(periods: &Periods, outer: Stretch) -> Option<Stretch> {
-    (SHORTEST_CAPTURE..=SHORT).rev().find_map(|length| periods.weak(outer, length))
-}
-
-fn panel(scene: &Scene, shown: &Window, stretch: Stretch) -> Panel {
-    let system = &scene.study.analysis.system;
-    let units = &scene.units;
-    // A time axis of its own would hide where in the window the stretch lies.
-    let time = |periods: f64| units.time(system, periods - shown.window.first as f64);
-    let inside = |value: &dyn Fn(&TracePoint) -> f64| -> Vec<[f64; 2]> {
-        shown.points(stretch).map(|point| [time(point.periods), value(point)]).collect()
-    };
-    let x = inside(&|point| units.length(point.state.x));
-    let base = inside(&|point| units.length(excitation(system, point.periods)));
-    let marks =
-        shown.trace.impacts.iter().filter(|(at, _)| stretch.holds(*at)).map(|(at, impact)| {
-            let strength = units.impulse(impulse(system.mass_ratio(), impact));
-            MarkedPoint::new(time(*at), units.length(impact.x)).with_tooltip(format!(
-                "impact of {} {}",
-                significant(strength, 3),
-                units.impulse_unit()
-            ))
-        });
-    let (from, to) = (time(stretch.first as f64), time(stretch.end() as f64));
-    let axis = Axis::linear(units.time_axis()).with_range(from, to);
-    Panel::new(axis, Axis::linear(units.length_axis("x")))
-        .with(Layer::curve(Role::Forcing, base).labelled(excitation_name(system)))
-        .with(Layer::curve(Role::Simulation, x).labelled("oscillator"))
-        .with(Layer::points(Role::Impact, marks).labelled("impacts"))
 }

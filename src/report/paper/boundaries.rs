@@ -4,7 +4,7 @@ use super::{Check, Draft, Member, PaperError, Shelf, TRANSFER, check};
 use crate::analysis::{Boundaries, Branch, SaddleNode};
 use crate::regimes::Regime;
 use crate::report::figures::forcing_responses;
-use crate::report::numbers::{percent, significant};
+use crate::report::numbers::{MINUS, percent, significant};
 use crate::study::StudyError;
 use crate::study::scenes::{WalkPoint, walk};
 use crate::validation::tolerance::asymptotic_error;
@@ -166,10 +166,10 @@ pub(super) fn figure_6(shelf: &Shelf) -> Result<Draft, PaperError> {
             check(
                 meeting.forcing_over_clearance > 0.0,
                 format!(
-                    "There is one P1: {} Hz, $\\sigma = {}$, $\\gamma = {}$, that is $b = {}$ with this $F$.",
+                    "There is one P1: {} Hz, $\\sigma = {}$, $\\gamma = {}$, that is b = {} with this $F$.",
                     significant(frequency, 5),
-                    significant(meeting.detuning, 4),
-                    significant(meeting.forcing_over_clearance, 4),
+                    tex(meeting.detuning),
+                    tex(meeting.forcing_over_clearance),
                     member.length(clearance)
                 ),
             ),
@@ -182,6 +182,11 @@ pub(super) fn figure_6(shelf: &Shelf) -> Result<Draft, PaperError> {
         ],
         missing: "$F$, hence any clearance of a boundary; the coordinates of P1.",
     })
+}
+
+/// A number inside a formula, where a minus is a hyphen.
+fn tex(value: f64) -> String {
+    significant(value, 4).replace(MINUS, "-")
 }
 
 /// Whether the oscillator vibrates least where 1:1 resonance ends.
@@ -241,6 +246,7 @@ pub(super) fn figure_7(shelf: &Shelf) -> Result<Draft, PaperError> {
             ),
         ],
         remarks: vec![
+            "The four were chosen here: 2.5 times and once the smallest $\\gamma$ of symmetry breaking, a value inside Z3, and 0.85 of the smallest $\\gamma$ of the Hopf boundary.".into(),
             "Other than in the paper the responses are drawn with their unstable parts, isolated loops included.".into(),
             "Being in Z3 is not vibrating less: at 8 Hz the absorber increases the vibration although the case lies in Z3 (first finding above).".into(),
         ],

@@ -1,0 +1,150 @@
+//! The page that goes through the paper's figures, as it is committed, and what it needs.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use assert_cmd::Command;
+use regex::Regex;
+use tempfile::TempDir;
+use vinesink::case::{Case, ExtraFigure};
+use vinesink::report::paper::{CASES, TRANSFER};
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).to_owned()
+}
+
+fn page() -> String {
+    fs::read_to_string(root().join("reports/paper.md")).expect("is committed")
+}
+
+fn found<'a>(pattern: &str, text: &'a str) -> Vec<&'a str> {
+    let pattern = Regex::new(pattern).expect("a pattern");
+    pattern.captures_iter(text).map(|at| at.get(1).expect("a group").as_str()).collect()
+}
+
+/// The section of one figure.
+fn section<'a>(page: &'a str, number: &str) -> &'a str {
+    let start = page.find(&format!("\n## Fig. {number}\n")).expect("a section");
+    let rest = &page[start + 1..];
+    rest[3..].find("\n## ").map_or(rest, |end| &rest[..end + 3])
+}
+
+#[test]
+fn every_figure_of_the_paper_is_there_in_order() {
+    let page = page();
+    let sections = found(r"(?m)^## Fig\. (\d+)$", &page);
+    assert_eq!(sections, ["3", "4", "5", "6", "7", "8", "9", "11", "12"]);
+    let rows = found(r"(?m)^\| \[?(\d+)", &page);
+    assert_eq!(rows, ["1", "2", "3", "4", "5", "6", "7", "8", "9", "10", "11", "12"]);
+    for number in sections {
+        let section = section(&page, number);
+        assert!(section.contains("<img src="), "Fig. {number} has no image");
+        assert!(section.contains("\nNot given in the paper: "), "Fig. {number}");
+        assert!(section.contains("holds"), "Fig. {number} has nothing checked");
+    }
+    for wrong in ["NaN", "infinite", "undefined", "{{"] {
+        assert!(!page.contains(wrong), "{wrong}");
+    }
+}
+
+#[test]
+fn every_link_leads_somewhere() {
+    let page = page();
+    let reports = root().join("reports");
+    let images = found("src=\"([^\"]+)\"", &page);
+    assert!(images.len() >= 25, "{} images", images.len());
+    let links = found(r"\]\(([^)#]+)\)", &page);
+    assert!(links.len() >= images.len(), "{} links", links.len());
+    for link in images.iter().chain(&links) {
+        assert!(reports.join(link).is_file(), "{link} is linked and missing");
+    }
+    for anchor in found(r"\]\(#([^)]+)\)", &page) {
+        let heading = anchor.replace("fig-", "## Fig. ");
+        assert!(page.lines().any(|line| line == heading), "#{anchor} leads nowhere");
+    }
+    let alts = found("alt=\"([^\"]*)\"", &page);
+    assert!(alts.len() == images.len() && alts.iter().all(|alt| alt.len() > 60));
+}
+
+/// The sentences that explain what differs are written for exactly these statements.
+#[test]
+fn what_does_not_hold_is_what_the_text_explains() {
+    let page = page();
+    let failing = |number: &str| -> Vec<String> {
+        let lines = section(&page, number).lines();
+        let lines = lines.filter_map(|line| line.strip_prefix("- **does not hold**: "));
+        lines.map(|line| line.chars().take(24).collect()).collect()
+    };
+    for number in ["3", "4", "5", "7", "8"] {
+        assert_eq!(failing(number), [""; 0], "Fig. {number}");
+        assert!(section(&page, number).contains(": reproduced.**"), "Fig. {number}");
+    }
+    assert_eq!(failing("6"), ["The vibration is smalles"]);
+    assert_eq!(failing("9"), ["$E$ has its maximum at a", "One amplitude puts $r = "]);
+    assert_eq!(failing("11"), ["(e) strongly modulated r", "(a) The impacts at b = 0"]);
+    assert_eq!(failing("12"), ["The paper's case, 8 Hz a", "(d) It grows although th"]);
+    for number in ["6", "9", "11", "12"] {
+        let section = section(&page, number);
+        assert!(section.contains(": reproduced with a difference.**"), "Fig. {number}");
+    }
+    assert!(section(&page, "11").contains("Another $F$ does not mend that"));
+}
+
+/// Check values of an independent program: P1, and the boundaries at both frequencies.
+#[test]
+fn the_page_states_the_known_numbers() {
+    let page = page();
+    for (number, known) in [
+        ("3", "$B/b = 1.681$"),
+        ("5", "Hopf, 26.5 mm"),
+        ("5", "vanish (34.9 mm)"),
+        ("5", "vanish (16.3 mm)"),
+        ("6", "8.3036 Hz, $\\sigma = -0.7096$, $\\gamma = 1.119$"),
+    ] {
+        assert!(section(&page, number).contains(known), "Fig. {number} lacks {known}");
+    }
+    assert!(page.contains("3.56 mm instead of 3.01 mm"), "8 Hz");
+}
+
+#[test]
+fn every_further_figure_is_in_a_shipped_report() {
+    let mut shown = BTreeSet::new();
+    for name in CASES.into_iter().chain([TRANSFER]) {
+        let path = root().join(format!("cases/{name}.toml"));
+        let text = fs::read_to_string(&path).expect("is shipped");
+        let case = Case::parse(name, &text).expect("is valid");
+        for figure in &case.report.figures {
+            let drawing = root().join(format!("reports/{name}/figures/{}.svg", figure.name()));
+            assert!(drawing.is_file(), "{} is asked for and missing", drawing.display());
+            shown.insert(figure.name());
+        }
+    }
+    assert_eq!(shown, ExtraFigure::ALL.map(ExtraFigure::name).into());
+}
+
+#[test]
+fn a_missing_case_or_figure_is_named() {
+    let folder = TempDir::new().expect("a folder");
+    let mut command = Command::cargo_bin("vinesink").expect("built");
+    let output =
+        command.arg("paper").arg("--cases").arg(folder.path()).arg("--out").arg(folder.path());
+    let output = output.assert().code(2).get_output().clone();
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(message.contains("li2016-8p5hz-fig4a.toml"), "{message}");
+    assert!(!folder.path().join("paper.md").exists());
+
+    for name in CASES.into_iter().chain([TRANSFER]) {
+        let text = fs::read_to_string(root().join(format!("cases/{name}.toml"))).expect("shipped");
+        // Few starts: what is asked is which figures there are.
+        let text = text.split("\n[report]").next().expect("a design").to_owned()
+            + "\n[simulation]\nstarts = 1\nperiods = 100\n";
+        fs::write(folder.path().join(format!("{name}.toml")), text).expect("writable");
+    }
+    let mut command = Command::cargo_bin("vinesink").expect("built");
+    let output =
+        command.arg("paper").arg("--cases").arg(folder.path()).arg("--out").arg(folder.path());
+    let output = output.assert().code(2).get_output().clone();
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(message.contains("has no figure") && message.contains("[report]"), "{message}");
+}
