@@ -12,8 +12,8 @@ use vinesink::orbits::branch::{Direction, Settings, follow};
 use vinesink::orbits::newton::solve;
 use vinesink::orbits::switching::{branch_off, continue_beyond};
 use vinesink::orbits::{
-    Bifurcation, Boundaries, Branch, BranchEnd, Closure, Cycle, Orbit, OrbitError, Origin, Parameter,
-    SpecialPoint, SymmetricFamily, symmetric_orbits,
+    Bifurcation, Boundaries, Branch, BranchEnd, Closure, Cycle, Orbit, OrbitError, Origin,
+    Parameter, SpecialPoint, SymmetricFamily, symmetric_orbits,
 };
 use vinesink::system::System;
 
@@ -259,7 +259,8 @@ fn the_border_between_two_and_more_impacts_is_a_grazing() {
         // Between symmetry breaking and period doubling a simulation settles on two impacts.
         let middle = 0.5 * (doubling + asymmetric.symmetry_breaking);
         let there = system.with_clearance_scaled(middle).expect("valid");
-        let impacts = impacts_from(&there, &common_start(&there), vinesink::orbits::Wall::Plus, 4000);
+        let impacts =
+            impacts_from(&there, &common_start(&there), vinesink::orbits::Wall::Plus, 4000);
         let last = &impacts[impacts.len() - 5..];
         let passed = (last[4].tau - last[0].tau) / there.period();
         assert!((passed - 2.0).abs() < 1e-6, "{passed}");

@@ -5,7 +5,7 @@ mod common;
 
 use std::f64::consts::PI;
 
-use common::table1;
+use common::table_1;
 use proptest::prelude::*;
 use vinesink::equations::{Motion, OrbitPrograms, equations};
 use vinesink::orbits::flight::Flight;
@@ -184,7 +184,7 @@ fn conditions() -> Vec<Expr> {
 /// expressions alone once `g` and `g'` are known.
 #[test]
 fn the_check_value_of_table_1_follows_from_the_expressions() {
-    let values = curve_of(&table1(8.0, 7.5)).with(Clearance, 7.5);
+    let values = curve_of(&table_1(8.0, 7.5)).with(Clearance, 7.5);
     let [_, larger] = programs().ratios(&values).expect("set").expect("two orbits");
     let at = programs().at_ratio(&values, larger).expect("set");
     assert_near(of(&at, ImpactDisplacement), -3.110, 0.5e-3, "x_0 in mm");
@@ -221,7 +221,7 @@ fn the_formulas_read_as_on_paper() {
 fn the_determinant_is_that_of_the_half_period_map() {
     let determinant = &equations().orbits.conditions.determinant.right;
     for (frequency, clearance) in [(8.0, 7.5), (8.0, 15.0), (8.5, 20.0), (9.0, 5.0)] {
-        let system = table1(frequency, clearance);
+        let system = table_1(frequency, clearance);
         let map = ImpactMap::of(&system).expect("damped");
         let values = curve_of(&system);
         let found = number(determinant, &values);
@@ -239,7 +239,7 @@ fn the_determinant_is_that_of_the_half_period_map() {
 /// `d tau = -dw / w'-` against the flight of a displaced start, timed by bisection.
 #[test]
 fn a_flight_gets_longer_by_what_is_stated() {
-    let system = table1(8.0, 15.0);
+    let system = table_1(8.0, 15.0);
     let map = ImpactMap::of(&system).expect("damped");
     let orbit = symmetric_orbits(&system).expect("damped").pop().expect("exists");
     let values = programs().at_ratio(&curve_of(&system), orbit.absorber).expect("set");
@@ -376,10 +376,10 @@ fn the_report_s_formulas_render_whatever_has_a_value() {
     let exact: Vec<_> =
         list.iter().filter(|equation| equation.motion == Motion::SymmetricOrbit).collect();
     assert!(exact.len() > 30, "{}", exact.len());
-    let system_at_rest = table1(8.0, 30.0);
+    let system_at_rest = table_1(8.0, 30.0);
     assert!(symmetric_orbits(&system_at_rest).expect("damped").is_empty());
-    let orbit = symmetric_orbits(&table1(8.0, 15.0)).expect("damped").pop().expect("exists");
-    let with_orbit = programs().at_ratio(&curve_of(&table1(8.0, 15.0)), orbit.absorber);
+    let orbit = symmetric_orbits(&table_1(8.0, 15.0)).expect("damped").pop().expect("exists");
+    let with_orbit = programs().at_ratio(&curve_of(&table_1(8.0, 15.0)), orbit.absorber);
     let undamped = equations().programs.values(&system(0.01, 0.0, 0.6, 1.0, 1.0));
     let mut complete = 0;
     for equation in exact {

@@ -54,9 +54,10 @@ impl Boundaries {
     /// [`OrbitError::NoSteadyMotion`] for an undamped oscillator driven at its natural frequency.
     pub fn of(system: &System) -> Result<Self, OrbitError> {
         let symmetric = SymmetricFamily::of(system)?;
-        let breaking = symmetric.limits.iter().find(|limit| {
-            limit.kind == Bifurcation::SymmetryBreaking && limit.bounds_stability
-        });
+        let breaking = symmetric
+            .limits
+            .iter()
+            .find(|limit| limit.kind == Bifurcation::SymmetryBreaking && limit.bounds_stability);
         // A branch that cannot be entered is a boundary that is not drawn.
         let asymmetric = breaking.and_then(|limit| asymmetric(system, limit).ok());
         Ok(Self { frequency_ratio: system.frequency_ratio(), symmetric, asymmetric })

@@ -94,9 +94,8 @@ impl FullSystem {
             let [from, to] = stretch.clearance;
             let steps = (libm::log(to / from) * CLEARANCES_PER_E_FOLD).ceil().clamp(2.0, 2000.0);
             // Its ends are where it stops attracting.
-            (1..steps as u32).map(move |k| {
-                from * libm::exp(libm::log(to / from) * f64::from(k) / steps)
-            })
+            (1..steps as u32)
+                .map(move |k| from * libm::exp(libm::log(to / from) * f64::from(k) / steps))
         });
         let tried = candidates.filter_map(|factor| {
             let there = self.system.with_clearance_scaled(factor).ok()?;

@@ -9,8 +9,8 @@ use serde::Serialize;
 
 use super::OrbitError;
 use super::impact_map::ImpactMap;
-use super::orbit::Cycle;
 use super::multipliers::{Multipliers, minus_one, unit_product};
+use super::orbit::Cycle;
 use super::special::Bifurcation;
 use super::symmetric::{SymmetricCurve, SymmetricOrbit, symmetric_orbit};
 use crate::numerics::bracket::brent;

@@ -8,9 +8,7 @@ use serde::Serialize;
 
 use crate::analysis::{Analysis, Area, Branch, FixedPoint, ManifoldPoint, Strip};
 use crate::case::Scales;
-use crate::orbits::{
-    AsymmetricOrbits, Bifurcation, FullSystem, Leading, Origin, SymmetricOrbit,
-};
+use crate::orbits::{AsymmetricOrbits, Bifurcation, FullSystem, Leading, Origin, SymmetricOrbit};
 use crate::regimes::{Attractor, Evidence, FoundAttractor, Regime};
 use crate::simulation::{Energy, Stop, SustainedContact};
 use crate::study::{SettledArea, SettledBy};
@@ -167,9 +165,8 @@ impl AnalysisDocument {
 impl OrbitDocument {
     fn new(orbit: &SymmetricOrbit, scales: &Scales) -> Self {
         let SymmetricOrbit { orbit: found, .. } = orbit;
-        let velocity = |value: f64| {
-            scales.velocity_m_per_s(value).unwrap_or_else(|| scales.length(value))
-        };
+        let velocity =
+            |value: f64| scales.velocity_m_per_s(value).unwrap_or_else(|| scales.length(value));
         Self {
             impact_displacement: scales.length(orbit.impact_displacement),
             peak_displacement: scales.length(orbit.peaks.displacement),

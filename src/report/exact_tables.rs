@@ -3,7 +3,7 @@
 use super::numbers::{LengthFormat, fixed, percent, significant};
 use super::tables::{Table, table};
 use super::verdict::relative;
-use crate::analysis::{Branch, BoundaryKind};
+use crate::analysis::{BoundaryKind, Branch};
 use crate::case::{Case, Scales};
 use crate::orbits::{Leading, SymmetricOrbit};
 use crate::study::CaseStudy;
@@ -106,14 +106,8 @@ pub fn boundaries(case: &Case, study: &CaseStudy) -> Table {
         ];
         for (name, at) in more {
             let Some(at) = at else { continue };
-            let cells = [
-                name.to_owned(),
-                none(),
-                length(at),
-                none(),
-                relative(at),
-                "no".to_owned(),
-            ];
+            let cells =
+                [name.to_owned(), none(), length(at), none(), relative(at), "no".to_owned()];
             rows.push((at, cells));
         }
     }

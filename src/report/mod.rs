@@ -159,12 +159,7 @@ impl Report {
                 effort: study.effort,
             },
             data: ReportData {
-                analysis: AnalysisDocument::new(
-                    &study.analysis,
-                    &study.exact,
-                    study.area,
-                    &scales,
-                ),
+                analysis: AnalysisDocument::new(&study.analysis, &study.exact, study.area, &scales),
                 attractors: study
                     .attractors
                     .iter()

@@ -4,19 +4,14 @@ use std::fmt::Write as _;
 
 use super::numbers::{LengthFormat, fixed, percent, significant};
 use crate::analysis::{Analysis, Strip};
-use crate::orbits::FullSystem;
 use crate::case::Case;
+use crate::orbits::FullSystem;
 use crate::regimes::{Attractor, FoundAttractor};
 use crate::study::{SettledArea, SettledBy};
 use crate::validation::price::prices;
 
 /// What the theory and the exact orbits say of a case.
-pub fn analysis(
-    case: &Case,
-    analysis: &Analysis,
-    exact: &FullSystem,
-    area: SettledArea,
-) -> String {
+pub fn analysis(case: &Case, analysis: &Analysis, exact: &FullSystem, area: SettledArea) -> String {
     let scales = case.scales();
     let lengths = LengthFormat::of(&scales);
     let length = |over_clearance: f64| lengths.text(scales.length(over_clearance));

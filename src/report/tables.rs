@@ -40,7 +40,10 @@ pub struct KeyRow {
     pub anchor: &'static str,
 }
 
-pub(super) fn table<const N: usize>(columns: [(&'static str, bool); N], rows: Vec<[String; N]>) -> Table {
+pub(super) fn table<const N: usize>(
+    columns: [(&'static str, bool); N],
+    rows: Vec<[String; N]>,
+) -> Table {
     Table {
         columns: columns.into_iter().map(|(title, numeric)| Column { title, numeric }).collect(),
         rows: rows.into_iter().map(Vec::from).collect(),

@@ -43,7 +43,8 @@ pub fn fixed_points(analysis: &Analysis, exact: &FullSystem) -> Vec<Claim> {
             ),
             verdict: Verdict::of(orbit.is_some() && attracts == point.stable),
         });
-        claims.extend(orbit.into_iter().flat_map(|orbit| amplitudes(analysis, point, orbit, number)));
+        claims
+            .extend(orbit.into_iter().flat_map(|orbit| amplitudes(analysis, point, orbit, number)));
     }
     claims
 }
@@ -56,13 +57,10 @@ fn counterpart<'a>(
     exact: &'a FullSystem,
     point: &FixedPoint,
 ) -> Option<&'a SymmetricOrbit> {
-    let distance = |orbit: &SymmetricOrbit, point: &FixedPoint| {
-        (orbit.absorber / point.absorber - 1.0).abs()
-    };
-    let nearest = exact
-        .orbits
-        .iter()
-        .min_by(|a, b| distance(a, point).total_cmp(&distance(b, point)))?;
+    let distance =
+        |orbit: &SymmetricOrbit, point: &FixedPoint| (orbit.absorber / point.absorber - 1.0).abs();
+    let nearest =
+        exact.orbits.iter().min_by(|a, b| distance(a, point).total_cmp(&distance(b, point)))?;
     let mine = distance(nearest, point);
     let error = asymptotic(&analysis.system).value;
     let others = analysis.fixed_points.iter();

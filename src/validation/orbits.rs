@@ -119,7 +119,9 @@ fn shrinks(
         observed: Finding::Words(format!("{ratio:.1e} of it after {periods} periods")),
         checked_by: Check::Simulation,
         difference: None,
-        tolerance: outcome("a disturbance of 1e−6 is followed until it should change a hundredfold"),
+        tolerance: outcome(
+            "a disturbance of 1e−6 is followed until it should change a hundredfold",
+        ),
         verdict: Verdict::of((ratio < 1.0) == stable),
     }))
 }
@@ -139,8 +141,7 @@ pub fn limits(exact: &FullSystem) -> Result<Vec<Claim>, StartError> {
                 Some(orbit) => orbit.orbit.cycle.impacts[0],
                 None => cycle.impacts[0],
             };
-            let start =
-                AfterImpact { y_velocity: after.y_velocity * (1.0 - SMALL), ..after };
+            let start = AfterImpact { y_velocity: after.y_velocity * (1.0 - SMALL), ..after };
             let reached = stays(&there, &start)?;
             Ok(Some((found.attracting().is_some(), reached)))
         };
@@ -148,16 +149,23 @@ pub fn limits(exact: &FullSystem) -> Result<Vec<Claim>, StartError> {
             continue;
         };
         let name = |steady: bool| if steady { "steady 1:1" } else { "not steady 1:1" };
-        let agrees = |(attracts, regime): (bool, Regime)| attracts == (regime == Regime::TwoSymmetric);
+        let agrees =
+            |(attracts, regime): (bool, Regime)| attracts == (regime == Regime::TwoSymmetric);
         claims.push(Claim {
             id: format!("limit-{}", limit.kind.words().replace([' ', '–'], "-")),
             statement: format!("{}: what the motion becomes on either side", limit.kind.words()),
             source: "exact limit",
             predicted: Finding::Words(format!("{} below, {} above", name(below.0), name(above.0))),
-            observed: Finding::Words(format!("{} below, {} above", below.1.short(), above.1.short())),
+            observed: Finding::Words(format!(
+                "{} below, {} above",
+                below.1.short(),
+                above.1.short()
+            )),
             checked_by: Check::Simulation,
             difference: None,
-            tolerance: outcome("started on the orbit, disturbed by 1e−3, 1 % to either side of the limit"),
+            tolerance: outcome(
+                "started on the orbit, disturbed by 1e−3, 1 % to either side of the limit",
+            ),
             verdict: Verdict::of(agrees(below) && agrees(above)),
         });
     }

@@ -32,9 +32,9 @@ impl Writer<'_> {
         if both.is_empty() {
             return None;
         }
-        let theory = self.theory_on_limits(&margins).map_or_else(String::new, |text| {
-            format!(" Leading-order theory puts {text}.")
-        });
+        let theory = self
+            .theory_on_limits(&margins)
+            .map_or_else(String::new, |text| format!(" Leading-order theory puts {text}."));
         Some(format!("Clearance can {}.{theory}", both.join(", and ")))
     }
 
@@ -79,9 +79,8 @@ impl Writer<'_> {
 
     pub(super) fn forcing_and_frequency(&self) -> Option<String> {
         let margins = self.study.margins.exact?;
-        let change = |margin: ExactMargin| {
-            format!("{} ({})", relative(margin.factor), margin.kind.words())
-        };
+        let change =
+            |margin: ExactMargin| format!("{} ({})", relative(margin.factor), margin.kind.words());
         let hertz = |margin: ExactMargin| {
             let ratio = margin.factor * self.study.analysis.system.frequency_ratio();
             match self.case.scales().frequency_hz(ratio) {
