@@ -3,6 +3,7 @@
 
 pub mod confirmations;
 pub mod margins;
+pub mod proofs;
 pub mod scenes;
 pub mod stretches;
 
@@ -22,6 +23,7 @@ use crate::validation::{self, Claim, Price};
 
 pub use confirmations::Confirmations;
 pub use margins::Margins;
+pub use proofs::Proof;
 
 /// Why a case cannot be studied.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -91,6 +93,8 @@ pub struct CaseStudy {
     pub area: SettledArea,
     /// Every long-term motion that was found, by share of starts.
     pub attractors: Vec<FoundAttractor>,
+    /// For each of them the exact orbit that it is, where it is one.
+    pub proofs: Vec<Option<Proof>>,
     /// Theory against simulation.
     pub claims: Vec<Claim>,
     /// The exact layer: symmetric orbits and the boundaries around them.
@@ -150,6 +154,7 @@ impl CaseStudy {
         let analysis = Analysis::of(system)?;
         let attractors = attractors(&analysis, &effort, progress)?;
         let exact = FullSystem::of(system);
+        let proofs = attractors.iter().map(|found| Proof::of(system, found)).collect();
         let area = settle_area(&analysis, &exact)?;
         let claims = validation::confront(&analysis, &exact, &attractors, &effort.each())?;
         let prices = prices(&analysis, &exact);
@@ -158,6 +163,7 @@ impl CaseStudy {
         Ok(Self {
             area,
             attractors,
+            proofs,
             claims,
             exact,
             prices,

@@ -6,7 +6,8 @@ use std::f64::consts::FRAC_PI_2;
 use serde::Serialize;
 
 use crate::analysis::motion::{read_off, state_of};
-use crate::analysis::{Analysis, BoundaryKind, boundaries};
+use crate::analysis::Analysis;
+use crate::orbits::{Bifurcation, Boundaries, SymmetricFamily};
 use crate::regimes::attractor::Effort;
 use crate::regimes::{Attractor, Regime};
 use crate::simulation::{Impact, Simulation, StartError, Stop, Trace};
@@ -158,58 +159,44 @@ pub struct GrazingPoint {
     pub clearance: f64,
 }
 
-/// Where, going down in clearance from symmetry breaking, more than two impacts per period first
-/// appear, at each frequency ratio; by bisection, to two percent of the clearance.
-///
-/// # Errors
-/// [`StudyError`] where theory or simulation cannot be carried out.
-pub fn grazing_line(
-    system: &System,
-    frequency_ratios: &[f64],
-) -> Result<Vec<GrazingPoint>, StudyError> {
-    let mut line = Vec::new();
+/// Where, going down in clearance from symmetry breaking, the exact asymmetric orbit grazes a wall
+/// and a third impact appears, at each frequency ratio.
+pub fn grazing_line(system: &System, frequency_ratios: &[f64]) -> Vec<GrazingPoint> {
     // Without a resonance the boundaries, and this line beside them, mean nothing.
     if system.mass_ratio() * system.damping() > LARGEST_DAMPING {
-        return Ok(line);
+        return Vec::new();
     }
-    for &frequency_ratio in frequency_ratios {
-        let Ok(there) = system.with_frequency_ratio(frequency_ratio) else { continue };
-        let at = there.detuning();
-        let found = boundaries::explicit_boundary(
-            BoundaryKind::SymmetryBreaking,
-            &there,
-            [at].into_iter(),
-        )?;
-        let Some(breaking) = found.first() else { continue };
-        let top = system.forcing_per_clearance() / breaking.forcing_over_clearance;
-        if !(top.is_finite() && top > 0.0) {
-            continue;
-        }
-        if let Some(clearance) = bisect(&there, top)? {
-            line.push(GrazingPoint { frequency_ratio, clearance });
-        }
-    }
-    Ok(line)
+    let at = |frequency_ratio: f64| {
+        let there = system.with_frequency_ratio(frequency_ratio).ok()?;
+        let clearance = Boundaries::of(&there).ok()?.asymmetric?.grazing?;
+        Some(GrazingPoint { frequency_ratio, clearance })
+    };
+    frequency_ratios.iter().filter_map(|ratio| at(*ratio)).collect()
 }
 
-fn bisect(system: &System, top: f64) -> Result<Option<f64>, StudyError> {
-    let above_two = |clearance: f64| -> Result<bool, StudyError> {
-        let Ok(there) = system.with_clearance_scaled(clearance) else { return Ok(false) };
-        let reached = Attractor::reach(&there, moving_start(&Analysis::of(&there)?), &POINT)?;
-        let crowded = reached.stop == Stop::ImpactLimit;
-        Ok(crowded || reached.classification.regime == Regime::AboveTwo)
+/// A limit of the stable symmetric orbit at some frequency.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct ExactLimit {
+    /// `Omega`.
+    pub frequency_ratio: f64,
+    /// What ends the orbit there.
+    pub kind: Bifurcation,
+    /// Clearance over the case's.
+    pub clearance: f64,
+}
+
+/// The exact limits of stable symmetric 1:1 orbits at each frequency ratio.
+pub fn exact_limits(system: &System, frequency_ratios: &[f64]) -> Vec<ExactLimit> {
+    let at = |frequency_ratio: f64| {
+        let there = system.with_frequency_ratio(frequency_ratio).ok()?;
+        Some((frequency_ratio, SymmetricFamily::of(&there).ok()?.limits))
     };
-    let (mut low, mut high) = (0.15 * top, 0.98 * top);
-    if !above_two(low)? || above_two(high)? {
-        return Ok(None);
-    }
-    while high - low > 0.02 * top {
-        let middle = 0.5 * (low + high);
-        if above_two(middle)? {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    Ok(Some(0.5 * (low + high)))
+    let columns = frequency_ratios.iter().filter_map(|ratio| at(*ratio));
+    columns
+        .flat_map(|(frequency_ratio, limits)| {
+            limits.into_iter().filter(|limit| limit.bounds_stability).map(move |limit| {
+                ExactLimit { frequency_ratio, kind: limit.kind, clearance: limit.clearance }
+            })
+        })
+        .collect()
 }

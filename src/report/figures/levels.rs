@@ -18,7 +18,7 @@ pub(super) struct Levels {
 impl Levels {
     /// The levels at a system's frequency; the one between Z2 and Z1 is simulated.
     pub(super) fn of(system: &System, manifold: &Manifold) -> Result<Self, StudyError> {
-        let grazing = scenes::grazing_line(system, &[system.frequency_ratio()])?;
+        let grazing = scenes::grazing_line(system, &[system.frequency_ratio()]);
         let grazing = match grazing.first() {
             Some(at) => level(system, manifold, at.clearance)?,
             None => None,

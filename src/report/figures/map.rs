@@ -5,7 +5,9 @@ use crate::report::figure::{Axis, Figure, Layer, MarkedPoint, Marker, Panel, Rol
 use crate::report::numbers::{percent, significant};
 use crate::study::margins::Margin;
 use crate::study::{StudyError, scenes};
+use crate::study::scenes::ExactLimit;
 use crate::system::System;
+use crate::validation::tolerance::LARGEST_DAMPING;
 
 use super::Scene;
 use super::borders::Borders;
@@ -23,8 +25,10 @@ const FAR: f64 = 5.0;
 const DEEP: f64 = 0.02;
 /// A peak higher than this many times the middle height of its line is cut.
 const PEAK: f64 = 5.0;
-/// Frequencies at which simulation tells Z1 from Z2.
-const GRAZING: u32 = 12;
+/// Frequencies at which the grazing that separates Z1 from Z2 is marked.
+const GRAZING: u32 = 24;
+/// Frequencies, less one, at which the exact limits are marked.
+const EXACT: u32 = 40;
 
 /// The window in frequency ratio.
 pub(super) fn window(system: &System) -> (f64, f64) {
@@ -59,9 +63,13 @@ pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
     let x = Axis::linear(units.frequency_axis()).with_range(canvas.x.0, canvas.x.1);
     let mut panel = Panel::new(x, y);
     panel.layers = borders.layers(&place);
-    let grazing = grazing(scene)?;
+    let grazing = grazing(scene);
     if !grazing.is_empty() {
-        panel = panel.with(simulated(scene, &grazing).labelled("Z2 ends (simulated)"));
+        panel = panel.with(grazed(scene, &grazing).labelled("Z2 ends (exact)"));
+    }
+    let limits = limits(scene);
+    if !limits.is_empty() {
+        panel = panel.with(exact(scene, &limits).labelled("exact limits"));
     }
     panel.layers.extend(names(&borders, &place, &grazing, &canvas, case));
     panel = panel.with(Layer::this_case(case, Some(tooltip(scene))));
@@ -102,27 +110,52 @@ fn canvas(scene: &Scene, borders: &Borders) -> Canvas {
 }
 
 /// Where more than two impacts per period begin, `[frequency, clearance]`.
-fn grazing(scene: &Scene) -> Result<Vec<[f64; 2]>, StudyError> {
+fn grazing(scene: &Scene) -> Vec<[f64; 2]> {
     let system = &scene.study.analysis.system;
     let (first, last) = window(system);
     let ratio = |k: u32| first + (last - first) * (f64::from(k) + 0.5) / f64::from(GRAZING);
     let ratios: Vec<f64> = (0..GRAZING).map(ratio).collect();
-    let found = scenes::grazing_line(system, &ratios)?;
     let units = &scene.units;
-    Ok(found
+    scenes::grazing_line(system, &ratios)
         .iter()
         .map(|point| [units.frequency(point.frequency_ratio), units.length(point.clearance)])
-        .collect())
+        .collect()
 }
 
-fn simulated(scene: &Scene, grazing: &[[f64; 2]]) -> Layer {
+/// Where the stable exact orbit begins and ends, on the frequencies between those of the grazing.
+fn limits(scene: &Scene) -> Vec<ExactLimit> {
+    let system = &scene.study.analysis.system;
+    if system.mass_ratio() * system.damping() > LARGEST_DAMPING {
+        return Vec::new();
+    }
+    let (first, last) = window(system);
+    let ratio = |k: u32| first + (last - first) * f64::from(k) / f64::from(EXACT);
+    let ratios: Vec<f64> = (1..EXACT).map(ratio).collect();
+    scenes::exact_limits(system, &ratios)
+}
+
+fn exact(scene: &Scene, limits: &[ExactLimit]) -> Layer {
+    let units = &scene.units;
+    let points = limits.iter().map(|limit| {
+        let words = format!(
+            "{} of the exact orbit at {}",
+            limit.kind.words(),
+            units.length_text(limit.clearance)
+        );
+        MarkedPoint::new(units.frequency(limit.frequency_ratio), units.length(limit.clearance))
+            .with_tooltip(words)
+    });
+    Layer::marked(Role::ExactOrbit.marker().sized(5.0), Role::ExactOrbit.color(), points)
+}
+
+fn grazed(scene: &Scene, grazing: &[[f64; 2]]) -> Layer {
     let unit = scene.units.length_axis("").trim().trim_matches(['(', ')']).to_owned();
     let points = grazing.iter().map(|[f, b]| {
         let words =
             format!("below {} {unit}: more than two impacts per period", significant(*b, 3));
         MarkedPoint::new(*f, *b).with_tooltip(words)
     });
-    Layer::marked(Marker::hollow(Shape::Circle).sized(6.0), Role::Simulation.color(), points)
+    Layer::marked(Marker::hollow(Shape::Square).sized(5.0), Role::ExactOrbit.color(), points)
 }
 
 /// The areas' names where they have room.

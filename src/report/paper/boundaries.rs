@@ -130,7 +130,7 @@ pub(super) fn figure_5(shelf: &Shelf) -> Result<Draft, PaperError> {
             ),
         ],
         remarks: vec![
-            "The line between Z1 and Z2 is a grazing and has no closed form; it is simulated.".into(),
+            "The line between Z1 and Z2 is a grazing and has no closed form; it is taken from the exact asymmetric orbits, which double their period before they graze.".into(),
             "The unsteady response beside 1:1 at 8 Hz has hardly any captures: it is closer to Z4 than to the paper's strong modulation, and may be a very long transient.".into(),
         ],
         missing: "The clearances at which the fixed points are drawn, and the forcing amplitude $F$.",

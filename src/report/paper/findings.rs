@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use super::boundaries::route;
 use super::{Member, PaperError, Shelf};
+use crate::orbits::Bifurcation;
 use crate::report::numbers::decibels;
 
 /// The limits of steady 1:1 resonance in clearance at one frequency, in words.
@@ -15,6 +16,8 @@ pub struct Limit {
     breaking: String,
     /// Where the theory ends it.
     end: String,
+    /// Symmetry breaking and the end of stability of the exact orbit.
+    exact: String,
     /// Where simulation from several starts does.
     simulated: String,
 }
@@ -37,7 +40,15 @@ pub(super) fn limits(shelf: &Shelf) -> Result<Vec<Limit>, PaperError> {
             None => "beyond the theory's".to_owned(),
         };
         let breaking = member.length(breaking);
-        Ok(Limit { frequency: frequency.to_owned(), breaking, end, simulated })
+        let exact = member.study.exact.stretch().map_or_else(
+            || "none".to_owned(),
+            |stretch| {
+                let [from, to] = stretch.clearance;
+                let kind = stretch.ends[1].map_or("end of the range", Bifurcation::words);
+                format!("{} to {} ({kind})", member.length(from), member.length(to))
+            },
+        );
+        Ok(Limit { frequency: frequency.to_owned(), breaking, end, exact, simulated })
     };
     Ok(vec![of("li2016-8hz-b7p5mm", "8 Hz")?, of("li2016-8p5hz-fig4c", "8.5 Hz")?])
 }

@@ -155,10 +155,10 @@ fn remarks(shelf: &Shelf) -> Result<Vec<String>, PaperError> {
             text(moved(limit.lost.factor, b))
         ));
     }
-    let grazing = scenes::grazing_line(system, &[system.frequency_ratio()])?;
+    let grazing = scenes::grazing_line(system, &[system.frequency_ratio()]);
     if let Some(grazing) = grazing.first() {
         lines.push(format!(
-            "If the asymmetry of (c) were the apparatus's own, as section 4.2 says of other unequal intervals, (b) would still need $F$ above {} for three impacts at b = {} (simulated), close to the same limit, where the unsteady response has few captures (as at 8 Hz, b = 15 mm, in [Fig. 5](#fig-5)).",
+            "If the asymmetry of (c) were the apparatus's own, as section 4.2 says of other unequal intervals, (b) would still need $F$ above {} for three impacts at b = {} (exact orbit), close to the same limit, where the unsteady response has few captures (as at 8 Hz, b = 15 mm, in [Fig. 5](#fig-5)).",
             text(moved(grazing.clearance, clearance(three)?)),
             text(clearance(three)?)
         ));

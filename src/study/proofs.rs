@@ -1,0 +1,86 @@
+//! A motion that seems to repeat is proven periodic by an orbit that Newton's method converges to.
+
+use std::f64::consts::TAU;
+
+use serde::Serialize;
+
+use crate::orbits::newton::solve;
+use crate::orbits::{AfterImpact, Closure, Cycle, Measures, Orbit, Origin, Wall};
+use crate::regimes::FoundAttractor;
+use crate::simulation::{Impact, Side};
+use crate::system::System;
+
+/// Distance in state, over the clearance and radians, below which the halves of a simulated cycle
+/// count as mirror images: far above the closure of a simulated repetition.
+const MIRRORED: f64 = 1e-4;
+/// Distance between simulated and exact impacts, over the size of the orbit, above which Newton's
+/// method has gone elsewhere.
+const SAME: f64 = 1e-3;
+/// Longest cycle that is proven; a longer one is a chattering sequence, which ends in contact and is
+/// no cycle of impacts.
+const MOST_IMPACTS: usize = 64;
+
+/// An exact orbit that a simulated motion is.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Proof {
+    /// The orbit.
+    pub orbit: Orbit,
+    /// Its averages.
+    pub measures: Measures,
+    /// Largest distance between the simulated and the exact impacts, over the orbit's size.
+    pub distance: f64,
+}
+
+impl Proof {
+    /// Of a motion that was seen to repeat; `None` where it was not, where it rests on a wall in
+    /// between, or where Newton's method finds no admissible orbit at that place.
+    pub fn of(system: &System, found: &FoundAttractor) -> Option<Self> {
+        let (repetition, impacts) = found.attractor.last_repetition()?;
+        let contact = found.attractor.sustained_contact.intervals > 0;
+        if contact || impacts.is_empty() || impacts.len() > MOST_IMPACTS {
+            return None;
+        }
+        let simulated = cycle(system, impacts, repetition.periods)?;
+        let start = simulated.folded(MIRRORED).unwrap_or_else(|| simulated.clone());
+        let orbit = solve(system, &start, Origin::Simulation).ok()?;
+        let distance = distance(&orbit.cycle.unfolded(), &simulated);
+        let holds = orbit.admissibility.admissible && distance < SAME;
+        let measures = Measures::of(system, &orbit.cycle).ok()?;
+        holds.then_some(Self { orbit, measures, distance })
+    }
+}
+
+/// The impacts of one repetition as a cycle; the time from the last to the first completes it.
+fn cycle(system: &System, impacts: &[Impact], periods: u32) -> Option<Cycle> {
+    let omega = system.frequency_ratio();
+    let first = impacts.first()?;
+    let whole = f64::from(periods) * TAU / omega;
+    let passed = |impact: &Impact| impact.tau - first.tau;
+    let times: Vec<f64> = impacts.iter().map(passed).chain([whole]).collect();
+    Some(Cycle {
+        closure: Closure::Repeats { periods },
+        walls: impacts
+            .iter()
+            .map(|impact| match impact.side {
+                Side::Plus => Wall::Plus,
+                Side::Minus => Wall::Minus,
+            })
+            .collect(),
+        impacts: impacts
+            .iter()
+            .map(|impact| AfterImpact {
+                phase: first.phase + omega * passed(impact),
+                x: impact.x,
+                x_velocity: impact.x_velocity_after,
+                y_velocity: impact.y_velocity_after,
+            })
+            .collect(),
+        durations: times.windows(2).map(|pair| pair[1] - pair[0]).collect(),
+    })
+}
+
+fn distance(exact: &Cycle, simulated: &Cycle) -> f64 {
+    let size = exact.impacts.iter().map(|impact| impact.vector().amax()).fold(1.0, f64::max);
+    let pairs = exact.impacts.iter().zip(&simulated.impacts);
+    pairs.map(|(a, b)| (a.vector() - b.vector()).amax()).fold(0.0, f64::max) / size
+}
