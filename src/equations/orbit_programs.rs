@@ -129,7 +129,7 @@ impl OrbitPrograms {
     }
 
     /// Roots of that quadratic, the smaller first; `None` if they are not real. Roots that are not
-    /// above 0 are no orbits. Needs a curve and `gamma`.
+    /// above 0 are no orbits, and the one nearer to 0 has lost digits to the difference. Needs a curve and `gamma`.
     ///
     /// # Errors
     /// If a value is missing.

@@ -95,7 +95,7 @@ impl Equations {
         list.extend(steady_motion(&o.steady_of_base, Excitation::BaseDisplacement));
         list.extend(steady_motion(&o.steady_by_force, Excitation::Force));
         let quadratic = "its roots above 0 are the exact symmetric orbits";
-        let saddle_node = "the least forcing with a symmetric orbit: two of them meet";
+        let saddle_node = "two orbits meet and less forcing has none, if this amplitude is above 0";
         let phase = "the phase of the excitation at an impact on the wall +b";
         list.extend([
             ReportEquation {

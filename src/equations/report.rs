@@ -54,7 +54,7 @@ impl ReportEquation {
             None => self.left.clone(),
         };
         match self.right.evaluate(values) {
-            Ok(value) => {
+            Ok(value) if !matches!(self.right, Expr::Number(_)) => {
                 let value = format_number(value, digits);
                 if value == formula {
                     format!("{left} = {value}")
@@ -62,7 +62,7 @@ impl ReportEquation {
                     format!("{left} = {formula} = {value}")
                 }
             }
-            Err(_) => format!("{left} = {formula}"),
+            _ => format!("{left} = {formula}"),
         }
     }
 }
