@@ -179,15 +179,10 @@ fn a_doubled_branch_leaves_with_squared_multipliers() {
     let start = &doubled.points[0].orbit;
     assert_eq!(start.cycle.closure, Closure::Repeats { periods: 2 });
     assert_eq!(start.cycle.impact_count(), 4);
-    let mut squared: Vec<f64> = doubling
-        .orbit
-        .multipliers
-        .values
-        .iter()
-        .map(|[re, im]| (re * re + im * im).powi(1))
-        .collect();
+    let mut squared: Vec<f64> =
+        doubling.orbit.multipliers.values.iter().map(|[re, im]| re * re + im * im).collect();
     let mut found: Vec<f64> =
-        start.multipliers.values.iter().map(|[re, im]| re.hypot(*im)).collect();
+        start.multipliers.values.iter().map(|[re, im]| libm::hypot(*re, *im)).collect();
     squared.sort_by(f64::total_cmp);
     found.sort_by(f64::total_cmp);
     for (a, b) in squared.iter().zip(&found) {

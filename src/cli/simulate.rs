@@ -73,7 +73,8 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
             (motion, Some(found))
         }
     };
-    let document = SimulationDocument::new(&motion, found.as_deref(), &case.scales());
+    let document =
+        SimulationDocument::new(&case.system(), &motion, found.as_deref(), &case.scales());
     match arguments.format {
         Format::Text => output::print(summary::simulation(&case, &motion, found.as_deref()))?,
         Format::Json => output::print_json(&document)?,

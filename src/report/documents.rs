@@ -8,10 +8,12 @@ use serde::Serialize;
 
 use crate::analysis::{Analysis, Area, Branch, FixedPoint, ManifoldPoint, Strip};
 use crate::case::Scales;
-use crate::orbits::{AsymmetricOrbits, Bifurcation, FullSystem, Leading, Origin, SymmetricOrbit};
-use crate::regimes::{Attractor, Evidence, FoundAttractor, Regime};
+use crate::orbits::{
+    AsymmetricOrbits, Bifurcation, Closure, FullSystem, Leading, Origin, SymmetricOrbit,
+};
+use crate::regimes::{Attractor, Energetics, Evidence, FoundAttractor, Nature, Regime};
 use crate::simulation::{Energy, Stop, SustainedContact};
-use crate::study::{SettledArea, SettledBy};
+use crate::study::{Proof, SettledArea, SettledBy};
 use crate::system::{Excitation, System};
 use crate::validation::price::prices;
 
@@ -259,6 +261,9 @@ pub struct MotionDocument {
     impacts: u64,
     impacts_per_period: f64,
     regime: Regime,
+    nature: Nature,
+    /// Dimensionless: per m1, lengths over the clearance, fast time.
+    energetics: Energetics,
     evidence: Evidence,
     displacement: Displacement,
     energy: Energy,
@@ -280,34 +285,82 @@ struct Displacement {
 pub struct AttractorDocument {
     starts: u32,
     share_of_starts: f64,
+    share_interval_95: [f64; 2],
     reached_from_theory: bool,
     late_starts: u32,
     longest_transient_periods: u64,
+    /// The exact orbit that the motion is, where Newton's method converges to one.
+    proof: Option<ProofDocument>,
     #[serde(flatten)]
     motion: MotionDocument,
 }
 
+/// An exact orbit that proves a motion periodic.
+#[derive(Debug, Clone, Serialize)]
+struct ProofDocument {
+    sequence: String,
+    impacts: usize,
+    periods: u32,
+    /// Of the whole orbit, or of half of it where it equals its mirror image.
+    multipliers: [[f64; 2]; 4],
+    mirrors_itself: bool,
+    spectral_radius_per_period: f64,
+    residual: f64,
+    admissible: bool,
+    origin: Origin,
+    distance_from_simulation: f64,
+}
+
+impl ProofDocument {
+    fn new(proof: &Proof) -> Self {
+        let orbit = &proof.orbit;
+        Self {
+            sequence: orbit.cycle.sequence(),
+            impacts: orbit.cycle.impact_count(),
+            periods: orbit.cycle.periods(),
+            multipliers: orbit.multipliers.values,
+            mirrors_itself: matches!(orbit.cycle.closure, Closure::Mirrors { .. }),
+            spectral_radius_per_period: orbit.radius_per_period(),
+            residual: orbit.convergence.residual,
+            admissible: orbit.admissibility.admissible,
+            origin: orbit.origin,
+            distance_from_simulation: proof.distance,
+        }
+    }
+}
+
 impl SimulationDocument {
     /// The document of one motion, and of the attractors it was chosen from.
-    pub fn new(motion: &Attractor, others: Option<&[FoundAttractor]>, scales: &Scales) -> Self {
+    pub fn new(
+        system: &System,
+        motion: &Attractor,
+        others: Option<&[FoundAttractor]>,
+        scales: &Scales,
+    ) -> Self {
         Self {
             format: "vinesink/simulation@1",
             motion: MotionDocument::new(motion, scales),
-            attractors: others
-                .map(|found| found.iter().map(|one| AttractorDocument::new(one, scales)).collect()),
+            attractors: others.map(|found| {
+                let proven = found.iter().map(|one| (one, Proof::of(system, one)));
+                proven
+                    .map(|(one, proof)| AttractorDocument::new(one, proof.as_ref(), scales))
+                    .collect()
+            }),
         }
     }
 }
 
 impl AttractorDocument {
     /// The document of an attractor.
-    pub fn new(found: &FoundAttractor, scales: &Scales) -> Self {
+    pub fn new(found: &FoundAttractor, proof: Option<&Proof>, scales: &Scales) -> Self {
         Self {
             starts: found.starts,
             share_of_starts: found.share,
+            share_interval_95: found.share_interval,
             reached_from_theory: found.reached_from_theory,
             late_starts: found.late_starts,
             longest_transient_periods: found.longest_transient,
+            proof: proof.map(ProofDocument::new),
             motion: MotionDocument::new(&found.attractor, scales),
         }
     }
@@ -325,6 +378,8 @@ impl MotionDocument {
             impacts: motion.impact_count,
             impacts_per_period: motion.classification.evidence.impacts_per_period,
             regime: motion.classification.regime,
+            nature: motion.classification.nature,
+            energetics: motion.energetics,
             evidence: motion.classification.evidence,
             displacement: Displacement {
                 peak: scales.length(motion.peak),

@@ -11,6 +11,7 @@ pub mod summary;
 
 mod equations;
 mod exact_tables;
+mod motion_tables;
 mod notes;
 mod tables;
 mod verdict;
@@ -63,6 +64,8 @@ pub struct Report {
 pub struct Tables {
     /// Every long-term motion.
     pub attractors: Table,
+    /// Where their energy goes.
+    pub energies: Table,
     /// Fixed points of the slow flow.
     pub fixed_points: Table,
     /// Exact symmetric orbits.
@@ -141,7 +144,8 @@ impl Report {
             notes: notes::notes(case, study),
             key_rows: tables::key_rows(case, study),
             tables: Tables {
-                attractors: tables::attractors(case, study),
+                attractors: motion_tables::attractors(case, study),
+                energies: motion_tables::energies(case, study),
                 fixed_points: tables::fixed_points(case, study),
                 orbits: exact_tables::orbits(case, study),
                 boundaries: exact_tables::boundaries(case, study),
@@ -163,7 +167,8 @@ impl Report {
                 attractors: study
                     .attractors
                     .iter()
-                    .map(|found| AttractorDocument::new(found, &scales))
+                    .zip(&study.proofs)
+                    .map(|(found, proof)| AttractorDocument::new(found, proof.as_ref(), &scales))
                     .collect(),
                 claims: study.claims.clone(),
                 margins: study.margins.clone(),

@@ -5,7 +5,6 @@ use serde::Serialize;
 use super::notes::finding;
 use super::numbers::{LengthFormat, decibels, fixed, percent, signed, significant};
 use crate::case::{Case, Input};
-use crate::regimes::Evidence;
 use crate::study::CaseStudy;
 use crate::validation::{Claim, Finding, Measure};
 
@@ -220,50 +219,6 @@ pub fn fixed_points(case: &Case, study: &CaseStudy) -> Table {
         ("Motion", false),
     ];
     table(columns, rows.collect())
-}
-
-/// Every long-term motion.
-pub fn attractors(case: &Case, study: &CaseStudy) -> Table {
-    let scales = case.scales();
-    let lengths = LengthFormat::of(&scales);
-    let rows = study.attractors.iter().map(|found| {
-        let attractor = &found.attractor;
-        let evidence = &attractor.classification.evidence;
-        [
-            found.regime().words().to_owned(),
-            percent(found.share),
-            significant(evidence.impacts_per_period, if attractor.repeats() { 4 } else { 2 }),
-            repetition(evidence, attractor.followed),
-            lengths.text(scales.length(attractor.peak)),
-            lengths.text(scales.length(attractor.rms)),
-            percent(evidence.modulation_depth),
-        ]
-    });
-    table(
-        [
-            ("Motion", false),
-            ("Starts", true),
-            ("z", true),
-            ("Repeats", false),
-            ("Peak of x", true),
-            ("rms of x", true),
-            ("Modulation", true),
-        ],
-        rows.collect(),
-    )
-}
-
-fn repetition(evidence: &Evidence, followed: u64) -> String {
-    match evidence.periodicity {
-        Some(found) if found.periods == 1 => "every period".into(),
-        Some(found) => format!("every {} periods", found.periods),
-        None if evidence.captures.count > 1 => format!(
-            "not in {followed} periods; captured {} of the time, up to {} periods",
-            percent(evidence.captures.share),
-            evidence.captures.longest
-        ),
-        None => format!("not in {followed} periods"),
-    }
 }
 
 /// The layers against one another.

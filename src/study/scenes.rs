@@ -5,8 +5,8 @@ use std::f64::consts::FRAC_PI_2;
 
 use serde::Serialize;
 
-use crate::analysis::motion::{read_off, state_of};
 use crate::analysis::Analysis;
+use crate::analysis::motion::{read_off, state_of};
 use crate::orbits::{Bifurcation, Boundaries, SymmetricFamily};
 use crate::regimes::attractor::Effort;
 use crate::regimes::{Attractor, Regime};
@@ -194,8 +194,10 @@ pub fn exact_limits(system: &System, frequency_ratios: &[f64]) -> Vec<ExactLimit
     let columns = frequency_ratios.iter().filter_map(|ratio| at(*ratio));
     columns
         .flat_map(|(frequency_ratio, limits)| {
-            limits.into_iter().filter(|limit| limit.bounds_stability).map(move |limit| {
-                ExactLimit { frequency_ratio, kind: limit.kind, clearance: limit.clearance }
+            limits.into_iter().filter(|limit| limit.bounds_stability).map(move |limit| ExactLimit {
+                frequency_ratio,
+                kind: limit.kind,
+                clearance: limit.clearance,
             })
         })
         .collect()

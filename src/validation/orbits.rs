@@ -90,7 +90,7 @@ fn shrinks(
     let radius = orbit.orbit.radius_per_period();
     let needed = (libm::log(SEEN) / libm::log(radius).abs()).ceil();
     // Too close to a bifurcation to be seen, or too fast to be followed.
-    if !(needed <= LONGEST) || needed < 1.0 {
+    if !(1.0..=LONGEST).contains(&needed) {
         return Ok(None);
     }
     let stable = radius < 1.0;

@@ -4,8 +4,8 @@ use crate::analysis::{BoundaryKind, Strip};
 use crate::report::figure::{Axis, Figure, Layer, MarkedPoint, Marker, Panel, Role, Scale, Shape};
 use crate::report::numbers::{percent, significant};
 use crate::study::margins::Margin;
-use crate::study::{StudyError, scenes};
 use crate::study::scenes::ExactLimit;
+use crate::study::{StudyError, scenes};
 use crate::system::System;
 use crate::validation::tolerance::LARGEST_DAMPING;
 

@@ -89,7 +89,7 @@ fn strongest(all: &[Taken]) -> Option<Strongest> {
     Some(Strongest {
         harmonic: largest(|at| at.harmonic)?,
         damping: largest(|at| at.damping)?,
-        stable: stable().next().zip(stable().last()),
+        stable: stable().next().zip(stable().next_back()),
     })
 }
 
@@ -171,7 +171,8 @@ fn over_restitution(all: &[Taken]) -> Panel {
     let highest = all.iter().map(|at| at.harmonic.max(at.damping)).fold(0.0, f64::max);
     let y = Axis::linear("over the clearance (1)").with_range(0.0, 1.12 * highest);
     let mut panel = Panel::new(x, y).with_heading("at this amplitude: stable part thick");
-    let values: [(&str, Color, fn(&Taken) -> f64); 2] = [
+    type Value = fn(&Taken) -> f64;
+    let values: [(&str, Color, Value); 2] = [
         ("E/b", Color::SkyBlue, |at| at.harmonic),
         ("E sin Θ/b", Color::Vermillion, |at| at.damping),
     ];

@@ -1,0 +1,150 @@
+//! Tables of the long-term motions: what they are, and where their energy goes.
+
+use super::numbers::{LengthFormat, MINUS, fixed, percent, signed, significant};
+use super::tables::{Table, table};
+use crate::case::{Case, Scales};
+use crate::regimes::{FoundAttractor, Nature};
+use crate::study::{CaseStudy, Proof};
+
+/// Every long-term motion.
+pub fn attractors(case: &Case, study: &CaseStudy) -> Table {
+    let scales = case.scales();
+    let lengths = LengthFormat::of(&scales);
+    // Beside a motion that repeats, a chaotic one may be a transient of any length.
+    let beside = study.attractors.iter().any(|found| found.attractor.repeats());
+    let rows = study.attractors.iter().zip(&study.proofs).map(|(found, proof)| {
+        let attractor = &found.attractor;
+        let evidence = &attractor.classification.evidence;
+        [
+            found.regime().words().to_owned(),
+            share(found),
+            significant(evidence.impacts_per_period, if attractor.repeats() { 4 } else { 2 }),
+            nature(found, proof.as_ref(), beside),
+            lengths.text(scales.length(attractor.peak)),
+            lengths.text(scales.length(attractor.rms)),
+            percent(evidence.modulation_depth),
+        ]
+    });
+    table(
+        [
+            ("Motion", false),
+            ("Starts", true),
+            ("z", true),
+            ("Nature", false),
+            ("Peak of x", true),
+            ("rms of x", true),
+            ("Modulation", true),
+        ],
+        rows.collect(),
+    )
+}
+
+/// The share of starts with its 95 % interval; none of them says nothing about others.
+fn share(found: &FoundAttractor) -> String {
+    if found.starts == 0 {
+        return percent(found.share);
+    }
+    let [low, high] = found.share_interval;
+    format!("{} ({} to {})", percent(found.share), percent(low), percent(high))
+}
+
+/// What kind of dynamics, and what proves it.
+fn nature(found: &FoundAttractor, proof: Option<&Proof>, beside: bool) -> String {
+    let attractor = &found.attractor;
+    let evidence = &attractor.classification.evidence;
+    let exponent = evidence.exponent.as_ref().map(|exponent| {
+        format!(
+            "Lyapunov exponent {} ± {} per period",
+            significant(exponent.per_period, 2),
+            significant(2.0 * exponent.standard_error, 1)
+        )
+    });
+    let captured = (evidence.captures.count > 1).then(|| {
+        format!(
+            "captured {} of the time, {} periods on average, up to {}",
+            percent(evidence.captures.share),
+            significant(evidence.captures.mean, 2),
+            evidence.captures.longest
+        )
+    });
+    let all = |first: String, more: Vec<Option<String>>| {
+        more.into_iter().flatten().fold(first, |text, next| format!("{text}; {next}"))
+    };
+    match attractor.classification.nature {
+        Nature::Periodic { periods, .. } => {
+            let every = if periods == 1 {
+                "every period".into()
+            } else {
+                format!("every {periods} periods")
+            };
+            let proven = match proof {
+                Some(proof) => format!(
+                    "proven: orbit {}, largest multiplier {} per period",
+                    proof.orbit.cycle.sequence().replace('-', &MINUS.to_string()),
+                    significant(proof.orbit.radius_per_period(), 3)
+                ),
+                None if attractor.sustained_contact.intervals > 0 => {
+                    "rests on a wall in between, so no orbit of impacts".into()
+                }
+                None => "seen, not proven".into(),
+            };
+            format!("{every}; {proven}")
+        }
+        Nature::AtRest => "at rest, every period".into(),
+        Nature::TransientNotOver => {
+            all(format!("transient not over after {} periods", attractor.followed), vec![exponent])
+        }
+        Nature::Chaotic if beside => all(
+            format!("chaotic for {} periods, perhaps a transient", attractor.followed),
+            vec![exponent, captured],
+        ),
+        other => all(other.words().to_owned(), vec![exponent, captured]),
+    }
+}
+
+/// Where the energy goes, per excitation period.
+pub fn energies(case: &Case, study: &CaseStudy) -> Table {
+    let scales = case.scales();
+    let period = study.analysis.system.period();
+    let rows = study.attractors.iter().map(|found| {
+        let energy = &found.attractor.energetics;
+        let none = || "\u{2013}".to_owned();
+        let decibels = |change: Option<f64>| {
+            change.map_or_else(none, |change| format!("{} dB", signed(change, 1)))
+        };
+        [
+            found.regime().words().to_owned(),
+            joules(&scales, energy.input_power * period),
+            joules(&scales, energy.damper_power * period),
+            joules(&scales, energy.loss_per_period),
+            energy.loss_per_impact.map_or_else(none, |loss| joules(&scales, loss)),
+            energy
+                .transfer_efficiency
+                .map_or_else(none, |share| format!("{} %", fixed(100.0 * share, 0))),
+            decibels(energy.rms_change_db),
+        ]
+    });
+    table(
+        [
+            ("Motion", false),
+            ("Work in", true),
+            ("Damper", true),
+            ("Impacts", true),
+            ("Per impact", true),
+            ("Efficiency", true),
+            ("rms against bare", true),
+        ],
+        rows.collect(),
+    )
+}
+
+/// An energy in millijoules, or in the case's own unit.
+fn joules(scales: &Scales, dimensionless: f64) -> String {
+    match scales.energy_j(dimensionless) {
+        Some(energy) => format!("{} mJ", significant(1e3 * energy, 3)),
+        None => {
+            let square = scales.clearance * scales.clearance;
+            format!("{} m₁ω₀² units²", significant(dimensionless * square, 3))
+        }
+    }
+}
