@@ -166,12 +166,14 @@ fn manifolds(level: f64) -> Result<Panel, StudyError> {
     Ok(panel)
 }
 
+/// One of the quantities over `r`.
+type Value = fn(&Taken) -> f64;
+
 fn over_restitution(all: &[Taken]) -> Panel {
     let x = Axis::linear("restitution r (1)").with_range(0.0, 1.0);
     let highest = all.iter().map(|at| at.harmonic.max(at.damping)).fold(0.0, f64::max);
     let y = Axis::linear("over the clearance (1)").with_range(0.0, 1.12 * highest);
     let mut panel = Panel::new(x, y).with_heading("at this amplitude: stable part thick");
-    type Value = fn(&Taken) -> f64;
     let values: [(&str, Color, Value); 2] = [
         ("E/b", Color::SkyBlue, |at| at.harmonic),
         ("E sin Θ/b", Color::Vermillion, |at| at.damping),
@@ -245,7 +247,8 @@ fn words(scene: &Scene, level: f64, strongest: &Strongest) -> Result<(String, St
         None => String::new(),
     };
     let caption = format!(
-        "For an oscillator amplitude of {} there is {range}; E is largest for r = {}, what damps the oscillator, E sin Θ, for r = {}.{least}",
+        "At {}, with an oscillator amplitude of {}, there is {range}; E is largest for r = {}, what damps the oscillator, E sin Θ, for r = {}.{least}",
+        scene.units.place_text(&scene.study.analysis.system),
         scene.units.length_text(level),
         significant(strongest.harmonic, 2),
         significant(strongest.damping, 2)
