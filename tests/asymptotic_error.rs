@@ -87,7 +87,7 @@ fn errors_of_the_theory_fall_in_proportion_to_the_mass_ratio() {
 /// Relative errors of `C` and `B`, absolute errors of `eta` and `Theta`, against the exact orbit.
 fn errors_by_exact_orbit(system: &System) -> [f64; 4] {
     let analysis = Analysis::of(system).expect("analysable");
-    let point = analysis.stable_points().next().expect("one").clone();
+    let point = *analysis.stable_points().next().expect("one");
     let orbits = symmetric_orbits(system).expect("damped");
     let orbit = orbits.iter().find(|orbit| orbit.orbit.attracts()).expect("one");
     let exact = Measures::of(system, &orbit.orbit.cycle).expect("damped");
