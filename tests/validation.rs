@@ -4,9 +4,11 @@
 mod common;
 
 use vinesink::analysis::{Analysis, Strip};
+use vinesink::orbits::FullSystem;
 use vinesink::regimes::Regime;
 use vinesink::study::{CaseStudy, StudyEffort};
-use vinesink::validation::{Check, Finding, Verdict};
+use vinesink::system::{Parameters, System};
+use vinesink::validation::{Check, Finding, Verdict, motions};
 
 #[test]
 fn in_strip_a1_answers_coexist_and_close_fixed_points_are_told_apart() {
@@ -33,5 +35,20 @@ fn in_strip_a1_answers_coexist_and_close_fixed_points_are_told_apart() {
     for id in ["orbit-1-repeats", "orbit-2-repeats", "orbit-1-stability", "orbit-2-stability"] {
         assert_eq!(claim(id).checked_by, Check::Simulation);
         assert_eq!(claim(id).verdict, Verdict::Confirmed, "{:?}", claim(id));
+    }
+}
+
+/// An undamped oscillator driven at its natural frequency has no steady motion that exact orbits could
+/// be written with: what they cannot tell is undecided, not refuted.
+#[test]
+fn what_exact_orbits_cannot_tell_is_undecided() {
+    let table = common::table_1(8.0, 15.0);
+    let parameters = Parameters { damping: 0.0, frequency_ratio: 1.0, ..table.parameters() };
+    let system = System::new(parameters).expect("valid");
+    let analysis = Analysis::of(&system).expect("analysable");
+    assert!(!analysis.fixed_points.is_empty());
+    let exact = FullSystem::of(&system);
+    for claim in motions::fixed_points(&analysis, &exact) {
+        assert_eq!(claim.verdict, Verdict::Undecided, "{claim:?}");
     }
 }

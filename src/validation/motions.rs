@@ -13,6 +13,8 @@ use crate::simulation::StartError;
 /// For each fixed point: stable or not, and if an exact orbit is near it: amplitudes and phases.
 pub fn fixed_points(analysis: &Analysis, exact: &FullSystem) -> Vec<Claim> {
     let mut claims = Vec::new();
+    // The exact orbits are written with the steady motion between impacts.
+    let unsolved = analysis.system.linear_response().is_none();
     for (index, point) in analysis.fixed_points.iter().enumerate() {
         let number = index + 1;
         let orbit = counterpart(analysis, exact, point);
@@ -22,6 +24,7 @@ pub fn fixed_points(analysis: &Analysis, exact: &FullSystem) -> Vec<Claim> {
                 let stable = if orbit.orbit.attracts() { "stable" } else { "unstable" };
                 format!("{stable}, largest multiplier {radius:.3}")
             }
+            None if unsolved => "an undamped resonance has no exact orbit to compare".into(),
             None => "no orbit near it".into(),
         };
         let attracts = orbit.is_some_and(|orbit| orbit.orbit.attracts());
@@ -41,7 +44,11 @@ pub fn fixed_points(analysis: &Analysis, exact: &FullSystem) -> Vec<Claim> {
                 "multipliers of the exact orbit nearest to the point, within twice ε (2 + |σ| + λ) \
                  or, next to a saddle-node, its root",
             ),
-            verdict: Verdict::of(orbit.is_some() && attracts == point.stable),
+            verdict: if unsolved {
+                Verdict::Undecided
+            } else {
+                Verdict::of(orbit.is_some() && attracts == point.stable)
+            },
         });
         claims
             .extend(orbit.into_iter().flat_map(|orbit| amplitudes(analysis, point, orbit, number)));
