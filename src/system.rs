@@ -208,6 +208,23 @@ impl State {
         self.x - self.y
     }
 
+    /// Largest absolute value among the four.
+    pub fn size(&self) -> f64 {
+        let Self { x, x_velocity, y, y_velocity } = *self;
+        [x, x_velocity, y, y_velocity].iter().map(|part| part.abs()).fold(0.0, f64::max)
+    }
+
+    /// Largest difference from `other` in any of the four.
+    pub fn distance(&self, other: &Self) -> f64 {
+        let difference = Self {
+            x: self.x - other.x,
+            x_velocity: self.x_velocity - other.x_velocity,
+            y: self.y - other.y,
+            y_velocity: self.y_velocity - other.y_velocity,
+        };
+        difference.size()
+    }
+
     /// Kinetic and potential energy per unit of the oscillator's mass.
     pub fn energy(&self, mass_ratio: f64) -> f64 {
         0.5 * (self.x * self.x

@@ -101,6 +101,18 @@ impl Boundaries {
         })
     }
 
+    /// The collision beyond which no fixed point is left: the one at the smallest forcing, if it lies
+    /// below the Hopf boundary. Others lie where fixed points remain, and bound no area.
+    pub fn outermost_collision(&self) -> Option<&SaddleNode> {
+        // At P1 the two boundaries are one to rounding.
+        let below = self.hopf * (1.0 + 1e-9);
+        self.saddle_nodes
+            .iter()
+            .filter(|node| node.forcing_over_clearance > 0.0)
+            .filter(|node| node.forcing_over_clearance <= below)
+            .min_by(|a, b| a.forcing_over_clearance.total_cmp(&b.forcing_over_clearance))
+    }
+
     /// All boundaries as `(kind, gamma)`.
     pub fn all(&self) -> impl Iterator<Item = (BoundaryKind, f64)> {
         [(BoundaryKind::SymmetryBreaking, self.symmetry_breaking), (BoundaryKind::Hopf, self.hopf)]

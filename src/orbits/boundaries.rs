@@ -48,6 +48,11 @@ pub struct Boundaries {
 }
 
 impl Boundaries {
+    /// Where the asymmetric orbits graze a wall: the border between Z2 and Z1.
+    pub fn grazing(&self) -> Option<f64> {
+        self.asymmetric.as_ref()?.grazing
+    }
+
     /// At the frequency and forcing of `system`.
     ///
     /// # Errors
@@ -62,6 +67,13 @@ impl Boundaries {
         let asymmetric = breaking.and_then(|limit| asymmetric(system, limit).ok());
         Ok(Self { frequency_ratio: system.frequency_ratio(), symmetric, asymmetric })
     }
+}
+
+/// The boundaries at each of `frequency_ratios`, everything else being as in `system`; frequencies
+/// without a steady motion are left out.
+pub fn over_frequency(system: &System, frequency_ratios: &[f64]) -> Vec<Boundaries> {
+    let there = frequency_ratios.iter().filter_map(|at| system.with_frequency_ratio(*at).ok());
+    there.filter_map(|system| Boundaries::of(&system).ok()).collect()
 }
 
 /// The branch of asymmetric orbits of `system` over the clearance, from the symmetry breaking at

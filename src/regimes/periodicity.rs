@@ -3,7 +3,6 @@
 use serde::Serialize;
 
 use crate::simulation::{Impact, PeriodRecord};
-use crate::system::State;
 
 /// Longest repetition that is looked for, in excitation periods.
 const LONGEST: usize = 24;
@@ -42,30 +41,16 @@ fn repeats_after(records: &[PeriodRecord], periods: usize) -> Option<Periodicity
         return None;
     }
     let tail = &records[records.len() - needed..];
-    let size = tail.iter().map(|record| size(&record.end)).fold(0.0, f64::max);
+    let size = tail.iter().map(|record| record.end.size()).fold(0.0, f64::max);
     let closure = tail
         .iter()
         .zip(&tail[periods..])
-        .map(|(before, after)| distance(&before.end, &after.end))
+        .map(|(before, after)| before.end.distance(&after.end))
         .fold(0.0, f64::max)
         / size.max(f64::MIN_POSITIVE);
     let last = &tail[tail.len() - periods..];
     let impacts = last.iter().map(|record| record.impacts.iter().sum::<u32>()).sum();
     (closure <= CLOSURE).then_some(Periodicity { impacts, periods: periods as u32, closure })
-}
-
-fn size(state: &State) -> f64 {
-    let State { x, x_velocity, y, y_velocity } = *state;
-    [x, x_velocity, y, y_velocity].iter().map(|c| c.abs()).fold(0.0, f64::max)
-}
-
-fn distance(a: &State, b: &State) -> f64 {
-    size(&State {
-        x: a.x - b.x,
-        x_velocity: a.x_velocity - b.x_velocity,
-        y: a.y - b.y,
-        y_velocity: a.y_velocity - b.y_velocity,
-    })
 }
 
 /// Mean absolute difference of successive impact intervals over the excitation period; 0 for

@@ -1,6 +1,6 @@
 //! Tables of the exact layer: orbits, and boundaries beside those of the theory.
 
-use super::numbers::{LengthFormat, fixed, percent, significant};
+use super::numbers::{LengthFormat, fixed, signed_percent, significant};
 use super::tables::{Table, table};
 use super::verdict::relative;
 use crate::analysis::{BoundaryKind, Branch};
@@ -123,9 +123,4 @@ pub fn boundaries(case: &Case, study: &CaseStudy) -> Table {
         ],
         rows.into_iter().map(|(_, cells)| cells).collect(),
     )
-}
-
-fn signed_percent(share: f64) -> String {
-    let sign = if share < 0.0 { "\u{2212}" } else { "+" };
-    format!("{sign}{}", percent(share.abs()))
 }

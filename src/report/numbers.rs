@@ -53,6 +53,18 @@ pub fn percent(share: f64) -> String {
     format!("{} %", fixed(percent, decimals))
 }
 
+/// A relative difference as a percentage with its sign.
+pub fn signed_percent(difference: f64) -> String {
+    let sign = if difference < 0.0 { MINUS } else { '+' };
+    format!("{sign}{}", percent(difference.abs()))
+}
+
+/// Words with a capital letter first.
+pub fn capitalised(words: &str) -> String {
+    let mut letters = words.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
 /// `20 log10(ratio)` in decibels, with its sign.
 pub fn decibels(ratio: f64) -> String {
     format!("{} dB", signed(20.0 * libm::log10(ratio), 1))

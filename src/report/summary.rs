@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::numbers::{LengthFormat, fixed, percent, significant};
+use super::numbers::{LengthFormat, capitalised, fixed, percent, significant};
 use crate::analysis::{Analysis, Strip};
 use crate::case::Case;
 use crate::orbits::FullSystem;
@@ -108,7 +108,7 @@ pub fn simulation(case: &Case, motion: &Attractor, found: Option<&[FoundAttracto
     let lengths = LengthFormat::of(&scales);
     let mut text = format!("{}\n\n", case.title);
     let evidence = &motion.classification.evidence;
-    let _ = writeln!(text, "{}", sentence(motion.classification.regime.words()));
+    let _ = writeln!(text, "{}", capitalised(motion.classification.regime.words()));
     let _ = writeln!(
         text,
         "  {} impacts per period over {} periods; peak displacement {}, rms {}",
@@ -150,11 +150,6 @@ pub fn simulation(case: &Case, motion: &Attractor, found: Option<&[FoundAttracto
         }
     }
     text
-}
-
-fn sentence(words: &str) -> String {
-    let mut letters = words.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
 fn counted(count: u64, noun: &str) -> String {

@@ -3,7 +3,9 @@
 use serde::Serialize;
 
 use super::notes::finding;
-use super::numbers::{LengthFormat, decibels, fixed, percent, signed, significant};
+use super::numbers::{
+    LengthFormat, capitalised, decibels, fixed, percent, signed, signed_percent, significant,
+};
 use crate::case::{Case, Input};
 use crate::study::CaseStudy;
 use crate::validation::{Claim, Finding, Measure};
@@ -158,9 +160,7 @@ fn key_inputs(case: &Case) -> Vec<KeyRow> {
 }
 
 fn words(name: &str) -> String {
-    let text = name.replace('_', " ");
-    let mut letters = text.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+    capitalised(&name.replace('_', " "))
 }
 
 /// Every number of the case.
@@ -284,8 +284,7 @@ fn difference(claim: &Claim, reasons: &[String]) -> String {
             format!("{} of {} ({letter})", significant(value, 1), significant(allowed, 1))
         }
         (Some(value), _) => {
-            let sign = if value < 0.0 { "\u{2212}" } else { "+" };
-            format!("{sign}{} of {} ({letter})", percent(value.abs()), percent(allowed))
+            format!("{} of {} ({letter})", signed_percent(value), percent(allowed))
         }
         (None, _) => format!("({letter})"),
     }

@@ -74,14 +74,6 @@ impl Margins {
             above: self.clearance.iter().find(|margin| margin.factor > 1.0).copied(),
         }
     }
-
-    /// Nearest in forcing: `gamma = G / b`, so a boundary at `k` times the clearance is met at `1/k`
-    /// times the forcing.
-    pub fn forcing_neighbours(&self) -> Neighbours {
-        let inverse = |margin: Margin| Margin { factor: 1.0 / margin.factor, ..margin };
-        let Neighbours { below, above } = self.clearance_neighbours();
-        Neighbours { below: above.map(inverse), above: below.map(inverse) }
-    }
 }
 
 /// Whether the area or strip differs a little below and a little above the clearance of `system`.

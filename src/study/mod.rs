@@ -12,7 +12,7 @@ use serde::Serialize;
 use crate::analysis::motion::state_of;
 use crate::analysis::{Analysis, AnalysisError, Area, Branch};
 use crate::case::SimulationSettings;
-use crate::orbits::FullSystem;
+use crate::orbits::{Boundaries, FullSystem};
 use crate::regimes::attractor::Effort;
 use crate::regimes::search::{self, SearchEffort};
 use crate::regimes::{Attractor, FoundAttractor, Regime};
@@ -227,8 +227,7 @@ pub fn settle_area(analysis: &Analysis, exact: &FullSystem) -> Result<SettledAre
     if let Some(area) = analysis.zone.area {
         return Ok(SettledArea { area, by: SettledBy::ClosedForm });
     }
-    let asymmetric = exact.boundaries.as_ref().and_then(|found| found.asymmetric.as_ref());
-    if let Some(grazing) = asymmetric.and_then(|found| found.grazing) {
+    if let Some(grazing) = exact.boundaries.as_ref().and_then(Boundaries::grazing) {
         let area = if grazing > 1.0 { Area::Z1 } else { Area::Z2 };
         return Ok(SettledArea { area, by: SettledBy::ExactOrbit });
     }

@@ -1,5 +1,5 @@
-//! Simulations that exist for a figure: the motion itself, the neighbourhood in frequency, and the
-//! line between two asymmetric impacts and more.
+//! Simulations that exist for a figure: the motion itself, and its neighbourhood in frequency and
+//! clearance.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -7,12 +7,10 @@ use serde::Serialize;
 
 use crate::analysis::Analysis;
 use crate::analysis::motion::{read_off, state_of};
-use crate::orbits::{Bifurcation, Boundaries, SymmetricFamily};
 use crate::regimes::attractor::Effort;
 use crate::regimes::{Attractor, Regime};
 use crate::simulation::{Impact, Simulation, StartError, Stop, Trace};
 use crate::system::{State, System};
-use crate::validation::tolerance::LARGEST_DAMPING;
 
 use super::StudyError;
 
@@ -75,11 +73,7 @@ pub fn sweep(system: &System, frequency_ratios: &[f64]) -> Result<Vec<SweepPoint
     let mut points = Vec::new();
     for &frequency_ratio in frequency_ratios {
         let Ok(there) = system.with_frequency_ratio(frequency_ratio) else { continue };
-        let reached = Attractor::reach(&there, moving_start(&Analysis::of(&there)?), &POINT)?;
-        if reached.stop != Stop::EndTime {
-            // Nothing was measured.
-            continue;
-        }
+        let Some(reached) = visited(&there)? else { continue };
         let regime = reached.classification.regime;
         points.push(SweepPoint { frequency_ratio, peak: reached.peak, regime });
     }
@@ -111,10 +105,7 @@ pub fn walk(system: &System, clearances: &[f64]) -> Result<Vec<WalkPoint>, Study
     let mut points = Vec::new();
     for &clearance in clearances {
         let Ok(there) = system.with_clearance_scaled(clearance) else { continue };
-        let reached = Attractor::reach(&there, moving_start(&Analysis::of(&there)?), &POINT)?;
-        if reached.stop != Stop::EndTime {
-            continue;
-        }
+        let Some(reached) = visited(&there)? else { continue };
         points.push(WalkPoint {
             clearance,
             peak: clearance * reached.peak,
@@ -123,6 +114,12 @@ pub fn walk(system: &System, clearances: &[f64]) -> Result<Vec<WalkPoint>, Study
         });
     }
     Ok(points)
+}
+
+/// What the motion that the theory predicts becomes; `None` where nothing could be measured.
+fn visited(system: &System) -> Result<Option<Attractor>, StudyError> {
+    let reached = Attractor::reach(system, moving_start(&Analysis::of(system)?), &POINT)?;
+    Ok((reached.stop == Stop::EndTime).then_some(reached))
 }
 
 fn amplitudes(system: &System, reached: &Attractor) -> [f64; 2] {
@@ -148,57 +145,4 @@ fn moving_start(analysis: &Analysis) -> State {
         Some(point) => state_of(point, &analysis.system),
         None => State { x: 0.0, x_velocity: 0.0, y: 0.0, y_velocity: 1.0 },
     }
-}
-
-/// A point of the line between Z2 and Z1.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct GrazingPoint {
-    /// `Omega`.
-    pub frequency_ratio: f64,
-    /// Clearance over the case's.
-    pub clearance: f64,
-}
-
-/// Where, going down in clearance from symmetry breaking, the exact asymmetric orbit grazes a wall
-/// and a third impact appears, at each frequency ratio.
-pub fn grazing_line(system: &System, frequency_ratios: &[f64]) -> Vec<GrazingPoint> {
-    // Without a resonance the boundaries, and this line beside them, mean nothing.
-    if system.mass_ratio() * system.damping() > LARGEST_DAMPING {
-        return Vec::new();
-    }
-    let at = |frequency_ratio: f64| {
-        let there = system.with_frequency_ratio(frequency_ratio).ok()?;
-        let clearance = Boundaries::of(&there).ok()?.asymmetric?.grazing?;
-        Some(GrazingPoint { frequency_ratio, clearance })
-    };
-    frequency_ratios.iter().filter_map(|ratio| at(*ratio)).collect()
-}
-
-/// A limit of the stable symmetric orbit at some frequency.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct ExactLimit {
-    /// `Omega`.
-    pub frequency_ratio: f64,
-    /// What ends the orbit there.
-    pub kind: Bifurcation,
-    /// Clearance over the case's.
-    pub clearance: f64,
-}
-
-/// The exact limits of stable symmetric 1:1 orbits at each frequency ratio.
-pub fn exact_limits(system: &System, frequency_ratios: &[f64]) -> Vec<ExactLimit> {
-    let at = |frequency_ratio: f64| {
-        let there = system.with_frequency_ratio(frequency_ratio).ok()?;
-        Some((frequency_ratio, SymmetricFamily::of(&there).ok()?.limits))
-    };
-    let columns = frequency_ratios.iter().filter_map(|ratio| at(*ratio));
-    columns
-        .flat_map(|(frequency_ratio, limits)| {
-            limits.into_iter().filter(|limit| limit.bounds_stability).map(move |limit| ExactLimit {
-                frequency_ratio,
-                kind: limit.kind,
-                clearance: limit.clearance,
-            })
-        })
-        .collect()
 }

@@ -10,7 +10,7 @@ use crate::orbits::{AfterImpact, FullSystem, Limit, SymmetricOrbit, Wall};
 use crate::regimes::attractor::Effort;
 use crate::regimes::{Attractor, Regime};
 use crate::simulation::{Nobody, Simulation, StartError};
-use crate::system::{State, System};
+use crate::system::System;
 
 /// Disturbance of the absorber's speed, relative: linear, and far above rounding.
 const DISTURBANCE: f64 = 1e-6;
@@ -51,19 +51,13 @@ fn begun(system: &System, after: &AfterImpact, wall: Wall) -> Result<Simulation,
     Ok(simulation)
 }
 
-fn distance(a: State, b: State) -> f64 {
-    [a.x - b.x, a.x_velocity - b.x_velocity, a.y - b.y, a.y_velocity - b.y_velocity]
-        .iter()
-        .fold(0.0, |largest: f64, part| largest.max(part.abs()))
-}
-
 fn repeats(system: &System, orbit: &SymmetricOrbit, number: usize) -> Result<Claim, StartError> {
     let cycle = &orbit.orbit.cycle;
     let mut simulation = begun(system, &cycle.impacts[0], cycle.walls[0])?;
     let before = simulation.state();
     simulation.run(1, u64::MAX, &mut Nobody);
     let size = 1.0 + orbit.peaks.displacement + orbit.peaks.velocity;
-    let missed = distance(before, simulation.state()) / size;
+    let missed = before.distance(&simulation.state()) / size;
     let growth = orbit.orbit.radius_per_period().max(1.0);
     let tolerance = Tolerance {
         value: CLOSES * growth,
@@ -100,13 +94,13 @@ fn shrinks(
     let mut reference = begun(system, &after, cycle.walls[0])?;
     let mut simulation = begun(system, &disturbed, cycle.walls[0])?;
     let periods = needed as u64;
-    let first = distance(reference.state(), simulation.state());
+    let first = reference.state().distance(&simulation.state());
     // An unstable reference leaves as well: rounding grows with the disturbance, from far below it.
     for _ in 0..periods {
         reference.run(1, u64::MAX, &mut Nobody);
         simulation.run(1, u64::MAX, &mut Nobody);
     }
-    let ratio = distance(reference.state(), simulation.state()) / first;
+    let ratio = reference.state().distance(&simulation.state()) / first;
     let word = |stable: bool| if stable { "dies out" } else { "grows" };
     Ok(Some(Claim {
         id: format!("orbit-{number}-stability"),

@@ -14,6 +14,11 @@ pub const LARGEST_OFFSET: f64 = 0.2;
 /// the theory could speak of.
 pub const LARGEST_DAMPING: f64 = 0.5;
 
+/// Whether an oscillator rings enough for boundaries of 1:1 resonance to mean anything.
+pub fn has_resonance(system: &System) -> bool {
+    system.mass_ratio() * system.damping() <= LARGEST_DAMPING
+}
+
 /// A tolerance with its reason.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Tolerance {

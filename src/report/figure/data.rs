@@ -94,6 +94,19 @@ pub enum Layout {
     },
 }
 
+impl Layout {
+    /// Panels side by side, with these relative widths.
+    #[must_use]
+    pub fn columns(widths: &[f64]) -> Self {
+        let cell = |column| Cell { column, row: 0, columns: 1, rows: 1 };
+        Self::Cells {
+            widths: widths.to_vec(),
+            heights: vec![1.0],
+            cells: (0..widths.len()).map(cell).collect(),
+        }
+    }
+}
+
 /// A rectangle of grid cells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct Cell {

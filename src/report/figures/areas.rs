@@ -3,7 +3,7 @@
 use crate::analysis::{AnalysisError, Branch, FixedPoint, Kind, Manifold, fixed_points};
 use crate::equations::equations;
 use crate::report::figure::{
-    Axis, Cell, Color, Figure, Label, Layer, Layout, MarkedPoint, Marker, Panel, Role, Rule, Shape,
+    Axis, Color, Figure, Label, Layer, Layout, MarkedPoint, Marker, Panel, Role, Rule, Shape,
 };
 use crate::report::numbers::significant;
 use crate::study::StudyError;
@@ -85,11 +85,7 @@ pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
     Ok(Some(
         Figure::new("areas", "Areas along the manifold, and the way of the fixed points")
             .with_size(860, 450)
-            .with_layout(Layout::Cells {
-                widths: vec![1.0, 1.0],
-                heights: vec![1.0],
-                cells: [0, 1].map(|column| Cell { column, row: 0, columns: 1, rows: 1 }).to_vec(),
-            })
+            .with_layout(Layout::columns(&[1.0, 1.0]))
             .with_panel(first)
             .with_panel(second)
             .with_words(caption, alt),
@@ -100,12 +96,7 @@ fn route(scene: &Scene) -> Route {
     let boundaries = &scene.study.analysis.boundaries;
     let gamma = scene.study.analysis.system.forcing_per_clearance();
     // The collision with the smallest forcing, beyond which no fixed point is left.
-    let outer = boundaries
-        .saddle_nodes
-        .iter()
-        .filter(|node| node.forcing_over_clearance > 0.0)
-        .filter(|node| node.forcing_over_clearance <= boundaries.hopf * (1.0 + 1e-9))
-        .min_by(|a, b| a.forcing_over_clearance.total_cmp(&b.forcing_over_clearance));
+    let outer = boundaries.outermost_collision();
     Route {
         breaking: gamma / boundaries.symmetry_breaking,
         hopf: gamma / boundaries.hopf,

@@ -3,8 +3,7 @@
 use crate::analysis::{AnalysisError, Boundaries, Branch, Manifold};
 use crate::equations::equations;
 use crate::report::figure::{
-    Axis, Cell, Color, Dash, Figure, Layer, Layout, MarkedPoint, Marker, Panel, Role, Rule, Shape,
-    Style,
+    Axis, Color, Dash, Figure, Layer, Layout, MarkedPoint, Marker, Panel, Role, Rule, Shape, Style,
 };
 use crate::report::numbers::significant;
 use crate::study::StudyError;
@@ -68,11 +67,7 @@ pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
     Ok(Some(
         Figure::new("bifurcations", "Saddle-node and Hopf condition, and the boundaries they give")
             .with_size(860, 450)
-            .with_layout(Layout::Cells {
-                widths: vec![1.0, 1.0],
-                heights: vec![1.0],
-                cells: [0, 1].map(|column| Cell { column, row: 0, columns: 1, rows: 1 }).to_vec(),
-            })
+            .with_layout(Layout::columns(&[1.0, 1.0]))
             .with_panel(first)
             .with_panel(second)
             .with_words(caption, alt),
@@ -95,12 +90,7 @@ fn condition(
         line.push([ratio, scene.units.length(gamma / squared.max(0.0).sqrt())]);
     }
     let boundaries = Boundaries::of(there, manifold)?;
-    let outer = boundaries
-        .saddle_nodes
-        .iter()
-        .filter(|node| node.forcing_over_clearance > 0.0)
-        .filter(|node| node.forcing_over_clearance <= boundaries.hopf * (1.0 + 1e-9))
-        .min_by(|a, b| a.forcing_over_clearance.total_cmp(&b.forcing_over_clearance));
+    let outer = boundaries.outermost_collision();
     Ok(Condition {
         detuning: there.detuning(),
         color: style.color,

@@ -134,12 +134,7 @@ impl Borders {
 
 impl Border {
     fn of(system: &System, detuning: f64, at: &Boundaries) -> Self {
-        let outer = at
-            .saddle_nodes
-            .iter()
-            .filter(|node| node.forcing_over_clearance > 0.0)
-            .filter(|node| node.forcing_over_clearance <= at.hopf * (1.0 + 1e-9))
-            .min_by(|a, b| a.forcing_over_clearance.total_cmp(&b.forcing_over_clearance));
+        let outer = at.outermost_collision();
         // Without a collision a fixed point that passes the fold lives on until B = 0, where C = b.
         let vanishing = libm::hypot(system.damping(), 2.0 * detuning);
         let (last, strip) = match outer {

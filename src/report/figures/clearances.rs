@@ -2,13 +2,11 @@
 //! oscillator vibrates (the claims of section 3.1 and of the red cross in Fig. 6c).
 
 use crate::regimes::Regime;
-use crate::report::figure::{
-    Axis, Cell, Color, Figure, Layer, Layout, MarkedPoint, Panel, Role, Rule,
-};
+use crate::report::figure::{Axis, Color, Figure, Layer, Layout, MarkedPoint, Panel, Role, Rule};
 use crate::report::numbers::{decibels, significant};
 use crate::study::StudyError;
 use crate::study::scenes::{WalkPoint, walk};
-use crate::validation::tolerance::LARGEST_DAMPING;
+use crate::validation::tolerance::has_resonance;
 
 use super::Scene;
 use super::amplitude::KINDS;
@@ -26,7 +24,7 @@ pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
     let analysis = &scene.study.analysis;
     let (system, boundaries) = (&analysis.system, &analysis.boundaries);
     let gamma = system.forcing_per_clearance();
-    if gamma == 0.0 || system.mass_ratio() * system.damping() > LARGEST_DAMPING {
+    if gamma == 0.0 || !has_resonance(system) {
         return Ok(None);
     }
     let breaking = gamma / boundaries.symmetry_breaking;
@@ -46,11 +44,7 @@ pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
     Ok(Some(
         Figure::new("clearances", "Regimes and vibration at many clearances, simulated")
             .with_size(860, 470)
-            .with_layout(Layout::Cells {
-                widths: vec![1.0, 1.0],
-                heights: vec![1.0],
-                cells: [0, 1].map(|column| Cell { column, row: 0, columns: 1, rows: 1 }).to_vec(),
-            })
+            .with_layout(Layout::columns(&[1.0, 1.0]))
             .with_panel(first)
             .with_panel(second)
             .with_words(caption, alt),

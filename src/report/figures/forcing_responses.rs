@@ -2,7 +2,7 @@
 
 use crate::analysis::frequency_response::ResponsePoint;
 use crate::analysis::{AnalysisError, BoundaryKind, boundaries};
-use crate::report::figure::{Axis, Cell, Color, Dash, Figure, Layer, Layout, Panel, Role, Style};
+use crate::report::figure::{Axis, Color, Dash, Figure, Layer, Layout, Panel, Role, Style};
 use crate::report::numbers::percent;
 use crate::study::StudyError;
 use crate::system::{Parameters, System};
@@ -83,11 +83,7 @@ pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
     Ok(Some(
         Figure::new("forcing-responses", "Frequency responses for four forcings per clearance")
             .with_size(860, 450)
-            .with_layout(Layout::Cells {
-                widths: vec![2.0, 3.0],
-                heights: vec![1.0],
-                cells: [0, 1].map(|column| Cell { column, row: 0, columns: 1, rows: 1 }).to_vec(),
-            })
+            .with_layout(Layout::columns(&[2.0, 3.0]))
             .with_panel(first)
             .with_panel(second)
             .with_words(caption, alt),

@@ -2,25 +2,27 @@
 //! 1:1 motion (Z4), up to symmetry breaking a steady one (Z3), beyond that Z2, then Z1.
 
 use crate::analysis::{Branch, Manifold, fixed_points};
+use crate::orbits;
 use crate::report::figure::{Color, Fill, Hatch, Layer};
-use crate::study::{StudyError, scenes};
+use crate::study::StudyError;
 use crate::system::System;
+use crate::validation::tolerance::has_resonance;
 
 /// `C/b` of the levels between the areas.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Levels {
     pub fold: f64,
     pub breaking: f64,
-    /// Where simulation finds more than two impacts per period, if anywhere.
+    /// Where the exact orbits gain a third impact, if anywhere.
     pub grazing: Option<f64>,
 }
 
 impl Levels {
-    /// The levels at a system's frequency; the one between Z2 and Z1 is simulated.
+    /// The levels at a system's frequency; the one between Z2 and Z1 is that of the exact orbits.
     pub(super) fn of(system: &System, manifold: &Manifold) -> Result<Self, StudyError> {
-        let grazing = scenes::grazing_line(system, &[system.frequency_ratio()]);
-        let grazing = match grazing.first() {
-            Some(at) => level(system, manifold, at.clearance)?,
+        let exact = has_resonance(system).then(|| orbits::Boundaries::of(system).ok()).flatten();
+        let grazing = match exact.and_then(|exact| exact.grazing()) {
+            Some(clearance) => level(system, manifold, clearance)?,
             None => None,
         };
         Ok(Self {

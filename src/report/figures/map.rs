@@ -1,13 +1,14 @@
 //! The case among its boundaries, in frequency and clearance (Figs. 5 and 6c).
 
 use crate::analysis::{BoundaryKind, Strip};
+use crate::orbits::boundaries::over_frequency;
+use crate::orbits::{Boundaries, Limit};
 use crate::report::figure::{Axis, Figure, Layer, MarkedPoint, Marker, Panel, Role, Scale, Shape};
 use crate::report::numbers::{percent, significant};
+use crate::study::StudyError;
 use crate::study::margins::Margin;
-use crate::study::scenes::ExactLimit;
-use crate::study::{StudyError, scenes};
 use crate::system::System;
-use crate::validation::tolerance::LARGEST_DAMPING;
+use crate::validation::tolerance::has_resonance;
 
 use super::Scene;
 use super::borders::Borders;
@@ -25,9 +26,7 @@ const FAR: f64 = 5.0;
 const DEEP: f64 = 0.02;
 /// A peak higher than this many times the middle height of its line is cut.
 const PEAK: f64 = 5.0;
-/// Frequencies at which the grazing that separates Z1 from Z2 is marked.
-const GRAZING: u32 = 24;
-/// Frequencies, less one, at which the exact limits are marked.
+/// Frequencies, less one, at which the exact boundaries are marked.
 const EXACT: u32 = 40;
 
 /// The window in frequency ratio.
@@ -63,13 +62,16 @@ pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
     let x = Axis::linear(units.frequency_axis()).with_range(canvas.x.0, canvas.x.1);
     let mut panel = Panel::new(x, y);
     panel.layers = borders.layers(&place);
-    let grazing = grazing(scene);
+    let exact = exact_boundaries(system);
+    let grazing = grazing(scene, &exact);
     if !grazing.is_empty() {
         panel = panel.with(grazed(scene, &grazing).labelled("Z2 ends (exact)"));
     }
-    let limits = limits(scene);
+    let limits = limits(scene, &exact);
     if !limits.is_empty() {
-        panel = panel.with(exact(scene, &limits).labelled("exact limits"));
+        let marker = Role::ExactOrbit.marker().sized(5.0);
+        let layer = Layer::marked(marker, Role::ExactOrbit.color(), limits);
+        panel = panel.with(layer.labelled("exact limits"));
     }
     panel.layers.extend(names(&borders, &place, &grazing, &canvas, case));
     panel = panel.with(Layer::this_case(case, Some(tooltip(scene))));
@@ -109,43 +111,22 @@ fn canvas(scene: &Scene, borders: &Borders) -> Canvas {
     Canvas { x, y: (scene.units.length(y.0), scene.units.length(y.1)), log_y }
 }
 
-/// Where more than two impacts per period begin, `[frequency, clearance]`.
-fn grazing(scene: &Scene) -> Vec<[f64; 2]> {
-    let system = &scene.study.analysis.system;
-    let (first, last) = window(system);
-    let ratio = |k: u32| first + (last - first) * (f64::from(k) + 0.5) / f64::from(GRAZING);
-    let ratios: Vec<f64> = (0..GRAZING).map(ratio).collect();
-    let units = &scene.units;
-    scenes::grazing_line(system, &ratios)
-        .iter()
-        .map(|point| [units.frequency(point.frequency_ratio), units.length(point.clearance)])
-        .collect()
-}
-
-/// Where the stable exact orbit begins and ends, on the frequencies between those of the grazing.
-fn limits(scene: &Scene) -> Vec<ExactLimit> {
-    let system = &scene.study.analysis.system;
-    if system.mass_ratio() * system.damping() > LARGEST_DAMPING {
+/// The exact boundaries on evenly spread frequencies of the window.
+fn exact_boundaries(system: &System) -> Vec<Boundaries> {
+    if !has_resonance(system) {
         return Vec::new();
     }
     let (first, last) = window(system);
     let ratio = |k: u32| first + (last - first) * f64::from(k) / f64::from(EXACT);
-    let ratios: Vec<f64> = (1..EXACT).map(ratio).collect();
-    scenes::exact_limits(system, &ratios)
+    over_frequency(system, &(1..EXACT).map(ratio).collect::<Vec<_>>())
 }
 
-fn exact(scene: &Scene, limits: &[ExactLimit]) -> Layer {
+/// Where more than two impacts per period begin, `[frequency, clearance]`.
+fn grazing(scene: &Scene, exact: &[Boundaries]) -> Vec<[f64; 2]> {
     let units = &scene.units;
-    let points = limits.iter().map(|limit| {
-        let words = format!(
-            "{} of the exact orbit at {}",
-            limit.kind.words(),
-            units.length_text(limit.clearance)
-        );
-        MarkedPoint::new(units.frequency(limit.frequency_ratio), units.length(limit.clearance))
-            .with_tooltip(words)
-    });
-    Layer::marked(Role::ExactOrbit.marker().sized(5.0), Role::ExactOrbit.color(), points)
+    let place =
+        |at: &Boundaries| Some([units.frequency(at.frequency_ratio), units.length(at.grazing()?)]);
+    exact.iter().filter_map(place).collect()
 }
 
 fn grazed(scene: &Scene, grazing: &[[f64; 2]]) -> Layer {
@@ -156,6 +137,22 @@ fn grazed(scene: &Scene, grazing: &[[f64; 2]]) -> Layer {
         MarkedPoint::new(*f, *b).with_tooltip(words)
     });
     Layer::marked(Marker::hollow(Shape::Square).sized(5.0), Role::ExactOrbit.color(), points)
+}
+
+/// Where the stable exact orbit begins and ends.
+fn limits(scene: &Scene, exact: &[Boundaries]) -> Vec<MarkedPoint> {
+    let units = &scene.units;
+    let point = |at: &Boundaries, limit: &Limit| {
+        let place = units.length_text(limit.clearance);
+        let words = format!("{} of the exact orbit at {place}", limit.kind.words());
+        MarkedPoint::new(units.frequency(at.frequency_ratio), units.length(limit.clearance))
+            .with_tooltip(words)
+    };
+    let bounds = |limit: &&Limit| limit.bounds_stability;
+    exact
+        .iter()
+        .flat_map(|at| at.symmetric.limits.iter().filter(bounds).map(|limit| point(at, limit)))
+        .collect()
 }
 
 /// The areas' names where they have room.

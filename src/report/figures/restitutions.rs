@@ -4,8 +4,8 @@ use std::f64::consts::{FRAC_2_PI, PI};
 
 use crate::analysis::{Branch, Manifold, fixed_points};
 use crate::report::figure::{
-    Axis, Cell, Color, Dash, Figure, Label, Layer, Layout, MarkedPoint, Marker, Panel, Role, Rule,
-    Shape, Style,
+    Axis, Color, Dash, Figure, Label, Layer, Layout, MarkedPoint, Marker, Panel, Role, Rule, Shape,
+    Style,
 };
 use crate::report::numbers::significant;
 use crate::study::StudyError;
@@ -49,11 +49,7 @@ pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
     Ok(Some(
         Figure::new("restitutions", "The manifold and what it takes, for five restitutions")
             .with_size(860, 450)
-            .with_layout(Layout::Cells {
-                widths: vec![1.0, 1.0],
-                heights: vec![1.0],
-                cells: [0, 1].map(|column| Cell { column, row: 0, columns: 1, rows: 1 }).to_vec(),
-            })
+            .with_layout(Layout::columns(&[1.0, 1.0]))
             .with_panel(first)
             .with_panel(second)
             .with_words(caption, alt),

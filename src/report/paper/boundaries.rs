@@ -1,7 +1,7 @@
 //! Figs. 3 and 5 to 7: the manifold, its areas, the boundaries, and the responses.
 
 use super::{Check, Draft, Member, PaperError, Shelf, TRANSFER, check};
-use crate::analysis::{Boundaries, Branch, SaddleNode};
+use crate::analysis::Branch;
 use crate::regimes::Regime;
 use crate::report::figures::forcing_responses;
 use crate::report::numbers::{MINUS, percent, significant};
@@ -62,16 +62,6 @@ pub(super) fn figure_3(shelf: &Shelf) -> Result<Draft, PaperError> {
     })
 }
 
-/// The outermost collision of fixed points: beyond it none is left.
-fn collision(boundaries: &Boundaries) -> Option<&SaddleNode> {
-    boundaries
-        .saddle_nodes
-        .iter()
-        .filter(|node| node.forcing_over_clearance > 0.0)
-        .filter(|node| node.forcing_over_clearance <= boundaries.hopf * (1.0 + 1e-9))
-        .min_by(|a, b| a.forcing_over_clearance.total_cmp(&b.forcing_over_clearance))
-}
-
 /// Clearances over the case's: symmetry breaking, Hopf, collision with its branch.
 pub(super) fn route(
     member: &Member,
@@ -79,7 +69,8 @@ pub(super) fn route(
 ) -> Result<(f64, f64, f64, Branch), PaperError> {
     let boundaries = &member.study.analysis.boundaries;
     let gamma = member.study.analysis.system.forcing_per_clearance();
-    let node = collision(boundaries)
+    let node = boundaries
+        .outermost_collision()
         .ok_or(PaperError::NoResult { case: name, what: "collision of fixed points" })?;
     Ok((
         gamma / boundaries.symmetry_breaking,

@@ -2,9 +2,9 @@
 
 use super::boundaries::route;
 use super::{Check, Draft, Image, PaperError, Shelf, check};
+use crate::orbits::Boundaries;
 use crate::regimes::Regime;
 use crate::report::numbers::significant;
-use crate::study::scenes;
 
 /// The cases of Fig. 4 with the regime that the paper shows.
 const FIGURE_4: [(&str, &str, Regime); 5] = [
@@ -155,11 +155,11 @@ fn remarks(shelf: &Shelf) -> Result<Vec<String>, PaperError> {
             text(moved(limit.lost.factor, b))
         ));
     }
-    let grazing = scenes::grazing_line(system, &[system.frequency_ratio()]);
-    if let Some(grazing) = grazing.first() {
+    let boundaries = member.study.exact.boundaries.as_ref();
+    if let Some(grazing) = boundaries.and_then(Boundaries::grazing) {
         lines.push(format!(
             "If the asymmetry of (c) were the apparatus's own, as section 4.2 says of other unequal intervals, (b) would still need $F$ above {} for three impacts at b = {} (exact orbit), close to the same limit, where the unsteady response has few captures (as at 8 Hz, b = 15 mm, in [Fig. 5](#fig-5)).",
-            text(moved(grazing.clearance, clearance(three)?)),
+            text(moved(grazing, clearance(three)?)),
             text(clearance(three)?)
         ));
     }

@@ -4,7 +4,7 @@ mod margins;
 
 use serde::Serialize;
 
-use super::numbers::{LengthFormat, decibels, percent, significant};
+use super::numbers::{LengthFormat, capitalised, decibels, percent, significant};
 use crate::analysis::{Area, Strip};
 use crate::case::Case;
 use crate::regimes::{FoundAttractor, Regime};
@@ -272,11 +272,6 @@ impl Writer<'_> {
             percent(difference.abs())
         ))
     }
-}
-
-fn capitalised(words: &str) -> String {
-    let mut letters = words.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
 /// By how much a quantity grows or shrinks by a factor, in words.
