@@ -3,7 +3,7 @@
 use super::price::{Price, prices};
 use super::tolerance::{Tolerance, asymptotic_error};
 use super::{Check, Claim, Finding, Measure, Verdict};
-use crate::analysis::{Analysis, BoundaryKind, Branch};
+use crate::analysis::{Analysis, Boundaries, BoundaryKind, Branch};
 use crate::orbits::{Bifurcation, FullSystem};
 use crate::system::System;
 
@@ -23,13 +23,17 @@ pub struct BoundaryAt {
 
 /// All boundaries at the case's frequency and forcing, by ascending clearance.
 pub fn clearances(analysis: &Analysis) -> Vec<BoundaryAt> {
-    let gamma = analysis.system.forcing_per_clearance();
+    clearances_of(&analysis.boundaries, analysis.system.forcing_per_clearance())
+}
+
+/// The same of boundaries at any frequency, for the forcing per clearance `gamma`.
+pub fn clearances_of(boundaries: &Boundaries, gamma: f64) -> Vec<BoundaryAt> {
     let explicit = [
-        (BoundaryKind::SymmetryBreaking, analysis.boundaries.symmetry_breaking),
-        (BoundaryKind::Hopf, analysis.boundaries.hopf),
+        (BoundaryKind::SymmetryBreaking, boundaries.symmetry_breaking),
+        (BoundaryKind::Hopf, boundaries.hopf),
     ];
     let explicit = explicit.map(|(kind, at)| (kind, Branch::Stable, at));
-    let nodes = analysis.boundaries.saddle_nodes.iter();
+    let nodes = boundaries.saddle_nodes.iter();
     let nodes =
         nodes.map(|node| (BoundaryKind::SaddleNode, node.branch, node.forcing_over_clearance));
     let mut all: Vec<BoundaryAt> = explicit

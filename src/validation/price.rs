@@ -2,9 +2,10 @@
 
 use serde::Serialize;
 
-use super::boundaries::{BoundaryAt, clearances};
-use crate::analysis::{Analysis, BoundaryKind};
-use crate::orbits::{Bifurcation, FullSystem, Limit};
+use super::boundaries::{BoundaryAt, clearances, clearances_of};
+use crate::analysis::{self, Analysis, AnalysisError, BoundaryKind, Manifold};
+use crate::orbits::{self, Bifurcation, FullSystem, Limit};
+use crate::system::System;
 
 /// A boundary of the theory beside its exact counterpart; clearances over the case's own.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -32,17 +33,39 @@ pub fn counterpart(kind: BoundaryKind) -> Bifurcation {
 
 /// Every boundary of the case's frequency and forcing, by theory and exactly, by ascending clearance.
 pub fn prices(analysis: &Analysis, exact: &FullSystem) -> Vec<Price> {
-    let theory = clearances(analysis);
-    let limits: Vec<&Limit> =
-        exact.boundaries.iter().flat_map(|found| &found.symmetric.limits).collect();
-    let compared = |limit: &&&Limit| {
+    let limits = exact.boundaries.as_ref().map_or(&[][..], |found| &found.symmetric.limits);
+    between(&clearances(analysis), limits)
+}
+
+/// The same at each frequency at which the exact boundaries are known, with its `Omega`; the forcing
+/// is that of `system`.
+///
+/// # Errors
+/// [`AnalysisError`] where the theory cannot be evaluated.
+pub fn prices_over_frequency(
+    system: &System,
+    manifold: &Manifold,
+    exact: &[orbits::Boundaries],
+) -> Result<Vec<(f64, Vec<Price>)>, AnalysisError> {
+    let mut prices = Vec::new();
+    for at in exact {
+        let Ok(there) = system.with_frequency_ratio(at.frequency_ratio) else { continue };
+        let theory = analysis::Boundaries::of(&there, manifold)?;
+        let theory = clearances_of(&theory, there.forcing_per_clearance());
+        prices.push((at.frequency_ratio, between(&theory, &at.symmetric.limits)));
+    }
+    Ok(prices)
+}
+
+fn between(theory: &[BoundaryAt], limits: &[Limit]) -> Vec<Price> {
+    let compared = |limit: &&Limit| {
         theory.iter().any(|at| counterpart(at.kind) == limit.kind) || limit.bounds_stability
     };
     let mut prices: Vec<Price> = limits
         .iter()
         .filter(compared)
         .map(|limit| {
-            let near = nearest(&theory, limit);
+            let near = nearest(theory, limit);
             Price {
                 kind: limit.kind,
                 theory: near.map(|at| at.clearance),
@@ -52,7 +75,7 @@ pub fn prices(analysis: &Analysis, exact: &FullSystem) -> Vec<Price> {
             }
         })
         .collect();
-    for at in &theory {
+    for at in theory {
         let taken = prices.iter().any(|price| price.theory == Some(at.clearance));
         if !taken {
             prices.push(Price {

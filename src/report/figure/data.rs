@@ -105,6 +105,17 @@ impl Layout {
             cells: (0..widths.len()).map(cell).collect(),
         }
     }
+
+    /// Panels one above the other, with these relative heights.
+    #[must_use]
+    pub fn rows(heights: &[f64]) -> Self {
+        let cell = |row| Cell { column: 0, row, columns: 1, rows: 1 };
+        Self::Cells {
+            widths: vec![1.0],
+            heights: heights.to_vec(),
+            cells: (0..heights.len()).map(cell).collect(),
+        }
+    }
 }
 
 /// A rectangle of grid cells.

@@ -3,7 +3,9 @@
 use crate::analysis::{BoundaryKind, Strip};
 use crate::orbits::boundaries::over_frequency;
 use crate::orbits::{Boundaries, Limit};
-use crate::report::figure::{Axis, Figure, Layer, MarkedPoint, Marker, Panel, Role, Scale, Shape};
+use crate::report::figure::{
+    Axis, Figure, Layer, Layout, MarkedPoint, Marker, Panel, Role, Scale, Shape,
+};
 use crate::report::numbers::{percent, significant};
 use crate::study::StudyError;
 use crate::study::margins::Margin;
@@ -13,6 +15,7 @@ use crate::validation::tolerance::has_resonance;
 use super::Scene;
 use super::borders::Borders;
 use super::canvas::{Canvas, interpolated};
+use super::price;
 
 /// Half the window is at least so many mass ratios ...
 const MASS_RATIOS: f64 = 15.0;
@@ -60,7 +63,7 @@ pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
     let mut y = Axis::linear(units.length_axis("clearance b")).with_range(canvas.y.0, canvas.y.1);
     y.scale = if canvas.log_y { Scale::Log } else { Scale::Linear };
     let x = Axis::linear(units.frequency_axis()).with_range(canvas.x.0, canvas.x.1);
-    let mut panel = Panel::new(x, y);
+    let mut panel = Panel::new(x.clone(), y);
     panel.layers = borders.layers(&place);
     let exact = exact_boundaries(system);
     let grazing = grazing(scene, &exact);
@@ -75,12 +78,21 @@ pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
     }
     panel.layers.extend(names(&borders, &place, &grazing, &canvas, case));
     panel = panel.with(Layer::this_case(case, Some(tooltip(scene))));
-    let (caption, alt) = words(scene);
-    Ok(Some(
-        Figure::new("map", "This case among the boundaries of steady 1:1 resonance")
-            .with_panel(panel)
-            .with_words(caption, alt),
-    ))
+    let (mut caption, mut alt) = words(scene);
+    let below = price::panel(scene, &exact, x)?;
+    if let Some(price) = below.as_ref().and_then(|_| price::words(scene)) {
+        caption = format!("{caption} {price}");
+        alt = format!("{alt} {price}");
+    }
+    let figure = Figure::new("map", "This case among the boundaries of steady 1:1 resonance")
+        .with_panel(panel)
+        .with_words(caption, alt);
+    Ok(Some(match below {
+        Some(below) => {
+            figure.with_size(720, 600).with_layout(Layout::rows(&[3.0, 1.0])).with_panel(below)
+        }
+        None => figure,
+    }))
 }
 
 /// Axes that show the boundaries and the case.

@@ -17,6 +17,7 @@ mod map;
 pub(super) mod modulation;
 mod motion;
 mod plane;
+mod price;
 mod response;
 pub(super) mod restitutions;
 mod return_map;
