@@ -7,13 +7,13 @@ use clap::Args;
 use miette::{IntoDiagnostic, Result, miette};
 use vinesink::analysis::Analysis;
 use vinesink::case::Case;
+use vinesink::regimes::Attractor;
 use vinesink::regimes::attractor::Effort;
-use vinesink::regimes::{Attractor, FoundAttractor};
 use vinesink::report::documents::SimulationDocument;
 use vinesink::report::summary;
 use vinesink::simulation::{Impact, ImpactLog, Simulation};
 use vinesink::store;
-use vinesink::study::{self, StudyEffort};
+use vinesink::study::{self, LongTermMotions, StudyEffort};
 use vinesink::system::State;
 
 use super::case_file::{CaseArgument, Format};
@@ -66,18 +66,19 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
         Some(start) => (follow(&case, start, &effort, &arguments)?, None),
         None => {
             let found = search(&case, &effort)?;
-            let main = study::main_attractor(&found)
+            let main = study::main_attractor(&found.attractors)
                 .ok_or_else(|| miette!("no start led anywhere; ask for more than 0 starts"))?;
             let continued = StudyEffort { discard: 0, ..effort };
             let motion = follow(&case, main.attractor.state, &continued, &arguments)?;
             (motion, Some(found))
         }
     };
-    let document =
-        SimulationDocument::new(&case.system(), &motion, found.as_deref(), &case.scales());
     match arguments.format {
-        Format::Text => output::print(summary::simulation(&case, &motion, found.as_deref()))?,
-        Format::Json => output::print_json(&document)?,
+        Format::Text => output::print(summary::simulation(&case, &motion, found.as_ref()))?,
+        Format::Json => {
+            let document = SimulationDocument::new(&motion, found.as_ref(), &case.scales());
+            output::print_json(&document)?;
+        }
     }
     Ok(Outcome::Done)
 }
@@ -116,10 +117,11 @@ fn follow(
     Ok(motion)
 }
 
-fn search(case: &Case, effort: &StudyEffort) -> Result<Vec<FoundAttractor>> {
+fn search(case: &Case, effort: &StudyEffort) -> Result<LongTermMotions> {
     let analysis = Analysis::of(&case.system()).into_diagnostic()?;
     let progress = Progress::new("simulating", u64::from(effort.starts));
-    study::attractors(&analysis, effort, &mut |done| progress.advance(done)).into_diagnostic()
+    let mut advance = |done| progress.advance(done);
+    study::long_term_motions(&analysis, effort, &mut advance).into_diagnostic()
 }
 
 fn csv(impacts: &[Impact]) -> String {

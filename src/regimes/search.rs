@@ -33,6 +33,21 @@ impl FoundAttractor {
     pub fn regime(&self) -> Regime {
         self.attractor.classification.regime
     }
+
+    /// Takes over the starts of another one that turned out to be the same motion.
+    pub fn absorb(&mut self, other: Self) {
+        self.starts += other.starts;
+        self.late_starts += other.late_starts;
+        self.longest_transient = self.longest_transient.max(other.longest_transient);
+        self.reached_from_theory |= other.reached_from_theory;
+        self.attractor.replace_if_settled(other.attractor);
+    }
+
+    /// Its share of `starts` starts, from its own.
+    pub fn set_share(&mut self, starts: u32) {
+        self.share = f64::from(self.starts) / f64::from(starts.max(1));
+        self.share_interval = share::wilson(self.starts, starts);
+    }
 }
 
 /// How often the window is doubled for a motion whose averages still drift or whose nature is still
@@ -96,10 +111,7 @@ pub fn find(
     }
     found.sort_by_key(|one| std::cmp::Reverse(one.starts));
     let mut distinct = merged(found);
-    for one in &mut distinct {
-        one.share = f64::from(one.starts) / f64::from(effort.starts.max(1));
-        one.share_interval = share::wilson(one.starts, effort.starts);
-    }
+    distinct.iter_mut().for_each(|one| one.set_share(effort.starts));
     Ok(distinct)
 }
 
@@ -138,13 +150,7 @@ fn merged(found: Vec<FoundAttractor>) -> Vec<FoundAttractor> {
     let mut distinct: Vec<FoundAttractor> = Vec::new();
     for one in found {
         match distinct.iter_mut().find(|known| known.attractor.is_same(&one.attractor)) {
-            Some(known) => {
-                known.starts += one.starts;
-                known.late_starts += one.late_starts;
-                known.longest_transient = known.longest_transient.max(one.longest_transient);
-                known.reached_from_theory |= one.reached_from_theory;
-                known.attractor.replace_if_settled(one.attractor);
-            }
+            Some(known) => known.absorb(one),
             None => distinct.push(one),
         }
     }

@@ -13,7 +13,7 @@ use crate::orbits::{
 };
 use crate::regimes::{Attractor, Energetics, Evidence, FoundAttractor, Nature, Regime};
 use crate::simulation::{Energy, Stop, SustainedContact};
-use crate::study::{Proof, SettledArea, SettledBy};
+use crate::study::{LongTermMotions, Proof, SettledArea, SettledBy};
 use crate::system::{Excitation, System};
 use crate::validation::price::prices;
 
@@ -330,18 +330,13 @@ impl ProofDocument {
 }
 
 impl SimulationDocument {
-    /// The document of one motion, and of the attractors it was chosen from.
-    pub fn new(
-        system: &System,
-        motion: &Attractor,
-        others: Option<&[FoundAttractor]>,
-        scales: &Scales,
-    ) -> Self {
+    /// The document of one motion, and of those it was chosen from.
+    pub fn new(motion: &Attractor, others: Option<&LongTermMotions>, scales: &Scales) -> Self {
         Self {
             format: "vinesink/simulation@1",
             motion: MotionDocument::new(motion, scales),
             attractors: others.map(|found| {
-                let proven = found.iter().map(|one| (one, Proof::of(system, one)));
+                let proven = found.attractors.iter().zip(&found.proofs);
                 proven
                     .map(|(one, proof)| AttractorDocument::new(one, proof.as_ref(), scales))
                     .collect()

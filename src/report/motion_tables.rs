@@ -3,7 +3,7 @@
 use super::numbers::{LengthFormat, MINUS, fixed, percent, signed, significant};
 use super::tables::{Table, table};
 use crate::case::{Case, Scales};
-use crate::regimes::{FoundAttractor, Nature};
+use crate::regimes::{Attractor, FoundAttractor, Nature};
 use crate::study::{CaseStudy, Proof};
 
 /// Every long-term motion.
@@ -19,7 +19,7 @@ pub fn attractors(case: &Case, study: &CaseStudy) -> Table {
             found.regime().words().to_owned(),
             share(found),
             significant(evidence.impacts_per_period, if attractor.repeats() { 4 } else { 2 }),
-            nature(found, proof.as_ref(), beside),
+            nature(attractor, proof.as_ref(), beside),
             lengths.text(scales.length(attractor.peak)),
             lengths.text(scales.length(attractor.rms)),
             percent(evidence.modulation_depth),
@@ -48,9 +48,8 @@ fn share(found: &FoundAttractor) -> String {
     format!("{} ({} to {})", percent(found.share), percent(low), percent(high))
 }
 
-/// What kind of dynamics, and what proves it.
-fn nature(found: &FoundAttractor, proof: Option<&Proof>, beside: bool) -> String {
-    let attractor = &found.attractor;
+/// What kind of dynamics, and what proves it; `beside` says whether another motion repeats.
+pub(super) fn nature(attractor: &Attractor, proof: Option<&Proof>, beside: bool) -> String {
     let evidence = &attractor.classification.evidence;
     let exponent = evidence.exponent.as_ref().map(|exponent| {
         format!(

@@ -2,12 +2,13 @@
 
 use std::fmt::Write as _;
 
+use super::motion_tables;
 use super::numbers::{LengthFormat, capitalised, fixed, percent, significant};
 use crate::analysis::{Analysis, Strip};
 use crate::case::Case;
 use crate::orbits::FullSystem;
-use crate::regimes::{Attractor, FoundAttractor};
-use crate::study::{SettledArea, SettledBy};
+use crate::regimes::Attractor;
+use crate::study::{LongTermMotions, Proof, SettledArea, SettledBy};
 use crate::validation::price::prices;
 
 /// What the theory and the exact orbits say of a case.
@@ -103,7 +104,7 @@ pub fn analysis(case: &Case, analysis: &Analysis, exact: &FullSystem, area: Sett
 }
 
 /// What simulation found.
-pub fn simulation(case: &Case, motion: &Attractor, found: Option<&[FoundAttractor]>) -> String {
+pub fn simulation(case: &Case, motion: &Attractor, found: Option<&LongTermMotions>) -> String {
     let scales = case.scales();
     let lengths = LengthFormat::of(&scales);
     let mut text = format!("{}\n\n", case.title);
@@ -117,14 +118,10 @@ pub fn simulation(case: &Case, motion: &Attractor, found: Option<&[FoundAttracto
         lengths.text(scales.length(motion.peak)),
         lengths.text(scales.length(motion.rms)),
     );
-    if let Some(repeats) = evidence.periodicity {
-        let _ = writeln!(
-            text,
-            "  repeats every {} after {}",
-            counted(u64::from(repeats.periods), "period"),
-            counted(u64::from(repeats.impacts), "impact")
-        );
-    }
+    let proof = Proof::of(&case.system(), motion);
+    let beside =
+        found.is_some_and(|found| found.attractors.iter().any(|one| one.attractor.repeats()));
+    let _ = writeln!(text, "  {}", motion_tables::nature(motion, proof.as_ref(), beside));
     let _ = writeln!(
         text,
         "  modulation depth {}, captured in 1:1 resonance {} of the time",
@@ -139,19 +136,16 @@ pub fn simulation(case: &Case, motion: &Attractor, found: Option<&[FoundAttracto
     );
     if let Some(found) = found {
         text.push_str("\nLong-term motions found, by share of starts\n");
-        for one in found {
+        for (one, proof) in found.attractors.iter().zip(&found.proofs) {
             let _ = writeln!(
                 text,
-                "  {:>5}  {}, peak {}",
+                "  {:>5}  {}, peak {}\n         {}",
                 percent(one.share),
                 one.regime().words(),
-                lengths.text(scales.length(one.attractor.peak))
+                lengths.text(scales.length(one.attractor.peak)),
+                motion_tables::nature(&one.attractor, proof.as_ref(), beside),
             );
         }
     }
     text
-}
-
-fn counted(count: u64, noun: &str) -> String {
-    if count == 1 { format!("{count} {noun}") } else { format!("{count} {noun}s") }
 }

@@ -23,7 +23,7 @@ use crate::validation::{self, Claim, Price};
 
 pub use confirmations::Confirmations;
 pub use margins::Margins;
-pub use proofs::Proof;
+pub use proofs::{LongTermMotions, Proof};
 
 /// Why a case cannot be studied.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -152,9 +152,9 @@ impl CaseStudy {
         progress: &mut dyn FnMut(u64),
     ) -> Result<Self, StudyError> {
         let analysis = Analysis::of(system)?;
-        let attractors = attractors(&analysis, &effort, progress)?;
+        let LongTermMotions { attractors, proofs } =
+            long_term_motions(&analysis, &effort, progress)?;
         let exact = FullSystem::of(system);
-        let proofs = attractors.iter().map(|found| Proof::of(system, found)).collect();
         let area = settle_area(&analysis, &exact)?;
         let claims = validation::confront(&analysis, &exact, &attractors, &effort.each())?;
         let prices = prices(&analysis, &exact);
@@ -195,18 +195,20 @@ pub fn main_attractor(found: &[FoundAttractor]) -> Option<&FoundAttractor> {
 ///
 /// # Errors
 /// [`StartError`] if a predicted motion cannot be simulated.
-pub fn attractors(
+pub fn long_term_motions(
     analysis: &Analysis,
     effort: &StudyEffort,
     progress: &mut dyn FnMut(u64),
-) -> Result<Vec<FoundAttractor>, StartError> {
+) -> Result<LongTermMotions, StartError> {
     let search = SearchEffort {
         starts: effort.starts,
         each: effort.each(),
         measured: effort.periods,
         patience: PATIENCE * effort.periods,
     };
-    search::find(&analysis.system, &predicted_starts(analysis), &search, progress)
+    let system = &analysis.system;
+    let found = search::find(system, &predicted_starts(analysis), &search, progress)?;
+    Ok(LongTermMotions::proven(system, found, effort.starts))
 }
 
 /// Starts on every motion that theory predicts, rest included.

@@ -1,4 +1,5 @@
-//! A motion that seems to repeat is proven periodic by an orbit that Newton's method converges to.
+//! A motion that seems to repeat is proven periodic by an orbit that Newton's method converges to, and
+//! two that converge to one orbit are one motion, however far apart they still were.
 
 use std::f64::consts::TAU;
 
@@ -6,7 +7,7 @@ use serde::Serialize;
 
 use crate::orbits::newton::solve;
 use crate::orbits::{AfterImpact, Closure, Cycle, Measures, Orbit, Origin, Wall};
-use crate::regimes::FoundAttractor;
+use crate::regimes::{Attractor, FoundAttractor, Nature};
 use crate::simulation::{Impact, Side};
 use crate::system::System;
 
@@ -16,6 +17,9 @@ const MIRRORED: f64 = 1e-4;
 /// Distance between simulated and exact impacts, over the size of the orbit, above which Newton's
 /// method has gone elsewhere.
 const SAME: f64 = 1e-3;
+/// Distance between the impacts of two solved orbits, over their size, below which they are one: solved
+/// to 1e-10, with room for the multipliers of a nearly singular orbit.
+const ONE_ORBIT: f64 = 1e-6;
 /// Longest cycle that is proven; a longer one is a chattering sequence, which ends in contact and is
 /// no cycle of impacts.
 const MOST_IMPACTS: usize = 64;
@@ -34,19 +38,117 @@ pub struct Proof {
 impl Proof {
     /// Of a motion that was seen to repeat; `None` where it was not, where it rests on a wall in
     /// between, or where Newton's method finds no admissible orbit at that place.
-    pub fn of(system: &System, found: &FoundAttractor) -> Option<Self> {
-        let (repetition, impacts) = found.attractor.last_repetition()?;
-        let contact = found.attractor.sustained_contact.intervals > 0;
+    pub fn of(system: &System, found: &Attractor) -> Option<Self> {
+        let (repetition, impacts) = found.last_repetition()?;
+        let contact = found.sustained_contact.intervals > 0;
         if contact || impacts.is_empty() || impacts.len() > MOST_IMPACTS {
             return None;
         }
         let simulated = cycle(system, impacts, repetition.periods)?;
         let start = simulated.folded(MIRRORED).unwrap_or_else(|| simulated.clone());
-        let orbit = solve(system, &start, Origin::Simulation).ok()?;
+        let mut orbit = solve(system, &start, Origin::Simulation).ok()?;
+        if let Some(once) = once(&orbit.cycle.unfolded()) {
+            let start = once.folded(ONE_ORBIT).unwrap_or(once);
+            orbit = solve(system, &start, Origin::Simulation).ok()?;
+        }
         let distance = distance(&orbit.cycle.unfolded(), &simulated);
         let holds = orbit.admissibility.admissible && distance < SAME;
         let measures = Measures::of(system, &orbit.cycle).ok()?;
         holds.then_some(Self { orbit, measures, distance })
+    }
+}
+
+/// Every long-term motion that was found, each with its proof, by share of starts.
+#[derive(Debug, Clone, Default)]
+pub struct LongTermMotions {
+    /// What they are.
+    pub attractors: Vec<FoundAttractor>,
+    /// For each of them the exact orbit that it is, where it is one.
+    pub proofs: Vec<Option<Proof>>,
+}
+
+impl LongTermMotions {
+    /// Proves what was `found` from `starts` evenly spread starts, where it can be proven, and merges
+    /// what one orbit proves to be one motion (or its mirror image).
+    pub fn proven(system: &System, found: Vec<FoundAttractor>, starts: u32) -> Self {
+        let mut motions = Self::default();
+        for mut one in found {
+            let proof = Proof::of(system, &one.attractor);
+            if let Some(proof) = &proof {
+                // What is proven stands above what was seen.
+                one.attractor.classification.nature = proof.nature();
+            }
+            let known = motions.proofs.iter().position(|known| match (known, &proof) {
+                (Some(known), Some(proof)) => is_one(&known.orbit.cycle, &proof.orbit.cycle),
+                _ => false,
+            });
+            if let Some(known) = known {
+                motions.attractors[known].absorb(one);
+                motions.attractors[known].set_share(starts);
+            } else {
+                motions.attractors.push(one);
+                motions.proofs.push(proof);
+            }
+        }
+        motions
+    }
+}
+
+/// A cycle that goes round more than once, cut to once. A motion that comes to its orbit from alternate
+/// sides repeats after twice its periods long before it does after once.
+fn once(cycle: &Cycle) -> Option<Cycle> {
+    let (count, periods) = (cycle.impacts.len(), cycle.periods() as usize);
+    let repeats = |rounds: &usize| {
+        let length = count / rounds;
+        count % rounds == 0
+            && periods % rounds == 0
+            && (length..count).all(|k| {
+                let (here, before) = (&cycle.impacts[k], &cycle.impacts[k - length]);
+                cycle.walls[k] == cycle.walls[k - length]
+                    && apart(here, before) < ONE_ORBIT * size(cycle)
+            })
+    };
+    let rounds = (2..=periods).rev().find(repeats)?;
+    let length = count / rounds;
+    Some(Cycle {
+        closure: Closure::Repeats { periods: cycle.periods() / rounds as u32 },
+        walls: cycle.walls[..length].to_vec(),
+        impacts: cycle.impacts[..length].to_vec(),
+        durations: cycle.durations[..length].to_vec(),
+    })
+}
+
+/// Whether two cycles are one orbit, or mirror images: some impact of the one begins the other.
+fn is_one(a: &Cycle, b: &Cycle) -> bool {
+    let same_kind = a.periods() == b.periods() && a.sequence() == b.sequence();
+    let (a, b) = (a.unfolded(), b.unfolded());
+    let images = [b.impacts.clone(), b.impacts.iter().map(AfterImpact::mirrored).collect()];
+    let count = a.impacts.len();
+    same_kind
+        && images.iter().any(|image| {
+            (0..count).any(|shift| {
+                let pairs = a.impacts.iter().zip(image.iter().cycle().skip(shift));
+                pairs.map(|(a, b)| apart(a, b)).fold(0.0, f64::max) < ONE_ORBIT * size(&a)
+            })
+        })
+}
+
+/// Largest difference of two states after impact; phases differ by whole turns.
+fn apart(a: &AfterImpact, b: &AfterImpact) -> f64 {
+    let difference = a.vector() - b.vector();
+    let turns = (difference[0] / TAU).round();
+    difference.rows(1, 3).amax().max((difference[0] - turns * TAU).abs())
+}
+
+fn size(cycle: &Cycle) -> f64 {
+    cycle.impacts.iter().map(|impact| impact.vector().rows(1, 3).amax()).fold(1.0, f64::max)
+}
+
+impl Proof {
+    fn nature(&self) -> Nature {
+        let cycle = &self.orbit.cycle;
+        let impacts = u32::try_from(cycle.impact_count()).unwrap_or(u32::MAX);
+        Nature::Periodic { impacts, periods: cycle.periods() }
     }
 }
 
