@@ -5,9 +5,10 @@ use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, PI};
 use crate::analysis::Manifold;
 use crate::analysis::frequency_response::ResponsePoint;
 use crate::analysis::manifold::ManifoldPoint;
+use crate::orbits::{SymmetricOrbit, symmetric_orbits};
 use crate::regimes::Regime;
 use crate::report::figure::{Axis, Figure, Layer, MarkedPoint, Marker, Panel, Role, Shape};
-use crate::report::numbers::decibels;
+use crate::report::numbers::{decibels, significant};
 use crate::simulation::Stop;
 use crate::study::StudyError;
 use crate::study::scenes::{SweepPoint, sweep};
@@ -19,6 +20,8 @@ use super::map::window;
 
 /// Simulated frequencies.
 const SWEEP: u32 = 17;
+/// Frequencies of the exact orbits.
+const EXACT: u32 = 60;
 /// Samples of the bare oscillator's resonance.
 const BARE: u32 = 600;
 /// The resonance of the bare oscillator is cut at this many times the absorber's highest peak.
@@ -60,6 +63,8 @@ pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
         .with(Layer::curve(Role::BareOscillator, bare_line).labelled("without absorber"))
         .with(Layer::curve(Role::Unstable, joined(&pieces, false)).labelled("unstable 1:1"))
         .with(Layer::curve(Role::Stable, joined(&pieces, true)).labelled("stable 1:1 (theory)"));
+    let ratios: Vec<f64> = (0..=EXACT).map(|k| even(f64::from(k), EXACT)).collect();
+    panel.layers.extend(exact(scene, &ratios));
     panel.layers.extend(markers(scene, &simulated));
     if let Some(peak) = here {
         let at = shown([system.frequency_ratio(), peak]);
@@ -137,6 +142,42 @@ fn peak(mass_ratio: f64, manifold: &Manifold, point: &ResponsePoint) -> f64 {
         .fold(0.0, f64::max)
 }
 
+/// Exact symmetric orbits that are motions: filled where they attract, hollow where they do not.
+fn exact(scene: &Scene, ratios: &[f64]) -> Vec<Layer> {
+    let system = &scene.study.analysis.system;
+    let units = &scene.units;
+    let orbits: Vec<(f64, SymmetricOrbit)> = ratios
+        .iter()
+        .filter_map(|ratio| Some((*ratio, system.with_frequency_ratio(*ratio).ok()?)))
+        .flat_map(|(ratio, there)| {
+            let orbits = symmetric_orbits(&there).unwrap_or_default();
+            orbits.into_iter().map(move |orbit| (ratio, orbit))
+        })
+        .filter(|(_, orbit)| orbit.orbit.admissibility.admissible)
+        .collect();
+    let layer = |attracts: bool, name: &str| {
+        let chosen = orbits.iter().filter(|(_, orbit)| orbit.orbit.attracts() == attracts);
+        let marks: Vec<MarkedPoint> = chosen
+            .map(|(ratio, orbit)| {
+                let peak = orbit.peaks.displacement;
+                let words = format!(
+                    "{name} at {}: peak {}, largest multiplier {} per period",
+                    units.frequency_text(*ratio),
+                    units.length_text(peak),
+                    significant(orbit.orbit.radius_per_period(), 3)
+                );
+                MarkedPoint::new(units.frequency(*ratio), units.length(peak)).with_tooltip(words)
+            })
+            .collect();
+        let marker =
+            if attracts { Marker::filled(Shape::Circle) } else { Marker::hollow(Shape::Circle) };
+        let layer = Layer::marked(marker.sized(4.0), Role::ExactOrbit.color(), marks.clone());
+        (!marks.is_empty()).then(|| layer.labelled(name))
+    };
+    let both = [layer(true, "exact stable orbit"), layer(false, "exact unstable orbit")];
+    both.into_iter().flatten().collect()
+}
+
 /// Simulated peaks, by regime.
 fn markers(scene: &Scene, simulated: &[SweepPoint]) -> Vec<Layer> {
     let units = &scene.units;
@@ -190,7 +231,7 @@ fn words(scene: &Scene, here: Option<f64>) -> (String, String) {
     };
     let alt = format!(
         "Peak displacement over frequency: a resonance peak without absorber, and with it a curve that is flat where 1:1 resonance is \
-         stable, with simulated points. {caption}"
+         stable, with exact orbits along it and simulated points. {caption}"
     );
     (caption, alt)
 }
