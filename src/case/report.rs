@@ -33,6 +33,10 @@ pub enum ExtraFigure {
     Restitutions,
     /// What simulation finds at many clearances, on the manifold and by its peak (Figs. 11g and 4).
     Clearances,
+    /// The amplitudes C and E of (17) in every period, in captures and between them (section 4.2).
+    Captures,
+    /// How the largest Lyapunov exponent of each motion converges.
+    Exponents,
     /// Displacement, acceleration and every impact's strength over some seconds (Fig. 12).
     Transfer,
     /// Three short stretches of the same: decrease, weak impacts, few impacts (Figs. 12d to 12f).
@@ -41,13 +45,15 @@ pub enum ExtraFigure {
 
 impl ExtraFigure {
     /// Every further figure.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 10] = [
         Self::Areas,
         Self::Bifurcations,
         Self::ForcingResponses,
         Self::Modulation,
         Self::Restitutions,
         Self::Clearances,
+        Self::Captures,
+        Self::Exponents,
         Self::Transfer,
         Self::TransferStretches,
     ];
@@ -62,6 +68,8 @@ impl ExtraFigure {
             Self::Modulation => "modulation",
             Self::Restitutions => "restitutions",
             Self::Clearances => "clearances",
+            Self::Captures => "captures",
+            Self::Exponents => "exponents",
             Self::Transfer => "transfer",
             Self::TransferStretches => "transfer-stretches",
         }

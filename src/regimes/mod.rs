@@ -22,7 +22,7 @@ use serde::Serialize;
 use crate::simulation::{Impact, Statistics};
 pub use attractor::Attractor;
 pub use energetics::Energetics;
-pub use lyapunov::Exponent;
+pub use lyapunov::{Exponent, Lyapunov};
 pub use modulation::{AbsorberAmplitude, Amplitudes, Captures};
 pub use nature::Nature;
 pub use periodicity::Periodicity;

@@ -8,11 +8,11 @@ use serde::Serialize;
 use crate::analysis::Analysis;
 use crate::analysis::motion::{read_off, state_of};
 use crate::regimes::attractor::Effort;
-use crate::regimes::{Attractor, Regime};
+use crate::regimes::{Attractor, Exponent, Lyapunov, Regime};
 use crate::simulation::{Impact, Simulation, StartError, Stop, Trace};
 use crate::system::{State, System};
 
-use super::StudyError;
+use super::{IMPACT_LIMIT, StudyError};
 
 /// Effort of one point of a map: enough to recognise a regime. More than ten thousand impacts in a
 /// few hundred periods are recognised as more than two per period without going on.
@@ -32,6 +32,30 @@ pub fn trace(
     let mut trace = Trace::new(samples_per_period);
     simulation.run(periods, u64::MAX, &mut trace);
     Ok(trace)
+}
+
+/// The largest Lyapunov exponent of the motion from a state at phase 0, after each of the ascending
+/// numbers of `periods`; none where the motion was lost, or for windows that are too short.
+///
+/// # Errors
+/// [`StartError`] if that state is not finite.
+pub fn exponents(
+    system: &System,
+    state: State,
+    periods: &[u64],
+) -> Result<Vec<Exponent>, StartError> {
+    let mut simulation = Simulation::new(system, state, 0.0)?;
+    let mut lyapunov = Lyapunov::begin(system);
+    let mut found = Vec::new();
+    let mut done = 0;
+    for &all in periods {
+        if simulation.run(all - done, IMPACT_LIMIT, &mut lyapunov) != Stop::EndTime {
+            break;
+        }
+        done = all;
+        found.extend(lyapunov.exponent());
+    }
+    Ok(found)
 }
 
 /// `[B/b, C/b]` of a state, in the plane of the manifold: `B` from the absorber's speed, which is

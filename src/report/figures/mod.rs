@@ -9,7 +9,9 @@ mod bifurcations;
 mod borders;
 mod branches;
 mod canvas;
+mod captures;
 mod clearances;
+mod exponents;
 pub(super) mod forcing_responses;
 mod levels;
 mod manifold;
@@ -98,6 +100,8 @@ fn further(scene: &Scene, wanted: ExtraFigure) -> Result<Option<Figure>, StudyEr
         ExtraFigure::ForcingResponses => forcing_responses::figure(scene),
         ExtraFigure::Modulation => modulation::figure(scene),
         ExtraFigure::Restitutions => restitutions::figure(scene),
+        ExtraFigure::Captures => Ok(captures::figure(scene)),
+        ExtraFigure::Exponents => exponents::figure(scene),
         ExtraFigure::Clearances => clearances::figure(scene),
         ExtraFigure::Transfer => transfer::figure(scene),
         ExtraFigure::TransferStretches => transfer_stretches::figure(scene),
