@@ -35,6 +35,8 @@ pub enum ExtraFigure {
     Clearances,
     /// The amplitudes C and E of (17) in every period, in captures and between them (section 4.2).
     Captures,
+    /// Which starts lead to which long-term motion, on a plane of the oscillator's starting states.
+    Basins,
     /// How the largest Lyapunov exponent of each motion converges.
     Exponents,
     /// Displacement, acceleration and every impact's strength over some seconds (Fig. 12).
@@ -45,7 +47,7 @@ pub enum ExtraFigure {
 
 impl ExtraFigure {
     /// Every further figure.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Areas,
         Self::Bifurcations,
         Self::ForcingResponses,
@@ -54,6 +56,7 @@ impl ExtraFigure {
         Self::Clearances,
         Self::Captures,
         Self::Exponents,
+        Self::Basins,
         Self::Transfer,
         Self::TransferStretches,
     ];
@@ -70,6 +73,7 @@ impl ExtraFigure {
             Self::Clearances => "clearances",
             Self::Captures => "captures",
             Self::Exponents => "exponents",
+            Self::Basins => "basins",
             Self::Transfer => "transfer",
             Self::TransferStretches => "transfer-stretches",
         }

@@ -5,6 +5,7 @@
 
 mod amplitude;
 mod areas;
+mod basins;
 mod bifurcations;
 mod borders;
 mod branches;
@@ -100,6 +101,7 @@ fn further(scene: &Scene, wanted: ExtraFigure) -> Result<Option<Figure>, StudyEr
         ExtraFigure::ForcingResponses => forcing_responses::figure(scene),
         ExtraFigure::Modulation => modulation::figure(scene),
         ExtraFigure::Restitutions => restitutions::figure(scene),
+        ExtraFigure::Basins => basins::figure(scene),
         ExtraFigure::Captures => Ok(captures::figure(scene)),
         ExtraFigure::Exponents => exponents::figure(scene),
         ExtraFigure::Clearances => clearances::figure(scene),

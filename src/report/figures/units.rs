@@ -53,6 +53,19 @@ impl Units {
         format!("{name} ({})", self.lengths.unit)
     }
 
+    /// A velocity over `omega0 b` in m/s, or as it is for a reduced case.
+    pub(super) fn velocity(&self, dimensionless: f64) -> f64 {
+        self.scales.velocity_m_per_s(dimensionless).unwrap_or(dimensionless)
+    }
+
+    /// The label of an axis with a velocity.
+    pub(super) fn velocity_axis(&self, name: &str) -> String {
+        match self.scales.natural_frequency_rad_per_s {
+            Some(_) => format!("{name} (m/s)"),
+            None => format!("{name} over ω₀b (1)"),
+        }
+    }
+
     /// A number of excitation periods in seconds, or as it is for a reduced case.
     pub(super) fn time(&self, system: &System, periods: f64) -> f64 {
         self.scales.time_s(periods * system.period()).unwrap_or(periods)
