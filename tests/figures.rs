@@ -210,10 +210,6 @@ fn captions_say_what_the_case_does() {
         let figure = figures.iter().find(|figure| figure.name == name).expect("is there");
         figure.caption.as_str()
     };
-    // From rest the vibration of 3.01 mm never reaches the absorber across 15 mm.
-    let basins = caption("basins");
-    assert!(basins.contains("% end with absorber at rest, no impacts, peak 3.01 mm"), "{basins}");
-    assert!(basins.contains("% end with two symmetric impacts per period"), "{basins}");
     assert!(caption("map").contains("Z3") && caption("map").contains("4.69 mm"));
     assert!(caption("amplitude").contains("3.56 mm instead of 3.01 mm (+1.4 dB)"));
     assert!(caption("return-map-1").contains("every 0.500 T"));
