@@ -1,9 +1,9 @@
 //! Tables of the long-term motions: what they are, and where their energy goes.
 
-use super::numbers::{LengthFormat, MINUS, fixed, percent, signed, significant};
+use super::numbers::{LengthFormat, MINUS, fixed, percent, signed, significant, with_error};
 use super::tables::{Table, table};
 use crate::case::{Case, Scales};
-use crate::regimes::{Attractor, FoundAttractor, Nature};
+use crate::regimes::{Attractor, Exponent, FoundAttractor, Nature};
 use crate::study::{CaseStudy, Proof};
 
 /// Every long-term motion.
@@ -48,16 +48,18 @@ fn share(found: &FoundAttractor) -> String {
     format!("{} ({} to {})", percent(found.share), percent(low), percent(high))
 }
 
+/// An exponent with twice its standard error: `0.66 ± 0.05`.
+pub(super) fn text_of(exponent: &Exponent) -> String {
+    with_error(exponent.per_period, 2.0 * exponent.standard_error)
+}
+
 /// What kind of dynamics, and what proves it; `beside` says whether another motion repeats.
 pub(super) fn nature(attractor: &Attractor, proof: Option<&Proof>, beside: bool) -> String {
     let evidence = &attractor.classification.evidence;
-    let exponent = evidence.exponent.as_ref().map(|exponent| {
-        format!(
-            "Lyapunov exponent {} ± {} per period",
-            significant(exponent.per_period, 2),
-            significant(2.0 * exponent.standard_error, 1)
-        )
-    });
+    let exponent = evidence
+        .exponent
+        .as_ref()
+        .map(|exponent| format!("Lyapunov exponent {} per period", text_of(exponent)));
     let captured = (evidence.captures.count > 1).then(|| {
         format!(
             "captured {} of the time, {} periods on average, up to {}",

@@ -40,6 +40,17 @@ pub fn signed(value: f64, decimals: usize) -> String {
     if text.starts_with(MINUS) || value == 0.0 { text } else { format!("+{text}") }
 }
 
+/// A value with its error, to the decimals that the error leaves: `0.68 ± 0.10`, `−0.0713 ± 0.0008`.
+/// An error that begins with 1 has two digits, since one digit would be off by up to a half.
+pub fn with_error(value: f64, error: f64) -> String {
+    if !(1e-6..1.0).contains(&error) {
+        return format!("{} ± {}", significant(value, 3), significant(error, 2));
+    }
+    let place = (-libm::log10(error).floor()) as usize;
+    let decimals = place + usize::from(error < 1.95 * libm::pow(10.0, -(place as f64)));
+    format!("{} ± {}", fixed(value, decimals), fixed(error, decimals))
+}
+
 /// A share as a percentage: `0.256` is `26 %`.
 pub fn percent(share: f64) -> String {
     let percent = 100.0 * share;
@@ -131,6 +142,15 @@ mod tests {
         assert_eq!(significant(0.0, 3), "0");
         assert_eq!(fixed(-0.04, 1), "0.0");
         assert_eq!(signed(1.45, 1), "+1.4");
+    }
+
+    #[test]
+    fn an_error_says_how_many_decimals_a_value_has() {
+        assert_eq!(with_error(0.6834, 0.1021), "0.68 ± 0.10");
+        assert_eq!(with_error(-0.071_31, 0.000_81), "−0.0713 ± 0.0008");
+        assert_eq!(with_error(0.356, 0.0302), "0.36 ± 0.03");
+        assert_eq!(with_error(12.3, 0.194), "12.30 ± 0.19");
+        assert_eq!(with_error(0.5, 0.0), "0.500 ± 0");
     }
 
     #[test]

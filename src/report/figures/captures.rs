@@ -3,7 +3,7 @@
 
 use crate::regimes::modulation::Amplitudes;
 use crate::report::figure::{Axis, Color, Figure, Fill, Hatch, Layer, Layout, Marker, Panel, Role};
-use crate::report::numbers::{percent, significant, with_minus};
+use crate::report::numbers::{percent, significant};
 
 use super::Scene;
 
@@ -90,7 +90,7 @@ fn words(scene: &Scene) -> Option<(String, String)> {
     };
     let growth = match amplitude.correlation_with_growth {
         Some(value) => {
-            let number = with_minus(&significant(value, 2));
+            let number = significant(value, 2);
             let says = if value < 0.0 {
                 "a large E goes with a decreasing vibration, as section 4.2 of the paper has it"
             } else {

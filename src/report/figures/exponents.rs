@@ -5,7 +5,7 @@ use crate::regimes::Exponent;
 use crate::report::figure::{
     Axis, Color, Dash, Figure, Fill, Hatch, Layer, Panel, Role, Rule, Style,
 };
-use crate::report::numbers::{capitalised, significant, with_minus};
+use crate::report::numbers::{capitalised, significant, with_error};
 use crate::study::scenes::exponents;
 use crate::study::{Proof, StudyError};
 
@@ -87,18 +87,16 @@ fn layers(one: &Shown) -> Vec<Layer> {
 }
 
 fn words(shown: &[Shown]) -> (String, String) {
-    let number = |value: f64, digits| with_minus(&significant(value, digits));
     let say = |one: &Shown| {
         let Some(last) = one.exponents.last() else { return one.name.clone() };
         let exact = match one.exact {
-            Some(exact) => format!(" (exact orbit: {})", number(exact, 3)),
+            Some(exact) => format!(" (exact orbit: {})", significant(exact, 3)),
             None => String::new(),
         };
         format!(
-            "{}: {} ± {} per period after {} periods{exact}",
+            "{}: {} per period after {} periods{exact}",
             one.name,
-            number(last.per_period, 3),
-            significant(2.0 * last.standard_error, 1),
+            with_error(last.per_period, 2.0 * last.standard_error),
             last.periods
         )
     };

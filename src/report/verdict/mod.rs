@@ -1,13 +1,13 @@
 //! The verdict: what an engineer wants to know first, in a few sentences.
 
 mod margins;
+mod standing;
 
 use serde::Serialize;
 
-use super::numbers::{LengthFormat, capitalised, decibels, percent, significant};
-use crate::analysis::{Area, Strip};
+use super::numbers::{LengthFormat, decibels, percent, significant};
 use crate::case::Case;
-use crate::regimes::{FoundAttractor, Regime};
+use crate::regimes::{FoundAttractor, Nature, Regime};
 use crate::study::CaseStudy;
 use crate::validation::Verdict as Outcome;
 
@@ -157,63 +157,6 @@ impl Writer<'_> {
         attractor.sustained_contact.duration_tau / duration
     }
 
-    /// Regime, area, and how firmly both stand.
-    fn standing(&self, main: &FoundAttractor) -> String {
-        let area = self.study.area.area;
-        let strip = match self.study.analysis.zone.strip {
-            Some(Strip::A1) => ", hysteresis strip A1",
-            Some(Strip::A2) => ", beat strip A2",
-            None => "",
-        };
-        let confirmed =
-            self.study.claims.iter().filter(|claim| claim.verdict == Outcome::Confirmed).count();
-        let starts = self.study.effort.starts;
-        let late = match main.late_starts {
-            0 => String::new(),
-            late => {
-                let some =
-                    if late == main.starts { "all".into() } else { format!("{late} of them") };
-                format!(
-                    ", {some} only after transients of up to {} periods",
-                    main.longest_transient
-                )
-            }
-        };
-        let led = match main.starts {
-            all if all == starts => format!("all {starts} starts lead to it{late}"),
-            0 => "only starts on the predicted motion lead to it".into(),
-            some => format!("{some} of {starts} starts lead to it{late}"),
-        };
-        let criterion = match (area, self.study.analysis.zone.strip) {
-            (Area::Z3, Some(Strip::A1)) => "steady 1:1 resonance beside a modulated response",
-            (Area::Z3, Some(Strip::A2)) => "1:1 resonance in transient captures only",
-            (Area::Z3, None) => "where the paper wants a design to be",
-            (Area::Z4, _) => "no 1:1 resonance",
-            (Area::Z2, _) => "past symmetry breaking",
-            (Area::Z1, _) => "far past symmetry breaking",
-        };
-        let claims = match self.study.claims.len() {
-            0 => "it makes no claim that could be checked".into(),
-            1 if confirmed == 1 => "the one claim that could be checked is confirmed".into(),
-            all if all == confirmed => {
-                format!("all {all} claims of theory and orbits are confirmed")
-            }
-            all => format!("{confirmed} of {all} claims of theory and orbits are confirmed"),
-        };
-        let orbit = match self.study.exact.attracting() {
-            Some(orbit) => format!(
-                "exact orbit stable (largest multiplier {})",
-                significant(orbit.orbit.multipliers.spectral_radius(), 3)
-            ),
-            None if self.study.exact.orbits.is_empty() => "no exact symmetric orbit exists".into(),
-            None => "no exact symmetric orbit is stable".into(),
-        };
-        format!(
-            "{} (area {area:?}{strip}, {criterion}): {led}; {orbit}; {claims}.",
-            capitalised(main.regime().words()),
-        )
-    }
-
     /// Why an absorber that works may still make things worse.
     fn reason(&self, main: &FoundAttractor) -> Option<String> {
         let bare = self.bare()?;
@@ -251,7 +194,11 @@ impl Writer<'_> {
                     (0, _) => "from a start on the predicted motion".into(),
                     _ => format!("{} of the starts", percent(found.share)),
                 };
-                format!("{} (peak {peak}, {share})", found.regime().words())
+                let nature = match found.attractor.classification.nature {
+                    Nature::AtRest | Nature::Periodic { .. } => String::new(),
+                    other => format!("{}, ", other.words()),
+                };
+                format!("{} ({nature}peak {peak}, {share})", found.regime().words())
             })
             .collect();
         if others.is_empty() {
