@@ -101,6 +101,8 @@ pub(super) fn figure_12(shelf: &Shelf) -> Result<Draft, PaperError> {
     let Three { weak, falls, sparse, searched } = transfer_stretches::three(&member.scene())?
         .ok_or(PaperError::NoResult { case: TRANSFER, what: "stretches" })?;
     let captures = main.attractor.classification.evidence.captures;
+    let absorber = main.attractor.classification.evidence.absorber_amplitude;
+    let follows = absorber.correlation_with_growth.unwrap_or(0.0);
     let regime_there = measured.regime().map_or("nothing", Regime::words);
     Ok(Draft {
         number: "12",
@@ -108,6 +110,7 @@ pub(super) fn figure_12(shelf: &Shelf) -> Result<Draft, PaperError> {
         paper: "Five seconds of acceleration with its impacts (a), the return map (b), displacement of oscillator and shaker (c), and stretches in which the amplitude grows although captured (d), falls (e), and grows for want of impacts (f).",
         images: vec![
             shelf.image(TRANSFER, "transfer", 860)?,
+            shelf.image(TRANSFER, "captures", 860)?,
             shelf.image(TRANSFER, "return-map-1", 360)?,
             shelf.image(TRANSFER, "transfer-stretches", 720)?,
         ],
@@ -150,6 +153,13 @@ pub(super) fn figure_12(shelf: &Shelf) -> Result<Draft, PaperError> {
                             at.impacts
                         )
                     },
+                ),
+            ),
+            check(
+                follows < 0.0,
+                format!(
+                    "$E$ of (17) is large where the vibration decreases: its correlation with the growth of $C$ is {}.",
+                    significant(follows, 2)
                 ),
             ),
             check(
