@@ -13,9 +13,9 @@ use vinesink::orbits::newton::solve;
 use vinesink::orbits::switching::{branch_off, continue_beyond};
 use vinesink::orbits::{
     Bifurcation, Boundaries, Branch, BranchEnd, Closure, Cycle, Orbit, OrbitError, Origin,
-    Parameter, SpecialPoint, SymmetricFamily, symmetric_orbits,
+    SpecialPoint, SymmetricFamily, symmetric_orbits,
 };
-use vinesink::system::System;
+use vinesink::system::{Parameter, System};
 
 fn stable_orbit(system: &System) -> Orbit {
     symmetric_orbits(system).expect("damped").pop().expect("exists").orbit
@@ -79,7 +79,7 @@ fn every_point_of_a_branch_is_an_orbit() {
 #[test]
 fn a_closed_branch_says_that_it_is_closed() {
     let system = table_1(8.5, 20.0);
-    let isola = branch(&system, Parameter::Frequency, Direction::Up, [0.5, 1.5]);
+    let isola = branch(&system, Parameter::FrequencyRatio, Direction::Up, [0.5, 1.5]);
     assert!(matches!(isola.end, BranchEnd::Closed { .. }), "{:?}", isola.end);
     let turns = isola.specials.iter().filter(|s| s.kind == Bifurcation::SaddleNode).count();
     assert_eq!(turns, 2, "a closed curve turns back twice");

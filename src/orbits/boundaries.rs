@@ -7,11 +7,11 @@
 use serde::Serialize;
 
 use super::OrbitError;
-use super::branch::{Branch, BranchEnd, Parameter, Settings};
+use super::branch::{Branch, BranchEnd, Settings};
 use super::limits::{Limit, SymmetricFamily};
 use super::special::{Bifurcation, SpecialPoint};
 use super::switching::leave;
-use crate::system::System;
+use crate::system::{Parameter, System};
 
 /// Clearances, over that of the symmetry breaking, in which the asymmetric orbits are followed; past
 /// a hundredth impacts crowd in whatever the parameters.

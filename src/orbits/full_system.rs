@@ -4,11 +4,11 @@
 use serde::Serialize;
 
 use super::boundaries::Boundaries;
-use super::branch::{Direction, Parameter, Settings, follow};
+use super::branch::{Direction, Settings, follow};
 use super::limits::{Limit, StableStretch};
 use super::special::{Bifurcation, SpecialPoint};
 use super::symmetric::{SymmetricOrbit, symmetric_orbits};
-use crate::system::System;
+use crate::system::{Parameter, System};
 
 /// Band of the frequency ratio, over the system's own, in which limits are looked for: one at half
 /// or twice the frequency is no neighbour.
@@ -74,7 +74,8 @@ impl FullSystem {
         let range = FREQUENCIES.map(|factor| factor * self.system.frequency_ratio());
         let settings = Settings::within(range);
         let branch =
-            follow(&self.system, &start.orbit, Parameter::Frequency, direction, &settings).ok()?;
+            follow(&self.system, &start.orbit, Parameter::FrequencyRatio, direction, &settings)
+                .ok()?;
         // The branch sets out stable: whichever of these comes first ends that.
         branch.specials.into_iter().find(|special| {
             matches!(

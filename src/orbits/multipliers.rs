@@ -50,6 +50,13 @@ impl Multipliers {
         self.spectral_radius() < 1.0
     }
 
+    /// Whether a complex pair lies within `tolerance` of the unit circle; real multipliers never do.
+    pub(super) fn has_pair_on_circle(&self, tolerance: f64) -> bool {
+        let on_circle =
+            |[re, im]: &[f64; 2]| *im != 0.0 && (libm::hypot(*re, *im) - 1.0).abs() < tolerance;
+        self.values.iter().any(on_circle)
+    }
+
     /// What kind of multiplier is the largest.
     pub fn leading(&self) -> Leading {
         match self.values[0] {

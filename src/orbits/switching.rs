@@ -4,11 +4,12 @@ use nalgebra::linalg::SVD;
 use nalgebra::{Matrix4, Vector4, Vector5};
 
 use super::OrbitError;
-use super::branch::{Branch, Parameter, Settings, Tracer, trace};
+use super::branch::{Branch, Settings, trace};
 use super::impact_map::AfterImpact;
 use super::orbit::{Closure, Cycle, Orbit, Origin};
 use super::special::{Bifurcation, SpecialPoint};
-use crate::system::System;
+use super::tracer::Tracer;
+use crate::system::{Parameter, System};
 
 /// How far a new branch is entered, in the norm of the first state: far enough to tell it from the
 /// old one, near enough for its linearisation.
