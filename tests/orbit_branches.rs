@@ -261,3 +261,29 @@ fn the_border_between_two_and_more_impacts_is_a_grazing() {
         assert!((passed - 2.0).abs() < 1e-6, "{passed}");
     }
 }
+
+/// The asymmetric orbits end where they meet their own mirror image: at the symmetry breaking from
+/// which they came.
+#[test]
+fn an_asymmetric_branch_turns_back_at_the_symmetry_breaking() {
+    let system = table_1(8.0, 7.5);
+    let settings = Settings::within([0.05, 10.0]);
+    let down = branch(&system, Parameter::Clearance, Direction::Down, [0.05, 10.0]);
+    let breaking = first(&down, Bifurcation::SymmetryBreaking);
+    let asymmetric = branch_off(&system, Parameter::Clearance, breaking, &settings).expect("found");
+    let inside = &asymmetric.points[asymmetric.points.len() / 2];
+    let there = system.with_clearance_scaled(inside.value).expect("valid");
+    let back = follow(&there, &inside.orbit, Parameter::Clearance, Direction::Up, &settings)
+        .expect("regular start");
+    let met = first(&back, Bifurcation::SymmetryBreaking);
+    assert!(met.converged, "{met:?}");
+    // Two branches cross there: it is known to the root of the rounding.
+    let value = met.value * inside.value;
+    assert!((value / breaking.value - 1.0).abs() < 1e-9, "{value} {}", breaking.value);
+    assert!(met.bracket[0] <= met.value && met.value <= met.bracket[1]);
+    assert!(!back.specials.iter().any(|special| special.kind == Bifurcation::SaddleNode));
+    // It goes on as its own mirror image, to the same grazing.
+    let grazing = first(&back, Bifurcation::Grazing).value * inside.value;
+    let before = first(&asymmetric, Bifurcation::Grazing).value;
+    assert!((grazing / before - 1.0).abs() < 1e-10, "{grazing} {before}");
+}

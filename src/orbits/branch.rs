@@ -36,10 +36,10 @@ impl Settings {
     pub fn within(range: [f64; 2]) -> Self {
         Self {
             range,
-            most_points: 2000,
-            first_step: 0.01,
-            largest_step: 0.05,
-            smallest_step: 1e-7,
+            most_points: MOST_POINTS,
+            first_step: FIRST_STEP,
+            largest_step: LARGEST_STEP,
+            smallest_step: SMALLEST_STEP,
             beyond_grazing: false,
         }
     }
@@ -110,6 +110,16 @@ pub struct Branch {
     pub end: BranchEnd,
 }
 
+/// Points after which a branch that neither ends nor closes is given up: with the largest step an
+/// arclength of a hundred clearances.
+const MOST_POINTS: usize = 2000;
+/// A fifth of the largest step: a branch may begin next to a bifurcation.
+const FIRST_STEP: f64 = 0.01;
+/// A twentieth of a clearance or radian: what a figure still shows as smooth, and short enough for
+/// two bifurcations of one kind seldom to share a step.
+const LARGEST_STEP: f64 = 0.05;
+/// The root of the precision of a point: over less the tangent is rounding.
+const SMALLEST_STEP: f64 = 1e-7;
 /// Corrector steps with which the branch is as good as straight: the next step may be longer.
 const EASY: u32 = 3;
 /// Growth of the step after an easy point, and its shrinking after another: slow enough for one

@@ -16,6 +16,9 @@ const FREQUENCIES: [f64; 2] = [0.5, 2.0];
 /// Clearances looked at per unit of their logarithm for the smallest vibration: the optimum is
 /// known to one percent.
 const CLEARANCES_PER_E_FOLD: f64 = 100.0;
+/// Fewest and most steps over one stretch of clearances: one clearance in its middle, and no more
+/// than twenty e-folds, of which the outer ones are no design.
+const STEPS: [f64; 2] = [2.0, 2000.0];
 
 /// The exact layer of one system.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -93,7 +96,8 @@ impl FullSystem {
     pub fn best_clearance(&self) -> Option<BestClearance> {
         let candidates = self.stable_stretches().iter().flat_map(|stretch| {
             let [from, to] = stretch.clearance;
-            let steps = (libm::log(to / from) * CLEARANCES_PER_E_FOLD).ceil().clamp(2.0, 2000.0);
+            let steps =
+                (libm::log(to / from) * CLEARANCES_PER_E_FOLD).ceil().clamp(STEPS[0], STEPS[1]);
             // Its ends are where it stops attracting.
             (1..steps as u32)
                 .map(move |k| from * libm::exp(libm::log(to / from) * f64::from(k) / steps))

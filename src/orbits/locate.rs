@@ -8,15 +8,20 @@ use super::switching;
 use super::tracer::{Point, Tracer};
 use crate::numerics::bracket::brent;
 
-/// Width over the step to which a bifurcation is located.
+/// Width over the step to which a bifurcation is located: with steps of some hundredths the rounding
+/// of the points themselves.
 const LOCATED: f64 = 1e-12;
-/// Value of a test function, over its values on either side, above which it jumps.
+/// Value of a test function at its root, over its values on either side, above which it jumps there
+/// instead of vanishing. Roots leave 1e-12, but the tangent where two branches cross some 1e-4, since
+/// rounding over the small distance to the crossing turns it; the pole of a determinant where an
+/// impact vanishes leaves 1e11.
 const VANISHES: f64 = 1e-3;
-/// Distance over the step within which a zero of `det(J - I)` is a saddle-node's own.
+/// Distance over the step within which a zero of `det(J - I)` is a saddle-node's own: two roots for
+/// one point differ by 1e-13, and a thousandth of a step is no distance between two bifurcations.
 const COINCIDES: f64 = 1e-3;
-/// Distance of a complex pair from the unit circle at a located Neimark-Sacker bifurcation.
-const ON_CIRCLE: f64 = 1e-4;
-/// Distance from its mirror image within which an orbit is symmetric.
+/// Distance from its mirror image, over the clearance and in radians, within which an orbit is
+/// symmetric. Where a branch of asymmetric orbits meets the symmetric one, two branches cross, and
+/// points are known to the root of their residual of 1e-13 only.
 const SYMMETRIC: f64 = 1e-5;
 
 /// A test function: the bifurcation that it shows, and its value at a point.
@@ -117,9 +122,7 @@ fn locate(
 /// which are no bifurcation.
 fn renamed(kind: Bifurcation, orbit: &Orbit) -> Option<Bifurcation> {
     match kind {
-        Bifurcation::NeimarkSacker => {
-            orbit.multipliers.has_pair_on_circle(ON_CIRCLE).then_some(kind)
-        }
+        Bifurcation::NeimarkSacker => orbit.multipliers.has_pair_on_circle().then_some(kind),
         // A branch of asymmetric orbits turns back where it meets its own mirror image.
         Bifurcation::SaddleNode if orbit.cycle.folded(SYMMETRIC).is_some() => {
             Some(Bifurcation::SymmetryBreaking)

@@ -13,7 +13,8 @@ use super::impact_map::{AfterImpact, ImpactMap, Step};
 use super::orbit::{Cycle, Orbit, Origin};
 use crate::system::System;
 
-/// Steps before the iteration is given up; from a good start five are enough.
+/// Steps before the iteration is given up: from a good start five are enough, and one that needs
+/// more than twice as many, or a predictor of a branch that does, was too far out.
 const LARGEST_STEPS: u32 = 12;
 /// Update over the orbit's size below which a step that no longer improves has converged: a hundred
 /// units in the last place.

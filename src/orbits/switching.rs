@@ -6,6 +6,7 @@ use nalgebra::{Matrix4, Vector4, Vector5};
 use super::OrbitError;
 use super::branch::{Branch, Settings, trace};
 use super::impact_map::AfterImpact;
+use super::multipliers::LARGEST_SWEEPS;
 use super::orbit::{Closure, Cycle, Orbit, Origin};
 use super::special::{Bifurcation, SpecialPoint};
 use super::tracer::Tracer;
@@ -85,7 +86,7 @@ fn twice(cycle: &Cycle) -> Cycle {
 
 /// The unit vector that `matrix` shrinks most.
 fn kernel(matrix: &Matrix4<f64>) -> Option<Vector4<f64>> {
-    let svd = SVD::try_new(*matrix, false, true, f64::EPSILON, 300)?;
+    let svd = SVD::try_new(*matrix, false, true, f64::EPSILON, LARGEST_SWEEPS)?;
     let rows = svd.v_t?;
     let smallest = svd.singular_values.imin();
     let vector: Vector4<f64> = rows.row(smallest).transpose();
