@@ -145,6 +145,11 @@ fn newton_refines_a_disturbed_orbit_of_three_impacts() {
     assert_eq!(grazing.sequence_beyond.as_deref(), Some("++-"));
     let beyond =
         continue_beyond(&system, Parameter::Clearance, grazing, &settings).expect("found above");
+    // Across the grazing the motion is continuous: the impact is born without speed.
+    let born = &beyond.points[0].orbit.cycle;
+    assert_eq!(born.sequence(), "++-");
+    let before = grazing.orbit.cycle.impacts[0].vector();
+    assert!((born.impacts[0].vector() - before).amax() < 1e-3, "{born:?} {before}");
     // 3.2 mm lies between the saddle-node at 3.506 mm and the period doubling at 3.104 mm.
     let stable = beyond.points.iter().find(|point| point.orbit.attracts()).expect("some");
     let there = system.with_clearance_scaled(stable.value).expect("valid");

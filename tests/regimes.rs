@@ -371,19 +371,24 @@ fn resonance_is_lost_later_upwards_than_it_returns_downwards() {
     assert!(fine.iter().any(|point| (10.0 * point.peak - 3.364).abs() < 5e-4), "{fine:?}");
 }
 
+/// Four ways to 8 Hz and 7.5 mm from another system: the peak there, 3.562 mm, is in the clearances
+/// of the system that each began with, and twice as large where the excitation is.
 #[test]
 fn other_parameters_are_swept_in_their_own_units() {
-    let base = common::table_1(8.0, 7.5);
-    for (parameter, value) in [
-        (Parameter::FrequencyRatio, base.frequency_ratio()),
-        (Parameter::Forcing, 1.0),
-        (Parameter::Restitution, base.restitution()),
-        (Parameter::Clearance, 1.0),
+    let there = common::table_1(8.0, 7.5);
+    let elastic =
+        vinesink::system::Parameters { restitution: 0.9, ..common::table_1(8.0, 7.5).parameters() };
+    for (base, clearance_mm, parameter, value, peak_mm) in [
+        (common::table_1(8.5, 7.5), 7.5, Parameter::FrequencyRatio, there.frequency_ratio(), 3.562),
+        (common::table_1(8.0, 15.0), 15.0, Parameter::Forcing, 2.0, 2.0 * 3.562),
+        (System::new(elastic).expect("valid"), 7.5, Parameter::Restitution, 0.6, 3.562),
+        (common::table_1(8.0, 10.0), 10.0, Parameter::Clearance, 0.75, 3.562),
     ] {
         let points =
             sweep(&base, parameter, &[value], START, &EFFORT, &mut |_| ()).expect("systems");
         assert_eq!(points.len(), 2);
-        assert!(points.iter().all(|point| (7.5 * point.peak - 3.562).abs() < 5e-4), "{points:?}");
+        let near = |peak: f64| (clearance_mm * peak - peak_mm).abs() < 1e-3;
+        assert!(points.iter().all(|point| near(point.peak)), "{parameter:?} {points:?}");
         assert!(sweep(&base, parameter, &[-1.0], START, &EFFORT, &mut |_| ()).is_err());
     }
 }

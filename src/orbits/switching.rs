@@ -19,6 +19,10 @@ const ENTRY: f64 = 1e-3;
 /// grazing. It is born with a square root, so that Newton's method needs some room.
 const BEYOND: [f64; 6] = [1e-5, -1e-5, 1e-4, -1e-4, 1e-3, -1e-3];
 
+/// Distance from the grazing orbit, over the clearance and in radians, within which an orbit with one
+/// more impact is the one that it becomes: some hundred times the largest change in [`BEYOND`].
+const GOES_ON: f64 = 0.1;
+
 /// The branch that leaves another at a symmetry breaking or a period doubling, on the side where it
 /// exists; both orbits of a broken symmetry are mirror images, of which one is followed.
 ///
@@ -130,8 +134,15 @@ fn across(tracer: &Tracer, scaled: f64, orbit: &Orbit) -> Option<(Orbit, f64)> {
     BEYOND.iter().find_map(|change| {
         let scaled = scaled * (1.0 + change);
         let found = tracer.at(&with_contact, scaled)?;
-        found.admissibility.admissible.then_some((found, scaled))
+        let goes_on = distance(&found.cycle, &with_contact) <= GOES_ON;
+        (goes_on && found.admissibility.admissible).then_some((found, scaled))
     })
+}
+
+/// Largest difference between the states of two cycles with as many impacts.
+fn distance(a: &Cycle, b: &Cycle) -> f64 {
+    let pairs = a.impacts.iter().zip(&b.impacts);
+    pairs.map(|(a, b)| (a.vector() - b.vector()).amax()).fold(0.0, f64::max)
 }
 
 /// The cycle with the grazing contact counted as an impact.
