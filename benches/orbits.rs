@@ -7,9 +7,9 @@ use std::time::{Duration, Instant};
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use vinesink::orbits::branch::{Direction, Settings, follow};
-use vinesink::orbits::{Branch, Parameter, SymmetricFamily, symmetric_orbits};
+use vinesink::orbits::{Branch, SymmetricFamily, symmetric_orbits};
 use vinesink::simulation::{Nobody, Simulation};
-use vinesink::system::{Excitation, Parameters, State, System};
+use vinesink::system::{Excitation, Parameter, Parameters, State, System};
 
 /// Periods in which the transient of a 1:1 motion dies out to 1e-10.
 const TRANSIENT: u64 = 400;

@@ -5,7 +5,11 @@
 //! frequency ratio `Omega`, the forcing per clearance `gamma = G / b` and the restitution `r`, the
 //! equation of motion is equation (1) of Li, Seguy, Berlioz (2016) divided by the clearance.
 
+mod parameter;
+
 use serde::Serialize;
+
+pub use parameter::Parameter;
 
 /// How the linear oscillator is driven.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]

@@ -13,9 +13,9 @@ use vinesink::orbits::newton::solve;
 use vinesink::orbits::switching::{branch_off, continue_beyond};
 use vinesink::orbits::{
     Bifurcation, Boundaries, Branch, BranchEnd, Closure, Cycle, Orbit, OrbitError, Origin,
-    Parameter, SpecialPoint, SymmetricFamily, symmetric_orbits,
+    SpecialPoint, SymmetricFamily, symmetric_orbits,
 };
-use vinesink::system::System;
+use vinesink::system::{Parameter, System};
 
 fn stable_orbit(system: &System) -> Orbit {
     symmetric_orbits(system).expect("damped").pop().expect("exists").orbit
@@ -79,7 +79,7 @@ fn every_point_of_a_branch_is_an_orbit() {
 #[test]
 fn a_closed_branch_says_that_it_is_closed() {
     let system = table_1(8.5, 20.0);
-    let isola = branch(&system, Parameter::Frequency, Direction::Up, [0.5, 1.5]);
+    let isola = branch(&system, Parameter::FrequencyRatio, Direction::Up, [0.5, 1.5]);
     assert!(matches!(isola.end, BranchEnd::Closed { .. }), "{:?}", isola.end);
     let turns = isola.specials.iter().filter(|s| s.kind == Bifurcation::SaddleNode).count();
     assert_eq!(turns, 2, "a closed curve turns back twice");
@@ -145,6 +145,11 @@ fn newton_refines_a_disturbed_orbit_of_three_impacts() {
     assert_eq!(grazing.sequence_beyond.as_deref(), Some("++-"));
     let beyond =
         continue_beyond(&system, Parameter::Clearance, grazing, &settings).expect("found above");
+    // Across the grazing the motion is continuous: the impact is born without speed.
+    let born = &beyond.points[0].orbit.cycle;
+    assert_eq!(born.sequence(), "++-");
+    let before = grazing.orbit.cycle.impacts[0].vector();
+    assert!((born.impacts[0].vector() - before).amax() < 1e-3, "{born:?} {before}");
     // 3.2 mm lies between the saddle-node at 3.506 mm and the period doubling at 3.104 mm.
     let stable = beyond.points.iter().find(|point| point.orbit.attracts()).expect("some");
     let there = system.with_clearance_scaled(stable.value).expect("valid");
@@ -260,4 +265,30 @@ fn the_border_between_two_and_more_impacts_is_a_grazing() {
         let passed = (last[4].tau - last[0].tau) / there.period();
         assert!((passed - 2.0).abs() < 1e-6, "{passed}");
     }
+}
+
+/// The asymmetric orbits end where they meet their own mirror image: at the symmetry breaking from
+/// which they came.
+#[test]
+fn an_asymmetric_branch_turns_back_at_the_symmetry_breaking() {
+    let system = table_1(8.0, 7.5);
+    let settings = Settings::within([0.05, 10.0]);
+    let down = branch(&system, Parameter::Clearance, Direction::Down, [0.05, 10.0]);
+    let breaking = first(&down, Bifurcation::SymmetryBreaking);
+    let asymmetric = branch_off(&system, Parameter::Clearance, breaking, &settings).expect("found");
+    let inside = &asymmetric.points[asymmetric.points.len() / 2];
+    let there = system.with_clearance_scaled(inside.value).expect("valid");
+    let back = follow(&there, &inside.orbit, Parameter::Clearance, Direction::Up, &settings)
+        .expect("regular start");
+    let met = first(&back, Bifurcation::SymmetryBreaking);
+    assert!(met.converged, "{met:?}");
+    // Two branches cross there: it is known to the root of the rounding.
+    let value = met.value * inside.value;
+    assert!((value / breaking.value - 1.0).abs() < 1e-9, "{value} {}", breaking.value);
+    assert!(met.bracket[0] <= met.value && met.value <= met.bracket[1]);
+    assert!(!back.specials.iter().any(|special| special.kind == Bifurcation::SaddleNode));
+    // It goes on as its own mirror image, to the same grazing.
+    let grazing = first(&back, Bifurcation::Grazing).value * inside.value;
+    let before = first(&asymmetric, Bifurcation::Grazing).value;
+    assert!((grazing / before - 1.0).abs() < 1e-10, "{grazing} {before}");
 }

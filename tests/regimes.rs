@@ -7,11 +7,11 @@ use std::f64::consts::PI;
 
 use vinesink::regimes::attractor::Effort;
 use vinesink::regimes::basins::{Axis, Basins, Cell, Coordinate, Plane};
-use vinesink::regimes::diagram::{Swept, Way, sweep};
+use vinesink::regimes::diagram::{Way, sweep};
 use vinesink::regimes::search::{self, SearchEffort};
 use vinesink::regimes::{Attractor, Nature, Regime, share};
 use vinesink::simulation::{Impact, Nobody, Observer, Side, Simulation, Statistics};
-use vinesink::system::{State, System};
+use vinesink::system::{Parameter, State, System};
 
 const START: State = State { x: 0.3, x_velocity: 0.2, y: 0.1, y_velocity: 0.8 };
 const EFFORT: Effort =
@@ -345,7 +345,7 @@ fn resonance_is_lost_later_upwards_than_it_returns_downwards() {
     let values: Vec<f64> = (0..=8).map(|k| 1.375 + 0.05 * f64::from(k)).collect();
     let effort = Effort { discard: 300, periods: 200, prolongations: 2, impact_limit: 100_000 };
     let mut told = 0;
-    let points = sweep(&base, Swept::Clearance, &values, START, &effort, &mut |n| told += n)
+    let points = sweep(&base, Parameter::Clearance, &values, START, &effort, &mut |n| told += n)
         .expect("systems");
     assert_eq!((points.len(), told), (18, 18));
     let last_kept = |way| {
@@ -367,23 +367,29 @@ fn resonance_is_lost_later_upwards_than_it_returns_downwards() {
     }
     // The peak at b = 15 mm is the exact orbit's, in the base's clearances of 10 mm.
     let fine =
-        sweep(&base, Swept::Clearance, &[1.5], START, &EFFORT, &mut |_| ()).expect("systems");
+        sweep(&base, Parameter::Clearance, &[1.5], START, &EFFORT, &mut |_| ()).expect("systems");
     assert!(fine.iter().any(|point| (10.0 * point.peak - 3.364).abs() < 5e-4), "{fine:?}");
 }
 
+/// Four ways to 8 Hz and 7.5 mm from another system: the peak there, 3.562 mm, is in the clearances
+/// of the system that each began with, and twice as large where the excitation is.
 #[test]
 fn other_parameters_are_swept_in_their_own_units() {
-    let base = common::table_1(8.0, 7.5);
-    for (swept, value) in [
-        (Swept::FrequencyRatio, base.frequency_ratio()),
-        (Swept::Forcing, 1.0),
-        (Swept::Restitution, base.restitution()),
-        (Swept::Clearance, 1.0),
+    let there = common::table_1(8.0, 7.5);
+    let elastic =
+        vinesink::system::Parameters { restitution: 0.9, ..common::table_1(8.0, 7.5).parameters() };
+    for (base, clearance_mm, parameter, value, peak_mm) in [
+        (common::table_1(8.5, 7.5), 7.5, Parameter::FrequencyRatio, there.frequency_ratio(), 3.562),
+        (common::table_1(8.0, 15.0), 15.0, Parameter::Forcing, 2.0, 2.0 * 3.562),
+        (System::new(elastic).expect("valid"), 7.5, Parameter::Restitution, 0.6, 3.562),
+        (common::table_1(8.0, 10.0), 10.0, Parameter::Clearance, 0.75, 3.562),
     ] {
-        let points = sweep(&base, swept, &[value], START, &EFFORT, &mut |_| ()).expect("systems");
+        let points =
+            sweep(&base, parameter, &[value], START, &EFFORT, &mut |_| ()).expect("systems");
         assert_eq!(points.len(), 2);
-        assert!(points.iter().all(|point| (7.5 * point.peak - 3.562).abs() < 5e-4), "{points:?}");
-        assert!(sweep(&base, swept, &[-1.0], START, &EFFORT, &mut |_| ()).is_err());
+        let near = |peak: f64| (clearance_mm * peak - peak_mm).abs() < 1e-3;
+        assert!(points.iter().all(|point| near(point.peak)), "{parameter:?} {points:?}");
+        assert!(sweep(&base, parameter, &[-1.0], START, &EFFORT, &mut |_| ()).is_err());
     }
 }
 
@@ -393,6 +399,6 @@ fn the_limit_on_impacts_shows_in_the_diagram() {
     let base = common::table_1(8.0, 0.3);
     let effort = Effort { impact_limit: 100, ..EFFORT };
     let points =
-        sweep(&base, Swept::Clearance, &[1.0], START, &effort, &mut |_| ()).expect("system");
+        sweep(&base, Parameter::Clearance, &[1.0], START, &effort, &mut |_| ()).expect("system");
     assert!(points.iter().all(|point| point.lost_to_impact_limit));
 }

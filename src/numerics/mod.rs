@@ -3,5 +3,6 @@
 
 pub mod bracket;
 pub mod crossing;
+pub mod necklace;
 pub mod polynomial;
 pub mod quadrature;

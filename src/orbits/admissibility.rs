@@ -18,9 +18,16 @@ const TOUCH_ULPS: f64 = 64.0;
 const EARLY: f64 = 1e-7;
 /// Fast time for which one bound on the curvature is used.
 const HORIZON: f64 = 1.0;
+/// Width of the cavity over the clearance: more room than any turning point inside leaves.
+const FULL_WIDTH: f64 = 2.0;
 /// Pieces per radian of the fastest oscillation in which turning points are looked for. Two of them
 /// within one piece leave the relative displacement where it was, to the fourth power of the piece.
 const PIECES_PER_RADIAN: f64 = 8.0;
+/// Fewest and most pieces of a flight: a short one still may turn twice, and one of 10^4 radians has
+/// turned often enough to have shown its extremes.
+const PIECES: [f64; 2] = [4.0, 1e5];
+/// Width, over the flight, to which a turning point is located: rounding of the motion there.
+const TURNED: f64 = 1e-13;
 
 /// The evidence.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -51,8 +58,12 @@ pub struct Narrowest {
 impl Admissibility {
     /// Of a sequence of flights: state after the impact, wall left, wall met, duration.
     pub fn of(map: &ImpactMap, flights: &[(AfterImpact, Wall, Wall, f64)]) -> Self {
-        let mut found =
-            Self { admissible: true, room: 2.0, narrowest: None, slowest_impact: f64::INFINITY };
+        let mut found = Self {
+            admissible: true,
+            room: FULL_WIDTH,
+            narrowest: None,
+            slowest_impact: f64::INFINITY,
+        };
         for (index, (start, from, to, duration)) in flights.iter().enumerate() {
             let approach = to.sign() * map.gap_at(start, *from, *duration).v;
             found.slowest_impact = found.slowest_impact.min(approach);
@@ -150,14 +161,15 @@ pub(super) fn sign_changes(
     function: impl Fn(f64) -> f64,
     mut found: impl FnMut(f64),
 ) {
-    let pieces = (duration * frequency.max(1.0) * PIECES_PER_RADIAN).ceil().clamp(4.0, 1e5);
+    let pieces =
+        (duration * frequency.max(1.0) * PIECES_PER_RADIAN).ceil().clamp(PIECES[0], PIECES[1]);
     let step = duration / pieces;
     let mut before = function(0.0);
     for k in 0..pieces as u32 {
         let (from, to) = (f64::from(k) * step, f64::from(k + 1) * step);
         let after = function(to);
         if (before > 0.0) != (after > 0.0)
-            && let Ok(root) = brent(from, to, 1e-13 * duration, &function)
+            && let Ok(root) = brent(from, to, TURNED * duration, &function)
             && root.at > 0.0
             && root.at < duration
         {

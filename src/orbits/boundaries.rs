@@ -7,15 +7,20 @@
 use serde::Serialize;
 
 use super::OrbitError;
-use super::branch::{Branch, BranchEnd, Parameter, Settings};
+use super::branch::{Branch, BranchEnd, Settings};
 use super::limits::{Limit, SymmetricFamily};
 use super::special::{Bifurcation, SpecialPoint};
 use super::switching::leave;
-use crate::system::System;
+use crate::system::{Parameter, System};
 
 /// Clearances, over that of the symmetry breaking, in which the asymmetric orbits are followed; past
 /// a hundredth impacts crowd in whatever the parameters.
 const RANGE: [f64; 2] = [0.01, 2.0];
+
+/// Points of the branch of which one must attract for the asymmetric orbits to be attracting: the
+/// first lie so close to the symmetry breaking that rounding decides their stability, and later ones
+/// may have doubled their period.
+const ENTRY_POINTS: usize = 4;
 
 /// The two asymmetric impacts per period beyond a symmetry breaking. Clearances are over the
 /// system's own.
@@ -92,8 +97,7 @@ fn asymmetric(system: &System, limit: &Limit) -> Result<AsymmetricOrbits, OrbitE
     let first = |kind| branch.specials.iter().find(|special| special.kind == kind);
     let value = |special: &SpecialPoint| special.value;
     let grazing = first(Bifurcation::Grazing);
-    // Beyond its entry, which is close to the symmetric orbit.
-    let attracting = branch.points.iter().take(4).any(|point| point.orbit.attracts());
+    let attracting = branch.points.iter().take(ENTRY_POINTS).any(|point| point.orbit.attracts());
     Ok(AsymmetricOrbits {
         symmetry_breaking: limit.clearance,
         period_doubling: first(Bifurcation::PeriodDoubling).map(value),

@@ -1,66 +1,17 @@
-//! Branches of periodic orbits: pseudo-arclength continuation in one parameter (Keller 1977), with
-//! every bifurcation on the way located by its own test function.
+//! Branches of periodic orbits: which orbits a parameter leads through, every bifurcation on the way,
+//! and why each branch ends.
+//!
+//! The points come from [`super::tracer`], the bifurcations between them from [`super::locate`].
 
-use nalgebra::{Matrix4, Vector4, Vector5};
+use nalgebra::Vector5;
 use serde::Serialize;
 
 use super::OrbitError;
-use super::admissibility::Admissibility;
-use super::impact_map::ImpactMap;
-use super::multipliers::{Multipliers, minus_one, plus_one, unit_product};
-use super::newton::{Convergence, Linearised, bordered, converge, size};
-use super::orbit::{Closure, Cycle, Orbit, Origin};
+use super::locate::located;
+use super::orbit::{Orbit, Origin};
 use super::special::{Bifurcation, SpecialPoint};
-use super::switching;
-use crate::numerics::bracket::brent;
-use crate::system::{Parameters, System};
-
-/// What is varied along a branch.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Parameter {
-    /// Clearance over the clearance of the system that the branch begins with.
-    Clearance,
-    /// Frequency ratio `Omega`.
-    Frequency,
-    /// Forcing over the forcing of the system that the branch begins with.
-    Forcing,
-    /// Restitution `r`.
-    Restitution,
-}
-
-impl Parameter {
-    /// The parameter's value in the system that a branch begins with.
-    pub fn of(self, base: &System) -> f64 {
-        match self {
-            Self::Clearance | Self::Forcing => 1.0,
-            Self::Frequency => base.frequency_ratio(),
-            Self::Restitution => base.restitution(),
-        }
-    }
-
-    /// `base` with the parameter set to `value`; `None` where there is no such system.
-    pub fn applied(self, base: &System, value: f64) -> Option<System> {
-        let parameters = base.parameters();
-        match self {
-            Self::Clearance => base.with_clearance_scaled(value).ok(),
-            Self::Frequency => base.with_frequency_ratio(value).ok(),
-            Self::Forcing => base.with_clearance_scaled(1.0 / value).ok(),
-            Self::Restitution => System::new(Parameters { restitution: value, ..parameters }).ok(),
-        }
-    }
-
-    /// Derivatives of forcing `gamma`, frequency and restitution by the parameter's value.
-    pub(super) fn weights(self, base: &System, value: f64) -> [f64; 3] {
-        let gamma = base.forcing_per_clearance();
-        match self {
-            Self::Clearance => [-gamma / (value * value), 0.0, 0.0],
-            Self::Frequency => [0.0, 1.0, 0.0],
-            Self::Forcing => [gamma, 0.0, 0.0],
-            Self::Restitution => [0.0, 0.0, 1.0],
-        }
-    }
-}
+use super::tracer::{Point, Tracer};
+use crate::system::{Parameter, System};
 
 /// How a branch is followed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -85,10 +36,10 @@ impl Settings {
     pub fn within(range: [f64; 2]) -> Self {
         Self {
             range,
-            most_points: 2000,
-            first_step: 0.01,
-            largest_step: 0.05,
-            smallest_step: 1e-7,
+            most_points: MOST_POINTS,
+            first_step: FIRST_STEP,
+            largest_step: LARGEST_STEP,
+            smallest_step: SMALLEST_STEP,
             beyond_grazing: false,
         }
     }
@@ -159,133 +110,29 @@ pub struct Branch {
     pub end: BranchEnd,
 }
 
-/// A point while the branch is followed: cycle, parameter over its scale, tangent and tests.
-#[derive(Debug, Clone)]
-pub(super) struct Point {
-    pub cycle: Cycle,
-    pub parameter: f64,
-    pub tangent: Vector5<f64>,
-    jacobian: Matrix4<f64>,
-    admissibility: Admissibility,
-    convergence: Convergence,
-    steps: u32,
-}
-
-/// Corrector steps; a predictor that needs more was too far out.
-const LARGEST_STEPS: u32 = 12;
-/// Relative size of an update that is rounding.
-const CONVERGED: f64 = 1e-13;
-/// Residual over the orbit's size that a stalled corrector may leave.
-const ACCEPTED: f64 = 1e-10;
-/// Cosine of the angle by which a branch may turn in one step.
-const LARGEST_TURN: f64 = 0.9;
-/// Width over the step to which a bifurcation is located.
-const LOCATED: f64 = 1e-12;
-/// Value of a test function, over its values on either side, above which it jumps.
-const VANISHES: f64 = 1e-3;
-
-/// What a continuation works on.
-pub(super) struct Tracer<'a> {
-    base: &'a System,
-    parameter: Parameter,
-    scale: f64,
-}
-
-impl<'a> Tracer<'a> {
-    pub fn new(base: &'a System, parameter: Parameter) -> Self {
-        let scale = parameter.of(base).abs().max(0.1);
-        Self { base, parameter, scale }
-    }
-
-    pub fn scale(&self) -> f64 {
-        self.scale
-    }
-
-    fn map(&self, scaled: f64) -> Option<(ImpactMap, [f64; 3])> {
-        let value = scaled * self.scale;
-        let system = self.parameter.applied(self.base, value)?;
-        let weights = self.parameter.weights(self.base, value).map(|w| w * self.scale);
-        Some((ImpactMap::of(&system).ok()?, weights))
-    }
-
-    /// The impact map at a scaled parameter.
-    pub fn map_at(&self, scaled: f64) -> Option<ImpactMap> {
-        self.map(scaled).map(|(map, _)| map)
-    }
-
-    /// The orbit near `cycle` at a scaled parameter, if Newton's method finds it.
-    pub fn at(&self, cycle: &Cycle, scaled: f64) -> Option<Orbit> {
-        let map = self.map_at(scaled)?;
-        let (cycle, convergence) = converge(&map, cycle).ok()?;
-        Orbit::measured(&map, cycle, convergence, Origin::Switching).ok()
-    }
-
-    /// Corrects `cycle` at `scaled` onto the plane `normal . (dz, dp) = 0` through it, and finds the
-    /// tangent there, pointing along `along`.
-    pub fn correct(
-        &self,
-        mut cycle: Cycle,
-        mut scaled: f64,
-        normal: &Vector5<f64>,
-        along: &Vector5<f64>,
-    ) -> Result<Point, OrbitError> {
-        let mut last = f64::INFINITY;
-        for steps in 0..LARGEST_STEPS {
-            let (map, weights) = self.map(scaled).ok_or(OrbitError::Singular)?;
-            cycle.check()?;
-            let linear = Linearised::of(&map, &cycle, weights);
-            let residual = linear.residual / size(&cycle);
-            let mut right = Vector5::zeros();
-            right.fixed_rows_mut::<4>(0).copy_from(&linear.carried);
-            let change = bordered(&linear, normal, &right).ok_or(OrbitError::Singular)?;
-            let update = change.amax() / size(&cycle);
-            if !(update.is_finite() && residual.is_finite()) {
-                return Err(OrbitError::NotConverged { iterations: steps, residual });
-            }
-            let stalled = update >= 0.5 * last && residual < ACCEPTED && update < 1e-7;
-            if update < CONVERGED || stalled {
-                let mut unit = Vector5::zeros();
-                unit[4] = 1.0;
-                let tangent = bordered(&linear, along, &unit).ok_or(OrbitError::Singular)?;
-                let admissibility = Admissibility::of(&map, &cycle.flights());
-                return Ok(Point {
-                    tangent: tangent / tangent.norm(),
-                    jacobian: linear.jacobian,
-                    convergence: Convergence { residual, iterations: steps },
-                    cycle,
-                    parameter: scaled,
-                    admissibility,
-                    steps,
-                });
-            }
-            last = update;
-            let first: Vector4<f64> = change.fixed_rows::<4>(0).into();
-            cycle = linear.moved(&cycle, first, change[4], weights);
-            scaled += change[4];
-        }
-        Err(OrbitError::NotConverged { iterations: LARGEST_STEPS, residual: last })
-    }
-
-    /// The point an arclength `step` along the branch from `point`.
-    fn advance(&self, point: &Point, step: f64) -> Result<Point, OrbitError> {
-        let (map, weights) = self.map(point.parameter).ok_or(OrbitError::Singular)?;
-        let linear = Linearised::of(&map, &point.cycle, weights);
-        let first: Vector4<f64> = point.tangent.fixed_rows::<4>(0).into();
-        let ahead = step * point.tangent[4];
-        let cycle = linear.moved(&point.cycle, first * step, ahead, weights);
-        self.correct(cycle, point.parameter + ahead, &point.tangent, &point.tangent)
-    }
-
-    pub fn orbit(&self, point: &Point, origin: Origin) -> Option<Orbit> {
-        Some(Orbit {
-            cycle: point.cycle.clone(),
-            convergence: point.convergence,
-            multipliers: Multipliers::of(&point.jacobian)?,
-            admissibility: point.admissibility,
-            origin,
-        })
-    }
-}
+/// Points after which a branch that neither ends nor closes is given up: with the largest step an
+/// arclength of a hundred clearances.
+const MOST_POINTS: usize = 2000;
+/// A fifth of the largest step: a branch may begin next to a bifurcation.
+const FIRST_STEP: f64 = 0.01;
+/// A twentieth of a clearance or radian: what a figure still shows as smooth, and short enough for
+/// two bifurcations of one kind seldom to share a step.
+const LARGEST_STEP: f64 = 0.05;
+/// The root of the precision of a point: over less the tangent is rounding.
+const SMALLEST_STEP: f64 = 1e-7;
+/// Corrector steps with which the branch is as good as straight: the next step may be longer.
+const EASY: u32 = 3;
+/// Growth of the step after an easy point, and its shrinking after another: slow enough for one
+/// curved stretch not to be overrun, fast enough for a straight one to cost little.
+const LONGER: f64 = 1.5;
+/// See [`LONGER`].
+const SHORTER: f64 = 0.8;
+/// Points before a branch can have come back to where it began: fewer enclose nothing.
+const FEWEST_AROUND: usize = 3;
+/// Distance from the first point, over the stretch that may pass it, beyond which it is another part
+/// of the branch: either end of a stretch that passes a point is within one stretch of it, and a
+/// curved one a little farther.
+const BESIDE: f64 = 2.0;
 
 /// Follows the branch through `start`, an orbit of `base`, in one direction.
 ///
@@ -304,16 +151,16 @@ pub fn follow(
         Direction::Up => 1.0,
         Direction::Down => -1.0,
     };
-    let scaled = parameter.of(base) / tracer.scale;
+    let scaled = parameter.of(base) / tracer.scale();
     let first = tracer.correct(start.cycle.clone(), scaled, &upwards, &upwards)?;
     Ok(trace(&tracer, first, start.origin, settings))
 }
 
 /// Follows a branch from a point on it, along its tangent.
 pub(super) fn trace(tracer: &Tracer, first: Point, origin: Origin, settings: &Settings) -> Branch {
-    let begin = first.parameter * tracer.scale;
+    let begin = tracer.value(&first);
     let mut branch = Branch {
-        parameter: tracer.parameter,
+        parameter: tracer.parameter(),
         points: Vec::new(),
         specials: Vec::new(),
         end: BranchEnd::PointLimit { value: begin },
@@ -323,16 +170,16 @@ pub(super) fn trace(tracer: &Tracer, first: Point, origin: Origin, settings: &Se
     let mut here = first.clone();
     let mut step = settings.first_step;
     while branch.points.len() < settings.most_points {
-        let stepped = match at_edge(tracer, &here, step, settings) {
+        let stepped = match tracer.at_edge(&here, step, settings.range) {
             Some((there, edge)) => Ok((there, step, Some(BranchEnd::Range { value: edge }))),
-            None => {
-                next_point(tracer, &here, step, settings).map(|(there, taken)| (there, taken, None))
-            }
+            None => tracer
+                .next(&here, step, settings.smallest_step)
+                .map(|(there, taken)| (there, taken, None)),
         };
         let (there, taken, last) = match stepped {
             Ok(found) => found,
             Err(reason) => {
-                let value = here.parameter * tracer.scale;
+                let value = tracer.value(&here);
                 branch.end = BranchEnd::NotConverged { value, reason: reason.to_string() };
                 return branch;
             }
@@ -343,82 +190,22 @@ pub(super) fn trace(tracer: &Tracer, first: Point, origin: Origin, settings: &Se
             branch.end = end;
             return branch;
         }
-        // Few corrector steps: the branch is straight here.
-        let factor = if there.steps <= 3 { 1.5 } else { 0.8 };
+        let factor = if there.convergence.iterations <= EASY { LONGER } else { SHORTER };
         step = (taken * factor).min(settings.largest_step);
         here = there;
     }
-    branch.end = BranchEnd::PointLimit { value: here.parameter * tracer.scale };
+    branch.end = BranchEnd::PointLimit { value: tracer.value(&here) };
     branch
 }
 
 /// Whether the stretch from `here` to `there` passes the branch's first point, along its tangent.
 fn returns(first: &Point, here: &Point, there: &Point, passed: usize) -> bool {
-    let along = |point: &Point| place(point) - place(first);
+    let along = |point: &Point| point.place() - first.place();
     // Phases count whole turns; a closed branch may come back a turn later.
-    let stretch = (place(there) - place(here)).norm();
-    let near = along(here).norm() <= 2.0 * stretch && along(there).norm() <= 2.0 * stretch;
+    let stretch = (there.place() - here.place()).norm();
+    let near = along(here).norm() <= BESIDE * stretch && along(there).norm() <= BESIDE * stretch;
     let side = |point: &Point| first.tangent.dot(&along(point));
-    passed > 3 && near && side(here) < 0.0 && side(there) >= 0.0
-}
-
-/// First state and parameter of a point, as the arclength measures them.
-fn place(point: &Point) -> Vector5<f64> {
-    let mut place = Vector5::zeros();
-    place.fixed_rows_mut::<4>(0).copy_from(&point.cycle.impacts[0].vector());
-    place[4] = point.parameter;
-    place
-}
-
-/// The orbit at the edge of the range, if the next step would leave it: parameters need not exist
-/// beyond (a restitution above 1).
-fn at_edge(tracer: &Tracer, here: &Point, step: f64, settings: &Settings) -> Option<(Point, f64)> {
-    let [low, high] = settings.range.map(|edge| edge / tracer.scale);
-    let ahead = here.parameter + step * here.tangent[4];
-    let edge = if ahead > high {
-        high
-    } else if ahead < low {
-        low
-    } else {
-        return None;
-    };
-    let (map, weights) = tracer.map(here.parameter)?;
-    let linear = Linearised::of(&map, &here.cycle, weights);
-    let share = (edge - here.parameter) / here.tangent[4];
-    let first: Vector4<f64> = here.tangent.fixed_rows::<4>(0).into();
-    let change = edge - here.parameter;
-    let cycle = linear.moved(&here.cycle, first * share, change, weights);
-    let mut upright = Vector5::zeros();
-    upright[4] = 1.0;
-    let there = tracer.correct(cycle, edge, &upright, &here.tangent).ok()?;
-    // A branch that turns back before the edge must not be left for another one.
-    let close = (place(&there) - place(here)).norm() <= 2.0 * step.max(share.abs());
-    (close && there.tangent.dot(&here.tangent) >= LARGEST_TURN)
-        .then_some((there, edge * tracer.scale))
-}
-
-/// The next point, with the step that reached it: halved until the corrector converges and the branch
-/// turns little.
-fn next_point(
-    tracer: &Tracer,
-    here: &Point,
-    step: f64,
-    settings: &Settings,
-) -> Result<(Point, f64), OrbitError> {
-    let mut step = step;
-    loop {
-        let failure = match tracer.advance(here, step) {
-            Ok(there) if there.tangent.dot(&here.tangent) >= LARGEST_TURN => {
-                return Ok((there, step));
-            }
-            Ok(_) => OrbitError::Singular,
-            Err(failure) => failure,
-        };
-        step *= 0.5;
-        if step < settings.smallest_step {
-            return Err(failure);
-        }
-    }
+    passed > FEWEST_AROUND && near && side(here) < 0.0 && side(there) >= 0.0
 }
 
 /// Takes a new point into the branch, with the bifurcations before it; says whether the branch ends.
@@ -445,114 +232,8 @@ fn record(
     if let Some(value) = stops {
         return Some(BranchEnd::Grazing { value });
     }
-    let value = there.parameter * tracer.scale;
+    let value = tracer.value(there);
     let orbit = tracer.orbit(there, Origin::Continuation);
     branch.points.extend(orbit.map(|orbit| BranchPoint { value, orbit }));
     None
-}
-
-/// A test function: the bifurcation that it shows, and its value at a point.
-struct Test {
-    kind: Bifurcation,
-    value: fn(&Point) -> f64,
-}
-
-fn tests(closure: Closure) -> [Test; 6] {
-    let minus = match closure {
-        Closure::Repeats { .. } => Bifurcation::PeriodDoubling,
-        Closure::Mirrors { .. } => Bifurcation::SymmetryBreaking,
-    };
-    [
-        Test { kind: Bifurcation::SaddleNode, value: |point| point.tangent[4] },
-        Test { kind: Bifurcation::BranchPoint, value: |point| plus_one(&point.jacobian) },
-        Test { kind: minus, value: |point| minus_one(&point.jacobian) },
-        Test { kind: Bifurcation::NeimarkSacker, value: |point| unit_product(&point.jacobian) },
-        Test { kind: Bifurcation::Grazing, value: |point| point.admissibility.room },
-        Test {
-            kind: Bifurcation::VanishingImpact,
-            value: |point| point.admissibility.slowest_impact,
-        },
-    ]
-}
-
-/// Every bifurcation between two neighbouring points, in order along the branch.
-fn located(tracer: &Tracer, here: &Point, there: &Point, step: f64) -> Vec<SpecialPoint> {
-    let mut found: Vec<(f64, SpecialPoint)> = Vec::new();
-    for test in tests(here.cycle.closure) {
-        let (before, after) = ((test.value)(here), (test.value)(there));
-        let changes = before.is_finite() && after.is_finite() && before * after < 0.0;
-        if !changes {
-            continue;
-        }
-        found.extend(locate(tracer, here, step, &test, [before, after]));
-    }
-    found.sort_by(|a, b| a.0.total_cmp(&b.0));
-    // Where the branch turns back det(J - I) vanishes as well; that is the saddle-node's own.
-    let turns: Vec<f64> =
-        found.iter().filter(|one| one.1.kind == Bifurcation::SaddleNode).map(|one| one.0).collect();
-    found.retain(|(at, special)| {
-        // A determinant passes through a pole where an impact vanishes.
-        let measured = matches!(special.kind, Bifurcation::Grazing | Bifurcation::VanishingImpact);
-        if !(special.converged || measured) {
-            return false;
-        }
-        special.kind != Bifurcation::BranchPoint
-            || turns.iter().all(|turn| (turn - at).abs() > 1e-3 * step)
-    });
-    found.into_iter().map(|(_, special)| special).collect()
-}
-
-fn locate(
-    tracer: &Tracer,
-    here: &Point,
-    step: f64,
-    test: &Test,
-    [before, after]: [f64; 2],
-) -> Option<(f64, SpecialPoint)> {
-    let at = |s: f64| {
-        if s == 0.0 { Ok(here.clone()) } else { tracer.advance(here, s) }
-    };
-    let value = |s: f64| at(s).map_or(f64::NAN, |point| (test.value)(&point));
-    let root = brent(0.0, step, LOCATED * step, value).ok()?;
-    let point = at(root.at).ok()?;
-    let orbit = tracer.orbit(&point, Origin::Continuation)?;
-    let kind = renamed(test.kind, &orbit)?;
-    let width = LOCATED * step;
-    let near = |s: f64| at(s).map_or(f64::NAN, |point| point.parameter * tracer.scale);
-    let (left, right) = (near((root.at - width).max(0.0)), near((root.at + width).min(step)));
-    let value = point.parameter * tracer.scale;
-    let grazes = kind == Bifurcation::Grazing && orbit.admissibility.narrowest.is_some();
-    let sequence_beyond =
-        if grazes { switching::beyond_grazing(tracer, point.parameter, &orbit) } else { None };
-    let bracket = [left.min(right).min(value), left.max(right).max(value)];
-    Some((
-        root.at,
-        SpecialPoint {
-            kind,
-            value,
-            bracket,
-            precision: (bracket[1] - bracket[0]) / value.abs().max(f64::MIN_POSITIVE),
-            test: [before, root.residual, after],
-            converged: root.residual.abs() <= VANISHES * before.abs().max(after.abs()),
-            sequence_beyond,
-            orbit,
-        },
-    ))
-}
-
-/// What a vanishing test function means at this orbit; `None` for two real reciprocal multipliers,
-/// which are no bifurcation.
-fn renamed(kind: Bifurcation, orbit: &Orbit) -> Option<Bifurcation> {
-    match kind {
-        Bifurcation::NeimarkSacker => {
-            let on_circle =
-                |[re, im]: [f64; 2]| im != 0.0 && (libm::hypot(re, im) - 1.0).abs() < 1e-4;
-            orbit.multipliers.values.iter().any(|value| on_circle(*value)).then_some(kind)
-        }
-        // A branch of asymmetric orbits turns back where it meets its own mirror image.
-        Bifurcation::SaddleNode if orbit.cycle.folded(1e-5).is_some() => {
-            Some(Bifurcation::SymmetryBreaking)
-        }
-        _ => Some(kind),
-    }
 }

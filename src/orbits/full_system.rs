@@ -4,11 +4,11 @@
 use serde::Serialize;
 
 use super::boundaries::Boundaries;
-use super::branch::{Direction, Parameter, Settings, follow};
+use super::branch::{Direction, Settings, follow};
 use super::limits::{Limit, StableStretch};
 use super::special::{Bifurcation, SpecialPoint};
 use super::symmetric::{SymmetricOrbit, symmetric_orbits};
-use crate::system::System;
+use crate::system::{Parameter, System};
 
 /// Band of the frequency ratio, over the system's own, in which limits are looked for: one at half
 /// or twice the frequency is no neighbour.
@@ -16,6 +16,9 @@ const FREQUENCIES: [f64; 2] = [0.5, 2.0];
 /// Clearances looked at per unit of their logarithm for the smallest vibration: the optimum is
 /// known to one percent.
 const CLEARANCES_PER_E_FOLD: f64 = 100.0;
+/// Fewest and most steps over one stretch of clearances: one clearance in its middle, and no more
+/// than twenty e-folds, of which the outer ones are no design.
+const STEPS: [f64; 2] = [2.0, 2000.0];
 
 /// The exact layer of one system.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -74,7 +77,8 @@ impl FullSystem {
         let range = FREQUENCIES.map(|factor| factor * self.system.frequency_ratio());
         let settings = Settings::within(range);
         let branch =
-            follow(&self.system, &start.orbit, Parameter::Frequency, direction, &settings).ok()?;
+            follow(&self.system, &start.orbit, Parameter::FrequencyRatio, direction, &settings)
+                .ok()?;
         // The branch sets out stable: whichever of these comes first ends that.
         branch.specials.into_iter().find(|special| {
             matches!(
@@ -92,7 +96,8 @@ impl FullSystem {
     pub fn best_clearance(&self) -> Option<BestClearance> {
         let candidates = self.stable_stretches().iter().flat_map(|stretch| {
             let [from, to] = stretch.clearance;
-            let steps = (libm::log(to / from) * CLEARANCES_PER_E_FOLD).ceil().clamp(2.0, 2000.0);
+            let steps =
+                (libm::log(to / from) * CLEARANCES_PER_E_FOLD).ceil().clamp(STEPS[0], STEPS[1]);
             // Its ends are where it stops attracting.
             (1..steps as u32)
                 .map(move |k| from * libm::exp(libm::log(to / from) * f64::from(k) / steps))

@@ -19,10 +19,20 @@ use crate::system::{Parameters, System};
 /// Largest amplitude of the absorber that is looked at, over the clearance: far beyond symmetry
 /// breaking, which the leading-order theory puts at 1.68.
 const LARGEST: f64 = 5.0;
-/// Pieces of that range in which sign changes are looked for.
+/// Pieces of that range in which sign changes are looked for: two roots of one test function within a
+/// fiftieth of a clearance would be missed.
 const PIECES: u32 = 250;
-/// Width to which a root in `beta` is bracketed.
+/// Width to which a root in `beta` is bracketed: its rounding.
 const WIDTH: f64 = 1e-14;
+
+/// Change of `beta`, over itself, at which stability beside a limit is asked for: close to the limit,
+/// and far outside of its rounding, which the multipliers show to the square root of 1e-14 where two
+/// of them meet.
+const ASIDE: f64 = 1e-5;
+
+/// Value of a test function at its root, over its values on either side, above which it jumps there
+/// instead of vanishing: roots of closed forms leave 1e-12.
+const VANISHES: f64 = 1e-6;
 
 /// A limit of the family.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -108,8 +118,7 @@ impl Family {
         let forcing = self.curve.forcing(beta);
         let clearance = |beta: f64| self.forcing / self.curve.forcing(beta);
         let [a, b] = bracket.map(clearance);
-        // Close beside the limit, and far outside its rounding.
-        let aside = 1e-5 * beta;
+        let aside = ASIDE * beta;
         Limit {
             kind,
             absorber: beta,
@@ -190,7 +199,7 @@ impl Family {
 
     /// Not a jump of the test function, and not two real reciprocal multipliers.
     fn is_real(&self, kind: Bifurcation, beta: f64, scale: f64) -> bool {
-        if self.test(kind, beta).abs() > 1e-6 * scale {
+        if self.test(kind, beta).abs() > VANISHES * scale {
             return false;
         }
         if kind != Bifurcation::NeimarkSacker {
@@ -198,12 +207,7 @@ impl Family {
         }
         let map = self.map_at(beta);
         let jacobian = self.curve.cycle(&map.flight, beta).jacobian(&map);
-        Multipliers::of(&jacobian).is_some_and(|found| {
-            found
-                .values
-                .iter()
-                .any(|[re, im]| *im != 0.0 && (libm::hypot(*re, *im) - 1.0).abs() < 1e-6)
-        })
+        Multipliers::of(&jacobian).is_some_and(|found| found.has_pair_on_circle())
     }
 
     /// Between neighbouring limits stability is one and the same.

@@ -14,6 +14,10 @@ use super::orbit::Cycle;
 use crate::numerics::quadrature;
 use crate::system::System;
 
+/// Radians, or decay times, of the fastest motion in one panel of the quadrature: eight Gauss points
+/// on an eighth of a turn integrate products of two sinusoids to rounding.
+const PANEL: f64 = FRAC_PI_4;
+
 /// Largest values along an orbit, over the clearance, fast time.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Peaks {
@@ -113,7 +117,7 @@ fn integrals(system: &System, map: &ImpactMap, cycle: &Cycle) -> [f64; 7] {
     let damping = map.flight.damping();
     let (sine, cosine) = system.excitation_amplitudes();
     let oscillating = 1.0_f64.max(omega);
-    let panels = [FRAC_PI_4 / oscillating.max(damping), FRAC_PI_4 / oscillating];
+    let panels = [PANEL / oscillating.max(damping), PANEL / oscillating];
     let mut sums = [0.0; 7];
     for (start, from, _, duration) in cycle.flights() {
         let place = start.x - from.sign();

@@ -6,11 +6,16 @@ use nalgebra::{Complex, Matrix4, SMatrix};
 use serde::Serialize;
 
 /// Sweeps that the eigenvalue iteration may take; three or four per eigenvalue are usual.
-const LARGEST_SWEEPS: usize = 300;
+pub(super) const LARGEST_SWEEPS: usize = 300;
 /// Shifts of the spectrum, over the matrix's size, that are tried in turn. The unshifted iteration
 /// stalls on spectra symmetric about 0 (a biquadratic characteristic polynomial), which any shift
 /// makes unsymmetric.
 const SHIFTS: [f64; 3] = [0.0, 0.37, -0.61];
+
+/// Distance from the unit circle within which a complex pair lies on it: at a root of
+/// [`unit_product`] that is one it is there to rounding, 1e-14, and at one that is a pair of real
+/// reciprocals any complex pair is somewhere else.
+const ON_CIRCLE: f64 = 1e-6;
 
 /// The four multipliers of a map, largest modulus first, conjugates next to one another.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -48,6 +53,14 @@ impl Multipliers {
     /// Whether every multiplier lies inside the unit circle.
     pub fn stable(&self) -> bool {
         self.spectral_radius() < 1.0
+    }
+
+    /// Whether a complex pair lies on the unit circle: a root of [`unit_product`] that is a
+    /// Neimark-Sacker bifurcation.
+    pub(super) fn has_pair_on_circle(&self) -> bool {
+        let on_circle =
+            |[re, im]: &[f64; 2]| *im != 0.0 && (libm::hypot(*re, *im) - 1.0).abs() < ON_CIRCLE;
+        self.values.iter().any(on_circle)
     }
 
     /// What kind of multiplier is the largest.

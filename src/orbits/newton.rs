@@ -13,14 +13,21 @@ use super::impact_map::{AfterImpact, ImpactMap, Step};
 use super::orbit::{Cycle, Orbit, Origin};
 use crate::system::System;
 
-/// Steps before the iteration is given up; from a good start five are enough.
-const LARGEST_STEPS: u32 = 40;
+/// Steps before the iteration is given up: from a good start five are enough, and one that needs
+/// more than twice as many, or a predictor of a branch that does, was too far out.
+const LARGEST_STEPS: u32 = 12;
 /// Update over the orbit's size below which a step that no longer improves has converged: a hundred
 /// units in the last place.
 const CONVERGED: f64 = 2e-14;
 /// Residual over the orbit's size above which a stalled iteration has failed: rounding grows with
 /// the multipliers, and no orbit worth naming has larger ones than 1e5.
 const ACCEPTED: f64 = 1e-10;
+/// Update over the one before it above which the iteration has stalled: quadratic convergence
+/// shrinks it far more, rounding does not shrink it at all.
+const STALLED: f64 = 0.5;
+/// Update over the orbit's size above which a stalled iteration has failed: [`ACCEPTED`] over the
+/// distance of the nearest multiplier from +1, which is 1e-3 next to a saddle-node.
+const ROUNDING: f64 = 1e-7;
 
 /// How well a cycle closes.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -138,39 +145,65 @@ pub fn solve(system: &System, start: &Cycle, origin: Origin) -> Result<Orbit, Or
 
 /// Newton's iteration at fixed parameters.
 pub(super) fn converge(map: &ImpactMap, start: &Cycle) -> Result<(Cycle, Convergence), OrbitError> {
-    start.check()?;
-    iterate(start.clone(), |cycle| {
-        let linear = Linearised::of(map, cycle, [0.0; 3]);
+    let still = [0.0; 3];
+    let (cycle, _, convergence) = iterate(start.clone(), |cycle| {
+        cycle.check()?;
+        let linear = Linearised::of(map, cycle, still);
         let matrix = Matrix4::identity() - linear.jacobian;
         let first = matrix.lu().solve(&linear.carried).ok_or(OrbitError::Singular)?;
-        let update = first.amax();
-        Ok((linear.moved(cycle, first, 0.0, [0.0; 3]), linear.residual, update))
-    })
+        let next = linear.moved(cycle, first, 0.0, still);
+        let (residual, change) = (linear.residual, first.amax());
+        Ok(Update { next, residual, change, size: size(cycle), linear })
+    })?;
+    Ok((cycle, convergence))
 }
 
-/// Repeats `step` (next cycle, residual of the present one, size of the update) until the update is
-/// rounding, or no longer shrinks with a residual that is.
-pub(super) fn iterate(
-    mut cycle: Cycle,
-    mut step: impl FnMut(&Cycle) -> Result<(Cycle, f64, f64), OrbitError>,
-) -> Result<(Cycle, Convergence), OrbitError> {
-    let mut last = f64::INFINITY;
+/// One step of Newton's method.
+pub(super) struct Update<S, L> {
+    /// The state after it.
+    pub next: S,
+    /// Largest defect of the state before it.
+    pub residual: f64,
+    /// Largest change of an unknown.
+    pub change: f64,
+    /// Size of the orbit before it, over which both are measured.
+    pub size: f64,
+    /// What the state before it was linearised to.
+    pub linear: L,
+}
+
+/// Repeats `step` until the change is rounding, or no longer shrinks with a residual that is.
+/// Returns the last state that was linearised and that linearisation.
+///
+/// # Errors
+/// What `step` returns; [`OrbitError::NotConverged`] after [`LARGEST_STEPS`], where numbers are no
+/// longer finite, and where a state other than `start` is no cycle.
+pub(super) fn iterate<S, L>(
+    start: S,
+    mut step: impl FnMut(&S) -> Result<Update<S, L>, OrbitError>,
+) -> Result<(S, L, Convergence), OrbitError> {
+    let mut state = start;
+    let (mut residual, mut last) = (f64::INFINITY, f64::INFINITY);
     for iterations in 0..LARGEST_STEPS {
-        let (next, residual, update) = step(&cycle)?;
-        let residual = residual / size(&cycle);
         let failed = OrbitError::NotConverged { iterations, residual };
-        if !(residual.is_finite() && update.is_finite()) || next.check().is_err() {
-            return Err(failed);
+        let update = match step(&state) {
+            // Newton's method has left what it was given.
+            Err(OrbitError::NotACycle { .. }) if iterations > 0 => return Err(failed),
+            other => other?,
+        };
+        residual = update.residual / update.size;
+        let change = update.change / update.size;
+        if !(residual.is_finite() && change.is_finite()) {
+            return Err(OrbitError::NotConverged { iterations, residual });
         }
-        let update = update / size(&cycle);
-        let stalled = update >= 0.5 * last && residual < ACCEPTED && update < 1e-6;
-        if update < CONVERGED || stalled {
-            return Ok((cycle, Convergence { residual, iterations }));
+        let stalled = change >= STALLED * last && residual < ACCEPTED && change < ROUNDING;
+        if change < CONVERGED || stalled {
+            return Ok((state, update.linear, Convergence { residual, iterations }));
         }
-        last = update;
-        cycle = next;
+        last = change;
+        state = update.next;
     }
-    Err(OrbitError::NotConverged { iterations: LARGEST_STEPS, residual: last })
+    Err(OrbitError::NotConverged { iterations: LARGEST_STEPS, residual })
 }
 
 /// The bordered system of pseudo-arclength continuation: `(I - J) dz - q dp = rhs`,

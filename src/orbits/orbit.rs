@@ -11,6 +11,7 @@ use super::admissibility::Admissibility;
 use super::impact_map::{AfterImpact, ImpactMap, Step, Wall};
 use super::multipliers::Multipliers;
 use super::newton::Convergence;
+use crate::numerics::necklace::canonical;
 
 /// How a cycle of impacts closes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -74,20 +75,16 @@ impl Cycle {
         }
     }
 
-    /// The whole orbit's sequence of walls over one repetition, as `+-`: rotated and mirrored to the
-    /// first in the alphabet, so that one motion has one name.
+    /// The whole orbit's sequence of walls over one repetition, as `+-`, in the canonical form
+    /// of a [`crate::numerics::necklace`], so that one motion has one name.
     pub fn sequence(&self) -> String {
         let mut walls = self.walls.clone();
         if matches!(self.closure, Closure::Mirrors { .. }) {
             walls.extend(self.walls.iter().map(|wall| wall.opposite()));
         }
-        let mirrored: Vec<Wall> = walls.iter().map(|wall| wall.opposite()).collect();
-        let rotations = (0..walls.len()).flat_map(|shift| {
-            [&walls, &mirrored].map(|walls| {
-                walls[shift..].iter().chain(&walls[..shift]).map(|wall| wall.symbol()).collect()
-            })
-        });
-        rotations.min().unwrap_or_default()
+        let minus: Vec<bool> = walls.iter().map(|wall| *wall == Wall::Minus).collect();
+        let symbol = |minus: bool| if minus { Wall::Minus.symbol() } else { Wall::Plus.symbol() };
+        canonical(&minus).into_iter().map(symbol).collect()
     }
 
     /// `p`, impacts of the whole orbit.

@@ -4,11 +4,13 @@ use nalgebra::linalg::SVD;
 use nalgebra::{Matrix4, Vector4, Vector5};
 
 use super::OrbitError;
-use super::branch::{Branch, Parameter, Settings, Tracer, trace};
+use super::branch::{Branch, Settings, trace};
 use super::impact_map::AfterImpact;
+use super::multipliers::LARGEST_SWEEPS;
 use super::orbit::{Closure, Cycle, Orbit, Origin};
 use super::special::{Bifurcation, SpecialPoint};
-use crate::system::System;
+use super::tracer::Tracer;
+use crate::system::{Parameter, System};
 
 /// How far a new branch is entered, in the norm of the first state: far enough to tell it from the
 /// old one, near enough for its linearisation.
@@ -16,6 +18,10 @@ const ENTRY: f64 = 1e-3;
 /// Relative changes of the parameter at which an orbit with one more impact is looked for beyond a
 /// grazing. It is born with a square root, so that Newton's method needs some room.
 const BEYOND: [f64; 6] = [1e-5, -1e-5, 1e-4, -1e-4, 1e-3, -1e-3];
+
+/// Distance from the grazing orbit, over the clearance and in radians, within which an orbit with one
+/// more impact is the one that it becomes: some hundred times the largest change in [`BEYOND`].
+const GOES_ON: f64 = 0.1;
 
 /// The branch that leaves another at a symmetry breaking or a period doubling, on the side where it
 /// exists; both orbits of a broken symmetry are mirror images, of which one is followed.
@@ -84,7 +90,7 @@ fn twice(cycle: &Cycle) -> Cycle {
 
 /// The unit vector that `matrix` shrinks most.
 fn kernel(matrix: &Matrix4<f64>) -> Option<Vector4<f64>> {
-    let svd = SVD::try_new(*matrix, false, true, f64::EPSILON, 300)?;
+    let svd = SVD::try_new(*matrix, false, true, f64::EPSILON, LARGEST_SWEEPS)?;
     let rows = svd.v_t?;
     let smallest = svd.singular_values.imin();
     let vector: Vector4<f64> = rows.row(smallest).transpose();
@@ -128,8 +134,15 @@ fn across(tracer: &Tracer, scaled: f64, orbit: &Orbit) -> Option<(Orbit, f64)> {
     BEYOND.iter().find_map(|change| {
         let scaled = scaled * (1.0 + change);
         let found = tracer.at(&with_contact, scaled)?;
-        found.admissibility.admissible.then_some((found, scaled))
+        let goes_on = distance(&found.cycle, &with_contact) <= GOES_ON;
+        (goes_on && found.admissibility.admissible).then_some((found, scaled))
     })
+}
+
+/// Largest difference between the states of two cycles with as many impacts.
+fn distance(a: &Cycle, b: &Cycle) -> f64 {
+    let pairs = a.impacts.iter().zip(&b.impacts);
+    pairs.map(|(a, b)| (a.vector() - b.vector()).amax()).fold(0.0, f64::max)
 }
 
 /// The cycle with the grazing contact counted as an impact.

@@ -7,48 +7,10 @@ use serde::Serialize;
 use super::attractor::Effort;
 use super::{Attractor, Nature, Regime};
 use crate::simulation::{StartError, Stop};
-use crate::system::{InvalidParameter, Parameters, State, System};
+use crate::system::{InvalidParameter, Parameter, State, System};
 
 /// Most points of each kind at one value: a chaotic band is a band with this many.
 const MOST_POINTS: usize = 40;
-
-/// The parameter that is moved, the others being those of a base system.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Swept {
-    /// The clearance, over the base system's; the excitation stays what it is.
-    Clearance,
-    /// `Omega`.
-    FrequencyRatio,
-    /// The excitation's amplitude, over the base system's.
-    Forcing,
-    /// `r`.
-    Restitution,
-}
-
-impl Swept {
-    /// The base system with the parameter at `value`.
-    ///
-    /// # Errors
-    /// [`InvalidParameter`] if no system has it.
-    pub fn system(self, base: &System, value: f64) -> Result<System, InvalidParameter> {
-        let parameters = base.parameters();
-        match self {
-            Self::Clearance => base.with_clearance_scaled(value),
-            Self::FrequencyRatio => base.with_frequency_ratio(value),
-            Self::Forcing => System::new(Parameters {
-                forcing_per_clearance: value * parameters.forcing_per_clearance,
-                ..parameters
-            }),
-            Self::Restitution => System::new(Parameters { restitution: value, ..parameters }),
-        }
-    }
-
-    /// Length unit of the system at `value`, over the base system's clearance.
-    pub fn unit(self, value: f64) -> f64 {
-        if self == Self::Clearance { value } else { 1.0 }
-    }
-}
 
 /// The way in which a value was reached.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -97,14 +59,14 @@ pub enum DiagramError {
     Start(#[from] StartError),
 }
 
-/// Moves `swept` over `values` in ascending order and back, beginning at `start` (over the clearance
+/// Moves `parameter` over `values` in ascending order and back, beginning at `start` (over the clearance
 /// at the first value). Every point is followed with `effort`, `progress` is told of each.
 ///
 /// # Errors
 /// [`DiagramError`] for values without a system, or an impossible start.
 pub fn sweep(
     base: &System,
-    swept: Swept,
+    parameter: Parameter,
     values: &[f64],
     start: State,
     effort: &Effort,
@@ -117,8 +79,8 @@ pub fn sweep(
     let mut points = Vec::with_capacity(2 * ascending.len());
     let mut last: Option<(f64, State)> = None;
     for (value, way) in up.chain(down) {
-        let system = swept.system(base, value)?;
-        let unit = swept.unit(value);
+        let system = parameter.applied(base, value)?;
+        let unit = parameter.unit(value);
         let begin = match last {
             Some((before, state)) => carried_over(state, before / unit),
             None => start,

@@ -4,6 +4,7 @@ use std::fmt::{self, Display, Formatter};
 
 use serde::{Serialize, Serializer};
 
+use crate::numerics::necklace::canonical;
 use crate::simulation::{Impact, Side};
 
 /// Most impacts that a sequence holds. A longer one is chattering, whose order of walls says no
@@ -27,17 +28,11 @@ impl ImpactSequence {
         Self::canonical(&sides)
     }
 
-    /// The first in the order of a dictionary, `+` before `-`, among all rotations and mirror images.
     fn canonical(sides: &[bool]) -> Option<Self> {
-        let count = sides.len();
-        let length = u8::try_from(count).ok().filter(|_| count <= LONGEST)?;
-        let word = |from: usize, mirrored: bool| {
-            (0..count).map(move |k| sides[(from + k) % count] != mirrored)
-        };
-        let candidates = (0..count).flat_map(|from| [(from, false), (from, true)]);
-        let (from, mirrored) = candidates.min_by(|a, b| word(a.0, a.1).cmp(word(b.0, b.1)))?;
-        let bit = |minus: u128, (k, side): (usize, bool)| minus | (u128::from(side) << k);
-        Some(Self { minus: word(from, mirrored).enumerate().fold(0, bit), length })
+        let length = u8::try_from(sides.len()).ok().filter(|_| sides.len() <= LONGEST)?;
+        let form = canonical(sides);
+        let bit = |minus: u128, (k, side): (usize, &bool)| minus | (u128::from(*side) << k);
+        (length > 0).then(|| Self { minus: form.iter().enumerate().fold(0, bit), length })
     }
 
     /// Number of impacts.

@@ -1,0 +1,132 @@
+//! Where on a branch a bifurcation lies: test functions that vanish there, and the root of each
+//! between two neighbouring points.
+
+use super::multipliers::{minus_one, plus_one, unit_product};
+use super::orbit::{Closure, Orbit, Origin};
+use super::special::{Bifurcation, SpecialPoint};
+use super::switching;
+use super::tracer::{Point, Tracer};
+use crate::numerics::bracket::brent;
+
+/// Width over the step to which a bifurcation is located: with steps of some hundredths the rounding
+/// of the points themselves.
+const LOCATED: f64 = 1e-12;
+/// Value of a test function at its root, over its values on either side, above which it jumps there
+/// instead of vanishing. Roots leave 1e-12, but the tangent where two branches cross some 1e-4, since
+/// rounding over the small distance to the crossing turns it; the pole of a determinant where an
+/// impact vanishes leaves 1e11.
+const VANISHES: f64 = 1e-3;
+/// Distance over the step within which a zero of `det(J - I)` is a saddle-node's own: two roots for
+/// one point differ by 1e-13, and a thousandth of a step is no distance between two bifurcations.
+const COINCIDES: f64 = 1e-3;
+/// Distance from its mirror image, over the clearance and in radians, within which an orbit is
+/// symmetric. Where a branch of asymmetric orbits meets the symmetric one, two branches cross, and
+/// points are known to the root of their residual of 1e-13 only.
+const SYMMETRIC: f64 = 1e-5;
+
+/// A test function: the bifurcation that it shows, and its value at a point.
+struct Test {
+    kind: Bifurcation,
+    value: fn(&Point) -> f64,
+}
+
+fn tests(closure: Closure) -> [Test; 6] {
+    let minus = match closure {
+        Closure::Repeats { .. } => Bifurcation::PeriodDoubling,
+        Closure::Mirrors { .. } => Bifurcation::SymmetryBreaking,
+    };
+    [
+        Test { kind: Bifurcation::SaddleNode, value: |point| point.tangent[4] },
+        Test { kind: Bifurcation::BranchPoint, value: |point| plus_one(&point.jacobian) },
+        Test { kind: minus, value: |point| minus_one(&point.jacobian) },
+        Test { kind: Bifurcation::NeimarkSacker, value: |point| unit_product(&point.jacobian) },
+        Test { kind: Bifurcation::Grazing, value: |point| point.admissibility.room },
+        Test {
+            kind: Bifurcation::VanishingImpact,
+            value: |point| point.admissibility.slowest_impact,
+        },
+    ]
+}
+
+/// Every bifurcation between two neighbouring points, in order along the branch.
+pub(super) fn located(
+    tracer: &Tracer,
+    here: &Point,
+    there: &Point,
+    step: f64,
+) -> Vec<SpecialPoint> {
+    let mut found: Vec<(f64, SpecialPoint)> = Vec::new();
+    for test in tests(here.cycle.closure) {
+        let (before, after) = ((test.value)(here), (test.value)(there));
+        let changes = before.is_finite() && after.is_finite() && before * after < 0.0;
+        if !changes {
+            continue;
+        }
+        found.extend(locate(tracer, here, step, &test, [before, after]));
+    }
+    found.sort_by(|a, b| a.0.total_cmp(&b.0));
+    // Where the branch turns back det(J - I) vanishes as well; that is the saddle-node's own.
+    let turns: Vec<f64> =
+        found.iter().filter(|one| one.1.kind == Bifurcation::SaddleNode).map(|one| one.0).collect();
+    found.retain(|(at, special)| {
+        // A determinant passes through a pole where an impact vanishes.
+        let measured = matches!(special.kind, Bifurcation::Grazing | Bifurcation::VanishingImpact);
+        if !(special.converged || measured) {
+            return false;
+        }
+        special.kind != Bifurcation::BranchPoint
+            || turns.iter().all(|turn| (turn - at).abs() > COINCIDES * step)
+    });
+    found.into_iter().map(|(_, special)| special).collect()
+}
+
+fn locate(
+    tracer: &Tracer,
+    here: &Point,
+    step: f64,
+    test: &Test,
+    [before, after]: [f64; 2],
+) -> Option<(f64, SpecialPoint)> {
+    let at = |s: f64| {
+        if s == 0.0 { Ok(here.clone()) } else { tracer.advance(here, s) }
+    };
+    let value = |s: f64| at(s).map_or(f64::NAN, |point| (test.value)(&point));
+    let root = brent(0.0, step, LOCATED * step, value).ok()?;
+    let point = at(root.at).ok()?;
+    let orbit = tracer.orbit(&point, Origin::Continuation)?;
+    let kind = renamed(test.kind, &orbit)?;
+    let width = LOCATED * step;
+    let near = |s: f64| at(s).map_or(f64::NAN, |point| tracer.value(&point));
+    let (left, right) = (near((root.at - width).max(0.0)), near((root.at + width).min(step)));
+    let value = tracer.value(&point);
+    let grazes = kind == Bifurcation::Grazing && orbit.admissibility.narrowest.is_some();
+    let sequence_beyond =
+        if grazes { switching::beyond_grazing(tracer, point.parameter, &orbit) } else { None };
+    let bracket = [left.min(right).min(value), left.max(right).max(value)];
+    Some((
+        root.at,
+        SpecialPoint {
+            kind,
+            value,
+            bracket,
+            precision: (bracket[1] - bracket[0]) / value.abs().max(f64::MIN_POSITIVE),
+            test: [before, root.residual, after],
+            converged: root.residual.abs() <= VANISHES * before.abs().max(after.abs()),
+            sequence_beyond,
+            orbit,
+        },
+    ))
+}
+
+/// What a vanishing test function means at this orbit; `None` for two real reciprocal multipliers,
+/// which are no bifurcation.
+fn renamed(kind: Bifurcation, orbit: &Orbit) -> Option<Bifurcation> {
+    match kind {
+        Bifurcation::NeimarkSacker => orbit.multipliers.has_pair_on_circle().then_some(kind),
+        // A branch of asymmetric orbits turns back where it meets its own mirror image.
+        Bifurcation::SaddleNode if orbit.cycle.folded(SYMMETRIC).is_some() => {
+            Some(Bifurcation::SymmetryBreaking)
+        }
+        _ => Some(kind),
+    }
+}

@@ -1,0 +1,269 @@
+//! From one orbit of a branch to the next: pseudo-arclength continuation in one parameter (Keller
+//! 1977). A predictor along the tangent, Newton's method on the plane across it.
+
+use nalgebra::{Matrix4, Vector4, Vector5};
+
+use super::OrbitError;
+use super::admissibility::Admissibility;
+use super::impact_map::ImpactMap;
+use super::multipliers::Multipliers;
+use super::newton::{Convergence, Linearised, Update, bordered, converge, iterate, size};
+use super::orbit::{Cycle, Orbit, Origin};
+use crate::system::{Parameter, System};
+
+/// Scale of a parameter whose first value is smaller: a restitution of 0 is no measure of its own
+/// changes.
+const SMALLEST_SCALE: f64 = 0.1;
+/// Cosine of the angle by which a branch may turn in one step: 26 degrees, well short of taking the
+/// far side of a fold for its near one.
+const LARGEST_TURN: f64 = 0.9;
+/// Distance to the orbit at the edge of a range, over the step, beyond which it is on another branch:
+/// along this one it is a step away, and a little more where the branch is curved.
+const SAME_BRANCH: f64 = 2.0;
+
+/// A point while a branch is followed.
+#[derive(Debug, Clone)]
+pub(super) struct Point {
+    /// The orbit's cycle.
+    pub cycle: Cycle,
+    /// The parameter over its scale.
+    pub parameter: f64,
+    /// Unit tangent of the branch in first state and scaled parameter.
+    pub tangent: Vector5<f64>,
+    /// Jacobian of the map around the cycle.
+    pub jacobian: Matrix4<f64>,
+    /// Whether the orbit is a motion.
+    pub admissibility: Admissibility,
+    /// How well the cycle closes.
+    pub convergence: Convergence,
+}
+
+impl Point {
+    /// First state and scaled parameter, as the arclength measures them.
+    pub fn place(&self) -> Vector5<f64> {
+        let mut place = Vector5::zeros();
+        place.fixed_rows_mut::<4>(0).copy_from(&self.cycle.impacts[0].vector());
+        place[4] = self.parameter;
+        place
+    }
+}
+
+/// What a continuation works on.
+pub(super) struct Tracer<'a> {
+    base: &'a System,
+    parameter: Parameter,
+    scale: f64,
+}
+
+impl<'a> Tracer<'a> {
+    /// Over `parameter`, everything else being as in `base`.
+    pub fn new(base: &'a System, parameter: Parameter) -> Self {
+        let scale = parameter.of(base).abs().max(SMALLEST_SCALE);
+        Self { base, parameter, scale }
+    }
+
+    /// What varies.
+    pub fn parameter(&self) -> Parameter {
+        self.parameter
+    }
+
+    /// The parameter's unit in a [`Point`].
+    pub fn scale(&self) -> f64 {
+        self.scale
+    }
+
+    /// The parameter at a point.
+    pub fn value(&self, point: &Point) -> f64 {
+        point.parameter * self.scale
+    }
+
+    /// The impact map at a scaled parameter, and the derivatives of `gamma`, `Omega` and `r` by it.
+    fn map(&self, scaled: f64) -> Option<(ImpactMap, [f64; 3])> {
+        let value = scaled * self.scale;
+        let system = self.parameter.applied(self.base, value).ok()?;
+        let weights = weights(self.parameter, self.base, value).map(|w| w * self.scale);
+        Some((ImpactMap::of(&system).ok()?, weights))
+    }
+
+    /// The impact map at a scaled parameter.
+    pub fn map_at(&self, scaled: f64) -> Option<ImpactMap> {
+        self.map(scaled).map(|(map, _)| map)
+    }
+
+    /// The orbit near `cycle` at a scaled parameter, if Newton's method finds it.
+    pub fn at(&self, cycle: &Cycle, scaled: f64) -> Option<Orbit> {
+        let map = self.map_at(scaled)?;
+        let (cycle, convergence) = converge(&map, cycle).ok()?;
+        Orbit::measured(&map, cycle, convergence, Origin::Switching).ok()
+    }
+
+    /// Corrects `cycle` at `scaled` onto the plane `normal . (dz, dp) = 0` through it, and finds the
+    /// tangent there, pointing along `along`.
+    ///
+    /// # Errors
+    /// [`OrbitError`] where there is no system, or Newton's method does not converge.
+    pub fn correct(
+        &self,
+        cycle: Cycle,
+        scaled: f64,
+        normal: &Vector5<f64>,
+        along: &Vector5<f64>,
+    ) -> Result<Point, OrbitError> {
+        let ((cycle, parameter), (map, linear), convergence) =
+            iterate((cycle, scaled), |(cycle, scaled)| {
+                cycle.check()?;
+                let (map, weights) = self.map(*scaled).ok_or(OrbitError::Singular)?;
+                let linear = Linearised::of(&map, cycle, weights);
+                let mut right = Vector5::zeros();
+                right.fixed_rows_mut::<4>(0).copy_from(&linear.carried);
+                let change = bordered(&linear, normal, &right).ok_or(OrbitError::Singular)?;
+                let first: Vector4<f64> = change.fixed_rows::<4>(0).into();
+                let next = (linear.moved(cycle, first, change[4], weights), scaled + change[4]);
+                let (residual, change) = (linear.residual, change.amax());
+                Ok(Update { next, residual, change, size: size(cycle), linear: (map, linear) })
+            })?;
+        let mut unit = Vector5::zeros();
+        unit[4] = 1.0;
+        let tangent = bordered(&linear, along, &unit).ok_or(OrbitError::Singular)?;
+        let admissibility = Admissibility::of(&map, &cycle.flights());
+        Ok(Point {
+            cycle,
+            parameter,
+            tangent: tangent / tangent.norm(),
+            jacobian: linear.jacobian,
+            admissibility,
+            convergence,
+        })
+    }
+
+    /// `point`'s cycle moved along the branch's tangent by `step`, and its scaled parameter by
+    /// `ahead`.
+    fn predicted(&self, point: &Point, step: f64, ahead: f64) -> Option<Cycle> {
+        let (map, weights) = self.map(point.parameter)?;
+        let linear = Linearised::of(&map, &point.cycle, weights);
+        let first: Vector4<f64> = point.tangent.fixed_rows::<4>(0).into();
+        Some(linear.moved(&point.cycle, first * step, ahead, weights))
+    }
+
+    /// The point an arclength `step` along the branch from `point`.
+    ///
+    /// # Errors
+    /// As [`Tracer::correct`].
+    pub fn advance(&self, point: &Point, step: f64) -> Result<Point, OrbitError> {
+        let ahead = step * point.tangent[4];
+        let cycle = self.predicted(point, step, ahead).ok_or(OrbitError::Singular)?;
+        self.correct(cycle, point.parameter + ahead, &point.tangent, &point.tangent)
+    }
+
+    /// The next point, with the step that reached it: halved until the corrector converges and the
+    /// branch turns little.
+    ///
+    /// # Errors
+    /// Why no step down to `smallest` reached one.
+    pub fn next(
+        &self,
+        here: &Point,
+        mut step: f64,
+        smallest: f64,
+    ) -> Result<(Point, f64), OrbitError> {
+        loop {
+            let failure = match self.advance(here, step) {
+                Ok(there) if there.tangent.dot(&here.tangent) >= LARGEST_TURN => {
+                    return Ok((there, step));
+                }
+                Ok(_) => OrbitError::Singular,
+                Err(failure) => failure,
+            };
+            step *= 0.5;
+            if step < smallest {
+                return Err(failure);
+            }
+        }
+    }
+
+    /// The orbit at the edge of `range` (values of the parameter) and the value there, if the next
+    /// step would leave it: parameters need not exist beyond (a restitution above 1).
+    pub fn at_edge(&self, here: &Point, step: f64, range: [f64; 2]) -> Option<(Point, f64)> {
+        let [low, high] = range.map(|edge| edge / self.scale);
+        let ahead = here.parameter + step * here.tangent[4];
+        let edge = if ahead > high {
+            high
+        } else if ahead < low {
+            low
+        } else {
+            return None;
+        };
+        let change = edge - here.parameter;
+        let share = change / here.tangent[4];
+        let cycle = self.predicted(here, share, change)?;
+        let mut upright = Vector5::zeros();
+        upright[4] = 1.0;
+        let there = self.correct(cycle, edge, &upright, &here.tangent).ok()?;
+        // A branch that turns back before the edge must not be left for another one.
+        let distance = (there.place() - here.place()).norm();
+        let same = distance <= SAME_BRANCH * step.max(share.abs())
+            && there.tangent.dot(&here.tangent) >= LARGEST_TURN;
+        same.then_some((there, edge * self.scale))
+    }
+
+    /// The orbit at a point; `None` where its multipliers do not exist.
+    pub fn orbit(&self, point: &Point, origin: Origin) -> Option<Orbit> {
+        Some(Orbit {
+            cycle: point.cycle.clone(),
+            convergence: point.convergence,
+            multipliers: Multipliers::of(&point.jacobian)?,
+            admissibility: point.admissibility,
+            origin,
+        })
+    }
+}
+
+/// Derivatives of forcing `gamma`, frequency and restitution by the parameter, at `value`: what
+/// [`Parameter::applied`] does to them.
+fn weights(parameter: Parameter, base: &System, value: f64) -> [f64; 3] {
+    let gamma = base.forcing_per_clearance();
+    match parameter {
+        Parameter::Clearance => [-gamma / (value * value), 0.0, 0.0],
+        Parameter::FrequencyRatio => [0.0, 1.0, 0.0],
+        Parameter::Forcing => [gamma, 0.0, 0.0],
+        Parameter::Restitution => [0.0, 0.0, 1.0],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::system::{Excitation, Parameters};
+
+    /// Against central differences of the systems themselves.
+    #[test]
+    fn weights_are_the_derivatives_of_the_applied_parameter() {
+        let base = System::new(Parameters {
+            mass_ratio: 0.01,
+            damping: 1.5,
+            restitution: 0.6,
+            frequency_ratio: 0.95,
+            forcing_per_clearance: 3.0,
+            excitation: Excitation::BaseDisplacement,
+        })
+        .expect("valid");
+        for parameter in [
+            Parameter::Clearance,
+            Parameter::FrequencyRatio,
+            Parameter::Forcing,
+            Parameter::Restitution,
+        ] {
+            let (value, h) = (0.8, 1e-5);
+            let at = |value| {
+                let there = parameter.applied(&base, value).expect("valid");
+                [there.forcing_per_clearance(), there.frequency_ratio(), there.restitution()]
+            };
+            let (up, down) = (at(value + h), at(value - h));
+            for (k, weight) in weights(parameter, &base, value).iter().enumerate() {
+                // h^2 times a third derivative of 3 / 0.8^4 and rounding over h.
+                let difference = (up[k] - down[k]) / (2.0 * h);
+                assert!((difference - weight).abs() < 1e-8, "{parameter:?} {k}: {difference}");
+            }
+        }
+    }
+}
