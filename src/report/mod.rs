@@ -64,6 +64,8 @@ pub struct Report {
 pub struct Tables {
     /// Every long-term motion.
     pub attractors: Table,
+    /// What kind of dynamics each of them is, and what says so.
+    pub natures: Table,
     /// Where their energy goes.
     pub energies: Table,
     /// Fixed points of the slow flow.
@@ -145,6 +147,7 @@ impl Report {
             key_rows: tables::key_rows(case, study),
             tables: Tables {
                 attractors: motion_tables::attractors(case, study),
+                natures: motion_tables::natures(study),
                 energies: motion_tables::energies(case, study),
                 fixed_points: tables::fixed_points(case, study),
                 orbits: exact_tables::orbits(case, study),

@@ -10,16 +10,13 @@ use crate::study::{CaseStudy, Proof};
 pub fn attractors(case: &Case, study: &CaseStudy) -> Table {
     let scales = case.scales();
     let lengths = LengthFormat::of(&scales);
-    // Beside a motion that repeats, a chaotic one may be a transient of any length.
-    let beside = study.attractors.iter().any(|found| found.attractor.repeats());
-    let rows = study.attractors.iter().zip(&study.proofs).map(|(found, proof)| {
+    let rows = study.attractors.iter().map(|found| {
         let attractor = &found.attractor;
         let evidence = &attractor.classification.evidence;
         [
             found.regime().words().to_owned(),
             share(found),
             significant(evidence.impacts_per_period, if attractor.repeats() { 4 } else { 2 }),
-            nature(attractor, proof.as_ref(), beside),
             lengths.text(scales.length(attractor.peak)),
             lengths.text(scales.length(attractor.rms)),
             percent(evidence.modulation_depth),
@@ -30,7 +27,6 @@ pub fn attractors(case: &Case, study: &CaseStudy) -> Table {
             ("Motion", false),
             ("Starts", true),
             ("z", true),
-            ("Nature", false),
             ("Peak of x", true),
             ("rms of x", true),
             ("Modulation", true),
@@ -53,8 +49,27 @@ pub(super) fn text_of(exponent: &Exponent) -> String {
     with_error(exponent.per_period, 2.0 * exponent.standard_error)
 }
 
-/// What kind of dynamics, and what proves it; `beside` says whether another motion repeats.
-pub(super) fn nature(attractor: &Attractor, proof: Option<&Proof>, beside: bool) -> String {
+/// What kind of dynamics each motion is, and what says so.
+pub fn natures(study: &CaseStudy) -> Table {
+    let beside = repeats(&study.attractors);
+    let rows = study.attractors.iter().zip(&study.proofs).map(|(found, proof)| {
+        let (kind, evidence) = nature(&found.attractor, proof.as_ref(), beside);
+        [found.regime().words().to_owned(), kind, evidence]
+    });
+    table([("Motion", false), ("Nature", false), ("Evidence", false)], rows.collect())
+}
+
+/// Whether some motion repeats: beside it, a chaotic one may be a transient of any length.
+pub(super) fn repeats(found: &[FoundAttractor]) -> bool {
+    found.iter().any(|found| found.attractor.repeats())
+}
+
+/// What kind of dynamics, and what says so; `beside` says whether another motion repeats.
+pub(super) fn nature(
+    attractor: &Attractor,
+    proof: Option<&Proof>,
+    beside: bool,
+) -> (String, String) {
     let evidence = &attractor.classification.evidence;
     let exponent = evidence
         .exponent
@@ -68,15 +83,12 @@ pub(super) fn nature(attractor: &Attractor, proof: Option<&Proof>, beside: bool)
             evidence.captures.longest
         )
     });
-    let all = |first: String, more: Vec<Option<String>>| {
-        more.into_iter().flatten().fold(first, |text, next| format!("{text}; {next}"))
-    };
+    let measured = || exponent.into_iter().chain(captured).collect::<Vec<_>>().join("; ");
     match attractor.classification.nature {
         Nature::Periodic { periods, .. } => {
-            let every = if periods == 1 {
-                "every period".into()
-            } else {
-                format!("every {periods} periods")
+            let every = match periods {
+                1 => "periodic, every period".into(),
+                more => format!("periodic, every {more} periods"),
             };
             let proven = match proof {
                 Some(proof) => format!(
@@ -85,21 +97,20 @@ pub(super) fn nature(attractor: &Attractor, proof: Option<&Proof>, beside: bool)
                     significant(proof.orbit.radius_per_period(), 3)
                 ),
                 None if attractor.sustained_contact.intervals > 0 => {
-                    "rests on a wall in between, so no orbit of impacts".into()
+                    "seen to repeat; rests on a wall in between, so no orbit of impacts".into()
                 }
-                None => "seen, not proven".into(),
+                None => "seen to repeat, not proven".into(),
             };
-            format!("{every}; {proven}")
+            (every, proven)
         }
-        Nature::AtRest => "at rest, every period".into(),
+        Nature::AtRest => ("at rest".into(), format!("no impact in {} periods", attractor.periods)),
         Nature::TransientNotOver => {
-            all(format!("transient not over after {} periods", attractor.followed), vec![exponent])
+            (format!("transient not over after {} periods", attractor.followed), measured())
         }
-        Nature::Chaotic if beside => all(
-            format!("chaotic for {} periods, perhaps a transient", attractor.followed),
-            vec![exponent, captured],
-        ),
-        other => all(other.words().to_owned(), vec![exponent, captured]),
+        Nature::Chaotic if beside => {
+            (format!("chaotic for {} periods, perhaps a transient", attractor.followed), measured())
+        }
+        other => (other.words().to_owned(), measured()),
     }
 }
 

@@ -119,9 +119,9 @@ pub fn simulation(case: &Case, motion: &Attractor, found: Option<&LongTermMotion
         lengths.text(scales.length(motion.rms)),
     );
     let proof = Proof::of(&case.system(), motion);
-    let beside =
-        found.is_some_and(|found| found.attractors.iter().any(|one| one.attractor.repeats()));
-    let _ = writeln!(text, "  {}", motion_tables::nature(motion, proof.as_ref(), beside));
+    let beside = found.is_some_and(|found| motion_tables::repeats(&found.attractors));
+    let (nature, reason) = motion_tables::nature(motion, proof.as_ref(), beside);
+    let _ = writeln!(text, "  {nature}; {reason}");
     let _ = writeln!(
         text,
         "  modulation depth {}, captured in 1:1 resonance {} of the time",
@@ -137,13 +137,13 @@ pub fn simulation(case: &Case, motion: &Attractor, found: Option<&LongTermMotion
     if let Some(found) = found {
         text.push_str("\nLong-term motions found, by share of starts\n");
         for (one, proof) in found.attractors.iter().zip(&found.proofs) {
+            let (nature, reason) = motion_tables::nature(&one.attractor, proof.as_ref(), beside);
             let _ = writeln!(
                 text,
-                "  {:>5}  {}, peak {}\n         {}",
+                "  {:>5}  {}, peak {}\n         {nature}; {reason}",
                 percent(one.share),
                 one.regime().words(),
                 lengths.text(scales.length(one.attractor.peak)),
-                motion_tables::nature(&one.attractor, proof.as_ref(), beside),
             );
         }
     }
