@@ -10,6 +10,9 @@ mod borders;
 mod branches;
 mod canvas;
 mod clearances;
+mod diagram;
+mod diagram_lines;
+mod diagram_words;
 pub(super) mod forcing_responses;
 mod levels;
 mod manifold;
@@ -25,6 +28,7 @@ pub(super) mod transfer_stretches;
 mod units;
 
 use crate::case::{Case, ExtraFigure};
+use crate::orbits::Parameter;
 use crate::regimes::{FoundAttractor, Regime};
 use crate::simulation::Stop;
 use crate::study::{CaseStudy, StudyError};
@@ -100,5 +104,12 @@ fn further(scene: &Scene, wanted: ExtraFigure) -> Result<Option<Figure>, StudyEr
         ExtraFigure::Clearances => clearances::figure(scene),
         ExtraFigure::Transfer => transfer::figure(scene),
         ExtraFigure::TransferStretches => transfer_stretches::figure(scene),
+        ExtraFigure::DiagramClearance => {
+            diagram::figure(scene, wanted.name(), Parameter::Clearance)
+        }
+        ExtraFigure::DiagramFrequency => {
+            diagram::figure(scene, wanted.name(), Parameter::Frequency)
+        }
+        ExtraFigure::DiagramForcing => diagram::figure(scene, wanted.name(), Parameter::Forcing),
     }
 }
