@@ -13,13 +13,13 @@ use vinesink::case::Case;
 use vinesink::orbits::{Bifurcation, FullSystem, Parameter};
 use vinesink::regimes::Regime;
 use vinesink::regimes::diagram::Way;
-use vinesink::study::diagrams::{Diagram, STEPS, range};
+use vinesink::study::diagrams::{Diagram, STEPS};
 use vinesink::study::exact_branches::ExactBranches;
 use vinesink::system::{Parameters, System};
 
 fn diagram(system: &System, parameter: Parameter) -> Diagram {
-    let range = range(&FullSystem::of(system), parameter).expect("1:1 resonance exists");
-    Diagram::over(system, parameter, range).expect("can be swept")
+    let found = Diagram::around(&FullSystem::of(system), parameter).expect("can be swept");
+    found.expect("1:1 resonance exists")
 }
 
 /// A repetition is recognised at a closure of 1e-6; an orbit whose multiplier is 0.999 is then still
@@ -144,11 +144,11 @@ fn a_bubble_is_found_once() {
 }
 
 #[test]
-fn without_forcing_there_is_no_range() {
+fn without_forcing_there_is_no_diagram() {
     let free = Parameters { forcing_per_clearance: 0.0, ..table_1(8.0, 15.0).parameters() };
     let exact = FullSystem::of(&System::new(free).expect("valid"));
     for parameter in [Parameter::Clearance, Parameter::Frequency, Parameter::Forcing] {
-        assert_eq!(range(&exact, parameter), None);
+        assert_eq!(Diagram::around(&exact, parameter), Ok(None));
     }
 }
 

@@ -18,9 +18,10 @@ use super::exact_branches::ExactBranches;
 pub const STEPS: u32 = 120;
 /// Periods of each value: transients of orbits with multipliers below 0.97 fade below 1e-3 in the
 /// first 250, and are given two more rounds where they have not; a modulation returns several times
-/// in the next 100.
+/// in the next 100. More than ten impacts per period are given up: that regime is recognised, and its
+/// cost has to end somewhere.
 pub const EFFORT: Effort =
-    Effort { discard: 250, periods: 100, prolongations: 2, impact_limit: 10_000 };
+    Effort { discard: 250, periods: 100, prolongations: 2, impact_limit: 2_500 };
 /// An absorber that crosses its cavity, at the first value; all others begin where the last one ended.
 const START: State = State { x: 0.0, x_velocity: 0.0, y: 0.0, y_velocity: 1.0 };
 
@@ -92,14 +93,29 @@ pub struct Hysteresis {
 }
 
 impl Diagram {
-    /// Sweeps `parameter` over `range` in [`STEPS`] values and lays the exact branches over it.
+    /// Of `parameter` around the system that `exact` knows; `None` where no symmetric orbit attracts,
+    /// so that there is nothing to lose and to find again.
     ///
     /// # Errors
     /// [`StudyError`] where the range has values without a system.
-    pub fn over(base: &System, parameter: Parameter, range: [f64; 2]) -> Result<Self, StudyError> {
+    pub fn around(exact: &FullSystem, parameter: Parameter) -> Result<Option<Self>, StudyError> {
+        let Some(range) = range(exact, parameter) else { return Ok(None) };
+        let branches = ExactBranches::over(&exact.system, parameter, range);
+        if branches.attracting_stretches().is_empty() {
+            return Ok(None);
+        }
+        Self::over(&exact.system, parameter, range, branches).map(Some)
+    }
+
+    /// Sweeps `parameter` over `range` in [`STEPS`] values.
+    fn over(
+        base: &System,
+        parameter: Parameter,
+        range: [f64; 2],
+        exact: ExactBranches,
+    ) -> Result<Self, StudyError> {
         let values: Vec<f64> = (0..STEPS).map(|k| value(parameter, range, k)).collect();
         let points = sweep(base, swept(parameter), &values, START, &EFFORT, &mut |_| {})?;
-        let exact = ExactBranches::over(base, parameter, range);
         let agreement = agreement(base, parameter, &points, &exact);
         let hysteresis = hysteresis(&points);
         Ok(Self { parameter, range, points, exact, agreement, hysteresis })
@@ -138,8 +154,7 @@ fn value(parameter: Parameter, [low, high]: [f64; 2], k: u32) -> f64 {
 
 /// The values of `parameter` in which 1:1 resonance comes and goes around a system; `None` where it has
 /// no attracting symmetric orbit.
-#[must_use]
-pub fn range(exact: &FullSystem, parameter: Parameter) -> Option<[f64; 2]> {
+fn range(exact: &FullSystem, parameter: Parameter) -> Option<[f64; 2]> {
     match parameter {
         Parameter::Clearance => clearances(exact),
         Parameter::Forcing => clearances(exact).map(|[low, high]| [1.0 / high, 1.0 / low]),

@@ -8,7 +8,7 @@ use crate::report::figure::{
 };
 use crate::report::numbers::significant;
 use crate::study::StudyError;
-use crate::study::diagrams::{Diagram, Hysteresis, is_logarithmic, range};
+use crate::study::diagrams::{Diagram, Hysteresis, is_logarithmic};
 use crate::study::exact_branches::ExactPoint;
 use crate::validation::tolerance::has_resonance;
 
@@ -33,8 +33,7 @@ pub(super) fn figure(
     if system.forcing_per_clearance() == 0.0 || !has_resonance(system) {
         return Ok(None);
     }
-    let Some(range) = range(&study.exact, parameter) else { return Ok(None) };
-    let diagram = Diagram::over(system, parameter, range)?;
+    let Some(diagram) = Diagram::around(&study.exact, parameter)? else { return Ok(None) };
     let shown = Shown { scene, units, diagram: &diagram };
     let (caption, alt) = shown.words();
     let cell = |row| Cell { column: 0, row, columns: 1, rows: 1 };
@@ -60,11 +59,12 @@ pub(super) const fn noun(parameter: Parameter) -> &'static str {
     }
 }
 
-/// How each way looks: squares below the lines, dots above them.
+/// How each way looks: squares, dots in them, and thin lines across, which dots on top would cut into
+/// dashes.
 const DOWN: (Way, &str, Marker, Color) =
     (Way::Down, "simulated, down", Marker::hollow(Shape::Square).sized(5.4), Color::Orange);
 const UP: (Way, &str, Marker, Color) =
-    (Way::Up, "simulated, up", Marker::dot().sized(3.0), Color::ReddishPurple);
+    (Way::Up, "simulated, up", Marker::dot().sized(3.8), Color::ReddishPurple);
 
 const STABLE: Style = Style::new(Color::Black, 1.2, Dash::Solid);
 const UNSTABLE: Style = Style::new(Color::Black, 1.0, Dash::Dashed);
@@ -240,9 +240,9 @@ impl Shown<'_> {
         };
         panel.layers.extend([
             way(DOWN),
+            way(UP),
             exact(false, UNSTABLE, "exact orbit, unstable"),
             exact(true, STABLE, "exact orbit, stable"),
-            way(UP),
         ]);
         for (kind, shape, color) in KINDS {
             let marks = self.diagram.exact.marks.iter().filter(|mark| {

@@ -6,20 +6,28 @@ use crate::study::exact_branches::Stretch;
 
 use super::diagram::{Shown, noun};
 
+/// Hysteresis is told for so many places.
+const MOST_TOLD: usize = 3;
+
 impl Shown<'_> {
     pub(super) fn words(&self) -> (String, String) {
         let noun = noun(self.diagram.parameter);
         let [first, last] = self.diagram.range.map(|value| self.text(value));
         let method = format!(
             "The {noun} was swept from {first} to {last} and back in {STEPS} steps, each going on from the one before, {} \
-             periods left out and {} shown.",
+             periods left out and {} measured.",
             EFFORT.discard, EFFORT.periods
         );
         let hysteresis = match &self.diagram.hysteresis[..] {
             [] => "Up and down end in the same motions: no hysteresis was found.".to_owned(),
             found => {
-                let all: Vec<String> = found.iter().map(|one| self.branches_in(one)).collect();
-                format!("Hysteresis {}.", all.join("; and "))
+                let told = found.iter().take(MOST_TOLD).map(|one| self.branches_in(one));
+                let all = told.collect::<Vec<String>>().join("; and ");
+                let more = match found.len().saturating_sub(MOST_TOLD) {
+                    0 => String::new(),
+                    count => format!("; and in {count} more places"),
+                };
+                format!("Hysteresis {all}{more}.")
             }
         };
         let caption = format!("{hysteresis} {} {} {method}", self.exact(), self.agreement());
@@ -49,10 +57,7 @@ impl Shown<'_> {
             .iter()
             .map(|one| format!("from {} to {}", end(one, 0), end(one, 1)))
             .collect();
-        match all.is_empty() {
-            true => "No symmetric orbit attracts.".to_owned(),
-            false => format!("The exact symmetric orbit attracts {}.", all.join(" and ")),
-        }
+        format!("The exact symmetric orbit attracts {}.", all.join(" and "))
     }
 
     fn agreement(&self) -> String {
@@ -61,12 +66,14 @@ impl Shown<'_> {
         };
         let others = match found.without_orbit {
             0 => String::new(),
-            count => format!(" ({count} more lie on branches that are not drawn)"),
+            count => format!(" ({count} more are on branches that are not drawn)"),
         };
         format!(
-            "{} simulated motions that repeat every period have the peaks of attracting exact orbits to {} or better, relatively{others}.",
+            "{} simulated motions that repeat every period have the peak of an attracting exact orbit{others}; they differ by at \
+             most {} of it, at {}.",
             found.compared,
-            significant(found.largest, 2)
+            significant(found.largest, 2),
+            self.text(found.at)
         )
     }
 }
