@@ -224,6 +224,8 @@ fn agreement(
         let Some(there) = parameter.applied(base, point.value) else { continue };
         let Ok(map) = ImpactMap::of(&there) else { continue };
         let unit = swept(parameter).unit(point.value);
+        // What repeats is the end of the window; its beginning may be the last of a transient.
+        let Some(simulated) = point.period_peaks.last() else { continue };
         let of_kind = exact.attracting(point.value).map(|near| &near.cycle).filter(|cycle| {
             let (Closure::Mirrors { periods } | Closure::Repeats { periods }) = cycle.closure;
             periods == 1 && cycle.impact_count() == impacts as usize
@@ -231,7 +233,7 @@ fn agreement(
         let solved = of_kind.filter_map(|cycle| solve(&there, cycle, Origin::Continuation).ok());
         let peaks = solved.filter(|orbit| orbit.attracts()).map(|orbit| {
             let peak = unit * Peaks::of(&map, &orbit.cycle).displacement;
-            (point.peak / peak - 1.0).abs()
+            (simulated / peak - 1.0).abs()
         });
         match peaks.min_by(f64::total_cmp) {
             None => found.without_orbit += 1,
