@@ -22,9 +22,9 @@ fn diagram(system: &System, parameter: Parameter) -> Diagram {
     found.expect("1:1 resonance exists")
 }
 
-/// A repetition is recognised at a closure of 1e-6; an orbit whose multiplier is 0.999 is then still
-/// within 1e-3 of its limit. What settles faster is closer.
-const SETTLED: f64 = 1e-3;
+/// A repetition is recognised at a closure of 1e-6; an orbit whose multiplier is 0.99 is then still
+/// within 1e-4 of its limit. What settles faster is closer.
+const SETTLED: f64 = 1e-4;
 /// One step of the sweep, as a ratio.
 fn step(diagram: &Diagram) -> f64 {
     libm::pow(diagram.range[1] / diagram.range[0], 1.0 / f64::from(STEPS - 1))
