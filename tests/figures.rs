@@ -4,7 +4,7 @@
 use std::fs;
 
 use vinesink::case::{Case, ExtraFigure, ReportSettings};
-use vinesink::report::figure::{Figure, Layer, Rect, Scale, draw};
+use vinesink::report::figure::{Color, Figure, Layer, Rect, Scale, Shape, draw};
 use vinesink::report::figures::all;
 use vinesink::study::{CaseStudy, StudyEffort};
 
@@ -42,7 +42,9 @@ fn check(case: &Case) -> Vec<String> {
         let drawing = draw(figure).unwrap_or_else(|error| panic!("{}: {error}", case.title));
         let size = drawing.svg.len();
         sum += size;
-        assert!((2_000..60_000).contains(&size), "{}: {name} has {size} bytes", case.title);
+        // A diagram holds two sweeps of a hundred values twice.
+        let most = if name.starts_with("diagram-") { 80_000 } else { 60_000 };
+        assert!((2_000..most).contains(&size), "{}: {name} has {size} bytes", case.title);
         assert!(!drawing.svg.contains("NaN") && !drawing.svg.contains("inf\""), "{name}");
         for words in [&figure.caption, &figure.alt] {
             assert!(words.len() > 30 && words.ends_with('.'), "{name}: {words}");
@@ -192,6 +194,11 @@ fn further_captions_say_what_to_see() {
     assert!(basins.contains("% end with absorber at rest, no impacts, peak 3.01 mm"), "{basins}");
     assert!(basins.contains("% end with two symmetric impacts per period"), "{basins}");
     assert!(caption("map").contains("−2.6 % for saddle-node"), "{}", caption("map"));
+    let diagram = caption("diagram-clearance");
+    assert!(diagram.contains("from 4.85 mm (symmetry breaking) to 16.7 mm (saddle-node)"));
+    assert!(diagram.contains("to 16.5 mm: two symmetric impacts per period"), "{diagram}");
+    assert!(caption("diagram-frequency").contains("from 7.948 Hz (saddle-node)"));
+    assert!(caption("diagram-forcing").contains("from 0.225 mm (saddle-node) to 0.774 mm"));
 }
 
 #[test]
@@ -216,9 +223,36 @@ fn captions_say_what_the_case_does() {
     assert!(caption("motion-1").contains("3.56 mm"));
 }
 
+/// Up and down differ in shape as well as in colour, in both panels, under the exact branches.
+#[test]
+fn both_ways_of_a_diagram_are_told_apart() {
+    let mut case = shipped("li2016-8p5hz-fig12");
+    case.report = ReportSettings { figures: vec![ExtraFigure::DiagramClearance] };
+    let figures = figures(&case);
+    let figure = figures.last().expect("some");
+    assert_eq!((figure.name.as_str(), figure.panels.len()), ("diagram-clearance", 2));
+    for panel in &figure.panels {
+        let clouds: Vec<(Shape, Color)> = panel
+            .layers
+            .iter()
+            .filter_map(|layer| match layer {
+                Layer::Points { points, marker, color, .. } if points.len() > 100 => {
+                    Some((marker.shape, *color))
+                }
+                _ => None,
+            })
+            .collect();
+        let [down, up] = clouds[..] else { panic!("{clouds:?}") };
+        assert!(down.0 != up.0 && down.1 != up.1, "{clouds:?}");
+        let lines = panel.layers.iter().filter(|layer| matches!(layer, Layer::Curve { .. }));
+        assert!(lines.count() >= 2);
+    }
+}
+
 #[test]
 fn without_forcing_nothing_moves() {
-    let names = check(&changed(&[("amplitude", "\"0 mm\"")]));
+    let names = check(&with_further_figures(changed(&[("amplitude", "\"0 mm\"")])));
+    assert!(!names.iter().any(|name| name.starts_with("diagram-")), "{names:?}");
     assert!(!has(&names, "map") && !has(&names, "motion-1") && has(&names, "sim"), "{names:?}");
 }
 

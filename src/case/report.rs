@@ -43,11 +43,17 @@ pub enum ExtraFigure {
     Transfer,
     /// Three short stretches of the same: decrease, weak impacts, few impacts (Figs. 12d to 12f).
     TransferStretches,
+    /// The clearance swept up and down by simulation, with the exact orbits over it.
+    DiagramClearance,
+    /// The same for the excitation frequency.
+    DiagramFrequency,
+    /// The same for the excitation amplitude.
+    DiagramForcing,
 }
 
 impl ExtraFigure {
     /// Every further figure.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 14] = [
         Self::Areas,
         Self::Bifurcations,
         Self::ForcingResponses,
@@ -59,6 +65,9 @@ impl ExtraFigure {
         Self::Basins,
         Self::Transfer,
         Self::TransferStretches,
+        Self::DiagramClearance,
+        Self::DiagramFrequency,
+        Self::DiagramForcing,
     ];
 
     /// The name in a case file, which is also the stem of the figure's file.
@@ -76,6 +85,9 @@ impl ExtraFigure {
             Self::Basins => "basins",
             Self::Transfer => "transfer",
             Self::TransferStretches => "transfer-stretches",
+            Self::DiagramClearance => "diagram-clearance",
+            Self::DiagramFrequency => "diagram-frequency",
+            Self::DiagramForcing => "diagram-forcing",
         }
     }
 

@@ -2,6 +2,8 @@
 //! the nearest boundaries are.
 
 pub mod confirmations;
+pub mod diagrams;
+pub mod exact_branches;
 pub mod margins;
 pub mod proofs;
 pub mod scenes;
@@ -14,6 +16,7 @@ use crate::analysis::{Analysis, AnalysisError, Area, Branch};
 use crate::case::SimulationSettings;
 use crate::orbits::{Boundaries, FullSystem};
 use crate::regimes::attractor::Effort;
+use crate::regimes::diagram::DiagramError;
 use crate::regimes::search::{self, SearchEffort};
 use crate::regimes::{Attractor, FoundAttractor, Regime};
 use crate::simulation::StartError;
@@ -34,6 +37,9 @@ pub enum StudyError {
     /// A predicted motion cannot be simulated.
     #[error(transparent)]
     Start(#[from] StartError),
+    /// A parameter cannot be swept.
+    #[error(transparent)]
+    Diagram(#[from] DiagramError),
 }
 
 /// How thoroughly a case is studied. The defaults settle every shipped case: transients of the 1:1

@@ -12,6 +12,9 @@ mod branches;
 mod canvas;
 mod captures;
 mod clearances;
+mod diagram;
+mod diagram_lines;
+mod diagram_words;
 mod exponents;
 pub(super) mod forcing_responses;
 mod levels;
@@ -32,6 +35,7 @@ use crate::case::{Case, ExtraFigure};
 use crate::regimes::{FoundAttractor, Regime};
 use crate::simulation::Stop;
 use crate::study::{CaseStudy, StudyError};
+use crate::system::Parameter;
 
 use super::figure::Figure;
 use units::Units;
@@ -107,5 +111,12 @@ fn further(scene: &Scene, wanted: ExtraFigure) -> Result<Option<Figure>, StudyEr
         ExtraFigure::Clearances => clearances::figure(scene),
         ExtraFigure::Transfer => transfer::figure(scene),
         ExtraFigure::TransferStretches => transfer_stretches::figure(scene),
+        ExtraFigure::DiagramClearance => {
+            diagram::figure(scene, wanted.name(), Parameter::Clearance)
+        }
+        ExtraFigure::DiagramFrequency => {
+            diagram::figure(scene, wanted.name(), Parameter::FrequencyRatio)
+        }
+        ExtraFigure::DiagramForcing => diagram::figure(scene, wanted.name(), Parameter::Forcing),
     }
 }

@@ -1,6 +1,6 @@
 //! Numbers in the units that the case's reader uses.
 
-use crate::case::{Case, Scales};
+use crate::case::{Case, Design, PhysicalExcitation, Scales};
 use crate::report::numbers::{LengthFormat, significant};
 use crate::system::System;
 
@@ -8,12 +8,24 @@ use crate::system::System;
 pub(super) struct Units {
     scales: Scales,
     lengths: LengthFormat,
+    /// The case's excitation in displayed units, their name, and what it is.
+    forcing: (f64, &'static str, &'static str),
 }
 
 impl Units {
     pub(super) fn of(case: &Case) -> Self {
         let scales = case.scales();
-        Self { scales, lengths: LengthFormat::of(&scales) }
+        let lengths = LengthFormat::of(&scales);
+        let forcing = match &case.design {
+            Design::Physical(physical) => match physical.excitation {
+                PhysicalExcitation::BaseDisplacement { amplitude_m } => {
+                    (lengths.number(amplitude_m), lengths.unit, "base displacement F")
+                }
+                PhysicalExcitation::Force { amplitude_n } => (amplitude_n, "N", "force P"),
+            },
+            Design::Reduced(_) => (scales.forcing, lengths.unit, "reduced forcing G"),
+        };
+        Self { scales, lengths, forcing }
     }
 
     /// A frequency ratio in Hz, or as it is for a reduced case.
@@ -64,6 +76,21 @@ impl Units {
             Some(_) => format!("{name} (m/s)"),
             None => format!("{name} over ω₀b (1)"),
         }
+    }
+
+    /// A forcing over the case's in displayed units.
+    pub(super) fn forcing(&self, over_own: f64) -> f64 {
+        over_own * self.forcing.0
+    }
+
+    /// The label of a forcing axis.
+    pub(super) fn forcing_axis(&self) -> String {
+        format!("{} ({})", self.forcing.2, self.forcing.1)
+    }
+
+    /// A forcing over the case's in words.
+    pub(super) fn forcing_text(&self, over_own: f64) -> String {
+        format!("{} {}", significant(self.forcing(over_own), 3), self.forcing.1)
     }
 
     /// A number of excitation periods in seconds, or as it is for a reduced case.
