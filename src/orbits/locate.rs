@@ -1,6 +1,7 @@
 //! Where on a branch a bifurcation lies: test functions that vanish there, and the root of each
 //! between two neighbouring points.
 
+use super::mirror;
 use super::multipliers::{minus_one, plus_one, unit_product};
 use super::orbit::{Closure, Orbit, Origin};
 use super::special::{Bifurcation, SpecialPoint};
@@ -12,17 +13,11 @@ use crate::numerics::bracket::brent;
 /// of the points themselves.
 const LOCATED: f64 = 1e-12;
 /// Value of a test function at its root, over its values on either side, above which it jumps there
-/// instead of vanishing. Roots leave 1e-12, but the tangent where two branches cross some 1e-4, since
-/// rounding over the small distance to the crossing turns it; the pole of a determinant where an
-/// impact vanishes leaves 1e11.
-const VANISHES: f64 = 1e-3;
+/// instead of vanishing. Roots leave 1e-12, the pole of a determinant where an impact vanishes 1e11.
+const VANISHES: f64 = 1e-6;
 /// Distance over the step within which a zero of `det(J - I)` is a saddle-node's own: two roots for
 /// one point differ by 1e-13, and a thousandth of a step is no distance between two bifurcations.
 const COINCIDES: f64 = 1e-3;
-/// Distance from its mirror image, over the clearance and in radians, within which an orbit is
-/// symmetric. Where a branch of asymmetric orbits meets the symmetric one, two branches cross, and
-/// points are known to the root of their residual of 1e-13 only.
-const SYMMETRIC: f64 = 1e-5;
 
 /// A test function: the bifurcation that it shows, and its value at a point.
 struct Test {
@@ -77,6 +72,14 @@ pub(super) fn located(
         special.kind != Bifurcation::BranchPoint
             || turns.iter().all(|turn| (turn - at).abs() > COINCIDES * step)
     });
+    if let Some((share, crossing)) = mirror::met(tracer, here, there) {
+        // The branch turns back there, and the symmetric one passes: both are the crossing's own.
+        found.retain(|(_, special)| {
+            !matches!(special.kind, Bifurcation::SaddleNode | Bifurcation::BranchPoint)
+        });
+        let place = found.iter().take_while(|(at, _)| *at < share * step).count();
+        found.insert(place, (share * step, crossing));
+    }
     found.into_iter().map(|(_, special)| special).collect()
 }
 
@@ -123,10 +126,6 @@ fn locate(
 fn renamed(kind: Bifurcation, orbit: &Orbit) -> Option<Bifurcation> {
     match kind {
         Bifurcation::NeimarkSacker => orbit.multipliers.has_pair_on_circle().then_some(kind),
-        // A branch of asymmetric orbits turns back where it meets its own mirror image.
-        Bifurcation::SaddleNode if orbit.cycle.folded(SYMMETRIC).is_some() => {
-            Some(Bifurcation::SymmetryBreaking)
-        }
         _ => Some(kind),
     }
 }

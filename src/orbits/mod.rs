@@ -17,6 +17,7 @@ pub mod impact_map;
 pub mod limits;
 mod locate;
 pub mod measures;
+mod mirror;
 pub mod multipliers;
 pub mod newton;
 pub mod orbit;

@@ -313,16 +313,11 @@ fn stable_between(pair: &[Entry]) -> bool {
     regular.peek().is_some() && regular.all(|entry| entry.orbit.attracts())
 }
 
-/// Leaves out what lies beyond the place where two unequal intervals become equal: from there on the
-/// branch is its own mirror image. (The turning point there is not always located: a symmetric branch
-/// crosses it.)
+/// Leaves out what lies beyond the place where a branch of asymmetric orbits meets its own mirror
+/// image: from there on it is that image.
 fn truncate_at_mirror(entries: &mut Vec<Entry>) {
-    let skew = |entry: &Entry| match entry.orbit.cycle.durations[..] {
-        [first, second] => first - second,
-        _ => f64::NAN,
-    };
-    let crossed = entries.windows(2).position(|pair| skew(&pair[0]) * skew(&pair[1]) < 0.0);
-    if let Some(last) = crossed {
+    let met = |entry: &Entry| entry.special == Some(Bifurcation::SymmetryBreaking);
+    if let Some(last) = entries.iter().position(met) {
         entries.truncate(last + 1);
     }
 }
