@@ -1,7 +1,7 @@
 //! Branches of periodic orbits: which orbits a parameter leads through, every bifurcation on the way,
 //! and why each branch ends.
 //!
-//! The points come from [`super::tracer`], the bifurcations between them from [`super::locate`].
+//! The points come from `tracer`, the bifurcations between them from `locate` and `mirror`.
 
 use nalgebra::Vector5;
 use serde::Serialize;

@@ -1,7 +1,7 @@
 //! Figs. 4 and 11: which regime comes at which clearance.
 
 use super::boundaries::route;
-use super::{Check, Draft, Image, PaperError, Shelf, check};
+use super::{Check, Draft, Image, PaperError, Shelf, TRANSFER, check};
 use crate::orbits::Boundaries;
 use crate::regimes::Regime;
 use crate::report::numbers::significant;
@@ -72,6 +72,13 @@ pub(super) fn figure_4(shelf: &Shelf) -> Result<Draft, PaperError> {
         valley && (1..levels.len() - 1).contains(&lowest),
         format!("The average amplitude first falls, then rises: rms {}.", words.join(", ")),
     ));
+    images.push(shelf.image(TRANSFER, "diagram-clearance", 860)?);
+    let member = shelf.case(TRANSFER)?;
+    let exact = member.study.exact.boundaries.as_ref();
+    let (breaking, doubling, grazing) = exact
+        .and_then(|exact| exact.asymmetric.as_ref())
+        .and_then(|found| Some((found.symmetry_breaking, found.period_doubling?, found.grazing?)))
+        .ok_or(PaperError::NoResult { case: TRANSFER, what: "asymmetric orbits" })?;
     Ok(Draft {
         number: "4",
         title: "Five response regimes at 8.5 Hz",
@@ -81,6 +88,12 @@ pub(super) fn figure_4(shelf: &Shelf) -> Result<Draft, PaperError> {
         remarks: vec![
             "The clearances were chosen so that simulation shows the regimes in the paper's order; that they exist, and in this order, is what is reproduced.".into(),
             "In the right panels an impact moves the point sideways, since it changes the absorber's speed; between impacts forcing and damping move it up and down.".into(),
+            format!(
+                "The last figure, which the paper has no counterpart of, shows what lies between the five: exact orbits over simulation swept up and down. Below {} the two impacts turn asymmetric; this motion doubles its period at {}, before the wall that it would graze at {} adds a third impact; the orbit with three impacts exists before, so that both coexist.",
+                member.length(breaking),
+                member.length(doubling),
+                member.length(grazing)
+            ),
         ],
         missing: "The five clearances, $F$, and the initial conditions.",
     })
@@ -93,6 +106,7 @@ pub(super) fn figure_11(shelf: &Shelf) -> Result<Draft, PaperError> {
         images.push(shelf.image(name, "return-map-1", 360)?);
     }
     images.push(shelf.image("li2016-8hz-b15mm", "clearances", 860)?);
+    images.push(shelf.image("li2016-8hz-b15mm", "diagram-clearance", 860)?);
     let smallest = shelf.case("li2016-8hz-b0p3mm")?;
     let repeats = smallest.main().is_some_and(|main| main.attractor.repeats());
     checks.push(check(!repeats, "(a) The impacts at b = 0.3 mm are irregular, judged as chaos."));
