@@ -116,6 +116,8 @@ impl Segment {
 
 /// Receives what happens, in order.
 pub trait Observer {
+    /// Whether it looks at smooth stretches, which cost more to describe than to fly.
+    const SEGMENTS: bool = true;
     /// A stretch of smooth motion was completed.
     fn segment(&mut self, _segment: &Segment) {}
     /// An impact took place.
@@ -129,9 +131,12 @@ pub trait Observer {
 
 /// An observer that ignores everything: for transients.
 pub struct Nobody;
-impl Observer for Nobody {}
+impl Observer for Nobody {
+    const SEGMENTS: bool = false;
+}
 
 impl<A: Observer, B: Observer> Observer for (&mut A, &mut B) {
+    const SEGMENTS: bool = A::SEGMENTS || B::SEGMENTS;
     fn segment(&mut self, segment: &Segment) {
         self.0.segment(segment);
         self.1.segment(segment);

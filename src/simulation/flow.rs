@@ -78,6 +78,15 @@ impl Oscillator {
         }
     }
 
+    /// Steady motion: coefficients of `sin` and `cos` of the phase; `None` where it would dwarf the
+    /// real one.
+    pub(super) fn steady(&self) -> Option<(f64, f64)> {
+        match self.form {
+            ForcedForm::Steady { sine, cosine } => Some((sine, cosine)),
+            ForcedForm::FromRest => None,
+        }
+    }
+
     /// Largest absolute forcing.
     pub fn largest_force(&self) -> f64 {
         libm::hypot(self.sine, self.cosine)

@@ -8,7 +8,8 @@ pub mod contact;
 pub mod events;
 pub mod flow;
 pub mod history;
-pub mod run;
+pub mod phasor;
+mod run;
 pub mod statistics;
 pub mod tangent;
 

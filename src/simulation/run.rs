@@ -10,6 +10,7 @@ use serde::Serialize;
 use super::contact::{AtWall, ContactTolerance, rebound};
 use super::events::{Absorber, Impact, Nobody, Observer, Segment, Side, StartError};
 use super::flow::{Kinematics, Motion, Oscillator, derivative_bounds};
+use super::phasor::{Landing, Panels};
 use crate::numerics::crossing::{Band, Curve, Edge, Sample, Search, first_crossing};
 use crate::system::{State, System};
 
@@ -54,6 +55,7 @@ pub struct Simulation {
     system: System,
     alone: Oscillator,
     carrying: Oscillator,
+    panels: Option<Panels>,
     tolerance: ContactTolerance,
     state: State,
     mode: Mode,
@@ -82,6 +84,7 @@ impl Simulation {
             system: *system,
             alone: Oscillator::alone(system),
             carrying: Oscillator::carrying_absorber(system),
+            panels: Panels::of(&Oscillator::alone(system)),
             tolerance: ContactTolerance::default(),
             state: start,
             mode: Mode::Flight,
@@ -159,7 +162,59 @@ impl Simulation {
         (self.turns as f64 * TAU + phase) / self.system.frequency_ratio()
     }
 
-    fn fly(&mut self, observer: &mut impl Observer) -> Result<(), Overflow> {
+    fn fly<O: Observer>(&mut self, observer: &mut O) -> Result<(), Overflow> {
+        if self.fly_in_panels(observer) {
+            return Ok(());
+        }
+        self.fly_step_by_step(observer)
+    }
+
+    /// Flies to the next impact or the end of the period by phasors; `false`, and nothing has
+    /// happened, where they do not apply or leave a doubt.
+    fn fly_in_panels<O: Observer>(&mut self, observer: &mut O) -> bool {
+        let Some(panels) = &self.panels else { return false };
+        let State { x, x_velocity, y, y_velocity } = self.state;
+        let slope = x_velocity - y_velocity;
+        let gap = x - y;
+        // On a wall it must be leaving it.
+        let touch = self.touch();
+        if gap.abs() > 1.0 + touch || (gap.abs() >= 1.0 - touch && gap * slope >= 0.0) {
+            return false;
+        }
+        let landing = panels.fly(self.phase, x, x_velocity, y, y_velocity);
+        let (time, state, phase) = match landing {
+            Landing::Impact { time, x, v, phase, .. } => {
+                (time, State { x, x_velocity: v, y: y + y_velocity * time, y_velocity }, phase)
+            }
+            Landing::PeriodEnd { time, x, v } => {
+                (time, State { x, x_velocity: v, y: y + y_velocity * time, y_velocity }, 0.0)
+            }
+            Landing::Doubt => return false,
+        };
+        if !(state.x.is_finite() && state.y.is_finite()) {
+            return false;
+        }
+        if O::SEGMENTS && time > 0.0 {
+            let motion = self.alone.motion(x, x_velocity, self.phase);
+            let absorber = Absorber::Flying { y, y_velocity };
+            observer.segment(&Segment {
+                motion,
+                absorber,
+                turns: self.turns,
+                phase: self.phase,
+                duration: time,
+            });
+        }
+        self.state = state;
+        self.phase = phase;
+        match landing {
+            Landing::Impact { side, .. } => self.collide(side, observer),
+            _ => self.complete_period(observer),
+        }
+        true
+    }
+
+    fn fly_step_by_step(&mut self, observer: &mut impl Observer) -> Result<(), Overflow> {
         let start = self.state;
         let motion = self.alone.motion(start.x, start.x_velocity, self.phase);
         let curve = Gap { motion, y: start.y, y_velocity: start.y_velocity };
