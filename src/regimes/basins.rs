@@ -63,6 +63,10 @@ impl Plane {
     }
 }
 
+/// Ratio of the rms displacement in one short window to that in a long one: a modulation of the depth
+/// that strongly modulated responses have, seen at its lowest or highest.
+const SCATTER: f64 = 1.6;
+
 /// Where a cell leads.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
@@ -127,9 +131,23 @@ impl Basins {
         (0..self.attractors.len()).map(led).collect()
     }
 
+    /// The known motion that never repeats and is nearest in rms, within [`SCATTER`]: in the short
+    /// window of one cell the averages and even the regime of a chaotic motion scatter.
+    fn scattered(&self, reached: &Attractor) -> Option<usize> {
+        let moves =
+            |one: &Attractor| !one.repeats() && one.impact_count > 0 && one.stop == Stop::EndTime;
+        let apart = |known: &Attractor| libm::log(known.rms / reached.rms).abs();
+        let known = self.attractors.iter().enumerate().filter(|(_, known)| moves(known));
+        let nearest = known.min_by(|a, b| apart(a.1).total_cmp(&apart(b.1)))?;
+        (moves(reached) && apart(nearest.1) < libm::log(SCATTER)).then_some(nearest.0)
+    }
+
     fn matched(&mut self, reached: Attractor) -> Cell {
         if let Some(known) = self.attractors.iter().position(|known| known.is_same(&reached)) {
             self.attractors[known].replace_if_settled(reached);
+            return Cell::Leads(known);
+        }
+        if let Some(known) = self.scattered(&reached) {
             return Cell::Leads(known);
         }
         let open = reached.classification.nature == Nature::TransientNotOver;

@@ -50,6 +50,8 @@ pub struct Report {
     pub tables: Tables,
     /// The figures, in reading order; the first belongs to the first screen.
     pub figures: Vec<FigureRow>,
+    /// Names of figures that the case asks for and that have nothing to show in it.
+    pub left_out: Vec<&'static str>,
     /// The equations with this case's numbers; in Markdown and HTML only.
     #[serde(skip)]
     pub equations: Vec<EquationGroup>,
@@ -158,6 +160,13 @@ impl Report {
                 inputs: tables::inputs(case),
             },
             figures: figures.iter().map(FigureRow::of).collect(),
+            left_out: case
+                .report
+                .figures
+                .iter()
+                .map(|wanted| wanted.name())
+                .filter(|name| figures.iter().all(|figure| figure.name != *name))
+                .collect(),
             equations: equations::groups(case, study),
             provenance: Provenance {
                 program: env!("CARGO_PKG_NAME"),

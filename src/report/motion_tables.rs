@@ -103,7 +103,13 @@ pub(super) fn nature(
             };
             (every, proven)
         }
-        Nature::AtRest => ("at rest".into(), format!("no impact in {} periods", attractor.periods)),
+        Nature::AtRest => {
+            // Only an undamped oscillator moves without loss: then its free vibration never fades.
+            let undamped = attractor.peak > 0.0 && attractor.energetics.damper_power == 0.0;
+            let depends =
+                if undamped { "; undamped, so its peak depends on the start" } else { "" };
+            ("at rest".into(), format!("no impact in {} periods{depends}", attractor.periods))
+        }
         Nature::TransientNotOver => {
             (format!("transient not over after {} periods", attractor.followed), measured())
         }

@@ -1,8 +1,8 @@
 //! Claims about the boundaries around the case: where they lie.
 
 use super::price::{Price, prices};
-use super::tolerance::{Tolerance, asymptotic_error};
-use super::{Check, Claim, Finding, Measure, Verdict};
+use super::tolerance::{Tolerance, asymptotic_error, beyond};
+use super::{Check, Claim, Finding, Measure};
 use crate::analysis::{Analysis, Boundaries, BoundaryKind, Branch};
 use crate::orbits::{Bifurcation, FullSystem};
 use crate::system::System;
@@ -51,8 +51,10 @@ pub fn positions(analysis: &Analysis, exact: &FullSystem) -> Vec<Claim> {
     let error = asymptotic_error(&analysis.system);
     let tolerance = Tolerance {
         value: 2.0 * error,
-        reason: "twice ε (2 + |σ| + λ): at a boundary two conditions meet, each with that error"
-            .into(),
+        reason: format!(
+            "twice ε (2 + |σ| + λ): at a boundary two conditions meet, each with that error{}",
+            beyond(2.0 * error)
+        ),
     };
     let near = |price: &Price| {
         price.exact.or(price.theory).is_some_and(|at| (1.0 / FAR..FAR).contains(&at))
@@ -71,7 +73,7 @@ pub fn positions(analysis: &Analysis, exact: &FullSystem) -> Vec<Claim> {
                 observed: Finding::Number(observed, Measure::LengthOverClearance),
                 checked_by: Check::ExactOrbit,
                 difference: Some(difference),
-                verdict: Verdict::of(difference.abs() <= tolerance.value),
+                verdict: tolerance.judge(difference),
                 tolerance: tolerance.clone(),
             })
         })

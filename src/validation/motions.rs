@@ -101,7 +101,7 @@ fn amplitudes(
             checked_by: Check::ExactOrbit,
             difference: Some(difference),
             tolerance: tolerance.clone(),
-            verdict: Verdict::of(difference.abs() <= tolerance.value),
+            verdict: tolerance.judge(difference),
         }
     };
     let length = Measure::LengthOverClearance;

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::Verdict;
 use crate::system::System;
 
 /// Mass ratio above which the expansion in `eps` is out of its depth: neglected terms reach ten
@@ -28,6 +29,20 @@ pub struct Tolerance {
     pub reason: String,
 }
 
+/// Relative error at which a theory says nothing: a prediction that may be off by half of itself.
+pub const SAYS_NOTHING: f64 = 0.5;
+
+impl Tolerance {
+    /// The verdict on a difference between prediction and observation; none where the tolerance is so
+    /// wide that agreement would mean nothing.
+    pub fn judge(&self, difference: f64) -> Verdict {
+        if self.value > SAYS_NOTHING {
+            return Verdict::Undecided;
+        }
+        Verdict::of(difference.abs() <= self.value)
+    }
+}
+
 /// Expected size of the theory's error: `eps (2 + abs(sigma) + lambda)`.
 ///
 /// The expansion (6) neglects terms that are `eps` times the kept ones, with coefficients made of 1,
@@ -37,11 +52,19 @@ pub fn asymptotic_error(system: &System) -> f64 {
     system.mass_ratio() * (2.0 + system.detuning().abs() + system.damping())
 }
 
+/// What a reason adds where an error is too wide for a verdict.
+pub(super) fn beyond(error: f64) -> &'static str {
+    if error > SAYS_NOTHING { "; so wide that the theory says nothing" } else { "" }
+}
+
 /// The tolerance on amplitudes and phases.
 pub fn asymptotic(system: &System) -> Tolerance {
     Tolerance {
         value: asymptotic_error(system),
-        reason: "terms neglected by the expansion: ε (2 + |σ| + λ)".into(),
+        reason: format!(
+            "terms neglected by the expansion: ε (2 + |σ| + λ){}",
+            beyond(asymptotic_error(system))
+        ),
     }
 }
 

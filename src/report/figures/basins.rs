@@ -1,5 +1,6 @@
 //! Which starts lead to which long-term motion: basins of attraction on a plane of starting states.
 
+use crate::regimes::Regime;
 use crate::regimes::attractor::Effort;
 use crate::regimes::basins::{Axis as StartAxis, Basins, Cell, Coordinate, Plane};
 use crate::regimes::starts::StartBox;
@@ -12,8 +13,8 @@ use super::Scene;
 /// Starts along either axis: squares that are still seen one by one.
 const CELLS: u32 = 40;
 /// Enough to recognise the motion; in a shorter window a strongly modulated one may show no capture.
-const EFFORT: Effort =
-    Effort { discard: 300, periods: 200, prolongations: 1, impact_limit: 20_000 };
+/// Ten impacts per period are recognised as that without going on.
+const EFFORT: Effort = Effort { discard: 300, periods: 200, prolongations: 1, impact_limit: 3_000 };
 /// Colour and marker of each motion, so that they can be told apart without colours.
 const LOOKS: [(Color, Marker); 5] = [
     (Color::SkyBlue, Marker::filled(Shape::Square).sized(9.0)),
@@ -57,7 +58,12 @@ pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
             continue;
         }
         let regime = motion.classification.regime.words();
-        let name = format!("{regime}, peak {}", units.length_text(motion.peak));
+        let free = motion.classification.regime == Regime::AtRest && system.damping() == 0.0;
+        let name = if free {
+            format!("{regime} (peak depends on the start)")
+        } else {
+            format!("{regime}, peak {}", units.length_text(motion.peak))
+        };
         said.push(format!("{} end with {name}", share(marks.len())));
         let (color, marker) = LOOKS[index.min(LOOKS.len() - 1)];
         panel = panel.with(Layer::marked(marker, color, marks).labelled(name));

@@ -19,12 +19,13 @@ impl Shown<'_> {
             EFFORT.discard, EFFORT.periods
         );
         let hysteresis = match &self.diagram.hysteresis[..] {
-            [] => "Up and down end in the same motions: no hysteresis was found.".to_owned(),
+            [] => "Up and down end in the same motions: no hysteresis was found in steps of this size.".to_owned(),
             found => {
                 let told = found.iter().take(MOST_TOLD).map(|one| self.branches_in(one));
                 let all = told.collect::<Vec<String>>().join("; and ");
                 let more = match found.len().saturating_sub(MOST_TOLD) {
                     0 => String::new(),
+                    1 => "; and in one more place".into(),
                     count => format!("; and in {count} more places"),
                 };
                 format!("Hysteresis {all}{more}.")
@@ -62,10 +63,11 @@ impl Shown<'_> {
 
     fn agreement(&self) -> String {
         let Some(found) = self.diagram.agreement else {
-            return "No simulated motion repeats every period.".to_owned();
+            return "No simulated motion with impacts repeats every period.".to_owned();
         };
         let others = match found.without_orbit {
             0 => String::new(),
+            1 => " (one more is on a branch that is not drawn)".into(),
             count => format!(" ({count} more are on branches that are not drawn)"),
         };
         format!(

@@ -48,8 +48,7 @@ pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
     let x = Axis::log("window in excitation periods (1)")
         .with_range(f64::from(1_u32 << WINDOWS.start()), f64::from(1_u32 << WINDOWS.end()));
     let y = Axis::linear("largest Lyapunov exponent per period (1)");
-    let mut panel = Panel::new(x, y)
-        .with(Layer::rule(Rule::Horizontal(0.0), Role::Guide.style()).labelled("0"));
+    let mut panel = Panel::new(x, y).with(Layer::rule(Rule::Horizontal(0.0), Role::Guide.style()));
     for one in &shown {
         panel.layers.extend(layers(one));
     }

@@ -2,7 +2,8 @@
 
 use std::f64::consts::{FRAC_2_PI, PI};
 
-use crate::analysis::{Branch, Manifold, fixed_points};
+use crate::analysis::{Branch, Manifold};
+use crate::orbits::symmetric_orbits;
 use crate::report::figure::{
     Axis, Color, Dash, Figure, Label, Layer, Layout, MarkedPoint, Marker, Panel, Role, Rule, Shape,
     Style,
@@ -22,6 +23,8 @@ const SHOWN: [(f64, Color, Dash); 5] = [
     (0.4, Color::Blue, Dash::DashDot),
     (0.2, Color::Black, Dash::Dotted),
 ];
+/// Restitutions among which the smallest vibration is looked for, to a hundredth.
+const RESTITUTIONS: u32 = 100;
 /// Steps in restitution of everything over `r`.
 const STEPS: u32 = 200;
 /// Samples of a branch of the manifold.
@@ -45,7 +48,7 @@ pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
     let Some(strongest) = strongest(&all) else { return Ok(None) };
     let first = manifolds(level)?;
     let second = over_restitution(&all);
-    let (caption, alt) = words(scene, level, &strongest)?;
+    let (caption, alt) = words(scene, level, &strongest);
     Ok(Some(
         Figure::new("restitutions", "The manifold and what it takes, for five restitutions")
             .with_size(860, 450)
@@ -59,12 +62,12 @@ pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
 /// Which restitutions matter at an oscillator amplitude.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::report) struct Strongest {
-    /// Where `E` is largest.
+    /// Where `E` is largest, among those with a steady 1:1 motion.
     pub harmonic: f64,
-    /// Where `E sin(Theta)` is largest.
+    /// Where `E sin(Theta)` is, among the same.
     pub damping: f64,
     /// The smallest and the largest with a steady 1:1 motion.
-    pub stable: Option<(f64, f64)>,
+    pub stable: (f64, f64),
 }
 
 /// The same for a case, by its own oscillator amplitude.
@@ -77,15 +80,16 @@ pub(in crate::report) fn strongest_of(scene: &Scene) -> Result<Option<Strongest>
 }
 
 fn strongest(all: &[Taken]) -> Option<Strongest> {
+    // Where 1:1 resonance is not steady the manifold takes nothing.
+    let stable = || all.iter().filter(|at| at.branch == Branch::Stable);
     let largest = |value: fn(&Taken) -> f64| {
-        let at = all.iter().max_by(|a, b| value(a).total_cmp(&value(b)))?;
+        let at = stable().max_by(|a, b| value(a).total_cmp(&value(b)))?;
         Some(at.restitution)
     };
-    let stable = || all.iter().filter(|at| at.branch == Branch::Stable).map(|at| at.restitution);
     Some(Strongest {
         harmonic: largest(|at| at.harmonic)?,
         damping: largest(|at| at.damping)?,
-        stable: stable().next().zip(stable().next_back()),
+        stable: (stable().next()?.restitution, stable().next_back()?.restitution),
     })
 }
 
@@ -208,44 +212,38 @@ fn continuous(pairs: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     line
 }
 
-/// The restitution with the smallest steady amplitude at the case's forcing, with that amplitude.
-fn best(system: &System) -> Result<Option<(f64, f64)>, StudyError> {
-    let mut best: Option<(f64, f64)> = None;
-    for k in 1..100 {
-        let restitution = f64::from(k) / 100.0;
-        let Ok(there) = System::new(Parameters { restitution, ..system.parameters() }) else {
-            continue;
-        };
-        let points = fixed_points::solve(&there, &manifold(restitution)?)?;
-        let stable = points.iter().filter(|point| point.stable).map(|point| point.oscillator);
-        if let Some(least) = stable.min_by(f64::total_cmp)
-            && best.is_none_or(|(_, so_far)| least < so_far)
-        {
-            best = Some((restitution, least));
-        }
-    }
-    Ok(best)
+/// The restitution at which the exact symmetric orbit that attracts vibrates least at the case's
+/// clearance and forcing, with its peak. At small restitutions an orbit of the theory may be none: the
+/// absorber would leave its cavity.
+fn best(system: &System) -> Option<(f64, f64)> {
+    let restitutions = (0..=RESTITUTIONS).map(|k| f64::from(k) / f64::from(RESTITUTIONS));
+    let tried = restitutions.filter_map(|restitution| {
+        let there = System::new(Parameters { restitution, ..system.parameters() }).ok()?;
+        let orbits = symmetric_orbits(&there).ok()?;
+        let orbit = orbits.iter().find(|orbit| orbit.orbit.attracts())?;
+        Some((restitution, orbit.peaks.displacement))
+    });
+    tried.min_by(|a, b| a.1.total_cmp(&b.1))
 }
 
-fn words(scene: &Scene, level: f64, strongest: &Strongest) -> Result<(String, String), StudyError> {
-    let range = match strongest.stable {
-        Some((first, last)) => {
-            format!("steady 1:1 for r from {} to {}", significant(first, 2), significant(last, 2))
-        }
-        None => "no steady 1:1 for any r".to_owned(),
-    };
-    let least = match best(&scene.study.analysis.system)? {
-        Some((restitution, amplitude)) => format!(
-            " At this forcing the smallest steady amplitude, {}, comes with r = {}.",
-            scene.units.length_text(amplitude),
+fn words(scene: &Scene, level: f64, strongest: &Strongest) -> (String, String) {
+    let (first, last) = strongest.stable;
+    let least = match best(&scene.study.analysis.system) {
+        Some((restitution, peak)) => format!(
+            " At this clearance and forcing the stable exact orbit with the smallest peak of x, {}, has r = {}.",
+            scene.units.length_text(peak),
             significant(restitution, 2)
         ),
-        None => String::new(),
+        None => {
+            " At this clearance and forcing no exact symmetric orbit is stable, whatever r.".into()
+        }
     };
     let caption = format!(
-        "At {}, with an oscillator amplitude of {}, there is {range}; E is largest for r = {}, what damps the oscillator, E sin Θ, for r = {}.{least}",
+        "At {}, with an oscillator amplitude C of {}, the theory has steady 1:1 resonance for r from {} to {}; among these E is largest for r = {}, what damps the oscillator, E sin Θ, for r = {}.{least}",
         scene.units.place_text(&scene.study.analysis.system),
         scene.units.length_text(level),
+        significant(first, 2),
+        significant(last, 2),
         significant(strongest.harmonic, 2),
         significant(strongest.damping, 2)
     );
@@ -253,5 +251,5 @@ fn words(scene: &Scene, level: f64, strongest: &Strongest) -> Result<(String, St
         "Left, the manifold for five restitutions and the oscillator's amplitude; right, E and E sin Θ over the restitution at that \
          amplitude. {caption}"
     );
-    Ok((caption, alt))
+    (caption, alt)
 }

@@ -62,9 +62,9 @@ pub(super) fn figure_9(shelf: &Shelf) -> Result<Draft, PaperError> {
                 "A smaller $r$ lifts the fold, so that 1:1 resonance needs a larger amplitude.",
             ),
             check(
-                between(at_low.harmonic) || between(at_high.harmonic),
+                between(at_low.harmonic) && between(at_high.harmonic),
                 format!(
-                    "$E$ has its maximum at an intermediate $r$: it is at $r = {}$ and $r = {}$ for the two amplitudes.",
+                    "As far as 1:1 resonance is steady, $E$ has its maximum at an intermediate $r$: it is at $r = {}$ and $r = {}$ for the two amplitudes.",
                     significant(at_high.harmonic, 2),
                     significant(at_low.harmonic, 2)
                 ),
@@ -87,8 +87,8 @@ pub(super) fn figure_9(shelf: &Shelf) -> Result<Draft, PaperError> {
             ),
         ],
         remarks: vec![
-            "$E = 8B/\\pi^2$ grows with $r$ at a given $C$; it is its phase that dissipation needs, and that is lost as impacts become elastic.".into(),
-            "The conclusion, an intermediate restitution, therefore holds for $E\\sin\\Theta$ but not for $E$; two amplitudes are shown, since no single one shows both ends.".into(),
+            "$E = 8B/\\pi^2$ grows with $r$ at a given $C$, as long as 1:1 resonance is steady: at the larger amplitude symmetry breaking ends it below $r = 1$, at the smaller one nothing does.".into(),
+            "What dissipation needs besides is the phase of $E$, and that is lost as impacts become elastic: $E\\sin\\Theta$ has its maximum at an intermediate $r$ at both amplitudes. Two are shown, since no single one shows both ends.".into(),
         ],
         missing: "The amplitude of the oscillator that is drawn.",
     })

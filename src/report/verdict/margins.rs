@@ -140,10 +140,27 @@ impl Writer<'_> {
             some => format!("found by {some} of {} simulated starts", found.starts),
         };
         Some(format!(
-            "Best clearance for steady 1:1 resonance at this frequency and forcing: near {at}, {peak} ({change}), {outcome}."
+            "Best clearance for steady 1:1 resonance at this frequency and forcing: near {at}, {peak} ({change}), {outcome}{}.",
+            self.room_at(best.factor)
         ))
     }
+
+    /// How near the best clearance is to where the exact orbit ends, if it is too near for a design.
+    fn room_at(&self, factor: f64) -> String {
+        let stretches = self.study.exact.stable_stretches().iter();
+        let ends = stretches.flat_map(|stretch| stretch.clearance);
+        let rooms = ends.map(|end| (end / factor - 1.0).abs());
+        match rooms.min_by(f64::total_cmp) {
+            Some(room) if room < TOO_NEAR => {
+                format!("; a margin of {} is no margin for a design", percent(room))
+            }
+            _ => String::new(),
+        }
+    }
 }
+
+/// Share of a clearance within which the end of steady resonance is too near for a design.
+const TOO_NEAR: f64 = 0.1;
 
 /// What a steady motion turns into.
 fn ending(kind: Bifurcation) -> &'static str {

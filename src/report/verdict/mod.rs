@@ -110,13 +110,19 @@ impl Writer<'_> {
         // A modulated vibration may peak higher and still be smaller on average.
         let rms = main.attractor.rms;
         let bare_rms = bare * std::f64::consts::FRAC_1_SQRT_2;
-        if ratio > 1.0 + NOTICEABLE && rms < bare_rms * (1.0 - NOTICEABLE) {
-            let text = format!(
-                "{regime}: higher peaks, {change}, but less on average, rms {} instead of {} ({}).",
-                self.length(rms),
-                self.length(bare_rms),
-                decibels(rms / bare_rms)
-            );
+        let average = format!(
+            "rms {} instead of {} ({})",
+            self.length(rms),
+            self.length(bare_rms),
+            decibels(rms / bare_rms)
+        );
+        let less = rms < bare_rms * (1.0 - NOTICEABLE);
+        if ratio > 1.0 + NOTICEABLE && less {
+            let text = format!("{regime}: higher peaks, {change}, but less on average, {average}.");
+            (Tone::Mixed, text)
+        } else if ratio > 1.0 - NOTICEABLE && less {
+            let text =
+                format!("{regime}: less on average, {average}; peaks hardly change, {change}.");
             (Tone::Mixed, text)
         } else if ratio > 1.0 + NOTICEABLE {
             let joint = if steady { ", but the" } else { ". The" };
@@ -127,7 +133,7 @@ impl Writer<'_> {
         } else if steady {
             (Tone::Good, format!("{regime}: the absorber works. Vibration {change}."))
         } else {
-            (Tone::Mixed, format!("{regime}. Vibration up to {change}."))
+            (Tone::Mixed, format!("{regime}. Vibration up to {change}, {average}."))
         }
     }
 
@@ -190,6 +196,9 @@ impl Writer<'_> {
             .map(|found| {
                 let peak = self.length(found.attractor.peak);
                 let share = match (found.starts, found.regime()) {
+                    (0, Regime::AtRest) if self.study.analysis.system.damping() == 0.0 => {
+                        "from a start at rest; undamped, so its peak depends on the start".into()
+                    }
                     (0, Regime::AtRest) => "from a start at rest".into(),
                     (0, _) => "from a start on the predicted motion".into(),
                     _ => format!("{} of the starts", percent(found.share)),

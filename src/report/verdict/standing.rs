@@ -50,6 +50,7 @@ impl Writer<'_> {
             }
             all => format!("{confirmed} of {all} claims of theory and orbits are confirmed"),
         };
+        let by = self.study.area.by.words();
         let nature = self.nature(main);
         let orbit = match self.study.exact.attracting() {
             Some(_) if main.regime() == Regime::TwoSymmetric => String::new(),
@@ -60,7 +61,7 @@ impl Writer<'_> {
             None => "; no exact symmetric orbit is stable".into(),
         };
         format!(
-            "{} (area {area:?}{strip}, {criterion}), {nature}: {led}{orbit}; {claims}.",
+            "{} (area {area:?}{strip} by {by}: {criterion}), {nature}: {led}{orbit}; {claims}.",
             capitalised(main.regime().words()),
         )
     }
