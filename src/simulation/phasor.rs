@@ -32,6 +32,8 @@ const HALVINGS: u32 = 10;
 /// Distance from a root within which a third-order correction is exact to rounding: the fourth-order
 /// term is below `1e-16/24`.
 const NEAR: f64 = 1e-4;
+/// What a correction may leave, over the fastest time scale: five times this is below rounding.
+const LEFT: f64 = 1e-17;
 /// Corrections before the slow search takes over; from inverse interpolation two suffice.
 const CORRECTIONS: u32 = 6;
 
@@ -45,6 +47,7 @@ struct Steady {
 /// An underdamped oscillator and its excitation, in panels of the period.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Panels {
+    fastest: f64,
     step: f64,
     phase_step: f64,
     frequency: f64,
@@ -113,6 +116,7 @@ impl Panels {
             })
             .collect();
         Some(Self {
+            fastest,
             step,
             phase_step,
             frequency,
@@ -228,17 +232,24 @@ impl Panels {
             let j = -2.0 * self.decay * free_a
                 - self.stiffness * (at.v - at.steady.v)
                 - squared * at.steady.v;
+            let s = -2.0 * self.decay * (j + squared * at.steady.v)
+                - self.stiffness * free_a
+                + squared * squared * at.steady.x;
             // w + w' e + w'' e^2/2 + w''' e^3/6 = 0, by the reverted series.
             let newton = (wall - at.gap) / at.slope;
             let (p, q) = (0.5 * a / at.slope, j / (6.0 * at.slope));
             let e = newton * (1.0 - newton * (p - newton * (2.0 * p * p - q)));
-            if e.abs() <= NEAR {
+            // The series' next term is five times the cube of its first; the expansion about the
+            // evaluated point ends with the third order.
+            let first = (newton * p).abs() + (newton * newton * q).abs();
+            let left = newton.abs() * first * first * first;
+            if e.abs() * self.fastest <= NEAR && left * self.fastest <= LEFT {
                 return Found::Crossing {
                     side,
                     time: time + e,
-                    x: at.x + e * (at.v + e * (0.5 * a + e * j / 6.0)),
-                    v: at.v + e * (a + e * 0.5 * j),
-                    a: a + e * j,
+                    x: at.x + e * (at.v + e * (0.5 * a + e * (j / 6.0 + e * s / 24.0))),
+                    v: at.v + e * (a + e * (0.5 * j + e * s / 6.0)),
+                    a: a + e * (j + e * 0.5 * s),
                 };
             }
             time += e;

@@ -102,6 +102,12 @@ impl Simulation {
         Ok(simulation)
     }
 
+    /// Finds every event by the slow, finer search alone: what the fast one is measured against.
+    pub fn step_by_step(mut self) -> Self {
+        self.panels = None;
+        self
+    }
+
     /// Replaces the tolerance that ends chattering sequences.
     pub fn with_tolerance(mut self, tolerance: ContactTolerance) -> Self {
         self.tolerance = tolerance;
