@@ -15,7 +15,7 @@ use vinesink::orbits::{
     Bifurcation, Boundaries, Branch, BranchEnd, Closure, Cycle, Orbit, OrbitError, Origin,
     SpecialPoint, SymmetricFamily, symmetric_orbits,
 };
-use vinesink::system::{Parameter, System};
+use vinesink::system::{Parameter, Parameters, System};
 
 fn stable_orbit(system: &System) -> Orbit {
     symmetric_orbits(system).expect("damped").pop().expect("exists").orbit
@@ -312,4 +312,21 @@ fn an_asymmetric_branch_turns_back_at_the_symmetry_breaking() {
     let grazing = first(&back, Bifurcation::Grazing).value * inside.value;
     let before = first(&asymmetric, Bifurcation::Grazing).value;
     assert!((grazing / before - 1.0).abs() < 1e-10, "{grazing} {before}");
+}
+
+/// Without restitution the followed orbit ends where the closed form lets the absorber stay on the
+/// wall, and nothing grazes there.
+#[test]
+fn a_followed_orbit_ends_in_sticking_where_the_closed_form_says() {
+    let parameters = Parameters { restitution: 0.0, ..table_1(8.0, 7.5).parameters() };
+    let system = System::new(parameters).expect("valid");
+    let family = SymmetricFamily::of(&system).expect("damped");
+    let [expected, node] = family.stable[0].clearance;
+    let inside = system.with_clearance_scaled(0.5 * (expected + node)).expect("valid");
+    let branch = branch(&inside, Parameter::Clearance, Direction::Down, [0.2, 2.0]);
+    let expected = 2.0 * expected / (expected + node);
+    let last = branch.specials.last().expect("ends");
+    assert_eq!(last.kind, Bifurcation::Sticking, "{:?}", branch.specials);
+    assert!(last.converged && (last.value / expected - 1.0).abs() < 1e-9, "{last:?} {expected}");
+    assert!(matches!(branch.end, BranchEnd::Grazing { .. }));
 }

@@ -67,6 +67,41 @@ fn published_limits_are_reproduced_to_all_printed_digits() {
     }
 }
 
+/// Without restitution the absorber leaves a wall only where the wall's acceleration leaves it behind;
+/// with hardly any it comes back at once, next to there.
+#[test]
+fn a_motion_without_rebound_ends_where_the_absorber_stays_on_the_wall() {
+    let at = |clearance: f64, restitution: f64| {
+        let parameters = Parameters { restitution, ..table_1(8.0, clearance).parameters() };
+        System::new(parameters).expect("valid")
+    };
+    for clearance in [7.5, 15.0] {
+        let family = SymmetricFamily::of(&at(clearance, 0.0)).expect("damped");
+        let [stretch] = family.stable[..] else { panic!("{family:?}") };
+        let [sticking, node] = stretch.clearance.map(|factor| factor * clearance);
+        assert_eq!(stretch.ends, [Bifurcation::Sticking, Bifurcation::SaddleNode].map(Some));
+        let limits = family.limits.iter().filter(|limit| limit.bounds_stability);
+        assert_eq!(limits.count(), 2, "{family:?}");
+        for (inside, moved) in [(true, sticking * (1.0 + 1e-9)), (false, sticking * (1.0 - 1e-9))] {
+            let orbits = symmetric_orbits(&at(moved, 0.0)).expect("damped");
+            let orbit = &orbits.last().expect("exists").orbit;
+            let departure = orbit.admissibility.slowest_departure.expect("no rebound");
+            assert_eq!(orbit.attracts(), inside, "{orbit:?}");
+            assert_eq!(departure > 0.0, inside, "{orbit:?}");
+            assert!(departure.abs() < 1e-7, "{orbit:?}");
+        }
+        // A rebound r puts the grazing aside by its square root.
+        for restitution in [1e-4, 1e-6] {
+            let family = SymmetricFamily::of(&at(clearance, restitution)).expect("damped");
+            let [stretch] = family.stable[..] else { panic!("{family:?}") };
+            assert_eq!(stretch.ends, [Bifurcation::Grazing, Bifurcation::SaddleNode].map(Some));
+            let [grazing, other] = stretch.clearance.map(|factor| factor * clearance);
+            assert!((grazing / sticking - 1.0).abs() < 4.0 * restitution.sqrt(), "{family:?}");
+            assert!((other / node - 1.0).abs() < 4.0 * restitution, "{family:?}");
+        }
+    }
+}
+
 /// A simulation started on an orbit comes back to it: 1e-10 over a period, in the norm of the states.
 #[test]
 fn a_simulation_started_on_an_orbit_follows_it() {
@@ -286,5 +321,67 @@ fn derivatives_by_parameters_are_those_of_the_map() {
         // The gain near resonance is some thirty: its third derivative times h^2.
         assert!((next - exact.next_by_parameter[k]).amax() < 1e-5, "{k} {next}");
         assert!((gap - exact.gap_by_parameter[k]).abs() < 1e-5, "{k} {gap}");
+    }
+}
+/// Systems with any restitution: none, hardly any, and all of it.
+fn any_restitution() -> impl Strategy<Value = f64> {
+    let hardly = (-6.0..-1.301f64).prop_map(|power| libm::pow(10.0, power));
+    prop_oneof![2 => Just(0.0), 3 => hardly, 2 => 0.0..=1.0]
+}
+
+/// Whether a clearance, over the system's own, is too close to a limit to tell.
+fn next_to_a_limit(family: &SymmetricFamily, clearance: f64) -> bool {
+    family.limits.iter().any(|limit| (limit.clearance / clearance - 1.0).abs() < 1e-6)
+}
+
+fn attracts_at(system: &System, clearance: f64) -> Option<Vec<f64>> {
+    let there = system.with_clearance_scaled(clearance).ok()?;
+    let orbits = symmetric_orbits(&there).ok()?;
+    Some(orbits.iter().filter(|one| one.orbit.attracts()).map(|one| one.absorber).collect())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 500, ..ProptestConfig::default() })]
+
+    /// A stretch holds every clearance at which a symmetric orbit attracts, and no other.
+    #[test]
+    fn stretches_are_where_orbits_attract(
+        mass in -3.5..-0.5229f64,
+        restitution in any_restitution(),
+        damping in prop_oneof![4 => 0.0..5.0, 1 => 0.0..50.0, 1 => Just(0.0)],
+        frequency_ratio in prop_oneof![3 => 0.9..1.1f64, 1 => 0.5..2.0f64],
+        places in proptest::collection::vec(0.0..1.0f64, 60),
+    ) {
+        let system = System::new(Parameters {
+            mass_ratio: libm::pow(10.0, mass),
+            damping,
+            restitution,
+            frequency_ratio,
+            forcing_per_clearance: 1.0,
+            excitation: Excitation::BaseDisplacement,
+        })
+        .expect("valid");
+        let family = SymmetricFamily::of(&system).expect("never exactly at resonance");
+        // Around every limit, and in clearances from a fiftieth to fifty steady amplitudes.
+        let amplitude = system.linear_response().expect("exists").amplitude();
+        let mut tried: Vec<f64> = Vec::new();
+        for (k, place) in places.iter().enumerate() {
+            tried.push(amplitude * libm::pow(50.0, 2.0 * place - 1.0));
+            if let Some(limit) = family.limits.get(k % family.limits.len().max(1)) {
+                let aside = libm::pow(10.0, -5.9 + 4.9 * place);
+                tried.extend([limit.clearance * (1.0 + aside), limit.clearance * (1.0 - aside)]);
+            }
+        }
+        for clearance in tried {
+            if next_to_a_limit(&family, clearance) {
+                continue;
+            }
+            let attracting = attracts_at(&system, clearance).expect("valid");
+            prop_assert_eq!(
+                family.stretch_around(clearance).is_some(),
+                !attracting.is_empty(),
+                "clearance {}, attracting {:?}, {:?}", clearance, attracting, family
+            );
+        }
     }
 }

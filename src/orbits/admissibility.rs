@@ -1,6 +1,9 @@
 //! Is an orbit a motion? Only if the absorber stays inside its cavity between impacts and meets
 //! each wall from inside.
 //!
+//! Without restitution an impact leaves no relative velocity, and the absorber separates only where
+//! the wall's acceleration leaves it behind; where it does not, the absorber stays on the wall.
+//!
 //! Whether it does is proven by a search that cannot step over a contact
 //! ([`crate::numerics::crossing`]); how much room it has is measured at the turning points of the
 //! relative displacement.
@@ -20,8 +23,8 @@ const EARLY: f64 = 1e-7;
 const HORIZON: f64 = 1.0;
 /// Width of the cavity over the clearance: more room than any turning point inside leaves.
 const FULL_WIDTH: f64 = 2.0;
-/// Pieces per radian of the fastest oscillation in which turning points are looked for. Two of them
-/// within one piece leave the relative displacement where it was, to the fourth power of the piece.
+/// Pieces per radian of the fastest oscillation in which sign changes are looked for: too short for
+/// an acceleration to change its sign twice in one, unless it hardly differs from 0 there.
 const PIECES_PER_RADIAN: f64 = 8.0;
 /// Fewest and most pieces of a flight: a short one still may turn twice, and one of 10^4 radians has
 /// turned often enough to have shown its extremes.
@@ -42,6 +45,10 @@ pub struct Admissibility {
     /// Smallest speed at which a wall is met, over the clearance, in fast time; negative where an
     /// impact would come from outside.
     pub slowest_impact: f64,
+    /// Smallest acceleration, over the clearance, with which a wall leaves behind an absorber that
+    /// does not rebound; negative where the absorber stays on the wall. `None` where every impact
+    /// rebounds.
+    pub slowest_departure: Option<f64>,
 }
 
 /// Where an orbit comes closest to an impact that it does not have.
@@ -56,6 +63,11 @@ pub struct Narrowest {
 }
 
 impl Admissibility {
+    /// Whether the absorber stays on a wall after an impact, instead of separating from it.
+    pub fn sticks(&self) -> bool {
+        self.slowest_departure.is_some_and(|departure| departure <= 0.0)
+    }
+
     /// Of a sequence of flights: state after the impact, wall left, wall met, duration.
     pub fn of(map: &ImpactMap, flights: &[(AfterImpact, Wall, Wall, f64)]) -> Self {
         let mut found = Self {
@@ -63,13 +75,19 @@ impl Admissibility {
             room: FULL_WIDTH,
             narrowest: None,
             slowest_impact: f64::INFINITY,
+            slowest_departure: None,
         };
         for (index, (start, from, to, duration)) in flights.iter().enumerate() {
             let approach = to.sign() * map.gap_at(start, *from, *duration).v;
+            let departure = Departure::of(map, start, *from);
+            if departure.is_still() {
+                let slowest = found.slowest_departure.unwrap_or(f64::INFINITY);
+                found.slowest_departure = Some(slowest.min(departure.acceleration));
+            }
             found.slowest_impact = found.slowest_impact.min(approach);
             found.admissible &=
                 approach > 0.0 && free_of_contact(map, start, *from, *to, *duration);
-            for (at, value) in turning_points(map, start, *from, *duration) {
+            for (at, value) in turning_points(map, start, *from, *duration, &departure) {
                 let wall = if value > 0.0 { Wall::Plus } else { Wall::Minus };
                 if 1.0 - value.abs() < found.room {
                     found.room = 1.0 - value.abs();
@@ -79,6 +97,35 @@ impl Admissibility {
             }
         }
         found
+    }
+}
+
+/// How the absorber and a wall part after an impact; lengths over the clearance, fast time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Departure {
+    /// Relative velocity away from the wall.
+    speed: f64,
+    /// Relative acceleration away from the wall.
+    pub acceleration: f64,
+    /// Distance, and speed, that counts as none.
+    touch: f64,
+}
+
+impl Departure {
+    /// Of the flight that begins with `start` on the wall `from`.
+    pub fn of(map: &ImpactMap, start: &AfterImpact, from: Wall) -> Self {
+        let at = Kinematics { x: start.x, v: start.x_velocity };
+        let scale = 1.0 + at.x.abs() + at.v.abs() + start.y_velocity.abs();
+        Self {
+            speed: -from.sign() * (start.x_velocity - start.y_velocity),
+            acceleration: -from.sign() * map.flight.acceleration(start.phase, at),
+            touch: TOUCH_ULPS * f64::EPSILON * scale,
+        }
+    }
+
+    /// Whether the impact left no relative velocity: nothing but the acceleration parts the two.
+    pub fn is_still(&self) -> bool {
+        self.speed <= self.touch
     }
 }
 
@@ -112,17 +159,17 @@ fn free_of_contact(
     if !positive {
         return false;
     }
-    let at = Kinematics { x: start.x, v: start.x_velocity };
-    let scale = 1.0 + at.x.abs() + at.v.abs() + start.y_velocity.abs();
-    let touch = TOUCH_ULPS * f64::EPSILON * scale;
-    let separation = -from.sign() * (start.x_velocity - start.y_velocity);
-    let closing = from.sign() * map.flight.acceleration(start.phase, at);
+    let departure = Departure::of(map, start, from);
+    let touch = departure.touch;
     // An absorber that leaves without relative velocity must be left behind by the wall.
-    if separation <= touch && closing >= 0.0 {
+    if departure.is_still() && departure.acceleration <= 0.0 {
         return false;
     }
-    let begin =
-        if separation <= touch { (touch / -closing).sqrt().min(EARLY * duration) } else { 0.0 };
+    let begin = if departure.is_still() {
+        (touch / departure.acceleration).sqrt().min(EARLY * duration)
+    } else {
+        0.0
+    };
     let curve = Gap { map, start, from };
     let band = Band { lower: -1.0, upper: 1.0, touch };
     let until = duration * (1.0 + EARLY);
@@ -141,17 +188,56 @@ fn turning_points(
     start: &AfterImpact,
     from: Wall,
     duration: f64,
+    departure: &Departure,
 ) -> Vec<(f64, f64)> {
+    let slope = |s: f64| {
+        // Where nothing but the acceleration parts the two, the velocity at the very beginning is
+        // rounding.
+        if s == 0.0 && departure.is_still() {
+            -from.sign() * departure.acceleration.signum() * f64::MIN_POSITIVE
+        } else {
+            map.gap_at(start, from, s).v
+        }
+    };
+    let curvature = |s: f64| {
+        let phase = start.phase + map.frequency() * s;
+        map.flight.acceleration(phase, map.oscillator_at(start, s))
+    };
     let mut found = Vec::new();
-    sign_changes(
-        duration,
-        map.frequency(),
-        |s| map.gap_at(start, from, s).v,
-        |at| {
-            found.push((at, map.gap_at(start, from, at).x));
-        },
-    );
+    let mut note = |at: f64| found.push((at, map.gap_at(start, from, at).x));
+    let mut between = |low: f64, high: f64| {
+        if let Ok(root) = brent(low, high, TURNED * duration, slope)
+            && root.at > 0.0
+            && root.at < duration
+        {
+            note(root.at);
+        }
+    };
+    let mut before = (slope(0.0), curvature(0.0));
+    for [low, high] in pieces(duration, map.frequency()) {
+        let after = (slope(high), curvature(high));
+        if (before.0 > 0.0) != (after.0 > 0.0) {
+            between(low, high);
+        } else if before.0 * before.1 < 0.0
+            && after.0 * after.1 > 0.0
+            && let Ok(flattest) = brent(low, high, TURNED * duration, curvature)
+            && (slope(flattest.at) > 0.0) != (before.0 > 0.0)
+        {
+            // It turns and turns back within one piece, as it does after a weak rebound.
+            between(low, flattest.at);
+            between(flattest.at, high);
+        }
+        before = after;
+    }
     found
+}
+
+/// The pieces of a flight in which sign changes are looked for, in order.
+fn pieces(duration: f64, frequency: f64) -> impl Iterator<Item = [f64; 2]> {
+    let pieces =
+        (duration * frequency.max(1.0) * PIECES_PER_RADIAN).ceil().clamp(PIECES[0], PIECES[1]);
+    let step = duration / pieces;
+    (0..pieces as u32).map(move |k| [f64::from(k) * step, f64::from(k + 1) * step])
 }
 
 /// Calls `found` at each sign change of `function` within `(0, duration)`.
@@ -161,12 +247,8 @@ pub(super) fn sign_changes(
     function: impl Fn(f64) -> f64,
     mut found: impl FnMut(f64),
 ) {
-    let pieces =
-        (duration * frequency.max(1.0) * PIECES_PER_RADIAN).ceil().clamp(PIECES[0], PIECES[1]);
-    let step = duration / pieces;
     let mut before = function(0.0);
-    for k in 0..pieces as u32 {
-        let (from, to) = (f64::from(k) * step, f64::from(k + 1) * step);
+    for [from, to] in pieces(duration, frequency) {
         let after = function(to);
         if (before > 0.0) != (after > 0.0)
             && let Ok(root) = brent(from, to, TURNED * duration, &function)

@@ -9,7 +9,7 @@ use serde::Serialize;
 use super::OrbitError;
 use super::locate::located;
 use super::orbit::{Orbit, Origin};
-use super::special::{Bifurcation, SpecialPoint};
+use super::special::SpecialPoint;
 use super::tracer::{Point, Tracer};
 use crate::system::{Parameter, System};
 
@@ -73,7 +73,8 @@ pub enum BranchEnd {
         /// Last value of the parameter.
         value: f64,
     },
-    /// The orbit stops being a motion: an impact appears or disappears.
+    /// The orbit stops being a motion: an impact appears or disappears, or the absorber stays on a
+    /// wall.
     Grazing {
         /// Value of the parameter.
         value: f64,
@@ -220,9 +221,7 @@ fn record(
     let mut found = located(tracer, here, there, step);
     let [low, high] = settings.range;
     found.retain(|special| (low..=high).contains(&special.value));
-    let leaves = |special: &SpecialPoint| {
-        matches!(special.kind, Bifurcation::Grazing | Bifurcation::VanishingImpact)
-    };
+    let leaves = |special: &SpecialPoint| special.kind.ends_motion();
     let end = found.iter().position(leaves).filter(|_| !settings.beyond_grazing);
     if let Some(index) = end {
         found.truncate(index + 1);

@@ -87,6 +87,7 @@ impl FullSystem {
                     | Bifurcation::SymmetryBreaking
                     | Bifurcation::NeimarkSacker
                     | Bifurcation::Grazing
+                    | Bifurcation::Sticking
                     | Bifurcation::VanishingImpact
             )
         })

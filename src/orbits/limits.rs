@@ -8,7 +8,8 @@
 use serde::Serialize;
 
 use super::OrbitError;
-use super::impact_map::ImpactMap;
+use super::admissibility::{Admissibility, Departure};
+use super::impact_map::{ImpactMap, Wall};
 use super::multipliers::{Multipliers, minus_one, unit_product};
 use super::orbit::Cycle;
 use super::special::Bifurcation;
@@ -19,9 +20,17 @@ use crate::system::{Parameters, System};
 /// Largest amplitude of the absorber that is looked at, over the clearance: far beyond symmetry
 /// breaking, which the leading-order theory puts at 1.68.
 const LARGEST: f64 = 5.0;
-/// Pieces of that range in which sign changes are looked for: two roots of one test function within a
-/// fiftieth of a clearance would be missed.
+/// Pieces of that range in which sign changes are looked for. Two roots of a multiplier within one
+/// are found by the dip between them; two grazings within a fiftieth of a clearance would be missed.
 const PIECES: u32 = 250;
+/// How often the distance to the saddle-node is halved: next to it, on either orbit, may lie others.
+const HALVINGS: i32 = 24;
+/// Share of a stretch over which the slope at its ends is asked for.
+const SLOPE: f64 = 1e-3;
+/// Golden section, and steps of it: down to 1e-8 of the stretch, where a smooth minimum is flat.
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
+/// See [`GOLDEN`].
+const NARROWINGS: u32 = 40;
 /// Width to which a root in `beta` is bracketed: its rounding.
 const WIDTH: f64 = 1e-14;
 
@@ -33,6 +42,10 @@ const ASIDE: f64 = 1e-5;
 /// Value of a test function at its root, over its values on either side, above which it jumps there
 /// instead of vanishing: roots of closed forms leave 1e-12.
 const VANISHES: f64 = 1e-6;
+
+/// Distance in `beta` from a root at which the test function is asked for once more: a hundred
+/// times the width to which it was bracketed.
+const ROUNDING: f64 = 1e-12;
 
 /// A limit of the family.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -103,9 +116,8 @@ impl Family {
         match kind {
             Bifurcation::SymmetryBreaking => minus_one(&cycle.jacobian(&map)),
             Bifurcation::NeimarkSacker => unit_product(&cycle.jacobian(&map)),
-            Bifurcation::Grazing => {
-                super::admissibility::Admissibility::of(&map, &cycle.flights()).room
-            }
+            Bifurcation::Grazing => Admissibility::of(&map, &cycle.flights()).room,
+            Bifurcation::Sticking => self.curve.departure(&map.flight, beta),
             _ => beta - self.curve.turning(),
         }
     }
@@ -159,6 +171,7 @@ impl SymmetricFamily {
                 [turning - width, turning + width],
             ));
         }
+        limits.extend(family.sticking());
         for kind in
             [Bifurcation::SymmetryBreaking, Bifurcation::NeimarkSacker, Bifurcation::Grazing]
         {
@@ -179,6 +192,17 @@ impl SymmetricFamily {
 }
 
 impl Family {
+    /// Where the absorber begins to stay on the wall; only an impact without rebound lets it.
+    fn sticking(&self) -> Option<Limit> {
+        let beta = self.curve.sticking(&self.map.flight).filter(|beta| *beta < LARGEST)?;
+        let map = self.map_at(beta);
+        let after = self.curve.after_impact(&map.flight, beta);
+        let width = WIDTH * beta;
+        Departure::of(&map, &after, Wall::Plus)
+            .is_still()
+            .then(|| self.limit(Bifurcation::Sticking, beta, [beta - width, beta + width]))
+    }
+
     fn roots(&self, kind: Bifurcation) -> Vec<Limit> {
         let step = LARGEST / f64::from(PIECES);
         let mut found = Vec::new();
@@ -186,21 +210,81 @@ impl Family {
         for k in 1..PIECES {
             let (from, to) = ((f64::from(k) - 0.5) * step, (f64::from(k) + 0.5) * step);
             let after = self.test(kind, to);
-            if before * after < 0.0
-                && let Ok(root) = brent(from, to, WIDTH, |beta| self.test(kind, beta))
-                && self.is_real(kind, root.at, before.abs().max(after.abs()))
-            {
-                found.push(self.limit(kind, root.at, [root.at - WIDTH, root.at + WIDTH]));
+            let scale = before.abs().max(after.abs());
+            for bracket in self.brackets(kind, [from, to], [before, after]) {
+                found.extend(self.root(kind, bracket, scale));
             }
             before = after;
         }
         found
     }
 
+    /// Every stretch within a piece at whose ends the test function differs in sign.
+    fn brackets(
+        &self,
+        kind: Bifurcation,
+        [from, to]: [f64; 2],
+        [before, after]: [f64; 2],
+    ) -> Vec<[f64; 2]> {
+        let mut points = vec![(from, before), (to, after)];
+        if kind != Bifurcation::Grazing {
+            let turning = self.curve.turning();
+            let offsets = (0..HALVINGS).map(|k| libm::ldexp(to - from, -k));
+            let beside = offsets.flat_map(|offset| [turning - offset, turning + offset]);
+            let inside = beside.chain([turning]).filter(|beta| from < *beta && *beta < to);
+            points.extend(inside.map(|beta| (beta, self.test(kind, beta))));
+            points.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let dips: Vec<_> =
+                points.windows(2).filter_map(|pair| self.dip(kind, pair[0], pair[1])).collect();
+            points.extend(dips);
+            points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        }
+        let changes = points.windows(2).filter(|pair| pair[0].1 * pair[1].1 < 0.0);
+        let found: Vec<[f64; 2]> = changes.map(|pair| [pair[0].0, pair[1].0]).collect();
+        if found.len() == 1 { vec![[from, to]] } else { found }
+    }
+
+    /// A place between two points at which the test function has the other sign than at both.
+    fn dip(&self, kind: Bifurcation, a: (f64, f64), b: (f64, f64)) -> Option<(f64, f64)> {
+        let height = |beta: f64| a.1.signum() * self.test(kind, beta);
+        let (mut low, mut high) = (a.0, b.0);
+        let step = SLOPE * (high - low);
+        let sinks = |from: f64, by: f64, there: f64| height(from + by) < there.abs();
+        if a.1 * b.1 <= 0.0 || !sinks(low, step, a.1) || !sinks(high, -step, b.1) {
+            return None;
+        }
+        for _ in 0..NARROWINGS {
+            let inner = [low + (high - low) * (1.0 - GOLDEN), low + (high - low) * GOLDEN];
+            let heights = inner.map(height);
+            for (at, value) in inner.into_iter().zip(heights) {
+                if value < 0.0 {
+                    return Some((at, a.1.signum() * value));
+                }
+            }
+            if heights[0] < heights[1] {
+                high = inner[1];
+            } else {
+                low = inner[0];
+            }
+        }
+        None
+    }
+
+    fn root(&self, kind: Bifurcation, [from, to]: [f64; 2], scale: f64) -> Option<Limit> {
+        let root = brent(from, to, WIDTH, |beta| self.test(kind, beta)).ok()?;
+        self.is_real(kind, root.at, scale)
+            .then(|| self.limit(kind, root.at, [root.at - WIDTH, root.at + WIDTH]))
+    }
+
     /// Not a jump of the test function, and not two real reciprocal multipliers.
     fn is_real(&self, kind: Bifurcation, beta: f64, scale: f64) -> bool {
         if self.test(kind, beta).abs() > VANISHES * scale {
             return false;
+        }
+        if kind == Bifurcation::Grazing {
+            // Where the absorber begins to stay on the wall the room jumps, from nothing.
+            let beside = [beta - ROUNDING, beta + ROUNDING].map(|beta| self.test(kind, beta));
+            return beside.iter().all(|room| room.abs() <= VANISHES * scale);
         }
         if kind != Bifurcation::NeimarkSacker {
             return true;

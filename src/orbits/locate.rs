@@ -25,7 +25,7 @@ struct Test {
     value: fn(&Point) -> f64,
 }
 
-fn tests(closure: Closure) -> [Test; 6] {
+fn tests(closure: Closure) -> [Test; 7] {
     let minus = match closure {
         Closure::Repeats { .. } => Bifurcation::PeriodDoubling,
         Closure::Mirrors { .. } => Bifurcation::SymmetryBreaking,
@@ -36,6 +36,10 @@ fn tests(closure: Closure) -> [Test; 6] {
         Test { kind: minus, value: |point| minus_one(&point.jacobian) },
         Test { kind: Bifurcation::NeimarkSacker, value: |point| unit_product(&point.jacobian) },
         Test { kind: Bifurcation::Grazing, value: |point| point.admissibility.room },
+        Test {
+            kind: Bifurcation::Sticking,
+            value: |point| point.admissibility.slowest_departure.unwrap_or(f64::NAN),
+        },
         Test {
             kind: Bifurcation::VanishingImpact,
             value: |point| point.admissibility.slowest_impact,
@@ -60,17 +64,23 @@ pub(super) fn located(
         found.extend(locate(tracer, here, step, &test, [before, after]));
     }
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
-    // Where the branch turns back det(J - I) vanishes as well; that is the saddle-node's own.
-    let turns: Vec<f64> =
-        found.iter().filter(|one| one.1.kind == Bifurcation::SaddleNode).map(|one| one.0).collect();
+    // Where the branch turns back det(J - I) vanishes as well; that is the saddle-node's own. Where
+    // the absorber begins to stay on the wall the room jumps; that is the sticking's own.
+    let places = |kind: Bifurcation| -> Vec<f64> {
+        found.iter().filter(|one| one.1.kind == kind).map(|one| one.0).collect()
+    };
+    let (turns, sticking) = (places(Bifurcation::SaddleNode), places(Bifurcation::Sticking));
+    let apart = |own: &[f64], at: f64| own.iter().all(|one| (one - at).abs() > COINCIDES * step);
     found.retain(|(at, special)| {
         // A determinant passes through a pole where an impact vanishes.
-        let measured = matches!(special.kind, Bifurcation::Grazing | Bifurcation::VanishingImpact);
-        if !(special.converged || measured) {
+        if !(special.converged || special.kind.ends_motion()) {
             return false;
         }
-        special.kind != Bifurcation::BranchPoint
-            || turns.iter().all(|turn| (turn - at).abs() > COINCIDES * step)
+        match special.kind {
+            Bifurcation::BranchPoint => apart(&turns, *at),
+            Bifurcation::Grazing => apart(&sticking, *at),
+            _ => true,
+        }
     });
     if let Some((share, crossing)) = mirror::met(tracer, here, there) {
         // The branch turns back there, and the symmetric one passes: both are the crossing's own.

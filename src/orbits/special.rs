@@ -20,6 +20,9 @@ pub enum Bifurcation {
     NeimarkSacker,
     /// Between two impacts the absorber touches a wall: an impact appears.
     Grazing,
+    /// After an impact without rebound the wall no longer leaves the absorber behind: it stays on
+    /// the wall.
+    Sticking,
     /// An impact loses its speed: it disappears.
     VanishingImpact,
     /// Another branch passes through, without this one turning back.
@@ -35,9 +38,15 @@ impl Bifurcation {
             Self::PeriodDoubling => "period doubling",
             Self::NeimarkSacker => "Neimark–Sacker",
             Self::Grazing => "grazing",
+            Self::Sticking => "sticking",
             Self::VanishingImpact => "vanishing impact",
             Self::BranchPoint => "branch point",
         }
+    }
+
+    /// Whether the orbit stops being a motion there, whatever its multipliers.
+    pub(super) fn ends_motion(self) -> bool {
+        matches!(self, Self::Grazing | Self::Sticking | Self::VanishingImpact)
     }
 
     /// The function whose zero it is.
@@ -47,6 +56,7 @@ impl Bifurcation {
             Self::SymmetryBreaking | Self::PeriodDoubling => "det(J + I)",
             Self::NeimarkSacker => "det(J^(2) - I), second compound",
             Self::Grazing => "smallest room between impacts",
+            Self::Sticking => "smallest acceleration of a wall away from the absorber after impact",
             Self::VanishingImpact => "smallest impact speed",
             Self::BranchPoint => "det(J - I)",
         }

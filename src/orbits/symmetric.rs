@@ -102,6 +102,27 @@ impl SymmetricCurve {
         a / (a * a + d * d)
     }
 
+    /// Acceleration with which the wall leaves the absorber behind after an impact, at `beta`: linear
+    /// in it, as the motion at impact and the steady motion both are.
+    pub fn departure(&self, flight: &Flight, beta: f64) -> f64 {
+        let omega = std::f64::consts::PI / self.half_period;
+        omega * omega - self.departure_slope(flight) * beta
+    }
+
+    /// `beta` beyond which the wall does not leave the absorber behind after an impact; of
+    /// consequence where the impact leaves them no relative velocity.
+    pub fn sticking(&self, flight: &Flight) -> Option<f64> {
+        let omega = std::f64::consts::PI / self.half_period;
+        let beta = omega * omega / self.departure_slope(flight);
+        (beta > 0.0 && beta.is_finite()).then_some(beta)
+    }
+
+    fn departure_slope(&self, flight: &Flight) -> f64 {
+        let omega = std::f64::consts::PI / self.half_period;
+        let velocity = 2.0 * self.rebound / self.half_period + omega * self.velocity;
+        omega * omega * self.displacement - flight.damping() * velocity + (1.0 - self.displacement)
+    }
+
     /// `beta` of the orbits at the squared linear amplitude `squared`, ascending, positive ones only.
     pub fn absorber_amplitudes(&self, squared: f64) -> Vec<f64> {
         let (a, d) = (self.displacement, self.velocity);

@@ -56,7 +56,10 @@ fn multiplier(orbit: &SymmetricOrbit) -> String {
 }
 
 fn standing(orbit: &SymmetricOrbit) -> &'static str {
-    if !orbit.orbit.admissibility.admissible {
+    let admissibility = &orbit.orbit.admissibility;
+    if admissibility.sticks() {
+        "none: the absorber would stay on the wall"
+    } else if !admissibility.admissible {
         "none: the absorber would leave its cavity"
     } else if orbit.orbit.multipliers.stable() {
         "stable"

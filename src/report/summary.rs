@@ -72,6 +72,9 @@ pub fn analysis(case: &Case, analysis: &Analysis, exact: &FullSystem, area: Sett
             length(orbit.impact_displacement),
             length(orbit.peaks.displacement),
             match (found.admissibility.admissible, found.attracts()) {
+                (false, _) if found.admissibility.sticks() => {
+                    "not a motion, the absorber would stay on the wall"
+                }
                 (false, _) => "not a motion, the absorber would leave its cavity",
                 (true, true) => "stable",
                 (true, false) => "unstable",

@@ -6,7 +6,7 @@
 
 use super::tolerance::outcome;
 use super::{Check, Claim, Finding, Tolerance, Verdict};
-use crate::orbits::{AfterImpact, FullSystem, Limit, SymmetricOrbit, Wall};
+use crate::orbits::{AfterImpact, Bifurcation, FullSystem, Limit, SymmetricOrbit, Wall};
 use crate::regimes::attractor::Effort;
 use crate::regimes::{Attractor, Regime};
 use crate::simulation::{Nobody, Simulation, StartError};
@@ -126,7 +126,7 @@ pub fn limits(exact: &FullSystem) -> Result<Vec<Claim>, StartError> {
     let mut claims = Vec::new();
     for limit in exact.stability_limits().filter(around) {
         let Ok(cycle) = limit.cycle(&exact.system) else { continue };
-        let side = |factor: f64| -> Result<Option<(bool, Regime)>, StartError> {
+        let side = |factor: f64| -> Result<Option<(bool, Reached)>, StartError> {
             let scaled = exact.system.with_clearance_scaled(limit.clearance * factor);
             let Ok(there) = scaled else { return Ok(None) };
             let found = FullSystem::of(&there);
@@ -142,9 +142,13 @@ pub fn limits(exact: &FullSystem) -> Result<Vec<Claim>, StartError> {
         let (Some(below), Some(above)) = (side(1.0 - ASIDE)?, side(1.0 + ASIDE)?) else {
             continue;
         };
-        let name = |steady: bool| if steady { "steady 1:1" } else { "not steady 1:1" };
-        let agrees =
-            |(attracts, regime): (bool, Regime)| attracts == (regime == Regime::TwoSymmetric);
+        // Where the absorber begins to stay on the wall 1:1 resonance may go on, with rests.
+        let name = |steady: bool| match (steady, limit.kind) {
+            (true, _) => "steady 1:1",
+            (false, Bifurcation::Sticking) => "rests on a wall",
+            (false, _) => "not steady 1:1",
+        };
+        let agrees = |(attracts, reached): (bool, Reached)| attracts == reached.is_steady_flight();
         claims.push(Claim {
             id: format!("limit-{}", limit.kind.words().replace([' ', '–'], "-")),
             statement: format!("{}: what the motion becomes on either side", limit.kind.words()),
@@ -152,8 +156,8 @@ pub fn limits(exact: &FullSystem) -> Result<Vec<Claim>, StartError> {
             predicted: Finding::Words(format!("{} below, {} above", name(below.0), name(above.0))),
             observed: Finding::Words(format!(
                 "{} below, {} above",
-                below.1.short(),
-                above.1.short()
+                below.1.words(),
+                above.1.words()
             )),
             checked_by: Check::Simulation,
             difference: None,
@@ -166,7 +170,30 @@ pub fn limits(exact: &FullSystem) -> Result<Vec<Claim>, StartError> {
     Ok(claims)
 }
 
-fn stays(system: &System, after: &AfterImpact) -> Result<Regime, StartError> {
+/// Where a motion led.
+#[derive(Clone, Copy)]
+struct Reached {
+    regime: Regime,
+    /// Whether the absorber rests on a wall in every repetition of it.
+    rests: bool,
+}
+
+impl Reached {
+    fn is_steady_flight(self) -> bool {
+        self.regime == Regime::TwoSymmetric && !self.rests
+    }
+
+    fn words(self) -> String {
+        let rests = if self.rests && self.regime.is_two_per_period() { " with rests" } else { "" };
+        format!("{}{rests}", self.regime.short())
+    }
+}
+
+fn stays(system: &System, after: &AfterImpact) -> Result<Reached, StartError> {
     let simulation = begun(system, after, Wall::Plus)?;
-    Ok(Attractor::reach(system, simulation.state(), &EFFORT)?.classification.regime)
+    let found = Attractor::reach(system, simulation.state(), &EFFORT)?;
+    Ok(Reached {
+        regime: found.classification.regime,
+        rests: found.sustained_contact.duration_tau > 0.0,
+    })
 }

@@ -71,12 +71,13 @@ const STABLE: Style = Style::new(Color::Black, 1.2, Dash::Solid);
 const UNSTABLE: Style = Style::new(Color::Black, 1.0, Dash::Dashed);
 
 /// How a bifurcation is marked, where it is one that a reader of this figure looks for.
-const KINDS: [(Bifurcation, Shape, Color); 5] = [
+const KINDS: [(Bifurcation, Shape, Color); 6] = [
     (Bifurcation::SaddleNode, Shape::Cross, Color::Vermillion),
     (Bifurcation::SymmetryBreaking, Shape::Triangle, Color::BluishGreen),
     (Bifurcation::PeriodDoubling, Shape::Diamond, Color::Vermillion),
     (Bifurcation::NeimarkSacker, Shape::Circle, Color::Blue),
     (Bifurcation::Grazing, Shape::Square, Color::Black),
+    (Bifurcation::Sticking, Shape::Triangle, Color::Black),
 ];
 
 /// What the panels show.

@@ -169,6 +169,9 @@ fn ending(kind: Bifurcation) -> &'static str {
         Bifurcation::NeimarkSacker => "before the response becomes modulated (Neimark–Sacker)",
         Bifurcation::SaddleNode => "before 1:1 resonance ends (saddle-node)",
         Bifurcation::Grazing => "before a further impact appears (grazing)",
+        Bifurcation::Sticking => {
+            "before the absorber rests on the wall after each impact (sticking)"
+        }
         Bifurcation::PeriodDoubling => "before the motion doubles its period (period doubling)",
         Bifurcation::VanishingImpact => "before an impact disappears",
         Bifurcation::BranchPoint => "before the motion gives way to another (branch point)",
