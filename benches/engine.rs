@@ -39,6 +39,14 @@ fn engine(system: &System, periods: u64) -> u64 {
     simulation.impacts()
 }
 
+/// The same with the slow, finer search alone.
+fn step_by_step(system: &System, periods: u64) -> u64 {
+    let simulation = Simulation::new(system, START, 0.0).expect("inside the cavity");
+    let mut simulation = simulation.step_by_step();
+    assert_eq!(simulation.run(periods, u64::MAX, &mut Nobody), Stop::EndTime);
+    simulation.impacts()
+}
+
 /// Steps of the hand-written integrator in a period.
 const STEPS: u32 = 200;
 /// Halvings of a step that locate an impact to rounding.
@@ -152,6 +160,13 @@ fn impacts(criterion: &mut Criterion) {
             theirs.1,
             theirs.0.as_secs_f64() * 1e6,
             theirs.0.as_secs_f64() / ours.0.as_secs_f64(),
+        );
+        let slow = || step_by_step(&system, PERIODS);
+        let [ours, slower] = compare(|| engine(&system, PERIODS), slow);
+        println!(
+            "b = {clearance} mm: step by step {:.2e} impacts a second; ratio {:.1}",
+            slower.1 as f64 / slower.0.as_secs_f64(),
+            slower.0.as_secs_f64() / ours.0.as_secs_f64(),
         );
         let mut group = criterion.benchmark_group(format!("{PERIODS} periods, b = {clearance} mm"));
         group.bench_function("event engine", |bench| bench.iter(|| engine(&system, PERIODS)));

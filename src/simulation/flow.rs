@@ -27,6 +27,8 @@ pub struct Oscillator {
     pub sine: f64,
     /// Forcing in `cos(phase)`.
     pub cosine: f64,
+    /// Largest absolute forcing.
+    largest: f64,
     form: ForcedForm,
 }
 
@@ -58,6 +60,7 @@ impl Oscillator {
             frequency,
             sine: sine / mass,
             cosine: cosine / mass,
+            largest: libm::hypot(sine, cosine) / mass,
             form: ForcedForm::FromRest,
         };
         oscillator.form = oscillator.choose_form();
@@ -89,7 +92,7 @@ impl Oscillator {
 
     /// Largest absolute forcing.
     pub fn largest_force(&self) -> f64 {
-        libm::hypot(self.sine, self.cosine)
+        self.largest
     }
 
     /// Forcing at a phase.

@@ -1,15 +1,16 @@
 //! Direct, event-driven simulation of the full system, equations (1) and (2): layer 0.
 //!
 //! Between events the motion is closed form ([`flow`]); events are found by a search that cannot
-//! step over one ([`crate::numerics::crossing`]); what happens at a wall is in [`contact`]; [`run`]
+//! step over one, in panels of two phasors (`phasor`) or step by step
+//! ([`crate::numerics::crossing`]); what happens at a wall is in [`contact`]; [`run`]
 //! strings it together and tells observers. Nothing here knows of the asymptotic theory.
 
 pub mod contact;
 pub mod events;
 pub mod flow;
 pub mod history;
-pub mod phasor;
-mod run;
+mod phasor;
+pub mod run;
 pub mod statistics;
 pub mod tangent;
 

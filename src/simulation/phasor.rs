@@ -51,6 +51,7 @@ pub(super) struct Panels {
     step: f64,
     phase_step: f64,
     frequency: f64,
+    inverse_frequency: f64,
     decay: f64,
     ringing: f64,
     stiffness: f64,
@@ -62,14 +63,30 @@ pub(super) struct Panels {
     steady: Vec<Steady>,
 }
 
+/// The absorber's flight.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Line {
+    /// Displacement at its beginning.
+    pub y: f64,
+    /// Velocity.
+    pub velocity: f64,
+}
+
+impl Line {
+    /// The rest of it, from a time `s` on.
+    fn from(self, s: f64) -> Self {
+        Self { y: self.y + self.velocity * s, ..self }
+    }
+}
+
 /// How a flight ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Landing {
     /// On a wall.
-    Impact { side: Side, phase: f64, time: f64, x: f64, v: f64, acceleration: f64 },
+    Impact { side: Side, phase: f64, time: f64, x: f64, v: f64 },
     /// The period is over.
     PeriodEnd { time: f64, x: f64, v: f64 },
-    /// Between these times from the beginning of the flight nothing is proven: search there.
+    /// Nothing is proven: the slow search must fly it.
     Doubt,
 }
 
@@ -120,6 +137,7 @@ impl Panels {
             step,
             phase_step,
             frequency,
+            inverse_frequency: 1.0 / frequency,
             decay: oscillator.decay,
             ringing,
             stiffness: oscillator.stiffness,
@@ -130,9 +148,9 @@ impl Panels {
         })
     }
 
-    /// Flies from displacement `x`, velocity `v` at `phase`, with the absorber at `y` moving at `u`,
-    /// to the first impact or the end of the period.
-    pub(super) fn fly(&self, phase: f64, x: f64, v: f64, y: f64, u: f64) -> Landing {
+    /// Flies from displacement `x`, velocity `v` at `phase`, with the absorber on `line`, to the first
+    /// impact or the end of the period.
+    pub(super) fn fly(&self, phase: f64, x: f64, v: f64, line: Line) -> Landing {
         let last = self.steady.len() - 1;
         let mut k = ((phase / self.phase_step) as usize).min(last - 1);
         let mut offset = (phase - self.phase_step * k as f64) / self.frequency;
@@ -143,31 +161,21 @@ impl Panels {
             return Landing::Doubt;
         }
         let steady = self.turned(self.steady[k], offset);
-        let mut here = self.at(self.free(x - steady.x, v - steady.v), steady, y, u);
+        let mut here = self.at(self.free(x - steady.x, v - steady.v), steady, line);
         let mut length = self.step - offset;
         let mut turn = if offset == 0.0 { self.turn } else { self.propagated(length) };
-        let size = libm::sqrt(here.z[0] * here.z[0] + here.z[1] * here.z[1]);
+        let size = (here.z[0] * here.z[0] + here.z[1] * here.z[1]).sqrt();
         let jerk = self.natural_cubed * size + self.steady_jerk;
         let mut time = 0.0;
         loop {
-            let y_end = y + u * (time + length);
-            let there = self.at(multiply(here.z, turn), self.steady[k + 1], y_end, u);
+            let there =
+                self.at(multiply(here.z, turn), self.steady[k + 1], line.from(time + length));
             let bound = here.a.abs().max(there.a.abs()) + 0.5 * jerk * length;
-            if !inside(&here, &there, length, bound) {
-                if let Some(found) = self.search(here, there, length, jerk, y + u * time, u, 0) {
-                    return match found {
-                        Found::Crossing { side, time: after, x, v, a } => Landing::Impact {
-                            side,
-                            phase: self.phase_step * k as f64
-                                + self.frequency * (self.step - length + after),
-                            time: time + after,
-                            x,
-                            v,
-                            acceleration: a,
-                        },
-                        Found::Doubt => Landing::Doubt,
-                    };
-                }
+            if !inside(&here, &there, length, bound)
+                && let Some(found) = self.search(here, there, length, jerk, line.from(time), 0)
+            {
+                let begin = self.phase_step * k as f64 + self.frequency * (self.step - length);
+                return found.landing(begin, self.frequency, time);
             }
             time += length;
             k += 1;
@@ -180,15 +188,13 @@ impl Panels {
     }
 
     /// The first crossing in a panel that is not clear; `None` if there is none after all.
-    #[allow(clippy::too_many_arguments)]
     fn search(
         &self,
         here: At,
         there: At,
         length: f64,
         jerk: f64,
-        y: f64,
-        u: f64,
+        line: Line,
         depth: u32,
     ) -> Option<Found> {
         let bound = here.a.abs().max(there.a.abs()) + 0.5 * jerk * length;
@@ -196,7 +202,7 @@ impl Panels {
             let sign = side.sign();
             let mean = 0.5 * sign * (here.slope + there.slope);
             if sign * there.gap > 1.0 && mean > 0.5 * bound * length && sign * here.gap < 1.0 {
-                return Some(self.root(&here, &there, length, y, u, side));
+                return Some(self.root(&here, &there, length, line, side));
             }
         }
         if inside(&here, &there, length, bound) {
@@ -206,16 +212,16 @@ impl Panels {
             return Some(Found::Doubt);
         }
         let half = 0.5 * length;
-        let middle = self.after(&here, half, y, u);
-        self.search(here, middle, half, jerk, y, u, depth + 1).or_else(|| {
-            self.search(middle, there, half, jerk, y + u * half, u, depth + 1)
+        let middle = self.after(&here, half, line);
+        self.search(here, middle, half, jerk, line, depth + 1).or_else(|| {
+            self.search(middle, there, half, jerk, line.from(half), depth + 1)
                 .map(|found| found.later(half))
         })
     }
 
     /// The only crossing in a panel: inverse interpolation, then a correction of third order from
     /// one evaluation.
-    fn root(&self, here: &At, there: &At, length: f64, y: f64, u: f64, side: Side) -> Found {
+    fn root(&self, here: &At, there: &At, length: f64, line: Line, side: Side) -> Found {
         let wall = side.sign();
         let rise = there.gap - here.gap;
         let part = (wall - here.gap) / rise;
@@ -224,7 +230,7 @@ impl Panels {
             + rise * part * rest * (rest / here.slope - part / there.slope);
         for _ in 0..CORRECTIONS {
             time = time.clamp(0.0, length);
-            let at = self.after(here, time, y, u);
+            let at = self.after(here, time, line);
             let free_a =
                 -2.0 * self.decay * (at.v - at.steady.v) - self.stiffness * (at.x - at.steady.x);
             let squared = self.frequency * self.frequency;
@@ -232,8 +238,7 @@ impl Panels {
             let j = -2.0 * self.decay * free_a
                 - self.stiffness * (at.v - at.steady.v)
                 - squared * at.steady.v;
-            let s = -2.0 * self.decay * (j + squared * at.steady.v)
-                - self.stiffness * free_a
+            let s = -2.0 * self.decay * (j + squared * at.steady.v) - self.stiffness * free_a
                 + squared * squared * at.steady.x;
             // w + w' e + w'' e^2/2 + w''' e^3/6 = 0, by the reverted series.
             let newton = (wall - at.gap) / at.slope;
@@ -249,7 +254,6 @@ impl Panels {
                     time: time + e,
                     x: at.x + e * (at.v + e * (0.5 * a + e * (j / 6.0 + e * s / 24.0))),
                     v: at.v + e * (a + e * (0.5 * j + e * s / 6.0)),
-                    a: a + e * (j + e * 0.5 * s),
                 };
             }
             time += e;
@@ -262,19 +266,20 @@ impl Panels {
         [x, -(v + self.decay * x) / self.ringing]
     }
 
-    fn at(&self, z: [f64; 2], steady: Steady, y: f64, u: f64) -> At {
+    fn at(&self, z: [f64; 2], steady: Steady, line: Line) -> At {
         let free_v = -self.decay * z[0] - self.ringing * z[1];
         let (x, v) = (z[0] + steady.x, free_v + steady.v);
         let a = -2.0 * self.decay * free_v
             - self.stiffness * z[0]
             - self.frequency * self.frequency * steady.x;
-        At { z, steady, x, v, a, gap: x - y, slope: v - u }
+        At { z, steady, x, v, a, gap: x - line.y, slope: v - line.velocity }
     }
 
-    /// A time `s`, less than a panel, after `here`; `y` is the absorber's place there.
-    fn after(&self, here: &At, s: f64, y: f64, u: f64) -> At {
+    /// A time `s`, less than a panel, after `here`, where the absorber's flight `line` begins.
+    #[inline]
+    fn after(&self, here: &At, s: f64, line: Line) -> At {
         let z = multiply(here.z, self.propagated(s));
-        self.at(z, self.turned(here.steady, s), y + u * s, u)
+        self.at(z, self.turned(here.steady, s), line.from(s))
     }
 
     /// `e^{p s}` for less than a panel.
@@ -288,7 +293,7 @@ impl Panels {
     fn turned(&self, steady: Steady, s: f64) -> Steady {
         let (sin, cos) = small_angle(self.frequency * s);
         Steady {
-            x: steady.x * cos + steady.v / self.frequency * sin,
+            x: steady.x * cos + steady.v * self.inverse_frequency * sin,
             v: steady.v * cos - self.frequency * steady.x * sin,
         }
     }
@@ -296,16 +301,24 @@ impl Panels {
 
 #[derive(Debug, Clone, Copy)]
 enum Found {
-    Crossing { side: Side, time: f64, x: f64, v: f64, a: f64 },
+    Crossing { side: Side, time: f64, x: f64, v: f64 },
     Doubt,
 }
 
 impl Found {
+    /// The end of the flight that this is, in a panel that begins at `phase`, `time` after it.
+    fn landing(self, phase: f64, frequency: f64, time: f64) -> Landing {
+        match self {
+            Self::Crossing { side, time: after, x, v } => {
+                Landing::Impact { side, phase: phase + frequency * after, time: time + after, x, v }
+            }
+            Self::Doubt => Landing::Doubt,
+        }
+    }
+
     fn later(self, by: f64) -> Self {
         match self {
-            Self::Crossing { side, time, x, v, a } => {
-                Self::Crossing { side, time: time + by, x, v, a }
-            }
+            Self::Crossing { side, time, x, v } => Self::Crossing { side, time: time + by, x, v },
             Self::Doubt => Self::Doubt,
         }
     }
@@ -315,6 +328,10 @@ impl Found {
 /// explanation. It may begin on a wall.
 fn inside(here: &At, there: &At, length: f64, bound: f64) -> bool {
     let curve = 0.5 * bound * length * length;
+    // A chord is missed by at most M h^2/8.
+    if here.gap.abs().max(there.gap.abs()) + 0.25 * curve <= 1.0 {
+        return true;
+    }
     let reach = bound * length;
     let chord = there.gap - here.gap;
     let turn = there.slope * length;
@@ -331,6 +348,7 @@ fn multiply(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
 
 /// Sine and cosine of at most [`LARGEST_ANGLE`], to rounding: the first terms left out are below
 /// `0.4^15/15! = 8e-19`.
+#[inline]
 fn small_angle(angle: f64) -> (f64, f64) {
     let q = angle * angle;
     let sin = 1.0
@@ -349,6 +367,7 @@ fn small_angle(angle: f64) -> (f64, f64) {
 }
 
 /// `e^x` for small negative `x`; larger ones are left to the library.
+#[inline]
 fn small_exponential(x: f64) -> f64 {
     if x < -0.02 {
         return libm::exp(x);

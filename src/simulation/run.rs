@@ -10,7 +10,7 @@ use serde::Serialize;
 use super::contact::{AtWall, ContactTolerance, rebound};
 use super::events::{Absorber, Impact, Nobody, Observer, Segment, Side, StartError};
 use super::flow::{Kinematics, Motion, Oscillator, derivative_bounds};
-use super::phasor::{Landing, Panels};
+use super::phasor::{Landing, Line, Panels};
 use crate::numerics::crossing::{Band, Curve, Edge, Sample, Search, first_crossing};
 use crate::system::{State, System};
 
@@ -187,7 +187,7 @@ impl Simulation {
         if gap.abs() > 1.0 + touch || (gap.abs() >= 1.0 - touch && gap * slope >= 0.0) {
             return false;
         }
-        let landing = panels.fly(self.phase, x, x_velocity, y, y_velocity);
+        let landing = panels.fly(self.phase, x, x_velocity, Line { y, velocity: y_velocity });
         let (time, state, phase) = match landing {
             Landing::Impact { time, x, v, phase, .. } => {
                 (time, State { x, x_velocity: v, y: y + y_velocity * time, y_velocity }, phase)
@@ -359,20 +359,27 @@ impl Simulation {
 
     fn perhaps_stick(&mut self, side: Side, observer: &mut impl Observer) {
         let State { x, x_velocity, y_velocity, .. } = self.state;
-        let at = Kinematics { x, v: x_velocity };
-        let motion = self.alone.motion(x, x_velocity, self.phase);
         let opening = -side.sign() * (x_velocity - y_velocity);
-        let wall = AtWall {
-            separation_speed: opening.max(0.0),
-            closing_acceleration: side.sign() * motion.acceleration(0.0, at),
-            jerk_bound: derivative_bounds(&self.alone, at, 0.0).jerk,
-        };
         // Rounding adds up to a touch to each excursion, an impact takes the share 1 - r^2 of it:
         // where the two balance a sequence would never end.
         let r = self.system.restitution();
         let floor = self.touch() / ((1.0 - r) * (1.0 + r));
         let excursion = self.tolerance.excursion.max(floor);
         let tolerance = ContactTolerance { excursion, ..self.tolerance };
+        let alone = &self.alone;
+        let largest = alone.largest_force()
+            + 2.0 * alone.decay * x_velocity.abs()
+            + alone.stiffness * x.abs();
+        if opening * opening > 2.0 * excursion * largest {
+            // Whatever the acceleration is, the gap opens further than that.
+            return;
+        }
+        let at = Kinematics { x, v: x_velocity };
+        let wall = AtWall {
+            separation_speed: opening.max(0.0),
+            closing_acceleration: side.sign() * alone.acceleration(self.phase, at),
+            jerk_bound: derivative_bounds(alone, at, 0.0).jerk,
+        };
         if tolerance.sticks(r, &wall) {
             let eps = self.system.mass_ratio();
             let common = (x_velocity + eps * y_velocity) / (1.0 + eps);

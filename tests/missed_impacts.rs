@@ -1,0 +1,125 @@
+//! Impacts that the fast search misses, counted flight by flight: from the state after each impact of
+//! a trajectory the slow, finer search says what the next one is. Long-run averages would hide a miss.
+//!
+//! `VINESINK_FLIGHTS=100000000 cargo test --release --test missed_impacts` checks as many flights.
+
+mod common;
+
+use std::env;
+
+use vinesink::simulation::{Impact, Observer, Simulation, Stop};
+use vinesink::system::{Excitation, Parameters, State, System};
+
+/// Flights without a word from the caller: a second or two.
+const FLIGHTS: u64 = 200_000;
+/// Flights of each system before the next one.
+const EACH: u64 = 2_000;
+/// Periods after which a flight without impact is given up by both searches.
+const PATIENCE: u64 = 50;
+
+#[derive(Default)]
+struct Next(Option<Impact>);
+
+impl Observer for Next {
+    const SEGMENTS: bool = false;
+    fn impact(&mut self, impact: &Impact) {
+        self.0.get_or_insert(*impact);
+    }
+}
+
+/// The next impact after a state.
+fn next(mut simulation: Simulation) -> Option<Impact> {
+    let mut seen = Next::default();
+    for _ in 0..PATIENCE {
+        if simulation.run(1, 1, &mut seen) == Stop::NotFinite || seen.0.is_some() {
+            break;
+        }
+    }
+    seen.0
+}
+
+/// Numbers in `0..1` that fill the unit cube evenly: multiples of roots of primes.
+fn spread(index: u64, prime: f64) -> f64 {
+    (0.5 + prime.sqrt() * (index + 1) as f64).fract()
+}
+
+/// Table 1 near and far from its boundaries first, then systems over the whole range.
+fn system(index: u64) -> System {
+    let shipped =
+        [(8.0, 0.3), (8.0, 2.5), (8.0, 7.5), (8.0, 20.0), (8.5, 2.5), (8.5, 27.0), (8.35, 11.5)];
+    if let Some((frequency, clearance)) = shipped.get(index as usize) {
+        return common::table_1(*frequency, *clearance);
+    }
+    let log = |low: f64, high: f64, part: f64| low * libm::pow(high / low, part);
+    System::new(Parameters {
+        mass_ratio: log(1e-5, 0.5, spread(index, 2.0)),
+        damping: 10.0 * spread(index, 3.0),
+        restitution: spread(index, 5.0),
+        frequency_ratio: log(0.2, 5.0, spread(index, 7.0)),
+        forcing_per_clearance: log(0.1, 1e4, spread(index, 11.0)),
+        excitation: Excitation::BaseDisplacement,
+    })
+    .expect("in range")
+}
+
+/// The two searches agree on the next impact: the same wall, at the same time as far as rounding of
+/// the gap, some ulps of the motion's size, determines it where the wall is met with that speed.
+fn agree(fast: &Impact, slow: &Impact, start: &Impact, size: f64) -> bool {
+    let apart = (fast.tau - slow.tau).abs();
+    let speed = (slow.x_velocity_before - slow.y_velocity_before).abs();
+    let resolved = 64.0 * f64::EPSILON * (size + slow.tau * (speed + start.x_velocity_after.abs()));
+    // A grazing impact is known to the root of that; accelerations are at most about `size`.
+    fast.side == slow.side && (apart * speed <= resolved || apart * apart * size <= resolved)
+}
+
+#[test]
+fn no_impact_is_missed() {
+    let wanted = env::var("VINESINK_FLIGHTS").ok().and_then(|text| text.parse().ok());
+    let wanted: u64 = wanted.unwrap_or(FLIGHTS);
+    let (mut checked, mut index, mut grazing) = (0, 0, 0);
+    while checked < wanted {
+        let system = system(index);
+        index += 1;
+        let start = State { x: 0.0, x_velocity: 0.1, y: 0.0, y_velocity: 1.0 };
+        let mut simulation = Simulation::new(&system, start, 0.0).expect("inside the cavity");
+        for _ in 0..EACH {
+            let mut seen = Next::default();
+            if simulation.run(PATIENCE, 1, &mut seen) == Stop::NotFinite {
+                break;
+            }
+            let Some(here) = seen.0 else { break };
+            let after = State {
+                x: here.x,
+                x_velocity: here.x_velocity_after,
+                y: here.x - here.side.sign(),
+                y_velocity: here.y_velocity_after,
+            };
+            let begin = || Simulation::new(&system, after, here.phase).expect("on the wall");
+            let (fast, slow) = (next(begin()), next(begin().step_by_step()));
+            let size = 1.0
+                + here.x.abs()
+                + here.x_velocity_after.abs()
+                + here.y_velocity_after.abs()
+                + system.mass_ratio() * system.forcing_per_clearance();
+            let fastest = system.frequency_ratio().max(1.0);
+            let size = size * fastest * fastest;
+            match (&fast, &slow) {
+                (Some(fast), Some(slow)) => {
+                    assert!(
+                        agree(fast, slow, &here, size),
+                        "{system:?}: after {here:?}\nfast {fast:?}\nslow {slow:?}"
+                    );
+                    let speed = (slow.x_velocity_before - slow.y_velocity_before).abs();
+                    grazing += u64::from(speed < 1e-3 * size);
+                }
+                (None, None) => {}
+                _ => panic!("{system:?}: after {here:?}\nfast {fast:?}\nslow {slow:?}"),
+            }
+            checked += 1;
+        }
+    }
+    assert!(
+        grazing > wanted / 10_000,
+        "{grazing} impacts nearly grazed: too few to prove anything"
+    );
+}
