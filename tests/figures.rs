@@ -4,6 +4,7 @@
 use std::fs;
 
 use vinesink::case::{Case, ExtraFigure, ReportSettings};
+use vinesink::report::Report;
 use vinesink::report::figure::{Color, Figure, Layer, Rect, Scale, Shape, draw};
 use vinesink::report::figures::all;
 use vinesink::study::{CaseStudy, StudyEffort};
@@ -292,4 +293,27 @@ fn far_from_resonance() {
         let names = check(&changed(&[("frequency", frequency)]));
         assert!(has(&names, "map"), "{names:?}");
     }
+}
+
+/// A figure that was asked for and has nothing to show is named, not dropped in silence.
+#[test]
+fn a_figure_with_nothing_to_show_is_named() {
+    let mut case = shipped("li2016-8hz-b7p5mm");
+    case.report.figures = vec![ExtraFigure::Captures, ExtraFigure::Exponents];
+    let study = CaseStudy::of(&case.system(), QUICK, &mut |_| {}).expect("can be studied");
+    let drawn = all(&case, &study).expect("can be drawn");
+    let report = Report::new("one", &case, &study, &drawn);
+    assert_eq!(report.left_out, ["captures"]);
+}
+
+/// Without damping a free vibration never fades, so that no peak may be named for an absorber at rest;
+/// and one modulated motion stays one in short windows.
+#[test]
+fn basins_of_an_undamped_oscillator_name_no_peak_at_rest() {
+    let mut case = changed(&[("damping", "\"0 N s/m\"")]);
+    case.report.figures = vec![ExtraFigure::Basins];
+    let figures = figures(&case);
+    let basins = figures.iter().find(|figure| figure.name == "basins").expect("is there");
+    let caption = &basins.caption;
+    assert!(caption.contains("at rest, no impacts (peak depends on the start)"), "{caption}");
 }

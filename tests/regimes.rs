@@ -298,6 +298,29 @@ fn an_impact_of_the_last_repetition_restarts_the_motion() {
     }
 }
 
+/// In the short windows of a basin the averages of one strongly modulated motion scatter, and some
+/// windows show no capture: it stays one motion all the same.
+#[test]
+fn a_modulated_motion_stays_one_in_short_windows() {
+    let system = common::table_1(8.5, 28.0);
+    let long = Effort { discard: 400, periods: 2000, prolongations: 0, impact_limit: 1_000_000 };
+    let known = Attractor::reach(&system, START, &long).expect("inside the cavity");
+    assert!(!known.repeats());
+    let axis = |coordinate| Axis { coordinate, range: [-1.2, 1.2], cells: 8 };
+    let plane = Plane {
+        horizontal: axis(Coordinate::Displacement),
+        vertical: axis(Coordinate::Velocity),
+        fixed: [0.0, 0.0, 0.0, 1.0],
+    };
+    let short = Effort { discard: 300, periods: 40, prolongations: 0, impact_limit: 20_000 };
+    let basins = Basins::of(&system, plane, vec![known], &short, &mut |_| ()).expect("finite");
+    let regimes: Vec<Regime> =
+        basins.attractors.iter().map(|found| found.classification.regime).collect();
+    let moving = regimes.iter().filter(|regime| **regime != Regime::AtRest).count();
+    assert_eq!(moving, 1, "{regimes:?}");
+    assert!(basins.counts()[0] > 32, "{:?}", basins.counts());
+}
+
 #[test]
 fn basins_hold_both_answers_at_8_hz_and_16_4_mm() {
     let system = common::table_1(8.0, 16.4);

@@ -52,3 +52,21 @@ fn what_exact_orbits_cannot_tell_is_undecided() {
         assert_eq!(claim.verdict, Verdict::Undecided, "{claim:?}");
     }
 }
+
+/// With half the oscillator's mass the neglected terms are as large as the theory: agreement would mean
+/// nothing, so that no claim on an amplitude or a boundary gets a verdict.
+#[test]
+fn a_theory_that_may_be_off_by_half_of_itself_gets_no_verdict() {
+    let table = common::table_1(8.0, 7.5);
+    let heavy = System::new(Parameters { mass_ratio: 0.5, ..table.parameters() }).expect("valid");
+    let analysis = Analysis::of(&heavy).expect("analysable");
+    let exact = FullSystem::of(&heavy);
+    let all = motions::fixed_points(&analysis, &exact).into_iter();
+    let numbers: Vec<_> =
+        all.filter(|claim| matches!(claim.predicted, Finding::Number(..))).collect();
+    assert!(!numbers.is_empty());
+    for claim in numbers {
+        assert!(claim.tolerance.value > 0.5 && claim.tolerance.reason.contains("says nothing"));
+        assert_eq!(claim.verdict, Verdict::Undecided, "{claim:?}");
+    }
+}

@@ -13,6 +13,7 @@ pub mod boundaries;
 pub mod branch;
 pub mod flight;
 pub mod full_system;
+mod identity;
 pub mod impact_map;
 pub mod limits;
 mod locate;

@@ -121,6 +121,13 @@ impl Attractor {
         Ok(Self { followed: self.followed + found.followed, ..found })
     }
 
+    /// Whether its amplitude is that of its start: without impacts and damping a free vibration never
+    /// fades.
+    pub fn keeps_its_start(&self) -> bool {
+        let rests = self.classification.regime == Regime::AtRest;
+        rests && self.peak > 0.0 && self.energetics.damper_power == 0.0
+    }
+
     /// Whether the motion was seen to repeat.
     pub fn repeats(&self) -> bool {
         self.classification.evidence.periodicity.is_some()

@@ -104,10 +104,11 @@ pub(super) fn nature(
             (every, proven)
         }
         Nature::AtRest => {
-            // Only an undamped oscillator moves without loss: then its free vibration never fades.
-            let undamped = attractor.peak > 0.0 && attractor.energetics.damper_power == 0.0;
-            let depends =
-                if undamped { "; undamped, so its peak depends on the start" } else { "" };
+            let depends = if attractor.keeps_its_start() {
+                "; undamped, so its peak depends on the start"
+            } else {
+                ""
+            };
             ("at rest".into(), format!("no impact in {} periods{depends}", attractor.periods))
         }
         Nature::TransientNotOver => {

@@ -18,6 +18,10 @@ const APART: f64 = 5e-3;
 /// Relative difference below which two located bifurcations are one.
 const SAME: f64 = 1e-6;
 
+/// Relative difference below which a branch ends at a bifurcation: where it is entered, a thousandth of
+/// a clearance away in state, its parameter has moved by the square of that.
+const ENTRY: f64 = 1e-4;
+
 /// An exact orbit at a value of the parameter.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExactPoint {
@@ -208,7 +212,7 @@ impl Trunk {
         let known = ends
             .flat_map(|piece| [piece.points.first(), piece.points.last()])
             .flatten()
-            .any(|end| (end.value / value - 1.0).abs() < 1e-4);
+            .any(|end| (end.value / value - 1.0).abs() < ENTRY);
         if special.kind != Bifurcation::SymmetryBreaking || known {
             return;
         }

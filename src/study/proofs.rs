@@ -47,7 +47,7 @@ impl Proof {
         let simulated = cycle(system, impacts, repetition.periods)?;
         let start = simulated.folded(MIRRORED).unwrap_or_else(|| simulated.clone());
         let mut orbit = solve(system, &start, Origin::Simulation).ok()?;
-        if let Some(once) = once(&orbit.cycle.unfolded()) {
+        if let Some(once) = orbit.cycle.once(ONE_ORBIT) {
             let start = once.folded(ONE_ORBIT).unwrap_or(once);
             orbit = solve(system, &start, Origin::Simulation).ok()?;
         }
@@ -79,7 +79,9 @@ impl LongTermMotions {
                 one.attractor.classification.nature = proof.nature();
             }
             let known = motions.proofs.iter().position(|known| match (known, &proof) {
-                (Some(known), Some(proof)) => is_one(&known.orbit.cycle, &proof.orbit.cycle),
+                (Some(known), Some(proof)) => {
+                    known.orbit.cycle.is_one_with(&proof.orbit.cycle, ONE_ORBIT)
+                }
                 _ => false,
             });
             if let Some(known) = known {
@@ -92,56 +94,6 @@ impl LongTermMotions {
         }
         motions
     }
-}
-
-/// A cycle that goes round more than once, cut to once. A motion that comes to its orbit from alternate
-/// sides repeats after twice its periods long before it does after once.
-fn once(cycle: &Cycle) -> Option<Cycle> {
-    let (count, periods) = (cycle.impacts.len(), cycle.periods() as usize);
-    let repeats = |rounds: &usize| {
-        let length = count / rounds;
-        count % rounds == 0
-            && periods % rounds == 0
-            && (length..count).all(|k| {
-                let (here, before) = (&cycle.impacts[k], &cycle.impacts[k - length]);
-                cycle.walls[k] == cycle.walls[k - length]
-                    && apart(here, before) < ONE_ORBIT * size(cycle)
-            })
-    };
-    let rounds = (2..=periods).rev().find(repeats)?;
-    let length = count / rounds;
-    Some(Cycle {
-        closure: Closure::Repeats { periods: cycle.periods() / rounds as u32 },
-        walls: cycle.walls[..length].to_vec(),
-        impacts: cycle.impacts[..length].to_vec(),
-        durations: cycle.durations[..length].to_vec(),
-    })
-}
-
-/// Whether two cycles are one orbit, or mirror images: some impact of the one begins the other.
-fn is_one(a: &Cycle, b: &Cycle) -> bool {
-    let same_kind = a.periods() == b.periods() && a.sequence() == b.sequence();
-    let (a, b) = (a.unfolded(), b.unfolded());
-    let images = [b.impacts.clone(), b.impacts.iter().map(AfterImpact::mirrored).collect()];
-    let count = a.impacts.len();
-    same_kind
-        && images.iter().any(|image| {
-            (0..count).any(|shift| {
-                let pairs = a.impacts.iter().zip(image.iter().cycle().skip(shift));
-                pairs.map(|(a, b)| apart(a, b)).fold(0.0, f64::max) < ONE_ORBIT * size(&a)
-            })
-        })
-}
-
-/// Largest difference of two states after impact; phases differ by whole turns.
-fn apart(a: &AfterImpact, b: &AfterImpact) -> f64 {
-    let difference = a.vector() - b.vector();
-    let turns = (difference[0] / TAU).round();
-    difference.rows(1, 3).amax().max((difference[0] - turns * TAU).abs())
-}
-
-fn size(cycle: &Cycle) -> f64 {
-    cycle.impacts.iter().map(|impact| impact.vector().rows(1, 3).amax()).fold(1.0, f64::max)
 }
 
 impl Proof {

@@ -1,6 +1,5 @@
 //! Which starts lead to which long-term motion: basins of attraction on a plane of starting states.
 
-use crate::regimes::Regime;
 use crate::regimes::attractor::Effort;
 use crate::regimes::basins::{Axis as StartAxis, Basins, Cell, Coordinate, Plane};
 use crate::regimes::starts::StartBox;
@@ -58,8 +57,7 @@ pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
             continue;
         }
         let regime = motion.classification.regime.words();
-        let free = motion.classification.regime == Regime::AtRest && system.damping() == 0.0;
-        let name = if free {
+        let name = if motion.keeps_its_start() {
             format!("{regime} (peak depends on the start)")
         } else {
             format!("{regime}, peak {}", units.length_text(motion.peak))

@@ -3,8 +3,8 @@
 use crate::orbits::Bifurcation;
 use crate::regimes::diagram::{DiagramPoint, Way};
 use crate::report::figure::{
-    Axis, Cell, Color, Dash, Figure, Label, Layer, Layout, MarkedPoint, Marker, Panel, Role, Rule,
-    Scale, Shape, Style,
+    Axis, Color, Dash, Figure, Label, Layer, Layout, MarkedPoint, Marker, Panel, Role, Rule, Scale,
+    Shape, Style,
 };
 use crate::report::numbers::significant;
 use crate::study::StudyError;
@@ -37,14 +37,11 @@ pub(super) fn figure(
     let Some(diagram) = Diagram::around(&study.exact, parameter)? else { return Ok(None) };
     let shown = Shown { scene, units, diagram: &diagram };
     let (caption, alt) = shown.words();
-    let cell = |row| Cell { column: 0, row, columns: 1, rows: 1 };
-    let layout =
-        Layout::Cells { widths: vec![1.0], heights: vec![1.5, 1.0], cells: vec![cell(0), cell(1)] };
     let title = format!("Bifurcation diagram over the {}", noun(parameter));
     Ok(Some(
         Figure::new(name, title)
             .with_size(800, 680)
-            .with_layout(layout)
+            .with_layout(Layout::rows(&[1.5, 1.0]))
             .with_panel(shown.peaks())
             .with_panel(shown.intervals())
             .with_words(caption, alt),

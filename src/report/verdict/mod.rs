@@ -196,7 +196,7 @@ impl Writer<'_> {
             .map(|found| {
                 let peak = self.length(found.attractor.peak);
                 let share = match (found.starts, found.regime()) {
-                    (0, Regime::AtRest) if self.study.analysis.system.damping() == 0.0 => {
+                    (0, Regime::AtRest) if found.attractor.keeps_its_start() => {
                         "from a start at rest; undamped, so its peak depends on the start".into()
                     }
                     (0, Regime::AtRest) => "from a start at rest".into(),
