@@ -312,7 +312,7 @@ fn a_modulated_motion_stays_one_in_short_windows() {
         vertical: axis(Coordinate::Velocity),
         fixed: [0.0, 0.0, 0.0, 1.0],
     };
-    let short = Effort { discard: 300, periods: 40, prolongations: 0, impact_limit: 20_000 };
+    let short = Effort { discard: 300, periods: 25, prolongations: 0, impact_limit: 20_000 };
     let basins = Basins::of(&system, plane, vec![known], &short, &mut |_| ()).expect("finite");
     let regimes: Vec<Regime> =
         basins.attractors.iter().map(|found| found.classification.regime).collect();
