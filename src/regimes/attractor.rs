@@ -67,8 +67,8 @@ pub struct Attractor {
 
 /// Impacts that are kept of each attractor, at least: enough for every figure and every average.
 const KEPT_IMPACTS: usize = 20_000;
-/// Relative difference of rms and of peak displacement below which two repeating motions with the
-/// same impacts are one: a thousand times what a repetition to 1e-6 leaves open.
+/// Relative difference of `C`, `E` and peak in the last repetition below which two repeating motions
+/// with the same impacts are one: a thousand times what a repetition to 1e-6 leaves open.
 const SAME_PERIODIC: f64 = 1e-3;
 /// The same for a motion that is still settling and the one that it settles on.
 const SAME_SETTLING: f64 = 0.02;
@@ -204,7 +204,7 @@ impl Attractor {
                 same_regime
                     && (a.impacts, a.periods) == (b.impacts, b.periods)
                     && mine.evidence.sequence == theirs.evidence.sequence
-                    && self.is_alike(other, SAME_PERIODIC)
+                    && self.repeats_like(other)
             }
             (Some(_), None) => other.settles_on(self),
             (None, Some(_)) => self.settles_on(other),
@@ -233,6 +233,20 @@ impl Attractor {
         self.classification.nature == Nature::TransientNotOver
             && apart <= Thresholds::default().impacts_per_period
             && self.is_alike(other, SAME_SETTLING)
+    }
+
+    /// Whether the last repetitions of two motions are alike: the window before them may hold the end
+    /// of a transient.
+    fn repeats_like(&self, other: &Self) -> bool {
+        let last = |one: &Self| {
+            let periods = one.classification.evidence.periodicity.map_or(1, |found| found.periods);
+            let tail = one.amplitudes.len().saturating_sub(periods as usize);
+            one.amplitudes[tail..].iter().fold([0.0; 3], |[c, e, peak], at| {
+                [c + at.oscillator, e + at.absorber, peak.max(at.peak)]
+            })
+        };
+        let pairs = last(self).into_iter().zip(last(other));
+        pairs.into_iter().all(|(a, b)| within(a, b, SAME_PERIODIC))
     }
 
     fn is_alike(&self, other: &Self, limit: f64) -> bool {
