@@ -178,7 +178,7 @@ fn free_of_contact(
             let wall = if contact.edge == Edge::Upper { Wall::Plus } else { Wall::Minus };
             wall == to && contact.time >= duration * (1.0 - EARLY)
         }
-        Search::Clear | Search::NotFinite(_) => false,
+        Search::Clear { .. } | Search::NotFinite(_) => false,
     }
 }
 

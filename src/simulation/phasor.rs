@@ -27,8 +27,8 @@ const LARGEST_ANGLE: f64 = 0.4;
 /// Most panels in a period: beyond, the table would not stay near the processor, and the motion is
 /// not of the kind that impacts drive.
 const MOST_PANELS: usize = 4096;
-/// Halvings of a panel before the slow search takes over.
-const HALVINGS: u32 = 10;
+/// Part of a panel below which nothing is halved further: the slow search takes over.
+const SHORTEST: f64 = 1e-3;
 /// Distance from a root within which a third-order correction is exact to rounding: the fourth-order
 /// term is below `1e-16/24`.
 const NEAR: f64 = 1e-4;
@@ -149,8 +149,15 @@ impl Panels {
     }
 
     /// Flies from displacement `x`, velocity `v` at `phase`, with the absorber on `line`, to the first
-    /// impact or the end of the period.
-    pub(super) fn fly(&self, phase: f64, x: f64, v: f64, line: Line) -> Landing {
+    /// impact or the end of the period. Evaluations of the motion are added to `evaluations`.
+    pub(super) fn fly(
+        &self,
+        phase: f64,
+        x: f64,
+        v: f64,
+        line: Line,
+        evaluations: &mut u64,
+    ) -> Landing {
         let last = self.steady.len() - 1;
         let mut k = ((phase / self.phase_step) as usize).min(last - 1);
         let mut offset = (phase - self.phase_step * k as f64) / self.frequency;
@@ -167,19 +174,23 @@ impl Panels {
         let size = (here.z[0] * here.z[0] + here.z[1] * here.z[1]).sqrt();
         let jerk = self.natural_cubed * size + self.steady_jerk;
         let mut time = 0.0;
+        let first = k;
         loop {
             let there =
                 self.at(multiply(here.z, turn), self.steady[k + 1], line.from(time + length));
             let bound = here.a.abs().max(there.a.abs()) + 0.5 * jerk * length;
             if !inside(&here, &there, length, bound)
-                && let Some(found) = self.search(here, there, length, jerk, line.from(time), 0)
+                && let Some(found) =
+                    self.search(here, there, length, jerk, line.from(time), evaluations)
             {
+                *evaluations += (k + 1 - first) as u64;
                 let begin = self.phase_step * k as f64 + self.frequency * (self.step - length);
                 return found.landing(begin, self.frequency, time);
             }
             time += length;
             k += 1;
             if k == last {
+                *evaluations += (k - first) as u64;
                 return Landing::PeriodEnd { time, x: there.x, v: there.v };
             }
             here = there;
@@ -195,33 +206,42 @@ impl Panels {
         length: f64,
         jerk: f64,
         line: Line,
-        depth: u32,
+        evaluations: &mut u64,
     ) -> Option<Found> {
         let bound = here.a.abs().max(there.a.abs()) + 0.5 * jerk * length;
         for side in [Side::Plus, Side::Minus] {
             let sign = side.sign();
             let mean = 0.5 * sign * (here.slope + there.slope);
             if sign * there.gap > 1.0 && mean > 0.5 * bound * length && sign * here.gap < 1.0 {
-                return Some(self.root(&here, &there, length, line, side));
+                return Some(self.root(&here, &there, length, line, side, evaluations));
             }
         }
         if inside(&here, &there, length, bound) {
             return None;
         }
-        if depth == HALVINGS {
+        if length < SHORTEST * self.step {
             return Some(Found::Doubt);
         }
         let half = 0.5 * length;
         let middle = self.after(&here, half, line);
-        self.search(here, middle, half, jerk, line, depth + 1).or_else(|| {
-            self.search(middle, there, half, jerk, line.from(half), depth + 1)
+        *evaluations += 1;
+        self.search(here, middle, half, jerk, line, evaluations).or_else(|| {
+            self.search(middle, there, half, jerk, line.from(half), evaluations)
                 .map(|found| found.later(half))
         })
     }
 
     /// The only crossing in a panel: inverse interpolation, then a correction of third order from
     /// one evaluation.
-    fn root(&self, here: &At, there: &At, length: f64, line: Line, side: Side) -> Found {
+    fn root(
+        &self,
+        here: &At,
+        there: &At,
+        length: f64,
+        line: Line,
+        side: Side,
+        evaluations: &mut u64,
+    ) -> Found {
         let wall = side.sign();
         let rise = there.gap - here.gap;
         let part = (wall - here.gap) / rise;
@@ -230,6 +250,7 @@ impl Panels {
             + rise * part * rest * (rest / here.slope - part / there.slope);
         for _ in 0..CORRECTIONS {
             time = time.clamp(0.0, length);
+            *evaluations += 1;
             let at = self.after(here, time, line);
             let free_a =
                 -2.0 * self.decay * (at.v - at.steady.v) - self.stiffness * (at.x - at.steady.x);

@@ -129,7 +129,7 @@ impl Simulation {
         self.impacts
     }
 
-    /// Evaluations of the closed form that event search has cost so far.
+    /// Evaluations of the closed form, one state at one time each, that flights have cost so far.
     pub fn evaluations(&self) -> u64 {
         self.evaluations
     }
@@ -187,7 +187,8 @@ impl Simulation {
         if gap.abs() > 1.0 + touch || (gap.abs() >= 1.0 - touch && gap * slope >= 0.0) {
             return false;
         }
-        let landing = panels.fly(self.phase, x, x_velocity, Line { y, velocity: y_velocity });
+        let line = Line { y, velocity: y_velocity };
+        let landing = panels.fly(self.phase, x, x_velocity, line, &mut self.evaluations);
         let (time, state, phase) = match landing {
             Landing::Impact { time, x, v, phase, .. } => {
                 (time, State { x, x_velocity: v, y: y + y_velocity * time, y_velocity }, phase)
@@ -230,7 +231,8 @@ impl Simulation {
         let from = self.tangential_start(&motion, touch).min(remaining);
         let absorber = Absorber::Flying { y: start.y, y_velocity: start.y_velocity };
         match first_crossing(&curve, from, remaining, band) {
-            Search::Clear => {
+            Search::Clear { evaluations } => {
+                self.evaluations += u64::from(evaluations);
                 self.advance(motion, absorber, remaining, observer)?;
                 self.complete_period(observer);
             }
@@ -256,7 +258,8 @@ impl Simulation {
             Band { lower: 0.0, upper: f64::INFINITY, touch: TOUCH_ULPS * f64::EPSILON * scale };
         let remaining = self.remaining();
         match first_crossing(&curve, 0.0, remaining, band) {
-            Search::Clear => {
+            Search::Clear { evaluations } => {
+                self.evaluations += u64::from(evaluations);
                 self.advance(motion, Absorber::Carried(side), remaining, observer)?;
                 self.complete_period(observer);
             }
