@@ -96,7 +96,7 @@ impl Mask for bool {
 /// Numbers in a vector.
 const WIDTH: usize = 8;
 /// Vectors in a [`Wide`].
-const VECTORS: usize = 1;
+const VECTORS: usize = 2;
 /// Numbers side by side in a [`Wide`].
 pub const LANES: usize = WIDTH * VECTORS;
 

@@ -11,14 +11,14 @@ use fearless_simd::{Level, Simd, dispatch};
 use super::contact::{Rebound, rebound};
 use super::events::{Impact, Observer, Side};
 use super::panels::CORRECTIONS;
-use super::phasor::{self, At, Crosses, Line, Rates, Steady, inside};
+use super::phasor::{self, At, Hull, Line, Rates, Slack, Steady};
 use super::run::{Moment, Simulation, Stop};
 use crate::numerics::lanes::{LANES, Mask, Real, Wide, WideMask};
 use crate::system::State;
 
 /// Lanes that wait at an event before the events are dealt with: fewer would repeat that costly part
 /// too often, more would let too many lanes idle. Measured.
-const ENOUGH: u32 = 6;
+const ENOUGH: u32 = 13;
 
 /// Halvings of panels side by side; what needs more goes on alone.
 const HALVINGS: u32 = 3;
@@ -132,7 +132,7 @@ struct Lanes<S: Simd> {
     left: Wide<S>,
     /// The panel under way, the time from the flight's beginning to its own, and the panels before it.
     here: At<Wide<S>>,
-    jerk: Wide<S>,
+    slack: Slack<Wide<S>>,
     time: Wide<S>,
     panels: Wide<S>,
     turns: Wide<S>,
@@ -161,8 +161,9 @@ impl<S: Simd> Lanes<S> {
                 ringing: one,
                 inverse_ringing: one,
                 stiffness: one,
-                natural_cubed: one,
-                steady_jerk: zero,
+                sixth_free: zero,
+                sixth_steady: zero,
+                second_steady: zero,
                 turn: [one, zero],
                 swing: [one, zero, zero],
                 origin: steady,
@@ -179,7 +180,7 @@ impl<S: Simd> Lanes<S> {
             steady,
             left: zero,
             here,
-            jerk: zero,
+            slack: Slack { coefficient: zero, slope_squared: zero },
             time: zero,
             panels: zero,
             turns: zero,
@@ -226,9 +227,9 @@ impl<S: Simd> Lanes<S> {
         while fresh != 0 {
             let blocked = phasor::blocked(self.x, self.v, self.line).bits() & fresh;
             let mask = WideMask::from_bits(self.simd, fresh & !blocked);
-            let (here, jerk) = self.rates.begin(self.x, self.v, self.steady, self.line);
+            let (here, slack) = self.rates.begin(self.x, self.v, self.steady, self.line);
             self.here = advanced(mask, &here, &self.here);
-            self.jerk = Wide::choose(mask, jerk, self.jerk);
+            self.slack = tightened(mask, &slack, &self.slack);
             let zero = self.x.like(0.0);
             self.time = Wide::choose(mask, zero, self.time);
             self.left = Wide::choose(mask, self.rates.left(self.phase), self.left);
@@ -271,17 +272,14 @@ impl<S: Simd> Lanes<S> {
     fn fly_panels(&mut self, active: u64) -> (u64, u64) {
         let all = active.count_ones();
         let enough = ENOUGH.min(all);
-        let Self { simd, rates, line, jerk, left, .. } = *self;
+        let Self { simd, rates, line, slack, left, .. } = *self;
         let Self { mut here, mut time, mut panels, .. } = *self;
         let mut flying = WideMask::from_bits(simd, active);
         let mut ended = WideMask::from_bits(simd, 0);
         loop {
             let reach = time + rates.step;
             let there = rates.next(&here, line.from(reach));
-            let mut clear = phasor::clear(&here, &there, rates.step, jerk);
-            if (flying & !clear).any() {
-                clear = clear | inside(&here, &there, rates.step, jerk);
-            }
+            let clear = Hull::of(&here, &there, rates.step, &slack).clear();
             let over = left.at_most(reach);
             ended = ended | flying & clear & over;
             flying = flying & clear & !over;
@@ -312,28 +310,30 @@ impl<S: Simd> Lanes<S> {
         let mut clear = WideMask::from_bits(simd, clear);
         let mut length = rates.step;
         let mut there = rates.next(&self.here, self.line.from(self.time + length));
-        let (mut crossing, mut dips, mut wall) = self.meets(&there, length, waiting & !clear);
+        let mut slack = self.slack;
+        let mut wall = nearest(&there);
+        let hull = Hull::of(&self.here, &there, length, &slack);
+        let mut crossing = waiting & !clear & hull.meets(wall);
         for _ in 0..HALVINGS {
             let open = waiting & !clear & !crossing;
             if !open.any() {
                 break;
             }
             length = Wide::choose(open, length * 0.5, length);
+            slack = tightened(open, &slack.halved(), &slack);
             let middle = rates.after(&self.here, length, self.line.from(self.time));
             there = advanced(open, &middle, &there);
             self.panels = Wide::choose(open, self.panels + 1.0, self.panels);
-            let (met, dip, side) = self.meets(&there, length, open);
-            (crossing, dips) = (crossing | met, dips | dip);
-            wall = Wide::choose(open, side, wall);
-            clear = clear
-                | open
-                    & !met
-                    & (phasor::clear(&self.here, &there, length, self.jerk)
-                        | inside(&self.here, &there, length, self.jerk));
+            wall = Wide::choose(open, nearest(&there), wall);
+            let hull = Hull::of(&self.here, &there, length, &slack);
+            clear = clear | (open & hull.clear());
+            crossing = crossing | (open & hull.meets(wall));
         }
         let on = waiting & clear & !self.left.at_most(self.time + length);
-        let guess = Rates::guess(&self.here, &there, length, wall, dips);
-        let end = self.end(guess, length, crossing, clear & !on, wall);
+        let guess = Rates::guess(&self.here, &there, length, wall, crossing);
+        let guess = guess.larger(zero).smaller(length);
+        let panel = Panel { guess, length, slack, wall };
+        let end = self.end(&panel, crossing, clear & !on);
         let flight = Wide::choose(end.over, self.left, self.time + end.time);
         let Line { y, velocity } = self.line;
         let (x, v, y) = (end.x, end.v, y + velocity * flight);
@@ -375,9 +375,11 @@ impl<S: Simd> Lanes<S> {
                 },
             );
         let through = self.last_turn.at_most(self.turns) | self.last_impact.at_most(self.impacts);
-        self.here = advanced(on, &there, &self.here);
-        self.time = Wide::choose(on, self.time + length, self.time);
-        self.panels = Wide::choose(on, self.panels + 1.0, self.panels);
+        if on.any() {
+            self.here = advanced(on, &there, &self.here);
+            self.time = Wide::choose(on, self.time + length, self.time);
+            self.panels = Wide::choose(on, self.panels + 1.0, self.panels);
+        }
         let resumed = on.bits();
         let doubt = events & !good.bits() & !resumed;
         let stuck = stuck.bits();
@@ -398,32 +400,11 @@ impl<S: Simd> Lanes<S> {
         (again, resumed)
     }
 
-    /// Which of some lanes are proven to meet a wall once in their panel, which of them dip, and the
-    /// wall.
-    #[inline(always)]
-    fn meets(
-        &self,
-        there: &At<Wide<S>>,
-        length: Wide<S>,
-        lanes: WideMask<S>,
-    ) -> (WideMask<S>, WideMask<S>, Wide<S>) {
-        let (zero, one) = (length.like(0.0), length.like(1.0));
-        let wall = Wide::choose(zero.less(there.gap), one, -one);
-        let Crosses { rises, dips } = Rates::crosses(&self.here, there, length, self.jerk, wall);
-        (lanes & (rises | dips), lanes & dips, wall)
-    }
-
     /// Where the flights end within their panels: at a wall, or with the period in lanes that are
     /// `clear` until then or cross later.
     #[inline(always)]
-    fn end(
-        &self,
-        guess: Wide<S>,
-        length: Wide<S>,
-        crossing: WideMask<S>,
-        clear: WideMask<S>,
-        wall: Wide<S>,
-    ) -> End<S> {
+    fn end(&self, panel: &Panel<S>, crossing: WideMask<S>, clear: WideMask<S>) -> End<S> {
+        let Panel { guess, length, slack, wall } = *panel;
         let line = self.line.from(self.time);
         let (zero, none) = (self.x.like(0.0), WideMask::from_bits(self.simd, 0));
         let rest = self.left - self.time;
@@ -437,19 +418,22 @@ impl<S: Simd> Lanes<S> {
             exact: none,
             evaluations: zero,
         };
+        // A guess after the end of the period is not tried before the end is.
+        let mut ahead = crossing & rest.less(guess);
         for _ in 0..CORRECTIONS {
             let open = (crossing | clear) & !end.exact;
             if !open.any() {
                 break;
             }
+            let at_end = end.over | ahead;
             let inside = time.larger(zero).smaller(length);
-            let at = Wide::choose(end.over, rest, inside);
-            let found = self.rates.corrected(&self.here, at, line, wall);
+            let at = Wide::choose(at_end, rest, inside);
+            let found = self.rates.corrected(&self.here, at, line, wall, &slack);
             let (x, v) = self.rates.oscillator(&found.at);
-            let over = open & end.over;
+            let over = open & (end.over | (ahead & slack.before(&found.at, wall)));
             let late = rest.less(found.time);
-            let met = open & !end.over & found.exact & !late;
-            time = found.time;
+            let met = open & !at_end & found.exact & !late;
+            time = Wide::choose(ahead, time, found.time);
             end.time = Wide::choose(met, found.time, end.time);
             end.x = Wide::choose(met, found.x, Wide::choose(over, x, end.x));
             end.v = Wide::choose(met, found.v, Wide::choose(over, v, end.v));
@@ -457,7 +441,8 @@ impl<S: Simd> Lanes<S> {
             end.steady.v = Wide::choose(met, found.steady.v, end.steady.v);
             end.evaluations = Wide::choose(open, end.evaluations + 1.0, end.evaluations);
             end.exact = end.exact | met | over;
-            end.over = end.over | (open & found.exact & late);
+            end.over = end.over | over | (open & !at_end & found.exact & late);
+            ahead = ahead & !open;
         }
         end
     }
@@ -554,8 +539,9 @@ impl<S: Simd> Lanes<S> {
         rates.ringing[lane] = of.ringing;
         rates.inverse_ringing[lane] = of.inverse_ringing;
         rates.stiffness[lane] = of.stiffness;
-        rates.natural_cubed[lane] = of.natural_cubed;
-        rates.steady_jerk[lane] = of.steady_jerk;
+        rates.sixth_free[lane] = of.sixth_free;
+        rates.sixth_steady[lane] = of.sixth_steady;
+        rates.second_steady[lane] = of.second_steady;
         for k in 0..2 {
             rates.turn[k][lane] = of.turn[k];
         }
@@ -604,7 +590,16 @@ struct Event<S: Simd> {
     after: Rebound<Wide<S>>,
 }
 
-/// Where eight flights end within their panels, times from the panel's beginning.
+/// Where flights may end.
+struct Panel<S: Simd> {
+    /// When, nearly.
+    guess: Wide<S>,
+    length: Wide<S>,
+    slack: Slack<Wide<S>>,
+    wall: Wide<S>,
+}
+
+/// Where flights end within their panels, times from the panel's beginning.
 struct End<S: Simd> {
     /// With the period, not at a wall.
     over: WideMask<S>,
@@ -619,6 +614,26 @@ struct End<S: Simd> {
 
 fn side(wall: f64) -> Side {
     if wall > 0.0 { Side::Plus } else { Side::Minus }
+}
+
+/// The wall on whose side each gap is.
+#[inline(always)]
+fn nearest<S: Simd>(there: &At<Wide<S>>) -> Wide<S> {
+    let one = there.gap.like(1.0);
+    Wide::choose(there.gap.like(0.0).less(there.gap), one, -one)
+}
+
+/// The slack of some lanes replaced.
+#[inline(always)]
+fn tightened<S: Simd>(
+    lanes: WideMask<S>,
+    new: &Slack<Wide<S>>,
+    old: &Slack<Wide<S>>,
+) -> Slack<Wide<S>> {
+    Slack {
+        coefficient: Wide::choose(lanes, new.coefficient, old.coefficient),
+        slope_squared: Wide::choose(lanes, new.slope_squared, old.slope_squared),
+    }
 }
 
 /// Some lanes moved on.

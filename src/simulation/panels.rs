@@ -1,7 +1,9 @@
 //! One flight of one trajectory, panel by panel: see [`super::phasor`] for the formulas and the proof.
 
+use fearless_simd::{Level, Simd, dispatch};
+
 use super::events::Side;
-use super::phasor::{At, Corrected, Crosses, Line, Rates, Steady, clear, inside};
+use super::phasor::{At, Corrected, Hull, Line, Rates, Slack, Steady};
 use crate::numerics::lanes::Real;
 
 /// Part of a panel below which it is not halved further: the slow search takes over.
@@ -35,82 +37,106 @@ impl Rates<f64> {
     /// Flies to the first impact or the end of the period. Evaluations of the motion are added to
     /// `evaluations`.
     pub(super) fn fly(&self, from: &Takeoff, evaluations: &mut u64) -> Landing {
+        dispatch!(Level::new(), simd => self.fly_by(simd, from, evaluations))
+    }
+
+    /// By the instructions that `simd` stands for.
+    #[inline(always)]
+    fn fly_by<S: Simd>(&self, simd: S, from: &Takeoff, evaluations: &mut u64) -> Landing {
         let Takeoff { x, v, steady, line, left } = *from;
-        let (mut here, jerk) = self.begin(x, v, steady, line);
+        let (mut here, slack) = self.begin(x, v, steady, line);
         let mut time = 0.0;
         loop {
-            let mut length = self.step;
+            let (mut length, mut slack) = (self.step, slack);
             let mut there = self.next(&here, line.from(time + length));
             *evaluations += 1;
-            let met = loop {
-                if clear(&here, &there, length, jerk) {
-                    break None;
+            loop {
+                let hull = Hull::of(&here, &there, length, &slack);
+                if hull.clear() {
+                    break;
                 }
-                if let Some(found) = self.meets(&here, &there, length, jerk) {
-                    break Some(found);
-                }
-                if inside(&here, &there, length, jerk) {
-                    break None;
+                let side = if there.gap > 0.0 { Side::Plus } else { Side::Minus };
+                if hull.meets(side.sign()) {
+                    let guess = Self::guess(&here, &there, length, side.sign(), true);
+                    let guess = guess.larger(0.0).smaller(length);
+                    let (line, rest) = (line.from(time), left - time);
+                    if rest < guess {
+                        *evaluations += 1;
+                        let at = self.moment(simd, &here, rest, line);
+                        if slack.before(&at, side.sign()) {
+                            let (x, v) = self.oscillator(&at);
+                            return Landing::PeriodEnd { time: left, x, v };
+                        }
+                    }
+                    let guess = Guess { time: guess, length, side, line };
+                    if let Some(found) = self.root(simd, &here, guess, &slack, evaluations) {
+                        if rest < found.time {
+                            break;
+                        }
+                        let Corrected { x, v, steady, .. } = found;
+                        return Landing::Impact { side, time: time + found.time, x, v, steady };
+                    }
                 }
                 if length < SHORTEST * self.step {
                     return Landing::Doubt;
                 }
-                length *= 0.5;
-                there = self.after(&here, length, line.from(time));
+                (length, slack) = (length * 0.5, slack.halved());
+                there = self.moment(simd, &here, length, line.from(time));
                 *evaluations += 1;
-            };
-            if let Some((side, guess)) = met {
-                let line = line.from(time);
-                let Some(found) = self.root(&here, guess, length, line, side, evaluations) else {
-                    return Landing::Doubt;
-                };
-                if found.time <= left - time {
-                    let Corrected { x, v, steady, .. } = found;
-                    return Landing::Impact { side, time: time + found.time, x, v, steady };
-                }
             }
             if left <= time + length {
                 *evaluations += 1;
-                let (x, v) = self.oscillator(&self.after(&here, left - time, line.from(time)));
+                let (x, v) =
+                    self.oscillator(&self.moment(simd, &here, left - time, line.from(time)));
                 return Landing::PeriodEnd { time: left, x, v };
             }
             (here, time) = (there, time + length);
         }
     }
 
-    /// Which wall the gap is proven to meet once in a panel, and when, nearly.
-    fn meets(
-        &self,
-        here: &At<f64>,
-        there: &At<f64>,
-        length: f64,
-        jerk: f64,
-    ) -> Option<(Side, f64)> {
-        let side = if there.gap > 0.0 { Side::Plus } else { Side::Minus };
-        let Crosses { rises, dips } = Self::crosses(here, there, length, jerk, side.sign());
-        (rises || dips).then(|| (side, Self::guess(here, there, length, side.sign(), dips)))
+    /// As [`Self::after`]; kept out of the loop over panels, into which it would be hoisted.
+    #[inline(never)]
+    fn moment<S: Simd>(&self, simd: S, here: &At<f64>, s: f64, line: Line<f64>) -> At<f64> {
+        simd.vectorize(
+            #[inline(always)]
+            || self.after(here, s, line),
+        )
     }
 
-    /// The only crossing in a panel, near `guess`.
-    fn root(
+    /// The first crossing in a panel that is proven to have one.
+    #[inline(never)]
+    fn root<S: Simd>(
         &self,
+        simd: S,
         here: &At<f64>,
-        guess: f64,
-        length: f64,
-        line: Line<f64>,
-        side: Side,
+        guess: Guess,
+        slack: &Slack<f64>,
         evaluations: &mut u64,
     ) -> Option<Corrected<f64>> {
-        let mut time = guess;
-        for _ in 0..CORRECTIONS {
-            *evaluations += 1;
-            let time_inside = time.larger(0.0).smaller(length);
-            let found = self.corrected(here, time_inside, line, side.sign());
-            if found.exact {
-                return Some(found);
-            }
-            time = found.time;
-        }
-        None
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let Guess { mut time, length, side, line } = guess;
+                for _ in 0..CORRECTIONS {
+                    *evaluations += 1;
+                    let inside = time.larger(0.0).smaller(length);
+                    let found = self.corrected(here, inside, line, side.sign(), slack);
+                    if found.exact {
+                        return Some(found);
+                    }
+                    time = found.time;
+                }
+                None
+            },
+        )
     }
+}
+
+/// Roughly when and where a flight ends in a panel.
+#[derive(Debug, Clone, Copy)]
+struct Guess {
+    time: f64,
+    length: f64,
+    side: Side,
+    line: Line<f64>,
 }
