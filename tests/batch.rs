@@ -62,7 +62,11 @@ fn system(index: u64) -> System {
         mass_ratio: log(1e-5, 0.5, spread(index, 2.0)),
         damping,
         restitution,
-        frequency_ratio: if index % 3 == 0 { 1.0 } else { log(0.2, 5.0, spread(index, 7.0)) },
+        frequency_ratio: if index.is_multiple_of(3) {
+            1.0
+        } else {
+            log(0.2, 5.0, spread(index, 7.0))
+        },
         forcing_per_clearance: log(0.1, 1e4, spread(index, 11.0)),
         excitation: Excitation::BaseDisplacement,
     })

@@ -118,8 +118,7 @@ impl<S: Simd> Wide<S> {
     /// Where the number is neither infinite nor not a number.
     #[inline(always)]
     pub fn is_finite(self) -> WideMask<S> {
-        // Infinity less itself is not a number.
-        (self - self).at_most(self.like(0.0))
+        self.abs().at_most(self.like(f64::MAX))
     }
 }
 
