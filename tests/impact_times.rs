@@ -49,7 +49,8 @@ const NUMBERS: usize = 5;
 /// of the order of the change, and 77 digits less 40 remain.
 const CHANGE: f64 = 1e-40;
 
-/// How the numbers at an impact follow those at the one before: difference quotients of the reference.
+/// How the numbers at an impact follow those at the one before: difference quotients of the
+/// reference, for each number there those of the numbers here.
 type Jacobian = [[f64; NUMBERS]; NUMBERS];
 
 fn numbers(moment: &Moment) -> [Real; NUMBERS] {
@@ -61,20 +62,16 @@ fn jacobian(reference: &Reference, from: &Moment, to: &Moment) -> Jacobian {
     let change = Real::of(CHANGE);
     let after = &to.time - &from.time;
     let end = numbers(to);
-    let mut jacobian = Jacobian::default();
-    for column in 0..NUMBERS {
+    std::array::from_fn(|changed| {
         let mut near = from.clone();
-        let number = match column {
+        let number = match changed {
             0 => &mut near.time,
-            _ => &mut near.state[column - 1],
+            _ => &mut near.state[changed - 1],
         };
         *number = &*number + &change;
-        let changed = numbers(&reference.next_near(&near, &after, to.side));
-        for row in 0..NUMBERS {
-            jacobian[row][column] = (&(&changed[row] - &end[row]) / &change).to_f64();
-        }
-    }
-    jacobian
+        let later = numbers(&reference.next_near(&near, &after, to.side));
+        std::array::from_fn(|k| (&(&later[k] - &end[k]) / &change).to_f64())
+    })
 }
 
 /// A trajectory of the reference, and how each of its impacts follows the one before.
@@ -107,9 +104,8 @@ impl Path {
             let mut row = [1.0, 0.0, 0.0, 0.0, 0.0];
             let mut sum = times[k];
             for j in (0..k).rev() {
-                row = std::array::from_fn(|column| {
-                    (0..NUMBERS).map(|i| row[i] * self.jacobians[j][i][column]).sum()
-                });
+                row = self.jacobians[j]
+                    .map(|later| row.iter().zip(later).map(|(each, by)| each * by).sum());
                 let [_, x, v, y, u] = numbers(&self.moments[j]).map(|number| number.to_f64().abs());
                 let sizes = [TAU, steady + x, steady + v, 1.0 + x + y, u];
                 let [begin, end] = [j, j + 1].map(|k| (times[k] / system.period()).floor());

@@ -1,5 +1,6 @@
 //! Tools in other languages: a script that is started once and then takes one request a line. Its
-//! clock runs inside, so that neither its start nor this conversation counts.
+//! clock, of time spent on the processor, runs inside, so that neither its start nor this conversation
+//! counts.
 //!
 //! It opens with `ready SECONDS NAME`, the seconds it took to import and to compile. A request is
 //! `run` or `hits`, then mass ratio, damping, restitution, frequency ratio, the force's coefficients
