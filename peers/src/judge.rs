@@ -117,3 +117,46 @@ fn depth(system: &System, from: &Hit, exact: f64, taken: f64, side: f64) -> f64 
     }
     deepest
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::Engine;
+    use crate::runge_kutta::RungeKutta;
+    use crate::{CLEARANCES, Tool, system};
+
+    #[test]
+    fn an_impact_that_is_left_out_is_missed_and_one_put_in_is_invented() {
+        let system = system(CLEARANCES[1]);
+        let hits = Engine::Single.hits(&system, 100).expect("runs");
+        let all = flights(&system, &hits);
+        assert_eq!((all.checked, all.missed, all.invented), (hits.len() as u64 - 1, 0, 0));
+
+        let mut less = hits.clone();
+        less.remove(50);
+        let less = flights(&system, &less);
+        assert_eq!((less.missed, less.invented), (1, 0));
+        assert!(less.deepest > 0.0, "{less:?}");
+
+        let mut more = hits.clone();
+        let early = Hit { time: 0.5 * (hits[50].time + hits[51].time), ..hits[51] };
+        more.insert(51, early);
+        assert!(flights(&system, &more).invented >= 1);
+    }
+
+    #[test]
+    fn errors_are_those_of_the_method() {
+        let system = system(CLEARANCES[0]);
+        let exact = Engine::Single.hits(&system, 50).expect("runs");
+        let truth = reference(&system, exact.len());
+        // Some ulps of tau = 314, 5.7e-14 each.
+        assert!(error(&exact, &truth).expect("alike") < 1e-12);
+        // Fourth order: twice the steps, a sixteenth of the error.
+        let [coarse, fine] = [200, 400].map(|steps| {
+            let hits = RungeKutta { steps }.hits(&system, 50).expect("runs");
+            error(&hits, &truth).expect("alike")
+        });
+        assert!((8.0..32.0).contains(&(coarse / fine)), "{coarse:e} / {fine:e}");
+        assert_eq!(error(&exact[1..], &truth), None);
+    }
+}
