@@ -1,0 +1,88 @@
+//! vinesink's own engines.
+
+use vinesink::simulation::{Impact, Nobody, Observer, Simulation, Stop};
+use vinesink::system::System;
+
+use crate::{Failure, Hit, Run, START, Tool, timed};
+
+/// Which of them. A further one needs a variant, a name and a line where it runs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Engine {
+    /// One trajectory.
+    Single,
+    /// One trajectory, by the slow and finer search alone.
+    StepByStep,
+}
+
+impl Engine {
+    pub const ALL: [Self; 2] = [Self::Single, Self::StepByStep];
+
+    /// As it is called on a command line.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Single => "single",
+            Self::StepByStep => "step-by-step",
+        }
+    }
+
+    /// The engine of that name.
+    pub fn named(word: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|engine| engine.word() == word)
+    }
+
+    fn simulation(self, system: &System) -> Simulation {
+        let simulation = Simulation::new(system, START, 0.0).expect("inside the cavity");
+        match self {
+            Self::Single => simulation,
+            Self::StepByStep => simulation.step_by_step(),
+        }
+    }
+
+    /// Impacts of all trajectories in so many periods.
+    pub fn impacts(self, system: &System, periods: u64) -> Result<u64, Failure> {
+        let mut simulation = self.simulation(system);
+        match simulation.run(periods, u64::MAX, &mut Nobody) {
+            Stop::EndTime => Ok(simulation.impacts()),
+            stop => Err(format!("the run ended at {}", stop.words()).into()),
+        }
+    }
+}
+
+#[derive(Default)]
+struct Hits(Vec<Hit>);
+
+impl Observer for Hits {
+    const SEGMENTS: bool = false;
+    fn impact(&mut self, impact: &Impact) {
+        self.0.push(Hit {
+            time: impact.tau,
+            side: impact.side.sign(),
+            x: impact.x,
+            x_velocity: impact.x_velocity_after,
+            y_velocity: impact.y_velocity_after,
+        });
+    }
+}
+
+impl Tool for Engine {
+    fn name(&self) -> String {
+        format!("vinesink {}, {}", version(), self.word())
+    }
+
+    fn run(&mut self, system: &System, periods: u64) -> Result<Run, Failure> {
+        timed(|| self.impacts(system, periods))
+    }
+
+    fn hits(&mut self, system: &System, periods: u64) -> Result<Vec<Hit>, Failure> {
+        let mut hits = Hits::default();
+        self.simulation(system).run(periods, u64::MAX, &mut hits);
+        Ok(hits.0)
+    }
+}
+
+/// vinesink's, as its manifest says.
+fn version() -> &'static str {
+    let manifest = include_str!("../../Cargo.toml");
+    let line = manifest.lines().find_map(|line| line.strip_prefix("version = "));
+    line.map_or("", |quoted| quoted.trim_matches('"'))
+}
