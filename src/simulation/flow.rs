@@ -231,6 +231,11 @@ impl Motion {
         Kinematics { x: free.x + forced.x, v: free.v + forced.v }
     }
 
+    /// Displacement and velocity of the free part where the stretch began.
+    pub(super) fn free(&self) -> (f64, f64) {
+        (self.free_x, self.free_v)
+    }
+
     /// Forcing a time `s` after the stretch began.
     pub fn force(&self, s: f64) -> f64 {
         self.oscillator.force(self.phase + self.oscillator.frequency * s)
@@ -292,7 +297,7 @@ fn exponential_difference(frequency: f64, pole: [f64; 2], s: f64) -> [f64; 2] {
 }
 
 /// `(e^z - 1) / z`, by its series for small `z`.
-fn mean_of_exponential(z: [f64; 2]) -> [f64; 2] {
+pub(super) fn mean_of_exponential(z: [f64; 2]) -> [f64; 2] {
     let size = libm::hypot(z[0], z[1]);
     if size < 0.5 {
         // 0.5^17 / 18! is below 1e-20.

@@ -10,6 +10,7 @@ pub mod contact;
 pub mod events;
 pub mod flow;
 pub mod history;
+mod integrals;
 mod panels;
 mod phasor;
 pub mod run;

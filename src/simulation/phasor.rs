@@ -35,6 +35,8 @@ const MOST_PANELS: f64 = 64.0;
 /// Distance from a root within which a correction to the fourth order is exact to rounding: the next
 /// term is below `1e-20/120`.
 const NEAR: f64 = 1e-4;
+/// Steps of Newton towards a turning point; more are of no use where it hardly is one.
+const TURNING_STEPS: u32 = 8;
 /// Steps of Newton from an end of a panel in which the slope changes sign, before the one that every root
 /// gets.
 const STEPS_FROM_END: u32 = 3;
@@ -175,6 +177,24 @@ impl Rates<f64> {
             swing: [swing_cos, swing_sin / frequency, swing_sin * frequency],
             origin: Steady { x: cosine, v: frequency * sine },
         })
+    }
+
+    /// The displacement at which the velocity vanishes in a panel between velocities of either sign,
+    /// seen from a line at rest.
+    pub(super) fn turning_point(&self, here: &At<f64>, there: &At<f64>, length: f64) -> f64 {
+        let base = Line { y: 0.0, velocity: 0.0 };
+        let part = here.slope / (here.slope - there.slope);
+        let mut time = part * length;
+        let mut at = *here;
+        for _ in 0..TURNING_STEPS {
+            at = self.after(here, time.clamp(0.0, length), base);
+            let ahead = -at.slope / at.a;
+            if ahead.abs() * self.fastest < NEAR {
+                return at.gap + 0.5 * at.slope * ahead;
+            }
+            time += ahead;
+        }
+        at.gap
     }
 
     /// The steady motion at a phase.

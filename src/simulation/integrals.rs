@@ -1,0 +1,170 @@
+//! Integrals along a stretch of smooth motion, in closed form.
+//!
+//! Free motion and excitation are phasors, `Re Z e^{p s}` and `Re E e^{i Omega s}`, and the steady
+//! motion is `Re a E e^{i Omega s}`: every quadratic integral is a sum of five, of `Z^2`, `|Z|^2`, `Z E`,
+//! `Z conj E` and `E^2`. The second and the fourth have exponents that may vanish, and are taken from
+//! `(e^q - 1)/q`, which is exact there.
+
+use nalgebra::Complex;
+
+use super::events::{Absorber, Segment};
+use super::flow::{Oscillator, mean_of_exponential};
+use super::phasor::{Line, Rates, Steady};
+use crate::system::System;
+
+type Phasor = Complex<f64>;
+
+/// Integrals over a stretch, in fast time; lengths over the clearance.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Integrals {
+    /// Of `x^2`.
+    pub displacement_squared: f64,
+    /// Of `x'^2`.
+    pub velocity_squared: f64,
+    /// Of the excitation's force times `x'`.
+    pub work: f64,
+    /// Of `x` times sine and cosine of the excitation's phase.
+    pub oscillator: [f64; 2],
+    /// Of `y` times the same.
+    pub absorber: [f64; 2],
+}
+
+/// What the integrals of an oscillator that rings have in common.
+#[derive(Debug, Clone, Copy)]
+struct Ringing {
+    /// `p = -d + i w`.
+    pole: Phasor,
+    /// `a`.
+    steady: Phasor,
+}
+
+/// Takes the integrals of a system's stretches.
+#[derive(Debug, Clone)]
+pub(super) struct Integrator {
+    frequency: f64,
+    /// The excitation's force is `Re f E`.
+    force: Phasor,
+    alone: Option<Ringing>,
+    carrying: Option<Ringing>,
+    rates: Option<Rates<f64>>,
+    /// The last phase asked for and its `E`: one stretch ends where the next begins.
+    last: (f64, Phasor),
+}
+
+impl Ringing {
+    fn of(oscillator: &Oscillator) -> Option<Self> {
+        let (sine, cosine) = oscillator.steady()?;
+        let root = oscillator.stiffness.sqrt();
+        let ringing = ((root - oscillator.decay) * (root + oscillator.decay)).max(0.0).sqrt();
+        // Slower ones are not told from decay.
+        (ringing > 0.5 * root).then(|| Self {
+            pole: Phasor::new(-oscillator.decay, ringing),
+            steady: Phasor::new(cosine, -sine),
+        })
+    }
+}
+
+impl Integrator {
+    pub(super) fn of(system: &System) -> Self {
+        let (sine, cosine) = system.excitation_amplitudes();
+        Self {
+            frequency: system.frequency_ratio(),
+            force: Phasor::new(cosine, -sine),
+            alone: Ringing::of(&Oscillator::alone(system)),
+            carrying: Ringing::of(&Oscillator::carrying_absorber(system)),
+            rates: Rates::of(&Oscillator::alone(system)),
+            last: (0.0, Phasor::new(1.0, 0.0)),
+        }
+    }
+
+    /// `e^{i phase}`.
+    fn excitation(&mut self, phase: f64) -> Phasor {
+        if self.last.0 != phase {
+            let (sin, cos) = libm::sincos(phase);
+            self.last = (phase, Phasor::new(cos, sin));
+        }
+        self.last.1
+    }
+
+    /// The largest absolute displacement of the oscillator in a flight, at its ends included; `None`
+    /// as for [`Self::over`], and in sustained contact.
+    pub(super) fn peak(&mut self, segment: &Segment) -> Option<f64> {
+        let Absorber::Flying { .. } = segment.absorber else { return None };
+        let Ringing { steady, .. } = self.alone?;
+        let rates = self.rates?;
+        let phasor = steady * self.excitation(segment.phase);
+        let steady = Steady { x: phasor.re, v: -self.frequency * phasor.im };
+        let (free, velocity) = segment.motion.free();
+        // Seen from the base the gap is the displacement.
+        let base = Line { y: 0.0, velocity: 0.0 };
+        let (mut here, _) = rates.begin(free + steady.x, velocity + steady.v, steady, base);
+        let (mut left, mut peak) = (segment.duration, here.gap.abs());
+        while left > 0.0 {
+            let length = rates.step.min(left);
+            let there = if left < rates.step {
+                rates.after(&here, left, base)
+            } else {
+                rates.next(&here, base)
+            };
+            peak = peak.max(there.gap.abs());
+            if here.slope * there.slope < 0.0 {
+                peak = peak.max(rates.turning_point(&here, &there, length).abs());
+            }
+            (here, left) = (there, left - rates.step);
+        }
+        Some(peak)
+    }
+
+    /// The integrals over a stretch; `None` where the oscillator does not ring, or has no steady motion
+    /// to be told from its free one.
+    pub(super) fn over(&mut self, segment: &Segment) -> Option<Integrals> {
+        let Ringing { pole, steady } = match segment.absorber {
+            Absorber::Flying { .. } => self.alone?,
+            Absorber::Carried(_) => self.carrying?,
+        };
+        let (duration, frequency) = (segment.duration, self.frequency);
+        let begin = self.excitation(segment.phase);
+        let end = self.excitation(segment.phase + frequency * duration);
+        let (free, velocity) = segment.motion.free();
+        let z = Phasor::new(free, -(velocity - pole.re * free) / pole.im);
+        let (sin, cos) = libm::sincos(pole.im * duration);
+        let z_end = z * Phasor::new(cos, sin) * libm::exp(pole.re * duration);
+        let turn = Phasor::new(0.0, frequency);
+        let mean = |re: f64, im: f64| {
+            let [re, im] = mean_of_exponential([re * duration, im * duration]);
+            Phasor::new(re, im) * duration
+        };
+        // The five.
+        let zz = (z_end * z_end - z * z) / (pole * 2.0);
+        let size = z.norm_sqr() * mean(2.0 * pole.re, 0.0).re;
+        let ze = (z_end * end - z * begin) / (pole + turn);
+        let ze_conj = z * begin.conj() * mean(pole.re, pole.im - frequency);
+        let ee = (end * end - begin * begin) / (turn * 2.0);
+        // Of Re(u) Re(w) for two phasors, each a free and a steady part.
+        let product = |u: [Phasor; 2], w: [Phasor; 2]| {
+            let free = (u[0] * w[0] * zz).re + (u[0] * w[0].conj()).re * size;
+            let mixed = (u[0] * w[1] + w[0] * u[1]) * ze
+                + (u[0] * w[1].conj() + w[0] * u[1].conj()) * ze_conj;
+            let steady = (u[1] * w[1] * ee).re + (u[1] * w[1].conj()).re * duration;
+            0.5 * (free + mixed.re + steady)
+        };
+        let (none, one) = (Phasor::new(0.0, 0.0), Phasor::new(1.0, 0.0));
+        let displacement = [one, steady];
+        let velocity = [pole, turn * steady];
+        let harmonic = (ze + ze_conj.conj() + steady * ee + steady.conj() * duration) * 0.5;
+        let once = (end - begin) / turn;
+        let absorber = match segment.absorber {
+            Absorber::Flying { y, y_velocity } => {
+                (end * (y + y_velocity * duration) - begin * y - once * y_velocity) / turn
+            }
+            Absorber::Carried(side) => harmonic - once * side.sign(),
+        };
+        Some(Integrals {
+            displacement_squared: product(displacement, displacement),
+            velocity_squared: product(velocity, velocity),
+            work: product(velocity, [none, self.force]),
+            oscillator: [harmonic.im, harmonic.re],
+            absorber: [absorber.im, absorber.re],
+        })
+    }
+}
