@@ -254,6 +254,45 @@ impl Motion {
     pub fn oscillator(&self) -> &Oscillator {
         &self.oscillator
     }
+
+    /// Bounds on the derivatives from the time `s` on, when the motion is at `at`, for `horizon` of
+    /// time: [`derivative_bounds`], and for an overdamped oscillator those of its two decaying
+    /// exponentials where they are smaller. Without them a fast rate that has long died out would
+    /// still shorten every step.
+    pub fn bounds(&self, s: f64, at: Kinematics, horizon: f64) -> DerivativeBounds {
+        let general = derivative_bounds(&self.oscillator, at, horizon);
+        let Some(creeping) = self.creeping_bounds(s) else { return general };
+        DerivativeBounds {
+            acceleration: general.acceleration.min(creeping.acceleration),
+            jerk: general.jerk.min(creeping.jerk),
+            snap: general.snap.min(creeping.snap),
+        }
+    }
+
+    /// Each exponential of an overdamped motion only falls, and so do its derivatives.
+    fn creeping_bounds(&self, s: f64) -> Option<DerivativeBounds> {
+        let o = &self.oscillator;
+        let (sine, cosine) = o.steady()?;
+        let root = o.stiffness.sqrt();
+        let spread = ((o.decay - root) * (o.decay + root)).max(0.0).sqrt();
+        if spread == 0.0 {
+            return None;
+        }
+        let (slow, fast) = (o.stiffness / (o.decay + spread), o.decay + spread);
+        let part = |rate: f64, other: f64| {
+            // `e^{-rate s}` and its share of displacement and velocity at the beginning.
+            let terms = [self.free_v, other * self.free_x];
+            let rounding = 4.0 * f64::EPSILON * (terms[0].abs() + terms[1].abs());
+            libm::exp(-rate * s) * ((terms[0] + terms[1]).abs() + rounding) / (2.0 * spread)
+        };
+        let (creep, dash) = (part(slow, fast), part(fast, slow));
+        let steady = libm::hypot(sine, cosine);
+        let bound = |order: u32| {
+            let power = |rate: f64| (0..order).fold(1.0, |product, _| product * rate);
+            creep * power(slow) + dash * power(fast) + steady * power(o.frequency)
+        };
+        Some(DerivativeBounds { acceleration: bound(2), jerk: bound(3), snap: bound(4) })
+    }
 }
 
 /// Bounds on the derivatives of a motion from one moment on, for `horizon` of time.

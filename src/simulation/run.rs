@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use super::contact::{AtWall, ContactTolerance, rebound};
 use super::events::{Absorber, Impact, Nobody, Observer, Segment, Side, StartError};
-use super::flow::{Kinematics, Motion, Oscillator, derivative_bounds};
+use super::flow::{Kinematics, Motion, Oscillator};
 use super::phasor::{Landing, Line, Panels};
 use crate::numerics::crossing::{Band, Curve, Edge, Sample, Search, first_crossing};
 use crate::system::{State, System};
@@ -291,7 +291,7 @@ impl Simulation {
             return 0.0;
         }
         let side = gap.signum();
-        let bounds = derivative_bounds(motion.oscillator(), at, HORIZON);
+        let bounds = motion.bounds(0.0, at, HORIZON);
         let acceleration = side * motion.acceleration(0.0, at);
         let jerk = side * motion.jerk(0.0, at);
         let by_acceleration =
@@ -381,7 +381,10 @@ impl Simulation {
         let wall = AtWall {
             separation_speed: opening.max(0.0),
             closing_acceleration: side.sign() * alone.acceleration(self.phase, at),
-            jerk_bound: derivative_bounds(alone, at, 0.0).jerk,
+            speed: x_velocity.abs(),
+            force_rate: alone.frequency * alone.largest_force(),
+            damping: 2.0 * alone.decay,
+            stiffness: alone.stiffness,
         };
         if tolerance.sticks(r, &wall) {
             let eps = self.system.mass_ratio();
@@ -407,7 +410,7 @@ struct Gap {
 impl Curve for Gap {
     fn sample(&self, s: f64) -> Sample {
         let at = self.motion.at(s);
-        let bounds = derivative_bounds(self.motion.oscillator(), at, HORIZON);
+        let bounds = self.motion.bounds(s, at, HORIZON);
         Sample {
             value: at.x - (self.y + self.y_velocity * s),
             slope: at.v - self.y_velocity,
@@ -432,7 +435,7 @@ impl Curve for ContactForce {
         Sample {
             value: self.side.sign() * self.motion.acceleration(s, at),
             slope: self.side.sign() * self.motion.jerk(s, at),
-            curvature_bound: derivative_bounds(self.motion.oscillator(), at, HORIZON).snap,
+            curvature_bound: self.motion.bounds(s, at, HORIZON).snap,
         }
     }
     fn horizon(&self) -> f64 {

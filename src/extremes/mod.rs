@@ -1,0 +1,3 @@
+//! The simulation at the ends of its range.
+pub mod measure;
+pub use measure::{Comparison, MeasureError, Measured, Run};
