@@ -1,12 +1,15 @@
 //! One trajectory, measured: what it costs, how well it closes its balances, and how far it is from
 //! the reference in multiple precision.
 
+use std::f64::consts::TAU;
+
 use crate::reference::{Event, NoMemory, Reference};
 use crate::simulation::{
     Absorber, ContactTolerance, Doubt, Impact, Observer, Segment, Simulation, StartError,
     Statistics, Stop,
 };
-use crate::system::{State, System};
+use crate::simulation::trust::energy_residual;
+use crate::system::{InvalidParameter, State, System};
 
 /// Points of each stretch of motion at which the cavity is looked into.
 const LOOKS: u32 = 8;
@@ -33,11 +36,14 @@ pub struct Run {
 }
 
 /// Why a trajectory cannot be measured.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum MeasureError {
     /// The start is impossible.
     #[error(transparent)]
     Start(#[from] StartError),
+    /// The system is none.
+    #[error(transparent)]
+    System(#[from] InvalidParameter),
     /// The reference cannot be had.
     #[error(transparent)]
     Memory(#[from] NoMemory),
@@ -56,7 +62,7 @@ pub struct Measured {
     pub contacts: u64,
     /// Evaluations of the closed form in search of events.
     pub evaluations: u64,
-    /// Relative residual of the energy balance.
+    /// Residual of the energy balance over the largest energy of the run.
     pub energy_residual: f64,
     /// Largest `abs(x - y) - 1`, at impacts and at points between.
     pub penetration: f64,
@@ -86,8 +92,8 @@ pub struct Comparison {
     pub one_rounding: f64,
     /// Spacing of floating-point numbers at the last of those times.
     pub clock: f64,
-    /// Time of the last event compared.
-    pub last: f64,
+    /// Part of the run that the events compared cover.
+    pub part: f64,
 }
 
 /// What the engine reports, in order.
@@ -111,7 +117,7 @@ impl Observer for Witness {
         let carried = matches!(segment.absorber, Absorber::Carried(_));
         if self.carried && !carried && self.seen.len() < self.wanted {
             let omega = segment.motion.oscillator().frequency;
-            let turns = segment.turns as f64 * std::f64::consts::TAU;
+            let turns = segment.turns as f64 * TAU;
             self.seen.push(Seen::Release { tau: (turns + segment.phase) / omega });
         }
         self.carried = carried;
@@ -156,7 +162,7 @@ impl Run {
             impacts: simulation.impacts(),
             contacts: statistics.sustained_contact().intervals,
             evaluations: simulation.evaluations(),
-            energy_residual: energy.relative_residual,
+            energy_residual: energy_residual(&energy, peak),
             penetration: witness.penetration,
             peak,
             rms: statistics.rms(),
@@ -194,7 +200,7 @@ impl Run {
             one_rounding: largest(&mut moved.iter().copied().zip(exact.iter().copied())),
             // The phase is kept to a spacing of numbers below 2 pi.
             clock: f64::EPSILON * (last + period),
-            last,
+            part: last / (self.periods as f64 * period),
         }))
     }
 }

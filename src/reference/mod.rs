@@ -20,6 +20,8 @@ const EXCURSION: f64 = 1e-40;
 const SHORTEST: f64 = 1e-9;
 /// Roundings that an excursion must be wide for one to be added to it.
 const ROOM: f64 = 8.0;
+/// The multiples of the golden section are spread evenly and never repeat.
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
 /// Corrections by Newton's method; each doubles the twelve digits that halving leaves.
 const CORRECTIONS: u32 = 12;
 /// Relative correction that ends them: from there the next would be below 77 digits.
@@ -68,14 +70,16 @@ pub struct Reference {
     /// The wall that the absorber rests on.
     rests: Option<f64>,
     rounding: f64,
+    impacts: u32,
 }
 
 impl Reference {
     /// A trajectory from `start` at phase 0.
     ///
-    /// With a `rounding` above 0, over the clearance, the oscillator starts and the absorber leaves
-    /// every wall displaced by that much: how far this moves later impacts is what rounding once an
-    /// event may cost, whoever computes.
+    /// With a `rounding` above 0, over the clearance, the oscillator starts displaced by that much,
+    /// and so does the absorber from the walls, from every second one in an order that never repeats
+    /// and has no symmetry: how far this moves later impacts is what rounding once an event may cost,
+    /// whoever computes.
     ///
     /// # Errors
     /// [`NoMemory`].
@@ -95,6 +99,7 @@ impl Reference {
             state: [&x + &Real::of(rounding), v, y, u],
             rests: None,
             rounding,
+            impacts: 0,
         })
     }
 
@@ -163,7 +168,9 @@ impl Reference {
         let sticks = closing.is_positive() && !limit.is_below(&(&opening * &opening));
         // An excursion that rounding would fill is left to its parabola.
         let room = &(&Real::of(2.0 * ROOM * self.rounding) * &closing) - &(&opening * &opening);
-        let rounding = if room.is_negative() { self.rounding } else { 0.0 };
+        self.impacts += 1;
+        let rounded = (GOLDEN * f64::from(self.impacts)).fract() < 0.5 && room.is_negative();
+        let rounding = if rounded { self.rounding } else { 0.0 };
         let place = &at.x - &(&sign * &(&one - &Real::of(rounding)));
         let event = Event::Impact {
             tau: self.time.to_f64(),

@@ -21,4 +21,4 @@ pub use history::{ImpactLog, Trace, TracePoint};
 pub use run::{Simulation, Stop};
 pub use statistics::{Energy, PeriodRecord, Statistics, SustainedContact};
 pub use tangent::Tangent;
-pub use trust::Doubt;
+pub use trust::{Doubt, doubts};

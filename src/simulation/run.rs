@@ -16,6 +16,8 @@ use crate::system::{State, System};
 
 /// Units in the last place of the largest length involved that count as touching a wall.
 const TOUCH_ULPS: f64 = 16.0;
+/// Distance over the clearance by which rounding may move the walls before the search gives up.
+const LARGEST_TOUCH: f64 = 0.1;
 /// Fast time over which one curvature bound is used; shorter bounds are tighter, longer ones save
 /// evaluations. A sixth of the natural period is a fair middle.
 const HORIZON: f64 = 1.0;
@@ -30,6 +32,8 @@ pub enum Stop {
     ImpactLimit,
     /// A number overflowed.
     NotFinite,
+    /// Rounding moves the walls by more than a tenth of the clearance.
+    WallsUnresolved,
 }
 
 impl Stop {
@@ -39,6 +43,7 @@ impl Stop {
             Self::EndTime => "its end time",
             Self::ImpactLimit => "its limit on the number of impacts",
             Self::NotFinite => "a number that overflowed",
+            Self::WallsUnresolved => "a motion so large that rounding hides the walls",
         }
     }
 }
@@ -152,8 +157,8 @@ impl Simulation {
                 Mode::Flight => self.fly(observer),
                 Mode::Contact(side) => self.carry(side, observer),
             };
-            if stepped.is_err() {
-                return Stop::NotFinite;
+            if let Err(stop) = stepped {
+                return stop;
             }
         }
         Stop::EndTime
@@ -168,7 +173,7 @@ impl Simulation {
         (self.turns as f64 * TAU + phase) / self.system.frequency_ratio()
     }
 
-    fn fly<O: Observer>(&mut self, observer: &mut O) -> Result<(), Overflow> {
+    fn fly<O: Observer>(&mut self, observer: &mut O) -> Result<(), Stop> {
         if self.fly_in_panels(observer) {
             return Ok(());
         }
@@ -221,7 +226,8 @@ impl Simulation {
         true
     }
 
-    fn fly_step_by_step(&mut self, observer: &mut impl Observer) -> Result<(), Overflow> {
+    fn fly_step_by_step(&mut self, observer: &mut impl Observer) -> Result<(), Stop> {
+        self.resolves_walls()?;
         let start = self.state;
         let motion = self.alone.motion(start.x, start.x_velocity, self.phase);
         let curve = Gap { motion, y: start.y, y_velocity: start.y_velocity };
@@ -245,12 +251,13 @@ impl Simulation {
                 };
                 self.collide(side, observer);
             }
-            Search::NotFinite(_) => return Err(Overflow),
+            Search::NotFinite(_) => return Err(Stop::NotFinite),
         }
         Ok(())
     }
 
-    fn carry(&mut self, side: Side, observer: &mut impl Observer) -> Result<(), Overflow> {
+    fn carry(&mut self, side: Side, observer: &mut impl Observer) -> Result<(), Stop> {
+        self.resolves_walls()?;
         let motion = self.carrying.motion(self.state.x, self.state.x_velocity, self.phase);
         let curve = ContactForce { motion, side };
         let scale = self.alone.largest_force() + self.state.x.abs() + self.state.x_velocity.abs();
@@ -268,7 +275,7 @@ impl Simulation {
                 self.advance(motion, Absorber::Carried(side), crossing.time, observer)?;
                 self.mode = Mode::Flight;
             }
-            Search::NotFinite(_) => return Err(Overflow),
+            Search::NotFinite(_) => return Err(Stop::NotFinite),
         }
         Ok(())
     }
@@ -278,6 +285,15 @@ impl Simulation {
         let State { x, x_velocity, y, y_velocity } = self.state;
         let scale = 1.0 + x.abs() + x_velocity.abs() + y.abs() + y_velocity.abs();
         TOUCH_ULPS * f64::EPSILON * scale
+    }
+
+    /// A search among walls that rounding moves about would not end.
+    fn resolves_walls(&self) -> Result<(), Stop> {
+        // The steady part may dwarf the motion that it is a part of.
+        let (sine, cosine) = self.alone.steady().unwrap_or_default();
+        let steady = TOUCH_ULPS * f64::EPSILON * libm::hypot(sine, cosine);
+        // What is not a number resolves nothing.
+        if self.touch() + steady <= LARGEST_TOUCH { Ok(()) } else { Err(Stop::WallsUnresolved) }
     }
 
     /// After a release, or an impact with `r = 0`, the absorber leaves the wall tangentially, and
@@ -309,12 +325,12 @@ impl Simulation {
         absorber: Absorber,
         duration: f64,
         observer: &mut impl Observer,
-    ) -> Result<(), Overflow> {
+    ) -> Result<(), Stop> {
         let segment = Segment { motion, absorber, turns: self.turns, phase: self.phase, duration };
         self.state = segment.at(duration);
         self.phase += self.system.frequency_ratio() * duration;
         if !(self.state.x.is_finite() && self.state.y.is_finite()) {
-            return Err(Overflow);
+            return Err(Stop::NotFinite);
         }
         if duration > 0.0 {
             observer.segment(&segment);
@@ -396,9 +412,6 @@ impl Simulation {
         }
     }
 }
-
-/// A state left the range of floating-point numbers.
-struct Overflow;
 
 /// Relative displacement `w = x - y` during a flight.
 struct Gap {

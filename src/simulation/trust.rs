@@ -82,6 +82,15 @@ impl Doubt {
     }
 }
 
+/// `abs(input - damper - impact - stored)` over the largest energy of the run, that at the largest
+/// displacement included: [`Energy::relative_residual`] knows only the energies at the ends of
+/// periods, where a slowly driven oscillator passes its middle.
+pub fn energy_residual(energy: &Energy, peak: f64) -> f64 {
+    let gap = energy.input - energy.damper - energy.impact - energy.stored;
+    let largest = [energy.input.abs(), energy.damper, energy.impact, 0.5 * peak * peak];
+    gap.abs() / largest.into_iter().fold(f64::MIN_POSITIVE, f64::max)
+}
+
 /// Every reason not to trust a run that stopped for `stop`; none, and it can be trusted.
 pub fn doubts(stop: Stop, energy: &Energy, penetration: f64, peak: f64) -> Vec<Doubt> {
     let mut doubts = Vec::new();
@@ -90,8 +99,9 @@ pub fn doubts(stop: Stop, energy: &Energy, penetration: f64, peak: f64) -> Vec<D
     }
     // Not a number is not within a limit either.
     let exceeds = |value: f64, limit: f64| !(value <= limit);
-    let residual = energy.relative_residual;
-    if exceeds(residual, ENERGY_RESIDUAL) {
+    let residual = energy_residual(energy, peak);
+    // A run that was ended within a period has not measured its end.
+    if stop == Stop::EndTime && exceeds(residual, ENERGY_RESIDUAL) {
         doubts.push(Doubt::Energy { value: residual, limit: ENERGY_RESIDUAL });
     }
     if exceeds(penetration, RESOLUTION) {
