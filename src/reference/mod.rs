@@ -89,6 +89,16 @@ impl Reference {
         let alone = Oscillator::new(system, &Real::of(0.0), &functions);
         let carrying = Oscillator::new(system, &eps, &functions);
         let [x, v, y, u] = [start.x, start.x_velocity, start.y, start.y_velocity].map(Real::of);
+        let gap = &x - &y;
+        let side = if gap.is_negative() { -1.0 } else { 1.0 };
+        let touches = (&gap.abs() - &Real::of(1.0)).is_zero() && (&v - &u).is_zero();
+        let moved = Real::of(rounding);
+        // What touches is moved together.
+        let y = if touches { &y + &moved } else { y };
+        let x = &x + &moved;
+        let motion = alone.motion(&functions, &Real::of(0.0), &x, &v);
+        let closing = &motion.at(motion.start()).a * &Real::of(side);
+        let rests = (touches && closing.is_positive()).then_some(side);
         Ok(Self {
             functions,
             eps,
@@ -96,8 +106,8 @@ impl Reference {
             alone,
             carrying,
             time: Real::of(0.0),
-            state: [&x + &Real::of(rounding), v, y, u],
-            rests: None,
+            state: [x, v, y, u],
+            rests,
             rounding,
             impacts: 0,
         })
@@ -116,7 +126,10 @@ impl Reference {
         let [x, v, ..] = &self.state;
         let motion = self.carrying.motion(&self.functions, &self.time, x, v);
         let sign = Real::of(side);
-        let pulls = |point: &Point| (&sign * &motion.at(point).a).is_negative();
+        let pulls = |point: &Point| {
+            let at = motion.at(point);
+            Look { happened: (&sign * &at.a).is_negative(), rises: at.jerk.is_positive() }
+        };
         let span = latest - self.time.to_f64();
         let before = scan(&motion, span, self.carrying.scan_step(), pulls)?;
         let s = polish(before.s, |s| {
@@ -137,7 +150,12 @@ impl Reference {
         let motion = self.alone.motion(&self.functions, &self.time, x, v);
         let one = Real::of(1.0);
         let gap = |point: &Point| &motion.at(point).x - &(y + &(u * &point.s));
-        let outside = |point: &Point| (&gap(point).abs() - &one).is_positive();
+        let outside = |point: &Point| {
+            let at = motion.at(point);
+            let gap = &at.x - &(y + &(u * &point.s));
+            let happened = (&gap.abs() - &one).is_positive();
+            Look { happened, rises: (&at.v - u).is_positive() }
+        };
         let span = latest - self.time.to_f64();
         let near = match self.short_flight(&motion) {
             Some(s) => s,
@@ -210,23 +228,36 @@ impl Reference {
     }
 }
 
-/// The last point before `happened`, to a scan step halved [`LEVELS`] times; `None` if it has not
-/// happened within `span`. Steps grow from that smallest one, doubling the way each time.
-fn scan(
-    motion: &Motion,
-    span: f64,
-    step: f64,
-    happened: impl Fn(&Point) -> bool,
-) -> Option<Point> {
+/// What a scan sees at a point.
+#[derive(Clone, Copy)]
+struct Look {
+    happened: bool,
+    /// Whether the curve that is watched rises there.
+    rises: bool,
+}
+
+/// The last point before it happened, to a scan step halved [`LEVELS`] times; `None` if it has not
+/// happened within `span`. Steps grow from that smallest one, doubling the way each time. Between two
+/// points with opposite slopes the extremum is looked at as well: a touch may be far shorter than a
+/// step.
+fn scan(motion: &Motion, span: f64, step: f64, look: impl Fn(&Point) -> Look) -> Option<Point> {
     let mut here = motion.start().clone();
+    let mut rises = look(&here).rises;
     let mut level = LEVELS;
     let mut walked = 0.0;
     loop {
         let there = motion.step(&here, level);
-        if happened(&there) {
+        let seen = look(&there);
+        if seen.happened {
             break;
         }
-        here = there;
+        if seen.rises != rises
+            && let Some((before, finer)) = at_extremum(motion, &here, level, rises, &look)
+        {
+            (here, level) = (before, finer);
+            break;
+        }
+        (here, rises) = (there, seen.rises);
         walked += libm::scalbn(step, -(level as i32));
         if walked > span {
             return None;
@@ -238,11 +269,34 @@ fn scan(
     }
     for finer in level + 1..=LEVELS {
         let there = motion.step(&here, finer);
-        if !happened(&there) {
+        if !look(&there).happened {
             here = there;
         }
     }
     Some(here)
+}
+
+/// Halves a step towards the extremum in it; where it has happened on the way, the point before and
+/// the halvings of the step from there.
+fn at_extremum(
+    motion: &Motion,
+    from: &Point,
+    level: usize,
+    rises: bool,
+    look: &impl Fn(&Point) -> Look,
+) -> Option<(Point, usize)> {
+    let mut here = from.clone();
+    for finer in level + 1..=LEVELS {
+        let there = motion.step(&here, finer);
+        let seen = look(&there);
+        if seen.happened {
+            return Some((here, finer));
+        }
+        if seen.rises == rises {
+            here = there;
+        }
+    }
+    None
 }
 
 /// Newton's method.
