@@ -24,8 +24,7 @@ struct First {
 
 impl Observer for First {
     fn segment(&mut self, segment: &Segment) {
-        self.carried |=
-            self.impacts.is_empty() && matches!(segment.absorber, Absorber::Carried(_));
+        self.carried |= self.impacts.is_empty() && matches!(segment.absorber, Absorber::Carried(_));
         for k in 0..=20 {
             let gap = segment.at(segment.duration * f64::from(k) / 20.0).gap().abs();
             self.widest = self.widest.max(gap);
@@ -159,9 +158,9 @@ fn ending_a_chattering_sequence_early_costs_less_than_the_excursion() {
         }
         // It is the tolerance that is measured: a coarse one is seen, and costs less.
         let of = |excursion: f64| {
-            let found = costs.iter().find(|cost| {
-                cost.tolerance.excursion == excursion && cost.tolerance.drift == 0.01
-            });
+            let found = costs
+                .iter()
+                .find(|cost| cost.tolerance.excursion == excursion && cost.tolerance.drift == 0.01);
             found.copied().expect("in the list")
         };
         assert!(of(1e-4).displacement > 10.0 * of(1e-12).displacement, "{costs:?}");

@@ -24,7 +24,10 @@ fn whatever_is_trusted_agrees_with_the_reference() {
         match outcome.verdict {
             Verdict::Holds => {
                 let comparison = outcome.measured.and_then(|measured| measured.comparison);
-                assert!(comparison.is_some_and(|found| found.events >= 6), "{name}: {comparison:?}");
+                assert!(
+                    comparison.is_some_and(|found| found.events >= 6),
+                    "{name}: {comparison:?}"
+                );
                 seen[0] += 1;
             }
             Verdict::Flagged(_) => seen[1] += 1,

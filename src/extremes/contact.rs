@@ -175,8 +175,7 @@ pub fn tables() -> Result<Vec<ContactTable>, MeasureError> {
     ];
     let tables = systems.into_iter().map(|(words, parameters)| {
         let system = System::new(parameters)?;
-        let costs =
-            contact_costs(&system, START, RELEASES, PERIODS, IMPACT_LIMIT, &tolerances())?;
+        let costs = contact_costs(&system, START, RELEASES, PERIODS, IMPACT_LIMIT, &tolerances())?;
         Ok(ContactTable { words, costs })
     });
     tables.collect()

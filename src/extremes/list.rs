@@ -126,7 +126,8 @@ pub fn entries() -> Result<Vec<Entry>, InvalidParameter> {
     let fast = Parameters { frequency_ratio: 1e3, ..heavy };
     list.add(Group::Corner, "$\\varepsilon = 0.9$, $\\lambda = 10^{3}$, $\\Omega = 10^{3}$", fast)?;
     let slow = Parameters { frequency_ratio: 1e-3, forcing_per_clearance: 1e8, ..heavy };
-    let words = "$\\varepsilon = 0.9$, $\\lambda = 10^{3}$, $\\Omega = 10^{-3}$, $\\gamma = 10^{8}$";
+    let words =
+        "$\\varepsilon = 0.9$, $\\lambda = 10^{3}$, $\\Omega = 10^{-3}$, $\\gamma = 10^{8}$";
     list.add(Group::Corner, words, slow)?;
     let light = Parameters { mass_ratio: 1e-9, forcing_per_clearance: 1e8, ..base };
     list.add(Group::Corner, "$\\varepsilon = 10^{-9}$, $\\gamma = 10^{8}$", light)?;

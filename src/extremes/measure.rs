@@ -4,11 +4,11 @@
 use std::f64::consts::TAU;
 
 use crate::reference::{Event, NoMemory, Reference};
+use crate::simulation::trust::energy_residual;
 use crate::simulation::{
     Absorber, ContactTolerance, Doubt, Impact, Observer, Segment, Simulation, StartError,
     Statistics, Stop,
 };
-use crate::simulation::trust::energy_residual;
 use crate::system::{InvalidParameter, State, System};
 
 /// Points of each stretch of motion at which the cavity is looked into.

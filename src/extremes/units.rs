@@ -88,12 +88,7 @@ pub fn unit_checks() -> Result<Vec<UnitCheck>, UnitError> {
 
 fn numbers(system: &System) -> [f64; 5] {
     let Parameters {
-        mass_ratio,
-        damping,
-        restitution,
-        frequency_ratio,
-        forcing_per_clearance,
-        ..
+        mass_ratio, damping, restitution, frequency_ratio, forcing_per_clearance, ..
     } = system.parameters();
     [mass_ratio, damping, restitution, frequency_ratio, forcing_per_clearance]
 }

@@ -128,6 +128,8 @@ mod tests {
         let (up, down) = (functions.exp(&angle), functions.exp(&-&angle));
         assert!((&(&up * &down) - &Real::of(1.0)).to_f64().abs() < 1e-70);
         // Abramowitz and Stegun, table 4.6: sin 1.
-        assert!((functions.sincos(&Real::of(1.0)).0.to_f64() - 0.841_470_984_807_896_5).abs() < 1e-15);
+        assert!(
+            (functions.sincos(&Real::of(1.0)).0.to_f64() - 0.841_470_984_807_896_5).abs() < 1e-15
+        );
     }
 }

@@ -8,7 +8,8 @@ use super::{
     Classification, Energetics, Nature, Periodicity, Regime, Thresholds, classify, periodicity,
 };
 use crate::simulation::{
-    self, Doubt, Energy, Impact, ImpactLog, Nobody, Simulation, StartError, Statistics, Stop, SustainedContact,
+    self, Doubt, Energy, Impact, ImpactLog, Nobody, Simulation, StartError, Statistics, Stop,
+    SustainedContact,
 };
 use crate::system::{State, System};
 

@@ -4,8 +4,8 @@ use serde::Serialize;
 
 use super::numbers::significant;
 use super::render::{self, RenderError};
-use crate::extremes::list::{FOLLOWED, IMPACT_LIMIT};
 use crate::extremes::contact::ContactTable;
+use crate::extremes::list::{FOLLOWED, IMPACT_LIMIT};
 use crate::extremes::{ContactCost, Outcome, UnitCheck, Verdict};
 use crate::simulation::Stop;
 use crate::simulation::trust::{ENERGY_RESIDUAL, RESOLUTION};
@@ -135,11 +135,7 @@ fn row(outcome: &Outcome) -> [String; 10] {
                 if whole { significant(measured.energy_residual, 2) } else { nothing() },
                 significant(measured.penetration, 2),
                 compared.map_or_else(nothing, |compared| {
-                    format!(
-                        "{} ({})",
-                        significant(compared.error, 2),
-                        compared.events
-                    )
+                    format!("{} ({})", significant(compared.error, 2), compared.events)
                 }),
                 compared.map_or_else(nothing, |compared| significant(compared.one_rounding, 2)),
             ]

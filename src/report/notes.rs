@@ -53,8 +53,10 @@ pub fn notes(case: &Case, study: &CaseStudy) -> Vec<Note> {
             );
         }
         // That a run was ended early has been said.
-        let numerical =
-            attractor.doubts().into_iter().filter(|doubt| !matches!(doubt, Doubt::Unfinished { .. }));
+        let numerical = attractor
+            .doubts()
+            .into_iter()
+            .filter(|doubt| !matches!(doubt, Doubt::Unfinished { .. }));
         for doubt in numerical {
             note(
                 "numerics",

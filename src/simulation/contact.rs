@@ -76,9 +76,7 @@ impl AtWall {
     /// `a (1 + drift)` times the duration, and the impacts that are left take back no more than that.
     fn jerk_bound(&self, drift: f64, duration: f64) -> f64 {
         let change = 2.0 * (1.0 + drift) * self.closing_acceleration;
-        self.force_rate
-            + self.damping * change
-            + self.stiffness * (self.speed + change * duration)
+        self.force_rate + self.damping * change + self.stiffness * (self.speed + change * duration)
     }
 }
 

@@ -56,7 +56,9 @@ impl Doubt {
                 format!("the energy balance closes only to {value:.0e}, not to {limit:.0e}")
             }
             Self::Penetration { value, limit } => {
-                format!("a wall is penetrated by {value:.0e} of the clearance, more than {limit:.0e}")
+                format!(
+                    "a wall is penetrated by {value:.0e} of the clearance, more than {limit:.0e}"
+                )
             }
             Self::Resolution { value, limit } => format!(
                 "the walls are known only to {value:.0e} of the clearance, not to {limit:.0e}: the \
