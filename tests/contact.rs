@@ -90,9 +90,7 @@ fn every_kind_of_start_on_a_wall_does_what_the_wall_makes_it_do() {
             let mut statistics = Statistics::begin(&system, start(0.0, -0.5, 0.0));
             assert_eq!(simulation.run(1, 100_000, &mut statistics), Stop::EndTime, "{case}");
             assert!(statistics.penetration() < 1e-14, "{case}");
-            if restitution < 1.0 {
-                assert!(statistics.sustained_contact().duration_tau > 2.0, "{case}");
-            }
+            assert!(statistics.sustained_contact().duration_tau > 2.0, "{case}");
             // Nothing moves at all.
             let still = first(&system, start(0.0, 0.0, 0.0));
             assert!(still.impacts.is_empty(), "{case}: nothing moves");
@@ -117,7 +115,7 @@ fn starts_outside_are_refused_and_starts_within_rounding_of_a_wall_are_not() {
 /// few units in the last place before or after: one impact, whichever period it falls into.
 #[test]
 fn an_impact_at_the_end_of_a_period_happens_once() {
-    for (restitution, periods) in [(0.0, 1), (0.6, 1), (1.0, 1), (0.6, 3)] {
+    for (restitution, periods) in [(0.0, 1), (0.6, 1), (1.0, 1), (0.6, 3_u32)] {
         let system = swinging(restitution);
         let exact = 1.0 / (TAU * f64::from(periods));
         for ulps in -6_i32..=6 {
@@ -125,7 +123,7 @@ fn an_impact_at_the_end_of_a_period_happens_once() {
             let start = State { x: 0.0, x_velocity: 0.0, y: 0.0, y_velocity: speed };
             let mut simulation = Simulation::new(&system, start, 0.0).expect("inside");
             let mut seen = First::default();
-            let end = u64::from(periods.unsigned_abs());
+            let end = u64::from(periods);
             assert_eq!(simulation.run(end - 1, 100, &mut seen), Stop::EndTime);
             assert!(seen.impacts.is_empty(), "{ulps}");
             assert_eq!(simulation.run(2, 100, &mut seen), Stop::EndTime);
@@ -134,8 +132,12 @@ fn an_impact_at_the_end_of_a_period_happens_once() {
             let impact = seen.impacts[0];
             let arrival = TAU * f64::from(periods);
             assert!((impact.tau - arrival).abs() < 1e-13, "{ulps}: {impact:?}");
-            // The next one is a long way off: the absorber left with the speed r u.
-            assert_eq!(count, 1, "r = {restitution}, {ulps}: {:?}", seen.impacts);
+            // The next one is a long way off: the absorber left with the speed r u. Without
+            // restitution the wall, unaccelerated at the impact, takes it up by a touch that costs
+            // nothing.
+            let again = seen.impacts[1..].iter().all(|touch| touch.loss < 1e-25);
+            assert!(count <= 2 && again, "r = {restitution}, {ulps}: {:?}", seen.impacts);
+            assert!(count == 1 || restitution == 0.0, "r = {restitution}: {:?}", seen.impacts);
         }
     }
 }

@@ -402,7 +402,10 @@ impl Simulation {
             damping: 2.0 * alone.decay,
             stiffness: alone.stiffness,
         };
-        if tolerance.sticks(r, &wall) {
+        // A gap that opens by less than rounding is none, elastic or not.
+        let unresolved = wall.closing_acceleration > 0.0
+            && opening * opening <= 2.0 * wall.closing_acceleration * self.touch();
+        if unresolved || tolerance.sticks(r, &wall) {
             let eps = self.system.mass_ratio();
             let common = (x_velocity + eps * y_velocity) / (1.0 + eps);
             self.state.x_velocity = common;
