@@ -100,7 +100,7 @@ pub fn doubts(stop: Stop, energy: &Energy, penetration: f64, peak: f64) -> Vec<D
         doubts.push(Doubt::Unfinished { stop });
     }
     // Not a number is not within a limit either.
-    let exceeds = |value: f64, limit: f64| !(value <= limit);
+    let exceeds = |value: f64, limit: f64| value.is_nan() || value > limit;
     let residual = energy_residual(energy, peak);
     // A run that was ended within a period has not measured its end.
     if stop == Stop::EndTime && exceeds(residual, ENERGY_RESIDUAL) {
