@@ -5,8 +5,10 @@
 pub mod analysis;
 pub mod case;
 pub mod equations;
+pub mod extremes;
 pub mod numerics;
 pub mod orbits;
+pub mod reference;
 pub mod regimes;
 pub mod report;
 pub mod simulation;

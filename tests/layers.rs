@@ -19,6 +19,8 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("analysis", &["equations", "numerics", "symbolic", "system"]),
     ("orbits", &["numerics", "system"]),
     ("simulation", &["numerics", "system"]),
+    ("reference", &["system"]),
+    ("extremes", &["case", "reference", "simulation", "system"]),
     ("regimes", &["numerics", "simulation", "system"]),
     (
         "validation",
@@ -45,6 +47,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "analysis",
             "case",
             "equations",
+            "extremes",
             "numerics",
             "orbits",
             "regimes",
@@ -60,11 +63,13 @@ const ROOMS: &[(&str, &[&str])] = &[
 
 /// Rooms in which there is physics and nothing else: no files, no clock, no printing, no threads, no
 /// randomness.
-const PURE: [&str; 10] = [
+const PURE: [&str; 12] = [
     "analysis",
     "equations",
+    "extremes",
     "numerics",
     "orbits",
+    "reference",
     "regimes",
     "simulation",
     "study",
@@ -256,6 +261,7 @@ fn made_up_sources_are_refused() {
         ("simulation/run.rs", "use crate::{\n    numerics,\n    equations::equations,\n};"),
         ("orbits/mod.rs", "use crate::simulation::flow;"),
         ("orbits/mod.rs", "use crate::analysis::Manifold;"),
+        ("reference/mod.rs", "use crate::simulation::Simulation;"),
         ("numerics/bracket.rs", "use crate::system::System;"),
         ("symbolic/expr.rs", "use crate::numerics::bracket;"),
         ("validation/mod.rs", "use crate::study::CaseStudy;"),

@@ -4,6 +4,7 @@
 mod analyze;
 mod case_file;
 mod completions;
+mod extremes;
 mod new;
 mod output;
 mod paper;
@@ -36,6 +37,7 @@ Examples:
   vinesink simulate damper.toml                 what it does, from many starts
   vinesink report damper.toml                   the design report, in reports/damper
   vinesink paper                                the paper's figures against the reports
+  vinesink extremes                             the simulation at the ends of its range
   vinesink schema > vinesink.schema.json        let the editor complete and check cases
   vinesink help new                             what a command does, with examples";
 
@@ -46,6 +48,7 @@ enum Command {
     Simulate(simulate::Arguments),
     Report(report::Arguments),
     Paper(paper::Arguments),
+    Extremes(extremes::Arguments),
     Schema(schema::Arguments),
     Completions(completions::Arguments),
 }
@@ -77,6 +80,7 @@ impl Cli {
             Command::Simulate(arguments) => simulate::run(arguments),
             Command::Report(arguments) => report::run(arguments),
             Command::Paper(arguments) => paper::run(arguments),
+            Command::Extremes(arguments) => extremes::run(arguments),
             Command::Schema(arguments) => schema::run(arguments),
             Command::Completions(arguments) => completions::run(arguments),
         }

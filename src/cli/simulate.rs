@@ -24,7 +24,8 @@ use super::{Outcome, output};
 ///
 /// Without --initial the case is simulated from many starts, because answers coexist: every
 /// long-term motion is listed with the share of starts that led to it, and the numbers are those of
-/// the moving one that most starts lead to. With --initial one trajectory is followed.
+/// the moving one that most starts lead to. With --initial one trajectory is followed. A measurement
+/// that is not to be trusted says why and what to do, and ends with exit code 1.
 #[derive(Debug, Args)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Arguments {
@@ -80,7 +81,11 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
             output::print_json(&document)?;
         }
     }
-    Ok(Outcome::Done)
+    let doubts = motion.doubts();
+    for doubt in &doubts {
+        output::complain(&format!("not to be trusted: {}; {}", doubt.words(), doubt.advice()));
+    }
+    Ok(if doubts.is_empty() { Outcome::Done } else { Outcome::DoesNotHold })
 }
 
 impl Arguments {

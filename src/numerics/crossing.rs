@@ -83,7 +83,9 @@ pub fn first_crossing(curve: &impl Curve, from: f64, until: f64, band: Band) -> 
     loop {
         let sample = curve.sample(s);
         evaluations += 1;
-        if !(sample.value.is_finite() && sample.slope.is_finite()) {
+        // Where the parabola's own numbers overflow no step is long enough to end the search.
+        let discriminant = sample.slope * sample.slope + sample.curvature_bound * band.touch;
+        if !(sample.value.is_finite() && discriminant.is_finite()) {
             return Search::NotFinite(s);
         }
         if let Some(edge) = left_through(&sample, &band) {

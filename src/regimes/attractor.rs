@@ -8,7 +8,8 @@ use super::{
     Classification, Energetics, Nature, Periodicity, Regime, Thresholds, classify, periodicity,
 };
 use crate::simulation::{
-    Energy, Impact, ImpactLog, Nobody, Simulation, StartError, Statistics, Stop, SustainedContact,
+    self, Doubt, Energy, Impact, ImpactLog, Nobody, Simulation, StartError, Statistics, Stop,
+    SustainedContact,
 };
 use crate::system::{State, System};
 
@@ -128,6 +129,11 @@ impl Attractor {
         rests && self.peak > 0.0 && self.energetics.damper_power == 0.0
     }
 
+    /// Every reason not to trust the measurement.
+    pub fn doubts(&self) -> Vec<Doubt> {
+        simulation::doubts(self.stop, &self.energy, self.penetration, self.peak)
+    }
+
     /// Whether the motion was seen to repeat.
     pub fn repeats(&self) -> bool {
         self.classification.evidence.periodicity.is_some()
@@ -157,7 +163,7 @@ impl Attractor {
         let mut statistics = Statistics::begin(&system, simulation.state());
         let mut lyapunov = Lyapunov::begin(&system);
         // A transient given up for its impacts is measured all the same: the impacts are the regime.
-        if stop != Stop::NotFinite {
+        if matches!(stop, Stop::EndTime | Stop::ImpactLimit) {
             let mut counts = (&mut statistics, &mut *log);
             let observer = &mut (&mut counts, &mut lyapunov);
             let measured = simulation.run(effort.periods, effort.impact_limit, observer);

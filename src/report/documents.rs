@@ -12,7 +12,7 @@ use crate::orbits::{
     AsymmetricOrbits, Bifurcation, Closure, FullSystem, Leading, Origin, SymmetricOrbit,
 };
 use crate::regimes::{Attractor, Energetics, Evidence, FoundAttractor, Nature, Regime};
-use crate::simulation::{Energy, Stop, SustainedContact};
+use crate::simulation::{Doubt, Energy, Stop, SustainedContact};
 use crate::study::{LongTermMotions, Proof, SettledArea, SettledBy};
 use crate::system::{Excitation, System};
 use crate::validation::price::prices;
@@ -270,6 +270,18 @@ pub struct MotionDocument {
     sustained_contact: SustainedContact,
     largest_penetration_over_clearance: f64,
     stop: Stop,
+    /// Whether there is no reason to doubt the numbers.
+    trusted: bool,
+    doubts: Vec<DoubtDocument>,
+}
+
+/// A reason not to trust a motion, with its numbers.
+#[derive(Debug, Clone, Serialize)]
+struct DoubtDocument {
+    #[serde(flatten)]
+    doubt: Doubt,
+    words: String,
+    advice: &'static str,
 }
 
 #[derive(Debug, Clone, Copy, Serialize)]
@@ -368,6 +380,7 @@ impl MotionDocument {
             scales.energy_j(value).unwrap_or(value * scales.clearance * scales.clearance)
         };
         let balance = &motion.energy;
+        let doubts = motion.doubts();
         Self {
             periods: motion.periods,
             impacts: motion.impact_count,
@@ -392,6 +405,11 @@ impl MotionDocument {
             sustained_contact: motion.sustained_contact,
             largest_penetration_over_clearance: motion.penetration,
             stop: motion.stop,
+            trusted: doubts.is_empty(),
+            doubts: doubts
+                .into_iter()
+                .map(|doubt| DoubtDocument { doubt, words: doubt.words(), advice: doubt.advice() })
+                .collect(),
         }
     }
 }

@@ -2,6 +2,7 @@
 //! print. [`render`] turns it into Markdown, HTML and JSON; figures are data too ([`figure`]).
 
 pub mod documents;
+pub mod extremes;
 pub mod figure;
 pub mod figures;
 pub mod numbers;

@@ -4,13 +4,10 @@ use serde::Serialize;
 
 use super::numbers::{LengthFormat, fixed, percent, significant};
 use crate::case::Case;
-use crate::simulation::Stop;
+use crate::simulation::{Doubt, Stop};
 use crate::study::CaseStudy;
 use crate::validation::tolerance::{LARGEST_DAMPING, LARGEST_MASS_RATIO, LARGEST_OFFSET};
 use crate::validation::{Finding, Measure, Verdict};
-
-/// The energy balance that a sound simulation closes.
-const ENERGY_RESIDUAL: f64 = 1e-9;
 
 /// Something that must not be overlooked.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -55,13 +52,15 @@ pub fn notes(case: &Case, study: &CaseStudy) -> Vec<Note> {
                 ),
             );
         }
-        if attractor.energy.relative_residual > ENERGY_RESIDUAL {
+        // That a run was ended early has been said.
+        let numerical = attractor
+            .doubts()
+            .into_iter()
+            .filter(|doubt| !matches!(doubt, Doubt::Unfinished { .. }));
+        for doubt in numerical {
             note(
                 "numerics",
-                format!(
-                    "{regime}: the energy balance closes only to {}.",
-                    significant(attractor.energy.relative_residual, 1)
-                ),
+                format!("{regime}: not to be trusted, {}; {}.", doubt.words(), doubt.advice()),
             );
         }
     }

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use tera::{Context, Kwargs, State, Tera, Value};
 
 use super::Report;
+use super::extremes::Extremes;
 use super::figure::{self, Figure, FigureError};
 use super::numbers::LengthFormat;
 use super::paper::Paper;
@@ -15,6 +16,7 @@ use crate::symbolic::{MathError, to_mathml};
 const MARKDOWN: &str = include_str!("../../templates/report.md.tera");
 const HTML: &str = include_str!("../../templates/report.html.tera");
 const PAPER: &str = include_str!("../../templates/paper.md.tera");
+const EXTREMES: &str = include_str!("../../templates/extremes.md.tera");
 const STYLE: &str = include_str!("../../templates/report.css");
 
 /// Why a report cannot be rendered.
@@ -75,6 +77,17 @@ pub fn paper(page: &Paper) -> Result<String, RenderError> {
     let mut context = Context::new();
     context.insert("paper", page);
     let text = engine("paper.md", PAPER)?.render("paper.md", &context)?;
+    Ok(without_repeated_blank_lines(&text))
+}
+
+/// The page about the simulation at the ends of its range, as Markdown.
+///
+/// # Errors
+/// [`RenderError::Template`] if template and page do not fit.
+pub fn extremes(page: &Extremes) -> Result<String, RenderError> {
+    let mut context = Context::new();
+    context.insert("page", page);
+    let text = engine("extremes.md", EXTREMES)?.render("extremes.md", &context)?;
     Ok(without_repeated_blank_lines(&text))
 }
 

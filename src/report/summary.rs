@@ -137,6 +137,9 @@ pub fn simulation(case: &Case, motion: &Attractor, found: Option<&LongTermMotion
         significant(motion.energy.relative_residual, 1),
         motion.stop.words()
     );
+    for doubt in motion.doubts() {
+        let _ = writeln!(text, "  NOT TO BE TRUSTED: {}; {}", doubt.words(), doubt.advice());
+    }
     if let Some(found) = found {
         text.push_str("\nLong-term motions found, by share of starts\n");
         for (one, proof) in found.attractors.iter().zip(&found.proofs) {

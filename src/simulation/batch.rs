@@ -97,8 +97,8 @@ impl<'a, O: Observer> Task<'a, O> {
                 return Some(departure);
             }
             doubt = false;
-            if self.simulation.step(self.observer).is_err() {
-                self.stop = Some(Stop::NotFinite);
+            if let Err(stop) = self.simulation.step(self.observer) {
+                self.stop = Some(stop);
                 return None;
             }
         }

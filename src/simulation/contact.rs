@@ -61,14 +61,33 @@ pub struct AtWall {
     pub separation_speed: f64,
     /// Acceleration of the wall towards the absorber, were the absorber flying.
     pub closing_acceleration: f64,
-    /// Bound on the rate at which that acceleration changes.
-    pub jerk_bound: f64,
+    /// Speed of the wall.
+    pub speed: f64,
+    /// Largest rate at which the forcing of the oscillator changes.
+    pub force_rate: f64,
+    /// Damping coefficient of the oscillator, `eps lambda`.
+    pub damping: f64,
+    /// Stiffness of the oscillator.
+    pub stiffness: f64,
+}
+
+impl AtWall {
+    /// Bound on the rate at which the closing acceleration changes for a time `duration`, impacts
+    /// included, as long as it has not grown by more than the share `drift`.
+    ///
+    /// Equation (1) makes it the forcing's rate, the damping times what the velocity changes by, and
+    /// the stiffness times the velocity. The acceleration changes the velocity by at most
+    /// `a (1 + drift)` times the duration, and the impacts that are left take back no more than that.
+    fn jerk_bound(&self, drift: f64, duration: f64) -> f64 {
+        let change = 2.0 * (1.0 + drift) * self.closing_acceleration;
+        self.force_rate + self.damping * change + self.stiffness * (self.speed + change * duration)
+    }
 }
 
 impl ContactTolerance {
     /// Whether the absorber sticks to the wall from here on.
     pub fn sticks(&self, restitution: f64, at: &AtWall) -> bool {
-        let AtWall { separation_speed: u, closing_acceleration: a, jerk_bound } = *at;
+        let AtWall { separation_speed: u, closing_acceleration: a, .. } = *at;
         if a <= 0.0 {
             return false;
         }
@@ -76,13 +95,25 @@ impl ContactTolerance {
             return true;
         }
         let remaining = 2.0 * u / (a * (1.0 - restitution));
-        u * u <= 2.0 * a * self.excursion && jerk_bound * remaining <= self.drift * a
+        let change = at.jerk_bound(self.drift, remaining) * remaining;
+        u * u <= 2.0 * a * self.excursion && change <= self.drift * a
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn at_wall(separation_speed: f64, closing_acceleration: f64) -> AtWall {
+        AtWall {
+            separation_speed,
+            closing_acceleration,
+            speed: 0.1,
+            force_rate: 0.0,
+            damping: 0.01,
+            stiffness: 1.0,
+        }
+    }
 
     #[test]
     fn an_impact_keeps_momentum_and_reverses_the_relative_velocity() {
@@ -98,14 +129,14 @@ mod tests {
     #[test]
     fn an_elastic_impact_loses_nothing_and_never_sticks() {
         assert_eq!(rebound(0.1, 1.0, 1.0, -1.0).loss, 0.0);
-        let at = AtWall { separation_speed: 1e-9, closing_acceleration: 1.0, jerk_bound: 0.1 };
+        let at = at_wall(1e-9, 1.0);
         assert!(!ContactTolerance::default().sticks(1.0, &at));
         assert!(ContactTolerance::default().sticks(0.6, &at));
     }
 
     #[test]
     fn a_wall_that_recedes_does_not_hold_the_absorber() {
-        let at = AtWall { separation_speed: 0.0, closing_acceleration: -1.0, jerk_bound: 0.1 };
+        let at = at_wall(0.0, -1.0);
         assert!(!ContactTolerance::default().sticks(0.0, &at));
     }
 }

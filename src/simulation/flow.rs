@@ -14,6 +14,10 @@ use crate::system::System;
 /// four digits are the most that the subtraction of the two large parts may cost.
 const LARGEST_STEADY_GAIN: f64 = 1e4;
 
+/// Excitation frequency over the natural one below which free and steady part are bounded apart:
+/// above, the sum of the two bounds is no better than the bound of the sum.
+const SLOW: f64 = 0.1;
+
 /// A linear oscillator with harmonic forcing, per unit of its own mass.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Oscillator {
@@ -259,6 +263,66 @@ impl Motion {
     pub fn oscillator(&self) -> &Oscillator {
         &self.oscillator
     }
+
+    /// Bounds on the derivatives from the time `s` on, when the motion is at `at`, for `horizon` of
+    /// time: [`derivative_bounds`], and where they are smaller those of the free and the steady part
+    /// by themselves. Without them the fast rate of an overdamped oscillator that has long died out
+    /// would still shorten every step, and so would the large forces of a slow excitation, which
+    /// balance one another.
+    pub fn bounds(&self, s: f64, at: Kinematics, horizon: f64) -> DerivativeBounds {
+        let general = derivative_bounds(&self.oscillator, at, horizon);
+        let parts = self.creeping_bounds(s).or_else(|| self.slow_bounds(s));
+        let Some(parts) = parts else { return general };
+        DerivativeBounds {
+            acceleration: general.acceleration.min(parts.acceleration),
+            jerk: general.jerk.min(parts.jerk),
+            snap: general.snap.min(parts.snap),
+        }
+    }
+
+    /// Under a slow excitation: the energy of the free part only falls, and the steady part is a
+    /// sinusoid.
+    fn slow_bounds(&self, s: f64) -> Option<DerivativeBounds> {
+        let o = &self.oscillator;
+        let (sine, cosine) = o.steady()?;
+        if o.frequency > SLOW * o.stiffness.sqrt() {
+            return None;
+        }
+        let steady = libm::hypot(sine, cosine) * o.frequency * o.frequency;
+        let free = o.free(self.free_x, self.free_v, s);
+        let unforced = Oscillator { largest: 0.0, ..*o };
+        let DerivativeBounds { acceleration, jerk, snap } = derivative_bounds(&unforced, free, 0.0);
+        Some(DerivativeBounds {
+            acceleration: acceleration + steady,
+            jerk: jerk + steady * o.frequency,
+            snap: snap + steady * o.frequency * o.frequency,
+        })
+    }
+
+    /// Each exponential of an overdamped motion only falls, and so do its derivatives.
+    fn creeping_bounds(&self, s: f64) -> Option<DerivativeBounds> {
+        let o = &self.oscillator;
+        let (sine, cosine) = o.steady()?;
+        let root = o.stiffness.sqrt();
+        let spread = ((o.decay - root) * (o.decay + root)).max(0.0).sqrt();
+        if spread == 0.0 {
+            return None;
+        }
+        let (slow, fast) = (o.stiffness / (o.decay + spread), o.decay + spread);
+        let part = |rate: f64, other: f64| {
+            // `e^{-rate s}` and its share of displacement and velocity at the beginning.
+            let terms = [self.free_v, other * self.free_x];
+            let rounding = 4.0 * f64::EPSILON * (terms[0].abs() + terms[1].abs());
+            libm::exp(-rate * s) * ((terms[0] + terms[1]).abs() + rounding) / (2.0 * spread)
+        };
+        let (creep, dash) = (part(slow, fast), part(fast, slow));
+        let steady = libm::hypot(sine, cosine);
+        let bound = |order: u32| {
+            let power = |rate: f64| (0..order).fold(1.0, |product, _| product * rate);
+            creep * power(slow) + dash * power(fast) + steady * power(o.frequency)
+        };
+        Some(DerivativeBounds { acceleration: bound(2), jerk: bound(3), snap: bound(4) })
+    }
 }
 
 /// Bounds on the derivatives of a motion from one moment on, for `horizon` of time.
@@ -369,6 +433,35 @@ mod tests {
                 assert!((velocity - here.v).abs() < 1e-7 * scale, "{eps} {lambda} {ratio} {s}");
                 let expected = motion.acceleration(s, here);
                 assert!((acceleration - expected).abs() < 1e-6 * scale * scale, "{lambda} {s}");
+            }
+        }
+    }
+
+    /// The bounds hold for all later times, or for the horizon, and for an overdamped or slowly driven
+    /// oscillator they fall to what is left of the motion.
+    #[test]
+    fn derivatives_stay_within_their_bounds() {
+        let cases = [(0.9, 1e3, 0.958), (0.9, 4.0, 2.0), (0.0077, 1.8, 1e-3), (0.0077, 1.8, 0.05)];
+        for (eps, lambda, ratio) in cases {
+            let o = oscillator(eps, lambda, ratio);
+            let motion = o.motion(0.3, -0.7, 1.1);
+            for k in 0..60 {
+                let s = 0.05 * f64::from(k);
+                let bounds = motion.bounds(s, motion.at(s), 1.0);
+                for l in 0..40 {
+                    let later = s + f64::from(l) / 40.0;
+                    let at = motion.at(later);
+                    let (a, jerk) = (motion.acceleration(later, at), motion.jerk(later, at));
+                    let slack = 1.0 + 1e-12;
+                    assert!(a.abs() <= bounds.acceleration * slack, "{lambda} {ratio} {s} {later}");
+                    assert!(jerk.abs() <= bounds.jerk * slack, "{lambda} {ratio} {s} {later}");
+                }
+            }
+            let general = derivative_bounds(&o, motion.at(3.0), 1.0);
+            let better = motion.bounds(3.0, motion.at(3.0), 1.0);
+            assert!(better.snap <= general.snap);
+            if lambda == 1e3 {
+                assert!(better.snap < 1e-6 * general.snap, "{better:?} {general:?}");
             }
         }
     }

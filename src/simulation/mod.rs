@@ -16,6 +16,7 @@ mod phasor;
 pub mod run;
 pub mod statistics;
 pub mod tangent;
+pub mod trust;
 
 pub use contact::ContactTolerance;
 pub use events::{Absorber, Impact, Nobody, Observer, Segment, Side, StartError};
@@ -23,3 +24,4 @@ pub use history::{ImpactLog, Trace, TracePoint};
 pub use run::{Simulation, Stop};
 pub use statistics::{Energy, PeriodRecord, Statistics, SustainedContact};
 pub use tangent::Tangent;
+pub use trust::{Doubt, doubts};

@@ -9,12 +9,14 @@ use serde::Serialize;
 
 use super::contact::{AtWall, ContactTolerance, rebound};
 use super::events::{Absorber, Impact, Nobody, Observer, Segment, Side, StartError};
-use super::flow::{Kinematics, Motion, Oscillator, derivative_bounds};
+use super::flow::{Kinematics, Motion, Oscillator};
 use super::panels::{Landing, Takeoff};
 use super::phasor::{self, Line, Rates, Steady, TOUCH_ULPS};
 use crate::numerics::crossing::{Band, Curve, Edge, Sample, Search, first_crossing};
 use crate::system::{State, System};
 
+/// Distance over the clearance by which rounding may move the walls before the search gives up.
+const LARGEST_TOUCH: f64 = 0.1;
 /// Fast time over which one curvature bound is used; shorter bounds are tighter, longer ones save
 /// evaluations. A sixth of the natural period is a fair middle.
 const HORIZON: f64 = 1.0;
@@ -29,6 +31,8 @@ pub enum Stop {
     ImpactLimit,
     /// A number overflowed.
     NotFinite,
+    /// Rounding moves the walls by more than a tenth of the clearance.
+    WallsUnresolved,
 }
 
 impl Stop {
@@ -38,6 +42,7 @@ impl Stop {
             Self::EndTime => "its end time",
             Self::ImpactLimit => "its limit on the number of impacts",
             Self::NotFinite => "a number that overflowed",
+            Self::WallsUnresolved => "a motion so large that rounding hides the walls",
         }
     }
 }
@@ -161,15 +166,15 @@ impl Simulation {
             if self.impacts >= impact_limit {
                 return Stop::ImpactLimit;
             }
-            if self.step(observer).is_err() {
-                return Stop::NotFinite;
+            if let Err(stop) = self.step(observer) {
+                return stop;
             }
         }
         Stop::EndTime
     }
 
     /// Continues to the next impact, release or end of a period.
-    pub(super) fn step<O: Observer>(&mut self, observer: &mut O) -> Result<(), Overflow> {
+    pub(super) fn step<O: Observer>(&mut self, observer: &mut O) -> Result<(), Stop> {
         match self.mode {
             Mode::Flight => self.fly(observer),
             Mode::Contact(side) => self.carry(side, observer),
@@ -233,7 +238,7 @@ impl Simulation {
         (turns as f64 * TAU + phase) / self.system.frequency_ratio()
     }
 
-    fn fly<O: Observer>(&mut self, observer: &mut O) -> Result<(), Overflow> {
+    fn fly<O: Observer>(&mut self, observer: &mut O) -> Result<(), Stop> {
         if self.fly_in_panels(observer) {
             return Ok(());
         }
@@ -280,7 +285,8 @@ impl Simulation {
         true
     }
 
-    fn fly_step_by_step(&mut self, observer: &mut impl Observer) -> Result<(), Overflow> {
+    fn fly_step_by_step(&mut self, observer: &mut impl Observer) -> Result<(), Stop> {
+        self.resolves_walls()?;
         let start = self.state;
         let motion = self.alone.motion(start.x, start.x_velocity, self.phase);
         let curve = Gap { motion, y: start.y, y_velocity: start.y_velocity };
@@ -304,12 +310,13 @@ impl Simulation {
                 };
                 self.collide(side, observer);
             }
-            Search::NotFinite(_) => return Err(Overflow),
+            Search::NotFinite(_) => return Err(Stop::NotFinite),
         }
         Ok(())
     }
 
-    fn carry(&mut self, side: Side, observer: &mut impl Observer) -> Result<(), Overflow> {
+    fn carry(&mut self, side: Side, observer: &mut impl Observer) -> Result<(), Stop> {
+        self.resolves_walls()?;
         let motion = self.carrying.motion(self.state.x, self.state.x_velocity, self.phase);
         let curve = ContactForce { motion, side };
         let scale = self.alone.largest_force() + self.state.x.abs() + self.state.x_velocity.abs();
@@ -327,7 +334,7 @@ impl Simulation {
                 self.advance(motion, Absorber::Carried(side), crossing.time, observer)?;
                 self.mode = Mode::Flight;
             }
-            Search::NotFinite(_) => return Err(Overflow),
+            Search::NotFinite(_) => return Err(Stop::NotFinite),
         }
         Ok(())
     }
@@ -336,6 +343,15 @@ impl Simulation {
     fn touch(&self) -> f64 {
         let State { x, x_velocity, y, y_velocity } = self.state;
         phasor::touch(x, x_velocity, Line { y, velocity: y_velocity })
+    }
+
+    /// A search among walls that rounding moves about would not end.
+    fn resolves_walls(&self) -> Result<(), Stop> {
+        // The steady part may dwarf the motion that it is a part of.
+        let (sine, cosine) = self.alone.steady().unwrap_or_default();
+        let steady = TOUCH_ULPS * f64::EPSILON * libm::hypot(sine, cosine);
+        // What is not a number resolves nothing.
+        if self.touch() + steady <= LARGEST_TOUCH { Ok(()) } else { Err(Stop::WallsUnresolved) }
     }
 
     /// After a release, or an impact with `r = 0`, the absorber leaves the wall tangentially, and
@@ -349,7 +365,7 @@ impl Simulation {
             return 0.0;
         }
         let side = gap.signum();
-        let bounds = derivative_bounds(motion.oscillator(), at, HORIZON);
+        let bounds = motion.bounds(0.0, at, HORIZON);
         let acceleration = side * motion.acceleration(0.0, at);
         let jerk = side * motion.jerk(0.0, at);
         let by_acceleration =
@@ -367,13 +383,13 @@ impl Simulation {
         absorber: Absorber,
         duration: f64,
         observer: &mut impl Observer,
-    ) -> Result<(), Overflow> {
+    ) -> Result<(), Stop> {
         let segment = Segment { motion, absorber, turns: self.turns, phase: self.phase, duration };
         self.state = segment.at(duration);
         self.steady = None;
         self.phase += self.system.frequency_ratio() * duration;
         if !(self.state.x.is_finite() && self.state.y.is_finite()) {
-            return Err(Overflow);
+            return Err(Stop::NotFinite);
         }
         if duration > 0.0 {
             observer.segment(&segment);
@@ -440,9 +456,15 @@ impl Simulation {
         let wall = AtWall {
             separation_speed: opening.max(0.0),
             closing_acceleration: side.sign() * alone.acceleration(self.phase, at),
-            jerk_bound: derivative_bounds(alone, at, 0.0).jerk,
+            speed: x_velocity.abs(),
+            force_rate: alone.frequency * alone.largest_force(),
+            damping: 2.0 * alone.decay,
+            stiffness: alone.stiffness,
         };
-        if tolerance.sticks(r, &wall) {
+        // A gap that opens by less than rounding is none, elastic or not.
+        let unresolved = wall.closing_acceleration > 0.0
+            && opening * opening <= 2.0 * wall.closing_acceleration * self.touch();
+        if unresolved || tolerance.sticks(r, &wall) {
             let eps = self.system.mass_ratio();
             let common = (x_velocity + eps * y_velocity) / (1.0 + eps);
             self.state.x_velocity = common;
@@ -452,9 +474,6 @@ impl Simulation {
         }
     }
 }
-
-/// A state left the range of floating-point numbers.
-pub(super) struct Overflow;
 
 /// Relative displacement `w = x - y` during a flight.
 struct Gap {
@@ -466,7 +485,7 @@ struct Gap {
 impl Curve for Gap {
     fn sample(&self, s: f64) -> Sample {
         let at = self.motion.at(s);
-        let bounds = derivative_bounds(self.motion.oscillator(), at, HORIZON);
+        let bounds = self.motion.bounds(s, at, HORIZON);
         Sample {
             value: at.x - (self.y + self.y_velocity * s),
             slope: at.v - self.y_velocity,
@@ -491,7 +510,7 @@ impl Curve for ContactForce {
         Sample {
             value: self.side.sign() * self.motion.acceleration(s, at),
             slope: self.side.sign() * self.motion.jerk(s, at),
-            curvature_bound: derivative_bounds(self.motion.oscillator(), at, HORIZON).snap,
+            curvature_bound: self.motion.bounds(s, at, HORIZON).snap,
         }
     }
     fn horizon(&self) -> f64 {

@@ -1,0 +1,47 @@
+//! `vinesink extremes`
+
+use std::path::PathBuf;
+
+use clap::Args;
+use miette::{IntoDiagnostic, Result};
+use vinesink::extremes::contact::tables;
+use vinesink::extremes::{entries, unit_checks};
+use vinesink::report::extremes::Extremes;
+use vinesink::store;
+
+use super::progress::Progress;
+use super::{Outcome, output};
+
+/// Simulate at the ends of every parameter's range and compare with 77 decimal digits
+///
+/// Writes OUT/extremes.md: what each run costs, how well it closes its energy balance, how far it is
+/// from a reference that shares no code with it, and what is flagged or refused and why. Exits with 1
+/// if a run that is trusted is wrong.
+#[derive(Debug, Args)]
+#[command(after_long_help = EXAMPLES)]
+pub struct Arguments {
+    /// The folder that receives the page, beside the reports
+    #[arg(long, value_name = "OUT", default_value = "reports")]
+    out: PathBuf,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  vinesink extremes
+  vinesink extremes --out /somewhere/else";
+
+pub fn run(arguments: Arguments) -> Result<Outcome> {
+    let entries = entries().into_diagnostic()?;
+    let progress = Progress::new("extremes", entries.len() as u64);
+    let mut outcomes = Vec::new();
+    for entry in entries {
+        outcomes.push(entry.outcome().into_diagnostic()?);
+        progress.advance(1);
+    }
+    let units = unit_checks().into_diagnostic()?;
+    let page = Extremes::of(&outcomes, &tables().into_diagnostic()?, &units);
+    let path = arguments.out.join("extremes.md");
+    store::write_file(&path, page.markdown().into_diagnostic()?.as_bytes())?;
+    output::print(format!("{}\n", path.display()))?;
+    Ok(if page.holds() { Outcome::Done } else { Outcome::DoesNotHold })
+}

@@ -1,0 +1,244 @@
+//! One trajectory, measured: what it costs, how well it closes its balances, and how far it is from
+//! the reference in multiple precision.
+
+use std::f64::consts::TAU;
+
+use crate::reference::{Event, NoMemory, Reference};
+use crate::simulation::trust::energy_residual;
+use crate::simulation::{
+    Absorber, ContactTolerance, Doubt, Impact, Observer, Segment, Simulation, StartError,
+    Statistics, Stop,
+};
+use crate::system::{InvalidParameter, State, System};
+
+/// Points of each stretch of motion at which the cavity is looked into.
+const LOOKS: u32 = 8;
+/// Difference of times, in fast time, from which on two trajectories are two.
+const VISIBLE: f64 = 1e-6;
+/// Impacts of one chattering sequence that the reference follows at most.
+const LONGEST_SEQUENCE: u32 = 5_000;
+
+/// What is simulated, and how long.
+#[derive(Debug, Clone, Copy)]
+pub struct Run {
+    /// The system.
+    pub system: System,
+    /// Where it starts, at phase 0.
+    pub start: State,
+    /// Excitation periods.
+    pub periods: u64,
+    /// Impacts after which it is given up.
+    pub impact_limit: u64,
+    /// Impacts and releases that the reference follows at most; 0 for none.
+    pub followed: usize,
+    /// When chattering sequences are ended.
+    pub tolerance: ContactTolerance,
+}
+
+/// Why a trajectory cannot be measured.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum MeasureError {
+    /// The start is impossible.
+    #[error(transparent)]
+    Start(#[from] StartError),
+    /// The system is none.
+    #[error(transparent)]
+    System(#[from] InvalidParameter),
+    /// The reference cannot be had.
+    #[error(transparent)]
+    Memory(#[from] NoMemory),
+}
+
+/// What a trajectory came to.
+#[derive(Debug, Clone)]
+pub struct Measured {
+    /// Why it ended.
+    pub stop: Stop,
+    /// Whole periods done.
+    pub periods: u64,
+    /// Impacts.
+    pub impacts: u64,
+    /// Sustained contacts.
+    pub contacts: u64,
+    /// Evaluations of the closed form in search of events.
+    pub evaluations: u64,
+    /// Residual of the energy balance over the largest energy of the run.
+    pub energy_residual: f64,
+    /// Largest `abs(x - y) - 1`, at impacts and at points between.
+    pub penetration: f64,
+    /// Largest displacement over the clearance.
+    pub peak: f64,
+    /// Root mean square displacement over the clearance.
+    pub rms: f64,
+    /// Energy lost in impacts, per unit of the oscillator's mass over the squared clearance.
+    pub impact_loss: f64,
+    /// Why it should not be trusted.
+    pub doubts: Vec<Doubt>,
+    /// How it compares with the reference.
+    pub comparison: Option<Comparison>,
+}
+
+/// A trajectory against the reference.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Comparison {
+    /// Impacts and releases compared.
+    pub events: usize,
+    /// Whether walls, sticking and releases came in the same order.
+    pub same_order: bool,
+    /// Largest difference of their times, in fast time.
+    pub error: f64,
+    /// Largest difference that the reference itself makes when its start and every wall are moved by
+    /// the spacing of floating-point numbers at the largest displacement: what rounding costs.
+    pub one_rounding: f64,
+    /// Spacing of floating-point numbers at the last of those times.
+    pub clock: f64,
+    /// Part of the run that the events compared cover.
+    pub part: f64,
+}
+
+/// What the engine reports, in order.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Seen {
+    Impact { tau: f64, side: f64 },
+    Stick,
+    Release { tau: f64 },
+}
+
+/// Keeps the first events and looks into the cavity.
+struct Witness {
+    wanted: usize,
+    seen: Vec<Seen>,
+    carried: bool,
+    penetration: f64,
+}
+
+impl Observer for Witness {
+    fn segment(&mut self, segment: &Segment) {
+        let carried = matches!(segment.absorber, Absorber::Carried(_));
+        if self.carried && !carried && self.seen.len() < self.wanted {
+            let omega = segment.motion.oscillator().frequency;
+            let turns = segment.turns as f64 * TAU;
+            self.seen.push(Seen::Release { tau: (turns + segment.phase) / omega });
+        }
+        self.carried = carried;
+        for k in 0..=LOOKS {
+            let s = segment.duration * f64::from(k) / f64::from(LOOKS);
+            self.penetration = self.penetration.max(segment.at(s).gap().abs() - 1.0);
+        }
+    }
+
+    fn impact(&mut self, impact: &Impact) {
+        self.penetration = self.penetration.max(impact.penetration);
+        if self.seen.len() < self.wanted {
+            self.seen.push(Seen::Impact { tau: impact.tau, side: impact.side.sign() });
+        }
+    }
+
+    fn sticks(&mut self, _loss: f64) {
+        if self.seen.len() < self.wanted {
+            self.seen.push(Seen::Stick);
+        }
+    }
+}
+
+impl Run {
+    /// Simulates and compares.
+    ///
+    /// # Errors
+    /// [`MeasureError`].
+    pub fn measure(&self) -> Result<Measured, MeasureError> {
+        let mut simulation =
+            Simulation::new(&self.system, self.start, 0.0)?.with_tolerance(self.tolerance);
+        let mut statistics = Statistics::begin(&self.system, self.start);
+        let mut witness =
+            Witness { wanted: self.followed, seen: Vec::new(), carried: false, penetration: 0.0 };
+        let observers = &mut (&mut statistics, &mut witness);
+        let stop = simulation.run(self.periods, self.impact_limit, observers);
+        let energy = statistics.energy();
+        let peak = statistics.peak();
+        Ok(Measured {
+            stop,
+            periods: simulation.periods(),
+            impacts: simulation.impacts(),
+            contacts: statistics.sustained_contact().intervals,
+            evaluations: simulation.evaluations(),
+            energy_residual: energy_residual(&energy, peak),
+            penetration: witness.penetration,
+            peak,
+            rms: statistics.rms(),
+            impact_loss: energy.impact,
+            doubts: statistics.doubts(stop),
+            comparison: self.compare(&witness.seen, peak)?,
+        })
+    }
+
+    fn compare(&self, seen: &[Seen], peak: f64) -> Result<Option<Comparison>, MeasureError> {
+        if seen.is_empty() {
+            return Ok(None);
+        }
+        let rounding = f64::EPSILON * (1.0 + peak);
+        let (complete, mut exact) = follow(Reference::new(&self.system, self.start, 0.0)?, seen);
+        let (_, moved) = follow(Reference::new(&self.system, self.start, rounding)?, seen);
+        // Beyond the first event that rounding moves visibly nothing can be compared.
+        let pairs = exact.iter().zip(&moved);
+        let known = pairs.take_while(|(a, b)| (*a - *b).abs() <= VISIBLE).count();
+        let same_order = complete || known < exact.len();
+        exact.truncate(known);
+        let largest = |times: &mut dyn Iterator<Item = (f64, f64)>| {
+            times.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+        };
+        let engine = seen.iter().filter_map(|event| match event {
+            Seen::Impact { tau, .. } | Seen::Release { tau } => Some(*tau),
+            Seen::Stick => None,
+        });
+        let last = exact.last().copied().unwrap_or(0.0);
+        let period = self.system.period();
+        Ok(Some(Comparison {
+            events: exact.len(),
+            same_order,
+            error: largest(&mut engine.zip(exact.iter().copied())),
+            one_rounding: largest(&mut moved.iter().copied().zip(exact.iter().copied())),
+            // The phase is kept to a spacing of numbers below 2 pi.
+            clock: f64::EPSILON * (last + period),
+            part: last / (self.periods as f64 * period),
+        }))
+    }
+}
+
+/// Times of the events that the engine saw, by the reference, and whether it saw the same ones; ends
+/// where it did not.
+fn follow(mut reference: Reference, seen: &[Seen]) -> (bool, Vec<f64>) {
+    let mut times = Vec::new();
+    let mut resting = false;
+    for event in seen {
+        match *event {
+            Seen::Impact { tau, side } => match reference.next(2.0 * tau + 10.0) {
+                Some(Event::Impact { tau, side: found, sticks, .. }) if found == side => {
+                    times.push(tau);
+                    resting = sticks;
+                }
+                _ => return (false, times),
+            },
+            Seen::Stick => {
+                let last = times.last().copied().unwrap_or(0.0);
+                for _ in 0..LONGEST_SEQUENCE {
+                    if resting {
+                        break;
+                    }
+                    match reference.next(last + 10.0) {
+                        Some(Event::Impact { sticks, .. }) => resting = sticks,
+                        _ => return (false, times),
+                    }
+                }
+                if !resting {
+                    return (false, times);
+                }
+            }
+            Seen::Release { tau } => match reference.next(2.0 * tau + 10.0) {
+                Some(Event::Release { tau, .. }) => times.push(tau),
+                _ => return (false, times),
+            },
+        }
+    }
+    (true, times)
+}

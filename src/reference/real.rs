@@ -1,0 +1,135 @@
+//! Real numbers of 256 bits, 77 decimal digits, with the operators that formulas are written in.
+
+use std::cell::RefCell;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use astro_float::{BigFloat, Consts, RoundingMode};
+
+const BITS: usize = 256;
+const ROUND: RoundingMode = RoundingMode::ToEven;
+
+/// A number of 77 decimal digits.
+#[derive(Clone, Debug)]
+pub struct Real(BigFloat);
+
+impl Real {
+    /// The number that a floating-point number stands for, exactly.
+    pub fn of(number: f64) -> Self {
+        Self(BigFloat::from_f64(number, BITS))
+    }
+
+    /// Square root; not a number for a negative one.
+    pub fn sqrt(&self) -> Self {
+        Self(self.0.sqrt(BITS, ROUND))
+    }
+
+    /// Absolute value.
+    pub fn abs(&self) -> Self {
+        Self(self.0.abs())
+    }
+
+    /// Whether it is below 0.
+    pub fn is_negative(&self) -> bool {
+        self.0.is_negative() && !self.0.is_zero()
+    }
+
+    /// Whether it is above 0.
+    pub fn is_positive(&self) -> bool {
+        self.0.is_positive() && !self.0.is_zero()
+    }
+
+    /// Whether it is 0.
+    pub fn is_zero(&self) -> bool {
+        self.0.is_zero()
+    }
+
+    /// Whether it is below another.
+    pub fn is_below(&self, other: &Self) -> bool {
+        (self - other).is_negative()
+    }
+
+    /// The nearest floating-point number, to a unit in the last place; NaN where there is none.
+    pub fn to_f64(&self) -> f64 {
+        let Some((words, _, _, exponent, _)) = self.0.as_raw_parts() else { return f64::NAN };
+        // The value is 0.mantissa times 2^exponent, the last word being the most significant.
+        let weight = libm::scalbn(1.0, -(usize::BITS as i32));
+        let mantissa = words.iter().fold(0.0, |sum, word| (sum + *word as f64) * weight);
+        let size = libm::scalbn(mantissa, exponent);
+        if self.0.is_negative() { -size } else { size }
+    }
+}
+
+macro_rules! operator {
+    ($name:ident, $method:ident) => {
+        impl $name for &Real {
+            type Output = Real;
+            fn $method(self, other: &Real) -> Real {
+                Real(self.0.$method(&other.0, BITS, ROUND))
+            }
+        }
+    };
+}
+operator!(Add, add);
+operator!(Sub, sub);
+operator!(Mul, mul);
+operator!(Div, div);
+
+impl Neg for &Real {
+    type Output = Real;
+    fn neg(self) -> Real {
+        Real(BigFloat::neg(&self.0))
+    }
+}
+
+/// Elementary functions, with the constants that they have computed so far.
+pub struct Functions(RefCell<Consts>);
+
+impl Functions {
+    /// `None` when memory for the constants is refused.
+    pub fn new() -> Option<Self> {
+        Consts::new().ok().map(|consts| Self(RefCell::new(consts)))
+    }
+
+    /// Sine and cosine.
+    pub fn sincos(&self, angle: &Real) -> (Real, Real) {
+        let consts = &mut self.0.borrow_mut();
+        (Real(angle.0.sin(BITS, ROUND, consts)), Real(angle.0.cos(BITS, ROUND, consts)))
+    }
+
+    /// Exponential.
+    pub fn exp(&self, number: &Real) -> Real {
+        Real(number.0.exp(BITS, ROUND, &mut self.0.borrow_mut()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_survive_the_way_there_and_back() {
+        for number in [0.0, 1.0, -1.0, 0.1, -3.7e-200, 8.9e300, 1.0 + f64::EPSILON] {
+            assert_eq!(Real::of(number).to_f64(), number);
+        }
+        // A third is the nearest floating-point number to 1/3 and more.
+        let third = &Real::of(1.0) / &Real::of(3.0);
+        assert_eq!(third.to_f64(), 1.0 / 3.0);
+        let rest = &(&third * &Real::of(3.0)) - &Real::of(1.0);
+        assert!(rest.to_f64().abs() < 1e-76, "{}", rest.to_f64());
+    }
+
+    #[test]
+    fn functions_have_seventy_digits() {
+        let functions = Functions::new().expect("memory");
+        let angle = &Real::of(1e3) / &Real::of(3.0);
+        let (sin, cos) = functions.sincos(&angle);
+        let one = &(&sin * &sin) + &(&cos * &cos);
+        assert!((&one - &Real::of(1.0)).to_f64().abs() < 1e-75);
+        let (up, down) = (functions.exp(&angle), functions.exp(&-&angle));
+        assert!((&(&up * &down) - &Real::of(1.0)).to_f64().abs() < 1e-70);
+        // Abramowitz and Stegun, table 4.6: sin 1.
+        assert!(
+            (functions.sincos(&Real::of(1.0)).0.to_f64() - 0.841_470_984_807_896_5).abs() < 1e-15
+        );
+    }
+}
