@@ -8,6 +8,7 @@ pub mod margins;
 pub mod proofs;
 pub mod scenes;
 pub mod stretches;
+pub mod tradeoff;
 
 use serde::Serialize;
 
@@ -37,6 +38,11 @@ pub enum StudyError {
     /// A predicted motion cannot be simulated.
     #[error(transparent)]
     Start(#[from] StartError),
+    /// No start led to a motion that could be measured.
+    #[error(
+        "no start led to a motion that could be measured; ask for more than 0 starts in [simulation]"
+    )]
+    NoMotion,
     /// A parameter cannot be swept.
     #[error(transparent)]
     Diagram(#[from] DiagramError),
@@ -44,7 +50,7 @@ pub enum StudyError {
 
 /// How thoroughly a case is studied. The defaults settle every shipped case: transients of the 1:1
 /// motion die out within some hundred periods, and shares of 32 starts are good to about 9 %.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct StudyEffort {
     /// Evenly spread starts.
     pub starts: u32,
