@@ -14,8 +14,9 @@ use std::cell::Cell;
 /// Operations that a sine, cosine, exponential, logarithm or arctangent stands for: a polynomial of
 /// some ten terms and the reduction of its argument.
 pub const ELEMENTARY: u64 = 20;
-/// Operations that an addition or multiplication of rationals with some hundred digits stands for.
-pub const EXACT: u64 = 100;
+/// Operations that an addition or multiplication of rationals with some hundred digits stands for:
+/// products of long integers and a greatest common divisor, measured against the others.
+pub const EXACT: u64 = 1000;
 
 thread_local! {
     static OPERATIONS: Cell<u64> = const { Cell::new(0) };

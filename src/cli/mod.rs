@@ -11,6 +11,7 @@ mod progress;
 mod report;
 mod schema;
 mod simulate;
+mod tradeoff;
 
 use std::process::ExitCode;
 
@@ -36,6 +37,7 @@ Examples:
   vinesink simulate damper.toml                 what it does, from many starts
   vinesink report damper.toml                   the design report, in reports/damper
   vinesink paper                                the paper's figures against the reports
+  vinesink tradeoff damper.toml                 how much accuracy for how much work
   vinesink schema > vinesink.schema.json        let the editor complete and check cases
   vinesink help new                             what a command does, with examples";
 
@@ -46,6 +48,7 @@ enum Command {
     Simulate(simulate::Arguments),
     Report(report::Arguments),
     Paper(paper::Arguments),
+    Tradeoff(tradeoff::Arguments),
     Schema(schema::Arguments),
     Completions(completions::Arguments),
 }
@@ -77,6 +80,7 @@ impl Cli {
             Command::Simulate(arguments) => simulate::run(arguments),
             Command::Report(arguments) => report::run(arguments),
             Command::Paper(arguments) => paper::run(arguments),
+            Command::Tradeoff(arguments) => tradeoff::run(arguments),
             Command::Schema(arguments) => schema::run(arguments),
             Command::Completions(arguments) => completions::run(arguments),
         }

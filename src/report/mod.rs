@@ -8,6 +8,7 @@ pub mod numbers;
 pub mod paper;
 pub mod render;
 pub mod summary;
+pub mod tradeoff;
 
 mod equations;
 mod exact_tables;

@@ -9,12 +9,14 @@ use super::Report;
 use super::figure::{self, Figure, FigureError};
 use super::numbers::LengthFormat;
 use super::paper::Paper;
+use super::tradeoff::TradeoffPage;
 use crate::case::Case;
 use crate::symbolic::{MathError, to_mathml};
 
 const MARKDOWN: &str = include_str!("../../templates/report.md.tera");
 const HTML: &str = include_str!("../../templates/report.html.tera");
 const PAPER: &str = include_str!("../../templates/paper.md.tera");
+const TRADEOFF: &str = include_str!("../../templates/tradeoff.md.tera");
 const STYLE: &str = include_str!("../../templates/report.css");
 
 /// Why a report cannot be rendered.
@@ -76,6 +78,23 @@ pub fn paper(page: &Paper) -> Result<String, RenderError> {
     context.insert("paper", page);
     let text = engine("paper.md", PAPER)?.render("paper.md", &context)?;
     Ok(without_repeated_blank_lines(&text))
+}
+
+/// The page of accuracy and cost with its figure, by their path in the case's folder.
+///
+/// # Errors
+/// [`RenderError`] if template and page do not fit, or the figure cannot be drawn.
+pub fn tradeoff(
+    page: &TradeoffPage,
+    drawn: &Figure,
+) -> Result<BTreeMap<PathBuf, Vec<u8>>, RenderError> {
+    let mut context = Context::new();
+    context.insert("page", page);
+    let text = engine("tradeoff.md", TRADEOFF)?.render("tradeoff.md", &context)?;
+    Ok(BTreeMap::from([
+        (PathBuf::from("tradeoff.md"), without_repeated_blank_lines(&text).into_bytes()),
+        (PathBuf::from(format!("figures/{}.svg", drawn.name)), figure::render(drawn)?.into_bytes()),
+    ]))
 }
 
 /// The report as one HTML page that needs nothing from outside.

@@ -300,14 +300,14 @@ pub fn measured(simulation: &mut Simulation, periods: u64) -> Option<Answer> {
         .map(|(pair, length)| [0, 1].map(|k| (pair[1][k] - pair[0][k]) / length))
         .collect();
     let rms = statistics.rms();
+    let [scatter, impacts_scatter] = scatters(&means, rms);
     let classified =
         classify(&statistics, &log.impacts, None, system.period(), &Thresholds::default());
     Some(Answer {
         rms: Some(rms),
-        // Of the square, hence half.
-        scatter: Some(twice_standard_error(&means, 0) / (2.0 * rms * rms).max(f64::MIN_POSITIVE)),
+        scatter: Some(scatter),
         impacts_per_period: Some(statistics.impacts_per_period()),
-        impacts_scatter: Some(twice_standard_error(&means, 1)),
+        impacts_scatter: Some(impacts_scatter),
         regime: Some(classified.regime),
         why_not: None,
     })
@@ -315,6 +315,14 @@ pub fn measured(simulation: &mut Simulation, periods: u64) -> Option<Answer> {
 
 /// Impacts that are kept of a run: enough to name its regime.
 const LAST_IMPACTS: usize = 20_000;
+
+/// Two standard errors of the root mean square, relative, and of the impacts per period, from means
+/// of `x^2` and impacts in blocks.
+fn scatters(means: &[[f64; 2]], rms: f64) -> [f64; 2] {
+    // The square varies twice as much as its root.
+    let square = (2.0 * rms * rms).max(f64::MIN_POSITIVE);
+    [twice_standard_error(means, 0) / square, twice_standard_error(means, 1)]
+}
 
 fn twice_standard_error(means: &[[f64; 2]], k: usize) -> f64 {
     let count = means.len() as f64;
@@ -326,39 +334,63 @@ fn twice_standard_error(means: &[[f64; 2]], k: usize) -> f64 {
     2.0 * (squares / (count - 1.0) / count).sqrt()
 }
 
-/// Counts, and sums squares at the ends of steps, in the second half of a run.
+/// Counts impacts and sums squares at the ends of steps, in blocks of the second half of a run.
 struct Sums {
     skip: u64,
     steps: u64,
-    squares: f64,
-    impacts: u64,
+    all: u64,
+    /// Of each block: steps, squares, impacts.
+    blocks: Vec<[f64; 3]>,
+}
+
+impl Sums {
+    fn block(&mut self) -> Option<&mut [f64; 3]> {
+        let measured = self.steps.checked_sub(self.skip)?;
+        let count = self.blocks.len() as u64;
+        self.blocks.get_mut((measured * count / (self.all - self.skip).max(1)) as usize)
+    }
 }
 
 impl Listener for Sums {
     fn impact(&mut self, _: f64, _: &State) {
         tally::note(12);
-        self.impacts += u64::from(self.steps >= self.skip);
+        if let Some(block) = self.block() {
+            block[2] += 1.0;
+        }
     }
     fn step(&mut self, state: &State) {
         tally::note(2);
-        self.steps += 1;
-        if self.steps > self.skip {
-            self.squares += state.x * state.x;
+        if let Some(block) = self.block() {
+            block[0] += 1.0;
+            block[1] += state.x * state.x;
         }
+        self.steps += 1;
     }
 }
 
 fn by_hand(hand: &ByHand, start: State, periods: u64) -> Answer {
     let discard = periods / 2;
-    let skip = discard * hand.steps_per_period();
-    let mut sums = Sums { skip, steps: 0, squares: 0.0, impacts: 0 };
+    let per_period = hand.steps_per_period();
+    let blocks = BLOCKS.min(periods - discard).max(1) as usize;
+    let (skip, all) = (discard * per_period, periods * per_period);
+    let mut sums = Sums { skip, steps: 0, all, blocks: vec![[0.0; 3]; blocks] };
     let end = hand.run(start, periods, &mut sums);
     if !end.x.is_finite() {
         return no_answer("a number that overflowed");
     }
+    let total = |k: usize| sums.blocks.iter().map(|block| block[k]).sum::<f64>();
+    let means: Vec<[f64; 2]> = sums
+        .blocks
+        .iter()
+        .map(|[steps, squares, impacts]| [squares / steps, impacts / steps * per_period as f64])
+        .collect();
+    let rms = (total(1) / total(0)).sqrt();
+    let [scatter, impacts_scatter] = scatters(&means, rms);
     Answer {
-        rms: Some((sums.squares / (sums.steps - skip).max(1) as f64).sqrt()),
-        impacts_per_period: Some(sums.impacts as f64 / (periods - discard).max(1) as f64),
+        rms: Some(rms),
+        scatter: Some(scatter),
+        impacts_per_period: Some(total(2) / total(0) * per_period as f64),
+        impacts_scatter: Some(impacts_scatter),
         ..Answer::default()
     }
 }

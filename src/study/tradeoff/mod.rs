@@ -46,7 +46,7 @@ impl Default for TradeoffEffort {
         Self {
             study: StudyEffort::default(),
             // From what shows a regime to what a modulated motion's average takes.
-            lengths: vec![50, 200, 1000, 5000],
+            lengths: vec![50, 100, 200, 500, 1000, 5000],
             steps: vec![50, 200, 1000, 5000],
             usual_length: 1000,
             // Twenty times the longest simulation that it judges, so that its scatter is a quarter
