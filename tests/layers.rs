@@ -20,7 +20,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("analysis", &["equations", "numerics", "symbolic", "system", "tally"]),
     ("orbits", &["numerics", "system", "tally"]),
     ("simulation", &["numerics", "system", "tally"]),
-    ("regimes", &["numerics", "simulation", "system"]),
+    ("regimes", &["numerics", "simulation", "system", "tally"]),
     (
         "validation",
         &["analysis", "equations", "numerics", "orbits", "regimes", "simulation", "system"],

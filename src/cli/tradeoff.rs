@@ -57,7 +57,8 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
     let progress = Progress::new("layers", Tradeoff::steps(&effort));
     let found = Tradeoff::of(&system, &effort, &mut |done| progress.advance(done));
     let found = found.into_diagnostic()?;
-    let allowed = page::USUAL;
+    let asked = case.accuracy.and_then(|accuracy| accuracy.amplitude);
+    let allowed = asked.unwrap_or(page::USUAL);
     let timed = matches!(arguments.format, Format::Text) || arguments.seconds;
     let seconds = if timed { seconds(&system, &found).into_diagnostic()? } else { Vec::new() };
     drop(progress);

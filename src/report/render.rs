@@ -120,6 +120,9 @@ fn json(report: &Report) -> Result<String, RenderError> {
 fn context(report: &Report, case: &Case) -> Result<Context, RenderError> {
     let mut context = Context::new();
     context.insert("report", report);
+    // Both are left out of the JSON document where they say nothing new.
+    context.insert("layers", &report.layers);
+    context.insert("simulated", &report.simulated);
     // The equations are left out of the JSON document, and with it out of the serialised report.
     context.insert("equations", &report.equations);
     context.insert("length_unit", LengthFormat::of(&case.scales()).unit);

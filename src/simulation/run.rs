@@ -20,6 +20,13 @@ const TOUCH_ULPS: f64 = 16.0;
 /// evaluations. A sixth of the natural period is a fair middle.
 const HORIZON: f64 = 1.0;
 
+/// Operations of one panel of the fast search: a complex product, the motion at its end with two
+/// derivatives, and a bound.
+const PANEL: u64 = 40;
+/// Operations of what a flight costs beside its panels: taking up the motion in the middle of a
+/// panel, the series and the correction that locate an impact, and the impact itself.
+const FLIGHT: u64 = 280;
+
 /// Why a run ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
@@ -132,6 +139,12 @@ impl Simulation {
     /// Evaluations of the closed form, one state at one time each, that flights have cost so far.
     pub fn evaluations(&self) -> u64 {
         self.evaluations
+    }
+
+    /// What flights and impacts have cost so far, in operations as [`crate::tally`] counts them;
+    /// what observers do is not in it.
+    pub fn operations(&self) -> u64 {
+        PANEL * self.evaluations + FLIGHT * (self.impacts + self.turns)
     }
 
     /// The system that moves.

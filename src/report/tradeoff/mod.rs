@@ -126,7 +126,7 @@ fn dash() -> String {
 }
 
 /// An error in per cent or powers of ten; one that is only bounded says so.
-pub(super) fn error_text(error: ErrorOf) -> String {
+pub(in crate::report) fn error_text(error: ErrorOf) -> String {
     let size = if error.value < FINE { significant(error.value, 1) } else { percent(error.value) };
     if error.below { format!("below {size}") } else { size }
 }
@@ -135,13 +135,13 @@ pub(super) fn error_text(error: ErrorOf) -> String {
 const FINE: f64 = 1e-4;
 
 /// A count of operations with two digits, in powers of ten from a thousand on.
-pub(super) fn operations(count: u64) -> String {
+pub(in crate::report) fn operations(count: u64) -> String {
     let scientific = format!("{:.1e}", count as f64);
     if count < 1000 { count.to_string() } else { with_minus(&scientific) }
 }
 
 /// A share as people ask for it: "1 %", not "1.0 %".
-pub(super) fn asked(share: f64) -> String {
+pub(in crate::report) fn asked(share: f64) -> String {
     percent(share).replace(".0 %", " %")
 }
 

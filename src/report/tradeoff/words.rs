@@ -4,7 +4,7 @@ use super::{asked, error_text, operations};
 use crate::case::Case;
 use crate::report::numbers::{LengthFormat, fixed, percent, significant, with_error};
 use crate::simulation::ContactTolerance;
-use crate::study::tradeoff::by_hand::Locate;
+use crate::study::tradeoff::by_hand::{Flights, Locate};
 use crate::study::tradeoff::{ErrorOf, Layer, Method, Search, Tradeoff, Trial};
 
 /// A method in a few words.
@@ -80,9 +80,14 @@ fn extrapolated(tradeoff: &Tradeoff, allowed: f64) -> Option<String> {
         (periods as f64 * factor * factor, longest.operations as f64 * factor * factor);
     Some(format!(
         "the scatter of a simulation falls with the root of its length, so some {} periods and {} operations would",
-        significant(periods, 1),
+        thousands(periods),
         operations(cost as u64)
     ))
+}
+
+/// A number of periods, rounded up to whole thousands.
+fn thousands(periods: f64) -> String {
+    format!("{}", (periods / 1000.0).ceil() * 1000.0)
 }
 
 /// The other layers against the cheapest that is enough.
@@ -178,33 +183,26 @@ fn name(layer: Layer) -> &'static str {
 
 /// What averages hide: impacts that the baseline flew past.
 fn misses(tradeoff: &Tradeoff) -> Option<String> {
-    let wrong: Vec<String> = tradeoff
-        .trials
-        .iter()
-        .filter_map(|trial| {
-            let flights = trial.flights?;
-            (flights.missed + flights.invented > 0).then(|| {
-                let invented = match flights.invented {
-                    0 => String::new(),
-                    some => format!(" and invents {some}"),
-                };
-                format!(
-                    "{} misses {}{invented} of {}",
-                    method(trial.method),
-                    flights.missed,
-                    flights.compared
-                )
-            })
-        })
-        .collect();
-    let compared = tradeoff.trials.iter().filter_map(|trial| trial.flights).next()?;
-    if wrong.is_empty() {
+    let hand = tradeoff.trials.iter().filter_map(|trial| Some((trial, trial.flights?)));
+    let wrong = |(_, flights): &(&Trial, Flights)| flights.missed + flights.invented > 0;
+    let share = |(_, flights): &(&Trial, Flights)| {
+        (flights.missed + flights.invented) as f64 / flights.compared.max(1) as f64
+    };
+    let worst = hand.clone().max_by(|a, b| share(a).total_cmp(&share(b)))?;
+    let (all, some) = (hand.clone().count(), hand.filter(wrong).count());
+    if some == 0 {
         return Some(format!(
-            "Flight by flight the baseline missed none of its {} impacts at any step tried.",
-            compared.compared
+            "Flight by flight none of its {all} variants misses an impact ({} flights and more).",
+            worst.1.compared
         ));
     }
-    Some(format!("Flight by flight, from the state after each impact: {}.", wrong.join("; ")))
+    Some(format!(
+        "Flight by flight {some} of its {all} variants miss impacts or invent some, at worst {}: {} missed and {} invented of {}.",
+        method(worst.0.method),
+        worst.1.missed,
+        worst.1.invented,
+        worst.1.compared
+    ))
 }
 
 /// What all is compared with.

@@ -165,6 +165,8 @@ pub struct Flights {
 /// Difference between the ends of two flights, in steps of the integrator, up to which they are the
 /// same impact: it cannot tell when in a step it happened, and not whether it was in this one.
 const SAME_IMPACT: f64 = 2.0;
+/// Flights after which no further period is looked at.
+const MOST_FLIGHTS: usize = 20_000;
 /// Excitation periods after which an exact flight without impact is given up.
 const PATIENCE: u64 = 50;
 
@@ -176,7 +178,16 @@ impl Flights {
     /// [`StartError`] if the integrator's state is not finite.
     pub fn of(hand: &ByHand, start: State, periods: u64) -> Result<Self, StartError> {
         let mut log = Log::default();
-        hand.run(start, periods, &mut log);
+        let mut state = start;
+        for _ in 0..periods {
+            // A scheme without sustained contact may hit a wall in every step.
+            if log.impacts.len() > MOST_FLIGHTS {
+                break;
+            }
+            log.period = log.periods * hand.system.period();
+            state = hand.run(state, 1, &mut log);
+            log.periods += 1.0;
+        }
         let width = SAME_IMPACT * hand.system.period() / f64::from(hand.steps);
         let mut found = Self::default();
         for pair in log.impacts.windows(2) {
@@ -199,11 +210,13 @@ impl Flights {
 #[derive(Default)]
 struct Log {
     impacts: Vec<(f64, State)>,
+    periods: f64,
+    period: f64,
 }
 
 impl Listener for Log {
     fn impact(&mut self, time: f64, state: &State) {
-        self.impacts.push((time, *state));
+        self.impacts.push((self.period + time, *state));
     }
 }
 

@@ -222,7 +222,6 @@ fn orbit_near(system: &System, start: State, periods: u64) -> Result<Answer, Stu
         impact_limit: IMPACT_LIMIT,
     };
     let found = Attractor::measure(&mut simulation, &effort);
-    note_flights(&simulation);
     Ok(match Proof::of(system, &found) {
         Some(proof) => Answer {
             rms: Some(proof.measures.rms),
@@ -237,19 +236,6 @@ fn orbit_near(system: &System, start: State, periods: u64) -> Result<Answer, Stu
 /// Impacts per period of a proven orbit.
 pub fn impacts_per_period(proof: &Proof) -> f64 {
     proof.orbit.cycle.impact_count() as f64 / f64::from(proof.orbit.cycle.periods())
-}
-
-/// Operations of one panel of the fast search: a complex product, the motion at its end with two
-/// derivatives, and a bound.
-const PANEL: u64 = 40;
-/// Operations of what a flight costs beside its panels: taking up the motion in the middle of a
-/// panel, the series and the correction that locate an impact, and the impact itself.
-const FLIGHT: u64 = 280;
-
-/// Notes what the fast search has cost; the slow one notes every evaluation itself.
-fn note_flights(simulation: &Simulation) {
-    let flights = simulation.impacts() + simulation.periods();
-    tally::note(PANEL * simulation.evaluations() + FLIGHT * flights);
 }
 
 fn simulated(
@@ -270,8 +256,9 @@ fn simulated(
         Stop::EndTime => measured(&mut simulation, periods - discard),
         other => Some(no_answer(other.words())),
     };
+    // The slow search notes every evaluation itself.
     if search == Search::Panels {
-        note_flights(&simulation);
+        tally::note(simulation.operations());
     }
     Ok(answer.unwrap_or_else(|| no_answer("the run was ended by its limit on impacts")))
 }

@@ -65,7 +65,7 @@ const EXCURSIONS: [f64; 3] = [1e-3, 1e-6, 1e-9];
 const BEFORE_NEWTON: u64 = 400;
 /// Relative error of averages along an exact orbit: closure and quadrature, both to rounding, with
 /// room for a few hundred operations.
-const ORBIT_ROUNDING: f64 = 1e-12;
+pub(super) const ORBIT_ROUNDING: f64 = 1e-12;
 
 /// What all answers are compared with.
 #[derive(Debug, Clone, PartialEq, Serialize)]
