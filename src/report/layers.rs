@@ -4,7 +4,7 @@
 use serde::Serialize;
 
 use super::numbers::{LengthFormat, percent, significant};
-use super::tables::{Table, table};
+use super::tables::{KeyRow, Table, table};
 use super::tradeoff::{asked, error_text, operations};
 use crate::case::Case;
 use crate::study::fidelity::{Answered, Answers, Fidelity, KnownBy, Question};
@@ -35,6 +35,18 @@ impl Layers {
             ("Enough", false),
         ];
         Self { sentences: sentences(answers), table: table(columns, rows), data: answers.clone() }
+    }
+
+    /// The answer for the first screen.
+    pub(super) fn key_row(&self) -> Option<KeyRow> {
+        let answer = self.data.answers.first()?;
+        let row = self.table.rows.first()?;
+        Some(KeyRow {
+            quantity: format!("rms displacement, known to {}", row[3]),
+            value: row[1].clone(),
+            from: answer.layer.words(),
+            anchor: "which-layer-answered",
+        })
     }
 
     /// The same for a terminal.
@@ -132,7 +144,7 @@ fn sentences(answers: &Answers) -> Vec<String> {
         );
     } else {
         said.push(
-            "Coexistence was not looked for: other motions may exist beside this one, and starts may lead to them; `coexistence = true` under [accuracy] looks for them.".into(),
+            "Coexistence was not looked for: other motions may exist beside this one, and starts may lead to them; coexistence = true in the case's table [accuracy] looks for them.".into(),
         );
     }
     if !answers.enough() {
@@ -154,5 +166,5 @@ fn cost(answers: &Answers) -> String {
 
 /// What the verdict says where nothing was simulated.
 pub(super) fn unlooked() -> String {
-    "Nothing was simulated: the case asks for no more than this layer gives, and whether other motions coexist was not looked for.".into()
+    "Nothing was simulated (see Which layer answered), so whether other motions coexist was not looked for.".into()
 }

@@ -207,7 +207,9 @@ impl Report {
     /// Adds the section that says which layer answered.
     #[must_use]
     pub fn with_answers(mut self, case: &Case, answers: &Answers) -> Self {
-        self.layers = Some(Layers::new(case, answers));
+        let layers = Layers::new(case, answers);
+        self.key_rows.extend(layers.key_row());
+        self.layers = Some(layers);
         self
     }
 }
