@@ -27,7 +27,7 @@ impl Layers {
         let rows = answers.answers.iter().map(|answer| row(case, answer)).collect();
         let columns = [
             ("Question", false),
-            ("Answer", true),
+            ("Answer", false),
             ("Layer", false),
             ("Error", true),
             ("Allowed", true),
@@ -109,11 +109,11 @@ fn row(case: &Case, answer: &Answered) -> [String; 7] {
 
 fn known_by(known: KnownBy) -> &'static str {
     match known {
-        KnownBy::ExactOrbit => "the exact orbit beside it",
-        KnownBy::Asymptotics => "neglected terms, ε (2 + |σ| + λ)",
-        KnownBy::Closure => "closure of the exact orbit",
-        KnownBy::Scatter => "scatter between blocks, two standard errors",
-        KnownBy::Outcome => "starts followed",
+        KnownBy::ExactOrbit => "exact orbit",
+        KnownBy::Asymptotics => "ε (2 + |σ| + λ), not measured",
+        KnownBy::Closure => "closure of the orbit",
+        KnownBy::Scatter => "two standard errors",
+        KnownBy::Outcome => "starts",
     }
 }
 

@@ -146,14 +146,11 @@ fn layers(tradeoff: &Tradeoff, series: &Series) -> Vec<Drawn> {
 
 fn captions(tradeoff: &Tradeoff, allowed: f64) -> (String, String) {
     let known = if tradeoff.best.periods.is_some() {
-        "The motion does not repeat: errors of simulations are at least two of their standard errors, and none can be seen below that of the best answer."
+        "The motion does not repeat: errors of simulations are at least two of their standard errors, and none can be seen below that of the best answer. Length helps; smaller steps do not."
     } else {
-        "Errors on the lowest line are only known to be below it."
+        "Errors on the lowest line are only known to be below it. A simulation gets better with length, by chance early, for good when its transient is over; a fixed step with smaller steps."
     };
-    let caption = format!(
-        "{} {known} Simulations get better with length, fixed steps with smaller steps as long as their length allows.",
-        words::headline(tradeoff, allowed)
-    );
+    let caption = format!("{} {known}", words::headline(tradeoff, allowed));
     let alt = format!(
         "Relative error of the rms displacement over the number of operations, one kind of mark for each layer. {caption}"
     );

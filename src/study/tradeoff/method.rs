@@ -123,6 +123,22 @@ impl Method {
         }
     }
 
+    /// Whether it is `other` with a longer run or smaller steps, all else being the same.
+    pub fn refines(self, other: Self) -> bool {
+        match (self, other) {
+            (Self::SlowFlow { periods: more }, Self::SlowFlow { periods }) => more > periods,
+            (
+                Self::Simulation { periods: more, search, excursion },
+                Self::Simulation { periods, search: same, excursion: equal },
+            ) => more > periods && search == same && excursion == equal,
+            (
+                Self::FixedStep { steps: more, periods, locate },
+                Self::FixedStep { steps, periods: equal, locate: same },
+            ) => more > steps && periods == equal && locate == same,
+            _ => false,
+        }
+    }
+
     /// What it answers about `system`; simulations begin at `start`. The second value is what that
     /// cost in operations.
     ///

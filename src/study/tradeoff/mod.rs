@@ -185,13 +185,18 @@ impl Tradeoff {
             + (2 * effort.lengths.len() + 2 * effort.steps.len()) as u64
     }
 
-    /// The cheapest trial of a layer whose error of the root mean square is within `allowed`.
+    /// The cheapest trial of a layer whose error of the root mean square is within `allowed`: with the
+    /// right regime, where it tells one, and not by chance, which means that every longer run and every
+    /// smaller step of the same kind is within it too.
     pub fn cheapest(&self, layer: Layer, allowed: f64) -> Option<&Trial> {
-        let within = |trial: &&Trial| {
-            trial.method.layer() == layer
-                && trial.rms_error.is_some_and(|error| error.value <= allowed)
+        let within = |trial: &Trial| trial.rms_error.is_some_and(|error| error.value <= allowed);
+        let lasts = |trial: &&Trial| {
+            let named = trial.answer.regime.is_none_or(|regime| regime == self.best.regime);
+            let refined = self.trials.iter().filter(|other| other.method.refines(trial.method));
+            named && within(trial) && refined.into_iter().all(within)
         };
-        self.trials.iter().filter(within).min_by_key(|trial| trial.operations)
+        let of_layer = self.trials.iter().filter(|trial| trial.method.layer() == layer);
+        of_layer.filter(lasts).min_by_key(|trial| trial.operations)
     }
 }
 
