@@ -280,8 +280,8 @@ fn coexistence_is_only_known_to_simulation() {
     assert!(asked.needs_simulation());
     let effort = StudyEffort { starts: 4, ..StudyEffort::default() };
     let study = CaseStudy::of(&system, effort, &mut |_| ()).expect("studied");
-    let motions = (&*study.attractors, &*study.proofs, study.motions_cost);
-    let answers: Answers = asked.answers(Some(motions)).expect("answered");
+    let motions = study.simulated_motions();
+    let answers: Answers = asked.answers(motions).expect("answered");
     let last = answers.answers.last().expect("four answers");
     assert_eq!((last.question, last.layer), (Question::Coexistence, Fidelity::Simulation));
     assert_eq!(last.others, Some(study.attractors.len() - 1));
@@ -315,11 +315,11 @@ fn simulation_measures_as_long_as_the_accuracy_takes() {
     let system = common::table_1(8.5, 28.0);
     let effort = StudyEffort { starts: 2, discard: 200, periods: 400 };
     let study = CaseStudy::of(&system, effort, &mut |_| ()).expect("studied");
-    let motions = (&*study.attractors, &*study.proofs, study.motions_cost);
+    let motions = study.simulated_motions();
     let cost = |amplitude: f64| {
         let demand = Demand { amplitude, impacts_per_period: 1.0, coexistence: false };
         let plan = Plan::of(&system, demand, None).expect("planned");
-        let answers = plan.answers(Some(motions)).expect("answered");
+        let answers = plan.answers(motions).expect("answered");
         let first = &answers.answers[0];
         assert!(first.enough && first.error.expect("known") <= amplitude, "{first:?}");
         assert_eq!(first.known_by, KnownBy::Scatter);

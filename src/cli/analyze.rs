@@ -7,7 +7,7 @@ use vinesink::case::Case;
 use vinesink::orbits::FullSystem;
 use vinesink::report::documents::AnalysisDocument;
 use vinesink::report::{Layers, summary};
-use vinesink::study::fidelity::{Answers, Plan, counted_motions};
+use vinesink::study::fidelity::{Answers, Plan, Simulated, counted_motions};
 use vinesink::study::{StudyEffort, settle_area};
 
 use super::case_file::{self, CaseArgument, Fidelity, Format};
@@ -75,5 +75,7 @@ fn answers(case: &Case, analysis: &Analysis, plan: &Plan) -> Result<Answers> {
     let progress = Progress::new("simulating", u64::from(effort.starts));
     let (found, cost) =
         counted_motions(analysis, &effort, &mut |done| progress.advance(done)).into_diagnostic()?;
-    plan.answers(Some((&found.attractors, &found.proofs, cost))).into_diagnostic()
+    let simulated =
+        Simulated { attractors: &found.attractors, proofs: &found.proofs, operations: cost };
+    plan.answers(Some(simulated)).into_diagnostic()
 }

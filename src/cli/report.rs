@@ -102,8 +102,7 @@ fn write(path: &Path, name: &str, folder: &Path, forced: Option<Fidelity>) -> Re
     let mut report = Report::new(name, &case, &study, &drawn);
     let mut outcome = Outcome::Done;
     if let Some(plan) = plan {
-        let motions = simulates.then(|| (&*study.attractors, &*study.proofs, study.motions_cost));
-        let answers = plan.answers(motions).into_diagnostic()?;
+        let answers = plan.answers(study.simulated_motions()).into_diagnostic()?;
         if !answers.enough() {
             outcome = Outcome::DoesNotHold;
         }

@@ -166,6 +166,17 @@ impl Answers {
     }
 }
 
+/// Long-term motions that were simulated.
+#[derive(Debug, Clone, Copy)]
+pub struct Simulated<'a> {
+    /// The motions.
+    pub attractors: &'a [FoundAttractor],
+    /// For each of them the exact orbit that it is, where it is one.
+    pub proofs: &'a [Option<Proof>],
+    /// What finding them cost, in operations.
+    pub operations: u64,
+}
+
 impl Plan {
     /// Decides from the closed form and the symmetric orbit.
     ///
@@ -228,19 +239,15 @@ impl Plan {
         self.layer == Fidelity::Simulation || (self.demand.coexistence && self.forced.is_none())
     }
 
-    /// The answers; `simulated` are the long-term motions, with what finding them cost in operations,
-    /// where [`Plan::needs_simulation`].
+    /// The answers; `simulated` are the long-term motions, where [`Plan::needs_simulation`].
     ///
     /// # Errors
     /// [`StudyError`] where a motion cannot be measured further.
-    pub fn answers(
-        &self,
-        simulated: Option<(&[FoundAttractor], &[Option<Proof>], u64)>,
-    ) -> Result<Answers, StudyError> {
-        let mut cost = simulated.map(|(_, _, operations)| operations);
+    pub fn answers(&self, simulated: Option<Simulated>) -> Result<Answers, StudyError> {
+        let mut cost = simulated.map(|simulated| simulated.operations);
         let mut answers = match (self.layer, simulated) {
-            (Fidelity::Simulation, Some((found, proofs, _))) => {
-                let (answers, further) = tally::counted(|| self.by_simulation(found, proofs));
+            (Fidelity::Simulation, Some(simulated)) => {
+                let (answers, further) = tally::counted(|| self.by_simulation(&simulated));
                 cost = cost.map(|cost| cost + further);
                 answers?
             }
@@ -248,7 +255,7 @@ impl Plan {
             (layer, _) => self.by_closed_form_or_orbit(layer),
         };
         if self.demand.coexistence {
-            answers.push(coexistence(self.layer, simulated.map(|(found, _, _)| found)));
+            answers.push(coexistence(self.layer, simulated.map(|simulated| simulated.attractors)));
         }
         let compared = self.layer != Fidelity::Simulation;
         Ok(Answers {
@@ -294,15 +301,12 @@ impl Plan {
         ]
     }
 
-    fn by_simulation(
-        &self,
-        found: &[FoundAttractor],
-        proofs: &[Option<Proof>],
-    ) -> Result<Vec<Answered>, StudyError> {
-        let main = main_attractor(found).ok_or(StudyError::NoMotion)?;
-        let proof = found
+    fn by_simulation(&self, simulated: &Simulated) -> Result<Vec<Answered>, StudyError> {
+        let main = main_attractor(simulated.attractors).ok_or(StudyError::NoMotion)?;
+        let proof = simulated
+            .attractors
             .iter()
-            .zip(proofs)
+            .zip(simulated.proofs)
             .filter(|(one, _)| std::ptr::eq(*one, main))
             .find_map(|(_, proof)| proof.as_ref());
         let (answer, known_by) = match proof {

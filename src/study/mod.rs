@@ -228,6 +228,15 @@ impl CaseStudy {
         })
     }
 
+    /// What was simulated, if anything was.
+    pub fn simulated_motions(&self) -> Option<fidelity::Simulated<'_>> {
+        self.simulated.then_some(fidelity::Simulated {
+            attractors: &self.attractors,
+            proofs: &self.proofs,
+            operations: self.motions_cost,
+        })
+    }
+
     /// Number of progress steps that a study takes, about.
     pub fn steps(effort: &StudyEffort) -> u64 {
         u64::from(effort.starts) + 2
