@@ -3,6 +3,7 @@
 
 pub mod bracket;
 pub mod crossing;
+pub mod lanes;
 pub mod necklace;
 pub mod polynomial;
 pub mod quadrature;

@@ -9,6 +9,8 @@
 
 use serde::Serialize;
 
+use crate::numerics::lanes::Real;
+
 /// When a chattering sequence is replaced by its end.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct ContactTolerance {
@@ -27,26 +29,28 @@ impl Default for ContactTolerance {
     }
 }
 
-/// Velocities around an impact, over the clearance and in fast time.
+/// Velocities after an impact, over the clearance and in fast time.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Rebound {
+pub struct Rebound<R = f64> {
     /// Oscillator after impact.
-    pub x_velocity: f64,
+    pub x_velocity: R,
     /// Absorber after impact.
-    pub y_velocity: f64,
+    pub y_velocity: R,
     /// Energy lost per unit of the oscillator's mass.
-    pub loss: f64,
+    pub loss: R,
 }
 
 /// Equation (2): total momentum is kept, the relative velocity is reversed and multiplied by `r`.
-pub fn rebound(mass_ratio: f64, restitution: f64, x_velocity: f64, y_velocity: f64) -> Rebound {
+#[inline(always)]
+pub fn rebound<R: Real>(mass_ratio: R, restitution: R, x_velocity: R, y_velocity: R) -> Rebound<R> {
     let approach = x_velocity - y_velocity;
-    let exchanged = (1.0 + restitution) * approach / (1.0 + mass_ratio);
-    let kept = 1.0 - restitution * restitution;
+    let share = approach / (mass_ratio + 1.0);
+    let exchanged = (restitution + 1.0) * share;
+    let lost = -(restitution * restitution) + 1.0;
     Rebound {
         x_velocity: x_velocity - mass_ratio * exchanged,
         y_velocity: y_velocity + exchanged,
-        loss: 0.5 * mass_ratio * kept * approach * approach / (1.0 + mass_ratio),
+        loss: mass_ratio * 0.5 * lost * approach * share,
     }
 }
 

@@ -5,10 +5,12 @@
 //! ([`crate::numerics::crossing`]); what happens at a wall is in [`contact`]; [`run`]
 //! strings it together and tells observers. Nothing here knows of the asymptotic theory.
 
+pub mod batch;
 pub mod contact;
 pub mod events;
 pub mod flow;
 pub mod history;
+mod panels;
 mod phasor;
 pub mod run;
 pub mod statistics;

@@ -10,12 +10,11 @@ use serde::Serialize;
 use super::contact::{AtWall, ContactTolerance, rebound};
 use super::events::{Absorber, Impact, Nobody, Observer, Segment, Side, StartError};
 use super::flow::{Kinematics, Motion, Oscillator, derivative_bounds};
-use super::phasor::{Landing, Line, Panels};
+use super::panels::{Landing, Takeoff};
+use super::phasor::{self, Line, Rates, Steady, TOUCH_ULPS};
 use crate::numerics::crossing::{Band, Curve, Edge, Sample, Search, first_crossing};
 use crate::system::{State, System};
 
-/// Units in the last place of the largest length involved that count as touching a wall.
-const TOUCH_ULPS: f64 = 16.0;
 /// Fast time over which one curvature bound is used; shorter bounds are tighter, longer ones save
 /// evaluations. A sixth of the natural period is a fair middle.
 const HORIZON: f64 = 1.0;
@@ -50,6 +49,17 @@ impl Stop {
     }
 }
 
+/// Where a trajectory stands between two flights.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Moment {
+    pub state: State,
+    pub steady: Steady<f64>,
+    pub phase: f64,
+    pub turns: u64,
+    pub impacts: u64,
+    pub evaluations: u64,
+}
+
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Mode {
     Flight,
@@ -62,7 +72,9 @@ pub struct Simulation {
     system: System,
     alone: Oscillator,
     carrying: Oscillator,
-    panels: Option<Panels>,
+    rates: Option<Rates<f64>>,
+    /// The oscillator's steady motion at the present phase, where flights are through panels.
+    steady: Option<Steady<f64>>,
     tolerance: ContactTolerance,
     state: State,
     mode: Mode,
@@ -91,7 +103,8 @@ impl Simulation {
             system: *system,
             alone: Oscillator::alone(system),
             carrying: Oscillator::carrying_absorber(system),
-            panels: Panels::of(&Oscillator::alone(system)),
+            rates: Rates::of(&Oscillator::alone(system)),
+            steady: None,
             tolerance: ContactTolerance::default(),
             state: start,
             mode: Mode::Flight,
@@ -111,7 +124,7 @@ impl Simulation {
 
     /// Finds every event by the slow, finer search alone: what the fast one is measured against.
     pub fn step_by_step(mut self) -> Self {
-        self.panels = None;
+        self.rates = None;
         self
     }
 
@@ -161,24 +174,76 @@ impl Simulation {
             if self.impacts >= impact_limit {
                 return Stop::ImpactLimit;
             }
-            let stepped = match self.mode {
-                Mode::Flight => self.fly(observer),
-                Mode::Contact(side) => self.carry(side, observer),
-            };
-            if stepped.is_err() {
+            if self.step(observer).is_err() {
                 return Stop::NotFinite;
             }
         }
         Stop::EndTime
     }
 
+    /// Continues to the next impact, release or end of a period.
+    pub(super) fn step<O: Observer>(&mut self, observer: &mut O) -> Result<(), Overflow> {
+        match self.mode {
+            Mode::Flight => self.fly(observer),
+            Mode::Contact(side) => self.carry(side, observer),
+        }
+    }
+
+    /// What turns its phasors, if it flies by any.
+    pub(super) fn rates(&self) -> Option<&Rates<f64>> {
+        self.rates.as_ref()
+    }
+
+    /// What ends chattering sequences.
+    pub(super) fn tolerance(&self) -> ContactTolerance {
+        self.tolerance
+    }
+
+    /// Largest force on the oscillator without absorber.
+    pub(super) fn largest_force(&self) -> f64 {
+        self.alone.largest_force()
+    }
+
+    /// Where it stands, if its next flight can be through panels.
+    pub(super) fn departure(&self) -> Option<Moment> {
+        let rates = self.rates.as_ref()?;
+        (self.mode == Mode::Flight).then(|| Moment {
+            state: self.state,
+            steady: self.steady.unwrap_or_else(|| rates.steady(self.phase)),
+            phase: self.phase,
+            turns: self.turns,
+            impacts: self.impacts,
+            evaluations: self.evaluations,
+        })
+    }
+
+    /// Puts it where a flight elsewhere has brought it.
+    pub(super) fn stand(&mut self, at: &Moment) {
+        let Moment { state, steady, phase, turns, impacts, evaluations } = *at;
+        (self.state, self.steady) = (state, Some(steady));
+        (self.phase, self.mode) = (phase, Mode::Flight);
+        (self.turns, self.impacts, self.evaluations) = (turns, impacts, evaluations);
+    }
+
+    /// The flight from `begin` that lasted `duration`.
+    pub(super) fn flown(&self, begin: &Moment, duration: f64) -> Segment {
+        let State { x, x_velocity, y, y_velocity } = begin.state;
+        Segment {
+            motion: self.alone.motion(x, x_velocity, begin.phase),
+            absorber: Absorber::Flying { y, y_velocity },
+            turns: begin.turns,
+            phase: begin.phase,
+            duration,
+        }
+    }
+
     fn remaining(&self) -> f64 {
         (TAU - self.phase) / self.system.frequency_ratio()
     }
 
-    /// Fast time since the start of the run at phase `phase` of the current period.
-    fn tau(&self, phase: f64) -> f64 {
-        (self.turns as f64 * TAU + phase) / self.system.frequency_ratio()
+    /// Fast time since the start of the run at phase `phase` after `turns` whole periods.
+    pub(super) fn tau(&self, turns: u64, phase: f64) -> f64 {
+        (turns as f64 * TAU + phase) / self.system.frequency_ratio()
     }
 
     fn fly<O: Observer>(&mut self, observer: &mut O) -> Result<(), Overflow> {
@@ -191,45 +256,39 @@ impl Simulation {
     /// Flies to the next impact or the end of the period by phasors; `false`, and nothing has
     /// happened, where they do not apply or leave a doubt.
     fn fly_in_panels<O: Observer>(&mut self, observer: &mut O) -> bool {
-        let Some(panels) = &self.panels else { return false };
-        let State { x, x_velocity, y, y_velocity } = self.state;
-        let slope = x_velocity - y_velocity;
-        let gap = x - y;
-        // On a wall it must be leaving it.
-        let touch = self.touch();
-        if gap.abs() > 1.0 + touch || (gap.abs() >= 1.0 - touch && gap * slope >= 0.0) {
+        let Some(begin) = self.departure() else { return false };
+        let Some(rates) = &self.rates else { return false };
+        let State { x, x_velocity, y, y_velocity } = begin.state;
+        let line = Line { y, velocity: y_velocity };
+        if phasor::blocked(x, x_velocity, line) {
             return false;
         }
-        let line = Line { y, velocity: y_velocity };
-        let landing = panels.fly(self.phase, x, x_velocity, line, &mut self.evaluations);
-        let (time, state, phase) = match landing {
-            Landing::Impact { time, x, v, phase, .. } => {
-                (time, State { x, x_velocity: v, y: y + y_velocity * time, y_velocity }, phase)
-            }
-            Landing::PeriodEnd { time, x, v } => {
-                (time, State { x, x_velocity: v, y: y + y_velocity * time, y_velocity }, 0.0)
-            }
+        let takeoff =
+            Takeoff { x, v: x_velocity, steady: begin.steady, line, left: rates.left(self.phase) };
+        let landing = rates.fly(&takeoff, &mut self.evaluations);
+        let (time, x, x_velocity) = match landing {
+            Landing::Impact { time, x, v, .. } | Landing::PeriodEnd { time, x, v } => (time, x, v),
             Landing::Doubt => return false,
         };
+        let state = State { x, x_velocity, y: y + y_velocity * time, y_velocity };
         if !(state.x.is_finite() && state.y.is_finite()) {
             return false;
         }
+        let origin = rates.origin;
         if O::SEGMENTS && time > 0.0 {
-            let motion = self.alone.motion(x, x_velocity, self.phase);
-            let absorber = Absorber::Flying { y, y_velocity };
-            observer.segment(&Segment {
-                motion,
-                absorber,
-                turns: self.turns,
-                phase: self.phase,
-                duration: time,
-            });
+            observer.segment(&self.flown(&begin, time));
         }
         self.state = state;
-        self.phase = phase;
         match landing {
-            Landing::Impact { side, .. } => self.collide(side, observer),
-            _ => self.complete_period(observer),
+            Landing::Impact { side, steady, .. } => {
+                self.phase += self.system.frequency_ratio() * time;
+                self.steady = Some(steady);
+                self.collide(side, observer);
+            }
+            _ => {
+                self.steady = Some(origin);
+                self.complete_period(observer);
+            }
         }
         true
     }
@@ -289,8 +348,7 @@ impl Simulation {
     /// Distance over the clearance that rounding can move the walls by.
     fn touch(&self) -> f64 {
         let State { x, x_velocity, y, y_velocity } = self.state;
-        let scale = 1.0 + x.abs() + x_velocity.abs() + y.abs() + y_velocity.abs();
-        TOUCH_ULPS * f64::EPSILON * scale
+        phasor::touch(x, x_velocity, Line { y, velocity: y_velocity })
     }
 
     /// After a release, or an impact with `r = 0`, the absorber leaves the wall tangentially, and
@@ -325,6 +383,7 @@ impl Simulation {
     ) -> Result<(), Overflow> {
         let segment = Segment { motion, absorber, turns: self.turns, phase: self.phase, duration };
         self.state = segment.at(duration);
+        self.steady = None;
         self.phase += self.system.frequency_ratio() * duration;
         if !(self.state.x.is_finite() && self.state.y.is_finite()) {
             return Err(Overflow);
@@ -355,7 +414,7 @@ impl Simulation {
             y_velocity: after.y_velocity,
         };
         observer.impact(&Impact {
-            tau: self.tau(self.phase),
+            tau: self.tau(self.turns, self.phase),
             phase: self.phase,
             side,
             x: before.x,
@@ -373,13 +432,13 @@ impl Simulation {
         self.perhaps_stick(side, observer);
     }
 
-    fn perhaps_stick(&mut self, side: Side, observer: &mut impl Observer) {
+    pub(super) fn perhaps_stick(&mut self, side: Side, observer: &mut impl Observer) {
         let State { x, x_velocity, y_velocity, .. } = self.state;
         let opening = -side.sign() * (x_velocity - y_velocity);
         // Rounding adds up to a touch to each excursion, an impact takes the share 1 - r^2 of it:
         // where the two balance a sequence would never end.
         let r = self.system.restitution();
-        let floor = self.touch() / ((1.0 - r) * (1.0 + r));
+        let floor = self.touch() * (1.0 / ((1.0 - r) * (1.0 + r)));
         let excursion = self.tolerance.excursion.max(floor);
         let tolerance = ContactTolerance { excursion, ..self.tolerance };
         let alone = &self.alone;
@@ -408,7 +467,7 @@ impl Simulation {
 }
 
 /// A state left the range of floating-point numbers.
-struct Overflow;
+pub(super) struct Overflow;
 
 /// Relative displacement `w = x - y` during a flight.
 struct Gap {
