@@ -213,8 +213,19 @@ fn a_steady_case_is_answered_by_its_orbit_and_every_error_is_what_it_should_be()
     });
     let error = |trial: &Trial| trial.rms_error.expect("an answer").value;
     assert!(error(chance) < 0.001 && error(later) > 0.01, "{chance:?} {later:?}");
-    let cheapest = found.cheapest(Layer::Simulation, 0.01).expect("one is enough");
-    assert!(matches!(cheapest.method, Method::Simulation { periods: 200, .. }), "{cheapest:?}");
+    let enough = |found: &Tradeoff| found.cheapest(Layer::Simulation, 0.01).expect("one is").method;
+    assert!(matches!(enough(&found), Method::Simulation { periods: 200, .. }), "{found:?}");
+    // Either reason is enough by itself.
+    let (chance, later) = (chance.clone(), later.clone());
+    let changed = |from: &Trial, to: &dyn Fn(&mut Trial)| {
+        let mut changed = found.clone();
+        changed.trials.iter_mut().filter(|trial| *trial == from).for_each(to);
+        enough(&changed)
+    };
+    let named = changed(&chance, &|trial| trial.answer.regime = Some(Regime::TwoSymmetric));
+    assert!(matches!(named, Method::Simulation { periods: 200, .. }), "{named:?}");
+    let close = changed(&later, &|trial| trial.rms_error = chance.rms_error);
+    assert!(matches!(close, Method::Simulation { periods: 100, .. }), "{close:?}");
 }
 
 #[test]

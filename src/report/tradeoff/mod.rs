@@ -72,7 +72,8 @@ impl TradeoffPage {
 fn methods(case: &Case, tradeoff: &Tradeoff) -> Table {
     let scales = case.scales();
     let lengths = LengthFormat::of(&scales);
-    let cheapest = tradeoff.trials.iter().map(|trial| trial.operations).min().unwrap_or(1).max(1);
+    let answering = tradeoff.trials.iter().filter(|trial| trial.answer.rms.is_some());
+    let cheapest = answering.map(|trial| trial.operations).min().unwrap_or(1).max(1);
     let rows = tradeoff.trials.iter().map(|trial| {
         let answer = &trial.answer;
         let missing = || answer.why_not.unwrap_or("not told").to_owned();
@@ -83,7 +84,7 @@ fn methods(case: &Case, tradeoff: &Tradeoff) -> Table {
             answer.impacts_per_period.map_or_else(dash, |z| fixed(z, 4)),
             answer.regime.map_or_else(dash, |regime| regime.short().to_owned()),
             operations(trial.operations),
-            times(trial.operations as f64 / cheapest as f64),
+            answer.rms.map_or_else(dash, |_| times(trial.operations as f64 / cheapest as f64)),
         ]
     });
     table(
@@ -94,7 +95,7 @@ fn methods(case: &Case, tradeoff: &Tradeoff) -> Table {
             ("z", true),
             ("Regime", false),
             ("Operations", true),
-            ("Over the cheapest", true),
+            ("Over the cheapest answer", true),
         ],
         rows.collect(),
     )
