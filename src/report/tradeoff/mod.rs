@@ -160,7 +160,7 @@ pub fn summary(case: &Case, tradeoff: &Tradeoff, allowed: f64, seconds: &[f64]) 
         let _ = writeln!(text, "{sentence}");
     }
     let _ = writeln!(text, "\n{}\n", words::best(case, tradeoff));
-    let widths = (46, 12, 12, 11, 9, 7);
+    let widths = (52, 14, 12, 11, 9, 7);
     let _ = writeln!(
         text,
         "{:w0$}{:>w1$}{:>w2$}{:>w3$}{:>w4$}{:>w5$}",
