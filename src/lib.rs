@@ -16,4 +16,5 @@ pub mod store;
 pub mod study;
 pub mod symbolic;
 pub mod system;
+pub mod tally;
 pub mod validation;

@@ -112,6 +112,25 @@ pub fn replace_folder(path: &Path, files: &BTreeMap<PathBuf, Vec<u8>>) -> Result
     swap(path, new)
 }
 
+/// Adds `files` (paths relative to it) to a folder, which may be missing, each whole or not at all;
+/// files of the same name are replaced, all others stay.
+///
+/// # Errors
+/// [`StoreError::Unusable`] for a path that leads out of the folder, [`StoreError::Refused`] when
+/// something cannot be written.
+pub fn add_to_folder(path: &Path, files: &BTreeMap<PathBuf, Vec<u8>>) -> Result<(), StoreError> {
+    if let Some(outside) = files.keys().find(|file| !stays_inside(file)) {
+        return Err(StoreError::Unusable { path: outside.clone() });
+    }
+    for (file, bytes) in files {
+        let file = path.join(file);
+        let folder = folder_of(&file)?;
+        std::fs::create_dir_all(folder).map_err(|cause| refused("create", folder, cause))?;
+        write_file(&file, bytes)?;
+    }
+    Ok(())
+}
+
 /// Moves the old folder aside, the new one in, and the old one back should that fail.
 fn swap(path: &Path, new: TempDir) -> Result<(), StoreError> {
     let replace = |cause| refused("replace", path, cause);

@@ -659,3 +659,25 @@ fn the_starting_case_parses_under_any_title() {
     }
     assert!(Case::starting_text("x").starts_with("#:schema vinesink.schema.json\n"));
 }
+
+#[test]
+fn accuracy_is_asked_for_in_per_cent() {
+    let case = |table: &str| format!("{PHYSICAL}\n[accuracy]\n{table}\n");
+    assert_eq!(parsed(PHYSICAL).accuracy, None);
+    let plain = parsed(&case("")).accuracy.expect("a table without keys asks for the usual");
+    assert_eq!((plain.amplitude, plain.impacts_per_period, plain.coexistence), (None, None, false));
+    let asked = "amplitude = \"0.5 %\"\nimpacts_per_period = 0.02\ncoexistence = true";
+    let asked = parsed(&case(asked)).accuracy.expect("a table");
+    assert_eq!(asked.amplitude, Some(0.005));
+    assert_eq!((asked.impacts_per_period, asked.coexistence), (Some(0.02), true));
+    let error = refused_with(&case("amplitude = 0.01"), 20, "0.01", "`amplitude` has no unit");
+    says(&error, "amplitude = \"0.01 %\"");
+    refused_with(&case("amplitude = \"0 %\""), 20, "\"0 %\"", "`amplitude` is 0 %");
+    let message = "`amplitude` is a share, but `mm` is the unit of a length";
+    refused_with(&case("amplitude = \"1 mm\""), 20, "mm", message);
+    let message = "`coexistence` is text, but it is true or false";
+    let error = refused_with(&case("coexistence = \"yes\""), 20, "\"yes\"", message);
+    says(&error, "coexistence = true");
+    let message = "unknown key `amplitud` in [accuracy]";
+    says(&refused_with(&case("amplitud = \"1 %\""), 20, "amplitud", message), "`amplitude`");
+}

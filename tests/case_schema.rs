@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use regex::Regex;
 use serde_json::Value;
 use vinesink::case::{
-    Case, Damping, Dimension, Force, Frequency, Length, Mass, Quantity, Stiffness, schema,
+    Case, Damping, Dimension, Force, Frequency, Length, Mass, Quantity, Share, Stiffness, schema,
 };
 
 fn shipped() -> Vec<(PathBuf, String)> {
@@ -46,6 +46,7 @@ fn holds(keyword: &str, expected: &Value, schema: &Value, value: &Value) -> bool
             "number" => value.is_number(),
             "integer" => value.is_i64() || value.is_u64(),
             "array" => value.is_array(),
+            "boolean" => value.is_boolean(),
             other => panic!("unknown type {other}"),
         },
         "const" => value == expected,
@@ -198,6 +199,13 @@ fn parser_and_schema_agree_on_changes_to_a_case() {
         (&physical, "# [report]", "[report]\nfigures = [1]"),
         (&physical, "# [report]", "[report]\nfigures = \"areas\""),
         (&physical, "# [report]", "report = []"),
+        (&physical, "# [report]", "[accuracy]"),
+        (&physical, "# [report]", "[accuracy]\namplitude = \"2.5 %\"\ncoexistence = true"),
+        (&physical, "# [report]", "[accuracy]\namplitude = 0.01"),
+        (&physical, "# [report]", "[accuracy]\namplitude = \"1 mm\""),
+        (&physical, "# [report]", "[accuracy]\ncoexistence = \"yes\""),
+        (&physical, "# [report]", "[accuracy]\nimpacts_per_period = 0"),
+        (&physical, "# [report]", "[accuracy]\nimpacts_per_period = 0.05"),
         (&reduced, "[reduced]", "[reduced]\nkind = \"force\""),
         (&reduced, "[reduced]", "[reduced]\nkind = \"forces\""),
         (&reduced, "[reduced]", "[reduced]\ndetuning = -5.4"),
@@ -214,7 +222,7 @@ fn parser_and_schema_agree_on_changes_to_a_case() {
         assert_eq!(valid(&schema, &toml(&changed)), parses, "{from:?} -> {to:?}");
         accepted += usize::from(parses);
     }
-    assert_eq!(accepted, 11, "of the changes above");
+    assert_eq!(accepted, 14, "of the changes above");
 }
 
 fn patterns_agree<D: Dimension>(schema: &Value) {
@@ -241,6 +249,7 @@ fn patterns_match_what_the_parser_reads() {
     patterns_agree::<Stiffness>(&of("oscillator", "stiffness"));
     patterns_agree::<Damping>(&of("oscillator", "damping"));
     patterns_agree::<Length>(&of("absorber", "clearance"));
+    patterns_agree::<Share>(&of("accuracy", "amplitude"));
     patterns_agree::<Frequency>(&of("excitation", "frequency"));
     let kinds = &schema["properties"]["excitation"]["oneOf"];
     patterns_agree::<Length>(&kinds[0]["properties"]["amplitude"]);

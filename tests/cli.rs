@@ -439,3 +439,66 @@ fn no_period_to_measure_is_refused() {
     let message = String::from_utf8_lossy(&assert.get_output().stderr).into_owned();
     assert!(message.contains("at least 1 period"), "{message}");
 }
+
+#[test]
+fn tradeoff_prints_the_same_bytes_and_leaves_seconds_out_unless_asked() {
+    let case = shipped("li2016-8hz-b7p5mm.toml");
+    let folder = folder();
+    let out = folder.path().to_str().expect("UTF-8");
+    let first = done(&["tradeoff", &case, "--format", "json", "--out", out]);
+    assert_eq!(first, done(&["tradeoff", &case, "--format", "json"]));
+    let document: Value = serde_json::from_str(&first).expect("one JSON document");
+    assert_eq!(document["format"], "vinesink/tradeoff@1");
+    assert_eq!(document["best"]["layer"], "exact-orbit");
+    let methods = document["methods"].as_array().expect("a list");
+    let layers = ["closed-form", "slow-flow", "exact-orbit", "simulation", "fixed-step"];
+    for layer in layers {
+        assert!(methods.iter().any(|method| method["layer"] == layer), "{layer}");
+    }
+    for method in methods {
+        assert!(method["operations"].as_u64().expect("a count") > 0, "{method}");
+        assert!(method.get("seconds").is_none(), "{method}");
+    }
+    let timed = json(&["tradeoff", &case, "--seconds"]);
+    let timed = timed["methods"].as_array().expect("a list");
+    assert!(timed.iter().all(|method| method["seconds"].as_f64().is_some_and(|s| s > 0.0)));
+    let page = folder.path().join("li2016-8hz-b7p5mm");
+    let text = fs::read_to_string(page.join("tradeoff.md")).expect("the page");
+    assert!(text.contains("For 1 % in amplitude the exact orbit is enough"), "{text}");
+    done(&["tradeoff", &case, "--out", out]);
+    let again = fs::read_to_string(page.join("tradeoff.md")).expect("the page");
+    assert_eq!(text, again, "the page holds what one machine measured once");
+    assert!(page.join("figures/tradeoff.svg").exists());
+}
+
+#[test]
+fn accuracy_decides_which_layer_answers() {
+    let folder = folder();
+    let out = folder.path().to_str().expect("UTF-8");
+    let cheap = shipped("li2016-8p5hz-1percent.toml");
+    done(&["report", &cheap, "--out", out]);
+    let page = folder.path().join("li2016-8p5hz-1percent");
+    let text = fs::read_to_string(page.join("report.md")).expect("a report");
+    for words in ["## Which layer answered", "nothing was simulated", "not looked for"] {
+        assert!(text.contains(words), "{words}");
+    }
+    assert!(!text.contains("## Motions"), "{text}");
+    let html = fs::read_to_string(page.join("report.html")).expect("a page");
+    assert!(html.contains("id=\"which-layer-answered\"") && !html.contains("id=\"motions\""));
+    let answers = json(&["analyze", &cheap])["answers"].clone();
+    assert_eq!(answers["answers"][0]["layer"], "manifold");
+    // What neither asks for accuracy nor insists on a layer is as it always was.
+    let plain = shipped("li2016-8hz-b7p5mm.toml");
+    assert!(json(&["analyze", &plain]).get("answers").is_none());
+    let forced = json(&["analyze", &plain, "--fidelity", "orbit"]);
+    assert_eq!(forced["answers"]["answers"][0]["layer"], "orbit");
+    // 2.6 % is done, but is not the usual 1 %.
+    let output = vinesink(&["analyze", &plain, "--fidelity", "manifold"]);
+    assert_eq!(output.status.code(), Some(1), "{}", text_of(&output));
+    let message = refused(&["analyze", &shipped("li2016-8p5hz-fig4d.toml"), "--fidelity", "orbit"]);
+    assert!(message.contains("no symmetric orbit is stable and admissible"), "{message}");
+}
+
+fn text_of(output: &Output) -> String {
+    text(&output.stdout) + &text(&output.stderr)
+}

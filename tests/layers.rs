@@ -12,16 +12,17 @@ use regex::Regex;
 /// Every room of the library and the rooms that it may use besides itself. Analysis, orbits and
 /// simulation are three independent answers to one question and never meet below `validation`.
 const ROOMS: &[(&str, &[&str])] = &[
-    ("symbolic", &[]),
-    ("numerics", &[]),
+    ("tally", &[]),
+    ("symbolic", &["tally"]),
+    ("numerics", &["tally"]),
     ("system", &[]),
     ("equations", &["symbolic", "system"]),
-    ("analysis", &["equations", "numerics", "symbolic", "system"]),
-    ("orbits", &["numerics", "system"]),
-    ("simulation", &["numerics", "system"]),
+    ("analysis", &["equations", "numerics", "symbolic", "system", "tally"]),
+    ("orbits", &["numerics", "system", "tally"]),
+    ("simulation", &["numerics", "system", "tally"]),
     ("reference", &["system"]),
     ("extremes", &["case", "reference", "simulation", "system"]),
-    ("regimes", &["numerics", "simulation", "system"]),
+    ("regimes", &["numerics", "simulation", "system", "tally"]),
     (
         "validation",
         &["analysis", "equations", "numerics", "orbits", "regimes", "simulation", "system"],
@@ -37,6 +38,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "regimes",
             "simulation",
             "system",
+            "tally",
             "validation",
         ],
     ),
@@ -63,7 +65,7 @@ const ROOMS: &[(&str, &[&str])] = &[
 
 /// Rooms in which there is physics and nothing else: no files, no clock, no printing, no threads, no
 /// randomness.
-const PURE: [&str; 12] = [
+const PURE: [&str; 13] = [
     "analysis",
     "equations",
     "extremes",
@@ -75,6 +77,7 @@ const PURE: [&str; 12] = [
     "study",
     "symbolic",
     "system",
+    "tally",
     "validation",
 ];
 
@@ -241,6 +244,7 @@ fn the_imports_of_the_program_are_seen() {
         rooms
     };
     assert_eq!(of("simulation/run.rs"), ["numerics", "system"]);
+    assert_eq!(of("simulation/flow.rs"), ["system", "tally"]);
     assert_eq!(of("analysis/mod.rs"), ["numerics", "symbolic", "system"]);
     let study = of("study/mod.rs");
     assert!(study.contains(&"validation".into()) && study.contains(&"case".into()), "{study:?}");

@@ -9,7 +9,7 @@ use vinesink::regimes::attractor::Effort;
 use vinesink::regimes::basins::{Axis, Basins, Cell, Coordinate, Plane};
 use vinesink::regimes::diagram::{Way, sweep};
 use vinesink::regimes::search::{self, SearchEffort};
-use vinesink::regimes::{Attractor, Nature, Regime, share};
+use vinesink::regimes::{Amplitudes, Attractor, Nature, Regime, share};
 use vinesink::simulation::{Impact, Nobody, Observer, Side, Simulation, Statistics};
 use vinesink::system::{Parameter, State, System};
 

@@ -11,6 +11,7 @@ pub mod fixed_points;
 pub mod frequency_response;
 pub mod manifold;
 pub mod motion;
+pub mod slow_motion;
 
 use serde::Serialize;
 

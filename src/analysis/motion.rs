@@ -4,6 +4,7 @@ use std::f64::consts::{FRAC_2_PI, PI};
 
 use super::FixedPoint;
 use crate::system::{State, System};
+use crate::tally;
 
 /// The state at excitation phase 0 on the leading-order motion of a fixed point:
 /// `v0 = C sin(Omega tau - eta)`, `w0 = v0 + (2/pi) B Pi(Omega tau - eta + Theta)`, from which
@@ -22,6 +23,18 @@ pub fn state_of(point: &FixedPoint, system: &System) -> State {
     ];
     let x = [(v[0] + eps * w[0]) / (1.0 + eps), (v[1] + eps * w[1]) / (1.0 + eps)];
     State { x: x[0], x_velocity: x[1], y: x[0] - w[0], y_velocity: x[1] - w[1] }
+}
+
+/// Root mean square displacement of the oscillator, over the clearance, on the motion with the
+/// amplitudes `C/b`, `B/b` and the phase `Theta`: with `k = eps/(1 + eps)` it is
+/// `x = C sin z + k (2/pi) B Pi(z + Theta)`, whose mean square is
+/// `C^2/2 + k (8/pi^2) B C cos Theta + k^2 B^2/3`. Off the true orbit by a multiple of `eps`.
+pub fn root_mean_square(system: &System, oscillator: f64, absorber: f64, theta: f64) -> f64 {
+    tally::note(tally::ELEMENTARY + 16);
+    let share = system.mass_ratio() / (1.0 + system.mass_ratio());
+    let joint = 8.0 / (PI * PI) * share * absorber * oscillator * libm::cos(theta);
+    let own = share * share * absorber * absorber / 3.0;
+    (0.5 * oscillator * oscillator + joint + own).sqrt()
 }
 
 /// `Pi(z) = arcsin(sin z)` and its derivative, equation (13).

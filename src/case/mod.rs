@@ -6,6 +6,7 @@
 //! add an optional table: a file like `simulation.rs`, a line in `TABLES`, a field in [`Case`] and
 //! one in the schema.
 
+mod accuracy;
 mod document;
 mod error;
 mod inputs;
@@ -23,11 +24,13 @@ mod table;
 use sha2::{Digest, Sha256};
 use toml::de::DeTable;
 
+pub use accuracy::AccuracySettings;
 pub use error::{CaseError, Problem};
 pub use inputs::Input;
 pub use physical::{Physical, PhysicalExcitation};
 pub use quantity::{
-    Damping, Dimension, Force, Frequency, Length, Mass, Quantity, QuantityError, Stiffness, Unit,
+    Damping, Dimension, Force, Frequency, Length, Mass, Quantity, QuantityError, Share, Stiffness,
+    Unit,
 };
 pub use reduced::{Reduced, Tuning};
 pub use report::{ExtraFigure, ReportSettings};
@@ -54,6 +57,8 @@ pub struct Case {
     pub simulation: SimulationSettings,
     /// The table `[report]`.
     pub report: ReportSettings,
+    /// The table `[accuracy]`, if there is one.
+    pub accuracy: Option<AccuracySettings>,
     inputs: Vec<Input>,
     system: System,
     scales: Scales,
@@ -81,6 +86,7 @@ const TABLES: &[(&str, &[&str])] = &[
             "reduced",
             "simulation",
             "report",
+            "accuracy",
         ],
     ),
     (physical::TABLES[0], physical::OSCILLATOR),
@@ -89,6 +95,7 @@ const TABLES: &[(&str, &[&str])] = &[
     (reduced::TABLE, reduced::KEYS),
     (simulation::TABLE, simulation::KEYS),
     (report::TABLE, report::KEYS),
+    (accuracy::TABLE, accuracy::KEYS),
 ];
 
 const STARTING_CASE: &str = include_str!("starting_case.toml");
@@ -151,6 +158,7 @@ fn read(reader: &mut Reader, document: &DeTable) -> Option<Case> {
     let design = read_design(reader, &root);
     let simulation = simulation::read(reader, &root);
     let report = report::read(reader, &root);
+    let accuracy = accuracy::read(reader, &root);
     let design = design?;
     let system = system_of(reader, &root, &design)?;
     Some(Case {
@@ -160,6 +168,7 @@ fn read(reader: &mut Reader, document: &DeTable) -> Option<Case> {
         design,
         simulation,
         report,
+        accuracy,
         inputs: Vec::new(),
         system,
         scales: design.scales(),

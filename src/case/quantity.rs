@@ -77,6 +77,10 @@ dimension!(
     ]
 );
 dimension!(
+    /// A part of a whole: `1 %` is 0.01.
+    Share, "a share", "1", "1 %", &[unit("%", -2)]
+);
+dimension!(
     /// Hertz; angular frequencies in rad/s are converted.
     Frequency, "a frequency", "Hz", "8 Hz",
     &[

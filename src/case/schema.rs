@@ -11,6 +11,7 @@ use schemars::transform::{Transform, transform_subschemas};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde_json::{Value, json};
 
+use super::accuracy::AccuracyTable;
 use super::quantity::{Damping, Dimension, Force, Frequency, Length, Mass, Quantity, Stiffness};
 use super::report::ReportTable;
 use super::simulation::SimulationTable;
@@ -43,6 +44,7 @@ struct CaseFile {
     reduced: Option<ReducedTable>,
     simulation: Option<SimulationTable>,
     report: Option<ReportTable>,
+    accuracy: Option<AccuracyTable>,
 }
 
 /// The linear oscillator whose vibration is to be reduced.

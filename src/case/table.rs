@@ -203,6 +203,18 @@ impl<'t> Table<'t> {
         self.bounded(reader, field, value, number as f64, "1").map(|_| number)
     }
 
+    /// True or false, which may be left out.
+    pub fn flag(&self, reader: &mut Reader, key: &'static str) -> Option<bool> {
+        let value = self.entries.get(key)?;
+        if let DeValue::Boolean(flag) = value.get_ref() {
+            return Some(*flag);
+        }
+        let message = format!("`{key}` is {}, but it is true or false", kind(value.get_ref()));
+        let expected = "expected true or false, without quotes";
+        reader.report(value.span(), message, expected, format!("write for example {key} = true"));
+        None
+    }
+
     /// Which of two alternative keys is there; reports both and neither.
     pub fn either(&self, reader: &mut Reader, first: Field, second: Field) -> Option<&'static str> {
         match (self.has(first.key), self.has(second.key)) {

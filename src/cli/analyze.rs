@@ -3,19 +3,23 @@
 use clap::Args;
 use miette::{IntoDiagnostic, Result, WrapErr};
 use vinesink::analysis::Analysis;
+use vinesink::case::Case;
 use vinesink::orbits::FullSystem;
 use vinesink::report::documents::AnalysisDocument;
-use vinesink::report::summary;
-use vinesink::study::settle_area;
+use vinesink::report::{Layers, summary};
+use vinesink::study::fidelity::{Answers, Plan, Simulated, counted_motions};
+use vinesink::study::{StudyEffort, settle_area};
 
-use super::case_file::{CaseArgument, Format};
+use super::case_file::{self, CaseArgument, Fidelity, Format};
+use super::progress::Progress;
 use super::{Outcome, output};
 
 /// Print what the theory and the exact orbits say of a case
 ///
 /// Slow invariant manifold, fixed points with their stability, boundaries and area, in closed form;
 /// beside them the exact symmetric orbits of the full system and its own boundaries. Nothing is
-/// simulated, except where neither can tell area Z1 from Z2.
+/// simulated, except where neither can tell area Z1 from Z2, and where the case's table [accuracy]
+/// asks for what only simulation knows.
 #[derive(Debug, Args)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Arguments {
@@ -24,11 +28,16 @@ pub struct Arguments {
     /// Text for people or JSON for programs
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
+    /// Also answer by this layer [default: with [accuracy] in the case by the cheapest that is exact
+    /// enough, else by none]
+    #[arg(long, value_enum, value_name = "LAYER")]
+    fidelity: Option<Fidelity>,
 }
 
 const EXAMPLES: &str = "\
 Examples:
   vinesink analyze cases/li2016-8hz-b7p5mm.toml
+  vinesink analyze damper.toml --fidelity orbit    amplitude and regime by the exact orbit
   vinesink analyze damper.toml --format json | jq .boundaries";
 
 pub fn run(arguments: Arguments) -> Result<Outcome> {
@@ -38,11 +47,35 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
         .wrap_err_with(|| format!("{} cannot be analysed", arguments.case.path.display()))?;
     let exact = FullSystem::of(&case.system());
     let area = settle_area(&analysis, &exact).into_diagnostic()?;
+    let answers = match case_file::plan(&case, arguments.fidelity)? {
+        Some(plan) => Some(answers(&case, &analysis, &plan)?),
+        None => None,
+    };
     match arguments.format {
-        Format::Text => output::print(summary::analysis(&case, &analysis, &exact, area))?,
+        Format::Text => {
+            let layers = answers.as_ref().map(|answers| Layers::new(&case, answers).text());
+            let text = summary::analysis(&case, &analysis, &exact, area);
+            output::print(text + &layers.unwrap_or_default())?;
+        }
         Format::Json => {
-            output::print_json(&AnalysisDocument::new(&analysis, &exact, area, &case.scales()))?;
+            let document = AnalysisDocument::new(&analysis, &exact, area, &case.scales());
+            output::print_json(&document.with_answers(answers.clone()))?;
         }
     }
-    Ok(Outcome::Done)
+    let enough = answers.is_none_or(|answers| answers.enough());
+    Ok(if enough { Outcome::Done } else { Outcome::DoesNotHold })
+}
+
+/// What was asked for, simulated only where no cheaper layer answers.
+fn answers(case: &Case, analysis: &Analysis, plan: &Plan) -> Result<Answers> {
+    if !plan.needs_simulation() {
+        return plan.answers(None).into_diagnostic();
+    }
+    let effort = StudyEffort::of(&case.simulation);
+    let progress = Progress::new("simulating", u64::from(effort.starts));
+    let (found, cost) =
+        counted_motions(analysis, &effort, &mut |done| progress.advance(done)).into_diagnostic()?;
+    let simulated =
+        Simulated { attractors: &found.attractors, proofs: &found.proofs, operations: cost };
+    plan.answers(Some(simulated)).into_diagnostic()
 }

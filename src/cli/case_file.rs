@@ -3,9 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
-use miette::Result;
+use miette::{IntoDiagnostic, Result};
 use vinesink::case::Case;
 use vinesink::store;
+use vinesink::study::fidelity::{self, Demand, Plan};
 
 /// The case that a command works on.
 #[derive(Debug, Args)]
@@ -35,4 +36,34 @@ pub enum Format {
     Text,
     /// One JSON document
     Json,
+}
+
+/// The layer that answers, where the cheapest that is exact enough shall not.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Fidelity {
+    /// Manifold and fixed points, in closed form
+    Manifold,
+    /// The exact symmetric orbit
+    Orbit,
+    /// Event-driven simulation
+    Simulation,
+}
+
+impl From<Fidelity> for fidelity::Fidelity {
+    fn from(asked: Fidelity) -> Self {
+        match asked {
+            Fidelity::Manifold => Self::Manifold,
+            Fidelity::Orbit => Self::Orbit,
+            Fidelity::Simulation => Self::Simulation,
+        }
+    }
+}
+
+/// Which layer answers what, if the case asks for accuracy or a layer is insisted on.
+pub fn plan(case: &Case, forced: Option<Fidelity>) -> Result<Option<Plan>> {
+    if case.accuracy.is_none() && forced.is_none() {
+        return Ok(None);
+    }
+    let demand = case.accuracy.as_ref().map_or_else(Demand::default, Demand::of);
+    Plan::of(&case.system(), demand, forced.map(Into::into)).map(Some).into_diagnostic()
 }

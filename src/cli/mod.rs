@@ -12,6 +12,7 @@ mod progress;
 mod report;
 mod schema;
 mod simulate;
+mod tradeoff;
 
 use std::process::ExitCode;
 
@@ -38,6 +39,7 @@ Examples:
   vinesink report damper.toml                   the design report, in reports/damper
   vinesink paper                                the paper's figures against the reports
   vinesink extremes                             the simulation at the ends of its range
+  vinesink tradeoff damper.toml                 how much accuracy for how much work
   vinesink schema > vinesink.schema.json        let the editor complete and check cases
   vinesink help new                             what a command does, with examples";
 
@@ -49,6 +51,7 @@ enum Command {
     Report(report::Arguments),
     Paper(paper::Arguments),
     Extremes(extremes::Arguments),
+    Tradeoff(tradeoff::Arguments),
     Schema(schema::Arguments),
     Completions(completions::Arguments),
 }
@@ -81,6 +84,7 @@ impl Cli {
             Command::Report(arguments) => report::run(arguments),
             Command::Paper(arguments) => paper::run(arguments),
             Command::Extremes(arguments) => extremes::run(arguments),
+            Command::Tradeoff(arguments) => tradeoff::run(arguments),
             Command::Schema(arguments) => schema::run(arguments),
             Command::Completions(arguments) => completions::run(arguments),
         }

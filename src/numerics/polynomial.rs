@@ -9,6 +9,7 @@
 use dashu_ratio::RBig;
 
 use super::bracket::brent;
+use crate::tally;
 
 /// A real root and its evidence.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -285,6 +286,7 @@ fn trim(coefficients: &mut Vec<RBig>) {
 }
 
 fn evaluate(coefficients: &[RBig], at: &RBig) -> RBig {
+    tally::note(2 * tally::EXACT * coefficients.len() as u64);
     coefficients.iter().rev().fold(RBig::ZERO, |sum, c| sum * at + c)
 }
 
@@ -298,6 +300,7 @@ fn remainder(dividend: &[RBig], divisor: &[RBig]) -> Vec<RBig> {
     while rest.len() >= divisor.len() {
         let shift = rest.len() - divisor.len();
         let factor = &rest[rest.len() - 1] / leading;
+        tally::note(2 * tally::EXACT * divisor.len() as u64);
         for (n, coefficient) in divisor.iter().enumerate() {
             rest[shift + n] = &rest[shift + n] - &factor * coefficient;
         }

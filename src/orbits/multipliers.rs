@@ -5,12 +5,17 @@ use nalgebra::linalg::Schur;
 use nalgebra::{Complex, Matrix4, SMatrix};
 use serde::Serialize;
 
+use crate::tally;
+
 /// Sweeps that the eigenvalue iteration may take; three or four per eigenvalue are usual.
 pub(super) const LARGEST_SWEEPS: usize = 300;
 /// Shifts of the spectrum, over the matrix's size, that are tried in turn. The unshifted iteration
 /// stalls on spectra symmetric about 0 (a biquadratic characteristic polynomial), which any shift
 /// makes unsymmetric.
 const SHIFTS: [f64; 3] = [0.0, 0.37, -0.61];
+
+/// Operations of a Schur decomposition, `25 n^3` (Golub and Van Loan, Matrix Computations, 7.5.6).
+const SCHUR: u64 = 25 * 4 * 4 * 4;
 
 /// Distance from the unit circle within which a complex pair lies on it: at a root of
 /// [`unit_product`] that is one it is there to rounding, 1e-14, and at one that is a pair of real
@@ -29,6 +34,7 @@ pub struct Multipliers {
 impl Multipliers {
     /// Eigenvalues of `jacobian`; `None` where it is not finite or the iteration does not converge.
     pub fn of(jacobian: &Matrix4<f64>) -> Option<Self> {
+        tally::note(SCHUR);
         let size = jacobian.amax();
         if !size.is_finite() {
             return None;

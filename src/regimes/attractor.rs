@@ -12,6 +12,7 @@ use crate::simulation::{
     SustainedContact,
 };
 use crate::system::{State, System};
+use crate::tally;
 
 /// How long a trajectory is followed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -159,6 +160,7 @@ impl Attractor {
     /// The same, the impacts of the measured window being kept in `log`.
     pub fn measure_with(simulation: &mut Simulation, effort: &Effort, log: &mut ImpactLog) -> Self {
         let system = *simulation.system();
+        let before = simulation.operations();
         let mut stop = simulation.run(effort.discard, effort.impact_limit, &mut Nobody);
         let mut statistics = Statistics::begin(&system, simulation.state());
         let mut lyapunov = Lyapunov::begin(&system);
@@ -169,6 +171,7 @@ impl Attractor {
             let measured = simulation.run(effort.periods, effort.impact_limit, observer);
             stop = if stop == Stop::EndTime { measured } else { stop };
         }
+        tally::note(simulation.operations() - before);
         let thresholds = Thresholds::default();
         let (oscillator_harmonic, absorber_harmonic) = statistics.harmonics();
         let exponent = lyapunov.exponent();

@@ -13,6 +13,7 @@ use crate::orbits::{
 };
 use crate::regimes::{Attractor, Energetics, Evidence, FoundAttractor, Nature, Regime};
 use crate::simulation::{Doubt, Energy, Stop, SustainedContact};
+use crate::study::fidelity::Answers;
 use crate::study::{LongTermMotions, Proof, SettledArea, SettledBy};
 use crate::system::{Excitation, System};
 use crate::validation::price::prices;
@@ -35,6 +36,9 @@ pub struct AnalysisDocument {
     exact_boundaries: Vec<ExactBoundaryDocument>,
     /// The two asymmetric impacts beyond symmetry breaking.
     asymmetric_orbits: Option<AsymmetricDocument>,
+    /// Which layer answered what; lengths over the clearance.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    answers: Option<Answers>,
 }
 
 /// A symmetric 1:1 orbit of the full system.
@@ -160,7 +164,14 @@ impl AnalysisDocument {
                 .as_ref()
                 .and_then(|found| found.asymmetric.as_ref())
                 .map(|found| AsymmetricDocument::new(found, scales)),
+            answers: None,
         }
+    }
+
+    /// The same with answers to what the case asks for.
+    #[must_use]
+    pub fn with_answers(self, answers: Option<Answers>) -> Self {
+        Self { answers, ..self }
     }
 }
 

@@ -9,9 +9,11 @@ pub mod numbers;
 pub mod paper;
 pub mod render;
 pub mod summary;
+pub mod tradeoff;
 
 mod equations;
 mod exact_tables;
+mod layers;
 mod motion_tables;
 mod notes;
 mod tables;
@@ -20,12 +22,14 @@ mod verdict;
 use serde::Serialize;
 
 use crate::case::Case;
+use crate::study::fidelity::Answers;
 use crate::study::{CaseStudy, StudyEffort};
 use crate::validation::Claim;
 use documents::{AnalysisDocument, AttractorDocument};
 use figure::Figure;
 
 pub use equations::EquationGroup;
+pub use layers::Layers;
 pub use notes::Note;
 pub use tables::{KeyRow, Table};
 pub use verdict::{Tone, Verdict};
@@ -47,6 +51,12 @@ pub struct Report {
     pub notes: Vec<Note>,
     /// Inputs and the results that matter most.
     pub key_rows: Vec<KeyRow>,
+    /// Which layer answered what, where the case asks for accuracy or a layer was insisted on.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub layers: Option<Layers>,
+    /// Whether anything was simulated.
+    #[serde(skip)]
+    pub simulated: bool,
     /// Everything else, as tables.
     pub tables: Tables,
     /// The figures, in reading order; the first belongs to the first screen.
@@ -148,6 +158,8 @@ impl Report {
             verdict: verdict::verdict(case, study),
             notes: notes::notes(case, study),
             key_rows: tables::key_rows(case, study),
+            layers: None,
+            simulated: study.simulated,
             tables: Tables {
                 attractors: motion_tables::attractors(case, study),
                 natures: motion_tables::natures(study),
@@ -189,6 +201,17 @@ impl Report {
                 bare_amplitude: bare.map(|bare| scales.length(bare.amplitude())),
             },
         }
+    }
+}
+
+impl Report {
+    /// Adds the section that says which layer answered.
+    #[must_use]
+    pub fn with_answers(mut self, case: &Case, answers: &Answers) -> Self {
+        let layers = Layers::new(case, answers);
+        self.key_rows.extend(layers.key_row());
+        self.layers = Some(layers);
+        self
     }
 }
 

@@ -10,6 +10,7 @@ use super::extremes::Extremes;
 use super::figure::{self, Figure, FigureError};
 use super::numbers::LengthFormat;
 use super::paper::Paper;
+use super::tradeoff::TradeoffPage;
 use crate::case::Case;
 use crate::symbolic::{MathError, to_mathml};
 
@@ -17,6 +18,7 @@ const MARKDOWN: &str = include_str!("../../templates/report.md.tera");
 const HTML: &str = include_str!("../../templates/report.html.tera");
 const PAPER: &str = include_str!("../../templates/paper.md.tera");
 const EXTREMES: &str = include_str!("../../templates/extremes.md.tera");
+const TRADEOFF: &str = include_str!("../../templates/tradeoff.md.tera");
 const STYLE: &str = include_str!("../../templates/report.css");
 
 /// Why a report cannot be rendered.
@@ -91,6 +93,23 @@ pub fn extremes(page: &Extremes) -> Result<String, RenderError> {
     Ok(without_repeated_blank_lines(&text))
 }
 
+/// The page of accuracy and cost with its figure, by their path in the case's folder.
+///
+/// # Errors
+/// [`RenderError`] if template and page do not fit, or the figure cannot be drawn.
+pub fn tradeoff(
+    page: &TradeoffPage,
+    drawn: &Figure,
+) -> Result<BTreeMap<PathBuf, Vec<u8>>, RenderError> {
+    let mut context = Context::new();
+    context.insert("page", page);
+    let text = engine("tradeoff.md", TRADEOFF)?.render("tradeoff.md", &context)?;
+    Ok(BTreeMap::from([
+        (PathBuf::from("tradeoff.md"), without_repeated_blank_lines(&text).into_bytes()),
+        (PathBuf::from(format!("figures/{}.svg", drawn.name)), figure::render(drawn)?.into_bytes()),
+    ]))
+}
+
 /// The report as one HTML page that needs nothing from outside.
 ///
 /// # Errors
@@ -114,6 +133,9 @@ fn json(report: &Report) -> Result<String, RenderError> {
 fn context(report: &Report, case: &Case) -> Result<Context, RenderError> {
     let mut context = Context::new();
     context.insert("report", report);
+    // Both are left out of the JSON document where they say nothing new.
+    context.insert("layers", &report.layers);
+    context.insert("simulated", &report.simulated);
     // The equations are left out of the JSON document, and with it out of the serialised report.
     context.insert("equations", &report.equations);
     context.insert("length_unit", LengthFormat::of(&case.scales()).unit);

@@ -1,6 +1,6 @@
 //! Many trajectories at a time, eight side by side: [`run`].
 //!
-//! Each lane flies its own trajectory of its own system by the formulas of [`super::phasor`], in the
+//! Each lane flies its own trajectory of its own system by the formulas of `phasor`, in the
 //! same order and with the same rounding as [`Simulation::run`], so that the bits agree. Panels are
 //! flown in step; a lane that has come to an event waits until enough others have, and the events are
 //! dealt with together. What is rare, a panel in doubt, sustained contact, the end of a chattering

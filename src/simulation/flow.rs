@@ -9,6 +9,7 @@
 //! small denominator. Valid for every finite parameter set.
 
 use crate::system::System;
+use crate::tally;
 
 /// Gain of the steady motion over the excitation above which the response from rest replaces it:
 /// four digits are the most that the subtraction of the two large parts may cost.
@@ -228,6 +229,8 @@ impl Motion {
     /// Displacement and velocity a time `s` after the stretch began; error a few units in the last
     /// place of the larger of the free and the forced part.
     pub fn at(&self, s: f64) -> Kinematics {
+        // A sine, a cosine and an exponential of the free part, a sine and a cosine of the other.
+        tally::note(5 * tally::ELEMENTARY + 28);
         let o = &self.oscillator;
         let propagator = o.propagator(s);
         let free = propagator.carry(o, self.free_x, self.free_v);

@@ -10,7 +10,9 @@ use nalgebra::Complex;
 use super::events::{Absorber, Segment};
 use super::flow::{Oscillator, mean_of_exponential};
 use super::phasor::{Line, Rates, Steady};
+use super::run::PANEL;
 use crate::system::System;
+use crate::tally;
 
 type Phasor = Complex<f64>;
 
@@ -100,6 +102,7 @@ impl Integrator {
         let (mut here, _) = rates.begin(free + steady.x, velocity + steady.v, steady, base);
         let (mut left, mut peak) = (segment.duration, here.gap.abs());
         while left > 0.0 {
+            tally::note(PANEL);
             let length = rates.step.min(left);
             let there = if left < rates.step {
                 rates.after(&here, left, base)
@@ -122,6 +125,8 @@ impl Integrator {
             Absorber::Flying { .. } => self.alone?,
             Absorber::Carried(_) => self.carrying?,
         };
+        // Both phasors' ends, two means, five integrals and their sums.
+        tally::note(5 * tally::ELEMENTARY + 300);
         let (duration, frequency) = (segment.duration, self.frequency);
         let begin = self.excitation(segment.phase);
         let end = self.excitation(segment.phase + frequency * duration);

@@ -21,6 +21,13 @@ const LARGEST_TOUCH: f64 = 0.1;
 /// evaluations. A sixth of the natural period is a fair middle.
 const HORIZON: f64 = 1.0;
 
+/// Operations of one panel of the fast search: two complex products, the motion at its end, and the
+/// six coefficients that bound it.
+pub(super) const PANEL: u64 = 45;
+/// Operations of what a flight costs beside its panels: its beginning, the guess and the series that
+/// locate an impact, and the impact itself.
+const FLIGHT: u64 = 240;
+
 /// Why a run ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
@@ -150,6 +157,12 @@ impl Simulation {
     /// Evaluations of the closed form, one state at one time each, that flights have cost so far.
     pub fn evaluations(&self) -> u64 {
         self.evaluations
+    }
+
+    /// What flights and impacts have cost so far, in operations as [`crate::tally`] counts them;
+    /// what observers do is not in it.
+    pub fn operations(&self) -> u64 {
+        PANEL * self.evaluations + FLIGHT * (self.impacts + self.turns)
     }
 
     /// The system that moves.

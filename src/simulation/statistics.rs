@@ -13,6 +13,7 @@ use super::integrals::{Integrals, Integrator};
 use crate::numerics::bracket::brent;
 use crate::numerics::quadrature;
 use crate::system::{State, System};
+use crate::tally;
 
 /// Energy balance over a window, per unit of the oscillator's mass, over the squared clearance.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -240,6 +241,7 @@ impl Statistics {
         let mut sums = [0.0; 7];
         quadrature::graded_nodes(segment.duration, self.first_panel, self.panel, |s, weight| {
             let State { x, x_velocity, y, .. } = segment.at(s);
+            tally::note(2 * tally::ELEMENTARY + 30);
             let (sin, cos) = libm::sincos(segment.phase + omega * s);
             let force = sine * sin + cosine * cos;
             let terms = [

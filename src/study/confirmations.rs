@@ -92,6 +92,11 @@ pub struct Confirmations {
 }
 
 impl Confirmations {
+    /// Those of a study that simulates nothing.
+    pub fn none() -> Self {
+        Self { upper_limit: None, best: None }
+    }
+
     /// Simulates what the margins of a case speak of.
     ///
     /// # Errors

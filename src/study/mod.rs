@@ -4,10 +4,12 @@
 pub mod confirmations;
 pub mod diagrams;
 pub mod exact_branches;
+pub mod fidelity;
 pub mod margins;
 pub mod proofs;
 pub mod scenes;
 pub mod stretches;
+pub mod tradeoff;
 
 use serde::Serialize;
 
@@ -37,6 +39,21 @@ pub enum StudyError {
     /// A predicted motion cannot be simulated.
     #[error(transparent)]
     Start(#[from] StartError),
+    /// No start led to a motion that could be measured.
+    #[error(
+        "no start led to a motion that could be measured; ask for more than 0 starts in [simulation]"
+    )]
+    NoMotion,
+    /// The layer that was insisted on has no answer.
+    #[error("the {layer} was asked for, but it has no answer here: {why}; {instead}")]
+    NoAnswer {
+        /// Which layer.
+        layer: &'static str,
+        /// Why it has none.
+        why: &'static str,
+        /// What would.
+        instead: &'static str,
+    },
     /// A parameter cannot be swept.
     #[error(transparent)]
     Diagram(#[from] DiagramError),
@@ -44,7 +61,7 @@ pub enum StudyError {
 
 /// How thoroughly a case is studied. The defaults settle every shipped case: transients of the 1:1
 /// motion die out within some hundred periods, and shares of 32 starts are good to about 9 %.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct StudyEffort {
     /// Evenly spread starts.
     pub starts: u32,
@@ -113,6 +130,11 @@ pub struct CaseStudy {
     pub confirmations: Confirmations,
     /// How thoroughly.
     pub effort: StudyEffort,
+    /// What finding the attractors has cost, in operations as [`crate::tally`] counts them.
+    #[serde(skip)]
+    pub motions_cost: u64,
+    /// Whether anything was simulated; if not, `attractors` is empty.
+    pub simulated: bool,
 }
 
 /// An area and which layer settled it.
@@ -158,8 +180,8 @@ impl CaseStudy {
         progress: &mut dyn FnMut(u64),
     ) -> Result<Self, StudyError> {
         let analysis = Analysis::of(system)?;
-        let LongTermMotions { attractors, proofs } =
-            long_term_motions(&analysis, &effort, progress)?;
+        let (LongTermMotions { attractors, proofs }, motions_cost) =
+            fidelity::counted_motions(&analysis, &effort, progress)?;
         let exact = FullSystem::of(system);
         let area = settle_area(&analysis, &exact)?;
         let claims = validation::confront(&analysis, &exact, &attractors, &effort.each())?;
@@ -176,7 +198,42 @@ impl CaseStudy {
             margins,
             confirmations,
             effort,
+            motions_cost,
+            simulated: true,
             analysis,
+        })
+    }
+
+    /// The same from theory and exact orbits alone: attractors, and whatever simulation would confirm,
+    /// stay empty.
+    ///
+    /// # Errors
+    /// [`StudyError`] where the theory cannot be carried out.
+    pub fn without_simulation(system: &System, effort: StudyEffort) -> Result<Self, StudyError> {
+        let analysis = Analysis::of(system)?;
+        let exact = FullSystem::of(system);
+        Ok(Self {
+            area: settle_area(&analysis, &exact)?,
+            attractors: Vec::new(),
+            proofs: Vec::new(),
+            claims: validation::confront_theory(&analysis, &exact),
+            prices: prices(&analysis, &exact),
+            margins: Margins::of(&analysis, &exact)?,
+            confirmations: Confirmations::none(),
+            effort,
+            motions_cost: 0,
+            simulated: false,
+            exact,
+            analysis,
+        })
+    }
+
+    /// What was simulated, if anything was.
+    pub fn simulated_motions(&self) -> Option<fidelity::Simulated<'_>> {
+        self.simulated.then_some(fidelity::Simulated {
+            attractors: &self.attractors,
+            proofs: &self.proofs,
+            operations: self.motions_cost,
         })
     }
 

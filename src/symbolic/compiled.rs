@@ -7,6 +7,7 @@
 use super::evaluate::{Machine, apply, perform};
 use super::expr::Function;
 use super::{Expr, MissingValue, Symbol, Values};
+use crate::tally;
 use std::collections::HashMap;
 use std::convert::Infallible;
 
@@ -23,11 +24,24 @@ enum Step {
     Function(Function, u16),
 }
 
+impl Step {
+    fn cost(&self) -> u64 {
+        match self {
+            Self::Number(_) | Self::Symbol(_) => 0,
+            Self::Add(..) | Self::Multiply(..) | Self::Divide(..) => 1,
+            Self::Function(Function::Sqrt, _) => 1,
+            Self::Function(Function::Sin | Function::Cos, _) => tally::ELEMENTARY,
+        }
+    }
+}
+
 /// A program that evaluates `N` expressions at once.
 #[derive(Debug, Clone)]
 pub struct Compiled<const N: usize> {
     steps: Vec<Step>,
     results: [u16; N],
+    /// Operations of one evaluation, as [`crate::tally`] counts them.
+    cost: u64,
 }
 
 impl<const N: usize> Compiled<N> {
@@ -42,7 +56,8 @@ impl<const N: usize> Compiled<N> {
         });
         let count = recorder.steps.len();
         assert!(count <= CAPACITY, "{count} operations in one program, at most {CAPACITY}");
-        Self { steps: recorder.steps, results }
+        let cost = recorder.steps.iter().map(Step::cost).sum();
+        Self { steps: recorder.steps, results, cost }
     }
 
     /// How many operations one evaluation takes, loads of numbers and symbols included.
@@ -55,6 +70,7 @@ impl<const N: usize> Compiled<N> {
     /// # Errors
     /// If a symbol has no value; the error names it.
     pub fn evaluate(&self, values: &Values) -> Result<[f64; N], MissingValue> {
+        tally::note(self.cost);
         let mut slots = [0.0; CAPACITY];
         let at = |slots: &[f64; CAPACITY], place: u16| slots[usize::from(place) % CAPACITY];
         for (place, step) in self.steps.iter().enumerate() {

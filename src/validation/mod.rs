@@ -113,6 +113,13 @@ pub struct Claim {
     pub verdict: Verdict,
 }
 
+/// Confronts the theory with the exact orbits, and nothing with simulation.
+pub fn confront_theory(analysis: &Analysis, exact: &FullSystem) -> Vec<Claim> {
+    let mut claims = motions::fixed_points(analysis, exact);
+    claims.extend(boundaries::positions(analysis, exact));
+    claims
+}
+
 /// Confronts the theory with the exact orbits, the exact orbits with simulation, and both with the
 /// attractors that were found.
 ///
@@ -124,8 +131,7 @@ pub fn confront(
     attractors: &[FoundAttractor],
     effort: &Effort,
 ) -> Result<Vec<Claim>, StartError> {
-    let mut claims = motions::fixed_points(analysis, exact);
-    claims.extend(boundaries::positions(analysis, exact));
+    let mut claims = confront_theory(analysis, exact);
     claims.extend(orbits::simulated(exact)?);
     claims.extend(orbits::limits(exact)?);
     claims.extend(motions::rest(analysis, effort)?);

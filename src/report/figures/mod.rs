@@ -86,6 +86,10 @@ pub fn all(case: &Case, study: &CaseStudy) -> Result<Vec<Figure>, StudyError> {
     figures.push(plane::figure(&scene)?);
     figures.push(manifold::figure(&scene));
     figures.extend(response::figure(&scene)?);
+    if !study.simulated {
+        // All others simulate.
+        return Ok(figures);
+    }
     figures.extend(amplitude::figure(&scene)?);
     for index in 0..study.attractors.len().min(ATTRACTORS) {
         figures.extend(motion::figure(&scene, index)?);

@@ -2,6 +2,7 @@
 
 mod margins;
 mod standing;
+mod unsimulated;
 
 use serde::Serialize;
 
@@ -39,6 +40,11 @@ pub struct Verdict {
 /// Writes the verdict of a study.
 pub fn verdict(case: &Case, study: &CaseStudy) -> Verdict {
     let writer = Writer { case, study, lengths: LengthFormat::of(&case.scales()) };
+    if !study.simulated
+        && let Some(verdict) = writer.unsimulated()
+    {
+        return verdict;
+    }
     let Some(main) = study.main_attractor() else {
         return Verdict {
             tone: Tone::Bad,

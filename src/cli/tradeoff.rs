@@ -1,0 +1,101 @@
+//! `vinesink tradeoff CASE`
+
+use std::hint::black_box;
+use std::path::PathBuf;
+use std::time::Instant;
+
+use clap::Args;
+use miette::{IntoDiagnostic, Result, miette};
+use vinesink::report::{render, tradeoff as page};
+use vinesink::store;
+use vinesink::study::tradeoff::{Tradeoff, TradeoffEffort, Trial};
+use vinesink::study::{StudyEffort, StudyError};
+use vinesink::system::{State, System};
+
+use super::case_file::{CaseArgument, Format};
+use super::progress::Progress;
+use super::{Outcome, output};
+
+/// Measure how much accuracy each layer gives for how much work
+///
+/// Asks the closed form, the slow flow in time, the exact orbit, simulations of several lengths and
+/// a fixed-step integrator for the amplitude of the case's long-term motion, and sets their errors
+/// against the best answer beside what they cost: in operations, which are the same on every
+/// machine, and on the terminal also in seconds of this one.
+#[derive(Debug, Args)]
+#[command(after_long_help = EXAMPLES)]
+pub struct Arguments {
+    #[command(flatten)]
+    case: CaseArgument,
+    /// Also write tradeoff.md and figures/tradeoff.svg into OUT/<name of the case file>, without
+    /// seconds; `vinesink report` replaces that folder and comes first
+    #[arg(long, value_name = "OUT")]
+    out: Option<PathBuf>,
+    /// Text for people or JSON for programs
+    #[arg(long, value_enum, default_value = "text")]
+    format: Format,
+    /// Put seconds into the JSON document, which is then not the same twice
+    #[arg(long)]
+    seconds: bool,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  vinesink tradeoff cases/li2016-8hz-b7p5mm.toml
+  vinesink tradeoff cases/li2016-8p5hz-fig4d.toml --out reports
+  vinesink tradeoff damper.toml --format json | jq '.methods[] | [.method, .operations]'";
+
+/// Runs of a method of which the fastest counts, and seconds after which no further one begins.
+const RUNS: u32 = 5;
+const LONG_ENOUGH: f64 = 0.2;
+
+pub fn run(arguments: Arguments) -> Result<Outcome> {
+    let case = arguments.case.read()?;
+    let system = case.system();
+    let effort =
+        TradeoffEffort { study: StudyEffort::of(&case.simulation), ..TradeoffEffort::default() };
+    let progress = Progress::new("layers", Tradeoff::steps(&effort));
+    let found = Tradeoff::of(&system, &effort, &mut |done| progress.advance(done));
+    let found = found.into_diagnostic()?;
+    let asked = case.accuracy.and_then(|accuracy| accuracy.amplitude);
+    let allowed = asked.unwrap_or(page::USUAL);
+    let timed = matches!(arguments.format, Format::Text) || arguments.seconds;
+    let seconds = if timed { seconds(&system, &found).into_diagnostic()? } else { Vec::new() };
+    drop(progress);
+    if let Some(out) = &arguments.out {
+        let stem = arguments.case.path.file_stem();
+        let stem = stem.ok_or_else(|| miette!("{} is no file", arguments.case.path.display()))?;
+        let figure = page::figure(&found, allowed);
+        let name = stem.to_string_lossy();
+        let text = page::TradeoffPage::new(&name, &case, &found, allowed, &figure);
+        let files = render::tradeoff(&text, &figure).into_diagnostic()?;
+        store::add_to_folder(&out.join(stem), &files)?;
+    }
+    match arguments.format {
+        Format::Text => output::print(page::summary(&case, &found, allowed, &seconds))?,
+        Format::Json => {
+            let seconds = arguments.seconds.then_some(seconds.as_slice());
+            output::print_json(&page::TradeoffDocument::new(&case, &found, allowed, seconds))?;
+        }
+    }
+    Ok(Outcome::Done)
+}
+
+/// The shortest of several runs of each method, in seconds, in the order of the trials.
+fn seconds(system: &System, found: &Tradeoff) -> Result<Vec<f64>, StudyError> {
+    found.trials.iter().map(|trial| fastest(system, found.start, trial)).collect()
+}
+
+fn fastest(system: &System, start: State, trial: &Trial) -> Result<f64, StudyError> {
+    let mut best = f64::INFINITY;
+    let begin = Instant::now();
+    for _ in 0..RUNS {
+        let here = Instant::now();
+        black_box(trial.method.run(system, start)?);
+        best = best.min(here.elapsed().as_secs_f64());
+        if begin.elapsed().as_secs_f64() > LONG_ENOUGH {
+            break;
+        }
+    }
+    Ok(best)
+}

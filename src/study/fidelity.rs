@@ -1,0 +1,427 @@
+//! Which layer answers which question: the cheapest whose error is known to be small enough.
+//!
+//! The closed form answers where an exact orbit that is stable and admissible measures its error; the
+//! exact orbit answers where there is one; simulation answers where there is none, and wherever it is
+//! asked which other motions coexist, which no single orbit knows. A layer may also be insisted on.
+
+use serde::Serialize;
+
+use super::tradeoff::method::{impacts_per_period, measured};
+use super::tradeoff::{Answer, Method};
+use super::{LongTermMotions, StudyError, main_attractor};
+use crate::analysis::Analysis;
+use crate::case::AccuracySettings;
+use crate::regimes::{FoundAttractor, Regime};
+use crate::simulation::Simulation;
+use crate::study::Proof;
+use crate::system::{State, System};
+use crate::tally;
+use crate::validation::tolerance::asymptotic_error;
+
+/// A layer that can answer, by rising cost of what it can be trusted with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Fidelity {
+    /// Manifold and fixed points of the slow flow, in closed form.
+    Manifold,
+    /// The exact symmetric orbit.
+    Orbit,
+    /// Event-driven simulation.
+    Simulation,
+}
+
+impl Fidelity {
+    /// The name in a report.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Manifold => "closed form",
+            Self::Orbit => "exact orbit",
+            Self::Simulation => "simulation",
+        }
+    }
+}
+
+/// How exact the answers must be.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Demand {
+    /// Largest relative error of the root mean square displacement.
+    pub amplitude: f64,
+    /// Largest error of the impacts per period.
+    pub impacts_per_period: f64,
+    /// Whether other long-term motions are looked for.
+    pub coexistence: bool,
+}
+
+impl Default for Demand {
+    /// A per cent of the amplitude, which is what clearances and restitution are known to; and impacts
+    /// as exactly as regimes are told apart.
+    fn default() -> Self {
+        Self { amplitude: 0.01, impacts_per_period: 0.01, coexistence: false }
+    }
+}
+
+impl Demand {
+    /// What a case asks for.
+    pub fn of(settings: &AccuracySettings) -> Self {
+        let usual = Self::default();
+        Self {
+            amplitude: settings.amplitude.unwrap_or(usual.amplitude),
+            impacts_per_period: settings.impacts_per_period.unwrap_or(usual.impacts_per_period),
+            coexistence: settings.coexistence,
+        }
+    }
+}
+
+/// A question that a report answers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Question {
+    /// The root mean square displacement of the oscillator.
+    Amplitude,
+    /// Impacts per excitation period.
+    ImpactsPerPeriod,
+    /// The regime.
+    Regime,
+    /// Which other long-term motions there are.
+    Coexistence,
+}
+
+/// How an error is known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum KnownBy {
+    /// The exact orbit beside it.
+    ExactOrbit,
+    /// Neglected terms, `eps (2 + abs(sigma) + lambda)`; no orbit was there to measure it.
+    Asymptotics,
+    /// Closure of the orbit: rounding.
+    Closure,
+    /// Scatter between blocks of a simulation: two standard errors.
+    Scatter,
+    /// Nothing: it is an outcome and has no size.
+    Outcome,
+}
+
+/// An answer and what it stands on.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Answered {
+    /// What was asked.
+    pub question: Question,
+    /// Which layer answers.
+    pub layer: Fidelity,
+    /// A number: lengths over the clearance.
+    pub value: Option<f64>,
+    /// A regime.
+    pub regime: Option<Regime>,
+    /// How many other long-term motions were found, for [`Question::Coexistence`].
+    pub others: Option<usize>,
+    /// Its error, relative for the amplitude, absolute for the impacts.
+    pub error: Option<f64>,
+    /// How that is known.
+    pub known_by: KnownBy,
+    /// The largest error that was asked for.
+    pub allowed: Option<f64>,
+    /// Whether the error is known to be within it.
+    pub enough: bool,
+}
+
+/// Which layer answers, decided without simulating.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Plan {
+    /// The system.
+    pub system: System,
+    /// What was asked for.
+    pub demand: Demand,
+    /// The layer that was insisted on.
+    pub forced: Option<Fidelity>,
+    /// The layer that answers amplitude, impacts and regime.
+    pub layer: Fidelity,
+    /// What the closed form says, and what that cost in operations.
+    pub closed_form: (Answer, u64),
+    /// The same for the symmetric orbit.
+    pub orbit: (Answer, u64),
+}
+
+/// Everything that was asked, answered.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Answers {
+    /// What was asked for.
+    pub demand: Demand,
+    /// The layer that was insisted on, if one was.
+    pub forced: Option<Fidelity>,
+    /// One for each question.
+    pub answers: Vec<Answered>,
+    /// Relative error of the closed form, where the exact orbit measures it.
+    pub error_of_closed_form: Option<f64>,
+    /// Operations of closed form, exact orbit and simulation; `None` for what was not done.
+    pub operations: [Option<u64>; 3],
+    /// Whether other motions were looked for.
+    pub coexistence_looked_for: bool,
+}
+
+impl Answers {
+    /// Whether everything that was asked for is known well enough.
+    pub fn enough(&self) -> bool {
+        self.answers.iter().all(|answer| answer.enough)
+    }
+}
+
+/// Long-term motions that were simulated.
+#[derive(Debug, Clone, Copy)]
+pub struct Simulated<'a> {
+    /// The motions.
+    pub attractors: &'a [FoundAttractor],
+    /// For each of them the exact orbit that it is, where it is one.
+    pub proofs: &'a [Option<Proof>],
+    /// What finding them cost, in operations.
+    pub operations: u64,
+}
+
+impl Plan {
+    /// Decides from the closed form and the symmetric orbit.
+    ///
+    /// # Errors
+    /// [`StudyError`] where the theory cannot be carried out, and where the layer that is insisted on
+    /// has no answer.
+    pub fn of(
+        system: &System,
+        demand: Demand,
+        forced: Option<Fidelity>,
+    ) -> Result<Self, StudyError> {
+        // None of these simulates, so none of them has a start.
+        let nowhere = State { x: 0.0, x_velocity: 0.0, y: 0.0, y_velocity: 0.0 };
+        let closed_form = Method::FixedPoints.run(system, nowhere)?;
+        let orbit = Method::SymmetricOrbit.run(system, nowhere)?;
+        let mut plan = Self {
+            system: *system,
+            demand,
+            forced,
+            layer: Fidelity::Simulation,
+            closed_form,
+            orbit,
+        };
+        plan.layer = match forced {
+            Some(layer) => layer,
+            None if plan.error_of_closed_form().is_some_and(|e| e.abs() <= demand.amplitude) => {
+                Fidelity::Manifold
+            }
+            None if plan.orbit.0.rms.is_some() => Fidelity::Orbit,
+            None => Fidelity::Simulation,
+        };
+        plan.check()?;
+        Ok(plan)
+    }
+
+    fn check(&self) -> Result<(), StudyError> {
+        let (answer, instead) = match self.layer {
+            Fidelity::Manifold => {
+                (&self.closed_form.0, "the exact orbit or simulation may have one")
+            }
+            Fidelity::Orbit => (&self.orbit.0, "simulation has one"),
+            Fidelity::Simulation => return Ok(()),
+        };
+        match (answer.rms, answer.why_not) {
+            (None, Some(why)) => {
+                Err(StudyError::NoAnswer { layer: self.layer.words(), why, instead })
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Relative error of the closed form's amplitude, measured by the exact orbit.
+    pub fn error_of_closed_form(&self) -> Option<f64> {
+        Some(self.closed_form.0.rms? / self.orbit.0.rms? - 1.0)
+    }
+
+    /// Whether long-term motions must be simulated: for the amplitude itself, or for what coexists,
+    /// unless a cheaper layer was insisted on.
+    pub fn needs_simulation(&self) -> bool {
+        self.layer == Fidelity::Simulation || (self.demand.coexistence && self.forced.is_none())
+    }
+
+    /// The answers; `simulated` are the long-term motions, where [`Plan::needs_simulation`].
+    ///
+    /// # Errors
+    /// [`StudyError`] where a motion cannot be measured further.
+    pub fn answers(&self, simulated: Option<Simulated>) -> Result<Answers, StudyError> {
+        let mut cost = simulated.map(|simulated| simulated.operations);
+        let mut answers = match (self.layer, simulated) {
+            (Fidelity::Simulation, Some(simulated)) => {
+                let (answers, further) = tally::counted(|| self.by_simulation(&simulated));
+                cost = cost.map(|cost| cost + further);
+                answers?
+            }
+            (Fidelity::Simulation, None) => return Err(StudyError::NoMotion),
+            (layer, _) => self.by_closed_form_or_orbit(layer),
+        };
+        if self.demand.coexistence {
+            answers.push(coexistence(self.layer, simulated.map(|simulated| simulated.attractors)));
+        }
+        let compared = self.layer != Fidelity::Simulation;
+        Ok(Answers {
+            demand: self.demand,
+            forced: self.forced,
+            answers,
+            error_of_closed_form: self.error_of_closed_form(),
+            operations: [
+                compared.then_some(self.closed_form.1),
+                compared.then_some(self.orbit.1),
+                cost,
+            ],
+            coexistence_looked_for: simulated.is_some(),
+        })
+    }
+
+    fn by_closed_form_or_orbit(&self, layer: Fidelity) -> Vec<Answered> {
+        let (answer, error, known_by) = match layer {
+            Fidelity::Manifold => match self.error_of_closed_form() {
+                Some(error) => (&self.closed_form.0, error.abs(), KnownBy::ExactOrbit),
+                None => {
+                    let error = asymptotic_error(&self.system);
+                    (&self.closed_form.0, error, KnownBy::Asymptotics)
+                }
+            },
+            _ => (&self.orbit.0, super::tradeoff::ORBIT_ROUNDING, KnownBy::Closure),
+        };
+        // Two impacts a period are what both mean by the motion; they are as certain as it is.
+        let certain = known_by != KnownBy::Asymptotics;
+        let known = Known { layer, known_by };
+        vec![
+            known.number(Question::Amplitude, answer.rms, error, self.demand.amplitude),
+            Answered {
+                enough: certain,
+                ..known.number(
+                    Question::ImpactsPerPeriod,
+                    answer.impacts_per_period,
+                    0.0,
+                    self.demand.impacts_per_period,
+                )
+            },
+            Answered { enough: certain, ..known.regime(answer.regime) },
+        ]
+    }
+
+    fn by_simulation(&self, simulated: &Simulated) -> Result<Vec<Answered>, StudyError> {
+        let main = main_attractor(simulated.attractors).ok_or(StudyError::NoMotion)?;
+        let proof = simulated
+            .attractors
+            .iter()
+            .zip(simulated.proofs)
+            .filter(|(one, _)| std::ptr::eq(*one, main))
+            .find_map(|(_, proof)| proof.as_ref());
+        let (answer, known_by) = match proof {
+            Some(proof) => (of_proof(main, proof), KnownBy::Closure),
+            None => (self.long_enough(main)?, KnownBy::Scatter),
+        };
+        let known = Known { layer: Fidelity::Simulation, known_by };
+        let impacts = answer.impacts_scatter.unwrap_or(f64::INFINITY);
+        let amplitude = answer.scatter.unwrap_or(f64::INFINITY);
+        Ok(vec![
+            known.number(Question::Amplitude, answer.rms, amplitude, self.demand.amplitude),
+            known.number(
+                Question::ImpactsPerPeriod,
+                answer.impacts_per_period,
+                impacts,
+                self.demand.impacts_per_period,
+            ),
+            known.regime(Some(main.regime())),
+        ])
+    }
+
+    /// Measures the motion over windows that double until their scatter is small enough.
+    fn long_enough(&self, main: &FoundAttractor) -> Result<Answer, StudyError> {
+        let mut simulation = Simulation::new(&self.system, main.attractor.state, 0.0)?;
+        let mut periods = SHORTEST;
+        loop {
+            let before = simulation.operations();
+            let answer = measured(&mut simulation, periods).ok_or(StudyError::NoMotion)?;
+            tally::note(simulation.operations() - before);
+            let within = |scatter: Option<f64>, allowed: f64| scatter.is_some_and(|s| s <= allowed);
+            let enough = within(answer.scatter, self.demand.amplitude)
+                && within(answer.impacts_scatter, self.demand.impacts_per_period);
+            if enough || periods >= LONGEST {
+                return Ok(answer);
+            }
+            periods *= 2;
+        }
+    }
+}
+
+/// Window that is measured first, and the longest one tried: a minute of a fast machine.
+const SHORTEST: u64 = 2000;
+const LONGEST: u64 = 512_000;
+
+fn of_proof(main: &FoundAttractor, proof: &Proof) -> Answer {
+    Answer {
+        rms: Some(proof.measures.rms),
+        scatter: Some(super::tradeoff::ORBIT_ROUNDING),
+        impacts_per_period: Some(impacts_per_period(proof)),
+        impacts_scatter: Some(0.0),
+        regime: Some(main.regime()),
+        why_not: None,
+    }
+}
+
+fn coexistence(layer: Fidelity, found: Option<&[FoundAttractor]>) -> Answered {
+    let others = found.map(|found| found.len().saturating_sub(1));
+    Answered {
+        question: Question::Coexistence,
+        layer: if others.is_some() { Fidelity::Simulation } else { layer },
+        value: None,
+        regime: None,
+        others,
+        error: None,
+        known_by: KnownBy::Outcome,
+        allowed: None,
+        enough: others.is_some(),
+    }
+}
+
+struct Known {
+    layer: Fidelity,
+    known_by: KnownBy,
+}
+
+impl Known {
+    fn number(&self, question: Question, value: Option<f64>, error: f64, allowed: f64) -> Answered {
+        Answered {
+            question,
+            layer: self.layer,
+            value,
+            regime: None,
+            others: None,
+            error: Some(error),
+            known_by: self.known_by,
+            allowed: Some(allowed),
+            enough: value.is_some() && error <= allowed,
+        }
+    }
+
+    fn regime(&self, regime: Option<Regime>) -> Answered {
+        Answered {
+            question: Question::Regime,
+            layer: self.layer,
+            value: None,
+            regime,
+            others: None,
+            error: None,
+            known_by: self.known_by,
+            allowed: None,
+            enough: regime.is_some(),
+        }
+    }
+}
+
+/// The long-term motions of a case with what finding them cost, in operations.
+///
+/// # Errors
+/// As [`super::long_term_motions`].
+pub fn counted_motions(
+    analysis: &Analysis,
+    effort: &super::StudyEffort,
+    progress: &mut dyn FnMut(u64),
+) -> Result<(LongTermMotions, u64), StudyError> {
+    let (found, operations) =
+        tally::counted(|| super::long_term_motions(analysis, effort, progress));
+    Ok((found?, operations))
+}

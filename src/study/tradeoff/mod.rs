@@ -1,0 +1,310 @@
+//! How much accuracy for how much work: every layer asked the same question about one case.
+//!
+//! The question is the long-term motion that most starts lead to: the root mean square of the
+//! oscillator's displacement, which every layer gives and which averages well, and the impacts per
+//! period. The **best answer** is the exact orbit that the motion is proven to be, and where it is
+//! none the longest simulation, with the scatter between its blocks. Errors are differences from it;
+//! one that is smaller than the best answer's own is only known to be below that.
+//!
+//! Costs are operations as [`crate::tally`] counts them. Time is not measured here: whoever has a
+//! clock runs [`Method::run`] again.
+
+pub mod by_hand;
+pub mod method;
+
+use serde::Serialize;
+
+use super::{LongTermMotions, StudyEffort, StudyError, long_term_motions, main_attractor};
+use crate::analysis::Analysis;
+use crate::regimes::starts::StartBox;
+use crate::regimes::{Attractor, FoundAttractor, Regime};
+use crate::simulation::{ContactTolerance, Simulation};
+use crate::system::{State, System};
+use by_hand::{ByHand, Flights, Locate};
+
+pub use method::{Answer, Layer, Method, Search};
+
+/// What is tried.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct TradeoffEffort {
+    /// Where the long-term motion is looked for.
+    pub study: StudyEffort,
+    /// Lengths of simulations, in excitation periods, transient included.
+    pub lengths: Vec<u64>,
+    /// Steps per period of the baseline.
+    pub steps: Vec<u32>,
+    /// Length of the baseline's runs, and of those at other tolerances and by the slow search.
+    pub usual_length: u64,
+    /// Periods over which a motion that is no orbit is measured for the best answer.
+    pub longest: u64,
+    /// Periods in which the baseline's flights are checked one by one.
+    pub flights: u64,
+}
+
+impl Default for TradeoffEffort {
+    fn default() -> Self {
+        Self {
+            study: StudyEffort::default(),
+            // From what shows a regime to what a modulated motion's average takes.
+            lengths: vec![50, 100, 200, 500, 1000, 5000],
+            steps: vec![50, 200, 1000, 5000],
+            usual_length: 1000,
+            // Twenty times the longest simulation that it judges, so that its scatter is a quarter
+            // of theirs.
+            longest: 100_000,
+            // Some thousand impacts: a miss in a thousand is seen.
+            flights: 2000,
+        }
+    }
+}
+
+/// Excursions at which chattering sequences are ended, over the clearance, largest first; the last
+/// is the engine's own.
+const EXCURSIONS: [f64; 3] = [1e-3, 1e-6, 1e-9];
+/// Periods simulated before Newton's method takes over.
+const BEFORE_NEWTON: u64 = 400;
+/// Relative error of averages along an exact orbit: closure and quadrature, both to rounding, with
+/// room for a few hundred operations.
+pub(super) const ORBIT_ROUNDING: f64 = 1e-12;
+
+/// What all answers are compared with.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Best {
+    /// Exact orbit or simulation.
+    pub layer: Layer,
+    /// Periods measured, if it is a simulation.
+    pub periods: Option<u64>,
+    /// Impacts and periods of the orbit, if it is one.
+    pub orbit: Option<(usize, u32)>,
+    /// Root mean square displacement over the clearance.
+    pub rms: f64,
+    /// Its relative error: two standard errors of a simulation, rounding of an orbit.
+    pub rms_error: f64,
+    /// Impacts per period.
+    pub impacts_per_period: f64,
+    /// Its error.
+    pub impacts_error: f64,
+    /// The regime.
+    pub regime: Regime,
+}
+
+/// The error of an answer.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct ErrorOf {
+    /// Size of the difference from the best answer; for a motion that does not repeat at least twice
+    /// the answer's own standard error, since a lucky difference is no knowledge.
+    pub value: f64,
+    /// Whether that is below what the best answer itself is known to, which is then `value`.
+    pub below: bool,
+}
+
+impl ErrorOf {
+    fn new(difference: f64, own: Option<f64>, best: f64) -> Self {
+        let value = difference.abs().max(own.unwrap_or(0.0));
+        Self { value: value.max(best), below: value < best }
+    }
+}
+
+/// One method on the case.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Trial {
+    /// What was tried.
+    pub method: Method,
+    /// What it answers.
+    pub answer: Answer,
+    /// What it cost.
+    pub operations: u64,
+    /// Relative error of the root mean square displacement.
+    pub rms_error: Option<ErrorOf>,
+    /// Absolute error of the impacts per period.
+    pub impacts_error: Option<ErrorOf>,
+    /// For the baseline: its flights, one by one.
+    pub flights: Option<Flights>,
+}
+
+/// Accuracy and cost of every layer on one case.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tradeoff {
+    /// The system.
+    pub system: System,
+    /// Where simulations begin.
+    pub start: State,
+    /// Which of the evenly spread starts that is; `None` where none of them leads to the motion.
+    pub start_number: Option<u32>,
+    /// The best answer.
+    pub best: Best,
+    /// Share of starts that lead to the motion in question.
+    pub share: f64,
+    /// How many other long-term motions there are.
+    pub others: usize,
+    /// Whether the absorber rests on a wall at times.
+    pub rests: bool,
+    /// Every method.
+    pub trials: Vec<Trial>,
+}
+
+impl Tradeoff {
+    /// Tries every layer on `system`; `progress` is called after each of about
+    /// [`Tradeoff::steps`] steps.
+    ///
+    /// # Errors
+    /// [`StudyError`] where theory or simulation cannot be carried out.
+    pub fn of(
+        system: &System,
+        effort: &TradeoffEffort,
+        progress: &mut dyn FnMut(u64),
+    ) -> Result<Self, StudyError> {
+        let analysis = Analysis::of(system)?;
+        let motions = long_term_motions(&analysis, &effort.study, progress)?;
+        let main = main_attractor(&motions.attractors).ok_or(StudyError::NoMotion)?;
+        let best = best(system, &motions, main, effort)?;
+        progress(1);
+        let (start, start_number) = start(system, main, &effort.study)?;
+        let rests = main.attractor.sustained_contact.intervals > 0;
+        let mut trials = Vec::new();
+        for method in methods(&best, rests, effort) {
+            trials.push(trial(system, start, method, &best, effort)?);
+            progress(1);
+        }
+        Ok(Self {
+            system: *system,
+            start,
+            start_number,
+            share: main.share,
+            others: motions.attractors.len() - 1,
+            rests,
+            best,
+            trials,
+        })
+    }
+
+    /// Number of progress steps, about.
+    pub fn steps(effort: &TradeoffEffort) -> u64 {
+        u64::from(effort.study.starts)
+            + 5
+            + (2 * effort.lengths.len() + 2 * effort.steps.len()) as u64
+    }
+
+    /// The cheapest trial of a layer whose error of the root mean square is within `allowed`: with the
+    /// right regime, where it tells one, and not by chance, which means that every longer run and every
+    /// smaller step of the same kind is within it too.
+    pub fn cheapest(&self, layer: Layer, allowed: f64) -> Option<&Trial> {
+        let within = |trial: &Trial| trial.rms_error.is_some_and(|error| error.value <= allowed);
+        let lasts = |trial: &&Trial| {
+            let named = trial.answer.regime.is_none_or(|regime| regime == self.best.regime);
+            let refined = self.trials.iter().filter(|other| other.method.refines(trial.method));
+            named && within(trial) && refined.into_iter().all(within)
+        };
+        let of_layer = self.trials.iter().filter(|trial| trial.method.layer() == layer);
+        of_layer.filter(lasts).min_by_key(|trial| trial.operations)
+    }
+}
+
+/// The first evenly spread start that leads to the motion, so that transients are those of the case.
+fn start(
+    system: &System,
+    main: &FoundAttractor,
+    effort: &StudyEffort,
+) -> Result<(State, Option<u32>), StudyError> {
+    let sample = StartBox::around(system);
+    for index in 0..effort.starts {
+        let start = sample.start(index);
+        if Attractor::reach(system, start, &effort.each())?.is_same(&main.attractor) {
+            return Ok((start, Some(index)));
+        }
+    }
+    Ok((main.attractor.state, None))
+}
+
+fn best(
+    system: &System,
+    motions: &LongTermMotions,
+    main: &FoundAttractor,
+    effort: &TradeoffEffort,
+) -> Result<Best, StudyError> {
+    let pairs = motions.attractors.iter().zip(&motions.proofs);
+    let proof = pairs
+        .filter(|(found, _)| std::ptr::eq(*found, main))
+        .find_map(|(_, proof)| proof.as_ref())
+        .filter(|proof| proof.orbit.attracts());
+    let regime = main.regime();
+    if let Some(proof) = proof {
+        let cycle = &proof.orbit.cycle;
+        return Ok(Best {
+            layer: Layer::ExactOrbit,
+            periods: None,
+            orbit: Some((cycle.impact_count(), cycle.periods())),
+            rms: proof.measures.rms,
+            rms_error: ORBIT_ROUNDING,
+            impacts_per_period: method::impacts_per_period(proof),
+            impacts_error: 0.0,
+            regime,
+        });
+    }
+    let mut simulation = Simulation::new(system, main.attractor.state, 0.0)?;
+    let answer = method::measured(&mut simulation, effort.longest).ok_or(StudyError::NoMotion)?;
+    Ok(Best {
+        layer: Layer::Simulation,
+        periods: Some(effort.longest),
+        orbit: None,
+        rms: answer.rms.unwrap_or(0.0),
+        rms_error: answer.scatter.unwrap_or(0.0).max(ORBIT_ROUNDING),
+        impacts_per_period: answer.impacts_per_period.unwrap_or(0.0),
+        impacts_error: answer.impacts_scatter.unwrap_or(0.0),
+        regime,
+    })
+}
+
+fn methods(best: &Best, rests: bool, effort: &TradeoffEffort) -> Vec<Method> {
+    let excursion = ContactTolerance::default().excursion;
+    let mut all = vec![Method::FixedPoints];
+    all.extend(effort.lengths.iter().map(|periods| Method::SlowFlow { periods: *periods }));
+    all.push(Method::SymmetricOrbit);
+    if best.layer == Layer::ExactOrbit && best.regime != Regime::TwoSymmetric {
+        all.push(Method::OrbitFromSimulation { periods: BEFORE_NEWTON });
+    }
+    let simulation = |periods, search, excursion| Method::Simulation { periods, search, excursion };
+    all.extend(effort.lengths.iter().map(|n| simulation(*n, Search::Panels, excursion)));
+    if rests {
+        let usual = effort.usual_length;
+        all.extend(EXCURSIONS.iter().map(|at| simulation(usual, Search::Panels, *at)));
+    }
+    all.push(simulation(effort.usual_length, Search::StepByStep, excursion));
+    for locate in [Locate::Bisection, Locate::Interpolation] {
+        let periods = effort.usual_length;
+        all.extend(effort.steps.iter().map(|n| Method::FixedStep { periods, steps: *n, locate }));
+    }
+    all
+}
+
+fn trial(
+    system: &System,
+    start: State,
+    method: Method,
+    best: &Best,
+    effort: &TradeoffEffort,
+) -> Result<Trial, StudyError> {
+    let (answer, operations) = method.run(system, start)?;
+    // What repeats has no scatter but that of its transient, which is an error and seen as one.
+    let repeats = best.layer == Layer::ExactOrbit;
+    let own = |scatter: Option<f64>| scatter.filter(|scatter| !repeats && scatter.is_finite());
+    let flights = match method {
+        Method::FixedStep { steps, locate, .. } => {
+            Some(Flights::of(&ByHand::new(system, steps, locate), start, effort.flights)?)
+        }
+        _ => None,
+    };
+    Ok(Trial {
+        method,
+        operations,
+        rms_error: answer
+            .rms
+            .map(|rms| ErrorOf::new(rms / best.rms - 1.0, own(answer.scatter), best.rms_error)),
+        impacts_error: answer.impacts_per_period.map(|z| {
+            let difference = z - best.impacts_per_period;
+            ErrorOf::new(difference, own(answer.impacts_scatter), best.impacts_error)
+        }),
+        flights,
+        answer,
+    })
+}
