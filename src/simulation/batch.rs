@@ -225,9 +225,10 @@ impl<S: Simd> Lanes<S> {
     fn begin<O: Observer>(&mut self, lanes: u64, queue: &mut Queue<'_, O>) -> u64 {
         let (mut fresh, mut begun) = (lanes, 0);
         while fresh != 0 {
-            let blocked = phasor::blocked(self.x, self.v, self.line).bits() & fresh;
-            let mask = WideMask::from_bits(self.simd, fresh & !blocked);
             let (here, slack) = self.rates.begin(self.x, self.v, self.steady, self.line);
+            let blocked = phasor::blocked(self.x, self.v, self.line) | self.rates.short(&here);
+            let blocked = blocked.bits() & fresh;
+            let mask = WideMask::from_bits(self.simd, fresh & !blocked);
             self.here = advanced(mask, &here, &self.here);
             self.slack = tightened(mask, &slack, &self.slack);
             let zero = self.x.like(0.0);

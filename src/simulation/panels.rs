@@ -45,6 +45,9 @@ impl Rates<f64> {
     fn fly_by<S: Simd>(&self, simd: S, from: &Takeoff, evaluations: &mut u64) -> Landing {
         let Takeoff { x, v, steady, line, left } = *from;
         let (mut here, slack) = self.begin(x, v, steady, line);
+        if self.short(&here) {
+            return Landing::Doubt;
+        }
         let mut time = 0.0;
         loop {
             let (mut length, mut slack) = (self.step, slack);

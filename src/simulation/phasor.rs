@@ -30,6 +30,10 @@ use crate::numerics::lanes::{Mask, Real};
 
 /// Largest angle by which either phasor turns in a panel; its series below end accordingly.
 const LARGEST_ANGLE: f64 = 0.8;
+/// Part of the clearance from which on a flight begins on a wall.
+const ON_WALL: f64 = 1.0 - 1e-9;
+/// A flight is short if its parabola comes back within twice this part of a panel, inverted.
+const SHORT_FLIGHT: f64 = 32.0;
 /// Most panels in a period: each may turn the steady motion too far by `1e-16` of itself.
 const MOST_PANELS: f64 = 64.0;
 /// Distance from a root within which a correction to the fourth order is exact to rounding: the next
@@ -222,6 +226,17 @@ impl<R: Real> Rates<R> {
         // 4 M S/1434 with S = 7200 times the coefficient, rounded up.
         let slope_squared = bend * coefficient * 20.1;
         (self.at(z, steady, line), Slack { coefficient, slope_squared })
+    }
+
+    /// Whether a flight comes back to the wall that it begins on within a small part of a panel, as in
+    /// a chattering sequence: its parabola alone, from which the step-by-step search begins, is then
+    /// nearer than any halving.
+    #[inline(always)]
+    pub(super) fn short(&self, here: &At<R>) -> R::Mask {
+        let one = here.gap.like(1.0);
+        let wall = R::choose(here.gap.less(here.gap.like(0.0)), -one, one);
+        let on = here.gap.like(ON_WALL).at_most(here.gap.abs());
+        on & (here.slope.abs() * SHORT_FLIGHT).less(here.a * wall * self.step)
     }
 
     /// A whole panel after `here`, where the absorber is at the beginning of `line`.
@@ -555,6 +570,7 @@ fn small_exponential<R: Real>(x: R) -> R {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::system::{Excitation, Parameters, System};
 
     #[test]
     fn small_series_are_exact_to_rounding() {
@@ -567,5 +583,91 @@ mod tests {
             let decay = -0.78 * part;
             assert!((small_exponential(decay) - libm::exp(decay)).abs() <= f64::EPSILON);
         }
+    }
+
+    fn oscillator(mass_ratio: f64, damping: f64, frequency_ratio: f64) -> Oscillator {
+        let parameters = Parameters {
+            mass_ratio,
+            damping,
+            restitution: 0.5,
+            frequency_ratio,
+            forcing_per_clearance: 0.7 / mass_ratio,
+            excitation: Excitation::Force,
+        };
+        Oscillator::alone(&System::new(parameters).expect("valid"))
+    }
+
+    /// A panel's quintic, in Bernstein's form.
+    fn quintic(here: &At<f64>, hull: &Hull<f64>, u: f64) -> f64 {
+        let [b1, b2, b3, b4] = hull.inner;
+        let row = [here.gap, b1, b2, b3, b4, hull.last];
+        let weights = [1.0, 5.0, 10.0, 10.0, 5.0, 1.0];
+        (0..6).fold(0.0, |sum, k| {
+            let power = libm::pow(u, k as f64) * libm::pow(1.0 - u, 5.0 - k as f64);
+            sum + row[k] * weights[k] * power
+        })
+    }
+
+    /// The remainder that the proof stands on, against the motion itself; and that it is no giant.
+    #[test]
+    fn the_gap_is_as_near_to_its_quintic_as_the_proof_says() {
+        let mut nearest = 0.0_f64;
+        for (eps, lambda, omega) in [
+            (0.01, 1.0, 1.0),
+            (0.3, 0.0, 0.4),
+            (0.5, 3.0, 4.0),
+            (0.01, 90.0, 0.97),
+            (0.1, 1.0, 1.3),
+        ] {
+            let rates = Rates::of(&oscillator(eps, lambda, omega)).expect("it rings");
+            for k in 0..40 {
+                let phase = TAU * f64::from(k) / 40.0;
+                let line = Line { y: 0.2, velocity: 0.3 };
+                let (x, v) = (libm::sin(3.0 * phase), 1.5 * libm::cos(5.0 * phase));
+                let (here, slack) = rates.begin(x, v, rates.steady(phase), line);
+                let there = rates.next(&here, line.from(rates.step));
+                let hull = Hull::of(&here, &there, rates.step, &slack);
+                for j in 1..20 {
+                    let u = f64::from(j) / 20.0;
+                    let at = rates.after(&here, u * rates.step, line);
+                    let off = (at.gap - quintic(&here, &hull, u)).abs();
+                    let cubed = libm::pow(u * (1.0 - u), 3.0);
+                    // Ten times the coefficient is S/720; the gap is rounded at the size of `x`.
+                    let bound = 10.0 * slack.coefficient * cubed;
+                    assert!(
+                        off <= bound + 1e-14,
+                        "{eps} {lambda} {omega} {k} {u}: {off:e} {bound:e}"
+                    );
+                    nearest = nearest.max(off / bound);
+                }
+            }
+        }
+        assert!(nearest > 0.5, "{nearest}: the bound is never nearly reached");
+    }
+
+    #[test]
+    fn coefficients_say_where_a_gap_stays_and_where_it_leaves() {
+        let hull = |inner: [f64; 4], last: f64| Hull { inner, last, slack: 0.01 };
+        assert!(hull([0.9, -0.9, 0.98, 0.0], 1.0).clear());
+        assert!(!hull([0.9, -0.9, 0.995, 0.0], 1.0).clear(), "within the slack");
+        assert!(!hull([0.9, -0.9, -0.995, 0.0], 1.0).clear(), "within the slack");
+        for outside in 0..4 {
+            for wall in [1.0, -1.0] {
+                let mut inner = [0.0; 4];
+                inner[outside] = 1.1 * wall;
+                assert!(!hull(inner, 0.5).clear() && !hull(inner, 0.5).meets(wall));
+                // Out, in again, and out at last: or out for good.
+                assert_eq!(hull(inner, 1.1 * wall).meets(wall), outside == 3);
+                // Or by way of the other wall.
+                assert!(!hull(inner, -1.1 * wall).meets(-wall));
+            }
+        }
+        assert!(hull([0.5, 0.9, 1.1, 1.2], 1.3).meets(1.0));
+        assert!(hull([-0.5, -0.9, -1.1, -1.2], -1.3).meets(-1.0));
+        assert!(!hull([0.5, 1.2, 0.995, 1.2], 1.3).meets(-1.0));
+        assert!(!hull([0.5, 1.2, 0.98, 1.2], 1.3).meets(1.0));
+        assert!(hull([0.5, 1.2, 0.995, 1.2], 1.3).meets(1.0), "the outer quintic is beyond");
+        assert!(!hull([0.5, 0.6, 0.7, 0.8], 0.9).meets(1.0));
+        assert!(!hull([0.5, f64::NAN, 0.7, 0.8], f64::NAN).clear());
     }
 }
