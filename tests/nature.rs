@@ -53,13 +53,13 @@ fn a_motion_that_is_still_settling_is_not_over() {
 }
 
 /// A chaotic transient cannot be told from chaos that stays until it is over: at b = 14.5 mm it gives
-/// way to the 1:1 motion after some hundred to some thousand periods, whatever the start.
+/// way to the 1:1 motion after 500 periods on average, from one start in eight after a thousand.
 #[test]
 fn a_chaotic_transient_is_chaotic_until_it_is_over() {
     let system = common::table_1(8.0, 14.5);
     let effort = Effort { discard: 400, periods: 1000, prolongations: 0, impact_limit: 1_000_000 };
     let mut ended = 0;
-    for k in 0..12 {
+    for k in 0..60 {
         let x_velocity = 0.1 + 0.01 * f64::from(k);
         let start = State { x: 0.0, x_velocity, y: 0.0, y_velocity: -0.2 };
         let early = Attractor::reach(&system, start, &effort).expect("inside the cavity");

@@ -84,7 +84,10 @@ fn what_does_not_hold_is_what_the_text_explains() {
     assert_eq!(failing("6"), ["The vibration is smalles"]);
     assert_eq!(failing("9"), ["As far as 1:1 resonance ", "One amplitude puts $r = "]);
     assert_eq!(failing("11"), ["(e) strongly modulated r", "(a) The impacts at b = 0"]);
-    assert_eq!(failing("12"), ["The paper's case, 8 Hz a", "(d) It grows although th"]);
+    // Whether a chaotic motion has stretch (d) within 400 periods is chance; the text must know.
+    let stretch_found = section(&page, "12").contains("Stretch (d) was found");
+    let stretch = ["The paper's case, 8 Hz a", "(d) It grows although th"];
+    assert_eq!(failing("12"), stretch[..if stretch_found { 1 } else { 2 }]);
     for number in ["6", "9", "11", "12"] {
         let section = section(&page, number);
         assert!(section.contains(": reproduced with a difference.**"), "Fig. {number}");

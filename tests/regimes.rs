@@ -246,7 +246,8 @@ fn motions_differ_by_what_they_are() {
         other.classification.evidence.visits_per_period = 2.5;
     }));
     assert!(!changed(|other| open(other, Nature::Chaotic)));
-    let chaotic = reached(&common::table_1(8.0, 20.0), START);
+    let mut chaotic = reached(&common::table_1(8.0, 20.0), START);
+    chaotic.classification.nature = Nature::Chaotic;
     let mut other = Attractor { rms: 1.1 * chaotic.rms, ..chaotic.clone() };
     assert!(chaotic.is_same(&other), "averages of some hundred periods scatter");
     other.classification.nature = Nature::Undecided;

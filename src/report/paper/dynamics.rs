@@ -189,7 +189,7 @@ pub(super) fn figure_12(shelf: &Shelf) -> Result<Draft, PaperError> {
                 if weak.is_some() {
                     ""
                 } else {
-                    ": in this motion of the model two impacts per period always drain the oscillator; the weak pairs of the experiment may come from friction or inclination, which section 4.2 mentions"
+                    ": in all of them two impacts per period drained the oscillator, so that in the model such a stretch is rare at best; the weak pairs of the experiment may come from friction or inclination, which section 4.2 mentions"
                 }
             ),
             "A model's impact is an instant: the measured spikes of acceleration have their counterpart in the impulses of the lowest panel.".into(),
