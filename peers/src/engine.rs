@@ -1,7 +1,7 @@
 //! vinesink's own engines.
 
-use vinesink::simulation::{Impact, Nobody, Observer, Simulation, Stop};
-use vinesink::system::System;
+use vinesink::simulation::{Impact, Nobody, Observer, Simulation, Stop, batch};
+use vinesink::system::{State, System};
 
 use crate::{Failure, Hit, Run, START, Tool, timed};
 
@@ -12,16 +12,23 @@ pub enum Engine {
     Single,
     /// One trajectory, by the slow and finer search alone.
     StepByStep,
+    /// [`TRAJECTORIES`] of them side by side; the first starts as the others' tools do, the rest a
+    /// little faster each.
+    Batch,
 }
 
+/// Trajectories of a batch: four times what flies side by side, so that lanes are refilled.
+const TRAJECTORIES: u32 = 64;
+
 impl Engine {
-    pub const ALL: [Self; 2] = [Self::Single, Self::StepByStep];
+    pub const ALL: [Self; 3] = [Self::Single, Self::StepByStep, Self::Batch];
 
     /// As it is called on a command line.
     pub fn word(self) -> &'static str {
         match self {
             Self::Single => "single",
             Self::StepByStep => "step-by-step",
+            Self::Batch => "batch",
         }
     }
 
@@ -33,19 +40,39 @@ impl Engine {
     fn simulation(self, system: &System) -> Simulation {
         let simulation = Simulation::new(system, START, 0.0).expect("inside the cavity");
         match self {
-            Self::Single => simulation,
+            Self::Single | Self::Batch => simulation,
             Self::StepByStep => simulation.step_by_step(),
         }
     }
 
     /// Impacts of all trajectories in so many periods.
     pub fn impacts(self, system: &System, periods: u64) -> Result<u64, Failure> {
+        if self == Self::Batch {
+            let mut simulations = together(system);
+            let mut nobody: Vec<Nobody> = simulations.iter().map(|_| Nobody).collect();
+            let stops = batch::run(&mut simulations, periods, u64::MAX, &mut nobody);
+            return match stops.iter().find(|stop| **stop != Stop::EndTime) {
+                None => Ok(simulations.iter().map(Simulation::impacts).sum()),
+                Some(stop) => Err(format!("a run ended at {}", stop.words()).into()),
+            };
+        }
         let mut simulation = self.simulation(system);
         match simulation.run(periods, u64::MAX, &mut Nobody) {
             Stop::EndTime => Ok(simulation.impacts()),
             stop => Err(format!("the run ended at {}", stop.words()).into()),
         }
     }
+}
+
+/// The trajectories of a batch.
+fn together(system: &System) -> Vec<Simulation> {
+    (0..TRAJECTORIES)
+        .map(|k| {
+            let faster = 1.0 + f64::from(k) / f64::from(TRAJECTORIES);
+            let start = State { x_velocity: START.x_velocity * faster, ..START };
+            Simulation::new(system, start, 0.0).expect("inside the cavity")
+        })
+        .collect()
 }
 
 #[derive(Default)]
@@ -74,6 +101,12 @@ impl Tool for Engine {
     }
 
     fn hits(&mut self, system: &System, periods: u64) -> Result<Vec<Hit>, Failure> {
+        if *self == Self::Batch {
+            let mut simulations = together(system);
+            let mut hits: Vec<Hits> = simulations.iter().map(|_| Hits::default()).collect();
+            batch::run(&mut simulations, periods, u64::MAX, &mut hits);
+            return Ok(hits.swap_remove(0).0);
+        }
         let mut hits = Hits::default();
         self.simulation(system).run(periods, u64::MAX, &mut hits);
         Ok(hits.0)

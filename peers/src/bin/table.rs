@@ -39,6 +39,7 @@ fn tools(python: &Path, scripts: &Path) -> Result<Vec<Box<dyn Tool>>, Failure> {
     }
     tools.push(Box::new(RungeKutta { steps: 200 }));
     tools.push(Box::new(Engine::StepByStep));
+    tools.push(Box::new(Engine::Batch));
     Ok(tools)
 }
 
