@@ -10,8 +10,7 @@ use std::time::{Duration, Instant};
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use vinesink::analysis::Analysis;
-use vinesink::simulation::Nobody;
-use vinesink::simulation::{Simulation, Stop};
+use vinesink::simulation::{Nobody, Simulation, Statistics, Stop, batch};
 use vinesink::system::{Excitation, Parameters, State, System};
 
 const PERIODS: u64 = 200;
@@ -37,6 +36,38 @@ fn engine(system: &System, periods: u64) -> u64 {
     let mut simulation = Simulation::new(system, START, 0.0).expect("inside the cavity");
     assert_eq!(simulation.run(periods, u64::MAX, &mut Nobody), Stop::EndTime);
     simulation.impacts()
+}
+
+/// Trajectories of a batch.
+const TRAJECTORIES: u32 = 64;
+
+/// Many of them side by side, each a little faster at the start.
+fn side_by_side(system: &System, periods: u64) -> u64 {
+    let mut simulations: Vec<Simulation> = (0..TRAJECTORIES)
+        .map(|k| {
+            let faster = 1.0 + f64::from(k) / f64::from(TRAJECTORIES);
+            let start = State { x_velocity: START.x_velocity * faster, ..START };
+            Simulation::new(system, start, 0.0).expect("inside the cavity")
+        })
+        .collect();
+    let mut nobody: Vec<Nobody> = simulations.iter().map(|_| Nobody).collect();
+    let stops = batch::run(&mut simulations, periods, u64::MAX, &mut nobody);
+    assert!(stops.iter().all(|stop| *stop == Stop::EndTime));
+    simulations.iter().map(Simulation::impacts).sum()
+}
+
+/// One trajectory with everything that a report measures of it.
+fn measured(system: &System, periods: u64) -> u64 {
+    let mut simulation = Simulation::new(system, START, 0.0).expect("inside the cavity");
+    let mut statistics = Statistics::begin(system, START);
+    assert_eq!(simulation.run(periods, u64::MAX, &mut statistics), Stop::EndTime);
+    statistics.impacts()
+}
+
+/// Time per impact of another way, over that of the single engine.
+fn per_impact([ours, other]: [(Duration, u64); 2]) -> f64 {
+    let each = |(time, impacts): (Duration, u64)| time.as_secs_f64() / impacts as f64;
+    each(other) / each(ours)
 }
 
 /// The same with the slow, finer search alone.
@@ -168,8 +199,18 @@ fn impacts(criterion: &mut Criterion) {
             slower.1 as f64 / slower.0.as_secs_f64(),
             slower.0.as_secs_f64() / ours.0.as_secs_f64(),
         );
+        let alone = || engine(&system, PERIODS);
+        println!(
+            "b = {clearance} mm, per impact and relative to one trajectory: {TRAJECTORIES} side by side \
+             {:.2}, with all statistics {:.1}",
+            per_impact(compare(alone, || side_by_side(&system, PERIODS))),
+            per_impact(compare(alone, || measured(&system, PERIODS))),
+        );
         let mut group = criterion.benchmark_group(format!("{PERIODS} periods, b = {clearance} mm"));
         group.bench_function("event engine", |bench| bench.iter(|| engine(&system, PERIODS)));
+        group.bench_function("64 side by side", |bench| {
+            bench.iter(|| side_by_side(&system, PERIODS));
+        });
         group.bench_function("Runge-Kutta, T/200", |bench| bench.iter(|| by_hand.run(PERIODS)));
         group.finish();
     }

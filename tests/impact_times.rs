@@ -6,7 +6,7 @@ mod reference;
 use std::f64::consts::TAU;
 
 use reference::{Moment, Real, Reference};
-use vinesink::simulation::{Impact, ImpactLog, Simulation, Stop};
+use vinesink::simulation::{Impact, ImpactLog, Nobody, Simulation, Stop};
 use vinesink::system::{State, System};
 
 /// Parts of a period in which the reference looks for impacts.
@@ -207,4 +207,31 @@ fn chaotic_impact_times_are_as_good_as_the_conditioning_of_the_motion_allows() {
         println!("{start:?}: {worst:.2}, late by 1e-13: {caught:.0}; {determined} impacts");
     }
     assert!(to_the_end > 0, "no start is determined for all of {PERIODS} periods");
+}
+
+/// Time is a count of periods and a phase, and the steady motion returns to its known value at the end
+/// of each: after a million periods the impacts of a stable orbit come at the phases at which they came
+/// before. `VINESINK_PERIODS=1000000000` looks after as many.
+#[test]
+fn a_million_periods_later_the_impacts_come_at_the_same_phases() {
+    let wanted = std::env::var("VINESINK_PERIODS").ok().and_then(|text| text.parse().ok());
+    let wanted: u64 = wanted.unwrap_or(1_000_000);
+    let system = common::table_1(8.0, 7.5);
+    let start = State { x: 0.25, x_velocity: 0.3, y: -0.4, y_velocity: 0.6 };
+    let mut simulation = Simulation::new(&system, start, 0.0).expect("inside the cavity");
+    let mut phases = |periods: u64| {
+        assert_eq!(simulation.run(periods, u64::MAX, &mut Nobody), Stop::EndTime);
+        let mut log = ImpactLog::default();
+        assert_eq!(simulation.run(1, 10, &mut log), Stop::EndTime);
+        let phases = log.impacts.iter().map(|impact| impact.phase);
+        (phases.collect::<Vec<_>>(), simulation.impacts())
+    };
+    let (early, before) = phases(2000);
+    let (late, after) = phases(wanted);
+    assert_eq!((early.len(), late.len()), (2, 2), "{early:?} {late:?}");
+    assert_eq!(after - before, 2 * (wanted + 1), "an impact was lost or added");
+    for (early, late) in early.iter().zip(&late) {
+        // Rounding makes the orbit a cloud of some ulps of the phase, 1e-15 each.
+        assert!((early - late).abs() < 1e-13, "{early} {late}");
+    }
 }

@@ -22,31 +22,38 @@ pub(super) struct Takeoff {
     pub left: f64,
 }
 
-/// How a flight ends.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Landing {
-    /// On a wall.
-    Impact { side: Side, time: f64, x: f64, v: f64, steady: Steady<f64> },
-    /// The period is over.
-    PeriodEnd { time: f64, x: f64, v: f64 },
-    /// Nothing is proven: the slow search must fly it.
-    Doubt,
+/// Where a flight ends.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Landing {
+    /// On which wall; none where the period is over first.
+    pub wall: Option<Side>,
+    /// Time since it began.
+    pub time: f64,
+    pub x: f64,
+    pub v: f64,
+    pub steady: Steady<f64>,
 }
 
 impl Rates<f64> {
-    /// Flies to the first impact or the end of the period. Evaluations of the motion are added to
+    /// Flies to the first impact or the end of the period, by the instructions of `level`; none where
+    /// nothing is proven, and the slow search must fly. Evaluations of the motion are added to
     /// `evaluations`.
-    pub(super) fn fly(&self, from: &Takeoff, evaluations: &mut u64) -> Landing {
-        dispatch!(Level::new(), simd => self.fly_by(simd, from, evaluations))
+    pub(super) fn fly(
+        &self,
+        level: Level,
+        from: &Takeoff,
+        evaluations: &mut u64,
+    ) -> Option<Landing> {
+        dispatch!(level, simd => self.fly_by(simd, from, evaluations))
     }
 
     /// By the instructions that `simd` stands for.
     #[inline(always)]
-    fn fly_by<S: Simd>(&self, simd: S, from: &Takeoff, evaluations: &mut u64) -> Landing {
+    fn fly_by<S: Simd>(&self, simd: S, from: &Takeoff, evaluations: &mut u64) -> Option<Landing> {
         let Takeoff { x, v, steady, line, left } = *from;
         let (mut here, slack) = self.begin(x, v, steady, line);
         if self.short(&here) {
-            return Landing::Doubt;
+            return None;
         }
         let mut time = 0.0;
         loop {
@@ -68,7 +75,13 @@ impl Rates<f64> {
                         let at = self.moment(simd, &here, rest, line);
                         if slack.before(&at, side.sign()) {
                             let (x, v) = self.oscillator(&at);
-                            return Landing::PeriodEnd { time: left, x, v };
+                            return Some(Landing {
+                                wall: None,
+                                time: left,
+                                x,
+                                v,
+                                steady: self.origin,
+                            });
                         }
                     }
                     let guess = Guess { time: guess, length, side, line };
@@ -77,11 +90,12 @@ impl Rates<f64> {
                             break;
                         }
                         let Corrected { x, v, steady, .. } = found;
-                        return Landing::Impact { side, time: time + found.time, x, v, steady };
+                        let time = time + found.time;
+                        return Some(Landing { wall: Some(side), time, x, v, steady });
                     }
                 }
                 if length < SHORTEST * self.step {
-                    return Landing::Doubt;
+                    return None;
                 }
                 (length, slack) = (length * 0.5, slack.halved());
                 there = self.moment(simd, &here, length, line.from(time));
@@ -91,7 +105,7 @@ impl Rates<f64> {
                 *evaluations += 1;
                 let (x, v) =
                     self.oscillator(&self.moment(simd, &here, left - time, line.from(time)));
-                return Landing::PeriodEnd { time: left, x, v };
+                return Some(Landing { wall: None, time: left, x, v, steady: self.origin });
             }
             (here, time) = (there, time + length);
         }

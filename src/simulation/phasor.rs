@@ -16,8 +16,8 @@
 //!
 //! If `b5` is beyond a wall and no other coefficient beyond the opposite one, and from some place on
 //! all coefficients of the outer quintic are beyond and none before, it is beyond the wall from some
-//! `s*` on and not before (Descartes' rule). Its distance from `w` being less than `S/1434`, a root of
-//! `w` at which the slope `v` satisfies `v^2 > 4 M S/1434`, `|w''| <= M`, is the first: between an earlier
+//! `s*` on and not before (Descartes' rule). Its distance from `w` being less than `S/14340`, a root of
+//! `w` at which the slope `v` satisfies `v^2 > 4 M S/14340`, `|w''| <= M`, is the first: between an earlier
 //! one and it `w` would fall by `v^2/(2 M)`, and the outer quintic back inside.
 //!
 //! Any other panel is halved, which divides `S` by 64; below a thousandth of a panel the search of
@@ -120,8 +120,8 @@ impl<R: Real> Slack<R> {
     /// Whether a moment in a panel that meets a wall is proven to be before.
     #[inline(always)]
     pub(super) fn before(&self, at: &At<R>, wall: R) -> R::Mask {
-        // Twice S/1434, rounded up.
-        (at.gap * wall + self.coefficient * 10.1).at_most(wall.like(1.0))
+        // Twice S/14340.
+        (at.gap * wall + self.coefficient * 1.005).at_most(wall.like(1.0))
     }
 
     /// That of half a panel.
@@ -223,8 +223,8 @@ impl<R: Real> Rates<R> {
         let size = (z[0] * z[0] + z[1] * z[1]).sqrt();
         let coefficient = self.sixth_free * size + self.sixth_steady;
         let bend = self.stiffness * size + self.second_steady;
-        // 4 M S/1434 with S = 7200 times the coefficient, rounded up.
-        let slope_squared = bend * coefficient * 20.1;
+        // 4 M S/14340 with S = 7200 times the coefficient.
+        let slope_squared = bend * coefficient * 2.01;
         (self.at(z, steady, line), Slack { coefficient, slope_squared })
     }
 

@@ -5,6 +5,7 @@
 
 use std::f64::consts::TAU;
 
+use fearless_simd::Level;
 use serde::Serialize;
 
 use super::contact::{AtWall, ContactTolerance, rebound};
@@ -78,6 +79,8 @@ pub struct Simulation {
     alone: Oscillator,
     carrying: Oscillator,
     rates: Option<Rates<f64>>,
+    /// The best instructions that the processor has.
+    level: Level,
     /// The oscillator's steady motion at the present phase, where flights are through panels.
     steady: Option<Steady<f64>>,
     tolerance: ContactTolerance,
@@ -109,6 +112,7 @@ impl Simulation {
             alone: Oscillator::alone(system),
             carrying: Oscillator::carrying_absorber(system),
             rates: Rates::of(&Oscillator::alone(system)),
+            level: Level::new(),
             steady: None,
             tolerance: ContactTolerance::default(),
             state: start,
@@ -261,39 +265,36 @@ impl Simulation {
     /// Flies to the next impact or the end of the period by phasors; `false`, and nothing has
     /// happened, where they do not apply or leave a doubt.
     fn fly_in_panels<O: Observer>(&mut self, observer: &mut O) -> bool {
-        let Some(begin) = self.departure() else { return false };
         let Some(rates) = &self.rates else { return false };
-        let State { x, x_velocity, y, y_velocity } = begin.state;
+        let State { x, x_velocity, y, y_velocity } = self.state;
         let line = Line { y, velocity: y_velocity };
         if phasor::blocked(x, x_velocity, line) {
             return false;
         }
-        let takeoff =
-            Takeoff { x, v: x_velocity, steady: begin.steady, line, left: rates.left(self.phase) };
-        let landing = rates.fly(&takeoff, &mut self.evaluations);
-        let (time, x, x_velocity) = match landing {
-            Landing::Impact { time, x, v, .. } | Landing::PeriodEnd { time, x, v } => (time, x, v),
-            Landing::Doubt => return false,
+        let steady = self.steady.unwrap_or_else(|| rates.steady(self.phase));
+        let takeoff = Takeoff { x, v: x_velocity, steady, line, left: rates.left(self.phase) };
+        let Some(landing) = rates.fly(self.level, &takeoff, &mut self.evaluations) else {
+            return false;
         };
-        let state = State { x, x_velocity, y: y + y_velocity * time, y_velocity };
-        if !(state.x.is_finite() && state.y.is_finite()) {
+        let Landing { wall, time, x, v, steady } = landing;
+        let y = y + y_velocity * time;
+        if !(x.is_finite() && y.is_finite()) {
             return false;
         }
-        let origin = rates.origin;
-        if O::SEGMENTS && time > 0.0 {
+        if O::SEGMENTS
+            && time > 0.0
+            && let Some(begin) = self.departure()
+        {
             observer.segment(&self.flown(&begin, time));
         }
-        self.state = state;
-        match landing {
-            Landing::Impact { side, steady, .. } => {
+        self.state = State { x, x_velocity: v, y, y_velocity };
+        self.steady = Some(steady);
+        match wall {
+            Some(side) => {
                 self.phase += self.system.frequency_ratio() * time;
-                self.steady = Some(steady);
                 self.collide(side, observer);
             }
-            _ => {
-                self.steady = Some(origin);
-                self.complete_period(observer);
-            }
+            None => self.complete_period(observer),
         }
         true
     }
