@@ -1,4 +1,4 @@
-//! Many trajectories at a time, eight side by side: [`run`].
+//! Many trajectories at a time, [`LANES`] side by side: [`run`].
 //!
 //! Each lane flies its own trajectory of its own system by the formulas of `phasor`, in the
 //! same order and with the same rounding as [`Simulation::run`], so that the bits agree. Panels are
@@ -110,7 +110,7 @@ struct Queue<'a, O> {
     next: usize,
 }
 
-/// Eight flights.
+/// Flights side by side.
 struct Lanes<S: Simd> {
     simd: S,
     /// Which task each lane flies; none where the queue has run dry.
@@ -578,7 +578,7 @@ impl<S: Simd> Lanes<S> {
     }
 }
 
-/// What eight flights ended with.
+/// What flights ended with.
 struct Event<S: Simd> {
     flight: Wide<S>,
     x: Wide<S>,
@@ -649,5 +649,53 @@ fn advanced<S: Simd>(moved: WideMask<S>, there: &At<Wide<S>>, here: &At<Wide<S>>
         a: Wide::choose(moved, there.a, here.a),
         gap: Wide::choose(moved, there.gap, here.gap),
         slope: Wide::choose(moved, there.slope, here.slope),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simulation::{ImpactLog, Nobody};
+    use crate::system::{Excitation, Parameters, System};
+
+    fn simulations() -> Vec<Simulation> {
+        (0..40)
+            .map(|k| {
+                let part = f64::from(k) / 40.0;
+                let system = System::new(Parameters {
+                    mass_ratio: 0.01 + 0.2 * part,
+                    damping: 3.0 * part,
+                    restitution: 0.3 + 0.6 * part,
+                    frequency_ratio: 0.7 + part,
+                    forcing_per_clearance: 20.0,
+                    excitation: Excitation::BaseDisplacement,
+                })
+                .expect("valid");
+                let start = State { x: part, x_velocity: 0.3, y: 0.2, y_velocity: -0.5 * part };
+                Simulation::new(&system, start, 0.0).expect("inside the cavity")
+            })
+            .collect()
+    }
+
+    /// No instruction that another processor lacks, or rounds otherwise, has a say in a result.
+    #[test]
+    fn every_set_of_instructions_gives_the_same_bits() {
+        let by = |level: Level| {
+            let (mut together, mut alone) = (simulations(), simulations());
+            let mut logs: Vec<ImpactLog> = together.iter().map(|_| ImpactLog::default()).collect();
+            run_at(level, &mut together, 60, u64::MAX, &mut logs);
+            for simulation in &mut alone {
+                *simulation = simulation.clone().at_level(level);
+                simulation.run(60, u64::MAX, &mut Nobody);
+            }
+            let states = |all: Vec<Simulation>| all.iter().map(Simulation::state).collect();
+            let impacts: Vec<Vec<Impact>> = logs.into_iter().map(|log| log.impacts).collect();
+            let states: [Vec<State>; 2] = [states(together), states(alone)];
+            (impacts, states)
+        };
+        let (impacts, states) = by(Level::new());
+        assert!(impacts.iter().map(Vec::len).sum::<usize>() > 1000);
+        assert_eq!(states[0], states[1]);
+        assert_eq!((impacts, states), by(Level::baseline()));
     }
 }

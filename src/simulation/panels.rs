@@ -8,7 +8,7 @@ use crate::numerics::lanes::Real;
 
 /// Part of a panel below which it is not halved further: the slow search takes over.
 const SHORTEST: f64 = 1e-3;
-/// Corrections of a root before the slow search takes over; from inverse interpolation one suffices.
+/// Corrections of a root before the slow search takes over; from the quintic's root one suffices.
 pub(super) const CORRECTIONS: u32 = 6;
 
 /// Where a flight begins.

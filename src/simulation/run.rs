@@ -137,6 +137,13 @@ impl Simulation {
         self
     }
 
+    /// Flies by other instructions than the best.
+    #[cfg(test)]
+    pub(super) fn at_level(mut self, level: Level) -> Self {
+        self.level = level;
+        self
+    }
+
     /// Replaces the tolerance that ends chattering sequences.
     pub fn with_tolerance(mut self, tolerance: ContactTolerance) -> Self {
         self.tolerance = tolerance;
