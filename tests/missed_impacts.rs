@@ -78,7 +78,7 @@ fn agree(fast: &Impact, slow: &Impact, start: &Impact, size: f64) -> bool {
 fn no_impact_is_missed() {
     let wanted = env::var("VINESINK_FLIGHTS").ok().and_then(|text| text.parse().ok());
     let wanted: u64 = wanted.unwrap_or(FLIGHTS);
-    let (mut checked, mut index, mut grazing) = (0, 0, 0);
+    let (mut checked, mut index, mut grazing, mut unknown) = (0, 0, 0, 0);
     while checked < wanted {
         let system = system(index);
         index += 1;
@@ -90,6 +90,14 @@ fn no_impact_is_missed() {
                 break;
             }
             let Some(here) = seen.0 else { break };
+            // An absorber that leaves its wall more slowly than rounding can tell may as well be
+            // said to touch it once more; whether it does, no search can know.
+            let speeds = here.x_velocity_after.abs() + here.y_velocity_after.abs();
+            let leaves = (here.x_velocity_after - here.y_velocity_after).abs();
+            if leaves < 16.0 * f64::EPSILON * (1.0 + here.x.abs() + speeds) {
+                unknown += 1;
+                continue;
+            }
             let after = State {
                 x: here.x,
                 x_velocity: here.x_velocity_after,
@@ -120,6 +128,8 @@ fn no_impact_is_missed() {
             checked += 1;
         }
     }
+    assert!(unknown * 100 < wanted, "{unknown} starts told nothing");
+    println!("{checked} flights, {grazing} nearly grazing, {unknown} that rounding hides");
     assert!(
         grazing > wanted / 10_000,
         "{grazing} impacts nearly grazed: too few to prove anything"
