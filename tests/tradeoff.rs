@@ -336,7 +336,7 @@ fn simulation_measures_as_long_as_the_accuracy_takes() {
         assert_eq!(first.known_by, KnownBy::Scatter);
         answers.operations[2].expect("simulated") - study.motions_cost
     };
-    let (loose, tight) = (cost(0.2), cost(0.01));
+    let (loose, tight) = (cost(0.2), cost(0.004));
     assert!(tight > 3 * loose, "{loose} {tight}");
 }
 

@@ -108,6 +108,17 @@ fn write(path: &Path, name: &str, folder: &Path, forced: Option<Fidelity>) -> Re
         }
         report = report.with_answers(&case, &answers);
     }
+    // As `simulate`: what is not to be trusted is written down, and does not pass for an answer.
+    let motions = study.simulated_motions();
+    let trusted = motions.is_none_or(|motions| {
+        motions.attractors.iter().all(|found| found.attractor.doubts().is_empty())
+    });
+    if !trusted {
+        output::complain(&format!(
+            "{name}: a simulation is not to be trusted; its report says why"
+        ));
+        outcome = Outcome::DoesNotHold;
+    }
     let files = render::files(&report, &case, &drawn).into_diagnostic()?;
     store::replace_folder(folder, &files)?;
     Ok(outcome)

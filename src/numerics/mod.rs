@@ -7,3 +7,4 @@ pub mod lanes;
 pub mod necklace;
 pub mod polynomial;
 pub mod quadrature;
+pub mod scatter;

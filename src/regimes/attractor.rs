@@ -37,6 +37,8 @@ pub struct Attractor {
     pub peak: f64,
     /// Root mean square displacement of the oscillator over the clearance.
     pub rms: f64,
+    /// Two standard errors of `rms` and of the impacts per period, where the motion does not repeat.
+    pub errors: Option<[f64; 2]>,
     /// First harmonic of the oscillator: coefficients of `sin` and `cos` of the excitation's phase.
     pub oscillator_harmonic: [f64; 2],
     /// The same for the absorber.
@@ -176,8 +178,11 @@ impl Attractor {
         let (oscillator_harmonic, absorber_harmonic) = statistics.harmonics();
         let exponent = lyapunov.exponent();
         let period = system.period();
+        let classification = classify(&statistics, &log.impacts, exponent, period, &thresholds);
+        let repeats = classification.evidence.periodicity.is_some();
         Self {
-            classification: classify(&statistics, &log.impacts, exponent, period, &thresholds),
+            classification,
+            errors: (!repeats).then(|| statistics.errors()),
             peak: statistics.peak(),
             rms: statistics.rms(),
             oscillator_harmonic,

@@ -175,6 +175,7 @@ mod tests {
         PeriodRecord {
             impacts,
             visits: impacts,
+            mean_square: 0.0,
             peak: oscillator,
             end: State { x: 0.0, x_velocity: 0.0, y: 0.0, y_velocity: 0.0 },
             absorber_harmonic: [0.6 * absorber, -0.8 * absorber],

@@ -147,6 +147,9 @@ fn sentences(answers: &Answers) -> Vec<String> {
             "Coexistence was not looked for: other motions may exist beside this one, and starts may lead to them; coexistence = true in the case's table [accuracy] looks for them.".into(),
         );
     }
+    for doubt in &answers.doubts {
+        said.push(format!("The simulation is not to be trusted: {}.", doubt.words()));
+    }
     if !answers.enough() {
         said.push("Not everything is known as well as was asked for.".into());
     }
@@ -166,5 +169,5 @@ fn cost(answers: &Answers) -> String {
 
 /// What the verdict says where nothing was simulated.
 pub(super) fn unlooked() -> String {
-    "Nothing was simulated (see Which layer answered), so whether other motions coexist was not looked for.".into()
+    "Nothing was simulated (see Which layer answered): which starts lead to this motion, and whether others, perhaps stronger ones, coexist, is not known. Near its limits hardly any start may lead to it.".into()
 }

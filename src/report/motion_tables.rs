@@ -1,6 +1,8 @@
 //! Tables of the long-term motions: what they are, and where their energy goes.
 
-use super::numbers::{LengthFormat, MINUS, fixed, percent, signed, significant, with_error};
+use super::numbers::{
+    LengthFormat, MINUS, fixed, known_to, percent, signed, significant, with_error,
+};
 use super::tables::{Table, table};
 use crate::case::{Case, Scales};
 use crate::regimes::{Attractor, Exponent, FoundAttractor, Nature};
@@ -16,9 +18,9 @@ pub fn attractors(case: &Case, study: &CaseStudy) -> Table {
         [
             found.regime().words().to_owned(),
             share(found),
-            significant(evidence.impacts_per_period, if attractor.repeats() { 4 } else { 2 }),
+            impacts_per_period(attractor),
             lengths.text(scales.length(attractor.peak)),
-            lengths.text(scales.length(attractor.rms)),
+            lengths.text(scales.length(attractor.rms)) + &rms_known_to(attractor),
             percent(evidence.modulation_depth),
         ]
     });
@@ -33,6 +35,20 @@ pub fn attractors(case: &Case, study: &CaseStudy) -> Table {
         ],
         rows.collect(),
     )
+}
+
+/// Impacts per period, with their error where they scatter.
+pub(super) fn impacts_per_period(attractor: &Attractor) -> String {
+    let z = attractor.classification.evidence.impacts_per_period;
+    match attractor.errors {
+        Some([_, error]) if error > 0.0 && error.is_finite() => with_error(z, error),
+        _ => significant(z, 4),
+    }
+}
+
+/// What follows the root mean square of a motion that does not repeat.
+pub(super) fn rms_known_to(attractor: &Attractor) -> String {
+    attractor.errors.map_or_else(String::new, |[error, _]| known_to(error / attractor.rms))
 }
 
 /// The share of starts with its 95 % interval; none of them says nothing about others.

@@ -51,6 +51,13 @@ pub fn with_error(value: f64, error: f64) -> String {
     format!("{} ± {}", fixed(value, decimals), fixed(error, decimals))
 }
 
+/// What follows an average of a motion that does not repeat: ` ± 3 %`; nothing where the error is lost in
+/// its digits or has no meaning.
+pub fn known_to(relative: f64) -> String {
+    let told = (0.0005..1.0).contains(&relative);
+    if told { format!(" ± {}", percent(relative)) } else { String::new() }
+}
+
 /// A share as a percentage: `0.256` is `26 %`.
 pub fn percent(share: f64) -> String {
     let percent = 100.0 * share;

@@ -115,11 +115,12 @@ pub fn simulation(case: &Case, motion: &Attractor, found: Option<&LongTermMotion
     let _ = writeln!(text, "{}", capitalised(motion.classification.regime.words()));
     let _ = writeln!(
         text,
-        "  {} impacts per period over {} periods; peak displacement {}, rms {}",
-        significant(evidence.impacts_per_period, 4),
+        "  {} impacts per period over {} periods; peak displacement {}, rms {}{}",
+        motion_tables::impacts_per_period(motion),
         motion.periods,
         lengths.text(scales.length(motion.peak)),
         lengths.text(scales.length(motion.rms)),
+        motion_tables::rms_known_to(motion),
     );
     let proof = Proof::of(&case.system(), motion);
     let beside = found.is_some_and(|found| motion_tables::repeats(&found.attractors));

@@ -12,6 +12,7 @@ use super::events::{Absorber, Impact, Observer, Segment, Side};
 use super::integrals::{Integrals, Integrator};
 use crate::numerics::bracket::brent;
 use crate::numerics::quadrature;
+use crate::numerics::scatter::twice_standard_error;
 use crate::system::{State, System};
 use crate::tally;
 
@@ -49,6 +50,8 @@ pub struct PeriodRecord {
     pub visits: [u32; 2],
     /// Largest absolute displacement of the oscillator.
     pub peak: f64,
+    /// Mean square displacement of the oscillator.
+    pub mean_square: f64,
     /// State at the end of the period, phase 0.
     pub end: State,
     /// First harmonic of the absorber: coefficients of `sin` and `cos` of the excitation's phase.
@@ -83,6 +86,9 @@ pub struct Statistics {
     records: Vec<PeriodRecord>,
 }
 
+/// Blocks whose averages are compared: fewer say little of their scatter, more are too short to be
+/// independent.
+const BLOCKS: usize = 10;
 /// At least this many of the last periods are kept one by one; sums run over all of them. It bounds
 /// the memory of a run of any length, and no regime needs longer to show.
 const KEPT: usize = 20_000;
@@ -93,6 +99,7 @@ struct Current {
     impacts: [u32; 2],
     visits: [u32; 2],
     peak: f64,
+    squared: f64,
     x_harmonic: [f64; 2],
     y_harmonic: [f64; 2],
 }
@@ -156,6 +163,23 @@ impl Statistics {
     pub fn rms(&self) -> f64 {
         let duration = self.periods().max(1) as f64 * self.system.period();
         (self.squared / duration).sqrt()
+    }
+
+    /// Two standard errors of [`Self::rms`] and of [`Self::impacts_per_period`], from their scatter
+    /// between ten blocks of the kept periods: how well a motion that does not repeat is known.
+    pub fn errors(&self) -> [f64; 2] {
+        let blocks: Vec<&[PeriodRecord]> =
+            self.records.chunks_exact((self.records.len() / BLOCKS).max(1)).collect();
+        let error = |value: &dyn Fn(&PeriodRecord) -> f64| {
+            let mean =
+                |block: &[PeriodRecord]| block.iter().map(value).sum::<f64>() / block.len() as f64;
+            let means: Vec<f64> = blocks.iter().map(|block| mean(block)).collect();
+            twice_standard_error(&means)
+        };
+        let impacts = |record: &PeriodRecord| f64::from(record.impacts[0] + record.impacts[1]);
+        // The square varies twice as much as its root.
+        let rms = error(&|record| record.mean_square) / (2.0 * self.rms()).max(f64::MIN_POSITIVE);
+        [rms, error(&impacts)]
     }
 
     /// Largest penetration of a wall, over the clearance: rounding.
@@ -226,6 +250,7 @@ impl Statistics {
             None => self.by_quadrature(segment),
         };
         self.squared += sums.displacement_squared;
+        self.current.squared += sums.displacement_squared;
         self.input += sums.work;
         self.damper += self.system.mass_ratio() * self.system.damping() * sums.velocity_squared;
         let scale = self.system.frequency_ratio() / std::f64::consts::PI;
@@ -339,6 +364,7 @@ impl Observer for Statistics {
             impacts: current.impacts,
             visits: current.visits,
             peak: current.peak,
+            mean_square: current.squared / self.system.period(),
             end: *state,
             absorber_harmonic: current.y_harmonic,
             oscillator_harmonic: current.x_harmonic,

@@ -53,15 +53,15 @@ impl Doubt {
         match self {
             Self::Unfinished { stop } => format!("the run was ended by {}", stop.words()),
             Self::Energy { value, limit } => {
-                format!("the energy balance closes only to {value:.0e}, not to {limit:.0e}")
+                format!("the energy balance closes only to {value:.1e}, not to {limit:.0e}")
             }
             Self::Penetration { value, limit } => {
                 format!(
-                    "a wall is penetrated by {value:.0e} of the clearance, more than {limit:.0e}"
+                    "a wall is penetrated by {value:.1e} of the clearance, more than {limit:.0e}"
                 )
             }
             Self::Resolution { value, limit } => format!(
-                "the walls are known only to {value:.0e} of the clearance, not to {limit:.0e}: the \
+                "the walls are known only to {value:.1e} of the clearance, not to {limit:.0e}: the \
                  oscillator moves that many clearances"
             ),
         }

@@ -12,7 +12,7 @@ use super::{LongTermMotions, StudyError, main_attractor};
 use crate::analysis::Analysis;
 use crate::case::AccuracySettings;
 use crate::regimes::{FoundAttractor, Regime};
-use crate::simulation::Simulation;
+use crate::simulation::{Doubt, Simulation};
 use crate::study::Proof;
 use crate::system::{State, System};
 use crate::tally;
@@ -157,6 +157,8 @@ pub struct Answers {
     pub operations: [Option<u64>; 3],
     /// Whether other motions were looked for.
     pub coexistence_looked_for: bool,
+    /// Why the simulation that answers is not to be trusted; nothing of it is enough then.
+    pub doubts: Vec<Doubt>,
 }
 
 impl Answers {
@@ -258,7 +260,16 @@ impl Plan {
             answers.push(coexistence(self.layer, simulated.map(|simulated| simulated.attractors)));
         }
         let compared = self.layer != Fidelity::Simulation;
+        let main = simulated.and_then(|simulated| main_attractor(simulated.attractors));
+        let doubts = match main {
+            Some(main) if !compared => main.attractor.doubts(),
+            _ => Vec::new(),
+        };
+        if !doubts.is_empty() {
+            answers.iter_mut().for_each(|answer| answer.enough = false);
+        }
         Ok(Answers {
+            doubts,
             demand: self.demand,
             forced: self.forced,
             answers,

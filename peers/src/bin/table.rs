@@ -152,7 +152,7 @@ fn table(arguments: &[String]) -> Result<(), Failure> {
     }
     println!(
         "| tool | impacts per second, b = {} / {} mm | error of impact times, {COMPARED} periods, \
-         b = {} | impacts missed, b = {} | vinesink is faster by, best (median) | before the first run |",
+         b = {} | impacts missed, b = {} | vinesink single takes less time by a factor of, best (median) | before the first run |",
         CLEARANCES[0], CLEARANCES[1], CLEARANCES[0], CLEARANCES[1]
     );
     println!("|---|---|---|---|---|---|");

@@ -59,7 +59,7 @@ impl TradeoffPage {
             headline: words::headline(tradeoff, allowed),
             sentences: words::sentences(tradeoff, allowed),
             best: words::best(case, tradeoff),
-            methods: methods(case, tradeoff),
+            methods: methods(case, tradeoff, allowed),
             flights: flights(tradeoff),
             figure: super::FigureRow::of(figure),
             name: name.to_owned(),
@@ -69,11 +69,15 @@ impl TradeoffPage {
     }
 }
 
-fn methods(case: &Case, tradeoff: &Tradeoff) -> Table {
+fn methods(case: &Case, tradeoff: &Tradeoff, allowed: f64) -> Table {
     let scales = case.scales();
     let lengths = LengthFormat::of(&scales);
     let answering = tradeoff.trials.iter().filter(|trial| trial.answer.rms.is_some());
-    let cheapest = answering.map(|trial| trial.operations).min().unwrap_or(1).max(1);
+    let enough = words::winner(tradeoff, allowed).map(|trial| trial.operations);
+    let over =
+        if enough.is_some() { "Over the cheapest that is enough" } else { "Over the cheapest" };
+    let cheapest = answering.map(|trial| trial.operations).min();
+    let cheapest = enough.or(cheapest).unwrap_or(1).max(1);
     let rows = tradeoff.trials.iter().map(|trial| {
         let answer = &trial.answer;
         let missing = || answer.why_not.unwrap_or("not told").to_owned();
@@ -95,7 +99,7 @@ fn methods(case: &Case, tradeoff: &Tradeoff) -> Table {
             ("z", true),
             ("Regime", false),
             ("Operations", true),
-            ("Over the cheapest answer", true),
+            (over, true),
         ],
         rows.collect(),
     )
@@ -143,6 +147,10 @@ pub(in crate::report) fn operations(count: u64) -> String {
 
 /// A share as people ask for it: "1 %", not "1.0 %".
 pub(in crate::report) fn asked(share: f64) -> String {
+    // Below what a percentage says with two decimals.
+    if share < 5e-5 {
+        return significant(share, 1);
+    }
     percent(share).replace(".0 %", " %")
 }
 

@@ -26,12 +26,12 @@ pub fn method(method: Method) -> String {
             };
             format!("simulation, {periods} periods{slow}{contact}")
         }
-        Method::FixedStep { steps, locate, .. } => {
+        Method::FixedStep { periods, steps, locate } => {
             let how = match locate {
                 Locate::Bisection => "bisection",
                 Locate::Interpolation => "interpolation",
             };
-            format!("Runge–Kutta, T/{steps}, {how}")
+            format!("Runge–Kutta, T/{steps}, {how}, {periods} periods")
         }
     }
 }
@@ -40,7 +40,7 @@ pub fn method(method: Method) -> String {
 const COMPETING: [Layer; 4] =
     [Layer::ClosedForm, Layer::SlowFlow, Layer::ExactOrbit, Layer::Simulation];
 
-fn winner(tradeoff: &Tradeoff, allowed: f64) -> Option<&Trial> {
+pub(super) fn winner(tradeoff: &Tradeoff, allowed: f64) -> Option<&Trial> {
     let found = COMPETING.iter().filter_map(|layer| tradeoff.cheapest(*layer, allowed));
     found.min_by_key(|trial| trial.operations)
 }
@@ -57,7 +57,7 @@ pub fn headline(tradeoff: &Tradeoff, allowed: f64) -> String {
             trial.rms_error.map_or_else(String::new, error_text)
         ),
         None => format!(
-            "No layer tried gives {wanted} in amplitude; {}the best answer is known to {}.",
+            "None of the runs in the table gives {wanted} in amplitude; {}the best answer is known to {}.",
             extrapolated(tradeoff, allowed).map_or_else(String::new, |words| words + "; "),
             error_text(ErrorOf { value: tradeoff.best.rms_error, below: false })
         ),
@@ -234,7 +234,7 @@ pub fn best(case: &Case, tradeoff: &Tradeoff) -> String {
     };
     let start = match tradeoff.start_number {
         Some(number) => format!("start {number} of the evenly spread ones"),
-        None => "a state of the motion itself, since no evenly spread start leads to it".into(),
+        None => "a state of the motion itself".into(),
     };
     format!(
         "The question is {} ({}): {known}. Simulations begin at {start} (x = {}, x′ = {}, y = {}, y′ = {} over the clearance) and leave their first half to the transient.",

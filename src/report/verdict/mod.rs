@@ -6,7 +6,7 @@ mod unsimulated;
 
 use serde::Serialize;
 
-use super::numbers::{LengthFormat, decibels, percent, significant};
+use super::numbers::{LengthFormat, decibels, known_to, percent, significant, with_error};
 use crate::case::Case;
 use crate::regimes::{FoundAttractor, Nature, Regime};
 use crate::study::CaseStudy;
@@ -117,8 +117,9 @@ impl Writer<'_> {
         let rms = main.attractor.rms;
         let bare_rms = bare * std::f64::consts::FRAC_1_SQRT_2;
         let average = format!(
-            "rms {} instead of {} ({})",
+            "rms {}{} instead of {} ({})",
             self.length(rms),
+            main.attractor.errors.map_or_else(String::new, |[error, _]| known_to(error / rms)),
             self.length(bare_rms),
             decibels(rms / bare_rms)
         );
@@ -145,9 +146,12 @@ impl Writer<'_> {
 
     fn regime(&self, main: &FoundAttractor) -> String {
         let evidence = &main.attractor.classification.evidence;
-        // Averages of motions that do not repeat are known to two digits.
-        let digits = if evidence.periodicity.is_some() { 3 } else { 2 };
-        let z = significant(evidence.impacts_per_period, digits);
+        let z = match main.attractor.errors {
+            Some([_, error]) if error > 0.0 && error.is_finite() => {
+                with_error(evidence.impacts_per_period, error)
+            }
+            _ => significant(evidence.impacts_per_period, 3),
+        };
         match main.regime() {
             Regime::AboveTwo if self.resting_share(main) > 0.0 => format!(
                 "Chattering: impacts crowd in until the absorber rests on a wall, {} of the time",

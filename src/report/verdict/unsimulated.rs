@@ -5,6 +5,10 @@ use super::{NOTICEABLE, Tone, Verdict, Writer};
 use crate::report::layers;
 use crate::report::numbers::{decibels, significant};
 
+/// What the limits are limits of, where no start was followed.
+const LIMITS_OF_THE_MOTION: &str =
+    " These are limits of the stable motion; the starts that lead to it may run out earlier.";
+
 impl Writer<'_> {
     /// Headline and sentences without any simulated motion; `None` where theory and orbits have no
     /// stable motion either.
@@ -27,18 +31,26 @@ impl Writer<'_> {
         let change =
             format!("{} instead of {} ({})", self.length(peak), self.length(bare), decibels(ratio));
         let (tone, headline) = if ratio > 1.0 + NOTICEABLE {
-            (Tone::Bad, format!("Steady 1:1 resonance, but the absorber makes it worse: {change}."))
+            (
+                Tone::Bad,
+                format!("A stable 1:1 resonance exists, but it makes things worse: {change}."),
+            )
         } else if ratio > 1.0 - NOTICEABLE {
-            (Tone::Mixed, format!("Steady 1:1 resonance, but it changes little: {change}."))
+            (
+                Tone::Mixed,
+                format!("A stable 1:1 resonance exists, but it changes little: {change}."),
+            )
         } else {
-            (Tone::Good, format!("Steady 1:1 resonance: the absorber works. Vibration {change}."))
+            let text =
+                format!("A stable 1:1 resonance exists. If it is reached, vibration {change}.");
+            (Tone::Mixed, text)
         };
         let standing =
             format!("{what}; area {:?} by {}.", self.study.area.area, self.study.area.by.words());
         let sentences = [
             Some(standing),
             Some(layers::unlooked()),
-            self.clearance(),
+            self.clearance().map(|limits| limits + LIMITS_OF_THE_MOTION),
             self.forcing_and_frequency(),
             self.theory_error(),
         ];

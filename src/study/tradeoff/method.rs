@@ -4,6 +4,7 @@ use super::by_hand::{ByHand, Listener, Locate};
 use crate::analysis::motion::root_mean_square;
 use crate::analysis::slow_motion::{SlowEnd, SlowFlow};
 use crate::analysis::{FixedPoint, Manifold, fixed_points};
+use crate::numerics::scatter::twice_standard_error;
 use crate::orbits::{Measures, symmetric_orbits};
 use crate::regimes::{Attractor, Regime, Thresholds, classify};
 use crate::simulation::{ContactTolerance, ImpactLog, Simulation, Statistics, Stop};
@@ -324,21 +325,18 @@ const LAST_IMPACTS: usize = 20_000;
 fn scatters(means: &[[f64; 2]], rms: f64) -> [f64; 2] {
     // The square varies twice as much as its root.
     let square = (2.0 * rms * rms).max(f64::MIN_POSITIVE);
-    [twice_standard_error(means, 0) / square, twice_standard_error(means, 1)]
+    let error =
+        |k: usize| twice_standard_error(&means.iter().map(|block| block[k]).collect::<Vec<_>>());
+    [error(0) / square, error(1)]
 }
 
-fn twice_standard_error(means: &[[f64; 2]], k: usize) -> f64 {
-    let count = means.len() as f64;
-    if count < 2.0 {
-        return f64::INFINITY;
-    }
-    let mean = means.iter().map(|block| block[k]).sum::<f64>() / count;
-    let squares: f64 = means.iter().map(|block| (block[k] - mean) * (block[k] - mean)).sum();
-    2.0 * (squares / (count - 1.0) / count).sqrt()
-}
+/// Impacts per period, over all periods so far and ten more, above which a fixed step is given up: it
+/// has one in nearly every step, and none of them is an impact.
+const MOST_IMPACTS: u64 = 400;
 
 /// Counts impacts and sums squares at the ends of steps, in blocks of the second half of a run.
 struct Sums {
+    impacts: u64,
     skip: u64,
     steps: u64,
     all: u64,
@@ -357,6 +355,7 @@ impl Sums {
 impl Listener for Sums {
     fn impact(&mut self, _: f64, _: &State) {
         tally::note(12);
+        self.impacts += 1;
         if let Some(block) = self.block() {
             block[2] += 1.0;
         }
@@ -376,8 +375,14 @@ fn by_hand(hand: &ByHand, start: State, periods: u64) -> Answer {
     let per_period = hand.steps_per_period();
     let blocks = BLOCKS.min(periods - discard).max(1) as usize;
     let (skip, all) = (discard * per_period, periods * per_period);
-    let mut sums = Sums { skip, steps: 0, all, blocks: vec![[0.0; 3]; blocks] };
-    let end = hand.run(start, periods, &mut sums);
+    let mut sums = Sums { impacts: 0, skip, steps: 0, all, blocks: vec![[0.0; 3]; blocks] };
+    let mut end = start;
+    for period in 0..periods {
+        end = hand.run(end, 1, &mut sums);
+        if sums.impacts > MOST_IMPACTS * (period + 10) {
+            return no_answer("impacts in nearly every step, so it was given up");
+        }
+    }
     if !end.x.is_finite() {
         return no_answer("a number that overflowed");
     }
