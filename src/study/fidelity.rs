@@ -4,7 +4,7 @@
 //! exact orbit answers where there is one; simulation answers where there is none, and wherever it is
 //! asked which other motions coexist, which no single orbit knows. A layer may also be insisted on.
 
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 use super::tradeoff::method::{impacts_per_period, measured};
 use super::tradeoff::{Answer, Method};
@@ -154,11 +154,21 @@ pub struct Answers {
     /// Relative error of the closed form, where the exact orbit measures it.
     pub error_of_closed_form: Option<f64>,
     /// Operations of closed form, exact orbit and simulation; `None` for what was not done.
+    #[serde(serialize_with = "by_layer")]
     pub operations: [Option<u64>; 3],
     /// Whether other motions were looked for.
     pub coexistence_looked_for: bool,
     /// Why the simulation that answers is not to be trusted; nothing of it is enough then.
     pub doubts: Vec<Doubt>,
+}
+
+/// Operations under the names of the layers.
+fn by_layer<S: Serializer>(
+    operations: &[Option<u64>; 3],
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
+    let layers = [Fidelity::Manifold, Fidelity::Orbit, Fidelity::Simulation];
+    serializer.collect_map(layers.iter().zip(operations))
 }
 
 impl Answers {

@@ -77,6 +77,7 @@ pub struct Best {
     /// Impacts and periods of the orbit, if it is one.
     pub orbit: Option<(usize, u32)>,
     /// Root mean square displacement over the clearance.
+    #[serde(rename = "rms_over_clearance")]
     pub rms: f64,
     /// Its relative error: two standard errors of a simulation, rounding of an orbit.
     pub rms_error: f64,
