@@ -322,6 +322,16 @@ fn reduced(mass_ratio: f64, damping: f64, restitution: f64, forcing: f64) -> Str
 }
 
 #[test]
+fn analyze_says_where_the_theory_is_out_of_its_range() {
+    let folder = folder();
+    let warned = |mass_ratio: f64| {
+        let case = written(&folder, "case.toml", &reduced(mass_ratio, 1.0, 0.6, 4.0));
+        done(&["analyze", &case]).contains("is not small: the theory")
+    };
+    assert!(warned(0.5) && !warned(0.01));
+}
+
+#[test]
 fn extremes_run() {
     let folder = folder();
     let table = fs::read_to_string(shipped("li2016-8hz-b7p5mm.toml")).expect("a shipped case");

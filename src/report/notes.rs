@@ -6,6 +6,7 @@ use super::numbers::{LengthFormat, fixed, percent, significant};
 use crate::case::Case;
 use crate::simulation::{Doubt, Stop};
 use crate::study::CaseStudy;
+use crate::system::System;
 use crate::validation::tolerance::{LARGEST_DAMPING, LARGEST_MASS_RATIO, LARGEST_OFFSET};
 use crate::validation::{Finding, Measure, Verdict};
 
@@ -65,40 +66,8 @@ pub fn notes(case: &Case, study: &CaseStudy) -> Vec<Note> {
         }
     }
     let system = &study.analysis.system;
-    if system.restitution() == 1.0 {
-        note(
-            "validity",
-            "Elastic impacts lose nothing: at leading order the manifold attracts no motion."
-                .into(),
-        );
-    }
-    if system.mass_ratio() > LARGEST_MASS_RATIO {
-        note(
-            "validity",
-            format!(
-                "The mass ratio {} is not small: the theory, an expansion in it, is out of its range.",
-                significant(system.mass_ratio(), 3)
-            ),
-        );
-    }
-    if (system.frequency_ratio() - 1.0).abs() > LARGEST_OFFSET {
-        note(
-            "validity",
-            format!(
-                "The excitation is {} away from resonance: the theory holds near 1:1 resonance only.",
-                percent((system.frequency_ratio() - 1.0).abs())
-            ),
-        );
-    }
-    let damping = system.mass_ratio() * system.damping();
-    if damping > LARGEST_DAMPING {
-        note(
-            "validity",
-            format!(
-                "The oscillator is heavily damped (damping ratio {}): it has no resonance, and the theory is out of its range.",
-                significant(0.5 * damping, 3)
-            ),
-        );
+    for text in theory_limits(system) {
+        note("validity", text);
     }
     for point in study.analysis.fixed_points.iter().filter(|point| !point.admissible) {
         note(
@@ -111,6 +80,37 @@ pub fn notes(case: &Case, study: &CaseStudy) -> Vec<Note> {
         );
     }
     notes
+}
+
+/// Why the theory may not hold for a system, a sentence each.
+pub(super) fn theory_limits(system: &System) -> Vec<String> {
+    let mut said = Vec::new();
+    if system.restitution() == 1.0 {
+        said.push(
+            "Elastic impacts lose nothing: at leading order the manifold attracts no motion."
+                .to_owned(),
+        );
+    }
+    if system.mass_ratio() > LARGEST_MASS_RATIO {
+        said.push(format!(
+            "The mass ratio {} is not small: the theory, an expansion in it, is out of its range.",
+            significant(system.mass_ratio(), 3)
+        ));
+    }
+    if (system.frequency_ratio() - 1.0).abs() > LARGEST_OFFSET {
+        said.push(format!(
+            "The excitation is {} away from resonance: the theory holds near 1:1 resonance only.",
+            percent((system.frequency_ratio() - 1.0).abs())
+        ));
+    }
+    let damping = system.mass_ratio() * system.damping();
+    if damping > LARGEST_DAMPING {
+        said.push(format!(
+            "The oscillator is heavily damped (damping ratio {}): it has no resonance, and the theory is out of its range.",
+            significant(0.5 * damping, 3)
+        ));
+    }
+    said
 }
 
 /// A finding with its unit.

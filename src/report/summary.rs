@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use super::motion_tables;
+use super::notes::theory_limits;
 use super::numbers::{LengthFormat, capitalised, fixed, percent, significant};
 use crate::analysis::{Analysis, Strip};
 use crate::case::Case;
@@ -28,6 +29,9 @@ pub fn analysis(case: &Case, analysis: &Analysis, exact: &FullSystem, area: Sett
         SettledBy::Simulation => " (Z1 or Z2 told apart by a short simulation)",
     };
     let _ = writeln!(text, "Area {:?}{strip}{how}", area.area);
+    for limit in theory_limits(&analysis.system) {
+        let _ = writeln!(text, "{limit}");
+    }
     let manifold = &analysis.manifold;
     let _ = writeln!(
         text,
