@@ -11,6 +11,7 @@ use std::time::{Duration, Instant};
 use criterion::{Criterion, criterion_group, criterion_main};
 use vinesink::analysis::Analysis;
 use vinesink::simulation::{Nobody, Simulation, Statistics, Stop, batch};
+use vinesink::study::tradeoff::by_hand::{ByHand, Listener, Locate};
 use vinesink::system::{Excitation, Parameters, State, System};
 
 const PERIODS: u64 = 200;
@@ -80,84 +81,20 @@ fn step_by_step(system: &System, periods: u64) -> u64 {
 
 /// Steps of the hand-written integrator in a period.
 const STEPS: u32 = 200;
-/// Halvings of a step that locate an impact to rounding.
-const HALVINGS: u32 = 50;
+#[derive(Default)]
+struct Counted(u64);
 
-struct RungeKutta {
-    system: System,
-    damping: f64,
-    force: [f64; 2],
+impl Listener for Counted {
+    fn impact(&mut self, _: f64, _: &State) {
+        self.0 += 1;
+    }
 }
 
-impl RungeKutta {
-    fn new(system: &System) -> Self {
-        let force = system.excitation_amplitudes();
-        let damping = system.mass_ratio() * system.damping();
-        Self { system: *system, damping, force: [force.0, force.1] }
-    }
-
-    fn acceleration(&self, time: f64, x: f64, v: f64) -> f64 {
-        let (sin, cos) = libm::sincos(self.system.frequency_ratio() * time);
-        self.force[0] * sin + self.force[1] * cos - self.damping * v - x
-    }
-
-    fn step(&self, time: f64, at: &State, h: f64) -> State {
-        let (x, v) = (at.x, at.x_velocity);
-        let half = 0.5 * h;
-        let a1 = self.acceleration(time, x, v);
-        let v2 = v + half * a1;
-        let a2 = self.acceleration(time + half, x + half * v, v2);
-        let v3 = v + half * a2;
-        let a3 = self.acceleration(time + half, x + half * v2, v3);
-        let v4 = v + h * a3;
-        let a4 = self.acceleration(time + h, x + h * v3, v4);
-        State {
-            x: x + h / 6.0 * (v + 2.0 * v2 + 2.0 * v3 + v4),
-            x_velocity: v + h / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4),
-            y: at.y + at.y_velocity * h,
-            y_velocity: at.y_velocity,
-        }
-    }
-
-    fn collide(&self, at: &mut State) {
-        let (eps, r) = (self.system.mass_ratio(), self.system.restitution());
-        let exchanged = (1.0 + r) * (at.x_velocity - at.y_velocity) / (1.0 + eps);
-        at.y = at.x - at.gap().signum();
-        at.x_velocity -= eps * exchanged;
-        at.y_velocity += exchanged;
-    }
-
-    /// Impacts in so many periods.
-    fn run(&self, periods: u64) -> u64 {
-        let h = self.system.period() / f64::from(STEPS);
-        let (mut state, mut impacts) = (START, 0);
-        for step in 0..periods * u64::from(STEPS) {
-            let (mut time, mut left) = (step as f64 * h, h);
-            loop {
-                let next = self.step(time, &state, left);
-                let outwards = next.gap() * (next.x_velocity - next.y_velocity) > 0.0;
-                if next.gap().abs() <= 1.0 || !outwards {
-                    state = next;
-                    break;
-                }
-                let (mut before, mut after) = (0.0, left);
-                for _ in 0..HALVINGS {
-                    let middle = 0.5 * (before + after);
-                    if self.step(time, &state, middle).gap().abs() > 1.0 {
-                        after = middle;
-                    } else {
-                        before = middle;
-                    }
-                }
-                state = self.step(time, &state, after);
-                self.collide(&mut state);
-                impacts += 1;
-                time += after;
-                left -= after;
-            }
-        }
-        impacts
-    }
+/// Impacts that the hand-written integrator sees in so many periods.
+fn by_hand(system: &System, periods: u64) -> u64 {
+    let mut impacts = Counted::default();
+    ByHand::new(system, STEPS, Locate::Bisection).run(START, periods, &mut impacts);
+    impacts.0
 }
 
 fn timed(work: &mut impl FnMut() -> u64) -> (Duration, u64) {
@@ -180,8 +117,7 @@ fn compare(mut one: impl FnMut() -> u64, mut other: impl FnMut() -> u64) -> [(Du
 fn impacts(criterion: &mut Criterion) {
     for clearance in CLEARANCES {
         let system = system(clearance);
-        let by_hand = RungeKutta::new(&system);
-        let [ours, theirs] = compare(|| engine(&system, PERIODS), || by_hand.run(PERIODS));
+        let [ours, theirs] = compare(|| engine(&system, PERIODS), || by_hand(&system, PERIODS));
         println!(
             "b = {clearance} mm, {PERIODS} periods: engine {} impacts in {:.0} us, {:.2e} a second; \
              Runge-Kutta {} impacts in {:.0} us; ratio {:.1}",
@@ -211,7 +147,8 @@ fn impacts(criterion: &mut Criterion) {
         group.bench_function("64 side by side", |bench| {
             bench.iter(|| side_by_side(&system, PERIODS));
         });
-        group.bench_function("Runge-Kutta, T/200", |bench| bench.iter(|| by_hand.run(PERIODS)));
+        group
+            .bench_function("Runge-Kutta, T/200", |bench| bench.iter(|| by_hand(&system, PERIODS)));
         group.finish();
     }
 }

@@ -7,7 +7,7 @@
 //! and proves nothing, but no rounding of the engine can hide behind its own.
 
 mod oscillator;
-mod real;
+pub mod real;
 
 use oscillator::{LEVELS, Motion, Oscillator, Point};
 use real::{Functions, Real};

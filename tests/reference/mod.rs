@@ -3,70 +3,24 @@
 //! oscillators under base displacement; no sustained contact.
 #![allow(dead_code)]
 
-use std::cell::RefCell;
-use std::ops::{Add, Div, Mul, Neg, Sub};
-
-use astro_float::{BigFloat, Consts, Radix, RoundingMode};
+use vinesink::reference::real::Functions;
+pub use vinesink::reference::real::Real;
 use vinesink::system::System;
 
 /// Distance from a wall, over the clearance, that no motion here crosses and comes back within one
 /// step: an eighth of its square times accelerations of some clearances.
 const NEAR: f64 = 0.01;
-const BITS: usize = 256;
-const ROUND: RoundingMode = RoundingMode::ToEven;
 
 thread_local! {
-    static CONSTS: RefCell<Consts> = RefCell::new(Consts::new().expect("constants"));
+    static FUNCTIONS: Functions = Functions::new().expect("constants");
 }
 
-/// A number of 256 bits.
-#[derive(Clone, Debug)]
-pub struct Real(BigFloat);
-
-impl Real {
-    pub fn of(number: f64) -> Self {
-        Self(BigFloat::from_f64(number, BITS))
-    }
-    fn sin(&self) -> Self {
-        Self(CONSTS.with(|c| self.0.sin(BITS, ROUND, &mut c.borrow_mut())))
-    }
-    fn cos(&self) -> Self {
-        Self(CONSTS.with(|c| self.0.cos(BITS, ROUND, &mut c.borrow_mut())))
-    }
-    fn exp(&self) -> Self {
-        Self(CONSTS.with(|c| self.0.exp(BITS, ROUND, &mut c.borrow_mut())))
-    }
-    fn sqrt(&self) -> Self {
-        Self(self.0.sqrt(BITS, ROUND))
-    }
-    fn is_negative(&self) -> bool {
-        self.0.is_negative()
-    }
-    pub fn to_f64(&self) -> f64 {
-        let text = CONSTS.with(|c| self.0.format(Radix::Dec, ROUND, &mut c.borrow_mut()));
-        text.expect("a number").parse().expect("a number")
-    }
+fn sincos(angle: &Real) -> (Real, Real) {
+    FUNCTIONS.with(|functions| functions.sincos(angle))
 }
 
-macro_rules! operator {
-    ($name:ident, $method:ident) => {
-        impl $name for &Real {
-            type Output = Real;
-            fn $method(self, other: &Real) -> Real {
-                Real(self.0.$method(&other.0, BITS, ROUND))
-            }
-        }
-    };
-}
-operator!(Add, add);
-operator!(Sub, sub);
-operator!(Mul, mul);
-operator!(Div, div);
-impl Neg for &Real {
-    type Output = Real;
-    fn neg(self) -> Real {
-        Real(BigFloat::neg(&self.0))
-    }
+fn exp(number: &Real) -> Real {
+    FUNCTIONS.with(|functions| functions.exp(number))
 }
 
 /// One flight: absolute time of its start, state there.
@@ -112,7 +66,7 @@ impl Reference {
 
     fn forced(&self, tau: &Real) -> [Real; 2] {
         let phase = &self.omega * tau;
-        let (sin, cos) = (phase.sin(), phase.cos());
+        let (sin, cos) = sincos(&phase);
         let [p, q] = &self.steady;
         [&(p * &sin) + &(q * &cos), &self.omega * &(&(p * &cos) - &(q * &sin))]
     }
@@ -134,9 +88,10 @@ impl Flight<'_> {
     /// `x`, `x'`, `y`, `y'` after a time `s`.
     fn at(&self, s: &Real) -> [Real; 4] {
         let r = self.reference;
-        let envelope = (-&(&r.decay * s)).exp();
+        let envelope = exp(&-&(&r.decay * s));
         let angle = &r.ringing * s;
-        let (sin, cos) = (&envelope * &angle.sin(), &envelope * &angle.cos());
+        let (sin, cos) = sincos(&angle);
+        let (sin, cos) = (&envelope * &sin, &envelope * &cos);
         // x = e^{-d s} (a cos + c sin) with c = (v + d a) / w
         let c = &(&self.free_v + &(&r.decay * &self.free_x)) / &r.ringing;
         let x = &(&self.free_x * &cos) + &(&c * &sin);
