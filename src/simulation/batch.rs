@@ -10,7 +10,7 @@ use fearless_simd::{Level, Simd, dispatch};
 
 use super::contact::{Rebound, rebound};
 use super::events::{Impact, Observer, Side};
-use super::panels::CORRECTIONS;
+use super::panels::{CORRECTIONS, Limits};
 use super::phasor::{self, At, Hull, Line, Rates, Slack, Steady};
 use super::run::{Moment, Simulation, Stop};
 use crate::numerics::lanes::{LANES, Mask, Real, Wide, WideMask};
@@ -97,7 +97,11 @@ impl<'a, O: Observer> Task<'a, O> {
                 return Some(departure);
             }
             doubt = false;
-            if let Err(stop) = self.simulation.step(self.observer) {
+            let one = Limits {
+                turns: self.simulation.periods() + 1,
+                impacts: self.simulation.impacts() + 1,
+            };
+            if let Err(stop) = self.simulation.go_on(one, self.observer) {
                 self.stop = Some(stop);
                 return None;
             }

@@ -1,60 +1,170 @@
-//! One flight of one trajectory, panel by panel: see [`super::phasor`] for the formulas and the proof.
+//! The flights of one trajectory, panel by panel: see [`super::phasor`] for the formulas and the proof.
 
 use fearless_simd::{Level, Simd, dispatch};
 
-use super::events::Side;
-use super::phasor::{At, Corrected, Hull, Line, Rates, Slack, Steady};
+use super::contact::rebound;
+use super::events::{Observer, Side};
+use super::phasor::{self, At, Corrected, Hull, Line, Rates, Slack, Steady, Sticking};
+use super::run::{Moment, Simulation};
 use crate::numerics::lanes::Real;
+use crate::system::State;
 
 /// Part of a panel below which it is not halved further: the slow search takes over.
 const SHORTEST: f64 = 1e-3;
 /// Corrections of a root before the slow search takes over; from the quintic's root one suffices.
 pub(super) const CORRECTIONS: u32 = 6;
 
-/// Where a flight begins.
+/// How far flights may go on.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Takeoff {
-    pub x: f64,
-    pub v: f64,
-    pub steady: Steady<f64>,
-    pub line: Line<f64>,
-    /// Time until the period is over.
-    pub left: f64,
+pub(super) struct Limits {
+    /// Whole periods and impacts since the start of the run, at either of which they end.
+    pub turns: u64,
+    pub impacts: u64,
+}
+
+impl Limits {
+    fn reached(&self, at: &Moment) -> bool {
+        self.turns <= at.turns || self.impacts <= at.impacts
+    }
+}
+
+/// Why flights ended.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Pause {
+    /// A limit was reached.
+    Limit,
+    /// Nothing is proven about the next flight: the slow search must fly it.
+    Doubt,
+    /// The last impact, on this wall, may be the end of a chattering sequence.
+    MayStick(Side),
+}
+
+impl Simulation {
+    /// Flies from event to event by the instructions of `level`, from where the trajectory stands.
+    pub(super) fn fly_in_panels<O: Observer>(
+        &self,
+        level: Level,
+        from: Moment,
+        limits: Limits,
+        observer: &mut O,
+    ) -> (Moment, Pause) {
+        let Some(rates) = self.rates() else { return (from, Pause::Doubt) };
+        let system = self.system();
+        let r = system.restitution();
+        let sticking = Sticking {
+            rates,
+            largest_force: self.largest_force(),
+            excursion: self.tolerance().excursion,
+            inverse_loss: 1.0 / ((1.0 - r) * (1.0 + r)),
+        };
+        let flights = Flights {
+            simulation: self,
+            rates,
+            mass_ratio: system.mass_ratio(),
+            restitution: r,
+            sticking,
+            limits,
+        };
+        dispatch!(level, simd => flights.fly_by(simd, from, observer))
+    }
+}
+
+/// What stays the same along a trajectory.
+struct Flights<'a> {
+    simulation: &'a Simulation,
+    rates: &'a Rates<f64>,
+    mass_ratio: f64,
+    restitution: f64,
+    sticking: Sticking<'a, f64>,
+    limits: Limits,
+}
+
+impl Flights<'_> {
+    /// By the instructions that `simd` stands for.
+    #[inline(always)]
+    fn fly_by<S: Simd, O: Observer>(
+        &self,
+        simd: S,
+        from: Moment,
+        observer: &mut O,
+    ) -> (Moment, Pause) {
+        let rates = self.rates;
+        let mut at = from;
+        loop {
+            let Moment { state: State { x, x_velocity: v, y, y_velocity }, steady, .. } = at;
+            let line = Line { y, velocity: y_velocity };
+            if phasor::blocked(x, v, line) {
+                return (at, Pause::Doubt);
+            }
+            let (here, slack) = rates.begin(x, v, steady, line);
+            if rates.short(&here) {
+                return (at, Pause::Doubt);
+            }
+            let left = rates.left(at.phase);
+            let Some(landing) = rates.fly(simd, here, slack, line, left, &mut at.evaluations)
+            else {
+                return (at, Pause::Doubt);
+            };
+            let Landing { wall, time, x, v, steady } = landing;
+            let y = y + y_velocity * time;
+            if !(x.is_finite() && y.is_finite()) {
+                return (at, Pause::Doubt);
+            }
+            if O::SEGMENTS && time > 0.0 {
+                observer.segment(&self.simulation.flown(&at, time));
+            }
+            let before = State { x, x_velocity: v, y, y_velocity };
+            at.steady = steady;
+            let Some(side) = wall else {
+                (at.state, at.phase, at.turns) = (before, 0.0, at.turns + 1);
+                observer.period(&before);
+                if self.limits.reached(&at) {
+                    return (at, Pause::Limit);
+                }
+                continue;
+            };
+            at.phase += rates.frequency * time;
+            at.impacts += 1;
+            let after = rebound(self.mass_ratio, self.restitution, v, y_velocity);
+            observer.impact(&self.simulation.impact(&before, side, &after, at.turns, at.phase));
+            at.state = self.simulation.rebounded(&before, side, &after);
+            let State { x, x_velocity: v, y, y_velocity } = at.state;
+            let line = Line { y, velocity: y_velocity };
+            if phasor::may_stick(x, v, line, side.sign(), &self.sticking) {
+                return (at, Pause::MayStick(side));
+            }
+            if self.limits.reached(&at) {
+                return (at, Pause::Limit);
+            }
+        }
+    }
 }
 
 /// Where a flight ends.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Landing {
+struct Landing {
     /// On which wall; none where the period is over first.
-    pub wall: Option<Side>,
+    wall: Option<Side>,
     /// Time since it began.
-    pub time: f64,
-    pub x: f64,
-    pub v: f64,
-    pub steady: Steady<f64>,
+    time: f64,
+    x: f64,
+    v: f64,
+    steady: Steady<f64>,
 }
 
 impl Rates<f64> {
-    /// Flies to the first impact or the end of the period, by the instructions of `level`; none where
-    /// nothing is proven, and the slow search must fly. Evaluations of the motion are added to
-    /// `evaluations`.
-    pub(super) fn fly(
+    /// Flies to the first impact or the end of the period; none where nothing is proven.
+    /// Evaluations of the motion are added to `evaluations`.
+    #[inline(always)]
+    fn fly<S: Simd>(
         &self,
-        level: Level,
-        from: &Takeoff,
+        simd: S,
+        mut here: At<f64>,
+        slack: Slack<f64>,
+        line: Line<f64>,
+        left: f64,
         evaluations: &mut u64,
     ) -> Option<Landing> {
-        dispatch!(level, simd => self.fly_by(simd, from, evaluations))
-    }
-
-    /// By the instructions that `simd` stands for.
-    #[inline(always)]
-    fn fly_by<S: Simd>(&self, simd: S, from: &Takeoff, evaluations: &mut u64) -> Option<Landing> {
-        let Takeoff { x, v, steady, line, left } = *from;
-        let (mut here, slack) = self.begin(x, v, steady, line);
-        if self.short(&here) {
-            return None;
-        }
         let mut time = 0.0;
         loop {
             let (mut length, mut slack) = (self.step, slack);

@@ -8,10 +8,10 @@ use std::f64::consts::TAU;
 use fearless_simd::Level;
 use serde::Serialize;
 
-use super::contact::{AtWall, ContactTolerance, rebound};
+use super::contact::{AtWall, ContactTolerance, Rebound, rebound};
 use super::events::{Absorber, Impact, Nobody, Observer, Segment, Side, StartError};
 use super::flow::{Kinematics, Motion, Oscillator};
-use super::panels::{Landing, Takeoff};
+use super::panels::{Limits, Pause};
 use super::phasor::{self, Line, Rates, Steady, TOUCH_ULPS};
 use crate::numerics::crossing::{Band, Curve, Edge, Sample, Search, first_crossing};
 use crate::system::{State, System};
@@ -184,25 +184,39 @@ impl Simulation {
     /// Continues to the end of the `periods`-th excitation period from here, or until
     /// `impact_limit` further impacts have happened.
     pub fn run(&mut self, periods: u64, impact_limit: u64, observer: &mut impl Observer) -> Stop {
-        let last = self.turns + periods;
-        let impact_limit = self.impacts.saturating_add(impact_limit);
-        while self.turns < last {
-            if self.impacts >= impact_limit {
+        let limits = Limits {
+            turns: self.turns + periods,
+            impacts: self.impacts.saturating_add(impact_limit),
+        };
+        while self.turns < limits.turns {
+            if self.impacts >= limits.impacts {
                 return Stop::ImpactLimit;
             }
-            if let Err(stop) = self.step(observer) {
+            if let Err(stop) = self.go_on(limits, observer) {
                 return stop;
             }
         }
         Stop::EndTime
     }
 
-    /// Continues to the next impact, release or end of a period.
-    pub(super) fn step<O: Observer>(&mut self, observer: &mut O) -> Result<(), Stop> {
-        match self.mode {
-            Mode::Flight => self.fly(observer),
-            Mode::Contact(side) => self.carry(side, observer),
+    /// Continues by one impact, release or end of a period, or several within the limits.
+    pub(super) fn go_on<O: Observer>(
+        &mut self,
+        limits: Limits,
+        observer: &mut O,
+    ) -> Result<(), Stop> {
+        if let Mode::Contact(side) = self.mode {
+            return self.carry(side, observer);
         }
+        let Some(departure) = self.departure() else { return self.fly_step_by_step(observer) };
+        let (moment, pause) = self.fly_in_panels(self.level, departure, limits, observer);
+        self.stand(&moment);
+        match pause {
+            Pause::Limit => {}
+            Pause::MayStick(side) => self.perhaps_stick(side, observer),
+            Pause::Doubt => self.fly_step_by_step(observer)?,
+        }
+        Ok(())
     }
 
     /// What turns its phasors, if it flies by any.
@@ -260,50 +274,6 @@ impl Simulation {
     /// Fast time since the start of the run at phase `phase` after `turns` whole periods.
     pub(super) fn tau(&self, turns: u64, phase: f64) -> f64 {
         (turns as f64 * TAU + phase) / self.system.frequency_ratio()
-    }
-
-    fn fly<O: Observer>(&mut self, observer: &mut O) -> Result<(), Stop> {
-        if self.fly_in_panels(observer) {
-            return Ok(());
-        }
-        self.fly_step_by_step(observer)
-    }
-
-    /// Flies to the next impact or the end of the period by phasors; `false`, and nothing has
-    /// happened, where they do not apply or leave a doubt.
-    fn fly_in_panels<O: Observer>(&mut self, observer: &mut O) -> bool {
-        let Some(rates) = &self.rates else { return false };
-        let State { x, x_velocity, y, y_velocity } = self.state;
-        let line = Line { y, velocity: y_velocity };
-        if phasor::blocked(x, x_velocity, line) {
-            return false;
-        }
-        let steady = self.steady.unwrap_or_else(|| rates.steady(self.phase));
-        let takeoff = Takeoff { x, v: x_velocity, steady, line, left: rates.left(self.phase) };
-        let Some(landing) = rates.fly(self.level, &takeoff, &mut self.evaluations) else {
-            return false;
-        };
-        let Landing { wall, time, x, v, steady } = landing;
-        let y = y + y_velocity * time;
-        if !(x.is_finite() && y.is_finite()) {
-            return false;
-        }
-        if O::SEGMENTS
-            && time > 0.0
-            && let Some(begin) = self.departure()
-        {
-            observer.segment(&self.flown(&begin, time));
-        }
-        self.state = State { x, x_velocity: v, y, y_velocity };
-        self.steady = Some(steady);
-        match wall {
-            Some(side) => {
-                self.phase += self.system.frequency_ratio() * time;
-                self.collide(side, observer);
-            }
-            None => self.complete_period(observer),
-        }
-        true
     }
 
     fn fly_step_by_step(&mut self, observer: &mut impl Observer) -> Result<(), Stop> {
@@ -426,20 +396,31 @@ impl Simulation {
 
     fn collide(&mut self, side: Side, observer: &mut impl Observer) {
         let before = self.state;
-        let eps = self.system.mass_ratio();
-        let r = self.system.restitution();
-        let after = rebound(eps, r, before.x_velocity, before.y_velocity);
+        let after = rebound(
+            self.system.mass_ratio(),
+            self.system.restitution(),
+            before.x_velocity,
+            before.y_velocity,
+        );
         self.impacts += 1;
-        let penetration = (before.gap().abs() - 1.0).max(0.0);
-        self.state = State {
-            x: before.x,
-            x_velocity: after.x_velocity,
-            y: before.x - side.sign(),
-            y_velocity: after.y_velocity,
-        };
-        observer.impact(&Impact {
-            tau: self.tau(self.turns, self.phase),
-            phase: self.phase,
+        observer.impact(&self.impact(&before, side, &after, self.turns, self.phase));
+        self.state = self.rebounded(&before, side, &after);
+        self.perhaps_stick(side, observer);
+    }
+
+    /// An impact as observers are told of it.
+    #[inline(always)]
+    pub(super) fn impact(
+        &self,
+        before: &State,
+        side: Side,
+        after: &Rebound,
+        turns: u64,
+        phase: f64,
+    ) -> Impact {
+        Impact {
+            tau: self.tau(turns, phase),
+            phase,
             side,
             x: before.x,
             x_velocity_before: before.x_velocity,
@@ -447,13 +428,21 @@ impl Simulation {
             y_velocity_before: before.y_velocity,
             y_velocity_after: after.y_velocity,
             loss: after.loss,
-            penetration,
-        });
-        if r == 0.0 {
-            // The relative velocity is zero, not what rounding leaves of it.
-            self.state.y_velocity = self.state.x_velocity;
+            penetration: (before.gap().abs() - 1.0).max(0.0),
         }
-        self.perhaps_stick(side, observer);
+    }
+
+    /// The state after an impact: on the wall.
+    #[inline(always)]
+    pub(super) fn rebounded(&self, before: &State, side: Side, after: &Rebound) -> State {
+        // With `r = 0` the relative velocity is zero, not what rounding leaves of it.
+        let follows = self.system.restitution() == 0.0;
+        State {
+            x: before.x,
+            x_velocity: after.x_velocity,
+            y: before.x - side.sign(),
+            y_velocity: if follows { after.x_velocity } else { after.y_velocity },
+        }
     }
 
     pub(super) fn perhaps_stick(&mut self, side: Side, observer: &mut impl Observer) {
