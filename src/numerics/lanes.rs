@@ -6,7 +6,7 @@
 
 use std::ops::{Add, BitAnd, BitOr, Div, Index, IndexMut, Mul, Neg, Not, Sub};
 
-use fearless_simd::{Simd, f64x8, mask64x8, prelude::*};
+use fearless_simd::{Simd, f64x4, f64x8, mask64x8, prelude::*};
 
 /// Numbers that a formula is evaluated for at once.
 pub trait Real:
@@ -34,6 +34,12 @@ pub trait Real:
     fn at_most(self, other: Self) -> Self::Mask;
     /// `yes` where `mask`, else `no`.
     fn choose(mask: Self::Mask, yes: Self, no: Self) -> Self;
+    /// Four polynomials in `x`, by four coefficients for each power, lowest power first.
+    fn polynomials<S: Simd, const N: usize>(
+        simd: S,
+        x: [Self; 4],
+        coefficients: &[[f64; 4]; N],
+    ) -> [Self; 4];
     /// The larger of two; `other` where `self` is not a number.
     #[inline(always)]
     fn larger(self, other: Self) -> Self {
@@ -79,6 +85,19 @@ impl Real for f64 {
     #[inline(always)]
     fn choose(mask: bool, yes: Self, no: Self) -> Self {
         if mask { yes } else { no }
+    }
+    #[inline(always)]
+    fn polynomials<S: Simd, const N: usize>(
+        simd: S,
+        x: [Self; 4],
+        coefficients: &[[f64; 4]; N],
+    ) -> [Self; 4] {
+        let x = f64x4::simd_from(simd, x);
+        let mut sum = f64x4::simd_from(simd, coefficients[N - 1]);
+        for k in (0..N - 1).rev() {
+            sum = sum * x + f64x4::simd_from(simd, coefficients[k]);
+        }
+        sum.into()
     }
 }
 
@@ -253,6 +272,21 @@ impl<S: Simd> Real for Wide<S> {
             yes.0[k] = mask.0[k].select(yes.0[k], no.0[k]);
         }
         yes
+    }
+    #[inline(always)]
+    fn polynomials<T: Simd, const N: usize>(
+        _simd: T,
+        mut x: [Self; 4],
+        coefficients: &[[f64; 4]; N],
+    ) -> [Self; 4] {
+        for (j, x) in x.iter_mut().enumerate() {
+            let mut sum = x.like(coefficients[N - 1][j]);
+            for k in (0..N - 1).rev() {
+                sum = sum * *x + coefficients[k][j];
+            }
+            *x = sum;
+        }
+        x
     }
 }
 

@@ -161,7 +161,9 @@ impl<S: Simd> Lanes<S> {
                 step: one,
                 frequency: one,
                 inverse_frequency: one,
+                squared: one,
                 decay: zero,
+                twice_decay: zero,
                 ringing: one,
                 inverse_ringing: one,
                 stiffness: one,
@@ -326,7 +328,7 @@ impl<S: Simd> Lanes<S> {
             }
             length = Wide::choose(open, length * 0.5, length);
             slack = tightened(open, &slack.halved(), &slack);
-            let middle = rates.after(&self.here, length, self.line.from(self.time));
+            let middle = rates.after(simd, &self.here, length, self.line.from(self.time));
             there = advanced(open, &middle, &there);
             self.panels = Wide::choose(open, self.panels + 1.0, self.panels);
             wall = Wide::choose(open, nearest(&there), wall);
@@ -433,7 +435,7 @@ impl<S: Simd> Lanes<S> {
             let at_end = end.over | ahead;
             let inside = time.larger(zero).smaller(length);
             let at = Wide::choose(at_end, rest, inside);
-            let found = self.rates.corrected(&self.here, at, line, wall, &slack);
+            let found = self.rates.corrected(self.simd, &self.here, at, line, wall, &slack);
             let (x, v) = self.rates.oscillator(&found.at);
             let over = open & (end.over | (ahead & slack.before(&found.at, wall)));
             let late = rest.less(found.time);
@@ -540,7 +542,9 @@ impl<S: Simd> Lanes<S> {
         rates.step[lane] = of.step;
         rates.frequency[lane] = of.frequency;
         rates.inverse_frequency[lane] = of.inverse_frequency;
+        rates.squared[lane] = of.squared;
         rates.decay[lane] = of.decay;
+        rates.twice_decay[lane] = of.twice_decay;
         rates.ringing[lane] = of.ringing;
         rates.inverse_ringing[lane] = of.inverse_ringing;
         rates.stiffness[lane] = of.stiffness;

@@ -105,7 +105,7 @@ impl Integrator {
             tally::note(PANEL);
             let length = rates.step.min(left);
             let there = if left < rates.step {
-                rates.after(&here, left, base)
+                rates.later(&here, left, base)
             } else {
                 rates.next(&here, base)
             };

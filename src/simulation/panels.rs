@@ -90,10 +90,12 @@ impl Flights<'_> {
     ) -> (Moment, Pause) {
         let rates = self.rates;
         let mut at = from;
+        // What has just been thrown back leaves its wall.
+        let mut leaves = false;
         loop {
             let Moment { state: State { x, x_velocity: v, y, y_velocity }, steady, .. } = at;
             let line = Line { y, velocity: y_velocity };
-            if phasor::blocked(x, v, line) {
+            if !leaves && phasor::blocked(x, v, line) {
                 return (at, Pause::Doubt);
             }
             let (here, slack) = rates.begin(x, v, steady, line);
@@ -107,7 +109,7 @@ impl Flights<'_> {
             };
             let Landing { wall, time, x, v, steady } = landing;
             let y = y + y_velocity * time;
-            if !(x.is_finite() && y.is_finite()) {
+            if !(x.abs() <= f64::MAX && y.abs() <= f64::MAX) {
                 return (at, Pause::Doubt);
             }
             if O::SEGMENTS && time > 0.0 {
@@ -118,6 +120,7 @@ impl Flights<'_> {
             let Some(side) = wall else {
                 (at.state, at.phase, at.turns) = (before, 0.0, at.turns + 1);
                 observer.period(&before);
+                leaves = false;
                 if self.limits.reached(&at) {
                     return (at, Pause::Limit);
                 }
@@ -133,6 +136,7 @@ impl Flights<'_> {
             if phasor::may_stick(x, v, line, side.sign(), &self.sticking) {
                 return (at, Pause::MayStick(side));
             }
+            leaves = true;
             if self.limits.reached(&at) {
                 return (at, Pause::Limit);
             }
@@ -167,71 +171,111 @@ impl Rates<f64> {
     ) -> Option<Landing> {
         let mut time = 0.0;
         loop {
-            let (mut length, mut slack) = (self.step, slack);
-            let mut there = self.next(&here, line.from(time + length));
-            *evaluations += 1;
-            loop {
-                let hull = Hull::of(&here, &there, length, &slack);
-                if hull.clear() {
-                    break;
-                }
-                let side = if there.gap > 0.0 { Side::Plus } else { Side::Minus };
-                if hull.meets(side.sign()) {
-                    let guess = Self::guess(&here, &there, length, side.sign(), true);
-                    let guess = guess.larger(0.0).smaller(length);
-                    let (line, rest) = (line.from(time), left - time);
-                    if rest < guess {
-                        *evaluations += 1;
-                        let at = self.moment(simd, &here, rest, line);
-                        if slack.before(&at, side.sign()) {
-                            let (x, v) = self.oscillator(&at);
-                            return Some(Landing {
-                                wall: None,
-                                time: left,
-                                x,
-                                v,
-                                steady: self.origin,
-                            });
-                        }
-                    }
-                    let guess = Guess { time: guess, length, side, line };
-                    if let Some(found) = self.root(simd, &here, guess, &slack, evaluations) {
-                        if rest < found.time {
-                            break;
-                        }
-                        let Corrected { x, v, steady, .. } = found;
-                        let time = time + found.time;
-                        return Some(Landing { wall: Some(side), time, x, v, steady });
-                    }
-                }
-                if length < SHORTEST * self.step {
-                    return None;
-                }
-                (length, slack) = (length * 0.5, slack.halved());
-                there = self.moment(simd, &here, length, line.from(time));
+            // The panels until one may hold an impact.
+            let there = loop {
+                let reach = time + self.step;
+                let there = self.next(&here, line.from(reach));
                 *evaluations += 1;
+                if !Hull::of(&here, &there, self.step, &slack).clear() {
+                    break there;
+                }
+                if left <= reach {
+                    return Some(self.ended(simd, &here, time, line, left, evaluations));
+                }
+                (here, time) = (there, reach);
+            };
+            let panel = Panel { here, there, time, slack, line, left };
+            match self.look_into(simd, &panel, evaluations)? {
+                Found::Landing(landing) => return Some(landing),
+                Found::Nothing { until, there } => (here, time) = (there, until),
             }
-            if left <= time + length {
-                *evaluations += 1;
-                let (x, v) =
-                    self.oscillator(&self.moment(simd, &here, left - time, line.from(time)));
-                return Some(Landing { wall: None, time: left, x, v, steady: self.origin });
-            }
-            (here, time) = (there, time + length);
         }
     }
 
-    /// As [`Self::after`]; kept out of the loop over panels, into which it would be hoisted.
+    /// Where a flight ends that the end of the period, in the panel at `time`, comes before.
+    #[inline(never)]
+    fn ended<S: Simd>(
+        &self,
+        simd: S,
+        here: &At<f64>,
+        time: f64,
+        line: Line<f64>,
+        left: f64,
+        evaluations: &mut u64,
+    ) -> Landing {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                *evaluations += 1;
+                let (x, v) = self.oscillator(&self.after(simd, here, left - time, line.from(time)));
+                Landing { wall: None, time: left, x, v, steady: self.origin }
+            },
+        )
+    }
+
+    /// Looks for an impact in a panel that is not proven to be clear, or in the first part of it about
+    /// which something is; none where nothing is.
+    #[inline(always)]
+    fn look_into<S: Simd>(&self, simd: S, panel: &Panel, evaluations: &mut u64) -> Option<Found> {
+        let Panel { here, mut there, time, mut slack, line, left } = *panel;
+        let (line_here, rest) = (line.from(time), left - time);
+        let mut length = self.step;
+        let mut hull = Hull::of(&here, &there, length, &slack);
+        loop {
+            let side = if there.gap > 0.0 { Side::Plus } else { Side::Minus };
+            if hull.meets(side.sign()) {
+                let guess = Self::guess(&here, &there, length, side.sign(), true);
+                let guess = guess.larger(0.0).smaller(length);
+                if rest < guess {
+                    *evaluations += 1;
+                    let at = self.moment(simd, &here, rest, line_here);
+                    if slack.before(&at, side.sign()) {
+                        let (x, v) = self.oscillator(&at);
+                        let end = Landing { wall: None, time: left, x, v, steady: self.origin };
+                        return Some(Found::Landing(end));
+                    }
+                }
+                let guess = Guess { time: guess, length, side, line: line_here };
+                if let Some(found) = self.root(simd, &here, guess, &slack, evaluations) {
+                    if rest < found.time {
+                        break;
+                    }
+                    let Corrected { x, v, steady, .. } = found;
+                    let time = time + found.time;
+                    let impact = Landing { wall: Some(side), time, x, v, steady };
+                    return Some(Found::Landing(impact));
+                }
+            }
+            if length < SHORTEST * self.step {
+                return None;
+            }
+            (length, slack) = (length * 0.5, slack.halved());
+            there = self.moment(simd, &here, length, line_here);
+            *evaluations += 1;
+            hull = Hull::of(&here, &there, length, &slack);
+            if hull.clear() {
+                break;
+            }
+        }
+        let until = time + length;
+        if left <= until {
+            let end = self.ended(simd, &here, time, line, left, evaluations);
+            return Some(Found::Landing(end));
+        }
+        Some(Found::Nothing { until, there })
+    }
+
+    /// As [`Self::after`], for what is rare.
     #[inline(never)]
     fn moment<S: Simd>(&self, simd: S, here: &At<f64>, s: f64, line: Line<f64>) -> At<f64> {
         simd.vectorize(
             #[inline(always)]
-            || self.after(here, s, line),
+            || self.after(simd, here, s, line),
         )
     }
 
     /// The first crossing in a panel that is proven to have one.
-    #[inline(never)]
+    #[inline(always)]
     fn root<S: Simd>(
         &self,
         simd: S,
@@ -240,23 +284,39 @@ impl Rates<f64> {
         slack: &Slack<f64>,
         evaluations: &mut u64,
     ) -> Option<Corrected<f64>> {
-        simd.vectorize(
-            #[inline(always)]
-            || {
-                let Guess { mut time, length, side, line } = guess;
-                for _ in 0..CORRECTIONS {
-                    *evaluations += 1;
-                    let inside = time.larger(0.0).smaller(length);
-                    let found = self.corrected(here, inside, line, side.sign(), slack);
-                    if found.exact {
-                        return Some(found);
-                    }
-                    time = found.time;
-                }
-                None
-            },
-        )
+        let Guess { mut time, length, side, line } = guess;
+        for _ in 0..CORRECTIONS {
+            *evaluations += 1;
+            let inside = time.larger(0.0).smaller(length);
+            let found = self.corrected(simd, here, inside, line, side.sign(), slack);
+            if found.exact {
+                return Some(found);
+            }
+            time = found.time;
+        }
+        None
     }
+}
+
+/// A panel of a flight.
+struct Panel {
+    here: At<f64>,
+    there: At<f64>,
+    /// Time from the flight's beginning to its own.
+    time: f64,
+    slack: Slack<f64>,
+    /// The flight.
+    line: Line<f64>,
+    /// Time from its beginning until the period is over.
+    left: f64,
+}
+
+/// What is found in a panel.
+enum Found {
+    /// The flight's end.
+    Landing(Landing),
+    /// No impact until a moment.
+    Nothing { until: f64, there: At<f64> },
 }
 
 /// Roughly when and where a flight ends in a panel.

@@ -25,6 +25,8 @@
 
 use std::f64::consts::TAU;
 
+use fearless_simd::{Level, Simd, dispatch};
+
 use super::flow::Oscillator;
 use crate::numerics::lanes::{Mask, Real};
 
@@ -91,7 +93,10 @@ pub(super) struct Rates<R> {
     pub step: R,
     pub frequency: R,
     pub inverse_frequency: R,
+    /// Its square.
+    pub squared: R,
     pub decay: R,
+    pub twice_decay: R,
     pub ringing: R,
     pub inverse_ringing: R,
     pub stiffness: R,
@@ -170,7 +175,9 @@ impl Rates<f64> {
             step,
             frequency,
             inverse_frequency: 1.0 / frequency,
+            squared: frequency * frequency,
             decay: oscillator.decay,
+            twice_decay: 2.0 * oscillator.decay,
             ringing,
             inverse_ringing: 1.0 / ringing,
             stiffness: oscillator.stiffness,
@@ -191,7 +198,7 @@ impl Rates<f64> {
         let mut time = part * length;
         let mut at = *here;
         for _ in 0..TURNING_STEPS {
-            at = self.after(here, time.clamp(0.0, length), base);
+            at = self.later(here, time.clamp(0.0, length), base);
             let ahead = -at.slope / at.a;
             if ahead.abs() * self.fastest < NEAR {
                 return at.gap + 0.5 * at.slope * ahead;
@@ -199,6 +206,11 @@ impl Rates<f64> {
             time += ahead;
         }
         at.gap
+    }
+
+    /// As [`Self::after`], by the instructions that every processor has.
+    pub(super) fn later(&self, here: &At<f64>, s: f64, line: Line<f64>) -> At<f64> {
+        dispatch!(Level::baseline(), simd => self.after(simd, here, s, line))
     }
 
     /// The steady motion at a phase.
@@ -278,19 +290,19 @@ impl<R: Real> Rates<R> {
     /// Corrects the time at which the gap reaches `wall` by one evaluation and the reverted series of
     /// third order.
     #[inline(always)]
-    pub(super) fn corrected(
+    pub(super) fn corrected<S: Simd>(
         &self,
+        simd: S,
         here: &At<R>,
         time: R,
         line: Line<R>,
         wall: R,
         slack: &Slack<R>,
     ) -> Corrected<R> {
-        let at = self.after(here, time, line);
+        let at = self.after(simd, here, time, line);
         let (x, v) = self.oscillator(&at);
         let free_v = v - at.steady.v;
-        let twice = self.decay * 2.0;
-        let squared = self.frequency * self.frequency;
+        let (twice, squared) = (self.twice_decay, self.squared);
         let free_a = at.a + squared * at.steady.x;
         let j = -(twice * free_a) - self.stiffness * free_v - squared * at.steady.v;
         let s = -(twice * (j + squared * at.steady.v)) - self.stiffness * free_a
@@ -323,11 +335,16 @@ impl<R: Real> Rates<R> {
         }
     }
 
+    /// The free motion's velocity, backwards.
+    #[inline(always)]
+    fn slowing(&self, z: [R; 2]) -> R {
+        self.decay * z[0] + self.ringing * z[1]
+    }
+
     /// Displacement and velocity of the oscillator.
     #[inline(always)]
     pub(super) fn oscillator(&self, at: &At<R>) -> (R, R) {
-        let free_v = -(self.decay * at.z[0]) - self.ringing * at.z[1];
-        (at.z[0] + at.steady.x, free_v + at.steady.v)
+        (at.z[0] + at.steady.x, at.steady.v - self.slowing(at.z))
     }
 
     /// Free motion as a phasor.
@@ -340,37 +357,25 @@ impl<R: Real> Rates<R> {
     /// at the beginning of `line`.
     #[inline(always)]
     pub(super) fn at(&self, z: [R; 2], steady: Steady<R>, line: Line<R>) -> At<R> {
-        let free_v = -(self.decay * z[0]) - self.ringing * z[1];
-        let (x, v) = (z[0] + steady.x, free_v + steady.v);
-        let a = -(self.decay * 2.0 * free_v)
-            - self.stiffness * z[0]
-            - self.frequency * self.frequency * steady.x;
+        let slowing = self.slowing(z);
+        let (x, v) = (z[0] + steady.x, steady.v - slowing);
+        let a = self.twice_decay * slowing - self.stiffness * z[0] - self.squared * steady.x;
         At { z, steady, a, gap: x - line.y, slope: v - line.velocity }
     }
 
     /// A time `s`, less than a panel, after `here`, where the absorber's flight `line` begins.
     #[inline(always)]
-    pub(super) fn after(&self, here: &At<R>, s: R, line: Line<R>) -> At<R> {
-        let z = multiply(here.z, self.propagated(s));
-        self.at(z, self.turned(here.steady, s), line.from(s))
-    }
-
-    /// `e^{p s}` for less than a panel.
-    #[inline(always)]
-    fn propagated(&self, s: R) -> [R; 2] {
-        let (sin, cos) = small_angle(self.ringing * s);
+    pub(super) fn after<S: Simd>(&self, simd: S, here: &At<R>, s: R, line: Line<R>) -> At<R> {
+        let [(sin, cos), (swing_sin, swing_cos)] =
+            small_angles(simd, [self.ringing * s, self.frequency * s]);
         let envelope = small_exponential(-(self.decay * s));
-        [envelope * cos, envelope * sin]
-    }
-
-    /// The steady motion less than a panel later.
-    #[inline(always)]
-    fn turned(&self, steady: Steady<R>, s: R) -> Steady<R> {
-        let (sin, cos) = small_angle(self.frequency * s);
-        Steady {
-            x: steady.x * cos + steady.v * self.inverse_frequency * sin,
-            v: steady.v * cos - self.frequency * steady.x * sin,
-        }
+        let z = multiply(here.z, [envelope * cos, envelope * sin]);
+        let Steady { x, v } = here.steady;
+        let steady = Steady {
+            x: x * swing_cos + v * self.inverse_frequency * swing_sin,
+            v: v * swing_cos - self.frequency * x * swing_sin,
+        };
+        self.at(z, steady, line.from(s))
     }
 }
 
@@ -535,14 +540,24 @@ const fn alternating(first: usize) -> [f64; 9] {
     coefficients
 }
 
-/// Sine and cosine of at most [`LARGEST_ANGLE`], to rounding: the first terms left out are below
-/// `0.8^18/18! = 3e-18`.
+/// Sine and cosine of two angles of at most [`LARGEST_ANGLE`], to rounding: the first terms left out are
+/// below `0.8^18/18! = 3e-18`.
 #[inline(always)]
-fn small_angle<R: Real>(angle: R) -> (R, R) {
-    const COSINE: [f64; 9] = alternating(0);
-    const SINE: [f64; 9] = alternating(1);
-    let squared = angle * angle;
-    (angle * series(squared, SINE), series(squared, COSINE))
+fn small_angles<R: Real, S: Simd>(simd: S, [a, b]: [R; 2]) -> [(R, R); 2] {
+    const SERIES: [[f64; 4]; 9] = {
+        let (sine, cosine) = (alternating(1), alternating(0));
+        let mut series = [[0.0; 4]; 9];
+        let mut k = 0;
+        while k < 9 {
+            series[k] = [sine[k], cosine[k], sine[k], cosine[k]];
+            k += 1;
+        }
+        series
+    };
+    let (a_squared, b_squared) = (a * a, b * b);
+    let squared = [a_squared, a_squared, b_squared, b_squared];
+    let [a_sin, a_cos, b_sin, b_cos] = R::polynomials(simd, squared, &SERIES);
+    [(a * a_sin, a_cos), (b * b_sin, b_cos)]
 }
 
 /// `e^x` for `-0.78 < x <= 0`: an oscillator that rings decays no more in a panel.
@@ -577,7 +592,9 @@ mod tests {
         for k in 0..=400 {
             let part = f64::from(k) / 400.0;
             let angle = LARGEST_ANGLE * part;
-            let (sin, cos) = small_angle(angle);
+            let [(sin, cos), other] =
+                dispatch!(Level::baseline(), simd => small_angles(simd, [angle, -angle]));
+            assert_eq!(other, (-sin, cos));
             assert!((sin - libm::sin(angle)).abs() <= 2.0 * f64::EPSILON * angle);
             assert!((cos - libm::cos(angle)).abs() <= f64::EPSILON);
             let decay = -0.78 * part;
@@ -629,7 +646,7 @@ mod tests {
                 let hull = Hull::of(&here, &there, rates.step, &slack);
                 for j in 1..20 {
                     let u = f64::from(j) / 20.0;
-                    let at = rates.after(&here, u * rates.step, line);
+                    let at = rates.later(&here, u * rates.step, line);
                     let off = (at.gap - quintic(&here, &hull, u)).abs();
                     let cubed = libm::pow(u * (1.0 - u), 3.0);
                     // Ten times the coefficient is S/720; the gap is rounded at the size of `x`.
