@@ -5,7 +5,7 @@ use fearless_simd::{Level, Simd, dispatch};
 use super::contact::rebound;
 use super::events::{Observer, Side};
 use super::phasor::{self, At, Corrected, Hull, Line, Rates, Slack, Steady, Sticking};
-use super::run::{Moment, Simulation};
+use super::run::{Moment, Simulation, Stop};
 use crate::numerics::lanes::Real;
 use crate::system::State;
 
@@ -23,6 +23,25 @@ pub(super) struct Limits {
 }
 
 impl Limits {
+    /// So many periods or impacts after where a trajectory stands.
+    pub(super) fn of(simulation: &Simulation, periods: u64, impacts: u64) -> Self {
+        Self {
+            turns: simulation.periods() + periods,
+            impacts: simulation.impacts().saturating_add(impacts),
+        }
+    }
+
+    /// Why a trajectory is at its end, if it is.
+    pub(super) fn stop(&self, simulation: &Simulation) -> Option<Stop> {
+        if self.turns <= simulation.periods() {
+            Some(Stop::EndTime)
+        } else if self.impacts <= simulation.impacts() {
+            Some(Stop::ImpactLimit)
+        } else {
+            None
+        }
+    }
+
     fn reached(&self, at: &Moment) -> bool {
         self.turns <= at.turns || self.impacts <= at.impacts
     }

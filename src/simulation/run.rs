@@ -184,19 +184,15 @@ impl Simulation {
     /// Continues to the end of the `periods`-th excitation period from here, or until
     /// `impact_limit` further impacts have happened.
     pub fn run(&mut self, periods: u64, impact_limit: u64, observer: &mut impl Observer) -> Stop {
-        let limits = Limits {
-            turns: self.turns + periods,
-            impacts: self.impacts.saturating_add(impact_limit),
-        };
-        while self.turns < limits.turns {
-            if self.impacts >= limits.impacts {
-                return Stop::ImpactLimit;
+        let limits = Limits::of(self, periods, impact_limit);
+        loop {
+            if let Some(stop) = limits.stop(self) {
+                return stop;
             }
             if let Err(stop) = self.go_on(limits, observer) {
                 return stop;
             }
         }
-        Stop::EndTime
     }
 
     /// Continues by one impact, release or end of a period, or several within the limits.

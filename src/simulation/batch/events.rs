@@ -1,0 +1,261 @@
+//! What happens to the lanes of a batch that have come to an event.
+
+use fearless_simd::Simd;
+
+use super::queue::{Queue, Task};
+use super::{Lanes, advanced, tightened};
+use crate::numerics::lanes::{LANES, Mask, Real, Wide, WideMask};
+use crate::simulation::contact::{Rebound, rebound};
+use crate::simulation::events::{Impact, Observer, Side};
+use crate::simulation::panels::CORRECTIONS;
+use crate::simulation::phasor::{self, At, Hull, Line, Rates, Slack, Steady};
+use crate::system::State;
+
+/// Halvings of panels side by side; what needs more goes on alone.
+const HALVINGS: u32 = 3;
+
+impl<S: Simd> Lanes<S> {
+    /// Deals with the lanes that wait, in some of them with a panel that is clear: those that begin
+    /// another flight, and those that fly on after a shorter panel.
+    #[inline(always)]
+    pub(super) fn deal_with<O: Observer>(
+        &mut self,
+        events: u64,
+        clear: u64,
+        queue: &mut Queue<'_, O>,
+    ) -> (u64, u64) {
+        let (simd, rates) = (self.simd, self.rates);
+        let zero = self.x.like(0.0);
+        let waiting = WideMask::from_bits(simd, events);
+        let mut clear = WideMask::from_bits(simd, clear);
+        let mut length = rates.step;
+        let mut there = rates.next(&self.here, self.line.from(self.time + length));
+        let mut slack = self.slack;
+        let mut wall = nearest(&there);
+        let hull = Hull::of(&self.here, &there, length, &slack);
+        let mut crossing = waiting & !clear & hull.meets(wall);
+        for _ in 0..HALVINGS {
+            let open = waiting & !clear & !crossing;
+            if !open.any() {
+                break;
+            }
+            length = Wide::choose(open, length * 0.5, length);
+            slack = tightened(open, &slack.halved(), &slack);
+            let middle = rates.after(simd, &self.here, length, self.line.from(self.time));
+            there = advanced(open, &middle, &there);
+            self.panels = Wide::choose(open, self.panels + 1.0, self.panels);
+            wall = Wide::choose(open, nearest(&there), wall);
+            let hull = Hull::of(&self.here, &there, length, &slack);
+            clear = clear | (open & hull.clear());
+            crossing = crossing | (open & hull.meets(wall));
+        }
+        let on = waiting & clear & !self.left.at_most(self.time + length);
+        let guess = Rates::guess(&self.here, &there, length, wall, crossing);
+        let guess = guess.larger(zero).smaller(length);
+        let panel = Panel { guess, length, slack, wall };
+        let end = self.end(&panel, crossing, clear & !on);
+        let flight = Wide::choose(end.over, self.left, self.time + end.time);
+        let Line { y, velocity } = self.line;
+        let (x, v, y) = (end.x, end.v, y + velocity * flight);
+        let good = end.exact & x.is_finite() & y.is_finite();
+        let (impact, over) = (good & !end.over, good & end.over);
+        let phase = Wide::choose(over, zero, self.phase + rates.frequency * flight);
+        let after = rebound(self.mass_ratio, self.restitution, v, velocity);
+        let approach = velocity;
+        self.tell(good, impact, &Event { flight, x, v, y, approach, phase, wall, after }, queue);
+        // Where they stand now.
+        let follows =
+            Wide::choose(self.restitution.at_most(zero), after.x_velocity, after.y_velocity);
+        self.x = Wide::choose(good, x, self.x);
+        self.v = Wide::choose(good, Wide::choose(impact, after.x_velocity, v), self.v);
+        self.line.y = Wide::choose(good, Wide::choose(impact, x - wall, y), self.line.y);
+        self.line.velocity = Wide::choose(impact, follows, velocity);
+        self.phase = Wide::choose(good, phase, self.phase);
+        for (mine, (ended, crossed)) in [
+            (&mut self.steady.x, (rates.origin.x, end.steady.x)),
+            (&mut self.steady.v, (rates.origin.v, end.steady.v)),
+        ] {
+            *mine = Wide::choose(good, Wide::choose(over, ended, crossed), *mine);
+        }
+        let evaluations = self.evaluations + self.panels + end.evaluations + 1.0;
+        self.evaluations = Wide::choose(good, evaluations, self.evaluations);
+        self.turns = Wide::choose(over, self.turns + 1.0, self.turns);
+        self.impacts = Wide::choose(impact, self.impacts + 1.0, self.impacts);
+        let stuck = impact
+            & phasor::may_stick(
+                self.x,
+                self.v,
+                self.line,
+                wall,
+                &phasor::Sticking {
+                    rates: &self.rates,
+                    largest_force: self.largest_force,
+                    excursion: self.excursion,
+                    inverse_loss: self.inverse_loss,
+                },
+            );
+        let through = self.last_turn.at_most(self.turns) | self.last_impact.at_most(self.impacts);
+        if on.any() {
+            self.here = advanced(on, &there, &self.here);
+            self.time = Wide::choose(on, self.time + length, self.time);
+            self.panels = Wide::choose(on, self.panels + 1.0, self.panels);
+        }
+        let resumed = on.bits();
+        let doubt = events & !good.bits() & !resumed;
+        let stuck = stuck.bits();
+        let special = (stuck | (good & through).bits()) & events;
+        let mut again = events & !doubt & !special & !resumed;
+        again |= self.alone(doubt, queue);
+        for lane in (0..LANES).filter(|lane| special >> lane & 1 == 1) {
+            let Some(index) = self.task[lane] else { continue };
+            let task = &mut queue.tasks[index];
+            task.simulation.stand(&self.moment(lane));
+            if stuck >> lane & 1 == 1 {
+                task.simulation.perhaps_stick(side(wall[lane]), task.observer);
+            }
+            if self.go_on(lane, false, queue) {
+                again |= 1 << lane;
+            }
+        }
+        (again, resumed)
+    }
+
+    /// Where the flights end within their panels: at a wall, or with the period in lanes that are
+    /// `clear` until then or cross later.
+    #[inline(always)]
+    fn end(&self, panel: &Panel<S>, crossing: WideMask<S>, clear: WideMask<S>) -> End<S> {
+        let Panel { guess, length, slack, wall } = *panel;
+        let line = self.line.from(self.time);
+        let (zero, none) = (self.x.like(0.0), WideMask::from_bits(self.simd, 0));
+        let rest = self.left - self.time;
+        let mut time = guess;
+        let mut end = End {
+            over: clear,
+            time: zero,
+            x: zero,
+            v: zero,
+            steady: self.steady,
+            exact: none,
+            evaluations: zero,
+        };
+        // A guess after the end of the period is not tried before the end is.
+        let mut ahead = crossing & rest.less(guess);
+        for _ in 0..CORRECTIONS {
+            let open = (crossing | clear) & !end.exact;
+            if !open.any() {
+                break;
+            }
+            let at_end = end.over | ahead;
+            let inside = time.larger(zero).smaller(length);
+            let at = Wide::choose(at_end, rest, inside);
+            let found = self.rates.corrected(self.simd, &self.here, at, line, wall, &slack);
+            let (x, v) = self.rates.oscillator(&found.at);
+            let over = open & (end.over | (ahead & slack.before(&found.at, wall)));
+            let late = rest.less(found.time);
+            let met = open & !at_end & found.exact & !late;
+            time = Wide::choose(ahead, time, found.time);
+            end.time = Wide::choose(met, found.time, end.time);
+            end.x = Wide::choose(met, found.x, Wide::choose(over, x, end.x));
+            end.v = Wide::choose(met, found.v, Wide::choose(over, v, end.v));
+            end.steady.x = Wide::choose(met, found.steady.x, end.steady.x);
+            end.steady.v = Wide::choose(met, found.steady.v, end.steady.v);
+            end.evaluations = Wide::choose(open, end.evaluations + 1.0, end.evaluations);
+            end.exact = end.exact | met | over;
+            end.over = end.over | over | (open & !at_end & found.exact & late);
+            ahead = ahead & !open;
+        }
+        end
+    }
+
+    /// Tells observers of what has happened to their lanes.
+    #[inline(always)]
+    fn tell<O: Observer>(
+        &self,
+        good: WideMask<S>,
+        impact: WideMask<S>,
+        event: &Event<S>,
+        queue: &mut Queue<'_, O>,
+    ) {
+        let (good, impact) = (good.bits(), impact.bits());
+        for lane in 0..LANES {
+            let Some(index) = self.task[lane] else { continue };
+            if good >> lane & 1 == 0 {
+                continue;
+            }
+            let Task { simulation, observer, .. } = &mut queue.tasks[index];
+            let flight = event.flight[lane];
+            if O::SEGMENTS && flight > 0.0 {
+                observer.segment(&simulation.flown(&self.moment(lane), flight));
+            }
+            if impact >> lane & 1 == 1 {
+                let (x, y) = (event.x[lane], event.y[lane]);
+                let phase = event.phase[lane];
+                observer.impact(&Impact {
+                    tau: simulation.tau(self.turns[lane] as u64, phase),
+                    phase,
+                    side: side(event.wall[lane]),
+                    x,
+                    x_velocity_before: event.v[lane],
+                    x_velocity_after: event.after.x_velocity[lane],
+                    y_velocity_before: event.approach[lane],
+                    y_velocity_after: event.after.y_velocity[lane],
+                    loss: event.after.loss[lane],
+                    penetration: ((x - y).abs() - 1.0).max(0.0),
+                });
+            } else {
+                observer.period(&State {
+                    x: event.x[lane],
+                    x_velocity: event.v[lane],
+                    y: event.y[lane],
+                    y_velocity: event.approach[lane],
+                });
+            }
+        }
+    }
+}
+
+/// What flights ended with.
+struct Event<S: Simd> {
+    flight: Wide<S>,
+    x: Wide<S>,
+    v: Wide<S>,
+    y: Wide<S>,
+    /// Velocity of the absorber until then.
+    approach: Wide<S>,
+    phase: Wide<S>,
+    wall: Wide<S>,
+    after: Rebound<Wide<S>>,
+}
+
+/// Where flights may end.
+struct Panel<S: Simd> {
+    /// When, nearly.
+    guess: Wide<S>,
+    length: Wide<S>,
+    slack: Slack<Wide<S>>,
+    wall: Wide<S>,
+}
+
+/// Where flights end within their panels, times from the panel's beginning.
+struct End<S: Simd> {
+    /// With the period, not at a wall.
+    over: WideMask<S>,
+    time: Wide<S>,
+    x: Wide<S>,
+    v: Wide<S>,
+    steady: Steady<Wide<S>>,
+    /// Whether it is known to rounding.
+    exact: WideMask<S>,
+    evaluations: Wide<S>,
+}
+
+fn side(wall: f64) -> Side {
+    if wall > 0.0 { Side::Plus } else { Side::Minus }
+}
+
+/// The wall on whose side each gap is.
+#[inline(always)]
+fn nearest<S: Simd>(there: &At<Wide<S>>) -> Wide<S> {
+    let one = there.gap.like(1.0);
+    Wide::choose(there.gap.like(0.0).less(there.gap), one, -one)
+}
