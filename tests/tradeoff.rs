@@ -12,13 +12,14 @@ use vinesink::analysis::{Analysis, FixedPoint};
 use vinesink::equations::equations;
 use vinesink::orbits::{Measures, symmetric_orbits};
 use vinesink::regimes::Regime;
-use vinesink::simulation::{Nobody, Simulation};
+use vinesink::simulation::{Nobody, Simulation, Statistics};
 use vinesink::study::fidelity::{Answers, Demand, Fidelity, KnownBy, Plan, Question};
 use vinesink::study::tradeoff::by_hand::{ByHand, Flights, Listener, Locate};
+use vinesink::study::tradeoff::method::measured;
 use vinesink::study::tradeoff::{Layer, Method, Search, Tradeoff, TradeoffEffort, Trial};
 use vinesink::study::{CaseStudy, StudyEffort, StudyError};
 use vinesink::symbolic::Symbol;
-use vinesink::system::{State, System};
+use vinesink::system::{Parameters, State, System};
 use vinesink::tally::{self, ELEMENTARY};
 
 const START: State = State { x: 0.3, x_velocity: -0.2, y: 0.1, y_velocity: 0.5 };
@@ -251,6 +252,57 @@ fn a_modulated_case_is_known_no_better_than_it_scatters() {
     // Contact tolerances are tried where there is contact.
     let other = |method: Method| matches!(method, Method::Simulation { excursion: 1e-3, .. });
     assert!(found.trials.iter().any(|trial| other(trial.method)));
+}
+
+/// The blocks of one window, once from the records of its periods and once from its running sums.
+#[test]
+fn the_errors_of_statistics_are_those_of_ten_blocks() {
+    let system = common::table_1(8.5, 28.0);
+    let begin = || {
+        let mut simulation = Simulation::new(&system, START, 0.0).expect("within the cavity");
+        simulation.run(200, u64::MAX, &mut Nobody);
+        simulation
+    };
+    let answer = measured(&mut begin(), 400).expect("measured");
+    let mut simulation = begin();
+    let mut statistics = Statistics::begin(&system, simulation.state());
+    simulation.run(400, u64::MAX, &mut statistics);
+    let [rms, impacts] = statistics.errors();
+    let expected = answer.scatter.expect("a scatter") * answer.rms.expect("an answer");
+    assert!(expected > 0.0 && (rms / expected - 1.0).abs() < 1e-9, "{rms} {expected}");
+    let expected = answer.impacts_scatter.expect("a scatter");
+    assert!(expected > 0.0 && (impacts / expected - 1.0).abs() < 1e-9, "{impacts} {expected}");
+}
+
+/// An absorber of a millionth of the mass hardly touches an oscillator that rings for thousands of
+/// periods: its averages only approach a value.
+#[test]
+fn a_transient_that_lasts_is_no_scatter() {
+    let light = Parameters { mass_ratio: 1e-6, ..common::table_1(8.5, 28.0).parameters() };
+    // Damping ratio 1e-4: 1/e in some 1600 periods.
+    let system = |damping_ratio: f64| {
+        let parameters = Parameters {
+            damping: 2.0 * damping_ratio / light.mass_ratio,
+            frequency_ratio: 1.02,
+            forcing_per_clearance: 0.05 / light.mass_ratio,
+            ..light
+        };
+        System::new(parameters).expect("valid")
+    };
+    let effort = TradeoffEffort { lengths: vec![1000], ..small() };
+    let found = Tradeoff::of(&system(1e-4), &effort, &mut |_| ()).expect("tried");
+    let decay = found.best.decay_periods.expect("damped");
+    assert!((decay * std::f64::consts::TAU * 1e-4 / 1.02 - 1.0).abs() < 1e-12, "{decay}");
+    let simulated = |found: &Tradeoff| {
+        let wanted = |method| matches!(method, Method::Simulation { periods: 1000, .. });
+        let trial = found.trials.iter().find(|trial| wanted(trial.method)).expect("tried");
+        found.transient(trial)
+    };
+    let left = simulated(&found).expect("a transient");
+    assert_eq!((left.left_out, left.decay_periods), (500, Some(decay)));
+    // With the damping of Table 1 nothing of it is left.
+    let modulated = Tradeoff::of(&common::table_1(8.5, 28.0), &effort, &mut |_| ()).expect("tried");
+    assert_eq!(simulated(&modulated), None);
 }
 
 fn plan(system: &System, amplitude: f64, forced: Option<Fidelity>) -> Result<Plan, StudyError> {

@@ -75,7 +75,7 @@ struct ExactBoundaryDocument {
     test_function: &'static str,
     test: Option<f64>,
     theory: Option<f64>,
-    /// Theory over exact, minus 1.
+    /// Theory minus exact, relative to the exact.
     error_of_theory: Option<f64>,
     bounds_stability: bool,
 }

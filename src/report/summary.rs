@@ -7,7 +7,7 @@ use super::notes::theory_limits;
 use super::numbers::{LengthFormat, capitalised, fixed, percent, significant};
 use crate::analysis::{Analysis, Strip};
 use crate::case::Case;
-use crate::orbits::FullSystem;
+use crate::orbits::{Bifurcation, FullSystem};
 use crate::regimes::Attractor;
 use crate::study::{LongTermMotions, Proof, SettledArea, SettledBy};
 use crate::validation::price::prices;
@@ -64,7 +64,7 @@ pub fn analysis(case: &Case, analysis: &Analysis, exact: &FullSystem, area: Sett
             },
         );
     }
-    text.push_str("\nExact symmetric 1:1 orbits of the full system\n");
+    text.push_str("\nExact symmetric 1:1 orbits of the full system at this clearance\n");
     if exact.orbits.is_empty() {
         text.push_str("  none\n");
     }
@@ -91,12 +91,14 @@ pub fn analysis(case: &Case, analysis: &Analysis, exact: &FullSystem, area: Sett
         let shown = |at: Option<f64>| at.map_or_else(|| "none".into(), length);
         let _ = writeln!(
             text,
-            "  {}: {}, {}{}",
+            "  {}: {}, {}",
             price.kind.words(),
             shown(price.theory),
-            shown(price.exact),
-            if price.bounds_stability { ", bounds the stable orbit" } else { "" },
+            shown(price.exact)
         );
+    }
+    if exact.boundaries.is_some() {
+        let _ = writeln!(text, "  {}", stable_clearances(exact, &length));
     }
     let p1 = analysis.boundaries.codimension_two;
     let frequency = scales.frequency_hz(1.0 + analysis.system.mass_ratio() * p1.detuning);
@@ -108,6 +110,28 @@ pub fn analysis(case: &Case, analysis: &Analysis, exact: &FullSystem, area: Sett
         frequency.map(|f| format!(", f = {} Hz", significant(f, 4))).unwrap_or_default(),
     );
     text
+}
+
+/// The clearances at which an exact symmetric orbit is stable, with what ends them: also those of
+/// which the case's own is none.
+fn stable_clearances(exact: &FullSystem, length: &dyn Fn(f64) -> String) -> String {
+    let end = |at: f64, kind: Option<Bifurcation>| match kind {
+        Some(kind) => format!("{} ({})", length(at), kind.words()),
+        None => format!("{} (not looked further)", length(at)),
+    };
+    let stretches = exact.stable_stretches();
+    let listed: Vec<String> = stretches
+        .iter()
+        .map(|stretch| {
+            let ([from, to], [first, last]) = (stretch.clearance, stretch.ends);
+            format!("from {} to {}", end(from, first), end(to, last))
+        })
+        .collect();
+    if listed.is_empty() {
+        return "a symmetric orbit is stable at no clearance".into();
+    }
+    let here = if exact.stretch().is_some() { "" } else { ", so none at this one" };
+    format!("a symmetric orbit is stable at clearances {}{here}", listed.join(" and "))
 }
 
 /// What simulation found.

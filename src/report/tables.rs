@@ -243,7 +243,7 @@ pub fn claims(case: &Case, study: &CaseStudy) -> Table {
             ("Checked by", false),
             ("Predicted", false),
             ("Observed", false),
-            ("Difference, allowed", true),
+            ("Error, allowed", true),
         ],
         rows.collect(),
     )
@@ -271,7 +271,7 @@ fn letter(index: usize) -> char {
     char::from(b'a' + (index % 26) as u8)
 }
 
-/// The difference, what was allowed, and the letter of the reason.
+/// The error, what was allowed, and the letter of the reason.
 fn difference(claim: &Claim, reasons: &[String]) -> String {
     let index = reasons.iter().position(|reason| *reason == claim.tolerance.reason).unwrap_or(0);
     let letter = letter(index);

@@ -495,4 +495,24 @@ mod tests {
             assert!(motion.jerk(s, at).abs() <= bounds.jerk);
         }
     }
+
+    /// Without damping, a displacement against the largest force reaches the bound on the
+    /// acceleration, and a velocity against the fastest change of the force that on the jerk: smaller
+    /// ones would not hold.
+    #[test]
+    fn the_bounds_are_reached() {
+        let o = oscillator(0.3, 0.0, 1.7);
+        let quarter = 0.5 * std::f64::consts::PI;
+        for (x, v, phase) in [(-1.0, 0.0, quarter), (0.0, -1.0, 0.0)] {
+            let motion = o.motion(x, v, phase);
+            let at = motion.at(0.0);
+            let bounds = derivative_bounds(&o, at, 0.0);
+            let (reached, bound) = if v == 0.0 {
+                (motion.acceleration(0.0, at), bounds.acceleration)
+            } else {
+                (motion.jerk(0.0, at), bounds.jerk)
+            };
+            assert!((reached / bound - 1.0).abs() < 1e-12, "{reached} {bound}");
+        }
+    }
 }

@@ -376,6 +376,7 @@ fn of_proof(main: &FoundAttractor, proof: &Proof) -> Answer {
     Answer {
         rms: Some(proof.measures.rms),
         scatter: Some(super::tradeoff::ORBIT_ROUNDING),
+        settles: false,
         impacts_per_period: Some(impacts_per_period(proof)),
         impacts_scatter: Some(0.0),
         regime: Some(main.regime()),

@@ -64,7 +64,7 @@ pub fn positions(analysis: &Analysis, exact: &FullSystem) -> Vec<Claim> {
         .filter(|price| price.bounds_stability && near(price))
         .filter_map(|price| {
             let (predicted, observed) = (price.theory?, price.exact?);
-            let difference = observed / predicted - 1.0;
+            let difference = predicted / observed - 1.0;
             Some(Claim {
                 id: format!("boundary-{}", price.kind.words().replace([' ', '–'], "-")),
                 statement: format!("clearance of the {} boundary", name(price.kind)),

@@ -105,9 +105,10 @@ pub struct Claim {
     pub observed: Finding,
     /// That layer.
     pub checked_by: Check,
-    /// Relative difference for lengths, absolute for angles.
+    /// The error of the claim: predicted minus observed, relative to the observed for lengths, absolute
+    /// for angles. How far an orbit misses itself has no sign.
     pub difference: Option<f64>,
-    /// How much difference the theory allows, and why.
+    /// How large an error is allowed, and why.
     pub tolerance: Tolerance,
     /// The outcome.
     pub verdict: Verdict,

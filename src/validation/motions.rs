@@ -89,8 +89,8 @@ fn amplitudes(
     let tolerance = asymptotic(&analysis.system);
     let compare = |id: &str, statement: &str, source, predicted: f64, observed: f64, measure| {
         let difference = match measure {
-            Measure::Angle => wrapped(observed - predicted),
-            Measure::LengthOverClearance => observed / predicted - 1.0,
+            Measure::Angle => wrapped(predicted - observed),
+            Measure::LengthOverClearance => predicted / observed - 1.0,
         };
         Claim {
             id: format!("fixed-point-{number}-{id}"),
@@ -136,7 +136,7 @@ pub fn rest(analysis: &Analysis, effort: &Effort) -> Result<Option<Claim>, Start
     }
     let reached = Attractor::reach(system, linear.state(system), effort)?;
     let rests = reached.classification.regime == Regime::AtRest;
-    let difference = reached.peak / linear.amplitude() - 1.0;
+    let difference = linear.amplitude() / reached.peak - 1.0;
     let tolerance = exact();
     let verdict = Verdict::of(rests && difference.abs() < tolerance.value);
     Ok(Some(Claim {

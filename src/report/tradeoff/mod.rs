@@ -244,7 +244,7 @@ struct MethodDocument {
     operations: u64,
     rms_displacement: Option<f64>,
     rms_error: Option<ErrorOf>,
-    /// Two standard errors, relative.
+    /// Two standard errors between blocks, relative; while a transient lasts, it makes most of them.
     rms_scatter: Option<f64>,
     impacts_per_period: Option<f64>,
     impacts_per_period_error: Option<ErrorOf>,

@@ -5,7 +5,7 @@ use crate::case::Case;
 use crate::report::numbers::{LengthFormat, fixed, percent, significant, with_error};
 use crate::simulation::ContactTolerance;
 use crate::study::tradeoff::by_hand::{Flights, Locate};
-use crate::study::tradeoff::{ErrorOf, Layer, Method, Search, Tradeoff, Trial};
+use crate::study::tradeoff::{ErrorOf, Layer, Method, Search, Tradeoff, Transient, Trial};
 
 /// A method in a few words.
 pub fn method(method: Method) -> String {
@@ -57,21 +57,27 @@ pub fn headline(tradeoff: &Tradeoff, allowed: f64) -> String {
             trial.rms_error.map_or_else(String::new, error_text)
         ),
         None => format!(
-            "None of the runs in the table gives {wanted} in amplitude; {}the best answer is known to {}.",
+            "None of the runs in the table gives {wanted} in amplitude; {}the best answer is {}known to {}.",
             extrapolated(tradeoff, allowed).map_or_else(String::new, |words| words + "; "),
+            if tradeoff.best.in_transient { "in its transient, too, and " } else { "" },
             error_text(ErrorOf { value: tradeoff.best.rms_error, below: false })
         ),
     }
 }
 
 /// The length that a simulation of a motion without repetition would take: its scatter falls with
-/// the root of the length.
+/// the root of the length. Of a transient that is not over no length can be told.
 fn extrapolated(tradeoff: &Tradeoff, allowed: f64) -> Option<String> {
-    let longest = tradeoff.trials.iter().rfind(|trial| {
-        let own = matches!(trial.method, Method::Simulation { search: Search::Panels, .. });
-        own && trial.answer.scatter.is_some_and(f64::is_finite)
-    })?;
-    let Method::Simulation { periods, .. } = longest.method else { return None };
+    let simulations = tradeoff.trials.iter().filter_map(|trial| match trial.method {
+        Method::Simulation { periods, search: Search::Panels, .. } => Some((periods, trial)),
+        _ => None,
+    });
+    let (periods, longest) = simulations
+        .filter(|(_, trial)| trial.answer.scatter.is_some_and(f64::is_finite))
+        .max_by_key(|(periods, _)| *periods)?;
+    if tradeoff.transient(longest).is_some() {
+        return Some("the longest simulation is still in its transient".into());
+    }
     let factor = longest.answer.scatter? / allowed;
     if tradeoff.best.layer != Layer::Simulation || factor <= 1.0 {
         return None;
@@ -133,16 +139,38 @@ fn sentence(
         if tradeoff.best.layer == Layer::Simulation { "is known to" } else { "misses by" };
     match closest {
         Some((trial, error)) => Some(format!(
-            "{name} {falls_short} {}: {}, {} operations.",
+            "{name} {falls_short} {}: {}, {} operations.{}",
             error_text(error),
             method(trial.method),
-            operations(trial.operations)
+            operations(trial.operations),
+            tradeoff.transient(trial).map_or_else(String::new, |left| transient(tradeoff, left))
         )),
         None => {
             let why = trials.find_map(|trial| trial.answer.why_not)?;
             Some(format!("{name} gives no answer: {why}."))
         }
     }
+}
+
+/// Why the error of a simulation is none of scatter, after its sentence.
+fn transient(tradeoff: &Tradeoff, transient: Transient) -> String {
+    let left_out = transient.left_out;
+    let shrinks = match transient.decay_periods {
+        None => "the oscillator is undamped, so only impacts shrink it, and".into(),
+        Some(decay) => {
+            let periods = significant(decay, 3);
+            if tradeoff.best.layer == Layer::ExactOrbit {
+                format!("near the orbit it shrinks to 1/e in {periods} periods, and")
+            } else {
+                format!(
+                    "by damping alone it shrinks to 1/e in {periods} periods, sooner by impacts, and"
+                )
+            }
+        }
+    };
+    format!(
+        " That is a transient that has not died out, not scatter: {shrinks} {left_out} periods were left out."
+    )
 }
 
 /// Relative difference of a count of impacts that is worth a sentence.
@@ -226,9 +254,14 @@ pub fn best(case: &Case, tradeoff: &Tradeoff) -> String {
             significant(best.impacts_per_period, 4)
         ),
         (None, Some(periods)) => format!(
-            "no orbit, so the best answer is a simulation of {periods} periods: rms displacement {rms} ± {}, z = {}; the error is two standard errors between ten blocks",
+            "no orbit, so the best answer is a simulation of {periods} periods: rms displacement {rms} ± {}, z = {}; the error is two standard errors between ten blocks{}",
             error_text(ErrorOf { value: best.rms_error, below: false }),
-            with_error(best.impacts_per_period, best.impacts_error)
+            with_error(best.impacts_per_period, best.impacts_error),
+            if best.in_transient {
+                ", which approach a value exponentially: a transient makes it, not scatter"
+            } else {
+                ""
+            }
         ),
         (None, None) => rms,
     };

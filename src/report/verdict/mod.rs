@@ -232,7 +232,7 @@ impl Writer<'_> {
         let number = points.iter().rposition(|point| point.stable)? + 1;
         let id = format!("fixed-point-{number}-C");
         let difference = self.study.claims.iter().find(|claim| claim.id == id)?.difference?;
-        let way = if difference > 0.0 { "low" } else { "high" };
+        let way = if difference < 0.0 { "low" } else { "high" };
         Some(format!(
             "Leading-order theory is {} {way} in the amplitude C of the steady motion.",
             percent(difference.abs())

@@ -96,6 +96,8 @@ pub struct Answer {
     /// Twice the standard error of `rms`, relative, from the scatter between blocks of the measured
     /// window; for simulations only.
     pub scatter: Option<f64>,
+    /// Whether the blocks approach a value exponentially: a transient makes `scatter`.
+    pub settles: bool,
     /// Impacts per excitation period.
     pub impacts_per_period: Option<f64>,
     /// Twice the standard error of that.
@@ -310,6 +312,7 @@ pub fn measured(simulation: &mut Simulation, periods: u64) -> Option<Answer> {
     Some(Answer {
         rms: Some(rms),
         scatter: Some(scatter),
+        settles: settles(&means.iter().map(|block| block[0]).collect::<Vec<_>>()),
         impacts_per_period: Some(statistics.impacts_per_period()),
         impacts_scatter: Some(impacts_scatter),
         regime: Some(classified.regime),
@@ -328,6 +331,35 @@ fn scatters(means: &[[f64; 2]], rms: f64) -> [f64; 2] {
     let error =
         |k: usize| twice_standard_error(&means.iter().map(|block| block[k]).collect::<Vec<_>>());
     [error(0) / square, error(1)]
+}
+
+/// Share of the variance between blocks that an exponential must explain to be taken for one: a
+/// modulation, regular or not, comes and goes and leaves it far below.
+const EXPLAINED: f64 = 0.95;
+/// What three blocks may at least leave of it: what is over within a block is no trend.
+const LEAST_LEFT: f64 = 1e-3;
+
+/// Whether averages over successive blocks approach a value exponentially.
+fn settles(blocks: &[f64]) -> bool {
+    let third = blocks.len() / 3;
+    if third < 3 {
+        return false;
+    }
+    let mean = |part: &[f64]| part.iter().sum::<f64>() / part.len() as f64;
+    let [first, second, last] = [0, 1, 2].map(|k| mean(&blocks[k * third..(k + 1) * third]));
+    let left = (second - last) / (first - second);
+    if !(LEAST_LEFT..1.0).contains(&left) {
+        return false;
+    }
+    let factor = libm::pow(left, 1.0 / third as f64);
+    let shape: Vec<f64> = (0..blocks.len()).map(|k| libm::pow(factor, k as f64)).collect();
+    let (middle, level) = (mean(&shape), mean(blocks));
+    let product = |a: &[f64], a0: f64, b: &[f64], b0: f64| {
+        a.iter().zip(b).map(|(a, b)| (a - a0) * (b - b0)).sum::<f64>()
+    };
+    let across = product(&shape, middle, blocks, level);
+    let explained = across * across / product(&shape, middle, &shape, middle);
+    explained > EXPLAINED * product(blocks, level, blocks, level)
 }
 
 /// Impacts per period, over all periods so far and ten more, above which a fixed step is given up: it
@@ -400,5 +432,33 @@ fn by_hand(hand: &ByHand, start: State, periods: u64) -> Answer {
         impacts_per_period: Some(total(2) / total(0) * per_period as f64),
         impacts_scatter: Some(impacts_scatter),
         ..Answer::default()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::settles;
+
+    #[test]
+    fn only_an_exponential_settles() {
+        let blocks =
+            |of: &dyn Fn(f64) -> f64| (0..10).map(|k| of(f64::from(k))).collect::<Vec<_>>();
+        for factor in [0.2, 0.6, 0.97] {
+            assert!(settles(&blocks(&|k| 3.0 - libm::pow(factor, k))), "{factor}");
+            // Some modulation on top of it changes nothing.
+            assert!(settles(&blocks(&|k| libm::pow(factor, k) + 0.01 * libm::sin(2.5 * k))));
+        }
+        for turn in [0.5, 1.0, 2.0, 2.5, 3.0] {
+            assert!(!settles(&blocks(&|k| 1.0 + libm::sin(turn * k + 0.3))), "{turn}");
+        }
+        // Neither one that grows, nor what does not change, nor a single odd block.
+        assert!(!settles(&blocks(&|k| libm::pow(1.5, k))));
+        assert!(!settles(&[1.0; 10]));
+        assert!(!settles(&blocks(&|k| if k == 0.0 {
+            5.0
+        } else {
+            1.0 + 0.1 * libm::sin(7.0 * k)
+        })));
+        assert!(!settles(&[2.0, 1.0]));
     }
 }

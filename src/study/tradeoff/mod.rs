@@ -87,6 +87,12 @@ pub struct Best {
     pub impacts_error: f64,
     /// The regime.
     pub regime: Regime,
+    /// Excitation periods in which a deviation shrinks to `1/e`: from an orbit by its largest
+    /// multiplier, else by the oscillator's damping alone, which impacts may shorten; `None` without
+    /// damping.
+    pub decay_periods: Option<f64>,
+    /// Whether it is a simulation that is still in its transient: its error is that, and no scatter.
+    pub in_transient: bool,
 }
 
 /// The error of an answer.
@@ -105,6 +111,22 @@ impl ErrorOf {
         Self { value: value.max(best), below: value < best }
     }
 }
+
+/// What is left of a transient in a simulated mean.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Transient {
+    /// Excitation periods that were left out for it.
+    pub left_out: u64,
+    /// As [`Best::decay_periods`].
+    pub decay_periods: Option<f64>,
+}
+
+/// Share of a transient from which on it may be any error: a start may be many times larger than the
+/// motion that it leads to.
+const MUCH_LEFT: f64 = 0.1;
+
+/// Ratio of the errors of a run and of the best answer up to which they may be one transient.
+const ALIKE: f64 = 10.0;
 
 /// One method on the case.
 #[derive(Debug, Clone, PartialEq)]
@@ -186,6 +208,20 @@ impl Tradeoff {
             + (2 * effort.lengths.len() + 2 * effort.steps.len()) as u64
     }
 
+    /// What is left of the transient, if that and not scatter makes the error of a simulation: its decay
+    /// leaves enough of it, and the motion repeats, so that it has no scatter, or its averages settle, or
+    /// those of the best answer do, which is longer, and it is not much further off than that.
+    pub fn transient(&self, trial: &Trial) -> Option<Transient> {
+        let Method::Simulation { periods, .. } = trial.method else { return None };
+        let error = trial.rms_error.filter(|error| !error.below)?.value;
+        let (left_out, decay_periods) = (periods / 2, self.best.decay_periods);
+        let left = decay_periods.map_or(1.0, |decay| libm::exp(-(left_out as f64) / decay));
+        let best = &self.best;
+        let with_best = best.in_transient && error < ALIKE * best.rms_error;
+        let seen = best.layer == Layer::ExactOrbit || with_best || trial.answer.settles;
+        (seen && left > error.min(MUCH_LEFT)).then_some(Transient { left_out, decay_periods })
+    }
+
     /// The cheapest trial of a layer whose error of the root mean square is within `allowed`: with the
     /// right regime, where it tells one, and not by chance, which means that every longer run and every
     /// smaller step of the same kind is within it too.
@@ -240,6 +276,8 @@ fn best(
             impacts_per_period: method::impacts_per_period(proof),
             impacts_error: 0.0,
             regime,
+            decay_periods: decay(-libm::log(proof.orbit.radius_per_period())),
+            in_transient: false,
         });
     }
     let mut simulation = Simulation::new(system, main.attractor.state, 0.0)?;
@@ -253,7 +291,14 @@ fn best(
         impacts_per_period: answer.impacts_per_period.unwrap_or(0.0),
         impacts_error: answer.impacts_scatter.unwrap_or(0.0),
         regime,
+        in_transient: answer.settles,
+        decay_periods: decay(0.5 * system.mass_ratio() * system.damping() * system.period()),
     })
+}
+
+/// Periods in which something shrinks to `1/e` that does so at a rate per period.
+fn decay(rate: f64) -> Option<f64> {
+    (rate > 0.0).then(|| 1.0 / rate)
 }
 
 fn methods(best: &Best, rests: bool, effort: &TradeoffEffort) -> Vec<Method> {
