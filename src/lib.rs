@@ -3,6 +3,7 @@
 #![forbid(unsafe_code)]
 
 pub mod analysis;
+pub mod band;
 pub mod case;
 pub mod equations;
 pub mod extremes;

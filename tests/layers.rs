@@ -43,6 +43,7 @@ const ROOMS: &[(&str, &[&str])] = &[
         ],
     ),
     ("case", &["numerics", "system"]),
+    ("band", &["analysis", "orbits", "regimes", "simulation", "system"]),
     (
         "report",
         &[

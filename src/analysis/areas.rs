@@ -56,4 +56,20 @@ impl Zone {
         };
         Self { area, strip }
     }
+
+    /// Whether it is in Z3, strips included: where the paper wants as much of a band as possible.
+    pub fn is_z3(&self) -> bool {
+        self.area == Some(Area::Z3)
+    }
+
+    /// What a table calls it.
+    pub fn words(&self) -> &'static str {
+        match (self.area, self.strip) {
+            (_, Some(Strip::A1)) => "strip A1",
+            (_, Some(Strip::A2)) => "strip A2",
+            (Some(Area::Z3), None) => "Z3",
+            (Some(Area::Z4), None) => "Z4",
+            _ => "Z1 or Z2",
+        }
+    }
 }

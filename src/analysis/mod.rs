@@ -7,6 +7,7 @@
 
 pub mod areas;
 pub mod boundaries;
+pub mod curve;
 pub mod fixed_points;
 pub mod frequency_response;
 pub mod manifold;
@@ -21,6 +22,7 @@ use crate::system::System;
 
 pub use areas::{Area, Strip, Zone};
 pub use boundaries::{Boundaries, BoundaryKind, SaddleNode};
+pub use curve::FixedPointCurve;
 pub use fixed_points::{FixedPoint, Kind};
 pub use manifold::{Branch, Manifold, ManifoldPoint};
 

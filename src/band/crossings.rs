@@ -1,0 +1,131 @@
+//! Where a function of the place in a band changes its sign.
+
+/// Golden section, and steps of it: down to 1e-8 of two pieces, where a smooth extremum is flat.
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
+/// See [`GOLDEN`].
+const NARROWINGS: u32 = 40;
+/// Halvings of a piece: to rounding.
+const HALVINGS: u32 = 60;
+
+/// Every place between `from` and `to` at which `f` changes between above 0 and not above 0; what is
+/// not a number counts as not above. Exact to rounding for each that is found. Found is every change
+/// between neighbours among `pieces` even pieces, and every pair of changes around an extremum that
+/// lies between two neighbours on the same side.
+pub fn sign_changes([from, to]: [f64; 2], pieces: u32, mut f: impl FnMut(f64) -> f64) -> Vec<f64> {
+    let place = |k: u32| {
+        let part = f64::from(k) / f64::from(pieces);
+        from * (1.0 - part) + to * part
+    };
+    let mut points: Vec<(f64, f64)> = (0..=pieces).map(|k| (place(k), f(place(k)))).collect();
+    let dips: Vec<(f64, f64)> = points.windows(3).filter_map(|three| dip(three, &mut f)).collect();
+    points.extend(dips);
+    points.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let pairs = points.windows(2).filter(|pair| (pair[0].1 > 0.0) != (pair[1].1 > 0.0));
+    pairs.map(|pair| bisected(pair[0], pair[1].0, &mut f)).collect()
+}
+
+/// A place between three neighbours on one side at which the function is on the other, if its size
+/// has a smallest value in the middle.
+fn dip(three: &[(f64, f64)], f: &mut impl FnMut(f64) -> f64) -> Option<(f64, f64)> {
+    let above = three[1].1 > 0.0;
+    let size = |value: f64| if above { value } else { -value };
+    let [left, middle, right] = [0, 1, 2].map(|k| size(three[k].1));
+    let one_side = three.iter().all(|(_, value)| (*value > 0.0) == above);
+    if !(one_side && middle <= left && middle <= right) {
+        return None;
+    }
+    let (mut low, mut high) = (three[0].0, three[2].0);
+    for _ in 0..NARROWINGS {
+        let inner = [low + (high - low) * (1.0 - GOLDEN), low + (high - low) * GOLDEN];
+        let values = inner.map(&mut *f);
+        for (at, value) in inner.into_iter().zip(values) {
+            if (value > 0.0) != above {
+                return Some((at, value));
+            }
+        }
+        if size(values[0]) < size(values[1]) {
+            high = inner[1];
+        } else {
+            low = inner[0];
+        }
+    }
+    None
+}
+
+fn bisected((mut from, value): (f64, f64), mut to: f64, f: &mut impl FnMut(f64) -> f64) -> f64 {
+    let above = value > 0.0;
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (from + to);
+        if middle == from || middle == to {
+            break;
+        }
+        if (f(middle) > 0.0) == above {
+            from = middle;
+        } else {
+            to = middle;
+        }
+    }
+    0.5 * (from + to)
+}
+
+/// The largest value of a continuous function and where it is, from `pieces` even pieces, the best
+/// narrowed down; `None` where it is a number nowhere.
+pub fn largest(
+    [from, to]: [f64; 2],
+    pieces: u32,
+    mut f: impl FnMut(f64) -> Option<f64>,
+) -> Option<(f64, f64)> {
+    let place = |k: u32| {
+        let part = f64::from(k) / f64::from(pieces);
+        from * (1.0 - part) + to * part
+    };
+    let tried = (0..=pieces).filter_map(|k| Some((place(k), f(place(k))?)));
+    let mut best = tried.max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let step = (to - from) / f64::from(pieces);
+    let (mut low, mut high) = ((best.0 - step).max(from), (best.0 + step).min(to));
+    for _ in 0..NARROWINGS {
+        let inner = [low + (high - low) * (1.0 - GOLDEN), low + (high - low) * GOLDEN];
+        let values = inner.map(|at| f(at).unwrap_or(f64::NEG_INFINITY));
+        for (at, value) in inner.into_iter().zip(values) {
+            if value > best.1 {
+                best = (at, value);
+            }
+        }
+        if values[0] > values[1] {
+            high = inner[1];
+        } else {
+            low = inner[0];
+        }
+    }
+    Some(best)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pair_of_changes_within_one_piece_is_found() {
+        // Roots at 0.5 -+ 1e-5: far closer than the pieces.
+        let f = |x: f64| (x - 0.5) * (x - 0.5) - 1e-10;
+        let found = sign_changes([0.0, 1.03], 16, f);
+        assert_eq!(found.len(), 2, "{found:?}");
+        assert!((found[0] - 0.49999).abs() < 1e-14 && (found[1] - 0.50001).abs() < 1e-14);
+        assert_eq!(sign_changes([0.0, 1.03], 16, |x| -f(x)), found);
+    }
+
+    #[test]
+    fn what_is_not_a_number_is_not_above() {
+        let found = sign_changes([0.0, 1.0], 10, |x| if x < 0.33 { f64::NAN } else { 1.0 });
+        assert_eq!(found.len(), 1);
+        assert!((found[0] - 0.33).abs() < 1e-15);
+    }
+
+    #[test]
+    fn the_largest_value_is_narrowed_down() {
+        let (at, value) = largest([0.0, 3.0], 7, |x| Some(libm::sin(x))).expect("it has values");
+        assert!((at - std::f64::consts::FRAC_PI_2).abs() < 1e-7 && (value - 1.0).abs() < 1e-15);
+        assert_eq!(largest([0.0, 1.0], 4, Some).map(|best| best.1), Some(1.0));
+        assert!(largest([0.0, 1.0], 4, |_| None).is_none());
+    }
+}

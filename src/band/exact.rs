@@ -1,0 +1,101 @@
+//! Where along a band an exact symmetric 1:1 orbit attracts, and what it is like there.
+
+use serde::Serialize;
+
+use super::crossings::{largest, sign_changes};
+use super::{Band, Stretch};
+use crate::orbits::{OrbitError, SymmetricOrbit, symmetric_orbits};
+
+/// Pieces of a band in which beginnings and ends of stability are looked for. What decides it,
+/// multipliers and room between impacts, is smooth along an orbit; pairs of changes within a piece
+/// are found by the dip between them.
+const PIECES: u32 = 96;
+/// Pieces in which a largest value is looked for before it is narrowed down.
+const VALUES: u32 = 48;
+/// Gauss points on each of them, for an average.
+const POINTS: [(f64, f64); 3] = [
+    (-0.774_596_669_241_483_4, 5.0 / 18.0),
+    (0.0, 8.0 / 18.0),
+    (0.774_596_669_241_483_4, 5.0 / 18.0),
+];
+
+/// The attracting orbit at a place.
+pub fn attracting(band: &Band, at: f64) -> Option<SymmetricOrbit> {
+    let system = band.system(at).ok()?;
+    let orbits = symmetric_orbits(&system).ok()?;
+    orbits.into_iter().find(|orbit| orbit.orbit.attracts())
+}
+
+/// The band, cut where an attracting symmetric orbit begins or ends.
+pub fn stability(band: &Band) -> Vec<Stretch<bool>> {
+    let mut places: Vec<f64> = band.corners().collect();
+    places.extend(sign_changes(band.range, PIECES, |at| strength(band, at)));
+    band.cut(places, |at| attracting(band, at).is_some())
+}
+
+/// By how much the most attracting orbit attracts: above 0 where it does, continuous where orbits
+/// change their stability, touch a wall or meet one another.
+fn strength(band: &Band, at: f64) -> f64 {
+    let Ok(system) = band.system(at) else { return f64::NAN };
+    let orbits = match symmetric_orbits(&system) {
+        Ok(orbits) => orbits,
+        Err(OrbitError::NoSteadyMotion) | Err(_) => return f64::NAN,
+    };
+    let each = orbits.iter().map(|orbit| {
+        let inside = 1.0 - orbit.orbit.multipliers.spectral_radius();
+        let room = orbit.orbit.admissibility.room;
+        let least = inside.min(room);
+        // The sign is that of the proof, whatever rounding says of the numbers.
+        if orbit.orbit.attracts() {
+            least.max(f64::MIN_POSITIVE)
+        } else {
+            least.min(-f64::MIN_POSITIVE)
+        }
+    });
+    // Where orbits meet and vanish a multiplier has come to 1.
+    each.max_by(f64::total_cmp).unwrap_or(-f64::MIN_POSITIVE)
+}
+
+/// A value of the attracting orbit over the places where there is one.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Extreme {
+    /// The largest value.
+    pub largest: f64,
+    /// Where.
+    pub at: f64,
+    /// The average.
+    pub mean: f64,
+}
+
+/// The largest value and the average of something of the attracting orbit, over all stretches where
+/// one attracts; `None` where none does anywhere.
+pub fn extreme(
+    band: &Band,
+    stability: &[Stretch<bool>],
+    value: impl Fn(f64, &SymmetricOrbit) -> f64,
+) -> Option<Extreme> {
+    let of = |at: f64| attracting(band, at).map(|orbit| value(at, &orbit));
+    let (mut best, mut sum, mut width) = (None::<(f64, f64)>, 0.0, 0.0);
+    for stretch in stability.iter().filter(|stretch| stretch.of) {
+        let length = stretch.to - stretch.from;
+        let pieces = pieces(length / band.width());
+        // At the very ends rounding decides whether there is an orbit.
+        let found = largest([stretch.from, stretch.to], pieces, of);
+        best = [best, found].into_iter().flatten().max_by(|a, b| a.1.total_cmp(&b.1));
+        for k in 0..pieces {
+            for (node, weight) in POINTS {
+                let part = (f64::from(k) + 0.5 + 0.5 * node) / f64::from(pieces);
+                if let Some(value) = of(stretch.from + length * part) {
+                    sum += value * weight * length / f64::from(pieces);
+                    width += weight * length / f64::from(pieces);
+                }
+            }
+        }
+    }
+    best.map(|(at, largest)| Extreme { largest, at, mean: sum / width })
+}
+
+/// Pieces for a share of the band.
+fn pieces(share: f64) -> u32 {
+    (share * f64::from(VALUES)).ceil().max(4.0) as u32
+}

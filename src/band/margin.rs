@@ -1,0 +1,68 @@
+//! How far the clearance may be off, along a band, before the stable 1:1 motion is lost.
+
+use serde::Serialize;
+
+use super::Band;
+use crate::orbits::SymmetricFamily;
+
+/// Pieces in which the smallest gap is looked for before it is narrowed down. A gap is the distance to
+/// the nearest of a few smooth boundaries, so its smallest value is at an end, at a kink or in a
+/// smooth dip.
+const PIECES: u32 = 12;
+/// Halvings of the place of the smallest gap: to a thousandth of the band, which changes a smooth gap by
+/// a millionth of itself.
+const HALVINGS: u32 = 7;
+
+/// Distance of the clearance from the nearest end of the stretch with a stable symmetric 1:1 orbit.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Gap {
+    /// By which share the clearance may shrink.
+    pub down: f64,
+    /// By which share it may grow.
+    pub up: f64,
+}
+
+impl Gap {
+    /// The smaller of the two.
+    pub fn smaller(&self) -> f64 {
+        self.down.min(self.up)
+    }
+
+    /// At a place of a band; none where no symmetric orbit attracts.
+    pub fn of(band: &Band, at: f64) -> Option<Self> {
+        let family = SymmetricFamily::of(&band.system(at).ok()?).ok()?;
+        let [low, high] = family.stretch_around(1.0)?.clearance;
+        Some(Self { down: 1.0 - low, up: high - 1.0 })
+    }
+}
+
+/// The smallest gap and where it is. A place without a stable 1:1 motion has none: the smallest is
+/// then 0, there.
+pub fn smallest(band: &Band) -> (f64, f64) {
+    let gap = |at: f64| (at, Gap::of(band, at).map_or(0.0, |gap| gap.smaller()));
+    let mut best = (band.range[0], f64::INFINITY);
+    for at in band.places(PIECES + 1) {
+        let tried = gap(at);
+        if tried.1 < best.1 {
+            best = tried;
+        }
+        if best.1 == 0.0 {
+            return best;
+        }
+    }
+    // Around the best of them, halving the distance to its neighbours.
+    let mut step = band.width() / f64::from(PIECES);
+    let [from, to] = band.range;
+    for _ in 0..HALVINGS {
+        step *= 0.5;
+        for at in [best.0 - step, best.0 + step] {
+            if from <= at && at <= to {
+                let tried = gap(at);
+                if tried.1 < best.1 {
+                    best = tried;
+                }
+            }
+        }
+    }
+    best
+}

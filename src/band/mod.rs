@@ -1,0 +1,153 @@
+//! One design over a range of excitations: a band of frequencies, or of amplitudes.
+//!
+//! The paper's criterion (section 3.4 of Li, Seguy, Berlioz 2016) is to have as much of a target band
+//! as possible in area Z3. Where areas begin and end along a band are roots, not samples
+//! ([`crossings`]): of the theory's boundaries ([`theory`]), and of the stability of exact orbits
+//! ([`exact`]). Beside the absorber stand its rivals ([`rivals`]): the bare oscillator, and the best
+//! tuned mass damper of the same mass.
+
+pub mod crossings;
+pub mod exact;
+pub mod margin;
+pub mod rivals;
+pub mod simulated;
+pub mod theory;
+
+use serde::Serialize;
+
+use crate::system::{InvalidParameter, Parameter, System};
+
+/// What a band is a range of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Over {
+    /// The frequency ratio `Omega`.
+    Frequency,
+    /// The excitation's amplitude over the base system's.
+    Forcing,
+}
+
+/// A corner of the excitation's amplitude over a band.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Corner {
+    /// `Omega`.
+    pub frequency_ratio: f64,
+    /// Amplitude over the base system's.
+    pub forcing: f64,
+}
+
+/// A range of excitations of one design.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Band {
+    /// The design, at its own frequency and amplitude.
+    pub base: System,
+    /// What is varied.
+    pub over: Over,
+    /// The ends, ascending: `Omega`, or amplitude over the base system's.
+    pub range: [f64; 2],
+    /// The amplitude over a band of frequencies: straight lines between corners, constant before the
+    /// first and after the last; the base system's where there are none.
+    pub spectrum: Vec<Corner>,
+}
+
+/// A part of a band that has something in common.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Stretch<T> {
+    /// Where it begins.
+    pub from: f64,
+    /// Where it ends.
+    pub to: f64,
+    /// What it has in common.
+    pub of: T,
+}
+
+impl Band {
+    /// The system at a place of the band.
+    ///
+    /// # Errors
+    /// [`InvalidParameter`] outside of what a system can have.
+    pub fn system(&self, at: f64) -> Result<System, InvalidParameter> {
+        match self.over {
+            Over::Forcing => Parameter::Forcing.applied(&self.base, at),
+            Over::Frequency => {
+                let there = self.base.with_frequency_ratio(at)?;
+                match self.forcing(at) {
+                    1.0 => Ok(there),
+                    forcing => Parameter::Forcing.applied(&there, forcing),
+                }
+            }
+        }
+    }
+
+    /// The same range for another design.
+    #[must_use]
+    pub fn with_base(&self, base: System) -> Self {
+        Self { base, ..self.clone() }
+    }
+
+    /// Its length.
+    pub fn width(&self) -> f64 {
+        self.range[1] - self.range[0]
+    }
+
+    /// Evenly spread places, both ends among them.
+    pub fn places(&self, count: u32) -> impl Iterator<Item = f64> + use<> {
+        let [from, to] = self.range;
+        let last = f64::from(count.max(2) - 1);
+        (0..count.max(2)).map(move |k| {
+            let part = f64::from(k) / last;
+            from * (1.0 - part) + to * part
+        })
+    }
+
+    /// The share of the band in the stretches for which something holds.
+    pub fn share<T>(&self, stretches: &[Stretch<T>], holds: impl Fn(&T) -> bool) -> f64 {
+        let inside = stretches.iter().filter(|stretch| holds(&stretch.of));
+        inside.map(|stretch| stretch.to - stretch.from).sum::<f64>() / self.width()
+    }
+
+    /// Amplitude over the base system's at a frequency ratio.
+    fn forcing(&self, frequency_ratio: f64) -> f64 {
+        let after = self.spectrum.partition_point(|c| c.frequency_ratio <= frequency_ratio);
+        match (after.checked_sub(1).map(|k| self.spectrum[k]), self.spectrum.get(after)) {
+            (None, None) => 1.0,
+            (Some(only), None) => only.forcing,
+            (None, Some(only)) => only.forcing,
+            (Some(a), Some(b)) => {
+                let part =
+                    (frequency_ratio - a.frequency_ratio) / (b.frequency_ratio - a.frequency_ratio);
+                a.forcing * (1.0 - part) + b.forcing * part
+            }
+        }
+    }
+
+    /// Places at which the excitation has a corner, inside the band.
+    fn corners(&self) -> impl Iterator<Item = f64> + '_ {
+        let [from, to] = self.range;
+        let corners = self.spectrum.iter().map(|corner| corner.frequency_ratio);
+        corners.filter(move |at| self.over == Over::Frequency && from < *at && *at < to)
+    }
+
+    /// The band cut at places inside of it, with what each piece is found to be in its middle;
+    /// neighbours that are the same are one.
+    fn cut<T: PartialEq>(
+        &self,
+        mut places: Vec<f64>,
+        mut what: impl FnMut(f64) -> T,
+    ) -> Vec<Stretch<T>> {
+        let [from, to] = self.range;
+        places.retain(|at| from < *at && *at < to);
+        places.extend([from, to]);
+        places.sort_by(f64::total_cmp);
+        places.dedup();
+        let mut found: Vec<Stretch<T>> = Vec::new();
+        for pair in places.windows(2) {
+            let of = what(0.5 * (pair[0] + pair[1]));
+            match found.last_mut() {
+                Some(last) if last.of == of => last.to = pair[1],
+                _ => found.push(Stretch { from: pair[0], to: pair[1], of }),
+            }
+        }
+        found
+    }
+}
