@@ -5,6 +5,7 @@
 pub mod analysis;
 pub mod band;
 pub mod case;
+pub mod criteria;
 pub mod equations;
 pub mod extremes;
 pub mod numerics;

@@ -56,7 +56,7 @@ fn bands() -> Vec<Band> {
 
 /// A share by brute force: what `holds` says at many places, the changes between neighbours bisected.
 fn scanned(band: &Band, holds: impl Fn(f64) -> bool) -> f64 {
-    const PLACES: u32 = 5000;
+    const PLACES: u32 = 1500;
     let places: Vec<f64> = band.places(PLACES).collect();
     let mut sum = 0.0;
     for pair in places.windows(2) {

@@ -21,6 +21,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("orbits", &["numerics", "system", "tally"]),
     ("simulation", &["numerics", "system", "tally"]),
     ("reference", &["system"]),
+    ("criteria", &["band", "case", "orbits", "simulation", "system", "validation"]),
     ("extremes", &["case", "reference", "simulation", "system"]),
     ("regimes", &["numerics", "simulation", "system", "tally"]),
     (
@@ -48,7 +49,9 @@ const ROOMS: &[(&str, &[&str])] = &[
         "report",
         &[
             "analysis",
+            "band",
             "case",
+            "criteria",
             "equations",
             "extremes",
             "numerics",

@@ -2,6 +2,8 @@
 
 use nalgebra::Complex;
 
+use super::Band;
+use super::crossings::largest;
 use crate::system::System;
 
 /// The tuned mass damper of Den Hartog (Mechanical Vibrations, 4th ed., section 3.3): for an undamped
@@ -45,6 +47,22 @@ impl TunedMassDamper {
 /// Amplitude of the oscillator alone, over the system's clearance; `None` where nothing limits it.
 pub fn bare_amplitude(system: &System) -> Option<f64> {
     system.linear_response().map(|response| response.amplitude())
+}
+
+/// Pieces of a band in which a rival's largest amplitude is looked for: a resonance has a few hundredths
+/// of its frequency as width.
+const PIECES: u32 = 256;
+
+/// The largest amplitudes along a band of the bare oscillator and of one with the best tuned mass damper
+/// of the absorber's mass, over the clearance; infinite where nothing limits them.
+pub fn largest_amplitudes(band: &Band) -> [f64; 2] {
+    let damper = TunedMassDamper::best(band.base.mass_ratio());
+    [largest_along(band, bare_amplitude), largest_along(band, |system| damper.amplitude(system))]
+}
+
+fn largest_along(band: &Band, amplitude: impl Fn(&System) -> Option<f64>) -> f64 {
+    let there = |at: f64| band.system(at).ok().map(|s| amplitude(&s).unwrap_or(f64::INFINITY));
+    largest(band.range, PIECES, there).map_or(f64::INFINITY, |(_, value)| value)
 }
 
 /// Reduction in decibels of an amplitude against another: positive where it is smaller.

@@ -7,6 +7,8 @@
 //! one in the schema.
 
 mod accuracy;
+mod band;
+mod criteria;
 mod document;
 mod error;
 mod inputs;
@@ -25,12 +27,14 @@ use sha2::{Digest, Sha256};
 use toml::de::DeTable;
 
 pub use accuracy::AccuracySettings;
+pub use band::{BandOver, BandSettings};
+pub use criteria::{Criterion, Measure, Relation, Subject};
 pub use error::{CaseError, Problem};
 pub use inputs::Input;
 pub use physical::{Physical, PhysicalExcitation};
 pub use quantity::{
     Damping, Dimension, Force, Frequency, Length, Mass, Quantity, QuantityError, Share, Stiffness,
-    Unit,
+    Unit, Velocity,
 };
 pub use reduced::{Reduced, Tuning};
 pub use report::{ExtraFigure, ReportSettings};
@@ -59,6 +63,10 @@ pub struct Case {
     pub report: ReportSettings,
     /// The table `[accuracy]`, if there is one.
     pub accuracy: Option<AccuracySettings>,
+    /// The table `[band]`, if there is one.
+    pub band: Option<BandSettings>,
+    /// The table `[criteria]`, in the order of a report; empty where there is none.
+    pub criteria: Vec<Criterion>,
     inputs: Vec<Input>,
     system: System,
     scales: Scales,
@@ -87,6 +95,8 @@ const TABLES: &[(&str, &[&str])] = &[
             "simulation",
             "report",
             "accuracy",
+            "band",
+            "criteria",
         ],
     ),
     (physical::TABLES[0], physical::OSCILLATOR),
@@ -96,6 +106,8 @@ const TABLES: &[(&str, &[&str])] = &[
     (simulation::TABLE, simulation::KEYS),
     (report::TABLE, report::KEYS),
     (accuracy::TABLE, accuracy::KEYS),
+    (band::TABLE, band::KEYS),
+    (criteria::TABLE, criteria::KEYS),
 ];
 
 const STARTING_CASE: &str = include_str!("starting_case.toml");
@@ -160,6 +172,8 @@ fn read(reader: &mut Reader, document: &DeTable) -> Option<Case> {
     let report = report::read(reader, &root);
     let accuracy = accuracy::read(reader, &root);
     let design = design?;
+    let band = band::read(reader, &root, &design);
+    let criteria = criteria::read(reader, &root, &design);
     let system = system_of(reader, &root, &design)?;
     Some(Case {
         title: title?.to_owned(),
@@ -169,6 +183,8 @@ fn read(reader: &mut Reader, document: &DeTable) -> Option<Case> {
         simulation,
         report,
         accuracy,
+        band,
+        criteria,
         inputs: Vec::new(),
         system,
         scales: design.scales(),

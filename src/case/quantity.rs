@@ -89,6 +89,11 @@ dimension!(
     ]
 );
 dimension!(
+    /// Metres per second.
+    Velocity, "a velocity", "m/s", "0.5 m/s",
+    &[unit("m/s", 0), unit("mm/s", -3), unit("cm/s", -2)]
+);
+dimension!(
     /// Newtons.
     Force, "a force", "N", "2.9 N",
     &[unit("N", 0), unit("mN", -3), unit("kN", 3), unit("uN", -6), unit("nN", -9), unit("MN", 6)]
@@ -163,13 +168,14 @@ impl<D: Dimension> Quantity<D> {
 
 /// Every unit with the name of what it measures, to recognise a unit of another dimension.
 fn measured_by(symbol: &str) -> Option<&'static str> {
-    let dimensions: [(&'static str, &'static [Unit]); 6] = [
+    let dimensions: [(&'static str, &'static [Unit]); 7] = [
         (Length::NAME, Length::UNITS),
         (Mass::NAME, Mass::UNITS),
         (Stiffness::NAME, Stiffness::UNITS),
         (Damping::NAME, Damping::UNITS),
         (Frequency::NAME, Frequency::UNITS),
         (Force::NAME, Force::UNITS),
+        (Velocity::NAME, Velocity::UNITS),
     ];
     dimensions.iter().find(|(_, units)| find(units, symbol).is_some()).map(|(name, _)| *name)
 }

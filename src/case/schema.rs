@@ -12,6 +12,8 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde_json::{Value, json};
 
 use super::accuracy::AccuracyTable;
+use super::band::BandTable;
+use super::criteria::CriteriaTable;
 use super::quantity::{Damping, Dimension, Force, Frequency, Length, Mass, Quantity, Stiffness};
 use super::report::ReportTable;
 use super::simulation::SimulationTable;
@@ -45,6 +47,8 @@ struct CaseFile {
     simulation: Option<SimulationTable>,
     report: Option<ReportTable>,
     accuracy: Option<AccuracyTable>,
+    band: Option<BandTable>,
+    criteria: Option<CriteriaTable>,
 }
 
 /// The linear oscillator whose vibration is to be reduced.

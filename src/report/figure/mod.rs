@@ -35,3 +35,4 @@ pub use geometry::Rect;
 pub use layers::{Fill, Hatch, Label, Layer, MarkedPoint, Rule};
 pub use palette::{Color, Dash, Marker, Role, Shape, Style};
 pub use render::{Drawing, LIMIT, PlacedText, draw, render};
+pub use text::escape;

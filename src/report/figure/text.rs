@@ -134,7 +134,7 @@ pub(super) fn legal(text: &str) -> String {
 }
 
 /// Text as XML has it.
-pub(super) fn escape(text: &str) -> String {
+pub fn escape(text: &str) -> String {
     legal(text)
         .replace('&', "&amp;")
         .replace('<', "&lt;")

@@ -1,0 +1,249 @@
+//! The range in which a case's criteria are asked about, and what is known of it so far: a band, or
+//! the case's own excitation alone.
+
+use super::{DecidedBy, Judged, ROUNDING, Seen, Value, of_motion};
+use crate::band::exact::{self, attracting};
+use crate::band::rivals;
+use crate::band::simulated::{Effort, Motion, motions};
+use crate::band::{Band, Corner, Over, Stretch, margin, theory};
+use crate::case::{BandOver, BandSettings, Case, Criterion, Scales, Subject};
+use crate::orbits::{Measures, SymmetricOrbit};
+use crate::simulation::StartError;
+use crate::system::{Parameter, System};
+use crate::validation::tolerance::asymptotic_error;
+
+/// Places of a band that are simulated, its ends among them.
+const PLACES: u32 = 25;
+/// Width of the band, over the excitation, that stands for a single one: what is the same all along it
+/// is the same in its middle.
+const POINT: f64 = 1e-12;
+/// Error of a share whose ends are roots: their rounding.
+const SHARE_ROUNDING: f64 = 1e-9;
+
+/// The range, and what is known of it so far.
+pub struct Scope {
+    band: Band,
+    /// Whether it is a band, and not one excitation.
+    ranges: bool,
+    scales: Scales,
+    all_motions: bool,
+    /// The largest amplitudes along the range of the bare oscillator and of one with the best tuned
+    /// mass damper, over the clearance; infinite where nothing limits them.
+    rivals: [f64; 2],
+    stability: Option<Vec<Stretch<bool>>>,
+    simulated: Option<Vec<(f64, Vec<Motion>)>>,
+}
+
+impl Band {
+    /// The band that a case asks for.
+    pub fn of(system: &System, settings: &BandSettings) -> Self {
+        let corner = |[frequency_ratio, forcing]: &[f64; 2]| Corner {
+            frequency_ratio: *frequency_ratio,
+            forcing: *forcing,
+        };
+        Self {
+            base: *system,
+            over: match settings.over {
+                BandOver::Frequency => Over::Frequency,
+                BandOver::Amplitude => Over::Forcing,
+            },
+            range: settings.range,
+            spectrum: settings.spectrum.iter().map(corner).collect(),
+        }
+    }
+
+    /// The excitation of a system alone.
+    fn point(system: &System) -> Self {
+        let at = Parameter::FrequencyRatio.of(system);
+        Self {
+            base: *system,
+            over: Over::Frequency,
+            range: [at * (1.0 - POINT), at * (1.0 + POINT)],
+            spectrum: Vec::new(),
+        }
+    }
+}
+
+impl Scope {
+    /// That of a case; with `all_motions` every motion that simulation finds counts, not only the
+    /// stable 1:1 motion where there is one.
+    pub fn of(case: &Case, all_motions: bool) -> Self {
+        let system = case.system();
+        let band = case
+            .band
+            .as_ref()
+            .map_or_else(|| Band::point(&system), |settings| Band::of(&system, settings));
+        Self {
+            rivals: rivals::largest_amplitudes(&band),
+            band,
+            ranges: case.band.is_some(),
+            scales: case.scales(),
+            all_motions,
+            stability: None,
+            simulated: None,
+        }
+    }
+
+    /// Judges one criterion.
+    ///
+    /// # Errors
+    /// [`StartError`] where a start of a simulation is not finite.
+    pub fn judge(&mut self, criterion: &Criterion) -> Result<Judged, StartError> {
+        let (value, by) = match criterion.subject {
+            Subject::Z3Share => (Some(self.z3_share()), DecidedBy::ClosedForm),
+            Subject::StableShare => (Some(self.stable_share()), DecidedBy::ExactOrbit),
+            Subject::MarginClearance => (Some(self.margin()), DecidedBy::ExactOrbit),
+            Subject::NoCoexistence => (self.one_motion()?, DecidedBy::Simulation),
+            _ => (self.worst(criterion)?, DecidedBy::Simulation),
+        };
+        Ok(criterion.judged(value, by))
+    }
+
+    /// The share in Z3, with what the theory's own error in the boundaries makes of it.
+    fn z3_share(&self) -> Value {
+        let share = |factor: f64| {
+            let base = self.band.base.with_clearance_scaled(factor).unwrap_or(self.band.base);
+            let band = self.band.with_base(base);
+            band.share(&theory::zones(&band), |zone| zone.is_z3())
+        };
+        let found = share(1.0);
+        let places = self.band.places(PLACES);
+        let error = places
+            .filter_map(|at| self.band.system(at).ok())
+            .map(|system| asymptotic_error(&system))
+            .fold(0.0, f64::max);
+        let shifted = [1.0 - error.min(0.9), 1.0 + error].map(share);
+        let off =
+            shifted.map(|other| (other - found).abs()).into_iter().fold(SHARE_ROUNDING, f64::max);
+        Value { found, error: off, at: None, by: DecidedBy::ClosedForm }
+    }
+
+    fn stable_share(&mut self) -> Value {
+        let stability = self.stability().to_vec();
+        let found = self.band.share(&stability, |stable| *stable);
+        Value { found, error: SHARE_ROUNDING, at: None, by: DecidedBy::ExactOrbit }
+    }
+
+    fn margin(&self) -> Value {
+        let middle = 0.5 * (self.band.range[0] + self.band.range[1]);
+        let (at, found) = if self.ranges {
+            let (at, gap) = margin::smallest(&self.band);
+            (Some(at), gap)
+        } else {
+            (None, margin::Gap::of(&self.band, middle).map_or(0.0, |gap| gap.smaller()))
+        };
+        Value { found, error: ROUNDING, at, by: DecidedBy::ExactOrbit }
+    }
+
+    /// 1 where every place has one motion, 0 where one has several.
+    fn one_motion(&mut self) -> Result<Option<Value>, StartError> {
+        let ranges = self.ranges;
+        let several = self.simulated()?.iter().find(|(_, motions)| motions.len() > 1);
+        let at = several.map(|(at, _)| *at).filter(|_| ranges);
+        let found = f64::from(u8::from(several.is_none()));
+        Ok(Some(Value { found, error: 0.0, at, by: DecidedBy::Simulation }))
+    }
+
+    /// The worst value of a criterion about motions.
+    fn worst(&mut self, criterion: &Criterion) -> Result<Option<Value>, StartError> {
+        let exact = self.worst_exact(criterion);
+        let covered = self.stability().iter().all(|stretch| stretch.of);
+        if exact.is_some_and(|value| criterion.room(value.found) < 0.0)
+            || (covered && !self.all_motions)
+        {
+            return Ok(exact);
+        }
+        let simulated = self.worst_simulated(criterion)?;
+        let both = exact.into_iter().chain(simulated);
+        Ok(both.min_by(|a, b| criterion.room(a.found).total_cmp(&criterion.room(b.found))))
+    }
+
+    /// The worst of the attracting orbit, wherever there is one.
+    fn worst_exact(&mut self, criterion: &Criterion) -> Option<Value> {
+        let stability = self.stability().to_vec();
+        let value = |at: f64, orbit: &SymmetricOrbit| {
+            let system = self.band.system(at).ok()?;
+            let seen = seen(&system, orbit, criterion.subject)?;
+            of_motion(criterion.subject, &seen, self.rivals, &self.scales)
+        };
+        let loss = |at: f64, orbit: &SymmetricOrbit| {
+            value(at, orbit).map_or(f64::NEG_INFINITY, |(found, _)| -criterion.room(found))
+        };
+        let worst = exact::extreme(&self.band, &stability, loss)?;
+        let (found, error) = value(worst.at, &attracting(&self.band, worst.at)?)?;
+        let at = Some(worst.at).filter(|_| self.ranges);
+        Some(Value { found, error, at, by: DecidedBy::ExactOrbit })
+    }
+
+    fn worst_simulated(&mut self, criterion: &Criterion) -> Result<Option<Value>, StartError> {
+        self.simulated()?;
+        let mut worst: Option<Value> = None;
+        for (at, motions) in self.simulated.iter().flatten() {
+            for motion in motions {
+                let Some((found, error)) =
+                    of_motion(criterion.subject, &Seen::from(motion), self.rivals, &self.scales)
+                else {
+                    continue;
+                };
+                let at = Some(*at).filter(|_| self.ranges);
+                if worst.is_none_or(|known| criterion.room(found) < criterion.room(known.found)) {
+                    worst = Some(Value { found, error, at, by: DecidedBy::Simulation });
+                }
+            }
+        }
+        Ok(worst)
+    }
+
+    fn stability(&mut self) -> &[Stretch<bool>] {
+        let band = &self.band;
+        self.stability.get_or_insert_with(|| exact::stability(band))
+    }
+
+    /// The motions at places of the band: at all of them if every motion counts, else where no
+    /// symmetric orbit attracts.
+    fn simulated(&mut self) -> Result<&[(f64, Vec<Motion>)], StartError> {
+        if self.simulated.is_none() {
+            let all = self.all_motions;
+            let stability = self.stability().to_vec();
+            let unstable =
+                |at: f64| stability.iter().any(|one| !one.of && one.from <= at && at <= one.to);
+            let mut places: Vec<f64> = if self.ranges {
+                let mut places: Vec<f64> = self.band.places(PLACES).collect();
+                // A stretch without stable orbit that lies between two places has its own.
+                places.extend(
+                    stability.iter().filter(|one| !one.of).map(|one| 0.5 * (one.from + one.to)),
+                );
+                places.sort_by(f64::total_cmp);
+                places.dedup();
+                places
+            } else {
+                vec![0.5 * (self.band.range[0] + self.band.range[1])]
+            };
+            places.retain(|at| all || unstable(*at));
+            let systems: Vec<System> =
+                places.iter().filter_map(|at| self.band.system(*at).ok()).collect();
+            let effort =
+                if all { Effort::default() } else { Effort { starts: 4, ..Effort::default() } };
+            let found = motions(&systems, &effort)?;
+            self.simulated = Some(places.into_iter().zip(found).collect());
+        }
+        Ok(self.simulated.as_deref().unwrap_or(&[]))
+    }
+}
+
+/// What a criterion needs of an orbit; the average only where it is asked for, as it takes as long as
+/// the orbit itself.
+fn seen(system: &System, orbit: &SymmetricOrbit, subject: Subject) -> Option<Seen> {
+    let rms = match subject {
+        Subject::RmsDisplacement => Measures::of(system, &orbit.orbit.cycle).ok()?.rms,
+        _ => f64::NAN,
+    };
+    Some(Seen {
+        peak: orbit.peaks.displacement,
+        rms,
+        impact_speed: orbit.impact_speed,
+        impacts_per_period: 2.0,
+        error: ROUNDING,
+        impacts_error: 0.0,
+    })
+}

@@ -1,0 +1,220 @@
+//! Judged criteria in words and as data: for a terminal, a report, a pull request and build servers.
+
+mod formats;
+
+use serde::Serialize;
+
+use super::numbers::{LengthFormat, fixed, percent, significant};
+use crate::case::{BandOver, Case, Measure, Relation, Subject};
+use crate::criteria::{DecidedBy, Judged, all_hold};
+
+pub use formats::{annotations, junit, markdown, text};
+
+/// A criterion, judged: one line of every format. Numbers in SI units, or the case's own.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CriterionRow {
+    /// The key in the case file.
+    pub name: &'static str,
+    /// What was asked, as written.
+    pub asked: String,
+    /// What was found; 1 and 0 for true and false, `None` where nothing could be measured.
+    pub found: Option<f64>,
+    /// Unit of `found`, `error` and `margin`: `1`, `m`, `m/s`, `dB`.
+    pub unit: &'static str,
+    /// How far `found` may be off.
+    pub error: Option<f64>,
+    /// Room that is left; negative where the criterion does not hold.
+    pub margin: Option<f64>,
+    /// Whether it holds.
+    pub holds: Option<bool>,
+    /// Whether the error could turn that.
+    pub near_limit: bool,
+    /// Which layer decided.
+    pub decided_by: DecidedBy,
+    /// Where in the band it is worst, with unit; empty where that says nothing.
+    pub at: String,
+    /// `asked`, `found` and `margin` as a person reads them.
+    #[serde(skip)]
+    pub words: [String; 3],
+}
+
+impl CriterionRow {
+    /// "holds", "fails", or what else there is to say.
+    pub fn verdict(&self) -> &'static str {
+        match (self.holds, self.near_limit) {
+            (Some(true), false) => "holds",
+            (Some(true), true) => "holds, too close to be sure",
+            (Some(false), false) => "fails",
+            (Some(false), true) => "fails, too close to be sure",
+            (None, _) => "could not be measured",
+        }
+    }
+
+    /// What was found and where, in a line.
+    pub fn found_words(&self) -> String {
+        if self.at.is_empty() {
+            self.words[1].clone()
+        } else {
+            format!("{} at {}", self.words[1], self.at)
+        }
+    }
+}
+
+/// Every criterion of one case.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CriteriaDocument {
+    /// The case's name: the stem of its file.
+    pub case: String,
+    /// Its title.
+    pub title: String,
+    /// Whether all hold.
+    pub holds: bool,
+    /// One for each line of `[criteria]`, in the order of a report.
+    pub criteria: Vec<CriterionRow>,
+}
+
+impl CriteriaDocument {
+    /// Writes down what was judged.
+    pub fn new(name: &str, case: &Case, judged: &[Judged]) -> Self {
+        Self {
+            case: name.to_owned(),
+            title: case.title.clone(),
+            holds: all_hold(judged),
+            criteria: rows(case, judged),
+        }
+    }
+
+    /// How many hold, in words.
+    pub fn headline(&self) -> String {
+        let count = self.criteria.len();
+        let holding = self.criteria.iter().filter(|row| row.holds == Some(true)).count();
+        match (count, count - holding) {
+            (0, _) => "no criteria: add a table [criteria] to the case".into(),
+            (1, 0) => "its one criterion holds".into(),
+            (1, _) => "its one criterion fails".into(),
+            (_, 0) => format!("all {count} criteria hold"),
+            (_, failing) => format!("{failing} of {count} criteria fail"),
+        }
+    }
+}
+
+/// A line for each judged criterion.
+pub fn rows(case: &Case, judged: &[Judged]) -> Vec<CriterionRow> {
+    judged.iter().map(|one| row(case, one)).collect()
+}
+
+fn row(case: &Case, judged: &Judged) -> CriterionRow {
+    let criterion = &judged.criterion;
+    let measure = criterion.subject.measure();
+    let number = |value: f64| number(case, measure, value);
+    let asked = match (measure, criterion.relation) {
+        (Measure::Flag, _) => yes(criterion.limit).to_owned(),
+        (_, relation) => format!("{} {}", sign(relation), number(criterion.limit)),
+    };
+    let found = judged.found.map_or_else(
+        || "nothing".to_owned(),
+        |found| match measure {
+            Measure::Flag => yes(found).to_owned(),
+            _ => number(found),
+        },
+    );
+    let margin = match (judged.margin, measure) {
+        (Some(margin), Measure::Share | Measure::Length | Measure::Decibel | Measure::Velocity) => {
+            let sign = if margin < 0.0 { "−" } else { "+" };
+            format!("{sign}{}", number(margin.abs()))
+        }
+        _ => String::new(),
+    };
+    CriterionRow {
+        name: criterion.subject.key(),
+        asked: criterion.as_written.clone(),
+        found: judged.found,
+        unit: unit(case, measure),
+        error: judged.found.map(|_| judged.error),
+        margin: judged.margin,
+        holds: judged.holds,
+        near_limit: judged.near_limit,
+        decided_by: judged.decided_by,
+        at: place(case, judged.at),
+        words: [asked, found, margin],
+    }
+}
+
+fn yes(value: f64) -> &'static str {
+    if value > 0.5 { "true" } else { "false" }
+}
+
+fn sign(relation: Relation) -> &'static str {
+    match relation {
+        Relation::AtLeast => "≥",
+        Relation::AtMost => "≤",
+        Relation::Equal => "=",
+    }
+}
+
+fn number(case: &Case, measure: Measure, value: f64) -> String {
+    match measure {
+        Measure::Share => percent_sharply(value),
+        Measure::Length => LengthFormat::of(&case.scales()).text(value),
+        Measure::Decibel => format!("{} dB", fixed(value, 1)),
+        Measure::Velocity if case.scales().natural_frequency_rad_per_s.is_some() => {
+            format!("{} m/s", significant(value, 3))
+        }
+        Measure::Velocity | Measure::Count | Measure::Flag => significant(value, 3),
+    }
+}
+
+/// A share with a decimal, as limits are often whole percents.
+fn percent_sharply(share: f64) -> String {
+    if share == 0.0 || share == 1.0 || share.abs() < 0.01 {
+        percent(share)
+    } else {
+        format!("{} %", fixed(100.0 * share, 1))
+    }
+}
+
+fn unit(case: &Case, measure: Measure) -> &'static str {
+    let physical = case.scales().natural_frequency_rad_per_s.is_some();
+    match measure {
+        Measure::Share | Measure::Count | Measure::Flag => "1",
+        Measure::Decibel => "dB",
+        Measure::Length => case.scales().length_unit().symbol(),
+        Measure::Velocity => {
+            if physical {
+                "m/s"
+            } else {
+                "1"
+            }
+        }
+    }
+}
+
+/// A place of the band, as its author would write it.
+fn place(case: &Case, at: Option<f64>) -> String {
+    let (Some(at), Some(band)) = (at, case.band.as_ref()) else { return String::new() };
+    match band.over {
+        BandOver::Frequency => match case.scales().frequency_hz(at) {
+            Some(hertz) => format!("{} Hz", significant(hertz, 4)),
+            None => format!("Ω = {}", significant(at, 4)),
+        },
+        BandOver::Amplitude => format!("{} × the case's amplitude", significant(at, 3)),
+    }
+}
+
+/// A subject as a report calls it.
+pub fn subject(subject: &str) -> &'static str {
+    let known = Subject::ALL.into_iter().find(|known| known.key() == subject);
+    match known {
+        Some(Subject::Z3Share) => "share of the band in area Z3",
+        Some(Subject::StableShare) => "share of the band with a stable 1:1 orbit",
+        Some(Subject::PeakDisplacement) => "peak displacement",
+        Some(Subject::RmsDisplacement) => "rms displacement",
+        Some(Subject::ReductionDb) => "reduction against the bare oscillator",
+        Some(Subject::ReductionDbTmd) => "reduction against the best tuned mass damper",
+        Some(Subject::MarginClearance) => "margin of the clearance",
+        Some(Subject::ImpactVelocity) => "impact velocity",
+        Some(Subject::ImpactsPerPeriod) => "impacts per period",
+        Some(Subject::NoCoexistence) => "no other motion beside",
+        None => "criterion",
+    }
+}
