@@ -42,9 +42,14 @@ struct Units<'d> {
     scales: Scales,
 }
 
-/// Reads the table, which may be missing.
-pub(super) fn read(reader: &mut Reader, root: &Table, design: &Design) -> Option<BandSettings> {
+/// Reads the table, which may be missing; without a design its units are not known.
+pub(super) fn read(
+    reader: &mut Reader,
+    root: &Table,
+    design: Option<&Design>,
+) -> Option<BandSettings> {
     let table = reader.table(root, TABLE)?;
+    let design = design?;
     let units = Units { design, scales: design.scales() };
     let over = read_over(reader, &table)?;
     let ends = [("from", r"\min"), ("to", r"\max")].map(|(key, symbol)| match over {

@@ -147,9 +147,10 @@ pub(super) const KEYS: &[&str] = &[
     "no_coexistence",
 ];
 
-/// Reads the table; empty where there is none.
-pub(super) fn read(reader: &mut Reader, root: &Table, design: &Design) -> Vec<Criterion> {
-    let Some(table) = reader.table(root, TABLE) else { return Vec::new() };
+/// Reads the table; empty where there is none, or no design whose units it could be in.
+pub(super) fn read(reader: &mut Reader, root: &Table, design: Option<&Design>) -> Vec<Criterion> {
+    let table = reader.table(root, TABLE);
+    let (Some(table), Some(design)) = (table, design) else { return Vec::new() };
     let mut found = Vec::new();
     for subject in Subject::ALL {
         let Some((_, value)) = table.entry(subject.key()) else { continue };

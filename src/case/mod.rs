@@ -171,9 +171,9 @@ fn read(reader: &mut Reader, document: &DeTable) -> Option<Case> {
     let simulation = simulation::read(reader, &root);
     let report = report::read(reader, &root);
     let accuracy = accuracy::read(reader, &root);
+    let band = band::read(reader, &root, design.as_ref());
+    let criteria = criteria::read(reader, &root, design.as_ref());
     let design = design?;
-    let band = band::read(reader, &root, &design);
-    let criteria = criteria::read(reader, &root, &design);
     let system = system_of(reader, &root, &design)?;
     Some(Case {
         title: title?.to_owned(),

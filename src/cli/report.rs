@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use miette::{IntoDiagnostic, Result, miette};
+use vinesink::criteria;
 use vinesink::report::{Report, figures, render};
 use vinesink::store;
 use vinesink::study::fidelity::Plan;
@@ -108,6 +109,8 @@ fn write(path: &Path, name: &str, folder: &Path, forced: Option<Fidelity>) -> Re
         }
         report = report.with_answers(&case, &answers);
     }
+    let judged = criteria::judge(&case).into_diagnostic()?;
+    report = report.with_criteria(&case, &judged);
     // As `simulate`: what is not to be trusted is written down, and does not pass for an answer.
     let motions = study.simulated_motions();
     let trusted = motions.is_none_or(|motions| {

@@ -23,9 +23,11 @@ mod verdict;
 use serde::Serialize;
 
 use crate::case::Case;
+use crate::criteria::Judged;
 use crate::study::fidelity::Answers;
 use crate::study::{CaseStudy, StudyEffort};
 use crate::validation::Claim;
+use criteria::{CriteriaDocument, CriterionRow};
 use documents::{AnalysisDocument, AttractorDocument};
 use figure::Figure;
 
@@ -58,6 +60,15 @@ pub struct Report {
     /// Whether anything was simulated.
     #[serde(skip)]
     pub simulated: bool,
+    /// What the case asks for, judged; left out where it asks for nothing.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub criteria: Vec<CriterionRow>,
+    /// The same as a table.
+    #[serde(skip)]
+    pub criteria_table: Option<Table>,
+    /// How many of them hold, in words.
+    #[serde(skip)]
+    pub criteria_headline: String,
     /// Everything else, as tables.
     pub tables: Tables,
     /// The figures, in reading order; the first belongs to the first screen.
@@ -161,6 +172,9 @@ impl Report {
             key_rows: tables::key_rows(case, study),
             layers: None,
             simulated: study.simulated,
+            criteria: Vec::new(),
+            criteria_table: None,
+            criteria_headline: String::new(),
             tables: Tables {
                 attractors: motion_tables::attractors(case, study),
                 natures: motion_tables::natures(study),
@@ -212,6 +226,22 @@ impl Report {
         let layers = Layers::new(case, answers);
         self.key_rows.extend(layers.key_row());
         self.layers = Some(layers);
+        self
+    }
+}
+
+impl Report {
+    /// Adds what the case asks for, judged; it stands on the first screen.
+    #[must_use]
+    pub fn with_criteria(mut self, case: &Case, judged: &[Judged]) -> Self {
+        if judged.is_empty() {
+            return self;
+        }
+        let document = CriteriaDocument::new(&self.name, case, judged);
+        self.criteria_headline = numbers::capitalised(&document.headline());
+        self.verdict.sentences.insert(0, format!("{}.", self.criteria_headline));
+        self.criteria_table = Some(document.table());
+        self.criteria = document.criteria;
         self
     }
 }

@@ -135,6 +135,8 @@ fn context(report: &Report, case: &Case) -> Result<Context, RenderError> {
     context.insert("report", report);
     // Both are left out of the JSON document where they say nothing new.
     context.insert("layers", &report.layers);
+    context.insert("criteria_table", &report.criteria_table);
+    context.insert("criteria_headline", &report.criteria_headline);
     context.insert("simulated", &report.simulated);
     // The equations are left out of the JSON document, and with it out of the serialised report.
     context.insert("equations", &report.equations);

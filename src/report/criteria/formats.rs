@@ -128,7 +128,7 @@ pub fn junit(documents: &[CriteriaDocument]) -> String {
     text
 }
 
-fn cells(row: &CriterionRow) -> [String; 6] {
+pub(super) fn cells(row: &CriterionRow) -> [String; 6] {
     [
         subject(row.name).to_owned(),
         row.words[0].clone(),

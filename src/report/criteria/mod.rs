@@ -5,6 +5,7 @@ mod formats;
 use serde::Serialize;
 
 use super::numbers::{LengthFormat, fixed, percent, significant};
+use super::tables::{Table, table};
 use crate::case::{BandOver, Case, Measure, Relation, Subject};
 use crate::criteria::{DecidedBy, Judged, all_hold};
 
@@ -82,6 +83,19 @@ impl CriteriaDocument {
             holds: all_hold(judged),
             criteria: rows(case, judged),
         }
+    }
+
+    /// The criteria as a table.
+    pub(super) fn table(&self) -> Table {
+        let columns = [
+            ("Criterion", false),
+            ("Asked", true),
+            ("Found", true),
+            ("Margin", true),
+            ("Decided by", false),
+            ("Verdict", false),
+        ];
+        table(columns, self.criteria.iter().map(formats::cells).collect())
     }
 
     /// How many hold, in words.
