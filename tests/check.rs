@@ -59,8 +59,8 @@ fn the_cheapest_layer_that_can_decide_decides() {
     let covered = judge(&case(narrow, "peak_displacement = \"<= 20 mm\"")).expect("it runs");
     assert_eq!((covered[0].holds, covered[0].decided_by), (Some(true), DecidedBy::ExactOrbit));
     // At 8.7 Hz no symmetric orbit attracts.
-    let simulated =
-        judge(&case("", "impacts_per_period = 2").with_frequency("8.7 Hz")).expect("ok");
+    let text = format!("{DESIGN}[criteria]\nimpacts_per_period = 2\n").replace("8.35 Hz", "8.7 Hz");
+    let simulated = judge(&Case::parse("test.toml", &text).expect("valid")).expect("it runs");
     assert_eq!((simulated[0].holds, simulated[0].decided_by), (Some(false), DecidedBy::Simulation));
 }
 

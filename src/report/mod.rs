@@ -12,6 +12,7 @@ pub mod render;
 pub mod summary;
 pub mod tradeoff;
 
+mod band;
 mod equations;
 mod exact_tables;
 mod layers;
@@ -69,6 +70,9 @@ pub struct Report {
     /// How many of them hold, in words.
     #[serde(skip)]
     pub criteria_headline: String,
+    /// What the band is like, and the theory's areas along it; none without a band.
+    #[serde(skip)]
+    pub band: Option<[Table; 2]>,
     /// Everything else, as tables.
     pub tables: Tables,
     /// The figures, in reading order; the first belongs to the first screen.
@@ -175,6 +179,7 @@ impl Report {
             criteria: Vec::new(),
             criteria_table: None,
             criteria_headline: String::new(),
+            band: band::tables(case, study),
             tables: Tables {
                 attractors: motion_tables::attractors(case, study),
                 natures: motion_tables::natures(study),

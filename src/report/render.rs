@@ -135,6 +135,7 @@ fn context(report: &Report, case: &Case) -> Result<Context, RenderError> {
     context.insert("report", report);
     // Both are left out of the JSON document where they say nothing new.
     context.insert("layers", &report.layers);
+    context.insert("band", &report.band);
     context.insert("criteria_table", &report.criteria_table);
     context.insert("criteria_headline", &report.criteria_headline);
     context.insert("simulated", &report.simulated);
