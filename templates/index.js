@@ -43,6 +43,8 @@
       const shown = all("td", row).filter((cell) => !cell.hidden);
       const texts = new Set(shown.map((cell) => cell.textContent.trim()));
       row.classList.toggle("differs", texts.size > 1);
+      // No chosen case has this quantity.
+      row.hidden = texts.size === 1 && texts.has("\u2013");
     });
     numbers.parentElement.hidden = !enough;
     document.querySelector("#clear").hidden = chosen.size === 0;

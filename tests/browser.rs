@@ -9,6 +9,7 @@ mod browser_support;
 use std::collections::BTreeMap;
 use std::env;
 use std::fs;
+use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
@@ -48,7 +49,8 @@ fn browser() -> Option<Browser> {
 fn skipped(why: &str) {
     let required = env::var("VINESINK_BROWSER").is_ok_and(|value| value == "required");
     assert!(!required, "{why}");
-    eprintln!("skipped: {why}");
+    // Not captured by the test runner, unlike `eprintln!`.
+    let _ = writeln!(io::stderr(), "skipped: {why}");
 }
 
 fn pages() -> Vec<PathBuf> {
@@ -232,6 +234,10 @@ fn chosen_cases_stand_side_by_side() {
     let differs = page.evaluate(differs).to_string();
     assert!(differs.contains("Clearance b") && !differs.contains("Restitution r"), "{differs}");
     assert!(checks::layout(&mut page).is_empty());
+    choose(&mut page, 0);
+    choose(&mut page, 1);
+    let rows = page.evaluate(shown).to_string();
+    assert!(rows.contains("Forcing | –") && !rows.contains("– | –"), "{rows}");
     page.evaluate("document.querySelector('#clear').click()");
     assert_eq!(page.evaluate(shown), json!([]));
 }
