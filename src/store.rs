@@ -89,6 +89,52 @@ pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
     file.persist(path).map(drop).map_err(|error| refused("write", path, error.error))
 }
 
+/// What a folder holds, by name; names that begin with a point are left out.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Listing {
+    /// Names of its files, sorted.
+    pub files: Vec<String>,
+    /// Names of its folders, sorted.
+    pub folders: Vec<String>,
+}
+
+/// Lists a folder.
+///
+/// # Errors
+/// [`StoreError::Refused`] when it cannot be read, [`StoreError::Unusable`] for a name that is not
+/// UTF-8.
+pub fn list(path: &Path) -> Result<Listing, StoreError> {
+    let read = |cause| refused("read", path, cause);
+    let mut listing = Listing::default();
+    for entry in std::fs::read_dir(path).map_err(read)? {
+        let entry = entry.map_err(read)?;
+        let name = entry.file_name().into_string();
+        let name = name.map_err(|_| StoreError::Unusable { path: entry.path() })?;
+        if name.starts_with('.') {
+            continue;
+        }
+        let is_folder = entry.path().is_dir();
+        if is_folder { &mut listing.folders } else { &mut listing.files }.push(name);
+    }
+    listing.files.sort();
+    listing.folders.sort();
+    Ok(listing)
+}
+
+/// Reads a UTF-8 text file whole, where there is one.
+///
+/// # Errors
+/// As [`read_text`], except that a missing file is no error.
+pub fn read_text_if_there(path: &Path) -> Result<Option<String>, StoreError> {
+    match read_text(path) {
+        Ok(text) => Ok(Some(text)),
+        Err(StoreError::Refused { cause, .. }) if cause.kind() == io::ErrorKind::NotFound => {
+            Ok(None)
+        }
+        Err(error) => Err(error),
+    }
+}
+
 /// Replaces a folder, which may be missing, by one that holds exactly `files` (paths relative to
 /// it). The new folder is written beside the old one and takes its place when it is complete, so
 /// the old one stays as it was on any failure. Everything else in the old folder is removed.
@@ -260,6 +306,19 @@ mod tests {
         write_file(&path, b"3").expect("replaced");
         assert_eq!(read_text(&path).expect("text"), "3");
         assert_eq!(names(folder.path()), ["file"]);
+    }
+
+    #[test]
+    fn a_folder_is_listed_by_name() {
+        let folder = folder();
+        let content = [("b/x", ""), ("a/x", ""), ("z.md", "1"), (".hidden/x", ""), ("c.md", "")];
+        add_to_folder(folder.path(), &files(&content)).expect("written");
+        let listing = list(folder.path()).expect("a folder");
+        assert_eq!(listing.folders, ["a", "b"]);
+        assert_eq!(listing.files, ["c.md", "z.md"]);
+        let read = |name| read_text_if_there(&folder.path().join(name)).expect("text or nothing");
+        assert_eq!((read("z.md"), read("none")), (Some("1".into()), None));
+        assert!(matches!(list(&folder.path().join("z.md")), Err(StoreError::Refused { .. })));
     }
 
     #[test]

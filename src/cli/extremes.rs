@@ -10,7 +10,7 @@ use vinesink::report::extremes::Extremes;
 use vinesink::store;
 
 use super::progress::Progress;
-use super::{Outcome, output};
+use super::{Outcome, index, output};
 
 /// Simulate at the ends of every parameter's range and compare with 77 decimal digits
 ///
@@ -43,5 +43,6 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
     let path = arguments.out.join("extremes.md");
     store::write_file(&path, page.markdown().into_diagnostic()?.as_bytes())?;
     output::print(format!("{}\n", path.display()))?;
+    index::refresh(&arguments.out)?;
     Ok(if page.holds() { Outcome::Done } else { Outcome::DoesNotHold })
 }

@@ -6,6 +6,7 @@ mod case_file;
 mod check;
 mod completions;
 mod extremes;
+mod index;
 mod new;
 mod output;
 mod paper;
@@ -39,6 +40,7 @@ Examples:
   vinesink simulate damper.toml                 what it does, from many starts
   vinesink report damper.toml                   the design report, in reports/damper
   vinesink check damper.toml                    whether it meets its criteria
+  vinesink index                                all reports of a folder on one page
   vinesink paper                                the paper's figures against the reports
   vinesink extremes                             the simulation at the ends of its range
   vinesink tradeoff damper.toml                 how much accuracy for how much work
@@ -52,6 +54,7 @@ enum Command {
     Simulate(simulate::Arguments),
     Report(report::Arguments),
     Check(check::Arguments),
+    Index(index::Arguments),
     Paper(paper::Arguments),
     Extremes(extremes::Arguments),
     Tradeoff(tradeoff::Arguments),
@@ -86,6 +89,7 @@ impl Cli {
             Command::Simulate(arguments) => simulate::run(arguments),
             Command::Report(arguments) => report::run(arguments),
             Command::Check(arguments) => check::run(arguments),
+            Command::Index(arguments) => index::run(arguments),
             Command::Paper(arguments) => paper::run(arguments),
             Command::Extremes(arguments) => extremes::run(arguments),
             Command::Tradeoff(arguments) => tradeoff::run(arguments),

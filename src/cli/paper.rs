@@ -10,7 +10,7 @@ use vinesink::store;
 use vinesink::study::{CaseStudy, StudyEffort};
 
 use super::progress::Progress;
-use super::{Outcome, case_file, output};
+use super::{Outcome, case_file, index, output};
 
 /// Compare every figure of the paper with what the program finds
 ///
@@ -48,5 +48,6 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
     let path = arguments.out.join("paper.md");
     store::write_file(&path, text.as_bytes())?;
     output::print(format!("{}\n", path.display()))?;
+    index::refresh(&arguments.out)?;
     Ok(Outcome::Done)
 }

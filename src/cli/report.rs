@@ -12,7 +12,7 @@ use vinesink::study::{CaseStudy, StudyEffort};
 
 use super::case_file::{self, Fidelity};
 use super::progress::Progress;
-use super::{Outcome, output};
+use super::{Outcome, index, output};
 
 /// Write the design report of each case
 ///
@@ -59,6 +59,7 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
                 .push(error.wrap_err(format!("no report was written for {}", path.display()))),
         }
     }
+    index::refresh(&arguments.out).unwrap_or_else(|error| failures.push(error));
     // One bad case does not keep the others from being written; each is named.
     let last = failures.pop();
     for error in failures {

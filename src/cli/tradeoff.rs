@@ -14,7 +14,7 @@ use vinesink::system::{State, System};
 
 use super::case_file::{CaseArgument, Format};
 use super::progress::Progress;
-use super::{Outcome, output};
+use super::{Outcome, index, output};
 
 /// Measure how much accuracy each layer gives for how much work
 ///
@@ -70,6 +70,7 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
         let text = page::TradeoffPage::new(&name, &case, &found, allowed, &figure);
         let files = render::tradeoff(&text, &figure).into_diagnostic()?;
         store::add_to_folder(&out.join(stem), &files)?;
+        index::refresh(out)?;
     }
     match arguments.format {
         Format::Text => output::print(page::summary(&case, &found, allowed, &seconds))?,

@@ -6,6 +6,7 @@ pub mod documents;
 pub mod extremes;
 pub mod figure;
 pub mod figures;
+pub mod index;
 pub mod numbers;
 pub mod paper;
 pub mod render;
@@ -128,6 +129,9 @@ pub struct FigureRow {
     pub width: u32,
 }
 
+/// Name and version of the format of `report.json`.
+pub const FORMAT: &str = "vinesink/report@1";
+
 /// Width of a page's column in pixels.
 const PAGE_WIDTH: u32 = 720;
 
@@ -167,7 +171,7 @@ impl Report {
         let scales = case.scales();
         let bare = study.analysis.system.linear_response();
         Self {
-            format: "vinesink/report@1",
+            format: FORMAT,
             name: name.to_owned(),
             title: case.title.clone(),
             source: case.source.clone(),

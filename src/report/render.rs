@@ -8,6 +8,7 @@ use tera::{Context, Kwargs, State, Tera, Value};
 use super::Report;
 use super::extremes::Extremes;
 use super::figure::{self, Figure, FigureError};
+use super::index::Index;
 use super::numbers::LengthFormat;
 use super::paper::Paper;
 use super::tradeoff::TradeoffPage;
@@ -19,6 +20,10 @@ const HTML: &str = include_str!("../../templates/report.html.tera");
 const PAPER: &str = include_str!("../../templates/paper.md.tera");
 const EXTREMES: &str = include_str!("../../templates/extremes.md.tera");
 const TRADEOFF: &str = include_str!("../../templates/tradeoff.md.tera");
+const INDEX_MARKDOWN: &str = include_str!("../../templates/index.md.tera");
+const INDEX_HTML: &str = include_str!("../../templates/index.html.tera");
+const INDEX_STYLE: &str = include_str!("../../templates/index.css");
+const INDEX_SCRIPT: &str = include_str!("../../templates/index.js");
 const STYLE: &str = include_str!("../../templates/report.css");
 
 /// Why a report cannot be rendered.
@@ -110,6 +115,30 @@ pub fn tradeoff(
     ]))
 }
 
+/// The index of a folder of reports, as Markdown.
+///
+/// # Errors
+/// [`RenderError::Template`] if template and index do not fit.
+pub fn index_markdown(index: &Index) -> Result<String, RenderError> {
+    let mut context = Context::new();
+    context.insert("index", index);
+    let text = engine("README.md", INDEX_MARKDOWN)?.render("README.md", &context)?;
+    Ok(without_repeated_blank_lines(&text))
+}
+
+/// The index of a folder of reports, as an HTML page that needs only the figures beside it.
+///
+/// # Errors
+/// [`RenderError::Template`] if template and index do not fit.
+pub fn index_html(index: &Index) -> Result<String, RenderError> {
+    let mut context = Context::new();
+    context.insert("index", index);
+    context.insert("style", STYLE);
+    context.insert("index_style", INDEX_STYLE);
+    context.insert("script", INDEX_SCRIPT);
+    Ok(engine("index.html", INDEX_HTML)?.render("index.html", &context)?)
+}
+
 /// The report as one HTML page that needs nothing from outside.
 ///
 /// # Errors
@@ -178,6 +207,7 @@ fn engine(name: &str, template: &str) -> Result<Tera, RenderError> {
     tera.register_filter("latex_of", |text: &str, _: Kwargs, _: &State| {
         dollars(text).unwrap_or_default().to_owned()
     });
+    tera.register_filter("path", |text: &str, _: Kwargs, _: &State| url_path(text));
     tera.register_filter("lower_first", |text: &str, _: Kwargs, _: &State| lower_first(text));
     tera.register_filter("first_only", |list: Vec<Value>, _: Kwargs, _: &State| {
         list.into_iter().take(1).collect::<Vec<Value>>()
@@ -210,6 +240,18 @@ fn lower_first(text: &str) -> String {
     let mut letters = text.chars();
     letters.next().map_or_else(String::new, |first| {
         first.to_lowercase().collect::<String>() + letters.as_str()
+    })
+}
+
+/// A path as a link writes it: everything that could mean something else is encoded.
+fn url_path(path: &str) -> String {
+    path.bytes().fold(String::with_capacity(path.len()), |mut link, byte| {
+        if byte.is_ascii_alphanumeric() || b"-._~/".contains(&byte) {
+            link.push(char::from(byte));
+        } else {
+            link.push_str(&format!("%{byte:02X}"));
+        }
+        link
     })
 }
 

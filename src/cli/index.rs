@@ -1,0 +1,96 @@
+//! `vinesink index [FOLDER]`
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use miette::{IntoDiagnostic, Result, WrapErr, miette};
+use vinesink::report::index::{self, Index, Member, OtherPage, Summary};
+use vinesink::store::{self, Listing};
+
+use super::{Outcome, output};
+
+/// List the reports of a folder, with verdicts and key numbers, to sort and to compare
+///
+/// Writes FOLDER/index.html and FOLDER/README.md from the report.json of every report in FOLDER.
+/// Once they are there, `report`, `paper`, `extremes` and `tradeoff` keep them up to date.
+#[derive(Debug, Args)]
+#[command(after_long_help = EXAMPLES)]
+pub struct Arguments {
+    /// The folder with a folder per case, as `vinesink report` writes it
+    #[arg(value_name = "FOLDER", default_value = "reports")]
+    folder: PathBuf,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  vinesink report cases/*.toml && vinesink index
+  vinesink index /somewhere/else";
+
+pub fn run(arguments: Arguments) -> Result<Outcome> {
+    let folder = &arguments.folder;
+    for name in [index::HTML, index::MARKDOWN] {
+        if existing(folder, name)? == Some(false) {
+            return Err(miette!(
+                help = "rename it, or write the reports to a folder of their own",
+                "{} is not an index and is left as it is",
+                folder.join(name).display()
+            ));
+        }
+    }
+    write(folder)?;
+    for name in [index::HTML, index::MARKDOWN] {
+        output::print(format!("{}\n", folder.join(name).display()))?;
+    }
+    Ok(Outcome::Done)
+}
+
+/// Writes the index of a folder anew where it has one; a file of that name that is none is left alone.
+pub fn refresh(folder: &Path) -> Result<()> {
+    let ours = |name| Ok::<_, miette::Report>(existing(folder, name)? != Some(false));
+    let there = existing(folder, index::HTML)?.or(existing(folder, index::MARKDOWN)?);
+    if there.is_none() || !ours(index::HTML)? || !ours(index::MARKDOWN)? {
+        return Ok(());
+    }
+    write(folder).wrap_err("the index beside the reports is not up to date")
+}
+
+/// Whether a file is there, and if so, whether it is an index.
+fn existing(folder: &Path, name: &str) -> Result<Option<bool>> {
+    let text = store::read_text_if_there(&folder.join(name))?;
+    Ok(text.map(|text| index::is_index(&text)))
+}
+
+fn write(folder: &Path) -> Result<()> {
+    let Listing { files, folders } = store::list(folder)?;
+    let members = members(folder, folders)?;
+    if members.is_empty() {
+        return Err(miette!(
+            help = format!("write one with `vinesink report CASE --out {}`", folder.display()),
+            "{} holds no report: no folder in it has a report.json",
+            folder.display()
+        ));
+    }
+    let pages = files.into_iter().filter(|name| name.ends_with(".md") && name != index::MARKDOWN);
+    let others: Result<Vec<OtherPage>> = pages
+        .map(|name| {
+            let text = store::read_text(&folder.join(&name))?;
+            Ok(OtherPage::new(name, &text))
+        })
+        .collect();
+    let files = Index::new(members, others?).files().into_diagnostic()?;
+    Ok(store::add_to_folder(folder, &files)?)
+}
+
+/// The reports among some folders; a folder without one is something else.
+fn members(folder: &Path, names: Vec<String>) -> Result<Vec<Member>> {
+    let mut members = Vec::new();
+    for name in names {
+        let path = folder.join(&name).join("report.json");
+        let Some(text) = store::read_text_if_there(&path)? else { continue };
+        let summary = Summary::read(&text, &path.display().to_string())?;
+        let has_tradeoff =
+            store::list(&folder.join(&name))?.files.iter().any(|file| file == index::TRADEOFF);
+        members.push(Member { name, summary, has_tradeoff });
+    }
+    Ok(members)
+}
