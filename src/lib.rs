@@ -4,6 +4,7 @@
 
 pub mod analysis;
 pub mod case;
+pub mod diff;
 pub mod equations;
 pub mod extremes;
 pub mod numerics;

@@ -4,6 +4,7 @@
 mod analyze;
 mod case_file;
 mod completions;
+mod diff;
 mod extremes;
 mod new;
 mod output;
@@ -37,6 +38,7 @@ Examples:
   vinesink analyze damper.toml                  what the theory says of it
   vinesink simulate damper.toml                 what it does, from many starts
   vinesink report damper.toml                   the design report, in reports/damper
+  vinesink diff main HEAD                       what changed in the reports since main
   vinesink paper                                the paper's figures against the reports
   vinesink extremes                             the simulation at the ends of its range
   vinesink tradeoff damper.toml                 how much accuracy for how much work
@@ -49,6 +51,7 @@ enum Command {
     Analyze(analyze::Arguments),
     Simulate(simulate::Arguments),
     Report(report::Arguments),
+    Diff(diff::Arguments),
     Paper(paper::Arguments),
     Extremes(extremes::Arguments),
     Tradeoff(tradeoff::Arguments),
@@ -82,6 +85,7 @@ impl Cli {
             Command::Analyze(arguments) => analyze::run(arguments),
             Command::Simulate(arguments) => simulate::run(arguments),
             Command::Report(arguments) => report::run(arguments),
+            Command::Diff(arguments) => diff::run(arguments),
             Command::Paper(arguments) => paper::run(arguments),
             Command::Extremes(arguments) => extremes::run(arguments),
             Command::Tradeoff(arguments) => tradeoff::run(arguments),

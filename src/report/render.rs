@@ -165,11 +165,7 @@ fn engine(name: &str, template: &str) -> Result<Tera, RenderError> {
     let mut tera = Tera::new();
     tera.register_filter("md_text", |text: &str, _: Kwargs, _: &State| markdown_text(text));
     tera.register_filter("md_cell", |text: &str, _: Kwargs, _: &State| {
-        if dollars(text).is_some() {
-            text.to_owned()
-        } else {
-            markdown_text(text).replace('|', "\\|")
-        }
+        if dollars(text).is_some() { text.to_owned() } else { markdown_cell(text) }
     });
     tera.register_filter("md_attribute", |text: &str, _: Kwargs, _: &State| attribute(text));
     tera.register_filter("latex_of", |text: &str, _: Kwargs, _: &State| {
@@ -200,6 +196,11 @@ fn markdown_text(text: &str) -> String {
         }
     }
     safe
+}
+
+/// The same inside a table.
+pub fn markdown_cell(text: &str) -> String {
+    markdown_text(text).replace('|', "\\|")
 }
 
 /// A sentence that goes on after a colon.
