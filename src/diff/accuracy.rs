@@ -28,9 +28,9 @@ pub enum Basis {
     Interval,
     /// A bracket or an enclosure on either side.
     Bracket,
-    /// An average without an error of its own: three times that of the impacts per period.
-    Impacts,
-    /// The largest of peaks that are modulated: a tenth of the modulation's depth on either side.
+    /// An average without an error of its own: three times those of rms displacement and impacts.
+    OtherErrors,
+    /// The largest of peaks that are modulated: a share of the modulation's depth on either side.
     Modulation,
     /// What the report says that the number is known to.
     Stated,
@@ -47,7 +47,7 @@ impl Basis {
             Self::TwoStandardErrors => "standard errors",
             Self::Interval => "95 % intervals",
             Self::Bracket => "brackets",
-            Self::Impacts => "3 × errors of z",
+            Self::OtherErrors => "3 × errors of rms and z",
             Self::Modulation => "depth of modulation",
             Self::Stated => "stated errors",
         }

@@ -1,8 +1,8 @@
 //! A difference as Markdown for a comment on GitHub: what matters first, the rest folded.
 
 use super::{
-    CriterionChange, Difference, FigureChange, Found, NumberChange, ReportDifference, Summary,
-    WordChange,
+    CriterionChange, Difference, FigureChange, Folded, Found, NumberChange, ReportDifference,
+    Summary, WordChange,
 };
 use crate::report::numbers::{signed_percent, significant, with_minus};
 use crate::report::render::markdown_cell as cell;
@@ -75,21 +75,32 @@ fn cut(sections: &[String]) -> String {
 
 fn equal(difference: &Difference) -> String {
     let folded = difference.reports.iter().map(|report| &report.folded);
-    let (mut within, mut unjudged, mut wording) = (0, 0, 0);
-    for folded in folded {
-        within += folded.within.len();
-        unjudged += folded.unjudged;
-        wording += folded.wording.len();
-    }
+    let folded: Vec<_> = folded.collect();
+    let sum = |count: &dyn Fn(&Folded) -> usize| folded.iter().map(|folded| count(folded)).sum();
+    let counts = moved([
+        sum(&|folded| folded.within.len()),
+        sum(&|folded| folded.wording.len()),
+        sum(&|folded| folded.unjudged),
+        sum(&|folded| folded.unknown),
+    ]);
     let reports = counted(difference.compared, "report is", "reports are");
-    if within + unjudged + wording == 0 {
+    if counts.is_empty() {
         return format!("No change: {reports} the same.\n");
     }
-    format!(
-        "No change: {reports} equal within tolerance; {}, {unjudged} by chance, {} with them.\n",
-        counted(within, "number moved within its error", "numbers moved within their errors"),
-        counted(wording, "text changed", "texts changed"),
-    )
+    format!("No change: {reports} equal within tolerance (not the same: {}).\n", counts.join(", "))
+}
+
+/// What moved and means nothing, in words: numbers within their errors, texts, values without an
+/// error, values that only one version of the program writes.
+fn moved([within, wording, unjudged, unknown]: [usize; 4]) -> Vec<String> {
+    let counts = [
+        (within, "number within its error", "numbers within their errors"),
+        (wording, "text", "texts"),
+        (unjudged, "value by chance", "values by chance"),
+        (unknown, "value that only one version writes", "values that only one version writes"),
+    ];
+    let some = counts.into_iter().filter(|(count, ..)| *count > 0);
+    some.map(|(count, one, many)| counted(count, one, many)).collect()
 }
 
 fn sections(difference: &Difference, addresses: &Addresses, detail: Detail) -> Vec<String> {
@@ -378,23 +389,9 @@ fn image(
 /// What means nothing, counted; the numbers that moved within their errors as a table.
 fn folded(report: &ReportDifference, detail: Detail) -> String {
     let folded = &report.folded;
-    let mut parts = Vec::new();
-    let counts = [
-        (folded.within.len(), "number within its error", "numbers within their errors"),
-        (folded.wording.len(), "text", "texts"),
-        (folded.unjudged, "value by chance", "values by chance"),
-        (
-            folded.unknown,
-            "value that only one version writes",
-            "values that only one version writes",
-        ),
-        (folded.same, "value the same", "values the same"),
-    ];
-    for (count, one, many) in counts {
-        if count > 0 {
-            parts.push(counted(count, one, many));
-        }
-    }
+    let counts = [folded.within.len(), folded.wording.len(), folded.unjudged, folded.unknown];
+    let mut parts = moved(counts);
+    parts.push(counted(folded.same, "value the same", "values the same"));
     let mut inside = String::new();
     if detail == Detail::All {
         if !folded.within.is_empty() {
