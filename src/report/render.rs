@@ -21,6 +21,9 @@ const EXTREMES: &str = include_str!("../../templates/extremes.md.tera");
 const TRADEOFF: &str = include_str!("../../templates/tradeoff.md.tera");
 const STYLE: &str = include_str!("../../templates/report.css");
 
+/// The drawing that belongs to the page of accuracy and cost, in the folder of a report.
+pub const TRADEOFF_FIGURE: &str = "figures/tradeoff.svg";
+
 /// Why a report cannot be rendered.
 #[derive(Debug, thiserror::Error)]
 pub enum RenderError {
