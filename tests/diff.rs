@@ -48,7 +48,11 @@ fn copy(from: &Path, to: &Path) {
     for entry in fs::read_dir(from).expect("a folder") {
         let path = entry.expect("an entry").path();
         let to = to.join(path.file_name().expect("a name"));
-        if path.is_dir() { copy(&path, &to) } else { drop(fs::copy(&path, &to).expect("copied")) }
+        if path.is_dir() {
+            copy(&path, &to);
+        } else {
+            fs::copy(&path, &to).expect("copied");
+        }
     }
 }
 
@@ -169,6 +173,22 @@ fn a_verdict_a_number_an_input_and_a_figure_are_seen_first() {
     assert!(addressed.contains(&format!("{url}/{STEADY}/figures/map.svg")), "{addressed}");
 }
 
+/// Another main motion: what it vibrates by is told although the two motions are not the same one.
+#[test]
+fn another_main_motion_is_compared_with_the_old_one() {
+    let [old, new] = [CHAOTIC, STEADY].map(|name| shipped(name).display().to_string());
+    let printed = diff(Path::new("."), &[&old, &new], 1);
+    for row in [
+        "\n> Steady 1:1 resonance: the absorber works.",
+        "| main motion | strongly-modulated | two-symmetric |",
+        "| motion main: peak of x | 7.916 mm | 3.587 mm | −55 % |",
+        "| Absorber clearance | 28 mm | 20 mm |",
+        "further states</summary>",
+    ] {
+        assert!(printed.contains(row), "{row} is missing in\n{printed}");
+    }
+}
+
 /// The same sentence about another number is no other verdict; other words are one.
 #[test]
 fn a_headline_is_compared_by_its_words() {
@@ -250,8 +270,12 @@ fn criteria_that_flip_come_first() {
     assert_eq!(diff(folder.path(), &["old", "new"], 0), "No change: 1 report is the same.\n");
     criteria("new", new.to_vec());
     let report = only_report(&folder, 1);
-    let names: Vec<&str> =
-        report["criteria"].as_array().expect("a list").iter().filter_map(|c| c["name"].as_str()).collect();
+    let names: Vec<&str> = report["criteria"]
+        .as_array()
+        .expect("a list")
+        .iter()
+        .filter_map(|c| c["name"].as_str())
+        .collect();
     assert_eq!(names, ["flipped", "undecided", "moved", "asked", "new", "gone"]);
     let printed = diff(folder.path(), &["old", "new"], 1);
     for row in [
@@ -290,7 +314,10 @@ fn the_longest_difference_fits_in_a_comment() {
     let length = printed.chars().count();
     assert!(length > 50_000 && length <= 60_000, "{length} characters");
     let notice = printed.lines().last().expect("a line");
-    assert!(notice.starts_with("_Cut here: ") && notice.contains("sections are left out"), "{notice}");
+    assert!(
+        notice.starts_with("_Cut here: ") && notice.contains("sections are left out"),
+        "{notice}"
+    );
     // Cut between sections: no table and no folded part stays open.
     assert_eq!(printed.matches("<details>").count(), printed.matches("</details>").count());
     assert!(printed.starts_with("## 60 of 60 reports changed"));

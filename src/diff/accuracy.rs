@@ -46,7 +46,7 @@ impl Basis {
             Self::Repetition => "closure of a repetition",
             Self::TwoStandardErrors => "standard errors",
             Self::Interval => "95 % intervals",
-            Self::Bracket => "brackets",
+            Self::Bracket => "brackets or enclosures",
             Self::OtherErrors => "3 × errors of rms and z",
             Self::Modulation => "depth of modulation",
             Self::Stated => "stated errors",

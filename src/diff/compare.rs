@@ -34,6 +34,7 @@ pub(super) fn reports(old: &Document, new: &Document, folder: &str) -> ReportDif
         name: if folder.is_empty() { new.name() } else { folder }.to_owned(),
         folder: folder.to_owned(),
         title: new.text("title").to_owned(),
+        headline: new.report["verdict"]["headline"].as_str().unwrap_or("").to_owned(),
         verdicts: Vec::new(),
         criteria,
         states: Vec::new(),
@@ -45,10 +46,13 @@ pub(super) fn reports(old: &Document, new: &Document, folder: &str) -> ReportDif
     verdict(old, new, &mut found);
     texts(old, new, &mut found);
     let physical = is_physical(new);
+    let (old_data, new_data) = (&old.report["data"], &new.report["data"]);
     let (old, new) = (leaves(old), leaves(new));
+    main_motion(old_data, new_data, physical, &mut found);
     elements(&old, &new, &mut found);
     values(&old, &new, physical, &mut found);
     found.numbers.sort_by_key(|number| labels::rank(&key(&number.path)));
+    found.states.sort_by_key(|state| labels::state_rank(&state.what));
     found
 }
 
@@ -125,6 +129,31 @@ fn unmatched(what: &str, old: &[String], new: &[String]) -> Vec<WordChange> {
     let gone = gone.into_iter();
     changes.extend(gone.map(|text| WordChange { what: what.into(), old: Some(text), new: None }));
     changes
+}
+
+/// The motion that the verdict is about, where it is another one than before: what it vibrates by is
+/// what a reviewer asks first. Where it is the same one, it is compared as all motions are.
+fn main_motion(old: &Value, new: &Value, physical: bool, found: &mut ReportDifference) {
+    let main = |data: &Value| {
+        let motions = data["attractors"].as_array()?;
+        let moving = motions.iter().find(|motion| motion["regime"] != "at-rest");
+        moving.or(motions.first()).cloned()
+    };
+    let (Some(old), Some(new)) = (main(old), main(new)) else { return };
+    if old["regime"] == new["regime"] {
+        return;
+    }
+    let what = "main motion".to_owned();
+    let (before, after) = (shown(&old["regime"]), shown(&new["regime"]));
+    found.states.push(WordChange { what, old: before, new: after });
+    for path in ["displacement/peak", "displacement/rms", "impacts_per_period"] {
+        let leaf = |motion| Leaf { value: motion, element: motion };
+        let value = |motion: &Value| motion.pointer(&format!("/{path}")).and_then(Value::as_f64);
+        if let (Some(a), Some(b)) = (value(&old), value(&new)) {
+            let path = format!("attractors[main]/{path}");
+            number(&path, (leaf(&old), a), (leaf(&new), b), physical, found);
+        }
+    }
 }
 
 /// Motions, orbits, boundaries, claims that appeared or vanished.

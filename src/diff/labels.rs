@@ -52,8 +52,16 @@ pub(super) fn rank(key: &str) -> usize {
     IMPORTANT.iter().position(|important| *important == key).unwrap_or(IMPORTANT.len())
 }
 
+/// The same of a state, by its words.
+pub(super) fn state_rank(what: &str) -> usize {
+    let order = ["main motion", "area", "strip", "motion", "note", "exact orbit", "fixed point"];
+    order.iter().position(|first| what.starts_with(first)).unwrap_or(order.len())
+}
+
 /// A path in words: `motion two-symmetric: peak of x`.
 pub(super) fn label(path: &str) -> String {
+    // A claim's number is a pair of the number and what it measures.
+    let path = path.trim_end_matches("/number[1]");
     let (path, end) = match NAMES.iter().find(|(end, _)| ends_with(path, end)) {
         Some((end, name)) => (&path[..path.len() - end.len()], Some(*name)),
         None => (path, None),
@@ -119,7 +127,7 @@ mod tests {
             ("attractors[at-rest]/evidence/captures/mean", "motion at-rest: captures mean"),
             ("analysis/orbits[2]/spectral_radius", "exact orbit 2: spectral radius"),
             ("analysis/boundaries/hopf_clearance", "boundaries hopf clearance"),
-            ("claims[area]/observed/number[1]", "claim area: observed number 1"),
+            ("claims[area]/observed/number[1]", "claim area: observed"),
             ("bare_amplitude", "amplitude of the bare oscillator"),
         ];
         for (path, words) in named {

@@ -1,10 +1,11 @@
 //! A difference as Markdown for a comment on GitHub: what matters first, the rest folded.
 
+use super::shown::Shown;
 use super::{
     CriterionChange, Difference, FigureChange, Folded, Found, NumberChange, ReportDifference,
     Summary, WordChange,
 };
-use crate::report::numbers::{signed_percent, significant, with_minus};
+use crate::report::numbers::significant;
 use crate::report::render::markdown_cell as cell;
 
 /// GitHub refuses comments of more than 65,536 characters; a script may add some of its own.
@@ -159,12 +160,17 @@ fn head(difference: &Difference) -> String {
     let parts = parts.into_iter().filter(|(count, ..)| *count > 0);
     let parts: Vec<String> = parts.map(|(count, one, many)| counted(count, one, many)).collect();
     let equal = difference.compared - significant;
+    let equal = match equal {
+        0 => String::new(),
+        count => {
+            format!("{} equal within tolerance.\n", counted(count, "report is", "reports are"))
+        }
+    };
     format!(
-        "## {} of {} changed\n\n{}.\n{} equal within tolerance. Old: `{}`, new: `{}`.\n",
+        "## {} of {} changed\n\n{}.\n{equal}Old: `{}`, new: `{}`.\n",
         significant,
         counted(difference.compared, "report", "reports"),
         parts.join(", "),
-        counted(equal, "report is", "reports are"),
         difference.old,
         difference.new,
     )
@@ -179,11 +185,17 @@ fn summaries(title: &str, reports: &[Summary]) -> String {
 }
 
 fn section(report: &ReportDifference, addresses: &Addresses, detail: Detail) -> String {
-    let mut text = format!("\n### {}\n\n{}\n", cell(&report.name), cell(&report.title));
+    let (name, title, headline) = (cell(&report.name), cell(&report.title), cell(&report.headline));
+    let mut text = format!("\n### {name}\n\n{title}\n\n> {headline}\n");
     text += &words("Verdicts", "Verdict on", &report.verdicts);
     text += &criteria(&report.criteria);
     text += &words("Inputs", "Input", &report.inputs);
-    text += &words("States", "State", &report.states);
+    let (first, rest) = report.states.split_at(report.states.len().min(ROWS));
+    text += &words("States", "State", first);
+    if !rest.is_empty() {
+        let table = if detail == Detail::All { word_table("State", rest) } else { String::new() };
+        text += &fold(&counted(rest.len(), "further state", "further states"), &table);
+    }
     let (first, rest) = report.numbers.split_at(report.numbers.len().min(ROWS));
     if !first.is_empty() {
         text += &format!("\n**Numbers beyond their tolerance**\n\n{}", numbers(first));
@@ -269,65 +281,6 @@ fn numbers(changes: &[NumberChange]) -> String {
         );
     }
     text
-}
-
-/// A row of numbers, formatted.
-struct Shown {
-    old: String,
-    new: String,
-    change: String,
-    allowed: String,
-}
-
-impl Shown {
-    fn of(change: &NumberChange) -> Self {
-        let size = change.old.abs().max(change.new.abs());
-        let (factor, unit) = displayed(change.unit, size);
-        // Enough digits to see the change.
-        let relative = if size > 0.0 { change.change.abs() / size } else { 0.0 };
-        let digits = if relative > 0.0 { (2.5 - relative.log10()) as usize } else { 17 };
-        let digits = digits.clamp(4, 17);
-        let value = |value: f64| format!("{}{unit}", significant(factor * value, digits));
-        let sign = if change.change < 0.0 { "" } else { "+" };
-        let plain = ["dB", "rad", "%", ""].contains(&change.unit) || change.old == 0.0;
-        let (change_text, allowed) = if plain {
-            let value = |value: f64| format!("{}{unit}", significant(factor * value, 3));
-            (format!("{sign}{}", value(change.change)), value(change.allowed))
-        } else {
-            let relative = change.change / change.old.abs();
-            (share(relative, true), share(change.allowed / change.old.abs(), false))
-        };
-        Self {
-            old: value(change.old),
-            new: value(change.new),
-            change: change_text,
-            allowed: format!("±{allowed}"),
-        }
-    }
-}
-
-/// A relative change; nobody says 1e-7 %.
-fn share(relative: f64, signed: bool) -> String {
-    let text = if relative.abs() >= 1e-4 {
-        signed_percent(relative)
-    } else {
-        let sign = if relative < 0.0 { "−" } else { "+" };
-        format!("{sign}{}", with_minus(&format!("{:.0e}", relative.abs())))
-    };
-    if signed { text } else { text.trim_start_matches('+').to_owned() }
-}
-
-/// The factor and the unit, with its space, that a person would use.
-fn displayed(unit: &'static str, size: f64) -> (f64, String) {
-    match unit {
-        "" => (1.0, String::new()),
-        "%" => (100.0, " %".into()),
-        "m" | "J" | "m/s" if size > 0.0 && size < 1.0 => {
-            let (factor, prefix) = if size >= 1e-4 { (1e3, "m") } else { (1e6, "µ") };
-            (factor, format!(" {prefix}{unit}"))
-        }
-        _ => (1.0, format!(" {unit}")),
-    }
 }
 
 fn folded_numbers(changes: &[NumberChange], detail: Detail) -> String {

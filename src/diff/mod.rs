@@ -12,6 +12,7 @@ mod labels;
 mod leaves;
 pub mod markdown;
 mod motion;
+mod shown;
 mod words;
 
 use std::collections::BTreeMap;
@@ -64,6 +65,8 @@ pub struct ReportDifference {
     pub folder: String,
     /// The new title.
     pub title: String,
+    /// The new verdict.
+    pub headline: String,
     /// The report's verdict, and claims that were confirmed or refuted and no longer are.
     pub verdicts: Vec<WordChange>,
     /// Criteria that flipped, moved, appeared or vanished.
