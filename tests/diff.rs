@@ -173,6 +173,61 @@ fn a_verdict_a_number_an_input_and_a_figure_are_seen_first() {
     assert!(addressed.contains(&format!("{url}/{STEADY}/figures/map.svg")), "{addressed}");
 }
 
+/// Each kind of change alone is one that a script must see.
+#[test]
+fn every_kind_of_change_fails() {
+    let changes: [(&str, &str, Value); 6] = [
+        ("verdicts", "/verdict/tone", json!("bad")),
+        ("verdicts", "/data/claims/1/verdict", json!("undecided")),
+        ("states", "/data/analysis/orbits/1/stable", json!(false)),
+        ("states", "/data/analysis/area", json!("Z4")),
+        ("inputs", "/provenance/effort/starts", json!(64)),
+        ("numbers", "/data/analysis/manifold/fold/C", json!(0.2)),
+    ];
+    for (kind, pointer, value) in changes {
+        let folder = two_trees(&[STEADY]);
+        edit(&folder, STEADY, pointer, |there| *there = value.clone());
+        let report = only_report(&folder, 1);
+        for list in ["verdicts", "criteria", "states", "inputs", "numbers"] {
+            let count = report[list].as_array().map(Vec::len);
+            assert_eq!(count, Some(usize::from(list == kind)), "{pointer}: {list}");
+        }
+    }
+    // Explanations and what is about the run alone fail nothing.
+    let folder = two_trees(&[STEADY]);
+    edit(&folder, STEADY, "/provenance/version", |version| *version = json!("9.9.9"));
+    edit(&folder, STEADY, "/data/claims/1/tolerance/reason", |reason| *reason = json!("other"));
+    edit(&folder, STEADY, "/data/attractors/0/periods", |periods| *periods = json!(999));
+    edit(&folder, STEADY, "/data", |data| data["another_version"] = json!(3.0));
+    let turn = std::f64::consts::TAU;
+    let phase = "/data/analysis/orbits/1/phase";
+    edit(&folder, STEADY, phase, |phase| *phase = json!(phase.as_f64().expect("a phase") - turn));
+    let folded = only_report(&folder, 0)["folded"].clone();
+    assert_eq!(folded["wording"].as_array().map(Vec::len), Some(2), "{folded:#}");
+    assert_eq!((&folded["unjudged"], &folded["unknown"]), (&json!(1), &json!(1)));
+    assert_eq!(folded["within"][0]["path"], "analysis/orbits[2]/phase");
+}
+
+/// A motion that one start in 32 found may be missed by the next 32; one that half of them found, not.
+#[test]
+fn a_motion_that_chance_may_have_missed_is_no_change() {
+    let intervals = [(1, [0.0055, 0.157], 0), (16, [0.336, 0.664], 1)];
+    for (starts, interval, code) in intervals {
+        let folder = two_trees(&[STEADY]);
+        edit(&folder, STEADY, "/data/attractors", |list| {
+            let mut motion = list[1].clone();
+            motion["regime"] = json!("above-two");
+            motion["starts"] = json!(starts);
+            motion["share_of_starts"] = json!(f64::from(starts) / 32.0);
+            motion["share_interval_95"] = json!(interval);
+            list.as_array_mut().expect("a list").push(motion);
+        });
+        let report = only_report(&folder, code);
+        let found = if code == 0 { &report["folded"]["wording"] } else { &report["states"] };
+        assert_eq!(found[0]["what"], "motion above-two", "{starts}");
+    }
+}
+
 /// Another main motion: what it vibrates by is told although the two motions are not the same one.
 #[test]
 fn another_main_motion_is_compared_with_the_old_one() {

@@ -333,6 +333,10 @@ fn the_workflow_comments_once_and_fails_where_a_criterion_does() {
         let log = fs::read_to_string(repository.path().join("gh.log")).expect("a log");
         log.lines().last().expect("a line").to_owned()
     };
+    // An earlier comment is found by the line that the script writes first.
+    let review = fs::read_to_string(repository.path().join("review.md")).expect("a review");
+    let first = review.lines().next().expect("a line");
+    assert!(step("Comment").contains(&format!("startswith(\"{first}\")")), "{first}");
     let body = "--field body=@review.md";
     assert_eq!(comment(""), format!("api --method POST repos/me/it/issues/7/comments {body}"));
     let again = format!("api --method PATCH repos/me/it/issues/comments/42 {body}");

@@ -105,9 +105,7 @@ pub(super) fn unit(key: &str, physical: bool) -> &'static str {
         "peak" | "rms" if key.starts_with("attractors/displacement/") => si("m", "own units"),
         "bare_amplitude" | "peak_displacement" | "impact_displacement" => si("m", "own units"),
         "theory" => si("m", "own units"),
-        _ if last == "clearance" || last.ends_with("_clearance") => {
-            if key.starts_with("analysis/") { si("m", "own units") } else { "" }
-        }
+        _ if key.starts_with("analysis/") && last.ends_with("clearance") => si("m", "own units"),
         _ if key.starts_with("attractors/energy/") && last != "relative_residual" => {
             si("J", "own units")
         }

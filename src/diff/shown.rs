@@ -22,7 +22,7 @@ impl Shown {
         let (factor, unit) = displayed(change.unit, size);
         // Enough digits to see the change.
         let relative = if size > 0.0 { change.change.abs() / size } else { 0.0 };
-        let digits = if relative > 0.0 { (2.5 - relative.log10()) as usize } else { 17 };
+        let digits = if relative > 0.0 { (2.5 - libm::log10(relative)) as usize } else { 17 };
         let digits = digits.clamp(4, 17);
         let value = |value: f64| format!("{}{unit}", significant(factor * value, digits));
         let sign = if change.change < 0.0 { "" } else { "+" };
