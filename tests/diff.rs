@@ -193,6 +193,13 @@ fn every_kind_of_change_fails() {
             assert_eq!(count, Some(usize::from(list == kind)), "{pointer}: {list}");
         }
     }
+    let folder = two_trees(&[STEADY]);
+    let note = |kind: &str| json!([{"kind": kind, "text": "the mass ratio is large"}]);
+    edit(&folder, STEADY, "/notes", |notes| *notes = note("validity"));
+    assert_eq!(only_report(&folder, 1)["states"][0]["what"], "note");
+    // The claim itself says that it is refuted.
+    edit(&folder, STEADY, "/notes", |notes| *notes = note("refuted"));
+    only_report(&folder, 0);
     // Explanations and what is about the run alone fail nothing.
     let folder = two_trees(&[STEADY]);
     edit(&folder, STEADY, "/provenance/version", |version| *version = json!("9.9.9"));

@@ -24,6 +24,9 @@ const EXPLANATIONS: [&str; 10] = [
     "confirmations/upper_limit/lost/other",
 ];
 
+/// How a note about a refuted claim begins.
+const REFUTED: &str = "refuted:";
+
 /// What comes and goes with another value.
 const RESTATED: [&str; 2] = ["analysis/exact_boundaries/bracket", "attractors/two_standard_errors"];
 
@@ -99,7 +102,9 @@ fn texts(old: &Document, new: &Document, found: &mut ReportDifference) {
     folded.extend(unmatched("verdict", &sentences(old), &sentences(new)));
     for change in unmatched("note", &notes(old), &notes(new)) {
         let about_numbers = change.old.is_some() && change.new.is_some();
-        if about_numbers { &mut *folded } else { &mut found.states }.push(change);
+        // The verdict of the claim has told it already.
+        let told = [&change.old, &change.new].into_iter().flatten().all(|t| t.starts_with(REFUTED));
+        if about_numbers || told { &mut *folded } else { &mut found.states }.push(change);
     }
     let version = |document: &Document| {
         let made_by = &document.report["provenance"];
