@@ -1,6 +1,6 @@
 //! A difference as Markdown for a comment on GitHub: what matters first, the rest folded.
 
-use super::shown::Shown;
+use super::shown::{Shown, displayed};
 use super::{
     CriterionChange, Difference, FigureChange, Folded, Found, NumberChange, ReportDifference,
     Summary, WordChange,
@@ -258,8 +258,10 @@ fn finding(found: &Found, unit: &str) -> String {
         Some(false) => "fails",
         None => "undecided",
     };
-    let unit = if unit == "1" { String::new() } else { format!(" {unit}") };
-    let value = found.value.map(|value| format!(" ({}{unit})", significant(value, 4)));
+    let value = found.value.map(|value| {
+        let (factor, unit) = displayed(unit, value.abs());
+        format!(" ({}{unit})", significant(factor * value, 4))
+    });
     let near = if found.near_limit { ", near its limit" } else { "" };
     format!("{holds}{}{near}", value.unwrap_or_default())
 }

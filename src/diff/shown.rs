@@ -57,9 +57,9 @@ fn share(relative: f64, signed: bool) -> String {
 }
 
 /// The factor and the unit, with its space, that a person would use.
-fn displayed(unit: &'static str, size: f64) -> (f64, String) {
+pub(super) fn displayed(unit: &str, size: f64) -> (f64, String) {
     match unit {
-        "" => (1.0, String::new()),
+        "" | "1" => (1.0, String::new()),
         "%" => (100.0, " %".into()),
         "m" | "J" | "m/s" if size > 0.0 && size < 1.0 => {
             let (factor, prefix) = if size >= 1e-4 { (1e3, "m") } else { (1e6, "µ") };
