@@ -298,7 +298,8 @@ fn motions_and_reports_that_appear_or_vanish_are_told() {
 
 /// A criterion as a case with criteria will have it.
 fn criterion(name: &str, asked: &str, found: f64, error: Value, holds: Value) -> Value {
-    json!({"name": name, "asked": asked, "found": 1e-3 * found, "unit": "m", "error": error.as_f64().map(|error| 1e-3 * error),
+    let error = error.as_f64().map(|error| 1e-3 * error);
+    json!({"name": name, "asked": asked, "found": 1e-3 * found, "unit": "m", "error": error,
         "margin": 0.0, "holds": holds, "near_limit": false, "decided_by": "exact-orbit"})
 }
 
