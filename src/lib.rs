@@ -6,6 +6,7 @@ pub mod analysis;
 pub mod band;
 pub mod case;
 pub mod criteria;
+pub mod diff;
 pub mod equations;
 pub mod extremes;
 pub mod numerics;

@@ -6,6 +6,12 @@ use std::path::{Component, Path, PathBuf};
 
 use tempfile::{Builder, NamedTempFile, TempDir};
 
+mod git;
+mod reports;
+
+pub use git::{GitError, read_reports_at};
+pub use reports::{StoredReport, StoredReports, read_reports};
+
 /// What could not be done with a file or folder, and why.
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]
 pub enum StoreError {
@@ -52,7 +58,11 @@ pub enum StoreError {
 /// # Errors
 /// [`StoreError::Refused`] when it cannot be read, [`StoreError::NotUtf8`] when it is not text.
 pub fn read_text(path: &Path) -> Result<String, StoreError> {
-    let bytes = std::fs::read(path).map_err(|cause| refused("read", path, cause))?;
+    text_of(path, std::fs::read(path).map_err(|cause| refused("read", path, cause))?)
+}
+
+/// The bytes of a file as text.
+fn text_of(path: &Path, bytes: Vec<u8>) -> Result<String, StoreError> {
     String::from_utf8(bytes).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
         let before = String::from_utf8_lossy(&error.as_bytes()[..at]).into_owned();
@@ -156,6 +166,47 @@ pub fn replace_folder(path: &Path, files: &BTreeMap<PathBuf, Vec<u8>>) -> Result
         write_inside(&new.path().join(file), bytes)?;
     }
     swap(path, new)
+}
+
+/// Which files of a folder are not as `files` (paths relative to it) say: others in their place,
+/// missing, or, among the drawings, superfluous. Writes nothing.
+///
+/// # Errors
+/// [`StoreError::Refused`] when something is there and cannot be read.
+pub fn differing_files(
+    path: &Path,
+    files: &BTreeMap<PathBuf, Vec<u8>>,
+) -> Result<Vec<(PathBuf, Stale)>, StoreError> {
+    let mut found = Vec::new();
+    for (file, bytes) in files {
+        match std::fs::read(path.join(file)) {
+            Ok(there) if there == *bytes => {}
+            Ok(_) => found.push((file.clone(), Stale::Differs)),
+            Err(cause) if cause.kind() == io::ErrorKind::NotFound => {
+                found.push((file.clone(), Stale::Missing));
+            }
+            Err(cause) => return Err(refused("read", &path.join(file), cause)),
+        }
+    }
+    for drawing in reports::drawings(path)? {
+        let file = drawing.strip_prefix(path).unwrap_or(&drawing);
+        if !files.contains_key(file) {
+            found.push((file.to_owned(), Stale::Superfluous));
+        }
+    }
+    found.sort();
+    Ok(found)
+}
+
+/// What is wrong with a file that should be as the program writes it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Stale {
+    /// Its content is another.
+    Differs,
+    /// It is not there.
+    Missing,
+    /// The program no longer writes it.
+    Superfluous,
 }
 
 /// Adds `files` (paths relative to it) to a folder, which may be missing, each whole or not at all;

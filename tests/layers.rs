@@ -64,13 +64,15 @@ const ROOMS: &[(&str, &[&str])] = &[
             "validation",
         ],
     ),
+    ("diff", &["regimes", "report"]),
     ("store", &[]),
 ];
 
 /// Rooms in which there is physics and nothing else: no files, no clock, no printing, no threads, no
 /// randomness.
-const PURE: [&str; 13] = [
+const PURE: [&str; 14] = [
     "analysis",
+    "diff",
     "equations",
     "extremes",
     "numerics",

@@ -197,3 +197,62 @@ fn a_bad_case_does_not_keep_the_others_from_being_written() {
     assert!(out.path().join("li2016-8hz-b4mm/report.md").is_file());
     assert!(!out.path().join("missing").exists());
 }
+
+/// What GitHub shows of a drawing in a repository: no style sheet, no script, nothing from elsewhere.
+#[test]
+fn committed_figures_render_on_github() {
+    let reports = Path::new(env!("CARGO_MANIFEST_DIR")).join("reports");
+    let figures: Vec<_> = files(&reports)
+        .into_iter()
+        .filter(|(path, _)| path.extension().is_some_and(|extension| extension == "svg"))
+        .collect();
+    assert!(figures.len() > 100, "{} are not all figures", figures.len());
+    let forbidden = regex::Regex::new(
+        r#"<(?:style|script|foreignObject|image|use|!DOCTYPE|!ENTITY|a)\b|\s(?:style|class|id|href|xlink:href|on\w+)\s*=|<\?xml-stylesheet|url\("#,
+    )
+    .expect("a pattern");
+    for (path, bytes) in figures {
+        let drawing = String::from_utf8(bytes).expect("UTF-8");
+        // Titles and descriptions are text for those who cannot see.
+        let markup =
+            drawing.lines().filter(|line| line.starts_with('<') && !line.contains("<desc>"));
+        for line in markup {
+            let found = forbidden.find(line).map(|found| found.as_str());
+            assert_eq!(found, None, "{}: {line}", path.display());
+        }
+        let attribute = |name: &str| drawing.split(&format!(" {name}=\"")).nth(1).unwrap_or("");
+        let size = attribute("viewBox").split('"').next().unwrap_or("").to_owned();
+        let [width, height] = [2, 3].map(|index| size.split(' ').nth(index).unwrap_or("none"));
+        let page =
+            format!("<rect x=\"0\" y=\"0\" width=\"{width}\" height=\"{height}\" fill=\"#FFFFFF\"");
+        let first = drawing.lines().find(|line| line.starts_with("<rect")).unwrap_or("");
+        assert!(first.starts_with(&page), "{} has no white page: {first}", path.display());
+    }
+}
+
+/// A number that moves changes the lines that say it, and no other line moves with it.
+#[test]
+fn markdown_changes_by_the_lines_that_changed() {
+    let out = TempDir::new().expect("a folder");
+    let name = "li2016-8p5hz-1percent";
+    let old = text(&report(name, out.path()), "report.md");
+    let path = out.path().join(format!("{name}.toml"));
+    let case = fs::read_to_string(case(name)).expect("readable");
+    assert!(case.contains("clearance = \"15 mm\""), "{case}");
+    fs::write(&path, case.replace("clearance = \"15 mm\"", "clearance = \"15.1 mm\""))
+        .expect("written");
+    let mut command = Command::cargo_bin("vinesink").expect("built");
+    command.arg("report").arg(&path).arg("--out").arg(out.path()).assert().success();
+    let new = text(&out.path().join(name), "report.md");
+    assert_eq!(old.lines().count(), new.lines().count());
+    let changed = old.lines().zip(new.lines()).filter(|(old, new)| old != new);
+    let changed: Vec<_> = changed.collect();
+    assert!(changed.len() > 10 && changed.len() < old.lines().count() / 2, "{}", changed.len());
+    let words = |line: &str| line.chars().filter(|c| !c.is_ascii_digit()).collect::<String>();
+    for (old, new) in changed {
+        assert_ne!(words(old), old, "a line without a number changed: {old} | {new}");
+    }
+    for row in old.lines().filter(|line| line.starts_with("| ") && line.contains("mm |")) {
+        assert!(row.ends_with('|'), "a row is a line: {row}");
+    }
+}

@@ -5,6 +5,7 @@ mod analyze;
 mod case_file;
 mod check;
 mod completions;
+mod diff;
 mod extremes;
 mod index;
 mod new;
@@ -41,6 +42,7 @@ Examples:
   vinesink report damper.toml                   the design report, in reports/damper
   vinesink check damper.toml                    whether it meets its criteria
   vinesink index                                all reports of a folder on one page
+  vinesink diff main HEAD                       what changed in the reports since main
   vinesink paper                                the paper's figures against the reports
   vinesink extremes                             the simulation at the ends of its range
   vinesink tradeoff damper.toml                 how much accuracy for how much work
@@ -55,6 +57,7 @@ enum Command {
     Report(report::Arguments),
     Check(check::Arguments),
     Index(index::Arguments),
+    Diff(diff::Arguments),
     Paper(paper::Arguments),
     Extremes(extremes::Arguments),
     Tradeoff(tradeoff::Arguments),
@@ -90,6 +93,7 @@ impl Cli {
             Command::Report(arguments) => report::run(arguments),
             Command::Check(arguments) => check::run(arguments),
             Command::Index(arguments) => index::run(arguments),
+            Command::Diff(arguments) => diff::run(arguments),
             Command::Paper(arguments) => paper::run(arguments),
             Command::Extremes(arguments) => extremes::run(arguments),
             Command::Tradeoff(arguments) => tradeoff::run(arguments),

@@ -1,12 +1,13 @@
 //! `vinesink report CASE...`
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 use miette::{IntoDiagnostic, Result, miette};
 use vinesink::criteria;
 use vinesink::report::{Report, figures, render};
-use vinesink::store;
+use vinesink::store::{self, Stale};
 use vinesink::study::fidelity::Plan;
 use vinesink::study::{CaseStudy, StudyEffort};
 
@@ -31,16 +32,24 @@ pub struct Arguments {
     /// without it all of them, and simulation decides]
     #[arg(long, value_enum, value_name = "LAYER")]
     fidelity: Option<Fidelity>,
+    /// Write nothing; say which files in OUT are not as this would write them, and exit with 1 if any.
+    /// report.html is not looked at: it is the same report once more
+    #[arg(long)]
+    check: bool,
 }
 
 const EXAMPLES: &str = "\
 Examples:
   vinesink report cases/li2016-8p5hz-fig4c.toml
   vinesink report cases/*.toml --out /somewhere/else
-  vinesink report damper.toml --fidelity orbit     without any simulation";
+  vinesink report damper.toml --fidelity orbit     without any simulation
+  vinesink report --check cases/*.toml             are the reports in reports/ up to date?";
 
 /// Steps of the progress bar beyond the study: figures, files.
 const FURTHER_STEPS: u64 = 8;
+
+/// Files by their path in a report's folder.
+type Files = BTreeMap<PathBuf, Vec<u8>>;
 
 pub fn run(arguments: Arguments) -> Result<Outcome> {
     let names = names(&arguments.cases)?;
@@ -48,18 +57,23 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
     let mut outcome = Outcome::Done;
     for (path, name) in arguments.cases.iter().zip(names) {
         let folder = arguments.out.join(&name);
-        match write(path, &name, &folder, arguments.fidelity) {
-            Ok(written) => {
-                output::print(format!("{}\n", folder.join("report.md").display()))?;
-                if written == Outcome::DoesNotHold {
-                    outcome = written;
-                }
+        let done = match arguments.check {
+            false => write(path, &name, &folder, arguments.fidelity),
+            true => check(path, &name, &folder, arguments.fidelity),
+        };
+        match done {
+            Ok(Outcome::Done) => {}
+            Ok(Outcome::DoesNotHold) => outcome = Outcome::DoesNotHold,
+            Err(error) => {
+                let not_done = if arguments.check { "checked" } else { "written" };
+                let which = format!("no report was {not_done} for {}", path.display());
+                failures.push(error.wrap_err(which));
             }
-            Err(error) => failures
-                .push(error.wrap_err(format!("no report was written for {}", path.display()))),
         }
     }
-    index::refresh(&arguments.out).unwrap_or_else(|error| failures.push(error));
+    if !arguments.check {
+        index::refresh(&arguments.out).unwrap_or_else(|error| failures.push(error));
+    }
     // One bad case does not keep the others from being written; each is named.
     let last = failures.pop();
     for error in failures {
@@ -88,6 +102,41 @@ fn names(cases: &[PathBuf]) -> Result<Vec<String>> {
 /// Writes one report; what was asked of accuracy does not hold where a layer that was insisted on, or
 /// the longest simulation, is not exact enough.
 fn write(path: &Path, name: &str, folder: &Path, forced: Option<Fidelity>) -> Result<Outcome> {
+    let (files, outcome) = rendered(path, name, forced)?;
+    store::replace_folder(folder, &files)?;
+    output::print(format!("{}\n", folder.join("report.md").display()))?;
+    Ok(outcome)
+}
+
+/// Says which files of a report are not as [`write()`] would leave them.
+fn check(path: &Path, name: &str, folder: &Path, forced: Option<Fidelity>) -> Result<Outcome> {
+    let (mut files, _) = rendered(path, name, forced)?;
+    files.remove(Path::new("report.html"));
+    let mut stale = store::differing_files(folder, &files)?;
+    // The drawing of `vinesink tradeoff` lies beside those of the report.
+    stale.retain(|(file, why)| {
+        *why != Stale::Superfluous || file != Path::new(render::TRADEOFF_FIGURE)
+    });
+    if stale.is_empty() {
+        return Ok(Outcome::Done);
+    }
+    if stale.iter().all(|(_, why)| *why == Stale::Missing) {
+        output::print(format!("{}: there is no report\n", folder.display()))?;
+        return Ok(Outcome::DoesNotHold);
+    }
+    for (file, why) in stale {
+        let why = match why {
+            Stale::Differs => "is not up to date",
+            Stale::Missing => "is missing",
+            Stale::Superfluous => "is no longer part of the report",
+        };
+        output::print(format!("{}: {why}\n", folder.join(file).display()))?;
+    }
+    Ok(Outcome::DoesNotHold)
+}
+
+/// The files of a report, and whether it is exact enough and to be trusted.
+fn rendered(path: &Path, name: &str, forced: Option<Fidelity>) -> Result<(Files, Outcome)> {
     let case = case_file::read(path)?;
     let effort = StudyEffort::of(&case.simulation);
     let plan = case_file::plan(&case, forced)?;
@@ -123,7 +172,5 @@ fn write(path: &Path, name: &str, folder: &Path, forced: Option<Fidelity>) -> Re
         ));
         outcome = Outcome::DoesNotHold;
     }
-    let files = render::files(&report, &case, &drawn).into_diagnostic()?;
-    store::replace_folder(folder, &files)?;
-    Ok(outcome)
+    Ok((render::files(&report, &case, &drawn).into_diagnostic()?, outcome))
 }

@@ -277,6 +277,8 @@ pub struct MotionDocument {
     energetics: Energetics,
     evidence: Evidence,
     displacement: Displacement,
+    /// How well averages are known, where the motion does not repeat.
+    two_standard_errors: Option<ErrorsDocument>,
     energy: Energy,
     sustained_contact: SustainedContact,
     largest_penetration_over_clearance: f64,
@@ -301,6 +303,13 @@ struct Displacement {
     rms: f64,
     peak_over_clearance: f64,
     rms_over_clearance: f64,
+}
+
+/// Two standard errors of averages over a motion that does not repeat.
+#[derive(Debug, Clone, Copy, Serialize)]
+struct ErrorsDocument {
+    rms_over_clearance: f64,
+    impacts_per_period: f64,
 }
 
 /// An attractor and the share of starts that led to it.
@@ -406,6 +415,9 @@ impl MotionDocument {
                 peak_over_clearance: motion.peak,
                 rms_over_clearance: motion.rms,
             },
+            two_standard_errors: motion.errors.map(|[rms_over_clearance, impacts_per_period]| {
+                ErrorsDocument { rms_over_clearance, impacts_per_period }
+            }),
             energy: Energy {
                 input: energy(balance.input),
                 damper: energy(balance.damper),

@@ -26,6 +26,9 @@ const INDEX_STYLE: &str = include_str!("../../templates/index.css");
 const INDEX_SCRIPT: &str = include_str!("../../templates/index.js");
 const STYLE: &str = include_str!("../../templates/report.css");
 
+/// The drawing that belongs to the page of accuracy and cost, in the folder of a report.
+pub const TRADEOFF_FIGURE: &str = "figures/tradeoff.svg";
+
 /// Why a report cannot be rendered.
 #[derive(Debug, thiserror::Error)]
 pub enum RenderError {
@@ -197,11 +200,7 @@ fn engine(name: &str, template: &str) -> Result<Tera, RenderError> {
     let mut tera = Tera::new();
     tera.register_filter("md_text", |text: &str, _: Kwargs, _: &State| markdown_text(text));
     tera.register_filter("md_cell", |text: &str, _: Kwargs, _: &State| {
-        if dollars(text).is_some() {
-            text.to_owned()
-        } else {
-            markdown_text(text).replace('|', "\\|")
-        }
+        if dollars(text).is_some() { text.to_owned() } else { markdown_cell(text) }
     });
     tera.register_filter("md_attribute", |text: &str, _: Kwargs, _: &State| attribute(text));
     tera.register_filter("latex_of", |text: &str, _: Kwargs, _: &State| {
@@ -233,6 +232,11 @@ fn markdown_text(text: &str) -> String {
         }
     }
     safe
+}
+
+/// The same inside a table.
+pub fn markdown_cell(text: &str) -> String {
+    markdown_text(text).replace('|', "\\|")
 }
 
 /// A sentence that goes on after a colon.

@@ -1,0 +1,421 @@
+//! `vinesink diff` as a reviewer and a script use it: shipped reports against copies with one thing
+//! changed. The truth is the change that was made.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use serde_json::{Value, json};
+use tempfile::TempDir;
+
+/// A motion that repeats, one that is chaotic.
+const STEADY: &str = "li2016-8p5hz-fig4c";
+const CHAOTIC: &str = "li2016-8p5hz-fig4d";
+
+fn shipped(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("reports").join(name)
+}
+
+fn vinesink(folder: &Path, arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_vinesink"));
+    command.current_dir(folder).args(arguments).output().expect("it runs")
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).expect("UTF-8")
+}
+
+#[track_caller]
+fn diff(folder: &Path, arguments: &[&str], code: i32) -> String {
+    let output = vinesink(folder, &[&["diff"], arguments].concat());
+    assert_eq!(output.status.code(), Some(code), "{arguments:?}: {}", text(&output.stderr));
+    assert!(output.stderr.is_empty(), "{}", text(&output.stderr));
+    text(&output.stdout)
+}
+
+/// The message of what must end with 2 and without a result, in one line.
+#[track_caller]
+fn refused(folder: &Path, arguments: &[&str]) -> String {
+    let output = vinesink(folder, &[&["diff"], arguments].concat());
+    let message = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{arguments:?}: {message}");
+    assert!(output.stdout.is_empty() && !message.contains("panicked"), "{message}");
+    message.split(['\n', '│', ' ']).filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ")
+}
+
+fn copy(from: &Path, to: &Path) {
+    fs::create_dir_all(to).expect("a folder");
+    for entry in fs::read_dir(from).expect("a folder") {
+        let path = entry.expect("an entry").path();
+        let to = to.join(path.file_name().expect("a name"));
+        if path.is_dir() {
+            copy(&path, &to);
+        } else {
+            fs::copy(&path, &to).expect("copied");
+        }
+    }
+}
+
+/// `old/` and `new/` with the same reports.
+fn two_trees(names: &[&str]) -> TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    for side in ["old", "new"] {
+        for name in names {
+            copy(&shipped(name), &folder.path().join(side).join(name));
+        }
+    }
+    folder
+}
+
+/// Changes a report in `new/` at a JSON pointer.
+fn edit(folder: &TempDir, name: &str, pointer: &str, change: impl Fn(&mut Value)) {
+    edit_side(folder, "new", name, |report| change(report.pointer_mut(pointer).expect(pointer)));
+}
+
+fn edit_side(folder: &TempDir, side: &str, name: &str, change: impl Fn(&mut Value)) {
+    let path = folder.path().join(side).join(name).join("report.json");
+    let read = fs::read_to_string(&path).expect("readable");
+    let mut report = serde_json::from_str(&read).expect("JSON");
+    change(&mut report);
+    fs::write(path, serde_json::to_string_pretty(&report).expect("JSON")).expect("written");
+}
+
+fn scaled(factor: f64) -> impl Fn(&mut Value) {
+    move |value| *value = json!(value.as_f64().expect("a number") * factor)
+}
+
+/// The only report of a difference in JSON.
+fn only_report(folder: &TempDir, code: i32) -> Value {
+    let printed = diff(folder.path(), &["old", "new", "--format", "json"], code);
+    let document: Value = serde_json::from_str(&printed).expect("JSON");
+    assert_eq!(document["format"], "vinesink/diff@1");
+    assert_eq!(document["reports"].as_array().map(Vec::len), Some(1), "{printed}");
+    document["reports"][0].clone()
+}
+
+#[test]
+fn equal_reports_are_one_line() {
+    let folder = two_trees(&[STEADY, CHAOTIC]);
+    let same = "No change: 2 reports are the same.\n";
+    assert_eq!(diff(folder.path(), &["old", "new"], 0), same);
+    let one = "No change: 1 report is the same.\n";
+    let (old, new) = (format!("old/{STEADY}"), format!("new/{STEADY}/report.json"));
+    assert_eq!(diff(folder.path(), &[&old, &new], 0), one);
+}
+
+/// What is known to rounding may round, what is simulated may move within its error; a little more is
+/// a change. Factors are from the errors in the reports: z = 1.45 ± 0.081 on either side.
+#[test]
+fn numbers_may_move_within_what_they_are_known_to() {
+    let orbit = "/data/analysis/orbits/1/peak_displacement";
+    let main = "/data/attractors/0";
+    let (z, rms) = (format!("{main}/impacts_per_period"), format!("{main}/displacement/rms"));
+    let captured = format!("{main}/evidence/captures/share");
+    let cases: [(&str, &str, f64, &str, bool); 13] = [
+        (STEADY, orbit, 1.0 + 1e-10, "rounding", false),
+        (STEADY, orbit, 1.0 + 1e-8, "rounding", true),
+        (STEADY, "/data/bare_amplitude", 1.0 - 1e-8, "rounding", true),
+        (STEADY, &rms, 1.0 + 1e-7, "repetition", false),
+        (STEADY, &rms, 1.0 + 1e-5, "repetition", true),
+        (STEADY, "/data/analysis/exact_boundaries/0/clearance", 1.0 + 1e-7, "bracket", true),
+        (STEADY, "/data/analysis/fixed_points/0/residual", 100.0, "residual", false),
+        (CHAOTIC, &z, 1.0 + 0.15 / 1.45, "two-standard-errors", false),
+        (CHAOTIC, &z, 1.0 + 0.20 / 1.45, "two-standard-errors", true),
+        (CHAOTIC, &rms, 1.04, "two-standard-errors", false),
+        (CHAOTIC, &rms, 1.06, "two-standard-errors", true),
+        (CHAOTIC, &captured, 1.3, "other-errors", false),
+        (CHAOTIC, &captured, 2.5, "other-errors", true),
+    ];
+    for (name, pointer, factor, basis, beyond) in cases {
+        let folder = two_trees(&[name]);
+        edit(&folder, name, pointer, scaled(factor));
+        let report = only_report(&folder, i32::from(beyond));
+        let (numbers, within) = (&report["numbers"], &report["folded"]["within"]);
+        let (there, other) = if beyond { (numbers, within) } else { (within, numbers) };
+        assert_eq!(other, &json!([]), "{pointer} × {factor}");
+        assert_eq!(there.as_array().map(Vec::len), Some(1), "{pointer} × {factor}: {report:#}");
+        assert_eq!(there[0]["basis"], basis, "{pointer}");
+    }
+}
+
+#[test]
+fn a_verdict_a_number_an_input_and_a_figure_are_seen_first() {
+    let folder = two_trees(&[STEADY, CHAOTIC]);
+    edit(&folder, STEADY, "/data/claims/1/verdict", |verdict| *verdict = json!("refuted"));
+    edit(&folder, STEADY, "/verdict/tone", |tone| *tone = json!("bad"));
+    edit(&folder, STEADY, "/data/attractors/0/displacement/peak", scaled(1.1));
+    edit(&folder, STEADY, "/data/analysis/orbits/1/stable", |stable| *stable = json!(false));
+    edit(&folder, STEADY, "/tables/inputs/rows/0/2", |value| *value = json!("4.2 kg"));
+    let figure = folder.path().join("new").join(STEADY).join("figures/map.svg");
+    fs::write(&figure, "<svg/>").expect("written");
+    let printed = diff(folder.path(), &["old", "new"], 1);
+    let head = printed.split("\n\n").take(2).collect::<Vec<_>>().join(" ");
+    assert!(head.starts_with("## 1 of 2 reports changed"), "{head}");
+    let counts =
+        "2 verdicts, 1 state, 1 input, 1 number beyond its tolerance, 1 figure.\n1 report is equal";
+    assert!(head.contains(counts), "{head}");
+    for row in [
+        "| amplitude C at fixed point 1 | confirmed | refuted |",
+        "| motion two-symmetric: peak of x | 3.587 mm | 3.945 mm | +10 % |",
+        "| exact orbit 2: stable | yes | no |",
+        "| Oscillator mass | 4.168 kg | 4.2 kg |",
+        "<img src=\"old/li2016-8p5hz-fig4c/figures/map.svg\"",
+        "<img src=\"new/li2016-8p5hz-fig4c/figures/map.svg\"",
+    ] {
+        assert!(printed.contains(row), "{row} is missing in\n{printed}");
+    }
+    let at = |wanted: &str| printed.find(wanted).unwrap_or_else(|| panic!("{wanted}\n{printed}"));
+    let order =
+        ["**Verdicts**", "**Inputs**", "**States**", "**Numbers beyond", "<details>", "Everything"];
+    assert!(order.map(at).is_sorted(), "{printed}");
+    let url = "https://forge/raw/abc/reports";
+    let addressed = diff(folder.path(), &["old", "new", "--old-url", url], 1);
+    assert!(addressed.contains(&format!("{url}/{STEADY}/figures/map.svg")), "{addressed}");
+}
+
+/// Each kind of change alone is one that a script must see.
+#[test]
+fn every_kind_of_change_fails() {
+    let changes: [(&str, &str, Value); 6] = [
+        ("verdicts", "/verdict/tone", json!("bad")),
+        ("verdicts", "/data/claims/1/verdict", json!("undecided")),
+        ("states", "/data/analysis/orbits/1/stable", json!(false)),
+        ("states", "/data/analysis/area", json!("Z4")),
+        ("inputs", "/provenance/effort/starts", json!(64)),
+        ("numbers", "/data/analysis/manifold/fold/C", json!(0.2)),
+    ];
+    for (kind, pointer, value) in changes {
+        let folder = two_trees(&[STEADY]);
+        edit(&folder, STEADY, pointer, |there| *there = value.clone());
+        let report = only_report(&folder, 1);
+        for list in ["verdicts", "criteria", "states", "inputs", "numbers"] {
+            let count = report[list].as_array().map(Vec::len);
+            assert_eq!(count, Some(usize::from(list == kind)), "{pointer}: {list}");
+        }
+    }
+    let folder = two_trees(&[STEADY]);
+    let note = |kind: &str| json!([{"kind": kind, "text": "the mass ratio is large"}]);
+    edit(&folder, STEADY, "/notes", |notes| *notes = note("validity"));
+    assert_eq!(only_report(&folder, 1)["states"][0]["what"], "note");
+    // The claim itself says that it is refuted.
+    edit(&folder, STEADY, "/notes", |notes| *notes = note("refuted"));
+    only_report(&folder, 0);
+    // Explanations and what is about the run alone fail nothing.
+    let folder = two_trees(&[STEADY]);
+    edit(&folder, STEADY, "/provenance/version", |version| *version = json!("9.9.9"));
+    edit(&folder, STEADY, "/data/claims/1/tolerance/reason", |reason| *reason = json!("other"));
+    edit(&folder, STEADY, "/data/attractors/0/periods", |periods| *periods = json!(999));
+    edit(&folder, STEADY, "/data", |data| data["another_version"] = json!(3.0));
+    let turn = std::f64::consts::TAU;
+    let phase = "/data/analysis/orbits/1/phase";
+    edit(&folder, STEADY, phase, |phase| *phase = json!(phase.as_f64().expect("a phase") - turn));
+    let folded = only_report(&folder, 0)["folded"].clone();
+    assert_eq!(folded["wording"].as_array().map(Vec::len), Some(2), "{folded:#}");
+    assert_eq!((&folded["unjudged"], &folded["unknown"]), (&json!(1), &json!(1)));
+    assert_eq!(folded["within"][0]["path"], "analysis/orbits[2]/phase");
+}
+
+/// A motion that one start in 32 found may be missed by the next 32; one that half of them found, not.
+#[test]
+fn a_motion_that_chance_may_have_missed_is_no_change() {
+    let intervals = [(1, [0.0055, 0.157], 0), (16, [0.336, 0.664], 1)];
+    for (starts, interval, code) in intervals {
+        let folder = two_trees(&[STEADY]);
+        edit(&folder, STEADY, "/data/attractors", |list| {
+            let mut motion = list[1].clone();
+            motion["regime"] = json!("above-two");
+            motion["starts"] = json!(starts);
+            motion["share_of_starts"] = json!(f64::from(starts) / 32.0);
+            motion["share_interval_95"] = json!(interval);
+            list.as_array_mut().expect("a list").push(motion);
+        });
+        let report = only_report(&folder, code);
+        let found = if code == 0 { &report["folded"]["wording"] } else { &report["states"] };
+        assert_eq!(found[0]["what"], "motion above-two", "{starts}");
+    }
+}
+
+/// Another main motion: what it vibrates by is told although the two motions are not the same one.
+#[test]
+fn another_main_motion_is_compared_with_the_old_one() {
+    let [old, new] = [CHAOTIC, STEADY].map(|name| shipped(name).display().to_string());
+    let printed = diff(Path::new("."), &[&old, &new], 1);
+    for row in [
+        "\n> Steady 1:1 resonance: the absorber works.",
+        "| main motion | strongly-modulated | two-symmetric |",
+        "| motion main: peak of x | 7.916 mm | 3.587 mm | −55 % |",
+        "| Absorber clearance | 28 mm | 20 mm |",
+        "further states</summary>",
+    ] {
+        assert!(printed.contains(row), "{row} is missing in\n{printed}");
+    }
+}
+
+/// The same sentence about another number is no other verdict; other words are one.
+#[test]
+fn a_headline_is_compared_by_its_words() {
+    let folder = two_trees(&[CHAOTIC]);
+    let headline = "/verdict/headline";
+    edit(&folder, CHAOTIC, headline, |text| {
+        *text = json!(text.as_str().expect("text").replace("7.92 mm", "7.95 mm"));
+    });
+    let printed = diff(folder.path(), &["old", "new"], 0);
+    assert!(printed.starts_with("No change: 1 report is equal within tolerance"), "{printed}");
+    assert_eq!(printed.lines().count(), 1);
+    edit(&folder, CHAOTIC, headline, |text| {
+        *text = json!(text.as_str().expect("text").replace("Strongly modulated", "Steady"));
+    });
+    assert_eq!(only_report(&folder, 1)["verdicts"][0]["what"], "verdict");
+}
+
+#[test]
+fn figures_alone_are_shown_and_do_not_fail() {
+    let folder = two_trees(&[STEADY]);
+    let figures = folder.path().join("new").join(STEADY).join("figures");
+    fs::write(figures.join("map.svg"), "<svg/>").expect("written");
+    fs::remove_file(figures.join("sim.svg")).expect("removed");
+    let printed = diff(folder.path(), &["old", "new"], 0);
+    assert!(printed.contains("2 figures in 1 report without any other change"), "{printed}");
+    assert!(printed.contains("figures/sim.svg\" width=\"400\""), "{printed}");
+    assert!(printed.contains(" | – |"), "a figure that is gone has no new side: {printed}");
+}
+
+#[test]
+fn motions_and_reports_that_appear_or_vanish_are_told() {
+    let folder = two_trees(&[STEADY]);
+    edit(&folder, STEADY, "/data/attractors", |list| {
+        list.as_array_mut().expect("a list").remove(0);
+    });
+    copy(&shipped(CHAOTIC), &folder.path().join("new/fresh"));
+    copy(&shipped(CHAOTIC), &folder.path().join("old/gone"));
+    let printed = diff(folder.path(), &["old", "new"], 1);
+    assert!(printed.contains("| motion two-symmetric | there | – |"), "{printed}");
+    assert!(printed.contains("### Reports added\n\n- **fresh**: Strongly modulated"), "{printed}");
+    assert!(printed.contains("### Reports removed\n\n- **gone**: Strongly"), "{printed}");
+    // Its numbers are not told one by one.
+    assert!(!printed.contains("spectral"), "{printed}");
+}
+
+/// A criterion as a case with criteria will have it.
+fn criterion(name: &str, asked: &str, found: f64, error: Value, holds: Value) -> Value {
+    let error = error.as_f64().map(|error| 1e-3 * error);
+    json!({"name": name, "asked": asked, "found": 1e-3 * found, "unit": "m", "error": error,
+        "margin": 0.0, "holds": holds, "near_limit": false, "decided_by": "exact-orbit"})
+}
+
+#[test]
+fn criteria_that_flip_come_first() {
+    let folder = two_trees(&[STEADY]);
+    let criteria = |side: &str, list: Vec<Value>| {
+        edit_side(&folder, side, STEADY, |report| report["criteria"] = json!(list));
+    };
+    let none = || Value::Null;
+    let old = [
+        criterion("moved", "<= 4", 3.0, json!(0.1), json!(true)),
+        criterion("within", "<= 4", 3.0, json!(0.1), json!(true)),
+        criterion("exact", "<= 4", 3.0, none(), json!(true)),
+        criterion("asked", "<= 4", 3.0, none(), json!(true)),
+        criterion("flipped", "<= 4", 3.9, none(), json!(true)),
+        criterion("undecided", "<= 4", 3.9, json!(0.5), json!(true)),
+        criterion("gone", "<= 4", 3.9, none(), json!(true)),
+    ];
+    let new = [
+        criterion("moved", "<= 4", 3.3, json!(0.1), json!(true)),
+        criterion("within", "<= 4", 3.15, json!(0.1), json!(true)),
+        criterion("exact", "<= 4", 3.0 + 1e-12, none(), json!(true)),
+        criterion("asked", "<= 5", 3.0, none(), json!(true)),
+        criterion("flipped", "<= 4", 4.1, none(), json!(false)),
+        criterion("undecided", "<= 4", 3.9, json!(0.5), none()),
+        criterion("new", "<= 4", 3.9, none(), json!(true)),
+    ];
+    criteria("old", old.to_vec());
+    criteria("new", old.to_vec());
+    assert_eq!(diff(folder.path(), &["old", "new"], 0), "No change: 1 report is the same.\n");
+    criteria("new", new.to_vec());
+    let report = only_report(&folder, 1);
+    let names: Vec<&str> = report["criteria"]
+        .as_array()
+        .expect("a list")
+        .iter()
+        .filter_map(|c| c["name"].as_str())
+        .collect();
+    assert_eq!(names, ["flipped", "undecided", "moved", "asked", "new", "gone"]);
+    let printed = diff(folder.path(), &["old", "new"], 1);
+    for row in [
+        "2 flipped criteria, 4 other criteria",
+        "| flipped | \\<= 4 | holds (3.900 mm) | fails (4.100 mm) | **flipped** |",
+        "| asked | \\<= 4, now \\<= 5 |",
+        "| gone | \\<= 4 | holds (3.900 mm) | – |  |",
+    ] {
+        assert!(printed.contains(row), "{row}\n{printed}");
+    }
+}
+
+/// GitHub refuses longer comments.
+#[test]
+fn the_longest_difference_fits_in_a_comment() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for side in ["old", "new"] {
+        for index in 0..60 {
+            copy(&shipped(CHAOTIC), &folder.path().join(side).join(format!("case-{index:02}")));
+        }
+    }
+    for index in 0..60 {
+        edit_side(&folder, "new", &format!("case-{index:02}"), |report| {
+            for list in ["fixed_points", "orbits"] {
+                for point in report["data"]["analysis"][list].as_array_mut().expect("a list") {
+                    for (_, value) in point.as_object_mut().expect("an object") {
+                        if let Some(number) = value.as_f64() {
+                            *value = json!(1.5 * number + 1.0);
+                        }
+                    }
+                }
+            }
+        });
+    }
+    let printed = diff(folder.path(), &["old", "new"], 1);
+    let length = printed.chars().count();
+    assert!(length > 50_000 && length <= 60_000, "{length} characters");
+    let notice = printed.lines().last().expect("a line");
+    assert!(
+        notice.starts_with("_Cut here: ") && notice.contains("sections are left out"),
+        "{notice}"
+    );
+    // Cut between sections: no table and no folded part stays open.
+    assert_eq!(printed.matches("<details>").count(), printed.matches("</details>").count());
+    assert!(printed.starts_with("## 60 of 60 reports changed"));
+}
+
+#[test]
+fn what_cannot_be_compared_says_why() {
+    let folder = two_trees(&[STEADY, CHAOTIC]);
+    let path = folder.path();
+    let missing = refused(path, &["nowhere", "new"]);
+    assert!(missing.contains("`nowhere`") && missing.contains("check the path"), "{missing}");
+    fs::create_dir(path.join("empty")).expect("a folder");
+    let empty = refused(path, &["empty", "empty"]);
+    assert!(empty.contains("no report.json in `empty`"), "{empty}");
+    let mixed = refused(path, &[&format!("old/{STEADY}"), "new"]);
+    assert!(mixed.contains("is one report, `new` is a folder of 2"), "{mixed}");
+    let file = path.join("new").join(STEADY).join("report.json");
+    fs::write(&file, "{\"format\":\n<<<<<<< HEAD").expect("written");
+    let broken = refused(path, &["old", "new"]);
+    assert!(broken.contains("report.json is not JSON") && broken.contains("line 2"), "{broken}");
+    fs::write(&file, "{\"format\": \"vinesink/report@9\"}").expect("written");
+    let newer = refused(path, &["old", "new"]);
+    assert!(newer.contains("`vinesink/report@9`"), "{newer}");
+    fs::write(&file, b"{\"format\": \"\xff\"}").expect("written");
+    let binary = refused(path, &["old", "new"]);
+    assert!(binary.contains("not UTF-8"), "{binary}");
+    // A report without any content is a poor one, not a crash.
+    fs::write(&file, "{\"format\": \"vinesink/report@1\"}").expect("written");
+    diff(path, &["old", "new"], 1);
+}
+
+#[test]
+fn one_side_without_reports_makes_all_of_the_other_new() {
+    let folder = two_trees(&[STEADY]);
+    fs::create_dir(folder.path().join("empty")).expect("a folder");
+    let printed = diff(folder.path(), &["empty", "new"], 1);
+    assert!(printed.contains("1 report added") && printed.contains(STEADY), "{printed}");
+}
