@@ -83,18 +83,24 @@ pub fn largest(
     let mut best = tried.max_by(|a, b| a.1.total_cmp(&b.1))?;
     let step = (to - from) / f64::from(pieces);
     let (mut low, mut high) = ((best.0 - step).max(from), (best.0 + step).min(to));
-    for _ in 0..NARROWINGS {
-        let inner = [low + (high - low) * (1.0 - GOLDEN), low + (high - low) * GOLDEN];
-        let values = inner.map(|at| f(at).unwrap_or(f64::NEG_INFINITY));
-        for (at, value) in inner.into_iter().zip(values) {
-            if value > best.1 {
-                best = (at, value);
-            }
+    let mut value = |at: f64| {
+        let found = (at, f(at).unwrap_or(f64::NEG_INFINITY));
+        if found.1 > best.1 {
+            best = found;
         }
-        if values[0] > values[1] {
-            high = inner[1];
+        found
+    };
+    let inner = |low: f64, high: f64, part: f64| low + (high - low) * part;
+    let (mut left, mut right) =
+        (value(inner(low, high, 1.0 - GOLDEN)), value(inner(low, high, GOLDEN)));
+    for _ in 0..NARROWINGS {
+        // Each step keeps one of the two places inside.
+        if left.1 > right.1 {
+            (high, right) = (right.0, left);
+            left = value(inner(low, high, 1.0 - GOLDEN));
         } else {
-            low = inner[0];
+            (low, left) = (left.0, right);
+            right = value(inner(low, high, GOLDEN));
         }
     }
     Some(best)

@@ -67,6 +67,23 @@ pub struct Extreme {
     pub mean: f64,
 }
 
+/// Where something of the attracting orbit is largest over all stretches where one attracts, and that
+/// value; `None` where none does anywhere.
+pub fn largest_value(
+    band: &Band,
+    stability: &[Stretch<bool>],
+    value: impl Fn(f64, &SymmetricOrbit) -> f64,
+) -> Option<(f64, f64)> {
+    let of = |at: f64| attracting(band, at).map(|orbit| value(at, &orbit));
+    let stretches = stability.iter().filter(|stretch| stretch.of);
+    let each = stretches.filter_map(|stretch| {
+        let pieces = pieces((stretch.to - stretch.from) / band.width());
+        // At the very ends rounding decides whether there is an orbit.
+        largest([stretch.from, stretch.to], pieces, of)
+    });
+    each.max_by(|a, b| a.1.total_cmp(&b.1))
+}
+
 /// The largest value and the average of something of the attracting orbit, over all stretches where
 /// one attracts; `None` where none does anywhere.
 pub fn extreme(
@@ -74,25 +91,23 @@ pub fn extreme(
     stability: &[Stretch<bool>],
     value: impl Fn(f64, &SymmetricOrbit) -> f64,
 ) -> Option<Extreme> {
-    let of = |at: f64| attracting(band, at).map(|orbit| value(at, &orbit));
-    let (mut best, mut sum, mut width) = (None::<(f64, f64)>, 0.0, 0.0);
+    let (at, largest) = largest_value(band, stability, &value)?;
+    let (mut sum, mut width) = (0.0, 0.0);
     for stretch in stability.iter().filter(|stretch| stretch.of) {
         let length = stretch.to - stretch.from;
         let pieces = pieces(length / band.width());
-        // At the very ends rounding decides whether there is an orbit.
-        let found = largest([stretch.from, stretch.to], pieces, of);
-        best = [best, found].into_iter().flatten().max_by(|a, b| a.1.total_cmp(&b.1));
         for k in 0..pieces {
             for (node, weight) in POINTS {
                 let part = (f64::from(k) + 0.5 + 0.5 * node) / f64::from(pieces);
-                if let Some(value) = of(stretch.from + length * part) {
-                    sum += value * weight * length / f64::from(pieces);
+                let place = stretch.from + length * part;
+                if let Some(orbit) = attracting(band, place) {
+                    sum += value(place, &orbit) * weight * length / f64::from(pieces);
                     width += weight * length / f64::from(pieces);
                 }
             }
         }
     }
-    best.map(|(at, largest)| Extreme { largest, at, mean: sum / width })
+    Some(Extreme { largest, at, mean: sum / width })
 }
 
 /// Pieces for a share of the band.

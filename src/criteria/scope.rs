@@ -169,9 +169,9 @@ impl Scope {
         let loss = |at: f64, orbit: &SymmetricOrbit| {
             value(at, orbit).map_or(f64::NEG_INFINITY, |(found, _)| -criterion.room(found))
         };
-        let worst = exact::extreme(&self.band, &stability, loss)?;
-        let (found, error) = value(worst.at, &attracting(&self.band, worst.at)?)?;
-        let at = Some(worst.at).filter(|_| self.ranges);
+        let (place, _) = exact::largest_value(&self.band, &stability, loss)?;
+        let (found, error) = value(place, &attracting(&self.band, place)?)?;
+        let at = Some(place).filter(|_| self.ranges);
         Some(Value { found, error, at, by: DecidedBy::ExactOrbit })
     }
 
