@@ -9,6 +9,7 @@ pub mod criteria;
 pub mod equations;
 pub mod extremes;
 pub mod numerics;
+pub mod optimize;
 pub mod orbits;
 pub mod reference;
 pub mod regimes;
