@@ -24,11 +24,9 @@ impl Choice {
                 restitution: physical.restitution,
                 mass: Some(physical.absorber_mass_kg),
             },
-            Design::Reduced(reduced) => Self {
-                clearance: reduced.clearance,
-                restitution: reduced.restitution,
-                mass: None,
-            },
+            Design::Reduced(reduced) => {
+                Self { clearance: reduced.clearance, restitution: reduced.restitution, mass: None }
+            }
         }
     }
 }

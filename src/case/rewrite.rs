@@ -39,6 +39,7 @@ pub(super) enum Step {
     Down,
     Nearest,
     Up,
+    Exact,
 }
 
 /// Significant digits of a written value.
@@ -46,15 +47,15 @@ const DIGITS: i32 = 4;
 
 /// A value above 0 with [`DIGITS`] significant digits, rounded or moved on by one in the last of them.
 fn rounded(value: f64, step: Step) -> f64 {
-    if value == 0.0 {
-        return 0.0;
+    if value == 0.0 || step == Step::Exact {
+        return value;
     }
     let place = libm::floor(libm::log10(value)) as i32 - (DIGITS - 1);
     let units = value / libm::pow(10.0, f64::from(place));
     let units = match step {
         Step::Down => libm::floor(units),
         Step::Nearest => libm::rint(units),
-        Step::Up => libm::ceil(units),
+        Step::Up | Step::Exact => libm::ceil(units),
     };
     // Read back from decimal digits, so that it is the double that a person would write.
     format!("{units}e{place}").parse().unwrap_or(value)
@@ -70,7 +71,7 @@ fn written<D: Dimension>(si: f64, as_written: &str, step: Step) -> String {
 
 impl Case {
     /// The text of this case, which `text` must be, with another absorber: values rounded to four
-    /// significant digits in the unit their author used, comments and order kept.
+    /// significant digits (the clearance as asked) in the unit their author used, comments and order kept.
     ///
     /// # Errors
     /// [`RewriteError`] where `text` is not this case's, or the choice makes no case.
@@ -84,6 +85,7 @@ impl Case {
         let mut document: DocumentMut =
             text.strip_prefix('\u{feff}').unwrap_or(text).parse::<DocumentMut>()?;
         let own = Choice::of(&self.design);
+        let step = if clearance == Rounding::EXACT { Step::Exact } else { Step::Nearest };
         let table = match self.design {
             Design::Physical(_) => "absorber",
             Design::Reduced(_) => "reduced",
@@ -102,17 +104,17 @@ impl Case {
             set(&mut document, table, "clearance", value)?;
         }
         if choice.restitution != own.restitution {
-            let value = rounded(choice.restitution, Step::Nearest).min(1.0);
+            let value = rounded(choice.restitution, step).min(1.0);
             set(&mut document, table, "restitution", value.into())?;
         }
         if let (Some(mass), Design::Physical(physical)) = (choice.mass, &self.design)
             && mass != physical.absorber_mass_kg
         {
             if unit_of("mass_ratio").is_empty() {
-                let value = written::<Mass>(mass, unit_of("mass"), Step::Nearest);
+                let value = written::<Mass>(mass, unit_of("mass"), step);
                 set(&mut document, table, "mass", value.into())?;
             } else {
-                let value = rounded(mass / physical.mass_kg, Step::Nearest);
+                let value = rounded(mass / physical.mass_kg, step);
                 set(&mut document, table, "mass_ratio", value.into())?;
             }
         }
@@ -127,8 +129,10 @@ impl Case {
 pub struct Rounding(Step);
 
 impl Rounding {
-    /// To the nearest number of four digits, to the one below, and to the one above.
-    pub const ALL: [Self; 3] = [Self(Step::Nearest), Self(Step::Down), Self(Step::Up)];
+    /// Not at all.
+    pub const EXACT: Self = Self(Step::Exact);
+    /// To the nearest number of four digits, to the one below, to the one above, and not at all.
+    pub const ALL: [Self; 4] = [Self(Step::Nearest), Self(Step::Down), Self(Step::Up), Self::EXACT];
 }
 
 /// Replaces a value and keeps what stands around it.

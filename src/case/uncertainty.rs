@@ -42,17 +42,16 @@ pub(super) fn read(reader: &mut Reader, root: &Table, design: &Design) -> Uncert
     let mut given = |key: &'static str, read: &dyn Fn(&mut Reader) -> Option<f64>| {
         if table.has(key) { read(reader).unwrap_or(0.0) } else { 0.0 }
     };
-    let restitution = given("restitution", &|reader| {
-        table.number(reader, field("restitution", "s_r", "0.05"))
-    });
+    let restitution =
+        given("restitution", &|reader| table.number(reader, field("restitution", "s_r", "0.05")));
     let (clearance, frequency_ratio, amplitude) = match design {
         Design::Physical(physical) => (
             given(CLEARANCE, &|reader| {
                 table.quantity::<Length>(reader, field(CLEARANCE, "s_b", "\"0.2 mm\""))
             }),
             given("frequency", &|reader| {
-                let hertz =
-                    table.quantity::<Frequency>(reader, field("frequency", "s_f", "\"0.05 Hz\""))?;
+                let hertz = table
+                    .quantity::<Frequency>(reader, field("frequency", "s_f", "\"0.05 Hz\""))?;
                 scales.frequency_ratio(hertz)
             }),
             match physical.excitation {

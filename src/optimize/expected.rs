@@ -54,7 +54,9 @@ mod tests {
     /// The moments of a normal error up to the ninth are those of the nodes.
     #[test]
     fn moments_are_those_of_a_normal_error() {
-        for (power, moment) in [(0, 1.0), (1, 0.0), (2, 1.0), (4, 3.0), (6, 15.0), (8, 105.0), (9, 0.0)] {
+        for (power, moment) in
+            [(0, 1.0), (1, 0.0), (2, 1.0), (4, 3.0), (6, 15.0), (8, 105.0), (9, 0.0)]
+        {
             let sum: f64 = NODES.iter().map(|(node, weight)| weight * node.powi(power)).sum();
             assert!((sum - moment).abs() < 1e-11 * (1.0 + moment), "{power}: {sum}");
         }

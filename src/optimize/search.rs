@@ -175,7 +175,12 @@ fn narrowed(problem: &Problem, from: f64, to: f64) {
 
 /// The best place in several dimensions: a swarm with a fixed beginning, then a simplex from the best
 /// of it and of `known` places; `None` where nothing has a score.
-pub fn in_box(known: &[Vec<f64>], dimensions: usize, effort: &Effort, score: Score) -> Option<Best> {
+pub fn in_box(
+    known: &[Vec<f64>],
+    dimensions: usize,
+    effort: &Effort,
+    score: Score,
+) -> Option<Best> {
     let problem = Problem::new(score);
     for parts in known {
         problem.asked(parts);

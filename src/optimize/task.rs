@@ -185,7 +185,7 @@ impl Task {
         let ranges = self.band.is_some();
         let at = band.base.frequency_ratio();
         let share = |holds: bool| if holds { 1.0 } else { 0.0 };
-        Some(match self.objective {
+        let score = match self.objective {
             Objective::Z3Share if ranges => band.share(&theory::zones(&band), |zone| zone.is_z3()),
             Objective::Z3Share => {
                 let manifold = Manifold::of(band.base.restitution()).ok()?;
@@ -197,7 +197,9 @@ impl Task {
             Objective::Margin if ranges => margin::smallest(&band).1,
             Objective::Margin => margin::Gap::of(&band, at).map_or(0.0, |gap| gap.smaller()),
             Objective::WorstAmplitude => -clearance * amplitude::worst(&band, ranges)?,
-        })
+        };
+        // An empty sum is minus 0.
+        Some(score + 0.0)
     }
 
     /// The value of the objective as it is spoken of: an amplitude is not negative.

@@ -7,6 +7,7 @@ pub mod extremes;
 pub mod figure;
 pub mod figures;
 pub mod numbers;
+pub mod optimize;
 pub mod paper;
 pub mod render;
 pub mod summary;

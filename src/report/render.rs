@@ -9,6 +9,7 @@ use super::Report;
 use super::extremes::Extremes;
 use super::figure::{self, Figure, FigureError};
 use super::numbers::LengthFormat;
+use super::optimize::OptimizePage;
 use super::paper::Paper;
 use super::tradeoff::TradeoffPage;
 use crate::case::Case;
@@ -19,6 +20,7 @@ const HTML: &str = include_str!("../../templates/report.html.tera");
 const PAPER: &str = include_str!("../../templates/paper.md.tera");
 const EXTREMES: &str = include_str!("../../templates/extremes.md.tera");
 const TRADEOFF: &str = include_str!("../../templates/tradeoff.md.tera");
+const OPTIMIZE: &str = include_str!("../../templates/optimize.md.tera");
 const STYLE: &str = include_str!("../../templates/report.css");
 
 /// Why a report cannot be rendered.
@@ -108,6 +110,26 @@ pub fn tradeoff(
         (PathBuf::from("tradeoff.md"), without_repeated_blank_lines(&text).into_bytes()),
         (PathBuf::from(format!("figures/{}.svg", drawn.name)), figure::render(drawn)?.into_bytes()),
     ]))
+}
+
+/// The page of an optimisation with its figures, by their path in the case's folder.
+///
+/// # Errors
+/// [`RenderError`] if template and page do not fit, or a figure cannot be drawn.
+pub fn optimize(
+    page: &OptimizePage,
+    drawn: &[Figure],
+) -> Result<BTreeMap<PathBuf, Vec<u8>>, RenderError> {
+    let mut context = Context::new();
+    context.insert("page", page);
+    let text = engine("optimize.md", OPTIMIZE)?.render("optimize.md", &context)?;
+    let text = without_repeated_blank_lines(&text).into_bytes();
+    let mut files = BTreeMap::from([(PathBuf::from("optimize.md"), text)]);
+    for figure in drawn {
+        let drawing = figure::render(figure)?.into_bytes();
+        files.insert(PathBuf::from(format!("figures/{}.svg", figure.name)), drawing);
+    }
+    Ok(files)
 }
 
 /// The report as one HTML page that needs nothing from outside.
