@@ -125,7 +125,9 @@ pub fn scan(
 }
 
 fn same(a: f64, b: f64) -> bool {
-    a == b || (a - b).abs() <= SAME * a.abs().max(b.abs())
+    // Infinity is as far from every number as it is large.
+    let near = || (a - b).abs() <= SAME * a.abs().max(b.abs());
+    a == b || (a.is_finite() && b.is_finite() && near())
 }
 
 /// The best place on a line that was scanned; `None` where it has a score nowhere.
