@@ -244,7 +244,7 @@ fn end_of_plateau(at: f64, side: f64, as_good: &dyn Fn(f64) -> bool) -> f64 {
         return at;
     }
     let mut outside = loop {
-        let next = (at + side * stride).clamp(0.0, 1.0);
+        let next = (inside + side * stride).clamp(0.0, 1.0);
         if next == inside {
             return inside;
         }
@@ -253,7 +253,7 @@ fn end_of_plateau(at: f64, side: f64, as_good: &dyn Fn(f64) -> bool) -> f64 {
         }
         inside = next;
         // By doubling from close by, then evenly: nothing wider than a piece is stepped over.
-        stride = if stride < STRIDE { 2.0 * stride } else { stride };
+        stride = if stride < STRIDE { 2.0 * stride } else { STRIDE };
     };
     for _ in 0..HALVINGS {
         let middle = 0.5 * (inside + outside);

@@ -126,26 +126,16 @@ fn looked_for(words: &Words) -> String {
 }
 
 fn confirmed(words: &Words) -> Table {
-    let over_amplitude = words
-        .found
-        .task
-        .band
-        .as_ref()
-        .is_some_and(|band| band.over == crate::case::BandOver::Amplitude);
     let rows = words.found.confirmed.iter().map(|place| {
         [
-            if over_amplitude {
-                format!("× {}", significant(place.at, 3))
-            } else {
-                words.frequency(place.at)
-            },
+            words.at(place.at),
             place.exact.map_or_else(dash, |exact| words.lengths.text(exact)),
             format!("{} of {}", place.as_predicted, place.starts),
             place.motions.to_string(),
             place.largest.map_or_else(dash, |largest| words.lengths.text(largest)),
         ]
     });
-    let at = if over_amplitude { "Amplitude" } else { "Frequency" };
+    let at = if words.over_amplitude() { "Amplitude" } else { "Frequency" };
     table(
         [
             (at, true),

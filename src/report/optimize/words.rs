@@ -1,12 +1,14 @@
 //! What is said about an optimisation.
 
-use crate::case::{Case, Objective, Scales};
+use crate::case::{BandOver, Case, Objective, Scales};
 use crate::optimize::Optimization;
 use crate::optimize::claim::Claim;
 use crate::report::numbers::{LengthFormat, fixed, percent, signed_percent};
 
 /// Digits of a clearance: as it is written.
 const DIGITS: usize = 4;
+/// Simulated amplitude over the promised one from which on the reader is told.
+const SURPRISE: f64 = 1.02;
 
 /// An optimisation with what turns its numbers into text.
 pub(super) struct Words<'a> {
@@ -131,7 +133,44 @@ impl<'a> Words<'a> {
                 );
             }
         }
+        sentences.extend(self.contradictions());
         sentences
+    }
+
+    /// Where simulation contradicts the answer; empty where it does not.
+    fn contradictions(&self) -> Vec<String> {
+        let places = &self.found.confirmed;
+        let mut sentences = Vec::new();
+        let largest = places.iter().filter_map(|place| place.largest).max_by(f64::total_cmp);
+        let promised = self.found.task.value(self.found.nominal.score);
+        if self.found.task.objective == Objective::WorstAmplitude
+            && let Some(largest) = largest.filter(|largest| *largest > promised * SURPRISE)
+        {
+            sentences.push(format!(
+                "Not confirmed: from other starts simulation finds amplitudes up to {}, of motions beside the exact orbit or from more starts than the search takes.",
+                self.lengths.text(largest)
+            ));
+        }
+        let lost = places.iter().filter(|place| place.exact.is_some() && place.as_predicted == 0);
+        let lost: Vec<String> = lost.map(|place| self.at(place.at)).collect();
+        if !lost.is_empty() {
+            sentences.push(format!(
+                "At {} the exact orbit is stable, yet no start of the simulation led to it.",
+                lost.join(", ")
+            ));
+        }
+        sentences
+    }
+
+    /// A place of the band.
+    pub fn at(&self, at: f64) -> String {
+        if self.over_amplitude() { format!("× {}", fixed(at, 3)) } else { self.frequency(at) }
+    }
+
+    /// Whether the band is one of amplitudes.
+    pub fn over_amplitude(&self) -> bool {
+        let band = self.found.task.band.as_ref();
+        band.is_some_and(|band| band.over == BandOver::Amplitude)
     }
 
     /// What simulation says.
@@ -147,9 +186,10 @@ impl<'a> Words<'a> {
             format!(" The largest amplitude that was simulated is {}.", self.lengths.text(largest))
         });
         let (count, all) = (places.len(), all.count());
+        let place = if count == 1 { "place" } else { "places" };
         let starts = places.first().map_or(0, |place| place.starts);
         format!(
-            "From {starts} starts at each of {count} place(s): an exact symmetric orbit attracts at {orbit}, and every start led to it at {all} of these; at {several} of all places the starts led to several motions.{largest}"
+            "From {starts} starts at each of {count} {place}: an exact symmetric orbit attracts at {orbit}, and every start led to it at {all} of these; at {several} of all places the starts led to several motions.{largest}"
         )
     }
 
@@ -181,7 +221,7 @@ fn verdict(claim: &Claim) -> String {
     let excess = signed_percent(claim.excess());
     if claim.holds() {
         format!(
-            "The claim holds here: the best clearance lies {distance} below that end, within the step of 1 % in which it was looked for, and the amplitude at the end differs by {excess}."
+            "The claim holds here: the best clearance lies {distance} below that end, and the amplitude at the end differs by {excess}."
         )
     } else {
         format!(
