@@ -76,7 +76,7 @@ impl Normal {
     fn next(&mut self) -> f64 {
         let mut uniform = || (self.0.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
         let (a, b) = (1.0 - uniform(), uniform());
-        (-2.0 * a.ln()).sqrt() * (std::f64::consts::TAU * b).cos()
+        (-2.0 * libm::log(a)).sqrt() * libm::cos(std::f64::consts::TAU * b)
     }
 }
 
