@@ -10,6 +10,7 @@ pub mod diff;
 pub mod equations;
 pub mod extremes;
 pub mod numerics;
+pub mod optimize;
 pub mod orbits;
 pub mod reference;
 pub mod regimes;

@@ -44,6 +44,7 @@ const ROOMS: &[(&str, &[&str])] = &[
         ],
     ),
     ("case", &["numerics", "system"]),
+    ("optimize", &["analysis", "band", "case", "orbits", "simulation", "system"]),
     ("band", &["analysis", "orbits", "regimes", "simulation", "system"]),
     (
         "report",
@@ -55,6 +56,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "equations",
             "extremes",
             "numerics",
+            "optimize",
             "orbits",
             "regimes",
             "simulation",
@@ -70,12 +72,15 @@ const ROOMS: &[(&str, &[&str])] = &[
 
 /// Rooms in which there is physics and nothing else: no files, no clock, no printing, no threads, no
 /// randomness.
-const PURE: [&str; 14] = [
+const PURE: [&str; 17] = [
     "analysis",
+    "band",
+    "criteria",
     "diff",
     "equations",
     "extremes",
     "numerics",
+    "optimize",
     "orbits",
     "reference",
     "regimes",

@@ -8,29 +8,35 @@
 
 mod accuracy;
 mod band;
+mod choice;
 mod criteria;
 mod document;
 mod error;
 mod inputs;
+mod optimize;
 mod physical;
 mod quantity;
 mod reader;
 mod reduced;
 mod report;
+mod rewrite;
 mod scales;
 mod schema;
 mod simulation;
 mod suggest;
 mod table;
+mod uncertainty;
 
 use sha2::{Digest, Sha256};
 use toml::de::DeTable;
 
 pub use accuracy::AccuracySettings;
 pub use band::{BandOver, BandSettings};
+pub use choice::Choice;
 pub use criteria::{Criterion, Measure, Relation, Subject};
 pub use error::{CaseError, Problem};
 pub use inputs::Input;
+pub use optimize::{Objective, OptimizeSettings};
 pub use physical::{Physical, PhysicalExcitation};
 pub use quantity::{
     Damping, Dimension, Force, Frequency, Length, Mass, Quantity, QuantityError, Share, Stiffness,
@@ -38,9 +44,11 @@ pub use quantity::{
 };
 pub use reduced::{Reduced, Tuning};
 pub use report::{ExtraFigure, ReportSettings};
+pub use rewrite::{RewriteError, Rewritten, Rounding};
 pub use scales::{LengthUnit, Scales};
 pub use schema::{FILE_NAME as SCHEMA_FILE_NAME, schema};
 pub use simulation::SimulationSettings;
+pub use uncertainty::Uncertainty;
 
 use crate::system::System;
 use reader::Reader;
@@ -67,6 +75,10 @@ pub struct Case {
     pub band: Option<BandSettings>,
     /// The table `[criteria]`, in the order of a report; empty where there is none.
     pub criteria: Vec<Criterion>,
+    /// The table `[optimize]`; its defaults where there is none.
+    pub optimize: OptimizeSettings,
+    /// The table `[uncertainty]`; nothing is uncertain where there is none.
+    pub uncertainty: Uncertainty,
     inputs: Vec<Input>,
     system: System,
     scales: Scales,
@@ -97,6 +109,8 @@ const TABLES: &[(&str, &[&str])] = &[
             "accuracy",
             "band",
             "criteria",
+            "optimize",
+            "uncertainty",
         ],
     ),
     (physical::TABLES[0], physical::OSCILLATOR),
@@ -108,6 +122,8 @@ const TABLES: &[(&str, &[&str])] = &[
     (accuracy::TABLE, accuracy::KEYS),
     (band::TABLE, band::KEYS),
     (criteria::TABLE, criteria::KEYS),
+    (optimize::TABLE, optimize::KEYS),
+    (uncertainty::TABLE, uncertainty::KEYS),
 ];
 
 const STARTING_CASE: &str = include_str!("starting_case.toml");
@@ -173,6 +189,8 @@ fn read(reader: &mut Reader, document: &DeTable) -> Option<Case> {
     let accuracy = accuracy::read(reader, &root);
     let band = band::read(reader, &root, design.as_ref());
     let criteria = criteria::read(reader, &root, design.as_ref());
+    let optimize = optimize::read(reader, &root, design.as_ref());
+    let uncertainty = uncertainty::read(reader, &root, design.as_ref());
     let design = design?;
     let system = system_of(reader, &root, &design)?;
     Some(Case {
@@ -185,6 +203,8 @@ fn read(reader: &mut Reader, document: &DeTable) -> Option<Case> {
         accuracy,
         band,
         criteria,
+        optimize,
+        uncertainty,
         inputs: Vec::new(),
         system,
         scales: design.scales(),

@@ -14,9 +14,11 @@ use serde_json::{Value, json};
 use super::accuracy::AccuracyTable;
 use super::band::BandTable;
 use super::criteria::CriteriaTable;
+use super::optimize::OptimizeTable;
 use super::quantity::{Damping, Dimension, Force, Frequency, Length, Mass, Quantity, Stiffness};
 use super::report::ReportTable;
 use super::simulation::SimulationTable;
+use super::uncertainty::UncertaintyTable;
 
 /// The name under which a case's first line refers to its schema.
 pub const FILE_NAME: &str = "vinesink.schema.json";
@@ -49,6 +51,8 @@ struct CaseFile {
     accuracy: Option<AccuracyTable>,
     band: Option<BandTable>,
     criteria: Option<CriteriaTable>,
+    optimize: Option<OptimizeTable>,
+    uncertainty: Option<UncertaintyTable>,
 }
 
 /// The linear oscillator whose vibration is to be reduced.

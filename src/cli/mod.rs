@@ -9,6 +9,7 @@ mod diff;
 mod extremes;
 mod index;
 mod new;
+mod optimize;
 mod output;
 mod paper;
 mod progress;
@@ -46,6 +47,7 @@ Examples:
   vinesink paper                                the paper's figures against the reports
   vinesink extremes                             the simulation at the ends of its range
   vinesink tradeoff damper.toml                 how much accuracy for how much work
+  vinesink optimize damper.toml                 the clearance that serves it best
   vinesink schema > vinesink.schema.json        let the editor complete and check cases
   vinesink help new                             what a command does, with examples";
 
@@ -61,6 +63,7 @@ enum Command {
     Paper(paper::Arguments),
     Extremes(extremes::Arguments),
     Tradeoff(tradeoff::Arguments),
+    Optimize(optimize::Arguments),
     Schema(schema::Arguments),
     Completions(completions::Arguments),
 }
@@ -97,6 +100,7 @@ impl Cli {
             Command::Paper(arguments) => paper::run(arguments),
             Command::Extremes(arguments) => extremes::run(arguments),
             Command::Tradeoff(arguments) => tradeoff::run(arguments),
+            Command::Optimize(arguments) => optimize::run(arguments),
             Command::Schema(arguments) => schema::run(arguments),
             Command::Completions(arguments) => completions::run(arguments),
         }

@@ -113,9 +113,10 @@ fn check(path: &Path, name: &str, folder: &Path, forced: Option<Fidelity>) -> Re
     let (mut files, _) = rendered(path, name, forced)?;
     files.remove(Path::new("report.html"));
     let mut stale = store::differing_files(folder, &files)?;
-    // The drawing of `vinesink tradeoff` lies beside those of the report.
+    // The drawings of `vinesink tradeoff` and `optimize` lie beside those of the report.
     stale.retain(|(file, why)| {
-        *why != Stale::Superfluous || file != Path::new(render::TRADEOFF_FIGURE)
+        let of_others = render::FIGURES_OF_OTHERS.iter().any(|other| file == Path::new(other));
+        *why != Stale::Superfluous || !of_others
     });
     if stale.is_empty() {
         return Ok(Outcome::Done);

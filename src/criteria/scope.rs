@@ -53,7 +53,7 @@ impl Band {
     }
 
     /// The excitation of a system alone.
-    fn point(system: &System) -> Self {
+    pub fn point(system: &System) -> Self {
         let at = Parameter::FrequencyRatio.of(system);
         Self {
             base: *system,

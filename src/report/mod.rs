@@ -8,6 +8,7 @@ pub mod figure;
 pub mod figures;
 pub mod index;
 pub mod numbers;
+pub mod optimize;
 pub mod paper;
 pub mod render;
 pub mod summary;

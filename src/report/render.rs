@@ -10,6 +10,7 @@ use super::extremes::Extremes;
 use super::figure::{self, Figure, FigureError};
 use super::index::Index;
 use super::numbers::LengthFormat;
+use super::optimize::OptimizePage;
 use super::paper::Paper;
 use super::tradeoff::TradeoffPage;
 use crate::case::Case;
@@ -24,10 +25,12 @@ const INDEX_MARKDOWN: &str = include_str!("../../templates/index.md.tera");
 const INDEX_HTML: &str = include_str!("../../templates/index.html.tera");
 const INDEX_STYLE: &str = include_str!("../../templates/index.css");
 const INDEX_SCRIPT: &str = include_str!("../../templates/index.js");
+const OPTIMIZE: &str = include_str!("../../templates/optimize.md.tera");
 const STYLE: &str = include_str!("../../templates/report.css");
 
-/// The drawing that belongs to the page of accuracy and cost, in the folder of a report.
-pub const TRADEOFF_FIGURE: &str = "figures/tradeoff.svg";
+/// The drawings that belong to pages of other commands, in the folder of a report.
+pub const FIGURES_OF_OTHERS: [&str; 3] =
+    ["figures/tradeoff.svg", "figures/optimize-landscape.svg", "figures/optimize-chart.svg"];
 
 /// Why a report cannot be rendered.
 #[derive(Debug, thiserror::Error)]
@@ -140,6 +143,26 @@ pub fn index_html(index: &Index) -> Result<String, RenderError> {
     context.insert("index_style", INDEX_STYLE);
     context.insert("script", INDEX_SCRIPT);
     Ok(engine("index.html", INDEX_HTML)?.render("index.html", &context)?)
+}
+
+/// The page of an optimisation with its figures, by their path in the case's folder.
+///
+/// # Errors
+/// [`RenderError`] if template and page do not fit, or a figure cannot be drawn.
+pub fn optimize(
+    page: &OptimizePage,
+    drawn: &[Figure],
+) -> Result<BTreeMap<PathBuf, Vec<u8>>, RenderError> {
+    let mut context = Context::new();
+    context.insert("page", page);
+    let text = engine("optimize.md", OPTIMIZE)?.render("optimize.md", &context)?;
+    let text = without_repeated_blank_lines(&text).into_bytes();
+    let mut files = BTreeMap::from([(PathBuf::from("optimize.md"), text)]);
+    for figure in drawn {
+        let drawing = figure::render(figure)?.into_bytes();
+        files.insert(PathBuf::from(format!("figures/{}.svg", figure.name)), drawing);
+    }
+    Ok(files)
 }
 
 /// The report as one HTML page that needs nothing from outside.

@@ -1,0 +1,158 @@
+//! `vinesink optimize CASE`
+
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+
+use clap::{Args, ValueEnum};
+use miette::{IntoDiagnostic, Result, miette};
+use vinesink::case::{self, Case};
+use vinesink::optimize::{Optimization, Spread, Task};
+use vinesink::report::{optimize as page, render};
+use vinesink::store;
+
+use super::case_file::{CaseArgument, Format};
+use super::progress::Progress;
+use super::{Outcome, output};
+
+/// Choose the clearance, and on request restitution and mass, that serve a case best
+///
+/// Looks everywhere between the bounds of the case's table [optimize], or from a fifth to five times
+/// its clearance, over its [band] if it has one. With a table [uncertainty] the best in expectation
+/// stands beside the best as written. The winner is simulated from many starts. Ends with exit code 1 if
+/// nothing between the bounds reaches the objective at all.
+#[derive(Debug, Args)]
+#[command(after_long_help = EXAMPLES)]
+pub struct Arguments {
+    #[command(flatten)]
+    case: CaseArgument,
+    /// What to look for, instead of what the case says
+    #[arg(long, value_enum)]
+    objective: Option<Objective>,
+    /// Also write optimize.md and its figures into OUT/<name of the case file>; `vinesink report`
+    /// replaces that folder and comes first
+    #[arg(long, value_name = "OUT")]
+    out: Option<PathBuf>,
+    /// Write the winning case into a new file, comments kept
+    #[arg(long, value_name = "FILE")]
+    write: Option<PathBuf>,
+    /// Write the best in expectation instead
+    #[arg(long, requires = "write")]
+    robust: bool,
+    /// Text for people or JSON for programs
+    #[arg(long, value_enum, default_value = "text")]
+    format: Format,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  vinesink optimize cases/li2016-band.toml
+  vinesink optimize damper.toml --objective worst-amplitude --write better.toml
+  vinesink optimize damper.toml --out reports
+
+A case says what it wants in
+  [optimize]
+  objective = \"z3-share\"
+  clearance = [\"5 mm\", \"40 mm\"]
+
+  [uncertainty]
+  clearance = \"0.2 mm\"";
+
+/// What a design is chosen for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Objective {
+    /// Largest share of the band in area Z3 of the theory
+    Z3Share,
+    /// Largest share of the band with a stable 1:1 orbit
+    StableShare,
+    /// Smallest worst amplitude over the band
+    WorstAmplitude,
+    /// Largest distance of the clearance from the ends of the stable 1:1 motion
+    Margin,
+}
+
+impl From<Objective> for case::Objective {
+    fn from(asked: Objective) -> Self {
+        match asked {
+            Objective::Z3Share => Self::Z3Share,
+            Objective::StableShare => Self::StableShare,
+            Objective::WorstAmplitude => Self::WorstAmplitude,
+            Objective::Margin => Self::Margin,
+        }
+    }
+}
+
+pub fn run(arguments: Arguments) -> Result<Outcome> {
+    let path = &arguments.case.path;
+    let text = store::read_text(path)?;
+    let case = Case::parse(&path.display().to_string(), &text)?;
+    if let Some(new) = arguments.write.as_ref().filter(|new| new.exists()) {
+        return Err(store::StoreError::Exists { path: new.clone() }.into());
+    }
+    if arguments.robust && !case.uncertainty.is_any() {
+        return Err(miette!(
+            help = "add a table [uncertainty], or leave out --robust",
+            "nothing in {} is uncertain, so that there is no robust optimum",
+            path.display()
+        ));
+    }
+    let task = Task::of(&case, arguments.objective.map(Into::into)).map_err(|error| {
+        miette!(help = "give the excitation an amplitude above 0", "{}: {error}", path.display())
+    })?;
+    let found = Optimization::of(&case, &text, &task, &SideBySide).into_diagnostic()?;
+    let stem = path.file_stem().ok_or_else(|| miette!("{} is no file", path.display()))?;
+    let name = stem.to_string_lossy();
+    if let Some(out) = &arguments.out {
+        let figures = page::figures(&case, &found);
+        let page = page::OptimizePage::new(&name, &case, &found, &figures);
+        let files = render::optimize(&page, &figures).into_diagnostic()?;
+        store::add_to_folder(&out.join(stem), &files)?;
+    }
+    if let Some(new) = &arguments.write {
+        let written = match &found.robust_written {
+            Some(robust) if arguments.robust => robust,
+            _ => &found.written,
+        };
+        store::write_new(new, written.text.as_bytes())?;
+    }
+    match arguments.format {
+        Format::Text => output::print(page::summary(&case, &found))?,
+        Format::Json => output::print_json(&page::OptimizationDocument::new(&case, &found))?,
+    }
+    Ok(if found.reached() { Outcome::Done } else { Outcome::DoesNotHold })
+}
+
+/// On all processors, with a bar for each kind of evaluation.
+struct SideBySide;
+
+impl Spread for SideBySide {
+    fn map(&self, what: &'static str, count: usize, f: &(dyn Fn(usize) -> f64 + Sync)) -> Vec<f64> {
+        let progress = Progress::new(what, count as u64);
+        let next = AtomicUsize::new(0);
+        let work = || {
+            let mut done = Vec::new();
+            loop {
+                let k = next.fetch_add(1, Ordering::Relaxed);
+                if k >= count {
+                    return done;
+                }
+                done.push((k, f(k)));
+                progress.advance(1);
+            }
+        };
+        let threads = thread::available_parallelism().map_or(1, usize::from).min(count.max(1));
+        let mut all: Vec<(usize, f64)> = thread::scope(|scope| {
+            let others: Vec<_> = (1..threads).map(|_| scope.spawn(work)).collect();
+            let mut all = work();
+            for other in others {
+                match other.join() {
+                    Ok(done) => all.extend(done),
+                    Err(panic) => std::panic::resume_unwind(panic),
+                }
+            }
+            all
+        });
+        all.sort_by_key(|(k, _)| *k);
+        all.into_iter().map(|(_, value)| value).collect()
+    }
+}

@@ -1,0 +1,102 @@
+//! Design charts: which clearance is best for a single excitation, against its frequency, and against its
+//! amplitude, to which it is proportional.
+
+use serde::Serialize;
+
+use super::search::{Spread, on_line, scan};
+use super::task::{Deviation, Task};
+use crate::band::Over;
+use crate::band::crossings::largest;
+use crate::case::{Choice, Objective};
+use crate::orbits::{SymmetricFamily, symmetric_orbits};
+use crate::system::System;
+
+/// Frequencies of a chart.
+const FREQUENCIES: u32 = 61;
+/// Reach of the chart beside a case without a band of frequencies, over the frequency.
+const REACH: f64 = 0.05;
+/// Pieces in which the best clearance of one excitation is looked for.
+const PIECES: usize = 128;
+
+/// The clearances that suit one excitation, in the units of a [`Choice`].
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Suited {
+    /// `Omega`.
+    pub frequency_ratio: f64,
+    /// The widest stretch with a stable symmetric 1:1 orbit.
+    pub stable: Option<[f64; 2]>,
+    /// The best, whatever the bounds of the task.
+    pub best: Option<f64>,
+}
+
+/// Where clearances of a chart are looked for, over the case's own.
+const WIDE: [f64; 2] = [0.02, 50.0];
+
+/// The best clearance against the frequency of a single excitation with the case's own amplitude, with
+/// the chosen restitution and mass.
+pub fn chart(task: &Task, choice: &Choice, spread: &dyn Spread) -> Vec<Suited> {
+    let Some((band, _)) = task.band_of(choice, &Deviation::default()) else { return Vec::new() };
+    let own = band.base.frequency_ratio();
+    let [from, to] = match &task.band {
+        Some(_) if band.over == Over::Frequency => band.range,
+        _ => [own * (1.0 - REACH), own * (1.0 + REACH)],
+    };
+    let at = |k: usize| {
+        let part = k as f64 / f64::from(FREQUENCIES - 1);
+        from * (1.0 - part) + to * part
+    };
+    let stretch = |k: usize| {
+        let system = band.base.with_frequency_ratio(at(k)).ok()?;
+        Some((system, widest(&system)?))
+    };
+    let count = FREQUENCIES as usize;
+    let best = spread.map("design chart", count, &|k| {
+        let found = band.base.with_frequency_ratio(at(k)).ok();
+        let factor = found.and_then(|system| best(task.objective, &system));
+        factor.map_or(f64::NAN, |factor| factor * choice.clearance)
+    });
+    (0..count)
+        .map(|k| Suited {
+            frequency_ratio: at(k),
+            stable: stretch(k).map(|(_, ends)| ends.map(|end| end * choice.clearance)),
+            best: Some(best[k]).filter(|clearance| clearance.is_finite()),
+        })
+        .collect()
+}
+
+/// The widest stretch of clearances with a stable symmetric orbit, over the system's own.
+fn widest(system: &System) -> Option<[f64; 2]> {
+    let family = SymmetricFamily::of(system).ok()?;
+    let stretches = family.stable.iter().map(|stretch| stretch.clearance);
+    stretches.max_by(|a, b| (a[1] / a[0]).total_cmp(&(b[1] / b[0])))
+}
+
+/// The best clearance for one system's excitation, over its own.
+fn best(objective: Objective, system: &System) -> Option<f64> {
+    match objective {
+        Objective::Z3Share => {
+            let manifold = crate::analysis::Manifold::of(system.restitution()).ok()?;
+            let curve = crate::analysis::FixedPointCurve::of(system, &manifold);
+            let factor = |part: f64| WIDE[0] * libm::pow(WIDE[1] / WIDE[0], part);
+            let inside = |part: f64| {
+                let gamma = system.forcing_per_clearance() / factor(part);
+                f64::from(u8::from(curve.zone(gamma).is_z3()))
+            };
+            let scanned = scan("", PIECES, &super::InTurn, &inside);
+            let found = on_line(&scanned, &inside).filter(|best| best.score > 0.0)?;
+            Some(factor(found.parts[0]))
+        }
+        Objective::StableShare => widest(system).map(|[low, high]| libm::sqrt(low * high)),
+        // As far, in relation to itself, from one end as from the other.
+        Objective::Margin => widest(system).map(|[low, high]| 0.5 * (low + high)),
+        Objective::WorstAmplitude => {
+            let still = |factor: f64| {
+                let there = system.with_clearance_scaled(factor).ok()?;
+                let orbits = symmetric_orbits(&there).ok()?;
+                let orbit = orbits.iter().find(|orbit| orbit.orbit.attracts())?;
+                Some(-factor * orbit.peaks.displacement)
+            };
+            largest(widest(system)?, PIECES as u32, still).map(|(factor, _)| factor)
+        }
+    }
+}

@@ -1,0 +1,82 @@
+//! The paper's claim about the best clearance (section 3.4 and the red cross of its Fig. 6c): the
+//! oscillator vibrates least where the steady 1:1 motion is about to disappear.
+
+use serde::Serialize;
+
+use crate::band::crossings::largest;
+use crate::orbits::{FullSystem, symmetric_orbits};
+use crate::system::System;
+
+/// Distance from the end, over the clearance there, at which the orbit is still asked for.
+const INSIDE: f64 = 1e-6;
+/// Relative difference of clearances up to which the two places are one: nobody builds closer.
+const SAME_PLACE: f64 = 0.01;
+/// Two steps of the scan, which are of one per cent, and pieces between them.
+const NEIGHBOUR: f64 = 1.02;
+const PIECES: u32 = 40;
+
+/// Where the stable 1:1 orbit vibrates least, and where it disappears. Over the case's own clearance.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Claim {
+    /// Clearance at which the stable symmetric orbit vibrates least.
+    pub best_clearance: f64,
+    /// Its amplitude there.
+    pub best_amplitude: f64,
+    /// Largest clearance of the stretch around it: beyond it the stable 1:1 motion is gone.
+    pub end_clearance: f64,
+    /// The orbit's amplitude there.
+    pub end_amplitude: f64,
+    /// What ends it, as its bifurcation is called.
+    pub ends_by: Option<&'static str>,
+}
+
+/// Amplitude of the stable symmetric orbit at a clearance, over the system's own clearance.
+fn amplitude(system: &System, factor: f64) -> Option<f64> {
+    let there = system.with_clearance_scaled(factor).ok()?;
+    let orbits = symmetric_orbits(&there).ok()?;
+    let stable = orbits.iter().find(|orbit| orbit.orbit.attracts())?;
+    Some(stable.peaks.displacement * factor)
+}
+
+impl Claim {
+    /// That of a system; `None` where no symmetric orbit is stable at any clearance.
+    pub fn of(system: &System) -> Option<Self> {
+        let full = FullSystem::of(system);
+        let best = full.best_clearance()?;
+        let stretch = full.stable_stretches().iter().find(|stretch| {
+            stretch.clearance[0] <= best.factor && best.factor <= stretch.clearance[1]
+        })?;
+        let [begin, end] = stretch.clearance;
+        let last = end * (1.0 - INSIDE);
+        let end_amplitude = amplitude(system, last)?;
+        // Next to a saddle-node the amplitude falls ever more steeply: a step of the scan is not enough.
+        let around = [(best.factor / NEIGHBOUR).max(begin), (best.factor * NEIGHBOUR).min(last)];
+        let narrowed = largest(around, PIECES, |factor| Some(-amplitude(system, factor)?))
+            .map(|(factor, least)| (factor, -least));
+        let known = [Some((best.factor, best.peak)), narrowed, Some((last, end_amplitude))];
+        let (best_clearance, best_amplitude) =
+            known.into_iter().flatten().min_by(|a, b| a.1.total_cmp(&b.1))?;
+        Some(Self {
+            best_clearance,
+            best_amplitude,
+            end_clearance: end,
+            end_amplitude,
+            ends_by: stretch.ends[1].map(|kind| kind.words()),
+        })
+    }
+
+    /// How far the best clearance lies below the end, over the end.
+    pub fn distance(&self) -> f64 {
+        1.0 - self.best_clearance / self.end_clearance
+    }
+
+    /// By how much the amplitude at the end exceeds the best one, over the latter.
+    pub fn excess(&self) -> f64 {
+        self.end_amplitude / self.best_amplitude - 1.0
+    }
+
+    /// Whether both places are one.
+    pub fn holds(&self) -> bool {
+        self.distance() <= SAME_PLACE || self.excess() <= 0.0
+    }
+}

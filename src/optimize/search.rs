@@ -1,0 +1,267 @@
+//! The best place between bounds: looked for everywhere first, narrowed down then, and moved to the
+//! middle where a whole stretch of places is best. Places are parts of the way, from 0 to 1.
+
+use std::cell::RefCell;
+
+use argmin::core::{CostFunction, Error, Executor, PopulationState};
+use argmin::solver::goldensectionsearch::GoldenSectionSearch;
+use argmin::solver::neldermead::NelderMead;
+use argmin::solver::particleswarm::ParticleSwarm;
+use rand_xoshiro::Xoshiro256PlusPlus;
+use rand_xoshiro::rand_core::SeedableRng;
+
+/// Carries out many evaluations: one after the other, or side by side with the same results.
+pub trait Spread: Sync {
+    /// What `f` says of each number below `count`, in their order; `what` names it to the user.
+    fn map(&self, what: &'static str, count: usize, f: &(dyn Fn(usize) -> f64 + Sync)) -> Vec<f64>;
+}
+
+/// One after the other.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct InTurn;
+
+impl Spread for InTurn {
+    fn map(&self, _: &'static str, count: usize, f: &(dyn Fn(usize) -> f64 + Sync)) -> Vec<f64> {
+        (0..count).map(f).collect()
+    }
+}
+
+/// A score between bounds, minus infinity where there is none.
+pub type Score<'f> = &'f (dyn Fn(&[f64]) -> f64 + Sync);
+
+/// How thoroughly is looked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Effort {
+    /// Pieces of a line.
+    pub pieces: usize,
+    /// Particles of a swarm.
+    pub particles: usize,
+    /// Steps of a swarm.
+    pub steps: u64,
+}
+
+/// The best place.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Best {
+    /// Where.
+    pub parts: Vec<f64>,
+    /// The score there.
+    pub score: f64,
+    /// The first coordinate's stretch that is as good, all others held; the place is its middle.
+    pub plateau: [f64; 2],
+}
+
+/// Relative difference of two scores that are the same: the rounding of roots.
+const SAME: f64 = 1e-9;
+/// Local maxima of a scan that are narrowed down.
+const PEAKS: usize = 4;
+/// Width to which a maximum is narrowed down, and halvings for the end of a plateau.
+const WIDTH: f64 = 1e-7;
+const HALVINGS: u32 = 30;
+/// Steps of the polish in several dimensions, and the size of its first simplex.
+const POLISH: u64 = 120;
+const SIMPLEX: f64 = 0.05;
+/// First step, over the width, in which a plateau is followed.
+const STRIDE: f64 = 1.0 / 256.0;
+/// Where every swarm begins.
+const SEED: u64 = 2016;
+
+/// What stands for a place without a score.
+const NOTHING: f64 = 1e300;
+
+/// A problem for the optimiser, which remembers the best of all it was asked.
+struct Problem<'f> {
+    score: Score<'f>,
+    best: RefCell<(Vec<f64>, f64)>,
+}
+
+impl<'f> Problem<'f> {
+    fn new(score: Score<'f>) -> Self {
+        Self { score, best: RefCell::new((Vec::new(), f64::NEG_INFINITY)) }
+    }
+
+    /// Places outside of the bounds count as the nearest inside.
+    fn asked(&self, parts: &[f64]) -> f64 {
+        let inside: Vec<f64> = parts.iter().map(|part| part.clamp(0.0, 1.0)).collect();
+        let score = (self.score)(&inside);
+        let mut best = self.best.borrow_mut();
+        // What is better by rounding only does not replace the middle of a plateau.
+        if score > best.1 && !same(score, best.1) {
+            *best = (inside, score);
+        }
+        if score.is_finite() { -score } else { NOTHING }
+    }
+}
+
+impl CostFunction for &Problem<'_> {
+    type Param = Vec<f64>;
+    type Output = f64;
+    fn cost(&self, parts: &Self::Param) -> Result<f64, Error> {
+        Ok(self.asked(parts))
+    }
+}
+
+/// A problem on a line.
+struct OnLine<'p, 'f>(&'p Problem<'f>);
+
+impl CostFunction for OnLine<'_, '_> {
+    type Param = f64;
+    type Output = f64;
+    fn cost(&self, part: &f64) -> Result<f64, Error> {
+        Ok(self.0.asked(&[*part]))
+    }
+}
+
+/// The score at even parts of a line, both ends among them.
+pub fn scan(
+    what: &'static str,
+    pieces: usize,
+    spread: &dyn Spread,
+    score: &(dyn Fn(f64) -> f64 + Sync),
+) -> Vec<(f64, f64)> {
+    let place = |k: usize| k as f64 / pieces as f64;
+    let found = spread.map(what, pieces + 1, &|k| score(place(k)));
+    found.into_iter().enumerate().map(|(k, score)| (place(k), score)).collect()
+}
+
+fn same(a: f64, b: f64) -> bool {
+    // Infinity is as far from every number as it is large.
+    let near = || (a - b).abs() <= SAME * a.abs().max(b.abs());
+    a == b || (a.is_finite() && b.is_finite() && near())
+}
+
+/// The best place on a line that was scanned; `None` where it has a score nowhere.
+pub fn on_line(scanned: &[(f64, f64)], score: &(dyn Fn(f64) -> f64 + Sync)) -> Option<Best> {
+    let asked = |parts: &[f64]| score(parts[0]);
+    let problem = Problem::new(&asked);
+    let last = scanned.len().checked_sub(1)?;
+    let around = |k: usize| (scanned[k.saturating_sub(1)], scanned[(k + 1).min(last)]);
+    let mut peaks: Vec<usize> = (0..=last)
+        .filter(|k| {
+            let (before, after) = around(*k);
+            scanned[*k].1 >= before.1.max(after.1) && scanned[*k].1.is_finite()
+        })
+        .collect();
+    peaks.sort_by(|a, b| scanned[*b].1.total_cmp(&scanned[*a].1));
+    // A plateau is as wide as it is, wherever on it one looks: the widest of the best ones wins.
+    let top = scanned[*peaks.first()?].1;
+    let level: Vec<usize> = (0..=last).filter(|k| same(scanned[*k].1, top)).collect();
+    let runs = level.chunk_by(|a, b| a + 1 == *b);
+    let widest = runs.max_by(|a, b| a.len().cmp(&b.len()).then(b[0].cmp(&a[0])))?;
+    let middle = scanned[widest[widest.len() / 2]];
+    problem.asked(&[middle.0]);
+    for k in peaks.into_iter().filter(|k| !level.contains(k) || level.len() == 1).take(PEAKS) {
+        let (before, after) = around(k);
+        narrowed(&problem, before.0, after.0);
+    }
+    if widest.len() < 3 {
+        let (from, to) = (around(widest[0]).0, around(widest[widest.len() - 1]).1);
+        narrowed(&problem, from.0, to.0);
+    }
+    let (parts, score) = problem.best.into_inner();
+    let at = *parts.first()?;
+    Some(centred(Best { parts, score, plateau: [at; 2] }, &asked))
+}
+
+/// Golden section between two places; what it finds is remembered by the problem.
+fn narrowed(problem: &Problem, from: f64, to: f64) {
+    let solver = GoldenSectionSearch::new(from, to).and_then(|solver| solver.with_tolerance(WIDTH));
+    let Ok(solver) = solver else { return };
+    let start = 0.5 * (from + to);
+    // Nothing is read from the outcome: the problem has seen every place.
+    let _ = Executor::new(OnLine(problem), solver)
+        .configure(|state| state.param(start).max_iters(u64::from(HALVINGS) * 2))
+        .timer(false)
+        .run();
+}
+
+/// The best place in several dimensions: a swarm with a fixed beginning, then a simplex from the best
+/// of it and of `known` places; `None` where nothing has a score.
+pub fn in_box(
+    known: &[Vec<f64>],
+    dimensions: usize,
+    effort: &Effort,
+    score: Score,
+) -> Option<Best> {
+    let problem = Problem::new(score);
+    for parts in known {
+        problem.asked(parts);
+    }
+    let bounds = (vec![0.0; dimensions], vec![1.0; dimensions]);
+    let swarm = ParticleSwarm::new(bounds, effort.particles)
+        .with_rng_generator(Xoshiro256PlusPlus::seed_from_u64(SEED));
+    let steps = effort.steps;
+    let _ = Executor::new(&problem, swarm)
+        .configure(|state: PopulationState<_, f64>| state.max_iters(steps))
+        .timer(false)
+        .run();
+    let start = problem.best.borrow().0.clone();
+    if start.is_empty() {
+        return None;
+    }
+    let mut simplex = vec![start.clone()];
+    for k in 0..dimensions {
+        let mut corner = start.clone();
+        corner[k] += if corner[k] > 0.5 { -SIMPLEX } else { SIMPLEX };
+        simplex.push(corner);
+    }
+    if let Ok(polish) = NelderMead::new(simplex).with_sd_tolerance(f64::EPSILON) {
+        let _ = Executor::new(&problem, polish)
+            .configure(|state| state.max_iters(POLISH))
+            .timer(false)
+            .run();
+    }
+    let (parts, best) = problem.best.into_inner();
+    let at = *parts.first()?;
+    Some(centred(Best { parts, score: best, plateau: [at; 2] }, score))
+}
+
+/// A place moved to the middle of the stretch that is as good, coordinate by coordinate.
+fn centred(mut best: Best, score: Score) -> Best {
+    for k in (0..best.parts.len()).rev() {
+        let at = best.parts[k];
+        let as_good = |part: f64| {
+            let mut parts = best.parts.clone();
+            parts[k] = part;
+            same(score(&parts), best.score)
+        };
+        let ends = [-1.0, 1.0].map(|side| end_of_plateau(at, side, &as_good));
+        let middle = 0.5 * (ends[0] + ends[1]);
+        if as_good(middle) {
+            best.parts[k] = middle;
+        }
+        if k == 0 {
+            best.plateau = ends;
+        }
+    }
+    best
+}
+
+/// How far places are as good, to one side.
+fn end_of_plateau(at: f64, side: f64, as_good: &dyn Fn(f64) -> bool) -> f64 {
+    let (mut inside, mut stride) = (at, WIDTH);
+    if !as_good((at + side * stride).clamp(0.0, 1.0)) {
+        return at;
+    }
+    let mut outside = loop {
+        let next = (inside + side * stride).clamp(0.0, 1.0);
+        if next == inside {
+            return inside;
+        }
+        if !as_good(next) {
+            break next;
+        }
+        inside = next;
+        // By doubling from close by, then evenly: nothing wider than a piece is stepped over.
+        stride = if stride < STRIDE { 2.0 * stride } else { STRIDE };
+    };
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (inside + outside);
+        if as_good(middle) {
+            inside = middle;
+        } else {
+            outside = middle;
+        }
+    }
+    inside
+}

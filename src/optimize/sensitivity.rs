@@ -1,0 +1,71 @@
+//! What a change of each parameter does to the objective.
+
+use serde::Serialize;
+
+use super::task::{Deviation, Task};
+use crate::case::Choice;
+
+/// Relative change of a parameter; of the frequency a tenth of it, since resonance is sharp.
+pub const CHANGE: f64 = 0.01;
+
+/// A parameter that may change.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Changed {
+    /// The clearance.
+    Clearance,
+    /// The restitution.
+    Restitution,
+    /// The absorber's mass.
+    Mass,
+    /// The excitation's frequency, a whole band shifted.
+    Frequency,
+    /// The excitation's amplitude, that of a whole band.
+    Amplitude,
+}
+
+/// The score with a parameter a little smaller and a little larger.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Sensitivity {
+    /// The parameter.
+    pub of: Changed,
+    /// Its relative change.
+    pub change: f64,
+    /// Score with the parameter smaller by that, `None` where there is no such system.
+    pub smaller: Option<f64>,
+    /// Score with it larger by that.
+    pub larger: Option<f64>,
+}
+
+/// The sensitivities at an absorber.
+pub fn of(task: &Task, choice: &Choice) -> Vec<Sensitivity> {
+    let omega = task.design.system().map_or(1.0, |system| system.frequency_ratio());
+    let at = |of: Changed, change: f64| {
+        let mut choice = *choice;
+        let mut off = Deviation::default();
+        match of {
+            Changed::Clearance => choice.clearance *= 1.0 + change,
+            Changed::Restitution => off.restitution = change * choice.restitution,
+            Changed::Mass => choice.mass = choice.mass.map(|mass| mass * (1.0 + change)),
+            Changed::Frequency => off.frequency_ratio = change * omega,
+            Changed::Amplitude => off.amplitude = change,
+        }
+        task.score(&choice, &off)
+    };
+    let all = [
+        (Changed::Clearance, CHANGE),
+        (Changed::Restitution, CHANGE),
+        (Changed::Mass, CHANGE),
+        (Changed::Frequency, 0.1 * CHANGE),
+        (Changed::Amplitude, CHANGE),
+    ];
+    all.into_iter()
+        .filter(|(of, _)| *of != Changed::Mass || choice.mass.is_some())
+        .map(|(of, change)| Sensitivity {
+            of,
+            change,
+            smaller: at(of, -change),
+            larger: at(of, change),
+        })
+        .collect()
+}

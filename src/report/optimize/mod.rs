@@ -1,0 +1,288 @@
+//! The page of `vinesink optimize`: the best absorber in words, tables and two figures.
+
+mod figure;
+mod words;
+
+use serde::Serialize;
+
+use super::FigureRow;
+use super::figure::Figure;
+use super::numbers::{percent, significant};
+use super::tables::{Table, table};
+use crate::case::{Case, Choice};
+use crate::optimize::claim::Claim;
+use crate::optimize::confirm::Place;
+use crate::optimize::sensitivity::{Changed, Sensitivity};
+use crate::optimize::{Bounds, Chosen, Optimization, Variable, chart};
+use words::Words;
+
+pub use figure::figures;
+
+/// The page as data.
+#[derive(Debug, Clone, Serialize)]
+pub struct OptimizePage {
+    /// The case's title.
+    pub title: String,
+    /// The answer in a sentence.
+    pub headline: String,
+    /// What follows from the rest, a sentence each.
+    pub sentences: Vec<String>,
+    /// The case's absorber, the best, the robust one.
+    pub absorbers: Table,
+    /// What was looked for and between which bounds.
+    pub looked_for: String,
+    /// What simulation says, in a sentence.
+    pub confirmed_words: String,
+    /// What simulation says, place by place.
+    pub confirmed: Table,
+    /// What a change of each parameter does.
+    pub sensitivities: Table,
+    /// The paper's claim on the case, a sentence each.
+    pub claim: Vec<String>,
+    /// The figures' words; the drawings are files of their own.
+    pub figures: Vec<FigureRow>,
+    /// Folder name of the case's report.
+    pub name: String,
+    /// Version of the program.
+    pub version: &'static str,
+    /// SHA-256 of the case file's text.
+    pub case_sha256: String,
+}
+
+impl OptimizePage {
+    /// Writes the page of a case.
+    pub fn new(name: &str, case: &Case, found: &Optimization, figures: &[Figure]) -> Self {
+        let words = Words::new(case, found);
+        Self {
+            title: case.title.clone(),
+            headline: words.headline(),
+            sentences: words.sentences(),
+            absorbers: absorbers(&words),
+            looked_for: looked_for(&words),
+            confirmed_words: words.confirmed(),
+            confirmed: confirmed(&words),
+            sensitivities: sensitivities(&words),
+            claim: words.claim(),
+            figures: figures.iter().map(FigureRow::of).collect(),
+            name: name.to_owned(),
+            version: env!("CARGO_PKG_VERSION"),
+            case_sha256: case.text_hash.clone(),
+        }
+    }
+}
+
+fn mass(choice: &Choice) -> String {
+    choice.mass.map_or_else(dash, |mass| format!("{} g", significant(1e3 * mass, 4)))
+}
+
+fn dash() -> String {
+    "–".to_owned()
+}
+
+fn absorbers(words: &Words) -> Table {
+    let found = words.found;
+    let row = |name: &str, one: &Chosen| {
+        [
+            name.to_owned(),
+            words.length(one.choice.clearance),
+            significant(one.choice.restitution, 4),
+            mass(&one.choice),
+            words.value(one.score),
+            one.expected.map_or_else(dash, |expected| words.value(expected)),
+        ]
+    };
+    let mut rows = vec![row("the case", &found.own), row("optimum", &found.nominal)];
+    rows.extend(found.robust.iter().map(|robust| row("robust optimum", robust)));
+    table(
+        [
+            ("Absorber", false),
+            ("Clearance", true),
+            ("Restitution", true),
+            ("Mass", true),
+            ("Objective", true),
+            ("Expected", true),
+        ],
+        rows,
+    )
+}
+
+fn looked_for(words: &Words) -> String {
+    let bounds = words.found.task.bounds.iter().map(|bounds| {
+        let Bounds { variable, from, to } = *bounds;
+        match variable {
+            Variable::Clearance => {
+                format!("clearance {} to {}", words.length(from), words.length(to))
+            }
+            Variable::Restitution => {
+                format!("restitution {} to {}", significant(from, 3), significant(to, 3))
+            }
+            Variable::Mass => {
+                format!("mass {} to {} g", significant(1e3 * from, 4), significant(1e3 * to, 4))
+            }
+        }
+    });
+    let bounds: Vec<String> = bounds.collect();
+    format!("Objective: {}. Bounds: {}.", words.objective_words(), bounds.join(", "))
+}
+
+fn confirmed(words: &Words) -> Table {
+    let rows = words.found.confirmed.iter().map(|place| {
+        [
+            words.at(place.at),
+            place.exact.map_or_else(dash, |exact| words.lengths.text(exact)),
+            format!("{} of {}", place.as_predicted, place.starts),
+            place.motions.to_string(),
+            place.largest.map_or_else(dash, |largest| words.lengths.text(largest)),
+        ]
+    });
+    let at = if words.over_amplitude() { "Amplitude" } else { "Frequency" };
+    table(
+        [
+            (at, true),
+            ("Exact orbit", true),
+            ("Starts that led to it", true),
+            ("Motions", true),
+            ("Largest amplitude", true),
+        ],
+        rows.collect(),
+    )
+}
+
+fn sensitivities(words: &Words) -> Table {
+    let rows = words.found.sensitivities.iter().map(|one| {
+        let name = match one.of {
+            Changed::Clearance => "clearance",
+            Changed::Restitution => "restitution",
+            Changed::Mass => "mass",
+            Changed::Frequency => "frequency",
+            Changed::Amplitude => "amplitude",
+        };
+        let value = |score: Option<f64>| score.map_or_else(dash, |score| words.value(score));
+        [
+            name.to_owned(),
+            percent(one.change),
+            value(one.smaller),
+            words.value(words.found.nominal.score),
+            value(one.larger),
+        ]
+    });
+    table(
+        [
+            ("Parameter", false),
+            ("Change", true),
+            ("Smaller", true),
+            ("As it is", true),
+            ("Larger", true),
+        ],
+        rows.collect(),
+    )
+}
+
+/// What the terminal shows.
+pub fn summary(case: &Case, found: &Optimization) -> String {
+    use std::fmt::Write as _;
+    let words = Words::new(case, found);
+    let mut text = format!("{}\n\n{}\n", case.title, words.headline());
+    for sentence in words.sentences() {
+        let _ = writeln!(text, "{sentence}");
+    }
+    let _ = writeln!(text, "{}\n", looked_for(&words));
+    for row in absorbers(&words).rows {
+        let [name, clearance, restitution, mass, objective, expected] =
+            [0, 1, 2, 3, 4, 5].map(|k| row.get(k).map_or("", String::as_str));
+        let _ = writeln!(
+            text,
+            "{name:16}b {clearance:>12}   r {restitution:>7}   m2 {mass:>9}   {objective:>10}   expected {expected:>10}"
+        );
+    }
+    let _ = writeln!(text, "\n{}", words.confirmed());
+    for sentence in words.claim() {
+        let _ = writeln!(text, "{sentence}");
+    }
+    text
+}
+
+/// `vinesink/optimization@1`. Lengths in metres or the case's own unit; objectives as they are spoken
+/// of, so that an amplitude is positive.
+#[derive(Debug, Clone, Serialize)]
+pub struct OptimizationDocument {
+    format: &'static str,
+    title: String,
+    objective: &'static str,
+    bounds: Vec<Bounds>,
+    reached: bool,
+    own: ChosenDocument,
+    optimum: ChosenDocument,
+    robust: Option<ChosenDocument>,
+    /// Pairs of clearance and objective.
+    landscape: Vec<(f64, Option<f64>)>,
+    /// Pairs of clearance and expected objective.
+    robust_landscape: Vec<(f64, Option<f64>)>,
+    sensitivities: Vec<Sensitivity>,
+    confirmed: Vec<Place>,
+    /// Over the case's own clearance.
+    claim: Option<ClaimDocument>,
+    chart: Vec<chart::Suited>,
+    /// SHA-256 of the case file's text.
+    case_sha256: String,
+}
+
+#[derive(Debug, Clone, Serialize)]
+struct ChosenDocument {
+    #[serde(flatten)]
+    choice: Choice,
+    objective: Option<f64>,
+    expected: Option<f64>,
+    plateau: [f64; 2],
+}
+
+#[derive(Debug, Clone, Serialize)]
+struct ClaimDocument {
+    #[serde(flatten)]
+    claim: Claim,
+    distance: f64,
+    excess: f64,
+    holds: bool,
+}
+
+impl OptimizationDocument {
+    /// The document of a case.
+    pub fn new(case: &Case, found: &Optimization) -> Self {
+        let value = |score: f64| Some(found.task.value(score)).filter(|value| value.is_finite());
+        let chosen = |one: &Chosen| ChosenDocument {
+            choice: one.choice,
+            objective: value(one.score),
+            expected: one.expected.and_then(value),
+            plateau: one.plateau,
+        };
+        let pairs =
+            |points: &[(f64, f64)]| points.iter().map(|(at, score)| (*at, value(*score))).collect();
+        let spoken = |one: &Sensitivity| Sensitivity {
+            smaller: one.smaller.and_then(value),
+            larger: one.larger.and_then(value),
+            ..*one
+        };
+        Self {
+            format: "vinesink/optimization@1",
+            title: case.title.clone(),
+            objective: found.task.objective.name(),
+            bounds: found.task.bounds.clone(),
+            reached: found.reached(),
+            own: chosen(&found.own),
+            optimum: chosen(&found.nominal),
+            robust: found.robust.as_ref().map(chosen),
+            landscape: pairs(&found.landscape),
+            robust_landscape: pairs(&found.robust_landscape),
+            sensitivities: found.sensitivities.iter().map(spoken).collect(),
+            confirmed: found.confirmed.clone(),
+            claim: found.claim.map(|claim| ClaimDocument {
+                claim,
+                distance: claim.distance(),
+                excess: claim.excess(),
+                holds: claim.holds(),
+            }),
+            chart: found.chart.clone(),
+            case_sha256: case.text_hash.clone(),
+        }
+    }
+}

@@ -1,0 +1,231 @@
+//! What is said about an optimisation.
+
+use crate::case::{BandOver, Case, Objective, Scales};
+use crate::optimize::Optimization;
+use crate::optimize::claim::Claim;
+use crate::report::numbers::{LengthFormat, fixed, percent, signed_percent};
+
+/// Digits of a clearance: as it is written.
+const DIGITS: usize = 4;
+/// Simulated amplitude over the promised one from which on the reader is told.
+const SURPRISE: f64 = 1.02;
+
+/// An optimisation with what turns its numbers into text.
+pub(super) struct Words<'a> {
+    pub found: &'a Optimization,
+    pub scales: Scales,
+    pub lengths: LengthFormat,
+}
+
+impl<'a> Words<'a> {
+    pub fn new(case: &Case, found: &'a Optimization) -> Self {
+        let scales = case.scales();
+        Self { found, scales, lengths: LengthFormat::of(&scales) }
+    }
+
+    /// A length in four digits.
+    pub fn length(&self, length: f64) -> String {
+        self.lengths.with_digits(length, DIGITS)
+    }
+
+    /// A frequency ratio as a frequency, where there is one.
+    pub fn frequency(&self, omega: f64) -> String {
+        match self.scales.frequency_hz(omega) {
+            Some(hertz) => format!("{} Hz", fixed(hertz, 3)),
+            None => format!("Ω = {}", fixed(omega, 4)),
+        }
+    }
+
+    /// A score as the figure's ordinate.
+    pub fn number(&self, score: f64) -> f64 {
+        let value = self.found.task.value(score);
+        match self.found.task.objective {
+            Objective::WorstAmplitude => self.lengths.number(value),
+            _ => 100.0 * value,
+        }
+    }
+
+    /// A score with its unit.
+    pub fn value(&self, score: f64) -> String {
+        let value = self.found.task.value(score);
+        match self.found.task.objective {
+            _ if !score.is_finite() => "–".to_owned(),
+            Objective::WorstAmplitude => self.lengths.text(value),
+            _ => percent(value),
+        }
+    }
+
+    /// The ordinate's name.
+    pub fn axis(&self) -> String {
+        match self.found.task.objective {
+            Objective::Z3Share => "share in area Z3 (%)".to_owned(),
+            Objective::StableShare => "share with a stable 1:1 orbit (%)".to_owned(),
+            Objective::WorstAmplitude => format!("worst amplitude ({})", self.lengths.unit),
+            Objective::Margin => "smallest margin in clearance (%)".to_owned(),
+        }
+    }
+
+    /// What was looked for.
+    pub fn objective_words(&self) -> &'static str {
+        match (self.found.task.objective, self.found.task.band.is_some()) {
+            (Objective::Z3Share, true) => "Share of the band in area Z3",
+            (Objective::Z3Share, false) => "Area Z3 at the case's excitation",
+            (Objective::StableShare, true) => "Share of the band with a stable 1:1 orbit",
+            (Objective::StableShare, false) => "Stable 1:1 orbit at the case's excitation",
+            (Objective::WorstAmplitude, true) => "Largest amplitude over the band",
+            (Objective::WorstAmplitude, false) => "Amplitude at the case's excitation",
+            (Objective::Margin, true) => "Smallest margin in clearance over the band",
+            (Objective::Margin, false) => "Margin in clearance at the case's excitation",
+        }
+    }
+
+    /// The answer.
+    pub fn headline(&self) -> String {
+        let best = &self.found.nominal;
+        let what = self.objective_words();
+        if !self.found.reached() {
+            return format!(
+                "Nothing between the bounds reaches it. {what}: {}.",
+                self.value(best.score)
+            );
+        }
+        let at = self.length(best.choice.clearance);
+        format!("Best clearance {at}. {what}: {}.", self.value(best.score))
+    }
+
+    /// What the case's own absorber reaches.
+    pub fn against_own(&self) -> String {
+        let own = &self.found.own;
+        let at = self.length(own.choice.clearance);
+        format!("The case itself, at {at}, has {}.", self.value(own.score))
+    }
+
+    /// What follows from the rest, a sentence each.
+    pub fn sentences(&self) -> Vec<String> {
+        let best = &self.found.nominal;
+        let mut sentences = vec![self.against_own()];
+        let [low, high] = best.plateau;
+        if self.found.reached() && high > low * 1.001 {
+            let [low, high] = [low, high].map(|end| self.lengths.text(end));
+            sentences.push(format!(
+                "Clearances from {low} to {high} are as good; the middle of them is chosen."
+            ));
+        }
+        let bounds = self.found.task.bounds[0];
+        let near = |end: f64| (best.choice.clearance / end - 1.0).abs() < 1e-3;
+        if near(bounds.from) || near(bounds.to) {
+            sentences.push(
+                "It lies at a bound: a wider range of clearances may hold a better one.".to_owned(),
+            );
+        }
+        if let Some(robust) = &self.found.robust {
+            let expected = |score: Option<f64>| self.value(score.unwrap_or(f64::NAN));
+            sentences.push(format!(
+                "Expected under what is uncertain it has {}; the robust optimum, at {}, has {}.",
+                expected(best.expected),
+                self.length(robust.choice.clearance),
+                expected(robust.expected),
+            ));
+            if self.found.task.band.is_none() && self.found.task.objective != Objective::Margin {
+                sentences.push(
+                    "At one excitation the objective jumps, which five points for each parameter resolve coarsely."
+                        .to_owned(),
+                );
+            }
+        }
+        sentences.extend(self.contradictions());
+        sentences
+    }
+
+    /// Where simulation contradicts the answer; empty where it does not.
+    fn contradictions(&self) -> Vec<String> {
+        let places = &self.found.confirmed;
+        let mut sentences = Vec::new();
+        let largest = places.iter().filter_map(|place| place.largest).max_by(f64::total_cmp);
+        let promised = self.found.task.value(self.found.nominal.score);
+        if self.found.task.objective == Objective::WorstAmplitude
+            && let Some(largest) = largest.filter(|largest| *largest > promised * SURPRISE)
+        {
+            sentences.push(format!(
+                "Not confirmed: from other starts simulation finds amplitudes up to {}, of motions beside the exact orbit or from more starts than the search takes.",
+                self.lengths.text(largest)
+            ));
+        }
+        let lost = places.iter().filter(|place| place.exact.is_some() && place.as_predicted == 0);
+        let lost: Vec<String> = lost.map(|place| self.at(place.at)).collect();
+        if !lost.is_empty() {
+            sentences.push(format!(
+                "At {} the exact orbit is stable, yet no start of the simulation led to it.",
+                lost.join(", ")
+            ));
+        }
+        sentences
+    }
+
+    /// A place of the band.
+    pub fn at(&self, at: f64) -> String {
+        if self.over_amplitude() { format!("× {}", fixed(at, 3)) } else { self.frequency(at) }
+    }
+
+    /// Whether the band is one of amplitudes.
+    pub fn over_amplitude(&self) -> bool {
+        let band = self.found.task.band.as_ref();
+        band.is_some_and(|band| band.over == BandOver::Amplitude)
+    }
+
+    /// What simulation says.
+    pub fn confirmed(&self) -> String {
+        let places = &self.found.confirmed;
+        let orbit = places.iter().filter(|place| place.exact.is_some()).count();
+        let all = places
+            .iter()
+            .filter(|place| place.exact.is_some() && place.as_predicted == place.starts);
+        let several = places.iter().filter(|place| place.motions > 1).count();
+        let largest = places.iter().filter_map(|place| place.largest).max_by(f64::total_cmp);
+        let largest = largest.map_or_else(String::new, |largest| {
+            format!(" The largest amplitude that was simulated is {}.", self.lengths.text(largest))
+        });
+        let (count, all) = (places.len(), all.count());
+        let place = if count == 1 { "place" } else { "places" };
+        let starts = places.first().map_or(0, |place| place.starts);
+        format!(
+            "From {starts} starts at each of {count} {place}: an exact symmetric orbit attracts at {orbit}, and every start led to it at {all} of these; at {several} of all places the starts led to several motions.{largest}"
+        )
+    }
+
+    /// The paper's claim on the case.
+    pub fn claim(&self) -> Vec<String> {
+        let Some(claim) = &self.found.claim else {
+            return vec![
+                "At the case's own excitation no clearance has a stable 1:1 orbit.".to_owned(),
+            ];
+        };
+        let own = self.found.own.choice.clearance;
+        let length = |over: f64| self.lengths.text(over * own);
+        let (best, end) = (length(claim.best_clearance), length(claim.end_clearance));
+        vec![
+            "The paper (section 3.4, the red cross of Fig. 6c) expects the smallest amplitude where the 1:1 motion disappears.".to_owned(),
+            format!(
+                "At the case's own excitation the stable 1:1 orbit vibrates least at {best}, with {}, and disappears at {end}{}, with {}.",
+                length(claim.best_amplitude),
+                claim.ends_by.map_or_else(String::new, |kind| format!(" ({kind})")),
+                length(claim.end_amplitude),
+            ),
+            verdict(claim),
+        ]
+    }
+}
+
+fn verdict(claim: &Claim) -> String {
+    let distance = percent(claim.distance());
+    let excess = signed_percent(claim.excess());
+    if claim.holds() {
+        format!(
+            "The claim holds here: the best clearance lies {distance} below that end, and the amplitude at the end differs by {excess}."
+        )
+    } else {
+        format!(
+            "The claim fails here by {distance} of the clearance: at the end the amplitude differs by {excess} from the best."
+        )
+    }
+}

@@ -1,0 +1,323 @@
+//! Optimisation: the optimum against brute force, its expectation against Monte Carlo, the written case,
+//! bounds, and what is refused.
+
+use std::fs;
+
+use assert_cmd::Command;
+use rand_xoshiro::Xoshiro256PlusPlus;
+use rand_xoshiro::rand_core::{RngCore, SeedableRng};
+use vinesink::case::{Case, Choice, Objective};
+use vinesink::optimize::claim::Claim;
+use vinesink::optimize::{Deviation, InTurn, Optimization, Spread, Task};
+use vinesink::orbits::symmetric_orbits;
+
+const NOTHING: Deviation =
+    Deviation { clearance: 0.0, restitution: 0.0, frequency_ratio: 0.0, amplitude: 0.0 };
+
+fn band_text(more: &str) -> String {
+    fs::read_to_string("cases/li2016-band.toml").expect("a case") + "\n" + more
+}
+
+fn case(text: &str) -> Case {
+    Case::parse("a case", text).unwrap_or_else(|error| panic!("{error:?}"))
+}
+
+fn optimized(text: &str, objective: Option<Objective>) -> Optimization {
+    let case = case(text);
+    let task = Task::of(&case, objective).expect("a task");
+    Optimization::of(&case, text, &task, &InTurn).expect("an optimum")
+}
+
+fn reduced(r: f64, eps: f64, lambda: f64, forcing: f64, band: [f64; 2], more: &str) -> String {
+    let [from, to] = band;
+    format!(
+        "title = \"t\"\nsource = \"s\"\n[reduced]\nmass_ratio = {eps}\ndamping = {lambda}\nrestitution = {r}\n\
+         clearance = 1.0\nforcing = {forcing}\nfrequency_ratio = 1.0\n[band]\nfrom = {from}\nto = {to}\n{more}"
+    )
+}
+
+/// The best of a fine grid over the bounds.
+fn brute_force(task: &Task, points: u32) -> f64 {
+    let scores = (0..=points).filter_map(|k| {
+        let choice = task.choice(&[f64::from(k) / f64::from(points)]);
+        task.score(&choice, &NOTHING)
+    });
+    scores.fold(f64::NEG_INFINITY, f64::max)
+}
+
+#[test]
+fn the_optimum_is_that_of_brute_force() {
+    use Objective::{Margin, StableShare, WorstAmplitude, Z3Share};
+    let cases = [
+        (reduced(0.6, 0.0077, 1.8, 4.3, [0.97, 1.03], ""), Z3Share, 3000),
+        (reduced(0.3, 0.03, 1.0, 2.0, [0.95, 1.05], ""), Z3Share, 3000),
+        (reduced(0.8, 0.01, 0.6, 1.0, [0.98, 1.01], ""), StableShare, 900),
+        (reduced(0.65, 0.02, 1.2, 3.0, [0.99, 1.01], ""), Margin, 900),
+        (reduced(0.5, 0.05, 0.8, 1.5, [1.0, 1.04], ""), WorstAmplitude, 900),
+    ];
+    for (text, objective, points) in cases {
+        let found = optimized(&text, Some(objective));
+        let brute = brute_force(&found.task, points);
+        let best = found.nominal.score;
+        println!("{objective:?}: {best} against {brute}, at {:?}", found.nominal.choice);
+        let scale = brute.abs();
+        // What is written has four digits, and a grid may miss the top.
+        assert!(best >= brute - 2e-3 * scale, "{objective:?}: {best} below {brute}");
+        assert!(best <= brute + 2e-2 * scale, "{objective:?}: {best} above {brute}");
+        assert!(found.reached(), "{objective:?}");
+        assert_eq!(found.task.score(&found.nominal.choice, &NOTHING), Some(best));
+    }
+}
+
+/// Standard normal numbers with a fixed beginning, by Box and Muller.
+struct Normal(Xoshiro256PlusPlus);
+
+impl Normal {
+    fn next(&mut self) -> f64 {
+        let mut uniform = || (self.0.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
+        let (a, b) = (1.0 - uniform(), uniform());
+        (-2.0 * libm::log(a)).sqrt() * libm::cos(std::f64::consts::TAU * b)
+    }
+}
+
+const UNCERTAIN: &str = "[uncertainty]\nclearance = \"0.6 mm\"\nrestitution = 0.05\n\
+                         frequency = \"0.05 Hz\"\namplitude = \"0.02 mm\"\n";
+
+/// Average and standard error over deviations, the same for every absorber.
+fn monte_carlo(task: &Task, choice: &Choice, samples: u32) -> (f64, f64) {
+    let mut normal = Normal(Xoshiro256PlusPlus::seed_from_u64(1));
+    let (mut sum, mut squares) = (0.0, 0.0);
+    for _ in 0..samples {
+        let off = Deviation {
+            clearance: normal.next() * task.uncertainty.clearance,
+            restitution: normal.next() * task.uncertainty.restitution,
+            frequency_ratio: normal.next() * task.uncertainty.frequency_ratio,
+            amplitude: normal.next() * task.uncertainty.amplitude,
+        };
+        let score = task.score(choice, &off).expect("a score");
+        sum += score;
+        squares += score * score;
+    }
+    let count = f64::from(samples);
+    let mean = sum / count;
+    (mean, ((squares / count - mean * mean) / (count - 1.0)).sqrt())
+}
+
+#[test]
+fn the_expectation_and_its_optimum_are_those_of_monte_carlo() {
+    let case = case(&band_text(UNCERTAIN));
+    let task = Task::of(&case, None).expect("a task");
+    for part in [0.45, 0.6, 0.68] {
+        let choice = task.choice(&[part]);
+        let expected = task.expected(&choice).expect("a score");
+        let (mean, error) = monte_carlo(&task, &choice, 4000);
+        println!("{part}: {expected} against {mean} with a standard error of {error}");
+        assert!((expected - mean).abs() < 4.0 * error, "{expected}, {mean}, {error}");
+    }
+    // With two uncertain parameters the robust optimum beats every place of a grid.
+    let two = band_text("[uncertainty]\nclearance = \"1.5 mm\"\nfrequency = \"0.03 Hz\"\n");
+    let found = optimized(&two, None);
+    let robust = found.robust.expect("something is uncertain");
+    let (reached, error) = monte_carlo(&found.task, &robust.choice, 500);
+    for k in 0..16 {
+        let choice = found.task.choice(&[0.4 + 0.025 * f64::from(k)]);
+        let (other, _) = monte_carlo(&found.task, &choice, 500);
+        assert!(reached > other - 3.0 * error, "{choice:?}: {other} above {reached}");
+    }
+    assert!(robust.expected >= found.nominal.expected, "{robust:?}");
+    assert!(robust.score <= found.nominal.score + 1e-9, "{robust:?}");
+}
+
+#[test]
+fn a_written_case_differs_in_its_values_only() {
+    let text = band_text("[optimize]\nrestitution = [0.55, 0.75]\nmass = [\"25 g\", \"40 g\"]\n")
+        .replace("clearance = \"11.5 mm\"", "clearance = \"1.15 cm\"   # a guess");
+    let found = optimized(&text, None);
+    let changed: Vec<(&str, &str)> = text
+        .lines()
+        .zip(found.written.text.lines())
+        .filter(|(before, after)| before != after)
+        .collect();
+    assert_eq!(text.lines().count(), found.written.text.lines().count());
+    assert_eq!(changed.len(), 3, "{changed:?}");
+    let clearance = changed.iter().find(|(_, after)| after.starts_with("clearance = \""));
+    let (_, clearance) = clearance.expect("the clearance");
+    assert!(clearance.ends_with(" cm\"   # a guess"), "{clearance}");
+    let digits = clearance.chars().take_while(|c| *c != '#').filter(char::is_ascii_digit).count();
+    assert!(digits <= 5, "{clearance}");
+    // What is shown is what is written.
+    let again = case(&found.written.text);
+    assert_eq!(Choice::of(&again.design), found.nominal.choice);
+    let task = Task::of(&again, None).expect("a task");
+    let score = task.score(&found.nominal.choice, &NOTHING).expect("a score");
+    assert!((score - found.nominal.score).abs() < 1e-9, "{score}");
+    // Three variables do better than one.
+    let one = optimized(&band_text(""), None);
+    assert!(found.nominal.score >= one.nominal.score - 1e-3, "{found:?}");
+}
+
+#[test]
+fn bounds_are_kept() {
+    let tables = [
+        "[optimize]\nclearance = [\"14 mm\", \"14.001 mm\"]\n",
+        "[optimize]\nclearance = [\"3 mm\", \"5 mm\"]\nrestitution = [0.7123456, 0.7123458]\n",
+        "[optimize]\nclearance = [\"9.1234567 mm\", \"9.1234569 mm\"]\nmass = [\"31 g\", \"33 g\"]\n",
+    ];
+    for table in tables {
+        let found = optimized(&band_text(table), None);
+        assert!(found.task.allows(&found.nominal.choice), "{table}: {:?}", found.nominal);
+    }
+}
+
+#[test]
+fn of_a_plateau_the_middle_is_chosen() {
+    let text = reduced(0.6, 0.0077, 1.8, 4.3, [0.97, 1.03], "").replace("[band]", "#");
+    let text: String =
+        text.lines().take_while(|line| *line != "#").map(|l| l.to_owned() + "\n").collect();
+    for objective in [Objective::Z3Share, Objective::StableShare] {
+        let found = optimized(&text, Some(objective));
+        assert_eq!(found.nominal.score, 1.0, "{objective:?}");
+        let [low, high] = found.nominal.plateau;
+        let middle = (low * high).sqrt();
+        assert!((found.nominal.choice.clearance / middle - 1.0).abs() < 1e-3, "{found:?}");
+        for (at, inside) in
+            [(low * 1.001, 1.0), (high * 0.999, 1.0), (low * 0.999, 0.0), (high * 1.001, 0.0)]
+        {
+            let choice = Choice { clearance: at, ..found.nominal.choice };
+            assert_eq!(found.task.score(&choice, &NOTHING), Some(inside), "{objective:?} {at}");
+        }
+        assert!(found.confirmed.iter().all(|place| place.as_predicted > 0), "{found:?}");
+    }
+}
+
+/// Evaluates from the last to the first.
+struct Backwards;
+
+impl Spread for Backwards {
+    fn map(&self, _: &'static str, count: usize, f: &(dyn Fn(usize) -> f64 + Sync)) -> Vec<f64> {
+        let mut all: Vec<f64> = (0..count).rev().map(f).collect();
+        all.reverse();
+        all
+    }
+}
+
+#[test]
+fn the_order_of_evaluations_changes_nothing() {
+    let text =
+        reduced(0.6, 0.0077, 1.8, 4.3, [0.97, 1.03], "[optimize]\nrestitution = [0.5, 0.7]\n");
+    let case = case(&text);
+    let task = Task::of(&case, None).expect("a task");
+    let backwards = Optimization::of(&case, &text, &task, &Backwards).expect("an optimum");
+    let forwards = Optimization::of(&case, &text, &task, &InTurn).expect("an optimum");
+    assert_eq!(backwards.nominal, forwards.nominal);
+    assert_eq!(backwards.landscape, forwards.landscape);
+}
+
+/// Best amplitude and end of the 1:1 motion by a dense scan of the clearance.
+#[test]
+fn the_claim_is_measured_where_a_scan_finds_it() {
+    for name in ["li2016-8p5hz-fig4a", "li2016-8hz-b7p5mm", "force-on-mass"] {
+        let text = fs::read_to_string(format!("cases/{name}.toml")).expect("a case");
+        let system = case(&text).system();
+        let claim = Claim::of(&system).expect("a stable orbit somewhere");
+        let amplitude = |factor: f64| {
+            let there = system.with_clearance_scaled(factor).expect("valid");
+            let orbits = symmetric_orbits(&there).expect("steady");
+            let stable = orbits.iter().find(|orbit| orbit.orbit.attracts())?;
+            Some(stable.peaks.displacement * factor)
+        };
+        println!("{name}: {claim:?}, distance {}, excess {}", claim.distance(), claim.excess());
+        assert!(amplitude(claim.end_clearance * 0.9999).is_some(), "{name}");
+        assert!(amplitude(claim.end_clearance * 1.0001).is_none(), "{name}");
+        let scanned = (0..3000)
+            .filter_map(|k| amplitude(claim.end_clearance * (0.02 + 0.001 * f64::from(k))));
+        let least = scanned.fold(f64::INFINITY, f64::min);
+        assert!((claim.best_amplitude / least - 1.0).abs() < 0.02, "{name}: {claim:?}, {least}");
+    }
+}
+
+#[test]
+fn bad_input_is_refused_where_it_stands() {
+    let physical = |table: &str| band_text(table);
+    let plain = |table: &str| reduced(0.6, 0.0077, 1.8, 4.3, [0.97, 1.03], table);
+    let wrong = [
+        (
+            physical("[optimize]\nclearance = [\"40 mm\", \"5 mm\"]"),
+            "the bounds of `clearance` do not rise",
+            "[\"40 mm\", \"5 mm\"]",
+        ),
+        (
+            physical("[optimize]\nclearance = [5, 40]"),
+            "`clearance` holds a number without a unit",
+            "5",
+        ),
+        (
+            physical("[optimize]\nclearance = \"5 mm\""),
+            "`clearance` is not a pair of bounds",
+            "\"5 mm\"",
+        ),
+        (
+            physical("[optimize]\nmass = [\"20 mm\", \"50 g\"]"),
+            "`mass` holds a value that",
+            "\"20 mm\"",
+        ),
+        (physical("[optimize]\nrestitution = [0.4, 1.2]"), "`restitution` holds 1.2", "1.2"),
+        (
+            physical("[optimize]\nobjective = \"z3share\""),
+            "`objective` is \"z3share\"",
+            "\"z3share\"",
+        ),
+        (physical("[uncertainty]\nclearance = \"-1 mm\""), "`clearance` is -1 mm", "\"-1 mm\""),
+        (
+            plain("[optimize]\nmass = [\"20 g\", \"50 g\"]"),
+            "a reduced case has no mass to choose",
+            "mass",
+        ),
+        (
+            plain("[optimize]\nclearance = [\"1 mm\", \"2 mm\"]"),
+            "`clearance` holds text",
+            "\"1 mm\"",
+        ),
+    ];
+    for (text, message, underlined) in wrong {
+        let error = Case::parse("a case", &text).expect_err(message);
+        let problem = error.problems().next().expect("one problem");
+        assert!(problem.message.starts_with(message), "{problem:?}");
+        assert_eq!(problem.underlined, underlined, "{problem:?}");
+        assert!(problem.help.is_some(), "{problem:?}");
+    }
+    let still = reduced(0.6, 0.0077, 1.8, 0.0, [0.97, 1.03], "")
+        .replace("[band]\nfrom = 0.97\nto = 1.03", "");
+    assert!(Task::of(&case(&still), None).is_err());
+}
+
+#[test]
+fn the_command_writes_a_page_and_a_case() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let run = |more: &[&str]| {
+        let mut command = Command::cargo_bin("vinesink").expect("the program");
+        command.args(["optimize", "cases/li2016-8p5hz-fig4a.toml"]).args(more);
+        command.output().expect("it runs")
+    };
+    let out = folder.path().join("out");
+    let new = folder.path().join("new.toml");
+    let [out_text, new_text] = [&out, &new].map(|path| path.to_str().expect("UTF-8").to_owned());
+    let first = run(&["--format", "json", "--out", &out_text, "--write", &new_text]);
+    assert_eq!(first.status.code(), Some(0), "{first:?}");
+    let second = run(&["--format", "json"]);
+    assert_eq!(first.stdout, second.stdout, "the same case gives the same bytes");
+    let document: serde_json::Value = serde_json::from_slice(&first.stdout).expect("JSON");
+    assert_eq!(document["format"], "vinesink/optimization@1");
+    assert_eq!(document["reached"], true);
+    let page = out.join("li2016-8p5hz-fig4a");
+    for file in ["optimize.md", "figures/optimize-landscape.svg", "figures/optimize-chart.svg"] {
+        assert!(page.join(file).is_file(), "{file}");
+    }
+    case(&fs::read_to_string(&new).expect("the new case"));
+    // An existing file stays, and nothing uncertain has no robust optimum.
+    assert_eq!(run(&["--write", &new_text]).status.code(), Some(2));
+    let other = folder.path().join("other.toml");
+    let robust = run(&["--robust", "--write", other.to_str().expect("UTF-8")]);
+    assert_eq!(robust.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&robust.stderr).contains("[uncertainty]"));
+}
