@@ -187,7 +187,13 @@ fn read(reader: &mut Reader, document: &DeTable) -> Option<Case> {
     let simulation = simulation::read(reader, &root);
     let report = report::read(reader, &root);
     let accuracy = accuracy::read(reader, &root);
-    let design = design?;
+    let Some(design) = design else {
+        // Their values need a design, their keys do not.
+        for table in [band::TABLE, criteria::TABLE, optimize::TABLE, uncertainty::TABLE] {
+            reader.table(&root, table);
+        }
+        return None;
+    };
     let band = band::read(reader, &root, &design);
     let criteria = criteria::read(reader, &root, &design);
     let optimize = optimize::read(reader, &root, &design);
