@@ -42,7 +42,7 @@ pub struct Arguments {
 
 const EXAMPLES: &str = "\
 Examples:
-  vinesink diff reports/damper /tmp/reports/damper
+  vinesink diff reports/damper elsewhere/damper
   vinesink diff main HEAD                       the folder reports at two revisions
   vinesink diff v1.0 reports                    a revision against the working folder
   vinesink diff main HEAD --path design/reports --format json | jq .reports";
