@@ -2,27 +2,21 @@
 
 mod common;
 
+use std::f64::consts::TAU;
+
 use vinesink::analysis::Analysis;
-use vinesink::band::{Band, Corner, Over, exact, margin, simulated, theory};
+use vinesink::band::{Band, exact, margin, simulated, theory};
+use vinesink::case::BandOver;
 use vinesink::orbits::symmetric_orbits;
 use vinesink::system::{Excitation, Parameters, System};
 
-/// Table 1 of Li, Seguy, Berlioz (2016), F = 0.25 mm, at a clearance in millimetres.
+/// Table 1 of Li, Seguy, Berlioz (2016) at resonance, at a clearance in millimetres.
 fn li(clearance_mm: f64) -> System {
-    let mass_ratio = 0.032 / 4.168;
-    System::new(Parameters {
-        mass_ratio,
-        damping: 3.02 / (0.032 * (11.47e3_f64 / 4.168).sqrt()),
-        restitution: 0.6,
-        frequency_ratio: 1.0,
-        forcing_per_clearance: 0.25 / mass_ratio / clearance_mm,
-        excitation: Excitation::BaseDisplacement,
-    })
-    .expect("valid")
+    common::table_1(common::natural_frequency() / TAU, clearance_mm)
 }
 
 fn frequencies(base: System, range: [f64; 2]) -> Band {
-    Band { base, over: Over::Frequency, range, spectrum: Vec::new() }
+    Band { base, over: BandOver::Frequency, range, spectrum: Vec::new() }
 }
 
 /// Bands with different mass ratios, restitutions and excitations, one of amplitudes, one with a
@@ -39,16 +33,12 @@ fn bands() -> Vec<Band> {
         })
         .expect("valid")
     };
-    let spectrum = vec![
-        Corner { frequency_ratio: 0.97, forcing: 0.7 },
-        Corner { frequency_ratio: 1.01, forcing: 1.3 },
-        Corner { frequency_ratio: 1.05, forcing: 0.9 },
-    ];
+    let spectrum = vec![[0.97, 0.7], [1.01, 1.3], [1.05, 0.9]];
     vec![
         frequencies(li(20.0), [0.94, 1.08]),
         frequencies(li(7.5), [0.9, 1.1]),
         Band { spectrum, ..frequencies(li(15.0), [0.95, 1.07]) },
-        Band { over: Over::Forcing, range: [0.2, 4.0], ..frequencies(li(20.0), [0.0; 2]) },
+        Band { over: BandOver::Amplitude, range: [0.2, 4.0], ..frequencies(li(20.0), [0.0; 2]) },
         frequencies(other(0.05, 1.0, 0.3, 2.0, Excitation::Force), [0.8, 1.3]),
         frequencies(other(0.002, 2.5, 0.9, 1.2, Excitation::BaseDisplacement), [0.99, 1.01]),
     ]

@@ -7,7 +7,8 @@ use tempfile::TempDir;
 
 use vinesink::band::{Band, exact, theory};
 use vinesink::case::Case;
-use vinesink::criteria::{DecidedBy, judge};
+use vinesink::criteria::judge;
+use vinesink::study::fidelity::Fidelity;
 
 const DESIGN: &str = "\
 title = \"a band\"
@@ -42,7 +43,7 @@ fn shares_are_those_of_the_band() {
     let stable = band.share(&exact::stability(&band), |stable| *stable);
     assert_eq!(judged[0].found, Some(z3));
     assert_eq!(judged[0].holds, Some(z3 >= 0.8));
-    assert_eq!(judged[0].decided_by, DecidedBy::ClosedForm);
+    assert_eq!(judged[0].decided_by, Fidelity::Manifold);
     // 83.6 % against 80 %, where the theory's own error moves the share by more than that.
     assert!(judged[0].near_limit && judged[0].error > z3 - 0.8, "{judged:?}");
     assert_eq!((judged[1].found, judged[1].holds), (Some(stable), Some(stable <= 0.5)));
@@ -54,14 +55,14 @@ fn shares_are_those_of_the_band() {
 fn the_cheapest_layer_that_can_decide_decides() {
     let by = |criteria: &str| judge(&case(BAND, criteria)).expect("it runs")[0].clone();
     let broken = by("peak_displacement = \"<= 3 mm\"");
-    assert_eq!((broken.holds, broken.decided_by), (Some(false), DecidedBy::ExactOrbit));
+    assert_eq!((broken.holds, broken.decided_by), (Some(false), Fidelity::Orbit));
     let narrow = "[band]\nfrom = \"8.3 Hz\"\nto = \"8.4 Hz\"\n";
     let covered = judge(&case(narrow, "peak_displacement = \"<= 20 mm\"")).expect("it runs");
-    assert_eq!((covered[0].holds, covered[0].decided_by), (Some(true), DecidedBy::ExactOrbit));
+    assert_eq!((covered[0].holds, covered[0].decided_by), (Some(true), Fidelity::Orbit));
     // At 8.7 Hz no symmetric orbit attracts.
     let text = format!("{DESIGN}[criteria]\nimpacts_per_period = 2\n").replace("8.35 Hz", "8.7 Hz");
     let simulated = judge(&Case::parse("test.toml", &text).expect("valid")).expect("it runs");
-    assert_eq!((simulated[0].holds, simulated[0].decided_by), (Some(false), DecidedBy::Simulation));
+    assert_eq!((simulated[0].holds, simulated[0].decided_by), (Some(false), Fidelity::Simulation));
 }
 
 /// At one excitation the numbers are the orbit's.

@@ -21,7 +21,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("orbits", &["numerics", "system", "tally"]),
     ("simulation", &["numerics", "system", "tally"]),
     ("reference", &["system"]),
-    ("criteria", &["band", "case", "orbits", "simulation", "system", "validation"]),
+    ("criteria", &["band", "case", "orbits", "simulation", "study", "system", "validation"]),
     ("extremes", &["case", "reference", "simulation", "system"]),
     ("regimes", &["numerics", "simulation", "system", "tally"]),
     (
@@ -44,8 +44,8 @@ const ROOMS: &[(&str, &[&str])] = &[
         ],
     ),
     ("case", &["numerics", "system"]),
-    ("optimize", &["analysis", "band", "case", "orbits", "simulation", "system"]),
-    ("band", &["analysis", "orbits", "regimes", "simulation", "system"]),
+    ("optimize", &["analysis", "band", "case", "numerics", "orbits", "simulation", "system"]),
+    ("band", &["analysis", "case", "numerics", "orbits", "regimes", "simulation", "system"]),
     (
         "report",
         &[

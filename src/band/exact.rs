@@ -2,9 +2,10 @@
 
 use serde::Serialize;
 
-use super::crossings::{largest, sign_changes};
 use super::{Band, Stretch};
-use crate::orbits::{OrbitError, SymmetricOrbit, symmetric_orbits};
+use crate::numerics::quadrature::nodes;
+use crate::numerics::scan::{largest, sign_changes};
+use crate::orbits::{SymmetricOrbit, attracting_orbit, symmetric_orbits};
 
 /// Pieces of a band in which beginnings and ends of stability are looked for. What decides it,
 /// multipliers and room between impacts, is smooth along an orbit; pairs of changes within a piece
@@ -12,18 +13,12 @@ use crate::orbits::{OrbitError, SymmetricOrbit, symmetric_orbits};
 const PIECES: u32 = 96;
 /// Pieces in which a largest value is looked for before it is narrowed down.
 const VALUES: u32 = 48;
-/// Gauss points on each of them, for an average.
-const POINTS: [(f64, f64); 3] = [
-    (-0.774_596_669_241_483_4, 5.0 / 18.0),
-    (0.0, 8.0 / 18.0),
-    (0.774_596_669_241_483_4, 5.0 / 18.0),
-];
+/// Panels of eight Gauss points per band for an average: amplitudes are smooth where an orbit attracts.
+const AVERAGED: f64 = 12.0;
 
 /// The attracting orbit at a place.
 pub fn attracting(band: &Band, at: f64) -> Option<SymmetricOrbit> {
-    let system = band.system(at).ok()?;
-    let orbits = symmetric_orbits(&system).ok()?;
-    orbits.into_iter().find(|orbit| orbit.orbit.attracts())
+    attracting_orbit(&band.system(at).ok()?)
 }
 
 /// The band, cut where an attracting symmetric orbit begins or ends.
@@ -37,10 +32,7 @@ pub fn stability(band: &Band) -> Vec<Stretch<bool>> {
 /// change their stability, touch a wall or meet one another.
 fn strength(band: &Band, at: f64) -> f64 {
     let Ok(system) = band.system(at) else { return f64::NAN };
-    let orbits = match symmetric_orbits(&system) {
-        Ok(orbits) => orbits,
-        Err(OrbitError::NoSteadyMotion) | Err(_) => return f64::NAN,
-    };
+    let Ok(orbits) = symmetric_orbits(&system) else { return f64::NAN };
     let each = orbits.iter().map(|orbit| {
         let inside = 1.0 - orbit.orbit.multipliers.spectral_radius();
         let room = orbit.orbit.admissibility.room;
@@ -54,6 +46,20 @@ fn strength(band: &Band, at: f64) -> f64 {
     });
     // Where orbits meet and vanish a multiplier has come to 1.
     each.max_by(f64::total_cmp).unwrap_or(-f64::MIN_POSITIVE)
+}
+
+/// Places of the stretches without an attracting orbit: of `count` even ones over the band those that
+/// lie in them, and the middle of each, for one that lies between two.
+pub fn unstable_places(band: &Band, stability: &[Stretch<bool>], count: u32) -> Vec<f64> {
+    let unstable = || stability.iter().filter(|one| !one.of);
+    let mut places: Vec<f64> = band
+        .places(count)
+        .filter(|at| unstable().any(|one| one.from <= *at && *at <= one.to))
+        .chain(unstable().map(|one| 0.5 * (one.from + one.to)))
+        .collect();
+    places.sort_by(f64::total_cmp);
+    places.dedup();
+    places
 }
 
 /// A value of the attracting orbit over the places where there is one.
@@ -94,18 +100,12 @@ pub fn extreme(
     let (at, largest) = largest_value(band, stability, &value)?;
     let (mut sum, mut width) = (0.0, 0.0);
     for stretch in stability.iter().filter(|stretch| stretch.of) {
-        let length = stretch.to - stretch.from;
-        let pieces = pieces(length / band.width());
-        for k in 0..pieces {
-            for (node, weight) in POINTS {
-                let part = (f64::from(k) + 0.5 + 0.5 * node) / f64::from(pieces);
-                let place = stretch.from + length * part;
-                if let Some(orbit) = attracting(band, place) {
-                    sum += value(place, &orbit) * weight * length / f64::from(pieces);
-                    width += weight * length / f64::from(pieces);
-                }
+        nodes(stretch.from, stretch.to, band.width() / AVERAGED, |place, weight| {
+            if let Some(orbit) = attracting(band, place) {
+                sum += value(place, &orbit) * weight;
+                width += weight;
             }
-        }
+        });
     }
     Some(Extreme { largest, at, mean: sum / width })
 }

@@ -2,11 +2,10 @@
 //!
 //! The paper's criterion (section 3.4 of Li, Seguy, Berlioz 2016) is to have as much of a target band
 //! as possible in area Z3. Where areas begin and end along a band are roots, not samples
-//! ([`crossings`]): of the theory's boundaries ([`theory`]), and of the stability of exact orbits
+//! ([`crate::numerics::scan`]): of the theory's boundaries ([`theory`]), and of the stability of exact orbits
 //! ([`exact`]). Beside the absorber stand its rivals ([`rivals`]): the bare oscillator, and the best
 //! tuned mass damper of the same mass.
 
-pub mod crossings;
 pub mod exact;
 pub mod margin;
 pub mod rivals;
@@ -15,40 +14,27 @@ pub mod theory;
 
 use serde::Serialize;
 
+use crate::case::{BandOver, BandSettings};
 use crate::system::{InvalidParameter, Parameter, System};
 
-/// What a band is a range of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Over {
-    /// The frequency ratio `Omega`.
-    Frequency,
-    /// The excitation's amplitude over the base system's.
-    Forcing,
-}
-
-/// A corner of the excitation's amplitude over a band.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Corner {
-    /// `Omega`.
-    pub frequency_ratio: f64,
-    /// Amplitude over the base system's.
-    pub forcing: f64,
-}
-
 /// A range of excitations of one design.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Band {
     /// The design, at its own frequency and amplitude.
     pub base: System,
     /// What is varied.
-    pub over: Over,
+    pub over: BandOver,
     /// The ends, ascending: `Omega`, or amplitude over the base system's.
     pub range: [f64; 2],
-    /// The amplitude over a band of frequencies: straight lines between corners, constant before the
-    /// first and after the last; the base system's where there are none.
-    pub spectrum: Vec<Corner>,
+    /// The amplitude over a band of frequencies: straight lines between corners of `Omega` and the
+    /// amplitude over the base system's, constant before the first and after the last; the base
+    /// system's where there are none.
+    pub spectrum: Vec<[f64; 2]>,
 }
+
+/// Width of the band, over the excitation, that stands for a single one: what is the same all along it
+/// is the same in its middle.
+const POINT: f64 = 1e-12;
 
 /// A part of a band that has something in common.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -62,14 +48,31 @@ pub struct Stretch<T> {
 }
 
 impl Band {
+    /// The band that a case asks for.
+    pub fn of(system: &System, settings: &BandSettings) -> Self {
+        let BandSettings { over, range, spectrum } = settings;
+        Self { base: *system, over: *over, range: *range, spectrum: spectrum.clone() }
+    }
+
+    /// The excitation of a system alone.
+    pub fn point(system: &System) -> Self {
+        let at = system.frequency_ratio();
+        Self {
+            base: *system,
+            over: BandOver::Frequency,
+            range: [at * (1.0 - POINT), at * (1.0 + POINT)],
+            spectrum: Vec::new(),
+        }
+    }
+
     /// The system at a place of the band.
     ///
     /// # Errors
     /// [`InvalidParameter`] outside of what a system can have.
     pub fn system(&self, at: f64) -> Result<System, InvalidParameter> {
         match self.over {
-            Over::Forcing => Parameter::Forcing.applied(&self.base, at),
-            Over::Frequency => {
+            BandOver::Amplitude => Parameter::Forcing.applied(&self.base, at),
+            BandOver::Frequency => {
                 let there = self.base.with_frequency_ratio(at)?;
                 match self.forcing(at) {
                     1.0 => Ok(there),
@@ -108,15 +111,14 @@ impl Band {
 
     /// Amplitude over the base system's at a frequency ratio.
     fn forcing(&self, frequency_ratio: f64) -> f64 {
-        let after = self.spectrum.partition_point(|c| c.frequency_ratio <= frequency_ratio);
+        let after = self.spectrum.partition_point(|corner| corner[0] <= frequency_ratio);
         match (after.checked_sub(1).map(|k| self.spectrum[k]), self.spectrum.get(after)) {
             (None, None) => 1.0,
-            (Some(only), None) => only.forcing,
-            (None, Some(only)) => only.forcing,
-            (Some(a), Some(b)) => {
-                let part =
-                    (frequency_ratio - a.frequency_ratio) / (b.frequency_ratio - a.frequency_ratio);
-                a.forcing * (1.0 - part) + b.forcing * part
+            (Some(only), None) => only[1],
+            (None, Some(only)) => only[1],
+            (Some([a, before]), Some([b, behind])) => {
+                let part = (frequency_ratio - a) / (b - a);
+                before * (1.0 - part) + behind * part
             }
         }
     }
@@ -124,8 +126,8 @@ impl Band {
     /// Places at which the excitation has a corner, inside the band.
     fn corners(&self) -> impl Iterator<Item = f64> + '_ {
         let [from, to] = self.range;
-        let corners = self.spectrum.iter().map(|corner| corner.frequency_ratio);
-        corners.filter(move |at| self.over == Over::Frequency && from < *at && *at < to)
+        let corners = self.spectrum.iter().map(|corner| corner[0]);
+        corners.filter(move |at| self.over == BandOver::Frequency && from < *at && *at < to)
     }
 
     /// The band cut at places inside of it, with what each piece is found to be in its middle;

@@ -3,7 +3,7 @@
 use nalgebra::Complex;
 
 use super::Band;
-use super::crossings::largest;
+use crate::numerics::scan::largest;
 use crate::system::System;
 
 /// The tuned mass damper of Den Hartog (Mechanical Vibrations, 4th ed., section 3.3): for an undamped

@@ -1,8 +1,8 @@
 //! The theory's areas and strips along a band, in closed form.
 
-use super::crossings::sign_changes;
 use super::{Band, Stretch};
 use crate::analysis::{Area, FixedPointCurve, Manifold, Zone};
+use crate::numerics::scan::sign_changes;
 
 /// Pieces of a band in which crossings of the theory's boundaries are looked for. A boundary is a
 /// quotient of low polynomials of the detuning; pairs of crossings within a piece are found by the

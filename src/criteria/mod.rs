@@ -8,39 +8,15 @@
 
 mod scope;
 
-use serde::Serialize;
-
 use crate::band::simulated::Motion;
 use crate::case::{Case, Criterion, Relation, Scales, Subject};
 use crate::simulation::StartError;
+use crate::study::fidelity::Fidelity;
 
 pub use scope::Scope;
 
 /// Distance from a count that still is that count: as regimes are told apart.
 const SAME_COUNT: f64 = 0.01;
-
-/// Which layer decided.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum DecidedBy {
-    /// The theory, in closed form.
-    ClosedForm,
-    /// Exact orbits.
-    ExactOrbit,
-    /// Event-driven simulation.
-    Simulation,
-}
-
-impl DecidedBy {
-    /// The name in a report.
-    pub fn words(self) -> &'static str {
-        match self {
-            Self::ClosedForm => "closed form",
-            Self::ExactOrbit => "exact orbit",
-            Self::Simulation => "simulation",
-        }
-    }
-}
 
 /// A value of the design, as a criterion is about.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -51,7 +27,7 @@ struct Value {
     error: f64,
     /// Place in the band, where it is the worst of one.
     at: Option<f64>,
-    by: DecidedBy,
+    by: Fidelity,
 }
 
 /// A criterion and what was found.
@@ -73,7 +49,7 @@ pub struct Judged {
     /// Place in the band where it is worst: `Omega`, or amplitude over the case's own.
     pub at: Option<f64>,
     /// Which layer decided.
-    pub decided_by: DecidedBy,
+    pub decided_by: Fidelity,
 }
 
 /// A motion of the oscillator, whichever layer it is from. Lengths over the clearance, fast time.
@@ -113,7 +89,7 @@ impl From<&Motion> for Seen {
 /// [`StartError`] where a start of a simulation is not finite.
 pub fn judge(case: &Case) -> Result<Vec<Judged>, StartError> {
     let all_motions = case.criteria.iter().any(|one| one.subject == Subject::NoCoexistence);
-    let mut scope = Scope::of(case, all_motions);
+    let scope = Scope::of(case, all_motions);
     case.criteria.iter().map(|criterion| scope.judge(criterion)).collect()
 }
 
@@ -127,7 +103,7 @@ impl Criterion {
         }
     }
 
-    fn judged(&self, value: Option<Value>, otherwise: DecidedBy) -> Judged {
+    fn judged(&self, value: Option<Value>, otherwise: Fidelity) -> Judged {
         let Some(value) = value else {
             return Judged {
                 criterion: self.clone(),

@@ -1,22 +1,24 @@
 //! The range in which a case's criteria are asked about, and what is known of it so far: a band, or
 //! the case's own excitation alone.
 
-use super::{DecidedBy, Judged, ROUNDING, Seen, Value, of_motion};
+use std::cell::OnceCell;
+
+use super::{Judged, ROUNDING, Seen, Value, of_motion};
 use crate::band::exact::{self, attracting};
 use crate::band::rivals;
 use crate::band::simulated::{Effort, Motion, motions};
-use crate::band::{Band, Corner, Over, Stretch, margin, theory};
-use crate::case::{BandOver, BandSettings, Case, Criterion, Scales, Subject};
+use crate::band::{Band, Stretch, margin, theory};
+use crate::case::{Case, Criterion, Scales, Subject};
 use crate::orbits::{Measures, SymmetricOrbit};
 use crate::simulation::StartError;
-use crate::system::{Parameter, System};
+use crate::study::fidelity::Fidelity;
+use crate::system::System;
 use crate::validation::tolerance::asymptotic_error;
 
 /// Places of a band that are simulated, its ends among them.
 const PLACES: u32 = 25;
-/// Width of the band, over the excitation, that stands for a single one: what is the same all along it
-/// is the same in its middle.
-const POINT: f64 = 1e-12;
+/// Starts at a place where the orbit has no say and no other motion is asked for.
+const FEW_STARTS: u32 = 4;
 /// Error of a share whose ends are roots: their rounding.
 const SHARE_ROUNDING: f64 = 1e-9;
 
@@ -30,38 +32,8 @@ pub struct Scope {
     /// The largest amplitudes along the range of the bare oscillator and of one with the best tuned
     /// mass damper, over the clearance; infinite where nothing limits them.
     rivals: [f64; 2],
-    stability: Option<Vec<Stretch<bool>>>,
-    simulated: Option<Vec<(f64, Vec<Motion>)>>,
-}
-
-impl Band {
-    /// The band that a case asks for.
-    pub fn of(system: &System, settings: &BandSettings) -> Self {
-        let corner = |[frequency_ratio, forcing]: &[f64; 2]| Corner {
-            frequency_ratio: *frequency_ratio,
-            forcing: *forcing,
-        };
-        Self {
-            base: *system,
-            over: match settings.over {
-                BandOver::Frequency => Over::Frequency,
-                BandOver::Amplitude => Over::Forcing,
-            },
-            range: settings.range,
-            spectrum: settings.spectrum.iter().map(corner).collect(),
-        }
-    }
-
-    /// The excitation of a system alone.
-    pub fn point(system: &System) -> Self {
-        let at = Parameter::FrequencyRatio.of(system);
-        Self {
-            base: *system,
-            over: Over::Frequency,
-            range: [at * (1.0 - POINT), at * (1.0 + POINT)],
-            spectrum: Vec::new(),
-        }
-    }
+    stability: OnceCell<Vec<Stretch<bool>>>,
+    simulated: OnceCell<Vec<(f64, Vec<Motion>)>>,
 }
 
 impl Scope {
@@ -79,8 +51,8 @@ impl Scope {
             ranges: case.band.is_some(),
             scales: case.scales(),
             all_motions,
-            stability: None,
-            simulated: None,
+            stability: OnceCell::new(),
+            simulated: OnceCell::new(),
         }
     }
 
@@ -88,13 +60,13 @@ impl Scope {
     ///
     /// # Errors
     /// [`StartError`] where a start of a simulation is not finite.
-    pub fn judge(&mut self, criterion: &Criterion) -> Result<Judged, StartError> {
+    pub fn judge(&self, criterion: &Criterion) -> Result<Judged, StartError> {
         let (value, by) = match criterion.subject {
-            Subject::Z3Share => (Some(self.z3_share()), DecidedBy::ClosedForm),
-            Subject::StableShare => (Some(self.stable_share()), DecidedBy::ExactOrbit),
-            Subject::MarginClearance => (Some(self.margin()), DecidedBy::ExactOrbit),
-            Subject::NoCoexistence => (self.one_motion()?, DecidedBy::Simulation),
-            _ => (self.worst(criterion)?, DecidedBy::Simulation),
+            Subject::Z3Share => (Some(self.z3_share()), Fidelity::Manifold),
+            Subject::StableShare => (Some(self.stable_share()), Fidelity::Orbit),
+            Subject::MarginClearance => (Some(self.margin()), Fidelity::Orbit),
+            Subject::NoCoexistence => (self.one_motion()?, Fidelity::Simulation),
+            _ => (self.worst(criterion)?, Fidelity::Simulation),
         };
         Ok(criterion.judged(value, by))
     }
@@ -115,13 +87,12 @@ impl Scope {
         let shifted = [1.0 - error.min(0.9), 1.0 + error].map(share);
         let off =
             shifted.map(|other| (other - found).abs()).into_iter().fold(SHARE_ROUNDING, f64::max);
-        Value { found, error: off, at: None, by: DecidedBy::ClosedForm }
+        Value { found, error: off, at: None, by: Fidelity::Manifold }
     }
 
-    fn stable_share(&mut self) -> Value {
-        let stability = self.stability().to_vec();
-        let found = self.band.share(&stability, |stable| *stable);
-        Value { found, error: SHARE_ROUNDING, at: None, by: DecidedBy::ExactOrbit }
+    fn stable_share(&self) -> Value {
+        let found = self.band.share(self.stability(), |stable| *stable);
+        Value { found, error: SHARE_ROUNDING, at: None, by: Fidelity::Orbit }
     }
 
     fn margin(&self) -> Value {
@@ -132,20 +103,19 @@ impl Scope {
         } else {
             (None, margin::Gap::of(&self.band, middle).map_or(0.0, |gap| gap.smaller()))
         };
-        Value { found, error: ROUNDING, at, by: DecidedBy::ExactOrbit }
+        Value { found, error: ROUNDING, at, by: Fidelity::Orbit }
     }
 
     /// 1 where every place has one motion, 0 where one has several.
-    fn one_motion(&mut self) -> Result<Option<Value>, StartError> {
-        let ranges = self.ranges;
+    fn one_motion(&self) -> Result<Option<Value>, StartError> {
         let several = self.simulated()?.iter().find(|(_, motions)| motions.len() > 1);
-        let at = several.map(|(at, _)| *at).filter(|_| ranges);
+        let at = several.map(|(at, _)| *at).filter(|_| self.ranges);
         let found = f64::from(u8::from(several.is_none()));
-        Ok(Some(Value { found, error: 0.0, at, by: DecidedBy::Simulation }))
+        Ok(Some(Value { found, error: 0.0, at, by: Fidelity::Simulation }))
     }
 
     /// The worst value of a criterion about motions.
-    fn worst(&mut self, criterion: &Criterion) -> Result<Option<Value>, StartError> {
+    fn worst(&self, criterion: &Criterion) -> Result<Option<Value>, StartError> {
         let exact = self.worst_exact(criterion);
         let covered = self.stability().iter().all(|stretch| stretch.of);
         if exact.is_some_and(|value| criterion.room(value.found) < 0.0)
@@ -159,8 +129,7 @@ impl Scope {
     }
 
     /// The worst of the attracting orbit, wherever there is one.
-    fn worst_exact(&mut self, criterion: &Criterion) -> Option<Value> {
-        let stability = self.stability().to_vec();
+    fn worst_exact(&self, criterion: &Criterion) -> Option<Value> {
         let value = |at: f64, orbit: &SymmetricOrbit| {
             let system = self.band.system(at).ok()?;
             let seen = seen(&system, orbit, criterion.subject)?;
@@ -169,16 +138,15 @@ impl Scope {
         let loss = |at: f64, orbit: &SymmetricOrbit| {
             value(at, orbit).map_or(f64::NEG_INFINITY, |(found, _)| -criterion.room(found))
         };
-        let (place, _) = exact::largest_value(&self.band, &stability, loss)?;
+        let (place, _) = exact::largest_value(&self.band, self.stability(), loss)?;
         let (found, error) = value(place, &attracting(&self.band, place)?)?;
         let at = Some(place).filter(|_| self.ranges);
-        Some(Value { found, error, at, by: DecidedBy::ExactOrbit })
+        Some(Value { found, error, at, by: Fidelity::Orbit })
     }
 
-    fn worst_simulated(&mut self, criterion: &Criterion) -> Result<Option<Value>, StartError> {
-        self.simulated()?;
+    fn worst_simulated(&self, criterion: &Criterion) -> Result<Option<Value>, StartError> {
         let mut worst: Option<Value> = None;
-        for (at, motions) in self.simulated.iter().flatten() {
+        for (at, motions) in self.simulated()? {
             for motion in motions {
                 let Some((found, error)) =
                     of_motion(criterion.subject, &Seen::from(motion), self.rivals, &self.scales)
@@ -187,47 +155,37 @@ impl Scope {
                 };
                 let at = Some(*at).filter(|_| self.ranges);
                 if worst.is_none_or(|known| criterion.room(found) < criterion.room(known.found)) {
-                    worst = Some(Value { found, error, at, by: DecidedBy::Simulation });
+                    worst = Some(Value { found, error, at, by: Fidelity::Simulation });
                 }
             }
         }
         Ok(worst)
     }
 
-    fn stability(&mut self) -> &[Stretch<bool>] {
-        let band = &self.band;
-        self.stability.get_or_insert_with(|| exact::stability(band))
+    fn stability(&self) -> &[Stretch<bool>] {
+        self.stability.get_or_init(|| exact::stability(&self.band))
     }
 
     /// The motions at places of the band: at all of them if every motion counts, else where no
     /// symmetric orbit attracts.
-    fn simulated(&mut self) -> Result<&[(f64, Vec<Motion>)], StartError> {
-        if self.simulated.is_none() {
-            let all = self.all_motions;
-            let stability = self.stability().to_vec();
-            let unstable =
-                |at: f64| stability.iter().any(|one| !one.of && one.from <= at && at <= one.to);
-            let mut places: Vec<f64> = if self.ranges {
-                let mut places: Vec<f64> = self.band.places(PLACES).collect();
-                // A stretch without stable orbit that lies between two places has its own.
-                places.extend(
-                    stability.iter().filter(|one| !one.of).map(|one| 0.5 * (one.from + one.to)),
-                );
-                places.sort_by(f64::total_cmp);
-                places.dedup();
-                places
-            } else {
+    fn simulated(&self) -> Result<&[(f64, Vec<Motion>)], StartError> {
+        if self.simulated.get().is_none() {
+            let mut effort = Effort::default();
+            let places = if !self.ranges {
                 vec![0.5 * (self.band.range[0] + self.band.range[1])]
+            } else if self.all_motions {
+                self.band.places(PLACES).collect()
+            } else {
+                effort.starts = FEW_STARTS;
+                exact::unstable_places(&self.band, self.stability(), PLACES)
             };
-            places.retain(|at| all || unstable(*at));
-            let systems: Vec<System> =
-                places.iter().filter_map(|at| self.band.system(*at).ok()).collect();
-            let effort =
-                if all { Effort::default() } else { Effort { starts: 4, ..Effort::default() } };
-            let found = motions(&systems, &effort)?;
-            self.simulated = Some(places.into_iter().zip(found).collect());
+            let there = |at: f64| Some((at, self.band.system(at).ok()?));
+            let (places, systems): (Vec<f64>, Vec<System>) =
+                places.into_iter().filter_map(there).unzip();
+            let found = places.into_iter().zip(motions(&systems, &effort)?).collect();
+            return Ok(self.simulated.get_or_init(|| found));
         }
-        Ok(self.simulated.as_deref().unwrap_or(&[]))
+        Ok(self.simulated.get().map_or(&[], Vec::as_slice))
     }
 }
 

@@ -7,4 +7,5 @@ pub mod lanes;
 pub mod necklace;
 pub mod polynomial;
 pub mod quadrature;
+pub mod scan;
 pub mod scatter;

@@ -1,7 +1,7 @@
 //! The largest amplitude along a band: of the exact orbit where one attracts, simulated elsewhere.
 
 use crate::band::Band;
-use crate::band::exact::{attracting, extreme, stability};
+use crate::band::exact::{attracting, largest_value, stability, unstable_places};
 use crate::band::simulated::{Effort, motions};
 use crate::system::System;
 
@@ -19,13 +19,10 @@ pub fn worst(band: &Band, ranges: bool) -> Option<f64> {
         return orbit.or_else(|| simulated(&[band.base]));
     }
     let stability = stability(band);
-    let exact = extreme(band, &stability, |_, orbit| orbit.peaks.displacement);
-    let unstable = stability.iter().filter(|one| !one.of);
-    let mut places: Vec<f64> = unstable.clone().map(|one| 0.5 * (one.from + one.to)).collect();
-    let inside = |at: f64| unstable.clone().any(|one| one.from <= at && at <= one.to);
-    places.extend(band.places(PLACES).filter(|at| inside(*at)));
+    let exact = largest_value(band, &stability, |_, orbit| orbit.peaks.displacement);
+    let largest = exact.map(|(_, peak)| peak);
+    let places = unstable_places(band, &stability, PLACES);
     let systems: Vec<System> = places.iter().filter_map(|at| band.system(*at).ok()).collect();
-    let largest = exact.map(|extreme| extreme.largest);
     if systems.is_empty() {
         return largest;
     }

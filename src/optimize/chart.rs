@@ -5,10 +5,10 @@ use serde::Serialize;
 
 use super::search::{Spread, on_line, scan};
 use super::task::{Deviation, Task};
-use crate::band::Over;
-use crate::band::crossings::largest;
-use crate::case::{Choice, Objective};
-use crate::orbits::{SymmetricFamily, symmetric_orbits};
+use crate::analysis::{FixedPointCurve, Manifold};
+use crate::case::{BandOver, Choice, Objective};
+use crate::numerics::scan::largest;
+use crate::orbits::{SymmetricFamily, attracting_orbit};
 use crate::system::System;
 
 /// Frequencies of a chart.
@@ -38,17 +38,14 @@ pub fn chart(task: &Task, choice: &Choice, spread: &dyn Spread) -> Vec<Suited> {
     let Some((band, _)) = task.band_of(choice, &Deviation::default()) else { return Vec::new() };
     let own = band.base.frequency_ratio();
     let [from, to] = match &task.band {
-        Some(_) if band.over == Over::Frequency => band.range,
+        Some(_) if band.over == BandOver::Frequency => band.range,
         _ => [own * (1.0 - REACH), own * (1.0 + REACH)],
     };
     let at = |k: usize| {
         let part = k as f64 / f64::from(FREQUENCIES - 1);
         from * (1.0 - part) + to * part
     };
-    let stretch = |k: usize| {
-        let system = band.base.with_frequency_ratio(at(k)).ok()?;
-        Some((system, widest(&system)?))
-    };
+    let stretch = |k: usize| widest(&band.base.with_frequency_ratio(at(k)).ok()?);
     let count = FREQUENCIES as usize;
     let best = spread.map("design chart", count, &|k| {
         let found = band.base.with_frequency_ratio(at(k)).ok();
@@ -58,7 +55,7 @@ pub fn chart(task: &Task, choice: &Choice, spread: &dyn Spread) -> Vec<Suited> {
     (0..count)
         .map(|k| Suited {
             frequency_ratio: at(k),
-            stable: stretch(k).map(|(_, ends)| ends.map(|end| end * choice.clearance)),
+            stable: stretch(k).map(|ends| ends.map(|end| end * choice.clearance)),
             best: Some(best[k]).filter(|clearance| clearance.is_finite()),
         })
         .collect()
@@ -75,8 +72,8 @@ fn widest(system: &System) -> Option<[f64; 2]> {
 fn best(objective: Objective, system: &System) -> Option<f64> {
     match objective {
         Objective::Z3Share => {
-            let manifold = crate::analysis::Manifold::of(system.restitution()).ok()?;
-            let curve = crate::analysis::FixedPointCurve::of(system, &manifold);
+            let manifold = Manifold::of(system.restitution()).ok()?;
+            let curve = FixedPointCurve::of(system, &manifold);
             let factor = |part: f64| WIDE[0] * libm::pow(WIDE[1] / WIDE[0], part);
             let inside = |part: f64| {
                 let gamma = system.forcing_per_clearance() / factor(part);
@@ -92,9 +89,7 @@ fn best(objective: Objective, system: &System) -> Option<f64> {
         Objective::WorstAmplitude => {
             let still = |factor: f64| {
                 let there = system.with_clearance_scaled(factor).ok()?;
-                let orbits = symmetric_orbits(&there).ok()?;
-                let orbit = orbits.iter().find(|orbit| orbit.orbit.attracts())?;
-                Some(-factor * orbit.peaks.displacement)
+                Some(-factor * attracting_orbit(&there)?.peaks.displacement)
             };
             largest(widest(system)?, PIECES as u32, still).map(|(factor, _)| factor)
         }

@@ -3,17 +3,13 @@
 
 use serde::Serialize;
 
-use crate::band::crossings::largest;
-use crate::orbits::{FullSystem, symmetric_orbits};
+use crate::orbits::FullSystem;
 use crate::system::System;
 
 /// Distance from the end, over the clearance there, at which the orbit is still asked for.
 const INSIDE: f64 = 1e-6;
 /// Relative difference of clearances up to which the two places are one: nobody builds closer.
 const SAME_PLACE: f64 = 0.01;
-/// Two steps of the scan, which are of one per cent, and pieces between them.
-const NEIGHBOUR: f64 = 1.02;
-const PIECES: u32 = 40;
 
 /// Where the stable 1:1 orbit vibrates least, and where it disappears. Over the case's own clearance.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -30,14 +26,6 @@ pub struct Claim {
     pub ends_by: Option<&'static str>,
 }
 
-/// Amplitude of the stable symmetric orbit at a clearance, over the system's own clearance.
-fn amplitude(system: &System, factor: f64) -> Option<f64> {
-    let there = system.with_clearance_scaled(factor).ok()?;
-    let orbits = symmetric_orbits(&there).ok()?;
-    let stable = orbits.iter().find(|orbit| orbit.orbit.attracts())?;
-    Some(stable.peaks.displacement * factor)
-}
-
 impl Claim {
     /// That of a system; `None` where no symmetric orbit is stable at any clearance.
     pub fn of(system: &System) -> Option<Self> {
@@ -46,19 +34,11 @@ impl Claim {
         let stretch = full.stable_stretches().iter().find(|stretch| {
             stretch.clearance[0] <= best.factor && best.factor <= stretch.clearance[1]
         })?;
-        let [begin, end] = stretch.clearance;
-        let last = end * (1.0 - INSIDE);
-        let end_amplitude = amplitude(system, last)?;
-        // Next to a saddle-node the amplitude falls ever more steeply: a step of the scan is not enough.
-        let around = [(best.factor / NEIGHBOUR).max(begin), (best.factor * NEIGHBOUR).min(last)];
-        let narrowed = largest(around, PIECES, |factor| Some(-amplitude(system, factor)?))
-            .map(|(factor, least)| (factor, -least));
-        let known = [Some((best.factor, best.peak)), narrowed, Some((last, end_amplitude))];
-        let (best_clearance, best_amplitude) =
-            known.into_iter().flatten().min_by(|a, b| a.1.total_cmp(&b.1))?;
+        let end = stretch.clearance[1];
+        let end_amplitude = full.steady_peak(end * (1.0 - INSIDE))?;
         Some(Self {
-            best_clearance,
-            best_amplitude,
+            best_clearance: best.factor,
+            best_amplitude: best.peak,
             end_clearance: end,
             end_amplitude,
             ends_by: stretch.ends[1].map(|kind| kind.words()),

@@ -5,8 +5,8 @@ use serde::Serialize;
 
 use crate::analysis::{FixedPointCurve, Manifold};
 use crate::band::exact::{attracting, stability};
-use crate::band::{Band, Over, margin, theory};
-use crate::case::{BandSettings, Case, Choice, Design, Objective, Uncertainty};
+use crate::band::{Band, margin, theory};
+use crate::case::{BandOver, BandSettings, Case, Choice, Design, Objective, Uncertainty};
 use crate::system::{Parameter, System};
 
 use super::amplitude;
@@ -171,9 +171,9 @@ impl Task {
             Some(settings) => Band::of(&base, settings),
             None => Band::point(&base),
         };
-        if self.band.is_some() && band.over == Over::Frequency {
+        if self.band.is_some() && band.over == BandOver::Frequency {
             band.range = band.range.map(|end| end + shift);
-            band.spectrum.iter_mut().for_each(|corner| corner.frequency_ratio += shift);
+            band.spectrum.iter_mut().for_each(|corner| corner[0] += shift);
         }
         Some((band, choice.clearance))
     }

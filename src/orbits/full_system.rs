@@ -7,7 +7,8 @@ use super::boundaries::Boundaries;
 use super::branch::{Direction, Settings, follow};
 use super::limits::{Limit, StableStretch};
 use super::special::{Bifurcation, SpecialPoint};
-use super::symmetric::{SymmetricOrbit, symmetric_orbits};
+use super::symmetric::{SymmetricOrbit, attracting_orbit, symmetric_orbits};
+use crate::numerics::scan::largest;
 use crate::system::{Parameter, System};
 
 /// Band of the frequency ratio, over the system's own, in which limits are looked for: one at half
@@ -16,6 +17,11 @@ const FREQUENCIES: [f64; 2] = [0.5, 2.0];
 /// Clearances looked at per unit of their logarithm for the smallest vibration: the optimum is
 /// known to one percent.
 const CLEARANCES_PER_E_FOLD: f64 = 100.0;
+/// Distance from the ends of a stretch, over the clearance there, at which the orbit is still asked
+/// for: far outside of their rounding.
+const INSIDE: f64 = 1e-6;
+/// Pieces of the neighbourhood of the best clearance.
+const PIECES: u32 = 16;
 /// Fewest and most steps over one stretch of clearances: one clearance in its middle, and no more
 /// than twenty e-folds, of which the outer ones are no design.
 const STEPS: [f64; 2] = [2.0, 2000.0];
@@ -93,7 +99,7 @@ impl FullSystem {
         })
     }
 
-    /// The clearance at which the attracting symmetric orbit vibrates least.
+    /// The clearance at which the attracting symmetric orbit vibrates least, to rounding.
     pub fn best_clearance(&self) -> Option<BestClearance> {
         let candidates = self.stable_stretches().iter().flat_map(|stretch| {
             let [from, to] = stretch.clearance;
@@ -103,13 +109,29 @@ impl FullSystem {
             (1..steps as u32)
                 .map(move |k| from * libm::exp(libm::log(to / from) * f64::from(k) / steps))
         });
-        let tried = candidates.filter_map(|factor| {
-            let there = self.system.with_clearance_scaled(factor).ok()?;
-            let orbits = symmetric_orbits(&there).ok()?;
-            let orbit = orbits.iter().find(|orbit| orbit.orbit.attracts())?;
-            Some(BestClearance { factor, peak: factor * orbit.peaks.displacement })
-        });
-        tried.min_by(|a, b| a.peak.total_cmp(&b.peak))
+        let tried = candidates
+            .filter_map(|factor| Some(BestClearance { factor, peak: self.steady_peak(factor)? }));
+        let best = tried.min_by(|a, b| a.peak.total_cmp(&b.peak))?;
+        let stretch = self.stable_stretches().iter().find(|stretch| {
+            stretch.clearance[0] <= best.factor && best.factor <= stretch.clearance[1]
+        })?;
+        // Next to a saddle-node the amplitude falls ever more steeply: a step of the scan is not enough.
+        let [from, to] = stretch.clearance;
+        let step = 2.0 / CLEARANCES_PER_E_FOLD;
+        let around = [
+            (best.factor * (1.0 - step)).max(from * (1.0 + INSIDE)),
+            (best.factor * (1.0 + step)).min(to * (1.0 - INSIDE)),
+        ];
+        let narrowed = largest(around, PIECES, |factor| Some(-self.steady_peak(factor)?))
+            .map(|(factor, peak)| BestClearance { factor, peak: -peak });
+        [Some(best), narrowed].into_iter().flatten().min_by(|a, b| a.peak.total_cmp(&b.peak))
+    }
+
+    /// Peak displacement of the attracting symmetric orbit at a clearance, both over the system's own;
+    /// `None` where none attracts.
+    pub fn steady_peak(&self, factor: f64) -> Option<f64> {
+        let there = self.system.with_clearance_scaled(factor).ok()?;
+        Some(factor * attracting_orbit(&there)?.peaks.displacement)
     }
 }
 

@@ -15,6 +15,7 @@ use super::orbit::Cycle;
 use super::special::Bifurcation;
 use super::symmetric::{SymmetricCurve, SymmetricOrbit, symmetric_orbit};
 use crate::numerics::bracket::brent;
+use crate::numerics::scan::below;
 use crate::system::{Parameters, System};
 
 /// Largest amplitude of the absorber that is looked at, over the clearance: far beyond symmetry
@@ -27,10 +28,6 @@ const PIECES: u32 = 250;
 const HALVINGS: i32 = 24;
 /// Share of a stretch over which the slope at its ends is asked for.
 const SLOPE: f64 = 1e-3;
-/// Golden section, and steps of it: down to 1e-8 of the stretch, where a smooth minimum is flat.
-const GOLDEN: f64 = 0.618_033_988_749_894_9;
-/// See [`GOLDEN`].
-const NARROWINGS: u32 = 40;
 /// Width to which a root in `beta` is bracketed: its rounding.
 const WIDTH: f64 = 1e-14;
 
@@ -247,27 +244,14 @@ impl Family {
     /// A place between two points at which the test function has the other sign than at both.
     fn dip(&self, kind: Bifurcation, a: (f64, f64), b: (f64, f64)) -> Option<(f64, f64)> {
         let height = |beta: f64| a.1.signum() * self.test(kind, beta);
-        let (mut low, mut high) = (a.0, b.0);
+        let (low, high) = (a.0, b.0);
         let step = SLOPE * (high - low);
         let sinks = |from: f64, by: f64, there: f64| height(from + by) < there.abs();
         if a.1 * b.1 <= 0.0 || !sinks(low, step, a.1) || !sinks(high, -step, b.1) {
             return None;
         }
-        for _ in 0..NARROWINGS {
-            let inner = [low + (high - low) * (1.0 - GOLDEN), low + (high - low) * GOLDEN];
-            let heights = inner.map(height);
-            for (at, value) in inner.into_iter().zip(heights) {
-                if value < 0.0 {
-                    return Some((at, a.1.signum() * value));
-                }
-            }
-            if heights[0] < heights[1] {
-                high = inner[1];
-            } else {
-                low = inner[0];
-            }
-        }
-        None
+        let (at, height) = below(low, high, height)?;
+        Some((at, a.1.signum() * height))
     }
 
     fn root(&self, kind: Bifurcation, [from, to]: [f64; 2], scale: f64) -> Option<Limit> {

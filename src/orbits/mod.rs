@@ -38,7 +38,7 @@ pub use multipliers::{Leading, Multipliers};
 pub use newton::Convergence;
 pub use orbit::{Closure, Cycle, Orbit, Origin};
 pub use special::{Bifurcation, SpecialPoint};
-pub use symmetric::{SymmetricOrbit, symmetric_orbits};
+pub use symmetric::{SymmetricOrbit, attracting_orbit, symmetric_orbits};
 
 /// Why an orbit is not returned.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -180,6 +180,11 @@ pub fn symmetric_orbits(system: &System) -> Result<Vec<SymmetricOrbit>, OrbitErr
     Ok(found.iter().filter_map(|beta| symmetric_orbit(system, &map, &curve, *beta)).collect())
 }
 
+/// The symmetric orbit of a system that attracts; `None` where none does.
+pub fn attracting_orbit(system: &System) -> Option<SymmetricOrbit> {
+    symmetric_orbits(system).ok()?.into_iter().find(|orbit| orbit.orbit.attracts())
+}
+
 /// The orbit with `beta`; `None` where its Jacobian does not exist.
 pub(super) fn symmetric_orbit(
     system: &System,

@@ -6,8 +6,8 @@ use super::tables::{Table, table};
 use crate::analysis::Strip;
 use crate::band::rivals::{TunedMassDamper, bare_amplitude, largest_amplitudes};
 use crate::band::simulated::{Effort, motions};
-use crate::band::{Band, Over, exact, margin, theory};
-use crate::case::Case;
+use crate::band::{Band, exact, margin, theory};
+use crate::case::{BandOver, Case};
 use crate::study::CaseStudy;
 use crate::system::System;
 
@@ -126,11 +126,11 @@ impl Section<'_> {
 
     fn place(&self, at: f64) -> String {
         match self.band.over {
-            Over::Frequency => match self.case.scales().frequency_hz(at) {
+            BandOver::Frequency => match self.case.scales().frequency_hz(at) {
                 Some(hertz) => format!("{} Hz", significant(hertz, 4)),
                 None => format!("Ω = {}", significant(at, 4)),
             },
-            Over::Forcing => format!("{} × the case's amplitude", significant(at, 3)),
+            BandOver::Amplitude => format!("{} × the case's amplitude", significant(at, 3)),
         }
     }
 }

@@ -7,7 +7,8 @@ use serde::Serialize;
 use super::numbers::{LengthFormat, fixed, percent, significant};
 use super::tables::{Table, table};
 use crate::case::{BandOver, Case, Measure, Relation, Subject};
-use crate::criteria::{DecidedBy, Judged, all_hold};
+use crate::criteria::{Judged, all_hold};
+use crate::study::fidelity::Fidelity;
 
 pub use formats::{annotations, junit, markdown, text};
 
@@ -31,7 +32,7 @@ pub struct CriterionRow {
     /// Whether the error could turn that.
     pub near_limit: bool,
     /// Which layer decided.
-    pub decided_by: DecidedBy,
+    pub decided_by: Fidelity,
     /// Where in the band it is worst, with unit; empty where that says nothing.
     pub at: String,
     /// `asked`, `found` and `margin` as a person reads them.

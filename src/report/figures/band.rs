@@ -3,7 +3,8 @@
 
 use crate::band::rivals::{TunedMassDamper, bare_amplitude};
 use crate::band::simulated::{Effort, motions};
-use crate::band::{Band, Over, Stretch, exact, theory};
+use crate::band::{Band, Stretch, exact, theory};
+use crate::case::BandOver;
 use crate::orbits::symmetric_orbits;
 use crate::report::figure::{
     Axis, Color, Dash, Figure, Layer, MarkedPoint, Marker, Panel, Role, Shape, Style,
@@ -25,8 +26,8 @@ pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
     let Some(band) = scene.band.as_ref() else { return Ok(None) };
     let units = &scene.units;
     let x = |at: f64| match band.over {
-        Over::Frequency => units.frequency(at),
-        Over::Forcing => units.forcing(at),
+        BandOver::Frequency => units.frequency(at),
+        BandOver::Amplitude => units.forcing(at),
     };
     let damper = TunedMassDamper::best(band.base.mass_ratio());
     let damped = |system: &System| damper.amplitude(system);
@@ -45,8 +46,8 @@ pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
         points.into_iter().map(|[at, value]| [x(at), units.length(value)]).collect()
     };
     let name = match band.over {
-        Over::Frequency => units.frequency_axis().to_owned(),
-        Over::Forcing => units.forcing_axis(),
+        BandOver::Frequency => units.frequency_axis().to_owned(),
+        BandOver::Amplitude => units.forcing_axis(),
     };
     let own = Style::new(Color::Orange, 1.6, Dash::LongDashed);
     let marker = Marker::filled(Shape::Cross).sized(7.0);
@@ -140,8 +141,8 @@ fn words(scene: &Scene, band: &Band, stability: &[Stretch<bool>]) -> (String, St
     let z3 = band.share(&zones, |zone| zone.is_z3());
     let stable = band.share(stability, |stable| *stable);
     let text = |at: f64| match band.over {
-        Over::Frequency => units.frequency_text(at),
-        Over::Forcing => units.forcing_text(at),
+        BandOver::Frequency => units.frequency_text(at),
+        BandOver::Amplitude => units.forcing_text(at),
     };
     let parts: Vec<String> = zones
         .iter()

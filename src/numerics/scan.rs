@@ -1,4 +1,5 @@
-//! Where a function of the place in a band changes its sign.
+//! Functions of one variable, looked at everywhere: where they change their sign, where they are
+//! largest.
 
 /// Golden section, and steps of it: down to 1e-8 of two pieces, where a smooth extremum is flat.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
@@ -34,16 +35,30 @@ fn dip(three: &[(f64, f64)], f: &mut impl FnMut(f64) -> f64) -> Option<(f64, f64
     if !(one_side && middle <= left && middle <= right) {
         return None;
     }
-    let (mut low, mut high) = (three[0].0, three[2].0);
+    let height = |at: f64| {
+        let value = f(at);
+        if above { value } else { -value }
+    };
+    let (at, height) = below(three[0].0, three[2].0, height)?;
+    Some((at, if above { height } else { -height }))
+}
+
+/// A place at which a function that is above 0 at both ends is not, by golden section; `None` where it
+/// has a smallest value above 0.
+pub fn below(
+    mut low: f64,
+    mut high: f64,
+    mut height: impl FnMut(f64) -> f64,
+) -> Option<(f64, f64)> {
     for _ in 0..NARROWINGS {
         let inner = [low + (high - low) * (1.0 - GOLDEN), low + (high - low) * GOLDEN];
-        let values = inner.map(&mut *f);
-        for (at, value) in inner.into_iter().zip(values) {
-            if (value > 0.0) != above {
+        let heights = inner.map(&mut height);
+        for (at, value) in inner.into_iter().zip(heights) {
+            if value.is_nan() || value <= 0.0 {
                 return Some((at, value));
             }
         }
-        if size(values[0]) < size(values[1]) {
+        if heights[0] < heights[1] {
             high = inner[1];
         } else {
             low = inner[0];
