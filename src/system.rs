@@ -207,6 +207,9 @@ pub struct State {
 }
 
 impl State {
+    /// Nothing moves, and the absorber is in the middle of its cavity.
+    pub const AT_REST: Self = Self { x: 0.0, x_velocity: 0.0, y: 0.0, y_velocity: 0.0 };
+
     /// Relative displacement `w = x - y`.
     pub fn gap(&self) -> f64 {
         self.x - self.y

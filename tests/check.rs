@@ -5,9 +5,10 @@ use std::path::PathBuf;
 use assert_cmd::Command;
 use tempfile::TempDir;
 
-use vinesink::band::{Band, exact, theory};
+use vinesink::band::{Band, Survey, exact, theory};
 use vinesink::case::Case;
 use vinesink::criteria::judge;
+use vinesink::orbits::attracting_orbit;
 use vinesink::study::fidelity::Fidelity;
 
 const DESIGN: &str = "\
@@ -34,10 +35,19 @@ fn case(band: &str, criteria: &str) -> Case {
     Case::parse("test.toml", &text).unwrap_or_else(|error| panic!("{error:?}"))
 }
 
+/// The design at one excitation.
+fn alone(frequency: &str, clearance: &str, criteria: &str) -> Case {
+    let design = DESIGN
+        .replace("clearance = \"20 mm\"", &format!("clearance = \"{clearance}\""))
+        .replace("8.35 Hz", frequency);
+    Case::parse("test.toml", &format!("{design}[criteria]\n{criteria}\n"))
+        .unwrap_or_else(|error| panic!("{error:?}"))
+}
+
 #[test]
 fn shares_are_those_of_the_band() {
     let case = case(BAND, "z3_share = \">= 80 %\"\nstable_share = \"<= 0.5\"");
-    let judged = judge(&case).expect("nothing is simulated");
+    let judged = judge(&case, None).expect("nothing is simulated");
     let band = Band::of(&case.system(), case.band.as_ref().expect("a band"));
     let z3 = band.share(&theory::zones(&band), |zone| zone.is_z3());
     let stable = band.share(&exact::stability(&band), |stable| *stable);
@@ -49,30 +59,63 @@ fn shares_are_those_of_the_band() {
     assert_eq!((judged[1].found, judged[1].holds), (Some(stable), Some(stable <= 0.5)));
 }
 
-/// Where the orbit alone breaks a limit nothing is simulated; where it does not, the rest of the band
-/// is.
+/// Where the orbit alone breaks a limit nothing is simulated; where it does not, the band is, and the
+/// worst motion counts.
 #[test]
 fn the_cheapest_layer_that_can_decide_decides() {
-    let by = |criteria: &str| judge(&case(BAND, criteria)).expect("it runs")[0].clone();
+    let by = |criteria: &str| judge(&case(BAND, criteria), None).expect("it runs")[0].clone();
     let broken = by("peak_displacement = \"<= 3 mm\"");
     assert_eq!((broken.holds, broken.decided_by), (Some(false), Fidelity::Orbit));
-    let narrow = "[band]\nfrom = \"8.3 Hz\"\nto = \"8.4 Hz\"\n";
-    let covered = judge(&case(narrow, "peak_displacement = \"<= 20 mm\"")).expect("it runs");
-    assert_eq!((covered[0].holds, covered[0].decided_by), (Some(true), Fidelity::Orbit));
+    // At resonance with 15 mm every start leads to the orbit.
+    let found = judge(&alone("8.35 Hz", "15 mm", "peak_displacement = \"<= 20 mm\""), None);
+    let found = found.expect("it runs")[0].clone();
+    assert_eq!((found.holds, found.decided_by), (Some(true), Fidelity::Orbit));
     // At 8.7 Hz no symmetric orbit attracts.
-    let text = format!("{DESIGN}[criteria]\nimpacts_per_period = 2\n").replace("8.35 Hz", "8.7 Hz");
-    let simulated = judge(&Case::parse("test.toml", &text).expect("valid")).expect("it runs");
-    assert_eq!((simulated[0].holds, simulated[0].decided_by), (Some(false), Fidelity::Simulation));
+    let found = judge(&alone("8.7 Hz", "20 mm", "impacts_per_period = 2"), None);
+    let found = found.expect("it runs")[0].clone();
+    assert_eq!((found.holds, found.decided_by), (Some(false), Fidelity::Simulation));
+}
+
+/// At 8 Hz and 16.6 mm the orbit that attracts is smaller than the motion of an absorber that never
+/// wakes, which is where the start from rest leads: the larger counts.
+#[test]
+fn a_motion_beside_the_orbit_counts() {
+    let criteria = "peak_displacement = \"<= 3 mm\"\nimpacts_per_period = 2";
+    let case = alone("8 Hz", "16.6 mm", criteria);
+    let system = case.system();
+    let scales = case.scales();
+    let orbit = attracting_orbit(&system).expect("there is one").peaks.displacement;
+    let asleep = system.linear_response().expect("damped").amplitude();
+    assert!(scales.length(orbit) < 3e-3 && scales.length(asleep) > 3e-3, "{orbit} {asleep}");
+    let judged = judge(&case, None).expect("it runs");
+    assert_eq!((judged[0].holds, judged[0].decided_by), (Some(false), Fidelity::Simulation));
+    // What is left of the start from rest after twelve e-folds is below 1e-5.
+    let found = judged[0].found.expect("measured");
+    assert!(found >= scales.length(asleep) * (1.0 - 1e-5), "{found}");
+    assert_eq!((judged[1].found, judged[1].holds), (Some(0.0), Some(false)));
+}
+
+/// A report surveys the band for its tables and figure, and judges by the same survey.
+#[test]
+fn a_known_survey_changes_nothing() {
+    let criteria =
+        "stable_share = \">= 0.5\"\npeak_displacement = \"<= 1 m\"\nno_coexistence = true";
+    let case = case(BAND, criteria);
+    let band = Band::of(&case.system(), case.band.as_ref().expect("a band"));
+    let survey = Survey::of(&band, true).expect("it runs");
+    assert_eq!(judge(&case, Some(&survey)), judge(&case, None));
+    let without = Survey::of(&band, false).expect("nothing is simulated");
+    assert_eq!(judge(&case, Some(&without)), judge(&case, None));
 }
 
 /// At one excitation the numbers are the orbit's.
 #[test]
 fn a_case_without_band_is_judged_at_its_own_excitation() {
-    let case = case(
-        "",
-        "z3_share = \">= 1\"\nimpacts_per_period = 2\nno_coexistence = true\nmargin_clearance = \">= 10 %\"",
-    );
-    let judged = judge(&case).expect("it runs");
+    let criteria = "z3_share = \">= 1\"\nimpacts_per_period = 2\nno_coexistence = true\n\
+                    margin_clearance = \">= 10 %\"";
+    // With 20 mm the start from rest would not wake the absorber.
+    let case = alone("8.35 Hz", "15 mm", criteria);
+    let judged = judge(&case, None).expect("it runs");
     let found: Vec<_> = judged.iter().map(|one| one.found.expect("measured")).collect();
     assert_eq!([found[0], found[2], found[3]], [1.0, 2.0, 1.0]);
     let system = case.system();

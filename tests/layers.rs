@@ -32,6 +32,7 @@ const ROOMS: &[(&str, &[&str])] = &[
         "study",
         &[
             "analysis",
+            "band",
             "case",
             "equations",
             "numerics",

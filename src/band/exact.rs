@@ -48,15 +48,17 @@ fn strength(band: &Band, at: f64) -> f64 {
     each.max_by(f64::total_cmp).unwrap_or(-f64::MIN_POSITIVE)
 }
 
+/// The middle of each stretch without an attracting orbit.
+pub fn unstable_middles(stability: &[Stretch<bool>]) -> impl Iterator<Item = f64> {
+    stability.iter().filter(|one| !one.of).map(|one| 0.5 * (one.from + one.to))
+}
+
 /// Places of the stretches without an attracting orbit: of `count` even ones over the band those that
 /// lie in them, and the middle of each, for one that lies between two.
 pub fn unstable_places(band: &Band, stability: &[Stretch<bool>], count: u32) -> Vec<f64> {
-    let unstable = || stability.iter().filter(|one| !one.of);
-    let mut places: Vec<f64> = band
-        .places(count)
-        .filter(|at| unstable().any(|one| one.from <= *at && *at <= one.to))
-        .chain(unstable().map(|one| 0.5 * (one.from + one.to)))
-        .collect();
+    let inside = |at: f64| stability.iter().any(|one| !one.of && one.from <= at && at <= one.to);
+    let mut places: Vec<f64> = band.places(count).filter(|at| inside(*at)).collect();
+    places.extend(unstable_middles(stability));
     places.sort_by(f64::total_cmp);
     places.dedup();
     places

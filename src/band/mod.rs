@@ -10,7 +10,10 @@ pub mod exact;
 pub mod margin;
 pub mod rivals;
 pub mod simulated;
+pub mod survey;
 pub mod theory;
+
+pub use survey::Survey;
 
 use serde::Serialize;
 

@@ -1,6 +1,7 @@
 //! What else could be done: nothing, or a tuned mass damper of the same mass.
 
 use nalgebra::Complex;
+use serde::Serialize;
 
 use super::Band;
 use crate::numerics::scan::largest;
@@ -52,6 +53,27 @@ pub fn bare_amplitude(system: &System) -> Option<f64> {
 /// Pieces of a band in which a rival's largest amplitude is looked for: a resonance has a few hundredths
 /// of its frequency as width.
 const PIECES: u32 = 256;
+
+/// Places over which amplitudes are averaged.
+const AVERAGED: u32 = 1001;
+
+/// What a rival's amplitude is like along a band, over the clearance; infinite where nothing limits it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Rival {
+    /// The largest.
+    pub largest: f64,
+    /// The average.
+    pub mean: f64,
+}
+
+impl Rival {
+    /// That of an amplitude along a band.
+    pub fn along(band: &Band, amplitude: impl Fn(&System) -> Option<f64>) -> Self {
+        let there = |at: f64| band.system(at).ok().and_then(|system| amplitude(&system));
+        let sum: f64 = band.places(AVERAGED).map(|at| there(at).unwrap_or(f64::INFINITY)).sum();
+        Self { largest: largest_along(band, amplitude), mean: sum / f64::from(AVERAGED) }
+    }
+}
 
 /// The largest amplitudes along a band of the bare oscillator and of one with the best tuned mass damper
 /// of the absorber's mass, over the clearance; infinite where nothing limits them.

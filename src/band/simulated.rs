@@ -3,11 +3,17 @@
 
 use serde::Serialize;
 
+use super::{Band, Stretch, exact};
+use crate::orbits::SymmetricOrbit;
+use crate::regimes::periodicity;
 use crate::regimes::starts::StartBox;
 use crate::simulation::{
     Impact, Nobody, Observer, Segment, Simulation, StartError, Statistics, Stop, batch,
 };
 use crate::system::{State, System};
+
+/// Even places of a band that are simulated, its ends among them.
+pub const PLACES: u32 = 33;
 
 /// E-folds of the damped free motion that are left out: what a start leaves is then below 1e-5.
 const FADED: f64 = 12.0;
@@ -19,12 +25,22 @@ const ALIKE: f64 = 0.01;
 /// Impacts in one stretch, per period asked for, at which a trajectory is given up.
 const MOST_IMPACTS: u64 = 1000;
 
+/// Periods after which a motion that is seen to repeat is measured; repetitions that divide it fill it
+/// whole.
+const REPEATING: u64 = 48;
+/// Relative difference of peaks up to which a simulated motion is that of an exact orbit, and
+/// difference of impacts per period: what is left of a transient, and of a window's largest peak.
+const AS_EXACT: f64 = 0.01;
+/// Impacts per excitation period of a symmetric 1:1 orbit.
+const TWO: f64 = 2.0;
+
 /// How thoroughly each place is simulated.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Effort {
-    /// Evenly spread starts at each place.
+    /// Starts at each place: one from rest, the others evenly spread.
     pub starts: u32,
-    /// Excitation periods measured, after a transient that follows from the damping.
+    /// Excitation periods measured where a motion is not seen to repeat, after a transient that follows
+    /// from the damping.
     pub periods: u64,
 }
 
@@ -53,7 +69,41 @@ pub struct Motion {
     pub starts: u32,
 }
 
+/// A place of a band, and the motions that starts led to there.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Place {
+    /// `Omega`, or the amplitude over the base system's.
+    pub at: f64,
+    /// In the order in which starts led to them.
+    pub motions: Vec<Motion>,
+}
+
+impl Place {
+    /// Whether the absorber stays asleep in one of the motions: from rest it is only woken by an oscillator
+    /// that reaches a wall.
+    pub fn sleeps(&self) -> bool {
+        self.motions.iter().any(Motion::is_asleep)
+    }
+
+    /// Whether there are several motions with impacts.
+    pub fn has_several(&self) -> bool {
+        self.motions.iter().filter(|motion| !motion.is_asleep()).count() > 1
+    }
+}
+
 impl Motion {
+    /// Whether the absorber takes no part: there is no impact.
+    pub fn is_asleep(&self) -> bool {
+        self.impacts_per_period == 0.0
+    }
+
+    /// Whether it is the motion of an exact orbit.
+    pub fn is(&self, orbit: &SymmetricOrbit) -> bool {
+        let exact = orbit.peaks.displacement;
+        (self.peak - exact).abs() <= AS_EXACT * exact
+            && (self.impacts_per_period - TWO).abs() <= AS_EXACT
+    }
+
     /// Whether two starts ended in one motion, as far as root mean square and impacts tell.
     fn is_same(&self, other: &Self) -> bool {
         let near =
@@ -90,7 +140,28 @@ impl Observer for Watch {
     }
 }
 
-/// The distinct motions of each system, in the order in which starts led to them.
+/// The motions along a band: at even places, and in the middle of each stretch without an attracting
+/// symmetric orbit, which may lie between two of them.
+///
+/// # Errors
+/// [`StartError`] where a start is not finite.
+pub fn along(
+    band: &Band,
+    stability: &[Stretch<bool>],
+    effort: &Effort,
+) -> Result<Vec<Place>, StartError> {
+    let mut places: Vec<f64> = band.places(PLACES).collect();
+    places.extend(exact::unstable_middles(stability));
+    places.sort_by(f64::total_cmp);
+    places.dedup();
+    let there = |at: f64| Some((at, band.system(at).ok()?));
+    let (places, systems): (Vec<f64>, Vec<System>) = places.into_iter().filter_map(there).unzip();
+    let found = places.into_iter().zip(motions(&systems, effort)?);
+    Ok(found.map(|(at, motions)| Place { at, motions }).collect())
+}
+
+/// The distinct motions of each system, in the order in which starts led to them; the first start is
+/// that from rest.
 ///
 /// # Errors
 /// [`StartError`] where a start is not finite.
@@ -99,21 +170,48 @@ pub fn motions(systems: &[System], effort: &Effort) -> Result<Vec<Vec<Motion>>, 
     for system in systems {
         let sample = StartBox::around(system);
         for index in 0..effort.starts {
-            simulations.push(Simulation::new(system, sample.start(index), 0.0)?);
+            let start = index.checked_sub(1).map_or(State::AT_REST, |index| sample.start(index));
+            simulations.push(Simulation::new(system, start, 0.0)?);
         }
     }
     let left_out = systems.iter().map(left_out).max().unwrap_or(0);
     let mut nobody: Vec<Nobody> = simulations.iter().map(|_| Nobody).collect();
     batch::run(&mut simulations, left_out, left_out * MOST_IMPACTS, &mut nobody);
+    let mut ended = measured(simulations, effort.periods);
+    ended.sort_by_key(|(index, ..)| *index);
+    let ended: Vec<(Watch, Stop)> =
+        ended.into_iter().map(|(_, watch, stop)| (watch, stop)).collect();
+    Ok(ended.chunks(effort.starts.max(1) as usize).map(distinct).collect())
+}
+
+/// Measures trajectories, by their index: those that repeat over a short window, the others over
+/// `periods`.
+fn measured(mut simulations: Vec<Simulation>, periods: u64) -> Vec<(usize, Watch, Stop)> {
     let begin = |one: &Simulation| Watch {
         statistics: Statistics::begin(one.system(), one.state()),
         fastest: 0.0,
     };
     let mut watches: Vec<Watch> = simulations.iter().map(begin).collect();
-    let limit = effort.periods * MOST_IMPACTS;
-    let stops = batch::run(&mut simulations, effort.periods, limit, &mut watches);
-    let ended: Vec<(Watch, Stop)> = watches.into_iter().zip(stops).collect();
-    Ok(ended.chunks(effort.starts.max(1) as usize).map(distinct).collect())
+    let first = periods.min(REPEATING);
+    let stops = batch::run(&mut simulations, first, first * MOST_IMPACTS, &mut watches);
+    let (mut done, mut going) = (Vec::new(), (Vec::new(), Vec::new(), Vec::new()));
+    for (index, ((one, watch), stop)) in simulations.into_iter().zip(watches).zip(stops).enumerate()
+    {
+        let repeats = periodicity::find(watch.statistics.records())
+            .is_some_and(|found| REPEATING.is_multiple_of(u64::from(found.periods)));
+        if repeats || stop != Stop::EndTime || periods == first {
+            done.push((index, watch, stop));
+        } else {
+            going.0.push(index);
+            going.1.push(one);
+            going.2.push(watch);
+        }
+    }
+    let (indices, mut simulations, mut watches) = going;
+    let rest = periods - first;
+    let stops = batch::run(&mut simulations, rest, rest * MOST_IMPACTS, &mut watches);
+    done.extend(indices.into_iter().zip(watches).zip(stops).map(|((i, w), s)| (i, w, s)));
+    done
 }
 
 /// Periods after which what a start leaves has faded.

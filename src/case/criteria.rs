@@ -289,8 +289,7 @@ pub(super) struct CriteriaTable {
     /// Impacts per excitation period: a number, or a bound.
     #[schemars(example = 2)]
     impacts_per_period: Option<serde_json::Value>,
-    /// Whether every start must lead to the same long-term motion; asking for it makes the criteria
-    /// above count every motion that is found, not only the 1:1 motion where it is stable.
+    /// Whether every start must lead to the same long-term motion.
     #[schemars(example = true)]
     no_coexistence: Option<bool>,
 }

@@ -87,7 +87,7 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
 
 fn judged(path: &Path) -> Result<CriteriaDocument> {
     let case = case_file::read(path)?;
-    let judged = criteria::judge(&case).into_diagnostic()?;
+    let judged = criteria::judge(&case, None).into_diagnostic()?;
     if case.criteria.is_empty() {
         output::complain(&format!("{}: there is no table [criteria]", path.display()));
     }

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use miette::{IntoDiagnostic, Result, miette};
+use vinesink::band::Band;
 use vinesink::criteria;
 use vinesink::report::{Report, figures, render};
 use vinesink::store::{self, Stale};
@@ -148,7 +149,10 @@ fn rendered(path: &Path, name: &str, forced: Option<Fidelity>) -> Result<(Files,
     } else {
         CaseStudy::without_simulation(&case.system(), effort)
     };
-    let study = study.into_diagnostic()?;
+    let mut study = study.into_diagnostic()?;
+    if let Some(settings) = &case.band {
+        study = study.along(&Band::of(&case.system(), settings)).into_diagnostic()?;
+    }
     let drawn = figures::all(&case, &study).into_diagnostic()?;
     progress.advance(FURTHER_STEPS / 2);
     let mut report = Report::new(name, &case, &study, &drawn);
@@ -160,7 +164,7 @@ fn rendered(path: &Path, name: &str, forced: Option<Fidelity>) -> Result<(Files,
         }
         report = report.with_answers(&case, &answers);
     }
-    let judged = criteria::judge(&case).into_diagnostic()?;
+    let judged = criteria::judge(&case, study.band.as_ref()).into_diagnostic()?;
     report = report.with_criteria(&case, &judged);
     // As `simulate`: what is not to be trusted is written down, and does not pass for an answer.
     let motions = study.simulated_motions();

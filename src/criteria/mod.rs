@@ -1,13 +1,14 @@
 //! What a case asks for, held against what its design does: each criterion by the cheapest layer that
 //! can decide it.
 //!
-//! Shares are roots ([`crate::band`]). Amplitudes, impacts and their speeds are those of the exact
-//! symmetric orbit where one attracts, and of simulation elsewhere; simulation is left out where the
-//! orbit alone already breaks the limit. An orbit does not know which other motions there are: a case
-//! that asks for `no_coexistence` has the whole band simulated, and every motion that is found counts.
+//! Shares are roots ([`crate::band`]). An amplitude, a count of impacts or their speed must hold for every
+//! motion that is found: for the exact symmetric orbit where one attracts, and for what starts lead to
+//! along the band, that from rest among them, as an orbit does not know which other motions there are.
+//! Simulation is left out where the orbit alone already breaks the limit.
 
 mod scope;
 
+use crate::band::Survey;
 use crate::band::simulated::Motion;
 use crate::case::{Case, Criterion, Relation, Scales, Subject};
 use crate::simulation::StartError;
@@ -48,7 +49,7 @@ pub struct Judged {
     pub near_limit: bool,
     /// Place in the band where it is worst: `Omega`, or amplitude over the case's own.
     pub at: Option<f64>,
-    /// Which layer decided.
+    /// The layer that `found` is from.
     pub decided_by: Fidelity,
 }
 
@@ -83,13 +84,12 @@ impl From<&Motion> for Seen {
     }
 }
 
-/// Judges every criterion of a case.
+/// Judges every criterion of a case; what is already known along its band is not found again.
 ///
 /// # Errors
 /// [`StartError`] where a start of a simulation is not finite.
-pub fn judge(case: &Case) -> Result<Vec<Judged>, StartError> {
-    let all_motions = case.criteria.iter().any(|one| one.subject == Subject::NoCoexistence);
-    let scope = Scope::of(case, all_motions);
+pub fn judge(case: &Case, known: Option<&Survey>) -> Result<Vec<Judged>, StartError> {
+    let scope = Scope::of(case, known);
     case.criteria.iter().map(|criterion| scope.judge(criterion)).collect()
 }
 
@@ -123,7 +123,7 @@ impl Criterion {
             error: value.error,
             margin: Some(room),
             holds: Some(room >= 0.0),
-            near_limit: room.abs() <= value.error,
+            near_limit: value.error > 0.0 && room.abs() <= value.error,
             at: value.at,
             decided_by: value.by,
         }

@@ -6,8 +6,8 @@ use std::cell::OnceCell;
 use super::{Judged, ROUNDING, Seen, Value, of_motion};
 use crate::band::exact::{self, attracting};
 use crate::band::rivals;
-use crate::band::simulated::{Effort, Motion, motions};
-use crate::band::{Band, Stretch, margin, theory};
+use crate::band::simulated::{self, Effort, Place, motions};
+use crate::band::{Band, Stretch, Survey, margin, theory};
 use crate::case::{Case, Criterion, Scales, Subject};
 use crate::orbits::{Measures, SymmetricOrbit};
 use crate::simulation::StartError;
@@ -15,10 +15,8 @@ use crate::study::fidelity::Fidelity;
 use crate::system::System;
 use crate::validation::tolerance::asymptotic_error;
 
-/// Places of a band that are simulated, its ends among them.
+/// Places of a band at which the theory's own error is asked for.
 const PLACES: u32 = 25;
-/// Starts at a place where the orbit has no say and no other motion is asked for.
-const FEW_STARTS: u32 = 4;
 /// Error of a share whose ends are roots: their rounding.
 const SHARE_ROUNDING: f64 = 1e-9;
 
@@ -28,31 +26,29 @@ pub struct Scope {
     /// Whether it is a band, and not one excitation.
     ranges: bool,
     scales: Scales,
-    all_motions: bool,
     /// The largest amplitudes along the range of the bare oscillator and of one with the best tuned
     /// mass damper, over the clearance; infinite where nothing limits them.
     rivals: [f64; 2],
     stability: OnceCell<Vec<Stretch<bool>>>,
-    simulated: OnceCell<Vec<(f64, Vec<Motion>)>>,
+    simulated: OnceCell<Vec<Place>>,
 }
 
 impl Scope {
-    /// That of a case; with `all_motions` every motion that simulation finds counts, not only the
-    /// stable 1:1 motion where there is one.
-    pub fn of(case: &Case, all_motions: bool) -> Self {
+    /// That of a case; what a survey of its band knows is not found again.
+    pub fn of(case: &Case, known: Option<&Survey>) -> Self {
         let system = case.system();
         let band = case
             .band
             .as_ref()
             .map_or_else(|| Band::point(&system), |settings| Band::of(&system, settings));
+        let simulated = known.map(|survey| &survey.simulated).filter(|places| !places.is_empty());
         Self {
             rivals: rivals::largest_amplitudes(&band),
             band,
             ranges: case.band.is_some(),
             scales: case.scales(),
-            all_motions,
-            stability: OnceCell::new(),
-            simulated: OnceCell::new(),
+            stability: known.map_or_else(OnceCell::new, |survey| survey.stability.clone().into()),
+            simulated: simulated.map_or_else(OnceCell::new, |places| places.clone().into()),
         }
     }
 
@@ -92,7 +88,9 @@ impl Scope {
 
     fn stable_share(&self) -> Value {
         let found = self.band.share(self.stability(), |stable| *stable);
-        Value { found, error: SHARE_ROUNDING, at: None, by: Fidelity::Orbit }
+        // All and nothing have no end that could be off.
+        let error = if self.stability().len() > 1 { SHARE_ROUNDING } else { 0.0 };
+        Value { found, error, at: None, by: Fidelity::Orbit }
     }
 
     fn margin(&self) -> Value {
@@ -108,8 +106,8 @@ impl Scope {
 
     /// 1 where every place has one motion, 0 where one has several.
     fn one_motion(&self) -> Result<Option<Value>, StartError> {
-        let several = self.simulated()?.iter().find(|(_, motions)| motions.len() > 1);
-        let at = several.map(|(at, _)| *at).filter(|_| self.ranges);
+        let several = self.simulated()?.iter().find(|place| place.motions.len() > 1);
+        let at = several.map(|place| place.at).filter(|_| self.ranges);
         let found = f64::from(u8::from(several.is_none()));
         Ok(Some(Value { found, error: 0.0, at, by: Fidelity::Simulation }))
     }
@@ -117,14 +115,10 @@ impl Scope {
     /// The worst value of a criterion about motions.
     fn worst(&self, criterion: &Criterion) -> Result<Option<Value>, StartError> {
         let exact = self.worst_exact(criterion);
-        let covered = self.stability().iter().all(|stretch| stretch.of);
-        if exact.is_some_and(|value| criterion.room(value.found) < 0.0)
-            || (covered && !self.all_motions)
-        {
+        if exact.is_some_and(|value| criterion.room(value.found) < 0.0) {
             return Ok(exact);
         }
-        let simulated = self.worst_simulated(criterion)?;
-        let both = exact.into_iter().chain(simulated);
+        let both = exact.into_iter().chain(self.worst_simulated(criterion)?);
         Ok(both.min_by(|a, b| criterion.room(a.found).total_cmp(&criterion.room(b.found))))
     }
 
@@ -144,10 +138,15 @@ impl Scope {
         Some(Value { found, error, at, by: Fidelity::Orbit })
     }
 
+    /// The worst of the motions that starts led to; where that is the exact orbit's, the orbit knows it
+    /// better.
     fn worst_simulated(&self, criterion: &Criterion) -> Result<Option<Value>, StartError> {
         let mut worst: Option<Value> = None;
-        for (at, motions) in self.simulated()? {
-            for motion in motions {
+        for Place { at, motions } in self.simulated()? {
+            let orbit = attracting(&self.band, *at);
+            for motion in
+                motions.iter().filter(|one| !orbit.as_ref().is_some_and(|orbit| one.is(orbit)))
+            {
                 let Some((found, error)) =
                     of_motion(criterion.subject, &Seen::from(motion), self.rivals, &self.scales)
                 else {
@@ -166,23 +165,17 @@ impl Scope {
         self.stability.get_or_init(|| exact::stability(&self.band))
     }
 
-    /// The motions at places of the band: at all of them if every motion counts, else where no
-    /// symmetric orbit attracts.
-    fn simulated(&self) -> Result<&[(f64, Vec<Motion>)], StartError> {
+    /// The motions along the band, or at the case's own excitation.
+    fn simulated(&self) -> Result<&[Place], StartError> {
         if self.simulated.get().is_none() {
-            let mut effort = Effort::default();
-            let places = if !self.ranges {
-                vec![0.5 * (self.band.range[0] + self.band.range[1])]
-            } else if self.all_motions {
-                self.band.places(PLACES).collect()
+            let effort = Effort::default();
+            let found = if self.ranges {
+                simulated::along(&self.band, self.stability(), &effort)?
             } else {
-                effort.starts = FEW_STARTS;
-                exact::unstable_places(&self.band, self.stability(), PLACES)
+                let at = self.band.base.frequency_ratio();
+                let found = motions(&[self.band.base], &effort)?;
+                found.into_iter().map(|motions| Place { at, motions }).collect()
             };
-            let there = |at: f64| Some((at, self.band.system(at).ok()?));
-            let (places, systems): (Vec<f64>, Vec<System>) =
-                places.into_iter().filter_map(there).unzip();
-            let found = places.into_iter().zip(motions(&systems, &effort)?).collect();
             return Ok(self.simulated.get_or_init(|| found));
         }
         Ok(self.simulated.get().map_or(&[], Vec::as_slice))

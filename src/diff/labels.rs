@@ -104,7 +104,7 @@ pub(super) fn unit(key: &str, physical: bool) -> &'static str {
         "peak_velocity" | "impact_speed" | "impulse_per_mass" => si("m/s", "own units"),
         "peak" | "rms" if key.starts_with("attractors/displacement/") => si("m", "own units"),
         "bare_amplitude" | "peak_displacement" | "impact_displacement" => si("m", "own units"),
-        "theory" => si("m", "own units"),
+        "theory" | "largest_peak" | "smallest_peak" | "mean_peak" => si("m", "own units"),
         _ if key.starts_with("analysis/") && last.ends_with("clearance") => si("m", "own units"),
         _ if key.starts_with("attractors/energy/") && last != "relative_residual" => {
             si("J", "own units")

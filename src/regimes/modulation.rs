@@ -177,7 +177,7 @@ mod tests {
             visits: impacts,
             mean_square: 0.0,
             peak: oscillator,
-            end: State { x: 0.0, x_velocity: 0.0, y: 0.0, y_velocity: 0.0 },
+            end: State::AT_REST,
             absorber_harmonic: [0.6 * absorber, -0.8 * absorber],
             oscillator_harmonic: [0.0, oscillator],
         }

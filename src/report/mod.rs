@@ -21,6 +21,7 @@ mod layers;
 mod motion_tables;
 mod notes;
 mod tables;
+mod units;
 mod verdict;
 
 use serde::Serialize;
@@ -34,6 +35,7 @@ use criteria::{CriteriaDocument, CriterionRow};
 use documents::{AnalysisDocument, AttractorDocument};
 use figure::Figure;
 
+pub use band::BandDocument;
 pub use equations::EquationGroup;
 pub use layers::Layers;
 pub use notes::Note;
@@ -164,6 +166,9 @@ pub struct ReportData {
     pub confirmations: crate::study::Confirmations,
     /// Amplitude of the oscillator without absorber impacts, in the case's unit of length.
     pub bare_amplitude: Option<f64>,
+    /// What is known along the case's band, if it has one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub band: Option<BandDocument>,
 }
 
 impl Report {
@@ -224,6 +229,7 @@ impl Report {
                 margins: study.margins.clone(),
                 confirmations: study.confirmations.clone(),
                 bare_amplitude: bare.map(|bare| scales.length(bare.amplitude())),
+                band: study.band.as_ref().map(|survey| BandDocument::new(survey, &scales)),
             },
         }
     }

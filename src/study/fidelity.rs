@@ -201,7 +201,7 @@ impl Plan {
         forced: Option<Fidelity>,
     ) -> Result<Self, StudyError> {
         // None of these simulates, so none of them has a start.
-        let nowhere = State { x: 0.0, x_velocity: 0.0, y: 0.0, y_velocity: 0.0 };
+        let nowhere = State::AT_REST;
         let closed_form = Method::FixedPoints.run(system, nowhere)?;
         let orbit = Method::SymmetricOrbit.run(system, nowhere)?;
         let mut plan = Self {

@@ -15,6 +15,7 @@ use serde::Serialize;
 
 use crate::analysis::motion::state_of;
 use crate::analysis::{Analysis, AnalysisError, Area, Branch};
+use crate::band::{Band, Survey};
 use crate::case::SimulationSettings;
 use crate::orbits::{Boundaries, FullSystem};
 use crate::regimes::attractor::Effort;
@@ -133,6 +134,9 @@ pub struct CaseStudy {
     /// What finding the attractors has cost, in operations as [`crate::tally`] counts them.
     #[serde(skip)]
     pub motions_cost: u64,
+    /// What is known along the case's band; none without one.
+    #[serde(skip)]
+    pub band: Option<Survey>,
     /// Whether anything was simulated; if not, `attractors` is empty.
     pub simulated: bool,
 }
@@ -199,6 +203,7 @@ impl CaseStudy {
             confirmations,
             effort,
             motions_cost,
+            band: None,
             simulated: true,
             analysis,
         })
@@ -222,10 +227,19 @@ impl CaseStudy {
             confirmations: Confirmations::none(),
             effort,
             motions_cost: 0,
+            band: None,
             simulated: false,
             exact,
             analysis,
         })
+    }
+
+    /// The same with what is known along a band, simulated if the study is.
+    ///
+    /// # Errors
+    /// [`StudyError`] where a simulation cannot begin.
+    pub fn along(self, band: &Band) -> Result<Self, StudyError> {
+        Ok(Self { band: Some(Survey::of(band, self.simulated)?), ..self })
     }
 
     /// What was simulated, if anything was.

@@ -6,7 +6,8 @@ use serde::Serialize;
 
 use super::numbers::{LengthFormat, fixed, percent, significant};
 use super::tables::{Table, table};
-use crate::case::{BandOver, Case, Measure, Relation, Subject};
+use super::units::Units;
+use crate::case::{Case, Measure, Relation, Subject};
 use crate::criteria::{Judged, all_hold};
 use crate::study::fidelity::Fidelity;
 
@@ -150,7 +151,10 @@ fn row(case: &Case, judged: &Judged) -> CriterionRow {
         holds: judged.holds,
         near_limit: judged.near_limit,
         decided_by: judged.decided_by,
-        at: place(case, judged.at),
+        at: judged
+            .at
+            .zip(case.band.as_ref())
+            .map_or_else(String::new, |(at, band)| Units::of(case).band_text(band.over, at)),
         words: [asked, found, margin],
     }
 }
@@ -201,18 +205,6 @@ fn unit(case: &Case, measure: Measure) -> &'static str {
                 "1"
             }
         }
-    }
-}
-
-/// A place of the band, as its author would write it.
-fn place(case: &Case, at: Option<f64>) -> String {
-    let (Some(at), Some(band)) = (at, case.band.as_ref()) else { return String::new() };
-    match band.over {
-        BandOver::Frequency => match case.scales().frequency_hz(at) {
-            Some(hertz) => format!("{} Hz", significant(hertz, 4)),
-            None => format!("Ω = {}", significant(at, 4)),
-        },
-        BandOver::Amplitude => format!("{} × the case's amplitude", significant(at, 3)),
     }
 }
 

@@ -1,29 +1,28 @@
 //! The response over the case's band: exact orbits, simulation where none attracts, and what else could
 //! be done.
 
+use crate::band::exact::attracting;
 use crate::band::rivals::{TunedMassDamper, bare_amplitude};
-use crate::band::simulated::{Effort, motions};
-use crate::band::{Band, Stretch, exact, theory};
+use crate::band::simulated::Motion;
+use crate::band::{Band, Survey};
 use crate::case::BandOver;
 use crate::orbits::symmetric_orbits;
 use crate::report::figure::{
     Axis, Color, Dash, Figure, Layer, MarkedPoint, Marker, Panel, Role, Shape, Style,
 };
 use crate::report::numbers::{percent, significant};
-use crate::study::StudyError;
 use crate::system::System;
 
 use super::Scene;
 
 /// Places along the band at which curves are evaluated.
 const PLACES: u32 = 301;
-/// Places that are simulated.
-const SIMULATED: u32 = 41;
 /// What the axis leaves of the bare oscillator's resonance, over the largest motion with absorber.
 const CUT: f64 = 1.6;
 
-pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
-    let Some(band) = scene.band.as_ref() else { return Ok(None) };
+pub(super) fn figure(scene: &Scene) -> Option<Figure> {
+    let survey = scene.study.band.as_ref()?;
+    let band = &survey.band;
     let units = &scene.units;
     let x = |at: f64| match band.over {
         BandOver::Frequency => units.frequency(at),
@@ -31,8 +30,7 @@ pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
     };
     let damper = TunedMassDamper::best(band.base.mass_ratio());
     let damped = |system: &System| damper.amplitude(system);
-    let stability = exact::stability(band);
-    let marks = simulated(scene, band, &stability, &x)?;
+    let marks = simulated(scene, survey, &x);
     let [stable, unstable] = orbits(band);
     let drawn = stable.iter().chain(&unstable).map(|point| point[1]);
     let highest = drawn
@@ -63,10 +61,8 @@ pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
         Layer::marked(marker, Role::Simulation.color(), marks.into_iter().map(|mark| mark.1))
             .labelled("simulated"),
     );
-    let (caption, alt) = words(scene, band, &stability);
-    Ok(Some(
-        Figure::new("band", "Response over the band").with_panel(panel).with_words(caption, alt),
-    ))
+    let (caption, alt) = words(scene, survey);
+    Some(Figure::new("band", "Response over the band").with_panel(panel).with_words(caption, alt))
 }
 
 /// An amplitude along the band, over the clearance.
@@ -99,60 +95,41 @@ fn orbits(band: &Band) -> [Vec<[f64; 2]>; 2] {
     lines
 }
 
-/// Simulated peaks over the clearance, and their marks.
-fn simulated(
-    scene: &Scene,
-    band: &Band,
-    stability: &[Stretch<bool>],
-    x: &dyn Fn(f64) -> f64,
-) -> Result<Vec<(f64, MarkedPoint)>, StudyError> {
-    if !scene.study.simulated {
-        return Ok(Vec::new());
-    }
+/// Simulated peaks over the clearance, and their marks, where they are not the exact orbit's.
+fn simulated(scene: &Scene, survey: &Survey, x: &dyn Fn(f64) -> f64) -> Vec<(f64, MarkedPoint)> {
     let units = &scene.units;
-    let inside = |at: f64| stability.iter().any(|s| s.of && s.from <= at && at <= s.to);
-    let places: Vec<f64> = band.places(SIMULATED).collect();
-    let systems: Vec<System> = places.iter().filter_map(|at| band.system(*at).ok()).collect();
-    let found = motions(&systems, &Effort::default())?;
     let mut marks = Vec::new();
-    for (at, motions) in places.iter().zip(&found) {
-        for motion in motions {
-            // What the exact orbit already says is not said again.
-            let known = inside(*at) && (motion.impacts_per_period - 2.0).abs() < 0.01;
-            if known && motions.len() == 1 {
-                continue;
-            }
+    for place in &survey.simulated {
+        let orbit = attracting(&survey.band, place.at);
+        let known = |motion: &Motion| orbit.as_ref().is_some_and(|orbit| motion.is(orbit));
+        for motion in place.motions.iter().filter(|motion| !known(motion)) {
             let words = format!(
-                "simulated at {}: peak {}, z = {}",
-                significant(x(*at), 4),
+                "simulated at {}: peak {}, z = {}{}",
+                units.band_text(survey.band.over, place.at),
                 units.length_text(motion.peak),
-                significant(motion.impacts_per_period, 3)
+                significant(motion.impacts_per_period, 3),
+                if motion.is_asleep() { ", the absorber stays asleep" } else { "" }
             );
-            let mark = MarkedPoint::new(x(*at), units.length(motion.peak)).with_tooltip(words);
-            marks.push((motion.peak, mark));
+            let mark = MarkedPoint::new(x(place.at), units.length(motion.peak));
+            marks.push((motion.peak, mark.with_tooltip(words)));
         }
     }
-    Ok(marks)
+    marks
 }
 
-fn words(scene: &Scene, band: &Band, stability: &[Stretch<bool>]) -> (String, String) {
-    let units = &scene.units;
-    let zones = theory::zones(band);
-    let z3 = band.share(&zones, |zone| zone.is_z3());
-    let stable = band.share(stability, |stable| *stable);
-    let text = |at: f64| match band.over {
-        BandOver::Frequency => units.frequency_text(at),
-        BandOver::Amplitude => units.forcing_text(at),
-    };
-    let parts: Vec<String> = zones
+fn words(scene: &Scene, survey: &Survey) -> (String, String) {
+    let text = |at: f64| scene.units.band_text(survey.band.over, at);
+    let parts: Vec<String> = survey
+        .zones
         .iter()
         .map(|zone| format!("{} to {} {}", text(zone.from), text(zone.to), zone.of.words()))
         .collect();
     let caption = format!(
         "{} of the band lies in area Z3 by theory, {} has a stable 1:1 orbit. By theory: {}. Simulation is \
-         marked where it finds something else than that orbit.",
-        percent(z3),
-        percent(stable),
+         marked where it finds something else than that orbit; marks on the line of the bare oscillator \
+         are absorbers that never wake from rest.",
+        percent(survey.z3_share()),
+        percent(survey.stable_share()),
         parts.join(", ")
     );
     let alt = format!(

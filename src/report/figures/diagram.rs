@@ -15,7 +15,7 @@ use crate::validation::tolerance::has_resonance;
 
 use super::Scene;
 use super::diagram_lines::thinned;
-use super::units::Units;
+use crate::report::units::Units;
 
 /// Longest time between impacts that is shown, in periods; a modulated motion has single longer ones.
 const LONGEST: f64 = 1.6;

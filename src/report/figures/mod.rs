@@ -30,9 +30,7 @@ pub(super) mod restitutions;
 mod return_map;
 mod transfer;
 pub(super) mod transfer_stretches;
-mod units;
 
-use crate::band::Band;
 use crate::case::{Case, ExtraFigure};
 use crate::regimes::{FoundAttractor, Regime};
 use crate::simulation::Stop;
@@ -40,7 +38,7 @@ use crate::study::{CaseStudy, StudyError};
 use crate::system::Parameter;
 
 use super::figure::Figure;
-use units::Units;
+use super::units::Units;
 
 /// So many attractors are drawn.
 const ATTRACTORS: usize = 3;
@@ -49,15 +47,11 @@ const ATTRACTORS: usize = 3;
 pub(super) struct Scene<'a> {
     study: &'a CaseStudy,
     units: Units,
-    /// The range of excitations that the case asks for.
-    band: Option<Band>,
 }
 
 impl<'a> Scene<'a> {
     pub(super) fn new(case: &Case, study: &'a CaseStudy) -> Self {
-        let system = &study.analysis.system;
-        let band = case.band.as_ref().map(|settings| Band::of(system, settings));
-        Self { study, units: Units::of(case), band }
+        Self { study, units: Units::of(case) }
     }
 
     /// An attractor that moves and was followed to the end. One that was measured while it turned
@@ -89,7 +83,7 @@ pub fn all(case: &Case, study: &CaseStudy) -> Result<Vec<Figure>, StudyError> {
     let scene = Scene::new(case, study);
     let mut figures = Vec::new();
     figures.extend(map::figure(&scene)?);
-    figures.extend(band::figure(&scene)?);
+    figures.extend(band::figure(&scene));
     figures.push(plane::figure(&scene)?);
     figures.push(manifold::figure(&scene));
     figures.extend(response::figure(&scene)?);

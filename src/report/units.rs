@@ -1,7 +1,7 @@
 //! Numbers in the units that the case's reader uses.
 
-use crate::case::{Case, Design, PhysicalExcitation, Scales};
-use crate::report::numbers::{LengthFormat, significant};
+use super::numbers::{LengthFormat, significant};
+use crate::case::{BandOver, Case, Design, PhysicalExcitation, Scales};
 use crate::system::System;
 
 /// Turns dimensionless numbers into numbers of displayed units.
@@ -91,6 +91,14 @@ impl Units {
     /// A forcing over the case's in words.
     pub(super) fn forcing_text(&self, over_own: f64) -> String {
         format!("{} {}", significant(self.forcing(over_own), 3), self.forcing.1)
+    }
+
+    /// A place of a band in words.
+    pub(super) fn band_text(&self, over: BandOver, at: f64) -> String {
+        match over {
+            BandOver::Frequency => self.frequency_text(at),
+            BandOver::Amplitude => self.forcing_text(at),
+        }
     }
 
     /// A number of excitation periods in seconds, or as it is for a reduced case.
