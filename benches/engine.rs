@@ -5,6 +5,9 @@
 //! The first lines printed are the ratio of the two and the impacts per second; then criterion's own
 //! report. Nothing here asserts a time.
 
+#[path = "../tests/common/mod.rs"]
+mod common;
+
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
@@ -12,7 +15,7 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use vinesink::analysis::Analysis;
 use vinesink::simulation::{Nobody, Simulation, Statistics, Stop, batch};
 use vinesink::study::tradeoff::by_hand::{ByHand, Listener, Locate};
-use vinesink::system::{Excitation, Parameters, State, System};
+use vinesink::system::{State, System};
 
 const PERIODS: u64 = 200;
 /// Clearances in mm: strongly modulated, and two impacts per period.
@@ -21,16 +24,7 @@ const START: State = State { x: 0.0, x_velocity: 0.01, y: 0.0, y_velocity: 0.0 }
 
 /// Table 1 of Li, Seguy, Berlioz (2016) at resonance, with F = 0.25 mm.
 fn system(clearance_mm: f64) -> System {
-    let mass_ratio = 0.032 / 4.168;
-    System::new(Parameters {
-        mass_ratio,
-        damping: 3.02 / (0.032 * (11.47e3_f64 / 4.168).sqrt()),
-        restitution: 0.6,
-        frequency_ratio: 1.0,
-        forcing_per_clearance: 0.25 / mass_ratio / clearance_mm,
-        excitation: Excitation::BaseDisplacement,
-    })
-    .expect("a valid system")
+    common::table_1(common::natural_frequency() / std::f64::consts::TAU, clearance_mm)
 }
 
 fn engine(system: &System, periods: u64) -> u64 {

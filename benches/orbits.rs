@@ -2,6 +2,9 @@
 //!
 //! The first lines printed are the ratios; then criterion's own report. Nothing here asserts a time.
 
+#[path = "../tests/common/mod.rs"]
+mod common;
+
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
@@ -9,7 +12,7 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use vinesink::orbits::branch::{Direction, Settings, follow};
 use vinesink::orbits::{Branch, SymmetricFamily, symmetric_orbits};
 use vinesink::simulation::{Nobody, Simulation};
-use vinesink::system::{Excitation, Parameter, Parameters, State, System};
+use vinesink::system::{Parameter, State, System};
 
 /// Periods in which the transient of a 1:1 motion dies out to 1e-10.
 const TRANSIENT: u64 = 400;
@@ -18,17 +21,7 @@ const ORBITS: usize = 200;
 
 /// Table 1 of Li, Seguy, Berlioz (2016) at 8.5 Hz, b = 20 mm, F = 0.25 mm.
 fn system() -> System {
-    let mass_ratio = 0.032 / 4.168;
-    let natural = (11.47e3_f64 / 4.168).sqrt();
-    System::new(Parameters {
-        mass_ratio,
-        damping: 3.02 / (0.032 * natural),
-        restitution: 0.6,
-        frequency_ratio: 8.5 * std::f64::consts::TAU / natural,
-        forcing_per_clearance: 0.25 / mass_ratio / 20.0,
-        excitation: Excitation::BaseDisplacement,
-    })
-    .expect("a valid system")
+    common::table_1(8.5, 20.0)
 }
 
 /// A branch over the clearance of exactly [`ORBITS`] orbits with multipliers and admissibility.
