@@ -90,6 +90,22 @@ fn shares_are_those_of_a_dense_scan() {
     assert!(partial >= 8, "only {partial} shares are neither all nor nothing");
 }
 
+/// Straight lines between the corners of a spectrum, constant outside of them.
+#[test]
+fn a_spectrum_is_straight_between_its_corners() {
+    let base = li(15.0);
+    let spectrum = vec![[0.97, 0.7], [1.01, 1.3], [1.05, 0.9]];
+    let band = Band { spectrum, ..frequencies(base, [0.95, 1.07]) };
+    for (at, factor) in
+        [(0.95, 0.7), (0.97, 0.7), (0.98, 0.85), (1.0, 1.15), (1.01, 1.3), (1.04, 1.0), (1.06, 0.9)]
+    {
+        let system = band.system(at).expect("valid");
+        let found = system.forcing_per_clearance() / base.forcing_per_clearance();
+        assert!((found - factor).abs() < 1e-12, "{at}: {found} {factor}");
+        assert_eq!(system.frequency_ratio(), at);
+    }
+}
+
 #[test]
 fn stretches_cover_the_band_once() {
     for band in bands() {

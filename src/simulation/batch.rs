@@ -12,10 +12,12 @@ mod queue;
 use fearless_simd::{Level, Simd, dispatch};
 
 use self::queue::{Queue, Task};
+use super::certificate::{Hull, Slack};
 use super::events::Observer;
 use super::panels::Limits;
-use super::phasor::{self, At, Hull, Line, Rates, Slack, Steady};
+use super::phasor::{At, Line, Rates, Steady};
 use super::run::{Moment, Simulation, Stop};
+use super::walls::{self, inverse_loss};
 use crate::numerics::lanes::{LANES, Real, Wide, WideMask};
 use crate::system::State;
 
@@ -179,7 +181,7 @@ impl<S: Simd> Lanes<S> {
         let (mut fresh, mut begun) = (lanes, 0);
         while fresh != 0 {
             let (here, slack) = self.rates.begin(self.x, self.v, self.steady, self.line);
-            let blocked = phasor::blocked(self.x, self.v, self.line) | self.rates.short(&here);
+            let blocked = walls::blocked(self.x, self.v, self.line) | self.rates.short(&here);
             let blocked = blocked.bits() & fresh;
             let mask = WideMask::from_bits(self.simd, fresh & !blocked);
             self.here = advanced(mask, &here, &self.here);
@@ -312,7 +314,7 @@ impl<S: Simd> Lanes<S> {
         let r = system.restitution();
         self.mass_ratio[lane] = system.mass_ratio();
         self.restitution[lane] = r;
-        self.inverse_loss[lane] = 1.0 / ((1.0 - r) * (1.0 + r));
+        self.inverse_loss[lane] = inverse_loss(r);
         self.excursion[lane] = task.simulation.tolerance().excursion;
         self.largest_force[lane] = task.simulation.largest_force();
         self.last_turn[lane] = task.limits.turns as f64;

@@ -6,6 +6,7 @@
 //! strings it together and tells observers. Nothing here knows of the asymptotic theory.
 
 pub mod batch;
+mod certificate;
 pub mod contact;
 pub mod events;
 pub mod flow;
@@ -14,9 +15,11 @@ mod integrals;
 mod panels;
 mod phasor;
 pub mod run;
+mod small;
 pub mod statistics;
 pub mod tangent;
 pub mod trust;
+mod walls;
 
 pub use contact::ContactTolerance;
 pub use events::{Absorber, Impact, Nobody, Observer, Segment, Side, StartError};

@@ -1,11 +1,14 @@
-//! The flights of one trajectory, panel by panel: see [`super::phasor`] for the formulas and the proof.
+//! The flights of one trajectory, panel by panel: see [`super::phasor`] for the
+//! formulas and [`super::certificate`] for the proof.
 
 use fearless_simd::{Level, Simd, dispatch};
 
+use super::certificate::{Hull, Slack};
 use super::contact::rebound;
 use super::events::{Observer, Side};
-use super::phasor::{self, At, Corrected, Hull, Line, Rates, Slack, Steady, Sticking};
+use super::phasor::{At, Corrected, Line, Rates, Steady};
 use super::run::{Moment, Simulation, Stop};
+use super::walls::{self, Sticking, inverse_loss};
 use crate::numerics::lanes::Real;
 use crate::system::State;
 
@@ -74,7 +77,7 @@ impl Simulation {
             rates,
             largest_force: self.largest_force(),
             excursion: self.tolerance().excursion,
-            inverse_loss: 1.0 / ((1.0 - r) * (1.0 + r)),
+            inverse_loss: inverse_loss(r),
         };
         let flights = Flights {
             simulation: self,
@@ -114,7 +117,7 @@ impl Flights<'_> {
         loop {
             let Moment { state: State { x, x_velocity: v, y, y_velocity }, steady, .. } = at;
             let line = Line { y, velocity: y_velocity };
-            if !leaves && phasor::blocked(x, v, line) {
+            if !leaves && walls::blocked(x, v, line) {
                 return (at, Pause::Doubt);
             }
             let (here, slack) = rates.begin(x, v, steady, line);
@@ -152,7 +155,7 @@ impl Flights<'_> {
             at.state = self.simulation.rebounded(&before, side, &after);
             let State { x, x_velocity: v, y, y_velocity } = at.state;
             let line = Line { y, velocity: y_velocity };
-            if phasor::may_stick(x, v, line, side.sign(), &self.sticking) {
+            if walls::may_stick(x, v, line, side.sign(), &self.sticking) {
                 return (at, Pause::MayStick(side));
             }
             leaves = true;

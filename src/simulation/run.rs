@@ -12,7 +12,8 @@ use super::contact::{AtWall, ContactTolerance, Rebound, rebound};
 use super::events::{Absorber, Impact, Nobody, Observer, Segment, Side, StartError};
 use super::flow::{Kinematics, Motion, Oscillator};
 use super::panels::{Limits, Pause};
-use super::phasor::{self, Line, Rates, Steady, TOUCH_ULPS};
+use super::phasor::{Line, Rates, Steady};
+use super::walls::{self, TOUCH_ULPS, inverse_loss};
 use crate::numerics::crossing::{Band, Curve, Edge, Sample, Search, first_crossing};
 use crate::system::{State, System};
 
@@ -329,7 +330,7 @@ impl Simulation {
     /// Distance over the clearance that rounding can move the walls by.
     fn touch(&self) -> f64 {
         let State { x, x_velocity, y, y_velocity } = self.state;
-        phasor::touch(x, x_velocity, Line { y, velocity: y_velocity })
+        walls::touch(x, x_velocity, Line { y, velocity: y_velocity })
     }
 
     /// A search among walls that rounding moves about would not end.
@@ -447,7 +448,7 @@ impl Simulation {
         // Rounding adds up to a touch to each excursion, an impact takes the share 1 - r^2 of it:
         // where the two balance a sequence would never end.
         let r = self.system.restitution();
-        let floor = self.touch() * (1.0 / ((1.0 - r) * (1.0 + r)));
+        let floor = self.touch() * inverse_loss(r);
         let excursion = self.tolerance.excursion.max(floor);
         let tolerance = ContactTolerance { excursion, ..self.tolerance };
         let alone = &self.alone;

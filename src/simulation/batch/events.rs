@@ -5,10 +5,12 @@ use fearless_simd::Simd;
 use super::queue::{Queue, Task};
 use super::{Lanes, advanced, tightened};
 use crate::numerics::lanes::{LANES, Mask, Real, Wide, WideMask};
+use crate::simulation::certificate::{Hull, Slack};
 use crate::simulation::contact::{Rebound, rebound};
 use crate::simulation::events::{Impact, Observer, Side};
 use crate::simulation::panels::CORRECTIONS;
-use crate::simulation::phasor::{self, At, Hull, Line, Rates, Slack, Steady};
+use crate::simulation::phasor::{At, Line, Rates, Steady};
+use crate::simulation::walls;
 use crate::system::State;
 
 /// Halvings of panels side by side; what needs more goes on alone.
@@ -82,12 +84,12 @@ impl<S: Simd> Lanes<S> {
         self.turns = Wide::choose(over, self.turns + 1.0, self.turns);
         self.impacts = Wide::choose(impact, self.impacts + 1.0, self.impacts);
         let stuck = impact
-            & phasor::may_stick(
+            & walls::may_stick(
                 self.x,
                 self.v,
                 self.line,
                 wall,
-                &phasor::Sticking {
+                &walls::Sticking {
                     rates: &self.rates,
                     largest_force: self.largest_force,
                     excursion: self.excursion,

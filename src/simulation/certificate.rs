@@ -1,0 +1,225 @@
+//! The proof that a panel of a flight has no impact, or exactly one.
+//!
+//! At both ends of a panel the relative displacement `w`, its slope and
+//! its acceleration are known, and with them a quintic from which `w` differs by at most
+//! `S u^3 (1-u)^3/720` at the part `u` of the panel, `S = (|p|^6 |z| + Omega^6 F) h^6` with `|z|`, which
+//! shrinks, at the beginning of the flight. In Bernstein's form the quintic has the six coefficients
+//! `b0..b5` of [`Hull`], and as `u^3 (1-u)^3 <= u^3 (1-u)^2`, which is a tenth of the form's fourth
+//! polynomial, `w` lies between the quintics whose `b3` is smaller and larger by `S/7200`. A quintic lies
+//! between its smallest and largest coefficient: if these are inside the band, so is all of `w`.
+//!
+//! If `b5` is beyond a wall and no other coefficient beyond the opposite one, and from some place on
+//! all coefficients of the outer quintic are beyond and none before, it is beyond the wall from some
+//! `s*` on and not before (Descartes' rule). Its distance from `w` being less than `S/14340`, a root of
+//! `w` at which the slope `v` satisfies `v^2 > 4 M S/14340`, `|w''| <= M`, is the first: between an earlier
+//! one and it `w` would fall by `v^2/(2 M)`, and the outer quintic back inside.
+//!
+//! Any other panel is halved, which divides `S` by 64; below a thousandth of a panel the search of
+//! [`crate::numerics::crossing`] takes over.
+
+use super::phasor::At;
+use crate::numerics::lanes::Real;
+
+/// How well a panel's quintic is known.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Slack<R> {
+    /// `S/7200`.
+    pub coefficient: R,
+    /// What the square of the slope at a root must exceed.
+    pub slope_squared: R,
+}
+
+impl<R: Real> Slack<R> {
+    /// Whether a moment in a panel that meets a wall is proven to be before.
+    #[inline(always)]
+    pub(super) fn before(&self, at: &At<R>, wall: R) -> R::Mask {
+        // Twice S/14340.
+        (at.gap * wall + self.coefficient * 1.005).at_most(wall.like(1.0))
+    }
+
+    /// That of half a panel.
+    #[inline(always)]
+    pub(super) fn halved(self) -> Self {
+        let part = 1.0 / 64.0;
+        Self { coefficient: self.coefficient * part, slope_squared: self.slope_squared * part }
+    }
+}
+
+/// A polynomial in the part of a panel, lowest power first.
+pub(super) struct Quintic<R>([R; 6]);
+
+impl<R: Real> Quintic<R> {
+    /// The one with the gap's values, slopes and curvatures at both ends.
+    #[inline(always)]
+    pub(super) fn through(here: &At<R>, there: &At<R>, length: R) -> Self {
+        let half = length * length * 0.5;
+        let (v0, c2) = (here.slope * length, here.a * half);
+        let bend = there.a * half - c2;
+        let d = there.gap - here.gap - v0 - c2;
+        let e = there.slope * length - v0 - c2 * 2.0;
+        let c3 = d * 10.0 - e * 4.0 + bend;
+        let c4 = e * 7.0 - d * 15.0 - bend * 2.0;
+        let c5 = d * 6.0 - e * 3.0 + bend;
+        Self([here.gap, v0, c2, c3, c4, c5])
+    }
+
+    /// One step of Newton from `u` towards `value`.
+    #[inline(always)]
+    pub(super) fn towards(&self, value: R, u: R) -> R {
+        let [c0, c1, c2, c3, c4, c5] = self.0;
+        let at = c0 + u * (c1 + u * (c2 + u * (c3 + u * (c4 + u * c5))));
+        let slope = c1 + u * (c2 * 2.0 + u * (c3 * 3.0 + u * (c4 * 4.0 + u * c5 * 5.0)));
+        u + (value - at) / slope
+    }
+}
+
+/// The coefficients of a panel's quintic in Bernstein's form, but for the first, which the panel before
+/// has answered for.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Hull<R> {
+    inner: [R; 4],
+    last: R,
+    slack: R,
+}
+
+impl<R: Real> Hull<R> {
+    #[inline(always)]
+    pub(super) fn of(here: &At<R>, there: &At<R>, length: R, slack: &Slack<R>) -> Self {
+        let part = length * 0.2;
+        let curve = length * length * 0.05;
+        let (v0, v1) = (here.slope * part, there.slope * part);
+        Self {
+            inner: [
+                here.gap + v0,
+                here.gap + v0 * 2.0 + here.a * curve,
+                there.gap - v1 * 2.0 + there.a * curve,
+                there.gap - v1,
+            ],
+            last: there.gap,
+            slack: slack.coefficient,
+        }
+    }
+
+    /// Where the gap is proven to stay between the walls. It may begin on one.
+    #[inline(always)]
+    pub(super) fn clear(&self) -> R::Mask {
+        let [b1, b2, b3, b4] = self.inner;
+        let one = b1.like(1.0);
+        let highest = b1.larger(b2).larger(b3 + self.slack).larger(b4);
+        let lowest = b1.smaller(b2).smaller(b3 - self.slack).smaller(b4);
+        highest.at_most(one) & (-one).at_most(lowest) & self.last.abs().at_most(one)
+    }
+
+    /// Where it leaves the band through the wall nearest to its end, `wall`, and not before through
+    /// the other: once, if the slope at the root is steep enough.
+    #[inline(always)]
+    pub(super) fn meets(&self, wall: R) -> R::Mask {
+        let one = wall.like(1.0);
+        let [b1, b2, b3, b4] = self.inner;
+        let (b1, b2, b3, b4) = (b1 * wall, b2 * wall, b3 * wall, b4 * wall);
+        let lowest = b1.smaller(b2).smaller(b3 - self.slack).smaller(b4);
+        let b3 = b3 + self.slack;
+        let beyond = [one.less(b1), one.less(b2), one.less(b3), one.less(b4)];
+        one.less(self.last * wall)
+            & (-one).at_most(lowest)
+            & (!beyond[0] | beyond[1])
+            & (!beyond[1] | beyond[2])
+            & (!beyond[2] | beyond[3])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use super::*;
+    use crate::simulation::flow::Oscillator;
+    use crate::simulation::phasor::{Line, Rates};
+    use crate::system::{Excitation, Parameters, System};
+
+    fn oscillator(mass_ratio: f64, damping: f64, frequency_ratio: f64) -> Oscillator {
+        let parameters = Parameters {
+            mass_ratio,
+            damping,
+            restitution: 0.5,
+            frequency_ratio,
+            forcing_per_clearance: 0.7 / mass_ratio,
+            excitation: Excitation::Force,
+        };
+        Oscillator::alone(&System::new(parameters).expect("valid"))
+    }
+
+    /// A panel's quintic, in Bernstein's form.
+    fn quintic(here: &At<f64>, hull: &Hull<f64>, u: f64) -> f64 {
+        let [b1, b2, b3, b4] = hull.inner;
+        let row = [here.gap, b1, b2, b3, b4, hull.last];
+        let weights = [1.0, 5.0, 10.0, 10.0, 5.0, 1.0];
+        (0..6).fold(0.0, |sum, k| {
+            let power = libm::pow(u, k as f64) * libm::pow(1.0 - u, 5.0 - k as f64);
+            sum + row[k] * weights[k] * power
+        })
+    }
+
+    /// The remainder that the proof stands on, against the motion itself; and that it is no giant.
+    #[test]
+    fn the_gap_is_as_near_to_its_quintic_as_the_proof_says() {
+        let mut nearest = 0.0_f64;
+        for (eps, lambda, omega) in [
+            (0.01, 1.0, 1.0),
+            (0.3, 0.0, 0.4),
+            (0.5, 3.0, 4.0),
+            (0.01, 90.0, 0.97),
+            (0.1, 1.0, 1.3),
+        ] {
+            let rates = Rates::of(&oscillator(eps, lambda, omega)).expect("it rings");
+            for k in 0..40 {
+                let phase = TAU * f64::from(k) / 40.0;
+                let line = Line { y: 0.2, velocity: 0.3 };
+                let (x, v) = (libm::sin(3.0 * phase), 1.5 * libm::cos(5.0 * phase));
+                let (here, slack) = rates.begin(x, v, rates.steady(phase), line);
+                let there = rates.next(&here, line.from(rates.step));
+                let hull = Hull::of(&here, &there, rates.step, &slack);
+                for j in 1..20 {
+                    let u = f64::from(j) / 20.0;
+                    let at = rates.later(&here, u * rates.step, line);
+                    let off = (at.gap - quintic(&here, &hull, u)).abs();
+                    let cubed = libm::pow(u * (1.0 - u), 3.0);
+                    // Ten times the coefficient is S/720; the gap is rounded at the size of `x`.
+                    let bound = 10.0 * slack.coefficient * cubed;
+                    assert!(
+                        off <= bound + 1e-14,
+                        "{eps} {lambda} {omega} {k} {u}: {off:e} {bound:e}"
+                    );
+                    nearest = nearest.max(off / bound);
+                }
+            }
+        }
+        assert!(nearest > 0.5, "{nearest}: the bound is never nearly reached");
+    }
+
+    #[test]
+    fn coefficients_say_where_a_gap_stays_and_where_it_leaves() {
+        let hull = |inner: [f64; 4], last: f64| Hull { inner, last, slack: 0.01 };
+        assert!(hull([0.9, -0.9, 0.98, 0.0], 1.0).clear());
+        assert!(!hull([0.9, -0.9, 0.995, 0.0], 1.0).clear(), "within the slack");
+        assert!(!hull([0.9, -0.9, -0.995, 0.0], 1.0).clear(), "within the slack");
+        for outside in 0..4 {
+            for wall in [1.0, -1.0] {
+                let mut inner = [0.0; 4];
+                inner[outside] = 1.1 * wall;
+                assert!(!hull(inner, 0.5).clear() && !hull(inner, 0.5).meets(wall));
+                // Out, in again, and out at last: or out for good.
+                assert_eq!(hull(inner, 1.1 * wall).meets(wall), outside == 3);
+                // Or by way of the other wall.
+                assert!(!hull(inner, -1.1 * wall).meets(-wall));
+            }
+        }
+        assert!(hull([0.5, 0.9, 1.1, 1.2], 1.3).meets(1.0));
+        assert!(hull([-0.5, -0.9, -1.1, -1.2], -1.3).meets(-1.0));
+        assert!(!hull([0.5, 1.2, 0.995, 1.2], 1.3).meets(-1.0));
+        assert!(!hull([0.5, 1.2, 0.98, 1.2], 1.3).meets(1.0));
+        assert!(hull([0.5, 1.2, 0.995, 1.2], 1.3).meets(1.0), "the outer quintic is beyond");
+        assert!(!hull([0.5, 0.6, 0.7, 0.8], 0.9).meets(1.0));
+        assert!(!hull([0.5, f64::NAN, 0.7, 0.8], f64::NAN).clear());
+    }
+}
