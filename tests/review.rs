@@ -246,6 +246,46 @@ fn a_report_is_checked_and_nothing_is_written() {
     assert_eq!(check(2), "");
 }
 
+/// What other commands and people put beside a report stays when it is written again, and is not taken for
+/// a part of it; figures that it no longer has go.
+#[test]
+fn a_report_written_again_keeps_what_is_not_its_own() {
+    let repository = Repository::new();
+    let out = ["--out", "reports"];
+    for command in ["tradeoff", "optimize"] {
+        let arguments = [[command, "cases/damper.toml"], out].concat();
+        let output = repository.run("vinesink", &arguments, &[]);
+        assert!(output.status.code().is_some_and(|code| code < 2), "{}", text(&output.stderr));
+    }
+    repository.write("reports/damper/measured.csv", "1,2\n");
+    let files = || {
+        let listed = repository.git(&["status", "--porcelain", "--untracked-files=all"]);
+        let mut files: Vec<String> =
+            listed.lines().map(|line| line.trim_start_matches("?? ").to_owned()).collect();
+        files.retain(|file| !file.ends_with("report.html"));
+        files
+            .into_iter()
+            .map(|file| (fs::read(repository.path().join(&file)).ok(), file))
+            .collect::<Vec<_>>()
+    };
+    let before = files();
+    let names: Vec<&str> = before.iter().map(|(_, file)| file.as_str()).collect();
+    for name in ["tradeoff.md", "figures/tradeoff.svg", "optimize.md", "measured.csv"] {
+        assert!(names.contains(&format!("reports/damper/{name}").as_str()), "{name}: {names:?}");
+    }
+    assert!(names.iter().filter(|name| name.contains("figures/optimize-")).count() > 0);
+    let report = |more: &[&str]| {
+        let arguments = [&["report", "cases/damper.toml"], more].concat();
+        let output = repository.run("vinesink", &arguments, &[]);
+        (output.status.code(), text(&output.stdout))
+    };
+    assert_eq!(report(&["--check"]), (Some(0), String::new()));
+    repository.write("reports/damper/figures/old.svg", "<svg/>");
+    assert_eq!(report(&[]).0, Some(0));
+    assert_eq!(files(), before);
+    assert_eq!(report(&["--check"]), (Some(0), String::new()));
+}
+
 #[test]
 fn the_script_reviews_a_branch() {
     let repository = Repository::new();
