@@ -344,7 +344,7 @@ fn the_longest_review_fits_in_a_comment() {
     let repository = Repository::new();
     let long = "x".repeat(200);
     let stub = format!(
-        "#!/bin/sh\ncase \"$1 $2\" in\n'report --check') for k in $(seq 60); do echo \"reports/$k{long}/figures/transfer-stretches.svg: is no longer part of the report\"; done; exit 1;;\ndiff*) printf '%060000d' 0; exit 1;;\ncheck*) exit 1;;\nesac\n"
+        "#!/bin/sh\ncase \"$1 $2\" in\n'report --check') for k in $(seq 60); do echo \"reports/${{k}}{long}/figures/transfer-stretches.svg: is no longer part of the report\"; done; exit 1;;\ndiff*) printf '%060000d' 0; exit 1;;\ncheck*) exit 1;;\nesac\n"
     );
     executable(&repository.bin.path().join("vinesink"), &stub);
     let (review, _) = repository.review("main", &[], 1);
