@@ -9,6 +9,8 @@ use tempfile::{Builder, NamedTempFile, TempDir};
 mod git;
 mod reports;
 
+use reports::FIGURES;
+
 pub use git::{GitError, read_reports_at};
 pub use reports::{StoredReport, StoredReports, read_reports};
 
@@ -44,6 +46,13 @@ pub enum StoreError {
         column: usize,
         /// The byte.
         byte: u8,
+    },
+    /// A file or folder whose name is not UTF-8.
+    #[error("the name of {} is not UTF-8", path.display())]
+    #[diagnostic(help("rename it"))]
+    Name {
+        /// The file or folder.
+        path: PathBuf,
     },
     /// A path that names no file, or leads out of its folder.
     #[error("{} does not name a file inside a folder", path.display())]
@@ -111,15 +120,14 @@ pub struct Listing {
 /// Lists a folder.
 ///
 /// # Errors
-/// [`StoreError::Refused`] when it cannot be read, [`StoreError::Unusable`] for a name that is not
-/// UTF-8.
+/// [`StoreError::Refused`] when it cannot be read, [`StoreError::Name`] for a name that is not UTF-8.
 pub fn list(path: &Path) -> Result<Listing, StoreError> {
     let read = |cause| refused("read", path, cause);
     let mut listing = Listing::default();
     for entry in std::fs::read_dir(path).map_err(read)? {
         let entry = entry.map_err(read)?;
         let name = entry.file_name().into_string();
-        let name = name.map_err(|_| StoreError::Unusable { path: entry.path() })?;
+        let name = name.map_err(|_| StoreError::Name { path: entry.path() })?;
         if name.starts_with('.') {
             continue;
         }
@@ -145,14 +153,19 @@ pub fn read_text_if_there(path: &Path) -> Result<Option<String>, StoreError> {
     }
 }
 
-/// Replaces a folder, which may be missing, by one that holds exactly `files` (paths relative to
-/// it). The new folder is written beside the old one and takes its place when it is complete, so
-/// the old one stays as it was on any failure. Everything else in the old folder is removed.
+/// Replaces what is `ours` in a folder, which may be missing, by `files` (paths relative to it, as those
+/// that `ours` is asked about). The new folder is written beside the old one, the files of others are
+/// taken along, and it takes the old one's place when it is complete: on any failure the old one stays
+/// as it was, and no file of ours outlives the ones it belonged to.
 ///
 /// # Errors
 /// [`StoreError::Unusable`] for a path that leads out of the folder, [`StoreError::Refused`] when
 /// something cannot be written, moved or removed.
-pub fn replace_folder(path: &Path, files: &BTreeMap<PathBuf, Vec<u8>>) -> Result<(), StoreError> {
+pub fn replace_folder(
+    path: &Path,
+    files: &BTreeMap<PathBuf, Vec<u8>>,
+    ours: fn(&Path) -> bool,
+) -> Result<(), StoreError> {
     if let Some(outside) = files.keys().find(|file| !stays_inside(file)) {
         return Err(StoreError::Unusable { path: outside.clone() });
     }
@@ -165,17 +178,53 @@ pub fn replace_folder(path: &Path, files: &BTreeMap<PathBuf, Vec<u8>>) -> Result
     for (file, bytes) in files {
         write_inside(&new.path().join(file), bytes)?;
     }
+    if path.is_dir() {
+        take_along(path, Path::new(""), new.path(), ours)?;
+    }
     swap(path, new)
 }
 
-/// Which files of a folder are not as `files` (paths relative to it) say: others in their place,
-/// missing, or, among the drawings, superfluous. Writes nothing.
+/// Puts the files of `old` below `inside` that are not `ours` into `new` as well, unless it has a file of
+/// that name.
+fn take_along(
+    old: &Path,
+    inside: &Path,
+    new: &Path,
+    ours: fn(&Path) -> bool,
+) -> Result<(), StoreError> {
+    let folder = old.join(inside);
+    let read = |cause| refused("read", &folder, cause);
+    for entry in std::fs::read_dir(&folder).map_err(read)? {
+        let entry = entry.map_err(read)?;
+        let inside = inside.join(entry.file_name());
+        // A link to a folder is taken along as the link that it is.
+        if entry.file_type().map_err(read)?.is_dir() {
+            take_along(old, &inside, new, ours)?;
+            continue;
+        }
+        let to = new.join(&inside);
+        if ours(&inside) || to.is_file() {
+            continue;
+        }
+        let parent = folder_of(&to)?;
+        std::fs::create_dir_all(parent).map_err(|cause| refused("create", parent, cause))?;
+        // The same file under a second name, until the first one is removed; not every file system can.
+        let from = entry.path();
+        let taken = std::fs::hard_link(&from, &to).or_else(|_| std::fs::copy(&from, &to).map(drop));
+        taken.map_err(|cause| refused("keep", &from, cause))?;
+    }
+    Ok(())
+}
+
+/// Which files of a folder are not as [`replace_folder`] would leave them: others in their place, missing,
+/// or, among the drawings that are `ours`, superfluous. Writes nothing.
 ///
 /// # Errors
 /// [`StoreError::Refused`] when something is there and cannot be read.
 pub fn differing_files(
     path: &Path,
     files: &BTreeMap<PathBuf, Vec<u8>>,
+    ours: fn(&Path) -> bool,
 ) -> Result<Vec<(PathBuf, Stale)>, StoreError> {
     let mut found = Vec::new();
     for (file, bytes) in files {
@@ -188,10 +237,10 @@ pub fn differing_files(
             Err(cause) => return Err(refused("read", &path.join(file), cause)),
         }
     }
-    for drawing in reports::drawings(path)? {
-        let file = drawing.strip_prefix(path).unwrap_or(&drawing);
-        if !files.contains_key(file) {
-            found.push((file.to_owned(), Stale::Superfluous));
+    for name in reports::drawings(path)? {
+        let file = Path::new(FIGURES).join(name);
+        if ours(&file) && !files.contains_key(&file) {
+            found.push((file, Stale::Superfluous));
         }
     }
     found.sort();
@@ -317,15 +366,36 @@ mod tests {
         names
     }
 
+    fn is_txt(file: &Path) -> bool {
+        file.extension().is_some_and(|extension| extension == "txt")
+    }
+
     #[test]
-    fn a_folder_is_replaced_whole() {
+    fn what_is_ours_in_a_folder_is_replaced_whole() {
         let folder = folder();
         let target = folder.path().join("reports/case");
-        replace_folder(&target, &files(&[("a", "1"), ("figures/b.svg", "2")])).expect("written");
-        assert_eq!(names(&target), ["a", "figures"]);
-        assert_eq!(read_text(&target.join("figures/b.svg")).expect("text"), "2");
-        replace_folder(&target, &files(&[("c", "3")])).expect("written again");
-        assert_eq!(names(&target), ["c"]);
+        let old = [("a.txt", "1"), ("figures/b.txt", "2"), ("gone/c.txt", "3")];
+        replace_folder(&target, &files(&old), is_txt).expect("written");
+        assert_eq!(names(&target), ["a.txt", "figures", "gone"]);
+        assert_eq!(read_text(&target.join("figures/b.txt")).expect("text"), "2");
+        let others = [("d.md", "4"), ("figures/e.svg", "5"), (".keep", ""), ("f/g/h", "6")];
+        add_to_folder(&target, &files(&others)).expect("added");
+        #[cfg(unix)]
+        std::os::unix::fs::symlink("nowhere", target.join("link")).expect("a link");
+        replace_folder(&target, &files(&[("a.txt", "7")]), is_txt).expect("written again");
+        let mut left = names(&target);
+        left.retain(|name| name != "link");
+        assert_eq!(left, [".keep", "a.txt", "d.md", "f", "figures"]);
+        assert_eq!(names(&target.join("figures")), ["e.svg"]);
+        for (name, text) in [("a.txt", "7"), ("d.md", "4"), ("figures/e.svg", "5"), ("f/g/h", "6")]
+        {
+            assert_eq!(read_text(&target.join(name)).expect("text"), text, "{name}");
+        }
+        #[cfg(unix)]
+        assert!(target.join("link").is_symlink());
+        // A new file wins over one of the same name that was not ours.
+        replace_folder(&target, &files(&[("d.md", "8")]), is_txt).expect("written");
+        assert_eq!(read_text(&target.join("d.md")).expect("text"), "8");
         assert_eq!(names(&folder.path().join("reports")), ["case"]);
     }
 
@@ -333,18 +403,24 @@ mod tests {
     fn a_folder_that_cannot_be_written_keeps_the_old_one() {
         let folder = folder();
         let target = folder.path().join("case");
-        replace_folder(&target, &files(&[("a", "1")])).expect("written");
+        replace_folder(&target, &files(&[("a/b", "1")]), |_| true).expect("written");
         // A file cannot also be a folder.
-        let error = replace_folder(&target, &files(&[("x", "1"), ("x/y", "2")]));
+        let error = replace_folder(&target, &files(&[("x", "1"), ("x/y", "2")]), |_| true);
         assert!(matches!(error, Err(StoreError::Refused { .. })), "{error:?}");
         for outside in ["../b", "/b", "", "a/../../b"] {
-            let error = replace_folder(&target, &files(&[(outside, "1")]));
+            let error = replace_folder(&target, &files(&[(outside, "1")]), |_| true);
             assert!(matches!(error, Err(StoreError::Unusable { .. })), "{outside:?}: {error:?}");
         }
-        let error = replace_folder(&target.join("a"), &files(&[("b", "1")]));
+        // What is to be kept would stand where something else is to be.
+        for new in ["a", "a/b/c"] {
+            let error = replace_folder(&target, &files(&[(new, "2"), ("z", "3")]), |_| false);
+            assert!(matches!(error, Err(StoreError::Refused { .. })), "{new}: {error:?}");
+        }
+        let error = replace_folder(&target.join("a/b"), &files(&[("b", "1")]), |_| true);
         assert!(matches!(error, Err(StoreError::Refused { .. })), "a file is no folder: {error:?}");
         assert_eq!(names(folder.path()), ["case"]);
         assert_eq!(names(&target), ["a"]);
+        assert_eq!(read_text(&target.join("a/b")).expect("text"), "1");
     }
 
     #[test]

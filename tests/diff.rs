@@ -343,12 +343,54 @@ fn criteria_that_flip_come_first() {
     let printed = diff(folder.path(), &["old", "new"], 1);
     for row in [
         "2 flipped criteria, 4 other criteria",
-        "| flipped | \\<= 4 | holds (3.900 mm) | fails (4.100 mm) | **flipped** |",
-        "| asked | \\<= 4, now \\<= 5 |",
-        "| gone | \\<= 4 | holds (3.900 mm) | – |  |",
+        "| flipped | ≤ 4 | holds (3.900 mm) | fails (4.100 mm) | **flipped** |",
+        "| undecided | ≤ 4 | holds (3.900 mm) | could not be measured (3.900 mm) | **flipped** |",
+        "| asked | ≤ 4, now ≤ 5 |",
+        "| gone | ≤ 4 | holds (3.900 mm) | – |  |",
     ] {
         assert!(printed.contains(row), "{row}\n{printed}");
     }
+}
+
+/// The table says what the reports say of the same criteria, and where that would be the same twice, it
+/// has more digits.
+#[test]
+fn criteria_are_called_as_in_the_report() {
+    const BAND: &str = "li2016-band";
+    let folder = two_trees(&[BAND]);
+    let change = |side: &str, name: &str, found: f64, holds: bool| {
+        edit_side(&folder, side, BAND, |report| {
+            let list = report["criteria"].as_array_mut().expect("a list");
+            let criterion = list.iter_mut().find(|one| one["name"] == name).expect(name);
+            criterion["found"] = json!(found);
+            criterion["error"] = json!(0.0);
+            criterion["holds"] = json!(holds);
+            criterion["near_limit"] = json!(!holds);
+        });
+    };
+    change("new", "z3_share", 0.95, true);
+    change("old", "stable_share", 0.749_99, false);
+    change("new", "stable_share", 0.750_01, true);
+    change("new", "peak_displacement", 0.0135, true);
+    for side in ["old", "new"] {
+        edit_side(&folder, side, BAND, |report| {
+            report["criteria"].as_array_mut().expect("a list").push(json!({
+                "name": "no_coexistence", "asked": "true", "unit": "1", "error": 0.0,
+                "found": u8::from(side == "old"), "holds": side == "old", "near_limit": false,
+            }));
+        });
+    }
+    let printed = diff(folder.path(), &["old", "new"], 1);
+    for row in [
+        "| share of the band in area Z3 | ≥ 90 % | fails (72.8 %) | holds (95.0 %) | **flipped** |",
+        "| share of the band with a stable 1:1 orbit | ≥ 75 % | fails, too close to be sure (74.999 %) | holds (75.001 %) | **flipped** |",
+        "| peak displacement | ≤ 14 mm | fails (14.44 mm) | holds (13.50 mm) | **flipped** |",
+        "| no other motion beside | true | holds (true) | fails (false) | **flipped** |",
+    ] {
+        assert!(printed.contains(row), "{row}\n{printed}");
+    }
+    let report = fs::read_to_string(shipped(BAND).join("report.md")).expect("a report");
+    assert!(report.contains("| share of the band in area Z3 | ≥ 90.0 % | 72.8 % |"), "{report}");
 }
 
 /// GitHub refuses longer comments.

@@ -51,6 +51,7 @@ fn read(folder: &TempDir, name: &str) -> String {
 #[test]
 fn every_case_is_listed_with_its_verdict_and_numbers() {
     let folder = folder(&[("li2016-8p5hz-fig4c", "b"), ("li2016-8hz-b15mm", "a")]);
+    edit(&folder, "a", |report| report["notes"] = json!([{"text": "one"}, {"text": "another"}]));
     fs::write(folder.path().join("a/tradeoff.md"), "# T").expect("writable");
     fs::write(folder.path().join("paper.md"), "Text\n\n# The paper\n").expect("writable");
     fs::create_dir(folder.path().join("something else")).expect("writable");

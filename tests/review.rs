@@ -246,6 +246,46 @@ fn a_report_is_checked_and_nothing_is_written() {
     assert_eq!(check(2), "");
 }
 
+/// What other commands and people put beside a report stays when it is written again, and is not taken for
+/// a part of it; figures that it no longer has go.
+#[test]
+fn a_report_written_again_keeps_what_is_not_its_own() {
+    let repository = Repository::new();
+    let out = ["--out", "reports"];
+    for command in ["tradeoff", "optimize"] {
+        let arguments = [[command, "cases/damper.toml"], out].concat();
+        let output = repository.run("vinesink", &arguments, &[]);
+        assert!(output.status.code().is_some_and(|code| code < 2), "{}", text(&output.stderr));
+    }
+    repository.write("reports/damper/measured.csv", "1,2\n");
+    let files = || {
+        let listed = repository.git(&["status", "--porcelain", "--untracked-files=all"]);
+        let mut files: Vec<String> =
+            listed.lines().map(|line| line.trim_start_matches("?? ").to_owned()).collect();
+        files.retain(|file| !file.ends_with("report.html"));
+        files
+            .into_iter()
+            .map(|file| (fs::read(repository.path().join(&file)).ok(), file))
+            .collect::<Vec<_>>()
+    };
+    let before = files();
+    let names: Vec<&str> = before.iter().map(|(_, file)| file.as_str()).collect();
+    for name in ["tradeoff.md", "figures/tradeoff.svg", "optimize.md", "measured.csv"] {
+        assert!(names.contains(&format!("reports/damper/{name}").as_str()), "{name}: {names:?}");
+    }
+    assert!(names.iter().filter(|name| name.contains("figures/optimize-")).count() > 0);
+    let report = |more: &[&str]| {
+        let arguments = [&["report", "cases/damper.toml"], more].concat();
+        let output = repository.run("vinesink", &arguments, &[]);
+        (output.status.code(), text(&output.stdout))
+    };
+    assert_eq!(report(&["--check"]), (Some(0), String::new()));
+    repository.write("reports/damper/figures/old.svg", "<svg/>");
+    assert_eq!(report(&[]).0, Some(0));
+    assert_eq!(files(), before);
+    assert_eq!(report(&["--check"]), (Some(0), String::new()));
+}
+
 #[test]
 fn the_script_reviews_a_branch() {
     let repository = Repository::new();
@@ -271,6 +311,46 @@ fn the_script_reviews_a_branch() {
     assert!(review.contains("**A criterion fails**") && review.contains(CHANGED), "{review}");
     repository.review("main", &[("CHECK", "2")], 2);
     repository.review("nowhere", &[], 2);
+}
+
+/// The first pull request of a repository: no reports on the base, or none at all; no cases; no history.
+#[test]
+fn the_script_reviews_the_first_reports() {
+    let repository = Repository::new();
+    repository.git(&["switch", "--quiet", "main"]);
+    repository.git(&["rm", "--quiet", "-r", "reports"]);
+    repository.commit("No reports");
+    repository.git(&["switch", "--quiet", "--create", "first"]);
+    let (review, _) = repository.review("main", &[], 1);
+    assert!(review.contains("reports/damper: there is no report"), "{review}");
+    assert!(review.contains("1 report added"), "{review}");
+    repository.report();
+    repository.git(&["add", "reports"]);
+    repository.git(&["commit", "--quiet", "--message", "Reports"]);
+    let (review, _) = repository.review("main", &[], 0);
+    assert!(review.contains("### Reports added") && !review.contains("not up to date"), "{review}");
+    // A review that could not be done leaves none of an earlier one.
+    let (review, output) = repository.review("nowhere", &[], 2);
+    assert_eq!(review, "");
+    assert!(text(&output.stderr).contains("fetch the whole history"), "{output:?}");
+    fs::remove_dir_all(repository.path().join("cases")).expect("removed");
+    let (_, output) = repository.review("main", &[], 2);
+    assert!(text(&output.stderr).contains("there is no case"), "{output:?}");
+}
+
+/// What the script adds to the longest difference still fits in a comment.
+#[test]
+fn the_longest_review_fits_in_a_comment() {
+    let repository = Repository::new();
+    let long = "x".repeat(200);
+    let stub = format!(
+        "#!/bin/sh\ncase \"$1 $2\" in\n'report --check') for k in $(seq 60); do echo \"reports/${{k}}{long}/figures/transfer-stretches.svg: is no longer part of the report\"; done; exit 1;;\ndiff*) printf '%060000d' 0; exit 1;;\ncheck*) exit 1;;\nesac\n"
+    );
+    executable(&repository.bin.path().join("vinesink"), &stub);
+    let (review, _) = repository.review("main", &[], 1);
+    let length = review.chars().count();
+    assert!((60_000..65_536).contains(&length), "{length} characters");
+    assert!(review.contains("and 45 more"), "{}", &review[..9000]);
 }
 
 /// With the program's own `check`: a criterion that held on the base and fails on the branch.
@@ -308,10 +388,14 @@ fn the_script_refuses_stale_reports_and_reviews_what_they_should_be() {
     assert_eq!(repository.git(&["status", "--porcelain"]), "?? review.md");
 }
 
+fn workflow() -> String {
+    let workflow = fs::read_to_string(root().join("examples/github/review-reports.yml"));
+    workflow.expect("the workflow")
+}
+
 /// The commands of a step of the workflow.
 fn step(name: &str) -> String {
-    let workflow = fs::read_to_string(root().join("examples/github/review-reports.yml"));
-    let workflow = workflow.expect("the workflow");
+    let workflow = workflow();
     let from = workflow.find(&format!("- name: {name}\n")).unwrap_or_else(|| panic!("{name}"));
     let step = &workflow[from..];
     let commands = &step[step.find("run: |\n").expect("commands") + 7..];
@@ -336,7 +420,21 @@ fn the_workflow_comments_once_and_fails_where_a_criterion_does() {
         let arguments = ["-e", "-o", "pipefail", "-c", &step(name)];
         repository.run("bash", &arguments, variables)
     };
-    assert!(run("Install", &[("VINESINK", "none")]).status.success(), "it is installed already");
+    let install = |repository: &str, commit: &str| {
+        run("Install", &[("VINESINK_GIT", repository), ("VINESINK_REV", commit)])
+    };
+    // As it was copied, without an address.
+    let workflow = workflow();
+    let copied = |name: &str| {
+        let value = workflow.split_once(&format!("  {name}: ")).expect(name).1;
+        value.lines().next().expect("a value").to_owned()
+    };
+    let (git, rev) = ("https://forge.example/me/it", "1a2b");
+    for refused in [install(&copied("VINESINK_GIT"), rev), install(git, &copied("VINESINK_REV"))] {
+        assert_eq!(refused.status.code(), Some(1));
+        assert!(text(&refused.stdout).starts_with("::error::fill in VINESINK_GIT"));
+    }
+    assert!(install(git, rev).status.success(), "it is there already");
     let files = [("GITHUB_OUTPUT", "output"), ("GITHUB_STEP_SUMMARY", "summary")];
     let review = |check: &str| {
         let more = [("BASE", "main"), ("CHECK", check), ("CHECK_FORMAT", "github")];

@@ -5,8 +5,8 @@ mod common;
 
 use vinesink::analysis::{Analysis, Strip};
 use vinesink::orbits::FullSystem;
-use vinesink::regimes::Regime;
-use vinesink::study::{CaseStudy, StudyEffort};
+use vinesink::regimes::{FoundAttractor, Nature, Regime};
+use vinesink::study::{CaseStudy, StudyEffort, long_term_motions};
 use vinesink::system::{Parameters, System};
 use vinesink::validation::{Check, Finding, Verdict, motions};
 
@@ -36,6 +36,48 @@ fn in_strip_a1_answers_coexist_and_close_fixed_points_are_told_apart() {
         assert_eq!(claim(id).checked_by, Check::Simulation);
         assert_eq!(claim(id).verdict, Verdict::Confirmed, "{:?}", claim(id));
     }
+}
+
+/// Table 1 at 8 Hz and 15 mm: from a fifth of the starts a chaotic motion lasts for some 100,000 periods
+/// beside the steady one, of which 24,000 are watched. Whether it is seen to end is decided by the last
+/// digit of the frequency, the verdict on the area is not.
+#[test]
+fn an_area_that_rounding_decides_is_undecided() {
+    let table = common::table_1(8.0, 15.0).parameters();
+    let found = |digit: u32| {
+        let frequency_ratio = table.frequency_ratio * (1.0 + 1e-15 * f64::from(digit));
+        let system = System::new(Parameters { frequency_ratio, ..table }).expect("valid");
+        let analysis = Analysis::of(&system).expect("analysable");
+        let motions = long_term_motions(&analysis, &StudyEffort::default(), &mut |_| ());
+        (analysis, motions.expect("simulated").attractors)
+    };
+    let verdict = |analysis: &Analysis, motions: &[FoundAttractor]| {
+        let claim = motions::area(analysis, motions).expect("a claim");
+        let told = claim.tolerance.reason.contains("depends on rounding");
+        assert_eq!(told, claim.verdict == Verdict::Undecided, "{claim:?}");
+        claim.verdict
+    };
+    for digit in 0..8 {
+        let (analysis, motions) = found(digit);
+        assert_eq!(verdict(&analysis, &motions), Verdict::Undecided, "{digit}");
+    }
+    // Each of the answers that another rounding could give.
+    let (analysis, motions) = found(0);
+    let of = |regime: Regime, late_starts: u32, nature: Option<Nature>| {
+        let one = motions.iter().find(|one| one.regime() == regime).expect("found");
+        let mut one = FoundAttractor { late_starts, ..one.clone() };
+        one.attractor.classification.nature = nature.unwrap_or(one.attractor.classification.nature);
+        one
+    };
+    let repeats = Some(Nature::Periodic { impacts: 3, periods: 2 });
+    let steady = |late| of(Regime::TwoSymmetric, late, None);
+    let beside = |nature| of(Regime::BelowTwo, 0, nature);
+    assert_eq!(beside(None).attractor.classification.nature, Nature::Chaotic);
+    assert_eq!(verdict(&analysis, &[steady(0)]), Verdict::Confirmed);
+    assert_eq!(verdict(&analysis, &[steady(7)]), Verdict::Undecided);
+    assert_eq!(verdict(&analysis, &[steady(0), beside(None)]), Verdict::Undecided);
+    assert_eq!(verdict(&analysis, &[steady(7), beside(repeats)]), Verdict::Refuted);
+    assert_eq!(verdict(&analysis, &[beside(None)]), Verdict::Refuted);
 }
 
 /// An undamped oscillator driven at its natural frequency has no steady motion that exact orbits could

@@ -10,7 +10,14 @@ set -euo pipefail
 
 base="${1:?the branch that the change goes to, such as origin/main}"
 shift
-if [ $# -eq 0 ]; then set -- cases/*.toml; fi
+if [ $# -eq 0 ]; then
+    shopt -s nullglob
+    set -- cases/*.toml
+    if [ $# -eq 0 ]; then
+        echo "there is no case: cases/*.toml names no file here" >&2
+        exit 2
+    fi
+fi
 # The folder with the reports, and the file that receives the comment.
 reports="${REPORTS:-reports}"
 review="${REVIEW:-review.md}"
@@ -20,6 +27,8 @@ raw_url="${RAW_URL:-}"
 # `github` marks failed criteria in the list of changed files.
 check_format="${CHECK_FORMAT:-text}"
 
+# What an earlier run left is no review of this change.
+rm -f "$review"
 work="$(mktemp -d)"
 trap 'rm -rf "$work"' EXIT
 
@@ -32,11 +41,17 @@ holds() {
 }
 
 # Changes of others since the branch was made are not this one's.
-since="$(git merge-base "$base" HEAD)" || exit 2
+if ! since="$(git merge-base "$base" HEAD)"; then
+    echo "git finds no commit that \`$base\` and HEAD have in common: fetch the whole history" >&2
+    echo "(fetch-depth: 0 on GitHub, GIT_DEPTH: 0 on GitLab)" >&2
+    exit 2
+fi
+# The forge counts folders from the root of the repository.
+shown="$(git rev-parse --show-prefix)$reports"
 
 failed=0
 new="$reports"
-new_url="${raw_url:+$raw_url/$(git rev-parse HEAD)/$reports}"
+new_url="${raw_url:+$raw_url/$(git rev-parse HEAD)/$shown}"
 if ! holds vinesink report --check "$@" --out "$reports" >"$work/stale"; then
     failed=1
     # What the reports should be is reviewed; it is in no commit, so its figures have no address.
@@ -47,7 +62,7 @@ if ! holds vinesink report --check "$@" --out "$reports" >"$work/stale"; then
 fi
 
 differences=(vinesink diff "$since" "$new" --path "$reports")
-if [ -n "$raw_url" ]; then differences+=(--old-url "$raw_url/$since/$reports"); fi
+if [ -n "$raw_url" ]; then differences+=(--old-url "$raw_url/$since/$shown"); fi
 if [ -n "$new_url" ]; then differences+=(--new-url "$new_url"); fi
 holds "${differences[@]}" >"$work/diff" || true
 
@@ -64,7 +79,10 @@ cat "$work/check"
     if [ -s "$work/stale" ]; then
         printf '**Reports are not up to date**; commit what `vinesink report` writes. Compared is what it would write.\n\n'
         printf '<details>\n<summary>Which</summary>\n\n```\n'
-        head -n 50 "$work/stale"
+        # A comment may have 65,536 characters, and the differences up to 60,000.
+        head -n 15 "$work/stale"
+        lines="$(wc -l <"$work/stale")"
+        if [ "$lines" -gt 15 ]; then echo "and $((lines - 15)) more"; fi
         printf '```\n\n</details>\n\n'
     fi
     cat "$work/diff"

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 use miette::{Result, miette};
 use vinesink::diff::markdown::{Addresses, markdown};
-use vinesink::diff::{Difference, Document, DocumentError, Reports};
+use vinesink::diff::{Difference, Document, Reports};
+use vinesink::report::stored::ReadError;
 use vinesink::store::{self, StoredReport, StoredReports};
 
 use super::{Outcome, output};
@@ -124,7 +125,7 @@ impl Side {
     }
 }
 
-fn documents(stored: StoredReports) -> Result<Reports, DocumentError> {
+fn documents(stored: StoredReports) -> Result<Reports, ReadError> {
     let document = |StoredReport { place, json, figures }: StoredReport| {
         Document::parse(&place, &json, figures)
     };

@@ -87,7 +87,7 @@ fn members(folder: &Path, names: Vec<String>) -> Result<Vec<Member>> {
     for name in names {
         let path = folder.join(&name).join("report.json");
         let Some(text) = store::read_text_if_there(&path)? else { continue };
-        let summary = Summary::read(&text, &path.display().to_string())?;
+        let summary = Summary::read(&path.display().to_string(), &text)?;
         let has_tradeoff =
             store::list(&folder.join(&name))?.files.iter().any(|file| file == index::TRADEOFF);
         members.push(Member { name, summary, has_tradeoff });

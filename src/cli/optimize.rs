@@ -29,8 +29,7 @@ pub struct Arguments {
     /// What to look for, instead of what the case says
     #[arg(long, value_enum)]
     objective: Option<Objective>,
-    /// Also write optimize.md and its figures into OUT/<name of the case file>; `vinesink report`
-    /// replaces that folder and comes first
+    /// Also write optimize.md and its figures into OUT/<name of the case file>
     #[arg(long, value_name = "OUT")]
     out: Option<PathBuf>,
     /// Write the winning case into a new file, comments kept

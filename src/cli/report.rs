@@ -18,8 +18,9 @@ use super::{Outcome, index, output};
 
 /// Write the design report of each case
 ///
-/// Writes report.md, report.html, report.json and figures/ into OUT/<name of the case file>. A folder
-/// appears whole or not at all, and the same case gives the same bytes.
+/// Writes report.md, report.html, report.json and figures/*.svg into OUT/<name of the case file>, in place
+/// of those of an older report; all other files there stay, as those of `tradeoff` and `optimize`. A
+/// report appears whole or not at all, and the same case gives the same bytes.
 #[derive(Debug, Args)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Arguments {
@@ -104,7 +105,7 @@ fn names(cases: &[PathBuf]) -> Result<Vec<String>> {
 /// the longest simulation, is not exact enough.
 fn write(path: &Path, name: &str, folder: &Path, forced: Option<Fidelity>) -> Result<Outcome> {
     let (files, outcome) = rendered(path, name, forced)?;
-    store::replace_folder(folder, &files)?;
+    store::replace_folder(folder, &files, render::is_of_report)?;
     output::print(format!("{}\n", folder.join("report.md").display()))?;
     Ok(outcome)
 }
@@ -113,12 +114,7 @@ fn write(path: &Path, name: &str, folder: &Path, forced: Option<Fidelity>) -> Re
 fn check(path: &Path, name: &str, folder: &Path, forced: Option<Fidelity>) -> Result<Outcome> {
     let (mut files, _) = rendered(path, name, forced)?;
     files.remove(Path::new("report.html"));
-    let mut stale = store::differing_files(folder, &files)?;
-    // The drawings of `vinesink tradeoff` and `optimize` lie beside those of the report.
-    stale.retain(|(file, why)| {
-        let of_others = render::FIGURES_OF_OTHERS.iter().any(|other| file == Path::new(other));
-        *why != Stale::Superfluous || !of_others
-    });
+    let stale = store::differing_files(folder, &files, render::is_of_report)?;
     if stale.is_empty() {
         return Ok(Outcome::Done);
     }

@@ -28,7 +28,7 @@ pub struct Arguments {
     #[command(flatten)]
     case: CaseArgument,
     /// Also write tradeoff.md and figures/tradeoff.svg into OUT/<name of the case file>, without
-    /// seconds; `vinesink report` replaces that folder and comes first
+    /// seconds
     #[arg(long, value_name = "OUT")]
     out: Option<PathBuf>,
     /// Text for people or JSON for programs

@@ -1,11 +1,11 @@
 //! A difference as Markdown for a comment on GitHub: what matters first, the rest folded.
 
-use super::shown::{Shown, displayed};
+use super::shown::{self, Shown};
 use super::{
     CriterionChange, Difference, FigureChange, Folded, Found, NumberChange, ReportDifference,
     Summary, WordChange,
 };
-use crate::report::numbers::significant;
+use crate::report::criteria::{subject, verdict};
 use crate::report::render::markdown_cell as cell;
 
 /// GitHub refuses comments of more than 65,536 characters; a script may add some of its own.
@@ -232,38 +232,35 @@ fn criteria(changes: &[CriterionChange]) -> String {
         "\n**Criteria**\n\n| Criterion | Asked | Old | New | |\n| --- | --- | --- | --- | --- |\n"
             .to_owned();
     for change in changes {
-        let asked = |found: &Option<Found>| found.as_ref().map(|found| found.asked.clone());
+        let asked = |found: &Option<Found>| Some(asked(&found.as_ref()?.asked));
         let asked = match (asked(&change.old), asked(&change.new)) {
             (Some(old), Some(new)) if old != new => format!("{old}, now {new}"),
             (old, new) => new.or(old).unwrap_or_default(),
         };
         let told = if change.is_flipped() { "**flipped**" } else { "" };
-        let side = |found: &Option<Found>| {
-            found.as_ref().map_or("–".to_owned(), |found| finding(found, &change.unit))
+        let values = shown::found(change);
+        let side = |found: &Option<Found>, value: &Option<String>| {
+            found.as_ref().map_or("–".to_owned(), |found| finding(found, value.as_deref()))
         };
         text += &format!(
             "| {} | {} | {} | {} | {told} |\n",
-            cell(&change.name),
+            cell(subject(&change.name)),
             cell(&asked),
-            cell(&side(&change.old)),
-            cell(&side(&change.new)),
+            cell(&side(&change.old, &values[0])),
+            cell(&side(&change.new, &values[1])),
         );
     }
     text
 }
 
-fn finding(found: &Found, unit: &str) -> String {
-    let holds = match found.holds {
-        Some(true) => "holds",
-        Some(false) => "fails",
-        None => "undecided",
-    };
-    let value = found.value.map(|value| {
-        let (factor, unit) = displayed(unit, value.abs());
-        format!(" ({}{unit})", significant(factor * value, 4))
-    });
-    let near = if found.near_limit { ", near its limit" } else { "" };
-    format!("{holds}{}{near}", value.unwrap_or_default())
+/// A relation as it is printed, not as it is typed.
+fn asked(as_written: &str) -> String {
+    as_written.replace(">=", "≥").replace("<=", "≤")
+}
+
+fn finding(found: &Found, value: Option<&str>) -> String {
+    let value = value.map(|value| format!(" ({value})"));
+    format!("{}{}", verdict(found.holds, found.near_limit), value.unwrap_or_default())
 }
 
 fn numbers(changes: &[NumberChange]) -> String {

@@ -21,7 +21,7 @@ use serde::Serialize;
 
 pub use accuracy::Basis;
 pub use criteria::{CriterionChange, Found};
-pub use document::{Document, DocumentError};
+pub use document::Document;
 
 /// Reports of one side, by the name of their folder.
 pub type Reports = BTreeMap<String, Document>;

@@ -1,6 +1,7 @@
 //! Numbers of a difference as a reviewer reads them: with enough digits to see the change.
 
-use super::NumberChange;
+use super::{CriterionChange, Found, NumberChange};
+use crate::report::criteria::unitless_words;
 use crate::report::numbers::{signed_percent, significant, with_minus};
 
 /// A row of numbers, formatted.
@@ -45,6 +46,31 @@ impl Shown {
     }
 }
 
+/// What was found for a criterion before and after: as a report shows it, or where that says the same of
+/// two numbers, with as many digits as tell them apart.
+pub(super) fn found(change: &CriterionChange) -> [Option<String>; 2] {
+    let values =
+        [&change.old, &change.new].map(|side| side.as_ref().and_then(|found: &Found| found.value));
+    let usual = |value: f64| unitless_words(&change.name, value);
+    let words = values.map(|value| value.and_then(usual));
+    let differ = |texts: &[Option<String>; 2]| texts[0] != texts[1] || values[0] == values[1];
+    if words.iter().any(Option::is_some) && differ(&words) {
+        return words;
+    }
+    let unit = if words.iter().any(Option::is_some) { "%" } else { change.unit.as_str() };
+    let with = |digits: usize| {
+        values.map(|value| {
+            let value = value?;
+            let (factor, unit) = displayed(unit, value.abs());
+            Some(format!("{}{unit}", significant(factor * value, digits)))
+        })
+    };
+    (USUAL_DIGITS..17).map(with).find(differ).unwrap_or_else(|| with(17))
+}
+
+/// Digits of what a criterion found.
+const USUAL_DIGITS: usize = 4;
+
 /// A relative change; nobody says 1e-7 %.
 fn share(relative: f64, signed: bool) -> String {
     let text = if relative.abs() >= 1e-4 {
@@ -57,7 +83,7 @@ fn share(relative: f64, signed: bool) -> String {
 }
 
 /// The factor and the unit, with its space, that a person would use.
-pub(super) fn displayed(unit: &str, size: f64) -> (f64, String) {
+fn displayed(unit: &str, size: f64) -> (f64, String) {
     match unit {
         "" | "1" => (1.0, String::new()),
         "%" => (100.0, " %".into()),

@@ -11,6 +11,7 @@ pub mod numbers;
 pub mod optimize;
 pub mod paper;
 pub mod render;
+pub mod stored;
 pub mod summary;
 pub mod tradeoff;
 

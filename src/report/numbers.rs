@@ -71,6 +71,15 @@ pub fn percent(share: f64) -> String {
     format!("{} %", fixed(percent, decimals))
 }
 
+/// A share with a decimal, where `percent` has none: limits are often whole percents.
+pub fn percent_sharply(share: f64) -> String {
+    if share == 0.0 || share == 1.0 || share.abs() < 0.01 {
+        percent(share)
+    } else {
+        format!("{} %", fixed(100.0 * share, 1))
+    }
+}
+
 /// A relative difference as a percentage with its sign.
 pub fn signed_percent(difference: f64) -> String {
     let sign = if difference < 0.0 { MINUS } else { '+' };
@@ -167,6 +176,8 @@ mod tests {
         assert_eq!(percent(0.00012), "0.01 %");
         assert_eq!(percent(3e-16), "< 0.01 %");
         assert_eq!(percent(0.0), "0 %");
+        let sharply = [0.728_21, 0.9, 1.0, 0.0, 0.0034].map(percent_sharply);
+        assert_eq!(sharply, ["72.8 %", "90.0 %", "100 %", "0 %", "0.3 %"]);
         assert_eq!(decibels(3.587 / 6.395), "−5.0 dB");
     }
 }

@@ -1,7 +1,7 @@
 //! From a report to the files of its folder. Nothing is decided here.
 
 use std::collections::{BTreeMap, HashMap};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use tera::{Context, Kwargs, State, Tera, Value};
 
@@ -29,8 +29,21 @@ const OPTIMIZE: &str = include_str!("../../templates/optimize.md.tera");
 const STYLE: &str = include_str!("../../templates/report.css");
 
 /// The drawings that belong to pages of other commands, in the folder of a report.
-pub const FIGURES_OF_OTHERS: [&str; 3] =
+const FIGURES_OF_OTHERS: [&str; 3] =
     ["figures/tradeoff.svg", "figures/optimize-landscape.svg", "figures/optimize-chart.svg"];
+
+/// Whether a file of a report's folder, by its path in it, is the report's own: one that an older report
+/// has left there is out of date. Pages of other commands, and whatever somebody else has put there, are
+/// not.
+pub fn is_of_report(file: &Path) -> bool {
+    let Some(name) = file.to_str() else { return false };
+    if ["report.md", "report.html", "report.json"].contains(&name) {
+        return true;
+    }
+    let drawing = name.strip_prefix("figures/").and_then(|name| name.strip_suffix(".svg"));
+    let drawing = drawing.is_some_and(|name| !name.contains('/') && !name.starts_with('.'));
+    drawing && !FIGURES_OF_OTHERS.contains(&name)
+}
 
 /// Why a report cannot be rendered.
 #[derive(Debug, thiserror::Error)]

@@ -7,6 +7,10 @@ use super::{StoreError, refused, text_of};
 
 /// The file that makes a folder a report.
 pub(super) const REPORT: &str = "report.json";
+/// The folder of its drawings, and how their names end.
+pub(super) const FIGURES: &str = "figures";
+/// See [`FIGURES`].
+const DRAWING: &str = ".svg";
 
 /// The files of a report, as they were read.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -52,45 +56,40 @@ fn find(folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), StoreError> {
         files.push(file);
         return Ok(());
     }
-    for path in entries(folder)? {
-        let hidden = path.file_name().is_some_and(|name| name.to_string_lossy().starts_with('.'));
+    for name in super::list(folder)?.folders {
+        let path = folder.join(name);
         // A link may lead back up.
-        if path.is_dir() && !path.is_symlink() && !hidden {
+        if !path.is_symlink() {
             find(&path, files)?;
         }
     }
     Ok(())
 }
 
-fn entries(folder: &Path) -> Result<Vec<PathBuf>, StoreError> {
-    let read = |cause| refused("read", folder, cause);
-    let entries = std::fs::read_dir(folder).map_err(read)?;
-    entries.map(|entry| entry.map(|entry| entry.path()).map_err(read)).collect()
-}
-
 fn read_report(file: &Path, folder: &Path) -> Result<StoredReport, StoreError> {
     let json = super::read_text(file)?;
     let mut figures = BTreeMap::new();
-    for path in drawings(folder)? {
-        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    for name in drawings(folder)? {
+        let path = folder.join(FIGURES).join(&name);
         let bytes = std::fs::read(&path).map_err(|cause| refused("read", &path, cause))?;
-        figures.insert(name, bytes);
+        figures.insert(name.strip_suffix(DRAWING).unwrap_or(&name).to_owned(), bytes);
     }
     Ok(StoredReport { place: file.display().to_string(), json, figures })
 }
 
-/// The drawings of a report's folder; none where there are none.
-pub(super) fn drawings(folder: &Path) -> Result<Vec<PathBuf>, StoreError> {
-    let folder = folder.join("figures");
+/// The file names of the drawings in a report's folder, sorted; none where there are none.
+pub(super) fn drawings(folder: &Path) -> Result<Vec<String>, StoreError> {
+    let folder = folder.join(FIGURES);
     if !folder.is_dir() {
         return Ok(Vec::new());
     }
-    let mut found = entries(&folder)?;
-    found.retain(|path| path.extension().is_some_and(|extension| extension == "svg"));
+    let mut found = super::list(&folder)?.files;
+    found.retain(|name| name.ends_with(DRAWING));
     Ok(found)
 }
 
-/// Reports among files with paths relative to a folder.
+/// Reports among files with paths relative to a folder; as in a folder, names that begin with a point
+/// are passed over.
 ///
 /// # Errors
 /// [`StoreError::NotUtf8`] for a `report.json` that is not text.
@@ -101,16 +100,16 @@ pub(super) fn group(
     let mut reports = StoredReports::new();
     for (path, bytes) in files {
         let (folder, name) = path.rsplit_once('/').unwrap_or(("", path));
-        if name != REPORT {
+        if name != REPORT || is_hidden(path) {
             continue;
         }
         let place = format!("{root}/{path}");
         let json = text_of(Path::new(&place), bytes.clone())?;
         let inside = if folder.is_empty() { String::new() } else { format!("{folder}/") };
         let drawing = |path: &str| {
-            let name =
-                path.strip_prefix(&inside)?.strip_prefix("figures/")?.strip_suffix(".svg")?;
-            (!name.contains('/')).then(|| name.to_owned())
+            let path = path.strip_prefix(&inside)?.strip_prefix(FIGURES)?.strip_prefix('/')?;
+            let name = path.strip_suffix(DRAWING)?;
+            (!name.contains('/') && !is_hidden(name)).then(|| name.to_owned())
         };
         let drawings = files.iter();
         let figures = drawings.filter_map(|(path, bytes)| Some((drawing(path)?, bytes.clone())));
@@ -118,4 +117,44 @@ pub(super) fn group(
         reports.insert(folder.to_owned(), StoredReport { place, json, figures });
     }
     Ok(reports)
+}
+
+fn is_hidden(path: &str) -> bool {
+    path.split('/').any(|name| name.starts_with('.'))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A folder and the same files out of a revision are read alike.
+    #[test]
+    fn reports_are_found_and_what_is_hidden_or_linked_is_passed_over() {
+        let names = [
+            "a/report.json",
+            "a/figures/map.svg",
+            "a/figures/.map.svg",
+            "a/figures/map.png",
+            "a/figures/deep/map.svg",
+            "b/c/report.json",
+            "b/c/more/report.json",
+            ".hidden/report.json",
+            "figures/map.svg",
+        ];
+        let files: BTreeMap<String, Vec<u8>> =
+            names.iter().map(|name| ((*name).to_owned(), name.as_bytes().to_vec())).collect();
+        let folder = tempfile::tempdir().expect("a folder");
+        let written = files.iter().map(|(name, bytes)| (PathBuf::from(name), bytes.clone()));
+        super::super::add_to_folder(folder.path(), &written.collect()).expect("written");
+        #[cfg(unix)]
+        std::os::unix::fs::symlink("..", folder.path().join("b/up")).expect("a link");
+        let read = read_reports(folder.path()).expect("readable");
+        assert_eq!(read.keys().collect::<Vec<_>>(), ["a", "b/c"]);
+        assert_eq!(read["a"].figures.keys().collect::<Vec<_>>(), ["map"]);
+        assert_eq!(read["a"].figures["map"], b"a/figures/map.svg");
+        let grouped = group("main:reports", &files).expect("text");
+        let figures = |reports: &StoredReports, name: &str| reports[name].figures.clone();
+        assert_eq!(figures(&grouped, "a"), figures(&read, "a"));
+        assert!(!grouped.contains_key(".hidden"), "{:?}", grouped.keys());
+    }
 }

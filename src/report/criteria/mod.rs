@@ -4,7 +4,7 @@ mod formats;
 
 use serde::Serialize;
 
-use super::numbers::{LengthFormat, fixed, percent, significant};
+use super::numbers::{LengthFormat, fixed, percent_sharply, significant};
 use super::tables::{Table, table};
 use super::units::Units;
 use crate::case::{Case, Measure, Relation, Subject};
@@ -44,13 +44,7 @@ pub struct CriterionRow {
 impl CriterionRow {
     /// "holds", "fails", or what else there is to say.
     pub fn verdict(&self) -> &'static str {
-        match (self.holds, self.near_limit) {
-            (Some(true), false) => "holds",
-            (Some(true), true) => "holds, too close to be sure",
-            (Some(false), false) => "fails",
-            (Some(false), true) => "fails, too close to be sure",
-            (None, _) => "could not be measured",
-        }
+        verdict(self.holds, self.near_limit)
     }
 
     /// What was found and where, in a line.
@@ -183,15 +177,6 @@ fn number(case: &Case, measure: Measure, value: f64) -> String {
     }
 }
 
-/// A share with a decimal, as limits are often whole percents.
-fn percent_sharply(share: f64) -> String {
-    if share == 0.0 || share == 1.0 || share.abs() < 0.01 {
-        percent(share)
-    } else {
-        format!("{} %", fixed(100.0 * share, 1))
-    }
-}
-
 fn unit(case: &Case, measure: Measure) -> &'static str {
     let physical = case.scales().natural_frequency_rad_per_s.is_some();
     match measure {
@@ -208,10 +193,34 @@ fn unit(case: &Case, measure: Measure) -> &'static str {
     }
 }
 
-/// A subject as a report calls it.
-pub fn subject(subject: &str) -> &'static str {
-    let known = Subject::ALL.into_iter().find(|known| known.key() == subject);
-    match known {
+/// What a criterion came to, in words.
+pub fn verdict(holds: Option<bool>, near_limit: bool) -> &'static str {
+    match (holds, near_limit) {
+        (Some(true), false) => "holds",
+        (Some(true), true) => "holds, too close to be sure",
+        (Some(false), false) => "fails",
+        (Some(false), true) => "fails, too close to be sure",
+        (None, _) => "could not be measured",
+    }
+}
+
+/// What was found for the criterion with this key, as a report shows it; `None` for what is shown in
+/// the unit that `report.json` gives, and for a key of another version.
+pub fn unitless_words(key: &str, found: f64) -> Option<String> {
+    match known(key)?.measure() {
+        Measure::Share => Some(percent_sharply(found)),
+        Measure::Flag => Some(yes(found).to_owned()),
+        _ => None,
+    }
+}
+
+fn known(key: &str) -> Option<Subject> {
+    Subject::ALL.into_iter().find(|known| known.key() == key)
+}
+
+/// A subject as a report calls it; the key itself where it is one of another version.
+pub fn subject(key: &str) -> &str {
+    match known(key) {
         Some(Subject::Z3Share) => "share of the band in area Z3",
         Some(Subject::StableShare) => "share of the band with a stable 1:1 orbit",
         Some(Subject::PeakDisplacement) => "peak displacement",
@@ -222,6 +231,6 @@ pub fn subject(subject: &str) -> &'static str {
         Some(Subject::ImpactVelocity) => "impact velocity",
         Some(Subject::ImpactsPerPeriod) => "impacts per period",
         Some(Subject::NoCoexistence) => "no other motion beside",
-        None => "criterion",
+        None => key,
     }
 }

@@ -11,7 +11,7 @@ use serde::Serialize;
 
 use super::render::{self, RenderError};
 use cell::{Cell, NOTHING};
-pub use summary::{ReadError, Summary, Tone};
+pub use summary::{Summary, Tone};
 
 /// The index for a browser, and the one that a forge shows, by their file names.
 pub const HTML: &str = "index.html";
@@ -279,7 +279,7 @@ mod tests {
             "format": "vinesink/report@1", "title": "T", "notes": [], "figures": [],
             "verdict": {"tone": tone, "headline": "H"}, "key_rows": rows,
         });
-        let summary = Summary::read(&text.to_string(), name).expect("a report");
+        let summary = Summary::read(name, &text.to_string()).expect("a report");
         Member { name: name.to_owned(), summary, has_tradeoff: false }
     }
 

@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 
-use super::super::FORMAT;
+use super::super::stored::{self, ReadError};
 
 /// What an index shows of a report.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -70,59 +70,16 @@ pub struct Criterion {
     pub holds: Option<bool>,
 }
 
-/// Why a file is not a report that can be listed.
-#[derive(Debug, thiserror::Error, miette::Diagnostic)]
-pub enum ReadError {
-    /// Not JSON, or something else than a report needs stands in a place.
-    #[error("{path}: {cause}")]
-    #[diagnostic(help(
-        "write the report again with `vinesink report`, or take its folder out of the way"
-    ))]
-    Malformed {
-        /// The file.
-        path: String,
-        /// What is wrong, with line and column.
-        cause: serde_json::Error,
-    },
-    /// A document that is not a report.
-    #[error("{path} does not say that it is a report: it has no \"format\": \"{FORMAT}\"")]
-    #[diagnostic(help(
-        "write the report again with `vinesink report`, or take its folder out of the way"
-    ))]
-    NotAReport {
-        /// The file.
-        path: String,
-    },
-    /// A report in another format, or of another version.
-    #[error("{path} has the format \"{found}\", and this version reads \"{FORMAT}\"")]
-    #[diagnostic(help("write the report again with this version's `vinesink report`"))]
-    OtherFormat {
-        /// The file.
-        path: String,
-        /// What it says it is.
-        found: String,
-    },
-}
-
 impl Summary {
-    /// Reads the text of a `report.json`; `path` is where it lies, for messages.
+    /// Reads the text of a `report.json`; `place` is where it lies, for messages.
     ///
     /// # Errors
     /// [`ReadError`] says what is wrong with it, where, and what to do.
-    pub fn read(text: &str, path: &str) -> Result<Self, ReadError> {
-        #[derive(Deserialize)]
-        struct Header {
-            format: Option<String>,
-        }
-        let malformed = |cause| ReadError::Malformed { path: path.to_owned(), cause };
-        let header: Header = serde_json::from_str(text).map_err(malformed)?;
-        match header.format {
-            None => Err(ReadError::NotAReport { path: path.to_owned() }),
-            Some(found) if found != FORMAT => {
-                Err(ReadError::OtherFormat { path: path.to_owned(), found })
-            }
-            Some(_) => serde_json::from_str(text).map_err(malformed),
-        }
+    pub fn read(place: &str, text: &str) -> Result<Self, ReadError> {
+        stored::read(place, text)?;
+        // Out of the text once more, which knows the line where something is missing.
+        serde_json::from_str(text)
+            .map_err(|cause| ReadError::Incomplete { place: place.to_owned(), cause })
     }
 
     /// The printed value of a quantity.
@@ -164,30 +121,19 @@ mod tests {
     const SMALLEST: &str = r#"{"format": "vinesink/report@1", "title": "T", "notes": [],
         "verdict": {"tone": "good", "headline": "H"}, "key_rows": [], "figures": []"#;
 
-    fn message(text: &str) -> String {
-        Summary::read(text, "a/report.json").expect_err("refused").to_string()
-    }
-
     #[test]
-    fn a_file_that_is_no_report_of_this_version_is_named() {
-        let broken = message("{\n  \"format\": \"vinesink/report@1\",\n  \"title\"\n}");
-        assert!(broken.starts_with("a/report.json: ") && broken.contains("line 4"), "{broken}");
-        let missing = message("{\"title\": \"T\"}");
-        assert!(missing.contains("does not say that it is a report"), "{missing}");
-        let other = message("{\"format\": \"vinesink/report@2\"}");
-        assert!(other.contains("report@2") && other.contains("report@1"), "{other}");
-        let half = message("{\"format\": \"vinesink/report@1\", \"title\": \"T\"}");
-        assert!(half.contains("missing field"), "{half}");
-        for text in ["", "[]", "null", "\"x\"", "{\"format\": 1}"] {
-            assert!(message(text).starts_with("a/report.json"), "{text}");
-        }
+    fn half_a_report_is_refused() {
+        let half = "{\"format\": \"vinesink/report@1\",\n \"title\": \"T\"}";
+        let half = Summary::read("a/report.json", half).expect_err("refused").to_string();
+        assert!(half.starts_with("a/report.json") && half.contains("missing field"), "{half}");
+        assert!(half.contains("line 2"), "{half}");
     }
 
     #[test]
     fn criteria_are_counted() {
         let words = |criteria: &str| {
             let text = format!("{SMALLEST}{criteria}}}");
-            Summary::read(&text, "").expect("a report").criteria_words()
+            Summary::read("", &text).expect("a report").criteria_words()
         };
         assert_eq!(words(""), None);
         assert_eq!(words(", \"criteria\": []"), None);
