@@ -6,7 +6,7 @@ use std::fs;
 use assert_cmd::Command;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::{RngCore, SeedableRng};
-use vinesink::case::{Case, Choice, Objective};
+use vinesink::case::{Case, Choice, Distribution, Objective, Uncertainty};
 use vinesink::optimize::claim::Claim;
 use vinesink::optimize::{Deviation, InTurn, Optimization, Spread, Task};
 use vinesink::orbits::symmetric_orbits;
@@ -76,9 +76,13 @@ fn the_optimum_is_that_of_brute_force() {
 struct Normal(Xoshiro256PlusPlus);
 
 impl Normal {
+    /// From 0 to 1.
+    fn uniform(&mut self) -> f64 {
+        (self.0.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
     fn next(&mut self) -> f64 {
-        let mut uniform = || (self.0.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
-        let (a, b) = (1.0 - uniform(), uniform());
+        let (a, b) = (1.0 - self.uniform(), self.uniform());
         (-2.0 * libm::log(a)).sqrt() * libm::cos(std::f64::consts::TAU * b)
     }
 }
@@ -86,16 +90,26 @@ impl Normal {
 const UNCERTAIN: &str = "[uncertainty]\nclearance = \"0.6 mm\"\nrestitution = 0.05\n\
                          frequency = \"0.05 Hz\"\namplitude = \"0.02 mm\"\n";
 
+/// An error as it is drawn.
+fn drawn(distribution: Distribution, normal: &mut Normal) -> f64 {
+    match distribution {
+        Distribution::Certain => 0.0,
+        Distribution::Normal(deviation) => deviation * normal.next(),
+        Distribution::Uniform(largest) => largest * (2.0 * normal.uniform() - 1.0),
+    }
+}
+
 /// Average and standard error over deviations, the same for every absorber.
 fn monte_carlo(task: &Task, choice: &Choice, samples: u32) -> (f64, f64) {
     let mut normal = Normal(Xoshiro256PlusPlus::seed_from_u64(1));
+    let Uncertainty { clearance, restitution, frequency_ratio, amplitude } = task.uncertainty;
     let (mut sum, mut squares) = (0.0, 0.0);
     for _ in 0..samples {
         let off = Deviation {
-            clearance: normal.next() * task.uncertainty.clearance,
-            restitution: normal.next() * task.uncertainty.restitution,
-            frequency_ratio: normal.next() * task.uncertainty.frequency_ratio,
-            amplitude: normal.next() * task.uncertainty.amplitude,
+            clearance: drawn(clearance, &mut normal),
+            restitution: drawn(restitution, &mut normal),
+            frequency_ratio: drawn(frequency_ratio, &mut normal),
+            amplitude: drawn(amplitude, &mut normal),
         };
         let score = task.score(choice, &off).expect("a score");
         sum += score;
@@ -240,6 +254,38 @@ fn the_claim_is_measured_where_a_scan_finds_it() {
 }
 
 #[test]
+fn an_error_is_a_standard_deviation_or_a_range() {
+    use Distribution::{Certain, Normal, Uniform};
+    let of = |text: &str| case(text).uncertainty;
+    let physical = of(&band_text(
+        "[uncertainty]\nclearance = \"± 0.2 mm\"\nrestitution = \"+- 0.05\"\nfrequency = \" +/-0.1 Hz\"\namplitude = \"0.05 mm\"\n",
+    ));
+    assert_eq!(physical.clearance, Uniform(0.0002));
+    assert_eq!(physical.restitution, Uniform(0.05));
+    assert_eq!(physical.amplitude, Normal(0.05 / 0.25));
+    // Table 1 of the paper: 4.168 kg on 11.47 kN/m.
+    let natural_hz = (11470.0_f64 / 4.168).sqrt() / std::f64::consts::TAU;
+    let Uniform(ratio) = physical.frequency_ratio else { panic!("{physical:?}") };
+    assert!((ratio * natural_hz / 0.1 - 1.0).abs() < 1e-14, "{ratio}");
+    let plain = |table: &str| of(&reduced(0.6, 0.0077, 1.8, 4.3, [0.97, 1.03], table));
+    let found =
+        plain("[uncertainty]\nclearance = \"± 0.02\"\nfrequency = 0.001\namplitude = \"± 0.43\"\n");
+    let expected = Uncertainty {
+        clearance: Uniform(0.02),
+        restitution: Certain,
+        frequency_ratio: Normal(0.001),
+        amplitude: Uniform(0.43 / 4.3),
+    };
+    assert_eq!(found, expected);
+    assert!(!plain("[uncertainty]\nclearance = \"± 0\"\nrestitution = 0\n").is_any());
+    // A comma is corrected behind its sign.
+    let text = band_text("[uncertainty]\nclearance = \"± 0,2 mm\"\n");
+    let error = Case::parse("a case", &text).expect_err("a comma");
+    let help = error.problems().next().and_then(|problem| problem.help.clone());
+    assert_eq!(help.as_deref(), Some("write \"± 0.2 mm\""));
+}
+
+#[test]
 fn bad_input_is_refused_where_it_stands() {
     let physical = |table: &str| band_text(table);
     let plain = |table: &str| reduced(0.6, 0.0077, 1.8, 4.3, [0.97, 1.03], table);
@@ -271,6 +317,28 @@ fn bad_input_is_refused_where_it_stands() {
             "\"z3share\"",
         ),
         (physical("[uncertainty]\nclearance = \"-1 mm\""), "`clearance` is -1 mm", "\"-1 mm\""),
+        (
+            physical("[uncertainty]\nclearance = \"± -1 mm\""),
+            "`clearance` is ± -1 mm",
+            "\"± -1 mm\"",
+        ),
+        (physical("[uncertainty]\nclearance = \"± 0.2 kg\""), "`clearance` is a length", "kg"),
+        (
+            physical("[uncertainty]\nfrequency = \"± 0,2 Hz\""),
+            "`frequency` has a comma",
+            "\"± 0,2 Hz\"",
+        ),
+        (
+            physical("[uncertainty]\nrestitution = \"± 5 %\""),
+            "`restitution` is \"± 5 %\", which is no number behind its sign",
+            "\"± 5 %\"",
+        ),
+        (physical("[uncertainty]\nrestitution = \"0.05\""), "`restitution` is text", "\"0.05\""),
+        (
+            plain("[uncertainty]\nclearance = \"± 0.2 mm\""),
+            "`clearance` is \"± 0.2 mm\", which is no number behind its sign",
+            "\"± 0.2 mm\"",
+        ),
         (
             plain("[optimize]\nmass = [\"20 g\", \"50 g\"]"),
             "a reduced case has no mass to choose",

@@ -1,33 +1,39 @@
-//! The expected objective of an absorber whose parameters are uncertain: Gauss-Hermite quadrature, five
-//! points for each uncertain parameter, every combination of them.
+//! The expected objective of an absorber whose parameters are uncertain: Gauss quadrature, every
+//! combination of the nodes of each uncertain parameter.
 
 use super::task::{Deviation, Task};
-use crate::case::{Choice, Uncertainty};
+use crate::case::{Choice, Distribution, Uncertainty};
+use crate::numerics::gauss;
 
-/// Nodes and weights for a standard normal error: exact for polynomials up to the ninth degree.
-const NODES: [(f64, f64); 5] = [
-    (-2.856_970_013_872_805_6, 0.011_257_411_327_720_69),
-    (-1.355_626_179_974_265_7, 0.222_075_922_005_612_64),
-    (0.0, 8.0 / 15.0),
-    (1.355_626_179_974_265_7, 0.222_075_922_005_612_64),
-    (2.856_970_013_872_805_6, 0.011_257_411_327_720_69),
-];
+/// Nodes of each uncertain parameter.
+const NODES: usize = 5;
 
-/// Nodes of one parameter; a certain one has a single node.
-fn nodes(deviation: f64) -> impl Iterator<Item = (f64, f64)> + Clone {
-    let certain = deviation == 0.0;
-    let all = NODES.into_iter().filter(move |(node, _)| !certain || *node == 0.0);
-    all.map(move |(node, weight)| (node * deviation, if certain { 1.0 } else { weight }))
+/// Errors of one parameter with their weights; a certain one has a single node.
+fn nodes(distribution: Distribution) -> Vec<(f64, f64)> {
+    let (rule, size) = match distribution {
+        Distribution::Certain => return vec![(0.0, 1.0)],
+        Distribution::Normal(deviation) => (gauss::normal(NODES), deviation),
+        Distribution::Uniform(largest) => (gauss::uniform(NODES), largest),
+    };
+    rule.into_iter().map(|(node, weight)| (node * size, weight)).collect()
 }
 
 /// All combinations of deviations with their weights, which add up to 1.
 pub fn combinations(uncertainty: &Uncertainty) -> Vec<(Deviation, f64)> {
+    let Uncertainty { clearance, restitution, frequency_ratio, amplitude } = *uncertainty;
+    let [clearances, restitutions, frequency_ratios, amplitudes] =
+        [clearance, restitution, frequency_ratio, amplitude].map(nodes);
     let mut found = Vec::new();
-    for (clearance, a) in nodes(uncertainty.clearance) {
-        for (restitution, b) in nodes(uncertainty.restitution) {
-            for (frequency_ratio, c) in nodes(uncertainty.frequency_ratio) {
-                for (amplitude, d) in nodes(uncertainty.amplitude) {
-                    let off = Deviation { clearance, restitution, frequency_ratio, amplitude };
+    for (clearance, a) in &clearances {
+        for (restitution, b) in &restitutions {
+            for (frequency_ratio, c) in &frequency_ratios {
+                for (amplitude, d) in &amplitudes {
+                    let off = Deviation {
+                        clearance: *clearance,
+                        restitution: *restitution,
+                        frequency_ratio: *frequency_ratio,
+                        amplitude: *amplitude,
+                    };
                     found.push((off, a * b * c * d));
                 }
             }
@@ -51,18 +57,23 @@ impl Task {
 mod tests {
     use super::*;
 
-    /// The moments of a normal error up to the ninth are those of the nodes.
+    /// Averages of squares are s² for a normal error and a²/3 for one up to a.
     #[test]
-    fn moments_are_those_of_a_normal_error() {
-        for (power, moment) in
-            [(0.0, 1.0), (1.0, 0.0), (2.0, 1.0), (4.0, 3.0), (6.0, 15.0), (8.0, 105.0), (9.0, 0.0)]
-        {
-            let moments = NODES.iter().map(|(node, weight)| weight * libm::pow(*node, power));
-            let sum: f64 = moments.sum();
-            assert!((sum - moment).abs() < 1e-11 * (1.0 + moment), "{power}: {sum}");
-        }
-        let two = Uncertainty { clearance: 0.1, amplitude: 0.2, ..Uncertainty::default() };
-        assert_eq!(combinations(&two).len(), 25);
+    fn combinations_have_the_moments_of_their_errors() {
+        let two = Uncertainty {
+            clearance: Distribution::Normal(0.1),
+            amplitude: Distribution::Uniform(0.2),
+            ..Uncertainty::default()
+        };
+        let all = combinations(&two);
+        assert_eq!(all.len(), NODES * NODES);
+        let mean = |of: &dyn Fn(&Deviation) -> f64| -> f64 {
+            all.iter().map(|(off, weight)| weight * of(off)).sum()
+        };
+        assert!((mean(&|_| 1.0) - 1.0).abs() < 1e-14);
+        assert!((mean(&|off| off.clearance * off.clearance) - 0.01).abs() < 1e-14);
+        assert!((mean(&|off| off.amplitude * off.amplitude) - 0.04 / 3.0).abs() < 1e-14);
+        assert!(mean(&|off| off.clearance * off.amplitude).abs() < 1e-16);
         assert_eq!(combinations(&Uncertainty::default()), [(Deviation::default(), 1.0)]);
     }
 }

@@ -9,7 +9,7 @@ use super::FigureRow;
 use super::figure::Figure;
 use super::numbers::{percent, significant};
 use super::tables::{Table, table};
-use crate::case::{Case, Choice};
+use crate::case::{Case, Choice, Uncertainty};
 use crate::optimize::claim::Claim;
 use crate::optimize::confirm::Place;
 use crate::optimize::sensitivity::{Changed, Sensitivity};
@@ -122,7 +122,11 @@ fn looked_for(words: &Words) -> String {
         }
     });
     let bounds: Vec<String> = bounds.collect();
-    format!("Objective: {}. Bounds: {}.", words.objective_words(), bounds.join(", "))
+    let asked = format!("Objective: {}. Bounds: {}.", words.objective_words(), bounds.join(", "));
+    if words.uncertain.is_empty() {
+        return asked;
+    }
+    format!("{asked} Uncertain: {}.", words.uncertain.join("; "))
 }
 
 fn confirmed(words: &Words) -> Table {
@@ -210,6 +214,8 @@ pub struct OptimizationDocument {
     title: String,
     objective: &'static str,
     bounds: Vec<Bounds>,
+    /// The frequency's as a frequency ratio, the amplitude's over the case's own.
+    uncertainty: Uncertainty,
     reached: bool,
     own: ChosenDocument,
     optimum: ChosenDocument,
@@ -267,6 +273,7 @@ impl OptimizationDocument {
             title: case.title.clone(),
             objective: found.task.objective.name(),
             bounds: found.task.bounds.clone(),
+            uncertainty: found.task.uncertainty,
             reached: found.reached(),
             own: chosen(&found.own),
             optimum: chosen(&found.nominal),

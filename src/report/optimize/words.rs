@@ -15,12 +15,14 @@ pub(super) struct Words<'a> {
     pub found: &'a Optimization,
     pub scales: Scales,
     pub lengths: LengthFormat,
+    /// What is uncertain, as the case says it.
+    pub uncertain: Vec<String>,
 }
 
 impl<'a> Words<'a> {
     pub fn new(case: &Case, found: &'a Optimization) -> Self {
         let scales = case.scales();
-        Self { found, scales, lengths: LengthFormat::of(&scales) }
+        Self { found, scales, lengths: LengthFormat::of(&scales), uncertain: uncertain(case) }
     }
 
     /// A length in four digits.
@@ -214,6 +216,17 @@ impl<'a> Words<'a> {
             verdict(claim),
         ]
     }
+}
+
+/// Each uncertain parameter with its standard deviation, or with the largest error of a uniform one.
+fn uncertain(case: &Case) -> Vec<String> {
+    let inputs = case.inputs().iter();
+    let given = inputs.filter(|input| input.table == "uncertainty" && input.value > 0.0);
+    let words = given.map(|input| match input.largest_error() {
+        Some(largest) => format!("{} ± {largest}, evenly", input.name),
+        None => format!("{} with σ = {}", input.name, input.as_written),
+    });
+    words.collect()
 }
 
 fn verdict(claim: &Claim) -> String {
