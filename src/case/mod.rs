@@ -13,6 +13,7 @@ mod criteria;
 mod document;
 mod error;
 mod inputs;
+mod list;
 mod optimize;
 mod physical;
 mod quantity;
