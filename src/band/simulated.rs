@@ -95,11 +95,25 @@ impl Observer for Watch {
 /// # Errors
 /// [`StartError`] where a start is not finite.
 pub fn motions(systems: &[System], effort: &Effort) -> Result<Vec<Vec<Motion>>, StartError> {
-    let mut simulations = Vec::with_capacity(systems.len() * effort.starts as usize);
+    motions_from(systems, effort, &[])
+}
+
+/// The same from further starts as well, those of every system.
+///
+/// # Errors
+/// [`StartError`] where a start is not finite.
+pub fn motions_from(
+    systems: &[System],
+    effort: &Effort,
+    further: &[State],
+) -> Result<Vec<Vec<Motion>>, StartError> {
+    let each = effort.starts as usize + further.len();
+    let mut simulations = Vec::with_capacity(systems.len() * each);
     for system in systems {
         let sample = StartBox::around(system);
-        for index in 0..effort.starts {
-            simulations.push(Simulation::new(system, sample.start(index), 0.0)?);
+        let starts = (0..effort.starts).map(|index| sample.start(index));
+        for start in starts.chain(further.iter().copied()) {
+            simulations.push(Simulation::new(system, start, 0.0)?);
         }
     }
     let left_out = systems.iter().map(left_out).max().unwrap_or(0);
@@ -113,7 +127,7 @@ pub fn motions(systems: &[System], effort: &Effort) -> Result<Vec<Vec<Motion>>, 
     let limit = effort.periods * MOST_IMPACTS;
     let stops = batch::run(&mut simulations, effort.periods, limit, &mut watches);
     let ended: Vec<(Watch, Stop)> = watches.into_iter().zip(stops).collect();
-    Ok(ended.chunks(effort.starts.max(1) as usize).map(distinct).collect())
+    Ok(ended.chunks(each.max(1)).map(distinct).collect())
 }
 
 /// Periods after which what a start leaves has faded.

@@ -13,6 +13,7 @@ use crate::case::{Case, Choice, Uncertainty};
 use crate::optimize::claim::Claim;
 use crate::optimize::confirm::Place;
 use crate::optimize::sensitivity::{Changed, Sensitivity};
+use crate::optimize::shortlist::Candidate;
 use crate::optimize::{Bounds, Chosen, Optimization, Variable, chart};
 use words::Words;
 
@@ -37,6 +38,9 @@ pub struct OptimizePage {
     pub confirmed: Table,
     /// What a change of each parameter does.
     pub sensitivities: Table,
+    /// How expectations were computed, if anything is uncertain, and how the winner was chosen where
+    /// simulation has a part in it; a sentence each.
+    pub method: Vec<String>,
     /// The paper's claim on the case, a sentence each.
     pub claim: Vec<String>,
     /// The figures' words; the drawings are files of their own.
@@ -62,6 +66,7 @@ impl OptimizePage {
             confirmed_words: words.confirmed(),
             confirmed: confirmed(&words),
             sensitivities: sensitivities(&words),
+            method: words.method(),
             claim: words.claim(),
             figures: figures.iter().map(FigureRow::of).collect(),
             name: name.to_owned(),
@@ -88,6 +93,7 @@ fn absorbers(words: &Words) -> Table {
             significant(one.choice.restitution, 4),
             mass(&one.choice),
             words.value(one.score),
+            one.simulated.map_or_else(dash, |simulated| words.value(simulated)),
             one.expected.map_or_else(dash, |expected| words.value(expected)),
         ]
     };
@@ -100,6 +106,7 @@ fn absorbers(words: &Words) -> Table {
             ("Restitution", true),
             ("Mass", true),
             ("Objective", true),
+            ("As simulated", true),
             ("Expected", true),
         ],
         rows,
@@ -192,11 +199,11 @@ pub fn summary(case: &Case, found: &Optimization) -> String {
     }
     let _ = writeln!(text, "{}\n", looked_for(&words));
     for row in absorbers(&words).rows {
-        let [name, clearance, restitution, mass, objective, expected] =
-            [0, 1, 2, 3, 4, 5].map(|k| row.get(k).map_or("", String::as_str));
+        let [name, clearance, restitution, mass, objective, simulated, expected] =
+            [0, 1, 2, 3, 4, 5, 6].map(|k| row.get(k).map_or("", String::as_str));
         let _ = writeln!(
             text,
-            "{name:16}b {clearance:>12}   r {restitution:>7}   m2 {mass:>9}   {objective:>10}   expected {expected:>10}"
+            "{name:16}b {clearance:>12}   r {restitution:>7}   m2 {mass:>9}   {objective:>10}   simulated {simulated:>10}   expected {expected:>10}"
         );
     }
     let _ = writeln!(text, "\n{}", words.confirmed());
@@ -225,6 +232,8 @@ pub struct OptimizationDocument {
     /// Pairs of clearance and expected objective.
     robust_landscape: Vec<(f64, Option<f64>)>,
     sensitivities: Vec<Sensitivity>,
+    /// What was simulated before one was chosen, in the order of the search.
+    candidates: Vec<Candidate>,
     confirmed: Vec<Place>,
     /// Over the case's own clearance.
     claim: Option<ClaimDocument>,
@@ -238,6 +247,7 @@ struct ChosenDocument {
     #[serde(flatten)]
     choice: Choice,
     objective: Option<f64>,
+    simulated: Option<f64>,
     expected: Option<f64>,
     plateau: [f64; 2],
 }
@@ -258,6 +268,7 @@ impl OptimizationDocument {
         let chosen = |one: &Chosen| ChosenDocument {
             choice: one.choice,
             objective: value(one.score),
+            simulated: one.simulated.and_then(value),
             expected: one.expected.and_then(value),
             plateau: one.plateau,
         };
@@ -266,6 +277,11 @@ impl OptimizationDocument {
         let spoken = |one: &Sensitivity| Sensitivity {
             smaller: one.smaller.and_then(value),
             larger: one.larger.and_then(value),
+            ..*one
+        };
+        let of_candidate = |one: &Candidate| Candidate {
+            score: found.task.value(one.score),
+            simulated: found.task.value(one.simulated),
             ..*one
         };
         Self {
@@ -281,6 +297,7 @@ impl OptimizationDocument {
             landscape: pairs(&found.landscape),
             robust_landscape: pairs(&found.robust_landscape),
             sensitivities: found.sensitivities.iter().map(spoken).collect(),
+            candidates: found.candidates.iter().map(of_candidate).collect(),
             confirmed: found.confirmed.clone(),
             claim: found.claim.map(|claim| ClaimDocument {
                 claim,
