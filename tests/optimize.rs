@@ -365,11 +365,7 @@ fn bad_input_is_refused_where_it_stands() {
             "\"± -1 mm\"",
         ),
         (physical("[uncertainty]\nclearance = \"± 0.2 kg\""), "`clearance` is a length", "kg"),
-        (
-            physical("[uncertainty]\nfrequency = \"± 0,2 Hz\""),
-            "`frequency` has a comma",
-            " 0,2 Hz",
-        ),
+        (physical("[uncertainty]\nfrequency = \"± 0,2 Hz\""), "`frequency` has a comma", " 0,2 Hz"),
         (
             physical("[uncertainty]\nrestitution = \"± 5 %\""),
             "`restitution` is \"± 5 %\", which is no number behind its sign",

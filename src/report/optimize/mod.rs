@@ -84,8 +84,12 @@ fn dash() -> String {
     "–".to_owned()
 }
 
+/// Column of what simulation finds, which not every objective has.
+const SIMULATED: usize = 5;
+
 fn absorbers(words: &Words) -> Table {
     let found = words.found;
+    let value = |score: Option<f64>| score.map_or_else(dash, |score| words.value(score));
     let row = |name: &str, one: &Chosen| {
         [
             name.to_owned(),
@@ -93,24 +97,27 @@ fn absorbers(words: &Words) -> Table {
             significant(one.choice.restitution, 4),
             mass(&one.choice),
             words.value(one.score),
-            one.simulated.map_or_else(dash, |simulated| words.value(simulated)),
-            one.expected.map_or_else(dash, |expected| words.value(expected)),
+            value(one.simulated),
+            value(one.expected),
         ]
     };
     let mut rows = vec![row("the case", &found.own), row("optimum", &found.nominal)];
     rows.extend(found.robust.iter().map(|robust| row("robust optimum", robust)));
-    table(
-        [
-            ("Absorber", false),
-            ("Clearance", true),
-            ("Restitution", true),
-            ("Mass", true),
-            ("Objective", true),
-            ("As simulated", true),
-            ("Expected", true),
-        ],
-        rows,
-    )
+    let columns = [
+        ("Absorber", false),
+        ("Clearance", true),
+        ("Restitution", true),
+        ("Mass", true),
+        ("Objective", true),
+        ("As simulated", true),
+        ("Expected", true),
+    ];
+    let mut table = table(columns, rows);
+    if found.nominal.simulated.is_none() {
+        table.columns.remove(SIMULATED);
+        table.rows.iter_mut().for_each(|row| drop(row.remove(SIMULATED)));
+    }
+    table
 }
 
 fn looked_for(words: &Words) -> String {
@@ -198,13 +205,14 @@ pub fn summary(case: &Case, found: &Optimization) -> String {
         let _ = writeln!(text, "{sentence}");
     }
     let _ = writeln!(text, "{}\n", looked_for(&words));
-    for row in absorbers(&words).rows {
-        let [name, clearance, restitution, mass, objective, simulated, expected] =
-            [0, 1, 2, 3, 4, 5, 6].map(|k| row.get(k).map_or("", String::as_str));
-        let _ = writeln!(
-            text,
-            "{name:16}b {clearance:>12}   r {restitution:>7}   m2 {mass:>9}   {objective:>10}   simulated {simulated:>10}   expected {expected:>10}"
-        );
+    let absorbers = absorbers(&words);
+    let titles: Vec<&str> = absorbers.columns.iter().map(|column| column.title).collect();
+    for row in std::iter::once(titles).chain(
+        absorbers.rows.iter().map(|row| row.iter().map(String::as_str).collect::<Vec<&str>>()),
+    ) {
+        let [name, values @ ..] = row.as_slice() else { continue };
+        let values: String = values.iter().map(|value| format!("{value:>14}")).collect();
+        let _ = writeln!(text, "{name:16}{values}");
     }
     let _ = writeln!(text, "\n{}", words.confirmed());
     for sentence in words.claim() {

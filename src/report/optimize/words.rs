@@ -54,7 +54,8 @@ impl<'a> Words<'a> {
         match self.found.task.objective {
             _ if !score.is_finite() => "–".to_owned(),
             Objective::WorstAmplitude => self.lengths.text(value),
-            _ => percent(value),
+            // Robust and nominal optimum often differ by less than a per cent.
+            _ => format!("{} %", fixed(100.0 * value, 1)),
         }
     }
 
