@@ -94,7 +94,7 @@ const PURE: [&str; 17] = [
 ];
 
 /// Paths that reach outside of the program.
-const OUTSIDE: [&str; 8] = [
+const OUTSIDE: [&str; 9] = [
     "std::env",
     "std::fs",
     "std::io",
@@ -103,6 +103,7 @@ const OUTSIDE: [&str; 8] = [
     "std::thread",
     "std::time",
     "rand",
+    "rayon",
 ];
 
 /// The room of a file of `src/`, and how many modules deep its items lie below the crate.

@@ -1,11 +1,11 @@
 //! The optional table `[band]`: the range of excitations that a design must serve.
 
-use toml::Spanned;
 use toml::de::{DeArray, DeValue};
 
-use super::quantity::{Dimension, Force, Frequency, Length, Quantity};
+use super::list::List;
+use super::quantity::{Force, Frequency, Length};
 use super::reader::{Bound, Field, Reader};
-use super::table::{Table, kind};
+use super::table::Table;
 use super::{Design, PhysicalExcitation, Scales};
 
 /// What is varied along a band.
@@ -34,7 +34,13 @@ pub(super) const KEYS: &[&str] = &["of", "from", "to", "amplitude", "spectrum"];
 
 const KINDS: [(&str, BandOver); 2] =
     [("frequency", BandOver::Frequency), ("amplitude", BandOver::Amplitude)];
-const EXAMPLE: &str = "spectrum = [[\"8 Hz\", \"0.2 mm\"], [\"9 Hz\", \"0.3 mm\"]]";
+const SPECTRUM: List = List {
+    key: "spectrum",
+    bound: Bound::Positive,
+    example: "[[\"8 Hz\", \"0.2 mm\"], [\"9 Hz\", \"0.3 mm\"]]",
+};
+/// The same beside `[reduced]`.
+const PLAIN_SPECTRUM: List = List { example: "[[0.97, 4.0], [1.03, 5.0]]", ..SPECTRUM };
 
 /// Reads numbers of a band in the way its case is written.
 struct Units<'d> {
@@ -171,17 +177,28 @@ impl Units<'_> {
         None
     }
 
+    fn spectrum(&self) -> &'static List {
+        if self.excitation().is_some() { &SPECTRUM } else { &PLAIN_SPECTRUM }
+    }
+
     /// A pair of a list, from text with units or from numbers.
     fn pair(&self, reader: &mut Reader, items: &DeArray) -> Option<[f64; 2]> {
         let (at, amplitude) = (items.first()?, items.get(1)?);
+        let list = self.spectrum();
         let (frequency, value) = match self.excitation() {
-            Some(PhysicalExcitation::BaseDisplacement { .. }) => {
-                (item::<Frequency>(reader, at)?, item::<Length>(reader, amplitude)?)
+            Some(excitation) => {
+                let frequency = list.quantity::<Frequency>(reader, at)?;
+                let value = match excitation {
+                    PhysicalExcitation::BaseDisplacement { .. } => {
+                        list.quantity::<Length>(reader, amplitude)?
+                    }
+                    PhysicalExcitation::Force { .. } => {
+                        list.quantity::<Force>(reader, amplitude)?
+                    }
+                };
+                (frequency, value)
             }
-            Some(PhysicalExcitation::Force { .. }) => {
-                (item::<Frequency>(reader, at)?, item::<Force>(reader, amplitude)?)
-            }
-            None => (number(reader, at)?, number(reader, amplitude)?),
+            None => (list.number(reader, at)?, list.number(reader, amplitude)?),
         };
         let omega = match self.scales.natural_frequency_rad_per_s {
             Some(_) => self.scales.frequency_ratio(frequency)?,
@@ -189,35 +206,6 @@ impl Units<'_> {
         };
         Some([omega, self.over_own(reader, value, amplitude.span())?])
     }
-}
-
-fn item<D: Dimension>(reader: &mut Reader, value: &Spanned<DeValue>) -> Option<f64> {
-    let problem = match value.get_ref() {
-        DeValue::String(text) => match Quantity::<D>::parse(text) {
-            Ok(quantity) if quantity.si() > 0.0 => return Some(quantity.si()),
-            Ok(_) => "`spectrum` holds a value that is not above 0".to_owned(),
-            Err(error) => format!("`spectrum` holds a value that {}", error.message),
-        },
-        other => format!("`spectrum` holds {}", kind(other)),
-    };
-    let expected = format!("expected {} such as \"{}\"", D::NAME, D::EXAMPLE);
-    reader.report(value.span(), problem, expected, format!("write for example {EXAMPLE}"));
-    None
-}
-
-fn number(reader: &mut Reader, value: &Spanned<DeValue>) -> Option<f64> {
-    let number = match value.get_ref() {
-        DeValue::Float(float) => float.as_str().parse::<f64>().ok(),
-        DeValue::Integer(integer) => integer.as_str().parse::<f64>().ok(),
-        _ => None,
-    };
-    let good = number.filter(|number| number.is_finite() && *number > 0.0);
-    if good.is_none() {
-        let message = format!("`spectrum` holds {}", reader.as_written(value.span()));
-        let help = "write for example spectrum = [[0.97, 4.0], [1.03, 5.0]]";
-        reader.report(value.span(), message, "expected numbers above 0", help);
-    }
-    good
 }
 
 fn read_spectrum(reader: &mut Reader, table: &Table, units: &Units) -> Option<Vec<[f64; 2]>> {
@@ -233,7 +221,7 @@ fn read_spectrum(reader: &mut Reader, table: &Table, units: &Units) -> Option<Ve
                 _ => {
                     let message = "`spectrum` holds something that is not a pair";
                     let expected = "expected pairs of a frequency and an amplitude";
-                    let help = format!("write for example {EXAMPLE}");
+                    let help = units.spectrum().help();
                     reader.report(pair.span(), message, expected, help);
                     None
                 }
@@ -243,7 +231,7 @@ fn read_spectrum(reader: &mut Reader, table: &Table, units: &Units) -> Option<Ve
     if list.is_none() {
         let message = "`spectrum` is not a list of pairs";
         let expected = "expected pairs of a frequency and an amplitude, between brackets";
-        reader.report(value.span(), message, expected, format!("write for example {EXAMPLE}"));
+        reader.report(value.span(), message, expected, units.spectrum().help());
     }
     let pairs = pairs?;
     if pairs.windows(2).any(|two| two[0][0] >= two[1][0]) {

@@ -13,6 +13,7 @@ mod criteria;
 mod document;
 mod error;
 mod inputs;
+mod list;
 mod optimize;
 mod physical;
 mod quantity;
@@ -48,7 +49,7 @@ pub use rewrite::{RewriteError, Rewritten, Rounding};
 pub use scales::{LengthUnit, Scales};
 pub use schema::{FILE_NAME as SCHEMA_FILE_NAME, schema};
 pub use simulation::SimulationSettings;
-pub use uncertainty::Uncertainty;
+pub use uncertainty::{Distribution, Uncertainty};
 
 use crate::system::System;
 use reader::Reader;

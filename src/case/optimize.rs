@@ -1,13 +1,13 @@
 //! The optional table `[optimize]`: what `vinesink optimize` looks for, and within which bounds.
 
-use toml::Spanned;
 use toml::de::{DeArray, DeValue};
 
 use super::Design;
-use super::quantity::{Dimension, Length, Mass, Quantity};
+use super::list::{Item, List};
+use super::quantity::{Length, Mass, Quantity};
 use super::reader::{Bound, Reader};
 use super::suggest::nearest;
-use super::table::{Table, kind};
+use super::table::Table;
 
 /// What a design is chosen for, over the case's band if it has one.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -61,14 +61,6 @@ pub struct OptimizeSettings {
 pub(super) const TABLE: &str = "optimize";
 pub(super) const KEYS: &[&str] = &["objective", "clearance", "restitution", "mass"];
 
-/// A key with two bounds.
-#[derive(Clone, Copy)]
-struct Bounds {
-    key: &'static str,
-    bound: Bound,
-    example: &'static str,
-}
-
 /// Reads the table, which may be missing.
 pub(super) fn read(reader: &mut Reader, root: &Table, design: Option<&Design>) -> OptimizeSettings {
     let table = reader.table(root, TABLE);
@@ -76,19 +68,23 @@ pub(super) fn read(reader: &mut Reader, root: &Table, design: Option<&Design>) -
     let physical = matches!(design, Design::Physical(_));
     let clearance = if physical {
         let field =
-            Bounds { key: "clearance", bound: Bound::Positive, example: "[\"5 mm\", \"40 mm\"]" };
-        read_bounds(reader, &table, field, quantity::<Length>)
+            List { key: "clearance", bound: Bound::Positive, example: "[\"5 mm\", \"40 mm\"]" };
+        read_bounds(reader, &table, field, List::quantity::<Length>)
     } else {
-        let field = Bounds { key: "clearance", bound: Bound::Positive, example: "[0.5, 2.0]" };
-        read_bounds(reader, &table, field, number)
+        let field = List { key: "clearance", bound: Bound::Positive, example: "[0.5, 2.0]" };
+        read_bounds(reader, &table, field, List::number)
     };
-    let restitution = Bounds { key: "restitution", bound: Bound::UpToOne, example: "[0.4, 0.8]" };
-    let mass = Bounds { key: "mass", bound: Bound::Positive, example: "[\"20 g\", \"50 g\"]" };
+    let restitution = List { key: "restitution", bound: Bound::UpToOne, example: "[0.4, 0.8]" };
+    let mass = List { key: "mass", bound: Bound::Positive, example: "[\"20 g\", \"50 g\"]" };
     let settings = OptimizeSettings {
         objective: read_objective(reader, &table),
         clearance,
-        restitution: read_bounds(reader, &table, restitution, number),
-        mass: if physical { read_bounds(reader, &table, mass, quantity::<Mass>) } else { None },
+        restitution: read_bounds(reader, &table, restitution, List::number),
+        mass: if physical {
+            read_bounds(reader, &table, mass, List::quantity::<Mass>)
+        } else {
+            None
+        },
     };
     if !physical && table.has(mass.key) {
         reader.report(
@@ -118,56 +114,19 @@ fn read_objective(reader: &mut Reader, table: &Table) -> Option<Objective> {
     found
 }
 
-/// Reads a value of a list, or says as the end of a sentence why it is none.
-type Item = fn(&Spanned<DeValue>) -> Result<f64, String>;
-
-fn quantity<D: Dimension>(value: &Spanned<DeValue>) -> Result<f64, String> {
-    match value.get_ref() {
-        DeValue::String(text) => match Quantity::<D>::parse(text) {
-            Ok(quantity) => Ok(quantity.si()),
-            Err(error) => Err(format!("a value that {}", error.message)),
-        },
-        DeValue::Integer(_) | DeValue::Float(_) => Err("a number without a unit".to_owned()),
-        other => Err(kind(other).to_owned()),
-    }
-}
-
-fn number(value: &Spanned<DeValue>) -> Result<f64, String> {
-    let number = match value.get_ref() {
-        DeValue::Float(float) => float.as_str().parse::<f64>().ok(),
-        DeValue::Integer(integer) => integer.as_str().parse::<f64>().ok(),
-        _ => None,
-    };
-    number.ok_or_else(|| format!("{}, but it holds plain numbers", kind(value.get_ref())))
-}
-
-fn read_bounds(reader: &mut Reader, table: &Table, field: Bounds, item: Item) -> Option<[f64; 2]> {
-    let (_, value) = table.entry(field.key)?;
-    let key = field.key;
-    let help = format!("write for example {key} = {}", field.example);
+fn read_bounds(reader: &mut Reader, table: &Table, list: List, item: Item) -> Option<[f64; 2]> {
+    let key = list.key;
+    let (_, value) = table.entry(key)?;
     let pair: Option<&DeArray> = match value.get_ref() {
-        DeValue::Array(list) if list.len() == 2 => Some(list),
+        DeValue::Array(pair) if pair.len() == 2 => Some(pair),
         _ => None,
     };
     let Some(pair) = pair else {
         let message = format!("`{key}` is not a pair of bounds");
-        reader.report(value.span(), message, "expected two values between brackets", help);
+        reader.report(value.span(), message, "expected two values between brackets", list.help());
         return None;
     };
-    let mut bounds = [f64::NAN; 2];
-    for (bound, entry) in bounds.iter_mut().zip(pair.iter()) {
-        let problem = match item(entry) {
-            Ok(value) if value.is_finite() && field.bound.holds(value) => {
-                *bound = value;
-                continue;
-            }
-            Ok(_) => format!("`{key}` holds {}", reader.as_written(entry.span())),
-            Err(problem) => format!("`{key}` holds {problem}"),
-        };
-        let expected = format!("expected bounds {}", field.bound.words());
-        reader.report(entry.span(), problem, expected, help);
-        return None;
-    }
+    let bounds = [item(&list, reader, pair.first()?)?, item(&list, reader, pair.get(1)?)?];
     if bounds[0] < bounds[1] {
         return Some(bounds);
     }

@@ -89,18 +89,35 @@ impl<'t> Table<'t> {
 
     /// A number with a unit that must be there, in SI units.
     pub fn quantity<D: Dimension>(&self, reader: &mut Reader, field: Field) -> Option<f64> {
+        self.quantity_behind::<D>(reader, field, 0)
+    }
+
+    /// The same, behind a sign that takes up the first `sign` bytes of its text.
+    pub fn quantity_behind<D: Dimension>(
+        &self,
+        reader: &mut Reader,
+        field: Field,
+        sign: usize,
+    ) -> Option<f64> {
         let value = self.required(reader, field.key, &field.line())?;
         let DeValue::String(text) = value.get_ref() else {
             self.not_text::<D>(reader, field, value);
             return None;
         };
-        match Quantity::<D>::parse(text) {
+        let (before, quantity) = text.split_at(sign);
+        match Quantity::<D>::parse(quantity) {
             Ok(quantity) => self.bounded(reader, field, value, quantity.si(), D::SI),
             Err(error) => {
-                let span = inside_quotes(reader.text, value.span(), text, error.range);
+                let range = sign + error.range.start..sign + error.range.end;
+                let span = inside_quotes(reader.text, value.span(), text, range);
                 let message = format!("`{}` {}", field.key, error.message);
+                // What is to be written instead keeps its sign.
+                let corrected = |help: String| match help.strip_prefix("write \"") {
+                    Some(rest) => format!("write \"{before}{rest}"),
+                    None => help,
+                };
                 let problem = Problem::new(reader.text, span, message, error.expected);
-                reader.problems.push(problem.maybe_help(error.help));
+                reader.problems.push(problem.maybe_help(error.help.map(corrected)));
                 None
             }
         }
@@ -142,6 +159,25 @@ impl<'t> Table<'t> {
             format!("`{}` is {}, but it is a plain number", field.key, kind(value.get_ref()));
         let expected = format!("expected a number {}, without quotes or unit", field.bound.words());
         reader.report(value.span(), message, expected, format!("write {}", field.line()));
+        None
+    }
+
+    /// The same, or as text behind a sign that takes up the first `sign` bytes of it, if it takes up any.
+    pub fn number_behind(&self, reader: &mut Reader, field: Field, sign: usize) -> Option<f64> {
+        if sign == 0 {
+            return self.number(reader, field);
+        }
+        let value = self.required(reader, field.key, &field.line())?;
+        let text = value.get_ref().as_str().unwrap_or("");
+        if let Ok(number) = text[sign..].trim().parse::<f64>() {
+            return self.bounded(reader, field, value, number + 0.0, "1");
+        }
+        let message = format!("`{}` is \"{text}\", which is no number behind its sign", field.key);
+        let expected = format!("expected a plain number {}", field.bound.words());
+        let sign = text[..sign].trim();
+        let help =
+            format!("write {}, or {} = \"{sign} {}\"", field.line(), field.key, field.example);
+        reader.report(value.span(), message, expected, help);
         None
     }
 

@@ -1,11 +1,10 @@
 //! `vinesink optimize CASE`
 
 use std::path::PathBuf;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::thread;
 
 use clap::{Args, ValueEnum};
 use miette::{IntoDiagnostic, Result, miette};
+use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
 use vinesink::case::{self, Case};
 use vinesink::optimize::{Optimization, Spread, Task};
 use vinesink::report::{optimize as page, render};
@@ -55,7 +54,8 @@ A case says what it wants in
   clearance = [\"5 mm\", \"40 mm\"]
 
   [uncertainty]
-  clearance = \"0.2 mm\"";
+  clearance = \"0.2 mm\"     # standard deviation
+  restitution = \"± 0.05\"   # anywhere within";
 
 /// What a design is chosen for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -125,33 +125,13 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
 struct SideBySide;
 
 impl Spread for SideBySide {
-    fn map(&self, what: &'static str, count: usize, f: &(dyn Fn(usize) -> f64 + Sync)) -> Vec<f64> {
-        let progress = Progress::new(what, count as u64);
-        let next = AtomicUsize::new(0);
-        let work = || {
-            let mut done = Vec::new();
-            loop {
-                let k = next.fetch_add(1, Ordering::Relaxed);
-                if k >= count {
-                    return done;
-                }
-                done.push((k, f(k)));
+    fn each(&self, what: &'static str, count: usize, f: &(dyn Fn(usize) + Sync)) {
+        let progress = (!what.is_empty()).then(|| Progress::new(what, count as u64));
+        (0..count).into_par_iter().for_each(|k| {
+            f(k);
+            if let Some(progress) = &progress {
                 progress.advance(1);
             }
-        };
-        let threads = thread::available_parallelism().map_or(1, usize::from).min(count.max(1));
-        let mut all: Vec<(usize, f64)> = thread::scope(|scope| {
-            let others: Vec<_> = (1..threads).map(|_| scope.spawn(work)).collect();
-            let mut all = work();
-            for other in others {
-                match other.join() {
-                    Ok(done) => all.extend(done),
-                    Err(panic) => std::panic::resume_unwind(panic),
-                }
-            }
-            all
         });
-        all.sort_by_key(|(k, _)| *k);
-        all.into_iter().map(|(_, value)| value).collect()
     }
 }

@@ -3,6 +3,7 @@
 
 pub mod bracket;
 pub mod crossing;
+pub mod gauss;
 pub mod lanes;
 pub mod necklace;
 pub mod polynomial;

@@ -3,7 +3,7 @@
 
 use serde::Serialize;
 
-use super::search::{Spread, on_line, scan};
+use super::search::{InTurn, Spread, map, on_line, scan};
 use super::task::{Deviation, Task};
 use crate::analysis::{FixedPointCurve, Manifold};
 use crate::case::{BandOver, Choice, Objective};
@@ -17,6 +17,8 @@ const FREQUENCIES: u32 = 61;
 const REACH: f64 = 0.05;
 /// Pieces in which the best clearance of one excitation is looked for.
 const PIECES: usize = 128;
+/// Width to which it is narrowed down, over the logarithm of the range.
+const WIDTH: f64 = 1e-7;
 
 /// The clearances that suit one excitation, in the units of a [`Choice`].
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -45,20 +47,17 @@ pub fn chart(task: &Task, choice: &Choice, spread: &dyn Spread) -> Vec<Suited> {
         let part = k as f64 / f64::from(FREQUENCIES - 1);
         from * (1.0 - part) + to * part
     };
-    let stretch = |k: usize| widest(&band.base.with_frequency_ratio(at(k)).ok()?);
     let count = FREQUENCIES as usize;
-    let best = spread.map("design chart", count, &|k| {
-        let found = band.base.with_frequency_ratio(at(k)).ok();
-        let factor = found.and_then(|system| best(task.objective, &system));
-        factor.map_or(f64::NAN, |factor| factor * choice.clearance)
-    });
-    (0..count)
-        .map(|k| Suited {
+    map(spread, "design chart", count, |k| {
+        let system = band.base.with_frequency_ratio(at(k)).ok();
+        let best = system.and_then(|system| best(task.objective, &system));
+        let stable = system.and_then(|system| widest(&system));
+        Suited {
             frequency_ratio: at(k),
-            stable: stretch(k).map(|ends| ends.map(|end| end * choice.clearance)),
-            best: Some(best[k]).filter(|clearance| clearance.is_finite()),
-        })
-        .collect()
+            stable: stable.map(|ends| ends.map(|end| end * choice.clearance)),
+            best: best.map(|factor| factor * choice.clearance),
+        }
+    })
 }
 
 /// The widest stretch of clearances with a stable symmetric orbit, over the system's own.
@@ -79,8 +78,8 @@ fn best(objective: Objective, system: &System) -> Option<f64> {
                 let gamma = system.forcing_per_clearance() / factor(part);
                 f64::from(u8::from(curve.zone(gamma).is_z3()))
             };
-            let scanned = scan("", PIECES, &super::InTurn, &inside);
-            let found = on_line(&scanned, &inside).filter(|best| best.score > 0.0)?;
+            let scanned = scan("", PIECES, &InTurn, &inside);
+            let found = on_line(&scanned, WIDTH, &inside).filter(|best| best.score > 0.0)?;
             Some(factor(found.parts[0]))
         }
         Objective::StableShare => widest(system).map(|[low, high]| libm::sqrt(low * high)),

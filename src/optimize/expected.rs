@@ -1,33 +1,44 @@
-//! The expected objective of an absorber whose parameters are uncertain: Gauss-Hermite quadrature, five
-//! points for each uncertain parameter, every combination of them.
+//! The expected objective of an absorber whose parameters are uncertain: Gauss quadrature, every
+//! combination of the nodes of each uncertain parameter.
 
+use super::search::{Spread, map};
 use super::task::{Deviation, Task};
-use crate::case::{Choice, Uncertainty};
+use crate::case::{Choice, Distribution, Objective, Uncertainty};
+use crate::numerics::gauss;
 
-/// Nodes and weights for a standard normal error: exact for polynomials up to the ninth degree.
-const NODES: [(f64, f64); 5] = [
-    (-2.856_970_013_872_805_6, 0.011_257_411_327_720_69),
-    (-1.355_626_179_974_265_7, 0.222_075_922_005_612_64),
-    (0.0, 8.0 / 15.0),
-    (1.355_626_179_974_265_7, 0.222_075_922_005_612_64),
-    (2.856_970_013_872_805_6, 0.011_257_411_327_720_69),
-];
+/// Nodes of each uncertain parameter where that many are uncertain, from none to four, for an
+/// objective in closed form: at most 625 together. Shares have kinks, which many nodes even out.
+const CLOSED_FORM: [usize; 5] = [1, 21, 15, 7, 5];
+/// The same for one that needs orbits, which cost ten times as much: at most 125.
+const ORBITS: [usize; 5] = [1, 15, 7, 5, 3];
 
-/// Nodes of one parameter; a certain one has a single node.
-fn nodes(deviation: f64) -> impl Iterator<Item = (f64, f64)> + Clone {
-    let certain = deviation == 0.0;
-    let all = NODES.into_iter().filter(move |(node, _)| !certain || *node == 0.0);
-    all.map(move |(node, weight)| (node * deviation, if certain { 1.0 } else { weight }))
+/// Errors of one parameter with their weights; a certain one has a single node.
+fn nodes(distribution: Distribution, count: usize) -> Vec<(f64, f64)> {
+    let (rule, size) = match distribution {
+        Distribution::Certain => return vec![(0.0, 1.0)],
+        Distribution::Normal(deviation) => (gauss::normal(count), deviation),
+        Distribution::Uniform(largest) => (gauss::uniform(count), largest),
+    };
+    rule.into_iter().map(|(node, weight)| (node * size, weight)).collect()
 }
 
-/// All combinations of deviations with their weights, which add up to 1.
-pub fn combinations(uncertainty: &Uncertainty) -> Vec<(Deviation, f64)> {
+/// All combinations of deviations with their weights, which add up to 1; `count` nodes of each
+/// uncertain parameter.
+pub fn combinations(uncertainty: &Uncertainty, count: usize) -> Vec<(Deviation, f64)> {
+    let Uncertainty { clearance, restitution, frequency_ratio, amplitude } = *uncertainty;
+    let [clearances, restitutions, frequency_ratios, amplitudes] =
+        [clearance, restitution, frequency_ratio, amplitude].map(|one| nodes(one, count));
     let mut found = Vec::new();
-    for (clearance, a) in nodes(uncertainty.clearance) {
-        for (restitution, b) in nodes(uncertainty.restitution) {
-            for (frequency_ratio, c) in nodes(uncertainty.frequency_ratio) {
-                for (amplitude, d) in nodes(uncertainty.amplitude) {
-                    let off = Deviation { clearance, restitution, frequency_ratio, amplitude };
+    for (clearance, a) in &clearances {
+        for (restitution, b) in &restitutions {
+            for (frequency_ratio, c) in &frequency_ratios {
+                for (amplitude, d) in &amplitudes {
+                    let off = Deviation {
+                        clearance: *clearance,
+                        restitution: *restitution,
+                        frequency_ratio: *frequency_ratio,
+                        amplitude: *amplitude,
+                    };
                     found.push((off, a * b * c * d));
                 }
             }
@@ -37,13 +48,26 @@ pub fn combinations(uncertainty: &Uncertainty) -> Vec<(Deviation, f64)> {
 }
 
 impl Task {
-    /// The expected objective; `None` where a deviation leaves no system.
-    pub fn expected(&self, choice: &Choice) -> Option<f64> {
-        let mut sum = 0.0;
-        for (off, weight) in combinations(&self.uncertainty) {
-            sum += weight * self.score(choice, &off)?;
-        }
-        Some(sum)
+    /// Nodes of each uncertain parameter.
+    pub fn nodes(&self) -> usize {
+        let counts = if self.objective == Objective::Z3Share { CLOSED_FORM } else { ORBITS };
+        counts[self.uncertainty.count()]
+    }
+
+    /// The combinations of deviations over which is averaged.
+    pub fn deviations(&self) -> Vec<(Deviation, f64)> {
+        combinations(&self.uncertainty, self.nodes())
+    }
+
+    /// The average objective over deviations with weights; `None` where one leaves no system.
+    pub fn expected(
+        &self,
+        choice: &Choice,
+        deviations: &[(Deviation, f64)],
+        spread: &dyn Spread,
+    ) -> Option<f64> {
+        let scores = map(spread, "", deviations.len(), |k| self.score(choice, &deviations[k].0));
+        scores.into_iter().zip(deviations).map(|(score, (_, weight))| Some(weight * score?)).sum()
     }
 }
 
@@ -51,18 +75,23 @@ impl Task {
 mod tests {
     use super::*;
 
-    /// The moments of a normal error up to the ninth are those of the nodes.
+    /// Averages of squares are s² for a normal error and a²/3 for one up to a.
     #[test]
-    fn moments_are_those_of_a_normal_error() {
-        for (power, moment) in
-            [(0.0, 1.0), (1.0, 0.0), (2.0, 1.0), (4.0, 3.0), (6.0, 15.0), (8.0, 105.0), (9.0, 0.0)]
-        {
-            let moments = NODES.iter().map(|(node, weight)| weight * libm::pow(*node, power));
-            let sum: f64 = moments.sum();
-            assert!((sum - moment).abs() < 1e-11 * (1.0 + moment), "{power}: {sum}");
-        }
-        let two = Uncertainty { clearance: 0.1, amplitude: 0.2, ..Uncertainty::default() };
-        assert_eq!(combinations(&two).len(), 25);
-        assert_eq!(combinations(&Uncertainty::default()), [(Deviation::default(), 1.0)]);
+    fn combinations_have_the_moments_of_their_errors() {
+        let two = Uncertainty {
+            clearance: Distribution::Normal(0.1),
+            amplitude: Distribution::Uniform(0.2),
+            ..Uncertainty::default()
+        };
+        let all = combinations(&two, 7);
+        assert_eq!(all.len(), 49);
+        let mean = |of: &dyn Fn(&Deviation) -> f64| -> f64 {
+            all.iter().map(|(off, weight)| weight * of(off)).sum()
+        };
+        assert!((mean(&|_| 1.0) - 1.0).abs() < 1e-14);
+        assert!((mean(&|off| off.clearance * off.clearance) - 0.01).abs() < 1e-14);
+        assert!((mean(&|off| off.amplitude * off.amplitude) - 0.04 / 3.0).abs() < 1e-14);
+        assert!(mean(&|off| off.clearance * off.amplitude).abs() < 1e-16);
+        assert_eq!(combinations(&Uncertainty::default(), 7), [(Deviation::default(), 1.0)]);
     }
 }

@@ -2,6 +2,7 @@
 //! middle where a whole stretch of places is best. Places are parts of the way, from 0 to 1.
 
 use std::cell::RefCell;
+use std::sync::OnceLock;
 
 use argmin::core::{CostFunction, Error, Executor, PopulationState};
 use argmin::solver::goldensectionsearch::GoldenSectionSearch;
@@ -12,8 +13,24 @@ use rand_xoshiro::rand_core::SeedableRng;
 
 /// Carries out many evaluations: one after the other, or side by side with the same results.
 pub trait Spread: Sync {
-    /// What `f` says of each number below `count`, in their order; `what` names it to the user.
-    fn map(&self, what: &'static str, count: usize, f: &(dyn Fn(usize) -> f64 + Sync)) -> Vec<f64>;
+    /// Calls `f` with each number below `count`; `what` names it to the user, who is told nothing
+    /// where it is empty.
+    fn each(&self, what: &'static str, count: usize, f: &(dyn Fn(usize) + Sync));
+}
+
+/// What `f` says of each number below `count`, in their order.
+pub fn map<T: Send + Sync>(
+    spread: &dyn Spread,
+    what: &'static str,
+    count: usize,
+    f: impl Fn(usize) -> T + Sync,
+) -> Vec<T> {
+    let places: Vec<OnceLock<T>> = (0..count).map(|_| OnceLock::new()).collect();
+    spread.each(what, count, &|k| {
+        // Each number comes once.
+        let _ = places[k].set(f(k));
+    });
+    places.into_iter().filter_map(OnceLock::into_inner).collect()
 }
 
 /// One after the other.
@@ -21,8 +38,8 @@ pub trait Spread: Sync {
 pub struct InTurn;
 
 impl Spread for InTurn {
-    fn map(&self, _: &'static str, count: usize, f: &(dyn Fn(usize) -> f64 + Sync)) -> Vec<f64> {
-        (0..count).map(f).collect()
+    fn each(&self, _: &'static str, count: usize, f: &(dyn Fn(usize) + Sync)) {
+        (0..count).for_each(f);
     }
 }
 
@@ -30,7 +47,7 @@ impl Spread for InTurn {
 pub type Score<'f> = &'f (dyn Fn(&[f64]) -> f64 + Sync);
 
 /// How thoroughly is looked for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Effort {
     /// Pieces of a line.
     pub pieces: usize,
@@ -38,7 +55,12 @@ pub struct Effort {
     pub particles: usize,
     /// Steps of a swarm.
     pub steps: u64,
+    /// Width to which a maximum is narrowed down on a line.
+    pub width: f64,
 }
+
+/// A place with its score.
+pub type Seen = (Vec<f64>, f64);
 
 /// The best place.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,15 +71,18 @@ pub struct Best {
     pub score: f64,
     /// The first coordinate's stretch that is as good, all others held; the place is its middle.
     pub plateau: [f64; 2],
+    /// Every place that was asked for on the way.
+    pub seen: Vec<Seen>,
 }
 
 /// Relative difference of two scores that are the same: the rounding of roots.
 const SAME: f64 = 1e-9;
 /// Local maxima of a scan that are narrowed down.
 const PEAKS: usize = 4;
-/// Width to which a maximum is narrowed down, and halvings for the end of a plateau.
-const WIDTH: f64 = 1e-7;
-const HALVINGS: u32 = 30;
+/// Most steps of golden section: more than any width asks for.
+const NARROWINGS: u64 = 60;
+/// Width to which the end of a plateau is known, over that of a maximum.
+const END: f64 = 0.01;
 /// Steps of the polish in several dimensions, and the size of its first simplex.
 const POLISH: u64 = 120;
 const SIMPLEX: f64 = 0.05;
@@ -72,24 +97,35 @@ const NOTHING: f64 = 1e300;
 /// A problem for the optimiser, which remembers the best of all it was asked.
 struct Problem<'f> {
     score: Score<'f>,
-    best: RefCell<(Vec<f64>, f64)>,
+    best: RefCell<Seen>,
+    seen: RefCell<Vec<Seen>>,
 }
 
 impl<'f> Problem<'f> {
     fn new(score: Score<'f>) -> Self {
-        Self { score, best: RefCell::new((Vec::new(), f64::NEG_INFINITY)) }
+        let best = RefCell::new((Vec::new(), f64::NEG_INFINITY));
+        Self { score, best, seen: RefCell::default() }
     }
 
     /// Places outside of the bounds count as the nearest inside.
     fn asked(&self, parts: &[f64]) -> f64 {
         let inside: Vec<f64> = parts.iter().map(|part| part.clamp(0.0, 1.0)).collect();
         let score = (self.score)(&inside);
+        self.seen.borrow_mut().push((inside.clone(), score));
         let mut best = self.best.borrow_mut();
         // What is better by rounding only does not replace the middle of a plateau.
         if score > best.1 && !same(score, best.1) {
             *best = (inside, score);
         }
         if score.is_finite() { -score } else { NOTHING }
+    }
+
+    /// The best of all that was asked, in the middle of the stretch that is as good.
+    fn best(self, width: f64) -> Option<Best> {
+        let (parts, score) = self.best.into_inner();
+        let at = *parts.first()?;
+        let best = Best { parts, score, plateau: [at; 2], seen: self.seen.into_inner() };
+        Some(centred(best, width, self.score))
     }
 }
 
@@ -120,7 +156,7 @@ pub fn scan(
     score: &(dyn Fn(f64) -> f64 + Sync),
 ) -> Vec<(f64, f64)> {
     let place = |k: usize| k as f64 / pieces as f64;
-    let found = spread.map(what, pieces + 1, &|k| score(place(k)));
+    let found = map(spread, what, pieces + 1, |k| score(place(k)));
     found.into_iter().enumerate().map(|(k, score)| (place(k), score)).collect()
 }
 
@@ -131,7 +167,11 @@ fn same(a: f64, b: f64) -> bool {
 }
 
 /// The best place on a line that was scanned; `None` where it has a score nowhere.
-pub fn on_line(scanned: &[(f64, f64)], score: &(dyn Fn(f64) -> f64 + Sync)) -> Option<Best> {
+pub fn on_line(
+    scanned: &[(f64, f64)],
+    width: f64,
+    score: &(dyn Fn(f64) -> f64 + Sync),
+) -> Option<Best> {
     let asked = |parts: &[f64]| score(parts[0]);
     let problem = Problem::new(&asked);
     let last = scanned.len().checked_sub(1)?;
@@ -148,29 +188,33 @@ pub fn on_line(scanned: &[(f64, f64)], score: &(dyn Fn(f64) -> f64 + Sync)) -> O
     let level: Vec<usize> = (0..=last).filter(|k| same(scanned[*k].1, top)).collect();
     let runs = level.chunk_by(|a, b| a + 1 == *b);
     let widest = runs.max_by(|a, b| a.len().cmp(&b.len()).then(b[0].cmp(&a[0])))?;
+    if widest.len() == scanned.len() && last > 0 {
+        let seen = scanned.iter().map(|(part, score)| (vec![*part], *score)).collect();
+        return Some(Best { parts: vec![0.5], score: score(0.5), plateau: [0.0, 1.0], seen });
+    }
     let middle = scanned[widest[widest.len() / 2]];
     problem.asked(&[middle.0]);
     for k in peaks.into_iter().filter(|k| !level.contains(k) || level.len() == 1).take(PEAKS) {
         let (before, after) = around(k);
-        narrowed(&problem, before.0, after.0);
+        narrowed(&problem, before.0, after.0, width);
     }
     if widest.len() < 3 {
         let (from, to) = (around(widest[0]).0, around(widest[widest.len() - 1]).1);
-        narrowed(&problem, from.0, to.0);
+        narrowed(&problem, from.0, to.0, width);
     }
-    let (parts, score) = problem.best.into_inner();
-    let at = *parts.first()?;
-    Some(centred(Best { parts, score, plateau: [at; 2] }, &asked))
+    let mut best = problem.best(width)?;
+    best.seen.extend(scanned.iter().map(|(part, score)| (vec![*part], *score)));
+    Some(best)
 }
 
 /// Golden section between two places; what it finds is remembered by the problem.
-fn narrowed(problem: &Problem, from: f64, to: f64) {
-    let solver = GoldenSectionSearch::new(from, to).and_then(|solver| solver.with_tolerance(WIDTH));
+fn narrowed(problem: &Problem, from: f64, to: f64, width: f64) {
+    let solver = GoldenSectionSearch::new(from, to).and_then(|solver| solver.with_tolerance(width));
     let Ok(solver) = solver else { return };
     let start = 0.5 * (from + to);
     // Nothing is read from the outcome: the problem has seen every place.
     let _ = Executor::new(OnLine(problem), solver)
-        .configure(|state| state.param(start).max_iters(u64::from(HALVINGS) * 2))
+        .configure(|state| state.param(start).max_iters(NARROWINGS))
         .timer(false)
         .run();
 }
@@ -211,13 +255,30 @@ pub fn in_box(
             .timer(false)
             .run();
     }
-    let (parts, best) = problem.best.into_inner();
-    let at = *parts.first()?;
-    Some(centred(Best { parts, score: best, plateau: [at; 2] }, score))
+    problem.best(effort.width)
+}
+
+/// How far two places are apart, in the coordinate in which they are farthest.
+pub fn distance(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
+/// The best of the places that were seen, each this far from every better one, the best first.
+pub fn shortlist(seen: &[Seen], apart: f64, most: usize) -> Vec<Seen> {
+    let mut sorted: Vec<&Seen> = seen.iter().filter(|(_, score)| score.is_finite()).collect();
+    // Equal scores keep the order in which they were seen.
+    sorted.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let mut found: Vec<Seen> = Vec::new();
+    for one in sorted {
+        if found.len() < most && found.iter().all(|known| distance(&known.0, &one.0) >= apart) {
+            found.push(one.clone());
+        }
+    }
+    found
 }
 
 /// A place moved to the middle of the stretch that is as good, coordinate by coordinate.
-fn centred(mut best: Best, score: Score) -> Best {
+fn centred(mut best: Best, width: f64, score: Score) -> Best {
     for k in (0..best.parts.len()).rev() {
         let at = best.parts[k];
         let as_good = |part: f64| {
@@ -225,7 +286,7 @@ fn centred(mut best: Best, score: Score) -> Best {
             parts[k] = part;
             same(score(&parts), best.score)
         };
-        let ends = [-1.0, 1.0].map(|side| end_of_plateau(at, side, &as_good));
+        let ends = [-1.0, 1.0].map(|side| end_of_plateau(at, side, width, &as_good));
         let middle = 0.5 * (ends[0] + ends[1]);
         if as_good(middle) {
             best.parts[k] = middle;
@@ -238,8 +299,8 @@ fn centred(mut best: Best, score: Score) -> Best {
 }
 
 /// How far places are as good, to one side.
-fn end_of_plateau(at: f64, side: f64, as_good: &dyn Fn(f64) -> bool) -> f64 {
-    let (mut inside, mut stride) = (at, WIDTH);
+fn end_of_plateau(at: f64, side: f64, width: f64, as_good: &dyn Fn(f64) -> bool) -> f64 {
+    let (mut inside, mut stride) = (at, width);
     if !as_good((at + side * stride).clamp(0.0, 1.0)) {
         return at;
     }
@@ -255,7 +316,7 @@ fn end_of_plateau(at: f64, side: f64, as_good: &dyn Fn(f64) -> bool) -> f64 {
         // By doubling from close by, then evenly: nothing wider than a piece is stepped over.
         stride = if stride < STRIDE { 2.0 * stride } else { STRIDE };
     };
-    for _ in 0..HALVINGS {
+    while (outside - inside).abs() > END * width {
         let middle = 0.5 * (inside + outside);
         if as_good(middle) {
             inside = middle;
@@ -264,4 +325,34 @@ fn end_of_plateau(at: f64, side: f64, as_good: &dyn Fn(f64) -> bool) -> f64 {
         }
     }
     inside
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_shortlist_holds_the_best_that_are_apart() {
+        let seen = |part: f64, score: f64| (vec![part, 0.5], score);
+        let all = [
+            seen(0.50, 3.0),
+            seen(0.505, 2.9),
+            seen(0.10, f64::NEG_INFINITY),
+            seen(0.51, 2.8),
+            seen(0.30, 5.0),
+            seen(0.90, 1.0),
+        ];
+        let parts = |most: usize| -> Vec<f64> {
+            shortlist(&all, 0.01, most).iter().map(|(parts, _)| parts[0]).collect()
+        };
+        assert_eq!(parts(9), [0.30, 0.50, 0.51, 0.90]);
+        assert_eq!(parts(2), [0.30, 0.50]);
+    }
+
+    #[test]
+    fn what_is_the_same_everywhere_is_not_searched() {
+        let scanned = scan("", 8, &InTurn, &|_| 0.0);
+        let best = on_line(&scanned, 1e-7, &|_| 0.0).expect("a score");
+        assert_eq!((best.parts, best.score, best.plateau), (vec![0.5], 0.0, [0.0, 1.0]));
+    }
 }

@@ -62,11 +62,26 @@ fn landscape(words: &Words) -> Figure {
     };
     let best = &found.nominal;
     let filled = Marker::filled(Shape::Circle);
-    mark(best.choice.clearance, best.score, "optimum", filled, Color::Black);
+    mark(best.choice.clearance, best.judged(), "optimum", filled, Color::Black);
     if let Some(robust) = &found.robust {
         let score = robust.expected.unwrap_or(f64::NAN);
         let hollow = Marker::hollow(Shape::Diamond);
         mark(robust.choice.clearance, score, "robust optimum", hollow, Color::Black);
+    }
+    let simulated = found.candidates.iter().filter(|one| one.simulated.is_finite());
+    let simulated: Vec<MarkedPoint> = simulated
+        .map(|one| {
+            let [x, y] = place(one.choice.clearance, one.simulated);
+            MarkedPoint::new(x, y).with_tooltip(format!(
+                "{}, {} as simulated",
+                words.lengths.text(one.choice.clearance),
+                words.value(one.simulated)
+            ))
+        })
+        .collect();
+    if !simulated.is_empty() {
+        let cross = Layer::marked(Marker::hollow(Shape::Square), Color::Vermillion, simulated);
+        panel.layers.push(cross.labelled("candidates, simulated"));
     }
     let caption = format!("{} {}", words.headline(), words.against_own());
     let alt = format!("{} over the clearance. {caption}", words.objective_words());

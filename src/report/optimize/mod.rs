@@ -9,10 +9,11 @@ use super::FigureRow;
 use super::figure::Figure;
 use super::numbers::{percent, significant};
 use super::tables::{Table, table};
-use crate::case::{Case, Choice};
+use crate::case::{Case, Choice, Uncertainty};
 use crate::optimize::claim::Claim;
 use crate::optimize::confirm::Place;
 use crate::optimize::sensitivity::{Changed, Sensitivity};
+use crate::optimize::shortlist::Candidate;
 use crate::optimize::{Bounds, Chosen, Optimization, Variable, chart};
 use words::Words;
 
@@ -37,6 +38,9 @@ pub struct OptimizePage {
     pub confirmed: Table,
     /// What a change of each parameter does.
     pub sensitivities: Table,
+    /// How expectations were computed, if anything is uncertain, and how the winner was chosen where
+    /// simulation has a part in it; a sentence each.
+    pub method: Vec<String>,
     /// The paper's claim on the case, a sentence each.
     pub claim: Vec<String>,
     /// The figures' words; the drawings are files of their own.
@@ -62,6 +66,7 @@ impl OptimizePage {
             confirmed_words: words.confirmed(),
             confirmed: confirmed(&words),
             sensitivities: sensitivities(&words),
+            method: words.method(),
             claim: words.claim(),
             figures: figures.iter().map(FigureRow::of).collect(),
             name: name.to_owned(),
@@ -79,8 +84,12 @@ fn dash() -> String {
     "–".to_owned()
 }
 
+/// Column of what simulation finds, which not every objective has.
+const SIMULATED: usize = 5;
+
 fn absorbers(words: &Words) -> Table {
     let found = words.found;
+    let value = |score: Option<f64>| score.map_or_else(dash, |score| words.value(score));
     let row = |name: &str, one: &Chosen| {
         [
             name.to_owned(),
@@ -88,22 +97,27 @@ fn absorbers(words: &Words) -> Table {
             significant(one.choice.restitution, 4),
             mass(&one.choice),
             words.value(one.score),
-            one.expected.map_or_else(dash, |expected| words.value(expected)),
+            value(one.simulated),
+            value(one.expected),
         ]
     };
     let mut rows = vec![row("the case", &found.own), row("optimum", &found.nominal)];
     rows.extend(found.robust.iter().map(|robust| row("robust optimum", robust)));
-    table(
-        [
-            ("Absorber", false),
-            ("Clearance", true),
-            ("Restitution", true),
-            ("Mass", true),
-            ("Objective", true),
-            ("Expected", true),
-        ],
-        rows,
-    )
+    let columns = [
+        ("Absorber", false),
+        ("Clearance", true),
+        ("Restitution", true),
+        ("Mass", true),
+        ("Objective", true),
+        ("As simulated", true),
+        ("Expected", true),
+    ];
+    let mut table = table(columns, rows);
+    if found.nominal.simulated.is_none() {
+        table.columns.remove(SIMULATED);
+        table.rows.iter_mut().for_each(|row| drop(row.remove(SIMULATED)));
+    }
+    table
 }
 
 fn looked_for(words: &Words) -> String {
@@ -122,7 +136,11 @@ fn looked_for(words: &Words) -> String {
         }
     });
     let bounds: Vec<String> = bounds.collect();
-    format!("Objective: {}. Bounds: {}.", words.objective_words(), bounds.join(", "))
+    let asked = format!("Objective: {}. Bounds: {}.", words.objective_words(), bounds.join(", "));
+    if words.uncertain.is_empty() {
+        return asked;
+    }
+    format!("{asked} Uncertain: {}.", words.uncertain.join("; "))
 }
 
 fn confirmed(words: &Words) -> Table {
@@ -131,6 +149,7 @@ fn confirmed(words: &Words) -> Table {
             words.at(place.at),
             place.exact.map_or_else(dash, |exact| words.lengths.text(exact)),
             format!("{} of {}", place.as_predicted, place.starts),
+            if place.asleep > 0 { "never wakes" } else { "wakes" }.to_owned(),
             place.motions.to_string(),
             place.largest.map_or_else(dash, |largest| words.lengths.text(largest)),
         ]
@@ -141,7 +160,8 @@ fn confirmed(words: &Words) -> Table {
             (at, true),
             ("Exact orbit", true),
             ("Starts that led to it", true),
-            ("Motions", true),
+            ("From rest the absorber", false),
+            ("Motions with impacts", true),
             ("Largest amplitude", true),
         ],
         rows.collect(),
@@ -187,13 +207,14 @@ pub fn summary(case: &Case, found: &Optimization) -> String {
         let _ = writeln!(text, "{sentence}");
     }
     let _ = writeln!(text, "{}\n", looked_for(&words));
-    for row in absorbers(&words).rows {
-        let [name, clearance, restitution, mass, objective, expected] =
-            [0, 1, 2, 3, 4, 5].map(|k| row.get(k).map_or("", String::as_str));
-        let _ = writeln!(
-            text,
-            "{name:16}b {clearance:>12}   r {restitution:>7}   m2 {mass:>9}   {objective:>10}   expected {expected:>10}"
-        );
+    let absorbers = absorbers(&words);
+    let titles: Vec<&str> = absorbers.columns.iter().map(|column| column.title).collect();
+    for row in std::iter::once(titles).chain(
+        absorbers.rows.iter().map(|row| row.iter().map(String::as_str).collect::<Vec<&str>>()),
+    ) {
+        let [name, values @ ..] = row.as_slice() else { continue };
+        let values: String = values.iter().map(|value| format!("{value:>14}")).collect();
+        let _ = writeln!(text, "{name:16}{values}");
     }
     let _ = writeln!(text, "\n{}", words.confirmed());
     for sentence in words.claim() {
@@ -210,6 +231,8 @@ pub struct OptimizationDocument {
     title: String,
     objective: &'static str,
     bounds: Vec<Bounds>,
+    /// The frequency's as a frequency ratio, the amplitude's over the case's own.
+    uncertainty: Uncertainty,
     reached: bool,
     own: ChosenDocument,
     optimum: ChosenDocument,
@@ -219,6 +242,8 @@ pub struct OptimizationDocument {
     /// Pairs of clearance and expected objective.
     robust_landscape: Vec<(f64, Option<f64>)>,
     sensitivities: Vec<Sensitivity>,
+    /// What was simulated before one was chosen, in the order of the search.
+    candidates: Vec<Candidate>,
     confirmed: Vec<Place>,
     /// Over the case's own clearance.
     claim: Option<ClaimDocument>,
@@ -232,6 +257,7 @@ struct ChosenDocument {
     #[serde(flatten)]
     choice: Choice,
     objective: Option<f64>,
+    simulated: Option<f64>,
     expected: Option<f64>,
     plateau: [f64; 2],
 }
@@ -252,6 +278,7 @@ impl OptimizationDocument {
         let chosen = |one: &Chosen| ChosenDocument {
             choice: one.choice,
             objective: value(one.score),
+            simulated: one.simulated.and_then(value),
             expected: one.expected.and_then(value),
             plateau: one.plateau,
         };
@@ -262,11 +289,17 @@ impl OptimizationDocument {
             larger: one.larger.and_then(value),
             ..*one
         };
+        let of_candidate = |one: &Candidate| Candidate {
+            score: found.task.value(one.score),
+            simulated: found.task.value(one.simulated),
+            ..*one
+        };
         Self {
             format: "vinesink/optimization@1",
             title: case.title.clone(),
             objective: found.task.objective.name(),
             bounds: found.task.bounds.clone(),
+            uncertainty: found.task.uncertainty,
             reached: found.reached(),
             own: chosen(&found.own),
             optimum: chosen(&found.nominal),
@@ -274,6 +307,7 @@ impl OptimizationDocument {
             landscape: pairs(&found.landscape),
             robust_landscape: pairs(&found.robust_landscape),
             sensitivities: found.sensitivities.iter().map(spoken).collect(),
+            candidates: found.candidates.iter().map(of_candidate).collect(),
             confirmed: found.confirmed.clone(),
             claim: found.claim.map(|claim| ClaimDocument {
                 claim,

@@ -3,7 +3,9 @@
 use crate::case::{BandOver, Case, Objective, Scales};
 use crate::optimize::Optimization;
 use crate::optimize::claim::Claim;
+use crate::optimize::confirm::largest;
 use crate::report::numbers::{LengthFormat, fixed, percent, signed_percent};
+use crate::report::units::Units;
 
 /// Digits of a clearance: as it is written.
 const DIGITS: usize = 4;
@@ -15,12 +17,21 @@ pub(super) struct Words<'a> {
     pub found: &'a Optimization,
     pub scales: Scales,
     pub lengths: LengthFormat,
+    units: Units,
+    /// What is uncertain, as the case says it.
+    pub uncertain: Vec<String>,
 }
 
 impl<'a> Words<'a> {
     pub fn new(case: &Case, found: &'a Optimization) -> Self {
         let scales = case.scales();
-        Self { found, scales, lengths: LengthFormat::of(&scales) }
+        Self {
+            found,
+            scales,
+            lengths: LengthFormat::of(&scales),
+            units: Units::of(case),
+            uncertain: uncertain(case),
+        }
     }
 
     /// A length in four digits.
@@ -30,10 +41,7 @@ impl<'a> Words<'a> {
 
     /// A frequency ratio as a frequency, where there is one.
     pub fn frequency(&self, omega: f64) -> String {
-        match self.scales.frequency_hz(omega) {
-            Some(hertz) => format!("{} Hz", fixed(hertz, 3)),
-            None => format!("Ω = {}", fixed(omega, 4)),
-        }
+        self.units.frequency_text(omega)
     }
 
     /// A score as the figure's ordinate.
@@ -51,7 +59,8 @@ impl<'a> Words<'a> {
         match self.found.task.objective {
             _ if !score.is_finite() => "–".to_owned(),
             Objective::WorstAmplitude => self.lengths.text(value),
-            _ => percent(value),
+            // Robust and nominal optimum often differ by less than a per cent.
+            _ => format!("{} %", fixed(100.0 * value, 1)),
         }
     }
 
@@ -86,18 +95,18 @@ impl<'a> Words<'a> {
         if !self.found.reached() {
             return format!(
                 "Nothing between the bounds reaches it. {what}: {}.",
-                self.value(best.score)
+                self.value(best.judged())
             );
         }
         let at = self.length(best.choice.clearance);
-        format!("Best clearance {at}. {what}: {}.", self.value(best.score))
+        format!("Best clearance {at}. {what}: {}.", self.value(best.judged()))
     }
 
     /// What the case's own absorber reaches.
     pub fn against_own(&self) -> String {
         let own = &self.found.own;
         let at = self.length(own.choice.clearance);
-        format!("The case itself, at {at}, has {}.", self.value(own.score))
+        format!("The case itself, at {at}, has {}.", self.value(own.judged()))
     }
 
     /// What follows from the rest, a sentence each.
@@ -127,28 +136,47 @@ impl<'a> Words<'a> {
                 expected(robust.expected),
             ));
             if self.found.task.band.is_none() && self.found.task.objective != Objective::Margin {
-                sentences.push(
-                    "At one excitation the objective jumps, which five points for each parameter resolve coarsely."
-                        .to_owned(),
-                );
+                sentences.push(format!(
+                    "At one excitation the objective jumps, which {} points for each parameter resolve coarsely.",
+                    self.found.task.nodes()
+                ));
             }
         }
+        sentences.extend(self.dropped());
         sentences.extend(self.contradictions());
         sentences
+    }
+
+    /// Which candidate of the search was dropped, and why; `None` where none was simulated.
+    fn dropped(&self) -> Option<String> {
+        let candidates = &self.found.candidates;
+        let first = candidates.first()?;
+        let (best, count) = (&self.found.nominal, candidates.len());
+        let starts = self.found.confirmed.first().map_or(0, |place| place.starts);
+        if first.choice == best.choice {
+            let others = if count == 1 { String::new() } else { format!(" of {count} candidates") };
+            return Some(format!(
+                "Best in the search, it is also the best{others} as simulated from {starts} starts at each place, where the search takes two."
+            ));
+        }
+        Some(format!(
+            "The search alone would have chosen {}, with {}; from {starts} starts at each place simulation finds {} there, so that it was dropped for the best of {count} candidates as simulated.",
+            self.length(first.choice.clearance),
+            self.value(first.score),
+            self.value(first.simulated),
+        ))
     }
 
     /// Where simulation contradicts the answer; empty where it does not.
     fn contradictions(&self) -> Vec<String> {
         let places = &self.found.confirmed;
         let mut sentences = Vec::new();
-        let largest = places.iter().filter_map(|place| place.largest).max_by(f64::total_cmp);
-        let promised = self.found.task.value(self.found.nominal.score);
-        if self.found.task.objective == Objective::WorstAmplitude
-            && let Some(largest) = largest.filter(|largest| *largest > promised * SURPRISE)
-        {
+        let [promised, found] = [self.found.nominal.score, self.found.nominal.judged()]
+            .map(|score| self.found.task.value(score));
+        if found > promised * SURPRISE && !self.found.candidates.is_empty() {
             sentences.push(format!(
-                "Not confirmed: from other starts simulation finds amplitudes up to {}, of motions beside the exact orbit or from more starts than the search takes.",
-                self.lengths.text(largest)
+                "Exact orbits and two starts at each place promise {}; what counts is what more starts lead to.",
+                self.lengths.text(promised)
             ));
         }
         let lost = places.iter().filter(|place| place.exact.is_some() && place.as_predicted == 0);
@@ -164,7 +192,8 @@ impl<'a> Words<'a> {
 
     /// A place of the band.
     pub fn at(&self, at: f64) -> String {
-        if self.over_amplitude() { format!("× {}", fixed(at, 3)) } else { self.frequency(at) }
+        let over = if self.over_amplitude() { BandOver::Amplitude } else { BandOver::Frequency };
+        self.units.band_text(over, at)
     }
 
     /// Whether the band is one of amplitudes.
@@ -177,20 +206,44 @@ impl<'a> Words<'a> {
     pub fn confirmed(&self) -> String {
         let places = &self.found.confirmed;
         let orbit = places.iter().filter(|place| place.exact.is_some()).count();
-        let all = places
-            .iter()
-            .filter(|place| place.exact.is_some() && place.as_predicted == place.starts);
+        let all = places.iter().filter(|place| place.is_as_predicted());
         let several = places.iter().filter(|place| place.motions > 1).count();
-        let largest = places.iter().filter_map(|place| place.largest).max_by(f64::total_cmp);
-        let largest = largest.map_or_else(String::new, |largest| {
+        let largest = largest(places).map_or_else(String::new, |largest| {
             format!(" The largest amplitude that was simulated is {}.", self.lengths.text(largest))
         });
         let (count, all) = (places.len(), all.count());
         let place = if count == 1 { "place" } else { "places" };
         let starts = places.first().map_or(0, |place| place.starts);
+        let asleep = places.iter().filter(|place| place.asleep > 0).count();
+        let asleep = match asleep {
+            0 => String::new(),
+            _ => format!(
+                " From rest the absorber never wakes at {asleep} of the places, and the oscillator moves as if it were bare."
+            ),
+        };
         format!(
-            "From {starts} starts at each of {count} {place}: an exact symmetric orbit attracts at {orbit}, and every start led to it at {all} of these; at {several} of all places the starts led to several motions.{largest}"
+            "From {starts} starts, one of them from rest, at each of {count} {place}: an exact symmetric orbit attracts at {orbit}, and every start that wakes the absorber led to it at {all} of these; at {several} of all places there are several motions with impacts.{asleep}{largest}"
         )
+    }
+
+    /// How it was found, where that depends on the case.
+    pub fn method(&self) -> Vec<String> {
+        let task = &self.found.task;
+        let mut sentences = Vec::new();
+        if task.objective == Objective::WorstAmplitude {
+            sentences.push("Where no orbit attracts the search simulates two starts, which may miss a larger motion: its best candidates all over the bounds, and more around the best of these, are therefore simulated from many starts, and the best as simulated is chosen.".to_owned());
+        }
+        if task.uncertainty.is_any() {
+            sentences.push(format!(
+                "An expectation is a Gauss quadrature with {} points for each uncertain parameter, {} evaluations of the objective: Hermite's for a standard deviation, Legendre's for an error that is evenly distributed.",
+                task.nodes(),
+                task.deviations().len(),
+            ));
+        }
+        if task.uncertainty.is_any() && task.objective == Objective::WorstAmplitude {
+            sentences.push("The robust optimum is the best of these candidates, an expectation counting as no better than what simulation finds as written.".to_owned());
+        }
+        sentences
     }
 
     /// The paper's claim on the case.
@@ -214,6 +267,17 @@ impl<'a> Words<'a> {
             verdict(claim),
         ]
     }
+}
+
+/// Each uncertain parameter with its standard deviation, or with the largest error of a uniform one.
+fn uncertain(case: &Case) -> Vec<String> {
+    let inputs = case.inputs().iter();
+    let given = inputs.filter(|input| input.table == "uncertainty" && input.value > 0.0);
+    let words = given.map(|input| match input.largest_error() {
+        Some(largest) => format!("{} ± {largest}, evenly", input.name),
+        None => format!("{} with σ = {}", input.name, input.as_written),
+    });
+    words.collect()
 }
 
 fn verdict(claim: &Claim) -> String {
