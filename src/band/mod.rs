@@ -109,7 +109,8 @@ impl Band {
     /// The share of the band in the stretches for which something holds.
     pub fn share<T>(&self, stretches: &[Stretch<T>], holds: impl Fn(&T) -> bool) -> f64 {
         let inside = stretches.iter().filter(|stretch| holds(&stretch.of));
-        inside.map(|stretch| stretch.to - stretch.from).sum::<f64>() / self.width()
+        // An empty sum is minus 0.
+        inside.map(|stretch| stretch.to - stretch.from).sum::<f64>() / self.width() + 0.0
     }
 
     /// Amplitude over the base system's at a frequency ratio.

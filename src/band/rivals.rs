@@ -4,6 +4,7 @@ use nalgebra::Complex;
 use serde::Serialize;
 
 use super::Band;
+use crate::case::BandOver;
 use crate::numerics::scan::largest;
 use crate::system::System;
 
@@ -71,7 +72,9 @@ impl Rival {
     pub fn along(band: &Band, amplitude: impl Fn(&System) -> Option<f64>) -> Self {
         let there = |at: f64| band.system(at).ok().and_then(|system| amplitude(&system));
         let sum: f64 = band.places(AVERAGED).map(|at| there(at).unwrap_or(f64::INFINITY)).sum();
-        Self { largest: largest_along(band, amplitude), mean: sum / f64::from(AVERAGED) }
+        let largest = largest_along(band, &amplitude);
+        let mean = if largest.is_finite() { sum / f64::from(AVERAGED) } else { f64::INFINITY };
+        Self { largest, mean }
     }
 }
 
@@ -84,7 +87,11 @@ pub fn largest_amplitudes(band: &Band) -> [f64; 2] {
 
 fn largest_along(band: &Band, amplitude: impl Fn(&System) -> Option<f64>) -> f64 {
     let there = |at: f64| band.system(at).ok().map(|s| amplitude(&s).unwrap_or(f64::INFINITY));
-    largest(band.range, PIECES, there).map_or(f64::INFINITY, |(_, value)| value)
+    let found = largest(band.range, PIECES, there).map_or(f64::INFINITY, |(_, value)| value);
+    // Without damping nothing limits the bare oscillator at one frequency, which no scan meets.
+    let [from, to] = band.range;
+    let resonates = band.over == BandOver::Frequency && from <= 1.0 && 1.0 <= to;
+    if resonates { there(1.0).map_or(found, |there| found.max(there)) } else { found }
 }
 
 /// Reduction in decibels of an amplitude against another: positive where it is smaller.

@@ -4,6 +4,7 @@
 use serde::Serialize;
 
 use super::{Band, Stretch, exact};
+use crate::case::BandOver;
 use crate::orbits::SymmetricOrbit;
 use crate::regimes::periodicity;
 use crate::regimes::starts::StartBox;
@@ -12,8 +13,15 @@ use crate::simulation::{
 };
 use crate::system::{State, System};
 
+/// The start from rest: the absorber lies halfway between the middle of its cavity and a wall, as it does
+/// on average if it may lie anywhere. Exactly in the middle the slightest push would wake it.
+const FROM_REST: State = State { y: 0.5, ..State::AT_REST };
 /// Even places of a band that are simulated, its ends among them.
 pub const PLACES: u32 = 33;
+/// How often it is looked closer around the place with the largest amplitude, and at how many places on
+/// either side: the second time to a sixteenth of the distance of even ones.
+const REFINEMENTS: u32 = 2;
+const CLOSER: u32 = 3;
 
 /// E-folds of the damped free motion that are left out: what a start leaves is then below 1e-5.
 const FADED: f64 = 12.0;
@@ -37,7 +45,7 @@ const TWO: f64 = 2.0;
 /// How thoroughly each place is simulated.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Effort {
-    /// Starts at each place: one from rest, the others evenly spread.
+    /// Starts at each place: one from rest, the absorber halfway to a wall, the others evenly spread.
     pub starts: u32,
     /// Excitation periods measured where a motion is not seen to repeat, after a transient that follows
     /// from the damping.
@@ -79,8 +87,13 @@ pub struct Place {
 }
 
 impl Place {
-    /// Whether the absorber stays asleep in one of the motions: from rest it is only woken by an oscillator
-    /// that reaches a wall.
+    /// The motion with the largest amplitude.
+    pub fn largest(&self) -> Option<&Motion> {
+        self.motions.iter().max_by(|a, b| a.peak.total_cmp(&b.peak))
+    }
+
+    /// Whether the absorber stays asleep in one of the motions: from rest it is only woken by a wall that
+    /// reaches it.
     pub fn sleeps(&self) -> bool {
         self.motions.iter().any(Motion::is_asleep)
     }
@@ -140,8 +153,9 @@ impl Observer for Watch {
     }
 }
 
-/// The motions along a band: at even places, and in the middle of each stretch without an attracting
-/// symmetric orbit, which may lie between two of them.
+/// The motions along a band: at even places, in the middle of each stretch without an attracting
+/// symmetric orbit, which may lie between two of them, at the resonances, whose peaks may, and closer
+/// around the place with the largest amplitude.
 ///
 /// # Errors
 /// [`StartError`] where a start is not finite.
@@ -152,6 +166,42 @@ pub fn along(
 ) -> Result<Vec<Place>, StartError> {
     let mut places: Vec<f64> = band.places(PLACES).collect();
     places.extend(exact::unstable_middles(stability));
+    places.extend(resonances(band));
+    let mut found = simulated_at(band, places, effort)?;
+    for _ in 0..REFINEMENTS {
+        let closer = around_largest(&found);
+        found.extend(simulated_at(band, closer, effort)?);
+        found.sort_by(|a, b| a.at.total_cmp(&b.at));
+    }
+    Ok(found)
+}
+
+/// The places of a band at which the oscillator alone, or with the absorber's mass on it, resonates.
+fn resonances(band: &Band) -> impl Iterator<Item = f64> {
+    let [from, to] = band.range;
+    let carrying = 1.0 / (1.0 + band.base.mass_ratio()).sqrt();
+    let over_frequency = band.over == BandOver::Frequency;
+    [1.0, carrying].into_iter().filter(move |at| over_frequency && from < *at && *at < to)
+}
+
+/// Places on both sides of the one with the largest amplitude, up to its neighbours.
+fn around_largest(found: &[Place]) -> Vec<f64> {
+    let largest = |place: &Place| place.largest().map_or(0.0, |motion| motion.peak);
+    let of = (0..found.len()).max_by(|a, b| largest(&found[*a]).total_cmp(&largest(&found[*b])));
+    let Some(middle) = of else { return Vec::new() };
+    let neighbours = [middle.checked_sub(1), Some(middle + 1)];
+    let sides = neighbours.into_iter().flatten().filter_map(|side| found.get(side));
+    let parts = (1..=CLOSER).map(|k| f64::from(k) / f64::from(CLOSER + 1));
+    let at = found[middle].at;
+    sides.flat_map(|side| parts.clone().map(move |part| at + (side.at - at) * part)).collect()
+}
+
+/// The motions at places, in ascending order, each once.
+fn simulated_at(
+    band: &Band,
+    mut places: Vec<f64>,
+    effort: &Effort,
+) -> Result<Vec<Place>, StartError> {
     places.sort_by(f64::total_cmp);
     places.dedup();
     let there = |at: f64| Some((at, band.system(at).ok()?));
@@ -170,7 +220,7 @@ pub fn motions(systems: &[System], effort: &Effort) -> Result<Vec<Vec<Motion>>, 
     for system in systems {
         let sample = StartBox::around(system);
         for index in 0..effort.starts {
-            let start = index.checked_sub(1).map_or(State::AT_REST, |index| sample.start(index));
+            let start = index.checked_sub(1).map_or(FROM_REST, |index| sample.start(index));
             simulations.push(Simulation::new(system, start, 0.0)?);
         }
     }

@@ -55,6 +55,15 @@ impl Survey {
         })
     }
 
+    /// The largest peak displacement of any motion that is known, and where: of the stable 1:1 orbit, and
+    /// of what was simulated.
+    pub fn largest(&self) -> Option<(f64, f64)> {
+        let orbit = self.orbit.map(|orbit| (orbit.at, orbit.largest));
+        let simulated = self.simulated.iter();
+        let simulated = simulated.filter_map(|place| Some((place.at, place.largest()?.peak)));
+        simulated.chain(orbit).max_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
     /// Share in area Z3 of the theory, strips included.
     pub fn z3_share(&self) -> f64 {
         self.band.share(&self.zones, |zone| zone.is_z3())

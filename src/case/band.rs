@@ -2,6 +2,7 @@
 
 use toml::de::{DeArray, DeValue};
 
+use super::inputs::Input;
 use super::list::List;
 use super::quantity::{Force, Frequency, Length};
 use super::reader::{Bound, Field, Reader};
@@ -82,6 +83,17 @@ pub(super) fn read(
         let help = "remove one of the lines";
         reader.report(table.span_of(key), message, "expected the amplitude in one way only", help);
         return None;
+    }
+    if let (Some((_, value)), Some(corners)) = (table.entry("spectrum"), &spectrum) {
+        let written = reader.as_written(value.span());
+        reader.inputs.push(Input {
+            table: TABLE,
+            name: "spectrum",
+            symbol: "F(f)",
+            value: corners.len() as f64,
+            unit: "1",
+            as_written: written.split_whitespace().collect::<Vec<_>>().join(" ").replace('"', ""),
+        });
     }
     let spectrum = match amplitude {
         Some(amplitude) => vec![[from, amplitude?]],

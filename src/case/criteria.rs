@@ -250,7 +250,24 @@ fn bound(text: &str, subject: Subject, design: &Design) -> Result<(Relation, f64
         },
         _ => plain()?,
     };
+    possible(limit, rest, subject.measure())?;
     Ok((relation, limit))
+}
+
+/// Refuses a limit that no value of its kind can have.
+fn possible(limit: f64, written: &str, measure: Measure) -> Result<(), String> {
+    match measure {
+        Measure::Share if limit > 1.0 && limit <= 100.0 && !written.ends_with('%') => Err(format!(
+            "asks for {written}, and a share is at most 1; if {written} % is meant, write the % sign"
+        )),
+        Measure::Share if !(0.0..=1.0).contains(&limit) => {
+            Err(format!("asks for {written}, and a share lies between 0 and 100 %"))
+        }
+        Measure::Length | Measure::Velocity | Measure::Count if limit < 0.0 => {
+            Err(format!("asks for {written}, and it is never below 0"))
+        }
+        _ => Ok(()),
+    }
 }
 
 fn quantity<D: Dimension>(text: &str) -> Result<f64, String> {

@@ -4,7 +4,7 @@
 //! Shares are roots ([`crate::band`]). An amplitude, a count of impacts or their speed must hold for every
 //! motion that is found: for the exact symmetric orbit where one attracts, and for what starts lead to
 //! along the band, that from rest among them, as an orbit does not know which other motions there are.
-//! Simulation is left out where the orbit alone already breaks the limit.
+//! What is found is the worst of all, whatever the limit is: two designs, or two limits, can be compared.
 
 mod scope;
 
@@ -145,14 +145,18 @@ fn of_motion(
 ) -> Option<(f64, f64)> {
     let length = |value: f64| (scales.length(value), scales.length(value) * seen.error);
     let decibels = |against: f64| {
+        if against.is_infinite() {
+            // Anything is less than what has no limit: that says nothing.
+            return None;
+        }
         let reduction = crate::band::rivals::reduction_db(seen.peak, against);
-        (reduction, 20.0 * libm::log10(1.0 + seen.error))
+        Some((reduction, 20.0 * libm::log10(1.0 + seen.error)))
     };
     Some(match subject {
         Subject::PeakDisplacement => length(seen.peak),
         Subject::RmsDisplacement => length(seen.rms),
-        Subject::ReductionDb => decibels(bare),
-        Subject::ReductionDbTmd => decibels(damper),
+        Subject::ReductionDb => decibels(bare)?,
+        Subject::ReductionDbTmd => decibels(damper)?,
         Subject::ImpactVelocity => {
             let speed = scales
                 .velocity_m_per_s(seen.impact_speed)

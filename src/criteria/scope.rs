@@ -115,9 +115,6 @@ impl Scope {
     /// The worst value of a criterion about motions.
     fn worst(&self, criterion: &Criterion) -> Result<Option<Value>, StartError> {
         let exact = self.worst_exact(criterion);
-        if exact.is_some_and(|value| criterion.room(value.found) < 0.0) {
-            return Ok(exact);
-        }
         let both = exact.into_iter().chain(self.worst_simulated(criterion)?);
         Ok(both.min_by(|a, b| criterion.room(a.found).total_cmp(&criterion.room(b.found))))
     }

@@ -198,8 +198,7 @@ impl Task {
             Objective::Margin => margin::Gap::of(&band, at).map_or(0.0, |gap| gap.smaller()),
             Objective::WorstAmplitude => -clearance * amplitude::worst(&band, ranges)?,
         };
-        // An empty sum is minus 0.
-        Some(score + 0.0)
+        Some(score)
     }
 
     /// The value of the objective as it is spoken of: an amplitude is not negative.

@@ -7,6 +7,7 @@ use super::numbers::percent;
 use super::tables::{Table, table};
 use super::units::Units;
 use crate::analysis::{Area, Strip};
+use crate::band::rivals::TunedMassDamper;
 use crate::band::simulated::{Motion, Place};
 use crate::band::{Stretch, Survey};
 use crate::case::{BandOver, Case, Scales};
@@ -167,12 +168,19 @@ impl Section<'_> {
             );
             rows.push(row("Largest peak, any motion", words, "simulation"));
         }
-        for (name, rival) in
-            [("bare oscillator", survey.bare), ("best tuned mass damper", survey.damper)]
-        {
+        let damper = TunedMassDamper::best(survey.band.base.mass_ratio());
+        let tuned = format!(
+            "closed form, Den Hartog: tuned to {}, damping ratio {}",
+            self.units.frequency_text(damper.tuning),
+            percent(damper.damping_ratio)
+        );
+        for (name, rival, from) in [
+            ("bare oscillator", survey.bare, "closed form"),
+            ("tuned mass damper of the same mass", survey.damper, tuned.as_str()),
+        ] {
             let words =
                 format!("{}, on average {}", self.length(rival.largest), self.length(rival.mean));
-            rows.push(row(&format!("Largest peak, {name}"), words, "closed form"));
+            rows.push(row(&format!("Largest peak, {name}"), words, from));
         }
         rows.push(row("Smallest gap to a boundary", self.gap(), "exact orbits"));
         if !survey.simulated.is_empty() {
@@ -194,8 +202,8 @@ impl Section<'_> {
 
     fn largest_simulated(&self) -> Option<(f64, Motion)> {
         let places = self.survey.simulated.iter();
-        let motions = places.flat_map(|place| place.motions.iter().map(|one| (place.at, *one)));
-        motions.max_by(|a, b| a.1.peak.total_cmp(&b.1.peak))
+        let largest = places.filter_map(|place| Some((place.at, *place.largest()?)));
+        largest.max_by(|a, b| a.1.peak.total_cmp(&b.1.peak))
     }
 
     fn gap(&self) -> String {

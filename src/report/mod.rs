@@ -256,7 +256,10 @@ impl Report {
         }
         let document = CriteriaDocument::new(&self.name, case, judged);
         self.criteria_headline = numbers::capitalised(&document.headline());
-        self.verdict.sentences.insert(0, format!("{}.", self.criteria_headline));
+        self.verdict.headline = format!("{}. {}", self.criteria_headline, self.verdict.headline);
+        if !document.holds && self.verdict.tone == Tone::Good {
+            self.verdict.tone = Tone::Mixed;
+        }
         self.criteria_table = Some(document.table());
         self.criteria = document.criteria;
         self

@@ -7,7 +7,8 @@ use crate::report::figure::escape;
 
 /// A table for a terminal.
 pub fn text(document: &CriteriaDocument) -> String {
-    let header = ["criterion", "asked", "found", "margin", "decided by", ""].map(str::to_owned);
+    let header =
+        ["criterion", "verdict", "asked", "found", "margin", "decided by"].map(str::to_owned);
     let mut lines = vec![header];
     lines.extend(document.criteria.iter().map(cells));
     let width =
@@ -35,7 +36,7 @@ pub fn markdown(document: &CriteriaDocument) -> String {
         return text;
     }
     text.push_str(
-        "\n| criterion | asked | found | margin | decided by | |\n|---|---|---|---|---|---|\n",
+        "\n| criterion | verdict | asked | found | margin | decided by |\n|---|---|---|---|---|---|\n",
     );
     for row in &document.criteria {
         let _ = writeln!(text, "| {} |", cells(row).join(" | "));
@@ -131,10 +132,10 @@ pub fn junit(documents: &[CriteriaDocument]) -> String {
 pub(super) fn cells(row: &CriterionRow) -> [String; 6] {
     [
         subject(row.name).to_owned(),
+        format!("{} {}", if row.holds == Some(true) { '✓' } else { '✗' }, row.verdict()),
         row.words[0].clone(),
         row.found_words(),
         row.words[2].clone(),
         row.decided_by.words().to_owned(),
-        row.verdict().to_owned(),
     ]
 }

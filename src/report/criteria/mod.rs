@@ -85,11 +85,11 @@ impl CriteriaDocument {
     pub(super) fn table(&self) -> Table {
         let columns = [
             ("Criterion", false),
+            ("Verdict", false),
             ("Asked", true),
             ("Found", true),
             ("Margin", true),
             ("Decided by", false),
-            ("Verdict", false),
         ];
         table(columns, self.criteria.iter().map(formats::cells).collect())
     }
@@ -131,7 +131,8 @@ fn row(case: &Case, judged: &Judged) -> CriterionRow {
     let margin = match (judged.margin, measure) {
         (Some(margin), Measure::Share | Measure::Length | Measure::Decibel | Measure::Velocity) => {
             let sign = if margin < 0.0 { "−" } else { "+" };
-            format!("{sign}{}", number(margin.abs()))
+            // Shares differ by percentage points, not by per cent of one another.
+            format!("{sign}{}", number(margin.abs()).replace('%', "points"))
         }
         _ => String::new(),
     };

@@ -1,5 +1,6 @@
 //! The verdict: what an engineer wants to know first, in a few sentences.
 
+mod along;
 mod margins;
 mod standing;
 mod unsimulated;
@@ -37,8 +38,17 @@ pub struct Verdict {
     pub sentences: Vec<String>,
 }
 
-/// Writes the verdict of a study.
+/// Writes the verdict of a study: that of the case's band, if it has one, before that of its own
+/// excitation.
 pub fn verdict(case: &Case, study: &CaseStudy) -> Verdict {
+    let own = of_own_excitation(case, study);
+    match &study.band {
+        Some(survey) => along::verdict(case, survey, own),
+        None => own,
+    }
+}
+
+fn of_own_excitation(case: &Case, study: &CaseStudy) -> Verdict {
     let writer = Writer { case, study, lengths: LengthFormat::of(&case.scales()) };
     if !study.simulated
         && let Some(verdict) = writer.unsimulated()
