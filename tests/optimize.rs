@@ -93,7 +93,7 @@ fn of_worst_amplitudes_the_best_as_simulated_is_chosen() {
     // As the table of places has it, from starts the search never saw.
     let largest = found.confirmed.iter().filter_map(|place| place.largest).fold(0.0, f64::max);
     assert_eq!(judged, found.nominal.score.min(-largest));
-    assert!(found.confirmed.iter().all(|place| place.starts == 33), "32 and rest");
+    assert!(found.confirmed.iter().all(|place| place.starts == 32));
     // Candidates are distinct and all over the bounds.
     let clearances: Vec<f64> = found.candidates.iter().map(|one| one.choice.clearance).collect();
     for (k, one) in clearances.iter().enumerate() {

@@ -161,6 +161,10 @@ fn main_motion(old: &Value, new: &Value, physical: bool, found: &mut ReportDiffe
     }
 }
 
+/// Lists along a band whose length says nothing that its shares and criteria do not: places are added
+/// where the amplitude is largest.
+const OF_BANDS: [&str; 3] = ["band/simulated", "band/stability", "band/zones"];
+
 /// Motions, orbits, boundaries, claims that appeared or vanished.
 fn elements(old: &Leaves<'_>, new: &Leaves<'_>, found: &mut ReportDifference) {
     for (here, there, appeared) in [(old, new, false), (new, old, true)] {
@@ -173,7 +177,9 @@ fn elements(old: &Leaves<'_>, new: &Leaves<'_>, found: &mut ReportDifference) {
             let change = WordChange { what, old, new };
             if verdict.is_some() {
                 found.verdicts.push(change);
-            } else if key(&path) == "attractors" && motion::found_by_chance(element) {
+            } else if key(&path) == "attractors" && motion::found_by_chance(element)
+                || OF_BANDS.contains(&key(&path).as_str())
+            {
                 found.folded.wording.push(change);
             } else {
                 found.states.push(change);

@@ -49,8 +49,12 @@ impl CriterionChange {
 
 impl Found {
     fn of(criterion: &Value) -> Self {
+        let mut asked = criterion["asked"].as_str().unwrap_or("").to_owned();
+        if criterion["unit"] == "dB" && !asked.ends_with("dB") {
+            asked.push_str(" dB");
+        }
         Self {
-            asked: criterion["asked"].as_str().unwrap_or("").to_owned(),
+            asked,
             value: criterion["found"].as_f64(),
             error: criterion["error"].as_f64(),
             holds: criterion["holds"].as_bool(),

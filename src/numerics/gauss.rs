@@ -1,6 +1,6 @@
 //! Gauss quadrature for averages over a distribution, with any number of nodes.
 
-use nalgebra::{DMatrix, SymmetricEigen};
+use nalgebra::DMatrix;
 
 /// Nodes and weights for a standard normal number (Gauss-Hermite), ascending. The weights add up to 1;
 /// the average of a polynomial up to the degree `2 count - 1` is exact.
@@ -13,29 +13,31 @@ pub fn uniform(count: usize) -> Vec<(f64, f64)> {
     nodes(count, |k| k / (4.0 * k * k - 1.0).sqrt())
 }
 
-/// The rule of a symmetric distribution, by Golub and Welsch, "Calculation of Gauss quadrature rules",
-/// Mathematics of Computation 23 (1969): nodes are the eigenvalues of the symmetric tridiagonal matrix
-/// of the recurrence of its orthonormal polynomials, weights the squares of the first components of
-/// the eigenvectors. `beside(k)` is the k-th number beside the diagonal, from 1.
+/// The rule of a symmetric distribution. Nodes are the eigenvalues of the symmetric tridiagonal matrix of
+/// the recurrence of its orthonormal polynomials (Golub and Welsch, "Calculation of Gauss quadrature
+/// rules", Mathematics of Computation 23, 1969); weights are Christoffel's numbers, one over the sum of
+/// their squares, which are good to rounding where a component of an eigenvector is not. `beside(k)` is
+/// the k-th number beside the diagonal, from 1.
 fn nodes(count: usize, beside: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
     let recurrence = DMatrix::from_fn(count, count, |row, column| {
         if row.abs_diff(column) == 1 { beside(row.max(column) as f64) } else { 0.0 }
     });
-    let eigen = SymmetricEigen::new(recurrence);
-    let mut rule: Vec<(f64, f64)> = eigen
-        .eigenvalues
-        .iter()
-        .zip(eigen.eigenvectors.row(0).iter())
-        .map(|(node, first)| (*node, first * first))
-        .collect();
-    rule.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut found: Vec<f64> = recurrence.symmetric_eigenvalues().iter().copied().collect();
+    found.sort_by(f64::total_cmp);
+    let weight = |node: f64| {
+        let (mut before, mut here, mut sum) = (0.0, 1.0, 1.0);
+        let mut last = 0.0;
+        for k in 1..count {
+            let next = beside(k as f64);
+            (before, here) = (here, (node * here - last * before) / next);
+            last = next;
+            sum += here * here;
+        }
+        1.0 / sum
+    };
     // Rounding leaves the two sides a little apart, and the middle a little off.
-    (0..count)
-        .map(|k| {
-            let (here, there) = (rule[k], rule[count - 1 - k]);
-            (0.5 * (here.0 - there.0), 0.5 * (here.1 + there.1))
-        })
-        .collect()
+    let node = |k: usize| 0.5 * (found[k] - found[count - 1 - k]);
+    (0..count).map(|k| (node(k), weight(node(k)))).collect()
 }
 
 #[cfg(test)]
