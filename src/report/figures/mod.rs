@@ -74,16 +74,16 @@ impl<'a> Scene<'a> {
     }
 }
 
-/// All figures in reading order, the case among its boundaries first, those that the case asks for
-/// last.
+/// All figures in reading order: the response over the case's band first, if it has one, then the case
+/// among its boundaries; those that the case asks for last.
 ///
 /// # Errors
 /// [`StudyError`] where theory or simulation cannot be carried out.
 pub fn all(case: &Case, study: &CaseStudy) -> Result<Vec<Figure>, StudyError> {
     let scene = Scene::new(case, study);
     let mut figures = Vec::new();
-    figures.extend(map::figure(&scene)?);
     figures.extend(band::figure(&scene));
+    figures.extend(map::figure(&scene)?);
     figures.push(plane::figure(&scene)?);
     figures.push(manifold::figure(&scene));
     figures.extend(response::figure(&scene)?);
