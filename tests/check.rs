@@ -194,6 +194,23 @@ fn criteria_that_say_nothing_are_refused_with_what_to_write() {
     }
 }
 
+/// A count is a plain number or a bound in quotes: what is expected and what is to be written say both.
+#[test]
+fn a_count_in_quotes_is_told_both_ways_to_write_it() {
+    let text = format!("{DESIGN}[criteria]\nimpacts_per_period = \"2\"\n");
+    let error = Case::parse("x", &text).expect_err("neither a number nor a bound");
+    let problem = error.problems().next().expect("one problem");
+    assert_eq!(problem.message, "`impacts_per_period` is \"2\", which says neither >= nor <=");
+    let expected = "expected a number without quotes, or \">=\" or \"<=\" and a number, in quotes";
+    assert_eq!(problem.expected, expected);
+    let help = "write for example impacts_per_period = 2, or impacts_per_period = \">= 2\"";
+    assert_eq!(problem.help.as_deref(), Some(help));
+    for written in ["2", "\">= 2\"", "\"<= 2.5\""] {
+        let criteria = case("", &format!("impacts_per_period = {written}")).criteria;
+        assert_eq!(criteria.len(), 1, "{written}");
+    }
+}
+
 /// A case with two mistakes, one that is not there and one that holds: each format has all three, and the
 /// exit code says that not everything could be done.
 #[test]
