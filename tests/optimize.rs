@@ -496,17 +496,24 @@ fn strips_of(more: &str) -> f64 {
     band.share(&theory::zones(&band), |zone| zone.strip.is_some())
 }
 
-#[test]
-fn what_is_written_is_told_and_nothing_where_nothing_is_reached() {
+/// The command's exit code, standard output and standard error.
+fn optimize(path: &str, more: &[&str]) -> (Option<i32>, [String; 2]) {
+    let mut command = Command::cargo_bin("vinesink").expect("the program");
+    let output = command.args(["optimize", path]).args(more).output().expect("it runs");
+    let texts = [&output.stdout, &output.stderr];
+    (output.status.code(), texts.map(|bytes| String::from_utf8_lossy(bytes).into_owned()))
+}
+
+/// A folder, and the paths in it.
+fn room() -> (tempfile::TempDir, impl Fn(&str) -> String) {
     let folder = tempfile::tempdir().expect("a folder");
-    let at = |name: &str| folder.path().join(name).to_str().expect("UTF-8").to_owned();
-    let run = |path: &str, more: &[&str]| {
-        let mut command = Command::cargo_bin("vinesink").expect("the program");
-        let output = command.args(["optimize", path]).args(more).output().expect("it runs");
-        let texts =
-            [&output.stdout, &output.stderr].map(|b| String::from_utf8_lossy(b).into_owned());
-        (output.status.code(), texts)
-    };
+    let path = folder.path().to_owned();
+    (folder, move |name: &str| path.join(name).to_str().expect("UTF-8").to_owned())
+}
+
+#[test]
+fn what_is_written_is_told() {
+    let (_folder, at) = room();
     let uncertain = at("uncertain.toml");
     let text =
         reduced(0.6, 0.0077, 1.8, 4.3, [0.97, 1.03], "[uncertainty]\nclearance = \"± 0.05\"\n");
@@ -514,7 +521,7 @@ fn what_is_written_is_told_and_nothing_where_nothing_is_reached() {
     for (name, more) in [("optimum", None), ("robust optimum", Some("--robust"))] {
         let new = at(&format!("{name}.toml"));
         let arguments: Vec<&str> = ["--write", new.as_str()].into_iter().chain(more).collect();
-        let (code, [stdout, _]) = run(&uncertain, &arguments);
+        let (code, [stdout, _]) = optimize(&uncertain, &arguments);
         assert_eq!(code, Some(0));
         let clearance =
             Choice::of(&case(&fs::read_to_string(&new).expect("a case")).design).clearance;
@@ -523,13 +530,18 @@ fn what_is_written_is_told_and_nothing_where_nothing_is_reached() {
         let number = number.and_then(|rest| rest.strip_suffix(" units.")?.parse::<f64>().ok());
         assert_eq!(number, Some(clearance), "{line}");
     }
+}
+
+#[test]
+fn where_nothing_is_reached_there_is_no_optimum() {
+    let (_folder, at) = room();
     // No orbit is stable with a clearance as wide as this.
     let hopeless = at("hopeless.toml");
     let text = fs::read_to_string("cases/li2016-8p5hz-fig4a.toml").expect("a case");
     let more = "\n[optimize]\nobjective = \"margin\"\nclearance = [\"2 m\", \"3 m\"]\n";
     fs::write(&hopeless, text + more).expect("written");
     let (new, out) = (at("new.toml"), at("out"));
-    let (code, [stdout, _]) = run(&hopeless, &["--write", &new, "--out", &out]);
+    let (code, [stdout, _]) = optimize(&hopeless, &["--write", &new, "--out", &out]);
     assert_eq!(code, Some(1), "{stdout}");
     assert!(!Path::new(&new).exists());
     assert!(stdout.contains("new.toml is not written: nothing between the bounds"), "{stdout}");
@@ -540,7 +552,7 @@ fn what_is_written_is_told_and_nothing_where_nothing_is_reached() {
     let landscape = format!("{out}/hopeless/figures/optimize-landscape.svg");
     let drawing = fs::read_to_string(landscape).expect("a figure");
     assert!(!drawing.contains("optimum"), "a dot for what does not exist");
-    let (code, [stdout, stderr]) = run(&hopeless, &["--write", &new, "--format", "json"]);
+    let (code, [stdout, stderr]) = optimize(&hopeless, &["--write", &new, "--format", "json"]);
     let document: serde_json::Value = serde_json::from_str(&stdout).expect("JSON");
     assert_eq!((code, &document["optimum"]), (Some(1), &serde_json::Value::Null));
     assert_eq!(document["confirmed"], serde_json::json!([]));
