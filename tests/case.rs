@@ -195,7 +195,7 @@ fn ratios_may_be_shares() {
     refused_with(&of("\"1 mm\""), 7, "mm", message);
     let message = "`damping_ratio` is a number in quotes without %";
     let error = refused_with(&of("\"0.005\""), 7, "\"0.005\"", message);
-    says(&error, "write damping_ratio = 0.005, or damping_ratio = \"0.69 %\"");
+    says(&error, "if per cent is meant, damping_ratio = \"0.005 %\"");
     let error = refused_with(&of("true"), 7, "true", "`damping_ratio` is true or false");
     says(&error, "expected a number 0 or more without quotes, or a share such as \"0.69 %\"");
 }

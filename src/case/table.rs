@@ -174,15 +174,17 @@ impl<'t> Table<'t> {
             DeValue::String(_) => "a number in quotes without %",
             other => kind(other),
         };
-        let number = match value.get_ref() {
-            DeValue::String(text) => text.trim(),
-            _ => field.example,
+        let help = match value.get_ref() {
+            DeValue::String(text) => {
+                let number = text.trim();
+                format!("write {key} = {number}, or, if per cent is meant, {key} = \"{number} %\"")
+            }
+            _ => format!("write {}, or {key} = \"{share}\"", field.line()),
         };
         let expected = format!(
             "expected a number {} without quotes, or a share such as \"{share}\"",
             bound.words()
         );
-        let help = format!("write {key} = {number}, or {key} = \"{share}\"");
         reader.report(value.span(), format!("`{key}` is {problem}"), expected, help);
         None
     }
