@@ -1,8 +1,9 @@
 //! What a case file means, and what is said about one that is wrong.
 
 use vinesink::case::{
-    Case, CaseError, Damping, Design, Dimension, ExtraFigure, Force, Frequency, Length, LengthUnit,
-    Mass, Physical, PhysicalExcitation, Quantity, Stiffness, Tuning,
+    BandOver, Case, CaseError, Choice, Damping, Design, Dimension, ExtraFigure, Force, Frequency,
+    Length, LengthUnit, Mass, Objective, Physical, PhysicalExcitation, Quantity, Rounding,
+    Stiffness, Subject, Tuning,
 };
 use vinesink::system::Excitation;
 
@@ -166,6 +167,65 @@ fn ratios_may_replace_mass_and_damping() {
     assert_eq!(half.absorber_mass_kg, 2.084);
     let critical = 2.0 * (11470.0_f64 * 4.168).sqrt();
     assert!((half.damping_n_s_per_m / critical - 0.01).abs() < 1e-16);
+}
+
+#[test]
+fn ratios_may_be_shares() {
+    let text = with(PHYSICAL, "mass = \"32 g\"", "mass_ratio = \"3 %\"");
+    let text = with(&text, "damping = \"3.02 N s/m\"", "damping_ratio = \"0.5 %\"");
+    let plain = with(&with(&text, "\"3 %\"", "0.03"), "\"0.5 %\"", "0.005");
+    assert_eq!(physical(&text), physical(&plain));
+    let case = parsed(&text);
+    let input = case.inputs().iter().find(|input| input.name == "mass_ratio").expect("an input");
+    assert_eq!((input.value, input.unit, input.as_written.as_str()), (0.03, "1", "3 %"));
+    // Written again it stays a share.
+    let choice = Choice { mass: Some(0.2), ..Choice::of(&case.design) };
+    let again = case.rewritten("again", &text, &choice, Rounding::EXACT).expect("a case");
+    let line = again.text.lines().find(|line| line.starts_with("mass_ratio")).expect("a line");
+    let share = line.strip_prefix("mass_ratio = \"").and_then(|rest| rest.strip_suffix(" %\""));
+    let share: f64 = share.expect(line).parse().expect("a number");
+    assert!((share - 100.0 * 0.2 / 4.168).abs() < 1e-12, "{line}");
+    assert!((physical(&again.text).absorber_mass_kg - 0.2).abs() < 1e-15);
+
+    let of = |value: &str| {
+        with(PHYSICAL, "damping = \"3.02 N s/m\"", &format!("damping_ratio = {value}"))
+    };
+    refused_with(&of("\"-1 %\""), 7, "\"-1 %\"", "`damping_ratio` is -1 %");
+    let message = "`damping_ratio` is a share, but `mm` is the unit of a length";
+    refused_with(&of("\"1 mm\""), 7, "mm", message);
+    let message = "`damping_ratio` is a number in quotes without %";
+    let error = refused_with(&of("\"0.005\""), 7, "\"0.005\"", message);
+    says(&error, "if per cent is meant, damping_ratio = \"0.005 %\"");
+    let error = refused_with(&of("true"), 7, "true", "`damping_ratio` is true or false");
+    says(&error, "expected a number 0 or more without quotes, or a share such as \"0.69 %\"");
+}
+
+#[test]
+fn a_natural_frequency_may_replace_the_stiffness() {
+    let of = |lines: &str| with(PHYSICAL, "stiffness = \"11.47 kN/m\"", lines);
+    let text = of("frequency = \"8 Hz\"");
+    let omega0 = 8.0 * std::f64::consts::TAU;
+    let found = physical(&text);
+    assert!((found.stiffness_n_per_m / (4.168 * omega0 * omega0) - 1.0).abs() < 1e-15);
+    assert!((found.natural_frequency_rad_per_s() / omega0 - 1.0).abs() < 1e-15);
+    assert!((parsed(&text).system().frequency_ratio() - 1.0).abs() < 1e-15, "driven at it");
+    let per_second = physical(&of("frequency = \"50 rad/s\"")).natural_frequency_rad_per_s();
+    assert!((per_second / 50.0 - 1.0).abs() < 1e-15);
+    // A damping ratio is one of the stiffness that follows.
+    let text = with(&text, "damping = \"3.02 N s/m\"", "damping_ratio = 0.01");
+    let critical = 2.0 * 4.168 * omega0;
+    assert!((physical(&text).damping_n_s_per_m / critical - 0.01).abs() < 1e-16);
+
+    let both = of("frequency = \"8 Hz\"\nstiffness = \"11.47 kN/m\"");
+    let message = "`stiffness` and `frequency` say the same thing twice";
+    refused_with(&both, 7, "stiffness", message);
+    let message = "`stiffness` or `frequency` is missing in [oscillator]";
+    let error = refused_with(&of("# neither"), 4, "oscillator", message);
+    says(&error, "add the line stiffness = \"11.47 kN/m\"  or  frequency = \"8.35 Hz\"");
+    refused_with(&of("frequency = \"0 Hz\""), 6, "\"0 Hz\"", "`frequency` is 0 Hz");
+    refused_with(&of("frequency = 8"), 6, "8", "`frequency` has no unit");
+    let message = "a natural frequency with this mass gives a stiffness of inf N/m";
+    refused_with(&of("frequency = \"1e200 Hz\""), 6, "\"1e200 Hz\"", message);
 }
 
 #[test]
@@ -658,6 +718,49 @@ fn the_starting_case_parses_under_any_title() {
         assert_eq!(case.title, title);
     }
     assert!(Case::starting_text("x").starts_with("#:schema vinesink.schema.json\n"));
+}
+
+/// A comment that holds a line of a case, without its sign.
+fn uncommented(line: &str) -> Option<&str> {
+    let rest = line.strip_prefix("# ")?;
+    let key = rest.split_once(" = ").map_or("", |(key, _)| key);
+    let is_key = !key.is_empty() && key.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
+    (rest.starts_with('[') || rest.starts_with(' ') || is_key).then_some(rest)
+}
+
+/// Every optional table and every key of it can be found in the starting case, and nothing else that is
+/// there has to be changed to use one.
+#[test]
+fn the_starting_case_shows_every_optional_key_and_parses_without_its_comment_signs() {
+    let text = Case::starting_text("x");
+    let plain = parsed(&text);
+    assert!(plain.band.is_none() && plain.criteria.is_empty() && !plain.uncertainty.is_any());
+    let lines: Vec<&str> = text.lines().map(|line| uncommented(line).unwrap_or(line)).collect();
+    let full = lines.join("\n");
+    let case = parsed(&full);
+    assert_eq!(case.criteria.len(), Subject::ALL.len());
+    assert_eq!(case.uncertainty.count(), 4);
+    let band = case.band.expect("a band");
+    assert_eq!((band.over, band.spectrum.len()), (BandOver::Frequency, 2));
+    let optimize = case.optimize;
+    assert!(
+        optimize.clearance.is_some() && optimize.restitution.is_some() && optimize.mass.is_some()
+    );
+    // Whatever the schema has, the text has; what excludes each other stands behind its alternative.
+    let schema = vinesink::case::schema();
+    for table in ["simulation", "report", "accuracy", "band", "criteria", "optimize", "uncertainty"]
+    {
+        let (_, own) = full.split_once(&format!("\n[{table}]\n")).expect(table);
+        let own = own.split("\n[").next().unwrap_or(own);
+        let keys = schema["properties"][table]["properties"].as_object().expect("keys");
+        for key in keys.keys() {
+            assert!(own.contains(&format!("{key} = ")), "{key} is not in [{table}]");
+        }
+    }
+    for objective in Objective::ALL {
+        assert!(full.contains(&format!("\"{}\"", objective.name())), "{objective:?}");
+    }
+    assert!(full.contains("of = \"frequency\"") && full.contains("or \"amplitude\""));
 }
 
 #[test]

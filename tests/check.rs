@@ -228,3 +228,75 @@ fn criteria_that_say_nothing_are_refused_with_what_to_write() {
         assert!(said.contains(message), "{band}: {said}");
     }
 }
+
+/// A count is a plain number or a bound in quotes: what is expected and what is to be written say both.
+#[test]
+fn a_count_in_quotes_is_told_both_ways_to_write_it() {
+    let text = format!("{DESIGN}[criteria]\nimpacts_per_period = \"2\"\n");
+    let error = Case::parse("x", &text).expect_err("neither a number nor a bound");
+    let problem = error.problems().next().expect("one problem");
+    assert_eq!(problem.message, "`impacts_per_period` is \"2\", which says neither >= nor <=");
+    let expected = "expected a number without quotes, or \">=\" or \"<=\" and a number, in quotes";
+    assert_eq!(problem.expected, expected);
+    let help = "write for example impacts_per_period = 2, or impacts_per_period = \">= 2\"";
+    assert_eq!(problem.help.as_deref(), Some(help));
+    for written in ["2", "\">= 2\"", "\"<= 2.5\""] {
+        let criteria = case("", &format!("impacts_per_period = {written}")).criteria;
+        assert_eq!(criteria.len(), 1, "{written}");
+    }
+}
+
+/// A case with two mistakes, one that is not there and one that holds: each format has all three, and the
+/// exit code says that not everything could be done.
+#[test]
+fn a_case_that_cannot_be_read_does_not_keep_the_others() {
+    let (folder, good) = written("stable_share = \">= 1 %\"");
+    let [bad, missing] = ["bad.toml", "missing.toml"].map(|name| folder.path().join(name));
+    let spoilt = DESIGN.replace("\"20 mm\"", "\"20 kg\"").replace("= 0.6", "= 1.6");
+    std::fs::write(&bad, spoilt).expect("written");
+    let check = |format: &str| {
+        let mut command = Command::cargo_bin("vinesink").expect("built");
+        command.args(["check", "--format", format]).arg(&bad).arg(&missing).arg(&good);
+        let output = command.output().expect("it runs");
+        assert_eq!(output.status.code(), Some(2), "{format}");
+        let [stdout, stderr] =
+            [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).expect("text"));
+        assert!(
+            stderr.contains("bad.toml has 2 errors") && stderr.contains("missing.toml"),
+            "{stderr}"
+        );
+        stdout
+    };
+    let text = check("text");
+    let bad_lines =
+        "bad: could not be checked\n  line 9: `clearance` is a length, but `kg` is the unit";
+    assert!(
+        text.starts_with(bad_lines) && text.contains("\n  line 10: `restitution` is 1.6"),
+        "{text}"
+    );
+    assert!(text.contains("missing: could not be checked\n  cannot read"), "{text}");
+    assert!(text.contains("case: its one criterion holds"), "{text}");
+    let markdown = check("markdown");
+    assert!(markdown.contains("**bad**: could not be checked\n\n- line 9: "), "{markdown}");
+    assert!(markdown.contains("**case**: its one criterion holds"), "{markdown}");
+    let document: serde_json::Value = serde_json::from_str(&check("json")).expect("JSON");
+    assert_eq!(document["holds"], false);
+    let cases = document["cases"].as_array().expect("cases");
+    assert_eq!(cases[0]["case"], "bad");
+    assert!(
+        cases[0]["error"].as_str().is_some_and(|error| error.contains("2 errors")),
+        "{document}"
+    );
+    assert_eq!(cases[0]["problems"][1]["line"], 10);
+    assert!(cases[1]["error"].is_string() && cases[1]["problems"] == serde_json::json!([]));
+    assert_eq!((&cases[2]["holds"], &cases[2]["error"]), (&true.into(), &serde_json::Value::Null));
+    let github = check("github");
+    let lines: Vec<&str> = github.lines().collect();
+    assert_eq!(lines.len(), 3, "{github}");
+    assert!(lines[0].starts_with("::error file=") && lines[0].contains("bad.toml,line=9,col="));
+    assert!(lines[1].contains("bad.toml,line=10,col=") && lines[2].contains("missing.toml,title="));
+    let junit = check("junit");
+    assert!(junit.contains("tests=\"3\" failures=\"0\" errors=\"2\""), "{junit}");
+    let error = "<testcase classname=\"bad\" name=\"bad\"><error message=";
+    assert!(junit.contains(error) && junit.contains("<testcase classname=\"case\""), "{junit}");
+}

@@ -2,14 +2,17 @@
 //! bounds, and what is refused.
 
 use std::fs;
+use std::path::Path;
 
 use assert_cmd::Command;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::{RngCore, SeedableRng};
+use vinesink::band::theory;
 use vinesink::case::{Case, Choice, Distribution, Objective, Uncertainty};
 use vinesink::optimize::claim::Claim;
 use vinesink::optimize::{Deviation, InTurn, Optimization, Spread, Task};
 use vinesink::orbits::symmetric_orbits;
+use vinesink::report::optimize::OptimizePage;
 
 const NOTHING: Deviation =
     Deviation { clearance: 0.0, restitution: 0.0, frequency_ratio: 0.0, amplitude: 0.0 };
@@ -436,6 +439,124 @@ fn the_command_writes_a_page_and_a_case() {
     let robust = run(&["--robust", "--write", other.to_str().expect("UTF-8")]);
     assert_eq!(robust.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&robust.stderr).contains("[uncertainty]"));
+}
+
+/// The sentences of the page.
+fn sentences(text: &str, objective: Option<Objective>) -> Vec<String> {
+    let case = case(text);
+    OptimizePage::new("a case", &case, &optimized(text, objective), &[]).sentences
+}
+
+/// 12 kg at 8 Hz with 3 % of mass: at 20 mm 79 % of the band lie in Z3, all of it in strip A2.
+#[test]
+fn shares_in_strips_and_winners_on_bounds_are_told() {
+    let frame = |bounds: &str| {
+        format!(
+            "title = \"t\"\nsource = \"s\"\n[oscillator]\nmass = \"12 kg\"\nstiffness = \"30.32 kN/m\"\n\
+             damping_ratio = 0.005\n[absorber]\nmass_ratio = 0.03\nclearance = \"20 mm\"\nrestitution = 0.6\n\
+             [excitation]\nkind = \"base-displacement\"\namplitude = \"0.3 mm\"\nfrequency = \"8 Hz\"\n\
+             [band]\nfrom = \"7.8 Hz\"\nto = \"8.4 Hz\"\n[optimize]\n{bounds}"
+        )
+    };
+    let has = |sentences: &[String], words: &str| {
+        sentences.iter().any(|sentence| sentence.contains(words))
+    };
+    let told = sentences(&frame("clearance = [\"19.9 mm\", \"20 mm\"]\n"), None);
+    assert!(has(
+        &told,
+        "Of the band, the optimum has 79.4 % in strip A2 (beats: no steady 1:1 motion)."
+    ));
+    assert!(!has(&told, "bound"), "{told:?}");
+    let told = sentences(&band_text("[optimize]\nclearance = [\"5 mm\", \"40 mm\"]\n"), None);
+    assert!(!has(&told, "bound"), "{told:?}");
+    let strips = strips_of("[optimize]\nclearance = [\"5 mm\", \"40 mm\"]\n");
+    assert_eq!(has(&told, "in strip"), strips > 0.01, "{strips} {told:?}");
+    // The best clearance, 17.9 mm, is out of bounds.
+    let told = sentences(&band_text("[optimize]\nclearance = [\"12 mm\", \"14 mm\"]\n"), None);
+    let sentence =
+        "The optimum lies on a bound: clearance 14.00 mm; wider bounds may hold a better one.";
+    assert!(has(&told, sentence), "{told:?}");
+    let more = "clearance = [\"12 mm\", \"14 mm\"]\nmass = [\"30 g\", \"32.01 g\"]\n";
+    let text = band_text(&format!("[optimize]\n{more}"));
+    let (told, found) = (sentences(&text, None), optimized(&text, None).nominal.choice);
+    let mass = found.mass.expect("a physical case");
+    for (name, value, ends) in
+        [("clearance", found.clearance, [0.012, 0.014]), ("mass", mass, [0.03, 0.03201])]
+    {
+        let on_end = ends.iter().any(|end| (value / end - 1.0).abs() < 1e-3);
+        let told = told.iter().any(|one| one.contains("on a bound") && one.contains(name));
+        assert_eq!(told, on_end, "{name} {value}");
+    }
+}
+
+/// Share of the shipped band that lies in strips with the best clearance.
+fn strips_of(more: &str) -> f64 {
+    let found = optimized(&band_text(more), None);
+    let (band, _) = found.task.band_of(&found.nominal.choice, &NOTHING).expect("a system");
+    band.share(&theory::zones(&band), |zone| zone.strip.is_some())
+}
+
+/// The command's exit code, standard output and standard error.
+fn optimize(path: &str, more: &[&str]) -> (Option<i32>, [String; 2]) {
+    let mut command = Command::cargo_bin("vinesink").expect("the program");
+    let output = command.args(["optimize", path]).args(more).output().expect("it runs");
+    let texts = [&output.stdout, &output.stderr];
+    (output.status.code(), texts.map(|bytes| String::from_utf8_lossy(bytes).into_owned()))
+}
+
+/// A folder, and the paths in it.
+fn room() -> (tempfile::TempDir, impl Fn(&str) -> String) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().to_owned();
+    (folder, move |name: &str| path.join(name).to_str().expect("UTF-8").to_owned())
+}
+
+#[test]
+fn what_is_written_is_told() {
+    let (_folder, at) = room();
+    let uncertain = at("uncertain.toml");
+    let text =
+        reduced(0.6, 0.0077, 1.8, 4.3, [0.97, 1.03], "[uncertainty]\nclearance = \"± 0.05\"\n");
+    fs::write(&uncertain, &text).expect("written");
+    for (name, more) in [("optimum", None), ("robust optimum", Some("--robust"))] {
+        let new = at(&format!("{name}.toml"));
+        let arguments: Vec<&str> = ["--write", new.as_str()].into_iter().chain(more).collect();
+        let (code, [stdout, _]) = optimize(&uncertain, &arguments);
+        assert_eq!(code, Some(0));
+        let clearance =
+            Choice::of(&case(&fs::read_to_string(&new).expect("a case")).design).clearance;
+        let line = stdout.lines().last().expect("a line");
+        let number = line.strip_prefix(&format!("{new} has the {name}, clearance "));
+        let number = number.and_then(|rest| rest.strip_suffix(" units.")?.parse::<f64>().ok());
+        assert_eq!(number, Some(clearance), "{line}");
+    }
+}
+
+#[test]
+fn where_nothing_is_reached_there_is_no_optimum() {
+    let (_folder, at) = room();
+    // No orbit is stable with a clearance as wide as this.
+    let hopeless = at("hopeless.toml");
+    let text = fs::read_to_string("cases/li2016-8p5hz-fig4a.toml").expect("a case");
+    let more = "\n[optimize]\nobjective = \"margin\"\nclearance = [\"2 m\", \"3 m\"]\n";
+    fs::write(&hopeless, text + more).expect("written");
+    let (new, out) = (at("new.toml"), at("out"));
+    let (code, [stdout, _]) = optimize(&hopeless, &["--write", &new, "--out", &out]);
+    assert_eq!(code, Some(1), "{stdout}");
+    assert!(!Path::new(&new).exists());
+    assert!(stdout.contains("new.toml is not written: nothing between the bounds"), "{stdout}");
+    assert!(!stdout.contains("optimum ") && !stdout.contains("From 32 starts"), "{stdout}");
+    let page = fs::read_to_string(format!("{out}/hopeless/optimize.md")).expect("the page");
+    assert!(!page.contains("| optimum") && !page.contains("## Sensitivity"), "{page}");
+    assert!(page.contains("## Is the 1:1 motion best where it disappears?"), "{page}");
+    let landscape = format!("{out}/hopeless/figures/optimize-landscape.svg");
+    let drawing = fs::read_to_string(landscape).expect("a figure");
+    assert!(!drawing.contains("optimum"), "a dot for what does not exist");
+    let (code, [stdout, stderr]) = optimize(&hopeless, &["--write", &new, "--format", "json"]);
+    let document: serde_json::Value = serde_json::from_str(&stdout).expect("JSON");
+    assert_eq!((code, &document["optimum"]), (Some(1), &serde_json::Value::Null));
+    assert_eq!(document["confirmed"], serde_json::json!([]));
+    assert!(stderr.contains("is not written"), "{stderr}");
 }
 
 /// Interrupted in the middle it ends by the signal and leaves nothing behind.

@@ -7,8 +7,8 @@ use vinesink::analysis::{Analysis, Strip};
 use vinesink::orbits::FullSystem;
 use vinesink::regimes::{FoundAttractor, Nature, Regime};
 use vinesink::study::{CaseStudy, StudyEffort, long_term_motions};
-use vinesink::system::{Parameters, System};
-use vinesink::validation::{Check, Finding, Verdict, motions};
+use vinesink::system::{Excitation, Parameters, System};
+use vinesink::validation::{Check, Finding, Verdict, motions, orbits};
 
 #[test]
 fn in_strip_a1_answers_coexist_and_close_fixed_points_are_told_apart() {
@@ -111,4 +111,29 @@ fn a_theory_that_may_be_off_by_half_of_itself_gets_no_verdict() {
         assert!(claim.tolerance.value > 0.5 && claim.tolerance.reason.contains("says nothing"));
         assert_eq!(claim.verdict, Verdict::Undecided, "{claim:?}");
     }
+}
+
+/// 3 % of mass at resonance: 1 % above the clearance at which the orbit loses stability in a supercritical
+/// Neimark–Sacker bifurcation the motion still has two symmetric impacts in every period, and yet is
+/// modulated, which is what the limit predicts.
+#[test]
+fn a_small_torus_beyond_a_limit_is_no_steady_motion() {
+    let parameters = Parameters {
+        mass_ratio: 0.03,
+        damping: 1.0 / 3.0,
+        restitution: 0.6,
+        frequency_ratio: 8.0 * std::f64::consts::TAU / (30_320.0_f64 / 12.0).sqrt(),
+        forcing_per_clearance: 0.01 / 0.02,
+        excitation: Excitation::BaseDisplacement,
+    };
+    let exact = FullSystem::of(&System::new(parameters).expect("valid"));
+    let claims = orbits::limits(&exact).expect("simulated");
+    let [limit] = claims.as_slice() else { panic!("{claims:?}") };
+    assert_eq!(limit.id, "limit-Neimark-Sacker");
+    assert_eq!(limit.predicted, Finding::Words("steady 1:1 below, not steady 1:1 above".into()));
+    let seen = "symmetric 1:1 below, modulated symmetric 1:1 above";
+    assert_eq!(
+        (&limit.observed, limit.verdict),
+        (&Finding::Words(seen.into()), Verdict::Confirmed)
+    );
 }

@@ -195,9 +195,16 @@ fn criterion(
     };
     let expected = match subject.measure() {
         Measure::Flag => "expected true or false".to_owned(),
+        Measure::Count => {
+            "expected a number without quotes, or \">=\" or \"<=\" and a number, in quotes"
+                .to_owned()
+        }
         _ => "expected \">=\" or \"<=\", and a value with its unit, in quotes".to_owned(),
     };
-    let help = format!("write for example {key} = {}", example(subject, design));
+    let mut help = format!("write for example {key} = {}", example(subject, design));
+    if subject.measure() == Measure::Count {
+        help += &format!(", or {key} = \">= {}\"", example(subject, design));
+    }
     reader.report(value.span(), problem, expected, help);
     None
 }

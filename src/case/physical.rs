@@ -1,5 +1,7 @@
 //! The tables `[oscillator]`, `[absorber]` and `[excitation]`: a design in physical units.
 
+use std::f64::consts::TAU;
+
 use libm::sqrt;
 
 use super::quantity::{
@@ -70,12 +72,14 @@ fn critical_damping(stiffness: f64, mass: f64) -> f64 {
 }
 
 pub(super) const TABLES: [&str; 3] = ["oscillator", "absorber", "excitation"];
-pub(super) const OSCILLATOR: &[&str] = &["mass", "stiffness", "damping", "damping_ratio"];
+pub(super) const OSCILLATOR: &[&str] =
+    &["mass", "stiffness", "frequency", "damping", "damping_ratio"];
 pub(super) const ABSORBER: &[&str] = &["mass", "mass_ratio", "clearance", "restitution"];
 pub(super) const EXCITATION: &[&str] = &["kind", "amplitude", "frequency"];
 
 const MASS: Field = Field::new("mass", "m_1", Bound::Positive, "\"4.168 kg\"");
 const STIFFNESS: Field = Field::new("stiffness", "k_1", Bound::Positive, "\"11.47 kN/m\"");
+const NATURAL: Field = Field::new("frequency", "f_0", Bound::Positive, "\"8.35 Hz\"");
 const DAMPING: Field = Field::new("damping", "c_1", Bound::NotNegative, "\"3.02 N s/m\"");
 const DAMPING_RATIO: Field = Field::new("damping_ratio", r"\zeta_1", Bound::NotNegative, "0.0069");
 const ABSORBER_MASS: Field = Field::new("mass", "m_2", Bound::Positive, "\"32 g\"");
@@ -136,13 +140,37 @@ struct Oscillator {
 impl Oscillator {
     fn read(reader: &mut Reader, table: &Table) -> Option<Self> {
         let mass = table.quantity::<Mass>(reader, MASS);
-        let stiffness = table.quantity::<Stiffness>(reader, STIFFNESS);
+        let stiffness = match table.either(reader, STIFFNESS, NATURAL) {
+            Some("stiffness") => table.quantity::<Stiffness>(reader, STIFFNESS),
+            Some(_) => {
+                let frequency = table.quantity::<Frequency>(reader, NATURAL);
+                frequency.zip(mass).and_then(|both| stiffness_of(reader, table, both))
+            }
+            None => None,
+        };
         let damping = match table.either(reader, DAMPING, DAMPING_RATIO)? {
             "damping" => table.quantity::<Damping>(reader, DAMPING)?,
-            _ => table.number(reader, DAMPING_RATIO)? * critical_damping(stiffness?, mass?),
+            _ => {
+                table.ratio(reader, DAMPING_RATIO, "0.69 %")? * critical_damping(stiffness?, mass?)
+            }
         };
         Some(Self { mass: mass?, stiffness: stiffness?, damping })
     }
+}
+
+/// `k1` in N/m of a natural frequency in Hz and a mass in kg, each valid by itself.
+fn stiffness_of(reader: &mut Reader, table: &Table, (frequency, mass): (f64, f64)) -> Option<f64> {
+    let omega0 = TAU * frequency;
+    let stiffness = mass * omega0 * omega0;
+    if stiffness.is_finite() && stiffness > 0.0 {
+        return Some(stiffness);
+    }
+    let message =
+        format!("a natural frequency with this mass gives a stiffness of {stiffness} N/m");
+    let help = "check the units of `frequency` and `mass`";
+    let expected = "expected a stiffness above 0 that a number can hold";
+    reader.report(table.span_of_value(NATURAL.key), message, expected, help);
+    None
 }
 
 struct Absorber {
@@ -156,7 +184,7 @@ impl Absorber {
         let mass = match table.either(reader, ABSORBER_MASS, MASS_RATIO) {
             Some("mass") => table.quantity::<Mass>(reader, ABSORBER_MASS),
             Some(_) => {
-                let ratio = table.number(reader, MASS_RATIO);
+                let ratio = table.ratio(reader, MASS_RATIO, "0.77 %");
                 ratio.zip(oscillator).map(|(ratio, oscillator)| ratio * oscillator.mass)
             }
             None => None,

@@ -2,7 +2,7 @@
 
 use toml_edit::{DocumentMut, TableLike, Value};
 
-use super::quantity::{Dimension, Length, Mass, Quantity};
+use super::quantity::{Dimension, Length, Mass, Quantity, Share};
 use super::{Case, CaseError, Choice, Design};
 
 /// Why a case file cannot be rewritten.
@@ -63,7 +63,8 @@ fn rounded(value: f64, step: Step) -> f64 {
 
 /// A number in the unit in which `as_written` gives its own.
 fn written<D: Dimension>(si: f64, as_written: &str, step: Step) -> String {
-    let number = as_written.trim().find(|c: char| c.is_alphabetic() && !matches!(c, 'e' | 'E'));
+    let begins = |c: char| c == '%' || c.is_alphabetic() && !matches!(c, 'e' | 'E');
+    let number = as_written.trim().find(begins);
     let unit = number.map_or(D::SI, |at| as_written.trim()[at..].trim());
     let one = Quantity::<D>::parse(&format!("1 {unit}")).map_or(1.0, Quantity::si);
     format!("{} {unit}", rounded(si / one, step))
@@ -114,8 +115,13 @@ impl Case {
                 let value = written::<Mass>(mass, unit_of("mass"), step);
                 set(&mut document, table, "mass", value.into())?;
             } else {
-                let value = rounded(mass / physical.mass_kg, step);
-                set(&mut document, table, "mass_ratio", value.into())?;
+                let (ratio, as_written) = (mass / physical.mass_kg, unit_of("mass_ratio"));
+                let value = if as_written.ends_with('%') {
+                    written::<Share>(ratio, as_written, step).into()
+                } else {
+                    rounded(ratio, step).into()
+                };
+                set(&mut document, table, "mass_ratio", value)?;
             }
         }
         let text = document.to_string();

@@ -15,7 +15,9 @@ use super::accuracy::AccuracyTable;
 use super::band::BandTable;
 use super::criteria::CriteriaTable;
 use super::optimize::OptimizeTable;
-use super::quantity::{Damping, Dimension, Force, Frequency, Length, Mass, Quantity, Stiffness};
+use super::quantity::{
+    Damping, Dimension, Force, Frequency, Length, Mass, Quantity, Share, Stiffness,
+};
 use super::report::ReportTable;
 use super::simulation::SimulationTable;
 use super::uncertainty::UncertaintyTable;
@@ -57,17 +59,20 @@ struct CaseFile {
 
 /// The linear oscillator whose vibration is to be reduced.
 #[derive(JsonSchema)]
-#[schemars(deny_unknown_fields, extend("oneOf" = one_of("damping", "damping_ratio")))]
+#[schemars(deny_unknown_fields, extend("allOf" = stiffness_and_damping()))]
 struct OscillatorTable {
     /// m1, the oscillator's mass, above 0.
     mass: Quantity<Mass>,
-    /// k1, the stiffness between base and oscillator, above 0.
-    stiffness: Quantity<Stiffness>,
+    /// k1, the stiffness between base and oscillator, above 0; or give frequency.
+    stiffness: Option<Quantity<Stiffness>>,
+    /// f0 = sqrt(k1 / m1) / (2 pi), the natural frequency, above 0; or give stiffness.
+    #[schemars(extend("examples" = ["8.35 Hz"]))]
+    frequency: Option<Quantity<Frequency>>,
     /// c1, the viscous damping between base and oscillator, 0 or more; or give damping_ratio.
     damping: Option<Quantity<Damping>>,
     /// c1 / (2 sqrt(k1 m1)), 0 or more; or give damping.
-    #[schemars(range(min = 0.0), example = 0.0069)]
-    damping_ratio: Option<f64>,
+    #[schemars(extend("anyOf" = ratio(json!({ "minimum": 0.0 }))), example = 0.0069, example = "0.69 %")]
+    damping_ratio: Option<Value>,
 }
 
 /// The small mass that moves freely between two walls of the oscillator.
@@ -77,8 +82,8 @@ struct AbsorberTable {
     /// m2, the absorber's mass, above 0; or give mass_ratio.
     mass: Option<Quantity<Mass>>,
     /// m2 / m1, above 0; or give mass.
-    #[schemars(extend("exclusiveMinimum" = 0), example = 0.0077)]
-    mass_ratio: Option<f64>,
+    #[schemars(extend("anyOf" = ratio(json!({ "exclusiveMinimum": 0 }))), example = 0.0077, example = "0.77 %")]
+    mass_ratio: Option<Value>,
     /// b, the free distance from the middle to either wall, above 0.
     clearance: Quantity<Length>,
     /// r, the coefficient of restitution: 1 loses no energy at an impact, 0 does not rebound.
@@ -136,6 +141,20 @@ struct ReducedTable {
 
 fn one_of(first: &str, second: &str) -> Value {
     json!([{ "required": [first] }, { "required": [second] }])
+}
+
+fn stiffness_and_damping() -> Value {
+    json!([
+        { "oneOf": one_of("stiffness", "frequency") },
+        { "oneOf": one_of("damping", "damping_ratio") },
+    ])
+}
+
+/// A plain number within `bound`, or a share.
+fn ratio(bound: Value) -> Value {
+    let mut number = bound;
+    number["type"] = "number".into();
+    json!([number, { "type": "string", "pattern": pattern::<Share>() }])
 }
 
 fn one_design() -> Value {

@@ -7,7 +7,7 @@ use toml::de::{DeString, DeTable, DeValue};
 
 use super::error::Problem;
 use super::inputs::Input;
-use super::quantity::{Dimension, Quantity};
+use super::quantity::{Dimension, Quantity, Share};
 use super::reader::{Field, Reader};
 
 /// One table of the file; `name` is empty for the top level.
@@ -162,7 +162,35 @@ impl<'t> Table<'t> {
         None
     }
 
-    /// The same, or as text behind a sign that takes up the first `sign` bytes of it, if it takes up any.
+    /// A ratio that must be there: a plain number, or a share with % as text, such as `share`.
+    pub fn ratio(&self, reader: &mut Reader, field: Field, share: &str) -> Option<f64> {
+        let Field { key, bound, .. } = field;
+        let value = self.required(reader, key, &field.line())?;
+        let problem = match value.get_ref() {
+            DeValue::Integer(_) | DeValue::Float(_) => return self.number(reader, field),
+            DeValue::String(text) if !text.trim().parse::<f64>().is_ok_and(f64::is_finite) => {
+                return self.quantity::<Share>(reader, field);
+            }
+            DeValue::String(_) => "a number in quotes without %",
+            other => kind(other),
+        };
+        let help = match value.get_ref() {
+            DeValue::String(text) => {
+                let number = text.trim();
+                format!("write {key} = {number}, or, if per cent is meant, {key} = \"{number} %\"")
+            }
+            _ => format!("write {}, or {key} = \"{share}\"", field.line()),
+        };
+        let expected = format!(
+            "expected a number {} without quotes, or a share such as \"{share}\"",
+            bound.words()
+        );
+        reader.report(value.span(), format!("`{key}` is {problem}"), expected, help);
+        None
+    }
+
+    /// The same as [`Table::number`], or as text behind a sign that takes up the first `sign` bytes of it,
+    /// if it takes up any.
     pub fn number_behind(&self, reader: &mut Reader, field: Field, sign: usize) -> Option<f64> {
         if sign == 0 {
             return self.number(reader, field);

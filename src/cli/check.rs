@@ -3,17 +3,21 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
-use miette::{IntoDiagnostic, Result};
+use miette::{IntoDiagnostic, Report, Result};
 use serde::Serialize;
+use vinesink::case::CaseError;
 use vinesink::criteria;
-use vinesink::report::criteria::{CriteriaDocument, annotations, junit, markdown, text};
+use vinesink::report::criteria::{
+    Checked, CriteriaDocument, FailedCase, Place, annotations, junit, markdown, text,
+};
 
 use super::{Outcome, case_file, output};
 
 /// Hold each case against its criteria
 ///
 /// A case's table [criteria] says what its design must achieve, over its [band] if it has one; each
-/// criterion is decided by the cheapest layer that can. Ends with exit code 1 if one does not hold.
+/// criterion is decided by the cheapest layer that can. Ends with exit code 1 if one does not hold, with 2
+/// if a case could not be checked, which does not keep the others from being.
 #[derive(Debug, Args)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Arguments {
@@ -56,43 +60,65 @@ enum Format {
 struct Document {
     format: &'static str,
     holds: bool,
-    cases: Vec<CriteriaDocument>,
+    cases: Vec<Checked>,
 }
 
 pub fn run(arguments: Arguments) -> Result<Outcome> {
-    let documents = arguments
-        .cases
-        .iter()
-        .map(|path| judged(path))
-        .collect::<Result<Vec<CriteriaDocument>>>()?;
-    let holds = documents.iter().all(|document| document.holds);
+    let mut failures = Vec::new();
+    let cases: Vec<Checked> =
+        arguments.cases.iter().map(|path| checked(path, &mut failures)).collect();
+    let holds = |one: &Checked| matches!(one, Checked::Judged(document) if document.holds);
+    let holds = cases.iter().all(holds);
     match arguments.format {
-        Format::Text => output::print(separated(documents.iter().map(text)))?,
-        Format::Markdown => output::print(separated(documents.iter().map(markdown)))?,
+        Format::Text => output::print(separated(cases.iter().map(text)))?,
+        Format::Markdown => output::print(separated(cases.iter().map(markdown)))?,
         Format::Github => {
-            let lines = arguments
-                .cases
-                .iter()
-                .zip(&documents)
-                .map(|(path, document)| annotations(&path.display().to_string(), document));
+            let paths = arguments.cases.iter().map(|path| path.display().to_string());
+            let lines = paths.zip(&cases).map(|(path, one)| annotations(&path, one));
             output::print(lines.collect::<String>())?;
         }
-        Format::Junit => output::print(junit(&documents))?,
+        Format::Junit => output::print(junit(&cases))?,
         Format::Json => {
-            output::print_json(&Document { format: "vinesink/check@1", holds, cases: documents })?
+            output::print_json(&Document { format: "vinesink/check@1", holds, cases })?;
         }
     }
-    Ok(if holds { Outcome::Done } else { Outcome::DoesNotHold })
+    // One bad case does not keep the others from being checked; each is said in full.
+    let last = failures.pop();
+    for error in failures {
+        output::complain(&format!("{error:?}"));
+    }
+    let outcome = if holds { Outcome::Done } else { Outcome::DoesNotHold };
+    last.map_or(Ok(outcome), Err)
 }
 
-fn judged(path: &Path) -> Result<CriteriaDocument> {
+fn checked(path: &Path, failures: &mut Vec<Report>) -> Checked {
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    match judged(path, &stem) {
+        Ok(document) => Checked::Judged(document),
+        Err(error) => {
+            let problems = error.downcast_ref::<CaseError>().into_iter().flat_map(places).collect();
+            let failed = FailedCase { case: stem.into(), error: error.to_string(), problems };
+            failures.push(error);
+            Checked::Failed(failed)
+        }
+    }
+}
+
+fn places(error: &CaseError) -> impl Iterator<Item = Place> + '_ {
+    error.problems().map(|problem| Place {
+        line: problem.line,
+        column: problem.column,
+        message: format!("{}; {}", problem.message, problem.expected),
+    })
+}
+
+fn judged(path: &Path, stem: &str) -> Result<CriteriaDocument> {
     let case = case_file::read(path)?;
     let judged = criteria::judge(&case, None).into_diagnostic()?;
     if case.criteria.is_empty() {
         output::complain(&format!("{}: there is no table [criteria]", path.display()));
     }
-    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-    Ok(CriteriaDocument::new(&stem, &case, &judged))
+    Ok(CriteriaDocument::new(stem, &case, &judged))
 }
 
 fn separated(parts: impl Iterator<Item = String>) -> String {

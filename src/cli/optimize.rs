@@ -1,6 +1,6 @@
 //! `vinesink optimize CASE`
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use miette::{IntoDiagnostic, Result, miette};
@@ -31,10 +31,10 @@ pub struct Arguments {
     /// Also write optimize.md and its figures into OUT/<name of the case file>
     #[arg(long, value_name = "OUT")]
     out: Option<PathBuf>,
-    /// Write the winning case into a new file, comments kept
+    /// Write the case with the optimum into a new file, comments kept; nothing where there is none
     #[arg(long, value_name = "FILE")]
     write: Option<PathBuf>,
-    /// Write the best in expectation instead
+    /// Write the robust optimum, the best in expectation, instead
     #[arg(long, requires = "write")]
     robust: bool,
     /// Text for people or JSON for programs
@@ -107,18 +107,34 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
         let files = render::optimize(&page, &figures).into_diagnostic()?;
         store::add_to_folder(&out.join(stem), &files)?;
     }
-    if let Some(new) = &arguments.write {
-        let written = match &found.robust_written {
-            Some(robust) if arguments.robust => robust,
-            _ => &found.written,
-        };
-        store::write_new(new, written.text.as_bytes())?;
-    }
+    let written = match &arguments.write {
+        Some(new) => Some(written(new, &case, &found, arguments.robust)?),
+        None => None,
+    };
     match arguments.format {
-        Format::Text => output::print(page::summary(&case, &found))?,
-        Format::Json => output::print_json(&page::OptimizationDocument::new(&case, &found))?,
+        Format::Text => {
+            let summary = page::summary(&case, &found);
+            output::print(written.map_or(summary.clone(), |line| format!("{summary}\n{line}\n")))?;
+        }
+        Format::Json => {
+            output::print_json(&page::OptimizationDocument::new(&case, &found))?;
+            written.into_iter().for_each(|line| output::complain(&line));
+        }
     }
     Ok(if found.reached() { Outcome::Done } else { Outcome::DoesNotHold })
+}
+
+/// Writes the absorber that was asked for, if there is one, and says what became of the file.
+fn written(new: &Path, case: &Case, found: &Optimization, robust: bool) -> Result<String> {
+    if !found.reached() {
+        return Ok(format!(
+            "{} is not written: nothing between the bounds reaches the objective.",
+            new.display()
+        ));
+    }
+    let written = found.robust_written.as_ref().filter(|_| robust).unwrap_or(&found.written);
+    store::write_new(new, written.text.as_bytes())?;
+    Ok(format!("{} has {}.", new.display(), page::written(case, found, robust)))
 }
 
 /// On all processors, with a bar for each kind of evaluation.

@@ -8,7 +8,7 @@ use super::tolerance::outcome;
 use super::{Check, Claim, Finding, Tolerance, Verdict};
 use crate::orbits::{AfterImpact, Bifurcation, FullSystem, Limit, SymmetricOrbit, Wall};
 use crate::regimes::attractor::Effort;
-use crate::regimes::{Attractor, Regime};
+use crate::regimes::{AbsorberAmplitude, Attractor, Evidence, Periodicity, Regime};
 use crate::simulation::{Nobody, Simulation, StartError};
 use crate::system::System;
 
@@ -174,18 +174,53 @@ pub fn limits(exact: &FullSystem) -> Result<Vec<Claim>, StartError> {
 #[derive(Clone, Copy)]
 struct Reached {
     regime: Regime,
+    course: Course,
     /// Whether the absorber rests on a wall in every repetition of it.
     rests: bool,
 }
 
+/// How the periods of a motion follow one another.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Course {
+    /// Each like the one before, but for what is left of the disturbance.
+    Steady,
+    /// Like those that many periods before.
+    Every(u32),
+    /// They vary and do not return, as on the torus next to a Neimark–Sacker limit.
+    Modulated,
+}
+
+impl Course {
+    /// That of a motion which was disturbed by [`SMALL`]: a modulation no deeper than that is left of the
+    /// disturbance where the motion is slow to settle.
+    fn of(evidence: &Evidence) -> Self {
+        let AbsorberAmplitude { smallest, largest, .. } = evidence.absorber_amplitude;
+        match evidence.periodicity {
+            Some(Periodicity { periods: 1, .. }) => Self::Steady,
+            Some(Periodicity { periods, .. }) => Self::Every(periods),
+            None if largest - smallest <= SMALL * (largest + smallest) => Self::Steady,
+            None => Self::Modulated,
+        }
+    }
+}
+
 impl Reached {
+    /// A regime is named by its impacts alone, which a small torus shares with the orbit inside of it.
     fn is_steady_flight(self) -> bool {
-        self.regime == Regime::TwoSymmetric && !self.rests
+        self.regime == Regime::TwoSymmetric && self.course == Course::Steady && !self.rests
     }
 
     fn words(self) -> String {
-        let rests = if self.rests && self.regime.is_two_per_period() { " with rests" } else { "" };
-        format!("{}{rests}", self.regime.short())
+        let regime = self.regime.short();
+        if !self.regime.is_two_per_period() {
+            return regime.to_owned();
+        }
+        let rests = if self.rests { " with rests" } else { "" };
+        match self.course {
+            Course::Steady => format!("{regime}{rests}"),
+            Course::Every(periods) => format!("{regime}{rests} that repeats in {periods} periods"),
+            Course::Modulated => format!("modulated {regime}{rests}"),
+        }
     }
 }
 
@@ -194,6 +229,7 @@ fn stays(system: &System, after: &AfterImpact) -> Result<Reached, StartError> {
     let found = Attractor::reach(system, simulation.state(), &EFFORT)?;
     Ok(Reached {
         regime: found.classification.regime,
+        course: Course::of(&found.classification.evidence),
         rests: found.sustained_contact.duration_tau > 0.0,
     })
 }

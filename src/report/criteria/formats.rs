@@ -2,11 +2,65 @@
 
 use std::fmt::Write as _;
 
+use serde::Serialize;
+
 use super::{CriteriaDocument, CriterionRow, subject};
 use crate::report::figure::escape;
 
+/// What became of one case of several.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Checked {
+    /// Its criteria were judged.
+    Judged(CriteriaDocument),
+    /// It could not be read, or not be judged.
+    Failed(FailedCase),
+}
+
+/// A case that could not be checked.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FailedCase {
+    /// Its name: the stem of its file.
+    pub case: String,
+    /// Why, in a sentence.
+    pub error: String,
+    /// Where its file is wrong, in the order of its lines; empty where that is not the reason.
+    pub problems: Vec<Place>,
+}
+
+/// A place at which a case file is wrong.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Place {
+    /// The line, from 1.
+    pub line: usize,
+    /// The column in characters, from 1.
+    pub column: usize,
+    /// What is wrong, and what was expected.
+    pub message: String,
+}
+
+impl FailedCase {
+    /// Every reason in a line of its own, with its place in the file where it has one.
+    fn reasons(&self) -> Vec<String> {
+        if self.problems.is_empty() {
+            return vec![self.error.clone()];
+        }
+        let reasons = self.problems.iter();
+        reasons.map(|place| format!("line {}: {}", place.line, place.message)).collect()
+    }
+}
+
+const FAILED: &str = "could not be checked";
+
 /// A table for a terminal.
-pub fn text(document: &CriteriaDocument) -> String {
+pub fn text(checked: &Checked) -> String {
+    let document = match checked {
+        Checked::Judged(document) => document,
+        Checked::Failed(failed) => {
+            let lines = failed.reasons().into_iter().map(|reason| format!("  {reason}\n"));
+            return format!("{}: {FAILED}\n{}", failed.case, lines.collect::<String>());
+        }
+    };
     let header =
         ["criterion", "verdict", "asked", "found", "margin", "decided by"].map(str::to_owned);
     let mut lines = vec![header];
@@ -30,7 +84,14 @@ pub fn text(document: &CriteriaDocument) -> String {
 }
 
 /// GitHub-flavoured Markdown.
-pub fn markdown(document: &CriteriaDocument) -> String {
+pub fn markdown(checked: &Checked) -> String {
+    let document = match checked {
+        Checked::Judged(document) => document,
+        Checked::Failed(failed) => {
+            let lines = failed.reasons().into_iter().map(|reason| format!("- {reason}\n"));
+            return format!("**{}**: {FAILED}\n\n{}", failed.case, lines.collect::<String>());
+        }
+    };
     let mut text = format!("**{}**: {}\n", document.case, document.headline());
     if document.criteria.is_empty() {
         return text;
@@ -44,20 +105,43 @@ pub fn markdown(document: &CriteriaDocument) -> String {
     text
 }
 
-/// Annotations of a GitHub workflow: an error for each criterion that does not hold, a warning for each
-/// that is too close to its limit.
-pub fn annotations(path: &str, document: &CriteriaDocument) -> String {
+/// The workflow's own escapes for what ends a message.
+fn escaped(text: &str) -> String {
+    text.replace('%', "%25").replace('\r', "%0D").replace('\n', "%0A")
+}
+
+/// The same for a property.
+fn property(text: &str) -> String {
+    escaped(text).replace(':', "%3A").replace(',', "%2C")
+}
+
+/// Annotations of a GitHub workflow: an error for each criterion that does not hold and for each place at
+/// which the case is wrong, a warning for each criterion that is too close to its limit.
+pub fn annotations(path: &str, checked: &Checked) -> String {
     let mut text = String::new();
+    let document = match checked {
+        Checked::Judged(document) => document,
+        Checked::Failed(failed) => {
+            let title = property(&format!("{}: {FAILED}", failed.case));
+            let path = property(path);
+            for Place { line, column, message } in &failed.problems {
+                let message = escaped(message);
+                let at = format!("line={line},col={column}");
+                let _ = writeln!(text, "::error file={path},{at},title={title}::{message}");
+            }
+            if failed.problems.is_empty() {
+                let _ =
+                    writeln!(text, "::error file={path},title={title}::{}", escaped(&failed.error));
+            }
+            return text;
+        }
+    };
     for row in &document.criteria {
         let level = match (row.holds, row.near_limit) {
             (Some(true), false) => continue,
             (Some(true), true) => "warning",
             _ => "error",
         };
-        // The workflow's own escapes for what ends a message or a property.
-        let escaped =
-            |text: &str| text.replace('%', "%25").replace('\r', "%0D").replace('\n', "%0A");
-        let property = |text: &str| escaped(text).replace(':', "%3A").replace(',', "%2C");
         let message = format!(
             "{} {}: asked {}, found {}, by {}",
             subject(row.name),
@@ -77,56 +161,74 @@ pub fn annotations(path: &str, document: &CriteriaDocument) -> String {
     text
 }
 
-/// A JUnit report: a suite for each case, a test for each criterion.
-pub fn junit(documents: &[CriteriaDocument]) -> String {
-    let count = |of: &dyn Fn(&CriterionRow) -> bool, documents: &[CriteriaDocument]| {
-        documents.iter().flat_map(|document| &document.criteria).filter(|row| of(row)).count()
+/// A JUnit report: a suite for each case, a test for each criterion; one that is an error for a case that
+/// could not be checked.
+pub fn junit(cases: &[Checked]) -> String {
+    let fails = |row: &&CriterionRow| row.holds != Some(true);
+    // Tests, failures and errors.
+    let counts = |one: &Checked| match one {
+        Checked::Judged(document) => {
+            let rows = &document.criteria;
+            [rows.len(), rows.iter().filter(fails).count(), 0]
+        }
+        Checked::Failed(_) => [1, 0, 1],
     };
-    let fails = |row: &CriterionRow| row.holds != Some(true);
+    let attributes = |[tests, failures, errors]: [usize; 3]| {
+        format!("tests=\"{tests}\" failures=\"{failures}\" errors=\"{errors}\"")
+    };
+    let sum = |[a, b, c]: [usize; 3], [d, e, f]: [usize; 3]| [a + d, b + e, c + f];
     let mut text = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
-    let _ = writeln!(
-        text,
-        "<testsuites name=\"vinesink check\" tests=\"{}\" failures=\"{}\">",
-        count(&|_| true, documents),
-        count(&fails, documents)
-    );
-    for document in documents {
-        let one = std::slice::from_ref(document);
-        let _ = writeln!(
-            text,
-            "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\">",
-            escape(&document.case),
-            document.criteria.len(),
-            count(&fails, one)
-        );
-        for row in &document.criteria {
-            let _ = write!(
-                text,
-                "    <testcase classname=\"{}\" name=\"{}\"",
-                escape(&document.case),
-                escape(row.name)
-            );
-            let message = format!(
-                "asked {}, found {}, decided by {}",
-                row.words[0],
-                row.found_words(),
-                row.decided_by.words()
-            );
-            if fails(row) {
+    let all = cases.iter().map(counts).fold([0; 3], sum);
+    let _ = writeln!(text, "<testsuites name=\"vinesink check\" {}>", attributes(all));
+    for one in cases {
+        let name = escape(match one {
+            Checked::Judged(document) => &document.case,
+            Checked::Failed(failed) => &failed.case,
+        });
+        let _ = writeln!(text, "  <testsuite name=\"{name}\" {}>", attributes(counts(one)));
+        match one {
+            Checked::Judged(document) => criteria(&mut text, document),
+            Checked::Failed(failed) => {
+                let (error, reasons) = (escape(&failed.error), failed.reasons().join("\n"));
                 let _ = writeln!(
                     text,
-                    "><failure message=\"{}\">{}</failure></testcase>",
-                    escape(row.verdict()),
-                    escape(&message)
+                    "    <testcase classname=\"{name}\" name=\"{name}\"><error message=\"{error}\">{}</error></testcase>",
+                    escape(&reasons)
                 );
-            } else {
-                let _ = writeln!(text, "><system-out>{}</system-out></testcase>", escape(&message));
             }
         }
         text.push_str("  </testsuite>\n");
     }
     text.push_str("</testsuites>\n");
     text
+}
+
+/// The tests of one suite.
+fn criteria(text: &mut String, document: &CriteriaDocument) {
+    for row in &document.criteria {
+        let _ = write!(
+            text,
+            "    <testcase classname=\"{}\" name=\"{}\"",
+            escape(&document.case),
+            escape(row.name)
+        );
+        let message = format!(
+            "asked {}, found {}, decided by {}",
+            row.words[0],
+            row.found_words(),
+            row.decided_by.words()
+        );
+        if row.holds != Some(true) {
+            let _ = writeln!(
+                text,
+                "><failure message=\"{}\">{}</failure></testcase>",
+                escape(row.verdict()),
+                escape(&message)
+            );
+        } else {
+            let _ = writeln!(text, "><system-out>{}</system-out></testcase>", escape(&message));
+        }
+    }
 }
 
 pub(super) fn cells(row: &CriterionRow) -> [String; 6] {

@@ -11,7 +11,7 @@ use crate::case::{Case, Measure, Relation, Subject};
 use crate::criteria::{Judged, all_hold};
 use crate::study::fidelity::Fidelity;
 
-pub use formats::{annotations, junit, markdown, text};
+pub use formats::{Checked, FailedCase, Place, annotations, junit, markdown, text};
 
 /// A criterion, judged: one line of every format. Numbers in SI units, or the case's own.
 #[derive(Debug, Clone, PartialEq, Serialize)]

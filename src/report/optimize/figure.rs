@@ -53,7 +53,7 @@ fn landscape(words: &Words) -> Figure {
         rule(end, "1:1 disappears", Style::new(Color::Vermillion, 1.4, Dash::DashDot));
     }
     let mut mark = |at: f64, score: f64, name: &str, marker: Marker, color: Color| {
-        if score.is_finite() {
+        if score.is_finite() && found.reached() {
             let [x, y] = place(at, score);
             let tooltip = format!("{name}: {}, {}", words.lengths.text(at), words.value(score));
             let point = MarkedPoint::new(x, y).with_tooltip(tooltip);
@@ -113,18 +113,17 @@ fn chart(words: &Words) -> Option<Figure> {
     };
     let name = if physical { "frequency f (Hz)" } else { "frequency ratio Ω (1)" };
     let fill = Fill::tint(Color::SkyBlue);
-    let rule = Layer::rule(
-        Rule::Horizontal(length(found.nominal.choice.clearance)),
-        Style::new(Color::Grey, 1.4, Dash::Dotted),
-    )
-    .labelled("chosen");
+    let chosen = found.reached().then(|| {
+        let at = Rule::Horizontal(length(found.nominal.choice.clearance));
+        Layer::rule(at, Style::new(Color::Grey, 1.4, Dash::Dotted)).labelled("chosen")
+    });
     let (first, last) = (found.chart.first()?, found.chart.last()?);
     let x = Axis::linear(name)
         .with_range(frequency(first.frequency_ratio), frequency(last.frequency_ratio));
-    let over_frequency = Panel::new(x, Axis::log(clearance_label(words)))
+    let mut over_frequency = Panel::new(x, Axis::log(clearance_label(words)))
         .with(Layer::between(&ends(0), &ends(1), fill).labelled("stable 1:1"))
-        .with(Layer::curve(Role::Stable, best.clone()).labelled("best"))
-        .with(rule);
+        .with(Layer::curve(Role::Stable, best.clone()).labelled("best"));
+    over_frequency.layers.extend(chosen);
     let own = found.task.design.system().ok()?.frequency_ratio();
     let here = found.chart.iter().filter(|one| one.best.is_some()).min_by(|a, b| {
         let away = |one: &crate::optimize::chart::Suited| (one.frequency_ratio - own).abs();

@@ -30,6 +30,8 @@ pub struct OptimizePage {
     pub sentences: Vec<String>,
     /// The case's absorber, the best, the robust one.
     pub absorbers: Table,
+    /// Whether there is an optimum: what follows about it has nothing to say where there is none.
+    pub reached: bool,
     /// What was looked for and between which bounds.
     pub looked_for: String,
     /// What simulation says, in a sentence.
@@ -62,6 +64,7 @@ impl OptimizePage {
             headline: words.headline(),
             sentences: words.sentences(),
             absorbers: absorbers(&words),
+            reached: found.reached(),
             looked_for: looked_for(&words),
             confirmed_words: words.confirmed(),
             confirmed: confirmed(&words),
@@ -101,8 +104,11 @@ fn absorbers(words: &Words) -> Table {
             value(one.expected),
         ]
     };
-    let mut rows = vec![row("the case", &found.own), row("optimum", &found.nominal)];
-    rows.extend(found.robust.iter().map(|robust| row("robust optimum", robust)));
+    let mut rows = vec![row("the case", &found.own)];
+    if found.reached() {
+        rows.push(row("optimum", &found.nominal));
+        rows.extend(found.robust.iter().map(|robust| row("robust optimum", robust)));
+    }
     let columns = [
         ("Absorber", false),
         ("Clearance", true),
@@ -216,11 +222,24 @@ pub fn summary(case: &Case, found: &Optimization) -> String {
         let values: String = values.iter().map(|value| format!("{value:>14}")).collect();
         let _ = writeln!(text, "{name:16}{values}");
     }
-    let _ = writeln!(text, "\n{}", words.confirmed());
+    let _ = writeln!(text);
+    if found.reached() {
+        let _ = writeln!(text, "{}", words.confirmed());
+    }
     for sentence in words.claim() {
         let _ = writeln!(text, "{sentence}");
     }
     text
+}
+
+/// Which absorber is written: the best, or the best in expectation where `robust` and something is
+/// uncertain.
+pub fn written(case: &Case, found: &Optimization, robust: bool) -> String {
+    let words = Words::new(case, found);
+    match &found.robust {
+        Some(best) if robust => format!("the robust optimum, {}", words.absorber(&best.choice)),
+        _ => format!("the optimum, {}", words.absorber(&found.nominal.choice)),
+    }
 }
 
 /// `vinesink/optimization@1`. Lengths in metres or the case's own unit; objectives as they are spoken
@@ -235,7 +254,8 @@ pub struct OptimizationDocument {
     uncertainty: Uncertainty,
     reached: bool,
     own: ChosenDocument,
-    optimum: ChosenDocument,
+    /// None where nothing reaches the objective, and nothing is said of it then.
+    optimum: Option<ChosenDocument>,
     robust: Option<ChosenDocument>,
     /// Pairs of clearance and objective.
     landscape: Vec<(f64, Option<f64>)>,
@@ -282,6 +302,8 @@ impl OptimizationDocument {
             expected: one.expected.and_then(value),
             plateau: one.plateau,
         };
+        let reached = found.reached();
+        let of_best = reached.then_some(found).into_iter();
         let pairs =
             |points: &[(f64, f64)]| points.iter().map(|(at, score)| (*at, value(*score))).collect();
         let spoken = |one: &Sensitivity| Sensitivity {
@@ -300,15 +322,18 @@ impl OptimizationDocument {
             objective: found.task.objective.name(),
             bounds: found.task.bounds.clone(),
             uncertainty: found.task.uncertainty,
-            reached: found.reached(),
+            reached,
             own: chosen(&found.own),
-            optimum: chosen(&found.nominal),
-            robust: found.robust.as_ref().map(chosen),
+            optimum: reached.then(|| chosen(&found.nominal)),
+            robust: found.robust.as_ref().filter(|_| reached).map(chosen),
             landscape: pairs(&found.landscape),
             robust_landscape: pairs(&found.robust_landscape),
-            sensitivities: found.sensitivities.iter().map(spoken).collect(),
+            sensitivities: of_best
+                .clone()
+                .flat_map(|best| best.sensitivities.iter().map(spoken))
+                .collect(),
             candidates: found.candidates.iter().map(of_candidate).collect(),
-            confirmed: found.confirmed.clone(),
+            confirmed: of_best.flat_map(|best| best.confirmed.clone()).collect(),
             claim: found.claim.map(|claim| ClaimDocument {
                 claim,
                 distance: claim.distance(),

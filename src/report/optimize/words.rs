@@ -1,16 +1,23 @@
 //! What is said about an optimisation.
 
-use crate::case::{BandOver, Case, Objective, Scales};
-use crate::optimize::Optimization;
+use crate::analysis::Strip;
+use crate::band::theory;
+use crate::case::{BandOver, Case, Choice, Objective, Scales};
 use crate::optimize::claim::Claim;
 use crate::optimize::confirm::largest;
-use crate::report::numbers::{LengthFormat, fixed, percent, signed_percent};
+use crate::optimize::task::value_of;
+use crate::optimize::{Bounds, Deviation, Optimization, Variable};
+use crate::report::numbers::{LengthFormat, fixed, percent, signed_percent, significant};
 use crate::report::units::Units;
 
 /// Digits of a clearance: as it is written.
 const DIGITS: usize = 4;
 /// Simulated amplitude over the promised one from which on the reader is told.
 const SURPRISE: f64 = 1.02;
+/// Relative distance from a bound within which a value lies on it: it may have been rounded.
+const ON_BOUND: f64 = 1e-3;
+/// Share of a band in strips from which on the reader is told.
+const STRIPS: f64 = 0.01;
 
 /// An optimisation with what turns its numbers into text.
 pub(super) struct Words<'a> {
@@ -113,20 +120,18 @@ impl<'a> Words<'a> {
     pub fn sentences(&self) -> Vec<String> {
         let best = &self.found.nominal;
         let mut sentences = vec![self.against_own()];
+        if !self.found.reached() {
+            return sentences;
+        }
         let [low, high] = best.plateau;
-        if self.found.reached() && high > low * 1.001 {
+        if high > low * 1.001 {
             let [low, high] = [low, high].map(|end| self.lengths.text(end));
             sentences.push(format!(
                 "Clearances from {low} to {high} are as good; the middle of them is chosen."
             ));
         }
-        let bounds = self.found.task.bounds[0];
-        let near = |end: f64| (best.choice.clearance / end - 1.0).abs() < 1e-3;
-        if near(bounds.from) || near(bounds.to) {
-            sentences.push(
-                "It lies at a bound: a wider range of clearances may hold a better one.".to_owned(),
-            );
-        }
+        sentences.extend(self.strips());
+        sentences.extend(self.at_bounds());
         if let Some(robust) = &self.found.robust {
             let expected = |score: Option<f64>| self.value(score.unwrap_or(f64::NAN));
             sentences.push(format!(
@@ -145,6 +150,85 @@ impl<'a> Words<'a> {
         sentences.extend(self.dropped());
         sentences.extend(self.contradictions());
         sentences
+    }
+
+    /// A variable of an absorber, or a bound of it, with its name.
+    fn variable(&self, variable: Variable, value: f64) -> String {
+        match variable {
+            Variable::Clearance => format!("clearance {}", self.length(value)),
+            Variable::Restitution => format!("restitution {}", significant(value, 4)),
+            Variable::Mass => format!("mass {} g", significant(1e3 * value, 4)),
+        }
+    }
+
+    /// How much of the share in Z3 is in strips, where the motion is not, or not always, a steady 1:1 one.
+    fn strips(&self) -> Option<String> {
+        let task = &self.found.task;
+        if task.objective != Objective::Z3Share {
+            return None;
+        }
+        let (band, _) = task.band_of(&self.found.nominal.choice, &Deviation::default())?;
+        let zones = theory::zones(&band);
+        let share = |strip| band.share(&zones, |zone| zone.is_z3() && zone.strip == Some(strip));
+        let strips = [
+            ("A1 (hysteresis: the start decides which motion it is)", share(Strip::A1)),
+            ("A2 (beats: no steady 1:1 motion)", share(Strip::A2)),
+        ];
+        if strips.iter().map(|(_, share)| share).sum::<f64>() <= STRIPS {
+            return None;
+        }
+        let there = strips.iter().filter(|(_, share)| *share > 0.0);
+        let Some(_) = &task.band else {
+            let names: Vec<&str> = there.map(|(name, _)| *name).collect();
+            return Some(format!(
+                "With the optimum the case lies in strip {}.",
+                names.join(" and ")
+            ));
+        };
+        let there: Vec<String> =
+            there.map(|(name, share)| format!("{} in strip {name}", self.value(*share))).collect();
+        Some(format!("Of the band, the optimum has {}.", there.join(" and ")))
+    }
+
+    /// On which bounds the winners lie, but for those that no restitution can pass.
+    fn at_bounds(&self) -> Option<String> {
+        let on = |choice: &Choice| -> Vec<String> {
+            let ends = self.found.task.bounds.iter().filter_map(|bounds| {
+                let Bounds { variable, from, to } = *bounds;
+                let value = value_of(variable, choice);
+                let passable =
+                    |end: &f64| variable != Variable::Restitution || (*end > 0.0 && *end < 1.0);
+                let near = |end: &f64| (value - end).abs() <= ON_BOUND * end;
+                let end = [from, to].into_iter().filter(passable).find(near)?;
+                Some(self.variable(variable, end))
+            });
+            ends.collect()
+        };
+        let best = on(&self.found.nominal.choice);
+        let robust = self.found.robust.as_ref().map_or_else(Vec::new, |robust| on(&robust.choice));
+        let joined = |ends: &[String]| ends.join(" and ");
+        let which = match (best.is_empty(), robust.is_empty()) {
+            (true, true) => return None,
+            (false, false) if best == robust => {
+                format!("The optimum and the robust one lie on a bound: {}", joined(&best))
+            }
+            (false, false) => format!(
+                "The optimum lies on a bound ({}), and so does the robust one ({})",
+                joined(&best),
+                joined(&robust)
+            ),
+            (false, true) => format!("The optimum lies on a bound: {}", joined(&best)),
+            (true, false) => format!("The robust optimum lies on a bound: {}", joined(&robust)),
+        };
+        Some(format!("{which}; wider bounds may hold a better one."))
+    }
+
+    /// An absorber, by what of it is chosen.
+    pub fn absorber(&self, choice: &Choice) -> String {
+        let bounds = self.found.task.bounds.iter();
+        let values =
+            bounds.map(|bounds| self.variable(bounds.variable, value_of(bounds.variable, choice)));
+        values.collect::<Vec<_>>().join(", ")
     }
 
     /// Which candidate of the search was dropped, and why; `None` where none was simulated.
