@@ -12,7 +12,7 @@ use vinesink::store;
 
 use super::case_file::{CaseArgument, Format};
 use super::progress::Progress;
-use super::{Outcome, output};
+use super::{Outcome, index, output};
 
 /// Choose the clearance, and on request restitution and mass, that serve a case best
 ///
@@ -106,6 +106,7 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
         let page = page::OptimizePage::new(&name, &case, &found, &figures);
         let files = render::optimize(&page, &figures).into_diagnostic()?;
         store::add_to_folder(&out.join(stem), &files)?;
+        index::refresh(out)?;
     }
     let written = match &arguments.write {
         Some(new) => Some(written(new, &case, &found, arguments.robust)?),
