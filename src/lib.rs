@@ -18,6 +18,7 @@ pub mod report;
 pub mod simulation;
 pub mod store;
 pub mod study;
+pub mod sweep;
 pub mod symbolic;
 pub mod system;
 pub mod tally;

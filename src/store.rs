@@ -8,11 +8,13 @@ use tempfile::{Builder, NamedTempFile, TempDir};
 
 mod git;
 mod reports;
+mod shards;
 
 use reports::FIGURES;
 
 pub use git::{GitError, read_reports_at};
 pub use reports::{StoredReport, StoredReports, read_reports};
+pub use shards::{Growing, Shards};
 
 /// What could not be done with a file or folder, and why.
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]

@@ -6,10 +6,10 @@ use serde::Serialize;
 use super::{Band, Stretch, exact};
 use crate::case::BandOver;
 use crate::orbits::SymmetricOrbit;
-use crate::regimes::periodicity;
 use crate::regimes::starts::StartBox;
+use crate::regimes::{self, Regime, Thresholds, periodicity};
 use crate::simulation::{
-    Impact, Nobody, Observer, Segment, Simulation, StartError, Statistics, Stop, batch,
+    Impact, ImpactLog, Nobody, Observer, Segment, Simulation, StartError, Statistics, Stop, batch,
 };
 use crate::system::{State, System};
 
@@ -42,6 +42,9 @@ const AS_EXACT: f64 = 0.01;
 /// Impacts per excitation period of a symmetric 1:1 orbit.
 const TWO: f64 = 2.0;
 
+/// Impacts that are kept to tell a regime by: their intervals are averaged.
+const KEPT_IMPACTS: usize = 1000;
+
 /// How thoroughly each place is simulated.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Effort {
@@ -73,6 +76,8 @@ pub struct Motion {
     pub impacts_error: f64,
     /// Largest relative speed of an impact.
     pub impact_speed: f64,
+    /// What its impacts do.
+    pub regime: Regime,
     /// How many of the starts led to it.
     pub starts: u32,
 }
@@ -133,6 +138,9 @@ impl Motion {
 /// Measures one trajectory.
 struct Watch {
     statistics: Statistics,
+    log: ImpactLog,
+    /// Of the excitation.
+    period: f64,
     fastest: f64,
 }
 
@@ -143,6 +151,7 @@ impl Observer for Watch {
     fn impact(&mut self, impact: &Impact) {
         let speed = (impact.x_velocity_before - impact.y_velocity_before).abs();
         self.fastest = self.fastest.max(speed);
+        self.log.impact(impact);
         self.statistics.impact(impact);
     }
     fn sticks(&mut self, loss: f64) {
@@ -239,6 +248,8 @@ pub fn motions(systems: &[System], effort: &Effort) -> Result<Vec<Vec<Motion>>, 
 fn measured(mut simulations: Vec<Simulation>, periods: u64) -> Vec<(usize, Watch, Stop)> {
     let begin = |one: &Simulation| Watch {
         statistics: Statistics::begin(one.system(), one.state()),
+        log: ImpactLog::of_the_last(KEPT_IMPACTS),
+        period: one.system().period(),
         fastest: 0.0,
     };
     let mut watches: Vec<Watch> = simulations.iter().map(begin).collect();
@@ -284,6 +295,14 @@ fn distinct(ended: &[(Watch, Stop)]) -> Vec<Motion> {
             impacts_per_period: statistics.impacts_per_period(),
             impacts_error,
             impact_speed: watch.fastest,
+            regime: regimes::classify(
+                statistics,
+                &watch.log.impacts,
+                None,
+                watch.period,
+                &Thresholds::default(),
+            )
+            .regime,
             starts: 1,
         };
         match distinct.iter_mut().find(|known| known.is_same(&motion)) {

@@ -44,7 +44,7 @@ const SPECTRUM: List = List {
 const PLAIN_SPECTRUM: List = List { example: "[[0.97, 4.0], [1.03, 5.0]]", ..SPECTRUM };
 
 /// Reads numbers of a band in the way its case is written.
-struct Units<'d> {
+pub(super) struct Units<'d> {
     design: &'d Design,
     scales: Scales,
 }
@@ -57,7 +57,7 @@ pub(super) fn read(
 ) -> Option<BandSettings> {
     let table = reader.table(root, TABLE)?;
     let design = design?;
-    let units = Units { design, scales: design.scales() };
+    let units = Units::of(design);
     let over = read_over(reader, &table)?;
     let ends = [("from", r"\min"), ("to", r"\max")].map(|(key, symbol)| match over {
         BandOver::Frequency => units.frequency(reader, &table, key, symbol),
@@ -117,7 +117,15 @@ fn read_over(reader: &mut Reader, table: &Table) -> Option<BandOver> {
     found.map(|(_, over)| over)
 }
 
-impl Units<'_> {
+impl<'d> Units<'d> {
+    pub fn of(design: &'d Design) -> Self {
+        Self { design, scales: design.scales() }
+    }
+
+    pub fn design(&self) -> &'d Design {
+        self.design
+    }
+
     fn excitation(&self) -> Option<PhysicalExcitation> {
         match self.design {
             Design::Physical(physical) => Some(physical.excitation),
@@ -126,7 +134,7 @@ impl Units<'_> {
     }
 
     /// A frequency as `Omega`.
-    fn frequency(
+    pub fn frequency(
         &self,
         reader: &mut Reader,
         table: &Table,
@@ -143,7 +151,7 @@ impl Units<'_> {
     }
 
     /// An amplitude over the case's own.
-    fn amplitude(
+    pub fn amplitude(
         &self,
         reader: &mut Reader,
         table: &Table,

@@ -25,6 +25,7 @@ mod scales;
 mod schema;
 mod simulation;
 mod suggest;
+mod sweep;
 mod table;
 mod uncertainty;
 
@@ -49,6 +50,7 @@ pub use rewrite::{RewriteError, Rewritten, Rounding};
 pub use scales::{LengthUnit, Scales};
 pub use schema::{FILE_NAME as SCHEMA_FILE_NAME, schema};
 pub use simulation::SimulationSettings;
+pub use sweep::{SweepAxis, SweepSettings};
 pub use uncertainty::{Distribution, Uncertainty};
 
 use crate::system::System;
@@ -80,6 +82,8 @@ pub struct Case {
     pub optimize: OptimizeSettings,
     /// The table `[uncertainty]`; nothing is uncertain where there is none.
     pub uncertainty: Uncertainty,
+    /// The table `[sweep]`, if there is one.
+    pub sweep: Option<SweepSettings>,
     inputs: Vec<Input>,
     system: System,
     scales: Scales,
@@ -112,6 +116,7 @@ const TABLES: &[(&str, &[&str])] = &[
             "criteria",
             "optimize",
             "uncertainty",
+            "sweep",
         ],
     ),
     (physical::TABLES[0], physical::OSCILLATOR),
@@ -125,6 +130,11 @@ const TABLES: &[(&str, &[&str])] = &[
     (criteria::TABLE, criteria::KEYS),
     (optimize::TABLE, optimize::KEYS),
     (uncertainty::TABLE, uncertainty::KEYS),
+    (sweep::TABLE, sweep::KEYS),
+    (sweep::AXES[0], sweep::AXIS_KEYS),
+    (sweep::AXES[1], sweep::AXIS_KEYS),
+    (sweep::AXES[2], sweep::AXIS_KEYS),
+    (sweep::AXES[3], sweep::AXIS_KEYS),
 ];
 
 const STARTING_CASE: &str = include_str!("starting_case.toml");
@@ -192,6 +202,7 @@ fn read(reader: &mut Reader, document: &DeTable) -> Option<Case> {
     let criteria = criteria::read(reader, &root, design.as_ref());
     let optimize = optimize::read(reader, &root, design.as_ref());
     let uncertainty = uncertainty::read(reader, &root, design.as_ref());
+    let sweep = sweep::read(reader, &root, design.as_ref());
     let design = design?;
     let system = system_of(reader, &root, &design)?;
     Some(Case {
@@ -206,6 +217,7 @@ fn read(reader: &mut Reader, document: &DeTable) -> Option<Case> {
         criteria,
         optimize,
         uncertainty,
+        sweep,
         inputs: Vec::new(),
         system,
         scales: design.scales(),

@@ -20,6 +20,7 @@ use super::quantity::{
 };
 use super::report::ReportTable;
 use super::simulation::SimulationTable;
+use super::sweep::SweepTable;
 use super::uncertainty::UncertaintyTable;
 
 /// The name under which a case's first line refers to its schema.
@@ -55,6 +56,7 @@ struct CaseFile {
     criteria: Option<CriteriaTable>,
     optimize: Option<OptimizeTable>,
     uncertainty: Option<UncertaintyTable>,
+    sweep: Option<SweepTable>,
 }
 
 /// The linear oscillator whose vibration is to be reduced.

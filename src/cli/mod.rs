@@ -16,6 +16,7 @@ mod progress;
 mod report;
 mod schema;
 mod simulate;
+mod sweep;
 mod tradeoff;
 
 use std::process::ExitCode;
@@ -48,6 +49,7 @@ Examples:
   vinesink extremes                             the simulation at the ends of its range
   vinesink tradeoff damper.toml                 how much accuracy for how much work
   vinesink optimize damper.toml                 the clearance that serves it best
+  vinesink sweep damper.toml                    a map over its parameters, as Parquet
   vinesink schema > vinesink.schema.json        let the editor complete and check cases
   vinesink help new                             what a command does, with examples";
 
@@ -64,6 +66,7 @@ enum Command {
     Extremes(extremes::Arguments),
     Tradeoff(tradeoff::Arguments),
     Optimize(optimize::Arguments),
+    Sweep(sweep::Arguments),
     Schema(schema::Arguments),
     Completions(completions::Arguments),
 }
@@ -101,6 +104,7 @@ impl Cli {
             Command::Extremes(arguments) => extremes::run(arguments),
             Command::Tradeoff(arguments) => tradeoff::run(arguments),
             Command::Optimize(arguments) => optimize::run(arguments),
+            Command::Sweep(arguments) => sweep::run(arguments),
             Command::Schema(arguments) => schema::run(arguments),
             Command::Completions(arguments) => completions::run(arguments),
         }

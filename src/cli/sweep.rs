@@ -1,0 +1,285 @@
+//! `vinesink sweep CASE`
+
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::time::Instant;
+
+use clap::{Args, Subcommand};
+use miette::{IntoDiagnostic, Result, WrapErr as _, miette};
+use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
+use vinesink::case::Case;
+use vinesink::store::{self, Growing, Shards};
+use vinesink::sweep::columns::columns;
+use vinesink::sweep::parquet::{self, Merger};
+use vinesink::sweep::{Plan, row};
+
+use super::progress::Progress;
+use super::{Outcome, output};
+
+/// Work out every point of a case's table [sweep]
+///
+/// A sweep is cut into chunks with fixed numbers. Each is written to OUT/<name>/chunks as it is done,
+/// and what is there already is not done again: a run that was interrupted goes on where it stopped, and
+/// ends in the same bytes. All chunks together become OUT/<name>/sweep.parquet.
+#[derive(Debug, Args)]
+#[command(args_conflicts_with_subcommands = true, after_long_help = EXAMPLES)]
+pub struct Arguments {
+    #[command(subcommand)]
+    verb: Option<Verb>,
+    #[command(flatten)]
+    sweep: Option<Where>,
+    /// Write nothing; say how many points there are and about how long they take
+    #[arg(long)]
+    dry_run: bool,
+}
+
+/// Which sweep, and where its results are.
+#[derive(Debug, Args)]
+struct Where {
+    /// The case file
+    #[arg(value_name = "CASE")]
+    case: PathBuf,
+    /// The folder that receives a folder per case
+    #[arg(long, value_name = "OUT", default_value = "sweeps")]
+    out: PathBuf,
+}
+
+#[derive(Debug, Subcommand)]
+enum Verb {
+    /// Say how many points and chunks there are
+    Plan(Where),
+    /// Work out chunks without putting them together
+    Run {
+        #[command(flatten)]
+        sweep: Where,
+        /// The chunk, from 0 [default: $SLURM_ARRAY_TASK_ID or $HQ_TASK_ID; without either all that are
+        /// not there]
+        #[arg(long, value_name = "N")]
+        chunk: Option<u64>,
+    },
+    /// Say which chunks are there; ends with exit code 1 while some are not
+    Status(Where),
+    /// Put the chunks together
+    Merge(Where),
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  vinesink sweep map.toml --dry-run        how much work it is
+  vinesink sweep map.toml                  all of it, on all processors
+  vinesink sweep run map.toml --chunk 7    one chunk, wherever it runs
+  vinesink sweep status map.toml
+  vinesink sweep merge map.toml
+
+A case says what it varies in
+  [sweep]
+  clearance = { from = \"5 mm\", to = \"40 mm\", count = 100 }
+  frequency = { from = \"8 Hz\", to = \"8.7 Hz\", count = 100 }
+  starts = 4";
+
+/// Points that an estimate is made from.
+const SAMPLE: u64 = 256;
+
+pub fn run(arguments: Arguments) -> Result<Outcome> {
+    match (arguments.verb, arguments.sweep) {
+        (Some(Verb::Plan(at)), _) => plan(&Sweep::open(&at)?),
+        (Some(Verb::Run { sweep, chunk }), _) => {
+            let sweep = Sweep::open(&sweep)?;
+            let wanted = match chunk.map_or_else(numbered, |chunk| Ok(Some(chunk)))? {
+                Some(chunk) if chunk < sweep.plan.chunks() => vec![chunk],
+                Some(chunk) => {
+                    return Err(miette!(
+                        help = format!("the last chunk is {}", sweep.plan.chunks() - 1),
+                        "there is no chunk {chunk}"
+                    ));
+                }
+                None => (0..sweep.plan.chunks()).collect(),
+            };
+            sweep.work(&wanted)?;
+            Ok(Outcome::Done)
+        }
+        (Some(Verb::Status(at)), _) => status(&Sweep::open(&at)?),
+        (Some(Verb::Merge(at)), _) => Sweep::open(&at)?.merge(),
+        (None, Some(at)) if arguments.dry_run => estimate(&Sweep::open(&at)?),
+        (None, Some(at)) => {
+            let sweep = Sweep::open(&at)?;
+            sweep.work(&(0..sweep.plan.chunks()).collect::<Vec<_>>())?;
+            sweep.merge()
+        }
+        (None, None) => Err(miette!(
+            help = "write for example `vinesink sweep map.toml`",
+            "there is no case to sweep"
+        )),
+    }
+}
+
+/// The chunk that the engine which started this process has given it.
+fn numbered() -> Result<Option<u64>> {
+    for name in ["SLURM_ARRAY_TASK_ID", "HQ_TASK_ID"] {
+        if let Ok(text) = std::env::var(name) {
+            let number = text.parse().map_err(|_| miette!("{name} is {text}, no number"))?;
+            return Ok(Some(number));
+        }
+    }
+    Ok(None)
+}
+
+/// A sweep and where its results are.
+struct Sweep {
+    plan: Plan,
+    case_text: String,
+    folder: PathBuf,
+}
+
+impl Sweep {
+    fn open(at: &Where) -> Result<Self> {
+        let text = store::read_text(&at.case)?;
+        let case = Case::parse(&at.case.display().to_string(), &text)?;
+        let stem =
+            at.case.file_stem().ok_or_else(|| miette!("{} is no file", at.case.display()))?;
+        let plan = Plan::of(&case).ok_or_else(|| {
+            miette!(
+                help = "add a table [sweep]; `vinesink sweep --help` shows one",
+                "{} does not say what to vary",
+                at.case.display()
+            )
+        })?;
+        Ok(Self { plan, case_text: text, folder: at.out.join(stem) })
+    }
+
+    fn shards(&self) -> Result<Shards> {
+        Ok(Shards::open(&self.folder.join("chunks"), &self.plan.identity)?)
+    }
+
+    /// Works out those of some chunks that are not there, on all processors.
+    fn work(&self, chunks: &[u64]) -> Result<()> {
+        let shards = self.shards()?;
+        let progress = Progress::new("chunks", chunks.len() as u64);
+        let failure: Mutex<Option<miette::Report>> = Mutex::new(None);
+        let stopped = || failure.lock().map_or(true, |failure| failure.is_some());
+        chunks.into_par_iter().for_each(|chunk| {
+            if stopped() {
+                return;
+            }
+            match self.work_out(&shards, *chunk) {
+                Ok(()) => progress.advance(1),
+                Err(error) => {
+                    if let Ok(mut failure) = failure.lock() {
+                        failure.get_or_insert(error);
+                    }
+                }
+            }
+        });
+        let failure = failure.into_inner().unwrap_or(None);
+        failure.map_or(Ok(()), |error| {
+            Err(error.wrap_err(
+                "the sweep stopped; what was worked out is kept, and the same command goes on",
+            ))
+        })
+    }
+
+    fn work_out(&self, shards: &Shards, chunk: u64) -> Result<()> {
+        if shards.holds(chunk)? {
+            return Ok(());
+        }
+        let rows = row::rows(&self.plan, self.plan.chunk(chunk)).into_diagnostic()?;
+        let notes = vec![("vinesink.sweep".to_owned(), self.plan.identity.clone())];
+        let bytes = parquet::file(&columns(&self.plan, &rows), &notes).into_diagnostic()?;
+        Ok(shards.keep(chunk, &bytes)?)
+    }
+
+    /// The chunks that are not there.
+    fn missing(&self) -> Result<Vec<u64>> {
+        let shards = self.shards()?;
+        let all: Vec<u64> = (0..self.plan.chunks()).collect();
+        let missing = all.into_par_iter().map(|chunk| Ok((chunk, shards.holds(chunk)?)));
+        let found: Vec<(u64, bool)> = missing.collect::<Result<_>>()?;
+        Ok(found.into_iter().filter(|(_, there)| !there).map(|(chunk, _)| chunk).collect())
+    }
+
+    /// Puts all chunks together, one at a time.
+    fn merge(&self) -> Result<Outcome> {
+        if let [first, ..] = self.missing()?.as_slice() {
+            return Err(miette!(
+                help = "`vinesink sweep run CASE` works out what is missing",
+                "chunk {first} is not there, or is damaged"
+            ));
+        }
+        let path = self.folder.join("sweep.parquet");
+        let notes = vec![
+            ("vinesink.sweep".to_owned(), self.plan.identity.clone()),
+            ("vinesink.version".to_owned(), env!("CARGO_PKG_VERSION").to_owned()),
+            ("vinesink.case".to_owned(), self.case_text.clone()),
+        ];
+        let shards = self.shards()?;
+        let sink = Growing::begin(&path)?;
+        let mut merger = Merger::new(sink, &columns(&self.plan, &[]), &notes).into_diagnostic()?;
+        for chunk in 0..self.plan.chunks() {
+            let file = shards.read(chunk)?;
+            let which = || shown(&shards.path(chunk));
+            merger.add(&file).into_diagnostic().wrap_err_with(which)?;
+        }
+        merger.finish().into_diagnostic()?.finish()?;
+        output::print(format!("{}\n", shown(&path)))?;
+        Ok(Outcome::Done)
+    }
+}
+
+fn shown(path: &Path) -> String {
+    path.display().to_string()
+}
+
+fn plan(sweep: &Sweep) -> Result<Outcome> {
+    let Plan { settings, .. } = &sweep.plan;
+    let axes: Vec<String> =
+        settings.axes.iter().map(|axis| axis.values.len().to_string()).collect();
+    output::print(format!(
+        "{} = {} points, {} starts each, in {} chunks (0 to {})\n",
+        axes.join(" x "),
+        sweep.plan.points(),
+        settings.starts,
+        sweep.plan.chunks(),
+        sweep.plan.chunks() - 1
+    ))?;
+    Ok(Outcome::Done)
+}
+
+fn status(sweep: &Sweep) -> Result<Outcome> {
+    let missing = sweep.missing()?;
+    let chunks = sweep.plan.chunks();
+    output::print(format!("{} of {chunks} chunks are there\n", chunks - missing.len() as u64))?;
+    Ok(if missing.is_empty() { Outcome::Done } else { Outcome::DoesNotHold })
+}
+
+/// Works out some points spread over the sweep, and says how long all would take.
+fn estimate(sweep: &Sweep) -> Result<Outcome> {
+    plan(sweep)?;
+    let points = sweep.plan.points();
+    let count = SAMPLE.min(points);
+    // Next to one another as in a chunk, from eight places of the sweep.
+    let stretch = (count / 8).max(1);
+    let begin = Instant::now();
+    let mut worked = 0;
+    for k in 0..8 {
+        let from = (points - stretch.min(points)) * k / 7;
+        let rows = row::rows(&sweep.plan, from..from + stretch.min(points));
+        worked += rows.into_diagnostic()?.len() as u64;
+    }
+    let each = begin.elapsed().as_secs_f64() / worked.max(1) as f64;
+    let threads = rayon::current_num_threads();
+    let seconds = each * points as f64 / threads as f64;
+    output::print(format!(
+        "about {} on {threads} processors ({:.2} ms a point)\n",
+        duration(seconds),
+        1e3 * each
+    ))?;
+    Ok(Outcome::Done)
+}
+
+fn duration(seconds: f64) -> String {
+    match seconds {
+        short if short < 120.0 => format!("{short:.0} s"),
+        some if some < 7200.0 => format!("{:.0} min", some / 60.0),
+        long => format!("{:.1} h", long / 3600.0),
+    }
+}

@@ -1,0 +1,120 @@
+//! The results of a sweep, a file for each chunk, each with its checksum beside it: what was worked out is
+//! told from what was not, and from what is damaged or belongs to something else.
+
+use std::fs::File;
+use std::io::{self, BufWriter};
+use std::path::{Path, PathBuf};
+
+use sha2::{Digest, Sha256};
+use tempfile::NamedTempFile;
+
+use super::{StoreError, refused, write_file};
+
+/// The folder of a sweep's chunks.
+#[derive(Debug, Clone)]
+pub struct Shards {
+    folder: PathBuf,
+    /// Names the sweep that the chunks belong to.
+    identity: String,
+}
+
+impl Shards {
+    /// Those of a sweep in a folder, which is made where there is none.
+    ///
+    /// # Errors
+    /// [`StoreError::Refused`] where it cannot be made.
+    pub fn open(folder: &Path, identity: &str) -> Result<Self, StoreError> {
+        std::fs::create_dir_all(folder).map_err(|cause| refused("create", folder, cause))?;
+        Ok(Self { folder: folder.to_owned(), identity: identity.to_owned() })
+    }
+
+    /// The file of a chunk.
+    pub fn path(&self, chunk: u64) -> PathBuf {
+        self.folder.join(format!("{chunk:09}.parquet"))
+    }
+
+    fn seal_path(&self, chunk: u64) -> PathBuf {
+        self.folder.join(format!("{chunk:09}.seal"))
+    }
+
+    /// What the seal of a chunk must say.
+    fn seal(&self, chunk: u64, bytes: &[u8]) -> String {
+        let digest = Sha256::digest(bytes);
+        let digest: String = digest.iter().map(|byte| format!("{byte:02x}")).collect();
+        format!("sweep {}\nchunk {chunk}\nsha256 {digest}\n", self.identity)
+    }
+
+    /// Keeps the results of a chunk: first the file, then its seal, each whole or not at all.
+    ///
+    /// # Errors
+    /// [`StoreError::Refused`]; what was there before still is.
+    pub fn keep(&self, chunk: u64, bytes: &[u8]) -> Result<(), StoreError> {
+        write_file(&self.path(chunk), bytes)?;
+        write_file(&self.seal_path(chunk), self.seal(chunk, bytes).as_bytes())
+    }
+
+    /// Whether the results of a chunk are there, undamaged, and of this sweep.
+    ///
+    /// # Errors
+    /// [`StoreError::Refused`] where a file is there and cannot be read.
+    pub fn holds(&self, chunk: u64) -> Result<bool, StoreError> {
+        let read = |path: &Path| match std::fs::read(path) {
+            Ok(bytes) => Ok(Some(bytes)),
+            Err(cause) if cause.kind() == io::ErrorKind::NotFound => Ok(None),
+            Err(cause) => Err(refused("read", path, cause)),
+        };
+        let (Some(seal), Some(bytes)) = (read(&self.seal_path(chunk))?, read(&self.path(chunk))?)
+        else {
+            return Ok(false);
+        };
+        Ok(seal == self.seal(chunk, &bytes).as_bytes())
+    }
+
+    /// Opens the results of a chunk.
+    ///
+    /// # Errors
+    /// [`StoreError::Refused`] where they cannot be read.
+    pub fn read(&self, chunk: u64) -> Result<File, StoreError> {
+        let path = self.path(chunk);
+        File::open(&path).map_err(|cause| refused("read", &path, cause))
+    }
+}
+
+/// A file that is written piece by piece and appears whole or not at all.
+pub struct Growing {
+    file: BufWriter<NamedTempFile>,
+    path: PathBuf,
+}
+
+impl Growing {
+    /// Begins a file; its folder must exist.
+    ///
+    /// # Errors
+    /// [`StoreError::Refused`].
+    pub fn begin(path: &Path) -> Result<Self, StoreError> {
+        let folder = path.parent().unwrap_or(Path::new("."));
+        let file = NamedTempFile::new_in(folder).map_err(|cause| refused("write", path, cause))?;
+        Ok(Self { file: BufWriter::new(file), path: path.to_owned() })
+    }
+
+    /// Ends the file and puts it in the place of an earlier one.
+    ///
+    /// # Errors
+    /// [`StoreError::Refused`]; an earlier file is then unchanged.
+    pub fn finish(self) -> Result<(), StoreError> {
+        let path = self.path;
+        let file =
+            self.file.into_inner().map_err(|error| refused("write", &path, error.into_error()))?;
+        file.as_file().sync_all().map_err(|cause| refused("write", &path, cause))?;
+        file.persist(&path).map(drop).map_err(|error| refused("write", &path, error.error))
+    }
+}
+
+impl io::Write for Growing {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.file.write(bytes)
+    }
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.flush()
+    }
+}

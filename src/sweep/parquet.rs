@@ -1,0 +1,146 @@
+//! Columns as Parquet: one row group a chunk, zstd, the same bytes for the same columns.
+
+use std::io::Write;
+use std::sync::Arc;
+
+use parquet::basic::{Compression, LogicalType, Repetition, Type as Physical, ZstdLevel};
+use parquet::column::writer::ColumnCloseResult;
+use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type};
+use parquet::errors::ParquetError;
+use parquet::file::metadata::{KeyValue, ParquetMetaData, ParquetMetaDataReader};
+use parquet::file::properties::{WriterProperties, WriterVersion};
+use parquet::file::reader::ChunkReader;
+use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
+use parquet::schema::types::{Type, TypePtr};
+
+use super::columns::{Column, Values};
+
+/// What a file says about itself besides its columns.
+pub type Notes = Vec<(String, String)>;
+
+/// Beginning of the key under which the unit of a column stands.
+const UNIT: &str = "vinesink.unit.";
+
+/// A file with one row group.
+///
+/// # Errors
+/// [`ParquetError`] of the library.
+pub fn file(columns: &[Column], notes: &Notes) -> Result<Vec<u8>, ParquetError> {
+    let mut writer =
+        SerializedFileWriter::new(Vec::new(), schema(columns)?, properties(columns, notes)?)?;
+    let mut group = writer.next_row_group()?;
+    for column in columns {
+        write(&mut group, column)?;
+    }
+    group.close()?;
+    writer.into_inner()
+}
+
+fn schema(columns: &[Column]) -> Result<TypePtr, ParquetError> {
+    let fields = columns.iter().map(|column| {
+        let (physical, logical, repetition) = match column.values {
+            Values::Number(_) => (Physical::DOUBLE, None, Repetition::OPTIONAL),
+            Values::Whole(_) => (Physical::INT64, None, Repetition::REQUIRED),
+            Values::Text(_) => {
+                (Physical::BYTE_ARRAY, Some(LogicalType::String), Repetition::OPTIONAL)
+            }
+        };
+        Type::primitive_type_builder(column.name, physical)
+            .with_logical_type(logical)
+            .with_repetition(repetition)
+            .build()
+            .map(Arc::new)
+    });
+    let fields = fields.collect::<Result<Vec<TypePtr>, ParquetError>>()?;
+    Ok(Arc::new(Type::group_type_builder("sweep").with_fields(fields).build()?))
+}
+
+fn properties(columns: &[Column], notes: &Notes) -> Result<Arc<WriterProperties>, ParquetError> {
+    let units = columns.iter().map(|column| {
+        KeyValue::new(format!("{UNIT}{}", column.name), Some(column.unit.to_owned()))
+    });
+    let notes = notes.iter().map(|(key, value)| KeyValue::new(key.clone(), Some(value.clone())));
+    Ok(Arc::new(
+        WriterProperties::builder()
+            .set_compression(Compression::ZSTD(ZstdLevel::try_new(3)?))
+            .set_writer_version(WriterVersion::PARQUET_1_0)
+            .set_created_by(concat!("vinesink version ", env!("CARGO_PKG_VERSION")).to_owned())
+            .set_key_value_metadata(Some(notes.chain(units).collect()))
+            .build(),
+    ))
+}
+
+fn write<W: Write + Send>(
+    group: &mut SerializedRowGroupWriter<'_, W>,
+    column: &Column,
+) -> Result<(), ParquetError> {
+    let missing = || ParquetError::General("more columns than the schema has".into());
+    let mut writer = group.next_column()?.ok_or_else(missing)?;
+    match &column.values {
+        Values::Number(values) => {
+            let there: Vec<f64> = values.iter().flatten().copied().collect();
+            writer.typed::<DoubleType>().write_batch(&there, Some(&levels(values)), None)?;
+        }
+        Values::Whole(values) => {
+            writer.typed::<Int64Type>().write_batch(values, None, None)?;
+        }
+        Values::Text(values) => {
+            let there: Vec<ByteArray> =
+                values.iter().flatten().map(|text| ByteArray::from(*text)).collect();
+            writer.typed::<ByteArrayType>().write_batch(&there, Some(&levels(values)), None)?;
+        }
+    }
+    writer.close()
+}
+
+fn levels<T>(values: &[Option<T>]) -> Vec<i16> {
+    values.iter().map(|value| i16::from(value.is_some())).collect()
+}
+
+/// Puts files of one row group after one another, a column at a time, so that memory holds one of them.
+pub struct Merger<W: Write + Send> {
+    writer: SerializedFileWriter<W>,
+}
+
+impl<W: Write + Send> Merger<W> {
+    /// Begins a file; `columns` are those of any of the files, and may be empty.
+    ///
+    /// # Errors
+    /// [`ParquetError`] of the library.
+    pub fn new(sink: W, columns: &[Column], notes: &Notes) -> Result<Self, ParquetError> {
+        let properties = properties(columns, notes)?;
+        Ok(Self { writer: SerializedFileWriter::new(sink, schema(columns)?, properties)? })
+    }
+
+    /// Adds the row groups of a file.
+    ///
+    /// # Errors
+    /// [`ParquetError`] of the library, and where the file has other columns.
+    pub fn add<R: ChunkReader>(&mut self, file: &R) -> Result<(), ParquetError> {
+        let metadata: ParquetMetaData = ParquetMetaDataReader::new().parse_and_finish(file)?;
+        for group in metadata.row_groups() {
+            let mut out = self.writer.next_row_group()?;
+            for column in group.columns() {
+                let closed = ColumnCloseResult {
+                    bytes_written: column.compressed_size() as u64,
+                    rows_written: group.num_rows() as u64,
+                    metadata: column.clone(),
+                    bloom_filter: None,
+                    column_index: None,
+                    offset_index: None,
+                };
+                out.append_column(file, closed)?;
+            }
+            out.close()?;
+        }
+        Ok(())
+    }
+
+    /// Ends the file.
+    ///
+    /// # Errors
+    /// [`ParquetError`] of the library.
+    pub fn finish(self) -> Result<W, ParquetError> {
+        self.writer.into_inner()
+    }
+}
