@@ -69,6 +69,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ),
     ("diff", &["regimes", "report"]),
     ("store", &[]),
+    ("sweep", &["analysis", "band", "case", "orbits", "regimes", "simulation", "system"]),
 ];
 
 /// Rooms in which there is physics and nothing else: no files, no clock, no printing, no threads, no

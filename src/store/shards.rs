@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use sha2::{Digest, Sha256};
 use tempfile::NamedTempFile;
 
-use super::{StoreError, refused, write_file};
+use super::{StoreError, folder_of, ordinary, refused, write_file};
 
 /// The folder of a sweep's chunks.
 #[derive(Debug, Clone)]
@@ -92,8 +92,9 @@ impl Growing {
     /// # Errors
     /// [`StoreError::Refused`].
     pub fn begin(path: &Path) -> Result<Self, StoreError> {
-        let folder = path.parent().unwrap_or(Path::new("."));
-        let file = NamedTempFile::new_in(folder).map_err(|cause| refused("write", path, cause))?;
+        let file = ordinary(0o666)
+            .tempfile_in(folder_of(path)?)
+            .map_err(|cause| refused("write", path, cause))?;
         Ok(Self { file: BufWriter::new(file), path: path.to_owned() })
     }
 
