@@ -110,6 +110,16 @@ pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
     file.persist(path).map(drop).map_err(|error| refused("write", path, error.error))
 }
 
+/// As [`write_file`], into a folder that is made where there is none.
+///
+/// # Errors
+/// [`StoreError::Refused`]; an earlier file is then unchanged.
+pub fn write_file_and_folder(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
+    let folder = folder_of(path)?;
+    std::fs::create_dir_all(folder).map_err(|cause| refused("create", folder, cause))?;
+    write_file(path, bytes)
+}
+
 /// What a folder holds, by name; names that begin with a point are left out.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Listing {
