@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """`vinesink sweep submit --engine slurm` on a real Slurm of two nodes, one of which loses its power.
 
-    tests/cluster/slurm.py VINESINK
+    tests/cluster/on_slurm.py VINESINK
 
 Runs as root on Linux with Debian's slurmctld, slurmd, slurm-client and iproute2. The Slurm is started here,
 in a temporary folder and in namespaces of its own: its ports and processes are seen by nobody else and end
@@ -48,6 +48,8 @@ SlurmctldPidFile={folder}/slurmctld.pid
 SlurmdPidFile={folder}/slurmd-%n.pid
 SlurmctldLogFile={folder}/slurmctld.log
 SlurmdLogFile={folder}/slurmd-%n.log
+# As many sites have it: a job must ask to run again after its node is lost.
+JobRequeue=0
 # A silent node is given up after seconds and not minutes, and what ran there begins again soon after.
 SlurmdTimeout=5
 AuthInfo=cred_expire=5
