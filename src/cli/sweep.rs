@@ -112,7 +112,8 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
                 }
                 None if every.is_some() => {
                     return Err(miette!(
-                        help = "say which with `--chunk N`; an engine's tasks have a number already",
+                        help =
+                            "say which with `--chunk N`; an engine's tasks have a number already",
                         "`--every` counts from a chunk, and there is none"
                     ));
                 }
@@ -242,9 +243,11 @@ impl Sweep {
         for chunk in 0..self.plan.chunks() {
             let file = shards.read(chunk)?;
             let which = || shown(&shards.path(chunk));
-            merger.add(&file).into_diagnostic().wrap_err_with(which)?;
+            let added = merger.add(&file).into_diagnostic().wrap_err_with(which);
+            added.wrap_err_with(|| format!("cannot write {}", shown(&path)))?;
         }
-        merger.finish().into_diagnostic()?.finish()?;
+        let written = merger.finish().into_diagnostic();
+        written.wrap_err_with(|| format!("cannot write {}", shown(&path)))?.finish()?;
         output::print(format!("{}\n", shown(&path)))?;
         Ok(Outcome::Done)
     }

@@ -134,13 +134,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome> {
     for (file, text) in job.files() {
         store::write_file(&file, text.as_bytes())?;
     }
-    let Submitted { watch, cancel } = job.submit().wrap_err_with(|| {
-        format!(
-            "{} chunks are not submitted; the files are kept in {}",
-            sweep.plan.chunks(),
-            shown(&job.folder)
-        )
-    })?;
+    let Submitted { watch, cancel } = job.submit()?;
     output::print(format!(
         "submitted: {} chunks in {} tasks, and the merge after them\n  \
          watch         {watch}\n                {}\n  \
@@ -194,7 +188,7 @@ impl Job {
         };
         for path in [&job.program, &job.folder] {
             // Slurm and HyperQueue would read these as something else, each in its own way.
-            if !path.to_str().is_some_and(|text| !text.contains(['"', '\\', '%', '\n'])) {
+            if path.to_str().is_none_or(|text| text.contains(['"', '\\', '%', '\n'])) {
                 return Err(miette!(
                     help = "choose another folder with --out, or rename what has one of them",
                     "{} has a quotation mark, backslash, percent sign, line break or no Unicode in \
@@ -226,7 +220,8 @@ impl Job {
     }
 
     fn vinesink(&self, verb: &str) -> String {
-        let [program, case, out] = [&self.program, &self.case(), &self.out].map(|path| quoted(path));
+        let [program, case, out] =
+            [&self.program, &self.case(), &self.out].map(|path| quoted(path));
         format!("{program} sweep {verb} {case} --out {out}")
     }
 
@@ -248,7 +243,8 @@ impl Job {
             );
             if let Some(Time(seconds)) = self.time {
                 let (hours, minutes) = (seconds / 3600, seconds / 60 % 60);
-                let _ = writeln!(text, "#SBATCH --time={hours:02}:{minutes:02}:{:02}", seconds % 60);
+                let _ =
+                    writeln!(text, "#SBATCH --time={hours:02}:{minutes:02}:{:02}", seconds % 60);
             }
         }
         let _ = write!(
@@ -340,19 +336,25 @@ impl Job {
     /// The command that submits the merge after Slurm's tasks; HyperQueue has it from the job file. It runs
     /// whatever became of them: what is missing it can say better than a dependency that never comes true.
     fn merge_command(&self, id: &str) -> Vec<String> {
-        let mut command =
-            vec!["sbatch".to_owned(), "--parsable".to_owned(), format!("--dependency=afterany:{id}")];
+        let mut command = vec![
+            "sbatch".to_owned(),
+            "--parsable".to_owned(),
+            format!("--dependency=afterany:{id}"),
+        ];
         command.extend(self.options.iter().cloned());
         command.push(shown(&self.folder.join("merge.sh")));
         command
     }
 
     fn submit(&self) -> Result<Submitted> {
-        let id = told(&self.command())?;
+        let kept =
+            || format!("nothing is submitted; the files are kept in {}", shown(&self.folder));
+        let id = told(&self.command()).wrap_err_with(kept)?;
         match self.engine {
             Engine::Slurm => {
                 let merge = told(&self.merge_command(&id)).wrap_err_with(|| {
-                    format!("the tasks are submitted as job {id}, but not the merge after them")
+                    format!("the tasks are submitted as job {id}, but not the merge after them; `vinesink \
+                             sweep merge` does it by hand")
                 })?;
                 Ok(Submitted {
                     watch: format!("squeue --jobs={id},{merge}"),
@@ -408,7 +410,9 @@ fn told(command: &[String]) -> Result<String> {
                 "there is no program `{program}` in PATH"
             ));
         }
-        Err(error) => return Err(error).into_diagnostic().wrap_err(format!("cannot run {program}")),
+        Err(error) => {
+            return Err(error).into_diagnostic().wrap_err(format!("cannot run {program}"));
+        }
     };
     let said = String::from_utf8_lossy(&output.stderr);
     if !output.status.success() {
@@ -455,27 +459,78 @@ pub fn share(first: u64, step: u64, chunks: u64) -> Vec<u64> {
         .collect()
 }
 
-/// Uses as many processors as were asked for, or as the engine grants.
+/// Uses as many processors as were asked for, or as the engine that started this process has given it.
 pub fn keep_to_processors(asked: Option<u16>) -> Result<()> {
+    let told = |name: &str| std::env::var(name).ok();
     let threads = match asked {
         Some(threads) => Some(usize::from(threads)),
-        None => granted()?,
+        None => granted(told("HQ_CPUS").as_deref(), told("SLURM_CPUS_PER_TASK").as_deref())?,
     };
     let Some(threads) = threads else { return Ok(()) };
     rayon::ThreadPoolBuilder::new().num_threads(threads).build_global().into_diagnostic()
 }
 
-/// How many processors the engine that started this process has given it: HyperQueue lists them, Slurm
+/// How many processors the engine says: HyperQueue, which may itself run inside Slurm, lists them, and Slurm
 /// counts them.
-fn granted() -> Result<Option<usize>> {
-    if let Ok(list) = std::env::var("HQ_CPUS") {
-        let count = list.split(',').filter(|cpu| !cpu.trim().is_empty()).count();
+fn granted(hyperqueue: Option<&str>, slurm: Option<&str>) -> Result<Option<usize>> {
+    if let Some(list) = hyperqueue {
+        let count = list.split(',').filter(|processor| !processor.trim().is_empty()).count();
         return Ok(Some(count.max(1)));
     }
-    let name = "SLURM_CPUS_PER_TASK";
-    let Ok(text) = std::env::var(name) else { return Ok(None) };
+    let Some(text) = slurm else { return Ok(None) };
     match text.parse() {
         Ok(count) if count > 0 => Ok(Some(count)),
-        _ => Err(miette!(help = "say how many with --threads", "{name} is {text}, no number")),
+        _ => Err(miette!(
+            help = "say how many with --threads",
+            "SLURM_CPUS_PER_TASK is {text:?}, no number of processors"
+        )),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// As HyperQueue and Slurm document their variables.
+    #[test]
+    fn processors_are_those_of_the_innermost_engine() {
+        let counted = |hyperqueue, slurm| granted(hyperqueue, slurm).expect("numbers");
+        assert_eq!(counted(None, None), None);
+        assert_eq!(counted(None, Some("8")), Some(8));
+        assert_eq!(counted(Some("3"), Some("8")), Some(1));
+        assert_eq!(counted(Some("0,2,17"), None), Some(3));
+        for wrong in ["", "0", "-1", "8(x2)"] {
+            assert!(granted(None, Some(wrong)).is_err(), "{wrong}");
+        }
+    }
+
+    /// Every chunk once, whatever the number of tasks.
+    #[test]
+    fn shares_are_all_chunks_once() {
+        for tasks in 1..9 {
+            let mut all: Vec<u64> = (0..tasks).flat_map(|task| share(task, tasks, 7)).collect();
+            all.sort_unstable();
+            assert_eq!(all, [0, 1, 2, 3, 4, 5, 6], "{tasks}");
+        }
+        assert_eq!(share(3, u64::MAX, u64::MAX), [3]);
+    }
+
+    #[test]
+    fn a_time_is_hours_minutes_and_seconds() {
+        for (text, seconds) in [("02:30:00", 9000), ("0:00:01", 1), ("100:59:59", 363_599)] {
+            assert_eq!(text.parse(), Ok(Time(seconds)));
+        }
+        for wrong in
+            ["", "30", "2:30", "00:00:00", "1:60:00", "1:00:60", "+1:00:00", "a:b:c", "1:2:3:4"]
+        {
+            assert!(wrong.parse::<Time>().is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn a_word_with_a_blank_is_quoted() {
+        assert_eq!(plain("--partition=long"), "--partition=long");
+        assert_eq!(plain("it's here"), r"'it'\''s here'");
+        assert_eq!(plain(""), "''");
     }
 }
