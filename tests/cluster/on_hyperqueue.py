@@ -129,7 +129,7 @@ def on(cluster, folder, sweep):
 
     tasks_before = {task: 0 for task in range(common.TASKS + 1)}
     tasks_before.update({task: instance for task, instance, _ in tasks})
-    wait_for("end of the job", 400, over)
+    wait_for("end of the job", 600, over)
     say("HyperQueue has nothing left to do")
     check(not failed, "tasks failed")
     check(len(again) == 1 and again < {task for task, _, _ in tasks},

@@ -23,7 +23,7 @@ import common
 from common import check, fail, say, wait_for
 
 # Of everything; it takes about two minutes.
-LONGEST = 600
+LONGEST = 900
 
 ADDRESS = "10.99.0.1"
 
@@ -131,7 +131,7 @@ def inside(vinesink, folder):
         nodes["node1"].wait()
         say(f"node1 is killed while it runs task {', '.join(lost)}, with {there()} chunks there")
         check(not sweep.merged.exists(), "the sweep was done before the node was killed")
-        wait_for("end of all jobs", 400, lambda: not told("squeue", "--noheader"))
+        wait_for("end of all jobs", 600, lambda: not told("squeue", "--noheader"))
         say("Slurm has nothing left to do")
         check("down" in told("sinfo", "--noheader", "--nodes=node1", "--format=%t"),
               "Slurm has not noticed that node1 is lost")
