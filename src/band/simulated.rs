@@ -274,8 +274,7 @@ pub fn long_term(
         }
     }
     let mut ended: Vec<Option<Motion>> = vec![None; starts.len()];
-    let once: Vec<Extent> =
-        known.iter().map(|one| extent(u64::from(one.found.periods))).collect();
+    let once: Vec<Extent> = known.iter().map(|one| extent(u64::from(one.found.periods))).collect();
     let watches = repeating.watched();
     for ((one, watch), repetition) in repeating.go_on(watches, &once).into_iter().zip(known) {
         ended[one.index] = watch.motion(&one, Some(repetition));

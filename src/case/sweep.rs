@@ -134,7 +134,12 @@ pub(super) fn read(
         if let Some(one) = record.iter().find(|one| asked && one.is_of_starts()) {
             let message = format!("`{}` has no meaning where a motion is followed", one.key());
             let help = "leave it out";
-            reader.report(table.span_of_value("record"), message, "expected what one motion has", help);
+            reader.report(
+                table.span_of_value("record"),
+                message,
+                "expected what one motion has",
+                help,
+            );
             return None;
         }
         record.retain(|one| !one.is_of_starts());
@@ -261,5 +266,5 @@ pub(super) struct SweepTable {
     #[schemars(example = &"frequency")]
     follow: Option<String>,
     /// What is recorded of each point; the layers that nothing is recorded of are not computed.
-        record: Option<Vec<Recorded>>,
+    record: Option<Vec<Recorded>>,
 }

@@ -253,11 +253,8 @@ impl Signs {
         if !to_and_fro {
             return Regime::BelowTwo;
         }
-        let limit = if self.repeats {
-            thresholds.asymmetry
-        } else {
-            thresholds.asymmetry_modulated
-        };
+        let limit =
+            if self.repeats { thresholds.asymmetry } else { thresholds.asymmetry_modulated };
         if self.asymmetry > limit { Regime::TwoAsymmetric } else { Regime::TwoSymmetric }
     }
 }

@@ -419,7 +419,12 @@ mod tests {
         let by = |level: Level| {
             let (mut together, mut alone) = (simulations(), simulations());
             let mut logs: Vec<ImpactLog> = together.iter().map(|_| ImpactLog::default()).collect();
-            run_at(level, &mut together, &[Extent { periods: 60, impacts: u64::MAX }; 40], &mut logs);
+            run_at(
+                level,
+                &mut together,
+                &[Extent { periods: 60, impacts: u64::MAX }; 40],
+                &mut logs,
+            );
             for simulation in &mut alone {
                 *simulation = simulation.clone().at_level(level);
                 simulation.run(60, u64::MAX, &mut Nobody);

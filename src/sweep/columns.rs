@@ -95,9 +95,8 @@ pub fn empty(plan: &Plan) -> Vec<Column> {
     for (recorded, way) in recorded(plan) {
         let end = way.map_or("", |way| WAYS[way]);
         match recorded {
-            Recorded::Area => columns.extend(
-                ["area", "strip"].map(|name| Column::like(name, "", Cell::Text(None))),
-            ),
+            Recorded::Area => columns
+                .extend(["area", "strip"].map(|name| Column::like(name, "", Cell::Text(None)))),
             Recorded::Section => columns.extend((1..=SECTION).map(|k| {
                 Column::like(format!("section_{k:02}{end}"), units.length, Cell::Number(None))
             })),

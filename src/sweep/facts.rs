@@ -90,9 +90,8 @@ fn boundary_distance(system: &System, manifold: &Manifold) -> Option<f64> {
     let curve = FixedPointCurve::of(system, manifold);
     let collision = curve.collision().map(|(gamma, _)| gamma);
     let places = [Some(curve.hopf()), Some(curve.symmetry_breaking()), collision];
-    let is_boundary = |at: &f64| {
-        *at > 0.0 && curve.zone(at * (1.0 - BESIDE)) != curve.zone(at * (1.0 + BESIDE))
-    };
+    let is_boundary =
+        |at: &f64| *at > 0.0 && curve.zone(at * (1.0 - BESIDE)) != curve.zone(at * (1.0 + BESIDE));
     let near = |at: &f64| libm::log(at / gamma).abs();
     let nearest = places
         .into_iter()

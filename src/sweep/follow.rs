@@ -75,9 +75,8 @@ struct Stand {
 impl Stand {
     fn of(motion: &Motion, scales: &Scales) -> Self {
         let State { x, x_velocity, y_velocity, .. } = motion.state;
-        let velocity = |value: f64| {
-            scales.velocity_m_per_s(value).unwrap_or_else(|| scales.length(value))
-        };
+        let velocity =
+            |value: f64| scales.velocity_m_per_s(value).unwrap_or_else(|| scales.length(value));
         Self {
             x: scales.length(x),
             x_velocity: velocity(x_velocity),

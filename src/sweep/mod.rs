@@ -119,9 +119,11 @@ impl Plan {
         coordinates.reverse();
         let axes = || self.settings.axes.iter().zip(&coordinates);
         // Ratios are of what the others make the design.
-        let (ratios, others): (Vec<_>, Vec<_>) = axes().partition(|(axis, _)| axis.parameter.is_ratio());
-        let applied =
-            |design: Design, (axis, value): &(&SweepAxis, &f64)| axis.parameter.applied(&design, **value);
+        let (ratios, others): (Vec<_>, Vec<_>) =
+            axes().partition(|(axis, _)| axis.parameter.is_ratio());
+        let applied = |design: Design, (axis, value): &(&SweepAxis, &f64)| {
+            axis.parameter.applied(&design, **value)
+        };
         let design = others.iter().chain(&ratios).fold(self.design, applied);
         let scales = design.scales();
         let start = follow::start(axes().map(|(axis, value)| (axis.parameter, *value)), &scales);

@@ -58,17 +58,16 @@ fn simulated(plan: &Plan, points: &[Point]) -> Result<Vec<Vec<Found>>, StartErro
             .unzip();
         let all = match there.first().and_then(|first| points[*first].start) {
             Some(_) => {
-                let start = |(index, system): (&usize, &System)| Some((*system, points[*index].start?));
+                let start =
+                    |(index, system): (&usize, &System)| Some((*system, points[*index].start?));
                 let starts: Vec<(System, State)> =
                     there.iter().zip(&systems).filter_map(start).collect();
                 let ended = long_term(&starts, plan.settings.periods)?;
                 ended.into_iter().map(|motion| motion.into_iter().collect()).collect()
             }
             None => {
-                let Effort { starts, periods } = Effort {
-                    starts: plan.settings.starts,
-                    periods: plan.settings.periods,
-                };
+                let Effort { starts, periods } =
+                    Effort { starts: plan.settings.starts, periods: plan.settings.periods };
                 motions(&systems, &Effort { starts, periods })?
             }
         };

@@ -7,9 +7,7 @@ use toml::de::DeValue;
 
 use super::super::Design;
 use super::super::list::List;
-use super::super::quantity::{
-    Damping, Force, Frequency, Length, Mass, Stiffness, Velocity,
-};
+use super::super::quantity::{Damping, Force, Frequency, Length, Mass, Stiffness, Velocity};
 use super::super::reader::{Bound, Field, Reader};
 use super::super::suggest::nearest;
 use super::super::table::Table;
