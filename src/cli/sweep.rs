@@ -225,15 +225,18 @@ impl Sweep {
             ("vinesink.case".to_owned(), self.case_text.clone()),
         ];
         let shards = self.shards()?;
-        let sink = Growing::begin(&path)?;
         let empty = columns::empty(&self.plan);
-        let mut merger = Merger::new(sink, &empty, &notes).into_diagnostic()?;
-        for chunk in 0..self.plan.chunks() {
-            let file = shards.read(chunk)?;
-            let which = || shown(&shards.path(chunk));
-            merger.add(&file).into_diagnostic().wrap_err_with(which)?;
-        }
-        merger.finish().into_diagnostic()?.finish()?;
+        let together = || -> Result<()> {
+            let sink = Growing::begin(&path)?;
+            let mut merger = Merger::new(sink, &empty, &notes).into_diagnostic()?;
+            for chunk in 0..self.plan.chunks() {
+                let file = shards.read(chunk)?;
+                let which = || shown(&shards.path(chunk));
+                merger.add(&file).into_diagnostic().wrap_err_with(which)?;
+            }
+            Ok(merger.finish().into_diagnostic()?.finish()?)
+        };
+        together().wrap_err_with(|| unfinished(&path))?;
         shards.sweep_up()?;
         output::print(format!("{}\n", shown(&path)))?;
         if csv {
@@ -245,16 +248,26 @@ impl Sweep {
     /// The merged results once more as text, a chunk at a time.
     fn write_csv(&self, merged: &Path, empty: &[Column]) -> Result<()> {
         let path = self.folder.join("sweep.csv");
-        let results = Results::open(store::open(merged)?).into_diagnostic()?;
-        let mut table = Table::new(Growing::begin(&path)?, empty).into_diagnostic()?;
-        for group in 0..results.groups() {
-            let mut columns = empty.to_vec();
-            results.add_to(&mut columns, group).into_diagnostic()?;
-            table.add(&columns).into_diagnostic()?;
-        }
-        table.finish().into_diagnostic()?.finish()?;
+        let all = || -> Result<()> {
+            let results = Results::open(store::open(merged)?).into_diagnostic()?;
+            let mut table = Table::new(Growing::begin(&path)?, empty).into_diagnostic()?;
+            for group in 0..results.groups() {
+                let mut columns = empty.to_vec();
+                results.add_to(&mut columns, group).into_diagnostic()?;
+                table.add(&columns).into_diagnostic()?;
+            }
+            Ok(table.finish().into_diagnostic()?.finish()?)
+        };
+        all().wrap_err_with(|| unfinished(&path))?;
         output::print(format!("{}\n", shown(&path)))
     }
+}
+
+fn unfinished(path: &Path) -> String {
+    format!(
+        "{} could not be written; all chunks are kept, and `vinesink sweep merge` tries again",
+        shown(path)
+    )
 }
 
 fn shown(path: &Path) -> String {
