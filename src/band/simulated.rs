@@ -10,7 +10,7 @@ use crate::regimes::starts::StartBox;
 use crate::regimes::{Captures, Periodicity, Regime, Signs, Thresholds, periodicity};
 use crate::simulation::batch::{self, Extent};
 use crate::simulation::{
-    Impact, ImpactLog, Nobody, Observer, Segment, Simulation, StartError, Statistics, Stop,
+    Gauge, Impact, ImpactLog, Nobody, Observer, Segment, Simulation, StartError, Stop,
 };
 use crate::system::{State, System};
 
@@ -148,26 +148,29 @@ impl Motion {
 
 /// Measures one trajectory.
 struct Watch {
-    statistics: Statistics,
+    gauge: Gauge,
     log: ImpactLog,
     fastest: f64,
 }
 
 impl Observer for Watch {
+    fn flights(&self) -> bool {
+        self.gauge.flights()
+    }
     fn segment(&mut self, segment: &Segment) {
-        self.statistics.segment(segment);
+        self.gauge.segment(segment);
     }
     fn impact(&mut self, impact: &Impact) {
         let speed = (impact.x_velocity_before - impact.y_velocity_before).abs();
         self.fastest = self.fastest.max(speed);
         self.log.impact(impact);
-        self.statistics.impact(impact);
+        self.gauge.impact(impact);
     }
     fn sticks(&mut self, loss: f64) {
-        self.statistics.sticks(loss);
+        self.gauge.sticks(loss);
     }
     fn period(&mut self, state: &State) {
-        self.statistics.period(state);
+        self.gauge.period(state);
     }
 }
 
@@ -385,7 +388,7 @@ fn measured(group: Group, periods: u64) -> Vec<(Ended, Watch)> {
     let (watches, count) = (group.watched(), group.simulations.len());
     let (mut done, mut going, mut watches_on) = (Vec::new(), Group::default(), Vec::new());
     for (one, watch) in group.go_on(watches, &vec![extent(first); count]) {
-        let repeats = periodicity::find(watch.statistics.records())
+        let repeats = periodicity::find(watch.gauge.records())
             .is_some_and(|found| WATCHED.is_multiple_of(u64::from(found.periods)));
         if repeats || one.stop != Stop::EndTime || periods == first {
             done.push((one, watch));
@@ -402,7 +405,7 @@ fn measured(group: Group, periods: u64) -> Vec<(Ended, Watch)> {
 impl Watch {
     fn begin(simulation: &Simulation) -> Self {
         Self {
-            statistics: Statistics::begin(simulation.system(), simulation.state()),
+            gauge: Gauge::begin(simulation.system(), simulation.state()),
             log: ImpactLog::of_the_last(KEPT_IMPACTS),
             fastest: 0.0,
         }
@@ -414,14 +417,14 @@ impl Watch {
         if !matches!(stop, Stop::EndTime | Stop::ImpactLimit) {
             return None;
         }
-        let statistics = &self.statistics;
+        let gauge = &self.gauge;
         let thresholds = Thresholds::default();
         let period = simulation.system().period();
         let (signs, errors, repeats_after) = match repetition {
             Some(Repetition { found, asymmetry }) => {
                 let signs = Signs {
-                    impacts_per_period: statistics.impacts_per_period(),
-                    visits_per_period: statistics.visits_per_period(),
+                    impacts_per_period: gauge.impacts_per_period(),
+                    visits_per_period: gauge.visits_per_period(),
                     repeats: true,
                     asymmetry,
                     captures: Captures::default(),
@@ -430,22 +433,21 @@ impl Watch {
                 (signs, [0.0; 2], Some(found.periods))
             }
             None => {
-                let found = periodicity::find(statistics.records());
-                let signs = Signs::measured(statistics, &self.log.impacts, period, &thresholds);
-                (signs, statistics.errors(), found.map(|found| found.periods))
+                let found = periodicity::find(gauge.records());
+                let signs = Signs::measured(gauge, &self.log.impacts, period, &thresholds);
+                (signs, gauge.errors(), found.map(|found| found.periods))
             }
         };
-        let energy = statistics.energy();
         Some(Motion {
-            peak: statistics.peak(),
-            rms: statistics.rms(),
+            peak: gauge.peak(),
+            rms: gauge.rms(),
             rms_error: errors[0],
-            impacts_per_period: statistics.impacts_per_period(),
+            impacts_per_period: gauge.impacts_per_period(),
             impacts_error: errors[1],
             impact_speed: self.fastest,
             regime: signs.regime(&thresholds),
             starts: 1,
-            efficiency: (energy.input > 0.0).then(|| energy.impact / energy.input),
+            efficiency: gauge.efficiency(),
             repeats_after,
             state: simulation.state(),
         })

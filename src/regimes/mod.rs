@@ -19,7 +19,7 @@ pub mod starts;
 
 use serde::Serialize;
 
-use crate::simulation::{Impact, Statistics};
+use crate::simulation::{Gauge, Impact, Statistics};
 pub use attractor::Attractor;
 pub use energetics::Energetics;
 pub use lyapunov::{Exponent, Lyapunov};
@@ -214,15 +214,15 @@ impl Signs {
 
     /// Of a window that was measured.
     pub fn measured(
-        statistics: &Statistics,
+        gauge: &Gauge,
         impacts: &[Impact],
         period: f64,
         thresholds: &Thresholds,
     ) -> Self {
-        let records = statistics.records();
+        let records = gauge.records();
         Self {
-            impacts_per_period: statistics.impacts_per_period(),
-            visits_per_period: statistics.visits_per_period(),
+            impacts_per_period: gauge.impacts_per_period(),
+            visits_per_period: gauge.visits_per_period(),
             repeats: periodicity::find(records).is_some(),
             asymmetry: periodicity::asymmetry(impacts, period),
             captures: modulation::captures(records, thresholds.shortest_capture),
