@@ -75,6 +75,14 @@ pub fn read_text(path: &Path) -> Result<String, StoreError> {
     text_of(path, std::fs::read(path).map_err(|cause| refused("read", path, cause))?)
 }
 
+/// Opens a file for reading.
+///
+/// # Errors
+/// [`StoreError::Refused`] when it cannot be read.
+pub fn open(path: &Path) -> Result<std::fs::File, StoreError> {
+    std::fs::File::open(path).map_err(|cause| refused("read", path, cause))
+}
+
 /// The bytes of a file as text.
 fn text_of(path: &Path, bytes: Vec<u8>) -> Result<String, StoreError> {
     String::from_utf8(bytes).map_err(|error| {
@@ -329,10 +337,13 @@ fn temporary_folder(path: &Path) -> Result<TempDir, StoreError> {
     ordinary(0o777).tempdir_in(folder).map_err(|cause| refused("write in", folder, cause))
 }
 
+/// How the names of files begin that are not whole yet.
+const TEMPORARY: &str = ".vinesink-";
+
 /// Temporary names that get the permissions of any other new file, not those of a secret.
 fn ordinary(mode: u32) -> Builder<'static, 'static> {
     let mut builder = Builder::new();
-    builder.prefix(".vinesink-");
+    builder.prefix(TEMPORARY);
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(mode));
     #[cfg(not(unix))]

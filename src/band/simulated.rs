@@ -7,15 +7,16 @@ use super::{Band, Stretch, exact};
 use crate::case::BandOver;
 use crate::orbits::SymmetricOrbit;
 use crate::regimes::starts::StartBox;
-use crate::regimes::{self, Regime, Thresholds, periodicity};
+use crate::regimes::{Captures, Periodicity, Regime, Signs, Thresholds, periodicity};
+use crate::simulation::batch::{self, Extent};
 use crate::simulation::{
-    Impact, ImpactLog, Nobody, Observer, Segment, Simulation, StartError, Statistics, Stop, batch,
+    Gauge, Impact, ImpactLog, Nobody, Observer, Segment, Simulation, StartError, Stop,
 };
 use crate::system::{State, System};
 
 /// The start from rest: the absorber lies halfway between the middle of its cavity and a wall, as it does
 /// on average if it may lie anywhere. Exactly in the middle the slightest push would wake it.
-const FROM_REST: State = State { y: 0.5, ..State::AT_REST };
+pub const FROM_REST: State = State { y: 0.5, ..State::AT_REST };
 /// Even places of a band that are simulated, its ends among them.
 pub const PLACES: u32 = 33;
 /// How often it is looked closer around the place with the largest amplitude, and at how many places on
@@ -33,9 +34,10 @@ const ALIKE: f64 = 0.01;
 /// Impacts in one stretch, per period asked for, at which a trajectory is given up.
 const MOST_IMPACTS: u64 = 1000;
 
-/// Periods after which a motion that is seen to repeat is measured; repetitions that divide it fill it
-/// whole.
-const REPEATING: u64 = 48;
+/// Periods at the end of those left out in which it is watched whether a motion repeats, which then is
+/// measured over one repetition. One that is not seen to repeat by then is looked at once more after as
+/// many periods measured, which repetitions that divide it fill whole.
+const WATCHED: u64 = 48;
 /// Relative difference of peaks up to which a simulated motion is that of an exact orbit, and
 /// difference of impacts per period: what is left of a transient, and of a window's largest peak.
 const AS_EXACT: f64 = 0.01;
@@ -80,6 +82,15 @@ pub struct Motion {
     pub regime: Regime,
     /// How many of the starts led to it.
     pub starts: u32,
+    /// Share of the excitation's work that impacts dissipate; none where it does no work.
+    #[serde(skip)]
+    pub efficiency: Option<f64>,
+    /// Excitation periods after which it repeats, if it was seen to.
+    #[serde(skip)]
+    pub repeats_after: Option<u32>,
+    /// A state on it, at excitation phase 0.
+    #[serde(skip)]
+    pub state: State,
 }
 
 /// A place of a band, and the motions that starts led to there.
@@ -137,28 +148,29 @@ impl Motion {
 
 /// Measures one trajectory.
 struct Watch {
-    statistics: Statistics,
+    gauge: Gauge,
     log: ImpactLog,
-    /// Of the excitation.
-    period: f64,
     fastest: f64,
 }
 
 impl Observer for Watch {
+    fn flights(&self) -> bool {
+        self.gauge.flights()
+    }
     fn segment(&mut self, segment: &Segment) {
-        self.statistics.segment(segment);
+        self.gauge.segment(segment);
     }
     fn impact(&mut self, impact: &Impact) {
         let speed = (impact.x_velocity_before - impact.y_velocity_before).abs();
         self.fastest = self.fastest.max(speed);
         self.log.impact(impact);
-        self.statistics.impact(impact);
+        self.gauge.impact(impact);
     }
     fn sticks(&mut self, loss: f64) {
-        self.statistics.sticks(loss);
+        self.gauge.sticks(loss);
     }
     fn period(&mut self, state: &State) {
-        self.statistics.period(state);
+        self.gauge.period(state);
     }
 }
 
@@ -225,54 +237,221 @@ fn simulated_at(
 /// # Errors
 /// [`StartError`] where a start is not finite.
 pub fn motions(systems: &[System], effort: &Effort) -> Result<Vec<Vec<Motion>>, StartError> {
-    let mut simulations = Vec::with_capacity(systems.len() * effort.starts as usize);
+    let mut starts = Vec::with_capacity(systems.len() * effort.starts as usize);
     for system in systems {
         let sample = StartBox::around(system);
-        for index in 0..effort.starts {
-            let start = index.checked_sub(1).map_or(FROM_REST, |index| sample.start(index));
-            simulations.push(Simulation::new(system, start, 0.0)?);
-        }
+        let others = (1..effort.starts).map(|index| sample.start(index - 1));
+        starts.extend([FROM_REST].into_iter().chain(others).map(|start| (*system, start)));
     }
-    let left_out = systems.iter().map(left_out).max().unwrap_or(0);
-    let mut nobody: Vec<Nobody> = simulations.iter().map(|_| Nobody).collect();
-    batch::run(&mut simulations, left_out, left_out * MOST_IMPACTS, &mut nobody);
-    let mut ended = measured(simulations, effort.periods);
-    ended.sort_by_key(|(index, ..)| *index);
-    let ended: Vec<(Watch, Stop)> =
-        ended.into_iter().map(|(_, watch, stop)| (watch, stop)).collect();
+    let ended = long_term(&starts, effort.periods)?;
     Ok(ended.chunks(effort.starts.max(1) as usize).map(distinct).collect())
 }
 
-/// Measures trajectories, by their index: those that repeat over a short window, the others over
-/// `periods`.
-fn measured(mut simulations: Vec<Simulation>, periods: u64) -> Vec<(usize, Watch, Stop)> {
-    let begin = |one: &Simulation| Watch {
-        statistics: Statistics::begin(one.system(), one.state()),
-        log: ImpactLog::of_the_last(KEPT_IMPACTS),
-        period: one.system().period(),
-        fastest: 0.0,
-    };
-    let mut watches: Vec<Watch> = simulations.iter().map(begin).collect();
-    let first = periods.min(REPEATING);
-    let stops = batch::run(&mut simulations, first, first * MOST_IMPACTS, &mut watches);
-    let (mut done, mut going) = (Vec::new(), (Vec::new(), Vec::new(), Vec::new()));
-    for (index, ((one, watch), stop)) in simulations.into_iter().zip(watches).zip(stops).enumerate()
-    {
-        let repeats = periodicity::find(watch.statistics.records())
-            .is_some_and(|found| REPEATING.is_multiple_of(u64::from(found.periods)));
-        if repeats || stop != Stop::EndTime || periods == first {
-            done.push((index, watch, stop));
-        } else {
-            going.0.push(index);
-            going.1.push(one);
-            going.2.push(watch);
+/// The motion that each start of a system leads to, all of them side by side, each as if it were alone;
+/// none where it could not be followed. `periods` as in [`Effort`].
+///
+/// # Errors
+/// [`StartError`] where a start is not finite.
+pub fn long_term(
+    starts: &[(System, State)],
+    periods: u64,
+) -> Result<Vec<Option<Motion>>, StartError> {
+    let begin = |(system, start): &(System, State)| Simulation::new(system, *start, 0.0);
+    let mut all: Vec<Simulation> = starts.iter().map(begin).collect::<Result<_, _>>()?;
+    let mut nobody: Vec<Nobody> = all.iter().map(|_| Nobody).collect();
+    let faded = |one: &Simulation| extent(left_out(one.system()) - WATCHED);
+    let transients: Vec<Extent> = all.iter().map(faded).collect();
+    batch::run_each(&mut all, &transients, &mut nobody);
+    let mut watches: Vec<Strobes> = all.iter().map(|_| Strobes::new()).collect();
+    let watched = extent(WATCHED);
+    let stops = batch::run(&mut all, watched.periods, watched.impacts, &mut watches);
+    let (mut repeating, mut other) = (Group::default(), Group::default());
+    let mut known = Vec::new();
+    for (index, ((one, watch), stop)) in all.into_iter().zip(watches).zip(stops).enumerate() {
+        match periodicity::find(&watch.periods).filter(|_| stop == Stop::EndTime) {
+            Some(found) => {
+                known.push(Repetition::of(found, &watch.log, one.system()));
+                repeating.add(index, one);
+            }
+            None => other.add(index, one),
         }
     }
-    let (indices, mut simulations, mut watches) = going;
-    let rest = periods - first;
-    let stops = batch::run(&mut simulations, rest, rest * MOST_IMPACTS, &mut watches);
-    done.extend(indices.into_iter().zip(watches).zip(stops).map(|((i, w), s)| (i, w, s)));
+    let mut ended: Vec<Option<Motion>> = vec![None; starts.len()];
+    let once: Vec<Extent> = known.iter().map(|one| extent(u64::from(one.found.periods))).collect();
+    let watches = repeating.watched();
+    for ((one, watch), repetition) in repeating.go_on(watches, &once).into_iter().zip(known) {
+        ended[one.index] = watch.motion(&one, Some(repetition));
+    }
+    for (one, watch) in measured(other, periods) {
+        ended[one.index] = watch.motion(&one, None);
+    }
+    Ok(ended)
+}
+
+/// So many periods, or as many impacts as no motion worth looking at has in them.
+fn extent(periods: u64) -> Extent {
+    Extent { periods, impacts: periods * MOST_IMPACTS }
+}
+
+/// Watches whether a trajectory repeats, which costs next to nothing.
+struct Strobes {
+    periods: Vec<Strobe>,
+    log: ImpactLog,
+    impacts: u32,
+}
+
+/// An excitation period, seen at its end.
+struct Strobe {
+    end: State,
+    impacts: u32,
+}
+
+impl periodicity::Strobed for Strobe {
+    fn end(&self) -> &State {
+        &self.end
+    }
+    fn impacts(&self) -> u32 {
+        self.impacts
+    }
+}
+
+impl Strobes {
+    fn new() -> Self {
+        Self {
+            periods: Vec::with_capacity(WATCHED as usize),
+            log: ImpactLog::of_the_last(KEPT_IMPACTS),
+            impacts: 0,
+        }
+    }
+}
+
+impl Observer for Strobes {
+    const SEGMENTS: bool = false;
+    fn impact(&mut self, impact: &Impact) {
+        self.impacts += 1;
+        self.log.impact(impact);
+    }
+    fn period(&mut self, state: &State) {
+        let impacts = std::mem::take(&mut self.impacts);
+        self.periods.push(Strobe { end: *state, impacts });
+    }
+}
+
+/// What is known of a motion that repeats before it is measured.
+struct Repetition {
+    found: Periodicity,
+    asymmetry: f64,
+}
+
+impl Repetition {
+    fn of(found: Periodicity, log: &ImpactLog, system: &System) -> Self {
+        Self { found, asymmetry: periodicity::asymmetry(&log.impacts, system.period()) }
+    }
+}
+
+/// Trajectories that go on together, and which starts they come from.
+#[derive(Default)]
+struct Group {
+    indices: Vec<usize>,
+    simulations: Vec<Simulation>,
+}
+
+/// A trajectory that has been measured.
+struct Ended {
+    index: usize,
+    simulation: Simulation,
+    stop: Stop,
+}
+
+impl Group {
+    fn add(&mut self, index: usize, simulation: Simulation) {
+        self.indices.push(index);
+        self.simulations.push(simulation);
+    }
+
+    fn watched(&self) -> Vec<Watch> {
+        self.simulations.iter().map(Watch::begin).collect()
+    }
+
+    fn go_on(mut self, mut watches: Vec<Watch>, extents: &[Extent]) -> Vec<(Ended, Watch)> {
+        let stops = batch::run_each(&mut self.simulations, extents, &mut watches);
+        let simulations = self.indices.into_iter().zip(self.simulations).zip(stops);
+        let ended = |((index, simulation), stop)| Ended { index, simulation, stop };
+        simulations.map(ended).zip(watches).collect()
+    }
+}
+
+/// Measures trajectories that were not seen to repeat: those that then do over a short window, the
+/// others over `periods`.
+fn measured(group: Group, periods: u64) -> Vec<(Ended, Watch)> {
+    let first = periods.min(WATCHED);
+    let (watches, count) = (group.watched(), group.simulations.len());
+    let (mut done, mut going, mut watches_on) = (Vec::new(), Group::default(), Vec::new());
+    for (one, watch) in group.go_on(watches, &vec![extent(first); count]) {
+        let repeats = periodicity::find(watch.gauge.records())
+            .is_some_and(|found| WATCHED.is_multiple_of(u64::from(found.periods)));
+        if repeats || one.stop != Stop::EndTime || periods == first {
+            done.push((one, watch));
+        } else {
+            going.add(one.index, one.simulation);
+            watches_on.push(watch);
+        }
+    }
+    let rest = vec![extent(periods - first); watches_on.len()];
+    done.extend(going.go_on(watches_on, &rest));
     done
+}
+
+impl Watch {
+    fn begin(simulation: &Simulation) -> Self {
+        Self {
+            gauge: Gauge::begin(simulation.system(), simulation.state()),
+            log: ImpactLog::of_the_last(KEPT_IMPACTS),
+            fastest: 0.0,
+        }
+    }
+
+    /// The motion measured; none where the trajectory came to a bad end.
+    fn motion(&self, ended: &Ended, repetition: Option<Repetition>) -> Option<Motion> {
+        let Ended { simulation, stop, .. } = ended;
+        if !matches!(stop, Stop::EndTime | Stop::ImpactLimit) {
+            return None;
+        }
+        let gauge = &self.gauge;
+        let thresholds = Thresholds::default();
+        let period = simulation.system().period();
+        let (signs, errors, repeats_after) = match repetition {
+            Some(Repetition { found, asymmetry }) => {
+                let signs = Signs {
+                    impacts_per_period: gauge.impacts_per_period(),
+                    visits_per_period: gauge.visits_per_period(),
+                    repeats: true,
+                    asymmetry,
+                    captures: Captures::default(),
+                    modulation_depth: 0.0,
+                };
+                (signs, [0.0; 2], Some(found.periods))
+            }
+            None => {
+                let found = periodicity::find(gauge.records());
+                let signs = Signs::measured(gauge, &self.log.impacts, period, &thresholds);
+                (signs, gauge.errors(), found.map(|found| found.periods))
+            }
+        };
+        Some(Motion {
+            peak: gauge.peak(),
+            rms: gauge.rms(),
+            rms_error: errors[0],
+            impacts_per_period: gauge.impacts_per_period(),
+            impacts_error: errors[1],
+            impact_speed: self.fastest,
+            regime: signs.regime(&thresholds),
+            starts: 1,
+            efficiency: gauge.efficiency(),
+            repeats_after,
+            state: simulation.state(),
+        })
+    }
 }
 
 /// Periods after which what a start leaves has faded.
@@ -282,32 +461,12 @@ fn left_out(system: &System) -> u64 {
 }
 
 /// The motions of one system that trajectories have ended in.
-fn distinct(ended: &[(Watch, Stop)]) -> Vec<Motion> {
+fn distinct(ended: &[Option<Motion>]) -> Vec<Motion> {
     let mut distinct: Vec<Motion> = Vec::new();
-    let measured = |stop: &Stop| matches!(stop, Stop::EndTime | Stop::ImpactLimit);
-    for (watch, _) in ended.iter().filter(|(_, stop)| measured(stop)) {
-        let statistics = &watch.statistics;
-        let [rms_error, impacts_error] = statistics.errors();
-        let motion = Motion {
-            peak: statistics.peak(),
-            rms: statistics.rms(),
-            rms_error,
-            impacts_per_period: statistics.impacts_per_period(),
-            impacts_error,
-            impact_speed: watch.fastest,
-            regime: regimes::classify(
-                statistics,
-                &watch.log.impacts,
-                None,
-                watch.period,
-                &Thresholds::default(),
-            )
-            .regime,
-            starts: 1,
-        };
-        match distinct.iter_mut().find(|known| known.is_same(&motion)) {
-            Some(known) => known.join(&motion),
-            None => distinct.push(motion),
+    for motion in ended.iter().flatten() {
+        match distinct.iter_mut().find(|known| known.is_same(motion)) {
+            Some(known) => known.join(motion),
+            None => distinct.push(*motion),
         }
     }
     distinct

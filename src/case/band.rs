@@ -44,7 +44,7 @@ const SPECTRUM: List = List {
 const PLAIN_SPECTRUM: List = List { example: "[[0.97, 4.0], [1.03, 5.0]]", ..SPECTRUM };
 
 /// Reads numbers of a band in the way its case is written.
-pub(super) struct Units<'d> {
+struct Units<'d> {
     design: &'d Design,
     scales: Scales,
 }
@@ -118,12 +118,8 @@ fn read_over(reader: &mut Reader, table: &Table) -> Option<BandOver> {
 }
 
 impl<'d> Units<'d> {
-    pub fn of(design: &'d Design) -> Self {
+    fn of(design: &'d Design) -> Self {
         Self { design, scales: design.scales() }
-    }
-
-    pub fn design(&self) -> &'d Design {
-        self.design
     }
 
     fn excitation(&self) -> Option<PhysicalExcitation> {

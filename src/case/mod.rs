@@ -50,7 +50,7 @@ pub use rewrite::{RewriteError, Rewritten, Rounding};
 pub use scales::{LengthUnit, Scales};
 pub use schema::{FILE_NAME as SCHEMA_FILE_NAME, schema};
 pub use simulation::SimulationSettings;
-pub use sweep::{SweepAxis, SweepSettings};
+pub use sweep::{Layer, Recorded, SweepAxis, SweepParameter, SweepSettings};
 pub use uncertainty::{Distribution, Uncertainty};
 
 use crate::system::System;
@@ -131,10 +131,21 @@ const TABLES: &[(&str, &[&str])] = &[
     (optimize::TABLE, optimize::KEYS),
     (uncertainty::TABLE, uncertainty::KEYS),
     (sweep::TABLE, sweep::KEYS),
-    (sweep::AXES[0], sweep::AXIS_KEYS),
-    (sweep::AXES[1], sweep::AXIS_KEYS),
-    (sweep::AXES[2], sweep::AXIS_KEYS),
-    (sweep::AXES[3], sweep::AXIS_KEYS),
+    (sweep::SweepParameter::ALL[0].key(), sweep::AXIS_KEYS),
+    (sweep::SweepParameter::ALL[1].key(), sweep::AXIS_KEYS),
+    (sweep::SweepParameter::ALL[2].key(), sweep::AXIS_KEYS),
+    (sweep::SweepParameter::ALL[3].key(), sweep::AXIS_KEYS),
+    (sweep::SweepParameter::ALL[4].key(), sweep::AXIS_KEYS),
+    (sweep::SweepParameter::ALL[5].key(), sweep::AXIS_KEYS),
+    (sweep::SweepParameter::ALL[6].key(), sweep::AXIS_KEYS),
+    (sweep::SweepParameter::ALL[7].key(), sweep::AXIS_KEYS),
+    (sweep::SweepParameter::ALL[8].key(), sweep::AXIS_KEYS),
+    (sweep::SweepParameter::ALL[9].key(), sweep::AXIS_KEYS),
+    (sweep::SweepParameter::ALL[10].key(), sweep::AXIS_KEYS),
+    (sweep::SweepParameter::ALL[11].key(), sweep::AXIS_KEYS),
+    (sweep::SweepParameter::ALL[12].key(), sweep::AXIS_KEYS),
+    (sweep::SweepParameter::ALL[13].key(), sweep::AXIS_KEYS),
+    (sweep::SweepParameter::ALL[14].key(), sweep::AXIS_KEYS),
 ];
 
 const STARTING_CASE: &str = include_str!("starting_case.toml");

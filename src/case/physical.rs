@@ -64,6 +64,11 @@ impl Physical {
     pub fn natural_frequency_rad_per_s(&self) -> f64 {
         sqrt(self.stiffness_n_per_m) / sqrt(self.mass_kg)
     }
+
+    /// `2 sqrt(k1 m1)`, the damping at which the oscillator alone ceases to ring, in N s/m.
+    pub fn critical_damping_n_s_per_m(&self) -> f64 {
+        critical_damping(self.stiffness_n_per_m, self.mass_kg)
+    }
 }
 
 /// `2 sqrt(k1 m1)` in N s/m.

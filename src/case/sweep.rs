@@ -1,60 +1,66 @@
-//! The optional table `[sweep]`: which parameters `vinesink sweep` varies, and how each point is simulated.
+//! The optional table `[sweep]`: which parameters `vinesink sweep` varies, how each point is worked out, and
+//! what is recorded.
+
+mod axis;
+mod parameter;
+mod recorded;
 
 use std::ops::RangeInclusive;
 
+use toml::de::DeValue;
+
 use super::Design;
-use super::band::Units;
-use super::quantity::Length;
+use super::list::List;
 use super::reader::{Bound, Field, Reader};
 use super::suggest::nearest;
-use super::table::Table;
-use crate::system::Parameter;
+use super::table::{Table, kind};
 
-/// A parameter and its values, ascending: a clearance or an amplitude over the case's own, a frequency
-/// ratio, a restitution.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SweepAxis {
-    /// What is varied.
-    pub parameter: Parameter,
-    /// Its values.
-    pub values: Vec<f64>,
-}
+pub use axis::SweepAxis;
+pub use parameter::SweepParameter;
+pub use recorded::{Layer, Recorded};
 
 /// What the case says about its sweep.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SweepSettings {
-    /// The axes; the last of them varies fastest.
+    /// The axes in the order of the file, but for that which is followed: it is the last. The last
+    /// varies fastest.
     pub axes: Vec<SweepAxis>,
-    /// Starts at each point, that from rest among them.
+    /// Starts at each point, that from rest among them; 1 where starts are an axis, or motions are
+    /// followed.
     pub starts: u32,
     /// Excitation periods measured where a motion is not seen to repeat.
     pub periods: u64,
+    /// Whether a motion is followed along the last axis, up and then down.
+    pub follow: bool,
+    /// What is recorded, each once.
+    pub record: Vec<Recorded>,
 }
 
 pub(super) const TABLE: &str = "sweep";
-pub(super) const KEYS: &[&str] =
-    &["clearance", "frequency", "amplitude", "restitution", "starts", "periods"];
-/// The tables of the axes, such as `[sweep.clearance]`, and their keys.
-pub(super) const AXES: [&str; 4] = ["clearance", "frequency", "amplitude", "restitution"];
-pub(super) const AXIS_KEYS: &[&str] = &["from", "to", "count", "scale"];
+pub(super) const KEYS: &[&str] = &{
+    let mut keys = [""; SweepParameter::ALL.len() + SETTINGS.len()];
+    let mut k = 0;
+    while k < keys.len() {
+        keys[k] = if k < SETTINGS.len() {
+            SETTINGS[k]
+        } else {
+            SweepParameter::ALL[k - SETTINGS.len()].key()
+        };
+        k += 1;
+    }
+    keys
+};
+const SETTINGS: [&str; 4] = ["starts", "periods", "follow", "record"];
+pub(super) use axis::KEYS as AXIS_KEYS;
 
 const STARTS: RangeInclusive<u64> = 1..=1000;
 const PERIODS: RangeInclusive<u64> = 48..=1_000_000;
-/// Most values of an axis; the product of all axes is bounded by [`MOST_POINTS`].
-const COUNT: RangeInclusive<u64> = 2..=1_000_000;
 /// Most points of a sweep.
 const MOST_POINTS: f64 = 1e12;
 const DEFAULT_STARTS: u32 = 4;
 const DEFAULT_PERIODS: u64 = 250;
-
-/// How values are spread between the ends of an axis.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Scale {
-    Linear,
-    Logarithmic,
-}
-
-const SCALES: [(&str, Scale); 2] = [("linear", Scale::Linear), ("logarithmic", Scale::Logarithmic)];
+const RECORD: List =
+    List { key: "record", bound: Bound::Any, example: "[\"regime\", \"peak\", \"orbit_peak\"]" };
 
 /// Reads the table, which may be missing.
 pub(super) fn read(
@@ -63,22 +69,36 @@ pub(super) fn read(
     design: Option<&Design>,
 ) -> Option<SweepSettings> {
     let table = reader.table(root, TABLE)?;
-    let units = Units::of(design?);
+    let design = design?;
     let starts = table.whole_number(reader, Field::new("starts", "N", Bound::Any, "4"), STARTS);
     let periods =
         table.whole_number(reader, Field::new("periods", "n", Bound::Any, "250"), PERIODS);
+    let record = read_record(reader, &table);
     let mut axes = Vec::new();
-    for name in AXES.into_iter().filter(|name| table.has(name)) {
-        let axis = reader.table(&table, name)?;
-        axes.push(read_axis(reader, &axis, name, &units)?);
+    for parameter in SweepParameter::ALL.into_iter().filter(|one| table.has(one.key())) {
+        let at = table.span_of(parameter.key());
+        let axis = reader.table(&table, parameter.key())?;
+        axes.push((at.start, axis::read(reader, &axis, parameter, design)?));
     }
+    axes.sort_by_key(|(at, _)| *at);
+    let mut axes: Vec<SweepAxis> = axes.into_iter().map(|(_, axis)| axis).collect();
     if axes.is_empty() {
         reader.report(
             root.span_of(TABLE),
             "the sweep varies nothing",
-            "expected at least one of [sweep.clearance], [sweep.frequency], [sweep.amplitude], \
-             [sweep.restitution]",
+            format!("expected at least one of {}", names(SweepParameter::ALL.map(|p| p.key()))),
             "write for example clearance = { from = \"5 mm\", to = \"40 mm\", count = 100 }",
+        );
+        return None;
+    }
+    let has = |parameter| axes.iter().any(|axis| axis.parameter == parameter);
+    let twice = axes.iter().filter_map(|axis| Some((axis.parameter, axis.parameter.rival()?)));
+    if let Some((one, other)) = twice.into_iter().find(|(_, other)| has(*other)) {
+        reader.report(
+            table.span_of(other.key()),
+            format!("`{}` and `{}` say the same thing twice", one.key(), other.key()),
+            "expected only one of the two axes",
+            "remove one of the two",
         );
         return None;
     }
@@ -92,150 +112,159 @@ pub(super) fn read(
         );
         return None;
     }
+    let follow = match table.has("follow") {
+        true => Some(read_followed(reader, &table, &axes)?),
+        false => None,
+    };
+    let alone = match axes.iter().find(|axis| axis.parameter.is_initial()) {
+        Some(axis) => Some((axis.parameter.key(), "the start is an axis itself")),
+        None => follow.map(|_| ("follow", "a motion is followed from point to point")),
+    };
+    if let (Some((_, why)), Some(_)) = (alone, starts) {
+        let message = format!("`starts` has no meaning where {why}");
+        let help = "remove the line `starts`";
+        reader.report(table.span_of("starts"), message, "expected no `starts`", help);
+        return None;
+    }
+    let mut record = record?;
+    if let Some(index) = follow {
+        let followed = axes.remove(index);
+        axes.push(followed);
+        let asked = table.has("record");
+        if let Some(one) = record.iter().find(|one| asked && one.is_of_starts()) {
+            let message = format!("`{}` has no meaning where a motion is followed", one.key());
+            let help = "leave it out";
+            reader.report(
+                table.span_of_value("record"),
+                message,
+                "expected what one motion has",
+                help,
+            );
+            return None;
+        }
+        record.retain(|one| !one.is_of_starts());
+    }
     Some(SweepSettings {
         axes,
-        starts: starts.map_or(DEFAULT_STARTS, |starts| starts as u32),
+        starts: alone.map_or(starts.map_or(DEFAULT_STARTS, |starts| starts as u32), |_| 1),
         periods: periods.unwrap_or(DEFAULT_PERIODS),
+        follow: follow.is_some(),
+        record,
     })
 }
 
-fn read_axis(
-    reader: &mut Reader,
-    table: &Table,
-    name: &'static str,
-    units: &Units,
-) -> Option<SweepAxis> {
-    let count = Field::new("count", "n", Bound::Any, "100");
-    let count = table.whole_number(reader, count, COUNT);
-    if count.is_none() && !table.has("count") {
-        reader.report(
-            table.span_of("count"),
-            format!("`count` is missing in [sweep.{name}]"),
-            "expected how many values the axis has",
-            "add for example count = 100",
-        );
-    }
-    let scale = read_scale(reader, table)?;
-    let parameter = match name {
-        "clearance" => Parameter::Clearance,
-        "frequency" => Parameter::FrequencyRatio,
-        "amplitude" => Parameter::Forcing,
-        _ => Parameter::Restitution,
-    };
-    let ends = ["from", "to"].map(|key| match parameter {
-        Parameter::Clearance => units.clearance(reader, table, key),
-        Parameter::FrequencyRatio => units.frequency(reader, table, key, "f"),
-        Parameter::Forcing => units.amplitude(reader, table, key, "F"),
-        Parameter::Restitution => table.number(reader, Field::new(key, "r", Bound::UpToOne, "0.6")),
-    });
-    let ([from, to], count) = ([ends[0]?, ends[1]?], count?);
-    if from >= to {
-        let help = "write the smaller end first";
-        let message = format!("`from` of [sweep.{name}] is not below its `to`");
-        reader.report(table.span_of_value("to"), message, "expected `to` above `from`", help);
-        return None;
-    }
-    if scale == Scale::Logarithmic && from <= 0.0 {
-        let help = "write scale = \"linear\", or begin above 0";
-        let message = "a logarithmic axis begins at 0";
-        reader.report(table.span_of_value("from"), message, "expected `from` above 0", help);
-        return None;
-    }
-    Some(SweepAxis { parameter, values: spread(from, to, count, scale) })
-}
-
-/// `count` values from one end to the other, both among them.
-fn spread(from: f64, to: f64, count: u64, scale: Scale) -> Vec<f64> {
-    let last = (count - 1) as f64;
-    let at = |k: u64| {
-        let part = k as f64 / last;
-        let value = match scale {
-            Scale::Linear => from * (1.0 - part) + to * part,
-            Scale::Logarithmic => from * libm::pow(to / from, part),
-        };
-        value.clamp(from, to)
-    };
-    (0..count).map(at).collect()
-}
-
-fn read_scale(reader: &mut Reader, table: &Table) -> Option<Scale> {
-    if !table.has("scale") {
-        return Some(Scale::Linear);
-    }
-    let written = table.text(reader, "scale", "scale = \"linear\"")?;
-    let found = SCALES.iter().find(|(name, _)| *name == written);
+/// Which axis is followed.
+fn read_followed(reader: &mut Reader, table: &Table, axes: &[SweepAxis]) -> Option<usize> {
+    let written = table.text(reader, "follow", "follow = \"frequency\"")?;
+    let may_be = |axis: &&SweepAxis| !axis.parameter.is_initial();
+    let found = axes.iter().position(|axis| axis.parameter.key() == written && may_be(&axis));
     if found.is_none() {
-        let names = SCALES.map(|(name, _)| name);
-        let help = match nearest(written, &names) {
-            Some(near) => format!("did you mean \"{near}\"?"),
-            None => "write for example scale = \"linear\"".to_owned(),
+        let keys: Vec<&str> = axes.iter().filter(may_be).map(|axis| axis.parameter.key()).collect();
+        let help = match keys.first() {
+            Some(key) => format!("write for example follow = \"{key}\""),
+            None => "remove the line; starts cannot be followed".to_owned(),
         };
-        let message = format!("`scale` is \"{written}\"");
-        let expected = "expected \"linear\" or \"logarithmic\"";
-        reader.report(table.span_of_value("scale"), message, expected, help);
+        let message = format!("`follow` is \"{written}\", which is no axis that can be followed");
+        let expected = match keys.is_empty() {
+            true => "expected an axis other than the start's".to_owned(),
+            false => format!("expected {}", names(keys)),
+        };
+        reader.report(table.span_of_value("follow"), message, expected, help);
     }
-    found.map(|(_, scale)| *scale)
+    found
 }
 
-impl Units<'_> {
-    /// A clearance over the case's own.
-    fn clearance(&self, reader: &mut Reader, table: &Table, key: &'static str) -> Option<f64> {
-        Some(match self.design() {
-            Design::Physical(physical) => {
-                let field = Field::new(key, "b", Bound::Positive, "\"7.5 mm\"");
-                table.quantity::<Length>(reader, field)? / physical.clearance_m
+/// What is recorded; the usual where the case does not say.
+fn read_record(reader: &mut Reader, table: &Table) -> Option<Vec<Recorded>> {
+    let Some((_, value)) = table.entry(RECORD.key) else { return Some(Recorded::USUAL.to_vec()) };
+    let all = Recorded::ALL.map(Recorded::key);
+    let items = match value.get_ref() {
+        DeValue::Array(items) if !items.is_empty() => items,
+        other => {
+            let message = format!("`record` is {}", kind(other));
+            let message = if other.is_array() { "`record` is empty".to_owned() } else { message };
+            let expected = format!("expected a list of {}", names(all));
+            reader.report(value.span(), message, expected, RECORD.help());
+            return None;
+        }
+    };
+    let mut found = Vec::new();
+    for item in items {
+        let text = item.get_ref().as_str().unwrap_or("");
+        match Recorded::ALL.into_iter().find(|one| one.key() == text) {
+            Some(one) if !found.contains(&one) => found.push(one),
+            Some(_) => {}
+            None => {
+                let written = reader.as_written(item.span());
+                let help = match nearest(text, &all) {
+                    Some(near) => format!("did you mean \"{near}\"?"),
+                    None => RECORD.help(),
+                };
+                let message = format!("`record` holds {written}");
+                reader.report(item.span(), message, format!("expected {}", names(all)), help);
+                return None;
             }
-            Design::Reduced(reduced) => {
-                let field = Field::new(key, "b", Bound::Positive, "0.5");
-                table.number(reader, field)? / reduced.clearance
-            }
-        })
+        }
+    }
+    Some(found)
+}
+
+/// Names in quotes, "or" before the last.
+fn names(all: impl IntoIterator<Item = &'static str>) -> String {
+    let quoted: Vec<String> = all.into_iter().map(|name| format!("\"{name}\"")).collect();
+    match quoted.split_last() {
+        Some((last, [])) => last.clone(),
+        Some((last, rest)) => format!("{} or {last}", rest.join(", ")),
+        None => String::new(),
     }
 }
 
-/// Which parameters `vinesink sweep` varies, and how each point is simulated. The table may be left out.
+/// Which parameters `vinesink sweep` varies, how each point is worked out, and what is recorded. The table may
+/// be left out. Whatever is not an axis keeps the case's own number.
 #[derive(schemars::JsonSchema)]
 #[schemars(deny_unknown_fields)]
 #[expect(dead_code, reason = "describes the table to editors; read() is what reads it")]
 pub(super) struct SweepTable {
     /// Clearances.
-    clearance: Option<AxisTable>,
+    clearance: Option<axis::AxisTable>,
     /// Frequencies of the excitation, or frequency ratios beside [reduced].
-    frequency: Option<AxisTable>,
-    /// Amplitudes of the excitation, as in [excitation].
-    amplitude: Option<AxisTable>,
+    frequency: Option<axis::AxisTable>,
+    /// Detunings sigma, beside [reduced].
+    detuning: Option<axis::AxisTable>,
+    /// Amplitudes of the excitation, as in [excitation]; the reduced forcing G beside [reduced].
+    amplitude: Option<axis::AxisTable>,
     /// Restitutions.
-    restitution: Option<AxisTable>,
+    restitution: Option<axis::AxisTable>,
+    /// Masses of the absorber, with a unit.
+    absorber_mass: Option<axis::AxisTable>,
+    /// Masses of the absorber over that of the oscillator.
+    mass_ratio: Option<axis::AxisTable>,
+    /// Masses of the oscillator, with a unit.
+    mass: Option<axis::AxisTable>,
+    /// Stiffnesses of the oscillator, with a unit.
+    stiffness: Option<axis::AxisTable>,
+    /// Viscous dampings of the oscillator, with a unit; lambda beside [reduced].
+    damping: Option<axis::AxisTable>,
+    /// Dampings of the oscillator over the critical one.
+    damping_ratio: Option<axis::AxisTable>,
+    /// Displacements of the oscillator at the start.
+    initial_displacement: Option<axis::AxisTable>,
+    /// Velocities of the oscillator at the start.
+    initial_velocity: Option<axis::AxisTable>,
+    /// Displacements of the absorber at the start; unless given it is half a clearance from the oscillator.
+    initial_absorber_displacement: Option<axis::AxisTable>,
+    /// Velocities of the absorber at the start.
+    initial_absorber_velocity: Option<axis::AxisTable>,
     /// Starts at each point, that from rest among them; 4 unless given.
     #[schemars(range(min = 1, max = 1000), example = 4)]
     starts: Option<u64>,
     /// Excitation periods measured where a motion is not seen to repeat; 250 unless given.
     #[schemars(range(min = 48, max = 1_000_000), example = 250)]
     periods: Option<u64>,
-}
-
-/// Values of a parameter, both ends among them.
-#[derive(schemars::JsonSchema)]
-#[schemars(deny_unknown_fields)]
-#[expect(dead_code, reason = "describes the table to editors; read() is what reads it")]
-struct AxisTable {
-    /// The first value, with its unit; a plain number for a restitution and beside [reduced].
-    #[schemars(example = "5 mm")]
-    from: serde_json::Value,
-    /// The last value, above `from`.
-    #[schemars(example = "40 mm")]
-    to: serde_json::Value,
-    /// How many values.
-    #[schemars(range(min = 2, max = 1_000_000), example = 100)]
-    count: u64,
-    /// How they are spread: evenly unless given.
-    scale: Option<AxisScale>,
-}
-
-#[derive(schemars::JsonSchema)]
-#[schemars(rename_all = "kebab-case")]
-#[expect(dead_code, reason = "describes a key to editors")]
-enum AxisScale {
-    Linear,
-    Logarithmic,
+    /// The axis along which a motion is followed from point to point, up and then down, which shows hysteresis,
+    /// instead of being looked for at each point from several starts.
+    #[schemars(example = &"frequency")]
+    follow: Option<String>,
+    /// What is recorded of each point; the layers that nothing is recorded of are not computed.
+    record: Option<Vec<Recorded>>,
 }

@@ -17,6 +17,16 @@ impl Progress {
         Self(bar)
     }
 
+    /// The same for long work: with steps per second and the time left.
+    pub fn with_rate(name: &str, steps: u64) -> Self {
+        let progress = Self::new(name, steps);
+        let template = "{msg} [{bar:30}] {human_pos}/{human_len}, {per_sec}, {eta} left";
+        if let Ok(style) = ProgressStyle::with_template(template) {
+            progress.0.set_style(style.progress_chars("=> "));
+        }
+        progress
+    }
+
     /// Some steps more are done.
     pub fn advance(&self, steps: u64) {
         self.0.inc(steps);

@@ -11,9 +11,10 @@ use miette::{IntoDiagnostic, Result, WrapErr as _, miette};
 use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
 use vinesink::case::Case;
 use vinesink::store::{self, Growing, Shards};
-use vinesink::sweep::columns::columns;
-use vinesink::sweep::parquet::{self, Merger};
-use vinesink::sweep::{Plan, row};
+use vinesink::sweep::columns::{self, Column};
+use vinesink::sweep::csv::Table;
+use vinesink::sweep::parquet::{self, Merger, Results};
+use vinesink::sweep::{Plan, work};
 
 use super::progress::Progress;
 use super::{Outcome, output};
@@ -33,6 +34,9 @@ pub struct Arguments {
     /// Write nothing; say how many points there are and about how long they take
     #[arg(long)]
     dry_run: bool,
+    /// Also write sweep.csv, with the units in its first line
+    #[arg(long)]
+    csv: bool,
 }
 
 /// Which sweep, and where its results are.
@@ -71,7 +75,13 @@ enum Verb {
     /// Say which chunks are there; ends with exit code 1 while some are not
     Status(Where),
     /// Put the chunks together
-    Merge(Where),
+    Merge {
+        #[command(flatten)]
+        sweep: Where,
+        /// Also write sweep.csv, with the units in its first line
+        #[arg(long)]
+        csv: bool,
+    },
 }
 
 const EXAMPLES: &str = "\
@@ -90,8 +100,10 @@ A case says what it varies in
   frequency = { from = \"8 Hz\", to = \"8.7 Hz\", count = 100 }
   starts = 4";
 
-/// Points that an estimate is made from.
-const SAMPLE: u64 = 256;
+/// An estimate is made from so many stretches of the sweep,
+const STRETCHES: u64 = 8;
+/// so many points long.
+const SAMPLE: u64 = 64;
 
 pub fn run(arguments: Arguments) -> Result<Outcome> {
     match (arguments.verb, arguments.sweep) {
@@ -124,12 +136,12 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
         }
         (Some(Verb::Submit(arguments)), _) => submit::run(&arguments),
         (Some(Verb::Status(at)), _) => status(&Sweep::open(&at)?),
-        (Some(Verb::Merge(at)), _) => Sweep::open(&at)?.merge(),
+        (Some(Verb::Merge { sweep, csv }), _) => Sweep::open(&sweep)?.merge(csv),
         (None, Some(at)) if arguments.dry_run => estimate(&Sweep::open(&at)?),
         (None, Some(at)) => {
             let sweep = Sweep::open(&at)?;
             sweep.work(&(0..sweep.plan.chunks()).collect::<Vec<_>>())?;
-            sweep.merge()
+            sweep.merge(arguments.csv)
         }
         (None, None) => Err(miette!(
             help = "write for example `vinesink sweep map.toml`",
@@ -180,7 +192,8 @@ impl Sweep {
     /// Works out those of some chunks that are not there, on all processors.
     fn work(&self, chunks: &[u64]) -> Result<()> {
         let shards = self.shards()?;
-        let progress = Progress::new("chunks", chunks.len() as u64);
+        let points = |chunk: &u64| self.plan.chunk(*chunk).count() as u64;
+        let progress = Progress::with_rate("points", chunks.iter().map(points).sum());
         let failure: Mutex<Option<miette::Report>> = Mutex::new(None);
         let stopped = || failure.lock().map_or(true, |failure| failure.is_some());
         chunks.into_par_iter().for_each(|chunk| {
@@ -188,7 +201,7 @@ impl Sweep {
                 return;
             }
             match self.work_out(&shards, *chunk) {
-                Ok(()) => progress.advance(1),
+                Ok(()) => progress.advance(points(chunk)),
                 Err(error) => {
                     if let Ok(mut failure) = failure.lock() {
                         failure.get_or_insert(error);
@@ -208,9 +221,9 @@ impl Sweep {
         if shards.holds(chunk)? {
             return Ok(());
         }
-        let rows = row::rows(&self.plan, self.plan.chunk(chunk)).into_diagnostic()?;
+        let results = work::points(&self.plan, self.plan.chunk(chunk)).into_diagnostic()?;
         let notes = vec![("vinesink.sweep".to_owned(), self.plan.identity.clone())];
-        let bytes = parquet::file(&columns(&self.plan, &rows), &notes).into_diagnostic()?;
+        let bytes = parquet::file(&results, &notes).into_diagnostic()?;
         Ok(shards.keep(chunk, &bytes)?)
     }
 
@@ -224,7 +237,7 @@ impl Sweep {
     }
 
     /// Puts all chunks together, one at a time.
-    fn merge(&self) -> Result<Outcome> {
+    fn merge(&self, csv: bool) -> Result<Outcome> {
         if let [first, ..] = self.missing()?.as_slice() {
             return Err(miette!(
                 help = "`vinesink sweep run CASE` works out what is missing",
@@ -238,19 +251,49 @@ impl Sweep {
             ("vinesink.case".to_owned(), self.case_text.clone()),
         ];
         let shards = self.shards()?;
-        let sink = Growing::begin(&path)?;
-        let mut merger = Merger::new(sink, &columns(&self.plan, &[]), &notes).into_diagnostic()?;
-        for chunk in 0..self.plan.chunks() {
-            let file = shards.read(chunk)?;
-            let which = || shown(&shards.path(chunk));
-            let added = merger.add(&file).into_diagnostic().wrap_err_with(which);
-            added.wrap_err_with(|| format!("cannot write {}", shown(&path)))?;
-        }
-        let written = merger.finish().into_diagnostic();
-        written.wrap_err_with(|| format!("cannot write {}", shown(&path)))?.finish()?;
+        let empty = columns::empty(&self.plan);
+        let together = || -> Result<()> {
+            let sink = Growing::begin(&path)?;
+            let mut merger = Merger::new(sink, &empty, &notes).into_diagnostic()?;
+            for chunk in 0..self.plan.chunks() {
+                let file = shards.read(chunk)?;
+                let which = || shown(&shards.path(chunk));
+                merger.add(&file).into_diagnostic().wrap_err_with(which)?;
+            }
+            Ok(merger.finish().into_diagnostic()?.finish()?)
+        };
+        together().wrap_err_with(|| unfinished(&path))?;
+        shards.sweep_up()?;
         output::print(format!("{}\n", shown(&path)))?;
+        if csv {
+            self.write_csv(&path, &empty)?;
+        }
         Ok(Outcome::Done)
     }
+
+    /// The merged results once more as text, a chunk at a time.
+    fn write_csv(&self, merged: &Path, empty: &[Column]) -> Result<()> {
+        let path = self.folder.join("sweep.csv");
+        let all = || -> Result<()> {
+            let results = Results::open(store::open(merged)?).into_diagnostic()?;
+            let mut table = Table::new(Growing::begin(&path)?, empty).into_diagnostic()?;
+            for group in 0..results.groups() {
+                let mut columns = empty.to_vec();
+                results.add_to(&mut columns, group).into_diagnostic()?;
+                table.add(&columns).into_diagnostic()?;
+            }
+            Ok(table.finish().into_diagnostic()?.finish()?)
+        };
+        all().wrap_err_with(|| unfinished(&path))?;
+        output::print(format!("{}\n", shown(&path)))
+    }
+}
+
+fn unfinished(path: &Path) -> String {
+    format!(
+        "{} could not be written; all chunks are kept, and `vinesink sweep merge` tries again",
+        shown(path)
+    )
 }
 
 fn shown(path: &Path) -> String {
@@ -282,22 +325,24 @@ fn status(sweep: &Sweep) -> Result<Outcome> {
 /// Works out some points spread over the sweep, and says how long all would take.
 fn estimate(sweep: &Sweep) -> Result<Outcome> {
     plan(sweep)?;
-    let points = sweep.plan.points();
-    let count = SAMPLE.min(points);
-    // Next to one another as in a chunk, from eight places of the sweep.
-    let stretch = (count / 8).max(1);
+    let plan = &sweep.plan;
+    let points = plan.points();
+    // Whole chunks where a motion is followed, else a part of them.
+    let stretch = if plan.settings.follow { plan.points_per_chunk() } else { SAMPLE };
+    let stretches = if plan.settings.follow { 1 } else { STRETCHES };
     let begin = Instant::now();
     let mut worked = 0;
-    for k in 0..8 {
-        let from = (points - stretch.min(points)) * k / 7;
-        let rows = row::rows(&sweep.plan, from..from + stretch.min(points));
-        worked += rows.into_diagnostic()?.len() as u64;
+    for k in 0..stretches {
+        let from = (points - stretch.min(points)) * k / (STRETCHES - 1);
+        let range = from..from + stretch.min(points);
+        worked += range.end - range.start;
+        work::points(plan, range).into_diagnostic()?;
     }
     let each = begin.elapsed().as_secs_f64() / worked.max(1) as f64;
     let threads = rayon::current_num_threads();
-    let seconds = each * points as f64 / threads as f64;
+    let seconds = each * points as f64 / threads.min(plan.chunks() as usize).max(1) as f64;
     output::print(format!(
-        "about {} on {threads} processors ({:.2} ms a point)\n",
+        "about {} on {threads} processors ({:.3} ms a point)\n",
         duration(seconds),
         1e3 * each
     ))?;

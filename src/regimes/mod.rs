@@ -19,7 +19,7 @@ pub mod starts;
 
 use serde::Serialize;
 
-use crate::simulation::{Impact, Statistics};
+use crate::simulation::{Gauge, Impact, Statistics};
 pub use attractor::Attractor;
 pub use energetics::Energetics;
 pub use lyapunov::{Exponent, Lyapunov};
@@ -176,37 +176,85 @@ pub fn classify(
         settled: modulation::settled(records),
     };
     Classification {
-        regime: name(statistics.impacts(), &evidence, thresholds),
+        regime: Signs::of(&evidence).regime(thresholds),
         nature: Nature::of(&evidence),
         evidence,
     }
 }
 
-fn name(impacts: u64, evidence: &Evidence, thresholds: &Thresholds) -> Regime {
-    if impacts == 0 {
-        return Regime::AtRest;
+/// Those numbers of [`Evidence`] that a regime is decided by.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Signs {
+    /// `z`.
+    pub impacts_per_period: f64,
+    /// The same with every chattering sequence that ended in sustained contact counted once.
+    pub visits_per_period: f64,
+    /// Whether the motion repeats.
+    pub repeats: bool,
+    /// Mean difference of successive impact intervals over the excitation period.
+    pub asymmetry: f64,
+    /// Stretches of 1:1 resonance; of no account where the motion repeats.
+    pub captures: Captures,
+    /// `(max - min) / (max + min)` of the oscillator's peak per period; of no account where the motion
+    /// repeats.
+    pub modulation_depth: f64,
+}
+
+impl Signs {
+    fn of(evidence: &Evidence) -> Self {
+        Self {
+            impacts_per_period: evidence.impacts_per_period,
+            visits_per_period: evidence.visits_per_period,
+            repeats: evidence.periodicity.is_some(),
+            asymmetry: evidence.asymmetry,
+            captures: evidence.captures,
+            modulation_depth: evidence.modulation_depth,
+        }
     }
-    // Many impacts make a motion of more than two per period only where the absorber goes to and
-    // fro in every period; a chattering sequence now and then is one visit to a wall.
-    let to_and_fro = evidence.visits_per_period > 2.0 - thresholds.impacts_per_period;
-    let excess = evidence.impacts_per_period - 2.0;
-    if excess > thresholds.impacts_per_period && to_and_fro {
-        return Regime::AboveTwo;
+
+    /// Of a window that was measured.
+    pub fn measured(
+        gauge: &Gauge,
+        impacts: &[Impact],
+        period: f64,
+        thresholds: &Thresholds,
+    ) -> Self {
+        let records = gauge.records();
+        Self {
+            impacts_per_period: gauge.impacts_per_period(),
+            visits_per_period: gauge.visits_per_period(),
+            repeats: periodicity::find(records).is_some(),
+            asymmetry: periodicity::asymmetry(impacts, period),
+            captures: modulation::captures(records, thresholds.shortest_capture),
+            modulation_depth: modulation::depth(records),
+        }
     }
-    // One capture and one escape are a transient; modulation returns.
-    let escapes =
-        evidence.captures.count > 1 && evidence.captures.share < 1.0 - thresholds.captured_share;
-    let strong = evidence.modulation_depth > thresholds.modulation_depth;
-    let captured = evidence.captures.share > thresholds.captured_share;
-    if evidence.periodicity.is_none() && captured && escapes && strong {
-        return Regime::StronglyModulated;
+
+    /// The regime.
+    pub fn regime(&self, thresholds: &Thresholds) -> Regime {
+        if self.impacts_per_period == 0.0 {
+            return Regime::AtRest;
+        }
+        // Many impacts make a motion of more than two per period only where the absorber goes to and
+        // fro in every period; a chattering sequence now and then is one visit to a wall.
+        let to_and_fro = self.visits_per_period > 2.0 - thresholds.impacts_per_period;
+        let excess = self.impacts_per_period - 2.0;
+        if excess > thresholds.impacts_per_period && to_and_fro {
+            return Regime::AboveTwo;
+        }
+        // One capture and one escape are a transient; modulation returns.
+        let escapes =
+            self.captures.count > 1 && self.captures.share < 1.0 - thresholds.captured_share;
+        let strong = self.modulation_depth > thresholds.modulation_depth;
+        let captured = self.captures.share > thresholds.captured_share;
+        if !self.repeats && captured && escapes && strong {
+            return Regime::StronglyModulated;
+        }
+        if !to_and_fro {
+            return Regime::BelowTwo;
+        }
+        let limit =
+            if self.repeats { thresholds.asymmetry } else { thresholds.asymmetry_modulated };
+        if self.asymmetry > limit { Regime::TwoAsymmetric } else { Regime::TwoSymmetric }
     }
-    if !to_and_fro {
-        return Regime::BelowTwo;
-    }
-    let limit = match evidence.periodicity {
-        Some(_) => thresholds.asymmetry,
-        None => thresholds.asymmetry_modulated,
-    };
-    if evidence.asymmetry > limit { Regime::TwoAsymmetric } else { Regime::TwoSymmetric }
 }

@@ -25,6 +25,15 @@ use crate::system::State;
 /// too often, more would let too many lanes idle. Measured.
 const ENOUGH: u32 = 13;
 
+/// How far a trajectory goes on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Extent {
+    /// By so many excitation periods,
+    pub periods: u64,
+    /// or until so many further impacts.
+    pub impacts: u64,
+}
+
 /// Continues every trajectory by `periods` excitation periods, or until `impact_limit` further impacts
 /// of its own; `observers[k]` is told of `simulations[k]`. The result is that of [`Simulation::run`]
 /// for each, to the bit.
@@ -37,22 +46,36 @@ pub fn run<O: Observer>(
     impact_limit: u64,
     observers: &mut [O],
 ) -> Vec<Stop> {
+    let extents = vec![Extent { periods, impacts: impact_limit }; simulations.len()];
+    run_each(simulations, &extents, observers)
+}
+
+/// The same, each trajectory as far as its own `extents[k]`.
+///
+/// # Panics
+/// If there are not as many extents and observers as trajectories.
+pub fn run_each<O: Observer>(
+    simulations: &mut [Simulation],
+    extents: &[Extent],
+    observers: &mut [O],
+) -> Vec<Stop> {
     assert_eq!(simulations.len(), observers.len(), "one observer for each trajectory");
-    run_at(Level::new(), simulations, periods, impact_limit, observers)
+    assert_eq!(simulations.len(), extents.len(), "one extent for each trajectory");
+    run_at(Level::new(), simulations, extents, observers)
 }
 
 fn run_at<O: Observer>(
     level: Level,
     simulations: &mut [Simulation],
-    periods: u64,
-    impact_limit: u64,
+    extents: &[Extent],
     observers: &mut [O],
 ) -> Vec<Stop> {
     let tasks = simulations
         .iter_mut()
         .zip(observers)
-        .map(|(simulation, observer)| Task {
-            limits: Limits::of(simulation, periods, impact_limit),
+        .zip(extents)
+        .map(|((simulation, observer), Extent { periods, impacts })| Task {
+            limits: Limits::of(simulation, *periods, *impacts),
             simulation,
             observer,
             stop: None,
@@ -396,7 +419,12 @@ mod tests {
         let by = |level: Level| {
             let (mut together, mut alone) = (simulations(), simulations());
             let mut logs: Vec<ImpactLog> = together.iter().map(|_| ImpactLog::default()).collect();
-            run_at(level, &mut together, 60, u64::MAX, &mut logs);
+            run_at(
+                level,
+                &mut together,
+                &[Extent { periods: 60, impacts: u64::MAX }; 40],
+                &mut logs,
+            );
             for simulation in &mut alone {
                 *simulation = simulation.clone().at_level(level);
                 simulation.run(60, u64::MAX, &mut Nobody);

@@ -118,6 +118,10 @@ impl Segment {
 pub trait Observer {
     /// Whether it looks at smooth stretches, which cost more to describe than to fly.
     const SEGMENTS: bool = true;
+    /// Whether it looks at flights too; if not, it may still be told of some.
+    fn flights(&self) -> bool {
+        Self::SEGMENTS
+    }
     /// A stretch of smooth motion was completed.
     fn segment(&mut self, _segment: &Segment) {}
     /// An impact took place.
@@ -137,6 +141,9 @@ impl Observer for Nobody {
 
 impl<A: Observer, B: Observer> Observer for (&mut A, &mut B) {
     const SEGMENTS: bool = A::SEGMENTS || B::SEGMENTS;
+    fn flights(&self) -> bool {
+        self.0.flights() || self.1.flights()
+    }
     fn segment(&mut self, segment: &Segment) {
         self.0.segment(segment);
         self.1.segment(segment);

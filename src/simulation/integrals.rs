@@ -33,11 +33,11 @@ pub(super) struct Integrals {
 
 /// What the integrals of an oscillator that rings have in common.
 #[derive(Debug, Clone, Copy)]
-struct Ringing {
+pub(super) struct Ringing {
     /// `p = -d + i w`.
-    pole: Phasor,
+    pub pole: Phasor,
     /// `a`.
-    steady: Phasor,
+    pub steady: Phasor,
 }
 
 /// Takes the integrals of a system's stretches.
@@ -64,6 +64,35 @@ impl Ringing {
             steady: Phasor::new(cosine, -sine),
         })
     }
+}
+
+/// The largest absolute displacement in a flight from displacement and velocity at its beginning, with
+/// the steady motion there.
+pub(super) fn peak(
+    rates: &Rates<f64>,
+    [x, v]: [f64; 2],
+    steady: Steady<f64>,
+    duration: f64,
+) -> f64 {
+    // Seen from the base the gap is the displacement.
+    let base = Line { y: 0.0, velocity: 0.0 };
+    let (mut here, _) = rates.begin(x, v, steady, base);
+    let (mut left, mut peak) = (duration, here.gap.abs());
+    while left > 0.0 {
+        tally::note(PANEL);
+        let length = rates.step.min(left);
+        let there = if left < rates.step {
+            rates.later(&here, left, base)
+        } else {
+            rates.next(&here, base)
+        };
+        peak = peak.max(there.gap.abs());
+        if here.slope * there.slope < 0.0 {
+            peak = peak.max(rates.turning_point(&here, &there, length).abs());
+        }
+        (here, left) = (there, left - rates.step);
+    }
+    peak
 }
 
 impl Integrator {
@@ -97,25 +126,18 @@ impl Integrator {
         let phasor = steady * self.excitation(segment.phase);
         let steady = Steady { x: phasor.re, v: -self.frequency * phasor.im };
         let (free, velocity) = segment.motion.free();
-        // Seen from the base the gap is the displacement.
-        let base = Line { y: 0.0, velocity: 0.0 };
-        let (mut here, _) = rates.begin(free + steady.x, velocity + steady.v, steady, base);
-        let (mut left, mut peak) = (segment.duration, here.gap.abs());
-        while left > 0.0 {
-            tally::note(PANEL);
-            let length = rates.step.min(left);
-            let there = if left < rates.step {
-                rates.later(&here, left, base)
-            } else {
-                rates.next(&here, base)
-            };
-            peak = peak.max(there.gap.abs());
-            if here.slope * there.slope < 0.0 {
-                peak = peak.max(rates.turning_point(&here, &there, length).abs());
-            }
-            (here, left) = (there, left - rates.step);
-        }
-        Some(peak)
+        let begin = [free + steady.x, velocity + steady.v];
+        Some(peak(&rates, begin, steady, segment.duration))
+    }
+
+    /// What flights have in common, of an oscillator that rings and is driven to a steady motion.
+    pub(super) fn alone(&self) -> Option<Ringing> {
+        self.alone
+    }
+
+    /// What turns phasors in flight.
+    pub(super) fn rates(&self) -> Option<Rates<f64>> {
+        self.rates
     }
 
     /// The integrals over a stretch; `None` where the oscillator does not ring, or has no steady motion

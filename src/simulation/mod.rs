@@ -25,6 +25,6 @@ pub use contact::ContactTolerance;
 pub use events::{Absorber, Impact, Nobody, Observer, Segment, Side, StartError};
 pub use history::{ImpactLog, Trace, TracePoint};
 pub use run::{Simulation, Stop};
-pub use statistics::{Energy, PeriodRecord, Statistics, SustainedContact};
+pub use statistics::{Energy, Gauge, PeriodRecord, Statistics, SustainedContact};
 pub use tangent::Tangent;
 pub use trust::{Doubt, doubts};

@@ -134,7 +134,7 @@ impl Flights<'_> {
             if !(x.abs() <= f64::MAX && y.abs() <= f64::MAX) {
                 return (at, Pause::Doubt);
             }
-            if O::SEGMENTS && time > 0.0 {
+            if O::SEGMENTS && time > 0.0 && observer.flights() {
                 observer.segment(&self.simulation.flown(&at, time));
             }
             let before = State { x, x_velocity: v, y, y_velocity };

@@ -4,6 +4,8 @@
 //! stored energy, in closed form where the oscillator rings and else by quadrature that is exact to
 //! rounding, so that the balance is a check and not an identity.
 
+mod gauge;
+
 use std::f64::consts::FRAC_PI_4;
 
 use serde::Serialize;
@@ -15,6 +17,8 @@ use crate::numerics::quadrature;
 use crate::numerics::scatter::twice_standard_error;
 use crate::system::{State, System};
 use crate::tally;
+
+pub use gauge::Gauge;
 
 /// Energy balance over a window, per unit of the oscillator's mass, over the squared clearance.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]

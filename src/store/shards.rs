@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use sha2::{Digest, Sha256};
 use tempfile::NamedTempFile;
 
-use super::{StoreError, folder_of, ordinary, refused, write_file};
+use super::{StoreError, TEMPORARY, folder_of, ordinary, refused, write_file};
 
 /// The folder of a sweep's chunks.
 #[derive(Debug, Clone)]
@@ -70,13 +70,37 @@ impl Shards {
         Ok(seal == self.seal(chunk, &bytes).as_bytes())
     }
 
+    /// Removes what processes that were killed have left half written. Called when every chunk is there:
+    /// whoever still writes one then writes it for the second time, and does not need it.
+    ///
+    /// # Errors
+    /// [`StoreError::Refused`] where a file cannot be removed.
+    pub fn sweep_up(&self) -> Result<(), StoreError> {
+        // That of the merged results is beside the folder of the chunks.
+        for folder in [Some(self.folder.as_path()), self.folder.parent()].into_iter().flatten() {
+            let cannot = |cause| refused("tidy", folder, cause);
+            for entry in std::fs::read_dir(folder).map_err(cannot)? {
+                let entry = entry.map_err(cannot)?;
+                if !entry.file_name().to_string_lossy().starts_with(TEMPORARY) {
+                    continue;
+                }
+                match std::fs::remove_file(entry.path()) {
+                    Err(cause) if cause.kind() != io::ErrorKind::NotFound => {
+                        return Err(refused("remove", &entry.path(), cause));
+                    }
+                    _ => {}
+                }
+            }
+        }
+        Ok(())
+    }
+
     /// Opens the results of a chunk.
     ///
     /// # Errors
     /// [`StoreError::Refused`] where they cannot be read.
     pub fn read(&self, chunk: u64) -> Result<File, StoreError> {
-        let path = self.path(chunk);
-        File::open(&path).map_err(|cause| refused("read", &path, cause))
+        super::open(&self.path(chunk))
     }
 }
 

@@ -1,58 +1,83 @@
-//! Many systems at once: a grid over clearance, frequency, amplitude and restitution, cut into chunks with
-//! fixed numbers, so that any of them can be worked out anywhere and at any time, with the same bytes.
+//! Many systems at once: a grid over parameters of a case, cut into chunks with fixed numbers, so that any of
+//! them can be worked out anywhere and at any time, with the same bytes.
 
 pub mod columns;
+pub mod csv;
+mod facts;
+mod follow;
 pub mod parquet;
-pub mod row;
+pub mod work;
 
 use std::ops::Range;
 
-use serde::Serialize;
 use sha2::{Digest, Sha256};
 
-use crate::case::{Case, Scales, SweepAxis, SweepSettings};
-use crate::system::{InvalidParameter, Parameter, System};
+use crate::case::{Case, Design, Layer, Scales, SweepAxis, SweepSettings};
+use crate::system::{State, System};
 
-/// Points of a chunk: about a second's work, so that little is lost with one, and a file of some hundred
-/// kilobytes, so that there are not too many of them.
-pub const POINTS_PER_CHUNK: u64 = 1024;
+/// Points of a chunk, at least: about a second's work, so that little is lost with one, and a file of some
+/// hundred kilobytes, so that there are not too many of them.
+const FEWEST_POINTS: u64 = 1024;
+/// Points of a chunk, at most: about a minute's work.
+const MOST_POINTS: u64 = 65_536;
+/// Lines of a chunk, at least, along which motions are followed.
+const LINES: u64 = 16;
+/// Chunks of a sweep from which on they grow instead of becoming more: file systems and schedulers that
+/// many share suffer from more files and tasks.
+const MANY_CHUNKS: u64 = 16_384;
 
 /// What is worked out at every point, and how it is cut into chunks.
 #[derive(Debug, Clone)]
 pub struct Plan {
-    /// The case's own system.
-    pub base: System,
-    /// What turns its numbers into the case's units.
-    pub scales: Scales,
-    /// Axes, starts and periods.
+    /// The case's own design.
+    pub design: Design,
+    /// Axes, starts, periods, and what is recorded.
     pub settings: SweepSettings,
     /// Names the results: of the case's text, the program and its version, and the size of a chunk.
     pub identity: String,
+    /// Points of a chunk.
+    points_per_chunk: u64,
 }
 
-/// Where a point lies on an axis.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Coordinate {
-    /// The axis.
-    #[serde(skip)]
-    pub parameter: Parameter,
-    /// Its value, as in [`SweepAxis`].
-    pub value: f64,
+/// A point of the grid.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Point {
+    /// Its number.
+    pub number: u64,
+    /// Its place on each axis, in the units of [`SweepAxis::values`].
+    pub coordinates: Vec<f64>,
+    /// Its system; `None` where the values together leave none.
+    pub system: Option<System>,
+    /// What turns the system's numbers into the case's units.
+    pub scales: Scales,
+    /// Where its motion starts, over its clearance; `None` where no axis says.
+    pub start: Option<State>,
 }
 
 impl Plan {
     /// That of a case; `None` where it has no table `[sweep]`.
     pub fn of(case: &Case) -> Option<Self> {
         let settings = case.sweep.clone()?;
+        let points = settings.axes.iter().map(|axis| axis.values.len() as u64).product::<u64>();
+        let size = points.div_ceil(MANY_CHUNKS).next_power_of_two();
+        let size = size.clamp(FEWEST_POINTS, MOST_POINTS);
+        // A motion is followed along whole lines, as many of them side by side as a batch has lanes.
+        let points_per_chunk = match settings.axes.last() {
+            Some(axis) if settings.follow => {
+                let line = axis.values.len() as u64;
+                line * (size / line).max(LINES)
+            }
+            _ => size,
+        };
         let named = format!(
-            "{} {} {POINTS_PER_CHUNK} {}",
+            "{} {} {points_per_chunk} {}",
             env!("CARGO_PKG_NAME"),
             env!("CARGO_PKG_VERSION"),
             case.text_hash
         );
         let digest = Sha256::digest(named.as_bytes());
         let identity = digest.iter().map(|byte| format!("{byte:02x}")).collect();
-        Some(Self { base: case.system(), scales: case.scales(), settings, identity })
+        Some(Self { design: case.design, settings, identity, points_per_chunk })
     }
 
     /// Number of points: every combination of the axes' values.
@@ -62,46 +87,51 @@ impl Plan {
 
     /// Number of chunks.
     pub fn chunks(&self) -> u64 {
-        self.points().div_ceil(POINTS_PER_CHUNK)
+        self.points().div_ceil(self.points_per_chunk)
+    }
+
+    /// Points of every chunk but perhaps the last.
+    pub fn points_per_chunk(&self) -> u64 {
+        self.points_per_chunk
     }
 
     /// The points of a chunk; empty beyond the last.
     pub fn chunk(&self, number: u64) -> Range<u64> {
-        let begin = number.saturating_mul(POINTS_PER_CHUNK).min(self.points());
-        begin..begin.saturating_add(POINTS_PER_CHUNK).min(self.points())
+        let begin = number.saturating_mul(self.points_per_chunk).min(self.points());
+        begin..begin.saturating_add(self.points_per_chunk).min(self.points())
     }
 
-    /// Where a point lies; the last axis varies fastest.
-    pub fn coordinates(&self, point: u64) -> Vec<Coordinate> {
-        let mut rest = point;
-        let mut found: Vec<Coordinate> = self
+    /// The point of a number; the last axis varies fastest.
+    pub fn point(&self, number: u64) -> Point {
+        let mut rest = number;
+        let mut coordinates: Vec<f64> = self
             .settings
             .axes
             .iter()
             .rev()
-            .map(|SweepAxis { parameter, values }| {
+            .map(|SweepAxis { values, .. }| {
                 let count = values.len() as u64;
                 let value = values[(rest % count) as usize];
                 rest /= count;
-                Coordinate { parameter: *parameter, value }
+                value
             })
             .collect();
-        found.reverse();
-        found
+        coordinates.reverse();
+        let axes = || self.settings.axes.iter().zip(&coordinates);
+        // Ratios are of what the others make the design.
+        let (ratios, others): (Vec<_>, Vec<_>) =
+            axes().partition(|(axis, _)| axis.parameter.is_ratio());
+        let applied = |design: Design, (axis, value): &(&SweepAxis, &f64)| {
+            axis.parameter.applied(&design, **value)
+        };
+        let design = others.iter().chain(&ratios).fold(self.design, applied);
+        let scales = design.scales();
+        let start = follow::start(axes().map(|(axis, value)| (axis.parameter, *value)), &scales);
+        Point { number, system: design.system().ok(), scales, start, coordinates }
     }
 
-    /// The system of a point, and its clearance over the case's own.
-    ///
-    /// # Errors
-    /// [`InvalidParameter`] where the values together leave no system.
-    pub fn system(&self, point: u64) -> Result<(System, f64), InvalidParameter> {
-        let (mut system, mut clearance) = (self.base, 1.0);
-        for Coordinate { parameter, value } in self.coordinates(point) {
-            system = parameter.applied(&system, value)?;
-            if parameter == Parameter::Clearance {
-                clearance = value;
-            }
-        }
-        Ok((system, clearance))
+    /// Whether anything is recorded that a layer knows.
+    pub fn needs(&self, layer: Layer) -> bool {
+        self.settings.record.iter().any(|recorded| recorded.layer() == layer)
     }
 }

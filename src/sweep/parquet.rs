@@ -1,19 +1,20 @@
-//! Columns as Parquet: one row group a chunk, zstd, the same bytes for the same columns.
+//! Columns as Parquet and back: one row group a chunk, zstd, the same bytes for the same columns.
 
 use std::io::Write;
 use std::sync::Arc;
 
 use parquet::basic::{Compression, LogicalType, Repetition, Type as Physical, ZstdLevel};
+use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
 use parquet::column::writer::ColumnCloseResult;
-use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type};
+use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
 use parquet::errors::ParquetError;
 use parquet::file::metadata::{KeyValue, ParquetMetaData, ParquetMetaDataReader};
 use parquet::file::properties::{WriterProperties, WriterVersion};
-use parquet::file::reader::ChunkReader;
+use parquet::file::reader::{ChunkReader, FileReader, RowGroupReader, SerializedFileReader};
 use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::schema::types::{Type, TypePtr};
 
-use super::columns::{Column, Values};
+use super::columns::{Column, Values, WORDS};
 
 /// What a file says about itself besides its columns.
 pub type Notes = Vec<(String, String)>;
@@ -38,16 +39,15 @@ pub fn file(columns: &[Column], notes: &Notes) -> Result<Vec<u8>, ParquetError> 
 
 fn schema(columns: &[Column]) -> Result<TypePtr, ParquetError> {
     let fields = columns.iter().map(|column| {
-        let (physical, logical, repetition) = match column.values {
-            Values::Number(_) => (Physical::DOUBLE, None, Repetition::OPTIONAL),
-            Values::Whole(_) => (Physical::INT64, None, Repetition::REQUIRED),
-            Values::Text(_) => {
-                (Physical::BYTE_ARRAY, Some(LogicalType::String), Repetition::OPTIONAL)
-            }
+        let (physical, logical) = match column.values {
+            Values::Number(_) => (Physical::DOUBLE, None),
+            Values::Whole(_) => (Physical::INT64, None),
+            Values::Flag(_) => (Physical::BOOLEAN, None),
+            Values::Text(_) => (Physical::BYTE_ARRAY, Some(LogicalType::String)),
         };
-        Type::primitive_type_builder(column.name, physical)
+        Type::primitive_type_builder(&column.name, physical)
             .with_logical_type(logical)
-            .with_repetition(repetition)
+            .with_repetition(Repetition::OPTIONAL)
             .build()
             .map(Arc::new)
     });
@@ -82,7 +82,12 @@ fn write<W: Write + Send>(
             writer.typed::<DoubleType>().write_batch(&there, Some(&levels(values)), None)?;
         }
         Values::Whole(values) => {
-            writer.typed::<Int64Type>().write_batch(values, None, None)?;
+            let there: Vec<i64> = values.iter().flatten().copied().collect();
+            writer.typed::<Int64Type>().write_batch(&there, Some(&levels(values)), None)?;
+        }
+        Values::Flag(values) => {
+            let there: Vec<bool> = values.iter().flatten().copied().collect();
+            writer.typed::<BoolType>().write_batch(&there, Some(&levels(values)), None)?;
         }
         Values::Text(values) => {
             let there: Vec<ByteArray> =
@@ -95,6 +100,83 @@ fn write<W: Write + Send>(
 
 fn levels<T>(values: &[Option<T>]) -> Vec<i16> {
     values.iter().map(|value| i16::from(value.is_some())).collect()
+}
+
+/// A file of results that is read a row group at a time.
+pub struct Results<R: ChunkReader + 'static> {
+    reader: SerializedFileReader<R>,
+}
+
+impl<R: ChunkReader + 'static> Results<R> {
+    /// Opens a file that was written here.
+    ///
+    /// # Errors
+    /// [`ParquetError`] of the library, if it is no such file.
+    pub fn open(file: R) -> Result<Self, ParquetError> {
+        Ok(Self { reader: SerializedFileReader::new(file)? })
+    }
+
+    /// Number of row groups.
+    pub fn groups(&self) -> usize {
+        self.reader.num_row_groups()
+    }
+
+    /// Adds the values of a row group to columns, which are those of its sweep.
+    ///
+    /// # Errors
+    /// [`ParquetError`] of the library, and where the file has other columns.
+    pub fn add_to(&self, columns: &mut [Column], group: usize) -> Result<(), ParquetError> {
+        let group = self.reader.get_row_group(group)?;
+        let rows = usize::try_from(group.metadata().num_rows()).unwrap_or(0);
+        if group.num_columns() != columns.len() {
+            return Err(ParquetError::General("the file has other columns".into()));
+        }
+        for (index, column) in columns.iter_mut().enumerate() {
+            read(group.as_ref(), index, rows, &mut column.values)?;
+        }
+        Ok(())
+    }
+}
+
+fn read(
+    group: &dyn RowGroupReader,
+    index: usize,
+    rows: usize,
+    values: &mut Values,
+) -> Result<(), ParquetError> {
+    match (group.get_column_reader(index)?, values) {
+        (ColumnReader::DoubleColumnReader(reader), Values::Number(all)) => {
+            all.extend(optional(reader, rows)?);
+        }
+        (ColumnReader::Int64ColumnReader(reader), Values::Whole(all)) => {
+            all.extend(optional(reader, rows)?);
+        }
+        (ColumnReader::BoolColumnReader(reader), Values::Flag(all)) => {
+            all.extend(optional(reader, rows)?);
+        }
+        (ColumnReader::ByteArrayColumnReader(reader), Values::Text(all)) => {
+            for text in optional(reader, rows)? {
+                let known = |text: &ByteArray| {
+                    let known = WORDS.into_iter().find(|word| word.as_bytes() == text.data());
+                    known.ok_or_else(|| ParquetError::General("the file has other words".into()))
+                };
+                all.push(text.as_ref().map(known).transpose()?);
+            }
+        }
+        _ => return Err(ParquetError::General("a column is of another kind".into())),
+    }
+    Ok(())
+}
+
+/// The values of a column of a row group, nothing where one is missing.
+fn optional<T: DataType>(
+    mut reader: ColumnReaderImpl<T>,
+    rows: usize,
+) -> Result<Vec<Option<T::T>>, ParquetError> {
+    let (mut there, mut levels) = (Vec::with_capacity(rows), Vec::with_capacity(rows));
+    reader.read_records(rows, Some(&mut levels), None, &mut there)?;
+    let mut there = there.into_iter();
+    Ok(levels.into_iter().map(|level| if level == 1 { there.next() } else { None }).collect())
 }
 
 /// Puts files of one row group after one another, a column at a time, so that memory holds one of them.

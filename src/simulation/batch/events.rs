@@ -186,7 +186,7 @@ impl<S: Simd> Lanes<S> {
             }
             let Task { simulation, observer, .. } = &mut queue.tasks[index];
             let flight = event.flight[lane];
-            if O::SEGMENTS && flight > 0.0 {
+            if O::SEGMENTS && flight > 0.0 && observer.flights() {
                 observer.segment(&simulation.flown(&self.moment(lane), flight));
             }
             if impact >> lane & 1 == 1 {

@@ -1,0 +1,350 @@
+//! The same measurements at a fraction of the cost: nothing is integrated, all is taken from impacts.
+//!
+//! In flight the oscillator is `x = Re(z + u)`, a free phasor `z` that turns with `p = -d + i w` and a
+//! steady one `u` that turns with `i Omega`. Therefore `(Re(a z + b u))^2` has the antiderivative
+//!
+//! `V = Re(a^2 z^2)/(4 p) + |a z|^2/(4 Re p) + Re(a b z u/(p + i Omega)) + Re(a b* z u*/(p - i Omega))
+//! + Re(b^2 u^2/(2 i Omega))/2`
+//!
+//! (the first quotient inside the real part) beside `|b u|^2/2` per unit of time, and an integral
+//! over a window is what `V` loses at its impacts, where only the oscillator's velocity jumps. A flight is
+//! searched for its peak where bounds do not rule one out.
+
+use nalgebra::Complex;
+
+use super::super::events::{Absorber, Impact, Observer, Segment};
+use super::super::integrals::{self, Ringing};
+use super::super::phasor::{Rates, Steady};
+use super::{PeriodRecord, Statistics};
+use crate::system::{State, System};
+
+type Phasor = Complex<f64>;
+
+/// Damping ratio below which `V` is not known well enough: it loses as many digits as the square of the
+/// ring-down time has.
+const LEAST_DAMPING: f64 = 1e-4;
+
+/// An [`Observer`] that measures what [`Statistics`] does, but for harmonics and the balance of energy.
+/// Without a damping ratio of 1e-4 or an oscillator that rings it is as dear.
+#[derive(Debug, Clone)]
+pub struct Gauge {
+    statistics: Statistics,
+    telescope: Option<Telescope>,
+}
+
+/// What turns impacts into integrals.
+#[derive(Debug, Clone)]
+struct Telescope {
+    of: Ringing,
+    rates: Rates<f64>,
+    frequency: f64,
+    displacement: Antiderivative,
+    velocity: Antiderivative,
+    /// Largest acceleration over the size of the free phasor, and of the steady one.
+    bends: [f64; 2],
+    /// Turn of `z` as `u` sees it, squared.
+    drift: f64,
+    /// Where the flight under way began.
+    begin: Place,
+    /// Integrals of `x^2` and `x'^2` over the flights of this period, and their duration.
+    sums: [f64; 2],
+    contact: f64,
+    period: f64,
+}
+
+/// A place of a flight.
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    phase: f64,
+    x: f64,
+    v: f64,
+    z: Phasor,
+    u: Phasor,
+}
+
+/// `V` of a linear form `Re(a z + b u)`.
+#[derive(Debug, Clone, Copy)]
+struct Antiderivative {
+    zz: Phasor,
+    size: f64,
+    zu: Phasor,
+    zu_conj: Phasor,
+    uu: Phasor,
+    /// `|b|^2/2`.
+    rate: f64,
+}
+
+impl Antiderivative {
+    fn of(a: Phasor, b: Phasor, pole: Phasor, frequency: f64) -> Self {
+        let turn = Phasor::new(0.0, frequency);
+        Self {
+            zz: a * a / (pole * 4.0),
+            size: a.norm_sqr() / (4.0 * pole.re),
+            zu: a * b / (pole + turn),
+            zu_conj: a * b.conj() / (pole - turn),
+            uu: b * b / (turn * 4.0),
+            rate: 0.5 * b.norm_sqr(),
+        }
+    }
+
+    fn at(&self, Place { z, u, .. }: &Place) -> f64 {
+        (self.zz * z * z).re
+            + self.size * z.norm_sqr()
+            + (self.zu * z * u).re
+            + (self.zu_conj * z * u.conj()).re
+            + (self.uu * u * u).re
+    }
+}
+
+impl Telescope {
+    fn begin(statistics: &Statistics) -> Option<Self> {
+        let system = &statistics.system;
+        let of = statistics.integrator.alone()?;
+        let rates = statistics.integrator.rates()?;
+        let Ringing { pole, .. } = of;
+        let frequency = system.frequency_ratio();
+        let turn = Phasor::new(0.0, frequency);
+        if -pole.re < LEAST_DAMPING * pole.im {
+            return None;
+        }
+        let one = Phasor::new(1.0, 0.0);
+        let mut telescope = Self {
+            of,
+            rates,
+            frequency,
+            displacement: Antiderivative::of(one, one, pole, frequency),
+            velocity: Antiderivative::of(pole, turn, pole, frequency),
+            bends: [pole.norm_sqr(), frequency * frequency],
+            drift: (pole - turn).norm_sqr(),
+            begin: Place { phase: 0.0, x: 0.0, v: 0.0, z: one, u: one },
+            sums: [0.0; 2],
+            contact: 0.0,
+            period: system.period(),
+        };
+        telescope.begin = telescope.place(0.0, statistics.start.x, statistics.start.x_velocity);
+        Some(telescope)
+    }
+
+    fn place(&self, phase: f64, x: f64, v: f64) -> Place {
+        let (sin, cos) = libm::sincos(phase);
+        let u = self.of.steady * Phasor::new(cos, sin);
+        Place { phase, x, v, z: self.free(x, v, u), u }
+    }
+
+    fn free(&self, x: f64, v: f64, u: Phasor) -> Phasor {
+        let (free, velocity) = (x - u.re, v + self.frequency * u.im);
+        let pole = self.of.pole;
+        Phasor::new(free, -(velocity - pole.re * free) / pole.im)
+    }
+
+    /// Adds the flight that ends at a place to the integrals; the next begins there.
+    fn end(&mut self, end: Place) {
+        for (sum, form) in self.sums.iter_mut().zip([&self.displacement, &self.velocity]) {
+            *sum += form.at(&end) - form.at(&self.begin);
+        }
+        self.begin = end;
+    }
+
+    /// The largest absolute displacement of the flight that ends at a place, if it is above one that is
+    /// known.
+    fn peak(&self, end: &Place, known: f64) -> f64 {
+        let begin = &self.begin;
+        let known = known.max(begin.x.abs()).max(end.x.abs());
+        let duration = (end.phase - begin.phase) / self.frequency;
+        // Above the higher end by no more than a parabola of the largest acceleration; and within the
+        // circle of z + u, which itself bends away from its chord by no more than that.
+        let sizes = [begin.z.norm(), begin.u.norm()];
+        let eighth = 0.125 * duration * duration;
+        let bend = self.bends[0] * sizes[0] + self.bends[1] * sizes[1];
+        let by_bend = begin.x.abs().max(end.x.abs()) + eighth * bend;
+        let circle = (begin.z + begin.u).norm().max((end.z + end.u).norm());
+        let by_circle = circle + eighth * self.drift * sizes[0];
+        if by_bend <= known || by_circle <= known {
+            return known;
+        }
+        let steady = Steady { x: begin.u.re, v: -self.frequency * begin.u.im };
+        known.max(integrals::peak(&self.rates, [begin.x, begin.v], steady, duration))
+    }
+}
+
+impl Gauge {
+    /// Begins to measure at `start`, at the beginning of an excitation period.
+    pub fn begin(system: &System, start: State) -> Self {
+        let statistics = Statistics::begin(system, start);
+        let telescope = Telescope::begin(&statistics);
+        Self { statistics, telescope }
+    }
+
+    /// As [`Statistics::impacts`].
+    pub fn impacts(&self) -> u64 {
+        self.statistics.impacts()
+    }
+
+    /// As [`Statistics::impacts_per_period`].
+    pub fn impacts_per_period(&self) -> f64 {
+        self.statistics.impacts_per_period()
+    }
+
+    /// As [`Statistics::visits_per_period`].
+    pub fn visits_per_period(&self) -> f64 {
+        self.statistics.visits_per_period()
+    }
+
+    /// As [`Statistics::peak`].
+    pub fn peak(&self) -> f64 {
+        self.statistics.peak()
+    }
+
+    /// As [`Statistics::rms`].
+    pub fn rms(&self) -> f64 {
+        self.statistics.rms()
+    }
+
+    /// As [`Statistics::errors`].
+    pub fn errors(&self) -> [f64; 2] {
+        self.statistics.errors()
+    }
+
+    /// As [`Statistics::records`], but that harmonics may be missing and are then 0.
+    pub fn records(&self) -> &[PeriodRecord] {
+        self.statistics.records()
+    }
+
+    /// Share of the excitation's work that impacts dissipate; none where it does no work. The work is
+    /// what becomes of it.
+    pub fn efficiency(&self) -> Option<f64> {
+        let energy = self.statistics.energy();
+        let work = energy.stored + energy.damper + energy.impact;
+        (work > 0.0).then(|| energy.impact / work)
+    }
+}
+
+impl Observer for Gauge {
+    fn flights(&self) -> bool {
+        self.telescope.is_none()
+    }
+
+    fn segment(&mut self, segment: &Segment) {
+        match (&mut self.telescope, segment.absorber) {
+            (None, _) => self.statistics.segment(segment),
+            (Some(_), Absorber::Flying { .. }) => {}
+            (Some(telescope), Absorber::Carried(_)) => {
+                self.statistics.segment(segment);
+                let State { x, x_velocity, .. } = segment.at(segment.duration);
+                let phase = segment.phase + telescope.frequency * segment.duration;
+                telescope.contact += segment.duration;
+                telescope.begin = telescope.place(phase, x, x_velocity);
+            }
+        }
+    }
+
+    fn impact(&mut self, impact: &Impact) {
+        if let Some(telescope) = &mut self.telescope {
+            let end = telescope.place(impact.phase, impact.x, impact.x_velocity_before);
+            let peak = &mut self.statistics.current.peak;
+            *peak = telescope.peak(&end, *peak);
+            telescope.end(end);
+            let v = impact.x_velocity_after;
+            telescope.begin = Place { v, z: telescope.free(end.x, v, end.u), ..end };
+        }
+        self.statistics.impact(impact);
+    }
+
+    fn sticks(&mut self, loss: f64) {
+        self.statistics.sticks(loss);
+    }
+
+    fn period(&mut self, state: &State) {
+        if let Some(telescope) = &mut self.telescope {
+            let mut end = telescope.place(0.0, state.x, state.x_velocity);
+            end.phase = std::f64::consts::TAU;
+            let peak = &mut self.statistics.current.peak;
+            *peak = telescope.peak(&end, *peak);
+            telescope.end(end);
+            telescope.begin.phase = 0.0;
+            let flown = telescope.period - telescope.contact;
+            let size = telescope.of.steady.norm_sqr();
+            let [squared, velocity_squared] = std::mem::take(&mut telescope.sums);
+            let squared = squared + telescope.displacement.rate * size * flown;
+            let velocity_squared = velocity_squared + telescope.velocity.rate * size * flown;
+            telescope.contact = 0.0;
+            let statistics = &mut self.statistics;
+            statistics.squared += squared;
+            statistics.current.squared += squared;
+            let damping = statistics.system.mass_ratio() * statistics.system.damping();
+            statistics.damper += damping * velocity_squared;
+        }
+        self.statistics.period(state);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simulation::{Simulation, Stop};
+    use crate::system::{Excitation, Parameters};
+
+    /// Against every stretch integrated, on motions with few and many impacts, chattering, lasting
+    /// contact, resonance, and none of these.
+    #[test]
+    fn it_measures_what_statistics_do() {
+        let (mut in_contact, mut without) = (0, 0);
+        for (eps, lambda, omega, r, gamma) in [
+            (0.0077, 1.8, 1.0, 0.6, 2.8),
+            (0.0077, 1.8, 0.96, 0.0, 300.0),
+            (0.0077, 1.8, 1.01, 0.6, 30.0),
+            (0.0077, 0.03, 1.0, 0.8, 3.0),
+            (0.3, 4.0, 0.2, 0.5, 10.0),
+            (0.5, 3.0, 4.0, 0.3, 5.0),
+            (1e-3, 900.0, 1.3, 0.8, 400.0),
+            (0.0077, 0.0, 1.01, 0.9, 30.0),
+        ] {
+            let system = System::new(Parameters {
+                mass_ratio: eps,
+                damping: lambda,
+                restitution: r,
+                frequency_ratio: omega,
+                forcing_per_clearance: gamma,
+                excitation: Excitation::BaseDisplacement,
+            })
+            .expect("valid");
+            let start = State { x: 0.1, x_velocity: 0.4, y: -0.3, y_velocity: 0.2 };
+            let mut both = (Gauge::begin(&system, start), Statistics::begin(&system, start));
+            without += u32::from(both.0.telescope.is_none());
+            let mut simulation = Simulation::new(&system, start, 0.0).expect("inside");
+            let (gauge, statistics) = (&mut both.0, &mut both.1);
+            assert_eq!(simulation.run(60, u64::MAX, &mut (gauge, statistics)), Stop::EndTime);
+            let (gauge, statistics) = both;
+            in_contact += u32::from(statistics.sustained_contact().intervals > 0);
+            // The antiderivative is as large as the phasors squared over the damping, and is rounded
+            // some ten times at each of two ends.
+            let size =
+                statistics.records().iter().map(|record| record.end.size()).fold(1.0, f64::max);
+            let steady = system.linear_response().map_or(0.0, |response| response.amplitude());
+            let phasors = (size + steady) * (size + steady);
+            let rounded = 40.0 * f64::EPSILON * phasors / (2.0 * eps * lambda).max(1e-4);
+            for (one, other) in gauge.records().iter().zip(statistics.records()) {
+                assert_eq!(
+                    (one.impacts, one.visits, one.end),
+                    (other.impacts, other.visits, other.end)
+                );
+                let (a, b) = (one.mean_square, other.mean_square);
+                let visits = f64::from(one.impacts[0] + one.impacts[1] + 1);
+                assert!(
+                    (a - b).abs() <= visits * rounded + 1e-13 * b,
+                    "{a} {b} {rounded} {eps} {omega}"
+                );
+                let (a, b) = (one.peak, other.peak);
+                assert!((a - b).abs() <= 1e-13 * (size + steady), "{a} {b} {eps} {omega}");
+            }
+            assert!((gauge.peak() / statistics.peak() - 1.0).abs() < 1e-12);
+            assert!((gauge.rms() / statistics.rms() - 1.0).abs() < 1e-9, "{eps} {omega}");
+            let energy = statistics.energy();
+            let wanted = (energy.input > 0.0).then(|| energy.impact / energy.input);
+            let found = gauge.efficiency();
+            let near = found.zip(wanted).map(|(a, b)| (a - b).abs() < 1e-8 * b.max(1.0));
+            assert!(near.unwrap_or(found == wanted), "{found:?} {wanted:?} {eps} {omega}");
+        }
+        assert!(in_contact > 0 && without == 1, "{in_contact} {without}");
+    }
+}

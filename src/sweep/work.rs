@@ -1,0 +1,137 @@
+//! Points worked out: every layer that something is recorded of, many trajectories side by side.
+
+use std::ops::Range;
+
+use super::columns::{self, Column, SECTION};
+use super::facts::{Facts, Found};
+use super::follow;
+use super::{Plan, Point};
+use crate::band::simulated::{Effort, long_term, motions};
+use crate::case::{Layer, Recorded};
+use crate::regimes::Lyapunov;
+use crate::simulation::{Observer, Simulation, StartError, batch};
+use crate::system::{State, System};
+
+/// Trajectories side by side: many times the lanes of a batch, so that they are filled, and few enough
+/// for their records to stay in a processor's cache and out of the way.
+const TRAJECTORIES: u64 = 256;
+/// Impacts per period at which an extra measurement of a motion is given up, as motions are.
+const MOST_IMPACTS: u64 = 1000;
+
+/// The results of some points, in their order. Where a motion is followed, these are whole lines.
+///
+/// # Errors
+/// [`StartError`] where a start is not finite.
+pub fn points(plan: &Plan, numbers: Range<u64>) -> Result<Vec<Column>, StartError> {
+    let mut results = columns::empty(plan);
+    let at_once = match plan.settings.follow {
+        true => numbers.end.saturating_sub(numbers.start).max(1),
+        false => (TRAJECTORIES / u64::from(plan.settings.starts.max(1))).max(1),
+    };
+    let mut begin = numbers.start;
+    while begin < numbers.end {
+        let end = numbers.end.min(begin + at_once);
+        let some: Vec<Point> = (begin..end).map(|number| plan.point(number)).collect();
+        let found = if plan.needs(Layer::Simulation) {
+            simulated(plan, &some)?
+        } else {
+            vec![Vec::new(); some.len()]
+        };
+        for (point, found) in some.iter().zip(found) {
+            columns::push(plan, &mut results, &Facts::of(plan, point, found));
+        }
+        begin = end;
+    }
+    Ok(results)
+}
+
+/// What simulation finds at points, for each from several starts or in two directions.
+fn simulated(plan: &Plan, points: &[Point]) -> Result<Vec<Vec<Found>>, StartError> {
+    let mut found = if plan.settings.follow {
+        follow::along(plan, points)?
+    } else {
+        let mut found: Vec<Vec<Found>> = points.iter().map(|_| vec![Found::default()]).collect();
+        let (there, systems): (Vec<usize>, Vec<System>) = points
+            .iter()
+            .enumerate()
+            .filter_map(|(index, point)| Some((index, startable(point)?)))
+            .unzip();
+        let all = match there.first().and_then(|first| points[*first].start) {
+            Some(_) => {
+                let start =
+                    |(index, system): (&usize, &System)| Some((*system, points[*index].start?));
+                let starts: Vec<(System, State)> =
+                    there.iter().zip(&systems).filter_map(start).collect();
+                let ended = long_term(&starts, plan.settings.periods)?;
+                ended.into_iter().map(|motion| motion.into_iter().collect()).collect()
+            }
+            None => {
+                let Effort { starts, periods } =
+                    Effort { starts: plan.settings.starts, periods: plan.settings.periods };
+                motions(&systems, &Effort { starts, periods })?
+            }
+        };
+        for (index, motions) in there.into_iter().zip(all) {
+            found[index][0].motions = motions;
+        }
+        found
+    };
+    let wants = |recorded| plan.settings.record.contains(&recorded);
+    if wants(Recorded::Lyapunov) || wants(Recorded::Section) {
+        looked_closer(plan, points, &mut found)?;
+    }
+    Ok(found)
+}
+
+/// The system of a point whose start, if an axis says one, is possible.
+fn startable(point: &Point) -> Option<System> {
+    let inside = point.start.is_none_or(|start| start.gap().abs() <= 1.0);
+    point.system.filter(|_| inside)
+}
+
+/// Adds what only a second look at the main motions tells: exponents and sections.
+fn looked_closer(
+    plan: &Plan,
+    points: &[Point],
+    found: &mut [Vec<Found>],
+) -> Result<(), StartError> {
+    let mut all: Vec<(&mut Found, Simulation)> = Vec::new();
+    for (point, ways) in points.iter().zip(found) {
+        for one in ways {
+            let state = one.main().map(|motion| motion.state);
+            if let Some((system, state)) = point.system.zip(state) {
+                all.push((one, Simulation::new(&system, state, 0.0)?));
+            }
+        }
+    }
+    let (mut found, mut simulations): (Vec<&mut Found>, Vec<Simulation>) = all.into_iter().unzip();
+    let mut sections: Vec<Section> = simulations.iter().map(|_| Section::default()).collect();
+    let periods = SECTION as u64;
+    batch::run(&mut simulations, periods, periods * MOST_IMPACTS, &mut sections);
+    for (one, section) in found.iter_mut().zip(sections) {
+        one.section = section.displacements;
+    }
+    if plan.settings.record.contains(&Recorded::Lyapunov) {
+        let periods = plan.settings.periods;
+        let mut exponents: Vec<Lyapunov> =
+            simulations.iter().map(|one| Lyapunov::begin(one.system())).collect();
+        batch::run(&mut simulations, periods, periods * MOST_IMPACTS, &mut exponents);
+        for (one, exponent) in found.iter_mut().zip(exponents) {
+            one.lyapunov = exponent.exponent().map(|found| found.per_period);
+        }
+    }
+    Ok(())
+}
+
+/// Keeps the oscillator's displacement at the end of each period.
+#[derive(Default)]
+struct Section {
+    displacements: Vec<f64>,
+}
+
+impl Observer for Section {
+    const SEGMENTS: bool = false;
+    fn period(&mut self, state: &State) {
+        self.displacements.push(state.x);
+    }
+}
