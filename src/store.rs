@@ -1,7 +1,7 @@
 //! The one place that touches the file system. Files and folders appear whole or not at all.
 
 use std::collections::BTreeMap;
-use std::io::{self, Write as _};
+use std::io::{self, ErrorKind, Write as _};
 use std::path::{Component, Path, PathBuf};
 
 use tempfile::{Builder, NamedTempFile, TempDir};
@@ -28,6 +28,9 @@ pub enum StoreError {
         path: PathBuf,
         /// The operating system's reason.
         cause: io::Error,
+        /// What to do about it, where it is the disk's fault.
+        #[help]
+        advice: Option<&'static str>,
     },
     /// A file that should be new is there already.
     #[error("{} exists already and is left as it is", path.display())]
@@ -104,7 +107,7 @@ pub fn write_new(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
     }
     let file = temporary_file(path, bytes)?;
     file.persist_noclobber(path).map(drop).map_err(|error| match error.error.kind() {
-        io::ErrorKind::AlreadyExists => StoreError::Exists { path: path.to_owned() },
+        ErrorKind::AlreadyExists => StoreError::Exists { path: path.to_owned() },
         _ => refused("write", path, error.error),
     })
 }
@@ -116,6 +119,16 @@ pub fn write_new(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
 pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
     let file = temporary_file(path, bytes)?;
     file.persist(path).map(drop).map_err(|error| refused("write", path, error.error))
+}
+
+/// As [`write_file`], into a folder that is made where there is none.
+///
+/// # Errors
+/// [`StoreError::Refused`]; an earlier file is then unchanged.
+pub fn write_file_and_folder(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
+    let folder = folder_of(path)?;
+    std::fs::create_dir_all(folder).map_err(|cause| refused("create", folder, cause))?;
+    write_file(path, bytes)
 }
 
 /// What a folder holds, by name; names that begin with a point are left out.
@@ -156,9 +169,7 @@ pub fn list(path: &Path) -> Result<Listing, StoreError> {
 pub fn read_text_if_there(path: &Path) -> Result<Option<String>, StoreError> {
     match read_text(path) {
         Ok(text) => Ok(Some(text)),
-        Err(StoreError::Refused { cause, .. }) if cause.kind() == io::ErrorKind::NotFound => {
-            Ok(None)
-        }
+        Err(StoreError::Refused { cause, .. }) if cause.kind() == ErrorKind::NotFound => Ok(None),
         Err(error) => Err(error),
     }
 }
@@ -180,7 +191,7 @@ pub fn replace_folder(
         return Err(StoreError::Unusable { path: outside.clone() });
     }
     if path.exists() && !path.is_dir() {
-        return Err(refused("replace", path, io::ErrorKind::NotADirectory.into()));
+        return Err(refused("replace", path, ErrorKind::NotADirectory.into()));
     }
     let beside = folder_of(path)?;
     std::fs::create_dir_all(beside).map_err(|cause| refused("create", beside, cause))?;
@@ -241,7 +252,7 @@ pub fn differing_files(
         match std::fs::read(path.join(file)) {
             Ok(there) if there == *bytes => {}
             Ok(_) => found.push((file.clone(), Stale::Differs)),
-            Err(cause) if cause.kind() == io::ErrorKind::NotFound => {
+            Err(cause) if cause.kind() == ErrorKind::NotFound => {
                 found.push((file.clone(), Stale::Missing));
             }
             Err(cause) => return Err(refused("read", &path.join(file), cause)),
@@ -294,7 +305,7 @@ fn swap(path: &Path, new: TempDir) -> Result<(), StoreError> {
     let old = aside.path().join("old");
     let had_old = match std::fs::rename(path, &old) {
         Ok(()) => true,
-        Err(cause) if cause.kind() == io::ErrorKind::NotFound => false,
+        Err(cause) if cause.kind() == ErrorKind::NotFound => false,
         Err(cause) => return Err(replace(cause)),
     };
     if let Err(cause) = std::fs::rename(new.path(), path) {
@@ -355,7 +366,17 @@ fn stays_inside(file: &Path) -> bool {
 }
 
 fn refused(action: &'static str, path: &Path, cause: io::Error) -> StoreError {
-    StoreError::Refused { action, path: path.to_owned(), cause }
+    let advice = match cause.kind() {
+        ErrorKind::StorageFull | ErrorKind::QuotaExceeded => Some(
+            "make room on that disk, or write to a larger one; what is there already may move along",
+        ),
+        ErrorKind::ReadOnlyFilesystem => Some(
+            "let that disk be written to again, or write to another one; what is there already may be \
+             copied along",
+        ),
+        _ => None,
+    };
+    StoreError::Refused { action, path: path.to_owned(), cause, advice }
 }
 
 #[cfg(test)]

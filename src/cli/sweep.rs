@@ -1,5 +1,7 @@
 //! `vinesink sweep CASE`
 
+mod submit;
+
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::time::Instant;
@@ -56,11 +58,20 @@ enum Verb {
     Run {
         #[command(flatten)]
         sweep: Where,
-        /// The chunk, from 0 [default: $SLURM_ARRAY_TASK_ID or $HQ_TASK_ID; without either all that are
+        /// The chunk, from 0 [default: $HQ_TASK_ID or $SLURM_ARRAY_TASK_ID; without either all that are
         /// not there]
         #[arg(long, value_name = "N")]
         chunk: Option<u64>,
+        /// Also every K-th chunk after it: N, N + K, N + 2 K and so on. K jobs, with N from 0 to K - 1, do
+        /// all
+        #[arg(long, value_name = "K", value_parser = clap::value_parser!(u64).range(1..))]
+        every: Option<u64>,
+        /// Processors to use [default: as many as the engine grants, by $HQ_CPUS or $SLURM_CPUS_PER_TASK;
+        /// without either all]
+        #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+        threads: Option<u16>,
     },
+    Submit(submit::Arguments),
     /// Say which chunks are there; ends with exit code 1 while some are not
     Status(Where),
     /// Put the chunks together
@@ -78,6 +89,8 @@ Examples:
   vinesink sweep map.toml --dry-run        how much work it is
   vinesink sweep map.toml                  all of it, on all processors
   vinesink sweep run map.toml --chunk 7    one chunk, wherever it runs
+  vinesink sweep submit map.toml --engine slurm
+                                           all of it, on a cluster
   vinesink sweep status map.toml
   vinesink sweep merge map.toml
 
@@ -95,14 +108,25 @@ const SAMPLE: u64 = 64;
 pub fn run(arguments: Arguments) -> Result<Outcome> {
     match (arguments.verb, arguments.sweep) {
         (Some(Verb::Plan(at)), _) => plan(&Sweep::open(&at)?),
-        (Some(Verb::Run { sweep, chunk }), _) => {
+        (Some(Verb::Run { sweep, chunk, every, threads }), _) => {
+            submit::keep_to_processors(threads)?;
             let sweep = Sweep::open(&sweep)?;
             let wanted = match chunk.map_or_else(numbered, |chunk| Ok(Some(chunk)))? {
-                Some(chunk) if chunk < sweep.plan.chunks() => vec![chunk],
+                Some(chunk) if chunk < sweep.plan.chunks() => match every {
+                    Some(step) => submit::share(chunk, step, sweep.plan.chunks()),
+                    None => vec![chunk],
+                },
                 Some(chunk) => {
                     return Err(miette!(
                         help = format!("the last chunk is {}", sweep.plan.chunks() - 1),
                         "there is no chunk {chunk}"
+                    ));
+                }
+                None if every.is_some() => {
+                    return Err(miette!(
+                        help =
+                            "say which with `--chunk N`; an engine's tasks have a number already",
+                        "`--every` counts from a chunk, and there is none"
                     ));
                 }
                 None => (0..sweep.plan.chunks()).collect(),
@@ -110,6 +134,7 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
             sweep.work(&wanted)?;
             Ok(Outcome::Done)
         }
+        (Some(Verb::Submit(arguments)), _) => submit::run(&arguments),
         (Some(Verb::Status(at)), _) => status(&Sweep::open(&at)?),
         (Some(Verb::Merge { sweep, csv }), _) => Sweep::open(&sweep)?.merge(csv),
         (None, Some(at)) if arguments.dry_run => estimate(&Sweep::open(&at)?),
@@ -125,9 +150,10 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
     }
 }
 
-/// The chunk that the engine which started this process has given it.
+/// The chunk that the engine which started this process has given it. HyperQueue runs inside Slurm's jobs
+/// and not the other way around, so its word counts first.
 fn numbered() -> Result<Option<u64>> {
-    for name in ["SLURM_ARRAY_TASK_ID", "HQ_TASK_ID"] {
+    for name in ["HQ_TASK_ID", "SLURM_ARRAY_TASK_ID"] {
         if let Ok(text) = std::env::var(name) {
             let number = text.parse().map_err(|_| miette!("{name} is {text}, no number"))?;
             return Ok(Some(number));
