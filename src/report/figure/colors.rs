@@ -14,7 +14,7 @@ pub struct Tint(pub [u8; 3]);
 
 impl Tint {
     /// Where nothing is known; no ramp and no tint of a regime is like it.
-    pub const UNKNOWN: Self = Self([0x8C, 0x8C, 0x8C]);
+    pub const UNKNOWN: Self = Self([0x6A, 0x6A, 0x6A]);
 
     /// As an SVG attribute's value.
     #[must_use]

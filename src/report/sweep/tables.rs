@@ -76,7 +76,6 @@ fn regimes(grid: &Grid, facts: &Facts) -> Table {
         });
         [
             one.regime.words().to_owned(),
-            one.points.to_string(),
             percent_sharply(one.share),
             rate.unwrap_or_else(dash),
             peak.unwrap_or_else(dash),
@@ -86,7 +85,6 @@ fn regimes(grid: &Grid, facts: &Facts) -> Table {
     let table = table(
         [
             ("Main motion", false),
-            ("Points", true),
             ("Share", true),
             ("Impacts per period", true),
             ("Peak", true),

@@ -170,16 +170,22 @@ impl Words<'_> {
                 format!("{} from {} to {}", axis.name, axis.number(*from), axis.number(*to))
             }
         };
-        let within: Vec<String> =
-            self.grid.swept.axes.iter().zip(&found.from_to).map(along).collect();
+        let narrower = |(axis, [from, to]): &(&AxisShown, &[usize; 2])| {
+            *from > 0 || *to + 1 < axis.values.len()
+        };
+        let axes = self.grid.swept.axes.iter().zip(&found.from_to);
+        let within: Vec<String> = axes.filter(narrower).map(along).collect();
+        let within = match within.is_empty() {
+            true => String::new(),
+            false => format!(", within {}", within.join(", ")),
+        };
         let most = match found.most {
             2 => "two".to_owned(),
             most => format!("up to {most}"),
         };
         Some(format!(
-            "Several motions coexist at {} of the points ({most} at a point), within {}.",
-            percent_sharply(found.share),
-            within.join(", ")
+            "Several motions coexist at {} of the points ({most} at a point){within}.",
+            percent_sharply(found.share)
         ))
     }
 

@@ -71,11 +71,6 @@ fn diagram(grid: &Grid, axis: &AxisShown) -> Option<Figure> {
         let layer = Layer::curve(Role::BareOscillator, line(axis, &bare));
         panel = panel.with(layer.labelled("without absorber"));
     }
-    let orbit = grid.length("orbit_peak", Pass::Single);
-    if let Some(orbit) = orbit.filter(|orbit| orbit.iter().any(Option::is_some)) {
-        let layer = Layer::curve(Role::ExactOrbit, line(axis, &orbit));
-        panel = panel.with(layer.labelled("exact 1:1 orbit"));
-    }
     if let (Some(largest), [(Pass::Single, main)]) =
         (grid.length("largest_peak", Pass::Single), peaks.as_slice())
     {
@@ -99,6 +94,12 @@ fn diagram(grid: &Grid, axis: &AxisShown) -> Option<Figure> {
                     panel.with(Layer::marked(marker, color, points(axis, values)).labelled(name));
             }
         }
+    }
+    // In front of the marks, which it would else be hidden by where they agree.
+    let orbit = grid.length("orbit_peak", Pass::Single);
+    if let Some(orbit) = orbit.filter(|orbit| orbit.iter().any(Option::is_some)) {
+        let layer = Layer::curve(Role::ExactOrbit, line(axis, &orbit));
+        panel = panel.with(layer.labelled("exact 1:1 orbit"));
     }
     if panel.layers.is_empty() {
         return None;

@@ -120,16 +120,17 @@ impl<'a> Panels<'a> {
             }
             let image = Image { x_edges: x_edges.clone(), y_edges: y_edges.clone(), cells };
             let mut panel = Panel::new(x, y).with(Layer::Image(image));
-            let first = index == 0;
             if !self.grid.is_basin() {
                 let Overlay { layers, words: said } =
-                    overlay::boundaries(self.grid, self.plane, *slice, first);
+                    overlay::boundaries(self.grid, self.plane, *slice, self.shown.len() == 1);
                 panel.layers.extend(layers);
                 if !said.is_empty() {
                     words = said;
                 }
                 if map.names {
-                    panel.layers.extend(overlay::area_names(self.grid, self.plane, *slice));
+                    panel
+                        .layers
+                        .extend(overlay::area_names(self.grid, self.plane, *slice, columns));
                 }
                 if self.grid.slices() == 1 {
                     panel.layers.extend(overlay::this_case(self.plane));
@@ -199,7 +200,9 @@ impl<'a> Panels<'a> {
         } else {
             (
                 format!("Regimes {}", self.over()),
-                "The colour is the regime of the main motion, as simulated.".to_owned(),
+                "The colour is the regime of the main motion, as simulated; where it changes elsewhere than at the lines, simulation and \
+                 theory differ, or other motions exist beside it."
+                    .to_owned(),
             )
         };
         self.figure(&Map {

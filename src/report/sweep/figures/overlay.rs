@@ -1,7 +1,7 @@
 //! What is drawn over a map: boundaries of the theory and of exact orbits, areas by name, the case.
 
 use super::super::grid::{Grid, Pass, Plane};
-use super::super::kinds::area_words;
+use super::super::kinds::{AREAS, area_words};
 use super::contours;
 use crate::analysis::Manifold;
 use crate::case::Case;
@@ -14,8 +14,9 @@ use crate::validation::tolerance::has_resonance;
 
 /// Frequencies at which the exact boundaries are marked.
 const EXACT: u32 = 32;
-/// An area is named where its middle is at least this far from its edge, as a part of the map.
-const ROOMY: f64 = 0.045;
+/// About the width of a panel that has a figure to itself, and of a letter, pixels.
+const PANEL: f64 = 560.0;
+const LETTER: f64 = 10.0;
 
 /// What lies over a map.
 pub(super) struct Overlay {
@@ -156,42 +157,48 @@ fn label(layer: Layer, words: &str, named: bool) -> Layer {
     if named { layer.labelled(Label::from(words)) } else { layer }
 }
 
-/// The names of the areas, each in the middle of its largest part.
-pub(super) fn area_names(grid: &Grid, plane: Plane, slice: usize) -> Vec<Layer> {
+/// The names of the areas, each in the middle of its largest part, where it has room in a figure with so many
+/// columns.
+pub(super) fn area_names(grid: &Grid, plane: Plane, slice: usize, columns: usize) -> Vec<Layer> {
     let Some(areas) = grid.text("area", Pass::Single) else { return Vec::new() };
     let cells = plane.cells(areas, slice);
     let (across, up) = (plane.x.values.len(), plane.y.values.len());
     let inside = depths(&cells, across, up);
-    let named = super::super::kinds::AREAS.iter().filter_map(|(area, _)| {
-        let here = (0..cells.len()).filter(|cell| cells[*cell] == Some(*area));
-        let middle = here.max_by(|a, b| inside[*a].total_cmp(&inside[*b]).then(b.cmp(a)))?;
+    let size = PANEL / columns as f64;
+    let named = AREAS.iter().filter_map(|(area, _)| {
+        let words = area_words(area);
+        // Half of what the words take, as a part of the map.
+        let half = [0.5 * LETTER * words.len() as f64 / size, LETTER / size];
+        let fits = |cell: &usize| (0..2).all(|k| inside[*cell][k] > half[k]);
+        let depth = |cell: usize| inside[cell][0].min(inside[cell][1]);
+        let here = (0..cells.len()).filter(|cell| cells[*cell] == Some(*area)).filter(fits);
+        let middle = here.max_by(|a, b| depth(*a).total_cmp(&depth(*b)).then(b.cmp(a)))?;
         let at = [plane.x.values[middle % across], plane.y.values[middle / across]];
-        (inside[middle] > ROOMY).then(|| Layer::note(at, area_words(area)))
+        Some(Layer::note(at, words))
     });
     named.collect()
 }
 
-/// How far each cell is from one that is another, or from the edge of the map, as a part of the map: along rows
-/// and columns, the smaller of the two.
-fn depths(cells: &[Option<&str>], across: usize, up: usize) -> Vec<f64> {
-    let mut inside = vec![f64::INFINITY; cells.len()];
-    let mut line = |count: usize, index: &dyn Fn(usize) -> usize| {
+/// How far each cell is from one that is another, or from the edge of the map, along its row and its column, as
+/// a part of the map.
+fn depths(cells: &[Option<&str>], across: usize, up: usize) -> Vec<[f64; 2]> {
+    let mut inside = vec![[0.0; 2]; cells.len()];
+    let mut line = |axis: usize, count: usize, index: &dyn Fn(usize) -> usize| {
         let mut from = 0;
         while from < count {
             let same = |k: &usize| cells[index(*k)] == cells[index(from)];
             let to = (from..count).take_while(same).last().unwrap_or(from) + 1;
             for k in from..to {
-                let depth = (k + 1 - from).min(to - k) as f64 / count as f64;
-                inside[index(k)] = inside[index(k)].min(depth);
+                inside[index(k)][axis] = ((k - from).min(to - 1 - k) as f64 + 0.5) / count as f64;
             }
             from = to;
         }
     };
     for row in 0..up {
-        line(across, &|k| row * across + k);
+        line(0, across, &|k| row * across + k);
     }
     for column in 0..across {
-        line(up, &|k| k * across + column);
+        line(1, up, &|k| k * across + column);
     }
     inside
 }
