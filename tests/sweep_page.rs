@@ -214,6 +214,14 @@ fn every_pixel_has_the_colour_of_its_point() {
         assert!(svg.contains(&format!(">{words}</text>")), "no key for {words}");
     }
     assert!(!svg.contains("more than two impacts"), "a key for what is nowhere");
+    // The same in blocks below, for viewers that refuse the image: here each point is one.
+    let blocks = |tint: Tint| {
+        let (before, _) =
+            svg.split_once(&format!("\" fill=\"{}\" shape-", tint.hex())).expect("drawn");
+        before.rsplit_once("<path d=\"").expect("a path").1.matches('M').count()
+    };
+    // A run of neighbours in a row is one block.
+    assert_eq!([Regime::TwoSymmetric, Regime::BelowTwo].map(|one| blocks(tint(one))), [2, 1]);
     let html = &files[Path::new("sweep.html")];
     assert!(html.contains("<image ") && !html.contains("src=\""), "one file, nothing beside it");
 }

@@ -34,6 +34,9 @@ pub enum Cells {
 const LEVELS: f64 = 128.0;
 /// Fewer levels would show as bands.
 const FEWEST_LEVELS: f64 = 16.0;
+/// Columns and rows of an image in blocks, and levels of a ramp in it.
+const BLOCKS: [usize; 2] = [40, 30];
+const BLOCK_LEVELS: f64 = 12.0;
 /// Pixels of an image per pixel of the figure where cells are unevenly wide.
 const FINE: f64 = 2.0;
 /// More pixels than this beside one another are more than a screen shows.
@@ -153,6 +156,44 @@ pub(super) fn url(image: &Image, placed: &Placed, coarseness: f64) -> String {
         }
     };
     format!("data:image/png;base64,{}", STANDARD.encode(png(&palette, &pixels)))
+}
+
+/// The image in a few large blocks: each tint with its rectangles.
+pub(super) fn blocks(image: &Image, placed: &Placed) -> Vec<(Tint, Vec<Rect>)> {
+    let across = image.x_edges.len() - 1;
+    let tint = |cell: usize| match &image.cells {
+        Cells::Kinds(tints, cells) => {
+            let kind = cells.get(cell).copied().flatten();
+            kind.and_then(|kind| tints.get(usize::from(kind)).copied()).unwrap_or(Tint::UNKNOWN)
+        }
+        Cells::Values(ramp, range, cells) => match cells.get(cell).copied().flatten() {
+            Some(value) => {
+                let part = ((value - range.0) / (range.1 - range.0)).clamp(0.0, 1.0);
+                let level = (part * BLOCK_LEVELS).floor().min(BLOCK_LEVELS - 1.0) + 0.5;
+                ramp.tint(range.0 + (range.1 - range.0) * level / BLOCK_LEVELS, *range)
+            }
+            None => Tint::UNKNOWN,
+        },
+    };
+    let sampled = |cells: &[usize], most: usize| thinned(cells, cells.len().div_ceil(most));
+    let (columns, rows) = (sampled(&placed.columns, BLOCKS[0]), sampled(&placed.rows, BLOCKS[1]));
+    let place = &placed.place;
+    let x = |k: usize| place.left + place.width() * k as f64 / columns.len() as f64;
+    let y = |k: usize| place.top + place.height() * k as f64 / rows.len() as f64;
+    let mut found: Vec<(Tint, Vec<Rect>)> = Vec::new();
+    for (row, cells) in rows.iter().enumerate() {
+        let tints: Vec<Tint> = columns.iter().map(|column| tint(cells * across + column)).collect();
+        let mut begin = 0;
+        for run in tints.chunk_by(|a, b| a == b) {
+            let rect = Rect::new(x(begin), y(row), x(begin + run.len()), y(row + 1));
+            match found.iter_mut().find(|(tint, _)| *tint == run[0]) {
+                Some((_, rects)) => rects.push(rect),
+                None => found.push((run[0], vec![rect])),
+            }
+            begin += run.len();
+        }
+    }
+    found
 }
 
 /// The palette's number for every pixel, row by row from the top.

@@ -30,11 +30,21 @@ pub(super) fn layer(svg: &mut String, layer: &Layer, shape: &Shape, coarseness: 
     }
 }
 
-/// An image: each cell keeps its edges at any size.
+/// An image: each cell keeps its edges at any size. Below it are large blocks of the same colours, for viewers
+/// that refuse an image within an image: GitHub's pages in Firefox do.
 fn image_of(svg: &mut String, image: &Image, placed: &Placed, coarseness: f64) {
     let Placed { place, .. } = placed;
     let [x, y, right, bottom] = [place.left, place.top, place.right, place.bottom].map(tenths);
     let (width, height) = (right - x, bottom - y);
+    for (tint, rects) in image::blocks(image, placed) {
+        let mut d = String::new();
+        for rect in rects {
+            let [x, y, right, bottom] = [rect.left, rect.top, rect.right, rect.bottom].map(tenths);
+            let _ = write!(d, "M{x} {y}h{}v{}H{x}z", right - x, bottom - y);
+        }
+        let fill = tint.hex();
+        let _ = writeln!(svg, "<path d=\"{d}\" fill=\"{fill}\" shape-rendering=\"crispEdges\"/>");
+    }
     let url = image::url(image, placed, coarseness);
     let _ = writeln!(
         svg,

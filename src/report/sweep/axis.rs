@@ -90,7 +90,7 @@ impl AxisShown {
             .flatten()
             .filter_map(|k| Some((self.values.get(k)? - value).abs()))
             .fold(f64::INFINITY, f64::min);
-        let needed = libm::ceil(libm::log10(value.abs() / step)) + 1.0;
+        let needed = libm::ceil(libm::log10(value.abs() / step));
         let digits = if needed.is_finite() { needed.clamp(3.0, 6.0) as usize } else { 3 };
         let number = significant(value, digits);
         if self.unit.is_empty() { number } else { format!("{number} {}", self.unit) }

@@ -127,17 +127,20 @@ impl Words<'_> {
 
     fn others(&self, facts: &Facts) -> Option<String> {
         let main = facts.main()?;
+        // The headline has told the first pass's main one.
+        let again = facts.pass == Pass::Down;
         let mut rest: Vec<_> =
-            facts.regimes.iter().filter(|one| one.regime != main.regime).collect();
+            facts.regimes.iter().filter(|one| again || one.regime != main.regime).collect();
         rest.sort_by_key(|one| std::cmp::Reverse(one.points));
         let told: Vec<String> = rest
             .iter()
             .map(|one| format!("{} {}", one.regime.words(), percent_sharply(one.share)))
             .collect();
-        let way = self.way(facts);
-        Some(match told.is_empty() {
-            true => format!("No other motion was found{way}."),
-            false => format!("Beside it: {}{way}.", told.join("; ")),
+        let told = told.join("; ");
+        Some(match facts.pass {
+            Pass::Down => format!("On the way down: {told}."),
+            _ if told.is_empty() => "No other motion was found.".to_owned(),
+            _ => format!("Beside it: {told}."),
         })
     }
 
