@@ -274,7 +274,11 @@ fn uneven_cells_end_midway() {
     }
     assert!(row.len() > 800, "finer than the drawing");
     let even = draw(&log, true);
-    assert_eq!(even.rows, [tints.clone()], "one pixel a cell where cells are even on the axis");
+    assert_eq!(
+        even.rows,
+        std::slice::from_ref(&tints),
+        "one pixel a cell where cells are even on the axis"
+    );
     assert_eq!(even.place, uneven.place);
 }
 

@@ -121,7 +121,7 @@ mod tests {
         let cells = [Some(1), Some(1), Some(2), Some(1), None, Some(2)];
         let curve = between(&cells, &[0.0, 1.0, 2.0, 4.0], &[10.0, 20.0, 30.0]);
         assert_eq!(curve, [[2.0, 10.0], [2.0, 20.0]]);
-        assert_eq!(between(&[Some('a'); 6], &[0.0, 1.0, 2.0, 3.0], &[0.0, 1.0, 2.0]), []);
+        assert!(between(&[Some('a'); 6], &[0.0, 1.0, 2.0, 3.0], &[0.0, 1.0, 2.0]).is_empty());
     }
 
     /// An island has a closed line of four corners.

@@ -84,7 +84,7 @@ fn computed(grid: &Grid, plane: Plane) -> Option<Vec<Layer>> {
 fn clip(mut layer: Layer, plane: Plane) -> Layer {
     let edges = plane.y.edges();
     if let (Layer::Curve { points, .. }, Some(top)) = (&mut layer, edges.last()) {
-        for point in points.iter_mut().filter(|point| !(point[1] <= 3.0 * top)) {
+        for point in points.iter_mut().filter(|point| point[1] > 3.0 * top) {
             point[1] = f64::NAN;
         }
     }
