@@ -62,6 +62,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "regimes",
             "simulation",
             "study",
+            "sweep",
             "symbolic",
             "system",
             "validation",

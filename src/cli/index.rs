@@ -88,9 +88,10 @@ fn members(folder: &Path, names: Vec<String>) -> Result<Vec<Member>> {
         let path = folder.join(&name).join("report.json");
         let Some(text) = store::read_text_if_there(&path)? else { continue };
         let summary = Summary::read(&path.display().to_string(), &text)?;
-        let has_tradeoff =
-            store::list(&folder.join(&name))?.files.iter().any(|file| file == index::TRADEOFF);
-        members.push(Member { name, summary, has_tradeoff });
+        let files = store::list(&folder.join(&name))?.files;
+        let has = |page: &str| files.iter().any(|file| file == page);
+        let (has_tradeoff, has_sweep) = (has(index::TRADEOFF), has(index::SWEEP));
+        members.push(Member { name, summary, has_tradeoff, has_sweep });
     }
     Ok(members)
 }

@@ -1,5 +1,6 @@
 //! `vinesink sweep CASE`
 
+mod results;
 mod submit;
 
 use std::path::{Path, PathBuf};
@@ -7,14 +8,11 @@ use std::sync::Mutex;
 use std::time::Instant;
 
 use clap::{Args, Subcommand};
-use miette::{IntoDiagnostic, Result, WrapErr as _, miette};
+use miette::{IntoDiagnostic, Result, miette};
 use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
 use vinesink::case::Case;
-use vinesink::store::{self, Growing, Shards};
-use vinesink::sweep::columns::{self, Column};
-use vinesink::sweep::csv::Table;
-use vinesink::sweep::parquet::{self, Merger, Results};
-use vinesink::sweep::{Plan, work};
+use vinesink::store::{self, Shards};
+use vinesink::sweep::{Plan, parquet, work};
 
 use super::progress::Progress;
 use super::{Outcome, output};
@@ -23,7 +21,8 @@ use super::{Outcome, output};
 ///
 /// A sweep is cut into chunks with fixed numbers. Each is written to OUT/<name>/chunks as it is done,
 /// and what is there already is not done again: a run that was interrupted goes on where it stopped, and
-/// ends in the same bytes. All chunks together become OUT/<name>/sweep.parquet.
+/// ends in the same bytes. All chunks together become OUT/<name>/sweep.parquet, and beside it sweep.html and
+/// sweep.md show maps or diagrams with what they say in words.
 #[derive(Debug, Args)]
 #[command(args_conflicts_with_subcommands = true, after_long_help = EXAMPLES)]
 pub struct Arguments {
@@ -34,9 +33,8 @@ pub struct Arguments {
     /// Write nothing; say how many points there are and about how long they take
     #[arg(long)]
     dry_run: bool,
-    /// Also write sweep.csv, with the units in its first line
-    #[arg(long)]
-    csv: bool,
+    #[command(flatten)]
+    wanted: results::Wanted,
 }
 
 /// Which sweep, and where its results are.
@@ -78,9 +76,8 @@ enum Verb {
     Merge {
         #[command(flatten)]
         sweep: Where,
-        /// Also write sweep.csv, with the units in its first line
-        #[arg(long)]
-        csv: bool,
+        #[command(flatten)]
+        wanted: results::Wanted,
     },
 }
 
@@ -136,12 +133,12 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
         }
         (Some(Verb::Submit(arguments)), _) => submit::run(&arguments),
         (Some(Verb::Status(at)), _) => status(&Sweep::open(&at)?),
-        (Some(Verb::Merge { sweep, csv }), _) => Sweep::open(&sweep)?.merge(csv),
+        (Some(Verb::Merge { sweep, wanted }), _) => Sweep::open(&sweep)?.merge(&wanted),
         (None, Some(at)) if arguments.dry_run => estimate(&Sweep::open(&at)?),
         (None, Some(at)) => {
             let sweep = Sweep::open(&at)?;
             sweep.work(&(0..sweep.plan.chunks()).collect::<Vec<_>>())?;
-            sweep.merge(arguments.csv)
+            sweep.merge(&arguments.wanted)
         }
         (None, None) => Err(miette!(
             help = "write for example `vinesink sweep map.toml`",
@@ -165,6 +162,7 @@ fn numbered() -> Result<Option<u64>> {
 /// A sweep and where its results are.
 struct Sweep {
     plan: Plan,
+    case: Case,
     case_text: String,
     folder: PathBuf,
 }
@@ -182,7 +180,7 @@ impl Sweep {
                 at.case.display()
             )
         })?;
-        Ok(Self { plan, case_text: text, folder: at.out.join(stem) })
+        Ok(Self { plan, case, case_text: text, folder: at.out.join(stem) })
     }
 
     fn shards(&self) -> Result<Shards> {
@@ -235,65 +233,6 @@ impl Sweep {
         let found: Vec<(u64, bool)> = missing.collect::<Result<_>>()?;
         Ok(found.into_iter().filter(|(_, there)| !there).map(|(chunk, _)| chunk).collect())
     }
-
-    /// Puts all chunks together, one at a time.
-    fn merge(&self, csv: bool) -> Result<Outcome> {
-        if let [first, ..] = self.missing()?.as_slice() {
-            return Err(miette!(
-                help = "`vinesink sweep run CASE` works out what is missing",
-                "chunk {first} is not there, or is damaged"
-            ));
-        }
-        let path = self.folder.join("sweep.parquet");
-        let notes = vec![
-            ("vinesink.sweep".to_owned(), self.plan.identity.clone()),
-            ("vinesink.version".to_owned(), env!("CARGO_PKG_VERSION").to_owned()),
-            ("vinesink.case".to_owned(), self.case_text.clone()),
-        ];
-        let shards = self.shards()?;
-        let empty = columns::empty(&self.plan);
-        let together = || -> Result<()> {
-            let sink = Growing::begin(&path)?;
-            let mut merger = Merger::new(sink, &empty, &notes).into_diagnostic()?;
-            for chunk in 0..self.plan.chunks() {
-                let file = shards.read(chunk)?;
-                let which = || shown(&shards.path(chunk));
-                merger.add(&file).into_diagnostic().wrap_err_with(which)?;
-            }
-            Ok(merger.finish().into_diagnostic()?.finish()?)
-        };
-        together().wrap_err_with(|| unfinished(&path))?;
-        shards.sweep_up()?;
-        output::print(format!("{}\n", shown(&path)))?;
-        if csv {
-            self.write_csv(&path, &empty)?;
-        }
-        Ok(Outcome::Done)
-    }
-
-    /// The merged results once more as text, a chunk at a time.
-    fn write_csv(&self, merged: &Path, empty: &[Column]) -> Result<()> {
-        let path = self.folder.join("sweep.csv");
-        let all = || -> Result<()> {
-            let results = Results::open(store::open(merged)?).into_diagnostic()?;
-            let mut table = Table::new(Growing::begin(&path)?, empty).into_diagnostic()?;
-            for group in 0..results.groups() {
-                let mut columns = empty.to_vec();
-                results.add_to(&mut columns, group).into_diagnostic()?;
-                table.add(&columns).into_diagnostic()?;
-            }
-            Ok(table.finish().into_diagnostic()?.finish()?)
-        };
-        all().wrap_err_with(|| unfinished(&path))?;
-        output::print(format!("{}\n", shown(&path)))
-    }
-}
-
-fn unfinished(path: &Path) -> String {
-    format!(
-        "{} could not be written; all chunks are kept, and `vinesink sweep merge` tries again",
-        shown(path)
-    )
 }
 
 fn shown(path: &Path) -> String {

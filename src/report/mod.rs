@@ -13,6 +13,7 @@ pub mod paper;
 pub mod render;
 pub mod stored;
 pub mod summary;
+pub mod sweep;
 pub mod tradeoff;
 
 mod band;

@@ -12,6 +12,7 @@ use super::index::Index;
 use super::numbers::LengthFormat;
 use super::optimize::OptimizePage;
 use super::paper::Paper;
+use super::sweep::SweepPage;
 use super::tradeoff::TradeoffPage;
 use crate::case::Case;
 use crate::symbolic::{MathError, to_mathml};
@@ -26,11 +27,15 @@ const INDEX_HTML: &str = include_str!("../../templates/index.html.tera");
 const INDEX_STYLE: &str = include_str!("../../templates/index.css");
 const INDEX_SCRIPT: &str = include_str!("../../templates/index.js");
 const OPTIMIZE: &str = include_str!("../../templates/optimize.md.tera");
+const SWEEP_MARKDOWN: &str = include_str!("../../templates/sweep.md.tera");
+const SWEEP_HTML: &str = include_str!("../../templates/sweep.html.tera");
 const STYLE: &str = include_str!("../../templates/report.css");
 
 /// The drawings that belong to pages of other commands, in the folder of a report.
 const FIGURES_OF_OTHERS: [&str; 3] =
     ["figures/tradeoff.svg", "figures/optimize-landscape.svg", "figures/optimize-chart.svg"];
+/// How the names of a sweep's drawings begin, of which there are more or fewer.
+const FIGURES_OF_SWEEP: &str = "figures/sweep-";
 
 /// Whether a file of a report's folder, by its path in it, is the report's own: one that an older report
 /// has left there is out of date. Pages of other commands, and whatever somebody else has put there, are
@@ -42,7 +47,7 @@ pub fn is_of_report(file: &Path) -> bool {
     }
     let drawing = name.strip_prefix("figures/").and_then(|name| name.strip_suffix(".svg"));
     let drawing = drawing.is_some_and(|name| !name.contains('/') && !name.starts_with('.'));
-    drawing && !FIGURES_OF_OTHERS.contains(&name)
+    drawing && !FIGURES_OF_OTHERS.contains(&name) && !name.starts_with(FIGURES_OF_SWEEP)
 }
 
 /// Why a report cannot be rendered.
@@ -174,6 +179,36 @@ pub fn optimize(
     for figure in drawn {
         let drawing = figure::render(figure)?.into_bytes();
         files.insert(PathBuf::from(format!("figures/{}.svg", figure.name)), drawing);
+    }
+    Ok(files)
+}
+
+/// The page of a sweep as Markdown and HTML, with its numbers and figures, by their path in the sweep's folder.
+///
+/// # Errors
+/// [`RenderError`] if template and page do not fit, or a figure cannot be drawn.
+pub fn sweep(
+    page: &SweepPage,
+    drawn: &[Figure],
+) -> Result<BTreeMap<PathBuf, Vec<u8>>, RenderError> {
+    let mut drawings = BTreeMap::new();
+    for figure in drawn {
+        drawings.insert(figure.name.clone(), figure::render(figure)?);
+    }
+    let mut context = Context::new();
+    context.insert("page", page);
+    context.insert("style", STYLE);
+    context.insert("drawings", &drawings);
+    let text = engine("sweep.md", SWEEP_MARKDOWN)?.render("sweep.md", &context)?;
+    let html = engine("sweep.html", SWEEP_HTML)?.render("sweep.html", &context)?;
+    let json = serde_json::to_string_pretty(&page.document)? + "\n";
+    let mut files = BTreeMap::from([
+        (PathBuf::from("sweep.md"), without_repeated_blank_lines(&text).into_bytes()),
+        (PathBuf::from("sweep.html"), html.into_bytes()),
+        (PathBuf::from("sweep.json"), json.into_bytes()),
+    ]);
+    for (name, drawing) in drawings {
+        files.insert(PathBuf::from(format!("figures/{name}.svg")), drawing.into_bytes());
     }
     Ok(files)
 }

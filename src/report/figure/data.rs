@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::colors::Tint;
 use super::layers::Layer;
 
 /// A figure: one or more panels, and the words that go with them.
@@ -21,6 +22,17 @@ pub struct Figure {
     pub panels: Vec<Panel>,
     /// Where the panels go.
     pub layout: Layout,
+    /// What the tints of its images stand for, in rows above all panels.
+    pub keys: Vec<Key>,
+}
+
+/// A tint and what it stands for.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Key {
+    /// The tint.
+    pub tint: Tint,
+    /// What it stands for.
+    pub label: String,
 }
 
 impl Figure {
@@ -34,6 +46,7 @@ impl Figure {
             size: (720, 450),
             panels: Vec::new(),
             layout: Layout::Row,
+            keys: Vec::new(),
         }
     }
 
@@ -56,6 +69,13 @@ impl Figure {
     #[must_use]
     pub fn with_layout(mut self, layout: Layout) -> Self {
         self.layout = layout;
+        self
+    }
+
+    /// Adds a tint and what it stands for.
+    #[must_use]
+    pub fn with_key(mut self, tint: Tint, label: impl Into<String>) -> Self {
+        self.keys.push(Key { tint, label: label.into() });
         self
     }
 

@@ -223,6 +223,6 @@ pub(super) const fn color_of(layer: &Layer) -> &'static str {
         Layer::Curve { style, .. } | Layer::Rule { style, .. } => style.color.text_hex(),
         Layer::Points { color, .. } | Layer::Note { color, .. } => color.text_hex(),
         Layer::Band { fill, .. } => fill.color.text_hex(),
-        Layer::ThisCase { .. } => "#000000",
+        Layer::ThisCase { .. } | Layer::Image(_) => "#000000",
     }
 }

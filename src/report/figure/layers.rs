@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::image::Image;
 use super::palette::{Color, Marker, Role, Style};
 
 /// Something drawn in a panel.
@@ -55,6 +56,9 @@ pub enum Layer {
         /// Their colour.
         color: Color,
     },
+    /// Cells in colours; what the colours stand for is said by [`super::Figure::keys`], or by a bar in a panel
+    /// of its own.
+    Image(Image),
     /// The case at hand: one unmistakable mark.
     ThisCase {
         /// Where.
@@ -125,7 +129,7 @@ impl Layer {
             | Self::Points { label, .. }
             | Self::Band { label, .. }
             | Self::Rule { label, .. } => *label = Some(name.into()),
-            Self::Note { .. } | Self::ThisCase { .. } => {}
+            Self::Note { .. } | Self::ThisCase { .. } | Self::Image(_) => {}
         }
         self
     }

@@ -17,6 +17,11 @@ pub(super) const LEGEND: f64 = 20.0;
 /// Width of a legend's sample of line or marker, pixels.
 const SWATCH: f64 = 28.0;
 const MARKER: f64 = 10.0;
+/// Width of a key's sample, pixels.
+pub(super) const KEY: f64 = 20.0;
+/// The part of a figure's width over which keys run, and how far from the left they begin at most.
+const KEYS: f64 = 0.86;
+pub(super) const KEYS_FROM: f64 = 0.11;
 /// From the sample to its words, pixels.
 pub(super) const GAP: f64 = 6.0;
 /// Between two entries of a legend, pixels.
@@ -139,6 +144,8 @@ pub(super) fn lay_out(figure: &Figure, legends: &[Vec<usize>]) -> Result<Vec<Fra
         !groups.iter().any(|g| g.contains(&i) && g.iter().any(|&k| grid.cells[k].row > row))
     };
     let [width, height] = [figure.size.0, figure.size.1].map(f64::from);
+    let above = keys_room(figure);
+    let height = height - above;
     let mut frames: Vec<Frame> = (0..figure.panels.len())
         .map(|i| {
             let [columns, rows] = [grid.widths.len(), grid.heights.len()].map(|n| n as f64);
@@ -150,7 +157,8 @@ pub(super) fn lay_out(figure: &Figure, legends: &[Vec<usize>]) -> Result<Vec<Fra
     // or alternates between two; a fixed number of rounds ends with plots that fit their words.
     for _ in 0..4 {
         let plots = plots(&grid, &frames, width, height);
-        for (i, plot) in plots.into_iter().enumerate() {
+        for (i, mut plot) in plots.into_iter().enumerate() {
+            (plot.top, plot.bottom) = (plot.top + above, plot.bottom + above);
             if !(plot.width() >= LEAST && plot.height() >= LEAST) {
                 let (width, height) = (plot.width(), plot.height());
                 let name = figure.name.clone();
@@ -202,8 +210,8 @@ fn dress(panel: &Panel, plot: Rect, spans: Spans, x_words: bool, legend: &[usize
     let places = legend_places(panel, legend, plot.width());
     Frame {
         x_ticks: fitting(&panel.x, &spans.x, plot.width(), plot.width() / 68.0, false),
-        x_label: wrap(&panel.x.label, LARGE, plot.width() + 40.0),
-        y_label: wrap(&panel.y.label, LARGE, plot.height() + 8.0),
+        x_label: lines(&panel.x.label, plot.width() + 40.0),
+        y_label: lines(&panel.y.label, plot.height() + 8.0),
         heading: panel.heading.clone(),
         tick_room: y_ticks.iter().map(|m| width(&m.words, SMALL)).fold(0.0, f64::max),
         legend_room: legend_room(&places),
@@ -213,6 +221,11 @@ fn dress(panel: &Panel, plot: Rect, spans: Spans, x_words: bool, legend: &[usize
         spans,
         x_words,
     }
+}
+
+/// The lines of an axis' words; none where it has none.
+fn lines(label: &str, limit: f64) -> Vec<String> {
+    if label.is_empty() { Vec::new() } else { wrap(label, LARGE, limit) }
 }
 
 /// As many ticks as the axis has room for.
@@ -312,7 +325,7 @@ pub(super) fn label_of(layer: &Layer) -> Option<&super::layers::Label> {
         | Layer::Points { label, .. }
         | Layer::Band { label, .. }
         | Layer::Rule { label, .. } => label.as_ref(),
-        Layer::Note { .. } | Layer::ThisCase { .. } => None,
+        Layer::Note { .. } | Layer::ThisCase { .. } | Layer::Image(_) => None,
     }
 }
 
@@ -332,6 +345,26 @@ fn legend_places(panel: &Panel, legend: &[usize], room: f64) -> Vec<(usize, [f64
         at[1] = -(f64::from(row) - at[1] + 1.0) * LEGEND + 0.3 * LEGEND;
     }
     places
+}
+
+/// The middle of the left edge of each key's sample, from a left end; rows as in the legend.
+pub(super) fn key_places(figure: &Figure, left: f64) -> Vec<[f64; 2]> {
+    let room = KEYS * f64::from(figure.size.0);
+    let (mut x, mut row, mut places) = (0.0, 0, Vec::new());
+    for key in &figure.keys {
+        let size = KEY + GAP + text::width(&key.label, SMALL);
+        if x > 0.0 && x + size > room {
+            (x, row) = (0.0, row + 1);
+        }
+        places.push([left + x, 8.0 + LEGEND * (f64::from(row) + 0.5)]);
+        x += size + BETWEEN;
+    }
+    places
+}
+
+/// The height that the keys take.
+fn keys_room(figure: &Figure) -> f64 {
+    key_places(figure, 0.0).iter().map(|at| at[1] + 0.5 * LEGEND).fold(0.0, f64::max)
 }
 
 /// The height that rows of legend entries take.

@@ -119,6 +119,10 @@ fn collect(panel: &Panel, index: usize) -> Coordinates {
                     list.push(value);
                 }
             }
+            Layer::Image(image) => {
+                let edges = [&image.x_edges, &image.y_edges][index];
+                all.lines.extend(edges.first().into_iter().chain(edges.last()));
+            }
             Layer::ThisCase { at, .. } => all.must.push(at[index]),
             Layer::Note { at, .. } => all.must.push(at[index]),
             Layer::Rule { rule, .. } => match (rule, index) {

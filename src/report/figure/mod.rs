@@ -11,10 +11,12 @@
 //! ```
 
 mod candidates;
+mod colors;
 mod data;
 mod error;
 mod frame;
 mod geometry;
+mod image;
 mod labels;
 mod layers;
 mod layout;
@@ -29,9 +31,11 @@ mod simplify;
 mod text;
 mod ticks;
 
-pub use data::{Axis, Cell, Figure, Layout, Panel, Scale, Tick};
+pub use colors::{Ramp, Tint};
+pub use data::{Axis, Cell, Figure, Key, Layout, Panel, Scale, Tick};
 pub use error::FigureError;
 pub use geometry::Rect;
+pub use image::{Cells, Image, edges};
 pub use layers::{Fill, Hatch, Label, Layer, MarkedPoint, Rule};
 pub use palette::{Color, Dash, Marker, Role, Shape, Style};
 pub use render::{Drawing, LIMIT, PlacedText, draw, render};

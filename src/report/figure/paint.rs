@@ -2,7 +2,9 @@
 
 use std::fmt::Write;
 
+use super::colors::Tint;
 use super::geometry::in_polygon;
+use super::image::{self, Image, Placed};
 use super::labels::STAR;
 use super::layers::{Fill, Hatch, Layer, MarkedPoint};
 use super::markers;
@@ -11,8 +13,9 @@ use super::shapes::{Dot, Shape};
 use super::text::{escape, tenths};
 
 /// Draws a layer.
-pub(super) fn layer(svg: &mut String, layer: &Layer, shape: &Shape) {
+pub(super) fn layer(svg: &mut String, layer: &Layer, shape: &Shape, coarseness: f64) {
     match (layer, shape) {
+        (Layer::Image(image), Shape::Image(placed)) => image_of(svg, image, placed, coarseness),
         (Layer::Curve { style, .. } | Layer::Rule { style, .. }, Shape::Lines(lines)) => {
             stroke(svg, lines, *style);
         }
@@ -25,6 +28,41 @@ pub(super) fn layer(svg: &mut String, layer: &Layer, shape: &Shape) {
         }
         _ => {}
     }
+}
+
+/// An image: each cell keeps its edges at any size. Below it are large blocks of the same colours, for viewers
+/// that refuse an image within an image: GitHub's pages in Firefox do.
+fn image_of(svg: &mut String, image: &Image, placed: &Placed, coarseness: f64) {
+    let Placed { place, .. } = placed;
+    let [x, y, right, bottom] = [place.left, place.top, place.right, place.bottom].map(tenths);
+    let (width, height) = (right - x, bottom - y);
+    for (tint, rects) in image::blocks(image, placed) {
+        let mut d = String::new();
+        for rect in rects {
+            let [x, y, right, bottom] = [rect.left, rect.top, rect.right, rect.bottom].map(tenths);
+            let _ = write!(d, "M{x} {y}h{}v{}H{x}z", right - x, bottom - y);
+        }
+        let fill = tint.hex();
+        let _ = writeln!(svg, "<path d=\"{d}\" fill=\"{fill}\" shape-rendering=\"crispEdges\"/>");
+    }
+    let url = image::url(image, placed, coarseness);
+    let _ = writeln!(
+        svg,
+        "<image x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" \
+         preserveAspectRatio=\"none\" image-rendering=\"pixelated\" href=\"{url}\"/>"
+    );
+}
+
+/// A tint in a rectangle, with an edge where it is light.
+pub(super) fn key(svg: &mut String, at: [f64; 2], width: f64, tint: Tint) {
+    let [x, y] = [at[0], at[1] - 6.0].map(tenths);
+    let _ = writeln!(
+        svg,
+        "<rect x=\"{x}\" y=\"{y}\" width=\"{}\" height=\"120\" fill=\"{}\" stroke=\"#777777\" \
+         stroke-width=\"6\"/>",
+        tenths(width),
+        tint.hex()
+    );
 }
 
 /// Lines, as one path.

@@ -29,6 +29,8 @@ pub enum Color {
     Grey,
     /// A light grey for rules and areas in the background.
     Light,
+    /// White, below a line that crosses tints.
+    White,
 }
 
 impl Color {
@@ -46,6 +48,7 @@ impl Color {
             Self::ReddishPurple => "#CC79A7",
             Self::Grey => "#6E6E6E",
             Self::Light => "#B8B8B8",
+            Self::White => "#FFFFFF",
         }
     }
 
@@ -61,7 +64,7 @@ impl Color {
             Self::Blue => "#0067A1",
             Self::Vermillion => "#B24E00",
             Self::ReddishPurple => "#9C4478",
-            Self::Grey | Self::Light => "#5A5A5A",
+            Self::Grey | Self::Light | Self::White => "#5A5A5A",
         }
     }
 }

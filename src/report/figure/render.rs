@@ -8,7 +8,7 @@ use super::frame;
 use super::geometry::Rect;
 use super::labels::{Labels, color_of, place};
 use super::layers::Layer;
-use super::layout::{Frame, GAP, label_of, lay_out, swatch};
+use super::layout::{Frame, GAP, KEY, KEYS_FROM, key_places, label_of, lay_out, swatch};
 use super::markers;
 use super::paint;
 use super::shapes::{Shape, shapes};
@@ -110,7 +110,7 @@ fn compose(
     for ((panel, frame), labels) in figure.panels.iter().zip(frames).zip(labels) {
         let shapes = shapes(panel, frame, coarseness);
         for (layer, shape) in panel.layers.iter().zip(&shapes) {
-            paint::layer(&mut svg, layer, shape);
+            paint::layer(&mut svg, layer, shape, coarseness);
         }
         for ends in &labels.leaders {
             paint::leader(&mut svg, *ends);
@@ -124,6 +124,7 @@ fn compose(
             words.extend(entry(&mut svg, &panel.layers[*index], at));
         }
     }
+    words.extend(keys(&mut svg, figure, frames));
     svg.push_str("</svg>\n");
     let placed = |w: Words| PlacedText { room: w.bounds(), text: w.text };
     Ok(Drawing { svg, texts: words.into_iter().map(placed).collect() })
@@ -145,6 +146,20 @@ fn head(figure: &Figure) -> String {
     svg
 }
 
+/// The keys of a figure, and their words.
+fn keys(svg: &mut String, figure: &Figure, frames: &[Frame]) -> Vec<Words> {
+    let most = KEYS_FROM * f64::from(figure.size.0);
+    let left = frames.first().map_or(0.0, |frame| frame.plot.left).min(most);
+    let places = key_places(figure, left);
+    let written = figure.keys.iter().zip(places).map(|(key, at)| {
+        paint::key(svg, at, KEY, key.tint);
+        let words = Words::new(key.label.clone(), [at[0] + KEY + GAP, at[1]], Anchor::Start, SMALL);
+        words.write(svg);
+        words
+    });
+    written.collect()
+}
+
 /// A sample of a layer and its name.
 fn entry(svg: &mut String, layer: &Layer, at: [f64; 2]) -> Option<Words> {
     let label = label_of(layer)?;
@@ -159,11 +174,11 @@ fn entry(svg: &mut String, layer: &Layer, at: [f64; 2]) -> Option<Words> {
             let [left, right] = [at[0] + 3.0, at[0] + width - 3.0];
             let [top, bottom] = [at[1] - 6.0, at[1] + 6.0];
             let corners = vec![[left, top], [right, top], [right, bottom], [left, bottom]];
-            paint::layer(svg, layer, &Shape::Area(corners));
+            paint::layer(svg, layer, &Shape::Area(corners), 1.0);
         }
         _ => {
             let line = vec![at, [at[0] + width, at[1]]];
-            paint::layer(svg, layer, &Shape::Lines(vec![line]));
+            paint::layer(svg, layer, &Shape::Lines(vec![line]), 1.0);
         }
     }
     let at = [at[0] + width + GAP, at[1]];

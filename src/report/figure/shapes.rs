@@ -2,6 +2,7 @@
 
 use super::data::Panel;
 use super::geometry::{Rect, clip_polygon, clip_polyline};
+use super::image::{Placed, placed};
 use super::layers::{Layer, MarkedPoint, Rule};
 use super::layout::Frame;
 use super::simplify::{merge, simplify};
@@ -23,6 +24,7 @@ pub(super) enum Shape {
     Dots(Vec<Dot>),
     Area(Vec<[f64; 2]>),
     Place([f64; 2]),
+    Image(Placed),
     Nothing,
 }
 
@@ -48,6 +50,10 @@ fn shape(layer: &Layer, frame: &Frame, coarseness: f64) -> Shape {
             Some(ends) => lines(frame, &map(&ends), tolerance),
             None => Shape::Nothing,
         },
+        Layer::Image(image) => {
+            let spans = [&frame.spans.x, &frame.spans.y];
+            placed(image, &frame.plot, spans).map_or(Shape::Nothing, Shape::Image)
+        }
         Layer::Points { points, .. } => Shape::Dots(dots(points, frame, 0.5 * coarseness)),
         Layer::Note { at, .. } | Layer::ThisCase { at, .. } => {
             let at = frame.map(*at);

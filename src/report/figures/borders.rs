@@ -15,7 +15,7 @@ const SAMPLES: u32 = 240;
 
 /// The boundaries at one detuning, as values of `gamma`.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Border {
+pub(in crate::report) struct Border {
     pub detuning: f64,
     pub breaking: f64,
     pub hopf: f64,
@@ -29,7 +29,7 @@ pub(super) struct Border {
 }
 
 /// The boundaries over a window.
-pub(super) struct Borders {
+pub(in crate::report) struct Borders {
     /// By ascending detuning.
     pub samples: Vec<Border>,
     /// `[sigma, gamma]` of P1, if in the window.
@@ -38,7 +38,7 @@ pub(super) struct Borders {
 
 impl Borders {
     /// Samples the boundaries from the detuning `first` to `last`.
-    pub(super) fn over(
+    pub(in crate::report) fn over(
         system: &System,
         manifold: &Manifold,
         (first, last): (f64, f64),
@@ -72,7 +72,7 @@ impl Borders {
         let line = |value: fn(&Border) -> f64| -> Vec<[f64; 2]> {
             self.samples.iter().map(|at| place(at.detuning, value(at))).collect()
         };
-        let [breaking, hopf] = [line(|at| at.breaking), line(|at| at.hopf)];
+        let hopf = line(|at| at.hopf);
         // With little damping symmetry breaks before the fold is reached: no room for Z3 there.
         let top = line(|at| at.breaking.max(at.hopf));
         let aim = Fill { color: Color::BluishGreen, opacity: 0.1, hatch: Hatch::None };
@@ -94,17 +94,34 @@ impl Borders {
         ] {
             layers.extend(self.strip(strip, fill, place).map(|band| band.labelled(name)));
         }
-        layers.push(Layer::curve(Role::SymmetryBreaking, breaking).labelled("symmetry breaking"));
-        layers.push(Layer::curve(Role::Hopf, hopf).labelled("Hopf"));
-        layers.push(Layer::curve(Role::SaddleNode, line(|at| at.saddle)).labelled("saddle-node"));
-        if let Some([detuning, gamma]) = self.meeting {
-            let [x, y] = place(detuning, gamma);
-            let tooltip =
-                "P1: saddle-node and Hopf boundaries meet; A1 on one side, A2 on the other";
-            let p1 = MarkedPoint::new(x, y).with_label("P1").with_tooltip(tooltip);
-            layers.push(Layer::marked(Role::Guide.marker(), Color::Black, [p1]));
-        }
+        layers.extend(self.lines(place));
+        layers.extend(self.meeting_point(place));
         layers
+    }
+
+    /// The lines alone.
+    pub(in crate::report) fn lines(&self, place: &dyn Fn(f64, f64) -> [f64; 2]) -> [Layer; 3] {
+        let line = |role: Role, name: &str, value: fn(&Border) -> f64| {
+            let points = self.samples.iter().map(|at| place(at.detuning, value(at)));
+            Layer::curve(role, points.collect()).labelled(name)
+        };
+        [
+            line(Role::SymmetryBreaking, "symmetry breaking", |at| at.breaking),
+            line(Role::Hopf, "Hopf", |at| at.hopf),
+            line(Role::SaddleNode, "saddle-node", |at| at.saddle),
+        ]
+    }
+
+    /// P1, if it is in the window.
+    pub(in crate::report) fn meeting_point(
+        &self,
+        place: &dyn Fn(f64, f64) -> [f64; 2],
+    ) -> Option<Layer> {
+        let [detuning, gamma] = self.meeting?;
+        let [x, y] = place(detuning, gamma);
+        let tooltip = "P1: saddle-node and Hopf boundaries meet; A1 on one side, A2 on the other";
+        let p1 = MarkedPoint::new(x, y).with_label("P1").with_tooltip(tooltip);
+        Some(Layer::marked(Role::Guide.marker(), Color::Black, [p1]))
     }
 
     /// The longest run of one strip.

@@ -8,7 +8,7 @@ mod areas;
 mod band;
 mod basins;
 mod bifurcations;
-mod borders;
+pub(super) mod borders;
 mod branches;
 mod canvas;
 mod captures;

@@ -20,6 +20,8 @@ pub const MARKDOWN: &str = "README.md";
 
 /// The pages of accuracy and cost that may lie in a case's folder.
 pub const TRADEOFF: &str = "tradeoff.md";
+/// Where the page of a sweep is, in the folder of a report.
+pub const SWEEP: &str = "sweep.md";
 
 /// What both files of an index say of themselves, so that no other file is taken for one.
 const SIGNATURE: &str = "This page is written by";
@@ -33,6 +35,8 @@ pub struct Member {
     pub summary: Summary,
     /// Whether the folder has a page of accuracy and cost.
     pub has_tradeoff: bool,
+    /// Whether the page of a sweep lies beside its report.
+    pub has_sweep: bool,
 }
 
 /// Another page in the folder.
@@ -74,6 +78,7 @@ struct Entry {
     cells: Vec<Cell>,
     figure: Option<Thumbnail>,
     has_tradeoff: bool,
+    has_sweep: bool,
 }
 
 /// The small figure of a case.
@@ -182,7 +187,7 @@ impl OtherPage {
 
 impl Entry {
     fn of(member: Member) -> Self {
-        let Member { name, summary, has_tradeoff } = member;
+        let Member { name, summary, has_tradeoff, has_sweep } = member;
         let notes = match summary.notes.len() {
             0 => None,
             1 => Some("1 note".to_owned()),
@@ -203,6 +208,7 @@ impl Entry {
             name,
             figure,
             has_tradeoff,
+            has_sweep,
         }
     }
 }
@@ -280,7 +286,7 @@ mod tests {
             "verdict": {"tone": tone, "headline": "H"}, "key_rows": rows,
         });
         let summary = Summary::read(name, &text.to_string()).expect("a report");
-        Member { name: name.to_owned(), summary, has_tradeoff: false }
+        Member { name: name.to_owned(), summary, has_tradeoff: false, has_sweep: false }
     }
 
     #[test]

@@ -40,8 +40,8 @@ struct Telescope {
     frequency: f64,
     displacement: Antiderivative,
     velocity: Antiderivative,
-    /// Largest acceleration over the size of the free phasor, and of the steady one.
-    bends: [f64; 2],
+    /// Size of `p^2 + Omega^2`.
+    bend: f64,
     /// Turn of `z` as `u` sees it, squared.
     drift: f64,
     /// Where the flight under way began.
@@ -114,7 +114,7 @@ impl Telescope {
             frequency,
             displacement: Antiderivative::of(one, one, pole, frequency),
             velocity: Antiderivative::of(pole, turn, pole, frequency),
-            bends: [pole.norm_sqr(), frequency * frequency],
+            bend: (pole * pole + frequency * frequency).norm_sqr().sqrt(),
             drift: (pole - turn).norm_sqr(),
             begin: Place { phase: 0.0, x: 0.0, v: 0.0, z: one, u: one },
             sums: [0.0; 2],
@@ -151,14 +151,16 @@ impl Telescope {
         let begin = &self.begin;
         let known = known.max(begin.x.abs()).max(end.x.abs());
         let duration = (end.phase - begin.phase) / self.frequency;
-        // Above the higher end by no more than a parabola of the largest acceleration; and within the
-        // circle of z + u, which itself bends away from its chord by no more than that.
-        let sizes = [begin.z.norm(), begin.u.norm()];
         let eighth = 0.125 * duration * duration;
-        let bend = self.bends[0] * sizes[0] + self.bends[1] * sizes[1];
+        // Within the circle of z + u, which bends away from its chord by no more than an eighth of the
+        // squared duration times the largest second derivative; and above the higher end by no more
+        // than that of x = Re(z + u) itself, x'' = -Omega^2 x + Re((p^2 + Omega^2) z).
+        let size = |one: Phasor| one.norm_sqr().sqrt();
+        let free = size(begin.z);
+        let circle = size(begin.z + begin.u).max(size(end.z + end.u));
+        let by_circle = circle + eighth * self.drift * free;
+        let bend = self.frequency * self.frequency * by_circle + self.bend * free;
         let by_bend = begin.x.abs().max(end.x.abs()) + eighth * bend;
-        let circle = (begin.z + begin.u).norm().max((end.z + end.u).norm());
-        let by_circle = circle + eighth * self.drift * sizes[0];
         if by_bend <= known || by_circle <= known {
             return known;
         }

@@ -1,0 +1,143 @@
+//! What becomes of chunks that are all there: one file of results, on request as text, and a page.
+
+use std::io::Read as _;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use miette::{IntoDiagnostic, Result, WrapErr as _, miette};
+use sha2::{Digest as _, Sha256};
+use vinesink::report::render;
+use vinesink::report::sweep::{AxisShown, MOST_POINTS, SweepPage, Swept};
+use vinesink::store::{self, Growing};
+use vinesink::sweep::columns::{self, Column};
+use vinesink::sweep::csv::Table;
+use vinesink::sweep::parquet::{Merger, Results};
+
+use super::super::{Outcome, index, output};
+use super::{Sweep, shown};
+
+/// What is written besides the results.
+#[derive(Debug, Args)]
+pub struct Wanted {
+    /// Also write sweep.csv, with the units in its first line
+    #[arg(long)]
+    csv: bool,
+    /// Write the page into REPORTS/<name>, where the case's report is, instead of beside the results
+    #[arg(long, value_name = "REPORTS")]
+    report: Option<PathBuf>,
+}
+
+impl Sweep {
+    /// Puts all chunks together, one at a time, and writes what else is wanted.
+    pub(super) fn merge(&self, wanted: &Wanted) -> Result<Outcome> {
+        if let [first, ..] = self.missing()?.as_slice() {
+            return Err(miette!(
+                help = "`vinesink sweep run CASE` works out what is missing",
+                "chunk {first} is not there, or is damaged"
+            ));
+        }
+        let path = self.folder.join("sweep.parquet");
+        let empty = columns::empty(&self.plan);
+        self.put_together(&path, &empty).wrap_err_with(|| unfinished(&path))?;
+        self.shards()?.sweep_up()?;
+        output::print(format!("{}\n", shown(&path)))?;
+        if wanted.csv {
+            let text = self.folder.join("sweep.csv");
+            written_as_text(&path, &text, &empty).wrap_err_with(|| unfinished(&text))?;
+            output::print(format!("{}\n", shown(&text)))?;
+        }
+        if self.plan.points() > MOST_POINTS as u64 {
+            output::complain(&format!(
+                "There is no page of more than {MOST_POINTS} points; the results are whole."
+            ));
+            return Ok(Outcome::Done);
+        }
+        self.write_page(&path, empty, wanted.report.as_deref())?;
+        Ok(Outcome::Done)
+    }
+
+    fn put_together(&self, path: &Path, empty: &[Column]) -> Result<()> {
+        let shards = self.shards()?;
+        let notes = vec![
+            ("vinesink.sweep".to_owned(), self.plan.identity.clone()),
+            ("vinesink.version".to_owned(), env!("CARGO_PKG_VERSION").to_owned()),
+            ("vinesink.case".to_owned(), self.case_text.clone()),
+        ];
+        let mut merger = Merger::new(Growing::begin(path)?, empty, &notes).into_diagnostic()?;
+        for chunk in 0..self.plan.chunks() {
+            let file = shards.read(chunk)?;
+            let which = || shown(&shards.path(chunk));
+            merger.add(&file).into_diagnostic().wrap_err_with(which)?;
+        }
+        Ok(merger.finish().into_diagnostic()?.finish()?)
+    }
+
+    /// Maps or diagrams with what they say in words.
+    fn write_page(
+        &self,
+        merged: &Path,
+        mut columns: Vec<Column>,
+        reports: Option<&Path>,
+    ) -> Result<()> {
+        let results = Results::open(store::open(merged)?).into_diagnostic()?;
+        for group in 0..results.groups() {
+            results.add_to(&mut columns, group).into_diagnostic()?;
+        }
+        let settings = &self.plan.settings;
+        let shown_axis = |axis: &vinesink::case::SweepAxis| {
+            AxisShown::of(&self.case, axis.parameter.key(), &axis.values, axis.logarithmic)
+        };
+        let swept = Swept {
+            case: &self.case,
+            axes: settings.axes.iter().map(shown_axis).collect(),
+            columns: &columns,
+            starts: settings.starts,
+            periods: settings.periods,
+            results_sha256: checksum(merged)?,
+        };
+        let name = self.folder.file_name().unwrap_or_default();
+        let figures = swept.figures()?;
+        let page = SweepPage::new(&name.to_string_lossy(), &swept, &figures)?;
+        let files = render::sweep(&page, &figures).into_diagnostic()?;
+        let folder = reports.map_or_else(|| self.folder.clone(), |reports| reports.join(name));
+        store::add_to_folder(&folder, &files)?;
+        if let Some(reports) = reports {
+            index::refresh(reports)?;
+        }
+        output::print(format!("{}\n", shown(&folder.join("sweep.html"))))
+    }
+}
+
+/// The merged results once more as text, a chunk at a time.
+fn written_as_text(merged: &Path, path: &Path, empty: &[Column]) -> Result<()> {
+    let results = Results::open(store::open(merged)?).into_diagnostic()?;
+    let mut table = Table::new(Growing::begin(path)?, empty).into_diagnostic()?;
+    for group in 0..results.groups() {
+        let mut columns = empty.to_vec();
+        results.add_to(&mut columns, group).into_diagnostic()?;
+        table.add(&columns).into_diagnostic()?;
+    }
+    Ok(table.finish().into_diagnostic()?.finish()?)
+}
+
+/// SHA-256 of a file, read piece by piece.
+fn checksum(path: &Path) -> Result<String> {
+    let mut file = store::open(path)?;
+    let mut hash = Sha256::new();
+    let mut piece = vec![0; 1 << 20];
+    loop {
+        let read = file.read(&mut piece).into_diagnostic().wrap_err_with(|| shown(path))?;
+        if read == 0 {
+            break;
+        }
+        hash.update(&piece[..read]);
+    }
+    Ok(hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect())
+}
+
+fn unfinished(path: &Path) -> String {
+    format!(
+        "{} could not be written; all chunks are kept, and `vinesink sweep merge` tries again",
+        shown(path)
+    )
+}

@@ -1,0 +1,248 @@
+//! A panel's cells as an image: one colour a cell, in a PNG inside the drawing.
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use serde::Serialize;
+
+use super::colors::{Ramp, Tint};
+use super::data::Scale;
+use super::geometry::Rect;
+use super::limits::Span;
+
+/// Cells of a grid with their boundaries in data coordinates.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Image {
+    /// Where columns begin and end, ascending; one more than there are columns.
+    pub x_edges: Vec<f64>,
+    /// Where rows begin and end, ascending; one more than there are rows.
+    pub y_edges: Vec<f64>,
+    /// What the cells hold, row by row, the row of the smallest ordinate first.
+    pub cells: Cells,
+}
+
+/// What cells hold.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Cells {
+    /// Kinds, at most 255 of them: which of the tints, or nothing where none is known.
+    Kinds(Vec<Tint>, Vec<Option<u8>>),
+    /// Values on a ramp between two ends, or nothing where none is known.
+    Values(Ramp, (f64, f64), Vec<Option<f64>>),
+}
+
+/// Levels of a ramp in a file that is small enough; neighbours differ by less than the eye sees.
+const LEVELS: f64 = 128.0;
+/// Fewer levels would show as bands.
+const FEWEST_LEVELS: f64 = 16.0;
+/// Columns and rows of an image in blocks, and levels of a ramp in it.
+const BLOCKS: [usize; 2] = [40, 30];
+const BLOCK_LEVELS: f64 = 12.0;
+/// Pixels of an image per pixel of the figure where cells are unevenly wide.
+const FINE: f64 = 2.0;
+/// More pixels than this beside one another are more than a screen shows.
+const MOST: usize = 1500;
+/// Parts of an axis that differ by less are equally wide: a thousandth of a cell among a thousand.
+const EVEN: f64 = 1e-6;
+
+/// The cell boundaries of values along an axis: midway between neighbours, as the axis measures, and as far
+/// beyond the first and the last.
+///
+/// A single value has a cell of a tenth of itself to both sides, or of 1 where it is 0.
+#[must_use]
+pub fn edges(values: &[f64], scale: Scale) -> Vec<f64> {
+    let log = scale == Scale::Log;
+    let measured = |v: f64| if log { libm::log(v) } else { v };
+    let back = |v: f64| if log { libm::exp(v) } else { v };
+    let at: Vec<f64> = values.iter().map(|v| measured(*v)).collect();
+    let [Some(first), Some(last)] = [at.first(), at.last()] else { return Vec::new() };
+    let (before, after) = match at.as_slice() {
+        [one] => {
+            let half = if log || *one == 0.0 { 0.1 } else { 0.1 * one.abs() };
+            (half, half)
+        }
+        [a, .., b] => (0.5 * (at[1] - a), 0.5 * (b - at[at.len() - 2])),
+        [] => return Vec::new(),
+    };
+    let inner = at.windows(2).map(|pair| f64::midpoint(pair[0], pair[1]));
+    let all = std::iter::once(first - before).chain(inner).chain(std::iter::once(last + after));
+    all.map(back).collect()
+}
+
+/// Where an image lies, and which cell each of its pixels shows.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Placed {
+    pub place: Rect,
+    /// The column of cells for each column of pixels, from the left.
+    pub columns: Vec<usize>,
+    /// The row of cells for each row of pixels, from the top.
+    pub rows: Vec<usize>,
+}
+
+/// Places an image in a plot; nothing where none of it is visible.
+pub(super) fn placed(image: &Image, plot: &Rect, spans: [&Span; 2]) -> Option<Placed> {
+    let (across, columns) = track(&image.x_edges, spans[0], plot.width())?;
+    let (up, mut rows) = track(&image.y_edges, spans[1], plot.height())?;
+    rows.reverse();
+    let place = Rect::new(
+        plot.left + across.0 * plot.width(),
+        plot.bottom - up.1 * plot.height(),
+        plot.left + across.1 * plot.width(),
+        plot.bottom - up.0 * plot.height(),
+    );
+    Some(Placed { place, columns, rows })
+}
+
+/// The visible parts of an axis from a first to a last edge, and which cell each pixel between them shows.
+fn track(edges: &[f64], span: &Span, length: f64) -> Option<((f64, f64), Vec<usize>)> {
+    let parts: Vec<f64> = edges.iter().map(|edge| span.part(*edge)).collect();
+    let ascending = parts.windows(2).all(|pair| pair[0] < pair[1]);
+    let (&first, &last) = (parts.first()?, parts.last()?);
+    if !ascending || parts.len() < 2 || last <= 0.0 || first >= 1.0 {
+        return None;
+    }
+    let count = parts.len() - 1;
+    let even = (last - first) / count as f64;
+    let inside = first >= -EVEN && last <= 1.0 + EVEN;
+    let apart = |k: usize| (parts[k] - first - even * k as f64).abs();
+    if inside && (0..=count).all(|k| apart(k) < EVEN) {
+        return Some((
+            (first.max(0.0), last.min(1.0)),
+            thinned(&(0..count).collect::<Vec<_>>(), 1),
+        ));
+    }
+    let (from, to) = (first.max(0.0), last.min(1.0));
+    let pixels = ((to - from) * length * FINE).ceil().max(1.0);
+    let cell = |k: usize| {
+        let at = from + (to - from) * (k as f64 + 0.5) / pixels;
+        parts.partition_point(|part| *part <= at).clamp(1, count) - 1
+    };
+    Some(((from, to), thinned(&(0..pixels as usize).map(cell).collect::<Vec<_>>(), 1)))
+}
+
+/// One in so many pixels, and no more than a screen shows.
+fn thinned(cells: &[usize], one_in: usize) -> Vec<usize> {
+    let count = cells.len().div_ceil(one_in).clamp(1, MOST);
+    (0..count).map(|k| cells[(2 * k + 1) * cells.len() / (2 * count)]).collect()
+}
+
+/// The image as a URL that holds it; coarser where it would be too large: first fewer levels, then fewer
+/// pixels.
+pub(super) fn url(image: &Image, placed: &Placed, coarseness: f64) -> String {
+    let across = image.x_edges.len() - 1;
+    let (palette, pixels) = match &image.cells {
+        Cells::Kinds(tints, cells) => {
+            let one_in = coarseness as usize;
+            let unknown = tints.len() as u8;
+            let colour = |cell: usize| cells.get(cell).copied().flatten().unwrap_or(unknown);
+            let palette: Vec<Tint> = tints.iter().copied().chain([Tint::UNKNOWN]).collect();
+            (palette, picked(placed, across, one_in, &colour))
+        }
+        Cells::Values(ramp, (low, high), cells) => {
+            let one_in = (coarseness / 4.0).max(1.0) as usize;
+            let levels = (LEVELS / coarseness).max(FEWEST_LEVELS);
+            let tint = |k: u32| {
+                let value = low + (high - low) * (f64::from(k) + 0.5) / levels;
+                ramp.tint(value, (*low, *high))
+            };
+            let palette: Vec<Tint> = (0..levels as u32).map(tint).chain([Tint::UNKNOWN]).collect();
+            let colour = |cell: usize| match cells.get(cell).copied().flatten() {
+                Some(value) => {
+                    let level = (value - low) / (high - low) * levels;
+                    level.floor().clamp(0.0, levels - 1.0) as u8
+                }
+                None => levels as u8,
+            };
+            (palette, picked(placed, across, one_in, &colour))
+        }
+    };
+    format!("data:image/png;base64,{}", STANDARD.encode(png(&palette, &pixels)))
+}
+
+/// The image in a few large blocks: each tint with its rectangles.
+pub(super) fn blocks(image: &Image, placed: &Placed) -> Vec<(Tint, Vec<Rect>)> {
+    let across = image.x_edges.len() - 1;
+    let tint = |cell: usize| match &image.cells {
+        Cells::Kinds(tints, cells) => {
+            let kind = cells.get(cell).copied().flatten();
+            kind.and_then(|kind| tints.get(usize::from(kind)).copied()).unwrap_or(Tint::UNKNOWN)
+        }
+        Cells::Values(ramp, range, cells) => match cells.get(cell).copied().flatten() {
+            Some(value) => {
+                let part = ((value - range.0) / (range.1 - range.0)).clamp(0.0, 1.0);
+                let level = (part * BLOCK_LEVELS).floor().min(BLOCK_LEVELS - 1.0) + 0.5;
+                ramp.tint(range.0 + (range.1 - range.0) * level / BLOCK_LEVELS, *range)
+            }
+            None => Tint::UNKNOWN,
+        },
+    };
+    let sampled = |cells: &[usize], most: usize| thinned(cells, cells.len().div_ceil(most));
+    let (columns, rows) = (sampled(&placed.columns, BLOCKS[0]), sampled(&placed.rows, BLOCKS[1]));
+    let place = &placed.place;
+    let x = |k: usize| place.left + place.width() * k as f64 / columns.len() as f64;
+    let y = |k: usize| place.top + place.height() * k as f64 / rows.len() as f64;
+    let mut found: Vec<(Tint, Vec<Rect>)> = Vec::new();
+    for (row, cells) in rows.iter().enumerate() {
+        let tints: Vec<Tint> = columns.iter().map(|column| tint(cells * across + column)).collect();
+        let mut begin = 0;
+        for run in tints.chunk_by(|a, b| a == b) {
+            let rect = Rect::new(x(begin), y(row), x(begin + run.len()), y(row + 1));
+            match found.iter_mut().find(|(tint, _)| *tint == run[0]) {
+                Some((_, rects)) => rects.push(rect),
+                None => found.push((run[0], vec![rect])),
+            }
+            begin += run.len();
+        }
+    }
+    found
+}
+
+/// The palette's number for every pixel, row by row from the top.
+fn picked(
+    placed: &Placed,
+    across: usize,
+    one_in: usize,
+    colour: &dyn Fn(usize) -> u8,
+) -> Vec<Vec<u8>> {
+    let columns = thinned(&placed.columns, one_in);
+    let rows = thinned(&placed.rows, one_in);
+    let row = |row: &usize| columns.iter().map(|column| colour(row * across + column)).collect();
+    rows.iter().map(row).collect()
+}
+
+/// A file with a palette, as few bits to a pixel as it takes, and the better of two filters.
+fn png(palette: &[Tint], pixels: &[Vec<u8>]) -> Vec<u8> {
+    let (depth, bits) = match palette.len() {
+        0..=2 => (png::BitDepth::One, 1),
+        3..=4 => (png::BitDepth::Two, 2),
+        5..=16 => (png::BitDepth::Four, 4),
+        _ => (png::BitDepth::Eight, 8),
+    };
+    let per_byte = 8 / bits;
+    let pack = |row: &Vec<u8>| -> Vec<u8> {
+        let byte = |pixels: &[u8]| {
+            let shifted = pixels.iter().enumerate().map(|(k, one)| one << (8 - bits * (k + 1)));
+            shifted.fold(0, |byte, part| byte | part)
+        };
+        row.chunks(per_byte).map(byte).collect()
+    };
+    let data: Vec<u8> = pixels.iter().flat_map(pack).collect();
+    let (width, height) = (pixels.first().map_or(0, Vec::len) as u32, pixels.len() as u32);
+    let encode = |filter| {
+        let mut file = Vec::new();
+        let mut encoder = png::Encoder::new(&mut file, width, height);
+        encoder.set_color(png::ColorType::Indexed);
+        encoder.set_depth(depth);
+        encoder.set_palette(palette.iter().flat_map(|tint| tint.0).collect::<Vec<u8>>());
+        encoder.set_compression(png::Compression::High);
+        encoder.set_filter(filter);
+        let written = encoder.write_header().and_then(|mut writer| {
+            writer.write_image_data(&data)?;
+            writer.finish()
+        });
+        written.expect("memory takes all bytes, and there are as many as the header says");
+        file
+    };
+    // What repeats is shorter as it is, what changes slowly as differences.
+    let [plain, differences] = [png::Filter::NoFilter, png::Filter::Adaptive].map(encode);
+    if differences.len() < plain.len() { differences } else { plain }
+}

@@ -1,0 +1,78 @@
+//! How regimes, areas and counts are named and coloured.
+
+use crate::regimes::Regime;
+use crate::report::figure::{Color, Marker, Shape, Tint};
+
+/// Every regime, from many impacts to none.
+pub(super) const REGIMES: [Regime; 6] = [
+    Regime::AboveTwo,
+    Regime::TwoAsymmetric,
+    Regime::TwoSymmetric,
+    Regime::StronglyModulated,
+    Regime::BelowTwo,
+    Regime::AtRest,
+];
+
+/// A regime's name in a table of results.
+pub(super) const fn name(regime: Regime) -> &'static str {
+    match regime {
+        Regime::AtRest => "at-rest",
+        Regime::AboveTwo => "above-two",
+        Regime::TwoAsymmetric => "two-asymmetric",
+        Regime::TwoSymmetric => "two-symmetric",
+        Regime::StronglyModulated => "strongly-modulated",
+        Regime::BelowTwo => "below-two",
+    }
+}
+
+pub(super) fn named(text: &str) -> Option<Regime> {
+    REGIMES.into_iter().find(|regime| name(*regime) == text)
+}
+
+/// A regime's tint: the hues of the Okabe-Ito palette at lightnesses of their own (58, 67, 84, 75, 92 and 97
+/// of 100), so that they stay apart in a grey print and for readers with any common colour vision.
+pub const fn tint(regime: Regime) -> Tint {
+    match regime {
+        Regime::AboveTwo => Tint([0xBE, 0x74, 0x9D]),
+        Regime::TwoAsymmetric => Tint([0x53, 0xAC, 0xDB]),
+        Regime::TwoSymmetric => Tint([0x8F, 0xE2, 0xC0]),
+        Regime::StronglyModulated => Tint([0xF1, 0xAA, 0x63]),
+        Regime::BelowTwo => Tint([0xF2, 0xEB, 0x99]),
+        Regime::AtRest => Tint([0xF6, 0xF6, 0xF6]),
+    }
+}
+
+/// A regime's mark in a diagram over one axis.
+pub(super) const fn mark(regime: Regime) -> (Marker, Color) {
+    match regime {
+        Regime::AboveTwo => (Marker::filled(Shape::Square).sized(4.2), Color::ReddishPurple),
+        Regime::TwoAsymmetric => (Marker::filled(Shape::Triangle).sized(5.0), Color::Blue),
+        Regime::TwoSymmetric => (Marker::filled(Shape::Circle).sized(4.4), Color::BluishGreen),
+        Regime::StronglyModulated => (Marker::filled(Shape::Diamond).sized(5.0), Color::Orange),
+        Regime::BelowTwo => (Marker::filled(Shape::Cross).sized(4.6), Color::Vermillion),
+        Regime::AtRest => (Marker::hollow(Shape::Circle).sized(4.4), Color::Grey),
+    }
+}
+
+/// The theory's areas as results name them, and their tints where they are all that is drawn.
+pub(super) const AREAS: [(&str, Tint); 5] = [
+    ("Z1", tint(Regime::AboveTwo)),
+    ("Z1|Z2", Tint([0x9A, 0x9C, 0xC4])),
+    ("Z2", tint(Regime::TwoAsymmetric)),
+    ("Z3", tint(Regime::TwoSymmetric)),
+    ("Z4", tint(Regime::StronglyModulated)),
+];
+
+/// An area as a sentence names it.
+pub(super) fn area_words(area: &str) -> &str {
+    if area == "Z1|Z2" { "Z1 or Z2" } else { area }
+}
+
+/// Tints of the number of motions found: none, one, two, three, four and more.
+pub(super) const COUNTS: [Tint; 5] = [
+    Tint([0x60, 0x60, 0x60]),
+    Tint([0xF3, 0xF3, 0xF3]),
+    Tint([0xB4, 0xC9, 0xE8]),
+    Tint([0x4F, 0x8F, 0xC9]),
+    Tint([0x12, 0x42, 0x7E]),
+];

@@ -1,0 +1,626 @@
+//! The page of a sweep: words, tables and figures on tables that are made by hand and counted by hand.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use vinesink::case::Case;
+use vinesink::regimes::Regime;
+use vinesink::report::figure::{
+    Axis, Cells, Figure, Image, Layer, Panel, Ramp, Rect, Scale, Tint, draw, edges, render,
+};
+use vinesink::report::render;
+use vinesink::report::sweep::{AxisShown, SweepPage, Swept, SweptError, tint};
+use vinesink::sweep::columns::{Column, Values};
+
+/// Table 1 of Li, Seguy, Berlioz (2016) at 8.35 Hz and 20 mm.
+fn case() -> Case {
+    let text = "title = \"A map\"\nsource = \"Table 1 of Li, Seguy, Berlioz 2016\"\n\
+         [oscillator]\nmass = \"4.168 kg\"\nstiffness = \"11.47 kN/m\"\ndamping = \"3.02 N s/m\"\n\
+         [absorber]\nmass = \"32 g\"\nclearance = \"20 mm\"\nrestitution = 0.6\n\
+         [excitation]\nkind = \"base-displacement\"\namplitude = \"0.25 mm\"\nfrequency = \"8.35 Hz\"\n";
+    Case::parse("map.toml", text).unwrap_or_else(|error| panic!("{error:?}"))
+}
+
+fn numbers(name: &'static str, values: &[Option<f64>]) -> Column {
+    Column { name: name.to_owned(), unit: "1", values: Values::Number(values.to_vec()) }
+}
+
+fn all(name: &'static str, values: &[f64]) -> Column {
+    numbers(name, &values.iter().map(|value| Some(*value)).collect::<Vec<_>>())
+}
+
+fn texts(name: &'static str, values: &[&'static str]) -> Column {
+    let values = values.iter().map(|value| (!value.is_empty()).then_some(*value)).collect();
+    Column { name: name.to_owned(), unit: "", values: Values::Text(values) }
+}
+
+fn counts(name: &'static str, values: &[i64]) -> Column {
+    Column {
+        name: name.to_owned(),
+        unit: "1",
+        values: Values::Whole(values.iter().map(|value| Some(*value)).collect()),
+    }
+}
+
+fn swept<'a>(case: &'a Case, axes: Vec<AxisShown>, columns: &'a [Column]) -> Swept<'a> {
+    let results_sha256 = "f".repeat(64);
+    Swept { case, axes, columns, starts: 4, periods: 100, results_sha256 }
+}
+
+/// All files of the page, as text.
+fn files(swept: &Swept) -> BTreeMap<PathBuf, String> {
+    let figures = swept.figures().expect("figures");
+    let page = SweepPage::new("map", swept, &figures).expect("a page");
+    let files = render::sweep(&page, &figures).expect("rendered");
+    files
+        .into_iter()
+        .map(|(path, bytes)| (path, String::from_utf8(bytes).expect("UTF-8")))
+        .collect()
+}
+
+fn markdown(swept: &Swept) -> String {
+    files(swept).remove(Path::new("sweep.md")).expect("a page")
+}
+
+const SYM: &str = "two-symmetric";
+const ASY: &str = "two-asymmetric";
+const SMR: &str = "strongly-modulated";
+const LOW: &str = "below-two";
+
+/// Two clearances by four frequencies; the last point could not be worked out.
+fn small_columns() -> Vec<Column> {
+    let none = None;
+    vec![
+        texts("area", &["Z3", "Z3", "Z3", "Z4", "Z1|Z2", "Z3", "Z4", "Z4"]),
+        texts("regime", &[SYM, SYM, SMR, LOW, ASY, SYM, SMR, ""]),
+        numbers(
+            "peak",
+            &[
+                Some(2e-3),
+                Some(3e-3),
+                Some(4e-3),
+                Some(5e-3),
+                Some(6e-3),
+                Some(1e-3),
+                Some(8e-3),
+                none,
+            ],
+        ),
+        numbers(
+            "reduction_db",
+            &[
+                Some(3.0),
+                Some(2.0),
+                Some(-1.0),
+                Some(-2.0),
+                Some(0.5),
+                Some(6.25),
+                Some(-3.5),
+                none,
+            ],
+        ),
+        numbers(
+            "orbit_peak",
+            &[Some(2e-3), Some(3e-3), Some(4e-3), none, Some(6e-3), Some(1e-3), none, none],
+        ),
+        counts("motions", &[1, 2, 1, 1, 2, 3, 1, 0]),
+    ]
+}
+
+fn small_axes(case: &Case) -> Vec<AxisShown> {
+    vec![
+        AxisShown::of(case, "clearance", &[0.01, 0.02], false),
+        AxisShown::of(case, "frequency", &[8.0, 8.2, 8.4, 8.6], false),
+    ]
+}
+
+#[test]
+fn shares_and_places_are_those_counted_by_hand() {
+    let case = case();
+    let columns = small_columns();
+    let text = markdown(&swept(&case, small_axes(&case), &columns));
+    for line in [
+        // 3 of 7 points with a motion; the best is the sixth point.
+        "> **Two symmetric impacts per period over 42.9 % of the map. Vibration falls by up to 6.25 dB, at clearance 20.0 mm, frequency 8.20 Hz.**",
+        "> Beside it: strongly modulated response 28.6 %; two asymmetric impacts per period 14.3 %; fewer than two impacts per period 14.3 %.",
+        // 4 of 7 are above 0.
+        "> The absorber reduces the peak at 57.1 % of the points; the peak grows most, by 3.50 dB, at clearance 20.0 mm, frequency 8.40 Hz.",
+        "> Several motions coexist at 42.9 % of the points (up to 3 at a point), within frequency from 8.00 Hz to 8.20 Hz.",
+        // 3 of 4 in Z3; none of the 3 others that have a motion.
+        "> In area Z3, where the theory has steady 1:1 resonance, two symmetric impacts per period are the main motion at 75.0 % of the points, outside of it at 0 %.",
+        // 5 of 7; 3 of these 5; the third point has one motion only, and another; of the fifth nothing is known.
+        "> An exact 1:1 orbit attracts at 71.4 % of the points; two symmetric impacts per period are the main motion at 60.0 % of these; at 20.0 % no start led to it.",
+        "| two symmetric impacts per period | 42.9 % | 1.00 to 3.00 mm | 2.00 to 6.25 dB |",
+        "| strongly modulated response | 28.6 % | 4.00 to 8.00 mm | −3.50 to −1.00 dB |",
+        "| Where | Points | asymmetric | symmetric 1:1 | strongly modulated | z < 2 |",
+        "| area Z1 or Z2 | 1 | 100 % | 0 % | 0 % | 0 % |",
+        "| area Z3 | 4 | 0 % | 75.0 % | 25.0 % | 0 % |",
+        "| area Z4 | 2 | 0 % | 0 % | 50.0 % | 50.0 % |",
+        "| exact 1:1 orbit attracts | 5 | 20.0 % | 60.0 % | 20.0 % | 0 % |",
+        "| none attracts | 2 | 0 % | 0 % | 50.0 % | 50.0 % |",
+        "2 × 4 = 8 points: clearance from 10.0 mm to 20.0 mm (2 values, even); frequency from 8.00 Hz to 8.60 Hz (4 values, even).",
+        "1 of 8 points have no motion: their numbers leave no valid system, or nothing could be measured.",
+    ] {
+        assert!(text.lines().any(|one| one == line), "{line}\nis not in\n{text}");
+    }
+}
+
+#[test]
+fn numbers_behind_the_words_are_in_the_document() {
+    let case = case();
+    let columns = small_columns();
+    let files = files(&swept(&case, small_axes(&case), &columns));
+    let document: serde_json::Value =
+        serde_json::from_str(&files[Path::new("sweep.json")]).expect("JSON");
+    assert_eq!(document["format"], "vinesink/sweep@1");
+    let motions = &document["motions"][0];
+    assert_eq!(motions["worked_out"], 7);
+    assert_eq!(motions["best"]["value"], 6.25);
+    assert_eq!(motions["best"]["at"], serde_json::json!([20.0, 8.2]));
+    assert_eq!(motions["regimes"][1]["regime"], "two-symmetric");
+    assert_eq!(motions["regimes"][1]["points"], 3);
+    assert_eq!(motions["orbit_missed"], 1);
+}
+
+/// An image of a drawing: its place in tenths of a pixel (x, y, width, height) and its colours, row by row from
+/// the top.
+struct Shown {
+    place: [f64; 4],
+    rows: Vec<Vec<Tint>>,
+}
+
+fn shown(svg: &str) -> Vec<Shown> {
+    let images = svg.split("<image ").skip(1);
+    images
+        .map(|image| {
+            let attribute = |name: &str| {
+                let (_, rest) = image.split_once(&format!("{name}=\"")).expect(name);
+                rest.split('"').next().expect("ended")
+            };
+            let length = |name| attribute(name).parse().expect("a length");
+            let place = ["x", "y", "width", "height"].map(length);
+            let data = attribute("href").strip_prefix("data:image/png;base64,").expect("a PNG");
+            let file = STANDARD.decode(data).expect("base 64");
+            let mut decoder = png::Decoder::new(std::io::Cursor::new(file));
+            decoder.set_transformations(png::Transformations::EXPAND);
+            let mut reader = decoder.read_info().expect("a PNG");
+            let mut pixels = vec![0; reader.output_buffer_size().expect("small")];
+            let info = reader.next_frame(&mut pixels).expect("pixels");
+            assert_eq!(info.color_type, png::ColorType::Rgb);
+            let row = |row: &[u8]| row.chunks(3).map(|p| Tint([p[0], p[1], p[2]])).collect();
+            Shown { place, rows: pixels.chunks(info.line_size).map(row).collect() }
+        })
+        .collect()
+}
+
+fn regime_rows() -> Vec<Vec<Tint>> {
+    use Regime::{BelowTwo, StronglyModulated, TwoAsymmetric, TwoSymmetric};
+    vec![
+        // The larger clearance is above.
+        vec![tint(TwoAsymmetric), tint(TwoSymmetric), tint(StronglyModulated), Tint::UNKNOWN],
+        vec![tint(TwoSymmetric), tint(TwoSymmetric), tint(StronglyModulated), tint(BelowTwo)],
+    ]
+}
+
+#[test]
+fn every_pixel_has_the_colour_of_its_point() {
+    let case = case();
+    let columns = small_columns();
+    let files = files(&swept(&case, small_axes(&case), &columns));
+    let svg = &files[Path::new("figures/sweep-regimes.svg")];
+    let images = shown(svg);
+    assert_eq!(images.len(), 1);
+    assert_eq!(images[0].rows, regime_rows());
+    assert!(svg.contains("image-rendering=\"pixelated\""));
+    for words in ["two symmetric impacts per period", "not worked out"] {
+        assert!(svg.contains(&format!(">{words}</text>")), "no key for {words}");
+    }
+    assert!(!svg.contains("more than two impacts"), "a key for what is nowhere");
+    // The same in blocks below, for viewers that refuse the image: here each point is one.
+    let blocks = |tint: Tint| {
+        let (before, _) =
+            svg.split_once(&format!("\" fill=\"{}\" shape-", tint.hex())).expect("drawn");
+        before.rsplit_once("<path d=\"").expect("a path").1.matches('M').count()
+    };
+    // A run of neighbours in a row is one block.
+    assert_eq!([Regime::TwoSymmetric, Regime::BelowTwo].map(|one| blocks(tint(one))), [2, 1]);
+    let html = &files[Path::new("sweep.html")];
+    assert!(html.contains("<image ") && !html.contains("src=\""), "one file, nothing beside it");
+}
+
+/// With the axes the other way round the table is another and the map the same.
+#[test]
+fn the_order_of_the_axes_does_not_turn_the_map() {
+    let case = case();
+    let columns = [texts("regime", &[SYM, ASY, SYM, SYM, SMR, SMR, LOW, ""])];
+    let mut axes = small_axes(&case);
+    axes.reverse();
+    let files = files(&swept(&case, axes, &columns));
+    let svg = &files[Path::new("figures/sweep-regimes.svg")];
+    assert_eq!(shown(svg)[0].rows, regime_rows());
+    assert!(svg.contains(">frequency f (Hz)</text>") || svg.contains("frequency f (Hz)"));
+}
+
+/// Values that are not evenly spread have cells that end midway between them; on a logarithmic axis, at the
+/// geometric mean.
+#[test]
+fn uneven_cells_end_midway() {
+    assert_eq!(edges(&[1.0, 2.0, 4.0], Scale::Linear), [0.5, 1.5, 3.0, 5.0]);
+    let log = edges(&[1.0, 4.0, 16.0], Scale::Log);
+    for (found, wanted) in log.iter().zip([0.5, 2.0, 8.0, 32.0]) {
+        // Through a logarithm and back.
+        assert!((found / wanted - 1.0).abs() < 1e-14, "{log:?}");
+    }
+    assert_eq!(edges(&[5.0], Scale::Linear), [4.5, 5.5]);
+    let tints = vec![Tint([10, 20, 30]), Tint([200, 100, 50]), Tint([0, 200, 0])];
+    let draw = |x_edges: &[f64], log: bool| {
+        let (first, last) = (x_edges[0], x_edges[3]);
+        let x = if log { Axis::log("x (1)") } else { Axis::linear("x (1)") };
+        let image = Image {
+            x_edges: x_edges.to_vec(),
+            y_edges: vec![0.0, 1.0],
+            cells: Cells::Kinds(tints.clone(), vec![Some(0), Some(1), Some(2)]),
+        };
+        let y = Axis::linear("y (1)").with_range(0.0, 1.0);
+        let panel = Panel::new(x.with_range(first, last), y).with(Layer::Image(image));
+        let svg = render(&Figure::new("cells", "Cells").with_panel(panel)).expect("drawn");
+        shown(&svg).remove(0)
+    };
+    let uneven = draw(&[0.5, 1.5, 3.0, 5.0], false);
+    let row = &uneven.rows[0];
+    let count = |tint: Tint| row.iter().filter(|one| **one == tint).count() as f64;
+    for (tint, wide) in tints.iter().zip([1.0, 1.5, 2.0]) {
+        let pixels = wide / 4.5 * row.len() as f64;
+        // A boundary falls between two pixels of the image.
+        assert!((count(*tint) - pixels).abs() <= 1.0, "{wide}: {} {pixels}", count(*tint));
+    }
+    assert!(row.len() > 800, "finer than the drawing");
+    let even = draw(&log, true);
+    assert_eq!(
+        even.rows,
+        std::slice::from_ref(&tints),
+        "one pixel a cell where cells are even on the axis"
+    );
+    assert_eq!(even.place, uneven.place);
+}
+
+#[test]
+fn a_value_has_the_colour_of_its_ramp_and_a_bar_beside_it() {
+    let case = case();
+    let columns = small_columns();
+    let files = files(&swept(&case, small_axes(&case), &columns));
+    let images = shown(&files[Path::new("figures/sweep-reduction.svg")]);
+    assert_eq!(images.len(), 2, "map and bar");
+    let near = |a: Tint, value: f64| {
+        let b = Ramp::Diverging.tint(value, (-3.5, 6.25));
+        // A colour is that of the middle of its level, half a 128th of the range away: some 0.6 in CIELAB, which is
+        // up to three steps of red where there is least of it.
+        (0..3).all(|k| a.0[k].abs_diff(b.0[k]) <= 3)
+    };
+    assert!(near(images[0].rows[0][1], 6.25), "{:?}", images[0].rows);
+    assert!(near(images[0].rows[1][0], 3.0) && near(images[0].rows[0][2], -3.5));
+    assert_eq!(images[0].rows[0][3], Tint::UNKNOWN);
+    assert!(near(images[1].rows[0][0], 6.25), "the bar's upper end");
+    assert_eq!((images[1].rows.len(), images[1].rows[0].len()), (128, 1));
+}
+
+/// Whatever is not recorded is not drawn and not told, and nothing fails.
+#[test]
+fn any_column_may_be_missing_or_empty() {
+    let case = case();
+    let columns = small_columns();
+    for left_out in 0..columns.len() {
+        let name = columns[left_out].name;
+        let some: Vec<Column> = columns.iter().filter(|one| one.name != name).cloned().collect();
+        let found = files(&swept(&case, small_axes(&case), &some));
+        let has =
+            |figure: &str| found.contains_key(Path::new(&format!("figures/sweep-{figure}.svg")));
+        assert_eq!(has("regimes"), name != "regime");
+        assert_eq!(has("areas"), name == "regime");
+        assert_eq!(has("amplitude"), name != "peak");
+        assert_eq!(has("reduction"), name != "reduction_db");
+        assert_eq!(has("motions"), name != "motions");
+        let text = &found[Path::new("sweep.md")];
+        assert_eq!(
+            text.contains("In area Z3"),
+            !["area", "regime"].contains(&name.as_str()),
+            "{name}"
+        );
+        assert_eq!(text.contains("coexist"), name != "motions", "{name}");
+        assert!(text.contains("8 points"), "{name}");
+    }
+    let theory = [columns[0].clone()];
+    let text = markdown(&swept(&case, small_axes(&case), &theory));
+    assert!(text.contains("> **By theory 50.0 % of the map is area Z3.**"), "{text}");
+    let nothing = markdown(&swept(&case, small_axes(&case), &[]));
+    assert!(nothing.contains("> **8 points.**"), "{nothing}");
+    let empty = [texts("regime", &[""; 8]), numbers("peak", &[None; 8])];
+    let text = markdown(&swept(&case, small_axes(&case), &empty));
+    assert!(
+        text.contains("8 of 8 points have no motion") || text.contains("> **8 points.**"),
+        "{text}"
+    );
+}
+
+#[test]
+fn a_column_of_another_sweep_is_refused() {
+    let case = case();
+    let columns = [all("peak", &[1.0; 7])];
+    let error = swept(&case, small_axes(&case), &columns).figures().expect_err("too short");
+    assert_eq!(error.to_string(), "the column `peak` has 7 values, and the axes make 8 points");
+    let none = swept(&case, Vec::new(), &[]).figures().expect_err("nothing varies");
+    assert!(matches!(none, SweptError::Empty));
+}
+
+#[test]
+fn one_axis_is_told_in_stretches() {
+    let case = case();
+    let clearances = [0.01, 0.012, 0.014, 0.016, 0.018, 0.02];
+    let columns = [
+        texts("regime", &[ASY, ASY, SYM, SYM, SYM, SMR]),
+        all("peak", &[6e-3, 5e-3, 4e-3, 3e-3, 2e-3, 9e-3]),
+        numbers("orbit_peak", &[None, None, Some(4e-3), Some(3e-3), Some(2e-3), None]),
+        all("section_01", &[1e-3; 6]),
+        all("section_02", &[2e-3; 6]),
+    ];
+    let axes = vec![AxisShown::of(&case, "clearance", &clearances, false)];
+    let found = files(&swept(&case, axes, &columns));
+    let text = &found[Path::new("sweep.md")];
+    for line in [
+        "> **Two symmetric impacts per period over 50.0 % of the range. The smallest peak is 2.00 mm, at clearance 18.0 mm.**",
+        "| 10.0 mm | 12.0 mm | 2 | two asymmetric impacts per period | 5.00 to 6.00 mm |",
+        "| 14.0 mm | 18.0 mm | 3 | two symmetric impacts per period | 2.00 to 4.00 mm |",
+        "| 20.0 mm | 20.0 mm | 1 | strongly modulated response | 9.00 mm |",
+    ] {
+        assert!(text.lines().any(|one| one == line), "{line}\nis not in\n{text}");
+    }
+    assert!(found.contains_key(Path::new("figures/sweep-bifurcation.svg")));
+    assert!(found.contains_key(Path::new("figures/sweep-section.svg")));
+    assert!(!found.contains_key(Path::new("figures/sweep-regimes.svg")));
+}
+
+#[test]
+fn what_was_followed_up_and_down_shows_its_hysteresis() {
+    let case = case();
+    let columns = [
+        texts("regime_up", &[SYM, SYM, SYM, SYM, SMR, SMR]),
+        texts("regime_down", &[SYM, SYM, SMR, SMR, SMR, SMR]),
+        all("peak_up", &[1e-3, 2e-3, 3e-3, 4e-3, 9e-3, 8e-3]),
+        // A motion that does not repeat has another peak each time; one per cent is what a transient leaves.
+        all("peak_down", &[1.01e-3, 2e-3, 7e-3, 7e-3, 5e-3, 4e-3]),
+    ];
+    let values = [8.0, 8.1, 8.2, 8.3, 8.4, 8.5];
+    let axes = vec![AxisShown::of(&case, "frequency", &values, false)];
+    let found = files(&swept(&case, axes, &columns));
+    let text = &found[Path::new("sweep.md")];
+    let line = "> Hysteresis: from 8.20 Hz to 8.30 Hz two symmetric impacts per period (peak 3.00 mm) up, strongly modulated response (peak 7.00 mm) down.";
+    assert!(text.lines().any(|one| one == line), "{text}");
+    assert!(text.contains("over 66.7 % of the range on the way up."), "{text}");
+    let strip = shown(&found[Path::new("figures/sweep-bifurcation.svg")]);
+    let (a, b) = (tint(Regime::TwoSymmetric), tint(Regime::StronglyModulated));
+    assert_eq!(strip[0].rows, [[a, a, a, a, b, b], [a, a, b, b, b, b]], "up above down");
+    // Over two axes, a panel for each way.
+    let axes = vec![
+        AxisShown::of(&case, "clearance", &[0.01, 0.02], false),
+        AxisShown::of(&case, "frequency", &values[..3], false),
+    ];
+    let found = files(&swept(&case, axes, &columns));
+    let maps = shown(&found[Path::new("figures/sweep-regimes.svg")]);
+    assert_eq!(maps.len(), 2);
+    assert_eq!(maps[0].rows, [[a, b, b], [a, a, a]]);
+    assert_eq!(maps[1].rows, [[b, b, b], [a, a, b]]);
+    let text = &found[Path::new("sweep.md")];
+    assert!(text.contains("motions differ at 33.3 % of the points (hysteresis)"), "{text}");
+}
+
+#[test]
+fn of_three_axes_some_slices_are_shown() {
+    let case = case();
+    let restitutions: Vec<f64> = (0..11).map(|k| 0.4 + 0.05 * f64::from(k)).collect();
+    let mut axes = vec![AxisShown::of(&case, "restitution", &restitutions, false)];
+    axes.extend(small_axes(&case));
+    // Each slice is one regime: even ones symmetric, odd ones not.
+    let regimes: Vec<&'static str> =
+        (0..88).map(|point| if point / 8 % 2 == 0 { SYM } else { LOW }).collect();
+    let columns = [texts("regime", &regimes), texts("area", &["Z3"; 88])];
+    let found = files(&swept(&case, axes, &columns));
+    let svg = &found[Path::new("figures/sweep-regimes.svg")];
+    let maps = shown(svg);
+    assert_eq!(maps.len(), 6);
+    for map in &maps {
+        // Slices 0, 2, 4, 6, 8 and 10.
+        assert!(map.rows.iter().flatten().all(|one| *one == tint(Regime::TwoSymmetric)));
+    }
+    let text = &found[Path::new("sweep.md")];
+    assert!(text.contains("6 of 11 values of restitution are shown, evenly chosen."), "{text}");
+    for words in ["restitution 0.400", "restitution 0.900"] {
+        assert!(svg.contains(words), "{words}");
+    }
+}
+
+#[test]
+fn a_map_of_starts_is_one_of_basins() {
+    let case = case();
+    let axes = vec![
+        AxisShown::of(&case, "initial_displacement", &[-0.01, 0.0, 0.01], false),
+        AxisShown::of(&case, "initial_velocity", &[-0.5, 0.5], false),
+    ];
+    let columns = [
+        texts("regime", &[SYM, SYM, SYM, SMR, SYM, SMR]),
+        all("reduction_db", &[3.0; 6]),
+        texts("area", &["Z3"; 6]),
+    ];
+    let found = files(&swept(&case, axes, &columns));
+    let text = &found[Path::new("sweep.md")];
+    assert!(
+        text.contains("> **Two symmetric impacts per period over 66.7 % of the starts.**"),
+        "{text}"
+    );
+    assert!(
+        text.contains("Each point is a start; its colour is the regime that it leads to."),
+        "{text}"
+    );
+    let svg = &found[Path::new("figures/sweep-regimes.svg")];
+    assert!(svg.contains(
+        "<title>Basins of attraction over initial displacement and initial velocity</title>"
+    ));
+    let (a, b) = (tint(Regime::TwoSymmetric), tint(Regime::StronglyModulated));
+    assert_eq!(shown(svg)[0].rows, [[a, b, b], [a, a, a]]);
+}
+
+/// No words touch others or are cut, whatever is shown.
+#[test]
+fn words_neither_touch_nor_are_cut() {
+    let case = case();
+    let columns = small_columns();
+    let two = swept(&case, small_axes(&case), &columns);
+    let restitutions = [0.3, 0.6, 0.9];
+    let mut axes = vec![AxisShown::of(&case, "restitution", &restitutions, false)];
+    axes.extend(small_axes(&case));
+    let regimes: Vec<&'static str> = (0..24).map(|point| [SYM, ASY, SMR, LOW][point % 4]).collect();
+    let areas: Vec<&'static str> =
+        (0..24).map(|point| if point % 8 < 4 { "Z3" } else { "Z4" }).collect();
+    let peaks: Vec<f64> = (0..24).map(|point| 1e-3 * f64::from(point)).collect();
+    let more = [texts("regime", &regimes), texts("area", &areas), all("peak", &peaks)];
+    let three = swept(&case, axes, &more);
+    for figure in two.figures().expect("figures").iter().chain(&three.figures().expect("figures")) {
+        let texts = draw(figure).expect("drawn").texts;
+        let (right, bottom) = (f64::from(figure.size.0), f64::from(figure.size.1));
+        let page = Rect { left: 0.0, top: 0.0, right, bottom };
+        for (i, a) in texts.iter().enumerate() {
+            assert!(page.contains(&a.room), "{}: {a:?} is cut", figure.name);
+            for b in &texts[i + 1..] {
+                assert!(!a.room.overlaps(&b.room), "{}: {a:?} touches {b:?}", figure.name);
+            }
+        }
+        assert!(!figure.caption.is_empty() && !figure.alt.is_empty());
+    }
+}
+
+/// A map of 500 by 500 points stays light even where no two neighbours are alike, and has the same bytes each
+/// time.
+#[test]
+fn a_large_map_of_noise_stays_light() {
+    let case = case();
+    const COUNT: usize = 500;
+    let mut state = 1_u64;
+    let mut noise = || {
+        // Multiplier and increment of Knuth's generator for 64 bits.
+        state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) as f64 / (1_u64 << 31) as f64
+    };
+    let peaks: Vec<f64> = (0..COUNT * COUNT).map(|_| 1e-3 * (1.0 + noise())).collect();
+    let regimes: Vec<&'static str> =
+        (0..COUNT * COUNT).map(|_| [SYM, ASY, SMR, LOW][(4.0 * noise()) as usize]).collect();
+    let columns = [all("peak", &peaks), texts("regime", &regimes)];
+    let values = |from: f64, to: f64| -> Vec<f64> {
+        (0..COUNT).map(|k| from + (to - from) * k as f64 / (COUNT - 1) as f64).collect()
+    };
+    let axes = vec![
+        AxisShown::of(&case, "clearance", &values(0.005, 0.04), false),
+        AxisShown::of(&case, "frequency", &values(8.0, 8.7), false),
+    ];
+    let swept = swept(&case, axes, &columns);
+    let first = files(&swept);
+    for (path, text) in &first {
+        if path.extension().is_some_and(|extension| extension == "svg") {
+            assert!(text.len() <= 150_000, "{}: {}", path.display(), text.len());
+        }
+    }
+    let regimes = &shown(&first[Path::new("figures/sweep-regimes.svg")])[0];
+    assert_eq!((regimes.rows.len(), regimes.rows[0].len()), (COUNT, COUNT), "nothing is left out");
+    assert!(first == files(&swept));
+}
+
+/// A report that is written anew leaves the pages of a sweep where they are.
+#[test]
+fn a_report_leaves_a_sweep_alone() {
+    for (file, own) in [
+        ("figures/map.svg", true),
+        ("figures/sweep-regimes.svg", false),
+        ("figures/sweep-anything.svg", false),
+        ("sweep.md", false),
+        ("sweep.html", false),
+        ("sweep.json", false),
+    ] {
+        assert_eq!(render::is_of_report(Path::new(file)), own, "{file}");
+    }
+}
+
+/// CIELAB coordinates of linear sRGB (IEC 61966-2-1, CIE 15, white D65).
+fn lab(linear: [f64; 3]) -> [f64; 3] {
+    const MATRIX: [[f64; 3]; 3] = [
+        [0.412_456_4, 0.357_576_1, 0.180_437_5],
+        [0.212_672_9, 0.715_152_2, 0.072_175_0],
+        [0.019_333_9, 0.119_192_0, 0.950_304_1],
+    ];
+    let dot = |row: [f64; 3]| (0..3).map(|k| row[k] * linear[k]).sum::<f64>();
+    let of = |part: f64| {
+        if part > 0.008_856 { libm::cbrt(part) } else { 7.787 * part + 16.0 / 116.0 }
+    };
+    let [x, y, z] = [dot(MATRIX[0]) / 0.950_47, dot(MATRIX[1]), dot(MATRIX[2]) / 1.088_83].map(of);
+    [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
+}
+
+/// Tints of regimes stay apart for readers with any common colour vision (Machado, Oliveira and Fernandes 2009,
+/// severity 1), and in a grey print.
+#[test]
+fn tints_of_regimes_stay_apart() {
+    const SIGHTS: [[[f64; 3]; 3]; 4] = [
+        [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        [
+            [0.152_286, 1.052_583, -0.204_868],
+            [0.114_503, 0.786_281, 0.099_216],
+            [-0.003_882, -0.048_116, 1.051_998],
+        ],
+        [
+            [0.367_322, 0.860_646, -0.227_968],
+            [0.280_085, 0.672_501, 0.047_413],
+            [-0.011_820, 0.042_940, 0.968_881],
+        ],
+        [
+            [1.255_528, -0.076_749, -0.178_779],
+            [-0.078_411, 0.930_809, 0.147_602],
+            [0.004_733, 0.691_367, 0.303_900],
+        ],
+    ];
+    let regimes = [
+        Regime::AboveTwo,
+        Regime::TwoAsymmetric,
+        Regime::TwoSymmetric,
+        Regime::StronglyModulated,
+        Regime::BelowTwo,
+        Regime::AtRest,
+    ];
+    let tints: Vec<[f64; 3]> = regimes
+        .into_iter()
+        .map(tint)
+        .chain([Tint::UNKNOWN])
+        .map(|tint| {
+            tint.0.map(|part| {
+                let part = f64::from(part) / 255.0;
+                if part <= 0.040_45 { part / 12.92 } else { libm::pow((part + 0.055) / 1.055, 2.4) }
+            })
+        })
+        .collect();
+    for (i, a) in tints.iter().enumerate() {
+        for b in &tints[i + 1..] {
+            for sight in SIGHTS {
+                let seen = |of: &[f64; 3]| {
+                    let dot = |row: [f64; 3]| (0..3).map(|k| row[k] * of[k]).sum::<f64>();
+                    lab(sight.map(|row| dot(row).clamp(0.0, 1.0)))
+                };
+                let (a, b) = (seen(a), seen(b));
+                let apart = libm::sqrt((0..3).map(|k| (a[k] - b[k]) * (a[k] - b[k])).sum());
+                // Four times what is just told apart side by side, since keys are away from their areas.
+                assert!(apart > 10.0, "{apart}: {a:?} {b:?}");
+            }
+            let grey = (lab(*a)[0] - lab(*b)[0]).abs();
+            // Just told apart is 1 to 2; the tint of what is unknown comes nearest.
+            assert!(grey > 1.5, "{grey}");
+        }
+    }
+}
