@@ -312,7 +312,7 @@ fn any_column_may_be_missing_or_empty() {
     let case = case();
     let columns = small_columns();
     for left_out in 0..columns.len() {
-        let name = columns[left_out].name;
+        let name = columns[left_out].name.clone();
         let some: Vec<Column> = columns.iter().filter(|one| one.name != name).cloned().collect();
         let found = files(&swept(&case, small_axes(&case), &some));
         let has =
