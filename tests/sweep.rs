@@ -281,7 +281,8 @@ fn swept(text: &str) -> Vec<(String, Vec<String>)> {
 
 fn column<'a>(columns: &'a [(String, Vec<String>)], name: &str) -> &'a [String] {
     let found = columns.iter().find(|(known, _)| known == name);
-    &found.unwrap_or_else(|| panic!("{name}: {:?}", columns.iter().map(|c| &c.0))).1
+    let names = || columns.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>().join(", ");
+    &found.unwrap_or_else(|| panic!("{name} is none of {}", names())).1
 }
 
 fn numbers(columns: &[(String, Vec<String>)], name: &str) -> Vec<f64> {
@@ -424,6 +425,25 @@ fn starts_can_be_axes() {
     ));
     let there: Vec<bool> = column(&columns, "peak [m]").iter().map(|one| !one.is_empty()).collect();
     assert_eq!(there, [false, true, true]);
+}
+
+/// Where no impact is left the oscillator vibrates as if alone, however late the absorber came to rest.
+#[test]
+fn at_rest_the_oscillator_vibrates_as_if_alone() {
+    let columns = swept(&sweeping(
+        "periods = 100\nfrequency = { values = [\"8.05 Hz\", \"8.6 Hz\"] }\n\
+         initial_velocity = { from = \"-1.5 m/s\", to = \"1.5 m/s\", count = 301 }\n",
+    ));
+    let reductions = numbers(&columns, "reduction_db [dB]");
+    let rest =
+        column(&columns, "regime").iter().zip(reductions).filter(|(one, _)| *one == "at-rest");
+    let mut resting = 0;
+    for (_, reduction) in rest {
+        // What twelve e-folds leave of a transient ten times as large, in dB.
+        assert!(reduction.abs() < 1e-3, "{reduction}");
+        resting += 1;
+    }
+    assert!(resting > 10, "{resting}");
 }
 
 /// A value of the text is the value of the Parquet file, to the bit.

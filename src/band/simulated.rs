@@ -44,6 +44,10 @@ const AS_EXACT: f64 = 0.01;
 /// Impacts per excitation period of a symmetric 1:1 orbit.
 const TWO: f64 = 2.0;
 
+/// How often a transient is left out, the first time included, of a motion that is still settling; each
+/// time the window after it is longer.
+const ROUNDS: u64 = 3;
+
 /// Impacts that are kept to tell a regime by: their intervals are averaged.
 const KEPT_IMPACTS: usize = 1000;
 
@@ -133,11 +137,23 @@ impl Motion {
             && (self.impacts_per_period - TWO).abs() <= AS_EXACT
     }
 
-    /// Whether two starts ended in one motion, as far as root mean square and impacts tell.
+    /// Whether it is of a kind that repeats, and was not seen to: an absorber that has come to rest, or was
+    /// captured, only late, or that drifts from one wall to the other for longer than the window.
+    fn is_settling(&self) -> bool {
+        let repeating =
+            matches!(self.regime, Regime::AtRest | Regime::TwoSymmetric | Regime::TwoAsymmetric);
+        repeating && self.repeats_after.is_none()
+    }
+
+    /// Whether two starts ended in one motion, as far as root mean square and impacts tell. The errors of a
+    /// chaotic motion are so wide that it might else be any other: one that repeats, or is without impacts.
     fn is_same(&self, other: &Self) -> bool {
-        let near =
-            |a: f64, b: f64, errors: f64| (a - b).abs() <= (ALIKE * a.max(b)).max(2.0 * errors);
-        near(self.rms, other.rms, self.rms_error + other.rms_error)
+        let chaotic = self.repeats_after.is_none() && other.repeats_after.is_none();
+        let near = |a: f64, b: f64, errors: f64| {
+            (a - b).abs() <= (ALIKE * a.max(b)).max(if chaotic { 2.0 * errors } else { 0.0 })
+        };
+        self.is_asleep() == other.is_asleep()
+            && near(self.rms, other.rms, self.rms_error + other.rms_error)
             && near(
                 self.impacts_per_period,
                 other.impacts_per_period,
@@ -256,18 +272,37 @@ pub fn long_term(
     starts: &[(System, State)],
     periods: u64,
 ) -> Result<Vec<Option<Motion>>, StartError> {
-    let begin = |(system, start): &(System, State)| Simulation::new(system, *start, 0.0);
-    let mut all: Vec<Simulation> = starts.iter().map(begin).collect::<Result<_, _>>()?;
-    let mut nobody: Vec<Nobody> = all.iter().map(|_| Nobody).collect();
+    let mut all = Group::default();
+    for (index, (system, start)) in starts.iter().enumerate() {
+        all.add(index, Simulation::new(system, *start, 0.0)?);
+    }
+    let mut motions: Vec<Option<Motion>> = vec![None; starts.len()];
+    for round in 0..ROUNDS {
+        let mut again = Group::default();
+        for (one, motion) in measured_after_transient(all, periods * (1 + round)) {
+            if motion.is_some_and(|motion| motion.is_settling()) {
+                again.add(one.index, one.simulation);
+            }
+            motions[one.index] = motion;
+        }
+        all = again;
+    }
+    Ok(motions)
+}
+
+/// Leaves out a transient and measures what follows.
+fn measured_after_transient(mut all: Group, periods: u64) -> Vec<(Ended, Option<Motion>)> {
+    let mut nobody: Vec<Nobody> = all.simulations.iter().map(|_| Nobody).collect();
     let faded = |one: &Simulation| extent(left_out(one.system()) - WATCHED);
-    let transients: Vec<Extent> = all.iter().map(faded).collect();
-    batch::run_each(&mut all, &transients, &mut nobody);
-    let mut watches: Vec<Strobes> = all.iter().map(|_| Strobes::new()).collect();
+    let transients: Vec<Extent> = all.simulations.iter().map(faded).collect();
+    batch::run_each(&mut all.simulations, &transients, &mut nobody);
+    let mut watches: Vec<Strobes> = all.simulations.iter().map(|_| Strobes::new()).collect();
     let watched = extent(WATCHED);
-    let stops = batch::run(&mut all, watched.periods, watched.impacts, &mut watches);
+    let stops = batch::run(&mut all.simulations, watched.periods, watched.impacts, &mut watches);
     let (mut repeating, mut other) = (Group::default(), Group::default());
     let mut known = Vec::new();
-    for (index, ((one, watch), stop)) in all.into_iter().zip(watches).zip(stops).enumerate() {
+    let trajectories = all.indices.into_iter().zip(all.simulations);
+    for (((index, one), watch), stop) in trajectories.zip(watches).zip(stops) {
         match periodicity::find(&watch.periods).filter(|_| stop == Stop::EndTime) {
             Some(found) => {
                 known.push(Repetition::of(found, &watch.log, one.system()));
@@ -276,16 +311,18 @@ pub fn long_term(
             None => other.add(index, one),
         }
     }
-    let mut ended: Vec<Option<Motion>> = vec![None; starts.len()];
     let once: Vec<Extent> = known.iter().map(|one| extent(u64::from(one.found.periods))).collect();
     let watches = repeating.watched();
+    let mut ended = Vec::with_capacity(repeating.indices.len() + other.indices.len());
     for ((one, watch), repetition) in repeating.go_on(watches, &once).into_iter().zip(known) {
-        ended[one.index] = watch.motion(&one, Some(repetition));
+        let motion = watch.motion(&one, Some(repetition));
+        ended.push((one, motion));
     }
     for (one, watch) in measured(other, periods) {
-        ended[one.index] = watch.motion(&one, None);
+        let motion = watch.motion(&one, None);
+        ended.push((one, motion));
     }
-    Ok(ended)
+    ended
 }
 
 /// So many periods, or as many impacts as no motion worth looking at has in them.
@@ -455,7 +492,7 @@ impl Watch {
 }
 
 /// Periods after which what a start leaves has faded.
-fn left_out(system: &System) -> u64 {
+pub fn left_out(system: &System) -> u64 {
     let decay = 0.5 * system.mass_ratio() * system.damping() * system.period();
     (FADED / decay).clamp(LEFT_OUT[0], LEFT_OUT[1]) as u64
 }

@@ -93,7 +93,10 @@ impl<'a> Grid<'a> {
             Values::Whole(values) => {
                 Some(values.iter().map(|value| value.map(|value| value as f64)).collect())
             }
-            Values::Flag(_) | Values::Text(_) => None,
+            Values::Flag(values) => Some(
+                values.iter().map(|value| value.map(|value| f64::from(u8::from(value)))).collect(),
+            ),
+            Values::Text(_) => None,
         }
     }
 

@@ -166,7 +166,7 @@ impl<'a> Panels<'a> {
         if let Some((ramp, range, label)) = &map.bar {
             figure.panels.push(bar(*ramp, *range, label));
             cells.push(Cell { column: columns, row: 0, columns: 1, rows });
-            widths.push(0.085 * columns as f64);
+            widths.push(0.11 * columns as f64);
         }
         Some(figure.with_layout(Layout::Cells { widths, heights: vec![1.0; rows], cells }))
     }
