@@ -326,9 +326,16 @@ fn write_inside(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
 }
 
 fn temporary_file(path: &Path, bytes: &[u8]) -> Result<NamedTempFile, StoreError> {
+    let file = unsynced_file(path, bytes)?;
+    file.as_file().sync_all().map_err(|cause| refused("write", path, cause))?;
+    Ok(file)
+}
+
+/// The same without waiting for the disk, for what carries a checksum: after a power cut it is found out.
+fn unsynced_file(path: &Path, bytes: &[u8]) -> Result<NamedTempFile, StoreError> {
     let write = |cause| refused("write", path, cause);
     let mut file = ordinary(0o666).tempfile_in(folder_of(path)?).map_err(write)?;
-    file.write_all(bytes).and_then(|()| file.as_file().sync_all()).map_err(write)?;
+    file.write_all(bytes).map_err(write)?;
     Ok(file)
 }
 

@@ -211,12 +211,20 @@ fn committed_figures_render_on_github() {
         r#"<(?:style|script|foreignObject|image|use|!DOCTYPE|!ENTITY|a)\b|\s(?:style|class|id|href|xlink:href|on\w+)\s*=|<\?xml-stylesheet|url\("#,
     )
     .expect("a pattern");
+    let image = regex::Regex::new(
+        r#"^<image( (x|y|width|height|preserveAspectRatio|image-rendering)="[\w-]+")+ href="data:image/png;base64,[\w+/=]+"/>$"#,
+    )
+    .expect("a pattern");
     for (path, bytes) in figures {
         let drawing = String::from_utf8(bytes).expect("UTF-8");
         // Titles and descriptions are text for those who cannot see.
         let markup =
             drawing.lines().filter(|line| line.starts_with('<') && !line.contains("<desc>"));
         for line in markup {
+            // A map's colours, which lie within the file and above blocks of the same colours.
+            if image.is_match(line) {
+                continue;
+            }
             let found = forbidden.find(line).map(|found| found.as_str());
             assert_eq!(found, None, "{}: {line}", path.display());
         }

@@ -129,11 +129,8 @@ fn a_row_is_what_the_layers_say_of_its_system() {
     assert!(orbits > 2, "{orbits}");
 }
 
-/// When runs of one sweep are killed, ms after they start, and whether they leave half a file. A hundred
-/// random moments: `tests/kills.sh`.
-const KILLS: &[(&[u64], bool)] = &[(&[5, 40, 90, 160], false), (&[20, 60], true)];
-
 /// Chunk by chunk in any order, on one processor or on two, killed on the way or not: the same bytes.
+/// `VINESINK_KILLS` says at how many random moments, 6 unless set.
 #[test]
 fn a_killed_run_ends_in_the_same_bytes() {
     let unbroken = folder(40);
@@ -141,30 +138,43 @@ fn a_killed_run_ends_in_the_same_bytes() {
     let expected = fs::read(merged(unbroken.path())).expect("merged");
     let chunks = plan(&text(40, 64)).chunks();
     assert_eq!(chunks, 3);
-    for (pauses, kept) in KILLS {
+    let kills = std::env::var("VINESINK_KILLS").map_or(6, |kills| kills.parse().expect("a number"));
+    let mut random = 1_u64;
+    let mut cut_short = 0;
+    for kill in 0..kills {
+        // Anywhere in the run, by Knuth's generator (MMIX), so that a failure comes again.
+        random =
+            random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        let part = (random >> 33) as f64 / (1_u64 << 31) as f64;
         let broken = folder(40);
-        for pause in *pauses {
-            let mut running = command(broken.path(), &["map.toml"]).spawn().expect("it starts");
-            std::thread::sleep(Duration::from_millis(*pause));
-            running.kill().expect("killed, or done before");
-            running.wait().expect("ended");
-            if *kept {
-                // As a process that is killed while it writes leaves it.
-                let half = broken.path().join("sweeps/map/chunks/.vinesink-half");
-                fs::create_dir_all(half.parent().expect("a folder")).expect("made");
-                fs::write(half, "PAR1").expect("written");
-            }
+        let mut running = command(broken.path(), &["map.toml"]).spawn().expect("it starts");
+        // When so many files of its six are there, and a little later.
+        let chunks = broken.path().join("sweeps/map/chunks");
+        let there = || fs::read_dir(&chunks).map_or(0, Iterator::count);
+        while there() < (6.0 * part) as usize && running.try_wait().expect("asked").is_none() {
+            std::thread::sleep(Duration::from_micros(200));
+        }
+        std::thread::sleep(Duration::from_micros((50_000.0 * part * part) as u64));
+        running.kill().expect("killed, or done before");
+        running.wait().expect("ended");
+        cut_short += u32::from(!merged(broken.path()).exists());
+        if kill == 0 {
+            // As a process that is killed while it writes leaves it.
+            let half = broken.path().join("sweeps/map/chunks/.vinesink-half");
+            fs::create_dir_all(half.parent().expect("a folder")).expect("made");
+            fs::write(half, "PAR1").expect("written");
         }
         done(broken.path(), &["map.toml"]);
-        assert!(fs::read(merged(broken.path())).expect("merged") == expected);
+        assert!(fs::read(merged(broken.path())).expect("merged") == expected, "{kill}");
         let left = |folder: &Path| {
             let names =
                 fs::read_dir(folder).expect("there").map(|one| one.expect("read").file_name());
             names.filter(|name| name.to_string_lossy().starts_with('.')).count()
         };
         let folder = broken.path().join("sweeps/map");
-        assert_eq!((left(&folder), left(&folder.join("chunks"))), (0, 0));
+        assert_eq!((left(&folder), left(&folder.join("chunks"))), (0, 0), "{kill}");
     }
+    assert!(cut_short > 0, "every run was done before it was killed");
     // One by one, the last first, as engines number them.
     let apart = folder(40);
     for (k, number) in (0..chunks).rev().enumerate() {

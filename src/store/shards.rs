@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use sha2::{Digest, Sha256};
 use tempfile::NamedTempFile;
 
-use super::{StoreError, TEMPORARY, folder_of, ordinary, refused, write_file};
+use super::{StoreError, TEMPORARY, folder_of, ordinary, refused, unsynced_file};
 
 /// The folder of a sweep's chunks.
 #[derive(Debug, Clone)]
@@ -49,8 +49,8 @@ impl Shards {
     /// # Errors
     /// [`StoreError::Refused`]; what was there before still is.
     pub fn keep(&self, chunk: u64, bytes: &[u8]) -> Result<(), StoreError> {
-        write_file(&self.path(chunk), bytes)?;
-        write_file(&self.seal_path(chunk), self.seal(chunk, bytes).as_bytes())
+        put(&self.path(chunk), bytes)?;
+        put(&self.seal_path(chunk), self.seal(chunk, bytes).as_bytes())
     }
 
     /// Whether the results of a chunk are there, undamaged, and of this sweep.
@@ -102,6 +102,11 @@ impl Shards {
     pub fn read(&self, chunk: u64) -> Result<File, StoreError> {
         super::open(&self.path(chunk))
     }
+}
+
+fn put(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
+    let file = unsynced_file(path, bytes)?;
+    file.persist(path).map(drop).map_err(|error| refused("write", path, error.error))
 }
 
 /// A file that is written piece by piece and appears whole or not at all.

@@ -324,8 +324,13 @@ impl Words<'_> {
             };
             all.push(format!(
                 "At each point the full system was simulated impact by impact from {starts}; the main motion is the one that most \
-                 of them lead to; {measured}."
+                 of them lead to, the first of several; {measured}."
             ));
+            all.push(
+                "A series of impacts on one wall that ends in lasting contact counts as one visit of the absorber; a regime \
+                 has two, or fewer or more, of these, while impacts are all counted."
+                    .to_owned(),
+            );
         }
         if self.grid.text("area", Pass::Single).is_some() {
             all.push(
