@@ -148,9 +148,13 @@ impl Words<'_> {
         let worst = facts.worst.as_ref().filter(|_| !self.grid.is_basin())?;
         let (size, at, way) = (decibels(worst.value), self.at(worst), self.way(facts));
         let reduction = self.grid.number("reduction_db", facts.pass)?;
-        let better = reduction.iter().flatten().filter(|value| **value > 0.0).count();
+        let better = reduction.iter().flatten().filter(|value| **value >= NO_REDUCTION).count();
         let known = reduction.iter().flatten().count();
-        Some(match (worst.value < 0.0, better) {
+        Some(match (worst.value <= -NO_REDUCTION, better) {
+            (false, better) if better < known => format!(
+                "The absorber reduces the peak at {} of the points, and increases it nowhere.",
+                share(better, known)
+            ),
             (true, 0) => format!("It grows most, by {size}, at {at}{way}."),
             (true, better) => format!(
                 "The absorber reduces the peak at {} of the points; the peak grows most, by {size}, at {at}{way}.",
@@ -411,8 +415,25 @@ pub(super) fn from_to(low: String, high: String, unit: &str) -> String {
     format!("{numbers} {unit}").trim_end().to_owned()
 }
 
-/// A signed reduction with three digits.
+/// A reduction that is smaller, in dB, is what a transient has left: none.
+const NO_REDUCTION: f64 = 0.005;
+
+/// A signed reduction in dB with three digits.
 pub(super) fn signed(value: f64) -> String {
+    if value.abs() < NO_REDUCTION {
+        return "0".to_owned();
+    }
     let sign = if value < 0.0 { MINUS.to_string() } else { String::new() };
     format!("{sign}{}", significant(value.abs(), 3))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::signed;
+
+    #[test]
+    fn what_a_transient_leaves_is_no_reduction() {
+        assert_eq!(signed(-5.5e-5), "0");
+        assert_eq!((signed(-2.314), signed(11.62)), ("−2.31".to_owned(), "11.6".to_owned()));
+    }
 }
