@@ -150,11 +150,9 @@ impl Rates<f64> {
     }
 
     /// The displacement at which the velocity vanishes in a panel between velocities of either sign,
-    /// seen from a line at rest.
-    pub(super) fn turning_point(&self, here: &At<f64>, there: &At<f64>, length: f64) -> f64 {
+    /// seen from a line at rest; `time` is roughly when.
+    pub(super) fn turning_point(&self, here: &At<f64>, mut time: f64, length: f64) -> f64 {
         let base = Line { y: 0.0, velocity: 0.0 };
-        let part = here.slope / (here.slope - there.slope);
-        let mut time = part * length;
         let mut at = *here;
         for _ in 0..TURNING_STEPS {
             at = self.later(here, time.clamp(0.0, length), base);

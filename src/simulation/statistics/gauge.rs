@@ -13,7 +13,7 @@
 use nalgebra::Complex;
 
 use super::super::events::{Absorber, Impact, Observer, Segment};
-use super::super::integrals::{self, Ringing};
+use super::super::integrals::{self, Flight, Ringing};
 use super::super::phasor::{Rates, Steady};
 use super::{PeriodRecord, Statistics};
 use crate::system::{State, System};
@@ -164,8 +164,14 @@ impl Telescope {
         if by_bend <= known || by_circle <= known {
             return known;
         }
-        let steady = Steady { x: begin.u.re, v: -self.frequency * begin.u.im };
-        known.max(integrals::peak(&self.rates, [begin.x, begin.v], steady, duration))
+        let steady = |u: Phasor| Steady { x: u.re, v: -self.frequency * u.im };
+        let flight = Flight {
+            begin: [begin.x, begin.v],
+            steady: steady(begin.u),
+            duration,
+            end: Some(([end.x, end.v], steady(end.u))),
+        };
+        integrals::peak(&self.rates, &flight, known)
     }
 }
 
