@@ -424,7 +424,7 @@ fn measured(group: Group, periods: u64) -> Vec<(Ended, Watch)> {
     let first = periods.min(WATCHED);
     let (watches, count) = (group.watched(), group.simulations.len());
     let (mut done, mut going, mut watches_on) = (Vec::new(), Group::default(), Vec::new());
-    for (one, watch) in group.go_on(watches, &vec![extent(first); count]) {
+    for (one, mut watch) in group.go_on(watches, &vec![extent(first); count]) {
         let repeats = periodicity::find(watch.gauge.records())
             .is_some_and(|found| WATCHED.is_multiple_of(u64::from(found.periods)));
         if repeats || one.stop != Stop::EndTime || periods == first {
@@ -449,12 +449,12 @@ impl Watch {
     }
 
     /// The motion measured; none where the trajectory came to a bad end.
-    fn motion(&self, ended: &Ended, repetition: Option<Repetition>) -> Option<Motion> {
+    fn motion(mut self, ended: &Ended, repetition: Option<Repetition>) -> Option<Motion> {
         let Ended { simulation, stop, .. } = ended;
         if !matches!(stop, Stop::EndTime | Stop::ImpactLimit) {
             return None;
         }
-        let gauge = &self.gauge;
+        let gauge = &mut self.gauge;
         let thresholds = Thresholds::default();
         let period = simulation.system().period();
         let (signs, errors, repeats_after) = match repetition {

@@ -214,15 +214,17 @@ impl Signs {
 
     /// Of a window that was measured.
     pub fn measured(
-        gauge: &Gauge,
+        gauge: &mut Gauge,
         impacts: &[Impact],
         period: f64,
         thresholds: &Thresholds,
     ) -> Self {
+        let (impacts_per_period, visits_per_period) =
+            (gauge.impacts_per_period(), gauge.visits_per_period());
         let records = gauge.records();
         Self {
-            impacts_per_period: gauge.impacts_per_period(),
-            visits_per_period: gauge.visits_per_period(),
+            impacts_per_period,
+            visits_per_period,
             repeats: periodicity::find(records).is_some(),
             asymmetry: periodicity::asymmetry(impacts, period),
             captures: modulation::captures(records, thresholds.shortest_capture),

@@ -207,7 +207,7 @@ impl<S: Simd> Lanes<S> {
             let blocked = walls::blocked(self.x, self.v, self.line) | self.rates.short(&here);
             let blocked = blocked.bits() & fresh;
             let mask = WideMask::from_bits(self.simd, fresh & !blocked);
-            self.here = advanced(mask, &here, &self.here);
+            self.here = At::choose(mask, &here, &self.here);
             self.slack = tightened(mask, &slack, &self.slack);
             let zero = self.x.like(0.0);
             self.time = Wide::choose(mask, zero, self.time);
@@ -264,11 +264,11 @@ impl<S: Simd> Lanes<S> {
             flying = flying & clear & !over;
             if flying.bits().count_ones() + enough <= all {
                 (self.here, self.time) =
-                    (advanced(flying, &there, &here), Wide::choose(flying, reach, time));
+                    (At::choose(flying, &there, &here), Wide::choose(flying, reach, time));
                 self.panels = Wide::choose(flying, panels + 1.0, panels);
                 return (flying.bits(), ended.bits());
             }
-            here = advanced(flying, &there, &here);
+            here = At::choose(flying, &there, &here);
             time = Wide::choose(flying, reach, time);
             panels = Wide::choose(flying, panels + 1.0, panels);
         }
@@ -370,21 +370,6 @@ fn tightened<S: Simd>(
     Slack {
         coefficient: Wide::choose(lanes, new.coefficient, old.coefficient),
         slope_squared: Wide::choose(lanes, new.slope_squared, old.slope_squared),
-    }
-}
-
-/// Some lanes moved on.
-#[inline(always)]
-fn advanced<S: Simd>(moved: WideMask<S>, there: &At<Wide<S>>, here: &At<Wide<S>>) -> At<Wide<S>> {
-    At {
-        z: [Wide::choose(moved, there.z[0], here.z[0]), Wide::choose(moved, there.z[1], here.z[1])],
-        steady: Steady {
-            x: Wide::choose(moved, there.steady.x, here.steady.x),
-            v: Wide::choose(moved, there.steady.v, here.steady.v),
-        },
-        a: Wide::choose(moved, there.a, here.a),
-        gap: Wide::choose(moved, there.gap, here.gap),
-        slope: Wide::choose(moved, there.slope, here.slope),
     }
 }
 

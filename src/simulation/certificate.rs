@@ -72,42 +72,49 @@ impl<R: Real> Quintic<R> {
     pub(super) fn towards(&self, value: R, u: R) -> R {
         let [c0, c1, c2, c3, c4, c5] = self.0;
         let at = c0 + u * (c1 + u * (c2 + u * (c3 + u * (c4 + u * c5))));
-        let slope = c1 + u * (c2 * 2.0 + u * (c3 * 3.0 + u * (c4 * 4.0 + u * c5 * 5.0)));
-        u + (value - at) / slope
+        u + (value - at) / self.slope(u)
     }
 }
 
 /// Where a panel's quintic is level.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct TurningPoint {
+pub(super) struct TurningPoint<R> {
     /// Part of the panel.
-    pub at: f64,
+    pub at: R,
     /// Its absolute value, and its slope, which rounding or a double root may have left.
-    height: f64,
-    slope: f64,
+    height: R,
+    slope: R,
 }
 
-impl TurningPoint {
+impl<R: Real> TurningPoint<R> {
     /// What the motion does not exceed there.
-    pub(super) fn highest(&self, slack: &Slack<f64>) -> f64 {
+    #[inline(always)]
+    pub(super) fn highest(&self, slack: &Slack<R>) -> R {
         // S/46080, a sixteenth of S/720 to the third power, and what the slope may reach in a panel.
         self.height + self.slope.abs() + slack.coefficient * (7200.0 / 46080.0)
     }
 }
 
-impl Quintic<f64> {
+impl<R: Real> Quintic<R> {
+    #[inline(always)]
+    fn slope(&self, u: R) -> R {
+        let [_, c1, c2, c3, c4, c5] = self.0;
+        c1 + u * (c2 * 2.0 + u * (c3 * 3.0 + u * (c4 * 4.0 + u * c5 * 5.0)))
+    }
+
     /// Where it is level, if its slopes at both ends differ in sign: by Newton's iteration from where
     /// their secant is.
-    pub(super) fn turning_point(&self) -> TurningPoint {
+    #[inline(always)]
+    pub(super) fn turning_point(&self) -> TurningPoint<R> {
         let [c0, c1, c2, c3, c4, c5] = self.0;
-        let slope = |u: f64| c1 + u * (c2 * 2.0 + u * (c3 * 3.0 + u * (c4 * 4.0 + u * c5 * 5.0)));
-        let mut u = c1 / (c1 - slope(1.0));
+        let (zero, one) = (c0.like(0.0), c0.like(1.0));
+        let mut u = c1 / (c1 - self.slope(one));
         for _ in 0..LEVELLING {
             let bend = c2 * 2.0 + u * (c3 * 6.0 + u * (c4 * 12.0 + u * c5 * 20.0));
-            u = (u - slope(u) / bend).clamp(0.0, 1.0);
+            u = (u - self.slope(u) / bend).larger(zero).smaller(one);
         }
         let height = c0 + u * (c1 + u * (c2 + u * (c3 + u * (c4 + u * c5))));
-        TurningPoint { at: u, height: height.abs(), slope: slope(u) }
+        TurningPoint { at: u, height: height.abs(), slope: self.slope(u) }
     }
 }
 
@@ -170,6 +177,8 @@ impl<R: Real> Hull<R> {
 mod tests {
     use std::f64::consts::TAU;
 
+    use fearless_simd::{Level, dispatch};
+
     use super::*;
     use crate::simulation::flow::Oscillator;
     use crate::simulation::phasor::{Line, Rates};
@@ -219,7 +228,9 @@ mod tests {
                 let hull = Hull::of(&here, &there, rates.step, &slack);
                 for j in 1..20 {
                     let u = f64::from(j) / 20.0;
-                    let at = rates.later(&here, u * rates.step, line);
+                    let at = dispatch!(Level::baseline(), simd => {
+                        rates.after(simd, &here, u * rates.step, line)
+                    });
                     let off = (at.gap - quintic(&here, &hull, u)).abs();
                     let cubed = libm::pow(u * (1.0 - u), 3.0);
                     // Ten times the coefficient is S/720; the gap is rounded at the size of `x`.
@@ -279,7 +290,11 @@ mod tests {
                 }
                 turns += 1;
                 let turn = Quintic::through(&here, &there, rates.step).turning_point();
-                let height = rates.turning_point(&here, turn.at * rates.step, rates.step).abs();
+                let length = rates.step;
+                let height = dispatch!(Level::baseline(), simd => {
+                    rates.turning_point(simd, &here, turn.at * length, length, true)
+                })
+                .abs();
                 let above = turn.highest(&slack) - height;
                 // Rounded at the size of `x`; what two steps of Newton leave only costs an evaluation.
                 assert!(-1e-15 <= above && above <= 0.01, "{above} {eps} {omega} {phase}");

@@ -7,11 +7,10 @@
 
 use nalgebra::Complex;
 
-use super::certificate::Quintic;
 use super::events::{Absorber, Segment};
 use super::flow::{Oscillator, mean_of_exponential};
-use super::phasor::{Line, Rates, Steady};
-use super::run::PANEL;
+use super::peaks;
+use super::phasor::{Rates, Steady};
 use crate::system::System;
 use crate::tally;
 
@@ -67,45 +66,6 @@ impl Ringing {
     }
 }
 
-/// A flight of the oscillator.
-pub(super) struct Flight {
-    /// Displacement and velocity at its beginning.
-    pub begin: [f64; 2],
-    /// The steady motion there.
-    pub steady: Steady<f64>,
-    pub duration: f64,
-    /// The same at its end, where they are at hand.
-    pub end: Option<([f64; 2], Steady<f64>)>,
-}
-
-/// The largest absolute displacement in a flight, if it is above one that is known; else that.
-pub(super) fn peak(rates: &Rates<f64>, flight: &Flight, known: f64) -> f64 {
-    // Seen from the base the gap is the displacement.
-    let base = Line { y: 0.0, velocity: 0.0 };
-    let [x, v] = flight.begin;
-    let (mut here, slack) = rates.begin(x, v, flight.steady, base);
-    let (mut left, mut peak) = (flight.duration, known.max(here.gap.abs()));
-    while left > 0.0 {
-        tally::note(PANEL);
-        let length = rates.step.min(left);
-        let there = match flight.end {
-            _ if left >= rates.step => rates.next(&here, base),
-            Some(([x, v], steady)) => rates.begin(x, v, steady, base).0,
-            None => rates.later(&here, left, base),
-        };
-        peak = peak.max(there.gap.abs());
-        if here.slope * there.slope < 0.0 {
-            let turn = Quintic::through(&here, &there, length).turning_point();
-            let below = turn.highest(&slack) <= peak;
-            if !below {
-                peak = peak.max(rates.turning_point(&here, turn.at * length, length).abs());
-            }
-        }
-        (here, left) = (there, left - rates.step);
-    }
-    peak
-}
-
 impl Integrator {
     pub(super) fn of(system: &System) -> Self {
         let (sine, cosine) = system.excitation_amplitudes();
@@ -138,8 +98,7 @@ impl Integrator {
         let steady = Steady { x: phasor.re, v: -self.frequency * phasor.im };
         let (free, velocity) = segment.motion.free();
         let begin = [free + steady.x, velocity + steady.v];
-        let flight = Flight { begin, steady, duration: segment.duration, end: None };
-        Some(peak(&rates, &flight, 0.0))
+        Some(peaks::alone(&rates, begin, steady, segment.duration))
     }
 
     /// What flights have in common, of an oscillator that rings and is driven to a steady motion.

@@ -13,6 +13,7 @@ pub mod flow;
 pub mod history;
 mod integrals;
 mod panels;
+mod peaks;
 mod phasor;
 pub mod run;
 mod small;

@@ -9,7 +9,7 @@
 
 use std::f64::consts::TAU;
 
-use fearless_simd::{Level, Simd, dispatch};
+use fearless_simd::Simd;
 
 use super::certificate::{Quintic, Slack};
 use super::flow::Oscillator;
@@ -149,25 +149,27 @@ impl Rates<f64> {
         })
     }
 
-    /// The displacement at which the velocity vanishes in a panel between velocities of either sign,
-    /// seen from a line at rest; `time` is roughly when.
-    pub(super) fn turning_point(&self, here: &At<f64>, mut time: f64, length: f64) -> f64 {
-        let base = Line { y: 0.0, velocity: 0.0 };
-        let mut at = *here;
-        for _ in 0..TURNING_STEPS {
-            at = self.later(here, time.clamp(0.0, length), base);
-            let ahead = -at.slope / at.a;
-            if ahead.abs() * self.fastest < NEAR {
-                return at.gap + 0.5 * at.slope * ahead;
-            }
-            time += ahead;
+    /// The same for several numbers.
+    #[inline(always)]
+    pub(super) fn map<R: Copy>(&self, spread: impl Fn(f64) -> R) -> Rates<R> {
+        Rates {
+            fastest: spread(self.fastest),
+            step: spread(self.step),
+            frequency: spread(self.frequency),
+            inverse_frequency: spread(self.inverse_frequency),
+            squared: spread(self.squared),
+            decay: spread(self.decay),
+            twice_decay: spread(self.twice_decay),
+            ringing: spread(self.ringing),
+            inverse_ringing: spread(self.inverse_ringing),
+            stiffness: spread(self.stiffness),
+            sixth_free: spread(self.sixth_free),
+            sixth_steady: spread(self.sixth_steady),
+            second_steady: spread(self.second_steady),
+            turn: self.turn.map(&spread),
+            swing: self.swing.map(&spread),
+            origin: Steady { x: spread(self.origin.x), v: spread(self.origin.v) },
         }
-        at.gap
-    }
-
-    /// As [`Self::after`], by the instructions that every processor has.
-    pub(super) fn later(&self, here: &At<f64>, s: f64, line: Line<f64>) -> At<f64> {
-        dispatch!(Level::baseline(), simd => self.after(simd, here, s, line))
     }
 
     /// The steady motion at a phase.
@@ -178,7 +180,53 @@ impl Rates<f64> {
     }
 }
 
+impl<R: Real> At<R> {
+    /// `yes` where `mask`, else `no`.
+    #[inline(always)]
+    pub(super) fn choose(mask: R::Mask, yes: &Self, no: &Self) -> Self {
+        Self {
+            z: [R::choose(mask, yes.z[0], no.z[0]), R::choose(mask, yes.z[1], no.z[1])],
+            steady: Steady {
+                x: R::choose(mask, yes.steady.x, no.steady.x),
+                v: R::choose(mask, yes.steady.v, no.steady.v),
+            },
+            a: R::choose(mask, yes.a, no.a),
+            gap: R::choose(mask, yes.gap, no.gap),
+            slope: R::choose(mask, yes.slope, no.slope),
+        }
+    }
+}
+
 impl<R: Real> Rates<R> {
+    /// The displacement at which the velocity vanishes in a panel between velocities of either sign,
+    /// seen from a line at rest; `time` is roughly when. Only `lanes` matter.
+    #[inline(always)]
+    pub(super) fn turning_point<S: Simd>(
+        &self,
+        simd: S,
+        here: &At<R>,
+        mut time: R,
+        length: R,
+        lanes: R::Mask,
+    ) -> R {
+        let zero = time.like(0.0);
+        let base = Line { y: zero, velocity: zero };
+        let (mut open, mut height) = (lanes, here.gap);
+        for _ in 0..TURNING_STEPS {
+            let at = self.after(simd, here, time.larger(zero).smaller(length), base);
+            let ahead = -(at.slope / at.a);
+            let near = (ahead.abs() * self.fastest).less(time.like(NEAR));
+            let level = R::choose(near, at.gap + at.slope * ahead * 0.5, at.gap);
+            height = R::choose(open, level, height);
+            open = open & !near;
+            if !open.any() {
+                break;
+            }
+            time = time + ahead;
+        }
+        height
+    }
+
     /// Time from a phase until the period is over.
     #[inline(always)]
     pub(super) fn left(&self, phase: R) -> R {

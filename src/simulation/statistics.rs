@@ -230,6 +230,20 @@ impl Statistics {
         mean
     }
 
+    /// A displacement that was reached in a period, the number of whole periods before which is given.
+    fn raise(&mut self, period: u64, peak: f64) {
+        if period == self.periods {
+            self.current.peak = self.current.peak.max(peak);
+            return;
+        }
+        self.peak = self.peak.max(peak);
+        let back = (self.periods - period) as usize;
+        let record = self.records.len().checked_sub(back);
+        if let Some(record) = record.and_then(|at| self.records.get_mut(at)) {
+            record.peak = record.peak.max(peak);
+        }
+    }
+
     /// Turns the chattering sequence that has just ended into the visit that its first impact began.
     fn close_sequence(&mut self) {
         let Some((side, length)) = self.run.take() else { return };

@@ -3,7 +3,7 @@
 use fearless_simd::Simd;
 
 use super::queue::{Queue, Task};
-use super::{Lanes, advanced, tightened};
+use super::{Lanes, tightened};
 use crate::numerics::lanes::{LANES, Mask, Real, Wide, WideMask};
 use crate::simulation::certificate::{Hull, Slack};
 use crate::simulation::contact::{Rebound, rebound};
@@ -44,7 +44,7 @@ impl<S: Simd> Lanes<S> {
             length = Wide::choose(open, length * 0.5, length);
             slack = tightened(open, &slack.halved(), &slack);
             let middle = rates.after(simd, &self.here, length, self.line.from(self.time));
-            there = advanced(open, &middle, &there);
+            there = At::choose(open, &middle, &there);
             self.panels = Wide::choose(open, self.panels + 1.0, self.panels);
             wall = Wide::choose(open, nearest(&there), wall);
             let hull = Hull::of(&self.here, &there, length, &slack);
@@ -98,7 +98,7 @@ impl<S: Simd> Lanes<S> {
             );
         let through = self.last_turn.at_most(self.turns) | self.last_impact.at_most(self.impacts);
         if on.any() {
-            self.here = advanced(on, &there, &self.here);
+            self.here = At::choose(on, &there, &self.here);
             self.time = Wide::choose(on, self.time + length, self.time);
             self.panels = Wide::choose(on, self.panels + 1.0, self.panels);
         }

@@ -13,9 +13,11 @@
 use nalgebra::Complex;
 
 use super::super::events::{Absorber, Impact, Observer, Segment};
-use super::super::integrals::{self, Flight, Ringing};
+use super::super::integrals::Ringing;
+use super::super::peaks::{self, Flight, Moment};
 use super::super::phasor::{Rates, Steady};
 use super::{PeriodRecord, Statistics};
+use crate::numerics::lanes::LANES;
 use crate::system::{State, System};
 
 type Phasor = Complex<f64>;
@@ -30,6 +32,15 @@ const LEAST_DAMPING: f64 = 1e-4;
 pub struct Gauge {
     statistics: Statistics,
     telescope: Option<Telescope>,
+    open: Open,
+}
+
+/// Flights that are yet to be searched for their peaks, several at a time.
+#[derive(Debug, Clone)]
+struct Open {
+    flights: Vec<Flight<f64>>,
+    /// Whole periods before each.
+    periods: Vec<u64>,
 }
 
 /// What turns impacts into integrals.
@@ -145,11 +156,15 @@ impl Telescope {
         self.begin = end;
     }
 
-    /// The largest absolute displacement of the flight that ends at a place, if it is above one that is
-    /// known.
-    fn peak(&self, end: &Place, known: f64) -> f64 {
+    /// An impact has changed the oscillator's velocity.
+    fn jump(&mut self, v: f64) {
+        let Place { x, u, .. } = self.begin;
+        self.begin = Place { v, z: self.free(x, v, u), ..self.begin };
+    }
+
+    /// The flight that ends at a place, if it may reach beyond a displacement that is known.
+    fn flight(&self, end: &Place, known: f64) -> Option<Flight<f64>> {
         let begin = &self.begin;
-        let known = known.max(begin.x.abs()).max(end.x.abs());
         let duration = (end.phase - begin.phase) / self.frequency;
         let eighth = 0.125 * duration * duration;
         // Within the circle of z + u, which bends away from its chord by no more than an eighth of the
@@ -161,17 +176,16 @@ impl Telescope {
         let by_circle = circle + eighth * self.drift * free;
         let bend = self.frequency * self.frequency * by_circle + self.bend * free;
         let by_bend = begin.x.abs().max(end.x.abs()) + eighth * bend;
-        if by_bend <= known || by_circle <= known {
-            return known;
-        }
-        let steady = |u: Phasor| Steady { x: u.re, v: -self.frequency * u.im };
-        let flight = Flight {
-            begin: [begin.x, begin.v],
-            steady: steady(begin.u),
-            duration,
-            end: Some(([end.x, end.v], steady(end.u))),
+        let moment = |place: &Place| Moment {
+            x: place.x,
+            v: place.v,
+            steady: Steady { x: place.u.re, v: -self.frequency * place.u.im },
         };
-        integrals::peak(&self.rates, &flight, known)
+        (by_bend > known && by_circle > known).then(|| Flight {
+            begin: moment(begin),
+            duration,
+            end: Some(moment(end)),
+        })
     }
 }
 
@@ -180,7 +194,8 @@ impl Gauge {
     pub fn begin(system: &System, start: State) -> Self {
         let statistics = Statistics::begin(system, start);
         let telescope = Telescope::begin(&statistics);
-        Self { statistics, telescope }
+        let open = Open { flights: Vec::with_capacity(LANES), periods: Vec::with_capacity(LANES) };
+        Self { statistics, telescope, open }
     }
 
     /// As [`Statistics::impacts`].
@@ -199,7 +214,8 @@ impl Gauge {
     }
 
     /// As [`Statistics::peak`].
-    pub fn peak(&self) -> f64 {
+    pub fn peak(&mut self) -> f64 {
+        self.search();
         self.statistics.peak()
     }
 
@@ -214,7 +230,8 @@ impl Gauge {
     }
 
     /// As [`Statistics::records`], but that harmonics may be missing and are then 0.
-    pub fn records(&self) -> &[PeriodRecord] {
+    pub fn records(&mut self) -> &[PeriodRecord] {
+        self.search();
         self.statistics.records()
     }
 
@@ -224,6 +241,34 @@ impl Gauge {
         let energy = self.statistics.energy();
         let work = energy.stored + energy.damper + energy.impact;
         (work > 0.0).then(|| energy.impact / work)
+    }
+
+    /// A flight ends at a place. It is kept to be searched for its peak, if that may matter.
+    fn end_flight(&mut self, end: Place) {
+        let Some(telescope) = &mut self.telescope else { return };
+        let peak = &mut self.statistics.current.peak;
+        *peak = peak.max(telescope.begin.x.abs()).max(end.x.abs());
+        if let Some(flight) = telescope.flight(&end, *peak) {
+            self.open.flights.push(flight);
+            self.open.periods.push(self.statistics.periods);
+        }
+        telescope.end(end);
+        if self.open.flights.len() == LANES {
+            self.search();
+        }
+    }
+
+    /// Searches the flights that are kept.
+    fn search(&mut self) {
+        let Some(telescope) = &self.telescope else { return };
+        let Open { flights, periods } = &mut self.open;
+        if flights.is_empty() {
+            return;
+        }
+        for (period, peak) in periods.drain(..).zip(peaks::together(&telescope.rates, flights)) {
+            self.statistics.raise(period, peak);
+        }
+        flights.clear();
     }
 }
 
@@ -247,13 +292,12 @@ impl Observer for Gauge {
     }
 
     fn impact(&mut self, impact: &Impact) {
-        if let Some(telescope) = &mut self.telescope {
+        if let Some(telescope) = &self.telescope {
             let end = telescope.place(impact.phase, impact.x, impact.x_velocity_before);
-            let peak = &mut self.statistics.current.peak;
-            *peak = telescope.peak(&end, *peak);
-            telescope.end(end);
-            let v = impact.x_velocity_after;
-            telescope.begin = Place { v, z: telescope.free(end.x, v, end.u), ..end };
+            self.end_flight(end);
+        }
+        if let Some(telescope) = &mut self.telescope {
+            telescope.jump(impact.x_velocity_after);
         }
         self.statistics.impact(impact);
     }
@@ -263,12 +307,11 @@ impl Observer for Gauge {
     }
 
     fn period(&mut self, state: &State) {
+        if let Some(telescope) = &self.telescope {
+            let end = telescope.place(0.0, state.x, state.x_velocity);
+            self.end_flight(Place { phase: std::f64::consts::TAU, ..end });
+        }
         if let Some(telescope) = &mut self.telescope {
-            let mut end = telescope.place(0.0, state.x, state.x_velocity);
-            end.phase = std::f64::consts::TAU;
-            let peak = &mut self.statistics.current.peak;
-            *peak = telescope.peak(&end, *peak);
-            telescope.end(end);
             telescope.begin.phase = 0.0;
             let flown = telescope.period - telescope.contact;
             let size = telescope.of.steady.norm_sqr();
@@ -322,7 +365,7 @@ mod tests {
             let mut simulation = Simulation::new(&system, start, 0.0).expect("inside");
             let (gauge, statistics) = (&mut both.0, &mut both.1);
             assert_eq!(simulation.run(60, u64::MAX, &mut (gauge, statistics)), Stop::EndTime);
-            let (gauge, statistics) = both;
+            let (mut gauge, statistics) = both;
             in_contact += u32::from(statistics.sustained_contact().intervals > 0);
             // The antiderivative is as large as the phasors squared over the damping, and is rounded
             // some ten times at each of two ends.
