@@ -10,10 +10,10 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use vinesink::analysis::Analysis;
-use vinesink::band::simulated::{Effort, motions};
 use vinesink::band::{Band, Survey, exact, theory};
 use vinesink::case::BandOver;
 use vinesink::orbits::attracting_orbit;
+use vinesink::regimes::long_term::{Effort, motions};
 use vinesink::system::System;
 
 /// Places of a scan whose share is good to a thousandth.

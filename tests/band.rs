@@ -5,9 +5,10 @@ mod common;
 use std::f64::consts::TAU;
 
 use vinesink::analysis::Analysis;
-use vinesink::band::{Band, exact, margin, simulated, theory};
+use vinesink::band::{Band, exact, margin, theory};
 use vinesink::case::BandOver;
 use vinesink::orbits::symmetric_orbits;
+use vinesink::regimes::long_term;
 use vinesink::system::{Excitation, Parameters, System};
 
 /// Table 1 of Li, Seguy, Berlioz (2016) at resonance, at a clearance in millimetres.
@@ -149,8 +150,8 @@ fn the_smallest_gap_keeps_the_motion_along_the_band() {
 fn simulated_motions_are_the_exact_ones_where_those_attract() {
     let band = frequencies(li(20.0), [0.98, 1.01]);
     let systems: Vec<System> = band.places(9).map(|at| band.system(at).expect("valid")).collect();
-    let effort = simulated::Effort::default();
-    let found = simulated::motions(&systems, &effort).expect("starts are finite");
+    let effort = long_term::Effort::default();
+    let found = long_term::motions(&systems, &effort).expect("starts are finite");
     for (system, motions) in systems.iter().zip(&found) {
         let orbits = symmetric_orbits(system).expect("damped");
         let orbit = orbits.iter().find(|one| one.orbit.attracts()).expect("stable here");

@@ -9,9 +9,9 @@ use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::{Field, Row};
 use tempfile::TempDir;
 
-use vinesink::band::simulated::{Effort, motions};
 use vinesink::case::{Case, SweepParameter};
 use vinesink::orbits::attracting_orbit;
+use vinesink::regimes::long_term::{Effort, motions};
 use vinesink::sweep::Plan;
 
 /// Table 1 of Li, Seguy, Berlioz (2016), hardly simulated, over two chunks and a bit.
@@ -402,7 +402,7 @@ fn a_motion_is_followed_both_ways() {
         motions(&[system.point(0).system.expect("valid")], &Effort { starts: 64, periods: 100 });
     let there = &there.expect("finite")[0];
     for peak in [up[k], down[k]] {
-        let near = |motion: &&vinesink::band::simulated::Motion| {
+        let near = |motion: &&vinesink::regimes::long_term::Motion| {
             (motion.peak * clearances[k] / peak - 1.0).abs() < 0.02
         };
         assert!(there.iter().any(|motion| near(&motion)), "{peak}: {there:?}");

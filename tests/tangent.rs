@@ -282,7 +282,7 @@ fn the_exponent_vanishes_where_the_exact_orbit_ends() {
     let mut state = settled(16.0, START);
     let mut last = 16.0;
     let squares = [16.5, 16.65, 16.68, 16.69, 16.693, 16.694].map(|clearance| {
-        state = settled(clearance, carried_over(state, last / clearance));
+        state = settled(clearance, carried_over(state, last / clearance, 1.0));
         last = clearance;
         let found = exponent(&common::table_1(8.0, clearance), state, 0, 2000);
         assert!(found.converged && found.is_negative(), "{clearance} mm: {found:?}");

@@ -3,9 +3,10 @@
 
 use super::exact::{self, Extreme};
 use super::rivals::{Rival, TunedMassDamper, bare_amplitude};
-use super::simulated::{self, Effort, Place};
+use super::simulated::{self, Place};
 use super::{Band, Stretch, margin, theory};
 use crate::analysis::{Strip, Zone};
+use crate::regimes::long_term::Effort;
 use crate::simulation::StartError;
 
 /// What is known along a band. Lengths over the clearance; places are `Omega`, or the amplitude over the

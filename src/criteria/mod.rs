@@ -9,8 +9,8 @@
 mod scope;
 
 use crate::band::Survey;
-use crate::band::simulated::Motion;
 use crate::case::{Case, Criterion, Relation, Scales, Subject};
+use crate::regimes::long_term::Motion;
 use crate::simulation::StartError;
 use crate::study::fidelity::Fidelity;
 

@@ -6,10 +6,11 @@ use std::cell::OnceCell;
 use super::{Judged, ROUNDING, Seen, Value, of_motion};
 use crate::band::exact::{self, attracting};
 use crate::band::rivals;
-use crate::band::simulated::{self, Effort, Place, motions};
+use crate::band::simulated::{self, Place};
 use crate::band::{Band, Stretch, Survey, margin, theory};
 use crate::case::{Case, Criterion, Scales, Subject};
 use crate::orbits::{Measures, SymmetricOrbit};
+use crate::regimes::long_term::{Effort, motions};
 use crate::simulation::StartError;
 use crate::study::fidelity::Fidelity;
 use crate::system::System;
@@ -141,9 +142,11 @@ impl Scope {
         let mut worst: Option<Value> = None;
         for Place { at, motions } in self.simulated()? {
             let orbit = attracting(&self.band, *at);
-            for motion in
-                motions.iter().filter(|one| !orbit.as_ref().is_some_and(|orbit| one.is(orbit)))
-            {
+            for motion in motions.iter().filter(|one| {
+                !orbit
+                    .as_ref()
+                    .is_some_and(|orbit| one.is_orbit_with_peak(orbit.peaks.displacement))
+            }) {
                 let Some((found, error)) =
                     of_motion(criterion.subject, &Seen::from(motion), self.rivals, &self.scales)
                 else {

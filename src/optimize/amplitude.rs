@@ -2,7 +2,7 @@
 
 use crate::band::Band;
 use crate::band::exact::{attracting, largest_value, stability, unstable_places};
-use crate::band::simulated::{Effort, motions};
+use crate::regimes::long_term::{Effort, motions};
 use crate::system::System;
 
 /// Places of a band that are simulated where no symmetric orbit attracts, its ends among them.

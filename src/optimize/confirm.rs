@@ -4,8 +4,8 @@ use serde::Serialize;
 
 use super::task::{Deviation, Task};
 use crate::band::exact::{attracting, stability, unstable_places};
-use crate::band::simulated::{Effort, Motion, motions};
 use crate::case::{Choice, Objective};
+use crate::regimes::long_term::{Effort, Motion, motions};
 use crate::simulation::StartError;
 use crate::system::System;
 
@@ -65,7 +65,9 @@ pub fn confirm(task: &Task, choice: &Choice) -> Result<Vec<Place>, StartError> {
             at: *at,
             exact: exact.as_ref().map(|orbit| orbit.peaks.displacement * clearance),
             starts: EFFORT.starts,
-            as_predicted: starts(&|one| exact.as_ref().is_some_and(|orbit| one.is(orbit))),
+            as_predicted: starts(&|one| {
+                exact.as_ref().is_some_and(|orbit| one.is_orbit_with_peak(orbit.peaks.displacement))
+            }),
             asleep: starts(&Motion::is_asleep),
             motions: motions.iter().filter(|one| !one.is_asleep()).count(),
             largest: largest.map(|peak| peak * clearance),

@@ -82,7 +82,7 @@ pub fn sweep(
         let system = parameter.applied(base, value)?;
         let unit = parameter.unit(value);
         let begin = match last {
-            Some((before, state)) => carried_over(state, before / unit),
+            Some((before, state)) => carried_over(state, before / unit, 1.0),
             None => start,
         };
         let found = Attractor::reach(&system, begin, effort)?;
@@ -93,16 +93,17 @@ pub fn sweep(
     Ok(points)
 }
 
-/// The same physical state over another clearance, `factor` being the old one over the new one. If
-/// the absorber is outside the new cavity, the wall has pushed it along.
-pub fn carried_over(state: State, factor: f64) -> State {
-    let gap = (factor * state.gap()).clamp(-1.0, 1.0);
-    let x = factor * state.x;
+/// The same physical state over another clearance and at another natural frequency, each given as the old
+/// one over the new one. If the absorber is outside the new cavity, the wall has pushed it along.
+pub fn carried_over(state: State, clearance: f64, natural_frequency: f64) -> State {
+    let gap = (clearance * state.gap()).clamp(-1.0, 1.0);
+    let x = clearance * state.x;
+    let speed = clearance * natural_frequency;
     State {
         x,
-        x_velocity: factor * state.x_velocity,
+        x_velocity: speed * state.x_velocity,
         y: x - gap,
-        y_velocity: factor * state.y_velocity,
+        y_velocity: speed * state.y_velocity,
     }
 }
 
@@ -138,11 +139,14 @@ mod tests {
     fn a_state_keeps_its_lengths_and_stays_in_the_cavity() {
         let state = State { x: 0.5, x_velocity: -1.0, y: -0.3, y_velocity: 2.0 };
         // From clearance 1 to 2: every length is half as many clearances.
-        let wider = carried_over(state, 0.5);
+        let wider = carried_over(state, 0.5, 1.0);
         assert_eq!((wider.x, wider.x_velocity, wider.y_velocity), (0.25, -0.5, 1.0));
         assert!((wider.y + 0.15).abs() < 1e-15);
         // From 1 to 0.5 the gap of 0.8 has no room: the wall is at 1.
-        let narrower = carried_over(state, 2.0);
+        let narrower = carried_over(state, 2.0, 1.0);
         assert_eq!((narrower.gap(), narrower.x), (1.0, 1.0));
+        // Where time runs four times as fast, velocities are a quarter.
+        let stiffer = carried_over(state, 1.0, 0.25);
+        assert_eq!((stiffer.x, stiffer.x_velocity, stiffer.y_velocity), (0.5, -0.25, 0.5));
     }
 }

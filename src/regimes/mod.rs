@@ -7,6 +7,7 @@ pub mod attractor;
 pub mod basins;
 pub mod diagram;
 pub mod energetics;
+pub mod long_term;
 pub mod lyapunov;
 pub mod modulation;
 pub mod nature;

@@ -14,6 +14,16 @@ const PRIMES: [f64; 4] = [2.0, 3.0, 5.0, 7.0];
 /// says nothing about where motions begin.
 const LARGEST: f64 = 10.0;
 
+/// The start from rest: the absorber lies halfway between the middle of its cavity and a wall, as it does
+/// on average if it may lie anywhere. Exactly in the middle the slightest push would wake it.
+pub const FROM_REST: State = State { y: 0.5, ..State::AT_REST };
+
+/// So many starts of a system: the one from rest, then others evenly spread; at least one.
+pub fn of(system: &System, count: u32) -> impl Iterator<Item = State> + use<> {
+    let sample = StartBox::around(system);
+    [FROM_REST].into_iter().chain((1..count).map(move |index| sample.start(index - 1)))
+}
+
 /// The box that starts are drawn from, over the clearance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StartBox {

@@ -8,9 +8,10 @@ use super::tables::{Table, table};
 use super::units::Units;
 use crate::analysis::{Area, Strip};
 use crate::band::rivals::TunedMassDamper;
-use crate::band::simulated::{Motion, Place};
+use crate::band::simulated::Place;
 use crate::band::{Stretch, Survey};
 use crate::case::{BandOver, Case, Scales};
+use crate::regimes::long_term::Motion;
 use crate::study::CaseStudy;
 
 /// A band in `report.json`. Places and ends are frequency ratios `Omega`, or amplitudes over the case's;

@@ -233,9 +233,9 @@ fn cell(recorded: Recorded, facts: &Facts, found: &Found) -> Cell {
             let count = found.motions.len() as i64;
             Cell::Whole((count > 0).then_some(count))
         }
-        Recorded::OrbitReached => Cell::Flag(
-            facts.orbit.as_ref().map(|orbit| found.motions.iter().any(|motion| motion.is(orbit))),
-        ),
+        Recorded::OrbitReached => Cell::Flag(facts.orbit.as_ref().map(|orbit| {
+            found.motions.iter().any(|motion| motion.is_orbit_with_peak(orbit.peaks.displacement))
+        })),
         Recorded::Area | Recorded::Section => Cell::Number(None),
     }
 }

@@ -1,9 +1,9 @@
 //! What the layers know of a point.
 
 use crate::analysis::{Area, FixedPointCurve, Manifold, Strip, Zone, fixed_points};
-use crate::band::simulated::Motion;
 use crate::case::{Layer, Recorded};
 use crate::orbits::{SymmetricOrbit, attracting_orbit};
+use crate::regimes::long_term::Motion;
 use crate::system::System;
 
 use super::{Plan, Point};

@@ -3,8 +3,10 @@
 
 use super::facts::Found;
 use super::{Plan, Point};
-use crate::band::simulated::{FROM_REST, Motion, long_term};
 use crate::case::{Scales, SweepParameter};
+use crate::regimes::diagram::carried_over;
+use crate::regimes::long_term::long_term;
+use crate::regimes::starts::FROM_REST;
 use crate::simulation::StartError;
 use crate::system::{State, System};
 
@@ -48,7 +50,7 @@ pub(super) fn along(plan: &Plan, points: &[Point]) -> Result<Vec<Vec<Found>>, St
             .filter_map(|(line, index)| Some((line, &points[index], points[index].system?)))
             .collect();
         let start = |(line, point, system): &(usize, &Point, System)| {
-            let from = stands[*line].as_ref().map(|stand| stand.carried_over(&point.scales));
+            let from = stands[*line].as_ref().map(|stand| stand.at(&point.scales));
             (*system, from.unwrap_or(FROM_REST))
         };
         let starts: Vec<(System, State)> = places.iter().map(start).collect();
@@ -56,7 +58,7 @@ pub(super) fn along(plan: &Plan, points: &[Point]) -> Result<Vec<Vec<Found>>, St
         for line in 0..stands.len() {
             let motion = places.iter().position(|(of, ..)| *of == line).and_then(|k| motions[k]);
             let point = &points[line * length + k];
-            stands[line] = motion.map(|motion| Stand::of(&motion, &point.scales));
+            stands[line] = motion.map(|motion| Stand::of(motion.state, &point.scales));
             let motions = motion.into_iter().collect();
             found[line * length + k].push(Found { motions, ..Found::default() });
         }
@@ -64,38 +66,24 @@ pub(super) fn along(plan: &Plan, points: &[Point]) -> Result<Vec<Vec<Found>>, St
     Ok(found)
 }
 
-/// Where a motion stands, in the units of [`Scales`].
+/// Where a motion stands, and what its lengths and velocities are over.
 struct Stand {
-    x: f64,
-    x_velocity: f64,
-    gap: f64,
-    y_velocity: f64,
+    state: State,
+    clearance: f64,
+    natural_frequency: f64,
 }
 
 impl Stand {
-    fn of(motion: &Motion, scales: &Scales) -> Self {
-        let State { x, x_velocity, y_velocity, .. } = motion.state;
-        let velocity =
-            |value: f64| scales.velocity_m_per_s(value).unwrap_or_else(|| scales.length(value));
-        Self {
-            x: scales.length(x),
-            x_velocity: velocity(x_velocity),
-            gap: scales.length(motion.state.gap()),
-            y_velocity: velocity(y_velocity),
-        }
+    fn of(state: State, scales: &Scales) -> Self {
+        let natural_frequency = scales.natural_frequency_rad_per_s.unwrap_or(1.0);
+        Self { state, clearance: scales.clearance, natural_frequency }
     }
 
-    /// The same place at another point. If the absorber is outside the new cavity, the wall has pushed
-    /// it along.
-    fn carried_over(&self, scales: &Scales) -> State {
-        let speed = scales.natural_frequency_rad_per_s.unwrap_or(1.0);
-        let x = scales.over_clearance(self.x);
-        State {
-            x,
-            x_velocity: scales.over_clearance(self.x_velocity) / speed,
-            y: x - scales.over_clearance(self.gap).clamp(-1.0, 1.0),
-            y_velocity: scales.over_clearance(self.y_velocity) / speed,
-        }
+    /// The same place at another point.
+    fn at(&self, scales: &Scales) -> State {
+        let there = Self::of(self.state, scales);
+        let clearance = self.clearance / there.clearance;
+        carried_over(self.state, clearance, self.natural_frequency / there.natural_frequency)
     }
 }
 
@@ -131,13 +119,10 @@ mod tests {
     }
 
     #[test]
-    fn a_state_keeps_its_lengths_and_stays_in_the_cavity() {
-        let stand = Stand { x: 0.01, x_velocity: -1.0, gap: 0.016, y_velocity: 2.0 };
-        let wider = stand.carried_over(&scales(0.04));
+    fn a_motion_goes_on_from_the_same_place_over_another_clearance() {
+        let state = State { x: 0.5, x_velocity: -1.0, y: -0.3, y_velocity: 2.0 };
+        let wider = Stand::of(state, &scales(0.02)).at(&scales(0.04));
         let wanted = State { x: 0.25, x_velocity: -0.5, y: 0.25 - 0.4, y_velocity: 1.0 };
         assert!(wider.distance(&wanted) < 1e-15, "{wider:?}");
-        // A gap of 16 mm has no room in 10 mm: the wall is at 1.
-        let narrower = stand.carried_over(&scales(0.01));
-        assert!((narrower.gap() - 1.0).abs() < 1e-15 && narrower.x == 1.0, "{narrower:?}");
     }
 }

@@ -6,9 +6,9 @@ use super::columns::{self, Column, SECTION};
 use super::facts::{Facts, Found};
 use super::follow;
 use super::{Plan, Point};
-use crate::band::simulated::{Effort, long_term, motions};
 use crate::case::{Layer, Recorded};
 use crate::regimes::Lyapunov;
+use crate::regimes::long_term::{Effort, long_term, motions};
 use crate::simulation::{Observer, Simulation, StartError, batch};
 use crate::system::{State, System};
 

@@ -3,10 +3,10 @@
 
 use crate::band::exact::attracting;
 use crate::band::rivals::{TunedMassDamper, bare_amplitude};
-use crate::band::simulated::Motion;
 use crate::band::{Band, Survey};
 use crate::case::BandOver;
 use crate::orbits::symmetric_orbits;
+use crate::regimes::long_term::Motion;
 use crate::report::figure::{
     Axis, Color, Dash, Figure, Layer, MarkedPoint, Marker, Panel, Role, Shape, Style,
 };
@@ -101,7 +101,9 @@ fn simulated(scene: &Scene, survey: &Survey, x: &dyn Fn(f64) -> f64) -> Vec<(f64
     let mut marks = Vec::new();
     for place in &survey.simulated {
         let orbit = attracting(&survey.band, place.at);
-        let known = |motion: &Motion| orbit.as_ref().is_some_and(|orbit| motion.is(orbit));
+        let known = |motion: &Motion| {
+            orbit.as_ref().is_some_and(|orbit| motion.is_orbit_with_peak(orbit.peaks.displacement))
+        };
         for motion in place.motions.iter().filter(|motion| !known(motion)) {
             let words = format!(
                 "simulated at {}: peak {}, z = {}{}",

@@ -1,0 +1,284 @@
+//! The motions that starts lead to in the long run, many trajectories side by side.
+//!
+//! A transient that follows from the damping is left out. A motion that is seen to repeat is measured over
+//! one repetition, any other over a window.
+
+mod watch;
+
+use serde::Serialize;
+
+use self::watch::{Repetition, Strobes, Watch};
+use super::starts;
+use super::{Regime, periodicity};
+use crate::simulation::batch::{self, Extent};
+use crate::simulation::{Nobody, Simulation, StartError, Stop};
+use crate::system::{State, System};
+
+/// E-folds of the damped free motion that are left out: what a start leaves is then below 1e-5.
+const FADED: f64 = 12.0;
+/// Fewest and most periods left out: a motion needs some to be captured, and hardly damped ones fade
+/// by impacts or not at all.
+const LEFT_OUT: [f64; 2] = [150.0, 2000.0];
+/// Relative difference of root mean squares up to which two motions that hardly scatter are one.
+const ALIKE: f64 = 0.01;
+/// Impacts in one stretch, per period asked for, at which a trajectory is given up.
+const MOST_IMPACTS: u64 = 1000;
+
+/// Periods at the end of those left out in which it is watched whether a motion repeats, which then is
+/// measured over one repetition. One that is not seen to repeat by then is looked at once more after as
+/// many periods measured, which repetitions that divide it fill whole.
+const WATCHED: u64 = 48;
+/// Relative difference of peaks up to which a simulated motion is that of an exact orbit, and
+/// difference of impacts per period: what is left of a transient, and of a window's largest peak.
+const AS_EXACT: f64 = 0.01;
+/// Impacts per excitation period of a symmetric 1:1 orbit.
+const TWO: f64 = 2.0;
+
+/// How often a transient is left out, the first time included, of a motion that is still settling; each
+/// time the window after it is longer.
+const ROUNDS: u64 = 3;
+
+/// How thoroughly each place is simulated.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Effort {
+    /// Starts at each place: one from rest, the absorber halfway to a wall, the others evenly spread.
+    pub starts: u32,
+    /// Excitation periods measured where a motion is not seen to repeat, after a transient that follows
+    /// from the damping.
+    pub periods: u64,
+}
+
+impl Default for Effort {
+    fn default() -> Self {
+        Self { starts: 8, periods: 250 }
+    }
+}
+
+/// A long-term motion that was simulated. Lengths over the clearance, fast time.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Motion {
+    /// Largest absolute displacement of the oscillator.
+    pub peak: f64,
+    /// Root mean square displacement of the oscillator.
+    pub rms: f64,
+    /// Two standard errors of that, between blocks of the window.
+    pub rms_error: f64,
+    /// Impacts per excitation period.
+    pub impacts_per_period: f64,
+    /// Two standard errors of that.
+    pub impacts_error: f64,
+    /// Largest relative speed of an impact.
+    pub impact_speed: f64,
+    /// What its impacts do.
+    pub regime: Regime,
+    /// How many of the starts led to it.
+    pub starts: u32,
+    /// Share of the excitation's work that impacts dissipate; none where it does no work.
+    #[serde(skip)]
+    pub efficiency: Option<f64>,
+    /// Excitation periods after which it repeats, if it was seen to.
+    #[serde(skip)]
+    pub repeats_after: Option<u32>,
+    /// A state on it, at excitation phase 0.
+    #[serde(skip)]
+    pub state: State,
+}
+
+impl Motion {
+    /// Whether the absorber takes no part: there is no impact.
+    pub fn is_asleep(&self) -> bool {
+        self.impacts_per_period == 0.0
+    }
+
+    /// Whether it is the symmetric 1:1 orbit with a peak that is known exactly.
+    pub fn is_orbit_with_peak(&self, exact: f64) -> bool {
+        (self.peak - exact).abs() <= AS_EXACT * exact
+            && (self.impacts_per_period - TWO).abs() <= AS_EXACT
+    }
+
+    /// Whether it is of a kind that repeats, and was not seen to: an absorber that has come to rest, or was
+    /// captured, only late, or that drifts from one wall to the other for longer than the window.
+    fn is_settling(&self) -> bool {
+        let repeating =
+            matches!(self.regime, Regime::AtRest | Regime::TwoSymmetric | Regime::TwoAsymmetric);
+        repeating && self.repeats_after.is_none()
+    }
+
+    /// Whether two starts ended in one motion, as far as root mean square and impacts tell. The errors of a
+    /// chaotic motion are so wide that it might else be any other: one that repeats, or is without impacts.
+    fn is_same(&self, other: &Self) -> bool {
+        let chaotic = self.repeats_after.is_none() && other.repeats_after.is_none();
+        let near = |a: f64, b: f64, errors: f64| {
+            (a - b).abs() <= (ALIKE * a.max(b)).max(if chaotic { 2.0 * errors } else { 0.0 })
+        };
+        self.is_asleep() == other.is_asleep()
+            && near(self.rms, other.rms, self.rms_error + other.rms_error)
+            && near(
+                self.impacts_per_period,
+                other.impacts_per_period,
+                self.impacts_error + other.impacts_error,
+            )
+    }
+}
+
+/// The distinct motions of each system, in the order in which starts led to them; the first start is
+/// that from rest.
+///
+/// # Errors
+/// [`StartError`] where a start is not finite.
+pub fn motions(systems: &[System], effort: &Effort) -> Result<Vec<Vec<Motion>>, StartError> {
+    let of = |system: &System| {
+        let system = *system;
+        starts::of(&system, effort.starts).map(move |start| (system, start))
+    };
+    let starts: Vec<(System, State)> = systems.iter().flat_map(of).collect();
+    let ended = long_term(&starts, effort.periods)?;
+    Ok(ended.chunks(effort.starts.max(1) as usize).map(distinct).collect())
+}
+
+/// The motion that each start of a system leads to, all of them side by side, each as if it were alone;
+/// none where it could not be followed. `periods` as in [`Effort`].
+///
+/// # Errors
+/// [`StartError`] where a start is not finite.
+pub fn long_term(
+    starts: &[(System, State)],
+    periods: u64,
+) -> Result<Vec<Option<Motion>>, StartError> {
+    let mut all = Group::default();
+    for (index, (system, start)) in starts.iter().enumerate() {
+        all.add(index, Simulation::new(system, *start, 0.0)?);
+    }
+    let mut motions: Vec<Option<Motion>> = vec![None; starts.len()];
+    for round in 0..ROUNDS {
+        let mut again = Group::default();
+        for (one, motion) in measured_after_transient(all, periods * (1 + round)) {
+            if motion.is_some_and(|motion| motion.is_settling()) {
+                again.add(one.index, one.simulation);
+            }
+            motions[one.index] = motion;
+        }
+        all = again;
+    }
+    Ok(motions)
+}
+
+/// Leaves out a transient and measures what follows.
+fn measured_after_transient(mut all: Group, periods: u64) -> Vec<(Ended, Option<Motion>)> {
+    let mut nobody: Vec<Nobody> = all.simulations.iter().map(|_| Nobody).collect();
+    let faded = |one: &Simulation| extent(left_out(one.system()) - WATCHED);
+    let transients: Vec<Extent> = all.simulations.iter().map(faded).collect();
+    batch::run_each(&mut all.simulations, &transients, &mut nobody);
+    let mut watches: Vec<Strobes> = all.simulations.iter().map(|_| Strobes::new()).collect();
+    let watched = extent(WATCHED);
+    let stops = batch::run(&mut all.simulations, watched.periods, watched.impacts, &mut watches);
+    let (mut repeating, mut other) = (Group::default(), Group::default());
+    let mut known = Vec::new();
+    let trajectories = all.indices.into_iter().zip(all.simulations);
+    for (((index, one), watch), stop) in trajectories.zip(watches).zip(stops) {
+        match periodicity::find(&watch.periods).filter(|_| stop == Stop::EndTime) {
+            Some(found) => {
+                known.push(Repetition::of(found, &watch.log, one.system()));
+                repeating.add(index, one);
+            }
+            None => other.add(index, one),
+        }
+    }
+    let once: Vec<Extent> = known.iter().map(|one| extent(u64::from(one.found.periods))).collect();
+    let watches = repeating.watched();
+    let mut ended = Vec::with_capacity(repeating.indices.len() + other.indices.len());
+    for ((one, watch), repetition) in repeating.go_on(watches, &once).into_iter().zip(known) {
+        let motion = watch.motion(&one, Some(repetition));
+        ended.push((one, motion));
+    }
+    for (one, watch) in measured(other, periods) {
+        let motion = watch.motion(&one, None);
+        ended.push((one, motion));
+    }
+    ended
+}
+
+/// So many periods, or as many impacts as no motion worth looking at has in them.
+fn extent(periods: u64) -> Extent {
+    Extent { periods, impacts: periods * MOST_IMPACTS }
+}
+
+/// Periods after which what a start leaves has faded.
+pub fn left_out(system: &System) -> u64 {
+    let decay = 0.5 * system.mass_ratio() * system.damping() * system.period();
+    (FADED / decay).clamp(LEFT_OUT[0], LEFT_OUT[1]) as u64
+}
+
+/// Trajectories that go on together, and which starts they come from.
+#[derive(Default)]
+struct Group {
+    indices: Vec<usize>,
+    simulations: Vec<Simulation>,
+}
+
+/// A trajectory that has been measured.
+struct Ended {
+    index: usize,
+    simulation: Simulation,
+    stop: Stop,
+}
+
+impl Group {
+    fn add(&mut self, index: usize, simulation: Simulation) {
+        self.indices.push(index);
+        self.simulations.push(simulation);
+    }
+
+    fn watched(&self) -> Vec<Watch> {
+        self.simulations.iter().map(Watch::begin).collect()
+    }
+
+    fn go_on(mut self, mut watches: Vec<Watch>, extents: &[Extent]) -> Vec<(Ended, Watch)> {
+        let stops = batch::run_each(&mut self.simulations, extents, &mut watches);
+        let simulations = self.indices.into_iter().zip(self.simulations).zip(stops);
+        let ended = |((index, simulation), stop)| Ended { index, simulation, stop };
+        simulations.map(ended).zip(watches).collect()
+    }
+}
+
+/// Measures trajectories that were not seen to repeat: those that then do over a short window, the
+/// others over `periods`.
+fn measured(group: Group, periods: u64) -> Vec<(Ended, Watch)> {
+    let first = periods.min(WATCHED);
+    let (watches, count) = (group.watched(), group.simulations.len());
+    let (mut done, mut going, mut watches_on) = (Vec::new(), Group::default(), Vec::new());
+    for (one, mut watch) in group.go_on(watches, &vec![extent(first); count]) {
+        let repeats = periodicity::find(watch.gauge.records())
+            .is_some_and(|found| WATCHED.is_multiple_of(u64::from(found.periods)));
+        if repeats || one.stop != Stop::EndTime || periods == first {
+            done.push((one, watch));
+        } else {
+            going.add(one.index, one.simulation);
+            watches_on.push(watch);
+        }
+    }
+    let rest = vec![extent(periods - first); watches_on.len()];
+    done.extend(going.go_on(watches_on, &rest));
+    done
+}
+
+/// The motions of one system that trajectories have ended in.
+fn distinct(ended: &[Option<Motion>]) -> Vec<Motion> {
+    let mut distinct: Vec<Motion> = Vec::new();
+    for motion in ended.iter().flatten() {
+        match distinct.iter_mut().find(|known| known.is_same(motion)) {
+            Some(known) => known.join(motion),
+            None => distinct.push(*motion),
+        }
+    }
+    distinct
+}
+
+impl Motion {
+    /// Takes over another start's measurement of the same motion: the larger extremes.
+    fn join(&mut self, other: &Self) {
+        self.peak = self.peak.max(other.peak);
+        self.impact_speed = self.impact_speed.max(other.impact_speed);
+        self.starts += other.starts;
+    }
+}

@@ -1,0 +1,149 @@
+//! What watches a trajectory: whether it repeats, and how large it is.
+
+use super::{Ended, Motion, WATCHED};
+use crate::regimes::{Captures, Periodicity, Signs, Thresholds, periodicity};
+use crate::simulation::{Gauge, Impact, ImpactLog, Observer, Segment, Simulation, Stop};
+use crate::system::{State, System};
+
+/// Impacts that are kept to tell a regime by: their intervals are averaged.
+const KEPT_IMPACTS: usize = 1000;
+
+/// Measures one trajectory.
+pub(super) struct Watch {
+    pub(super) gauge: Gauge,
+    log: ImpactLog,
+    fastest: f64,
+}
+
+impl Observer for Watch {
+    fn flights(&self) -> bool {
+        self.gauge.flights()
+    }
+    fn segment(&mut self, segment: &Segment) {
+        self.gauge.segment(segment);
+    }
+    fn impact(&mut self, impact: &Impact) {
+        let speed = (impact.x_velocity_before - impact.y_velocity_before).abs();
+        self.fastest = self.fastest.max(speed);
+        self.log.impact(impact);
+        self.gauge.impact(impact);
+    }
+    fn sticks(&mut self, loss: f64) {
+        self.gauge.sticks(loss);
+    }
+    fn period(&mut self, state: &State) {
+        self.gauge.period(state);
+    }
+}
+
+impl Watch {
+    pub(super) fn begin(simulation: &Simulation) -> Self {
+        Self {
+            gauge: Gauge::begin(simulation.system(), simulation.state()),
+            log: ImpactLog::of_the_last(KEPT_IMPACTS),
+            fastest: 0.0,
+        }
+    }
+
+    /// The motion measured; none where the trajectory came to a bad end.
+    pub(super) fn motion(
+        mut self,
+        ended: &Ended,
+        repetition: Option<Repetition>,
+    ) -> Option<Motion> {
+        let Ended { simulation, stop, .. } = ended;
+        if !matches!(stop, Stop::EndTime | Stop::ImpactLimit) {
+            return None;
+        }
+        let gauge = &mut self.gauge;
+        let thresholds = Thresholds::default();
+        let period = simulation.system().period();
+        let (signs, errors, repeats_after) = match repetition {
+            Some(Repetition { found, asymmetry }) => {
+                let signs = Signs {
+                    impacts_per_period: gauge.impacts_per_period(),
+                    visits_per_period: gauge.visits_per_period(),
+                    repeats: true,
+                    asymmetry,
+                    captures: Captures::default(),
+                    modulation_depth: 0.0,
+                };
+                (signs, [0.0; 2], Some(found.periods))
+            }
+            None => {
+                let found = periodicity::find(gauge.records());
+                let signs = Signs::measured(gauge, &self.log.impacts, period, &thresholds);
+                (signs, gauge.errors(), found.map(|found| found.periods))
+            }
+        };
+        Some(Motion {
+            peak: gauge.peak(),
+            rms: gauge.rms(),
+            rms_error: errors[0],
+            impacts_per_period: gauge.impacts_per_period(),
+            impacts_error: errors[1],
+            impact_speed: self.fastest,
+            regime: signs.regime(&thresholds),
+            starts: 1,
+            efficiency: gauge.efficiency(),
+            repeats_after,
+            state: simulation.state(),
+        })
+    }
+}
+
+/// Watches whether a trajectory repeats, which costs next to nothing.
+pub(super) struct Strobes {
+    pub(super) periods: Vec<Strobe>,
+    pub(super) log: ImpactLog,
+    impacts: u32,
+}
+
+/// An excitation period, seen at its end.
+pub(super) struct Strobe {
+    end: State,
+    impacts: u32,
+}
+
+impl periodicity::Strobed for Strobe {
+    fn end(&self) -> &State {
+        &self.end
+    }
+    fn impacts(&self) -> u32 {
+        self.impacts
+    }
+}
+
+impl Strobes {
+    pub(super) fn new() -> Self {
+        Self {
+            periods: Vec::with_capacity(WATCHED as usize),
+            log: ImpactLog::of_the_last(KEPT_IMPACTS),
+            impacts: 0,
+        }
+    }
+}
+
+impl Observer for Strobes {
+    const SEGMENTS: bool = false;
+    fn impact(&mut self, impact: &Impact) {
+        self.impacts += 1;
+        self.log.impact(impact);
+    }
+    fn period(&mut self, state: &State) {
+        let impacts = std::mem::take(&mut self.impacts);
+        self.periods.push(Strobe { end: *state, impacts });
+    }
+}
+
+/// What is known of a motion that repeats before it is measured.
+pub(super) struct Repetition {
+    pub(super) found: Periodicity,
+    asymmetry: f64,
+}
+
+impl Repetition {
+    pub(super) fn of(found: Periodicity, log: &ImpactLog, system: &System) -> Self {
+        Self { found, asymmetry: periodicity::asymmetry(&log.impacts, system.period()) }
+    }
+}
