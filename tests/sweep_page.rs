@@ -64,10 +64,10 @@ fn markdown(swept: &Swept) -> String {
     files(swept).remove(Path::new("sweep.md")).expect("a page")
 }
 
-const SYM: &str = "two-symmetric";
-const ASY: &str = "two-asymmetric";
-const SMR: &str = "strongly-modulated";
-const LOW: &str = "below-two";
+const SYM: &str = Regime::TwoSymmetric.key();
+const ASY: &str = Regime::TwoAsymmetric.key();
+const SMR: &str = Regime::StronglyModulated.key();
+const LOW: &str = Regime::BelowTwo.key();
 
 /// Two clearances by four frequencies; the last point could not be worked out.
 fn small_columns() -> Vec<Column> {

@@ -1,6 +1,6 @@
 //! The table of a sweep, looked at by axes, slices and passes.
 
-use super::{AxisShown, Swept, kinds};
+use super::{AxisShown, Swept};
 use crate::regimes::Regime;
 use crate::report::numbers::LengthFormat;
 use crate::sweep::columns::Values;
@@ -115,7 +115,7 @@ impl<'a> Grid<'a> {
 
     pub(super) fn regimes(&self, pass: Pass) -> Option<Vec<Option<Regime>>> {
         let regimes = self.text("regime", pass)?.iter();
-        Some(regimes.map(|name| name.and_then(kinds::named)).collect())
+        Some(regimes.map(|name| name.and_then(Regime::of_key)).collect())
     }
 
     /// The last two axes; `None` where there is only one.
