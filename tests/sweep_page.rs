@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use vinesink::case::Case;
+use vinesink::case::{Case, SweepAxis, SweepParameter};
 use vinesink::regimes::Regime;
 use vinesink::report::figure::{
     Axis, Cells, Figure, Image, Layer, Panel, Ramp, Rect, Scale, Tint, draw, edges, render,
@@ -109,10 +109,15 @@ fn small_columns() -> Vec<Column> {
     ]
 }
 
+fn axis(case: &Case, parameter: SweepParameter, values: &[f64]) -> AxisShown {
+    let axis = SweepAxis { parameter, values: values.to_vec(), logarithmic: false };
+    AxisShown::of(case, &axis)
+}
+
 fn small_axes(case: &Case) -> Vec<AxisShown> {
     vec![
-        AxisShown::of(case, "clearance", &[0.01, 0.02], false),
-        AxisShown::of(case, "frequency", &[8.0, 8.2, 8.4, 8.6], false),
+        axis(case, SweepParameter::Clearance, &[0.01, 0.02]),
+        axis(case, SweepParameter::Frequency, &[8.0, 8.2, 8.4, 8.6]),
     ]
 }
 
@@ -365,7 +370,7 @@ fn one_axis_is_told_in_stretches() {
         all("section_01", &[1e-3; 6]),
         all("section_02", &[2e-3; 6]),
     ];
-    let axes = vec![AxisShown::of(&case, "clearance", &clearances, false)];
+    let axes = vec![axis(&case, SweepParameter::Clearance, &clearances)];
     let found = files(&swept(&case, axes, &columns));
     let text = &found[Path::new("sweep.md")];
     for line in [
@@ -392,7 +397,7 @@ fn what_was_followed_up_and_down_shows_its_hysteresis() {
         all("peak_down", &[1.01e-3, 2e-3, 7e-3, 7e-3, 5e-3, 4e-3]),
     ];
     let values = [8.0, 8.1, 8.2, 8.3, 8.4, 8.5];
-    let axes = vec![AxisShown::of(&case, "frequency", &values, false)];
+    let axes = vec![axis(&case, SweepParameter::Frequency, &values)];
     let found = files(&swept(&case, axes, &columns));
     let text = &found[Path::new("sweep.md")];
     let line = "> Hysteresis: from 8.20 Hz to 8.30 Hz two symmetric impacts per period (peak 3.00 mm) up, strongly modulated response (peak 7.00 mm) down.";
@@ -403,8 +408,8 @@ fn what_was_followed_up_and_down_shows_its_hysteresis() {
     assert_eq!(strip[0].rows, [[a, a, a, a, b, b], [a, a, b, b, b, b]], "up above down");
     // Over two axes, a panel for each way.
     let axes = vec![
-        AxisShown::of(&case, "clearance", &[0.01, 0.02], false),
-        AxisShown::of(&case, "frequency", &values[..3], false),
+        axis(&case, SweepParameter::Clearance, &[0.01, 0.02]),
+        axis(&case, SweepParameter::Frequency, &values[..3]),
     ];
     let found = files(&swept(&case, axes, &columns));
     let maps = shown(&found[Path::new("figures/sweep-regimes.svg")]);
@@ -419,7 +424,7 @@ fn what_was_followed_up_and_down_shows_its_hysteresis() {
 fn of_three_axes_some_slices_are_shown() {
     let case = case();
     let restitutions: Vec<f64> = (0..11).map(|k| 0.4 + 0.05 * f64::from(k)).collect();
-    let mut axes = vec![AxisShown::of(&case, "restitution", &restitutions, false)];
+    let mut axes = vec![axis(&case, SweepParameter::Restitution, &restitutions)];
     axes.extend(small_axes(&case));
     // Each slice is one regime: even ones symmetric, odd ones not.
     let regimes: Vec<&'static str> =
@@ -444,8 +449,8 @@ fn of_three_axes_some_slices_are_shown() {
 fn a_map_of_starts_is_one_of_basins() {
     let case = case();
     let axes = vec![
-        AxisShown::of(&case, "initial_displacement", &[-0.01, 0.0, 0.01], false),
-        AxisShown::of(&case, "initial_velocity", &[-0.5, 0.5], false),
+        axis(&case, SweepParameter::InitialDisplacement, &[-0.01, 0.0, 0.01]),
+        axis(&case, SweepParameter::InitialVelocity, &[-0.5, 0.5]),
     ];
     let columns = [
         texts("regime", &[SYM, SYM, SYM, SMR, SYM, SMR]),
@@ -477,7 +482,7 @@ fn words_neither_touch_nor_are_cut() {
     let columns = small_columns();
     let two = swept(&case, small_axes(&case), &columns);
     let restitutions = [0.3, 0.6, 0.9];
-    let mut axes = vec![AxisShown::of(&case, "restitution", &restitutions, false)];
+    let mut axes = vec![axis(&case, SweepParameter::Restitution, &restitutions)];
     axes.extend(small_axes(&case));
     let regimes: Vec<&'static str> = (0..24).map(|point| [SYM, ASY, SMR, LOW][point % 4]).collect();
     let areas: Vec<&'static str> =
@@ -520,8 +525,8 @@ fn a_large_map_of_noise_stays_light() {
         (0..COUNT).map(|k| from + (to - from) * k as f64 / (COUNT - 1) as f64).collect()
     };
     let axes = vec![
-        AxisShown::of(&case, "clearance", &values(0.005, 0.04), false),
-        AxisShown::of(&case, "frequency", &values(8.0, 8.7), false),
+        axis(&case, SweepParameter::Clearance, &values(0.005, 0.04)),
+        axis(&case, SweepParameter::Frequency, &values(8.0, 8.7)),
     ];
     let swept = swept(&case, axes, &columns);
     let first = files(&swept);

@@ -84,12 +84,9 @@ impl Sweep {
             results.add_to(&mut columns, group).into_diagnostic()?;
         }
         let settings = &self.plan.settings;
-        let shown_axis = |axis: &vinesink::case::SweepAxis| {
-            AxisShown::of(&self.case, axis.parameter.key(), &axis.values, axis.logarithmic)
-        };
         let swept = Swept {
             case: &self.case,
-            axes: settings.axes.iter().map(shown_axis).collect(),
+            axes: settings.axes.iter().map(|axis| AxisShown::of(&self.case, axis)).collect(),
             columns: &columns,
             starts: settings.starts,
             periods: settings.periods,

@@ -1,6 +1,7 @@
 //! The table of a sweep, looked at by axes, slices and passes.
 
 use super::{AxisShown, Swept};
+use crate::case::SweepParameter;
 use crate::regimes::Regime;
 use crate::report::numbers::LengthFormat;
 use crate::sweep::columns::Values;
@@ -120,12 +121,16 @@ impl<'a> Grid<'a> {
 
     /// The last two axes; `None` where there is only one.
     pub(super) fn plane(&self) -> Option<Plane<'a>> {
+        use SweepParameter::{
+            Clearance, Detuning, Frequency, InitialAbsorberDisplacement, InitialAbsorberVelocity,
+            InitialDisplacement, InitialVelocity,
+        };
         let [.., first, last] = self.swept.axes.as_slice() else { return None };
         // A frequency lies along the page and a clearance up it, as in every other figure.
-        let lies = |axis: &AxisShown| match axis.key.as_str() {
-            "frequency" | "frequency_ratio" | "detuning" => 3,
-            "initial_displacement" | "initial_absorber_displacement" => 2,
-            "clearance" | "initial_velocity" | "initial_absorber_velocity" => 0,
+        let lies = |axis: &AxisShown| match axis.parameter {
+            Frequency | Detuning => 3,
+            InitialDisplacement | InitialAbsorberDisplacement => 2,
+            Clearance | InitialVelocity | InitialAbsorberVelocity => 0,
             _ => 1,
         };
         let x_is_last = lies(last) > lies(first);
