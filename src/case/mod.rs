@@ -29,7 +29,6 @@ mod sweep;
 mod table;
 mod uncertainty;
 
-use sha2::{Digest, Sha256};
 use toml::de::DeTable;
 
 pub use accuracy::AccuracySettings;
@@ -53,6 +52,7 @@ pub use simulation::SimulationSettings;
 pub use sweep::{Layer, Recorded, SweepAxis, SweepParameter, SweepSettings};
 pub use uncertainty::{Distribution, Uncertainty};
 
+use crate::digest::sha256;
 use crate::system::System;
 use reader::Reader;
 use table::Table;
@@ -166,7 +166,7 @@ impl Case {
         let mut reader = Reader::new(visible, TABLES);
         match read(&mut reader, &document) {
             Some(case) if reader.problems.is_empty() => {
-                Ok(Self { text_hash: sha256(text), inputs: reader.inputs, ..case })
+                Ok(Self { text_hash: sha256(text.as_bytes()), inputs: reader.inputs, ..case })
             }
             _ => Err(CaseError::new(name, visible, reader.problems)),
         }
@@ -270,8 +270,4 @@ fn system_of(reader: &mut Reader, root: &Table, design: &Design) -> Option<Syste
     let help = "check the units: one value is many orders of magnitude away from the others";
     reader.report(root.span_of(table), message, format!("expected {}", error.expected), help);
     None
-}
-
-fn sha256(text: &str) -> String {
-    Sha256::digest(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect()
 }

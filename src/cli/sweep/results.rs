@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use miette::{IntoDiagnostic, Result, WrapErr as _, miette};
-use sha2::{Digest as _, Sha256};
+use vinesink::digest::Digest;
 use vinesink::report::render;
 use vinesink::report::sweep::{AxisShown, MOST_POINTS, SweepPage, Swept};
 use vinesink::store::{self, Growing};
@@ -120,16 +120,16 @@ fn written_as_text(merged: &Path, path: &Path, empty: &[Column]) -> Result<()> {
 /// SHA-256 of a file, read piece by piece.
 fn checksum(path: &Path) -> Result<String> {
     let mut file = store::open(path)?;
-    let mut hash = Sha256::new();
+    let mut digest = Digest::default();
     let mut piece = vec![0; 1 << 20];
     loop {
         let read = file.read(&mut piece).into_diagnostic().wrap_err_with(|| shown(path))?;
         if read == 0 {
             break;
         }
-        hash.update(&piece[..read]);
+        digest.add(&piece[..read]);
     }
-    Ok(hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect())
+    Ok(digest.finish())
 }
 
 fn unfinished(path: &Path) -> String {

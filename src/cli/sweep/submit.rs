@@ -11,7 +11,7 @@ use std::str::FromStr;
 
 use clap::{Args, ValueEnum};
 use miette::{IntoDiagnostic, Result, WrapErr as _, miette};
-use sha2::{Digest, Sha256};
+use vinesink::digest::sha256;
 use vinesink::store;
 
 use super::{Outcome, Sweep, Where, output, shown};
@@ -171,8 +171,7 @@ impl Job {
             sweep.plan.identity,
             program.display()
         );
-        let digest = Sha256::digest(told.as_bytes());
-        let short: String = digest.iter().take(6).map(|byte| format!("{byte:02x}")).collect();
+        let digest = sha256(told.as_bytes());
         let job = Self {
             engine: *engine,
             name,
@@ -184,7 +183,7 @@ impl Job {
             retries: *retries,
             pause: *pause,
             options: options.clone(),
-            folder: folder.join("submit").join(short),
+            folder: folder.join("submit").join(&digest[..12]),
         };
         for path in [&job.program, &job.folder] {
             // Slurm and HyperQueue would read these as something else, each in its own way.
