@@ -305,6 +305,30 @@ fn sweeping(table: &str) -> String {
     format!("{}[sweep]\n{table}", whole.split("[sweep]").next().expect("a design"))
 }
 
+#[test]
+fn a_plan_says_how_motions_are_looked_for() {
+    let axes = "clearance = { values = [\"10 mm\", \"20 mm\"] }\n\
+                frequency = { from = \"8 Hz\", to = \"8.7 Hz\", count = 1024 }\n";
+    for (settings, wanted) in [
+        ("starts = 3\n", "2 x 1024 = 2048 points, 3 starts each, in 2 chunks (0 to 1)\n"),
+        ("starts = 1\n", "2 x 1024 = 2048 points, 1 start each, in 2 chunks (0 to 1)\n"),
+        (
+            "follow = \"clearance\"\n",
+            "1024 x 2 = 2048 points, motions followed along clearance up and down, in 2 chunks (0 to 1)\n",
+        ),
+        (
+            "follow = \"frequency\"\n",
+            "2 x 1024 = 2048 points, motions followed along frequency up and down, in 1 chunk (0)\n",
+        ),
+    ] {
+        let folder = TempDir::new().expect("a folder");
+        fs::write(folder.path().join("map.toml"), sweeping(&format!("{settings}{axes}")))
+            .expect("written");
+        let output = run(folder.path(), &["plan", "map.toml"]);
+        assert_eq!(String::from_utf8_lossy(&output.stdout), wanted, "{output:?}");
+    }
+}
+
 /// Every number of the design can be an axis, and is then what the case would say in its place.
 #[test]
 fn every_parameter_can_be_an_axis() {

@@ -3,7 +3,7 @@
 //!
 //! A case is TOML. It gives a design either in physical units (`[oscillator]`, `[absorber]`,
 //! `[excitation]`) or dimensionless (`[reduced]`), and may carry settings in optional tables. To
-//! add an optional table: a file like `simulation.rs`, a line in `TABLES`, a field in [`Case`] and
+//! add an optional table: a file like `simulation.rs`, a line in `OWN_TABLES`, a field in [`Case`] and
 //! one in the schema.
 
 mod accuracy;
@@ -99,7 +99,21 @@ pub enum Design {
 }
 
 /// Every table with the keys it may have; the top level is "".
-const TABLES: &[(&str, &[&str])] = &[
+const TABLES: &[(&str, &[&str])] = &{
+    let mut tables = [("", &[] as &[&str]); OWN_TABLES.len() + SweepParameter::ALL.len()];
+    let mut k = 0;
+    while k < tables.len() {
+        tables[k] = if k < OWN_TABLES.len() {
+            OWN_TABLES[k]
+        } else {
+            (SweepParameter::ALL[k - OWN_TABLES.len()].key(), sweep::AXIS_KEYS)
+        };
+        k += 1;
+    }
+    tables
+};
+/// Those without the axes of a sweep, which are tables in `[sweep]`.
+const OWN_TABLES: &[(&str, &[&str])] = &[
     (
         "",
         &[
@@ -131,21 +145,6 @@ const TABLES: &[(&str, &[&str])] = &[
     (optimize::TABLE, optimize::KEYS),
     (uncertainty::TABLE, uncertainty::KEYS),
     (sweep::TABLE, sweep::KEYS),
-    (sweep::SweepParameter::ALL[0].key(), sweep::AXIS_KEYS),
-    (sweep::SweepParameter::ALL[1].key(), sweep::AXIS_KEYS),
-    (sweep::SweepParameter::ALL[2].key(), sweep::AXIS_KEYS),
-    (sweep::SweepParameter::ALL[3].key(), sweep::AXIS_KEYS),
-    (sweep::SweepParameter::ALL[4].key(), sweep::AXIS_KEYS),
-    (sweep::SweepParameter::ALL[5].key(), sweep::AXIS_KEYS),
-    (sweep::SweepParameter::ALL[6].key(), sweep::AXIS_KEYS),
-    (sweep::SweepParameter::ALL[7].key(), sweep::AXIS_KEYS),
-    (sweep::SweepParameter::ALL[8].key(), sweep::AXIS_KEYS),
-    (sweep::SweepParameter::ALL[9].key(), sweep::AXIS_KEYS),
-    (sweep::SweepParameter::ALL[10].key(), sweep::AXIS_KEYS),
-    (sweep::SweepParameter::ALL[11].key(), sweep::AXIS_KEYS),
-    (sweep::SweepParameter::ALL[12].key(), sweep::AXIS_KEYS),
-    (sweep::SweepParameter::ALL[13].key(), sweep::AXIS_KEYS),
-    (sweep::SweepParameter::ALL[14].key(), sweep::AXIS_KEYS),
 ];
 
 const STARTING_CASE: &str = include_str!("starting_case.toml");

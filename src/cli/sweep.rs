@@ -232,13 +232,21 @@ fn plan(sweep: &Sweep) -> Result<Outcome> {
     let Plan { settings, .. } = &sweep.plan;
     let axes: Vec<String> =
         settings.axes.iter().map(|axis| axis.values.len().to_string()).collect();
+    let motions = match (settings.axes.last(), settings.starts) {
+        (Some(axis), _) if settings.follow => {
+            format!("motions followed along {} up and down", axis.parameter.key())
+        }
+        (_, 1) => "1 start each".to_owned(),
+        (_, starts) => format!("{starts} starts each"),
+    };
+    let chunks = match sweep.plan.chunks() {
+        1 => "1 chunk (0)".to_owned(),
+        chunks => format!("{chunks} chunks (0 to {})", chunks - 1),
+    };
     output::print(format!(
-        "{} = {} points, {} starts each, in {} chunks (0 to {})\n",
+        "{} = {} points, {motions}, in {chunks}\n",
         axes.join(" x "),
-        sweep.plan.points(),
-        settings.starts,
-        sweep.plan.chunks(),
-        sweep.plan.chunks() - 1
+        sweep.plan.points()
     ))?;
     Ok(Outcome::Done)
 }

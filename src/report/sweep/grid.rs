@@ -138,33 +138,32 @@ impl<'a> Grid<'a> {
         Some(Plane { x, y, x_is_last })
     }
 
+    /// The axes besides those of the plane.
+    fn others(&self) -> &'a [AxisShown] {
+        let axes = self.swept.axes.as_slice();
+        &axes[..axes.len().saturating_sub(2)]
+    }
+
     /// Number of planes, one for each combination of the other axes' values.
     pub(super) fn slices(&self) -> usize {
-        let others = self.swept.axes.len().saturating_sub(2);
-        self.swept.axes[..others].iter().map(|axis| axis.values.len()).product()
+        self.others().iter().map(|axis| axis.values.len()).product()
     }
 
     /// The values of the other axes at a slice, in words.
     pub(super) fn slice_words(&self, slice: usize) -> String {
-        let others = self.swept.axes.len().saturating_sub(2);
-        let mut rest = slice;
-        let mut words: Vec<String> = Vec::new();
-        for axis in self.swept.axes[..others].iter().rev() {
-            words.push(axis.text(rest % axis.values.len()));
-            rest /= axis.values.len();
-        }
-        words.reverse();
-        words.join(", ")
+        let first = slice * (self.points() / self.slices());
+        self.words(self.others(), first)
     }
 
     /// Where a point lies, in words.
     pub(super) fn place(&self, point: usize) -> String {
-        let words: Vec<String> = self
-            .indices(point)
-            .iter()
-            .zip(&self.swept.axes)
-            .map(|(k, axis)| axis.text(*k))
-            .collect();
+        self.words(&self.swept.axes, point)
+    }
+
+    /// Where a point lies on the first axes.
+    fn words(&self, axes: &[AxisShown], point: usize) -> String {
+        let indices = self.indices(point);
+        let words: Vec<String> = axes.iter().zip(&indices).map(|(axis, k)| axis.text(*k)).collect();
         words.join(", ")
     }
 
