@@ -1,5 +1,7 @@
 //! The page of a sweep: words, tables and figures on tables that are made by hand and counted by hand.
 
+mod common;
+
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -16,11 +18,7 @@ use vinesink::sweep::columns::{Column, Values};
 
 /// Table 1 of Li, Seguy, Berlioz (2016) at 8.35 Hz and 20 mm.
 fn case() -> Case {
-    let text = "title = \"A map\"\nsource = \"Table 1 of Li, Seguy, Berlioz 2016\"\n\
-         [oscillator]\nmass = \"4.168 kg\"\nstiffness = \"11.47 kN/m\"\ndamping = \"3.02 N s/m\"\n\
-         [absorber]\nmass = \"32 g\"\nclearance = \"20 mm\"\nrestitution = 0.6\n\
-         [excitation]\nkind = \"base-displacement\"\namplitude = \"0.25 mm\"\nfrequency = \"8.35 Hz\"\n";
-    Case::parse("map.toml", text).unwrap_or_else(|error| panic!("{error:?}"))
+    Case::parse("map.toml", common::table_1_case()).unwrap_or_else(|error| panic!("{error:?}"))
 }
 
 fn numbers(name: &'static str, values: &[Option<f64>]) -> Column {
