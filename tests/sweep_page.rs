@@ -246,6 +246,61 @@ fn the_order_of_the_axes_does_not_turn_the_map() {
     assert!(svg.contains(">frequency f (Hz)</text>") || svg.contains("frequency f (Hz)"));
 }
 
+/// Name, symbol, unit, and the case's own value in that unit.
+#[test]
+fn an_axis_is_shown_in_the_terms_of_its_design() {
+    use SweepParameter as P;
+    let forced = common::table_1_case()
+        .replace("base-displacement", "force")
+        .replace("amplitude = \"0.25 mm\"", "amplitude = \"2.9 N\"");
+    let reduced = "title = \"r\"\nsource = \"made up\"\n[reduced]\nmass_ratio = 0.0077\ndamping = 1.8\n\
+                   restitution = 0.6\nforcing = 3.1\nclearance = 1.3\ndetuning = -1.5\n";
+    let parse = |text: &str| Case::parse("map.toml", text).unwrap_or_else(|e| panic!("{e:?}"));
+    let (base, forced, reduced) = (case(), parse(&forced), parse(reduced));
+    let damping_ratio = 302.0 / (2.0 * (11_470.0 * 4.168_f64).sqrt());
+    for (case, parameter, value, label, own) in [
+        (&base, P::Clearance, 0.02, "clearance b (mm)", Some(20.0)),
+        (&base, P::Frequency, 8.0, "frequency f (Hz)", Some(8.35)),
+        (&base, P::Amplitude, 1e-3, "base displacement F (mm)", Some(0.25)),
+        (&forced, P::Amplitude, 1.0, "force P (N)", Some(2.9)),
+        (&base, P::Restitution, 0.5, "restitution r (1)", Some(0.6)),
+        (&base, P::AbsorberMass, 0.05, "absorber mass m₂ (g)", Some(32.0)),
+        (&base, P::AbsorberMass, 1.5, "absorber mass m₂ (kg)", Some(0.032)),
+        (&base, P::MassRatio, 0.01, "mass ratio ε (%)", Some(3.2 / 4.168)),
+        (&base, P::Mass, 0.5, "oscillator mass m₁ (kg)", Some(4.168)),
+        (&base, P::Stiffness, 1e4, "stiffness k₁ (kN/m)", Some(11.47)),
+        (&base, P::Stiffness, 900.0, "stiffness k₁ (N/m)", Some(11_470.0)),
+        (&base, P::Damping, 1.0, "damping c₁ (N s/m)", Some(3.02)),
+        (&base, P::DampingRatio, 0.01, "damping ratio ζ (%)", Some(damping_ratio)),
+        (&base, P::InitialDisplacement, -0.01, "initial displacement x (mm)", None),
+        (&base, P::InitialVelocity, 0.5, "initial velocity ẋ (m/s)", None),
+        (
+            &base,
+            P::InitialAbsorberDisplacement,
+            0.01,
+            "initial displacement of the absorber y (mm)",
+            None,
+        ),
+        (&base, P::InitialAbsorberVelocity, 0.5, "initial velocity of the absorber ẏ (m/s)", None),
+        (&reduced, P::Clearance, 1.0, "clearance b (units)", Some(1.3)),
+        (&reduced, P::Frequency, 1.0, "frequency ratio Ω (1)", Some(1.0 - 1.5 * 0.0077)),
+        (&reduced, P::Detuning, 1.0, "detuning σ (1)", Some(-1.5)),
+        (&reduced, P::Amplitude, 2.0, "reduced forcing G (units)", Some(3.1)),
+        (&reduced, P::Damping, 1.0, "damping λ (1)", Some(1.8)),
+        (&reduced, P::InitialDisplacement, 0.5, "initial displacement x (units)", None),
+        (&reduced, P::InitialVelocity, 0.5, "initial velocity ẋ (1)", None),
+    ] {
+        let shown = axis(case, parameter, &[value]);
+        assert_eq!(shown.label, label);
+        // Rounded a few times on the way to the unit.
+        let near = own.zip(shown.own).map(|(a, b): (f64, f64)| (a - b).abs() <= 1e-14 * a.abs());
+        assert!(near.unwrap_or(own == shown.own), "{label}: {:?}", shown.own);
+        assert_eq!(shown.is_initial(), own.is_none(), "{label}");
+        let json = serde_json::to_value(&shown).expect("JSON");
+        assert_eq!(json["key"], parameter.key());
+    }
+}
+
 /// Values that are not evenly spread have cells that end midway between them; on a logarithmic axis, at the
 /// geometric mean.
 #[test]
