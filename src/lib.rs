@@ -7,6 +7,7 @@ pub mod band;
 pub mod case;
 pub mod criteria;
 pub mod diff;
+pub mod digest;
 pub mod equations;
 pub mod extremes;
 pub mod numerics;

@@ -1,71 +1,23 @@
 //! The one place that touches the file system. Files and folders appear whole or not at all.
 
 use std::collections::BTreeMap;
-use std::io::{self, ErrorKind, Write as _};
+use std::io::{ErrorKind, Write as _};
 use std::path::{Component, Path, PathBuf};
 
 use tempfile::{Builder, NamedTempFile, TempDir};
 
+mod error;
 mod git;
 mod reports;
 mod shards;
 
+use error::refused;
 use reports::FIGURES;
 
+pub use error::StoreError;
 pub use git::{GitError, read_reports_at};
 pub use reports::{StoredReport, StoredReports, read_reports};
 pub use shards::{Growing, Shards};
-
-/// What could not be done with a file or folder, and why.
-#[derive(Debug, thiserror::Error, miette::Diagnostic)]
-pub enum StoreError {
-    /// The operating system refused.
-    #[error("cannot {action} {}: {cause}", path.display())]
-    Refused {
-        /// What was tried, such as "read".
-        action: &'static str,
-        /// The file or folder.
-        path: PathBuf,
-        /// The operating system's reason.
-        cause: io::Error,
-        /// What to do about it, where it is the disk's fault.
-        #[help]
-        advice: Option<&'static str>,
-    },
-    /// A file that should be new is there already.
-    #[error("{} exists already and is left as it is", path.display())]
-    #[diagnostic(help("choose another name, or remove the file first"))]
-    Exists {
-        /// The file.
-        path: PathBuf,
-    },
-    /// A text file that is not UTF-8.
-    #[error("{} is not UTF-8 text: line {line} holds the byte 0x{byte:02X} at column {column}", path.display())]
-    #[diagnostic(help("save the file with the encoding UTF-8"))]
-    NotUtf8 {
-        /// The file.
-        path: PathBuf,
-        /// Line of the first byte that fits no character, from 1.
-        line: usize,
-        /// Its column in characters, from 1.
-        column: usize,
-        /// The byte.
-        byte: u8,
-    },
-    /// A file or folder whose name is not UTF-8.
-    #[error("the name of {} is not UTF-8", path.display())]
-    #[diagnostic(help("rename it"))]
-    Name {
-        /// The file or folder.
-        path: PathBuf,
-    },
-    /// A path that names no file, or leads out of its folder.
-    #[error("{} does not name a file inside a folder", path.display())]
-    Unusable {
-        /// The path.
-        path: PathBuf,
-    },
-}
 
 /// Reads a UTF-8 text file whole.
 ///
@@ -126,9 +78,14 @@ pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
 /// # Errors
 /// [`StoreError::Refused`]; an earlier file is then unchanged.
 pub fn write_file_and_folder(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
-    let folder = folder_of(path)?;
-    std::fs::create_dir_all(folder).map_err(|cause| refused("create", folder, cause))?;
+    make_folder_of(path)?;
     write_file(path, bytes)
+}
+
+/// Makes the folder of a path where there is none.
+fn make_folder_of(path: &Path) -> Result<(), StoreError> {
+    let folder = folder_of(path)?;
+    std::fs::create_dir_all(folder).map_err(|cause| refused("create", folder, cause))
 }
 
 /// What a folder holds, by name; names that begin with a point are left out.
@@ -193,11 +150,12 @@ pub fn replace_folder(
     if path.exists() && !path.is_dir() {
         return Err(refused("replace", path, ErrorKind::NotADirectory.into()));
     }
-    let beside = folder_of(path)?;
-    std::fs::create_dir_all(beside).map_err(|cause| refused("create", beside, cause))?;
+    make_folder_of(path)?;
     let new = temporary_folder(path)?;
     for (file, bytes) in files {
-        write_inside(&new.path().join(file), bytes)?;
+        let file = new.path().join(file);
+        make_folder_of(&file)?;
+        std::fs::write(&file, bytes).map_err(|cause| refused("write", &file, cause))?;
     }
     if path.is_dir() {
         take_along(path, Path::new(""), new.path(), ours)?;
@@ -227,8 +185,7 @@ fn take_along(
         if ours(&inside) || to.is_file() {
             continue;
         }
-        let parent = folder_of(&to)?;
-        std::fs::create_dir_all(parent).map_err(|cause| refused("create", parent, cause))?;
+        make_folder_of(&to)?;
         // The same file under a second name, until the first one is removed; not every file system can.
         let from = entry.path();
         let taken = std::fs::hard_link(&from, &to).or_else(|_| std::fs::copy(&from, &to).map(drop));
@@ -290,10 +247,7 @@ pub fn add_to_folder(path: &Path, files: &BTreeMap<PathBuf, Vec<u8>>) -> Result<
         return Err(StoreError::Unusable { path: outside.clone() });
     }
     for (file, bytes) in files {
-        let file = path.join(file);
-        let folder = folder_of(&file)?;
-        std::fs::create_dir_all(folder).map_err(|cause| refused("create", folder, cause))?;
-        write_file(&file, bytes)?;
+        write_file_and_folder(&path.join(file), bytes)?;
     }
     Ok(())
 }
@@ -317,12 +271,6 @@ fn swap(path: &Path, new: TempDir) -> Result<(), StoreError> {
     }
     let _ = new.keep();
     aside.close().map_err(|cause| refused("remove the earlier", path, cause))
-}
-
-fn write_inside(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
-    let folder = folder_of(path)?;
-    std::fs::create_dir_all(folder).map_err(|cause| refused("create", folder, cause))?;
-    std::fs::write(path, bytes).map_err(|cause| refused("write", path, cause))
 }
 
 fn temporary_file(path: &Path, bytes: &[u8]) -> Result<NamedTempFile, StoreError> {
@@ -370,20 +318,6 @@ fn folder_of(path: &Path) -> Result<&Path, StoreError> {
 fn stays_inside(file: &Path) -> bool {
     let mut components = file.components().peekable();
     components.peek().is_some() && components.all(|part| matches!(part, Component::Normal(_)))
-}
-
-fn refused(action: &'static str, path: &Path, cause: io::Error) -> StoreError {
-    let advice = match cause.kind() {
-        ErrorKind::StorageFull | ErrorKind::QuotaExceeded => Some(
-            "make room on that disk, or write to a larger one; what is there already may move along",
-        ),
-        ErrorKind::ReadOnlyFilesystem => Some(
-            "let that disk be written to again, or write to another one; what is there already may be \
-             copied along",
-        ),
-        _ => None,
-    };
-    StoreError::Refused { action, path: path.to_owned(), cause, advice }
 }
 
 #[cfg(test)]

@@ -8,6 +8,7 @@
 set -euo pipefail
 
 vinesink="$(realpath "${1:?usage: tests/disk.sh VINESINK}")"
+shipped="$(realpath "$(dirname "$0")/../cases/li2016-map.toml")"
 if [ "$(id -u)" != 0 ]; then
     echo "FAILED: only root can mount a disk of a given size" >&2
     exit 1
@@ -51,26 +52,14 @@ there() {
     "$vinesink" sweep status map.toml | cut -d ' ' -f 1
 }
 
+grep -qx '\[sweep\]' "$shipped" || fail "$shipped has no line [sweep] that its design ends at"
 # 64 chunks of 1024 points; some 2 MB, and as much again when they are together.
-case='title = "a map"
-source = "Table 1 of Li, Seguy, Berlioz 2016"
-[oscillator]
-mass = "4.168 kg"
-stiffness = "11.47 kN/m"
-damping = "3.02 N s/m"
-[absorber]
-mass = "32 g"
-clearance = "20 mm"
-restitution = 0.6
-[excitation]
-kind = "base-displacement"
-amplitude = "0.25 mm"
-frequency = "8.35 Hz"
+case="$(sed '/^\[sweep\]$/,$d' "$shipped")
 [sweep]
 starts = 1
 periods = 48
-clearance = { from = "5 mm", to = "40 mm", count = 256 }
-frequency = { from = "8 Hz", to = "8.7 Hz", count = 256 }'
+clearance = { from = \"5 mm\", to = \"40 mm\", count = 256 }
+frequency = { from = \"8 Hz\", to = \"8.7 Hz\", count = 256 }"
 
 mkdir "$folder/elsewhere" "$disk"
 cd "$folder/elsewhere"

@@ -13,6 +13,7 @@ use regex::Regex;
 /// simulation are three independent answers to one question and never meet below `validation`.
 const ROOMS: &[(&str, &[&str])] = &[
     ("tally", &[]),
+    ("digest", &[]),
     ("symbolic", &["tally"]),
     ("numerics", &["tally"]),
     ("system", &[]),
@@ -44,7 +45,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "validation",
         ],
     ),
-    ("case", &["numerics", "system"]),
+    ("case", &["digest", "numerics", "system"]),
     ("optimize", &["analysis", "band", "case", "numerics", "orbits", "simulation", "system"]),
     ("band", &["analysis", "case", "numerics", "orbits", "regimes", "simulation", "system"]),
     (
@@ -69,17 +70,18 @@ const ROOMS: &[(&str, &[&str])] = &[
         ],
     ),
     ("diff", &["regimes", "report"]),
-    ("store", &[]),
-    ("sweep", &["analysis", "band", "case", "orbits", "regimes", "simulation", "system"]),
+    ("store", &["digest"]),
+    ("sweep", &["analysis", "band", "case", "digest", "orbits", "regimes", "simulation", "system"]),
 ];
 
 /// Rooms in which there is physics and nothing else: no files, no clock, no printing, no threads, no
 /// randomness.
-const PURE: [&str; 17] = [
+const PURE: [&str; 18] = [
     "analysis",
     "band",
     "criteria",
     "diff",
+    "digest",
     "equations",
     "extremes",
     "numerics",

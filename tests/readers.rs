@@ -3,6 +3,8 @@
 //! Needs a Python with the packages, named in `VINESINK_PYTHON`; `.ci/run` makes one. Without it the test
 //! says so and passes.
 
+mod common;
+
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
@@ -10,22 +12,7 @@ use std::process::Command;
 
 use tempfile::TempDir;
 
-const CASE: &str = r#"
-title = "a map"
-source = "Table 1 of Li, Seguy, Berlioz 2016"
-[oscillator]
-mass = "4.168 kg"
-stiffness = "11.47 kN/m"
-damping = "3.02 N s/m"
-[absorber]
-mass = "32 g"
-clearance = "20 mm"
-restitution = 0.6
-[excitation]
-kind = "base-displacement"
-amplitude = "0.25 mm"
-frequency = "8.35 Hz"
-[sweep]
+const SWEEP: &str = r#"[sweep]
 starts = 1
 periods = 48
 record = ["regime", "reduction_db"]
@@ -40,7 +27,8 @@ fn three_libraries_read_the_same() {
         return;
     };
     let folder = TempDir::new().expect("a folder");
-    fs::write(folder.path().join("map.toml"), CASE).expect("written");
+    let case = format!("{}{SWEEP}", common::table_1_case());
+    fs::write(folder.path().join("map.toml"), case).expect("written");
     let mut sweep = Command::new(env!("CARGO_BIN_EXE_vinesink"));
     sweep.current_dir(folder.path()).args(["sweep", "map.toml", "--csv"]);
     assert!(sweep.status().expect("it runs").success());

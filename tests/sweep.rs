@@ -1,5 +1,7 @@
 //! `vinesink sweep`: points and columns, the same bytes whatever happens on the way.
 
+mod common;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -17,13 +19,10 @@ use vinesink::sweep::Plan;
 /// Table 1 of Li, Seguy, Berlioz (2016), hardly simulated, over two chunks and a bit.
 fn text(clearances: u32, frequencies: u32) -> String {
     format!(
-        "title = \"a map\"\nsource = \"Table 1 of Li, Seguy, Berlioz 2016\"\n\
-         [oscillator]\nmass = \"4.168 kg\"\nstiffness = \"11.47 kN/m\"\ndamping = \"3.02 N s/m\"\n\
-         [absorber]\nmass = \"32 g\"\nclearance = \"20 mm\"\nrestitution = 0.6\n\
-         [excitation]\nkind = \"base-displacement\"\namplitude = \"0.25 mm\"\nfrequency = \"8.35 Hz\"\n\
-         [sweep]\nstarts = 1\nperiods = 48\n\
+        "{}[sweep]\nstarts = 1\nperiods = 48\n\
          clearance = {{ from = \"5 mm\", to = \"40 mm\", count = {clearances}, scale = \"logarithmic\" }}\n\
-         frequency = {{ from = \"8 Hz\", to = \"8.7 Hz\", count = {frequencies} }}\n"
+         frequency = {{ from = \"8 Hz\", to = \"8.7 Hz\", count = {frequencies} }}\n",
+        common::table_1_case()
     )
 }
 
@@ -262,7 +261,7 @@ fn what_cannot_be_swept_is_refused_with_what_to_write() {
         let said: Vec<String> = error.problems().map(|one| one.message.clone()).collect();
         assert!(said.iter().any(|one| one.contains(message)), "{to}: {said:?}");
     }
-    let head = whole.split("[sweep]").next().expect("a case");
+    let head = common::table_1_case();
     let error = Case::parse("map.toml", &format!("{head}[sweep]\n")).expect_err("nothing varies");
     assert!(error.problems().any(|one| one.message.contains("varies nothing")), "{error:?}");
     let folder = TempDir::new().expect("a folder");
@@ -301,8 +300,31 @@ fn numbers(columns: &[(String, Vec<String>)], name: &str) -> Vec<f64> {
 
 /// The design of [`text`] with another table `[sweep]`.
 fn sweeping(table: &str) -> String {
-    let whole = text(3, 3);
-    format!("{}[sweep]\n{table}", whole.split("[sweep]").next().expect("a design"))
+    format!("{}[sweep]\n{table}", common::table_1_case())
+}
+
+#[test]
+fn a_plan_says_how_motions_are_looked_for() {
+    let axes = "clearance = { values = [\"10 mm\", \"20 mm\"] }\n\
+                frequency = { from = \"8 Hz\", to = \"8.7 Hz\", count = 1024 }\n";
+    for (settings, wanted) in [
+        ("starts = 3\n", "2 x 1024 = 2048 points, 3 starts each, in 2 chunks (0 to 1)\n"),
+        ("starts = 1\n", "2 x 1024 = 2048 points, 1 start each, in 2 chunks (0 to 1)\n"),
+        (
+            "follow = \"clearance\"\n",
+            "1024 x 2 = 2048 points, motions followed along clearance up and down, in 2 chunks (0 to 1)\n",
+        ),
+        (
+            "follow = \"frequency\"\n",
+            "2 x 1024 = 2048 points, motions followed along frequency up and down, in 1 chunk (0)\n",
+        ),
+    ] {
+        let folder = TempDir::new().expect("a folder");
+        fs::write(folder.path().join("map.toml"), sweeping(&format!("{settings}{axes}")))
+            .expect("written");
+        let output = run(folder.path(), &["plan", "map.toml"]);
+        assert_eq!(String::from_utf8_lossy(&output.stdout), wanted, "{output:?}");
+    }
 }
 
 /// Every number of the design can be an axis, and is then what the case would say in its place.

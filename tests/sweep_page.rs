@@ -1,11 +1,13 @@
 //! The page of a sweep: words, tables and figures on tables that are made by hand and counted by hand.
 
+mod common;
+
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use vinesink::case::Case;
+use vinesink::case::{Case, SweepAxis, SweepParameter};
 use vinesink::regimes::Regime;
 use vinesink::report::figure::{
     Axis, Cells, Figure, Image, Layer, Panel, Ramp, Rect, Scale, Tint, draw, edges, render,
@@ -16,11 +18,7 @@ use vinesink::sweep::columns::{Column, Values};
 
 /// Table 1 of Li, Seguy, Berlioz (2016) at 8.35 Hz and 20 mm.
 fn case() -> Case {
-    let text = "title = \"A map\"\nsource = \"Table 1 of Li, Seguy, Berlioz 2016\"\n\
-         [oscillator]\nmass = \"4.168 kg\"\nstiffness = \"11.47 kN/m\"\ndamping = \"3.02 N s/m\"\n\
-         [absorber]\nmass = \"32 g\"\nclearance = \"20 mm\"\nrestitution = 0.6\n\
-         [excitation]\nkind = \"base-displacement\"\namplitude = \"0.25 mm\"\nfrequency = \"8.35 Hz\"\n";
-    Case::parse("map.toml", text).unwrap_or_else(|error| panic!("{error:?}"))
+    Case::parse("map.toml", common::table_1_case()).unwrap_or_else(|error| panic!("{error:?}"))
 }
 
 fn numbers(name: &'static str, values: &[Option<f64>]) -> Column {
@@ -64,10 +62,10 @@ fn markdown(swept: &Swept) -> String {
     files(swept).remove(Path::new("sweep.md")).expect("a page")
 }
 
-const SYM: &str = "two-symmetric";
-const ASY: &str = "two-asymmetric";
-const SMR: &str = "strongly-modulated";
-const LOW: &str = "below-two";
+const SYM: &str = Regime::TwoSymmetric.key();
+const ASY: &str = Regime::TwoAsymmetric.key();
+const SMR: &str = Regime::StronglyModulated.key();
+const LOW: &str = Regime::BelowTwo.key();
 
 /// Two clearances by four frequencies; the last point could not be worked out.
 fn small_columns() -> Vec<Column> {
@@ -109,10 +107,15 @@ fn small_columns() -> Vec<Column> {
     ]
 }
 
+fn axis(case: &Case, parameter: SweepParameter, values: &[f64]) -> AxisShown {
+    let axis = SweepAxis { parameter, values: values.to_vec(), logarithmic: false };
+    AxisShown::of(case, &axis)
+}
+
 fn small_axes(case: &Case) -> Vec<AxisShown> {
     vec![
-        AxisShown::of(case, "clearance", &[0.01, 0.02], false),
-        AxisShown::of(case, "frequency", &[8.0, 8.2, 8.4, 8.6], false),
+        axis(case, SweepParameter::Clearance, &[0.01, 0.02]),
+        axis(case, SweepParameter::Frequency, &[8.0, 8.2, 8.4, 8.6]),
     ]
 }
 
@@ -243,6 +246,61 @@ fn the_order_of_the_axes_does_not_turn_the_map() {
     assert!(svg.contains(">frequency f (Hz)</text>") || svg.contains("frequency f (Hz)"));
 }
 
+/// Name, symbol, unit, and the case's own value in that unit.
+#[test]
+fn an_axis_is_shown_in_the_terms_of_its_design() {
+    use SweepParameter as P;
+    let forced = common::table_1_case()
+        .replace("base-displacement", "force")
+        .replace("amplitude = \"0.25 mm\"", "amplitude = \"2.9 N\"");
+    let reduced = "title = \"r\"\nsource = \"made up\"\n[reduced]\nmass_ratio = 0.0077\ndamping = 1.8\n\
+                   restitution = 0.6\nforcing = 3.1\nclearance = 1.3\ndetuning = -1.5\n";
+    let parse = |text: &str| Case::parse("map.toml", text).unwrap_or_else(|e| panic!("{e:?}"));
+    let (base, forced, reduced) = (case(), parse(&forced), parse(reduced));
+    let damping_ratio = 302.0 / (2.0 * (11_470.0 * 4.168_f64).sqrt());
+    for (case, parameter, value, label, own) in [
+        (&base, P::Clearance, 0.02, "clearance b (mm)", Some(20.0)),
+        (&base, P::Frequency, 8.0, "frequency f (Hz)", Some(8.35)),
+        (&base, P::Amplitude, 1e-3, "base displacement F (mm)", Some(0.25)),
+        (&forced, P::Amplitude, 1.0, "force P (N)", Some(2.9)),
+        (&base, P::Restitution, 0.5, "restitution r (1)", Some(0.6)),
+        (&base, P::AbsorberMass, 0.05, "absorber mass m₂ (g)", Some(32.0)),
+        (&base, P::AbsorberMass, 1.5, "absorber mass m₂ (kg)", Some(0.032)),
+        (&base, P::MassRatio, 0.01, "mass ratio ε (%)", Some(3.2 / 4.168)),
+        (&base, P::Mass, 0.5, "oscillator mass m₁ (kg)", Some(4.168)),
+        (&base, P::Stiffness, 1e4, "stiffness k₁ (kN/m)", Some(11.47)),
+        (&base, P::Stiffness, 900.0, "stiffness k₁ (N/m)", Some(11_470.0)),
+        (&base, P::Damping, 1.0, "damping c₁ (N s/m)", Some(3.02)),
+        (&base, P::DampingRatio, 0.01, "damping ratio ζ (%)", Some(damping_ratio)),
+        (&base, P::InitialDisplacement, -0.01, "initial displacement x (mm)", None),
+        (&base, P::InitialVelocity, 0.5, "initial velocity ẋ (m/s)", None),
+        (
+            &base,
+            P::InitialAbsorberDisplacement,
+            0.01,
+            "initial displacement of the absorber y (mm)",
+            None,
+        ),
+        (&base, P::InitialAbsorberVelocity, 0.5, "initial velocity of the absorber ẏ (m/s)", None),
+        (&reduced, P::Clearance, 1.0, "clearance b (units)", Some(1.3)),
+        (&reduced, P::Frequency, 1.0, "frequency ratio Ω (1)", Some(1.0 - 1.5 * 0.0077)),
+        (&reduced, P::Detuning, 1.0, "detuning σ (1)", Some(-1.5)),
+        (&reduced, P::Amplitude, 2.0, "reduced forcing G (units)", Some(3.1)),
+        (&reduced, P::Damping, 1.0, "damping λ (1)", Some(1.8)),
+        (&reduced, P::InitialDisplacement, 0.5, "initial displacement x (units)", None),
+        (&reduced, P::InitialVelocity, 0.5, "initial velocity ẋ (1)", None),
+    ] {
+        let shown = axis(case, parameter, &[value]);
+        assert_eq!(shown.label, label);
+        // Rounded a few times on the way to the unit.
+        let near = own.zip(shown.own).map(|(a, b): (f64, f64)| (a - b).abs() <= 1e-14 * a.abs());
+        assert!(near.unwrap_or(own == shown.own), "{label}: {:?}", shown.own);
+        assert_eq!(shown.is_initial(), own.is_none(), "{label}");
+        let json = serde_json::to_value(&shown).expect("JSON");
+        assert_eq!(json["key"], parameter.key());
+    }
+}
+
 /// Values that are not evenly spread have cells that end midway between them; on a logarithmic axis, at the
 /// geometric mean.
 #[test]
@@ -365,7 +423,7 @@ fn one_axis_is_told_in_stretches() {
         all("section_01", &[1e-3; 6]),
         all("section_02", &[2e-3; 6]),
     ];
-    let axes = vec![AxisShown::of(&case, "clearance", &clearances, false)];
+    let axes = vec![axis(&case, SweepParameter::Clearance, &clearances)];
     let found = files(&swept(&case, axes, &columns));
     let text = &found[Path::new("sweep.md")];
     for line in [
@@ -392,7 +450,7 @@ fn what_was_followed_up_and_down_shows_its_hysteresis() {
         all("peak_down", &[1.01e-3, 2e-3, 7e-3, 7e-3, 5e-3, 4e-3]),
     ];
     let values = [8.0, 8.1, 8.2, 8.3, 8.4, 8.5];
-    let axes = vec![AxisShown::of(&case, "frequency", &values, false)];
+    let axes = vec![axis(&case, SweepParameter::Frequency, &values)];
     let found = files(&swept(&case, axes, &columns));
     let text = &found[Path::new("sweep.md")];
     let line = "> Hysteresis: from 8.20 Hz to 8.30 Hz two symmetric impacts per period (peak 3.00 mm) up, strongly modulated response (peak 7.00 mm) down.";
@@ -403,8 +461,8 @@ fn what_was_followed_up_and_down_shows_its_hysteresis() {
     assert_eq!(strip[0].rows, [[a, a, a, a, b, b], [a, a, b, b, b, b]], "up above down");
     // Over two axes, a panel for each way.
     let axes = vec![
-        AxisShown::of(&case, "clearance", &[0.01, 0.02], false),
-        AxisShown::of(&case, "frequency", &values[..3], false),
+        axis(&case, SweepParameter::Clearance, &[0.01, 0.02]),
+        axis(&case, SweepParameter::Frequency, &values[..3]),
     ];
     let found = files(&swept(&case, axes, &columns));
     let maps = shown(&found[Path::new("figures/sweep-regimes.svg")]);
@@ -419,7 +477,7 @@ fn what_was_followed_up_and_down_shows_its_hysteresis() {
 fn of_three_axes_some_slices_are_shown() {
     let case = case();
     let restitutions: Vec<f64> = (0..11).map(|k| 0.4 + 0.05 * f64::from(k)).collect();
-    let mut axes = vec![AxisShown::of(&case, "restitution", &restitutions, false)];
+    let mut axes = vec![axis(&case, SweepParameter::Restitution, &restitutions)];
     axes.extend(small_axes(&case));
     // Each slice is one regime: even ones symmetric, odd ones not.
     let regimes: Vec<&'static str> =
@@ -444,8 +502,8 @@ fn of_three_axes_some_slices_are_shown() {
 fn a_map_of_starts_is_one_of_basins() {
     let case = case();
     let axes = vec![
-        AxisShown::of(&case, "initial_displacement", &[-0.01, 0.0, 0.01], false),
-        AxisShown::of(&case, "initial_velocity", &[-0.5, 0.5], false),
+        axis(&case, SweepParameter::InitialDisplacement, &[-0.01, 0.0, 0.01]),
+        axis(&case, SweepParameter::InitialVelocity, &[-0.5, 0.5]),
     ];
     let columns = [
         texts("regime", &[SYM, SYM, SYM, SMR, SYM, SMR]),
@@ -477,7 +535,7 @@ fn words_neither_touch_nor_are_cut() {
     let columns = small_columns();
     let two = swept(&case, small_axes(&case), &columns);
     let restitutions = [0.3, 0.6, 0.9];
-    let mut axes = vec![AxisShown::of(&case, "restitution", &restitutions, false)];
+    let mut axes = vec![axis(&case, SweepParameter::Restitution, &restitutions)];
     axes.extend(small_axes(&case));
     let regimes: Vec<&'static str> = (0..24).map(|point| [SYM, ASY, SMR, LOW][point % 4]).collect();
     let areas: Vec<&'static str> =
@@ -520,8 +578,8 @@ fn a_large_map_of_noise_stays_light() {
         (0..COUNT).map(|k| from + (to - from) * k as f64 / (COUNT - 1) as f64).collect()
     };
     let axes = vec![
-        AxisShown::of(&case, "clearance", &values(0.005, 0.04), false),
-        AxisShown::of(&case, "frequency", &values(8.0, 8.7), false),
+        axis(&case, SweepParameter::Clearance, &values(0.005, 0.04)),
+        axis(&case, SweepParameter::Frequency, &values(8.0, 8.7)),
     ];
     let swept = swept(&case, axes, &columns);
     let first = files(&swept);

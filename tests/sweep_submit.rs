@@ -5,6 +5,8 @@
 
 #![cfg(unix)]
 
+mod common;
+
 use std::fs;
 use std::os::unix::fs::PermissionsExt as _;
 use std::path::{Path, PathBuf};
@@ -13,14 +15,14 @@ use std::time::{Duration, Instant};
 
 use tempfile::TempDir;
 
-/// Table 1 of Li, Seguy, Berlioz (2016), hardly simulated, in five chunks.
-const CASE: &str = "title = \"a map\"\nsource = \"Table 1 of Li, Seguy, Berlioz 2016\"\n\
-    [oscillator]\nmass = \"4.168 kg\"\nstiffness = \"11.47 kN/m\"\ndamping = \"3.02 N s/m\"\n\
-    [absorber]\nmass = \"32 g\"\nclearance = \"20 mm\"\nrestitution = 0.6\n\
-    [excitation]\nkind = \"base-displacement\"\namplitude = \"0.25 mm\"\nfrequency = \"8.35 Hz\"\n\
-    [sweep]\nstarts = 1\nperiods = 48\n\
+/// Hardly simulated, in five chunks.
+const SWEEP: &str = "[sweep]\nstarts = 1\nperiods = 48\n\
     clearance = { from = \"5 mm\", to = \"40 mm\", count = 80 }\n\
     frequency = { from = \"8 Hz\", to = \"8.7 Hz\", count = 64 }\n";
+
+fn case() -> String {
+    format!("{}{SWEEP}", common::table_1_case())
+}
 
 /// Variables of an engine that the tests themselves may run under.
 const ENGINES: [&str; 4] = ["SLURM_ARRAY_TASK_ID", "HQ_TASK_ID", "SLURM_CPUS_PER_TASK", "HQ_CPUS"];
@@ -34,7 +36,7 @@ impl Place {
     fn new() -> Self {
         let folder = TempDir::new().expect("a folder");
         fs::create_dir(folder.path().join("bin")).expect("made");
-        fs::write(folder.path().join("map.toml"), CASE).expect("written");
+        fs::write(folder.path().join("map.toml"), case()).expect("written");
         Self { folder }
     }
 
@@ -165,7 +167,7 @@ fn slurm_gets_an_array_and_a_merge_after_it() {
         &script("merge.sh"),
     ];
     assert_eq!(place.calls(), [tasks.as_slice(), merge.as_slice()]);
-    assert_eq!(read(&folder.join("map.toml")), CASE);
+    assert_eq!(read(&folder.join("map.toml")), case());
     let text = read(&folder.join("tasks.sh"));
     // Slurm reads its directives up to the first line that is neither one nor a comment.
     let head: Vec<&str> = text.lines().take_while(|line| line.starts_with('#')).collect();

@@ -1,6 +1,6 @@
 //! Areas Z1 to Z4 and the strips A1 and A2 (sections 3.2 and 3.3, Figs. 5 and 6c).
 
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 use super::boundaries::Boundaries;
 use super::fixed_points::FixedPoint;
@@ -8,7 +8,7 @@ use super::manifold::Branch;
 use crate::system::System;
 
 /// The areas of Fig. 5a.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Area {
     /// More than two impacts per period.
     Z1,
@@ -20,13 +20,53 @@ pub enum Area {
     Z4,
 }
 
+impl Area {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Z1, Self::Z2, Self::Z3, Self::Z4];
+
+    /// Its name in the paper, in results and in documents.
+    pub const fn key(self) -> &'static str {
+        match self {
+            Self::Z1 => "Z1",
+            Self::Z2 => "Z2",
+            Self::Z3 => "Z3",
+            Self::Z4 => "Z4",
+        }
+    }
+}
+
+impl Serialize for Area {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.key())
+    }
+}
+
 /// The transition strips of Fig. 6c.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Strip {
     /// Hysteresis: steady 1:1 resonance beside a modulated response.
     A1,
     /// Beat motion: strongly modulated response.
     A2,
+}
+
+impl Strip {
+    /// Both of them.
+    pub const ALL: [Self; 2] = [Self::A1, Self::A2];
+
+    /// Its name in the paper, in results and in documents.
+    pub const fn key(self) -> &'static str {
+        match self {
+            Self::A1 => "A1",
+            Self::A2 => "A2",
+        }
+    }
+}
+
+impl Serialize for Strip {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.key())
+    }
 }
 
 /// Where closed form puts a system. The line between Z2 and Z1 is a grazing of the absorber, which
@@ -41,6 +81,11 @@ pub struct Zone {
 }
 
 impl Zone {
+    /// The name in results of an area that is Z1 or Z2, closed form cannot tell which;
+    pub const UNSETTLED: &'static str = "Z1|Z2";
+    /// and its name in a sentence.
+    pub const UNSETTLED_WORDS: &'static str = "Z1 or Z2";
+
     /// Places a system by its fixed points and the Hopf boundary.
     pub fn of(system: &System, fixed_points: &[FixedPoint], boundaries: &Boundaries) -> Self {
         let on = |branch| fixed_points.iter().any(|point| point.branch == branch);
@@ -62,14 +107,18 @@ impl Zone {
         self.area == Some(Area::Z3)
     }
 
+    /// The name of its area in results.
+    pub fn area_key(&self) -> &'static str {
+        self.area.map_or(Self::UNSETTLED, Area::key)
+    }
+
     /// What a table calls it.
     pub fn words(&self) -> &'static str {
         match (self.area, self.strip) {
             (_, Some(Strip::A1)) => "strip A1",
             (_, Some(Strip::A2)) => "strip A2",
-            (Some(Area::Z3), None) => "Z3",
-            (Some(Area::Z4), None) => "Z4",
-            _ => "Z1 or Z2",
+            (Some(area @ (Area::Z3 | Area::Z4)), None) => area.key(),
+            _ => Self::UNSETTLED_WORDS,
         }
     }
 }

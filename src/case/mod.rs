@@ -3,7 +3,7 @@
 //!
 //! A case is TOML. It gives a design either in physical units (`[oscillator]`, `[absorber]`,
 //! `[excitation]`) or dimensionless (`[reduced]`), and may carry settings in optional tables. To
-//! add an optional table: a file like `simulation.rs`, a line in `TABLES`, a field in [`Case`] and
+//! add an optional table: a file like `simulation.rs`, a line in `OWN_TABLES`, a field in [`Case`] and
 //! one in the schema.
 
 mod accuracy;
@@ -29,7 +29,6 @@ mod sweep;
 mod table;
 mod uncertainty;
 
-use sha2::{Digest, Sha256};
 use toml::de::DeTable;
 
 pub use accuracy::AccuracySettings;
@@ -53,6 +52,7 @@ pub use simulation::SimulationSettings;
 pub use sweep::{Layer, Recorded, SweepAxis, SweepParameter, SweepSettings};
 pub use uncertainty::{Distribution, Uncertainty};
 
+use crate::digest::sha256;
 use crate::system::System;
 use reader::Reader;
 use table::Table;
@@ -99,7 +99,21 @@ pub enum Design {
 }
 
 /// Every table with the keys it may have; the top level is "".
-const TABLES: &[(&str, &[&str])] = &[
+const TABLES: &[(&str, &[&str])] = &{
+    let mut tables = [("", &[] as &[&str]); OWN_TABLES.len() + SweepParameter::ALL.len()];
+    let mut k = 0;
+    while k < tables.len() {
+        tables[k] = if k < OWN_TABLES.len() {
+            OWN_TABLES[k]
+        } else {
+            (SweepParameter::ALL[k - OWN_TABLES.len()].key(), sweep::AXIS_KEYS)
+        };
+        k += 1;
+    }
+    tables
+};
+/// Those without the axes of a sweep, which are tables in `[sweep]`.
+const OWN_TABLES: &[(&str, &[&str])] = &[
     (
         "",
         &[
@@ -131,21 +145,6 @@ const TABLES: &[(&str, &[&str])] = &[
     (optimize::TABLE, optimize::KEYS),
     (uncertainty::TABLE, uncertainty::KEYS),
     (sweep::TABLE, sweep::KEYS),
-    (sweep::SweepParameter::ALL[0].key(), sweep::AXIS_KEYS),
-    (sweep::SweepParameter::ALL[1].key(), sweep::AXIS_KEYS),
-    (sweep::SweepParameter::ALL[2].key(), sweep::AXIS_KEYS),
-    (sweep::SweepParameter::ALL[3].key(), sweep::AXIS_KEYS),
-    (sweep::SweepParameter::ALL[4].key(), sweep::AXIS_KEYS),
-    (sweep::SweepParameter::ALL[5].key(), sweep::AXIS_KEYS),
-    (sweep::SweepParameter::ALL[6].key(), sweep::AXIS_KEYS),
-    (sweep::SweepParameter::ALL[7].key(), sweep::AXIS_KEYS),
-    (sweep::SweepParameter::ALL[8].key(), sweep::AXIS_KEYS),
-    (sweep::SweepParameter::ALL[9].key(), sweep::AXIS_KEYS),
-    (sweep::SweepParameter::ALL[10].key(), sweep::AXIS_KEYS),
-    (sweep::SweepParameter::ALL[11].key(), sweep::AXIS_KEYS),
-    (sweep::SweepParameter::ALL[12].key(), sweep::AXIS_KEYS),
-    (sweep::SweepParameter::ALL[13].key(), sweep::AXIS_KEYS),
-    (sweep::SweepParameter::ALL[14].key(), sweep::AXIS_KEYS),
 ];
 
 const STARTING_CASE: &str = include_str!("starting_case.toml");
@@ -166,7 +165,7 @@ impl Case {
         let mut reader = Reader::new(visible, TABLES);
         match read(&mut reader, &document) {
             Some(case) if reader.problems.is_empty() => {
-                Ok(Self { text_hash: sha256(text), inputs: reader.inputs, ..case })
+                Ok(Self { text_hash: sha256(text.as_bytes()), inputs: reader.inputs, ..case })
             }
             _ => Err(CaseError::new(name, visible, reader.problems)),
         }
@@ -270,8 +269,4 @@ fn system_of(reader: &mut Reader, root: &Table, design: &Design) -> Option<Syste
     let help = "check the units: one value is many orders of magnitude away from the others";
     reader.report(root.span_of(table), message, format!("expected {}", error.expected), help);
     None
-}
-
-fn sha256(text: &str) -> String {
-    Sha256::digest(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect()
 }

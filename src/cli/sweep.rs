@@ -2,6 +2,7 @@
 
 mod results;
 mod submit;
+mod task;
 
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -106,11 +107,11 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
     match (arguments.verb, arguments.sweep) {
         (Some(Verb::Plan(at)), _) => plan(&Sweep::open(&at)?),
         (Some(Verb::Run { sweep, chunk, every, threads }), _) => {
-            submit::keep_to_processors(threads)?;
+            task::keep_to_processors(threads)?;
             let sweep = Sweep::open(&sweep)?;
-            let wanted = match chunk.map_or_else(numbered, |chunk| Ok(Some(chunk)))? {
+            let wanted = match chunk.map_or_else(task::numbered, |chunk| Ok(Some(chunk)))? {
                 Some(chunk) if chunk < sweep.plan.chunks() => match every {
-                    Some(step) => submit::share(chunk, step, sweep.plan.chunks()),
+                    Some(step) => task::share(chunk, step, sweep.plan.chunks()),
                     None => vec![chunk],
                 },
                 Some(chunk) => {
@@ -145,18 +146,6 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
             "there is no case to sweep"
         )),
     }
-}
-
-/// The chunk that the engine which started this process has given it. HyperQueue runs inside Slurm's jobs
-/// and not the other way around, so its word counts first.
-fn numbered() -> Result<Option<u64>> {
-    for name in ["HQ_TASK_ID", "SLURM_ARRAY_TASK_ID"] {
-        if let Ok(text) = std::env::var(name) {
-            let number = text.parse().map_err(|_| miette!("{name} is {text}, no number"))?;
-            return Ok(Some(number));
-        }
-    }
-    Ok(None)
 }
 
 /// A sweep and where its results are.
@@ -243,13 +232,21 @@ fn plan(sweep: &Sweep) -> Result<Outcome> {
     let Plan { settings, .. } = &sweep.plan;
     let axes: Vec<String> =
         settings.axes.iter().map(|axis| axis.values.len().to_string()).collect();
+    let motions = match (settings.axes.last(), settings.starts) {
+        (Some(axis), _) if settings.follow => {
+            format!("motions followed along {} up and down", axis.parameter.key())
+        }
+        (_, 1) => "1 start each".to_owned(),
+        (_, starts) => format!("{starts} starts each"),
+    };
+    let chunks = match sweep.plan.chunks() {
+        1 => "1 chunk (0)".to_owned(),
+        chunks => format!("{chunks} chunks (0 to {})", chunks - 1),
+    };
     output::print(format!(
-        "{} = {} points, {} starts each, in {} chunks (0 to {})\n",
+        "{} = {} points, {motions}, in {chunks}\n",
         axes.join(" x "),
-        sweep.plan.points(),
-        settings.starts,
-        sweep.plan.chunks(),
-        sweep.plan.chunks() - 1
+        sweep.plan.points()
     ))?;
     Ok(Outcome::Done)
 }

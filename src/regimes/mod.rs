@@ -18,7 +18,7 @@ pub mod sequence;
 pub mod share;
 pub mod starts;
 
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 use crate::simulation::{Gauge, Impact, Statistics};
 pub use attractor::Attractor;
@@ -31,8 +31,7 @@ pub use search::FoundAttractor;
 pub use sequence::ImpactSequence;
 
 /// The regimes of section 3.1, and rest.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Regime {
     /// No impacts at all: the absorber stands still and the oscillator vibrates as if alone.
     AtRest,
@@ -49,6 +48,45 @@ pub enum Regime {
 }
 
 impl Regime {
+    /// Every regime, from many impacts to none.
+    pub const ALL: [Self; 6] = [
+        Self::AboveTwo,
+        Self::TwoAsymmetric,
+        Self::TwoSymmetric,
+        Self::StronglyModulated,
+        Self::BelowTwo,
+        Self::AtRest,
+    ];
+
+    /// The regime's name in results and documents.
+    pub const fn key(self) -> &'static str {
+        match self {
+            Self::AtRest => "at-rest",
+            Self::AboveTwo => "above-two",
+            Self::TwoAsymmetric => "two-asymmetric",
+            Self::TwoSymmetric => "two-symmetric",
+            Self::StronglyModulated => "strongly-modulated",
+            Self::BelowTwo => "below-two",
+        }
+    }
+
+    /// The regime that results name so.
+    pub fn of_key(key: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|regime| regime.key() == key)
+    }
+
+    /// Its place in [`Regime::ALL`].
+    pub const fn index(self) -> usize {
+        match self {
+            Self::AboveTwo => 0,
+            Self::TwoAsymmetric => 1,
+            Self::TwoSymmetric => 2,
+            Self::StronglyModulated => 3,
+            Self::BelowTwo => 4,
+            Self::AtRest => 5,
+        }
+    }
+
     /// The regime in a few words.
     pub fn words(self) -> &'static str {
         match self {
@@ -76,6 +114,12 @@ impl Regime {
     /// Whether two impacts happen in every period.
     pub fn is_two_per_period(self) -> bool {
         matches!(self, Self::TwoAsymmetric | Self::TwoSymmetric)
+    }
+}
+
+impl Serialize for Regime {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.key())
     }
 }
 
@@ -259,5 +303,27 @@ impl Signs {
         let limit =
             if self.repeats { thresholds.asymmetry } else { thresholds.asymmetry_modulated };
         if self.asymmetry > limit { Regime::TwoAsymmetric } else { Regime::TwoSymmetric }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Results and reports that are stored already are read by these names.
+    #[test]
+    fn names_in_results_stay_as_they_are() {
+        let keys = [
+            "above-two",
+            "two-asymmetric",
+            "two-symmetric",
+            "strongly-modulated",
+            "below-two",
+            "at-rest",
+        ];
+        assert_eq!(Regime::ALL.map(Regime::key), keys);
+        assert_eq!(Regime::ALL.map(Regime::index), [0, 1, 2, 3, 4, 5]);
+        assert_eq!(keys.map(Regime::of_key), Regime::ALL.map(Some));
+        assert_eq!(Regime::of_key("at rest"), None);
     }
 }

@@ -5,8 +5,9 @@ use std::fs::File;
 use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
 
-use sha2::{Digest, Sha256};
 use tempfile::NamedTempFile;
+
+use crate::digest::sha256;
 
 use super::{StoreError, TEMPORARY, folder_of, ordinary, refused, unsynced_file};
 
@@ -39,9 +40,7 @@ impl Shards {
 
     /// What the seal of a chunk must say.
     fn seal(&self, chunk: u64, bytes: &[u8]) -> String {
-        let digest = Sha256::digest(bytes);
-        let digest: String = digest.iter().map(|byte| format!("{byte:02x}")).collect();
-        format!("sweep {}\nchunk {chunk}\nsha256 {digest}\n", self.identity)
+        format!("sweep {}\nchunk {chunk}\nsha256 {}\n", self.identity, sha256(bytes))
     }
 
     /// Keeps the results of a chunk: first the file, then its seal, each whole or not at all.

@@ -1,7 +1,8 @@
 //! What is recorded of points, as columns with names and units.
 
 use super::Plan;
-use super::facts::{Facts, Found, area_name, strip_name};
+use super::facts::{Facts, Found};
+use crate::analysis::{Area, Strip, Zone};
 use crate::case::{Design, Layer, Recorded};
 use crate::regimes::Regime;
 
@@ -175,8 +176,8 @@ pub(super) fn push(plan: &Plan, columns: &mut [Column], facts: &Facts) {
         let found = facts.found.get(way.unwrap_or(0)).unwrap_or(&nothing);
         match recorded {
             Recorded::Area => {
-                put(Cell::Text(facts.zone.map(area_name)));
-                put(Cell::Text(facts.zone.and_then(strip_name)));
+                put(Cell::Text(facts.zone.map(|zone| zone.area_key())));
+                put(Cell::Text(facts.zone.and_then(|zone| zone.strip).map(Strip::key)));
             }
             Recorded::Section => {
                 for k in 0..SECTION {
@@ -204,7 +205,7 @@ fn cell(recorded: Recorded, facts: &Facts, found: &Found) -> Cell {
         Recorded::OrbitMultiplier => {
             Cell::Number(facts.orbit.as_ref().map(|orbit| orbit.orbit.radius_per_period()))
         }
-        Recorded::Regime => Cell::Text(main.map(|motion| regime_name(motion.regime))),
+        Recorded::Regime => Cell::Text(main.map(|motion| motion.regime.key())),
         Recorded::ImpactsPerPeriod => Cell::Number(main.map(|motion| motion.impacts_per_period)),
         Recorded::Peak => Cell::Number(main.map(|motion| length(motion.peak))),
         Recorded::Rms => Cell::Number(main.map(|motion| length(motion.rms))),
@@ -240,34 +241,10 @@ fn cell(recorded: Recorded, facts: &Facts, found: &Found) -> Cell {
     }
 }
 
-/// The regimes, by the names that results have for them.
-pub const REGIMES: [(Regime, &str); 6] = [
-    (Regime::AtRest, "at-rest"),
-    (Regime::AboveTwo, "above-two"),
-    (Regime::TwoAsymmetric, "two-asymmetric"),
-    (Regime::TwoSymmetric, "two-symmetric"),
-    (Regime::StronglyModulated, "strongly-modulated"),
-    (Regime::BelowTwo, "below-two"),
-];
-
-/// Every word that a column of words may hold.
-pub(super) const WORDS: [&str; 13] = [
-    "at-rest",
-    "above-two",
-    "two-asymmetric",
-    "two-symmetric",
-    "strongly-modulated",
-    "below-two",
-    "Z1",
-    "Z2",
-    "Z3",
-    "Z4",
-    "Z1|Z2",
-    "A1",
-    "A2",
-];
-
-fn regime_name(regime: Regime) -> &'static str {
-    let found = REGIMES.iter().find(|(known, _)| *known == regime);
-    found.map_or("", |(_, name)| name)
+/// The word that a column of words may hold, from its bytes.
+pub(super) fn word(bytes: &[u8]) -> Option<&'static str> {
+    let regimes = Regime::ALL.map(Regime::key).into_iter();
+    let areas = Area::ALL.map(Area::key).into_iter().chain([Zone::UNSETTLED]);
+    let mut all = regimes.chain(areas).chain(Strip::ALL.map(Strip::key));
+    all.find(|word| word.as_bytes() == bytes)
 }

@@ -1,6 +1,6 @@
 //! What the layers know of a point.
 
-use crate::analysis::{Area, FixedPointCurve, Manifold, Strip, Zone, fixed_points};
+use crate::analysis::{Area, FixedPointCurve, Manifold, Zone, fixed_points};
 use crate::case::{Layer, Recorded};
 use crate::orbits::{SymmetricOrbit, attracting_orbit};
 use crate::regimes::long_term::Motion;
@@ -99,23 +99,4 @@ fn boundary_distance(system: &System, manifold: &Manifold) -> Option<f64> {
         .filter(is_boundary)
         .min_by(|a, b| near(a).total_cmp(&near(b)))?;
     (gamma > 0.0).then(|| nearest / gamma - 1.0)
-}
-
-/// A zone as a result names it: an area, or `Z1|Z2` where closed form cannot tell.
-pub(super) fn area_name(zone: Zone) -> &'static str {
-    match zone.area {
-        Some(Area::Z1) => "Z1",
-        Some(Area::Z2) => "Z2",
-        Some(Area::Z3) => "Z3",
-        Some(Area::Z4) => "Z4",
-        None => "Z1|Z2",
-    }
-}
-
-/// A strip as a result names it.
-pub(super) fn strip_name(zone: Zone) -> Option<&'static str> {
-    zone.strip.map(|strip| match strip {
-        Strip::A1 => "A1",
-        Strip::A2 => "A2",
-    })
 }

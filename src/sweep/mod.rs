@@ -10,9 +10,8 @@ pub mod work;
 
 use std::ops::Range;
 
-use sha2::{Digest, Sha256};
-
 use crate::case::{Case, Design, Layer, Scales, SweepAxis, SweepSettings};
+use crate::digest::sha256;
 use crate::system::{State, System};
 
 /// Points of a chunk, at least: about a second's work, so that little is lost with one, and a file of some
@@ -75,8 +74,7 @@ impl Plan {
             env!("CARGO_PKG_VERSION"),
             case.text_hash
         );
-        let digest = Sha256::digest(named.as_bytes());
-        let identity = digest.iter().map(|byte| format!("{byte:02x}")).collect();
+        let identity = sha256(named.as_bytes());
         Some(Self { design: case.design, settings, identity, points_per_chunk })
     }
 

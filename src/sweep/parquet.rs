@@ -14,7 +14,7 @@ use parquet::file::reader::{ChunkReader, FileReader, RowGroupReader, SerializedF
 use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::schema::types::{Type, TypePtr};
 
-use super::columns::{Column, Values, WORDS};
+use super::columns::{Column, Values, word};
 
 /// What a file says about itself besides its columns.
 pub type Notes = Vec<(String, String)>;
@@ -157,8 +157,8 @@ fn read(
         (ColumnReader::ByteArrayColumnReader(reader), Values::Text(all)) => {
             for text in optional(reader, rows)? {
                 let known = |text: &ByteArray| {
-                    let known = WORDS.into_iter().find(|word| word.as_bytes() == text.data());
-                    known.ok_or_else(|| ParquetError::General("the file has other words".into()))
+                    let other = || ParquetError::General("the file has other words".into());
+                    word(text.data()).ok_or_else(other)
                 };
                 all.push(text.as_ref().map(known).transpose()?);
             }

@@ -21,6 +21,13 @@ pub fn forcing_mm() -> f64 {
     0.25 / MASS_RATIO
 }
 
+/// The text of a shipped case, Table 1 at 8.35 Hz and 20 mm, up to its table `[sweep]`.
+pub fn table_1_case() -> &'static str {
+    let text = include_str!("../../cases/li2016-map.toml");
+    let before = text.find("\n[sweep]\n").expect("cases/li2016-map.toml has no line [sweep]");
+    &text[..=before]
+}
+
 /// Table 1 at a frequency in Hz and a clearance in mm.
 pub fn table_1(frequency_hz: f64, clearance_mm: f64) -> System {
     System::new(Parameters {

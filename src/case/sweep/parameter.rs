@@ -122,24 +122,34 @@ impl SweepParameter {
         }
     }
 
-    /// Its name and symbol in a text.
-    pub fn words(self) -> [&'static str; 2] {
+    /// Its name and symbol in a text about a design.
+    pub fn words(self, design: &Design) -> [&'static str; 2] {
+        let excitation = match design {
+            Design::Physical(physical) => Some(physical.excitation),
+            Design::Reduced(_) => None,
+        };
         match self {
             Self::Clearance => ["clearance", "b"],
-            Self::Frequency => ["excitation frequency", "f"],
+            Self::Frequency if excitation.is_none() => ["frequency ratio", "Ω"],
+            Self::Frequency => ["frequency", "f"],
             Self::Detuning => ["detuning", "σ"],
-            Self::Amplitude => ["excitation amplitude", "F"],
+            Self::Amplitude => match excitation {
+                Some(PhysicalExcitation::BaseDisplacement { .. }) => ["base displacement", "F"],
+                Some(PhysicalExcitation::Force { .. }) => ["force", "P"],
+                None => ["reduced forcing", "G"],
+            },
             Self::Restitution => ["restitution", "r"],
             Self::AbsorberMass => ["absorber mass", "m₂"],
             Self::MassRatio => ["mass ratio", "ε"],
             Self::Mass => ["oscillator mass", "m₁"],
             Self::Stiffness => ["stiffness", "k₁"],
+            Self::Damping if excitation.is_none() => ["damping", "λ"],
             Self::Damping => ["damping", "c₁"],
             Self::DampingRatio => ["damping ratio", "ζ"],
-            Self::InitialDisplacement => ["oscillator displacement at the start", "x"],
-            Self::InitialVelocity => ["oscillator velocity at the start", "ẋ"],
-            Self::InitialAbsorberDisplacement => ["absorber displacement at the start", "y"],
-            Self::InitialAbsorberVelocity => ["absorber velocity at the start", "ẏ"],
+            Self::InitialDisplacement => ["initial displacement", "x"],
+            Self::InitialVelocity => ["initial velocity", "ẋ"],
+            Self::InitialAbsorberDisplacement => ["initial displacement of the absorber", "y"],
+            Self::InitialAbsorberVelocity => ["initial velocity of the absorber", "ẏ"],
         }
     }
 
@@ -178,6 +188,15 @@ impl SweepParameter {
     /// Whether it is a ratio to other numbers of a design, so that these have to be known first.
     pub fn is_ratio(self) -> bool {
         matches!(self, Self::MassRatio | Self::DampingRatio)
+    }
+
+    /// Whether its values are lengths beside a design: in metres, or in a reduced design's own unit.
+    pub fn is_length(self, design: &Design) -> bool {
+        match self {
+            Self::Clearance | Self::InitialDisplacement | Self::InitialAbsorberDisplacement => true,
+            Self::Amplitude => self.unit(design) != Force::SI,
+            _ => false,
+        }
     }
 
     /// Another parameter that says the same of a design.

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use miette::{IntoDiagnostic, Result, WrapErr as _, miette};
-use sha2::{Digest as _, Sha256};
+use vinesink::digest::Digest;
 use vinesink::report::render;
 use vinesink::report::sweep::{AxisShown, MOST_POINTS, SweepPage, Swept};
 use vinesink::store::{self, Growing};
@@ -84,12 +84,9 @@ impl Sweep {
             results.add_to(&mut columns, group).into_diagnostic()?;
         }
         let settings = &self.plan.settings;
-        let shown_axis = |axis: &vinesink::case::SweepAxis| {
-            AxisShown::of(&self.case, axis.parameter.key(), &axis.values, axis.logarithmic)
-        };
         let swept = Swept {
             case: &self.case,
-            axes: settings.axes.iter().map(shown_axis).collect(),
+            axes: settings.axes.iter().map(|axis| AxisShown::of(&self.case, axis)).collect(),
             columns: &columns,
             starts: settings.starts,
             periods: settings.periods,
@@ -123,16 +120,16 @@ fn written_as_text(merged: &Path, path: &Path, empty: &[Column]) -> Result<()> {
 /// SHA-256 of a file, read piece by piece.
 fn checksum(path: &Path) -> Result<String> {
     let mut file = store::open(path)?;
-    let mut hash = Sha256::new();
+    let mut digest = Digest::default();
     let mut piece = vec![0; 1 << 20];
     loop {
         let read = file.read(&mut piece).into_diagnostic().wrap_err_with(|| shown(path))?;
         if read == 0 {
             break;
         }
-        hash.update(&piece[..read]);
+        digest.add(&piece[..read]);
     }
-    Ok(hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect())
+    Ok(digest.finish())
 }
 
 fn unfinished(path: &Path) -> String {

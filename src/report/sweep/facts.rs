@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::grid::{Grid, Pass};
-use super::kinds::{self, AREAS, REGIMES};
+use super::kinds::AREAS;
 use crate::regimes::Regime;
 
 /// Peaks of one motion measured twice differ by less: where it repeats, by what is left of a transient; a
@@ -38,7 +38,6 @@ pub(super) struct Facts {
 /// A regime's part of the points.
 #[derive(Debug, Clone, Serialize)]
 pub(super) struct RegimeFacts {
-    #[serde(serialize_with = "by_name")]
     pub regime: Regime,
     pub points: usize,
     /// Of the points with a regime.
@@ -76,18 +75,13 @@ pub(super) struct Group {
     pub name: &'static str,
     pub points: usize,
     /// Points of each regime, in the order from many impacts to none.
-    pub regimes: [usize; REGIMES.len()],
+    pub regimes: [usize; Regime::ALL.len()],
 }
 
 impl Group {
     pub(super) fn share(&self, regime: Regime) -> f64 {
-        let index = REGIMES.iter().position(|one| *one == regime).unwrap_or(0);
-        self.regimes[index] as f64 / self.points.max(1) as f64
+        self.regimes[regime.index()] as f64 / self.points.max(1) as f64
     }
-}
-
-fn by_name<S: serde::Serializer>(regime: &Regime, to: S) -> Result<S::Ok, S::Error> {
-    to.serialize_str(kinds::name(*regime))
 }
 
 /// Smallest and largest of the values that are there.
@@ -127,17 +121,16 @@ impl Facts {
         };
         let worked_out = (0..points).filter(|point| there(*point)).count();
         let group = |name: &'static str, within: &dyn Fn(usize) -> bool| {
-            let mut group = Group { name, points: 0, regimes: [0; REGIMES.len()] };
+            let mut group = Group { name, points: 0, regimes: [0; Regime::ALL.len()] };
             for (point, regime) in regimes.iter().flatten().enumerate() {
                 let Some(regime) = regime.filter(|_| within(point)) else { continue };
                 group.points += 1;
-                let index = REGIMES.iter().position(|one| *one == regime).unwrap_or(0);
-                group.regimes[index] += 1;
+                group.regimes[regime.index()] += 1;
             }
             group
         };
         let all = group("", &|_| true);
-        let of_regime = |(index, regime): (usize, Regime)| {
+        let of_regime = |regime: Regime| {
             let of = |values: &Option<Vec<Option<f64>>>| {
                 let values = values.as_ref()?;
                 let here = regimes.iter().flatten().enumerate();
@@ -145,14 +138,14 @@ impl Facts {
             };
             RegimeFacts {
                 regime,
-                points: all.regimes[index],
+                points: all.regimes[regime.index()],
                 share: all.share(regime),
                 peak: of(&peak),
                 reduction_db: of(&reduction),
                 impacts_per_period: of(&rate),
             }
         };
-        let found = REGIMES.into_iter().enumerate().map(of_regime);
+        let found = Regime::ALL.into_iter().map(of_regime);
         let areas = grid.text("area", Pass::Single);
         let by_area = areas.iter().flat_map(|areas| {
             AREAS.iter().map(|(area, _)| group(area, &|point| areas[point] == Some(*area)))

@@ -1,6 +1,7 @@
 //! The table of a sweep, looked at by axes, slices and passes.
 
-use super::{AxisShown, Swept, kinds};
+use super::{AxisShown, Swept};
+use crate::case::SweepParameter;
 use crate::regimes::Regime;
 use crate::report::numbers::LengthFormat;
 use crate::sweep::columns::Values;
@@ -115,17 +116,21 @@ impl<'a> Grid<'a> {
 
     pub(super) fn regimes(&self, pass: Pass) -> Option<Vec<Option<Regime>>> {
         let regimes = self.text("regime", pass)?.iter();
-        Some(regimes.map(|name| name.and_then(kinds::named)).collect())
+        Some(regimes.map(|name| name.and_then(Regime::of_key)).collect())
     }
 
     /// The last two axes; `None` where there is only one.
     pub(super) fn plane(&self) -> Option<Plane<'a>> {
+        use SweepParameter::{
+            Clearance, Detuning, Frequency, InitialAbsorberDisplacement, InitialAbsorberVelocity,
+            InitialDisplacement, InitialVelocity,
+        };
         let [.., first, last] = self.swept.axes.as_slice() else { return None };
         // A frequency lies along the page and a clearance up it, as in every other figure.
-        let lies = |axis: &AxisShown| match axis.key.as_str() {
-            "frequency" | "frequency_ratio" | "detuning" => 3,
-            "initial_displacement" | "initial_absorber_displacement" => 2,
-            "clearance" | "initial_velocity" | "initial_absorber_velocity" => 0,
+        let lies = |axis: &AxisShown| match axis.parameter {
+            Frequency | Detuning => 3,
+            InitialDisplacement | InitialAbsorberDisplacement => 2,
+            Clearance | InitialVelocity | InitialAbsorberVelocity => 0,
             _ => 1,
         };
         let x_is_last = lies(last) > lies(first);
@@ -133,33 +138,32 @@ impl<'a> Grid<'a> {
         Some(Plane { x, y, x_is_last })
     }
 
+    /// The axes besides those of the plane.
+    fn others(&self) -> &'a [AxisShown] {
+        let axes = self.swept.axes.as_slice();
+        &axes[..axes.len().saturating_sub(2)]
+    }
+
     /// Number of planes, one for each combination of the other axes' values.
     pub(super) fn slices(&self) -> usize {
-        let others = self.swept.axes.len().saturating_sub(2);
-        self.swept.axes[..others].iter().map(|axis| axis.values.len()).product()
+        self.others().iter().map(|axis| axis.values.len()).product()
     }
 
     /// The values of the other axes at a slice, in words.
     pub(super) fn slice_words(&self, slice: usize) -> String {
-        let others = self.swept.axes.len().saturating_sub(2);
-        let mut rest = slice;
-        let mut words: Vec<String> = Vec::new();
-        for axis in self.swept.axes[..others].iter().rev() {
-            words.push(axis.text(rest % axis.values.len()));
-            rest /= axis.values.len();
-        }
-        words.reverse();
-        words.join(", ")
+        let first = slice * (self.points() / self.slices());
+        self.words(self.others(), first)
     }
 
     /// Where a point lies, in words.
     pub(super) fn place(&self, point: usize) -> String {
-        let words: Vec<String> = self
-            .indices(point)
-            .iter()
-            .zip(&self.swept.axes)
-            .map(|(k, axis)| axis.text(*k))
-            .collect();
+        self.words(&self.swept.axes, point)
+    }
+
+    /// Where a point lies on the first axes.
+    fn words(&self, axes: &[AxisShown], point: usize) -> String {
+        let indices = self.indices(point);
+        let words: Vec<String> = axes.iter().zip(&indices).map(|(axis, k)| axis.text(*k)).collect();
         words.join(", ")
     }
 

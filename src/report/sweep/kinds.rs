@@ -1,33 +1,8 @@
 //! How regimes, areas and counts are named and coloured.
 
+use crate::analysis::{Area, Zone};
 use crate::regimes::Regime;
 use crate::report::figure::{Color, Marker, Shape, Tint};
-
-/// Every regime, from many impacts to none.
-pub(super) const REGIMES: [Regime; 6] = [
-    Regime::AboveTwo,
-    Regime::TwoAsymmetric,
-    Regime::TwoSymmetric,
-    Regime::StronglyModulated,
-    Regime::BelowTwo,
-    Regime::AtRest,
-];
-
-/// A regime's name in a table of results.
-pub(super) const fn name(regime: Regime) -> &'static str {
-    match regime {
-        Regime::AtRest => "at-rest",
-        Regime::AboveTwo => "above-two",
-        Regime::TwoAsymmetric => "two-asymmetric",
-        Regime::TwoSymmetric => "two-symmetric",
-        Regime::StronglyModulated => "strongly-modulated",
-        Regime::BelowTwo => "below-two",
-    }
-}
-
-pub(super) fn named(text: &str) -> Option<Regime> {
-    REGIMES.into_iter().find(|regime| name(*regime) == text)
-}
 
 /// A regime's tint: the hues of the Okabe-Ito palette at lightnesses of their own (58, 67, 84, 75, 92 and 97
 /// of 100), so that they stay apart in a grey print and for readers with any common colour vision.
@@ -56,16 +31,16 @@ pub(super) const fn mark(regime: Regime) -> (Marker, Color) {
 
 /// The theory's areas as results name them, and their tints where they are all that is drawn.
 pub(super) const AREAS: [(&str, Tint); 5] = [
-    ("Z1", tint(Regime::AboveTwo)),
-    ("Z1|Z2", Tint([0x9A, 0x9C, 0xC4])),
-    ("Z2", tint(Regime::TwoAsymmetric)),
-    ("Z3", tint(Regime::TwoSymmetric)),
-    ("Z4", tint(Regime::StronglyModulated)),
+    (Area::Z1.key(), tint(Regime::AboveTwo)),
+    (Zone::UNSETTLED, Tint([0x9A, 0x9C, 0xC4])),
+    (Area::Z2.key(), tint(Regime::TwoAsymmetric)),
+    (Area::Z3.key(), tint(Regime::TwoSymmetric)),
+    (Area::Z4.key(), tint(Regime::StronglyModulated)),
 ];
 
 /// An area as a sentence names it.
 pub(super) fn area_words(area: &str) -> &str {
-    if area == "Z1|Z2" { "Z1 or Z2" } else { area }
+    if area == Zone::UNSETTLED { Zone::UNSETTLED_WORDS } else { area }
 }
 
 /// Tints of the number of motions found: none, one, two, three, four and more.

@@ -4,7 +4,6 @@ use serde::Serialize;
 
 use super::facts::{Facts, Group};
 use super::grid::{Grid, Pass};
-use super::kinds::REGIMES;
 use super::words::{from_to, signed};
 use crate::regimes::Regime;
 use crate::report::numbers::{percent_sharply, significant};
@@ -161,7 +160,7 @@ fn contingency(facts: &Facts, groups: &[&Group]) -> Table {
     let more = shown.len() > own;
     shown.truncate(own);
     let mut shown: Vec<Regime> = shown.into_iter().map(|one| one.regime).collect();
-    shown.sort_by_key(|regime| REGIMES.iter().position(|one| one == regime));
+    shown.sort_by_key(|regime| regime.index());
     let mut columns =
         vec![Column { title: "Where", numeric: false }, Column { title: "Points", numeric: true }];
     columns.extend(shown.iter().map(|regime| Column { title: regime.short(), numeric: true }));
@@ -174,8 +173,8 @@ fn contingency(facts: &Facts, groups: &[&Group]) -> Table {
         let mut row = vec![name, group.points.to_string()];
         row.extend(shown.iter().map(|regime| percent_sharply(group.share(*regime))));
         if more {
-            let rest = REGIMES.iter().filter(|regime| !shown.contains(regime));
-            let rest: f64 = rest.map(|regime| group.share(*regime)).sum();
+            let rest = Regime::ALL.into_iter().filter(|regime| !shown.contains(regime));
+            let rest: f64 = rest.map(|regime| group.share(regime)).sum();
             row.push(percent_sharply(rest));
         }
         row

@@ -4,6 +4,7 @@ use super::AxisShown;
 use super::facts::{Extreme, Facts};
 use super::grid::{Grid, Pass};
 use super::kinds::area_words;
+use crate::analysis::Area;
 use crate::regimes::Regime;
 use crate::report::numbers::{MINUS, capitalised, percent_sharply, significant};
 
@@ -198,8 +199,9 @@ impl Words<'_> {
 
     /// Where closed form and simulation agree.
     fn theory(&self, facts: &Facts) -> Option<String> {
-        let inside = facts.areas.iter().find(|group| group.name == "Z3");
-        let outside: Vec<_> = facts.areas.iter().filter(|group| group.name != "Z3").collect();
+        let inside = facts.areas.iter().find(|group| group.name == Area::Z3.key());
+        let outside: Vec<_> =
+            facts.areas.iter().filter(|group| group.name != Area::Z3.key()).collect();
         let (points, symmetric) = outside.iter().fold((0, 0.0), |(points, symmetric), group| {
             let of = group.share(Regime::TwoSymmetric) * group.points as f64;
             (points + group.points, symmetric + of)

@@ -2,7 +2,7 @@
 
 use super::super::AxisShown;
 use super::super::grid::{Grid, Pass};
-use super::super::kinds::{self, REGIMES};
+use super::super::kinds;
 use crate::regimes::Regime;
 use crate::report::figure::{Axis, Tick};
 use crate::report::figure::{
@@ -149,7 +149,7 @@ fn by_regime(axis: &AxisShown, values: &[Option<f64>], regimes: &[Option<Regime>
         let (marker, color) = kinds::mark(regime);
         (!here.is_empty()).then(|| Layer::marked(marker, color, here).labelled(regime.short()))
     };
-    REGIMES.into_iter().filter_map(of).collect()
+    Regime::ALL.into_iter().filter_map(of).collect()
 }
 
 /// The regimes of each pass as a row of colours, and those that occur.
@@ -157,10 +157,10 @@ fn strip(grid: &Grid, axis: &AxisShown, passes: &[Pass]) -> Option<(Panel, Vec<R
     let rows: Option<Vec<Vec<Option<Regime>>>> =
         passes.iter().map(|pass| grid.regimes(*pass)).collect();
     let rows = rows?;
-    let index = |regime: Regime| REGIMES.iter().position(|one| *one == regime).map(|k| k as u8);
     // The first pass above the second.
-    let cells = rows.iter().rev().flatten().map(|regime| regime.and_then(index)).collect();
-    let tints: Vec<Tint> = REGIMES.map(kinds::tint).to_vec();
+    let cells =
+        rows.iter().rev().flatten().map(|regime| regime.map(|one| one.index() as u8)).collect();
+    let tints: Vec<Tint> = Regime::ALL.map(kinds::tint).to_vec();
     let image = Image {
         x_edges: axis.edges(),
         y_edges: (0..=rows.len()).map(|k| k as f64).collect(),
@@ -173,8 +173,9 @@ fn strip(grid: &Grid, axis: &AxisShown, passes: &[Pass]) -> Option<(Panel, Vec<R
         .enumerate()
         .map(|(row, pass)| Tick { value: row as f64 + 0.5, label: Some(name(pass).to_owned()) });
     let y = Axis::linear("").with_range(0.0, rows.len() as f64).with_ticks(ticks.collect());
-    let present =
-        REGIMES.into_iter().filter(|regime| rows.iter().flatten().any(|one| *one == Some(*regime)));
+    let present = Regime::ALL
+        .into_iter()
+        .filter(|regime| rows.iter().flatten().any(|one| *one == Some(*regime)));
     Some((Panel::new(horizontal(axis), y).with(Layer::Image(image)), present.collect()))
 }
 

@@ -2,7 +2,7 @@
 
 use super::super::AxisShown;
 use super::super::grid::{Grid, Pass, Plane};
-use super::super::kinds::{self, AREAS, COUNTS, REGIMES};
+use super::super::kinds::{self, AREAS, COUNTS};
 use super::overlay::{self, Overlay};
 use crate::regimes::Regime;
 use crate::report::figure::{
@@ -175,16 +175,15 @@ impl<'a> Panels<'a> {
         let of = |pass| self.grid.regimes(pass);
         let all: Vec<(Pass, Vec<Option<Regime>>)> =
             self.grid.passes().into_iter().filter_map(|pass| Some((pass, of(pass)?))).collect();
-        let index = |regime: Regime| REGIMES.iter().position(|one| *one == regime);
         let content = |slice: usize, pass: Pass| {
             let (_, regimes) = all.iter().find(|(of, _)| *of == pass)?;
             let cells = self.plane.cells(regimes, slice);
-            let cells = cells.iter().map(|regime| Some(index((*regime)?)? as u8)).collect();
-            Some(Cells::Kinds(REGIMES.map(kinds::tint).to_vec(), cells))
+            let cells = cells.iter().map(|regime| Some((*regime)?.index() as u8)).collect();
+            Some(Cells::Kinds(Regime::ALL.map(kinds::tint).to_vec(), cells))
         };
         let present =
             |regime: &Regime| all.iter().any(|(_, regimes)| regimes.contains(&Some(*regime)));
-        let mut keys: Vec<(Tint, String)> = REGIMES
+        let mut keys: Vec<(Tint, String)> = Regime::ALL
             .into_iter()
             .filter(present)
             .map(|regime| (kinds::tint(regime), regime.words().to_owned()))

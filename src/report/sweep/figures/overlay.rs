@@ -4,7 +4,7 @@ use super::super::grid::{Grid, Pass, Plane};
 use super::super::kinds::{AREAS, area_words};
 use super::contours;
 use crate::analysis::Manifold;
-use crate::case::Case;
+use crate::case::{Case, SweepParameter};
 use crate::orbits::Limit;
 use crate::orbits::boundaries::over_frequency;
 use crate::report::figure::{Color, Dash, Label, Layer, MarkedPoint, Role, Style};
@@ -49,8 +49,8 @@ pub(super) fn boundaries(grid: &Grid, plane: Plane, slice: usize, named: bool) -
 
 /// Those of closed form and exact orbits themselves, over frequency and clearance.
 fn computed(grid: &Grid, plane: Plane) -> Option<Vec<Layer>> {
-    let keys = [plane.x.key.as_str(), plane.y.key.as_str()];
-    if keys != ["frequency", "clearance"] {
+    let axes = [plane.x.parameter, plane.y.parameter];
+    if axes != [SweepParameter::Frequency, SweepParameter::Clearance] {
         return None;
     }
     let case: &Case = grid.swept.case;
