@@ -22,7 +22,10 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("orbits", &["numerics", "system", "tally"]),
     ("simulation", &["numerics", "system", "tally"]),
     ("reference", &["system"]),
-    ("criteria", &["band", "case", "orbits", "simulation", "study", "system", "validation"]),
+    (
+        "criteria",
+        &["band", "case", "orbits", "regimes", "simulation", "study", "system", "validation"],
+    ),
     ("extremes", &["case", "reference", "simulation", "system"]),
     ("regimes", &["numerics", "simulation", "system", "tally"]),
     (
@@ -46,7 +49,10 @@ const ROOMS: &[(&str, &[&str])] = &[
         ],
     ),
     ("case", &["digest", "numerics", "system"]),
-    ("optimize", &["analysis", "band", "case", "numerics", "orbits", "simulation", "system"]),
+    (
+        "optimize",
+        &["analysis", "band", "case", "numerics", "orbits", "regimes", "simulation", "system"],
+    ),
     ("band", &["analysis", "case", "numerics", "orbits", "regimes", "simulation", "system"]),
     (
         "report",
