@@ -173,7 +173,7 @@ impl Sweep {
     }
 
     fn shards(&self) -> Result<Shards> {
-        Ok(Shards::open(&self.folder.join("chunks"), &self.plan.identity)?)
+        Ok(Shards::open(&self.folder.join("chunks"), &self.plan.identity_of_chunks())?)
     }
 
     /// Works out those of some chunks that are not there, on all processors.

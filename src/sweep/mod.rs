@@ -78,6 +78,12 @@ impl Plan {
         Some(Self { design: case.design, settings, identity, points_per_chunk })
     }
 
+    /// Names the chunks: as [`Self::identity`], and of the sources that the program was built from. Two
+    /// builds of one version may give other numbers, and their chunks must not be put together.
+    pub fn identity_of_chunks(&self) -> String {
+        sha256(format!("{} {}", self.identity, env!("VINESINK_SOURCES")).as_bytes())
+    }
+
     /// Number of points: every combination of the axes' values.
     pub fn points(&self) -> u64 {
         self.settings.axes.iter().map(|axis| axis.values.len() as u64).product()

@@ -1,0 +1,37 @@
+//! Names the sources that a program is built from, so that it can tell its results from those of another
+//! build: a SHA-256 over every file of `src/` and the locked versions of its dependencies.
+
+use std::error::Error;
+use std::path::{Path, PathBuf};
+
+use sha2::{Digest, Sha256};
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let mut files = Vec::new();
+    for place in ["src", "Cargo.lock"] {
+        println!("cargo::rerun-if-changed={place}");
+        add(Path::new(place), &mut files)?;
+    }
+    files.sort();
+    let mut digest = Sha256::new();
+    for file in files {
+        let bytes = std::fs::read(&file)?;
+        digest.update(format!("{} {}\n", file.display(), bytes.len()));
+        digest.update(bytes);
+    }
+    let named: String = digest.finalize().iter().map(|byte| format!("{byte:02x}")).collect();
+    println!("cargo::rustc-env=VINESINK_SOURCES={named}");
+    Ok(())
+}
+
+/// Adds a file, or all that are in a folder.
+fn add(place: &Path, files: &mut Vec<PathBuf>) -> std::io::Result<()> {
+    if place.is_dir() {
+        for entry in std::fs::read_dir(place)? {
+            add(&entry?.path(), files)?;
+        }
+    } else if place.exists() {
+        files.push(place.to_owned());
+    }
+    Ok(())
+}
