@@ -2,7 +2,9 @@
 
 mod common;
 
-use vinesink::simulation::{Impact, Observer, Segment, Simulation, Statistics, Stop, batch};
+use vinesink::simulation::{
+    Impact, Nobody, Observer, Segment, Simulation, Statistics, Stop, batch,
+};
 use vinesink::system::{Excitation, Parameters, State, System};
 
 /// Everything that an observer is told.
@@ -119,6 +121,27 @@ fn chatter_and_sustained_contact_fly_side_by_side_as_they_do_alone() {
         .map(|k| simulation(&common::table_1(8.0, [0.3, 2.5, 7.5][k as usize % 3]), k))
         .collect();
     agree(simulations, 40, u64::MAX);
+}
+
+/// Each goes as far as its own extent says, by periods or by impacts.
+#[test]
+fn each_goes_as_far_as_it_is_told() {
+    let mut together: Vec<Simulation> =
+        (0..40).map(|k| simulation(&common::table_1(8.5, 27.0), k)).collect();
+    let mut alone = together.clone();
+    let extents: Vec<batch::Extent> = (0..40)
+        .map(|k| batch::Extent { periods: 3 * k % 31, impacts: if k % 4 == 0 { k } else { 500 } })
+        .collect();
+    let mut nobody: Vec<Nobody> = (0..40).map(|_| Nobody).collect();
+    let stops = batch::run_each(&mut together, &extents, &mut nobody);
+    for (k, one) in alone.iter_mut().enumerate() {
+        let batch::Extent { periods, impacts } = extents[k];
+        assert_eq!(one.run(periods, impacts, &mut Nobody), stops[k], "{k}");
+        assert_eq!(one.state(), together[k].state(), "{k}");
+        assert_eq!((one.periods(), one.impacts()), (together[k].periods(), together[k].impacts()));
+    }
+    let some = |wanted: Stop| stops.iter().filter(|stop| **stop == wanted).count();
+    assert!(some(Stop::EndTime) > 10 && some(Stop::ImpactLimit) > 3, "{stops:?}");
 }
 
 #[test]

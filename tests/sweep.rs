@@ -11,10 +11,14 @@ use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::{Field, Row};
 use tempfile::TempDir;
 
-use vinesink::case::{Case, SweepParameter};
+use vinesink::analysis::Analysis;
+use vinesink::case::{Case, Recorded, SweepParameter};
 use vinesink::orbits::attracting_orbit;
-use vinesink::regimes::long_term::{Effort, motions};
-use vinesink::sweep::Plan;
+use vinesink::regimes::long_term::{Effort, Motion, motions};
+use vinesink::simulation::{Nobody, Simulation};
+use vinesink::sweep::{Plan, work};
+use vinesink::system::System;
+use vinesink::tally;
 
 /// Table 1 of Li, Seguy, Berlioz (2016), hardly simulated, over two chunks and a bit.
 fn text(clearances: u32, frequencies: u32) -> String {
@@ -92,6 +96,12 @@ fn points_cover_the_grid_once() {
     assert_eq!(frequency(1), frequency(13));
     assert_eq!(plan.settings.axes[0].parameter, SweepParameter::Clearance);
     assert_eq!((plan.chunk(0), plan.chunk(1)), (0..15, 15..15));
+    let chunks = self::plan(&text(40, 64));
+    assert_eq!([0, 1, 2].map(|k| chunks.chunk(k)), [0..1024, 1024..2048, 2048..2560]);
+    // Axes are in the order of the file.
+    let turned = "frequency = { values = [\"8 Hz\"] }\nclearance = { values = [\"9 mm\"] }\n";
+    let turned = self::plan(&sweeping(turned));
+    assert_eq!(turned.settings.axes[0].parameter, SweepParameter::Frequency);
 }
 
 /// What is written of a point is what the layers say of its system alone.
@@ -363,6 +373,15 @@ fn a_ratio_is_of_what_other_axes_say() {
         let system = plan(&sweeping(table)).point(0).system.expect("valid");
         assert!((system.mass_ratio() - 0.01).abs() < 1e-17, "{table}");
     }
+    for table in [
+        "stiffness = { values = [\"20 kN/m\"] }\ndamping_ratio = { values = [0.01] }\n",
+        "damping_ratio = { values = [0.01] }\nstiffness = { values = [\"20 kN/m\"] }\n",
+    ] {
+        let system = plan(&sweeping(table)).point(0).system.expect("valid");
+        // c1/(2 sqrt(k1 m1)) is half of the mass ratio times lambda.
+        let found = 0.5 * system.mass_ratio() * system.damping();
+        assert!((found - 0.01).abs() < 1e-16, "{table}: {found}");
+    }
 }
 
 /// What nothing is recorded of is not computed, and closed form is what the analysis says.
@@ -392,7 +411,123 @@ fn closed_form_alone_is_recorded_without_simulation() {
             let near = (1.0 + distance - 1e-6, 1.0 + distance + 1e-6);
             assert_ne!(area(near.0), area(near.1), "{} {distance}", areas[k]);
         }
+        // Nothing changes before that, nor as far in the other direction, by the factor.
+        let own = plan(&sweeping(&format!(
+            "amplitude = {{ values = [\"{} mm\"] }}\n",
+            amplitudes[k] * 1e3
+        )));
+        let zone = |factor: f64| {
+            let mut parameters = own.point(0).system.expect("valid").parameters();
+            parameters.forcing_per_clearance *= factor;
+            Analysis::of(&System::new(parameters).expect("valid")).expect("solved").zone
+        };
+        let reach = libm::log1p(*distance).abs();
+        for step in -40..=40 {
+            let factor = libm::exp(0.999 * reach * f64::from(step) / 40.0);
+            assert_eq!(zone(factor), zone(1.0), "{k}: {factor} {distance}");
+        }
     }
+}
+
+/// A layer that nothing is recorded of is not asked: no orbit's operations are noted, and no start is looked
+/// at, not even one that is impossible.
+#[test]
+fn a_layer_that_nothing_is_recorded_of_is_not_asked() {
+    let worked_out = |record: &str, axis: &str| {
+        let plan = plan(&sweeping(&format!("periods = 48\nrecord = [\"{record}\"]\n{axis}\n")));
+        let (columns, operations) = tally::counted(|| work::points(&plan, 0..1));
+        columns.map(|_| operations)
+    };
+    let cost = |record| worked_out(record, "clearance = { values = [\"20 mm\"] }").expect("finite");
+    let [formula, orbit, reached] = ["bare_amplitude", "orbit_peak", "orbit_reached"].map(cost);
+    // The operations of a formula are few, those of an orbit are many.
+    assert!(orbit > 100 * formula && reached > 100 * formula, "{formula} {orbit} {reached}");
+    assert_eq!(cost("peak"), formula);
+    // Over the clearance this is no number.
+    let no_start = "initial_velocity = { values = [\"1.7e308 m/s\"] }";
+    assert!(worked_out("peak", no_start).is_err());
+    assert!(worked_out("bare_amplitude", no_start).is_ok());
+}
+
+/// Everything that can be recorded, in the units of the case, against the layers and by hand.
+#[test]
+fn every_column_is_what_its_layer_says() {
+    let omega0 = common::natural_frequency();
+    let (mut several, mut tied, mut closest, mut reached_by_some) = (0, 0, 0, 0);
+    for starts in [2_u32, 16] {
+        let all = Recorded::ALL.map(|one| format!("\"{}\"", one.key())).join(", ");
+        let text = sweeping(&format!(
+            "starts = {starts}\nperiods = 100\nrecord = [{all}]\n\
+             clearance = {{ values = [\"12 mm\", \"20 mm\", \"30 mm\", \"40 mm\"] }}\n\
+             frequency = {{ values = [\"8.05 Hz\", \"8.35 Hz\", \"8.5 Hz\"] }}\n"
+        ));
+        let (columns, plan) = (swept(&text), plan(&text));
+        for k in 0..12 {
+            let point = plan.point(k as u64);
+            let (system, b) = (point.system.expect("valid"), point.coordinates[0]);
+            let same = |name: &str, wanted: Option<f64>| {
+                let text = &column(&columns, name)[k];
+                let found = (!text.is_empty()).then(|| text.parse::<f64>().expect(name));
+                // Rounded a few times on the way to the unit; decibels are a logarithm's, rounded near 1.
+                let size =
+                    |of: f64| if name.ends_with("[dB]") { of.abs().max(1.0) } else { of.abs() };
+                let near = found.zip(wanted).map(|(a, b)| (a - b).abs() <= 1e-12 * size(b));
+                assert!(near.unwrap_or(found == wanted), "{k} {name}: {found:?} {wanted:?}");
+            };
+            let effort = Effort { starts, periods: 100 };
+            let found = motions(&[system], &effort).expect("finite").remove(0);
+            let main: &Motion =
+                found.iter().reduce(|a, b| if b.starts > a.starts { b } else { a }).expect("one");
+            several += u32::from(found.len() > 1);
+            tied += u32::from(found.iter().filter(|one| one.starts == main.starts).count() > 1);
+            let bare = system.linear_response().expect("damped").amplitude();
+            same("impacts_per_period", Some(main.impacts_per_period));
+            same("peak [m]", Some(b * main.peak));
+            same("reduction_db [dB]", Some(10.0 * libm::log10(libm::pow(bare / main.peak, 2.0))));
+            same("efficiency", main.efficiency);
+            same("impact_speed [m/s]", Some(b * omega0 * main.impact_speed));
+            same("repeats_after", main.repeats_after.map(f64::from));
+            same("share_of_starts", Some(f64::from(main.starts) / f64::from(starts)));
+            let largest = found.iter().map(|one| one.peak).fold(0.0, f64::max);
+            same("largest_peak [m]", Some(b * largest));
+            same("motions", Some(found.len() as f64));
+            assert_eq!(column(&columns, "regime")[k], main.regime.key());
+            let theory = Analysis::of(&system).expect("solved");
+            let stable = theory.stable_points().filter(|point| point.admissible);
+            let least = stable.map(|point| b * point.oscillator).reduce(f64::min);
+            same("theory_peak [m]", least);
+            let orbit = attracting_orbit(&system);
+            same("orbit_peak [m]", orbit.as_ref().map(|one| b * one.peaks.displacement));
+            let multiplier = orbit.as_ref().map(|one| one.orbit.radius_per_period());
+            same("orbit_multiplier", multiplier);
+            let is_orbit = |one: &Motion| {
+                let exact = orbit.as_ref().map_or(f64::NAN, |orbit| orbit.peaks.displacement);
+                (one.peak / exact - 1.0).abs() < 0.01 && one.impacts_per_period == 2.0
+            };
+            let reached = found.iter().filter(|one| is_orbit(one)).count();
+            reached_by_some += u32::from(0 < reached && reached < found.len());
+            let wanted = orbit.as_ref().map_or("", |_| if reached > 0 { "true" } else { "false" });
+            assert_eq!(column(&columns, "orbit_reached")[k], wanted, "{k}");
+            let mut on = Simulation::new(&system, main.state, 0.0).expect("inside");
+            for period in 1..=16 {
+                on.run(1, u64::MAX, &mut Nobody);
+                same(&format!("section_{period:02} [m]"), Some(b * on.state().x));
+            }
+            // A deviation from the orbit shrinks by its multiplier each period.
+            if let Some(multiplier) = multiplier.filter(|_| is_orbit(main)) {
+                let exponent = numbers(&columns, "lyapunov")[k];
+                closest += 1;
+                assert!(
+                    (exponent - libm::log(multiplier)).abs() < 0.02,
+                    "{k}: {exponent} {multiplier}"
+                );
+            }
+        }
+    }
+    assert!(
+        several > 0 && tied > 0 && closest > 0 && reached_by_some > 0,
+        "{several} {tied} {closest} {reached_by_some}"
+    );
 }
 
 /// Upwards the upper branch is kept until it ends, downwards the lower: where two motions attract the
@@ -415,6 +550,12 @@ fn a_motion_is_followed_both_ways() {
         "{differing:?} {up:?} {down:?}"
     );
     assert_eq!(column(&columns, "regime_up").len(), 53);
+    // Where they part, the way up goes on in its regime; where they meet again, the way down did in its own.
+    let (first, last) = (differing[0], differing[differing.len() - 1]);
+    let [regime_up, regime_down] = ["regime_up", "regime_down"].map(|name| column(&columns, name));
+    assert_eq!(regime_up[first], regime_up[first - 1], "{first}");
+    assert_eq!(regime_down[last], regime_down[last + 1], "{last}");
+    assert_ne!(regime_up[first], regime_down[first], "{first}");
     let clearances = numbers(&columns, "clearance [m]");
     let k = differing[differing.len() / 2];
     let mut system =

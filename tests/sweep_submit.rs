@@ -139,6 +139,17 @@ fn a_dry_run_shows_everything_and_writes_nothing() {
     assert!(place.calls().is_empty() && !place.path("sweeps").exists());
 }
 
+/// Of many chunks a task has several: Slurm takes 1001 tasks of an array unless it is told otherwise.
+#[test]
+fn many_chunks_are_shared_by_a_thousand_tasks() {
+    let place = Place::new();
+    let many = case().replace("count = 80", "count = 20_000");
+    fs::write(place.path("map.toml"), many).expect("written");
+    let said = place.done(&["submit", "map.toml", "--engine", "slurm", "--dry-run"]);
+    assert!(said.lines().any(|line| line == "#SBATCH --array=0-999"), "{said}");
+    assert!(said.contains("--every 1000 "), "{said}");
+}
+
 #[test]
 fn slurm_gets_an_array_and_a_merge_after_it() {
     let place = Place::new();
@@ -182,6 +193,12 @@ fn slurm_gets_an_array_and_a_merge_after_it() {
     assert_eq!(place.submitted(), std::slice::from_ref(&folder));
     place.done(&["submit", "map.toml", "--engine", "slurm", "--tasks", "2"]);
     assert_eq!(place.submitted().len(), 2);
+    for (k, option) in
+        ["--cpus-per-task=2", "--time=1:00:00", "--retries=7", "--pause=9"].iter().enumerate()
+    {
+        place.done(&["submit", "map.toml", "--engine", "slurm", option]);
+        assert_eq!(place.submitted().len(), 3 + k, "{option}");
+    }
     assert_eq!(read(&folder.join("tasks.sh")), text);
 }
 
@@ -220,6 +237,7 @@ fn hyperqueue_gets_a_job_whose_last_task_needs_all_others() {
         merge["deps"].as_array().expect("a list").iter().map(|d| d.as_integer()).collect();
     assert_eq!(deps, [Some(0), Some(1), Some(2)]);
     assert_eq!(merge["command"].as_array().expect("words")[2].as_str(), Some("merge"));
+    assert_eq!(merge["crash_limit"].as_integer(), Some(6));
     assert!(
         read(&folder.join("tasks.sh")).contains("--chunk \"$HQ_TASK_ID\" --every 3 --threads 2")
     );
@@ -320,6 +338,7 @@ fn a_task_that_fails_begins_again() {
     let submit = "submit map.toml --engine hyperqueue --tasks 5 --retries 2 --pause 1";
     place.done(&submit.split(' ').collect::<Vec<_>>());
     let [folder] = place.submitted().try_into().expect("one folder");
+    assert!(read(&folder.join("tasks.sh")).lines().any(|line| line == "    sleep 1"));
     // A file where the folder of chunks should be: nothing can be written.
     let chunks = place.path("sweeps/map/chunks");
     fs::remove_dir(&chunks).expect("empty");

@@ -282,3 +282,98 @@ impl Motion {
         self.starts += other.starts;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A repeating motion of two impacts per period.
+    fn motion() -> Motion {
+        Motion {
+            peak: 1.5,
+            rms: 1.0,
+            rms_error: 0.0,
+            impacts_per_period: TWO,
+            impacts_error: 0.0,
+            impact_speed: 3.0,
+            regime: Regime::TwoSymmetric,
+            starts: 1,
+            efficiency: None,
+            repeats_after: Some(1),
+            state: State::AT_REST,
+        }
+    }
+
+    #[test]
+    fn motions_that_repeat_are_one_within_a_percent() {
+        let one = motion();
+        for (rms, impacts_per_period, same) in [
+            (1.009, 2.0, true),
+            (1.02, 2.0, false),
+            (0.98, 2.0, false),
+            (1.0, 2.01, true),
+            (1.0, 2.1, false),
+        ] {
+            let other = Motion { rms, impacts_per_period, ..one };
+            assert_eq!(one.is_same(&other), same, "{rms} {impacts_per_period}");
+            assert_eq!(other.is_same(&one), same, "{rms} {impacts_per_period}");
+        }
+    }
+
+    /// Errors widen what is alike between motions that both scatter, and only there; and no impacts are
+    /// never as good as few.
+    #[test]
+    fn a_motion_that_scatters_is_none_that_repeats() {
+        let scattered = Motion {
+            rms: 1.1,
+            rms_error: 0.1,
+            impacts_error: 0.3,
+            repeats_after: None,
+            ..motion()
+        };
+        assert!(!scattered.is_same(&motion()) && !motion().is_same(&scattered));
+        // Twice the sum of both errors is 0.4.
+        let like = |rms: f64| Motion { rms, ..scattered };
+        assert!(scattered.is_same(&like(1.45)) && !scattered.is_same(&like(1.55)));
+        let fewer = Motion { impacts_per_period: 1.0, ..scattered };
+        assert!(scattered.is_same(&fewer), "within 1.2");
+        let asleep = Motion { impacts_per_period: 0.0, impacts_error: 3.0, ..scattered };
+        assert!(!scattered.is_same(&asleep));
+    }
+
+    #[test]
+    fn what_starts_agree_on_has_the_larger_extremes() {
+        let (smaller, larger) = (motion(), Motion { peak: 1.505, impact_speed: 3.01, ..motion() });
+        let other = Motion { rms: 2.0, ..motion() };
+        for pair in [[smaller, larger], [larger, smaller]] {
+            let ended = [Some(pair[0]), None, Some(other), Some(pair[1])];
+            let found = distinct(&ended);
+            assert_eq!(found.len(), 2);
+            let Motion { peak, impact_speed, starts, .. } = found[0];
+            assert_eq!((peak, impact_speed, starts), (1.505, 3.01, 2));
+        }
+    }
+
+    #[test]
+    fn a_motion_of_a_repeating_kind_that_was_not_seen_to_repeat_is_settling() {
+        for (regime, settling) in [
+            (Regime::AtRest, true),
+            (Regime::TwoSymmetric, true),
+            (Regime::TwoAsymmetric, true),
+            (Regime::StronglyModulated, false),
+            (Regime::AboveTwo, false),
+            (Regime::BelowTwo, false),
+        ] {
+            assert!(!Motion { regime, ..motion() }.is_settling());
+            let restless = Motion { regime, repeats_after: None, ..motion() };
+            assert_eq!(restless.is_settling(), settling, "{regime:?}");
+        }
+    }
+
+    #[test]
+    fn an_orbit_is_known_by_its_peak_and_by_two_impacts() {
+        assert!(motion().is_orbit_with_peak(1.51) && !motion().is_orbit_with_peak(1.53));
+        let more = Motion { impacts_per_period: 2.02, ..motion() };
+        assert!(!more.is_orbit_with_peak(1.5));
+    }
+}

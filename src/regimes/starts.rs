@@ -57,6 +57,7 @@ impl StartBox {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::system::{Excitation, Parameters};
 
     #[test]
     fn starts_are_inside_the_cavity_and_spread_evenly() {
@@ -69,5 +70,23 @@ mod tests {
             let upper = starts.iter().filter(|start| axis(start) > 0.0).count();
             assert!(upper.abs_diff(32) <= 4, "{upper}");
         }
+    }
+
+    #[test]
+    fn the_first_start_is_from_rest_halfway_to_a_wall() {
+        let parameters = Parameters {
+            mass_ratio: 0.01,
+            damping: 2.0,
+            restitution: 0.6,
+            frequency_ratio: 1.0,
+            forcing_per_clearance: 3.0,
+            excitation: Excitation::BaseDisplacement,
+        };
+        let system = System::new(parameters).expect("valid");
+        let starts: Vec<State> = of(&system, 5).collect();
+        assert_eq!(starts[0], State { x: 0.0, x_velocity: 0.0, y: 0.5, y_velocity: 0.0 });
+        let sample = StartBox::around(&system);
+        assert_eq!(starts[1..], [0, 1, 2, 3].map(|k| sample.start(k)));
+        assert_eq!(of(&system, 0).count(), 1);
     }
 }

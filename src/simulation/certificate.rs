@@ -297,7 +297,7 @@ mod tests {
                 .abs();
                 let above = turn.highest(&slack) - height;
                 // Rounded at the size of `x`; what two steps of Newton leave only costs an evaluation.
-                assert!(-1e-15 <= above && above <= 0.01, "{above} {eps} {omega} {phase}");
+                assert!((-1e-15..=0.01).contains(&above), "{above} {eps} {omega} {phase}");
             }
         }
         assert!(turns > 200, "{turns}");

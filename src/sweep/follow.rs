@@ -124,5 +124,10 @@ mod tests {
         let wider = Stand::of(state, &scales(0.02)).at(&scales(0.04));
         let wanted = State { x: 0.25, x_velocity: -0.5, y: 0.25 - 0.4, y_velocity: 1.0 };
         assert!(wider.distance(&wanted) < 1e-15, "{wider:?}");
+        // Half as many radians a second as before: twice as far in one of them.
+        let softer = Scales { natural_frequency_rad_per_s: Some(25.0), ..scales(0.02) };
+        let softer = Stand::of(state, &scales(0.02)).at(&softer);
+        let wanted = State { x_velocity: -2.0, y_velocity: 4.0, ..state };
+        assert!(softer.distance(&wanted) < 1e-15, "{softer:?}");
     }
 }
