@@ -10,7 +10,7 @@ use std::time::Instant;
 
 use clap::{Args, Subcommand};
 use miette::{IntoDiagnostic, Result, miette};
-use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
+use rayon::iter::{IndexedParallelIterator as _, IntoParallelIterator as _, ParallelIterator as _};
 use vinesink::case::Case;
 use vinesink::store::{self, Shards};
 use vinesink::sweep::{Plan, parquet, work};
@@ -183,7 +183,8 @@ impl Sweep {
         let progress = Progress::with_rate("points", chunks.iter().map(points).sum());
         let failure: Mutex<Option<miette::Report>> = Mutex::new(None);
         let stopped = || failure.lock().map_or(true, |failure| failure.is_some());
-        chunks.into_par_iter().for_each(|chunk| {
+        // Each chunk on its own: in longer pieces a processor would be left with many at the end.
+        chunks.into_par_iter().with_max_len(1).for_each(|chunk| {
             if stopped() {
                 return;
             }
