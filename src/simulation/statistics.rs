@@ -446,18 +446,22 @@ mod tests {
         }
     }
 
-    #[test]
-    fn closed_forms_agree_with_quadrature_and_samples() {
-        let mut compared = 0;
-        for (eps, lambda, omega, r, gamma) in [
+    pub(super) const START: State = State { x: 0.1, x_velocity: 0.4, y: -0.3, y_velocity: 0.2 };
+
+    /// With few and many impacts, chattering, lasting contact, resonance, and hardly any damping or none.
+    pub(super) fn systems() -> impl Iterator<Item = System> {
+        let all = [
             (0.0077, 1.8, 1.0, 0.6, 2.8),
             (0.0077, 1.8, 0.96, 0.0, 300.0),
+            (0.0077, 1.8, 1.01, 0.6, 30.0),
+            (0.0077, 0.03, 1.0, 0.8, 3.0),
             (0.0077, 0.0, 1.01, 1.0, 30.0),
             (0.3, 4.0, 0.2, 0.5, 10.0),
             (0.5, 3.0, 4.0, 0.3, 5.0),
             (1e-3, 900.0, 1.3, 0.8, 400.0),
-        ] {
-            let system = System::new(Parameters {
+        ];
+        let system = |(eps, lambda, omega, r, gamma)| {
+            System::new(Parameters {
                 mass_ratio: eps,
                 damping: lambda,
                 restitution: r,
@@ -465,14 +469,20 @@ mod tests {
                 forcing_per_clearance: gamma,
                 excitation: Excitation::BaseDisplacement,
             })
-            .expect("valid");
-            let start = State { x: 0.1, x_velocity: 0.4, y: -0.3, y_velocity: 0.2 };
+        };
+        all.map(|one| system(one).expect("valid")).into_iter()
+    }
+
+    #[test]
+    fn closed_forms_agree_with_quadrature_and_samples() {
+        let mut compared = 0;
+        for system in systems() {
             let mut comparison = Comparison {
-                statistics: Statistics::begin(&system, start),
+                statistics: Statistics::begin(&system, START),
                 integrator: Integrator::of(&system),
                 compared: 0,
             };
-            let mut simulation = Simulation::new(&system, start, 0.0).expect("inside");
+            let mut simulation = Simulation::new(&system, START, 0.0).expect("inside");
             assert_eq!(simulation.run(30, u64::MAX, &mut comparison), Stop::EndTime);
             compared += comparison.compared;
         }

@@ -332,37 +332,17 @@ impl Observer for Gauge {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::simulation::statistics::tests::{START, systems};
     use crate::simulation::{Simulation, Stop};
-    use crate::system::{Excitation, Parameters};
 
-    /// Against every stretch integrated, on motions with few and many impacts, chattering, lasting
-    /// contact, resonance, and none of these.
+    /// Against every stretch integrated.
     #[test]
     fn it_measures_what_statistics_do() {
         let (mut in_contact, mut without) = (0, 0);
-        for (eps, lambda, omega, r, gamma) in [
-            (0.0077, 1.8, 1.0, 0.6, 2.8),
-            (0.0077, 1.8, 0.96, 0.0, 300.0),
-            (0.0077, 1.8, 1.01, 0.6, 30.0),
-            (0.0077, 0.03, 1.0, 0.8, 3.0),
-            (0.3, 4.0, 0.2, 0.5, 10.0),
-            (0.5, 3.0, 4.0, 0.3, 5.0),
-            (1e-3, 900.0, 1.3, 0.8, 400.0),
-            (0.0077, 0.0, 1.01, 0.9, 30.0),
-        ] {
-            let system = System::new(Parameters {
-                mass_ratio: eps,
-                damping: lambda,
-                restitution: r,
-                frequency_ratio: omega,
-                forcing_per_clearance: gamma,
-                excitation: Excitation::BaseDisplacement,
-            })
-            .expect("valid");
-            let start = State { x: 0.1, x_velocity: 0.4, y: -0.3, y_velocity: 0.2 };
-            let mut both = (Gauge::begin(&system, start), Statistics::begin(&system, start));
+        for system in systems() {
+            let mut both = (Gauge::begin(&system, START), Statistics::begin(&system, START));
             without += u32::from(both.0.telescope.is_none());
-            let mut simulation = Simulation::new(&system, start, 0.0).expect("inside");
+            let mut simulation = Simulation::new(&system, START, 0.0).expect("inside");
             let (gauge, statistics) = (&mut both.0, &mut both.1);
             assert_eq!(simulation.run(60, u64::MAX, &mut (gauge, statistics)), Stop::EndTime);
             let (mut gauge, statistics) = both;
@@ -373,7 +353,8 @@ mod tests {
                 statistics.records().iter().map(|record| record.end.size()).fold(1.0, f64::max);
             let steady = system.linear_response().map_or(0.0, |response| response.amplitude());
             let phasors = (size + steady) * (size + steady);
-            let rounded = 40.0 * f64::EPSILON * phasors / (2.0 * eps * lambda).max(1e-4);
+            let damping = 2.0 * system.mass_ratio() * system.damping();
+            let rounded = 40.0 * f64::EPSILON * phasors / damping.max(1e-4);
             for (one, other) in gauge.records().iter().zip(statistics.records()) {
                 assert_eq!(
                     (one.impacts, one.visits, one.end),
@@ -383,18 +364,18 @@ mod tests {
                 let visits = f64::from(one.impacts[0] + one.impacts[1] + 1);
                 assert!(
                     (a - b).abs() <= visits * rounded + 1e-13 * b,
-                    "{a} {b} {rounded} {eps} {omega}"
+                    "{a} {b} {rounded} {system:?}"
                 );
                 let (a, b) = (one.peak, other.peak);
-                assert!((a - b).abs() <= 1e-13 * (size + steady), "{a} {b} {eps} {omega}");
+                assert!((a - b).abs() <= 1e-13 * (size + steady), "{a} {b} {system:?}");
             }
             assert!((gauge.peak() / statistics.peak() - 1.0).abs() < 1e-12);
-            assert!((gauge.rms() / statistics.rms() - 1.0).abs() < 1e-9, "{eps} {omega}");
+            assert!((gauge.rms() / statistics.rms() - 1.0).abs() < 1e-9, "{system:?}");
             let energy = statistics.energy();
             let wanted = (energy.input > 0.0).then(|| energy.impact / energy.input);
             let found = gauge.efficiency();
             let near = found.zip(wanted).map(|(a, b)| (a - b).abs() < 1e-8 * b.max(1.0));
-            assert!(near.unwrap_or(found == wanted), "{found:?} {wanted:?} {eps} {omega}");
+            assert!(near.unwrap_or(found == wanted), "{found:?} {wanted:?} {system:?}");
         }
         assert!(in_contact > 0 && without == 1, "{in_contact} {without}");
     }
