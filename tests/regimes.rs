@@ -8,8 +8,9 @@ use std::f64::consts::PI;
 use vinesink::regimes::attractor::Effort;
 use vinesink::regimes::basins::{Axis, Basins, Cell, Coordinate, Plane};
 use vinesink::regimes::diagram::{Way, sweep};
+use vinesink::regimes::long_term::long_term;
 use vinesink::regimes::search::{self, SearchEffort};
-use vinesink::regimes::{Amplitudes, Attractor, Nature, Regime, share};
+use vinesink::regimes::{Amplitudes, Attractor, Nature, Regime, share, starts};
 use vinesink::simulation::{Impact, Nobody, Observer, Side, Simulation, Statistics};
 use vinesink::system::{Parameter, State, System};
 
@@ -433,4 +434,37 @@ fn the_limit_on_impacts_shows_in_the_diagram() {
     let points =
         sweep(&base, Parameter::Clearance, &[1.0], START, &effort, &mut |_| ()).expect("system");
     assert!(points.iter().all(|point| point.lost_to_impact_limit));
+}
+
+/// Measured side by side from impacts alone, a motion that repeats has the regime, the repetition and the peak
+/// that it has alone with every flight integrated.
+#[test]
+fn long_term_motions_are_those_of_trajectories_alone() {
+    let (mut asymmetric, mut longer, mut compared) = (0, 0, 0);
+    for clearance_mm in [3.0, 8.0, 12.0, 14.0, 16.0, 20.0, 40.0] {
+        for frequency_hz in [8.1, 8.3, 8.5] {
+            let system = common::table_1(frequency_hz, clearance_mm);
+            let begun: Vec<(System, State)> =
+                starts::of(&system, 3).map(|start| (system, start)).collect();
+            let found = long_term(&begun, 96).expect("finite");
+            for ((_, start), motion) in begun.iter().zip(found) {
+                let motion = motion.expect("no bad end");
+                let alone = reached(&system, *start);
+                let evidence = &alone.classification.evidence;
+                // Alone it is followed longer, and may come to repeat only then.
+                let both = evidence.periodicity.zip(motion.repeats_after);
+                let Some((periodicity, repeats_after)) = both else { continue };
+                compared += 1;
+                let place = format!("{clearance_mm} mm, {frequency_hz} Hz, {start:?}");
+                assert_eq!(motion.regime, alone.classification.regime, "{place}");
+                assert_eq!(repeats_after, periodicity.periods, "{place}");
+                assert_eq!(motion.impacts_per_period, evidence.impacts_per_period, "{place}");
+                // What is left of the transient after twelve e-folds of the slower one.
+                assert!((motion.peak / alone.peak - 1.0).abs() < 1e-3, "{place}");
+                asymmetric += u32::from(motion.regime == Regime::TwoAsymmetric);
+                longer += u32::from(periodicity.periods > 1);
+            }
+        }
+    }
+    assert!(compared > 40 && asymmetric > 4 && longer > 4, "{compared} {asymmetric} {longer}");
 }
