@@ -1,10 +1,11 @@
 //! Names the sources that a program is built from, so that it can tell its results from those of another
 //! build: a SHA-256 over every file of `src/` and the locked versions of its dependencies.
 
+#[path = "src/digest.rs"]
+mod digest;
+
 use std::error::Error;
 use std::path::{Path, PathBuf};
-
-use sha2::{Digest, Sha256};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut files = Vec::new();
@@ -13,14 +14,12 @@ fn main() -> Result<(), Box<dyn Error>> {
         add(Path::new(place), &mut files)?;
     }
     files.sort();
-    let mut digest = Sha256::new();
+    let mut list = String::new();
     for file in files {
-        let bytes = std::fs::read(&file)?;
-        digest.update(format!("{} {}\n", file.display(), bytes.len()));
-        digest.update(bytes);
+        let named = digest::sha256(&std::fs::read(&file)?);
+        list += &format!("{named} {}\n", file.display());
     }
-    let named: String = digest.finalize().iter().map(|byte| format!("{byte:02x}")).collect();
-    println!("cargo::rustc-env=VINESINK_SOURCES={named}");
+    println!("cargo::rustc-env=VINESINK_SOURCES={}", digest::sha256(list.as_bytes()));
     Ok(())
 }
 

@@ -1,6 +1,7 @@
 //! What every figure owes its reader: the same bytes each time, a small and well-formed file,
 //! nothing lost that matters, nothing covered, nothing cut.
 
+mod common;
 #[path = "figure/gallery.rs"]
 mod gallery;
 #[path = "figure/reduction.rs"]
@@ -13,7 +14,7 @@ use std::f64::consts::TAU;
 use proptest::prelude::*;
 use vinesink::report::figure::{
     Axis, Cell, Color, Drawing, Figure, FigureError, Fill, Label, Layer, Layout, MarkedPoint,
-    Panel, Rect, Role, Tick, draw, render,
+    Panel, Role, Tick, draw, render,
 };
 
 fn simple(layers: Vec<Layer>) -> Figure {
@@ -53,14 +54,7 @@ fn gallery_is_small_well_formed_and_the_same_each_time() {
 fn gallery_words_neither_touch_nor_are_cut() {
     for figure in gallery::all() {
         let texts = draw(&figure).unwrap().texts;
-        let (right, bottom) = (f64::from(figure.size.0), f64::from(figure.size.1));
-        let page = Rect { left: 0.0, top: 0.0, right, bottom };
-        for (i, a) in texts.iter().enumerate() {
-            assert!(page.contains(&a.room), "{}: {a:?} is cut", figure.name);
-            for b in &texts[i + 1..] {
-                assert!(!a.room.overlaps(&b.room), "{}: {a:?} touches {b:?}", figure.name);
-            }
-        }
+        common::words_are_apart(&figure, &texts);
     }
 }
 

@@ -1,11 +1,13 @@
 //! What the figures of a case owe their reader, for shipped cases and for systems at the edge of
 //! what a case can be.
 
+mod common;
+
 use std::fs;
 
 use vinesink::case::{Case, ExtraFigure, ReportSettings};
 use vinesink::report::Report;
-use vinesink::report::figure::{Color, Figure, Layer, Rect, Scale, Shape, draw};
+use vinesink::report::figure::{Color, Figure, Layer, Scale, Shape, draw};
 use vinesink::report::figures::all;
 use vinesink::study::{CaseStudy, StudyEffort};
 
@@ -53,7 +55,7 @@ fn check(case: &Case) -> Vec<String> {
             assert!(has_unit(words), "{}: no unit in {name}: {words}", case.title);
         }
         assert!(figure.alt.contains(&figure.caption), "{name}");
-        words_are_apart(figure, &drawing.texts);
+        common::words_are_apart(figure, &drawing.texts);
     }
     let allowed = 190_000 + 30_000 * case.report.figures.len();
     assert!(sum < allowed, "{}: {sum} bytes", case.title);
@@ -71,17 +73,6 @@ fn check(case: &Case) -> Vec<String> {
 fn has_unit(words: &str) -> bool {
     let units = ["mm", "µm", "Hz", "units", "Ω =", " T", "period"];
     units.iter().any(|unit| words.contains(unit))
-}
-
-fn words_are_apart(figure: &Figure, texts: &[vinesink::report::figure::PlacedText]) {
-    let (right, bottom) = (f64::from(figure.size.0), f64::from(figure.size.1));
-    let page = Rect { left: 0.0, top: 0.0, right, bottom };
-    for (i, a) in texts.iter().enumerate() {
-        assert!(page.contains(&a.room), "{}: {a:?} is cut", figure.name);
-        for b in &texts[i + 1..] {
-            assert!(!a.room.overlaps(&b.room), "{}: {a:?} touches {b:?}", figure.name);
-        }
-    }
 }
 
 /// The case's mark is well inside the map, and there is one.

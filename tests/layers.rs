@@ -77,7 +77,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ),
     ("diff", &["regimes", "report"]),
     ("store", &["digest"]),
-    ("sweep", &["analysis", "band", "case", "digest", "orbits", "regimes", "simulation", "system"]),
+    ("sweep", &["analysis", "case", "digest", "orbits", "regimes", "simulation", "system"]),
 ];
 
 /// Rooms in which there is physics and nothing else: no files, no clock, no printing, no threads, no

@@ -20,7 +20,7 @@ pub mod starts;
 
 use serde::{Serialize, Serializer};
 
-use crate::simulation::{Gauge, Impact, Statistics};
+use crate::simulation::{Impact, Statistics};
 pub use attractor::Attractor;
 pub use energetics::Energetics;
 pub use lyapunov::{Exponent, Lyapunov};
@@ -254,26 +254,6 @@ impl Signs {
             asymmetry: evidence.asymmetry,
             captures: evidence.captures,
             modulation_depth: evidence.modulation_depth,
-        }
-    }
-
-    /// Of a window that was measured.
-    pub fn measured(
-        gauge: &mut Gauge,
-        impacts: &[Impact],
-        period: f64,
-        thresholds: &Thresholds,
-    ) -> Self {
-        let (impacts_per_period, visits_per_period) =
-            (gauge.impacts_per_period(), gauge.visits_per_period());
-        let records = gauge.records();
-        Self {
-            impacts_per_period,
-            visits_per_period,
-            repeats: periodicity::find(records).is_some(),
-            asymmetry: periodicity::asymmetry(impacts, period),
-            captures: modulation::captures(records, thresholds.shortest_capture),
-            modulation_depth: modulation::depth(records),
         }
     }
 

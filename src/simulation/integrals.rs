@@ -9,7 +9,7 @@ use nalgebra::Complex;
 
 use super::events::{Absorber, Segment};
 use super::flow::{Oscillator, mean_of_exponential};
-use super::peaks;
+use super::peaks::{self, Moment};
 use super::phasor::{Rates, Steady};
 use crate::system::System;
 use crate::tally;
@@ -97,8 +97,8 @@ impl Integrator {
         let phasor = steady * self.excitation(segment.phase);
         let steady = Steady { x: phasor.re, v: -self.frequency * phasor.im };
         let (free, velocity) = segment.motion.free();
-        let begin = [free + steady.x, velocity + steady.v];
-        Some(peaks::alone(&rates, begin, steady, segment.duration))
+        let begin = Moment { x: free + steady.x, v: velocity + steady.v, steady };
+        Some(peaks::alone(&rates, &begin, segment.duration))
     }
 
     /// What flights have in common, of an oscillator that rings and is driven to a steady motion.

@@ -4,7 +4,7 @@
 
 use fearless_simd::{Level, Simd, dispatch};
 
-use super::certificate::Quintic;
+use super::certificate::{Quintic, Slack};
 use super::phasor::{At, Line, Rates, Steady};
 use super::run::PANEL;
 use crate::numerics::lanes::{LANES, Mask, Real, Wide};
@@ -20,33 +20,26 @@ pub(super) struct Moment<R> {
 
 /// What the oscillator does between two events.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Flight<R> {
-    pub begin: Moment<R>,
-    pub duration: R,
-    /// Its end, where that is at hand.
-    pub end: Option<Moment<R>>,
+pub(super) struct Flight {
+    pub begin: Moment<f64>,
+    pub duration: f64,
+    pub end: Moment<f64>,
 }
 
-/// That of one flight.
-pub(super) fn alone(
-    rates: &Rates<f64>,
-    [x, v]: [f64; 2],
-    steady: Steady<f64>,
-    duration: f64,
-) -> f64 {
+/// That of one flight, whose end is not at hand.
+pub(super) fn alone(rates: &Rates<f64>, begin: &Moment<f64>, duration: f64) -> f64 {
     let panels = (duration / rates.step).ceil().max(1.0);
     tally::note(PANEL * panels as u64);
-    let flight = Flight { begin: Moment { x, v, steady }, duration, end: None };
-    dispatch!(Level::baseline(), simd => highest(simd, rates, &flight))
+    dispatch!(Level::baseline(), simd => highest(simd, rates, begin, duration, None))
 }
 
 /// Those of up to [`LANES`] flights; more are left out.
-pub(super) fn together(rates: &Rates<f64>, flights: &[Flight<f64>]) -> [f64; LANES] {
+pub(super) fn together(rates: &Rates<f64>, flights: &[Flight]) -> [f64; LANES] {
     dispatch!(Level::new(), simd => side_by_side(simd, rates, flights))
 }
 
 #[inline(always)]
-fn side_by_side<S: Simd>(simd: S, rates: &Rates<f64>, flights: &[Flight<f64>]) -> [f64; LANES] {
+fn side_by_side<S: Simd>(simd: S, rates: &Rates<f64>, flights: &[Flight]) -> [f64; LANES] {
     simd.vectorize(
         #[inline(always)]
         || {
@@ -54,37 +47,52 @@ fn side_by_side<S: Simd>(simd: S, rates: &Rates<f64>, flights: &[Flight<f64>]) -
             let nowhere = Moment { x: zero, v: zero, steady: Steady { x: zero, v: zero } };
             let (mut begin, mut end, mut duration) = (nowhere, nowhere, zero);
             for (lane, flight) in flights.iter().enumerate().take(LANES) {
-                let ends = [(&mut begin, Some(flight.begin)), (&mut end, flight.end)];
-                for (wide, moment) in ends.into_iter().filter_map(|(w, m)| Some((w, m?))) {
-                    wide.x[lane] = moment.x;
-                    wide.v[lane] = moment.v;
-                    wide.steady.x[lane] = moment.steady.x;
-                    wide.steady.v[lane] = moment.steady.v;
-                }
+                begin.set(lane, &flight.begin);
+                end.set(lane, &flight.end);
                 duration[lane] = flight.duration;
             }
-            let known = flights.iter().all(|flight| flight.end.is_some());
-            let flight = Flight { begin, duration, end: known.then_some(end) };
             let rates = rates.map(
                 #[inline(always)]
                 |rate| Wide::splat(simd, rate),
             );
-            let highest = highest(simd, &rates, &flight);
+            let highest = highest(simd, &rates, &begin, duration, Some(&end));
             std::array::from_fn(|lane| highest[lane])
         },
     )
 }
 
+impl<S: Simd> Moment<Wide<S>> {
+    #[inline(always)]
+    fn set(&mut self, lane: usize, one: &Moment<f64>) {
+        self.x[lane] = one.x;
+        self.v[lane] = one.v;
+        self.steady.x[lane] = one.steady.x;
+        self.steady.v[lane] = one.steady.v;
+    }
+}
+
+impl<R: Real> Moment<R> {
+    /// Seen from the base, where the gap is the displacement.
+    #[inline(always)]
+    fn seen(&self, rates: &Rates<R>, base: Line<R>) -> (At<R>, Slack<R>) {
+        rates.begin(self.x, self.v, self.steady, base)
+    }
+}
+
 /// The largest absolute displacement in a flight.
 #[inline(always)]
-fn highest<R: Real, S: Simd>(simd: S, rates: &Rates<R>, flight: &Flight<R>) -> R {
-    let zero = flight.duration.like(0.0);
-    // Seen from the base the gap is the displacement.
+fn highest<R: Real, S: Simd>(
+    simd: S,
+    rates: &Rates<R>,
+    begin: &Moment<R>,
+    duration: R,
+    end: Option<&Moment<R>>,
+) -> R {
+    let zero = duration.like(0.0);
     let base = Line { y: zero, velocity: zero };
-    let Moment { x, v, steady } = flight.begin;
-    let (mut here, slack) = rates.begin(x, v, steady, base);
-    let end = flight.end.map(|Moment { x, v, steady }| rates.begin(x, v, steady, base).0);
-    let (mut left, mut peak) = (flight.duration, here.gap.abs());
+    let (mut here, slack) = begin.seen(rates, base);
+    let end = end.map(|end| end.seen(rates, base).0);
+    let (mut left, mut peak) = (duration, here.gap.abs());
     loop {
         let flying = zero.less(left);
         if !flying.any() {

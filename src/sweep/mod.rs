@@ -14,10 +14,10 @@ use crate::case::{Case, Design, Layer, Scales, SweepAxis, SweepSettings};
 use crate::digest::sha256;
 use crate::system::{State, System};
 
-/// Points of a chunk, at least: about a second's work, so that little is lost with one, and a file of some
+/// Points of a chunk, at least: about half a second's work, so that little is lost with one, and a file of some
 /// hundred kilobytes, so that there are not too many of them.
 const FEWEST_POINTS: u64 = 1024;
-/// Points of a chunk, at most: about a minute's work.
+/// Points of a chunk, at most: about half a minute's work.
 const MOST_POINTS: u64 = 65_536;
 /// Lines of a chunk, at least, along which motions are followed.
 const LINES: u64 = 16;

@@ -1,6 +1,7 @@
 //! Systems that several tests need.
 #![allow(dead_code)]
 
+use vinesink::report::figure::{Figure, PlacedText, Rect};
 use vinesink::system::{Excitation, Parameters, System};
 
 /// Table 1 of Li, Seguy, Berlioz (2016): `eps = m2 / m1`.
@@ -39,4 +40,16 @@ pub fn table_1(frequency_hz: f64, clearance_mm: f64) -> System {
         excitation: Excitation::BaseDisplacement,
     })
     .expect("Table 1 is a valid system")
+}
+
+/// The words of a figure neither touch nor are cut.
+pub fn words_are_apart(figure: &Figure, texts: &[PlacedText]) {
+    let (right, bottom) = (f64::from(figure.size.0), f64::from(figure.size.1));
+    let page = Rect { left: 0.0, top: 0.0, right, bottom };
+    for (i, a) in texts.iter().enumerate() {
+        assert!(page.contains(&a.room), "{}: {a:?} is cut", figure.name);
+        for b in &texts[i + 1..] {
+            assert!(!a.room.overlaps(&b.room), "{}: {a:?} touches {b:?}", figure.name);
+        }
+    }
 }

@@ -248,15 +248,7 @@ fn words_neither_touch_nor_are_cut() {
     let more = [texts("regime", &regimes), texts("area", &areas), all("peak", &peaks)];
     let three = swept(&case, axes, &more);
     for figure in two.figures().expect("figures").iter().chain(&three.figures().expect("figures")) {
-        let texts = draw(figure).expect("drawn").texts;
-        let (right, bottom) = (f64::from(figure.size.0), f64::from(figure.size.1));
-        let page = Rect { left: 0.0, top: 0.0, right, bottom };
-        for (i, a) in texts.iter().enumerate() {
-            assert!(page.contains(&a.room), "{}: {a:?} is cut", figure.name);
-            for b in &texts[i + 1..] {
-                assert!(!a.room.overlaps(&b.room), "{}: {a:?} touches {b:?}", figure.name);
-            }
-        }
+        common::words_are_apart(figure, &draw(figure).expect("drawn").texts);
         assert!(!figure.caption.is_empty() && !figure.alt.is_empty());
     }
 }

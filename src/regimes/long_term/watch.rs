@@ -1,7 +1,7 @@
 //! What watches a trajectory: whether it repeats, and how large it is.
 
 use super::{Ended, Motion, WATCHED};
-use crate::regimes::{Captures, Periodicity, Signs, Thresholds, periodicity};
+use crate::regimes::{Captures, Periodicity, Signs, Thresholds, modulation, periodicity};
 use crate::simulation::{Gauge, Impact, ImpactLog, Observer, Segment, Simulation, Stop};
 use crate::system::{State, System};
 
@@ -58,11 +58,13 @@ impl Watch {
         let gauge = &mut self.gauge;
         let thresholds = Thresholds::default();
         let period = simulation.system().period();
+        let (impacts_per_period, visits_per_period) =
+            (gauge.impacts_per_period(), gauge.visits_per_period());
         let (signs, errors, repeats_after) = match repetition {
             Some(Repetition { found, asymmetry }) => {
                 let signs = Signs {
-                    impacts_per_period: gauge.impacts_per_period(),
-                    visits_per_period: gauge.visits_per_period(),
+                    impacts_per_period,
+                    visits_per_period,
                     repeats: true,
                     asymmetry,
                     captures: Captures::default(),
@@ -71,8 +73,16 @@ impl Watch {
                 (signs, [0.0; 2], Some(found.periods))
             }
             None => {
-                let found = periodicity::find(gauge.records());
-                let signs = Signs::measured(gauge, &self.log.impacts, period, &thresholds);
+                let records = gauge.records();
+                let found = periodicity::find(records);
+                let signs = Signs {
+                    impacts_per_period,
+                    visits_per_period,
+                    repeats: found.is_some(),
+                    asymmetry: periodicity::asymmetry(&self.log.impacts, period),
+                    captures: modulation::captures(records, thresholds.shortest_capture),
+                    modulation_depth: modulation::depth(records),
+                };
                 (signs, gauge.errors(), found.map(|found| found.periods))
             }
         };
@@ -80,7 +90,7 @@ impl Watch {
             peak: gauge.peak(),
             rms: gauge.rms(),
             rms_error: errors[0],
-            impacts_per_period: gauge.impacts_per_period(),
+            impacts_per_period,
             impacts_error: errors[1],
             impact_speed: self.fastest,
             regime: signs.regime(&thresholds),

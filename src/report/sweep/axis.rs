@@ -32,13 +32,6 @@ impl AxisShown {
         let SweepAxis { parameter, ref values, logarithmic } = *axis;
         let (unit, size) = shown_unit(case, axis);
         let [name, symbol] = parameter.words(&case.design);
-        let own = match parameter {
-            // From the system's numbers, as everything else on the page.
-            SweepParameter::DampingRatio => {
-                Some(case.system().mass_ratio() * case.system().damping() / 2.0)
-            }
-            other => other.of(&case.design),
-        };
         Self {
             parameter,
             name: name.to_owned(),
@@ -46,7 +39,7 @@ impl AxisShown {
             unit: unit.to_owned(),
             values: values.iter().map(|value| value / size).collect(),
             logarithmic,
-            own: own.map(|own| own / size),
+            own: parameter.of(&case.design).map(|own| own / size),
         }
     }
 

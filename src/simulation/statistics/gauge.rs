@@ -38,7 +38,7 @@ pub struct Gauge {
 /// Flights that are yet to be searched for their peaks, several at a time.
 #[derive(Debug, Clone)]
 struct Open {
-    flights: Vec<Flight<f64>>,
+    flights: Vec<Flight>,
     /// Whole periods before each.
     periods: Vec<u64>,
 }
@@ -163,7 +163,7 @@ impl Telescope {
     }
 
     /// The flight that ends at a place, if it may reach beyond a displacement that is known.
-    fn flight(&self, end: &Place, known: f64) -> Option<Flight<f64>> {
+    fn flight(&self, end: &Place, known: f64) -> Option<Flight> {
         let begin = &self.begin;
         let duration = (end.phase - begin.phase) / self.frequency;
         let eighth = 0.125 * duration * duration;
@@ -184,7 +184,7 @@ impl Telescope {
         (by_bend > known && by_circle > known).then(|| Flight {
             begin: moment(begin),
             duration,
-            end: Some(moment(end)),
+            end: moment(end),
         })
     }
 }
