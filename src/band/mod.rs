@@ -3,22 +3,27 @@
 //! The paper's criterion (section 3.4 of Li, Seguy, Berlioz 2016) is to have as much of a target band
 //! as possible in area Z3. Where areas begin and end along a band are roots, not samples
 //! ([`crate::numerics::scan`]): of the theory's boundaries ([`theory`]), and of the stability of exact orbits
-//! ([`exact`]). Beside the absorber stand its rivals ([`rivals`]): the bare oscillator, and the best
-//! tuned mass damper of the same mass.
+//! ([`exact`]). What starts lead to is simulated at places that are added until the worst value is known
+//! ([`simulated`]), and an absorber that never wakes is a motion in closed form ([`inactive`]). [`survey`]
+//! puts them together: every command takes the worst of a band from there. Beside the absorber stand its
+//! rivals ([`rivals`]): the bare oscillator, and the best tuned mass damper of the same mass.
 
 pub mod exact;
+pub mod inactive;
 pub mod margin;
 pub mod rivals;
 pub mod simulated;
 pub mod survey;
 pub mod theory;
 
-pub use survey::Survey;
+pub use inactive::Inactive;
+pub use rivals::Rivals;
+pub use survey::{Source, Survey, SurveySettings, Worst};
 
 use serde::Serialize;
 
 use crate::case::{BandOver, BandSettings};
-use crate::system::{InvalidParameter, Parameter, System};
+use crate::system::{Excitation, InvalidParameter, Parameter, Parameters, System};
 
 /// A range of excitations of one design.
 #[derive(Debug, Clone, PartialEq)]
@@ -83,6 +88,34 @@ impl Band {
                 }
             }
         }
+    }
+
+    /// Whether it is a single excitation.
+    pub fn is_point(&self) -> bool {
+        self.width() <= 4.0 * POINT * self.range[0]
+    }
+
+    /// The same excitation of a structure whose natural frequency is `factor` times as high, by its
+    /// stiffness: mass and damping constant stay. Lengths stay over the clearance, places are over the new
+    /// natural frequency. `None` where no system has such values.
+    pub fn with_structure_detuned(&self, factor: f64) -> Option<Self> {
+        let parameters = self.base.parameters();
+        let over_stiffness = match parameters.excitation {
+            Excitation::Force => factor * factor,
+            Excitation::BaseDisplacement => 1.0,
+        };
+        let base = System::new(Parameters {
+            damping: parameters.damping / factor,
+            frequency_ratio: parameters.frequency_ratio / factor,
+            forcing_per_clearance: parameters.forcing_per_clearance / over_stiffness,
+            ..parameters
+        });
+        let mut band = self.with_base(base.ok()?);
+        if self.over == BandOver::Frequency {
+            band.range = band.range.map(|end| end / factor);
+            band.spectrum.iter_mut().for_each(|corner| corner[0] /= factor);
+        }
+        Some(band)
     }
 
     /// The same range for another design.

@@ -1,13 +1,24 @@
-//! All that is known along a band, found once: areas, stability, amplitudes against the rivals, the
-//! smallest gap, and the motions that simulation finds.
+//! All that is known along a band, found once: areas, stability, rivals, the smallest gap, the motions that
+//! simulation finds, and the worst of them all. `check`, `optimize`, the report and the index take their
+//! values from here, so that no two of them can differ.
 
 use super::exact::{self, Extreme};
-use super::rivals::{Rival, TunedMassDamper, bare_amplitude};
-use super::simulated::{self, Place};
-use super::{Band, Stretch, margin, theory};
+use super::rivals::Rivals;
+use super::simulated::{self, Place, Sampling};
+use super::{Band, Inactive, Stretch, inactive, margin, theory};
 use crate::analysis::{Strip, Zone};
-use crate::regimes::long_term::Effort;
+use crate::executor::Executor;
+use crate::regimes::long_term::Motion;
 use crate::simulation::StartError;
+
+/// What a survey looks at.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SurveySettings {
+    /// Whether, and how thoroughly, the band is simulated.
+    pub sampling: Option<Sampling>,
+    /// Whether an absorber at rest that never wakes is one of the motions.
+    pub count_inactive: bool,
+}
 
 /// What is known along a band. Lengths over the clearance; places are `Omega`, or the amplitude over the
 /// base system's.
@@ -21,48 +32,101 @@ pub struct Survey {
     pub stability: Vec<Stretch<bool>>,
     /// Its peak displacement; none where it attracts nowhere.
     pub orbit: Option<Extreme>,
-    /// The bare oscillator.
-    pub bare: Rival,
-    /// One with the best tuned mass damper of the absorber's mass.
-    pub damper: Rival,
+    /// The bare oscillator and the tuned mass damper of the absorber's mass.
+    pub rivals: Rivals,
     /// Where the clearance may be off least before the stable 1:1 motion is lost, and by which share; 0
     /// where there is none.
     pub smallest_gap: (f64, f64),
     /// What simulation finds; empty where nothing was simulated.
-    pub simulated: Vec<Place>,
+    pub places: Vec<Place>,
+    /// By how much the largest peak between places may exceed that at them.
+    pub unresolved: f64,
+    /// Where the structure with an absorber that never wakes vibrates most, and that motion.
+    pub inactive: Option<(f64, Inactive)>,
+    /// Whether that motion counts.
+    pub count_inactive: bool,
+}
+
+/// The motion that is worst along a band.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Source {
+    /// The exact symmetric 1:1 orbit.
+    Orbit,
+    /// A motion that was simulated.
+    Simulated(Motion),
+    /// That of an absorber which stays at rest.
+    Inactive(Inactive),
+}
+
+/// The largest displacement along a band.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Worst {
+    /// Where.
+    pub at: f64,
+    /// Peak displacement over the clearance.
+    pub peak: f64,
+    /// How much larger it may be: the error of a chaotic peak, or what lies between places.
+    pub error: f64,
+    /// Of which motion.
+    pub of: Source,
 }
 
 impl Survey {
-    /// Looks along a band, with simulation or without.
+    /// Looks along a band.
     ///
     /// # Errors
     /// [`StartError`] where a start of a simulation is not finite.
-    pub fn of(band: &Band, simulates: bool) -> Result<Self, StartError> {
-        let damper = TunedMassDamper::best(band.base.mass_ratio());
+    pub fn of(
+        band: &Band,
+        settings: &SurveySettings,
+        executor: &dyn Executor,
+    ) -> Result<Self, StartError> {
         let stability = exact::stability(band);
-        let simulated = match simulates {
-            true => simulated::along(band, &stability, &Effort::default())?,
-            false => Vec::new(),
-        };
+        let sampled = settings
+            .sampling
+            .map(|sampling| simulated::along(band, &stability, &sampling, executor))
+            .transpose()?;
+        let (places, unresolved) =
+            sampled.map_or((Vec::new(), 0.0), |sampled| (sampled.places, sampled.unresolved));
         Ok(Self {
             zones: theory::zones(band),
             orbit: exact::extreme(band, &stability, |_, orbit| orbit.peaks.displacement),
-            bare: Rival::along(band, bare_amplitude),
-            damper: Rival::along(band, |system| damper.amplitude(system)),
+            rivals: Rivals::along(band),
             smallest_gap: margin::smallest(band),
-            simulated,
+            places,
+            unresolved,
+            inactive: inactive::worst(band),
+            count_inactive: settings.count_inactive,
             stability,
             band: band.clone(),
         })
     }
 
-    /// The largest peak displacement of any motion that is known, and where: of the stable 1:1 orbit, and
-    /// of what was simulated.
-    pub fn largest(&self) -> Option<(f64, f64)> {
-        let orbit = self.orbit.map(|orbit| (orbit.at, orbit.largest));
-        let simulated = self.simulated.iter();
-        let simulated = simulated.filter_map(|place| Some((place.at, place.largest()?.peak)));
-        simulated.chain(orbit).max_by(|a, b| a.1.total_cmp(&b.1))
+    /// The largest peak displacement, with its error, of every motion that can happen; `None` where none is
+    /// known.
+    pub fn worst(&self) -> Option<Worst> {
+        let orbit = self.orbit.map(|orbit| Worst {
+            at: orbit.at,
+            peak: orbit.largest,
+            error: 0.0,
+            of: Source::Orbit,
+        });
+        let simulated = self.places.iter().flat_map(|place| {
+            place.beside_orbit().map(|motion| Worst {
+                at: place.at,
+                peak: motion.peak,
+                error: motion.peak_error.max(self.unresolved),
+                of: Source::Simulated(*motion),
+            })
+        });
+        let all = simulated.chain(orbit).chain(self.worst_inactive());
+        all.max_by(|a, b| (a.peak + a.error).total_cmp(&(b.peak + b.error)))
+    }
+
+    /// That of an inactive absorber, where it counts.
+    pub fn worst_inactive(&self) -> Option<Worst> {
+        let (at, inactive) = self.inactive.filter(|_| self.count_inactive)?;
+        Some(Worst { at, peak: inactive.amplitude, error: 0.0, of: Source::Inactive(inactive) })
     }
 
     /// Share in area Z3 of the theory, strips included.

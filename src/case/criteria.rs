@@ -145,18 +145,25 @@ pub(super) const KEYS: &[&str] = &[
     "impact_velocity",
     "impacts_per_period",
     "no_coexistence",
+    "count_inactive",
 ];
 
-/// Reads the table; empty where there is none, or no design whose units it could be in.
-pub(super) fn read(reader: &mut Reader, root: &Table, design: Option<&Design>) -> Vec<Criterion> {
+/// Reads the table, and whether an inactive absorber counts, which it does unless the table says
+/// otherwise. Empty where there is none, or no design whose units it could be in.
+pub(super) fn read(
+    reader: &mut Reader,
+    root: &Table,
+    design: Option<&Design>,
+) -> (Vec<Criterion>, bool) {
     let table = reader.table(root, TABLE);
-    let (Some(table), Some(design)) = (table, design) else { return Vec::new() };
+    let (Some(table), Some(design)) = (table, design) else { return (Vec::new(), true) };
+    let count_inactive = table.flag(reader, "count_inactive").unwrap_or(true);
     let mut found = Vec::new();
     for subject in Subject::ALL {
         let Some((_, value)) = table.entry(subject.key()) else { continue };
         found.extend(criterion(reader, subject, value, design));
     }
-    found
+    (found, count_inactive)
 }
 
 fn criterion(
@@ -316,4 +323,8 @@ pub(super) struct CriteriaTable {
     /// Whether every start must lead to the same long-term motion.
     #[schemars(example = true)]
     no_coexistence: Option<bool>,
+    /// Whether an absorber that rests where no wall reaches it, and never wakes, counts as a motion; true
+    /// unless given. False for a device in which it cannot rest there.
+    #[schemars(example = false)]
+    count_inactive: Option<bool>,
 }

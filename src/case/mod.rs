@@ -78,6 +78,8 @@ pub struct Case {
     pub band: Option<BandSettings>,
     /// The table `[criteria]`, in the order of a report; empty where there is none.
     pub criteria: Vec<Criterion>,
+    /// Whether the motion of an absorber that never wakes counts (`count_inactive` in `[criteria]`).
+    pub count_inactive: bool,
     /// The table `[optimize]`; its defaults where there is none.
     pub optimize: OptimizeSettings,
     /// The table `[uncertainty]`; nothing is uncertain where there is none.
@@ -209,7 +211,7 @@ fn read(reader: &mut Reader, document: &DeTable) -> Option<Case> {
     let report = report::read(reader, &root);
     let accuracy = accuracy::read(reader, &root);
     let band = band::read(reader, &root, design.as_ref());
-    let criteria = criteria::read(reader, &root, design.as_ref());
+    let (criteria, count_inactive) = criteria::read(reader, &root, design.as_ref());
     let optimize = optimize::read(reader, &root, design.as_ref());
     let uncertainty = uncertainty::read(reader, &root, design.as_ref());
     let sweep = sweep::read(reader, &root, design.as_ref());
@@ -225,6 +227,7 @@ fn read(reader: &mut Reader, document: &DeTable) -> Option<Case> {
         accuracy,
         band,
         criteria,
+        count_inactive,
         optimize,
         uncertainty,
         sweep,

@@ -2,19 +2,20 @@
 //! can decide it.
 //!
 //! Shares are roots ([`crate::band`]). An amplitude, a count of impacts or their speed must hold for every
-//! motion that is found: for the exact symmetric orbit where one attracts, and for what starts lead to
-//! along the band, that from rest among them, as an orbit does not know which other motions there are.
-//! What is found is the worst of all, whatever the limit is: two designs, or two limits, can be compared.
+//! motion that can happen: the exact symmetric orbit where one attracts, what starts lead to along the band,
+//! and that of an absorber which never wakes. What is found is the worst of all with its error, whatever the
+//! limit is: two designs, or two limits, can be compared.
 
 mod scope;
 
-use crate::band::Survey;
+use crate::band::rivals::reduction_db;
+use crate::band::simulated::Sampling;
+use crate::band::{Band, Inactive, Rivals, Survey, SurveySettings};
 use crate::case::{Case, Criterion, Relation, Scales, Subject};
 use crate::regimes::long_term::Motion;
-use crate::simulation::StartError;
 use crate::study::fidelity::Fidelity;
 
-pub use scope::Scope;
+use scope::Scope;
 
 /// Distance from a count that still is that count: as regimes are told apart.
 const SAME_COUNT: f64 = 0.01;
@@ -28,6 +29,8 @@ struct Value {
     error: f64,
     /// Place in the band, where it is the worst of one.
     at: Option<f64>,
+    /// Share of resting places, where the motion is that of an absorber that never wakes.
+    inactive: Option<f64>,
     by: Fidelity,
 }
 
@@ -49,47 +52,76 @@ pub struct Judged {
     pub near_limit: bool,
     /// Place in the band where it is worst: `Omega`, or amplitude over the case's own.
     pub at: Option<f64>,
+    /// Share of the absorber's resting places from which a start from rest stays in the motion that
+    /// decides, where that is the motion of an absorber that never wakes.
+    pub inactive: Option<f64>,
     /// The layer that `found` is from.
     pub decided_by: Fidelity,
 }
 
-/// A motion of the oscillator, whichever layer it is from. Lengths over the clearance, fast time.
+/// A motion of the oscillator, whichever layer it is from. Lengths over the clearance, fast time; each
+/// value with its absolute error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Seen {
-    peak: f64,
-    rms: f64,
-    impact_speed: f64,
-    impacts_per_period: f64,
-    /// Relative, of amplitudes and speeds.
-    error: f64,
-    impacts_error: f64,
+    peak: [f64; 2],
+    rms: [f64; 2],
+    impact_speed: [f64; 2],
+    impacts_per_period: [f64; 2],
 }
 
-/// What an orbit leaves open: rounding.
+/// Relative error of an orbit: rounding.
 const ROUNDING: f64 = 1e-9;
-/// What a simulated window leaves open of a peak, beside the scatter of its average: the largest of
-/// some hundred periods is not the largest of all.
-const PEAK_OF_A_WINDOW: f64 = 0.01;
 
-impl From<&Motion> for Seen {
-    fn from(motion: &Motion) -> Self {
+impl Seen {
+    /// A motion of a survey, in which the largest peak may be larger by `unresolved` than at its places.
+    fn simulated(motion: &Motion, unresolved: f64) -> Self {
         Self {
-            peak: motion.peak,
-            rms: motion.rms,
-            impact_speed: motion.impact_speed,
-            impacts_per_period: motion.impacts_per_period,
-            error: motion.rms_error / motion.rms.max(f64::MIN_POSITIVE) + PEAK_OF_A_WINDOW,
-            impacts_error: motion.impacts_error,
+            peak: [motion.peak, motion.peak_error.max(unresolved)],
+            rms: [motion.rms, motion.rms_error],
+            impact_speed: [motion.impact_speed, motion.impact_speed_error],
+            impacts_per_period: [motion.impacts_per_period, motion.impacts_error],
+        }
+    }
+
+    fn inactive(inactive: &Inactive) -> Self {
+        let rms = inactive.amplitude / std::f64::consts::SQRT_2;
+        Self {
+            peak: [inactive.amplitude, 0.0],
+            rms: [rms, 0.0],
+            impact_speed: [0.0; 2],
+            impacts_per_period: [0.0; 2],
         }
     }
 }
 
-/// Judges every criterion of a case; what is already known along its band is not found again.
-///
-/// # Errors
-/// [`StartError`] where a start of a simulation is not finite.
-pub fn judge(case: &Case, known: Option<&Survey>) -> Result<Vec<Judged>, StartError> {
-    let scope = Scope::of(case, known);
+/// Whether criteria can only be judged with simulation.
+pub fn needs_simulation(criteria: &[Criterion]) -> bool {
+    let exact = [Subject::Z3Share, Subject::StableShare, Subject::MarginClearance];
+    criteria.iter().any(|criterion| !exact.contains(&criterion.subject))
+}
+
+/// The range in which a case's criteria are asked about: its band, or its own excitation alone.
+pub fn range(case: &Case) -> Band {
+    let system = case.system();
+    case.band.as_ref().map_or_else(|| Band::point(&system), |band| Band::of(&system, band))
+}
+
+/// What a survey has to look at to judge a case: nothing is simulated that no criterion needs. The worst
+/// value is known to the error that `[accuracy]` asks for.
+pub fn settings(case: &Case) -> SurveySettings {
+    let needed = needs_simulation(&case.criteria);
+    SurveySettings { sampling: needed.then(|| sampling(case)), count_inactive: case.count_inactive }
+}
+
+/// How thoroughly a case's range is simulated, where it is.
+pub fn sampling(case: &Case) -> Sampling {
+    let asked = case.accuracy.and_then(|asked| asked.amplitude);
+    Sampling { tolerance: asked.unwrap_or(Sampling::FULL.tolerance), ..Sampling::FULL }
+}
+
+/// Judges every criterion of a case by a survey of its range, as [`settings`] asks for it.
+pub fn judge(case: &Case, survey: &Survey) -> Vec<Judged> {
+    let scope = Scope { survey, scales: case.scales() };
     case.criteria.iter().map(|criterion| scope.judge(criterion)).collect()
 }
 
@@ -113,18 +145,25 @@ impl Criterion {
                 holds: None,
                 near_limit: false,
                 at: None,
+                inactive: None,
                 decided_by: otherwise,
             };
         };
         let room = self.room(value.found);
+        // What was simulated holds if it does so with its error.
+        let needed = match (value.by, self.relation) {
+            (Fidelity::Simulation, Relation::AtLeast | Relation::AtMost) => value.error,
+            _ => 0.0,
+        };
         Judged {
             criterion: self.clone(),
             found: Some(value.found),
             error: value.error,
             margin: Some(room),
-            holds: Some(room >= 0.0),
+            holds: Some(room >= needed),
             near_limit: value.error > 0.0 && room.abs() <= value.error,
             at: value.at,
+            inactive: value.inactive,
             decided_by: value.by,
         }
     }
@@ -137,33 +176,25 @@ pub fn all_hold(judged: &[Judged]) -> bool {
 
 /// What a motion has of a subject, in the unit of the criterion, and its error. Reductions are against
 /// the largest amplitudes of bare oscillator and tuned mass damper along the range.
-fn of_motion(
-    subject: Subject,
-    seen: &Seen,
-    [bare, damper]: [f64; 2],
-    scales: &Scales,
-) -> Option<(f64, f64)> {
-    let length = |value: f64| (scales.length(value), scales.length(value) * seen.error);
+fn of_motion(subject: Subject, seen: &Seen, rivals: &Rivals, scales: &Scales) -> Option<[f64; 2]> {
+    let length = |value: [f64; 2]| value.map(|one| scales.length(one));
     let decibels = |against: f64| {
         if against.is_infinite() {
             // Anything is less than what has no limit: that says nothing.
             return None;
         }
-        let reduction = crate::band::rivals::reduction_db(seen.peak, against);
-        Some((reduction, 20.0 * libm::log10(1.0 + seen.error)))
+        let [peak, error] = seen.peak;
+        Some([reduction_db(peak, against), 20.0 * libm::log10(1.0 + error / peak)])
     };
     Some(match subject {
         Subject::PeakDisplacement => length(seen.peak),
         Subject::RmsDisplacement => length(seen.rms),
-        Subject::ReductionDb => decibels(bare)?,
-        Subject::ReductionDbTmd => decibels(damper)?,
-        Subject::ImpactVelocity => {
-            let speed = scales
-                .velocity_m_per_s(seen.impact_speed)
-                .unwrap_or_else(|| scales.length(seen.impact_speed));
-            (speed, speed * seen.error)
-        }
-        Subject::ImpactsPerPeriod => (seen.impacts_per_period, seen.impacts_error),
+        Subject::ReductionDb => decibels(rivals.bare.1)?,
+        Subject::ReductionDbTmd => decibels(rivals.damped.amplitude)?,
+        Subject::ImpactVelocity => seen
+            .impact_speed
+            .map(|speed| scales.velocity_m_per_s(speed).unwrap_or_else(|| scales.length(speed))),
+        Subject::ImpactsPerPeriod => seen.impacts_per_period,
         Subject::Z3Share
         | Subject::StableShare
         | Subject::MarginClearance

@@ -1,17 +1,10 @@
-//! The range in which a case's criteria are asked about, and what is known of it so far: a band, or
-//! the case's own excitation alone.
-
-use std::cell::OnceCell;
+//! What a survey says of each criterion.
 
 use super::{Judged, ROUNDING, Seen, Value, of_motion};
 use crate::band::exact::{self, attracting};
-use crate::band::rivals;
-use crate::band::simulated::{self, Place};
-use crate::band::{Band, Stretch, Survey, margin, theory};
-use crate::case::{Case, Criterion, Scales, Subject};
+use crate::band::{Survey, inactive, theory};
+use crate::case::{Criterion, Scales, Subject};
 use crate::orbits::{Measures, SymmetricOrbit};
-use crate::regimes::long_term::{Effort, motions};
-use crate::simulation::StartError;
 use crate::study::fidelity::Fidelity;
 use crate::system::System;
 use crate::validation::tolerance::asymptotic_error;
@@ -21,164 +14,141 @@ const PLACES: u32 = 25;
 /// Error of a share whose ends are roots: their rounding.
 const SHARE_ROUNDING: f64 = 1e-9;
 
-/// The range, and what is known of it so far.
-pub struct Scope {
-    band: Band,
-    /// Whether it is a band, and not one excitation.
-    ranges: bool,
-    scales: Scales,
-    /// The largest amplitudes along the range of the bare oscillator and of one with the best tuned
-    /// mass damper, over the clearance; infinite where nothing limits them.
-    rivals: [f64; 2],
-    stability: OnceCell<Vec<Stretch<bool>>>,
-    simulated: OnceCell<Vec<Place>>,
+/// A survey and the units of its case.
+pub(super) struct Scope<'a> {
+    pub(super) survey: &'a Survey,
+    pub(super) scales: Scales,
 }
 
-impl Scope {
-    /// That of a case; what a survey of its band knows is not found again.
-    pub fn of(case: &Case, known: Option<&Survey>) -> Self {
-        let system = case.system();
-        let band = case
-            .band
-            .as_ref()
-            .map_or_else(|| Band::point(&system), |settings| Band::of(&system, settings));
-        let simulated = known.map(|survey| &survey.simulated).filter(|places| !places.is_empty());
-        Self {
-            rivals: rivals::largest_amplitudes(&band),
-            band,
-            ranges: case.band.is_some(),
-            scales: case.scales(),
-            stability: known.map_or_else(OnceCell::new, |survey| survey.stability.clone().into()),
-            simulated: simulated.map_or_else(OnceCell::new, |places| places.clone().into()),
-        }
-    }
-
+impl Scope<'_> {
     /// Judges one criterion.
-    ///
-    /// # Errors
-    /// [`StartError`] where a start of a simulation is not finite.
-    pub fn judge(&self, criterion: &Criterion) -> Result<Judged, StartError> {
+    pub(super) fn judge(&self, criterion: &Criterion) -> Judged {
         let (value, by) = match criterion.subject {
             Subject::Z3Share => (Some(self.z3_share()), Fidelity::Manifold),
             Subject::StableShare => (Some(self.stable_share()), Fidelity::Orbit),
             Subject::MarginClearance => (Some(self.margin()), Fidelity::Orbit),
-            Subject::NoCoexistence => (self.one_motion()?, Fidelity::Simulation),
-            _ => (self.worst(criterion)?, Fidelity::Simulation),
+            Subject::NoCoexistence => (self.one_motion(), Fidelity::Simulation),
+            _ => (self.worst(criterion), Fidelity::Simulation),
         };
-        Ok(criterion.judged(value, by))
+        criterion.judged(value, by)
+    }
+
+    /// A place, where the range has more than one.
+    fn place(&self, at: f64) -> Option<f64> {
+        (!self.survey.band.is_point()).then_some(at)
     }
 
     /// The share in Z3, with what the theory's own error in the boundaries makes of it.
     fn z3_share(&self) -> Value {
+        let band = &self.survey.band;
         let share = |factor: f64| {
-            let base = self.band.base.with_clearance_scaled(factor).unwrap_or(self.band.base);
-            let band = self.band.with_base(base);
+            let base = band.base.with_clearance_scaled(factor).unwrap_or(band.base);
+            let band = band.with_base(base);
             band.share(&theory::zones(&band), |zone| zone.is_z3())
         };
-        let found = share(1.0);
-        let places = self.band.places(PLACES);
-        let error = places
-            .filter_map(|at| self.band.system(at).ok())
+        let found = self.survey.z3_share();
+        let error = band
+            .places(PLACES)
+            .filter_map(|at| band.system(at).ok())
             .map(|system| asymptotic_error(&system))
             .fold(0.0, f64::max);
         let shifted = [1.0 - error.min(0.9), 1.0 + error].map(share);
         let off =
             shifted.map(|other| (other - found).abs()).into_iter().fold(SHARE_ROUNDING, f64::max);
-        Value { found, error: off, at: None, by: Fidelity::Manifold }
+        Value { found, error: off, at: None, inactive: None, by: Fidelity::Manifold }
     }
 
     fn stable_share(&self) -> Value {
-        let found = self.band.share(self.stability(), |stable| *stable);
         // All and nothing have no end that could be off.
-        let error = if self.stability().len() > 1 { SHARE_ROUNDING } else { 0.0 };
-        Value { found, error, at: None, by: Fidelity::Orbit }
+        let error = if self.survey.stability.len() > 1 { SHARE_ROUNDING } else { 0.0 };
+        let found = self.survey.stable_share();
+        Value { found, error, at: None, inactive: None, by: Fidelity::Orbit }
     }
 
     fn margin(&self) -> Value {
-        let middle = 0.5 * (self.band.range[0] + self.band.range[1]);
-        let (at, found) = if self.ranges {
-            let (at, gap) = margin::smallest(&self.band);
-            (Some(at), gap)
-        } else {
-            (None, margin::Gap::of(&self.band, middle).map_or(0.0, |gap| gap.smaller()))
+        let (at, found) = self.survey.smallest_gap;
+        Value { found, error: ROUNDING, at: self.place(at), inactive: None, by: Fidelity::Orbit }
+    }
+
+    /// 1 where every place has one motion, 0 where one has several; `None` where nothing was simulated.
+    fn one_motion(&self) -> Option<Value> {
+        let survey = self.survey;
+        let several = survey.places.iter().find(|place| place.count(survey.count_inactive) > 1);
+        survey.places.first()?;
+        Some(Value {
+            found: f64::from(u8::from(several.is_none())),
+            error: 0.0,
+            at: several.and_then(|place| self.place(place.at)),
+            inactive: several
+                .filter(|_| survey.count_inactive)
+                .and_then(|place| Some(place.inactive?.share)),
+            by: Fidelity::Simulation,
+        })
+    }
+
+    /// The worst value of a criterion about motions; `None` where nothing was simulated.
+    fn worst(&self, criterion: &Criterion) -> Option<Value> {
+        self.survey.places.first()?;
+        let all = self.worst_orbit(criterion).into_iter().chain(self.worst_inactive(criterion));
+        let all = all.chain(self.simulated(criterion));
+        let room = |value: &Value| match value.by {
+            Fidelity::Simulation => criterion.room(value.found) - value.error,
+            _ => criterion.room(value.found),
         };
-        Value { found, error: ROUNDING, at, by: Fidelity::Orbit }
+        all.min_by(|a, b| room(a).total_cmp(&room(b)))
     }
 
-    /// 1 where every place has one motion, 0 where one has several.
-    fn one_motion(&self) -> Result<Option<Value>, StartError> {
-        let several = self.simulated()?.iter().find(|place| place.motions.len() > 1);
-        let at = several.map(|place| place.at).filter(|_| self.ranges);
-        let found = f64::from(u8::from(several.is_none()));
-        Ok(Some(Value { found, error: 0.0, at, by: Fidelity::Simulation }))
-    }
-
-    /// The worst value of a criterion about motions.
-    fn worst(&self, criterion: &Criterion) -> Result<Option<Value>, StartError> {
-        let exact = self.worst_exact(criterion);
-        let both = exact.into_iter().chain(self.worst_simulated(criterion)?);
-        Ok(both.min_by(|a, b| criterion.room(a.found).total_cmp(&criterion.room(b.found))))
+    fn of_motion(&self, criterion: &Criterion, seen: &Seen) -> Option<[f64; 2]> {
+        of_motion(criterion.subject, seen, &self.survey.rivals, &self.scales)
     }
 
     /// The worst of the attracting orbit, wherever there is one.
-    fn worst_exact(&self, criterion: &Criterion) -> Option<Value> {
+    fn worst_orbit(&self, criterion: &Criterion) -> Option<Value> {
+        let band = &self.survey.band;
         let value = |at: f64, orbit: &SymmetricOrbit| {
-            let system = self.band.system(at).ok()?;
-            let seen = seen(&system, orbit, criterion.subject)?;
-            of_motion(criterion.subject, &seen, self.rivals, &self.scales)
+            let system = band.system(at).ok()?;
+            self.of_motion(criterion, &seen(&system, orbit, criterion.subject)?)
         };
         let loss = |at: f64, orbit: &SymmetricOrbit| {
-            value(at, orbit).map_or(f64::NEG_INFINITY, |(found, _)| -criterion.room(found))
+            value(at, orbit).map_or(f64::NEG_INFINITY, |[found, _]| -criterion.room(found))
         };
-        let (place, _) = exact::largest_value(&self.band, self.stability(), loss)?;
-        let (found, error) = value(place, &attracting(&self.band, place)?)?;
-        let at = Some(place).filter(|_| self.ranges);
-        Some(Value { found, error, at, by: Fidelity::Orbit })
+        let (at, _) = exact::largest_value(band, &self.survey.stability, loss)?;
+        let [found, error] = value(at, &attracting(band, at)?)?;
+        Some(Value { found, error, at: self.place(at), inactive: None, by: Fidelity::Orbit })
     }
 
-    /// The worst of the motions that starts led to; where that is the exact orbit's, the orbit knows it
-    /// better.
-    fn worst_simulated(&self, criterion: &Criterion) -> Result<Option<Value>, StartError> {
-        let mut worst: Option<Value> = None;
-        for Place { at, motions } in self.simulated()? {
-            let orbit = attracting(&self.band, *at);
-            for motion in motions.iter().filter(|one| {
-                !orbit
-                    .as_ref()
-                    .is_some_and(|orbit| one.is_orbit_with_peak(orbit.peaks.displacement))
-            }) {
-                let Some((found, error)) =
-                    of_motion(criterion.subject, &Seen::from(motion), self.rivals, &self.scales)
-                else {
-                    continue;
-                };
-                let at = Some(*at).filter(|_| self.ranges);
-                if worst.is_none_or(|known| criterion.room(found) < criterion.room(known.found)) {
-                    worst = Some(Value { found, error, at, by: Fidelity::Simulation });
-                }
-            }
+    /// The worst of an absorber that never wakes, in closed form, wherever it can rest.
+    fn worst_inactive(&self, criterion: &Criterion) -> Option<Value> {
+        let band = &self.survey.band;
+        if !self.survey.count_inactive {
+            return None;
         }
-        Ok(worst)
+        let value = |at: f64| {
+            let inactive = inactive::Inactive::of(&band.system(at).ok()?)?;
+            let [found, error] = self.of_motion(criterion, &Seen::inactive(&inactive))?;
+            Some(Value {
+                found,
+                error,
+                at: self.place(at),
+                inactive: Some(inactive.share),
+                by: Fidelity::Orbit,
+            })
+        };
+        let (at, _) = inactive::largest_by(band, |at| value(at).map(|one| -criterion.room(one.found)))?;
+        value(at)
     }
 
-    fn stability(&self) -> &[Stretch<bool>] {
-        self.stability.get_or_init(|| exact::stability(&self.band))
-    }
-
-    /// The motions along the band, or at the case's own excitation.
-    fn simulated(&self) -> Result<&[Place], StartError> {
-        if self.simulated.get().is_none() {
-            let effort = Effort::default();
-            let found = if self.ranges {
-                simulated::along(&self.band, self.stability(), &effort)?
-            } else {
-                let at = self.band.base.frequency_ratio();
-                let found = motions(&[self.band.base], &effort)?;
-                found.into_iter().map(|motions| Place { at, motions }).collect()
-            };
-            return Ok(self.simulated.get_or_init(|| found));
-        }
-        Ok(self.simulated.get().map_or(&[], Vec::as_slice))
+    /// The motions that starts led to; where one is the exact orbit, the orbit knows it better.
+    fn simulated(&self, criterion: &Criterion) -> impl Iterator<Item = Value> {
+        let survey = self.survey;
+        survey.places.iter().flat_map(move |place| {
+            place.beside_orbit().filter_map(move |motion| {
+                let seen = Seen::simulated(motion, survey.unresolved);
+                let [found, error] = self.of_motion(criterion, &seen)?;
+                let at = self.place(place.at);
+                Some(Value { found, error, at, inactive: None, by: Fidelity::Simulation })
+            })
+        })
     }
 }
 
@@ -189,12 +159,11 @@ fn seen(system: &System, orbit: &SymmetricOrbit, subject: Subject) -> Option<See
         Subject::RmsDisplacement => Measures::of(system, &orbit.orbit.cycle).ok()?.rms,
         _ => f64::NAN,
     };
+    let rounded = |value: f64| [value, ROUNDING * value];
     Some(Seen {
-        peak: orbit.peaks.displacement,
-        rms,
-        impact_speed: orbit.impact_speed,
-        impacts_per_period: 2.0,
-        error: ROUNDING,
-        impacts_error: 0.0,
+        peak: rounded(orbit.peaks.displacement),
+        rms: rounded(rms),
+        impact_speed: rounded(orbit.impact_speed),
+        impacts_per_period: [2.0, 0.0],
     })
 }
