@@ -57,8 +57,11 @@ impl Default for Effort {
 /// A long-term motion that was simulated. Lengths over the clearance, fast time.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Motion {
-    /// Largest absolute displacement of the oscillator.
+    /// Largest absolute displacement of the oscillator that was seen.
     pub peak: f64,
+    /// By how much that is expected to grow in a window ten times as long, from the largest values of
+    /// blocks of the window; 0 for a motion that repeats.
+    pub peak_error: f64,
     /// Root mean square displacement of the oscillator.
     pub rms: f64,
     /// Two standard errors of that, between blocks of the window.
@@ -69,6 +72,10 @@ pub struct Motion {
     pub impacts_error: f64,
     /// Largest relative speed of an impact.
     pub impact_speed: f64,
+    /// As `peak_error`.
+    pub impact_speed_error: f64,
+    /// Whether its transient is over: it repeats, or its averages do not drift.
+    pub settled: bool,
     /// What its impacts do.
     pub regime: Regime,
     /// How many of the starts led to it.
@@ -275,10 +282,14 @@ fn distinct(ended: &[Option<Motion>]) -> Vec<Motion> {
 }
 
 impl Motion {
-    /// Takes over another start's measurement of the same motion: the larger extremes.
+    /// Takes over another start's measurement of the same motion: the larger extremes, and the
+    /// larger of their errors, which do not depend on how long a motion is looked at.
     fn join(&mut self, other: &Self) {
         self.peak = self.peak.max(other.peak);
+        self.peak_error = self.peak_error.max(other.peak_error);
         self.impact_speed = self.impact_speed.max(other.impact_speed);
+        self.impact_speed_error = self.impact_speed_error.max(other.impact_speed_error);
+        self.settled |= other.settled;
         self.starts += other.starts;
     }
 }
@@ -291,11 +302,14 @@ mod tests {
     fn motion() -> Motion {
         Motion {
             peak: 1.5,
+            peak_error: 0.0,
             rms: 1.0,
             rms_error: 0.0,
             impacts_per_period: TWO,
             impacts_error: 0.0,
             impact_speed: 3.0,
+            impact_speed_error: 0.0,
+            settled: true,
             regime: Regime::TwoSymmetric,
             starts: 1,
             efficiency: None,

@@ -176,6 +176,7 @@ mod tests {
             impacts,
             visits: impacts,
             mean_square: 0.0,
+            impact_speed: 1.0,
             peak: oscillator,
             end: State::AT_REST,
             absorber_harmonic: [0.6 * absorber, -0.8 * absorber],

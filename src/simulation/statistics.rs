@@ -14,7 +14,7 @@ use super::events::{Absorber, Impact, Observer, Segment, Side};
 use super::integrals::{Integrals, Integrator};
 use crate::numerics::bracket::brent;
 use crate::numerics::quadrature;
-use crate::numerics::scatter::twice_standard_error;
+use crate::numerics::scatter::{growth_of_largest, twice_standard_error};
 use crate::system::{State, System};
 use crate::tally;
 
@@ -54,6 +54,8 @@ pub struct PeriodRecord {
     pub visits: [u32; 2],
     /// Largest absolute displacement of the oscillator.
     pub peak: f64,
+    /// Largest relative speed of an impact.
+    pub impact_speed: f64,
     /// Mean square displacement of the oscillator.
     pub mean_square: f64,
     /// State at the end of the period, phase 0.
@@ -78,6 +80,7 @@ pub struct Statistics {
     /// Successive impacts on one wall since the last impact on the other or the last contact.
     run: Option<(Side, u32)>,
     peak: f64,
+    impact_speed: f64,
     squared: f64,
     input: f64,
     damper: f64,
@@ -93,6 +96,8 @@ pub struct Statistics {
 /// Blocks whose averages are compared: fewer say little of their scatter, more are too short to be
 /// independent.
 const BLOCKS: usize = 10;
+/// Blocks whose largest values are compared: as many as leave each some periods of a short window.
+const BLOCKS_OF_LARGEST: usize = 16;
 /// At least this many of the last periods are kept one by one; sums run over all of them. It bounds
 /// the memory of a run of any length, and no regime needs longer to show.
 const KEPT: usize = 20_000;
@@ -103,6 +108,7 @@ struct Current {
     impacts: [u32; 2],
     visits: [u32; 2],
     peak: f64,
+    impact_speed: f64,
     squared: f64,
     x_harmonic: [f64; 2],
     y_harmonic: [f64; 2],
@@ -124,6 +130,7 @@ impl Statistics {
             visits: 0,
             run: None,
             peak: start.x.abs(),
+            impact_speed: 0.0,
             squared: 0.0,
             input: 0.0,
             damper: 0.0,
@@ -161,6 +168,24 @@ impl Statistics {
     /// Largest absolute displacement of the oscillator, over the clearance.
     pub fn peak(&self) -> f64 {
         self.peak
+    }
+
+    /// Largest relative speed of an impact, over the clearance, in fast time.
+    pub fn impact_speed(&self) -> f64 {
+        self.impact_speed
+    }
+
+    /// By how much [`Self::peak`] and [`Self::impact_speed`] are expected to grow in a run ten times as
+    /// long, from their scatter between blocks of the kept periods, for a motion that does not repeat.
+    pub fn growth_of_largest(&self) -> [f64; 2] {
+        let length = (self.records.len() / BLOCKS_OF_LARGEST).max(1);
+        let growth = |value: &dyn Fn(&PeriodRecord) -> f64| {
+            let blocks = self.records.chunks_exact(length);
+            let largest: Vec<f64> =
+                blocks.map(|block| block.iter().map(value).fold(0.0, f64::max)).collect();
+            growth_of_largest(&largest)
+        };
+        [growth(&|record| record.peak), growth(&|record| record.impact_speed)]
     }
 
     /// Root mean square of the oscillator's displacement, over the clearance.
@@ -351,6 +376,8 @@ impl Observer for Statistics {
 
     fn impact(&mut self, impact: &Impact) {
         self.impacts += 1;
+        let speed = (impact.x_velocity_before - impact.y_velocity_before).abs();
+        self.current.impact_speed = self.current.impact_speed.max(speed);
         self.impact_loss += impact.loss;
         self.penetration = self.penetration.max(impact.penetration);
         let wall = index(impact.side);
@@ -372,6 +399,7 @@ impl Observer for Statistics {
     fn period(&mut self, state: &State) {
         let current = std::mem::take(&mut self.current);
         self.peak = self.peak.max(current.peak);
+        self.impact_speed = self.impact_speed.max(current.impact_speed);
         self.end = *state;
         self.largest_energy = self.largest_energy.max(state.energy(self.system.mass_ratio()));
         self.periods += 1;
@@ -382,6 +410,7 @@ impl Observer for Statistics {
             impacts: current.impacts,
             visits: current.visits,
             peak: current.peak,
+            impact_speed: current.impact_speed,
             mean_square: current.squared / self.system.period(),
             end: *state,
             absorber_harmonic: current.y_harmonic,

@@ -12,7 +12,6 @@ const KEPT_IMPACTS: usize = 1000;
 pub(super) struct Watch {
     pub(super) gauge: Gauge,
     log: ImpactLog,
-    fastest: f64,
 }
 
 impl Observer for Watch {
@@ -23,8 +22,6 @@ impl Observer for Watch {
         self.gauge.segment(segment);
     }
     fn impact(&mut self, impact: &Impact) {
-        let speed = (impact.x_velocity_before - impact.y_velocity_before).abs();
-        self.fastest = self.fastest.max(speed);
         self.log.impact(impact);
         self.gauge.impact(impact);
     }
@@ -41,7 +38,6 @@ impl Watch {
         Self {
             gauge: Gauge::begin(simulation.system(), simulation.state()),
             log: ImpactLog::of_the_last(KEPT_IMPACTS),
-            fastest: 0.0,
         }
     }
 
@@ -86,13 +82,18 @@ impl Watch {
                 (signs, gauge.errors(), found.map(|found| found.periods))
             }
         };
+        let settled = repeats_after.is_some() || modulation::settled(gauge.records());
+        let growth = if repeats_after.is_some() { [0.0; 2] } else { gauge.growth_of_largest() };
         Some(Motion {
             peak: gauge.peak(),
+            peak_error: growth[0],
             rms: gauge.rms(),
             rms_error: errors[0],
             impacts_per_period,
             impacts_error: errors[1],
-            impact_speed: self.fastest,
+            impact_speed: gauge.impact_speed(),
+            impact_speed_error: growth[1],
+            settled,
             regime: signs.regime(&thresholds),
             starts: 1,
             efficiency: gauge.efficiency(),

@@ -219,6 +219,17 @@ impl Gauge {
         self.statistics.peak()
     }
 
+    /// As [`Statistics::impact_speed`].
+    pub fn impact_speed(&self) -> f64 {
+        self.statistics.impact_speed()
+    }
+
+    /// As [`Statistics::growth_of_largest`].
+    pub fn growth_of_largest(&mut self) -> [f64; 2] {
+        self.search();
+        self.statistics.growth_of_largest()
+    }
+
     /// As [`Statistics::rms`].
     pub fn rms(&self) -> f64 {
         self.statistics.rms()
@@ -366,6 +377,7 @@ mod tests {
                     (a - b).abs() <= visits * rounded + 1e-13 * b,
                     "{a} {b} {rounded} {system:?}"
                 );
+                assert_eq!(one.impact_speed, other.impact_speed);
                 let (a, b) = (one.peak, other.peak);
                 assert!((a - b).abs() <= 1e-13 * (size + steady), "{a} {b} {system:?}");
             }
