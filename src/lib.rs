@@ -9,6 +9,7 @@ pub mod criteria;
 pub mod diff;
 pub mod digest;
 pub mod equations;
+pub mod executor;
 pub mod extremes;
 pub mod numerics;
 pub mod optimize;

@@ -7,7 +7,8 @@ use tempfile::TempDir;
 
 use vinesink::band::{Band, Survey, exact, theory};
 use vinesink::case::Case;
-use vinesink::criteria::judge;
+use vinesink::criteria::{self, Judged};
+use vinesink::executor::Serial;
 use vinesink::orbits::attracting_orbit;
 use vinesink::study::fidelity::Fidelity;
 
@@ -35,6 +36,12 @@ fn case(band: &str, criteria: &str) -> Case {
     Case::parse("test.toml", &text).unwrap_or_else(|error| panic!("{error:?}"))
 }
 
+/// As `check` judges it.
+fn judge(case: &Case) -> Vec<Judged> {
+    let survey = Survey::of(&criteria::range(case), &criteria::settings(case), &Serial);
+    criteria::judge(case, &survey.expect("starts are finite"))
+}
+
 /// The design at one excitation.
 fn alone(frequency: &str, clearance: &str, criteria: &str) -> Case {
     let design = DESIGN
@@ -47,7 +54,7 @@ fn alone(frequency: &str, clearance: &str, criteria: &str) -> Case {
 #[test]
 fn shares_are_those_of_the_band() {
     let case = case(BAND, "z3_share = \">= 80 %\"\nstable_share = \"<= 0.5\"");
-    let judged = judge(&case, None).expect("nothing is simulated");
+    let judged = judge(&case);
     let band = Band::of(&case.system(), case.band.as_ref().expect("a band"));
     let z3 = band.share(&theory::zones(&band), |zone| zone.is_z3());
     let stable = band.share(&exact::stability(&band), |stable| *stable);
@@ -64,17 +71,16 @@ fn shares_are_those_of_the_band() {
 fn the_worst_motion_decides_whatever_the_limit_is() {
     let found = |limit: &str| {
         let criteria = format!("peak_displacement = \"<= {limit}\"");
-        let judged = judge(&case(BAND, &criteria), None).expect("it runs")[0].clone();
+        let judged = judge(&case(BAND, &criteria))[0].clone();
         (judged.found, judged.decided_by, judged.at)
     };
     assert_eq!(found("3 mm"), found("1 m"));
     // At resonance with 15 mm every start leads to the orbit.
-    let found = judge(&alone("8.35 Hz", "15 mm", "peak_displacement = \"<= 20 mm\""), None);
-    let found = found.expect("it runs")[0].clone();
+    let found = judge(&alone("8.35 Hz", "15 mm", "peak_displacement = \"<= 20 mm\""))[0].clone();
     assert_eq!((found.holds, found.decided_by), (Some(true), Fidelity::Orbit));
     // At 8.7 Hz no symmetric orbit attracts.
-    let found = judge(&alone("8.7 Hz", "20 mm", "impacts_per_period = 2"), None);
-    let found = found.expect("it runs")[0].clone();
+    let text = "impacts_per_period = 2\ncount_inactive = false";
+    let found = judge(&alone("8.7 Hz", "20 mm", text))[0].clone();
     assert_eq!((found.holds, found.decided_by), (Some(false), Fidelity::Simulation));
 }
 
@@ -89,12 +95,15 @@ fn a_motion_beside_the_orbit_counts() {
     let orbit = attracting_orbit(&system).expect("there is one").peaks.displacement;
     let asleep = system.linear_response().expect("damped").amplitude();
     assert!(scales.length(orbit) < 3e-3 && scales.length(asleep) > 3e-3, "{orbit} {asleep}");
-    let judged = judge(&case, None).expect("it runs");
-    assert_eq!((judged[0].holds, judged[0].decided_by), (Some(false), Fidelity::Simulation));
-    // What is left of the start from rest after twelve e-folds is below 1e-5.
-    let found = judged[0].found.expect("measured");
-    assert!(found >= scales.length(asleep) * (1.0 - 1e-5), "{found}");
+    let judged = judge(&case);
+    assert_eq!((judged[0].holds, judged[0].decided_by), (Some(false), Fidelity::Manifold));
+    assert_eq!(judged[0].found, Some(scales.length(asleep)));
     assert_eq!((judged[1].found, judged[1].holds), (Some(0.0), Some(false)));
+    // In a device in which it cannot rest there the orbit decides.
+    let awake = judge(&alone("8 Hz", "16.6 mm", &format!("{criteria}\ncount_inactive = false")));
+    let found = awake[0].found.expect("measured");
+    assert!((found / scales.length(orbit) - 1.0).abs() < 1e-9, "{found}");
+    assert_eq!((awake[0].holds, awake[0].inactive), (Some(true), None));
 }
 
 /// An absorber that hardly moves is a mass on the oscillator, which then resonates in a peak narrower than
@@ -110,7 +119,7 @@ fn a_narrow_resonance_is_found_and_none_without_limit_is_compared() {
              [criteria]\n{criteria}\n"
         );
         let case = Case::parse("sharp.toml", &text).unwrap_or_else(|error| panic!("{error:?}"));
-        let judged = judge(&case, None).expect("it runs")[0].clone();
+        let judged = judge(&case)[0].clone();
         (case, judged)
     };
     let (case, judged) = sharp(0.0005, "peak_displacement = \"<= 20 mm\"");
@@ -127,17 +136,15 @@ fn a_narrow_resonance_is_found_and_none_without_limit_is_compared() {
     assert_eq!((judged.found, judged.holds), (None, None));
 }
 
-/// A report surveys the band for its tables and figure, and judges by the same survey.
+/// A survey that simulates more than the criteria need, as a report's does, changes nothing.
 #[test]
-fn a_known_survey_changes_nothing() {
-    let criteria =
-        "stable_share = \">= 0.5\"\npeak_displacement = \"<= 1 m\"\nno_coexistence = true";
-    let case = case(BAND, criteria);
-    let band = Band::of(&case.system(), case.band.as_ref().expect("a band"));
-    let survey = Survey::of(&band, true).expect("it runs");
-    assert_eq!(judge(&case, Some(&survey)), judge(&case, None));
-    let without = Survey::of(&band, false).expect("nothing is simulated");
-    assert_eq!(judge(&case, Some(&without)), judge(&case, None));
+fn a_survey_of_more_than_is_asked_changes_nothing() {
+    let case = case(BAND, "stable_share = \">= 0.5\"\nz3_share = \">= 0.5\"");
+    let mut settings = criteria::settings(&case);
+    assert_eq!(settings.sampling, None);
+    settings.sampling = Some(criteria::sampling(&case));
+    let survey = Survey::of(&criteria::range(&case), &settings, &Serial).expect("finite");
+    assert_eq!(criteria::judge(&case, &survey), judge(&case));
 }
 
 /// At one excitation the numbers are the orbit's.
@@ -147,7 +154,7 @@ fn a_case_without_band_is_judged_at_its_own_excitation() {
                     margin_clearance = \">= 10 %\"";
     // With 20 mm the start from rest would not wake the absorber.
     let case = alone("8.35 Hz", "15 mm", criteria);
-    let judged = judge(&case, None).expect("it runs");
+    let judged = judge(&case);
     let found: Vec<_> = judged.iter().map(|one| one.found.expect("measured")).collect();
     assert_eq!([found[0], found[2], found[3]], [1.0, 2.0, 1.0]);
     let system = case.system();

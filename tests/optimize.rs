@@ -7,10 +7,12 @@ use std::path::Path;
 use assert_cmd::Command;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::{RngCore, SeedableRng};
-use vinesink::band::theory;
-use vinesink::case::{Case, Choice, Distribution, Objective, Uncertainty};
+use vinesink::band::{Survey, theory};
+use vinesink::case::{Case, Choice, Distribution, Objective, Subject, Uncertainty};
+use vinesink::criteria;
+use vinesink::executor::{Executor, Serial};
 use vinesink::optimize::claim::Claim;
-use vinesink::optimize::{Deviation, InTurn, Optimization, Spread, Task};
+use vinesink::optimize::{Deviation, Optimization, Task};
 use vinesink::orbits::symmetric_orbits;
 use vinesink::report::optimize::OptimizePage;
 
@@ -31,7 +33,7 @@ fn case(text: &str) -> Case {
 fn optimized(text: &str, objective: Option<Objective>) -> Optimization {
     let case = case(text);
     let task = Task::of(&case, objective).expect("a task");
-    Optimization::of(&case, text, &task, &InTurn).expect("an optimum")
+    Optimization::of(&case, text, &task, &Serial).expect("an optimum")
 }
 
 fn reduced(r: f64, eps: f64, lambda: f64, forcing: f64, band: [f64; 2], more: &str) -> String {
@@ -46,66 +48,90 @@ fn reduced(r: f64, eps: f64, lambda: f64, forcing: f64, band: [f64; 2], more: &s
 fn brute_force(task: &Task, points: u32) -> f64 {
     let scores = (0..=points).filter_map(|k| {
         let choice = task.choice(&[f64::from(k) / f64::from(points)]);
-        task.score(&choice, &NOTHING)
+        task.score(&choice, &NOTHING, &Serial)
     });
     scores.fold(f64::NEG_INFINITY, f64::max)
 }
 
 #[test]
-fn the_optimum_is_that_of_brute_force() {
-    use Objective::{Margin, StableShare, WorstAmplitude, Z3Share};
+fn the_optimum_of_an_exact_objective_is_that_of_brute_force() {
+    use Objective::{Margin, StableShare, Z3Share};
     let cases = [
         (reduced(0.6, 0.0077, 1.8, 4.3, [0.94, 1.06], ""), Z3Share, 3000),
         (reduced(0.3, 0.03, 1.0, 2.0, [0.85, 1.2], ""), Z3Share, 3000),
         (reduced(0.8, 0.01, 0.6, 1.0, [0.98, 1.01], ""), StableShare, 900),
         (reduced(0.65, 0.02, 1.2, 3.0, [0.99, 1.01], ""), Margin, 900),
-        (reduced(0.5, 0.05, 0.8, 1.5, [1.0, 1.04], ""), WorstAmplitude, 900),
     ];
     for (text, objective, points) in cases {
         let found = optimized(&text, Some(objective));
         let brute = brute_force(&found.task, points);
-        // Where candidates are simulated before one is chosen, the first is the best of the search.
-        let best = found.candidates.first().map_or(found.nominal.score, |first| first.score);
-        println!("{objective:?}: {best} against {brute}, at {:?}", found.nominal.choice);
+        let best = found.best.value;
+        println!("{objective:?}: {best} against {brute}, at {:?}", found.best.choice);
         let scale = brute.abs();
         // Four written digits move a clearance by up to 5e-4, and a score by a few times that; between
         // two points of the grid, 1e-3 apart, lies a top that is higher by a slope of ten.
         assert!(best >= brute - 2e-3 * scale, "{objective:?}: {best} below {brute}");
         assert!(best <= brute + 2e-2 * scale, "{objective:?}: {best} above {brute}");
-        assert!(found.reached(), "{objective:?}");
-        let nominal = found.nominal;
-        assert_eq!(found.task.score(&nominal.choice, &NOTHING), Some(nominal.score));
-        assert_eq!(found.candidates.is_empty(), objective != WorstAmplitude);
+        assert!(found.improves(), "{objective:?}");
+        assert_eq!(found.task.score(&found.best.choice, &NOTHING, &Serial), Some(best));
+        assert_eq!(found.checked, (best, 0.0));
     }
 }
 
-/// Over the shipped band the search likes best a clearance where a large motion stands beside what two
-/// starts find.
+/// What is claimed is what a check of the written case says, and nothing that was judged is preferred to
+/// the winner, the case's own absorber included.
 #[test]
-fn of_worst_amplitudes_the_best_as_simulated_is_chosen() {
-    let text = band_text("[optimize]\nclearance = [\"15 mm\", \"40 mm\"]\n");
+fn the_winner_is_what_check_says_of_it() {
+    let more = "[optimize]\nclearance = [\"10 mm\", \"30 mm\"]\n";
+    let text = band_text(more)
+        .replace("peak_displacement = \"<= 14 mm\"", "peak_displacement = \"<= 1 m\"");
     let found = optimized(&text, Some(Objective::WorstAmplitude));
-    for one in &found.candidates {
-        println!("{} m: {} in the search, {}", one.choice.clearance, one.score, one.simulated);
+    let best = &found.best;
+    let written = case(&best.written.text);
+    let survey = Survey::of(&criteria::range(&written), &criteria::settings(&written), &Serial);
+    let judged = criteria::judge(&written, &survey.expect("finite"));
+    let peak = judged.iter().find(|one| one.criterion.subject == Subject::PeakDisplacement);
+    let peak = peak.expect("it is asked");
+    assert_eq!((peak.found, peak.error), (Some(best.value), best.error));
+    assert_eq!(found.checked, (best.value, best.error));
+    assert!(!best.is_worse_than(&found.own, Objective::WorstAmplitude));
+    let preferred = |one: &vinesink::optimize::Judged| {
+        (one.feasible, -(one.value + one.error)) > (best.is_feasible(), -(best.value + best.error))
+    };
+    assert!(!found.judged.iter().any(preferred), "{:?}", found.judged);
+    // Judged are places all over the bounds, and close around the best.
+    let clearances: Vec<f64> = found.judged.iter().map(|one| one.clearance).collect();
+    assert!(clearances[0] < 0.0125 && clearances[clearances.len() - 1] > 0.027, "{clearances:?}");
+    let close = clearances.iter().filter(|one| (*one / best.choice.clearance - 1.0).abs() < 0.01);
+    assert!(close.count() >= 2, "{clearances:?}");
+}
+
+/// Criteria exclude what the objective alone would choose, and where none can be met that is said.
+#[test]
+fn the_best_of_those_that_meet_the_criteria_wins() {
+    let bounds = "[optimize]\nclearance = [\"5 mm\", \"40 mm\"]\n";
+    let free = optimized(&band_text(bounds), Some(Objective::Z3Share));
+    assert!(free.best.is_feasible() && free.closest.is_none(), "{:?}", free.best.criteria);
+    let text = band_text(bounds)
+        .replace("impact_velocity = \"<= 1.5 m/s\"", "impact_velocity = \"<= 1.3 m/s\"");
+    let bound = optimized(&text, Some(Objective::Z3Share));
+    for (found, limit) in [(&free, 1.5), (&bound, 1.3)] {
+        let speed =
+            found.best.criteria.iter().find(|one| one.criterion.subject == Subject::ImpactVelocity);
+        let speed = speed.and_then(|one| one.found).expect("measured");
+        println!("{limit} m/s: {:?}, {speed} m/s, share {}", found.best.choice, found.best.value);
+        assert_eq!(found.best.is_feasible(), speed <= limit);
     }
-    let first = found.candidates[0];
-    assert!(first.simulated < 1.1 * first.score, "{first:?} was to be refuted");
-    assert_ne!(first.choice, found.nominal.choice);
-    let judged = found.nominal.judged();
-    assert!(found.candidates.iter().all(|one| one.simulated <= judged && judged <= first.score));
-    // As the table of places has it, from starts the search never saw.
-    let largest = found.confirmed.iter().filter_map(|place| place.largest).fold(0.0, f64::max);
-    assert_eq!(judged, found.nominal.score.min(-largest));
-    assert!(found.confirmed.iter().all(|place| place.starts == 32));
-    // Candidates are distinct and all over the bounds.
-    let clearances: Vec<f64> = found.candidates.iter().map(|one| one.choice.clearance).collect();
-    for (k, one) in clearances.iter().enumerate() {
-        let way = |other: &f64| (libm::log(one / other) / libm::log(40.0 / 15.0)).abs();
-        // A hundredth of the way, but for what rounding to four digits does to either.
-        assert!(clearances[..k].iter().all(|other| way(other) > 0.009), "{clearances:?}");
-    }
-    // The case itself is simulated as thoroughly, and the optimum is better.
-    assert!(found.own.judged() < judged, "{:?} against {judged}", found.own);
+    let text = band_text(bounds)
+        .replace("peak_displacement = \"<= 14 mm\"", "peak_displacement = \"<= 1 mm\"");
+    let none = optimized(&text, Some(Objective::Z3Share));
+    assert!(!none.best.is_feasible() && !none.succeeds());
+    let closest = none.closest.as_ref().expect("one misses least");
+    assert!(closest.violation() <= none.best.violation());
+    let told = OptimizePage::new("a case", &case(&text), &none, &[]);
+    assert!(told.headline.starts_with("No absorber between the bounds meets all criteria."));
+    let tmd = |sentence: &String| sentence.starts_with("A tuned mass damper of the same mass");
+    assert!(told.sentences.iter().any(tmd), "{:?}", told.sentences);
 }
 
 /// Standard normal numbers with a fixed beginning, by Box and Muller.
@@ -156,7 +182,7 @@ fn monte_carlo(task: &Task, choice: &Choice, samples: u32) -> (f64, f64) {
             frequency_ratio: drawn(frequency_ratio, &mut normal),
             amplitude: drawn(amplitude, &mut normal),
         };
-        let score = task.score(choice, &off).expect("a score");
+        let score = task.score(choice, &off, &Serial).expect("a score");
         sum += score;
         squares += score * score;
     }
@@ -171,24 +197,25 @@ fn the_expectation_and_its_optimum_are_those_of_monte_carlo() {
         let task = Task::of(&case(&band_text(four)), None).expect("a task");
         for part in [0.45, 0.6, 0.68] {
             let choice = task.choice(&[part]);
-            let expected = task.expected(&choice, &task.deviations(), &InTurn).expect("a score");
+            let expected = task.expected(&choice, &task.deviations(), &Serial).expect("a score");
             let (mean, error) = monte_carlo(&task, &choice, 4000);
             println!("{part}: {expected} against {mean} with a standard error of {error}");
             // Four standard errors are exceeded by chance once in 16,000 times.
             assert!((expected - mean).abs() < 4.0 * error, "{expected}, {mean}, {error}");
         }
         let found = optimized(&band_text(two), None);
-        let robust = found.robust.expect("something is uncertain");
-        let (reached, error) = monte_carlo(&found.task, &robust.choice, 2000);
+        let robust = found.robust.as_ref().expect("something is uncertain");
+        let (reached, error) = monte_carlo(&found.task, &robust.design.choice, 2000);
         let places = (0..25).map(|k| found.task.choice(&[0.4 + 0.02 * f64::from(k)]));
-        for choice in places.chain([found.nominal.choice]) {
+        for choice in places.chain([found.best.choice]) {
             let (other, _) = monte_carlo(&found.task, &choice, 2000);
             // The same errors befall both, so that their difference scatters less than either.
             assert!(reached > other - error, "{choice:?}: {other} above {reached}");
         }
-        assert!(robust.expected >= found.nominal.expected, "{robust:?}");
-        assert!(robust.score <= found.nominal.score + 1e-9, "{robust:?}");
-        println!("robust {robust:?}\nnominal {:?}", found.nominal);
+        let [of_robust, of_best] = robust.under;
+        assert!(of_robust.expected >= of_best.expected, "{robust:?}");
+        assert!(of_robust.worst_corner <= of_robust.expected, "{robust:?}");
+        assert!(robust.design.value <= found.best.value + 1e-9, "{robust:?}");
     }
 }
 
@@ -199,10 +226,10 @@ fn a_written_case_differs_in_its_values_only() {
     let found = optimized(&text, None);
     let changed: Vec<(&str, &str)> = text
         .lines()
-        .zip(found.written.text.lines())
+        .zip(found.best.written.text.lines())
         .filter(|(before, after)| before != after)
         .collect();
-    assert_eq!(text.lines().count(), found.written.text.lines().count());
+    assert_eq!(text.lines().count(), found.best.written.text.lines().count());
     assert_eq!(changed.len(), 3, "{changed:?}");
     let clearance = changed.iter().find(|(_, after)| after.starts_with("clearance = \""));
     let (_, clearance) = clearance.expect("the clearance");
@@ -210,14 +237,14 @@ fn a_written_case_differs_in_its_values_only() {
     let digits = clearance.chars().take_while(|c| *c != '#').filter(char::is_ascii_digit).count();
     assert!(digits <= 5, "{clearance}");
     // What is shown is what is written.
-    let again = case(&found.written.text);
-    assert_eq!(Choice::of(&again.design), found.nominal.choice);
+    let again = case(&found.best.written.text);
+    assert_eq!(Choice::of(&again.design), found.best.choice);
     let task = Task::of(&again, None).expect("a task");
-    let score = task.score(&found.nominal.choice, &NOTHING).expect("a score");
-    assert!((score - found.nominal.score).abs() < 1e-9, "{score}");
+    let score = task.score(&found.best.choice, &NOTHING).expect("a score");
+    assert!((score - found.best.value).abs() < 1e-9, "{score}");
     // Three variables do better than one.
     let one = optimized(&band_text(""), None);
-    assert!(found.nominal.score >= one.nominal.score - 1e-3, "{found:?}");
+    assert!(found.best.value >= one.best.value - 1e-3, "{:?}", found.best.choice);
 }
 
 #[test]
@@ -229,7 +256,7 @@ fn bounds_are_kept() {
     ];
     for table in tables {
         let found = optimized(&band_text(table), None);
-        assert!(found.task.allows(&found.nominal.choice), "{table}: {:?}", found.nominal);
+        assert!(found.task.allows(&found.best.choice), "{table}: {:?}", found.best.choice);
     }
 }
 
@@ -240,25 +267,28 @@ fn of_a_plateau_the_middle_is_chosen() {
         text.lines().take_while(|line| *line != "#").map(|l| l.to_owned() + "\n").collect();
     for objective in [Objective::Z3Share, Objective::StableShare] {
         let found = optimized(&text, Some(objective));
-        assert_eq!(found.nominal.score, 1.0, "{objective:?}");
-        let [low, high] = found.nominal.plateau;
+        assert_eq!(found.best.value, 1.0, "{objective:?}");
+        let [low, high] = found.plateau;
         let middle = (low * high).sqrt();
-        assert!((found.nominal.choice.clearance / middle - 1.0).abs() < 1e-3, "{found:?}");
+        assert!((found.best.choice.clearance / middle - 1.0).abs() < 1e-3, "{middle}");
         for (at, inside) in
             [(low * 1.001, 1.0), (high * 0.999, 1.0), (low * 0.999, 0.0), (high * 1.001, 0.0)]
         {
-            let choice = Choice { clearance: at, ..found.nominal.choice };
-            assert_eq!(found.task.score(&choice, &NOTHING), Some(inside), "{objective:?} {at}");
+            let choice = Choice { clearance: at, ..found.best.choice };
+            assert_eq!(
+                found.task.score(&choice, &NOTHING, &Serial),
+                Some(inside),
+                "{objective:?} {at}"
+            );
         }
-        assert!(found.confirmed.iter().all(|place| place.as_predicted > 0), "{found:?}");
     }
 }
 
 /// Evaluates from the last to the first.
 struct Backwards;
 
-impl Spread for Backwards {
-    fn each(&self, _: &'static str, count: usize, f: &(dyn Fn(usize) + Sync)) {
+impl Executor for Backwards {
+    fn each(&self, _: &str, count: usize, f: &(dyn Fn(usize) + Sync)) {
         (0..count).rev().for_each(f);
     }
 }
@@ -270,8 +300,8 @@ fn the_order_of_evaluations_changes_nothing() {
     let case = case(&text);
     let task = Task::of(&case, None).expect("a task");
     let backwards = Optimization::of(&case, &text, &task, &Backwards).expect("an optimum");
-    let forwards = Optimization::of(&case, &text, &task, &InTurn).expect("an optimum");
-    assert_eq!(backwards.nominal, forwards.nominal);
+    let forwards = Optimization::of(&case, &text, &task, &Serial).expect("an optimum");
+    assert_eq!(backwards.best, forwards.best);
     assert_eq!(backwards.landscape, forwards.landscape);
 }
 
@@ -426,10 +456,15 @@ fn the_command_writes_a_page_and_a_case() {
     let second = run(&["--format", "json"]);
     assert_eq!(first.stdout, second.stdout, "the same bytes, whatever the number of threads");
     let document: serde_json::Value = serde_json::from_slice(&first.stdout).expect("JSON");
-    assert_eq!(document["format"], "vinesink/optimization@1");
+    assert_eq!(document["format"], "vinesink/optimization@2");
     assert_eq!(document["reached"], true);
     let page = out.join("li2016-8p5hz-fig4a");
-    for file in ["optimize.md", "figures/optimize-landscape.svg", "figures/optimize-chart.svg"] {
+    for file in [
+        "optimize.md",
+        "optimize.html",
+        "figures/optimize-landscape.svg",
+        "figures/optimize-chart.svg",
+    ] {
         assert!(page.join(file).is_file(), "{file}");
     }
     case(&fs::read_to_string(&new).expect("the new case"));
@@ -478,7 +513,7 @@ fn shares_in_strips_and_winners_on_bounds_are_told() {
     assert!(has(&told, sentence), "{told:?}");
     let more = "clearance = [\"12 mm\", \"14 mm\"]\nmass = [\"30 g\", \"32.01 g\"]\n";
     let text = band_text(&format!("[optimize]\n{more}"));
-    let (told, found) = (sentences(&text, None), optimized(&text, None).nominal.choice);
+    let (told, found) = (sentences(&text, None), optimized(&text, None).best.choice);
     let mass = found.mass.expect("a physical case");
     for (name, value, ends) in
         [("clearance", found.clearance, [0.012, 0.014]), ("mass", mass, [0.03, 0.03201])]
@@ -492,7 +527,7 @@ fn shares_in_strips_and_winners_on_bounds_are_told() {
 /// Share of the shipped band that lies in strips with the best clearance.
 fn strips_of(more: &str) -> f64 {
     let found = optimized(&band_text(more), None);
-    let (band, _) = found.task.band_of(&found.nominal.choice, &NOTHING).expect("a system");
+    let (band, _) = found.task.band_of(&found.best.choice, &NOTHING).expect("a system");
     band.share(&theory::zones(&band), |zone| zone.strip.is_some())
 }
 
@@ -545,7 +580,7 @@ fn where_nothing_is_reached_there_is_no_optimum() {
     assert_eq!(code, Some(1), "{stdout}");
     assert!(!Path::new(&new).exists());
     assert!(stdout.contains("new.toml is not written: nothing between the bounds"), "{stdout}");
-    assert!(!stdout.contains("optimum ") && !stdout.contains("From 32 starts"), "{stdout}");
+    assert!(!stdout.contains("optimum "), "{stdout}");
     let page = fs::read_to_string(format!("{out}/hopeless/optimize.md")).expect("the page");
     assert!(!page.contains("| optimum") && !page.contains("## Sensitivity"), "{page}");
     assert!(page.contains("## Is the 1:1 motion best where it disappears?"), "{page}");
@@ -555,7 +590,6 @@ fn where_nothing_is_reached_there_is_no_optimum() {
     let (code, [stdout, stderr]) = optimize(&hopeless, &["--write", &new, "--format", "json"]);
     let document: serde_json::Value = serde_json::from_str(&stdout).expect("JSON");
     assert_eq!((code, &document["optimum"]), (Some(1), &serde_json::Value::Null));
-    assert_eq!(document["confirmed"], serde_json::json!([]));
     assert!(stderr.contains("is not written"), "{stderr}");
 }
 

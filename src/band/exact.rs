@@ -24,7 +24,9 @@ pub fn attracting(band: &Band, at: f64) -> Option<SymmetricOrbit> {
 /// The band, cut where an attracting symmetric orbit begins or ends.
 pub fn stability(band: &Band) -> Vec<Stretch<bool>> {
     let mut places: Vec<f64> = band.corners().collect();
-    places.extend(sign_changes(band.range, PIECES, |at| strength(band, at)));
+    if !band.is_point() {
+        places.extend(sign_changes(band.range, PIECES, |at| strength(band, at)));
+    }
     band.cut(places, |at| attracting(band, at).is_some())
 }
 
@@ -53,17 +55,6 @@ pub fn unstable_middles(stability: &[Stretch<bool>]) -> impl Iterator<Item = f64
     stability.iter().filter(|one| !one.of).map(|one| 0.5 * (one.from + one.to))
 }
 
-/// Places of the stretches without an attracting orbit: of `count` even ones over the band those that
-/// lie in them, and the middle of each, for one that lies between two.
-pub fn unstable_places(band: &Band, stability: &[Stretch<bool>], count: u32) -> Vec<f64> {
-    let inside = |at: f64| stability.iter().any(|one| !one.of && one.from <= at && at <= one.to);
-    let mut places: Vec<f64> = band.places(count).filter(|at| inside(*at)).collect();
-    places.extend(unstable_middles(stability));
-    places.sort_by(f64::total_cmp);
-    places.dedup();
-    places
-}
-
 /// A value of the attracting orbit over the places where there is one.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Extreme {
@@ -85,7 +76,8 @@ pub fn largest_value(
     let of = |at: f64| attracting(band, at).map(|orbit| value(at, &orbit));
     let stretches = stability.iter().filter(|stretch| stretch.of);
     let each = stretches.filter_map(|stretch| {
-        let pieces = pieces((stretch.to - stretch.from) / band.width());
+        let share = (stretch.to - stretch.from) / band.width();
+        let pieces = if band.is_point() { 1 } else { pieces(share) };
         // At the very ends rounding decides whether there is an orbit.
         largest([stretch.from, stretch.to], pieces, of)
     });

@@ -34,7 +34,8 @@ impl Inactive {
     /// That of a system; `None` where every start from rest wakes the absorber, but for a negligible share.
     pub fn of(system: &System) -> Option<Self> {
         let steady = system.linear_response()?;
-        let [zeta, omega] = [0.5 * system.mass_ratio() * system.damping(), system.frequency_ratio()];
+        let [zeta, omega] =
+            [0.5 * system.mass_ratio() * system.damping(), system.frequency_ratio()];
         let start = steady.state(system);
         let forced = Complex::new(start.x, -start.x_velocity / omega);
         // An overdamped structure has no free oscillation; its free motion is never larger than this.
@@ -92,7 +93,8 @@ mod tests {
             let (s, c) = libm::sincos(system.frequency_ratio() * time);
             [v, sine * s + cosine * c - damping * v - x]
         };
-        let after = |[x, v]: [f64; 2], [dx, dv]: [f64; 2], step: f64| [x + step * dx, v + step * dv];
+        let after =
+            |[x, v]: [f64; 2], [dx, dv]: [f64; 2], step: f64| [x + step * dx, v + step * dv];
         let (mut state, mut largest): ([f64; 2], f64) = ([0.0; 2], 0.0);
         for k in 0..100_000 {
             let time = STEP * f64::from(k);
@@ -125,7 +127,8 @@ mod tests {
                 excitation,
             };
             let system = System::new(parameters).expect("valid");
-            let half = system.with_clearance_scaled(2.0 * largest_by_steps(&system)).expect("valid");
+            let half =
+                system.with_clearance_scaled(2.0 * largest_by_steps(&system)).expect("valid");
             let found = Inactive::of(&half).expect("half of the places stay");
             // The envelope lies above the motion by what the fast phase leaves: 2 % so near resonance.
             assert!((found.share - 0.5).abs() < 0.01, "{zeta} {omega}: {found:?}");

@@ -40,6 +40,9 @@ impl Gap {
 /// then 0, there.
 pub fn smallest(band: &Band) -> (f64, f64) {
     let gap = |at: f64| (at, Gap::of(band, at).map_or(0.0, |gap| gap.smaller()));
+    if band.is_point() {
+        return gap(0.5 * (band.range[0] + band.range[1]));
+    }
     let mut best = (band.range[0], f64::INFINITY);
     for at in band.places(PIECES + 1) {
         let tried = gap(at);

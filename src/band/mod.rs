@@ -18,7 +18,7 @@ pub mod theory;
 
 pub use inactive::Inactive;
 pub use rivals::Rivals;
-pub use survey::{Source, Survey, SurveySettings, Worst};
+pub use survey::{Motions, Source, Survey, SurveySettings, Worst};
 
 use serde::Serialize;
 

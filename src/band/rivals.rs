@@ -86,7 +86,8 @@ impl TunedMassDamper {
         let coupling = Complex::new(spring, 2.0 * self.damping_ratio * self.tuning * omega);
         let against = coupling - omega * omega;
         let loss = mu * system.damping() * omega;
-        let stiffness = Complex::new(1.0 - omega * omega, loss) - omega * omega * mu * coupling / against;
+        let stiffness =
+            Complex::new(1.0 - omega * omega, loss) - omega * omega * mu * coupling / against;
         let amplitude = libm::hypot(sine, cosine) / libm::hypot(stiffness.re, stiffness.im);
         let relative = omega * omega / libm::hypot(against.re, against.im);
         [amplitude, amplitude * relative].map(|one| if one.is_nan() { f64::INFINITY } else { one })
@@ -245,7 +246,9 @@ mod tests {
         {
             let band = around_resonance(system(mu, zeta, excitation));
             let Rivals { damper, damped, detuned, .. } = Rivals::along(&band);
-            for (tuning, damping) in [(0.99, 1.0), (1.01, 1.0), (1.0, 0.9), (1.0, 1.1), (0.995, 1.05)] {
+            for (tuning, damping) in
+                [(0.99, 1.0), (1.01, 1.0), (1.0, 0.9), (1.0, 1.1), (0.995, 1.05)]
+            {
                 let other = TunedMassDamper {
                     tuning: tuning * damper.tuning,
                     damping_ratio: damping * damper.damping_ratio,

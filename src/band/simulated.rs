@@ -63,7 +63,8 @@ impl Place {
 
     /// Motions with impacts that are not the attracting symmetric orbit.
     pub fn beside_orbit(&self) -> impl Iterator<Item = &Motion> {
-        let known = |motion: &&Motion| self.orbit.is_some_and(|peak| motion.is_orbit_with_peak(peak));
+        let known =
+            |motion: &&Motion| self.orbit.is_some_and(|peak| motion.is_orbit_with_peak(peak));
         self.motions.iter().filter(move |motion| !known(motion))
     }
 
@@ -202,7 +203,8 @@ impl Sampler<'_> {
     fn at(&self, mut places: Vec<f64>, known: &[Place]) -> Result<Vec<Place>, StartError> {
         places.sort_by(f64::total_cmp);
         places.dedup();
-        let starts = if self.band.is_point() { self.sampling.starts_alone } else { self.sampling.starts };
+        let starts =
+            if self.band.is_point() { self.sampling.starts_alone } else { self.sampling.starts };
         let task = |at: f64| {
             let system = self.band.system(at).ok()?;
             let right = known.partition_point(|place| place.at < at);
@@ -233,7 +235,8 @@ impl Sampler<'_> {
             let known = (1.0 + FOLLOWED) * places[k].peak().max(places[k].followed);
             let beside = [k.checked_sub(1), Some(k + 1)];
             let beside = beside.into_iter().flatten().filter_map(|beside| places.get(beside));
-            let starts: Vec<State> = beside.clone().flat_map(|place| followed(place, known)).collect();
+            let starts: Vec<State> =
+                beside.clone().flat_map(|place| followed(place, known)).collect();
             if !starts.is_empty() {
                 chosen.push((k, beside.map(Place::peak).fold(0.0, f64::max)));
                 tasks.push(Task { at: places[k].at, starts });
@@ -267,7 +270,9 @@ impl Sampler<'_> {
         let mut counts = Vec::with_capacity(tasks.len());
         for task in tasks {
             let system = self.band.system(task.at).ok();
-            let of = system.into_iter().flat_map(|one| task.starts.iter().map(move |start| (one, *start)));
+            let of = system
+                .into_iter()
+                .flat_map(|one| task.starts.iter().map(move |start| (one, *start)));
             let before = starts.len();
             starts.extend(of);
             counts.push(starts.len() - before);

@@ -3,7 +3,7 @@
 //! values from here, so that no two of them can differ.
 
 use super::exact::{self, Extreme};
-use super::rivals::Rivals;
+use super::rivals::{DETUNED, Rivals};
 use super::simulated::{self, Place, Sampling};
 use super::{Band, Inactive, Stretch, inactive, margin, theory};
 use crate::analysis::{Strip, Zone};
@@ -24,19 +24,29 @@ pub struct SurveySettings {
 /// base system's.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Survey {
-    /// The band.
-    pub band: Band,
+    /// The motions that can happen.
+    pub motions: Motions,
     /// The theory's areas and strips.
     pub zones: Vec<Stretch<Zone>>,
-    /// Where a symmetric 1:1 orbit attracts.
-    pub stability: Vec<Stretch<bool>>,
-    /// Its peak displacement; none where it attracts nowhere.
-    pub orbit: Option<Extreme>,
     /// The bare oscillator and the tuned mass damper of the absorber's mass.
     pub rivals: Rivals,
     /// Where the clearance may be off least before the stable 1:1 motion is lost, and by which share; 0
     /// where there is none.
     pub smallest_gap: (f64, f64),
+    /// The worst motion where the structure's natural frequency is off by [`super::rivals::DETUNED`]; empty
+    /// where that was not asked for.
+    pub detuned: Vec<Option<Worst>>,
+}
+
+/// The motions that can happen along a band.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Motions {
+    /// The band.
+    pub band: Band,
+    /// Where a symmetric 1:1 orbit attracts.
+    pub stability: Vec<Stretch<bool>>,
+    /// Its peak displacement; none where it attracts nowhere.
+    pub orbit: Option<Extreme>,
     /// What simulation finds; empty where nothing was simulated.
     pub places: Vec<Place>,
     /// By how much the largest peak between places may exceed that at them.
@@ -81,6 +91,58 @@ impl Survey {
         settings: &SurveySettings,
         executor: &dyn Executor,
     ) -> Result<Self, StartError> {
+        Ok(Self {
+            motions: Motions::of(band, settings, executor)?,
+            zones: theory::zones(band),
+            rivals: Rivals::along(band),
+            smallest_gap: margin::smallest(band),
+            detuned: Vec::new(),
+        })
+    }
+
+    /// The same with what happens where the structure's natural frequency is off.
+    ///
+    /// # Errors
+    /// As [`Survey::of`].
+    pub fn with_detuned(
+        mut self,
+        settings: &SurveySettings,
+        executor: &dyn Executor,
+    ) -> Result<Self, StartError> {
+        for factor in DETUNED {
+            let band = self.band().with_structure_detuned(factor);
+            let motions = band.map(|band| Motions::of(&band, settings, executor)).transpose()?;
+            self.detuned.push(motions.and_then(|motions| motions.worst()));
+        }
+        Ok(self)
+    }
+
+    /// The band.
+    pub fn band(&self) -> &Band {
+        &self.motions.band
+    }
+
+    /// Share in area Z3 of the theory, strips included.
+    pub fn z3_share(&self) -> f64 {
+        self.band().share(&self.zones, |zone| zone.is_z3())
+    }
+
+    /// Share in a strip of it.
+    pub fn strip_share(&self, strip: Strip) -> f64 {
+        self.band().share(&self.zones, |zone| zone.strip == Some(strip))
+    }
+}
+
+impl Motions {
+    /// Looks for the motions along a band.
+    ///
+    /// # Errors
+    /// [`StartError`] where a start of a simulation is not finite.
+    pub fn of(
+        band: &Band,
+        settings: &SurveySettings,
+        executor: &dyn Executor,
+    ) -> Result<Self, StartError> {
         let stability = exact::stability(band);
         let sampled = settings
             .sampling
@@ -89,10 +151,7 @@ impl Survey {
         let (places, unresolved) =
             sampled.map_or((Vec::new(), 0.0), |sampled| (sampled.places, sampled.unresolved));
         Ok(Self {
-            zones: theory::zones(band),
             orbit: exact::extreme(band, &stability, |_, orbit| orbit.peaks.displacement),
-            rivals: Rivals::along(band),
-            smallest_gap: margin::smallest(band),
             places,
             unresolved,
             inactive: inactive::worst(band),
@@ -102,8 +161,8 @@ impl Survey {
         })
     }
 
-    /// The largest peak displacement, with its error, of every motion that can happen; `None` where none is
-    /// known.
+    /// The largest peak displacement of every motion that can happen; its error covers the peaks of all
+    /// others with theirs. `None` where none is known.
     pub fn worst(&self) -> Option<Worst> {
         let orbit = self.orbit.map(|orbit| Worst {
             at: orbit.at,
@@ -119,24 +178,16 @@ impl Survey {
                 of: Source::Simulated(*motion),
             })
         });
-        let all = simulated.chain(orbit).chain(self.worst_inactive());
-        all.max_by(|a, b| (a.peak + a.error).total_cmp(&(b.peak + b.error)))
+        let all = || simulated.clone().chain(orbit).chain(self.worst_inactive());
+        let worst = all().max_by(|a, b| a.peak.total_cmp(&b.peak))?;
+        let reach = all().map(|one| one.peak + one.error).fold(0.0, f64::max);
+        Some(Worst { error: reach - worst.peak, ..worst })
     }
 
     /// That of an inactive absorber, where it counts.
     pub fn worst_inactive(&self) -> Option<Worst> {
         let (at, inactive) = self.inactive.filter(|_| self.count_inactive)?;
         Some(Worst { at, peak: inactive.amplitude, error: 0.0, of: Source::Inactive(inactive) })
-    }
-
-    /// Share in area Z3 of the theory, strips included.
-    pub fn z3_share(&self) -> f64 {
-        self.band.share(&self.zones, |zone| zone.is_z3())
-    }
-
-    /// Share in a strip of it.
-    pub fn strip_share(&self, strip: Strip) -> f64 {
-        self.band.share(&self.zones, |zone| zone.strip == Some(strip))
     }
 
     /// Share with an attracting symmetric 1:1 orbit.

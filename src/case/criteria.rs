@@ -107,6 +107,11 @@ impl Subject {
         }
     }
 
+    /// Whether it is about the motions that can happen, which only simulation finds.
+    pub fn is_of_motions(self) -> bool {
+        !matches!(self, Self::Z3Share | Self::StableShare | Self::MarginClearance)
+    }
+
     /// What its value is.
     pub fn measure(self) -> Measure {
         match self {

@@ -5,12 +5,14 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 use miette::{IntoDiagnostic, Report, Result};
 use serde::Serialize;
+use vinesink::band::Survey;
 use vinesink::case::CaseError;
 use vinesink::criteria;
 use vinesink::report::criteria::{
     Checked, CriteriaDocument, FailedCase, Place, annotations, junit, markdown, text,
 };
 
+use super::parallel::Parallel;
 use super::{Outcome, case_file, output};
 
 /// Hold each case against its criteria
@@ -114,7 +116,8 @@ fn places(error: &CaseError) -> impl Iterator<Item = Place> + '_ {
 
 fn judged(path: &Path, stem: &str) -> Result<CriteriaDocument> {
     let case = case_file::read(path)?;
-    let judged = criteria::judge(&case, None).into_diagnostic()?;
+    let survey = Survey::of(&criteria::range(&case), &criteria::settings(&case), &Parallel);
+    let judged = criteria::judge(&case, &survey.into_diagnostic()?);
     if case.criteria.is_empty() {
         output::complain(&format!("{}: there is no table [criteria]", path.display()));
     }

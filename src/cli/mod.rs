@@ -12,6 +12,7 @@ mod new;
 mod optimize;
 mod output;
 mod paper;
+mod parallel;
 mod progress;
 mod report;
 mod schema;

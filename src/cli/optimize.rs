@@ -4,22 +4,22 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use miette::{IntoDiagnostic, Result, miette};
-use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
 use vinesink::case::{self, Case};
-use vinesink::optimize::{Optimization, Spread, Task};
+use vinesink::optimize::{Optimization, Task};
 use vinesink::report::{optimize as page, render};
 use vinesink::store;
 
 use super::case_file::{CaseArgument, Format};
-use super::progress::Progress;
+use super::parallel::Parallel;
 use super::{Outcome, index, output};
 
 /// Choose the clearance, and on request restitution and mass, that serve a case best
 ///
 /// Looks everywhere between the bounds of the case's table [optimize], or from a fifth to five times
 /// its clearance, over its [band] if it has one. With a table [uncertainty] the best in expectation
-/// stands beside the best as written. The winner is simulated from many starts. Ends with exit code 1 if
-/// nothing between the bounds reaches the objective at all.
+/// stands beside the best as written. Every absorber that is shown was judged as `check` does, over the
+/// whole band; the best of those that meet all criteria wins. Ends with exit code 1 if none meets them, or
+/// none is better than the case's own.
 #[derive(Debug, Args)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Arguments {
@@ -98,7 +98,7 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
     let task = Task::of(&case, arguments.objective.map(Into::into)).map_err(|error| {
         miette!(help = "give the excitation an amplitude above 0", "{}: {error}", path.display())
     })?;
-    let found = Optimization::of(&case, &text, &task, &SideBySide).into_diagnostic()?;
+    let found = Optimization::of(&case, &text, &task, &Parallel).into_diagnostic()?;
     let stem = path.file_stem().ok_or_else(|| miette!("{} is no file", path.display()))?;
     let name = stem.to_string_lossy();
     if let Some(out) = &arguments.out {
@@ -122,33 +122,26 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
             written.into_iter().for_each(|line| output::complain(&line));
         }
     }
-    Ok(if found.reached() { Outcome::Done } else { Outcome::DoesNotHold })
+    Ok(if found.succeeds() { Outcome::Done } else { Outcome::DoesNotHold })
 }
 
-/// Writes the absorber that was asked for, if there is one, and says what became of the file.
+/// Writes the absorber that was asked for, if it is better than the case's own, and says what became of the
+/// file.
 fn written(new: &Path, case: &Case, found: &Optimization, robust: bool) -> Result<String> {
-    if !found.reached() {
-        return Ok(format!(
-            "{} is not written: nothing between the bounds reaches the objective.",
-            new.display()
-        ));
-    }
-    let written = found.robust_written.as_ref().filter(|_| robust).unwrap_or(&found.written);
-    store::write_new(new, written.text.as_bytes())?;
-    Ok(format!("{} has {}.", new.display(), page::written(case, found, robust)))
-}
-
-/// On all processors, with a bar for each kind of evaluation.
-struct SideBySide;
-
-impl Spread for SideBySide {
-    fn each(&self, what: &'static str, count: usize, f: &(dyn Fn(usize) + Sync)) {
-        let progress = (!what.is_empty()).then(|| Progress::new(what, count as u64));
-        (0..count).into_par_iter().for_each(|k| {
-            f(k);
-            if let Some(progress) = &progress {
-                progress.advance(1);
-            }
-        });
-    }
+    let robust = found.robust.as_ref().filter(|_| robust);
+    let choice = robust.map_or(found.best.choice, |robust| robust.design.choice);
+    let why = match (found.reached(), found.improves() && choice != found.own.choice) {
+        (true, true) => {
+            let design = robust.map_or(&found.best, |robust| &robust.design);
+            store::write_new(new, design.written.text.as_bytes())?;
+            return Ok(format!(
+                "{} has {}.",
+                new.display(),
+                page::written(case, found, robust.is_some())
+            ));
+        }
+        (true, false) => "nothing between the bounds is better than the case's own absorber",
+        (false, _) => "nothing between the bounds reaches the objective",
+    };
+    Ok(format!("{} is not written: {why}.", new.display()))
 }

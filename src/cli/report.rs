@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use miette::{IntoDiagnostic, Result, miette};
-use vinesink::band::Band;
+use vinesink::band::{Survey, SurveySettings};
 use vinesink::criteria;
 use vinesink::report::{Report, figures, render};
 use vinesink::store::{self, Stale};
@@ -13,6 +13,7 @@ use vinesink::study::fidelity::Plan;
 use vinesink::study::{CaseStudy, StudyEffort};
 
 use super::case_file::{self, Fidelity};
+use super::parallel::Parallel;
 use super::progress::Progress;
 use super::{Outcome, index, output};
 
@@ -146,8 +147,15 @@ fn rendered(path: &Path, name: &str, forced: Option<Fidelity>) -> Result<(Files,
         CaseStudy::without_simulation(&case.system(), effort)
     };
     let mut study = study.into_diagnostic()?;
-    if let Some(settings) = &case.band {
-        study = study.along(&Band::of(&case.system(), settings)).into_diagnostic()?;
+    // The same survey as `check`, simulated if the study is, and also with the structure detuned.
+    let survey = |settings: &SurveySettings| {
+        Survey::of(&criteria::range(&case), settings, &Parallel).into_diagnostic()
+    };
+    let mut settings = criteria::settings(&case);
+    if case.band.is_some() {
+        settings.sampling = simulates.then(|| criteria::sampling(&case));
+        let detuned = survey(&settings)?.with_detuned(&settings, &Parallel);
+        study = study.along(detuned.into_diagnostic()?);
     }
     let drawn = figures::all(&case, &study).into_diagnostic()?;
     progress.advance(FURTHER_STEPS / 2);
@@ -160,7 +168,13 @@ fn rendered(path: &Path, name: &str, forced: Option<Fidelity>) -> Result<(Files,
         }
         report = report.with_answers(&case, &answers);
     }
-    let judged = criteria::judge(&case, study.band.as_ref()).into_diagnostic()?;
+    let judged = match &study.band {
+        _ if case.criteria.is_empty() => Vec::new(),
+        Some(survey) if simulates || !criteria::needs_simulation(&case.criteria) => {
+            criteria::judge(&case, survey)
+        }
+        _ => criteria::judge(&case, &survey(&criteria::settings(&case))?),
+    };
     report = report.with_criteria(&case, &judged);
     // As `simulate`: what is not to be trusted is written down, and does not pass for an answer.
     let motions = study.simulated_motions();

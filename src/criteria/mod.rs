@@ -96,8 +96,7 @@ impl Seen {
 
 /// Whether criteria can only be judged with simulation.
 pub fn needs_simulation(criteria: &[Criterion]) -> bool {
-    let exact = [Subject::Z3Share, Subject::StableShare, Subject::MarginClearance];
-    criteria.iter().any(|criterion| !exact.contains(&criterion.subject))
+    criteria.iter().any(|one| one.subject.is_of_motions())
 }
 
 /// The range in which a case's criteria are asked about: its band, or its own excitation alone.
@@ -150,9 +149,9 @@ impl Criterion {
             };
         };
         let room = self.room(value.found);
-        // What was simulated holds if it does so with its error.
-        let needed = match (value.by, self.relation) {
-            (Fidelity::Simulation, Relation::AtLeast | Relation::AtMost) => value.error,
+        // What is about motions holds if it does so with its error.
+        let needed = match self.relation {
+            Relation::AtLeast | Relation::AtMost if self.subject.is_of_motions() => value.error,
             _ => 0.0,
         };
         Judged {

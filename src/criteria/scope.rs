@@ -35,12 +35,12 @@ impl Scope<'_> {
 
     /// A place, where the range has more than one.
     fn place(&self, at: f64) -> Option<f64> {
-        (!self.survey.band.is_point()).then_some(at)
+        (!self.survey.band().is_point()).then_some(at)
     }
 
     /// The share in Z3, with what the theory's own error in the boundaries makes of it.
     fn z3_share(&self) -> Value {
-        let band = &self.survey.band;
+        let band = self.survey.band();
         let share = |factor: f64| {
             let base = band.base.with_clearance_scaled(factor).unwrap_or(band.base);
             let band = band.with_base(base);
@@ -60,8 +60,8 @@ impl Scope<'_> {
 
     fn stable_share(&self) -> Value {
         // All and nothing have no end that could be off.
-        let error = if self.survey.stability.len() > 1 { SHARE_ROUNDING } else { 0.0 };
-        let found = self.survey.stable_share();
+        let error = if self.survey.motions.stability.len() > 1 { SHARE_ROUNDING } else { 0.0 };
+        let found = self.survey.motions.stable_share();
         Value { found, error, at: None, inactive: None, by: Fidelity::Orbit }
     }
 
@@ -72,30 +72,30 @@ impl Scope<'_> {
 
     /// 1 where every place has one motion, 0 where one has several; `None` where nothing was simulated.
     fn one_motion(&self) -> Option<Value> {
-        let survey = self.survey;
-        let several = survey.places.iter().find(|place| place.count(survey.count_inactive) > 1);
-        survey.places.first()?;
+        let motions = &self.survey.motions;
+        motions.places.first()?;
+        let several = motions.places.iter().find(|place| place.count(motions.count_inactive) > 1);
         Some(Value {
             found: f64::from(u8::from(several.is_none())),
             error: 0.0,
             at: several.and_then(|place| self.place(place.at)),
             inactive: several
-                .filter(|_| survey.count_inactive)
+                .filter(|_| motions.count_inactive)
                 .and_then(|place| Some(place.inactive?.share)),
             by: Fidelity::Simulation,
         })
     }
 
-    /// The worst value of a criterion about motions; `None` where nothing was simulated.
+    /// The worst value of a criterion about motions; its error covers all others with theirs. `None` where
+    /// nothing was simulated.
     fn worst(&self, criterion: &Criterion) -> Option<Value> {
-        self.survey.places.first()?;
+        self.survey.motions.places.first()?;
         let all = self.worst_orbit(criterion).into_iter().chain(self.worst_inactive(criterion));
-        let all = all.chain(self.simulated(criterion));
-        let room = |value: &Value| match value.by {
-            Fidelity::Simulation => criterion.room(value.found) - value.error,
-            _ => criterion.room(value.found),
-        };
-        all.min_by(|a, b| room(a).total_cmp(&room(b)))
+        let all: Vec<Value> = all.chain(self.simulated(criterion)).collect();
+        let room = |value: &Value| criterion.room(value.found);
+        let worst = *all.iter().min_by(|a, b| room(a).total_cmp(&room(b)))?;
+        let least = all.iter().map(|one| room(one) - one.error).fold(f64::INFINITY, f64::min);
+        Some(Value { error: room(&worst) - least, ..worst })
     }
 
     fn of_motion(&self, criterion: &Criterion, seen: &Seen) -> Option<[f64; 2]> {
@@ -104,7 +104,7 @@ impl Scope<'_> {
 
     /// The worst of the attracting orbit, wherever there is one.
     fn worst_orbit(&self, criterion: &Criterion) -> Option<Value> {
-        let band = &self.survey.band;
+        let band = self.survey.band();
         let value = |at: f64, orbit: &SymmetricOrbit| {
             let system = band.system(at).ok()?;
             self.of_motion(criterion, &seen(&system, orbit, criterion.subject)?)
@@ -112,15 +112,15 @@ impl Scope<'_> {
         let loss = |at: f64, orbit: &SymmetricOrbit| {
             value(at, orbit).map_or(f64::NEG_INFINITY, |[found, _]| -criterion.room(found))
         };
-        let (at, _) = exact::largest_value(band, &self.survey.stability, loss)?;
+        let (at, _) = exact::largest_value(band, &self.survey.motions.stability, loss)?;
         let [found, error] = value(at, &attracting(band, at)?)?;
         Some(Value { found, error, at: self.place(at), inactive: None, by: Fidelity::Orbit })
     }
 
     /// The worst of an absorber that never wakes, in closed form, wherever it can rest.
     fn worst_inactive(&self, criterion: &Criterion) -> Option<Value> {
-        let band = &self.survey.band;
-        if !self.survey.count_inactive {
+        let band = self.survey.band();
+        if !self.survey.motions.count_inactive {
             return None;
         }
         let value = |at: f64| {
@@ -131,19 +131,20 @@ impl Scope<'_> {
                 error,
                 at: self.place(at),
                 inactive: Some(inactive.share),
-                by: Fidelity::Orbit,
+                by: Fidelity::Manifold,
             })
         };
-        let (at, _) = inactive::largest_by(band, |at| value(at).map(|one| -criterion.room(one.found)))?;
+        let (at, _) =
+            inactive::largest_by(band, |at| value(at).map(|one| -criterion.room(one.found)))?;
         value(at)
     }
 
     /// The motions that starts led to; where one is the exact orbit, the orbit knows it better.
     fn simulated(&self, criterion: &Criterion) -> impl Iterator<Item = Value> {
-        let survey = self.survey;
-        survey.places.iter().flat_map(move |place| {
+        let motions = &self.survey.motions;
+        motions.places.iter().flat_map(move |place| {
             place.beside_orbit().filter_map(move |motion| {
-                let seen = Seen::simulated(motion, survey.unresolved);
+                let seen = Seen::simulated(motion, motions.unresolved);
                 let [found, error] = self.of_motion(criterion, &seen)?;
                 let at = self.place(place.at);
                 Some(Value { found, error, at, inactive: None, by: Fidelity::Simulation })

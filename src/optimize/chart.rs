@@ -3,10 +3,11 @@
 
 use serde::Serialize;
 
-use super::search::{InTurn, Spread, map, on_line, scan};
+use super::search::{on_line, scan};
 use super::task::{Deviation, Task};
 use crate::analysis::{FixedPointCurve, Manifold};
 use crate::case::{BandOver, Choice, Objective};
+use crate::executor::{Executor, Serial, map};
 use crate::numerics::scan::largest;
 use crate::orbits::{SymmetricFamily, attracting_orbit};
 use crate::system::System;
@@ -36,7 +37,7 @@ const WIDE: [f64; 2] = [0.02, 50.0];
 
 /// The best clearance against the frequency of a single excitation with the case's own amplitude, with
 /// the chosen restitution and mass.
-pub fn chart(task: &Task, choice: &Choice, spread: &dyn Spread) -> Vec<Suited> {
+pub fn chart(task: &Task, choice: &Choice, executor: &dyn Executor) -> Vec<Suited> {
     let Some((band, _)) = task.band_of(choice, &Deviation::default()) else { return Vec::new() };
     let own = band.base.frequency_ratio();
     let [from, to] = match &task.band {
@@ -48,7 +49,7 @@ pub fn chart(task: &Task, choice: &Choice, spread: &dyn Spread) -> Vec<Suited> {
         from * (1.0 - part) + to * part
     };
     let count = FREQUENCIES as usize;
-    map(spread, "design chart", count, |k| {
+    map(executor, "design chart", count, |k| {
         let system = band.base.with_frequency_ratio(at(k)).ok();
         let best = system.and_then(|system| best(task.objective, &system));
         let stable = system.and_then(|system| widest(&system));
@@ -78,7 +79,7 @@ fn best(objective: Objective, system: &System) -> Option<f64> {
                 let gamma = system.forcing_per_clearance() / factor(part);
                 f64::from(u8::from(curve.zone(gamma).is_z3()))
             };
-            let scanned = scan("", PIECES, &InTurn, &inside);
+            let scanned = scan("", PIECES, &Serial, &inside);
             let found = on_line(&scanned, WIDTH, &inside).filter(|best| best.score > 0.0)?;
             Some(factor(found.parts[0]))
         }

@@ -2,7 +2,6 @@
 //! middle where a whole stretch of places is best. Places are parts of the way, from 0 to 1.
 
 use std::cell::RefCell;
-use std::sync::OnceLock;
 
 use argmin::core::{CostFunction, Error, Executor, PopulationState};
 use argmin::solver::goldensectionsearch::GoldenSectionSearch;
@@ -11,37 +10,7 @@ use argmin::solver::particleswarm::ParticleSwarm;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::SeedableRng;
 
-/// Carries out many evaluations: one after the other, or side by side with the same results.
-pub trait Spread: Sync {
-    /// Calls `f` with each number below `count`; `what` names it to the user, who is told nothing
-    /// where it is empty.
-    fn each(&self, what: &'static str, count: usize, f: &(dyn Fn(usize) + Sync));
-}
-
-/// What `f` says of each number below `count`, in their order.
-pub fn map<T: Send + Sync>(
-    spread: &dyn Spread,
-    what: &'static str,
-    count: usize,
-    f: impl Fn(usize) -> T + Sync,
-) -> Vec<T> {
-    let places: Vec<OnceLock<T>> = (0..count).map(|_| OnceLock::new()).collect();
-    spread.each(what, count, &|k| {
-        // Each number comes once.
-        let _ = places[k].set(f(k));
-    });
-    places.into_iter().filter_map(OnceLock::into_inner).collect()
-}
-
-/// One after the other.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct InTurn;
-
-impl Spread for InTurn {
-    fn each(&self, _: &'static str, count: usize, f: &(dyn Fn(usize) + Sync)) {
-        (0..count).for_each(f);
-    }
-}
+use crate::executor::{Executor as Evaluations, map};
 
 /// A score between bounds, minus infinity where there is none.
 pub type Score<'f> = &'f (dyn Fn(&[f64]) -> f64 + Sync);
@@ -150,13 +119,13 @@ impl CostFunction for OnLine<'_, '_> {
 
 /// The score at even parts of a line, both ends among them.
 pub fn scan(
-    what: &'static str,
+    what: &str,
     pieces: usize,
-    spread: &dyn Spread,
+    executor: &dyn Evaluations,
     score: &(dyn Fn(f64) -> f64 + Sync),
 ) -> Vec<(f64, f64)> {
     let place = |k: usize| k as f64 / pieces as f64;
-    let found = map(spread, what, pieces + 1, |k| score(place(k)));
+    let found = map(executor, what, pieces + 1, |k| score(place(k)));
     found.into_iter().enumerate().map(|(k, score)| (place(k), score)).collect()
 }
 
@@ -219,13 +188,14 @@ fn narrowed(problem: &Problem, from: f64, to: f64, width: f64) {
         .run();
 }
 
-/// The best place in several dimensions: a swarm with a fixed beginning, then a simplex from the best
-/// of it and of `known` places; `None` where nothing has a score.
+/// The best place in several dimensions: a swarm with a fixed beginning, then for a smooth score a simplex
+/// from the best of it and of `known` places; `None` where nothing has a score.
 pub fn in_box(
     known: &[Vec<f64>],
     dimensions: usize,
     effort: &Effort,
     score: Score,
+    smooth: bool,
 ) -> Option<Best> {
     let problem = Problem::new(score);
     for parts in known {
@@ -242,6 +212,11 @@ pub fn in_box(
     let start = problem.best.borrow().0.clone();
     if start.is_empty() {
         return None;
+    }
+    if !smooth {
+        let (parts, score) = problem.best.into_inner();
+        let plateau = [parts[0]; 2];
+        return Some(Best { parts, score, plateau, seen: problem.seen.into_inner() });
     }
     let mut simplex = vec![start.clone()];
     for k in 0..dimensions {
@@ -351,7 +326,7 @@ mod tests {
 
     #[test]
     fn what_is_the_same_everywhere_is_not_searched() {
-        let scanned = scan("", 8, &InTurn, &|_| 0.0);
+        let scanned = scan("", 8, &crate::executor::Serial, &|_| 0.0);
         let best = on_line(&scanned, 1e-7, &|_| 0.0).expect("a score");
         assert_eq!((best.parts, best.score, best.plateau), (vec![0.5], 0.0, [0.0, 1.0]));
     }

@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use super::task::{Deviation, Task};
 use crate::case::Choice;
+use crate::executor::{Executor, Serial, map};
 
 /// Relative change of a parameter; of the frequency a tenth of it, since resonance is sharp.
 pub const CHANGE: f64 = 0.01;
@@ -38,7 +39,7 @@ pub struct Sensitivity {
 }
 
 /// The sensitivities at an absorber.
-pub fn of(task: &Task, choice: &Choice) -> Vec<Sensitivity> {
+pub fn of(task: &Task, choice: &Choice, executor: &dyn Executor) -> Vec<Sensitivity> {
     let omega = task.design.system().map_or(1.0, |system| system.frequency_ratio());
     let at = |of: Changed, change: f64| {
         let mut choice = *choice;
@@ -50,22 +51,22 @@ pub fn of(task: &Task, choice: &Choice) -> Vec<Sensitivity> {
             Changed::Frequency => off.frequency_ratio = change * omega,
             Changed::Amplitude => off.amplitude = change,
         }
-        task.score(&choice, &off)
+        task.score(&choice, &off, &Serial)
     };
-    let all = [
+    let mut all = vec![
         (Changed::Clearance, CHANGE),
         (Changed::Restitution, CHANGE),
         (Changed::Mass, CHANGE),
         (Changed::Frequency, 0.1 * CHANGE),
         (Changed::Amplitude, CHANGE),
     ];
-    all.into_iter()
-        .filter(|(of, _)| *of != Changed::Mass || choice.mass.is_some())
-        .map(|(of, change)| Sensitivity {
-            of,
-            change,
-            smaller: at(of, -change),
-            larger: at(of, change),
-        })
+    all.retain(|(of, _)| *of != Changed::Mass || choice.mass.is_some());
+    let scores = map(executor, "sensitivities", 2 * all.len(), |k| {
+        let (of, change) = all[k / 2];
+        at(of, if k % 2 == 0 { -change } else { change })
+    });
+    let pairs = all.into_iter().zip(scores.chunks(2));
+    pairs
+        .map(|((of, change), pair)| Sensitivity { of, change, smaller: pair[0], larger: pair[1] })
         .collect()
 }

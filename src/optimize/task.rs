@@ -3,13 +3,13 @@
 
 use serde::Serialize;
 
-use crate::analysis::{FixedPointCurve, Manifold};
-use crate::band::exact::{attracting, stability};
-use crate::band::{Band, margin, theory};
+use crate::band::exact::stability;
+use crate::band::simulated::Sampling;
+use crate::band::{Band, Motions, SurveySettings, margin, theory};
 use crate::case::{BandOver, BandSettings, Case, Choice, Design, Objective, Uncertainty};
+use crate::criteria;
+use crate::executor::{Executor, Serial};
 use crate::system::{Parameter, System};
-
-use super::amplitude;
 
 /// Clearances looked at where the case gives no bounds, over its own.
 const CLEARANCES: [f64; 2] = [0.2, 5.0];
@@ -92,6 +92,10 @@ pub struct Task {
     pub bounds: Vec<Bounds>,
     /// What is uncertain.
     pub uncertainty: Uncertainty,
+    /// How thoroughly a band is simulated where that decides.
+    pub sampling: Sampling,
+    /// Whether an absorber that never wakes counts.
+    pub count_inactive: bool,
 }
 
 impl Task {
@@ -120,6 +124,8 @@ impl Task {
             objective: objective.or(settings.objective).unwrap_or_default(),
             bounds: bounds.collect(),
             uncertainty: case.uncertainty,
+            sampling: criteria::sampling(case),
+            count_inactive: case.count_inactive,
         })
     }
 
@@ -178,27 +184,44 @@ impl Task {
         Some((band, choice.clearance))
     }
 
-    /// The objective, the more the better: a share, a relative distance, or minus a length in the
-    /// units of a [`Choice`]. `None` where there is no system, or nothing could be measured.
-    pub fn score(&self, choice: &Choice, off: &Deviation) -> Option<f64> {
+    /// An exact objective of a band, the more the better: a share, or a relative distance. `None` for an
+    /// amplitude.
+    pub fn exact_score(&self, band: &Band) -> Option<f64> {
+        match self.objective {
+            Objective::Z3Share => Some(band.share(&theory::zones(band), |zone| zone.is_z3())),
+            Objective::StableShare => Some(band.share(&stability(band), |stable| *stable)),
+            Objective::Margin => Some(margin::smallest(band).1),
+            Objective::WorstAmplitude => None,
+        }
+    }
+
+    /// The objective of an absorber that deviates, the more the better: an exact one, or minus the worst
+    /// amplitude with its error, in the units of a [`Choice`], by a full survey. `None` where there is no
+    /// system, or nothing could be measured.
+    pub fn score(&self, choice: &Choice, off: &Deviation, executor: &dyn Executor) -> Option<f64> {
+        self.sampled_score(choice, off, self.sampling, executor)
+    }
+
+    /// The same by a coarse survey, which only ranks.
+    pub fn cheap_score(&self, choice: &Choice) -> Option<f64> {
+        self.sampled_score(choice, &Deviation::default(), Sampling::SCREENING, &Serial)
+    }
+
+    fn sampled_score(
+        &self,
+        choice: &Choice,
+        off: &Deviation,
+        sampling: Sampling,
+        executor: &dyn Executor,
+    ) -> Option<f64> {
         let (band, clearance) = self.band_of(choice, off)?;
-        let ranges = self.band.is_some();
-        let at = band.base.frequency_ratio();
-        let share = |holds: bool| if holds { 1.0 } else { 0.0 };
-        let score = match self.objective {
-            Objective::Z3Share if ranges => band.share(&theory::zones(&band), |zone| zone.is_z3()),
-            Objective::Z3Share => {
-                let manifold = Manifold::of(band.base.restitution()).ok()?;
-                let curve = FixedPointCurve::of(&band.base, &manifold);
-                share(curve.zone(band.base.forcing_per_clearance()).is_z3())
-            }
-            Objective::StableShare if ranges => band.share(&stability(&band), |stable| *stable),
-            Objective::StableShare => share(attracting(&band, at).is_some()),
-            Objective::Margin if ranges => margin::smallest(&band).1,
-            Objective::Margin => margin::Gap::of(&band, at).map_or(0.0, |gap| gap.smaller()),
-            Objective::WorstAmplitude => -clearance * amplitude::worst(&band, ranges)?,
-        };
-        Some(score)
+        if self.objective != Objective::WorstAmplitude {
+            return self.exact_score(&band);
+        }
+        let settings =
+            SurveySettings { sampling: Some(sampling), count_inactive: self.count_inactive };
+        let worst = Motions::of(&band, &settings, executor).ok()?.worst()?;
+        Some(-clearance * (worst.peak + worst.error))
     }
 
     /// The value of the objective as it is spoken of: an amplitude is not negative.

@@ -270,7 +270,7 @@ fn measured(group: Group, periods: u64) -> Vec<(Ended, Watch)> {
 }
 
 /// The motions of one system that trajectories have ended in.
-fn distinct(ended: &[Option<Motion>]) -> Vec<Motion> {
+pub fn distinct(ended: &[Option<Motion>]) -> Vec<Motion> {
     let mut distinct: Vec<Motion> = Vec::new();
     for motion in ended.iter().flatten() {
         match distinct.iter_mut().find(|known| known.is_same(motion)) {

@@ -3,15 +3,14 @@
 
 use serde::Serialize;
 
-use super::numbers::percent;
+use super::numbers::{percent, signed_percent};
 use super::tables::{Table, table};
 use super::units::Units;
 use crate::analysis::{Area, Strip};
-use crate::band::rivals::TunedMassDamper;
+use crate::band::rivals::DETUNED;
 use crate::band::simulated::Place;
-use crate::band::{Stretch, Survey};
+use crate::band::{Rivals, Source, Stretch, Survey, Worst};
 use crate::case::{BandOver, Case, Scales};
-use crate::regimes::long_term::Motion;
 use crate::study::CaseStudy;
 
 /// A band in `report.json`. Places and ends are frequency ratios `Omega`, or amplitudes over the case's;
@@ -31,8 +30,15 @@ pub struct BandDocument {
     stability: Vec<Stretch<bool>>,
     /// Peaks of that orbit.
     stable_orbit: Option<PeaksDocument>,
+    /// The largest displacement of every motion that can happen.
+    worst: Option<WorstDocument>,
     bare: RivalDocument,
-    tuned_mass_damper: RivalDocument,
+    tuned_mass_damper: DamperDocument,
+    /// Where the structure with an absorber that never wakes vibrates most.
+    inactive: Option<InactiveDocument>,
+    /// The largest displacement with the absorber where the structure's frequency is off by as much as in
+    /// `tuned_mass_damper`; empty where nothing was simulated.
+    detuned: Vec<Option<WorstDocument>>,
     smallest_gap: GapDocument,
     /// What simulation finds, place by place; empty where nothing was simulated.
     simulated: Vec<PlaceDocument>,
@@ -55,11 +61,76 @@ struct PeaksDocument {
     mean_peak: f64,
 }
 
-/// Largest and average amplitude; `null` where nothing limits them.
+/// The largest displacement along a band.
+#[derive(Debug, Clone, Serialize)]
+struct WorstDocument {
+    peak: f64,
+    /// How much larger it may be.
+    error: f64,
+    at: f64,
+    /// `orbit`, `simulated` or `inactive`.
+    motion: &'static str,
+}
+
+/// Largest amplitude; `null` where nothing limits it.
 #[derive(Debug, Clone, Serialize)]
 struct RivalDocument {
     largest_peak: f64,
-    mean_peak: f64,
+    at: f64,
+}
+
+/// The tuned mass damper of the absorber's mass that is best along the band.
+#[derive(Debug, Clone, Serialize)]
+pub struct DamperDocument {
+    /// Its natural frequency over the structure's.
+    tuning: f64,
+    damping_ratio: f64,
+    largest_peak: f64,
+    at: f64,
+    /// Largest displacement against the structure.
+    stroke: f64,
+    detuned: [DetunedDocument; 2],
+}
+
+/// The same damper where the structure's frequency is off.
+#[derive(Debug, Clone, Serialize)]
+struct DetunedDocument {
+    /// The structure's frequency over the one that the damper was designed for.
+    factor: f64,
+    largest_peak: f64,
+    stroke: f64,
+}
+
+impl DamperDocument {
+    /// Writes it down, `length` turning a length over the clearance into one of the case.
+    pub fn new(rivals: &Rivals, length: impl Fn(f64) -> f64) -> Self {
+        let Rivals { damper, damped, detuned, .. } = rivals;
+        let detuned = |k: usize| DetunedDocument {
+            factor: DETUNED[k],
+            largest_peak: length(detuned[k].amplitude),
+            stroke: length(detuned[k].stroke),
+        };
+        Self {
+            tuning: damper.tuning,
+            damping_ratio: damper.damping_ratio,
+            largest_peak: length(damped.amplitude),
+            at: damped.at,
+            stroke: length(damped.stroke),
+            detuned: [detuned(0), detuned(1)],
+        }
+    }
+}
+
+/// An absorber that never wakes.
+#[derive(Debug, Clone, Serialize)]
+struct InactiveDocument {
+    /// Amplitude of the structure.
+    peak: f64,
+    at: f64,
+    /// Share of the absorber's resting places from which a start from rest never wakes it.
+    share: f64,
+    /// Whether it counts as a motion.
+    counted: bool,
 }
 
 /// By which share the clearance may be off, and where least.
@@ -73,10 +144,13 @@ struct GapDocument {
 #[derive(Debug, Clone, Serialize)]
 struct PlaceDocument {
     at: f64,
+    /// Those with impacts.
     motions: usize,
-    /// Whether the absorber stays asleep in one of them.
-    asleep: bool,
+    /// Share of the absorber's resting places from which a start from rest never wakes it.
+    inactive_share: f64,
+    /// Of the motions with impacts; `null` without one.
     largest_peak: f64,
+    peak_error: f64,
     smallest_peak: f64,
 }
 
@@ -84,10 +158,17 @@ impl BandDocument {
     /// Writes down what is known along a band.
     pub fn new(survey: &Survey, scales: &Scales) -> Self {
         let length = |over_clearance: f64| scales.length(over_clearance);
-        let rival = |rival: crate::band::rivals::Rival| RivalDocument {
-            largest_peak: length(rival.largest),
-            mean_peak: length(rival.mean),
+        let worst = |worst: &Worst| WorstDocument {
+            peak: length(worst.peak),
+            error: length(worst.error),
+            at: worst.at,
+            motion: match worst.of {
+                Source::Orbit => "orbit",
+                Source::Simulated(_) => "simulated",
+                Source::Inactive(_) => "inactive",
+            },
         };
+        let motions = &survey.motions;
         let (at, share) = survey.smallest_gap;
         let zone = |zone: &Stretch<crate::analysis::Zone>| ZoneDocument {
             from: zone.from,
@@ -96,35 +177,47 @@ impl BandDocument {
             strip: zone.of.strip,
         };
         Self {
-            over: match survey.band.over {
+            over: match motions.band.over {
                 BandOver::Frequency => "frequency",
                 BandOver::Amplitude => "amplitude",
             },
-            range: survey.band.range,
+            range: motions.band.range,
             z3_share: survey.z3_share(),
             a1_share: survey.strip_share(Strip::A1),
             a2_share: survey.strip_share(Strip::A2),
             zones: survey.zones.iter().map(zone).collect(),
-            stable_share: survey.stable_share(),
-            stability: survey.stability.clone(),
-            stable_orbit: survey.orbit.map(|orbit| PeaksDocument {
+            stable_share: motions.stable_share(),
+            stability: motions.stability.clone(),
+            stable_orbit: motions.orbit.map(|orbit| PeaksDocument {
                 largest_peak: length(orbit.largest),
                 at: orbit.at,
                 mean_peak: length(orbit.mean),
             }),
-            bare: rival(survey.bare),
-            tuned_mass_damper: rival(survey.damper),
+            worst: motions.worst().as_ref().map(worst),
+            bare: RivalDocument {
+                largest_peak: length(survey.rivals.bare.1),
+                at: survey.rivals.bare.0,
+            },
+            tuned_mass_damper: DamperDocument::new(&survey.rivals, length),
+            inactive: motions.inactive.map(|(at, inactive)| InactiveDocument {
+                peak: length(inactive.amplitude),
+                at,
+                share: inactive.share,
+                counted: motions.count_inactive,
+            }),
+            detuned: survey.detuned.iter().map(|one| one.as_ref().map(worst)).collect(),
             smallest_gap: GapDocument { share, at },
-            simulated: survey
-                .simulated
+            simulated: motions
+                .places
                 .iter()
                 .map(|place| {
                     let peaks = || place.motions.iter().map(|motion| motion.peak);
                     PlaceDocument {
                         at: place.at,
                         motions: place.motions.len(),
-                        asleep: place.sleeps(),
-                        largest_peak: length(peaks().fold(f64::NAN, f64::max)),
+                        inactive_share: place.inactive.map_or(0.0, |one| one.share),
+                        largest_peak: length(place.largest().map_or(f64::NAN, |one| one.peak)),
+                        peak_error: length(place.largest().map_or(f64::NAN, |one| one.peak_error)),
                         smallest_peak: length(peaks().fold(f64::NAN, f64::min)),
                     }
                 })
@@ -146,51 +239,88 @@ struct Section<'a> {
 
 impl Section<'_> {
     fn quantities(&self) -> Table {
-        let survey = self.survey;
+        let (survey, motions) = (self.survey, &self.survey.motions);
         let theory = "theory, closed form";
-        let mut rows = vec![
-            row("Share in area Z3", percent(survey.z3_share()), theory),
-            row("of it in strip A1 (hysteresis)", percent(survey.strip_share(Strip::A1)), theory),
-            row("of it in strip A2 (beats)", percent(survey.strip_share(Strip::A2)), theory),
-            row("Share with a stable 1:1 orbit", percent(survey.stable_share()), "exact orbits"),
-        ];
-        if let Some(found) = survey.orbit {
+        let mut rows = Vec::new();
+        if let Some(worst) = motions.worst() {
+            let words = format!("{} at {}", self.worst(&worst), self.place(worst.at));
+            rows.push(row("Largest displacement, any motion", words, source(&worst)));
+        }
+        if let Some(found) = motions.orbit {
             let largest = format!("{} at {}", self.length(found.largest), self.place(found.at));
-            rows.push(row("Largest peak, stable 1:1 orbit", largest, "exact orbits"));
-            let mean = self.length(found.mean);
-            rows.push(row("Average of that peak where it is stable", mean, "exact orbits"));
+            rows.push(row("The same, stable 1:1 orbit", largest, "exact orbits"));
         }
-        if let Some((at, motion)) = self.largest_simulated() {
+        if let Some((at, inactive)) = motions.inactive {
+            let counted = if motions.count_inactive { "" } else { "; not counted" };
             let words = format!(
-                "{} at {}, z = {}",
-                self.length(motion.peak),
+                "{} at {}, from {} of its resting places{counted}",
+                self.length(inactive.amplitude),
                 self.place(at),
-                super::numbers::significant(motion.impacts_per_period, 3)
+                percent(inactive.share)
             );
-            rows.push(row("Largest peak, any motion", words, "simulation"));
+            rows.push(row("The same, absorber never wakes from rest", words, "closed form"));
         }
-        let damper = TunedMassDamper::best(survey.band.base.mass_ratio());
-        let tuned = format!(
-            "closed form, Den Hartog: tuned to {}, damping ratio {}",
+        let bare = survey.rivals.bare;
+        let words = format!("{} at {}", self.length(bare.1), self.place(bare.0));
+        rows.push(row("The same, without absorber", words, "closed form"));
+        rows.extend(self.damper());
+        rows.push(row(
+            "Share with a stable 1:1 orbit",
+            percent(motions.stable_share()),
+            "exact orbits",
+        ));
+        rows.push(row("Share in area Z3", percent(survey.z3_share()), theory));
+        rows.push(row(
+            "of it in strip A1 (hysteresis)",
+            percent(survey.strip_share(Strip::A1)),
+            theory,
+        ));
+        rows.push(row("of it in strip A2 (beats)", percent(survey.strip_share(Strip::A2)), theory));
+        rows.push(row("Smallest gap to a boundary", self.gap(), "exact orbits"));
+        if !motions.places.is_empty() {
+            let several = self.simulated_places(|place| place.motions.len() > 1);
+            rows.push(row("Several motions with impacts", several, "simulation"));
+        }
+        table([("Quantity", false), ("Value", true), ("From", false)], rows)
+    }
+
+    /// The tuned mass damper, and both where the structure is detuned.
+    fn damper(&self) -> Vec<[String; 3]> {
+        let survey = self.survey;
+        let Rivals { damper, damped, detuned, .. } = survey.rivals;
+        let from = format!(
+            "closed form, best over the band: tuned to {}, damping ratio {}",
             self.units.frequency_text(damper.tuning),
             percent(damper.damping_ratio)
         );
-        for (name, rival, from) in [
-            ("bare oscillator", survey.bare, "closed form"),
-            ("tuned mass damper of the same mass", survey.damper, tuned.as_str()),
-        ] {
-            let words =
-                format!("{}, on average {}", self.length(rival.largest), self.length(rival.mean));
-            rows.push(row(&format!("Largest peak, {name}"), words, from));
+        let words = format!(
+            "{} at {}, stroke {}",
+            self.length(damped.amplitude),
+            self.place(damped.at),
+            self.length(damped.stroke)
+        );
+        let mut rows = vec![row("The same, tuned mass damper of the same mass", words, &from)];
+        for (k, off) in detuned.iter().enumerate() {
+            let absorber = survey.detuned.get(k).copied().flatten();
+            let absorber = absorber.map_or("–".to_owned(), |worst| self.worst(&worst));
+            let words = format!(
+                "absorber {absorber}; damper {}, stroke {}",
+                self.length(off.amplitude),
+                self.length(off.stroke)
+            );
+            let name = format!("Both, structure's frequency {}", signed_percent(DETUNED[k] - 1.0));
+            rows.push(row(&name, words, "simulation; closed form"));
         }
-        rows.push(row("Smallest gap to a boundary", self.gap(), "exact orbits"));
-        if !survey.simulated.is_empty() {
-            let several = self.simulated_places(Place::has_several);
-            rows.push(row("Several motions with impacts", several, "simulation"));
-            let sleeps = self.simulated_places(Place::sleeps);
-            rows.push(row("From rest the absorber never wakes", sleeps, "simulation"));
+        rows
+    }
+
+    fn worst(&self, worst: &Worst) -> String {
+        match self.length(worst.error) {
+            error if worst.error > 1e-3 * worst.peak => {
+                format!("{} (+{error})", self.length(worst.peak))
+            }
+            _ => self.length(worst.peak),
         }
-        table([("Quantity", false), ("Value", true), ("From", false)], rows)
     }
 
     fn zones(&self) -> Table {
@@ -199,12 +329,6 @@ impl Section<'_> {
                 [self.place(zone.from), self.place(zone.to), zone.of.words().to_owned()]
             });
         table([("From", true), ("To", true), ("Area by theory", false)], rows.collect())
-    }
-
-    fn largest_simulated(&self) -> Option<(f64, Motion)> {
-        let places = self.survey.simulated.iter();
-        let largest = places.filter_map(|place| Some((place.at, *place.largest()?)));
-        largest.max_by(|a, b| a.1.peak.total_cmp(&b.1.peak))
     }
 
     fn gap(&self) -> String {
@@ -218,7 +342,7 @@ impl Section<'_> {
 
     /// The simulated places at which something holds.
     fn simulated_places(&self, holds: impl Fn(&Place) -> bool) -> String {
-        let places = &self.survey.simulated;
+        let places = &self.survey.motions.places;
         let held: Vec<f64> =
             places.iter().filter(|place| holds(place)).map(|place| place.at).collect();
         let count = places.len();
@@ -243,10 +367,19 @@ impl Section<'_> {
     }
 
     fn place(&self, at: f64) -> String {
-        self.units.band_text(self.survey.band.over, at)
+        self.units.band_text(self.survey.band().over, at)
     }
 }
 
 fn row(quantity: &str, value: String, from: &str) -> [String; 3] {
     [quantity.to_owned(), value, from.to_owned()]
+}
+
+/// The layer that the worst motion is from.
+fn source(worst: &Worst) -> &'static str {
+    match worst.of {
+        Source::Orbit => "exact orbits",
+        Source::Simulated(_) => "simulation",
+        Source::Inactive(_) => "closed form, absorber never wakes",
+    }
 }

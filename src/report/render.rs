@@ -26,7 +26,8 @@ const INDEX_MARKDOWN: &str = include_str!("../../templates/index.md.tera");
 const INDEX_HTML: &str = include_str!("../../templates/index.html.tera");
 const INDEX_STYLE: &str = include_str!("../../templates/index.css");
 const INDEX_SCRIPT: &str = include_str!("../../templates/index.js");
-const OPTIMIZE: &str = include_str!("../../templates/optimize.md.tera");
+const OPTIMIZE_MARKDOWN: &str = include_str!("../../templates/optimize.md.tera");
+const OPTIMIZE_HTML: &str = include_str!("../../templates/optimize.html.tera");
 const SWEEP_MARKDOWN: &str = include_str!("../../templates/sweep.md.tera");
 const SWEEP_HTML: &str = include_str!("../../templates/sweep.html.tera");
 const STYLE: &str = include_str!("../../templates/report.css");
@@ -76,18 +77,14 @@ pub fn files(
     case: &Case,
     figures: &[Figure],
 ) -> Result<BTreeMap<PathBuf, Vec<u8>>, RenderError> {
-    let mut drawings = BTreeMap::new();
-    for figure in figures {
-        drawings.insert(figure.name.clone(), figure::render(figure)?);
-    }
-    let mut files = BTreeMap::from([
-        (PathBuf::from("report.md"), markdown(report, case)?.into_bytes()),
-        (PathBuf::from("report.html"), html(report, case, &drawings)?.into_bytes()),
-        (PathBuf::from("report.json"), json(report)?.into_bytes()),
-    ]);
-    for (name, drawing) in drawings {
-        files.insert(PathBuf::from(format!("figures/{name}.svg")), drawing.into_bytes());
-    }
+    let drawings = drawings(figures)?;
+    let pages = [
+        ("report.md", markdown(report, case)?),
+        ("report.html", html(report, case, &drawings)?),
+        ("report.json", json(report)?),
+    ];
+    let mut files = figure_files(drawings);
+    files.extend(pages.map(|(name, text)| (PathBuf::from(name), text.into_bytes())));
     Ok(files)
 }
 
@@ -171,16 +168,30 @@ pub fn optimize(
     page: &OptimizePage,
     drawn: &[Figure],
 ) -> Result<BTreeMap<PathBuf, Vec<u8>>, RenderError> {
+    let drawings = drawings(drawn)?;
     let mut context = Context::new();
     context.insert("page", page);
-    let text = engine("optimize.md", OPTIMIZE)?.render("optimize.md", &context)?;
-    let text = without_repeated_blank_lines(&text).into_bytes();
-    let mut files = BTreeMap::from([(PathBuf::from("optimize.md"), text)]);
-    for figure in drawn {
-        let drawing = figure::render(figure)?.into_bytes();
-        files.insert(PathBuf::from(format!("figures/{}.svg", figure.name)), drawing);
-    }
+    context.insert("style", STYLE);
+    context.insert("drawings", &drawings);
+    let text = engine("optimize.md", OPTIMIZE_MARKDOWN)?.render("optimize.md", &context)?;
+    let html = engine("optimize.html", OPTIMIZE_HTML)?.render("optimize.html", &context)?;
+    let mut files = figure_files(drawings);
+    files.insert("optimize.md".into(), without_repeated_blank_lines(&text).into_bytes());
+    files.insert("optimize.html".into(), html.into_bytes());
     Ok(files)
+}
+
+/// Every figure as SVG, by its name.
+fn drawings(figures: &[Figure]) -> Result<BTreeMap<String, String>, RenderError> {
+    let each = figures.iter();
+    each.map(|figure| Ok((figure.name.clone(), figure::render(figure)?))).collect()
+}
+
+/// The same as files of a report's folder.
+fn figure_files(drawings: BTreeMap<String, String>) -> BTreeMap<PathBuf, Vec<u8>> {
+    let each = drawings.into_iter();
+    each.map(|(name, drawing)| (format!("figures/{name}.svg").into(), drawing.into_bytes()))
+        .collect()
 }
 
 /// The page of a sweep as Markdown and HTML, with its numbers and figures, by their path in the sweep's folder.
@@ -191,10 +202,7 @@ pub fn sweep(
     page: &SweepPage,
     drawn: &[Figure],
 ) -> Result<BTreeMap<PathBuf, Vec<u8>>, RenderError> {
-    let mut drawings = BTreeMap::new();
-    for figure in drawn {
-        drawings.insert(figure.name.clone(), figure::render(figure)?);
-    }
+    let drawings = drawings(drawn)?;
     let mut context = Context::new();
     context.insert("page", page);
     context.insert("style", STYLE);
@@ -202,14 +210,13 @@ pub fn sweep(
     let text = engine("sweep.md", SWEEP_MARKDOWN)?.render("sweep.md", &context)?;
     let html = engine("sweep.html", SWEEP_HTML)?.render("sweep.html", &context)?;
     let json = serde_json::to_string_pretty(&page.document)? + "\n";
-    let mut files = BTreeMap::from([
-        (PathBuf::from("sweep.md"), without_repeated_blank_lines(&text).into_bytes()),
-        (PathBuf::from("sweep.html"), html.into_bytes()),
-        (PathBuf::from("sweep.json"), json.into_bytes()),
-    ]);
-    for (name, drawing) in drawings {
-        files.insert(PathBuf::from(format!("figures/{name}.svg")), drawing.into_bytes());
-    }
+    let pages = [
+        ("sweep.md", without_repeated_blank_lines(&text)),
+        ("sweep.html", html),
+        ("sweep.json", json),
+    ];
+    let mut files = figure_files(drawings);
+    files.extend(pages.map(|(name, text)| (PathBuf::from(name), text.into_bytes())));
     Ok(files)
 }
 

@@ -15,7 +15,7 @@ use serde::Serialize;
 
 use crate::analysis::motion::state_of;
 use crate::analysis::{Analysis, AnalysisError, Area, Branch};
-use crate::band::{Band, Survey};
+use crate::band::Survey;
 use crate::case::SimulationSettings;
 use crate::orbits::{Boundaries, FullSystem};
 use crate::regimes::attractor::Effort;
@@ -234,12 +234,10 @@ impl CaseStudy {
         })
     }
 
-    /// The same with what is known along a band, simulated if the study is.
-    ///
-    /// # Errors
-    /// [`StudyError`] where a simulation cannot begin.
-    pub fn along(self, band: &Band) -> Result<Self, StudyError> {
-        Ok(Self { band: Some(Survey::of(band, self.simulated)?), ..self })
+    /// The same with what is known along a band.
+    #[must_use]
+    pub fn along(self, survey: Survey) -> Self {
+        Self { band: Some(survey), ..self }
     }
 
     /// What was simulated, if anything was.

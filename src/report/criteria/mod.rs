@@ -4,9 +4,10 @@ mod formats;
 
 use serde::Serialize;
 
-use super::numbers::{LengthFormat, fixed, percent_sharply, significant};
+use super::numbers::{LengthFormat, fixed, percent, percent_sharply, significant};
 use super::tables::{Table, table};
 use super::units::Units;
+use super::verdict::Tone;
 use crate::case::{Case, Measure, Relation, Subject};
 use crate::criteria::{Judged, all_hold};
 use crate::study::fidelity::Fidelity;
@@ -36,6 +37,10 @@ pub struct CriterionRow {
     pub decided_by: Fidelity,
     /// Where in the band it is worst, with unit; empty where that says nothing.
     pub at: String,
+    /// Share of the absorber's resting places from which a start from rest never wakes it, where that
+    /// motion decides.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub inactive_share: Option<f64>,
     /// `asked`, `found` and `margin` as a person reads them.
     #[serde(skip)]
     pub words: [String; 3],
@@ -49,11 +54,14 @@ impl CriterionRow {
 
     /// What was found and where, in a line.
     pub fn found_words(&self) -> String {
-        if self.at.is_empty() {
-            self.words[1].clone()
-        } else {
-            format!("{} at {}", self.words[1], self.at)
+        let mut words = self.words[1].clone();
+        if !self.at.is_empty() {
+            words += &format!(" at {}", self.at);
         }
+        if let Some(share) = self.inactive_share {
+            words += &format!(" (absorber inactive from {} of resting places)", percent(share));
+        }
+        words
     }
 }
 
@@ -66,6 +74,8 @@ pub struct CriteriaDocument {
     pub title: String,
     /// Whether all hold.
     pub holds: bool,
+    /// Whether the motion of an absorber that never wakes counts.
+    pub count_inactive: bool,
     /// One for each line of `[criteria]`, in the order of a report.
     pub criteria: Vec<CriterionRow>,
 }
@@ -77,6 +87,7 @@ impl CriteriaDocument {
             case: name.to_owned(),
             title: case.title.clone(),
             holds: all_hold(judged),
+            count_inactive: case.count_inactive,
             criteria: rows(case, judged),
         }
     }
@@ -94,17 +105,43 @@ impl CriteriaDocument {
         table(columns, self.criteria.iter().map(formats::cells).collect())
     }
 
+    /// How many criteria could be turned by their error.
+    fn too_close(&self) -> usize {
+        self.criteria.iter().filter(|row| row.near_limit).count()
+    }
+
+    /// Good where all hold, bad where one fails, in between where the errors leave it open.
+    pub(super) fn tone(&self) -> Tone {
+        let fails = |row: &CriterionRow| row.holds != Some(true) && !row.near_limit;
+        match (self.criteria.iter().any(fails), self.too_close()) {
+            (true, _) => Tone::Bad,
+            (false, 0) => Tone::Good,
+            (false, _) => Tone::Mixed,
+        }
+    }
+
     /// How many hold, in words.
     pub fn headline(&self) -> String {
         let count = self.criteria.len();
         let holding = self.criteria.iter().filter(|row| row.holds == Some(true)).count();
-        match (count, count - holding) {
+        let headline = match (count, count - holding) {
             (0, _) => "no criteria: add a table [criteria] to the case".into(),
             (1, 0) => "its one criterion holds".into(),
             (1, _) => "its one criterion fails".into(),
             (_, 0) => format!("all {count} criteria hold"),
+            (_, 1) => format!("1 of {count} criteria fails"),
             (_, failing) => format!("{failing} of {count} criteria fail"),
-        }
+        };
+        let too_close = match self.too_close() {
+            0 => String::new(),
+            1 => ", 1 too close to call".into(),
+            some => format!(", {some} too close to call"),
+        };
+        let inactive = match self.count_inactive {
+            true => "",
+            false => "; an inactive absorber is not counted (count_inactive = false)",
+        };
+        headline + &too_close + inactive
     }
 }
 
@@ -125,7 +162,7 @@ fn row(case: &Case, judged: &Judged) -> CriterionRow {
         || "nothing".to_owned(),
         |found| match measure {
             Measure::Flag => yes(found).to_owned(),
-            _ => number(found),
+            _ => number(found) + &error_words(case, judged),
         },
     );
     let margin = match (judged.margin, measure) {
@@ -150,8 +187,23 @@ fn row(case: &Case, judged: &Judged) -> CriterionRow {
             .at
             .zip(case.band.as_ref())
             .map_or_else(String::new, |(at, band)| Units::of(case).band_text(band.over, at)),
+        inactive_share: judged.inactive,
         words: [asked, found, margin],
     }
+}
+
+/// By how much a simulated value may be worse, where that changes a digit that is shown.
+fn error_words(case: &Case, judged: &Judged) -> String {
+    let relevant = judged.found.is_some_and(|found| judged.error > 1e-3 * found.abs());
+    if !judged.criterion.subject.is_of_motions() || !relevant {
+        return String::new();
+    }
+    let sign = match judged.criterion.relation {
+        Relation::AtLeast => "−",
+        Relation::AtMost => "+",
+        Relation::Equal => "±",
+    };
+    format!(" ({sign}{})", number(case, judged.criterion.subject.measure(), judged.error))
 }
 
 fn yes(value: f64) -> &'static str {
@@ -198,9 +250,8 @@ fn unit(case: &Case, measure: Measure) -> &'static str {
 pub fn verdict(holds: Option<bool>, near_limit: bool) -> &'static str {
     match (holds, near_limit) {
         (Some(true), false) => "holds",
-        (Some(true), true) => "holds, too close to be sure",
         (Some(false), false) => "fails",
-        (Some(false), true) => "fails, too close to be sure",
+        (Some(_), true) => "too close to call",
         (None, _) => "could not be measured",
     }
 }

@@ -1,12 +1,10 @@
 //! The response over the case's band: exact orbits, simulation where none attracts, and what else could
 //! be done.
 
-use crate::band::exact::attracting;
-use crate::band::rivals::{TunedMassDamper, bare_amplitude};
+use crate::band::rivals::bare_amplitude;
 use crate::band::{Band, Survey};
 use crate::case::BandOver;
 use crate::orbits::symmetric_orbits;
-use crate::regimes::long_term::Motion;
 use crate::report::figure::{
     Axis, Color, Dash, Figure, Layer, MarkedPoint, Marker, Panel, Role, Shape, Style,
 };
@@ -22,14 +20,14 @@ const CUT: f64 = 1.6;
 
 pub(super) fn figure(scene: &Scene) -> Option<Figure> {
     let survey = scene.study.band.as_ref()?;
-    let band = &survey.band;
+    let band = survey.band();
     let units = &scene.units;
     let x = |at: f64| match band.over {
         BandOver::Frequency => units.frequency(at),
         BandOver::Amplitude => units.forcing(at),
     };
-    let damper = TunedMassDamper::best(band.base.mass_ratio());
-    let damped = |system: &System| damper.amplitude(system);
+    let damper = survey.rivals.damper;
+    let damped = |system: &System| damper.amplitudes(system)[0];
     let marks = simulated(scene, survey, &x);
     let [stable, unstable] = orbits(band);
     let drawn = stable.iter().chain(&unstable).map(|point| point[1]);
@@ -66,9 +64,9 @@ pub(super) fn figure(scene: &Scene) -> Option<Figure> {
 }
 
 /// An amplitude along the band, over the clearance.
-fn curve(band: &Band, amplitude: &dyn Fn(&System) -> Option<f64>) -> Vec<[f64; 2]> {
-    let value = |at: f64| band.system(at).ok().and_then(|system| amplitude(&system));
-    band.places(PLACES).map(|at| [at, value(at).unwrap_or(f64::NAN)]).collect()
+fn curve(band: &Band, amplitude: &dyn Fn(&System) -> f64) -> Vec<[f64; 2]> {
+    let value = |at: f64| band.system(at).map_or(f64::NAN, |system| amplitude(&system));
+    band.places(PLACES).map(|at| [at, value(at)]).collect()
 }
 
 /// Peaks of the admissible symmetric orbits, the stable and the unstable ones, as lines with gaps.
@@ -99,28 +97,34 @@ fn orbits(band: &Band) -> [Vec<[f64; 2]>; 2] {
 fn simulated(scene: &Scene, survey: &Survey, x: &dyn Fn(f64) -> f64) -> Vec<(f64, MarkedPoint)> {
     let units = &scene.units;
     let mut marks = Vec::new();
-    for place in &survey.simulated {
-        let orbit = attracting(&survey.band, place.at);
-        let known = |motion: &Motion| {
-            orbit.as_ref().is_some_and(|orbit| motion.is_orbit_with_peak(orbit.peaks.displacement))
-        };
-        for motion in place.motions.iter().filter(|motion| !known(motion)) {
+    let over = survey.band().over;
+    for place in &survey.motions.places {
+        for motion in place.beside_orbit() {
             let words = format!(
-                "simulated at {}: peak {}, z = {}{}",
-                units.band_text(survey.band.over, place.at),
+                "simulated at {}: peak {}, z = {}",
+                units.band_text(over, place.at),
                 units.length_text(motion.peak),
                 significant(motion.impacts_per_period, 3),
-                if motion.is_asleep() { ", the absorber stays asleep" } else { "" }
             );
             let mark = MarkedPoint::new(x(place.at), units.length(motion.peak));
             marks.push((motion.peak, mark.with_tooltip(words)));
+        }
+        if let Some(inactive) = place.inactive.filter(|_| survey.motions.count_inactive) {
+            let words = format!(
+                "absorber never wakes at {}, from {} of its resting places: {}",
+                units.band_text(over, place.at),
+                percent(inactive.share),
+                units.length_text(inactive.amplitude),
+            );
+            let mark = MarkedPoint::new(x(place.at), units.length(inactive.amplitude));
+            marks.push((inactive.amplitude, mark.with_tooltip(words)));
         }
     }
     marks
 }
 
 fn words(scene: &Scene, survey: &Survey) -> (String, String) {
-    let text = |at: f64| scene.units.band_text(survey.band.over, at);
+    let text = |at: f64| scene.units.band_text(survey.band().over, at);
     let parts: Vec<String> = survey
         .zones
         .iter()
@@ -131,7 +135,7 @@ fn words(scene: &Scene, survey: &Survey) -> (String, String) {
          marked where it finds something else than that orbit; marks on the line of the bare oscillator \
          are absorbers that never wake from rest.",
         percent(survey.z3_share()),
-        percent(survey.stable_share()),
+        percent(survey.motions.stable_share()),
         parts.join(", ")
     );
     let alt = format!(

@@ -26,21 +26,21 @@ fn clearance_label(words: &Words) -> String {
 
 fn landscape(words: &Words) -> Figure {
     let found = words.found;
-    let place = |at: f64, score: f64| [words.lengths.number(at), words.number(score)];
-    let curve = |points: &[(f64, f64)]| -> Vec<[f64; 2]> {
-        let finite = points.iter().filter(|(_, score)| score.is_finite());
-        finite.map(|(at, score)| place(*at, *score)).collect()
-    };
+    let place = |at: f64, value: f64| [words.lengths.number(at), words.number(value)];
+    let finite = found.landscape.iter().filter(|(_, value)| value.is_finite());
+    let cheap = finite.map(|(at, value)| place(*at, *value));
     let bounds = found.task.bounds[0];
     let [low, high] = [bounds.from, bounds.to].map(|at| words.lengths.number(at));
     let x = Axis::log(clearance_label(words)).with_range(low, high);
     let mut panel = Panel::new(x, Axis::linear(words.axis()));
-    panel = panel.with(Layer::curve(Role::Stable, curve(&found.landscape)).labelled("as written"));
-    if !found.robust_landscape.is_empty() {
-        let style = Style::new(Color::Orange, 1.8, Dash::Dashed);
-        panel =
-            panel.with(Layer::styled(style, curve(&found.robust_landscape)).labelled("expected"));
-    }
+    // A coarse survey scatters: nothing is known between its places.
+    panel.layers.push(if words.is_amplitude() {
+        let small = Marker::filled(Shape::Circle).sized(2.0);
+        let points = cheap.map(|[x, y]| MarkedPoint::new(x, y));
+        Layer::marked(small, Color::Grey, points).labelled("coarse survey")
+    } else {
+        Layer::curve(Role::Stable, cheap.collect::<Vec<_>>()).labelled("as written")
+    });
     let mut rule = |at: f64, name: &str, style: Style| {
         let at = words.lengths.number(at);
         if low < at && at < high {
@@ -52,36 +52,42 @@ fn landscape(words: &Words) -> Figure {
         let end = claim.end_clearance * found.own.choice.clearance;
         rule(end, "1:1 disappears", Style::new(Color::Vermillion, 1.4, Dash::DashDot));
     }
-    let mut mark = |at: f64, score: f64, name: &str, marker: Marker, color: Color| {
-        if score.is_finite() && found.reached() {
-            let [x, y] = place(at, score);
-            let tooltip = format!("{name}: {}, {}", words.lengths.text(at), words.value(score));
+    let judged = |feasible: bool| -> Vec<MarkedPoint> {
+        let some = found.judged.iter().filter(|one| one.feasible == feasible);
+        some.filter(|one| one.value.is_finite())
+            .map(|one| {
+                let [x, y] = place(one.clearance, one.value);
+                MarkedPoint::new(x, y).with_tooltip(format!(
+                    "{}: {}",
+                    words.lengths.text(one.clearance),
+                    words.value_with_error(one.value, one.error)
+                ))
+            })
+            .collect()
+    };
+    let [holding, failing] = [judged(true), judged(false)];
+    if !failing.is_empty() {
+        let layer = Layer::marked(Marker::hollow(Shape::Square), Color::Vermillion, failing);
+        panel.layers.push(layer.labelled("checked, criteria fail"));
+    }
+    if !holding.is_empty() && words.is_amplitude() {
+        let layer = Layer::marked(Marker::hollow(Shape::Circle), Color::Blue, holding);
+        panel.layers.push(layer.labelled("checked"));
+    }
+    let mut mark = |at: f64, value: f64, name: &str, marker: Marker| {
+        if value.is_finite() && found.reached() {
+            let [x, y] = place(at, value);
+            let tooltip = format!("{name}: {}, {}", words.lengths.text(at), words.value(value));
             let point = MarkedPoint::new(x, y).with_tooltip(tooltip);
-            panel.layers.push(Layer::marked(marker, color, [point]).labelled(name));
+            panel.layers.push(Layer::marked(marker, Color::Black, [point]).labelled(name));
         }
     };
-    let best = &found.nominal;
-    let filled = Marker::filled(Shape::Circle);
-    mark(best.choice.clearance, best.judged(), "optimum", filled, Color::Black);
+    let best = &found.best;
+    mark(best.choice.clearance, best.value, "optimum", Marker::filled(Shape::Circle));
     if let Some(robust) = &found.robust {
-        let score = robust.expected.unwrap_or(f64::NAN);
-        let hollow = Marker::hollow(Shape::Diamond);
-        mark(robust.choice.clearance, score, "robust optimum", hollow, Color::Black);
-    }
-    let simulated = found.candidates.iter().filter(|one| one.simulated.is_finite());
-    let simulated: Vec<MarkedPoint> = simulated
-        .map(|one| {
-            let [x, y] = place(one.choice.clearance, one.simulated);
-            MarkedPoint::new(x, y).with_tooltip(format!(
-                "{}, {} as simulated",
-                words.lengths.text(one.choice.clearance),
-                words.value(one.simulated)
-            ))
-        })
-        .collect();
-    if !simulated.is_empty() {
-        let cross = Layer::marked(Marker::hollow(Shape::Square), Color::Vermillion, simulated);
-        panel.layers.push(cross.labelled("candidates, simulated"));
+        let marker = Marker::hollow(Shape::Diamond);
+        let expected = robust.under[0].expected;
+        mark(robust.design.choice.clearance, expected, "robust, expected", marker);
     }
     let caption = format!("{} {}", words.headline(), words.against_own());
     let alt = format!("{} over the clearance. {caption}", words.objective_words());
@@ -114,7 +120,7 @@ fn chart(words: &Words) -> Option<Figure> {
     let name = if physical { "frequency f (Hz)" } else { "frequency ratio Ω (1)" };
     let fill = Fill::tint(Color::SkyBlue);
     let chosen = found.reached().then(|| {
-        let at = Rule::Horizontal(length(found.nominal.choice.clearance));
+        let at = Rule::Horizontal(length(found.best.choice.clearance));
         Layer::rule(at, Style::new(Color::Grey, 1.4, Dash::Dotted)).labelled("chosen")
     });
     let (first, last) = (found.chart.first()?, found.chart.last()?);

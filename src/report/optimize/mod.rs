@@ -6,15 +6,16 @@ mod words;
 use serde::Serialize;
 
 use super::FigureRow;
+use super::band::DamperDocument;
 use super::figure::Figure;
 use super::numbers::{percent, significant};
 use super::tables::{Table, table};
+use crate::band::simulated::Place;
 use crate::case::{Case, Choice, Uncertainty};
 use crate::optimize::claim::Claim;
-use crate::optimize::confirm::Place;
+use crate::optimize::robust::{Robust, UnderDeviations};
 use crate::optimize::sensitivity::{Changed, Sensitivity};
-use crate::optimize::shortlist::Candidate;
-use crate::optimize::{Bounds, Chosen, Optimization, Variable, chart};
+use crate::optimize::{Bounds, Design, Optimization, Variable, chart};
 use words::Words;
 
 pub use figure::figures;
@@ -34,14 +35,11 @@ pub struct OptimizePage {
     pub reached: bool,
     /// What was looked for and between which bounds.
     pub looked_for: String,
-    /// What simulation says, in a sentence.
-    pub confirmed_words: String,
-    /// What simulation says, place by place.
-    pub confirmed: Table,
+    /// What the survey finds with the best, place by place; empty where nothing was simulated.
+    pub surveyed: Table,
     /// What a change of each parameter does.
     pub sensitivities: Table,
-    /// How expectations were computed, if anything is uncertain, and how the winner was chosen where
-    /// simulation has a part in it; a sentence each.
+    /// How it was found, a sentence each.
     pub method: Vec<String>,
     /// The paper's claim on the case, a sentence each.
     pub claim: Vec<String>,
@@ -66,8 +64,7 @@ impl OptimizePage {
             absorbers: absorbers(&words),
             reached: found.reached(),
             looked_for: looked_for(&words),
-            confirmed_words: words.confirmed(),
-            confirmed: confirmed(&words),
+            surveyed: surveyed(&words),
             sensitivities: sensitivities(&words),
             method: words.method(),
             claim: words.claim(),
@@ -87,27 +84,32 @@ fn dash() -> String {
     "–".to_owned()
 }
 
-/// Column of what simulation finds, which not every objective has.
-const SIMULATED: usize = 5;
-
 fn absorbers(words: &Words) -> Table {
     let found = words.found;
-    let value = |score: Option<f64>| score.map_or_else(dash, |score| words.value(score));
-    let row = |name: &str, one: &Chosen| {
+    let dashed = |value: Option<f64>| value.map_or_else(dash, |value| words.value(value));
+    let row = |name: &str, one: &Design, under: Option<UnderDeviations>| {
+        let holding = one.criteria.iter().filter(|judged| judged.holds == Some(true)).count();
         [
             name.to_owned(),
             words.length(one.choice.clearance),
             significant(one.choice.restitution, 4),
             mass(&one.choice),
-            words.value(one.score),
-            value(one.simulated),
-            value(one.expected),
+            words.of(one),
+            if one.criteria.is_empty() {
+                dash()
+            } else {
+                format!("{holding} of {}", one.criteria.len())
+            },
+            dashed(under.map(|under| under.expected)),
         ]
     };
-    let mut rows = vec![row("the case", &found.own)];
-    if found.reached() {
-        rows.push(row("optimum", &found.nominal));
-        rows.extend(found.robust.iter().map(|robust| row("robust optimum", robust)));
+    let under = |k: usize| found.robust.as_ref().map(|robust| robust.under[k]);
+    let mut rows = vec![row("the case", &found.own, None)];
+    if found.improves() {
+        rows.push(row("optimum", &found.best, under(1)));
+        rows.extend(
+            found.robust.iter().map(|robust| row("robust optimum", &robust.design, under(0))),
+        );
     }
     let columns = [
         ("Absorber", false),
@@ -115,15 +117,10 @@ fn absorbers(words: &Words) -> Table {
         ("Restitution", true),
         ("Mass", true),
         ("Objective", true),
-        ("As simulated", true),
+        ("Criteria that hold", true),
         ("Expected", true),
     ];
-    let mut table = table(columns, rows);
-    if found.nominal.simulated.is_none() {
-        table.columns.remove(SIMULATED);
-        table.rows.iter_mut().for_each(|row| drop(row.remove(SIMULATED)));
-    }
-    table
+    table(columns, rows)
 }
 
 fn looked_for(words: &Words) -> String {
@@ -149,26 +146,46 @@ fn looked_for(words: &Words) -> String {
     format!("{asked} Uncertain: {}.", words.uncertain.join("; "))
 }
 
-fn confirmed(words: &Words) -> Table {
-    let rows = words.found.confirmed.iter().map(|place| {
+/// Places of the band that the table shows, the worst one included.
+const SHOWN: usize = 9;
+
+/// What the survey finds with the best absorber at some of its places.
+fn surveyed(words: &Words) -> Table {
+    let best = &words.found.best;
+    let places = &best.motions.places;
+    let worst = best.worst.map(|worst| worst.at);
+    let length = |over: f64| words.lengths.text(over * best.choice.clearance);
+    let every = places.len().div_ceil(SHOWN).max(1);
+    let shown = |k: usize, place: &Place| k.is_multiple_of(every) || Some(place.at) == worst;
+    let chosen = places.iter().enumerate().filter(|(k, place)| shown(*k, place));
+    let rows = chosen.map(|(_, place)| {
+        let largest = place.largest().map(|motion| {
+            let [peak, error] =
+                [motion.peak, motion.peak_error].map(|one| one * best.choice.clearance);
+            match words.is_amplitude() {
+                true => words.value_with_error(peak, error),
+                false => words.lengths.text(peak),
+            }
+        });
+        let inactive = place.inactive.map(|one| {
+            format!("{}, {} of resting places", length(one.amplitude), percent(one.share))
+        });
         [
             words.at(place.at),
-            place.exact.map_or_else(dash, |exact| words.lengths.text(exact)),
-            format!("{} of {}", place.as_predicted, place.starts),
-            if place.asleep > 0 { "never wakes" } else { "wakes" }.to_owned(),
-            place.motions.to_string(),
-            place.largest.map_or_else(dash, |largest| words.lengths.text(largest)),
+            place.orbit.map_or_else(dash, length),
+            place.motions.len().to_string(),
+            largest.unwrap_or_else(dash),
+            inactive.unwrap_or_else(dash),
         ]
     });
     let at = if words.over_amplitude() { "Amplitude" } else { "Frequency" };
     table(
         [
             (at, true),
-            ("Exact orbit", true),
-            ("Starts that led to it", true),
-            ("From rest the absorber", false),
+            ("Stable 1:1 orbit", true),
             ("Motions with impacts", true),
-            ("Largest amplitude", true),
+            ("Largest peak of these", true),
+            ("Absorber never wakes", true),
         ],
         rows.collect(),
     )
@@ -183,12 +200,14 @@ fn sensitivities(words: &Words) -> Table {
             Changed::Frequency => "frequency",
             Changed::Amplitude => "amplitude",
         };
-        let value = |score: Option<f64>| score.map_or_else(dash, |score| words.value(score));
+        let task = &words.found.task;
+        let value =
+            |score: Option<f64>| score.map_or_else(dash, |score| words.value(task.value(score)));
         [
             name.to_owned(),
             percent(one.change),
             value(one.smaller),
-            words.value(words.found.nominal.score),
+            value(Some(words.found.best.score(task.objective))),
             value(one.larger),
         ]
     });
@@ -223,9 +242,6 @@ pub fn summary(case: &Case, found: &Optimization) -> String {
         let _ = writeln!(text, "{name:16}{values}");
     }
     let _ = writeln!(text);
-    if found.reached() {
-        let _ = writeln!(text, "{}", words.confirmed());
-    }
     for sentence in words.claim() {
         let _ = writeln!(text, "{sentence}");
     }
@@ -237,13 +253,14 @@ pub fn summary(case: &Case, found: &Optimization) -> String {
 pub fn written(case: &Case, found: &Optimization, robust: bool) -> String {
     let words = Words::new(case, found);
     match &found.robust {
-        Some(best) if robust => format!("the robust optimum, {}", words.absorber(&best.choice)),
-        _ => format!("the optimum, {}", words.absorber(&found.nominal.choice)),
+        Some(best) if robust => {
+            format!("the robust optimum, {}", words.absorber(&best.design.choice))
+        }
+        _ => format!("the optimum, {}", words.absorber(&found.best.choice)),
     }
 }
 
-/// `vinesink/optimization@1`. Lengths in metres or the case's own unit; objectives as they are spoken
-/// of, so that an amplitude is positive.
+/// `vinesink/optimization@2`. Lengths in metres or the case's own unit.
 #[derive(Debug, Clone, Serialize)]
 pub struct OptimizationDocument {
     format: &'static str,
@@ -252,19 +269,30 @@ pub struct OptimizationDocument {
     bounds: Vec<Bounds>,
     /// The frequency's as a frequency ratio, the amplitude's over the case's own.
     uncertainty: Uncertainty,
+    /// Whether the objective has a value at all.
     reached: bool,
-    own: ChosenDocument,
-    /// None where nothing reaches the objective, and nothing is said of it then.
-    optimum: Option<ChosenDocument>,
-    robust: Option<ChosenDocument>,
-    /// Pairs of clearance and objective.
+    /// Whether all criteria hold at the optimum; true without criteria.
+    feasible: bool,
+    /// Whether the optimum is another absorber than the case's own, and not worse.
+    improves: bool,
+    /// The best absorber, rounded as it is written; none where nothing is reached.
+    optimum: Option<Choice>,
+    /// The objective at the optimum as it is shown, and as a check of the written case gives it.
+    claimed: ValueDocument,
+    checked: ValueDocument,
+    own: DesignDocument,
+    /// Where nothing meets all criteria, the absorber that misses them least.
+    closest: Option<DesignDocument>,
+    robust: Option<RobustDocument>,
+    /// Clearances that are as good as the optimum's.
+    plateau: [f64; 2],
+    bare: Option<f64>,
+    tuned_mass_damper: DamperDocument,
+    /// Pairs of clearance and objective by the cheap layer.
     landscape: Vec<(f64, Option<f64>)>,
-    /// Pairs of clearance and expected objective.
-    robust_landscape: Vec<(f64, Option<f64>)>,
+    /// Every absorber that was judged.
+    judged: Vec<JudgedDocument>,
     sensitivities: Vec<Sensitivity>,
-    /// What was simulated before one was chosen, in the order of the search.
-    candidates: Vec<Candidate>,
-    confirmed: Vec<Place>,
     /// Over the case's own clearance.
     claim: Option<ClaimDocument>,
     chart: Vec<chart::Suited>,
@@ -272,14 +300,39 @@ pub struct OptimizationDocument {
     case_sha256: String,
 }
 
+/// A value of the objective and how much worse it may be.
 #[derive(Debug, Clone, Serialize)]
-struct ChosenDocument {
+struct ValueDocument {
+    value: Option<f64>,
+    error: f64,
+}
+
+#[derive(Debug, Clone, Serialize)]
+struct DesignDocument {
     #[serde(flatten)]
     choice: Choice,
-    objective: Option<f64>,
-    simulated: Option<f64>,
+    #[serde(flatten)]
+    objective: ValueDocument,
+    feasible: bool,
+}
+
+#[derive(Debug, Clone, Serialize)]
+struct RobustDocument {
+    #[serde(flatten)]
+    design: DesignDocument,
     expected: Option<f64>,
-    plateau: [f64; 2],
+    worst_corner: Option<f64>,
+    /// The same for the optimum as written.
+    optimum_expected: Option<f64>,
+    optimum_worst_corner: Option<f64>,
+}
+
+#[derive(Debug, Clone, Serialize)]
+struct JudgedDocument {
+    clearance: f64,
+    #[serde(flatten)]
+    objective: ValueDocument,
+    feasible: bool,
 }
 
 #[derive(Debug, Clone, Serialize)]
@@ -291,49 +344,66 @@ struct ClaimDocument {
     holds: bool,
 }
 
+fn finite(value: f64) -> Option<f64> {
+    Some(value).filter(|value| value.is_finite())
+}
+
+impl DesignDocument {
+    fn new(design: &Design) -> Self {
+        let objective = ValueDocument { value: finite(design.value), error: design.error };
+        Self { choice: design.choice, objective, feasible: design.is_feasible() }
+    }
+}
+
 impl OptimizationDocument {
     /// The document of a case.
     pub fn new(case: &Case, found: &Optimization) -> Self {
-        let value = |score: f64| Some(found.task.value(score)).filter(|value| value.is_finite());
-        let chosen = |one: &Chosen| ChosenDocument {
-            choice: one.choice,
-            objective: value(one.score),
-            simulated: one.simulated.and_then(value),
-            expected: one.expected.and_then(value),
-            plateau: one.plateau,
-        };
+        let (best, task) = (&found.best, &found.task);
         let reached = found.reached();
-        let of_best = reached.then_some(found).into_iter();
-        let pairs =
-            |points: &[(f64, f64)]| points.iter().map(|(at, score)| (*at, value(*score))).collect();
         let spoken = |one: &Sensitivity| Sensitivity {
-            smaller: one.smaller.and_then(value),
-            larger: one.larger.and_then(value),
+            smaller: one.smaller.and_then(|score| finite(task.value(score))),
+            larger: one.larger.and_then(|score| finite(task.value(score))),
             ..*one
         };
-        let of_candidate = |one: &Candidate| Candidate {
-            score: found.task.value(one.score),
-            simulated: found.task.value(one.simulated),
-            ..*one
+        let robust = |one: &Robust| RobustDocument {
+            design: DesignDocument::new(&one.design),
+            expected: finite(one.under[0].expected),
+            worst_corner: finite(one.under[0].worst_corner),
+            optimum_expected: finite(one.under[1].expected),
+            optimum_worst_corner: finite(one.under[1].worst_corner),
         };
+        let length = |over: f64| finite(over * best.choice.clearance);
         Self {
-            format: "vinesink/optimization@1",
+            format: "vinesink/optimization@2",
             title: case.title.clone(),
-            objective: found.task.objective.name(),
-            bounds: found.task.bounds.clone(),
-            uncertainty: found.task.uncertainty,
+            objective: task.objective.name(),
+            bounds: task.bounds.clone(),
+            uncertainty: task.uncertainty,
             reached,
-            own: chosen(&found.own),
-            optimum: reached.then(|| chosen(&found.nominal)),
-            robust: found.robust.as_ref().filter(|_| reached).map(chosen),
-            landscape: pairs(&found.landscape),
-            robust_landscape: pairs(&found.robust_landscape),
-            sensitivities: of_best
-                .clone()
-                .flat_map(|best| best.sensitivities.iter().map(spoken))
+            feasible: best.is_feasible(),
+            improves: found.improves(),
+            optimum: reached.then_some(best.choice),
+            claimed: ValueDocument { value: finite(best.value), error: best.error },
+            checked: ValueDocument { value: finite(found.checked.0), error: found.checked.1 },
+            own: DesignDocument::new(&found.own),
+            closest: found.closest.as_ref().map(DesignDocument::new),
+            robust: found.robust.as_ref().map(robust),
+            plateau: found.plateau,
+            bare: length(best.rivals.bare.1),
+            tuned_mass_damper: DamperDocument::new(&best.rivals, |over| {
+                over * best.choice.clearance
+            }),
+            landscape: found.landscape.iter().map(|(at, value)| (*at, finite(*value))).collect(),
+            judged: found
+                .judged
+                .iter()
+                .map(|one| JudgedDocument {
+                    clearance: one.clearance,
+                    objective: ValueDocument { value: finite(one.value), error: one.error },
+                    feasible: one.feasible,
+                })
                 .collect(),
-            candidates: found.candidates.iter().map(of_candidate).collect(),
-            confirmed: of_best.flat_map(|best| best.confirmed.clone()).collect(),
+            sensitivities: found.sensitivities.iter().map(spoken).collect(),
             claim: found.claim.map(|claim| ClaimDocument {
                 claim,
                 distance: claim.distance(),

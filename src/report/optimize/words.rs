@@ -1,19 +1,19 @@
 //! What is said about an optimisation.
 
 use crate::analysis::Strip;
-use crate::band::theory;
+use crate::band::rivals::DETUNED;
+use crate::band::{Source, theory};
 use crate::case::{BandOver, Case, Choice, Objective, Scales};
+use crate::criteria::Judged;
 use crate::optimize::claim::Claim;
-use crate::optimize::confirm::largest;
 use crate::optimize::task::value_of;
-use crate::optimize::{Bounds, Deviation, Optimization, Variable};
+use crate::optimize::{Bounds, Design, Deviation, Optimization, Variable};
+use crate::report::criteria::{self, CriterionRow};
 use crate::report::numbers::{LengthFormat, fixed, percent, signed_percent, significant};
 use crate::report::units::Units;
 
 /// Digits of a clearance: as it is written.
 const DIGITS: usize = 4;
-/// Simulated amplitude over the promised one from which on the reader is told.
-const SURPRISE: f64 = 1.02;
 /// Relative distance from a bound within which a value lies on it: it may have been rounded.
 const ON_BOUND: f64 = 1e-3;
 /// Share of a band in strips from which on the reader is told.
@@ -21,6 +21,7 @@ const STRIPS: f64 = 0.01;
 
 /// An optimisation with what turns its numbers into text.
 pub(super) struct Words<'a> {
+    pub case: &'a Case,
     pub found: &'a Optimization,
     pub scales: Scales,
     pub lengths: LengthFormat,
@@ -30,9 +31,10 @@ pub(super) struct Words<'a> {
 }
 
 impl<'a> Words<'a> {
-    pub fn new(case: &Case, found: &'a Optimization) -> Self {
+    pub fn new(case: &'a Case, found: &'a Optimization) -> Self {
         let scales = case.scales();
         Self {
+            case,
             found,
             scales,
             lengths: LengthFormat::of(&scales),
@@ -51,24 +53,37 @@ impl<'a> Words<'a> {
         self.units.frequency_text(omega)
     }
 
-    /// A score as the figure's ordinate.
-    pub fn number(&self, score: f64) -> f64 {
-        let value = self.found.task.value(score);
-        match self.found.task.objective {
-            Objective::WorstAmplitude => self.lengths.number(value),
-            _ => 100.0 * value,
+    pub fn is_amplitude(&self) -> bool {
+        self.found.task.objective == Objective::WorstAmplitude
+    }
+
+    /// A value of the objective as the figure's ordinate.
+    pub fn number(&self, value: f64) -> f64 {
+        if self.is_amplitude() { self.lengths.number(value) } else { 100.0 * value }
+    }
+
+    /// A value of the objective with its unit.
+    pub fn value(&self, value: f64) -> String {
+        match self.is_amplitude() {
+            _ if !value.is_finite() => "–".to_owned(),
+            true => self.lengths.text(value),
+            // Robust and nominal optimum often differ by less than a per cent.
+            false => format!("{} %", fixed(100.0 * value, 1)),
         }
     }
 
-    /// A score with its unit.
-    pub fn value(&self, score: f64) -> String {
-        let value = self.found.task.value(score);
-        match self.found.task.objective {
-            _ if !score.is_finite() => "–".to_owned(),
-            Objective::WorstAmplitude => self.lengths.text(value),
-            // Robust and nominal optimum often differ by less than a per cent.
-            _ => format!("{} %", fixed(100.0 * value, 1)),
+    /// The same with how much more it may be.
+    pub fn value_with_error(&self, value: f64, error: f64) -> String {
+        // Below a thousandth an error changes no digit that is shown.
+        if !(error > 1e-3 * value.abs() && value.is_finite()) {
+            return self.value(value);
         }
+        format!("{} (+{})", self.value(value), self.value(error))
+    }
+
+    /// The objective of a judged absorber.
+    pub fn of(&self, design: &Design) -> String {
+        self.value_with_error(design.value, design.error)
     }
 
     /// The ordinate's name.
@@ -76,7 +91,7 @@ impl<'a> Words<'a> {
         match self.found.task.objective {
             Objective::Z3Share => "share in area Z3 (%)".to_owned(),
             Objective::StableShare => "share with a stable 1:1 orbit (%)".to_owned(),
-            Objective::WorstAmplitude => format!("worst amplitude ({})", self.lengths.unit),
+            Objective::WorstAmplitude => format!("largest displacement ({})", self.lengths.unit),
             Objective::Margin => "smallest margin in clearance (%)".to_owned(),
         }
     }
@@ -88,8 +103,8 @@ impl<'a> Words<'a> {
             (Objective::Z3Share, false) => "Area Z3 at the case's excitation",
             (Objective::StableShare, true) => "Share of the band with a stable 1:1 orbit",
             (Objective::StableShare, false) => "Stable 1:1 orbit at the case's excitation",
-            (Objective::WorstAmplitude, true) => "Largest amplitude over the band",
-            (Objective::WorstAmplitude, false) => "Amplitude at the case's excitation",
+            (Objective::WorstAmplitude, true) => "Largest displacement over the band",
+            (Objective::WorstAmplitude, false) => "Largest displacement at the case's excitation",
             (Objective::Margin, true) => "Smallest margin in clearance over the band",
             (Objective::Margin, false) => "Margin in clearance at the case's excitation",
         }
@@ -97,34 +112,42 @@ impl<'a> Words<'a> {
 
     /// The answer.
     pub fn headline(&self) -> String {
-        let best = &self.found.nominal;
-        let what = self.objective_words();
-        if !self.found.reached() {
-            return format!(
-                "Nothing between the bounds reaches it. {what}: {}.",
-                self.value(best.judged())
-            );
+        let (found, best, what) = (self.found, &self.found.best, self.objective_words());
+        let reached = self.of(best);
+        if !found.reached() {
+            return format!("Nothing between the bounds reaches it. {what}: {reached}.");
         }
-        let at = self.length(best.choice.clearance);
-        format!("Best clearance {at}. {what}: {}.", self.value(best.judged()))
+        let absorber = self.absorber(&best.choice);
+        let answer = match found.improves() {
+            true => format!("Best {absorber}. {what}: {reached}."),
+            false => format!(
+                "No absorber between the bounds is better than the case's own, {absorber}. {what}: {reached}."
+            ),
+        };
+        if best.is_feasible() {
+            return answer;
+        }
+        format!("No absorber between the bounds meets all criteria. {answer}")
     }
 
     /// What the case's own absorber reaches.
     pub fn against_own(&self) -> String {
         let own = &self.found.own;
-        let at = self.length(own.choice.clearance);
-        format!("The case itself, at {at}, has {}.", self.value(own.judged()))
+        format!("The case itself, at {}, has {}.", self.length(own.choice.clearance), self.of(own))
     }
 
     /// What follows from the rest, a sentence each.
     pub fn sentences(&self) -> Vec<String> {
-        let best = &self.found.nominal;
         let mut sentences = vec![self.against_own()];
         if !self.found.reached() {
             return sentences;
         }
-        let [low, high] = best.plateau;
-        if high > low * 1.001 {
+        sentences.extend(self.failing(&self.found.best, "At the best"));
+        sentences.extend(self.closest());
+        sentences.extend(self.tuned_mass_damper());
+        sentences.extend(self.worst_motion());
+        let [low, high] = self.found.plateau;
+        if high > low * 1.001 && !self.is_amplitude() {
             let [low, high] = [low, high].map(|end| self.lengths.text(end));
             sentences.push(format!(
                 "Clearances from {low} to {high} are as good; the middle of them is chosen."
@@ -132,24 +155,98 @@ impl<'a> Words<'a> {
         }
         sentences.extend(self.strips());
         sentences.extend(self.at_bounds());
-        if let Some(robust) = &self.found.robust {
-            let expected = |score: Option<f64>| self.value(score.unwrap_or(f64::NAN));
-            sentences.push(format!(
-                "Expected under what is uncertain it has {}; the robust optimum, at {}, has {}.",
-                expected(best.expected),
-                self.length(robust.choice.clearance),
-                expected(robust.expected),
-            ));
-            if self.found.task.band.is_none() && self.found.task.objective != Objective::Margin {
-                sentences.push(format!(
-                    "At one excitation the objective jumps, which {} points for each parameter resolve coarsely.",
-                    self.found.task.nodes()
-                ));
-            }
-        }
-        sentences.extend(self.dropped());
-        sentences.extend(self.contradictions());
+        sentences.extend(self.robust());
         sentences
+    }
+
+    fn rows(&self, judged: &[Judged]) -> Vec<CriterionRow> {
+        criteria::rows(self.case, judged)
+    }
+
+    /// Which criteria an absorber misses, and by how much.
+    fn failing(&self, design: &Design, lead: &str) -> Option<String> {
+        let rows = self.rows(&design.criteria);
+        let missed = rows.iter().filter(|row| row.holds != Some(true));
+        let missed: Vec<String> = missed
+            .map(|row| {
+                let [asked, found, _] = &row.words;
+                format!("{} is {found}, asked {asked}", criteria::subject(row.name))
+            })
+            .collect();
+        (!missed.is_empty()).then(|| format!("{lead}: {}.", missed.join("; ")))
+    }
+
+    fn closest(&self) -> Option<String> {
+        let closest = self.found.closest.as_ref()?;
+        if closest.choice == self.found.best.choice {
+            return Some("It is also the one that misses the criteria least.".to_owned());
+        }
+        let at = self.absorber(&closest.choice);
+        let lead = format!("Closest to all criteria is {at}, with {}", self.of(closest));
+        self.failing(closest, &lead)
+    }
+
+    /// What a tuned mass damper of the same mass does, and who wins.
+    fn tuned_mass_damper(&self) -> Option<String> {
+        let best = &self.found.best;
+        self.found.task.band.as_ref()?;
+        let clearance = best.choice.clearance;
+        let length = |over: f64| self.lengths.text(over * clearance);
+        let rivals = &best.rivals;
+        let [low, high] = rivals.detuned.map(|off| length(off.amplitude));
+        let said = format!(
+            "A tuned mass damper of the same mass (tuned to {}, damping ratio {}) has at most {} over the band with a stroke of {}; with the structure's frequency off by {} either way {low} and {high}",
+            self.units.frequency_text(rivals.damper.tuning),
+            percent(rivals.damper.damping_ratio),
+            length(rivals.damped.amplitude),
+            length(rivals.damped.stroke),
+            percent(DETUNED[1] - 1.0),
+        );
+        let Some(worst) = best.worst else { return Some(format!("{said}.")) };
+        let absorber = worst.peak + worst.error;
+        let verdict = match (rivals.damped.amplitude < absorber, rivals.damped.stroke > 1.0) {
+            (true, false) => "The damper is the better choice",
+            (true, true) => {
+                "The damper vibrates less, and needs more room than the absorber's cavity has to either side"
+            }
+            (false, _) => "The absorber is the better choice",
+        };
+        Some(format!("{said}. {verdict}."))
+    }
+
+    /// Which motion is the worst, where that is not plain.
+    fn worst_motion(&self) -> Option<String> {
+        let worst = self.found.best.worst.filter(|_| self.is_amplitude())?;
+        let place = match self.found.task.band {
+            Some(_) => format!("at {}", self.at(worst.at)),
+            None => "here".to_owned(),
+        };
+        Some(match worst.of {
+            Source::Orbit => format!("The worst motion is the stable 1:1 orbit {place}."),
+            Source::Inactive(inactive) => format!(
+                "The worst motion is that of an absorber that never wakes, {place}: from rest it stays so from {} of its resting places.",
+                percent(inactive.share)
+            ),
+            Source::Simulated(motion) => format!(
+                "The worst motion is {} {place}, with {} impacts per period.",
+                if motion.repeats_after.is_some() { "one that repeats" } else { "irregular" },
+                significant(motion.impacts_per_period, 3)
+            ),
+        })
+    }
+
+    fn robust(&self) -> Option<String> {
+        let robust = self.found.robust.as_ref()?;
+        let [of_robust, of_best] = robust.under;
+        let at = self.absorber(&robust.design.choice);
+        Some(format!(
+            "Under what is uncertain the best has {} in expectation and {} at the worst corner; the robust optimum, {at}, has {} and {}, and {} as written.",
+            self.value(of_best.expected),
+            self.value(of_best.worst_corner),
+            self.value(of_robust.expected),
+            self.value(of_robust.worst_corner),
+            self.of(&robust.design),
+        ))
     }
 
     /// A variable of an absorber, or a bound of it, with its name.
@@ -167,7 +264,7 @@ impl<'a> Words<'a> {
         if task.objective != Objective::Z3Share {
             return None;
         }
-        let (band, _) = task.band_of(&self.found.nominal.choice, &Deviation::default())?;
+        let (band, _) = task.band_of(&self.found.best.choice, &Deviation::default())?;
         let zones = theory::zones(&band);
         let share = |strip| band.share(&zones, |zone| zone.is_z3() && zone.strip == Some(strip));
         let strips = [
@@ -190,37 +287,22 @@ impl<'a> Words<'a> {
         Some(format!("Of the band, the optimum has {}.", there.join(" and ")))
     }
 
-    /// On which bounds the winners lie, but for those that no restitution can pass.
+    /// On which bounds the best lies, but for those that no restitution can pass.
     fn at_bounds(&self) -> Option<String> {
-        let on = |choice: &Choice| -> Vec<String> {
-            let ends = self.found.task.bounds.iter().filter_map(|bounds| {
-                let Bounds { variable, from, to } = *bounds;
-                let value = value_of(variable, choice);
-                let passable =
-                    |end: &f64| variable != Variable::Restitution || (*end > 0.0 && *end < 1.0);
-                let near = |end: &f64| (value - end).abs() <= ON_BOUND * end;
-                let end = [from, to].into_iter().filter(passable).find(near)?;
-                Some(self.variable(variable, end))
-            });
-            ends.collect()
-        };
-        let best = on(&self.found.nominal.choice);
-        let robust = self.found.robust.as_ref().map_or_else(Vec::new, |robust| on(&robust.choice));
-        let joined = |ends: &[String]| ends.join(" and ");
-        let which = match (best.is_empty(), robust.is_empty()) {
-            (true, true) => return None,
-            (false, false) if best == robust => {
-                format!("The optimum and the robust one lie on a bound: {}", joined(&best))
-            }
-            (false, false) => format!(
-                "The optimum lies on a bound ({}), and so does the robust one ({})",
-                joined(&best),
-                joined(&robust)
-            ),
-            (false, true) => format!("The optimum lies on a bound: {}", joined(&best)),
-            (true, false) => format!("The robust optimum lies on a bound: {}", joined(&robust)),
-        };
-        Some(format!("{which}; wider bounds may hold a better one."))
+        let ends = self.found.task.bounds.iter().filter_map(|bounds| {
+            let Bounds { variable, from, to } = *bounds;
+            let value = value_of(variable, &self.found.best.choice);
+            let passable =
+                |end: &f64| variable != Variable::Restitution || (*end > 0.0 && *end < 1.0);
+            let near = |end: &f64| (value - end).abs() <= ON_BOUND * end;
+            let end = [from, to].into_iter().filter(passable).find(near)?;
+            Some(self.variable(variable, end))
+        });
+        let ends: Vec<String> = ends.collect();
+        let joined = ends.join(" and ");
+        (!ends.is_empty()).then(|| {
+            format!("The optimum lies on a bound: {joined}; wider bounds may hold a better one.")
+        })
     }
 
     /// An absorber, by what of it is chosen.
@@ -229,49 +311,6 @@ impl<'a> Words<'a> {
         let values =
             bounds.map(|bounds| self.variable(bounds.variable, value_of(bounds.variable, choice)));
         values.collect::<Vec<_>>().join(", ")
-    }
-
-    /// Which candidate of the search was dropped, and why; `None` where none was simulated.
-    fn dropped(&self) -> Option<String> {
-        let candidates = &self.found.candidates;
-        let first = candidates.first()?;
-        let (best, count) = (&self.found.nominal, candidates.len());
-        let starts = self.found.confirmed.first().map_or(0, |place| place.starts);
-        if first.choice == best.choice {
-            let others = if count == 1 { String::new() } else { format!(" of {count} candidates") };
-            return Some(format!(
-                "Best in the search, it is also the best{others} as simulated from {starts} starts at each place, where the search takes two."
-            ));
-        }
-        Some(format!(
-            "The search alone would have chosen {}, with {}; from {starts} starts at each place simulation finds {} there, so that it was dropped for the best of {count} candidates as simulated.",
-            self.length(first.choice.clearance),
-            self.value(first.score),
-            self.value(first.simulated),
-        ))
-    }
-
-    /// Where simulation contradicts the answer; empty where it does not.
-    fn contradictions(&self) -> Vec<String> {
-        let places = &self.found.confirmed;
-        let mut sentences = Vec::new();
-        let [promised, found] = [self.found.nominal.score, self.found.nominal.judged()]
-            .map(|score| self.found.task.value(score));
-        if found > promised * SURPRISE && !self.found.candidates.is_empty() {
-            sentences.push(format!(
-                "Exact orbits and two starts at each place promise {}; what counts is what more starts lead to.",
-                self.lengths.text(promised)
-            ));
-        }
-        let lost = places.iter().filter(|place| place.exact.is_some() && place.as_predicted == 0);
-        let lost: Vec<String> = lost.map(|place| self.at(place.at)).collect();
-        if !lost.is_empty() {
-            sentences.push(format!(
-                "At {} the exact orbit is stable, yet no start of the simulation led to it.",
-                lost.join(", ")
-            ));
-        }
-        sentences
     }
 
     /// A place of the band.
@@ -286,46 +325,22 @@ impl<'a> Words<'a> {
         band.is_some_and(|band| band.over == BandOver::Amplitude)
     }
 
-    /// What simulation says.
-    pub fn confirmed(&self) -> String {
-        let places = &self.found.confirmed;
-        let orbit = places.iter().filter(|place| place.exact.is_some()).count();
-        let all = places.iter().filter(|place| place.is_as_predicted());
-        let several = places.iter().filter(|place| place.motions > 1).count();
-        let largest = largest(places).map_or_else(String::new, |largest| {
-            format!(" The largest amplitude that was simulated is {}.", self.lengths.text(largest))
-        });
-        let (count, all) = (places.len(), all.count());
-        let place = if count == 1 { "place" } else { "places" };
-        let starts = places.first().map_or(0, |place| place.starts);
-        let asleep = places.iter().filter(|place| place.asleep > 0).count();
-        let asleep = match asleep {
-            0 => String::new(),
-            _ => format!(
-                " From rest the absorber never wakes at {asleep} of the places, and the oscillator moves as if it were bare."
-            ),
-        };
-        format!(
-            "From {starts} starts, one of them from rest, at each of {count} {place}: an exact symmetric orbit attracts at {orbit}, and every start that wakes the absorber led to it at {all} of these; at {several} of all places there are several motions with impacts.{asleep}{largest}"
-        )
-    }
-
     /// How it was found, where that depends on the case.
     pub fn method(&self) -> Vec<String> {
-        let task = &self.found.task;
-        let mut sentences = Vec::new();
-        if task.objective == Objective::WorstAmplitude {
-            sentences.push("Where no orbit attracts the search simulates two starts, which may miss a larger motion: its best candidates all over the bounds, and more around the best of these, are therefore simulated from many starts, and the best as simulated is chosen.".to_owned());
-        }
-        if task.uncertainty.is_any() {
+        let found = self.found;
+        let mut sentences = vec![format!(
+            "Every absorber that is shown was judged as `vinesink check` judges its case: {} of them, criteria and all motions over the whole band included.",
+            found.judged.len()
+        )];
+        sentences.push(match self.is_amplitude() {
+            true => "A coarse survey of the band at 97 clearances proposes, and the neighbours of the best are judged until they are closer than 1 %.".to_owned(),
+            false => "Shares and margins are roots of the theory and of exact orbits: they are looked at everywhere between the bounds and narrowed down around the best.".to_owned(),
+        });
+        if let Some(robust) = &found.robust {
             sentences.push(format!(
-                "An expectation is a Gauss quadrature with {} points for each uncertain parameter, {} evaluations of the objective: Hermite's for a standard deviation, Legendre's for an error that is evenly distributed.",
-                task.nodes(),
-                task.deviations().len(),
+                "An expectation is a Gauss quadrature with {} points for each uncertain parameter, {} evaluations of the objective: Hermite's for a standard deviation, Legendre's for an error that is evenly distributed. A corner has every parameter at its largest error, or at two standard deviations.",
+                robust.nodes, robust.combinations
             ));
-        }
-        if task.uncertainty.is_any() && task.objective == Objective::WorstAmplitude {
-            sentences.push("The robust optimum is the best of these candidates, an expectation counting as no better than what simulation finds as written.".to_owned());
         }
         sentences
     }

@@ -2,58 +2,97 @@
 
 use super::{NOTICEABLE, Tone, Verdict};
 use crate::band::Survey;
-use crate::band::simulated::Place;
 use crate::case::{BandOver, Case};
 use crate::report::numbers::{decibels, percent};
 use crate::report::units::Units;
 
-/// Share of a band from which on it is all of it, but for rounding.
-const ALL: f64 = 1.0 - 1e-9;
-
 /// Puts what holds along the band first, and what holds at the case's own excitation after it.
 pub(super) fn verdict(case: &Case, survey: &Survey, own: Verdict) -> Verdict {
     let units = Units::of(case);
-    let place = |at: f64| units.band_text(survey.band.over, at);
-    let [from, to] = survey.band.range;
-    let stable = survey.stable_share();
-    let (tone, vibration) = match survey.largest() {
+    let (band, motions) = (survey.band(), &survey.motions);
+    let place = |at: f64| units.band_text(band.over, at);
+    let length = |over: f64| units.length_text(over);
+    let [from, to] = band.range;
+    let bare = survey.rivals.bare.1;
+    let (tone, vibration) = match motions.worst() {
         None => (Tone::Mixed, "no steady motion was found, and nothing was simulated".to_owned()),
-        Some((at, peak)) => {
-            let bare = survey.bare.largest;
-            let worst = format!("vibration up to {} at {}", units.length_text(peak), place(at));
+        Some(worst) => {
+            let more = match worst.error > 1e-3 * worst.peak {
+                true => format!(" (+{})", length(worst.error)),
+                false => String::new(),
+            };
+            let up_to =
+                format!("vibration up to {}{more} at {}", length(worst.peak), place(worst.at));
             if bare.is_finite() {
-                let change = decibels(peak / bare);
-                let bare = units.length_text(bare);
-                let tone = match peak / survey.bare.largest {
+                let change = decibels(worst.peak / bare);
+                let tone = match (worst.peak + worst.error) / bare {
                     worse if worse > 1.0 + NOTICEABLE => Tone::Bad,
-                    less if less < 1.0 - NOTICEABLE && stable > ALL => Tone::Good,
+                    less if less < 1.0 - NOTICEABLE => Tone::Good,
                     _ => Tone::Mixed,
                 };
-                (tone, format!("{worst}, instead of up to {bare} without absorber ({change})"))
+                let bare = length(bare);
+                (tone, format!("{up_to}, instead of up to {bare} without absorber ({change})"))
             } else {
-                (Tone::Mixed, format!("{worst}; without absorber nothing limits it"))
+                (Tone::Mixed, format!("{up_to}; without absorber nothing limits it"))
             }
         }
     };
+    let damped = survey.rivals.damped;
     let headline = format!(
-        "From {} to {}: {vibration}; a stable 1:1 orbit over {} of the band.",
+        "From {} to {}: {vibration}; a tuned mass damper of the same mass has up to {}.",
         place(from),
         place(to),
-        percent(stable)
+        length(damped.amplitude),
     );
-    let excitation = match survey.band.over {
-        BandOver::Frequency => units.frequency_text(survey.band.base.frequency_ratio()),
-        BandOver::Amplitude => units.forcing_text(1.0),
-    };
-    let mut sentences =
-        vec![format!("At {excitation}, the case's own excitation: {}", own.headline)];
-    let asleep = survey.simulated.iter().filter(|place| Place::sleeps(place)).count();
-    if asleep > 0 {
+    let mut sentences = Vec::new();
+    if let Some((at, inactive)) = motions.inactive {
+        let counted = match motions.count_inactive {
+            true => "",
+            false => " This motion is not counted (count_inactive = false).",
+        };
         sentences.push(format!(
-            "From rest the absorber never wakes at {asleep} of {} simulated places of the band.",
-            survey.simulated.len()
+            "From rest the absorber never wakes from up to {} of its resting places: the structure then has up to {}, at {}.{counted}",
+            percent(inactive.share),
+            length(inactive.amplitude),
+            place(at)
         ));
     }
+    sentences.push(against_damper(survey, &length));
+    sentences.push(format!(
+        "A stable 1:1 orbit exists over {} of the band.",
+        percent(motions.stable_share())
+    ));
+    let excitation = match band.over {
+        BandOver::Frequency => units.frequency_text(band.base.frequency_ratio()),
+        BandOver::Amplitude => units.forcing_text(1.0),
+    };
+    sentences.push(format!("At {excitation}, the case's own excitation: {}", own.headline));
     sentences.extend(own.sentences);
     Verdict { tone, headline, sentences }
+}
+
+/// Where the absorber wins against a tuned mass damper, and where it loses.
+fn against_damper(survey: &Survey, length: &dyn Fn(f64) -> String) -> String {
+    let damped = survey.rivals.damped;
+    let stroke = match damped.stroke > 1.0 {
+        true => "more than the clearance of the absorber",
+        false => "less than the clearance of the absorber",
+    };
+    let mut text =
+        format!("The tuned mass damper needs a stroke of {}, {stroke}.", length(damped.stroke));
+    let largest = |worst: crate::band::Worst| worst.peak + worst.error;
+    let Some(worst) = survey.motions.worst() else { return text };
+    let wins = if largest(worst) < damped.amplitude { "absorber" } else { "tuned mass damper" };
+    text += &format!(" Over the band the {wins} vibrates less");
+    let off = survey.detuned.iter().copied().flatten().map(largest).reduce(f64::max);
+    let damper = survey.rivals.detuned.map(|one| one.amplitude).into_iter().fold(0.0, f64::max);
+    if let Some(off) = off {
+        let wins = if off < damper { "absorber" } else { "tuned mass damper" };
+        text += &format!(
+            "; with the structure's frequency off by 3 % the {wins} does (absorber up to {}, damper up to {})",
+            length(off),
+            length(damper)
+        );
+    }
+    text + "."
 }

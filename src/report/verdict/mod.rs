@@ -8,6 +8,7 @@ mod unsimulated;
 use serde::Serialize;
 
 use super::numbers::{LengthFormat, decibels, known_to, percent, significant, with_error};
+use crate::band::{Band, Inactive, Rivals};
 use crate::case::Case;
 use crate::regimes::{FoundAttractor, Nature, Regime};
 use crate::study::CaseStudy;
@@ -73,6 +74,8 @@ fn of_own_excitation(case: &Case, study: &CaseStudy) -> Verdict {
     let (tone, headline) = writer.headline(main);
     let sentences = [
         Some(writer.standing(main)),
+        writer.inactive(main),
+        writer.tuned_mass_damper(),
         writer.reason(main),
         writer.clearance(),
         writer.simulated_limit(),
@@ -152,6 +155,37 @@ impl Writer<'_> {
         } else {
             (Tone::Mixed, format!("{regime}. Vibration up to {change}, {average}."))
         }
+    }
+
+    /// The motion of an absorber that a start from rest never wakes.
+    fn inactive(&self, main: &FoundAttractor) -> Option<String> {
+        let inactive = Inactive::of(&self.study.analysis.system)?;
+        if main.regime() == Regime::AtRest {
+            return None;
+        }
+        let counted = match (self.case.criteria.is_empty(), self.case.count_inactive) {
+            (false, false) => " The criteria do not count it (count_inactive = false).",
+            _ => "",
+        };
+        Some(format!(
+            "An absorber that rests within {} of the middle of its cavity, {} of its resting places, does not wake when the vibration starts from rest: then {}.{counted}",
+            self.length(inactive.share),
+            percent(inactive.share),
+            self.length(inactive.amplitude)
+        ))
+    }
+
+    /// What a tuned mass damper of the same mass does at a single excitation.
+    fn tuned_mass_damper(&self) -> Option<String> {
+        if self.study.band.is_some() {
+            return None;
+        }
+        let rivals = Rivals::along(&Band::point(&self.study.analysis.system));
+        Some(format!(
+            "A tuned mass damper of the same mass (Den Hartog) has {} here, with a stroke of {}.",
+            self.length(rivals.damped.amplitude),
+            self.length(rivals.damped.stroke)
+        ))
     }
 
     fn regime(&self, main: &FoundAttractor) -> String {

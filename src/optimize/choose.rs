@@ -1,0 +1,187 @@
+//! What is judged, and which of it is best.
+
+use super::OptimizeError;
+use super::design::{Design, Judge};
+use super::search::{self, Effort, Seen, distance, shortlist};
+use super::task::Task;
+use crate::case::{Choice, Objective};
+use crate::executor::{Executor, Serial, map};
+
+/// How thoroughly an exact objective is looked for.
+const EXACT: Effort = Effort { pieces: 400, particles: 40, steps: 30, width: 1e-7 };
+/// How thoroughly a coarse survey is: a place costs a thousand times as much.
+const SCREENED: Effort = Effort { pieces: 96, particles: 16, steps: 12, width: 1e-2 };
+
+/// What the cheap layers propose.
+pub struct Proposed {
+    /// Every place that was asked for, with its cheap score.
+    pub seen: Vec<Seen>,
+    /// The best of them; none where the cheap layer only ranks.
+    pub best: Option<Vec<f64>>,
+    /// The clearances that are as good as that.
+    pub plateau: [f64; 2],
+    /// The objective's value over the clearance.
+    pub landscape: Vec<(f64, f64)>,
+}
+
+/// Looks everywhere between the bounds with the cheap layer.
+///
+/// # Errors
+/// [`OptimizeError::Nowhere`] where the objective has no value.
+pub fn propose(task: &Task, executor: &dyn Executor) -> Result<Proposed, OptimizeError> {
+    let exact = task.objective != Objective::WorstAmplitude;
+    let effort = if exact { EXACT } else { SCREENED };
+    let score = |parts: &[f64]| task.cheap_score(&task.choice(parts)).unwrap_or(f64::NEG_INFINITY);
+    let own = task.parts(&Choice::of(&task.design));
+    let at =
+        |part: f64| -> Vec<f64> { std::iter::once(part).chain(own[1..].iter().copied()).collect() };
+    let on_line = |part: f64| score(&at(part));
+    let scanned = search::scan("looking between the bounds", effort.pieces, executor, &on_line);
+    let landscape = scanned
+        .iter()
+        .map(|(part, score)| (task.bounds[0].at(*part), task.value(*score)))
+        .collect();
+    let mut seen: Vec<Seen> = scanned.iter().map(|(part, score)| (at(*part), *score)).collect();
+    let mut best = None;
+    let mut plateau = [task.bounds[0].from, task.bounds[0].to];
+    if exact {
+        let line =
+            search::on_line(&scanned, effort.width, &on_line).ok_or(OptimizeError::Nowhere)?;
+        plateau = line.plateau.map(|part| task.bounds[0].at(part));
+        best = Some(at(line.parts[0]));
+    }
+    if task.bounds.len() > 1 {
+        let known: Vec<Vec<f64>> = best.iter().cloned().chain(top(&seen)).collect();
+        let found = search::in_box(&known, task.bounds.len(), &effort, &score, exact)
+            .ok_or(OptimizeError::Nowhere)?;
+        plateau = found.plateau.map(|part| task.bounds[0].at(part));
+        seen.extend(found.seen);
+        best = exact.then_some(found.parts);
+    }
+    Ok(Proposed { seen, best, plateau, landscape })
+}
+
+fn top(seen: &[Seen]) -> Option<Vec<f64>> {
+    seen.iter().max_by(|a, b| a.1.total_cmp(&b.1)).map(|(parts, _)| parts.clone())
+}
+
+/// Distance of candidates all over the bounds, over the way between them, and how many there are.
+const APART: f64 = 0.03;
+const EVERYWHERE: usize = 16;
+/// Distance of those that the cheap layer likes best, and how many.
+const CLOSE: f64 = 0.008;
+const LIKED: usize = 20;
+/// Rounds in which the neighbours of the best are judged, how many best there are, and the distance below
+/// which no further neighbour is: of a factor of 60 between the bounds, 0.8 % of the clearance.
+const ROUNDS: usize = 5;
+const BEST: usize = 2;
+const FINEST: f64 = 0.002;
+
+/// Judges what the cheap layers propose, as `check` does: what they like best, candidates all over the
+/// bounds where criteria may exclude those, and neighbours of the best.
+///
+/// # Errors
+/// [`OptimizeError`] of an absorber that cannot be written or simulated.
+pub fn judged(
+    judge: &Judge,
+    proposed: &Proposed,
+    executor: &dyn Executor,
+) -> Result<Vec<Design>, OptimizeError> {
+    let mut known = Known { judge, executor, designs: Vec::new() };
+    if let Some(best) = &proposed.best {
+        known.add(vec![best.clone()])?;
+        if known.designs[0].1.is_feasible() {
+            return Ok(known.into_designs());
+        }
+    }
+    let mut chosen: Vec<Vec<f64>> = Vec::new();
+    if proposed.best.is_none() {
+        chosen.extend(shortlist(&proposed.seen, CLOSE, LIKED).into_iter().map(|seen| seen.0));
+    }
+    if !judge.case.criteria.is_empty() {
+        for (parts, _) in shortlist(&proposed.seen, APART, usize::MAX) {
+            let apart = chosen.iter().all(|one| distance(one, &parts) >= APART);
+            if apart && chosen.len() < LIKED + EVERYWHERE {
+                chosen.push(parts);
+            }
+        }
+    }
+    known.add(chosen)?;
+    for _ in 0..ROUNDS {
+        let next = known.neighbours_of_best(&proposed.seen);
+        if next.is_empty() {
+            break;
+        }
+        known.add(next)?;
+    }
+    Ok(known.into_designs())
+}
+
+/// The preferred one; of equals the first.
+pub fn best(designs: &[Design], objective: Objective) -> Option<&Design> {
+    designs.iter().reduce(|a, b| if a.is_worse_than(b, objective) { b } else { a })
+}
+
+/// Designs that are judged, with their places between the bounds.
+struct Known<'a> {
+    judge: &'a Judge<'a>,
+    executor: &'a dyn Executor,
+    designs: Vec<(Vec<f64>, Design)>,
+}
+
+impl Known<'_> {
+    fn add(&mut self, parts: Vec<Vec<f64>>) -> Result<(), OptimizeError> {
+        // Many designs side by side, or the survey of a single one.
+        let side_by_side = parts.len() > 1;
+        let found = map(
+            if side_by_side { self.executor } else { &Serial },
+            "judging candidates over the band",
+            parts.len(),
+            |k| self.judge.design(&parts[k], if side_by_side { &Serial } else { self.executor }),
+        );
+        for (parts, design) in parts.into_iter().zip(found) {
+            self.designs.push((parts, design?));
+        }
+        Ok(())
+    }
+
+    /// Places around the best: on a line the middles between them and their neighbours, otherwise what the
+    /// cheap layer has seen nearby and liked best.
+    fn neighbours_of_best(&self, seen: &[Seen]) -> Vec<Vec<f64>> {
+        let objective = self.judge.task.objective;
+        let mut order: Vec<usize> = (0..self.designs.len()).collect();
+        order.sort_by(|a, b| {
+            let [a, b] = [&self.designs[*a].1, &self.designs[*b].1];
+            a.is_worse_than(b, objective).cmp(&b.is_worse_than(a, objective))
+        });
+        let mut next: Vec<Vec<f64>> = Vec::new();
+        for k in order.into_iter().take(BEST) {
+            let parts = &self.designs[k].0;
+            if parts.len() == 1 {
+                next.extend(self.middles_around(parts[0]));
+            } else {
+                let near: Vec<Seen> =
+                    seen.iter().filter(|one| distance(&one.0, parts) < APART).cloned().collect();
+                next.extend(shortlist(&near, CLOSE, 4).into_iter().map(|seen| seen.0));
+            }
+        }
+        next.retain(|one| self.designs.iter().all(|known| distance(&known.0, one) >= FINEST));
+        next.dedup();
+        next
+    }
+
+    fn middles_around(&self, part: f64) -> Vec<Vec<f64>> {
+        let all = || self.designs.iter().map(|known| known.0[0]);
+        let below = all().filter(|other| *other < part).max_by(f64::total_cmp).unwrap_or(0.0);
+        let above = all().filter(|other| *other > part).min_by(f64::total_cmp).unwrap_or(1.0);
+        [below, above]
+            .into_iter()
+            .map(|beside| vec![0.5 * (part + beside)])
+            .filter(|middle| (middle[0] - part).abs() >= FINEST)
+            .collect()
+    }
+
+    fn into_designs(self) -> Vec<Design> {
+        self.designs.into_iter().map(|(_, design)| design).collect()
+    }
+}

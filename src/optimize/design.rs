@@ -1,0 +1,164 @@
+//! An absorber as `check` judges it: rounded as it is written, its case surveyed along the whole band, every
+//! criterion held against it. What is shown of an optimisation is this and nothing else.
+
+use super::OptimizeError;
+use super::task::Task;
+use crate::band::rivals::Rivals;
+use crate::band::{Motions, Source, Survey, Worst};
+use crate::case::{Case, Choice, Measure, Objective, Relation, Rewritten, Rounding};
+use crate::criteria::{self, Judged};
+use crate::executor::Executor;
+
+/// A judged absorber. Lengths in the units of a [`Choice`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct Design {
+    /// The absorber, rounded as it is written.
+    pub choice: Choice,
+    /// Its case file.
+    pub written: Rewritten,
+    /// The objective: a share, a relative distance, or a length.
+    pub value: f64,
+    /// How far the value may be off; an amplitude may be larger by that.
+    pub error: f64,
+    /// The largest displacement over the band, where the band was simulated; over the clearance.
+    pub worst: Option<Worst>,
+    /// The criteria.
+    pub criteria: Vec<Judged>,
+    /// Bare oscillator and tuned mass damper, over the clearance.
+    pub rivals: Rivals,
+    /// The motions that can happen along the band.
+    pub motions: Motions,
+}
+
+impl Design {
+    /// The score in the order of preference: the more the better, with its error.
+    pub fn score(&self, objective: Objective) -> f64 {
+        match objective {
+            Objective::WorstAmplitude => -(self.value + self.error),
+            _ => self.value,
+        }
+    }
+
+    /// Whether every criterion holds.
+    pub fn is_feasible(&self) -> bool {
+        criteria::all_hold(&self.criteria)
+    }
+
+    /// By how much the criterion that is missed most is missed, over its limit; 0 where all hold.
+    pub fn violation(&self) -> f64 {
+        self.criteria.iter().map(violation).fold(0.0, f64::max)
+    }
+
+    /// Whether another is preferred: one whose criteria hold, then the higher score.
+    pub fn is_worse_than(&self, other: &Self, objective: Objective) -> bool {
+        match (self.is_feasible(), other.is_feasible()) {
+            (true, false) => false,
+            (false, true) => true,
+            _ => self.score(objective) < other.score(objective),
+        }
+    }
+
+    /// Whether the worst motion is one that scatters.
+    pub fn scatters(&self) -> bool {
+        let of = self.worst.map(|worst| worst.of);
+        matches!(of, Some(Source::Simulated(motion)) if motion.repeats_after.is_none())
+    }
+}
+
+/// Decibels that count as much as missing a limit by all of it: a factor of 2.
+const DOUBLE_DB: f64 = 6.0;
+
+/// By how much a criterion is missed, over its limit; what could not be measured by all of it.
+fn violation(judged: &Judged) -> f64 {
+    let (Some(margin), Some(false)) = (judged.margin, judged.holds) else {
+        return if judged.holds == Some(true) { 0.0 } else { 1.0 };
+    };
+    let missed = match judged.criterion.relation {
+        Relation::Equal => margin.abs(),
+        _ => judged.error - margin,
+    };
+    match judged.criterion.subject.measure() {
+        Measure::Decibel => missed / DOUBLE_DB,
+        Measure::Flag => 1.0,
+        _ => missed / judged.criterion.limit.max(f64::MIN_POSITIVE),
+    }
+}
+
+/// Judges absorbers of one task.
+pub struct Judge<'a> {
+    /// The case as it stands.
+    pub case: &'a Case,
+    /// Its file's text.
+    pub text: &'a str,
+    /// What is optimised.
+    pub task: &'a Task,
+}
+
+impl Judge<'_> {
+    /// The case's own absorber.
+    ///
+    /// # Errors
+    /// As [`Judge::design`].
+    pub fn own(&self, executor: &dyn Executor) -> Result<Design, OptimizeError> {
+        let written = Rewritten { text: self.text.to_owned(), case: self.case.clone() };
+        self.judged(written, executor)
+    }
+
+    /// The absorber at parts of the way between the bounds.
+    ///
+    /// # Errors
+    /// [`OptimizeError`] where it cannot be written into the case, or not be simulated.
+    pub fn design(&self, parts: &[f64], executor: &dyn Executor) -> Result<Design, OptimizeError> {
+        self.judged(self.rounded(parts)?, executor)
+    }
+
+    fn judged(&self, written: Rewritten, executor: &dyn Executor) -> Result<Design, OptimizeError> {
+        let case = &written.case;
+        let amplitude = self.task.objective == Objective::WorstAmplitude;
+        let mut settings = criteria::settings(case);
+        if amplitude {
+            settings.sampling = Some(criteria::sampling(case));
+        }
+        let survey = Survey::of(&criteria::range(case), &settings, executor)?;
+        let choice = Choice::of(&case.design);
+        let worst = survey.motions.worst().filter(|_| settings.sampling.is_some());
+        let (value, error) = match (amplitude, worst) {
+            (true, Some(worst)) => (worst.peak * choice.clearance, worst.error * choice.clearance),
+            (true, None) => (f64::INFINITY, 0.0),
+            _ => (self.task.exact_score(survey.band()).unwrap_or(f64::NAN), 0.0),
+        };
+        Ok(Design {
+            choice,
+            value,
+            error,
+            worst,
+            criteria: criteria::judge(case, &survey),
+            rivals: survey.rivals,
+            motions: survey.motions,
+            written,
+        })
+    }
+
+    /// The absorber as it is written: of the roundings that keep to the bounds the best by an exact
+    /// objective, otherwise the nearest.
+    fn rounded(&self, parts: &[f64]) -> Result<Rewritten, OptimizeError> {
+        let choice = self.task.choice(parts);
+        let mut best: Option<(f64, Rewritten)> = None;
+        for rounding in Rounding::ALL {
+            let written =
+                self.case.rewritten("the optimised case", self.text, &choice, rounding)?;
+            let kept = self.task.allows(&Choice::of(&written.case.design));
+            // Bounds closer together than four digits leave no rounding; the exact value is kept then.
+            let last = rounding == Rounding::EXACT;
+            if !(if last { best.is_none() } else { kept }) {
+                continue;
+            }
+            let exact = self.task.exact_score(&criteria::range(&written.case));
+            let score = exact.unwrap_or(0.0);
+            if best.as_ref().is_none_or(|(known, _)| *known < score) {
+                best = Some((score, written));
+            }
+        }
+        best.map(|(_, written)| written).ok_or(OptimizeError::Nowhere)
+    }
+}

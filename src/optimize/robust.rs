@@ -1,0 +1,278 @@
+//! The best absorber where parameters are uncertain: its objective expected by Gauss quadrature over every
+//! combination of deviations, and the worst at their corners.
+
+use super::OptimizeError;
+use super::choose::Proposed;
+use super::design::{Design, Judge};
+use super::search::{self, Effort};
+use super::task::{Deviation, Task};
+use crate::case::{Choice, Distribution, Objective, Uncertainty};
+use crate::executor::{Executor, Serial, map};
+use crate::numerics::gauss;
+
+/// The best in expectation. Values are those of the objective.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Robust {
+    /// The absorber, judged as it is written.
+    pub design: Design,
+    /// What it and what the best as written achieve under deviations.
+    pub under: [UnderDeviations; 2],
+    /// Nodes of each uncertain parameter.
+    pub nodes: usize,
+    /// Combinations of deviations that an expectation takes.
+    pub combinations: usize,
+}
+
+/// What an absorber achieves where parameters deviate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct UnderDeviations {
+    /// The expected objective.
+    pub expected: f64,
+    /// The worst at the corners of the deviations: the largest of uniform ones, two standard deviations.
+    pub worst_corner: f64,
+}
+
+/// How thoroughly the expectation of an exact objective is looked for.
+const ROBUST: Effort = Effort { pieces: 80, particles: 16, steps: 12, width: 1e-4 };
+/// Nodes of each uncertain parameter where that many are uncertain, from none to four, for an
+/// objective in closed form: at most 625 together. Shares have kinks, which many nodes even out.
+const CLOSED_FORM: [usize; 5] = [1, 21, 15, 7, 5];
+/// The same for one that needs orbits, which cost ten times as much: at most 125.
+const ORBITS: [usize; 5] = [1, 15, 7, 5, 3];
+/// The same for one that needs simulation: at most 27.
+const SIMULATED: [usize; 5] = [1, 5, 3, 3, 2];
+/// Corner of a normally distributed deviation, over its standard deviation.
+const SIGMAS: f64 = 2.0;
+/// Judged absorbers that are looked at under deviations where the objective is simulated.
+const CANDIDATES: usize = 5;
+
+/// The best in expectation; `None` where nothing is uncertain.
+///
+/// # Errors
+/// [`OptimizeError`] of an absorber that cannot be written or simulated.
+pub fn best(
+    judge: &Judge,
+    proposed: &Proposed,
+    designs: &[Design],
+    executor: &dyn Executor,
+) -> Result<Option<Robust>, OptimizeError> {
+    let task = judge.task;
+    let Some(nominal) = super::choose::best(designs, task.objective) else { return Ok(None) };
+    if !task.uncertainty.is_any() {
+        return Ok(None);
+    }
+    let deviations = task.deviations();
+    let under = |choice: &Choice| task.under(choice, &deviations, executor);
+    let of_nominal = under(&nominal.choice);
+    let (design, of_best) = match task.objective {
+        Objective::WorstAmplitude => {
+            let mut best = (nominal.clone(), of_nominal);
+            for design in smoothed(task, proposed, designs, nominal) {
+                let found = under(&design.choice);
+                if found.expected < best.1.expected {
+                    best = (design.clone(), found);
+                }
+            }
+            best
+        }
+        _ => {
+            let parts = expected_best(task, &deviations, &nominal.choice, executor)?;
+            let design = judge.design(&parts, executor)?;
+            let found = under(&design.choice);
+            if found.expected > of_nominal.expected {
+                (design, found)
+            } else {
+                (nominal.clone(), of_nominal)
+            }
+        }
+    };
+    Ok(Some(Robust {
+        design,
+        under: [of_best, of_nominal],
+        nodes: task.nodes(),
+        combinations: deviations.len(),
+    }))
+}
+
+/// Parts of the way at which the expectation of an exact objective is best, beside the best as written.
+fn expected_best(
+    task: &Task,
+    deviations: &[(Deviation, f64)],
+    nominal: &Choice,
+    executor: &dyn Executor,
+) -> Result<Vec<f64>, OptimizeError> {
+    let known = task.parts(nominal);
+    let score = |parts: &[f64]| {
+        let found = task.expected(&task.choice(parts), deviations, &Serial);
+        found.unwrap_or(f64::NEG_INFINITY)
+    };
+    let at = |part: f64| -> Vec<f64> {
+        std::iter::once(part).chain(known[1..].iter().copied()).collect()
+    };
+    let on_line = |part: f64| score(&at(part));
+    let scanned = search::scan("expected objective", ROBUST.pieces, executor, &on_line);
+    let line = search::on_line(&scanned, ROBUST.width, &on_line).ok_or(OptimizeError::Nowhere)?;
+    if task.bounds.len() == 1 {
+        return Ok(line.parts);
+    }
+    let known = [known.clone(), at(line.parts[0])];
+    let found = search::in_box(&known, task.bounds.len(), &ROBUST, &score, true);
+    found.map(|best| best.parts).ok_or(OptimizeError::Nowhere)
+}
+
+/// Judged absorbers that the coarse survey likes best once it is averaged over the deviation of the
+/// clearance, the best first.
+fn smoothed<'d>(
+    task: &Task,
+    proposed: &Proposed,
+    designs: &'d [Design],
+    nominal: &Design,
+) -> Vec<&'d Design> {
+    let only_clearance =
+        Uncertainty { clearance: task.uncertainty.clearance, ..Uncertainty::default() };
+    let nodes = combinations(&only_clearance, SIMULATED[1]);
+    let expected = |design: &Design| -> f64 {
+        let at = |off: &Deviation| design.choice.clearance + off.clearance;
+        nodes.iter().map(|(off, weight)| weight * coarse(&proposed.landscape, at(off))).sum()
+    };
+    let mut order: Vec<(f64, &Design)> = designs
+        .iter()
+        .filter(|one| one.choice != nominal.choice && one.is_feasible() == nominal.is_feasible())
+        .map(|one| (expected(one).max(one.value), one))
+        .collect();
+    order.sort_by(|a, b| a.0.total_cmp(&b.0));
+    order.into_iter().map(|(_, design)| design).take(CANDIDATES).collect()
+}
+
+/// A landscape between its places.
+fn coarse(landscape: &[(f64, f64)], at: f64) -> f64 {
+    let right = landscape.partition_point(|place| place.0 < at).clamp(1, landscape.len() - 1);
+    let [(a, low), (b, high)] = [landscape[right - 1], landscape[right]];
+    let part = ((at - a) / (b - a)).clamp(0.0, 1.0);
+    low * (1.0 - part) + high * part
+}
+
+/// Errors of one parameter with their weights; a certain one has a single node.
+fn nodes(distribution: Distribution, count: usize) -> Vec<(f64, f64)> {
+    let (rule, size) = match distribution {
+        Distribution::Certain => return vec![(0.0, 1.0)],
+        Distribution::Normal(deviation) => (gauss::normal(count), deviation),
+        Distribution::Uniform(largest) => (gauss::uniform(count), largest),
+    };
+    rule.into_iter().map(|(node, weight)| (node * size, weight)).collect()
+}
+
+/// The corner of one parameter's errors: both ends, or 0 for a certain one.
+fn ends(distribution: Distribution) -> Vec<(f64, f64)> {
+    let size = match distribution {
+        Distribution::Certain => return vec![(0.0, 1.0)],
+        Distribution::Normal(deviation) => SIGMAS * deviation,
+        Distribution::Uniform(largest) => largest,
+    };
+    vec![(-size, 0.5), (size, 0.5)]
+}
+
+/// All combinations of deviations with their weights, which add up to 1; `count` nodes of each
+/// uncertain parameter.
+pub fn combinations(uncertainty: &Uncertainty, count: usize) -> Vec<(Deviation, f64)> {
+    products(uncertainty, |one| nodes(one, count))
+}
+
+fn products(
+    uncertainty: &Uncertainty,
+    values: impl Fn(Distribution) -> Vec<(f64, f64)>,
+) -> Vec<(Deviation, f64)> {
+    let Uncertainty { clearance, restitution, frequency_ratio, amplitude } = *uncertainty;
+    let [clearances, restitutions, frequency_ratios, amplitudes] =
+        [clearance, restitution, frequency_ratio, amplitude].map(values);
+    let mut found = Vec::new();
+    for (clearance, a) in &clearances {
+        for (restitution, b) in &restitutions {
+            for (frequency_ratio, c) in &frequency_ratios {
+                for (amplitude, d) in &amplitudes {
+                    let off = Deviation {
+                        clearance: *clearance,
+                        restitution: *restitution,
+                        frequency_ratio: *frequency_ratio,
+                        amplitude: *amplitude,
+                    };
+                    found.push((off, a * b * c * d));
+                }
+            }
+        }
+    }
+    found
+}
+
+impl Task {
+    /// Nodes of each uncertain parameter.
+    pub fn nodes(&self) -> usize {
+        let counts = match self.objective {
+            Objective::Z3Share => CLOSED_FORM,
+            Objective::WorstAmplitude => SIMULATED,
+            Objective::StableShare | Objective::Margin => ORBITS,
+        };
+        counts[self.uncertainty.count()]
+    }
+
+    /// The combinations of deviations over which is averaged.
+    pub fn deviations(&self) -> Vec<(Deviation, f64)> {
+        combinations(&self.uncertainty, self.nodes())
+    }
+
+    /// The average score over deviations with weights; `None` where one leaves no system.
+    pub fn expected(
+        &self,
+        choice: &Choice,
+        deviations: &[(Deviation, f64)],
+        executor: &dyn Executor,
+    ) -> Option<f64> {
+        let score = |k: usize| self.score(choice, &deviations[k].0, &Serial);
+        let scores = map(executor, "", deviations.len(), score);
+        scores.into_iter().zip(deviations).map(|(score, (_, weight))| Some(weight * score?)).sum()
+    }
+
+    /// What an absorber achieves under deviations, as values of the objective; infinite, or nothing, where a
+    /// deviation leaves no system.
+    fn under(
+        &self,
+        choice: &Choice,
+        deviations: &[(Deviation, f64)],
+        executor: &dyn Executor,
+    ) -> UnderDeviations {
+        let corners = products(&self.uncertainty, ends);
+        let worst =
+            map(executor, "", corners.len(), |k| self.score(choice, &corners[k].0, &Serial));
+        let worst = worst.into_iter().map(|score| score.unwrap_or(f64::NEG_INFINITY));
+        let expected = self.expected(choice, deviations, executor);
+        UnderDeviations {
+            expected: self.value(expected.unwrap_or(f64::NEG_INFINITY)),
+            worst_corner: self.value(worst.fold(f64::INFINITY, f64::min)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Averages of squares are s² for a normal error and a²/3 for one up to a.
+    #[test]
+    fn combinations_have_the_moments_of_their_errors() {
+        let two = Uncertainty {
+            clearance: Distribution::Normal(0.1),
+            amplitude: Distribution::Uniform(0.2),
+            ..Uncertainty::default()
+        };
+        let all = combinations(&two, 7);
+        assert_eq!(all.len(), 49);
+        let mean = |of: &dyn Fn(&Deviation) -> f64| -> f64 {
+            all.iter().map(|(off, weight)| weight * of(off)).sum()
+        };
+        assert!((mean(&|_| 1.0) - 1.0).abs() < 1e-14);
+        assert!((mean(&|off| off.clearance * off.clearance) - 0.01).abs() < 1e-14);
+        assert!((mean(&|off| off.amplitude * off.amplitude) - 0.04 / 3.0).abs() < 1e-14);
+        assert!(mean(&|off| off.clearance * off.amplitude).abs() < 1e-16);
+        assert_eq!(combinations(&Uncertainty::default(), 7), [(Deviation::default(), 1.0)]);
+    }
+}
