@@ -10,7 +10,8 @@ use std::time::{Duration, Instant};
 
 use vinesink::case::Case;
 use vinesink::digest;
-use vinesink::regimes::long_term::{Motion, left_out, long_term};
+use vinesink::regimes::Transient;
+use vinesink::regimes::long_term::{Motion, long_term};
 use vinesink::regimes::starts;
 use vinesink::simulation::batch::{self, Extent};
 use vinesink::simulation::{Nobody, Simulation};
@@ -57,7 +58,7 @@ impl Stretch {
         let motions = long_term(&starts, periods).expect("finite");
         let extent = |(motion, (system, _)): (&Option<Motion>, &(System, State))| {
             let once = motion.and_then(|motion| motion.repeats_after).map(u64::from);
-            let all = left_out(system) + once.unwrap_or(periods);
+            let all = Transient::of(system).periods + once.unwrap_or(periods);
             Extent { periods: all, impacts: 1000 * all }
         };
         let extents = motions.iter().zip(&starts).map(extent).collect();

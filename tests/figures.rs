@@ -11,7 +11,7 @@ use vinesink::report::figure::{Color, Figure, Layer, Scale, Shape, draw};
 use vinesink::report::figures::all;
 use vinesink::study::{CaseStudy, StudyEffort};
 
-const QUICK: StudyEffort = StudyEffort { starts: 6, discard: 150, periods: 150 };
+const QUICK: StudyEffort = StudyEffort { starts: 6, discard: Some(150), periods: 150 };
 
 fn shipped(name: &str) -> Case {
     let path = format!("cases/{name}.toml");

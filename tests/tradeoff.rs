@@ -31,7 +31,7 @@ fn stable_point(system: &System) -> FixedPoint {
 
 fn small() -> TradeoffEffort {
     TradeoffEffort {
-        study: StudyEffort { starts: 4, discard: 400, periods: 400 },
+        study: StudyEffort { starts: 4, discard: Some(400), periods: 400 },
         lengths: vec![50, 100, 200, 1000],
         steps: vec![50, 200],
         usual_length: 400,
@@ -376,7 +376,7 @@ fn a_layer_may_be_insisted_on_where_it_has_an_answer() {
 #[test]
 fn simulation_measures_as_long_as_the_accuracy_takes() {
     let system = common::table_1(8.5, 28.0);
-    let effort = StudyEffort { starts: 2, discard: 200, periods: 400 };
+    let effort = StudyEffort { starts: 2, discard: Some(200), periods: 400 };
     let study = CaseStudy::of(&system, effort, &mut |_| ()).expect("studied");
     let motions = study.simulated_motions();
     let cost = |amplitude: f64| {

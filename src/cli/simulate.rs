@@ -34,7 +34,8 @@ pub struct Arguments {
     /// Excitation periods to measure [default: the case's, or 1000]
     #[arg(long, value_name = "N", value_parser = positive_number)]
     periods: Option<u64>,
-    /// Excitation periods to leave out before measuring [default: the case's, or 400]
+    /// Excitation periods to leave out before measuring [default: the case's, or until the
+    /// transient has faded]
     #[arg(long, value_name = "N", value_parser = whole_number)]
     discard: Option<u64>,
     /// One start at excitation phase 0 instead of many: lengths over the clearance, velocities per
@@ -66,11 +67,14 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
     let (motion, found) = match arguments.initial {
         Some(start) => (follow(&case, start, &effort, &arguments)?, None),
         None => {
-            let found = search(&case, &effort)?;
-            let main = study::main_attractor(&found.attractors)
+            let mut found = search(&case, &effort)?;
+            let main = study::main_attractor_mut(&mut found.attractors)
                 .ok_or_else(|| miette!("no start led anywhere; ask for more than 0 starts"))?;
-            let continued = StudyEffort { discard: 0, ..effort };
-            let motion = follow(&case, main.attractor.state, &continued, &arguments)?;
+            let continued = StudyEffort { discard: Some(0), ..effort };
+            let mut motion = follow(&case, main.attractor.state, &continued, &arguments)?;
+            // One motion has one peak, wherever it is printed.
+            main.attractor.take_extremes(&motion);
+            motion.take_extremes(&main.attractor);
             (motion, Some(found))
         }
     };
@@ -93,7 +97,7 @@ impl Arguments {
         let asked = StudyEffort::of(&case.simulation);
         StudyEffort {
             periods: self.periods.unwrap_or(asked.periods),
-            discard: self.discard.unwrap_or(asked.discard),
+            discard: self.discard.or(asked.discard),
             ..asked
         }
     }
@@ -108,7 +112,7 @@ fn follow(
 ) -> Result<Attractor> {
     let mut simulation = Simulation::new(&case.system(), start, 0.0).into_diagnostic()?;
     let effort = Effort {
-        discard: effort.discard,
+        discard: effort.left_out(&case.system()),
         periods: effort.periods,
         prolongations: 0,
         impact_limit: IMPACT_LIMIT,

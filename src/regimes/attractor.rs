@@ -6,6 +6,7 @@ use super::lyapunov::Lyapunov;
 use super::modulation::{self, Amplitudes};
 use super::{
     Classification, Energetics, Nature, Periodicity, Regime, Thresholds, classify, periodicity,
+    transient,
 };
 use crate::simulation::{
     self, Doubt, Energy, Impact, ImpactLog, Nobody, Simulation, StartError, Statistics, Stop,
@@ -33,8 +34,17 @@ pub struct Attractor {
     /// Its regime, and why.
     #[serde(flatten)]
     pub classification: Classification,
-    /// Largest absolute displacement of the oscillator over the clearance.
+    /// Largest absolute displacement of the oscillator over the clearance that was seen.
     pub peak: f64,
+    /// By how much that is expected to grow in a window ten times as long, from the largest values of
+    /// blocks of the window; 0 where the motion repeats.
+    pub peak_error: f64,
+    /// Largest relative speed of an impact, over the clearance, in fast time.
+    pub impact_speed: f64,
+    /// As `peak_error`.
+    pub impact_speed_error: f64,
+    /// Whether its transient is over: it repeats, or its averages do not drift.
+    pub settled: bool,
     /// Root mean square displacement of the oscillator over the clearance.
     pub rms: f64,
     /// Two standard errors of `rms` and of the impacts per period, where the motion does not repeat.
@@ -86,6 +96,10 @@ impl Attractor {
     /// [`StartError`] for an impossible start.
     pub fn reach(system: &System, start: State, effort: &Effort) -> Result<Self, StartError> {
         let mut simulation = Simulation::new(system, start, 0.0)?;
+        if let Some(state) = transient::asleep(system, &start) {
+            simulation = Simulation::new(system, state, 0.0)?;
+            return Ok(Self::measure(&mut simulation, &Effort { discard: 0, ..*effort }));
+        }
         let mut found = Self::measure(&mut simulation, effort);
         for _ in 0..effort.prolongations {
             let evidence = &found.classification.evidence;
@@ -122,6 +136,7 @@ impl Attractor {
         if found.arrived_late() {
             found = Self::measure(&mut simulation, &Effort { discard: 0, ..effort });
         }
+        found.take_extremes(self);
         Ok(Self { followed: self.followed + found.followed, ..found })
     }
 
@@ -180,7 +195,14 @@ impl Attractor {
         let period = system.period();
         let classification = classify(&statistics, &log.impacts, exponent, period, &thresholds);
         let repeats = classification.evidence.periodicity.is_some();
+        let [peak_error, impact_speed_error] =
+            if repeats { [0.0; 2] } else { statistics.growth_of_largest() };
+        let open = classification.nature == Nature::TransientNotOver;
         Self {
+            settled: repeats || (classification.evidence.settled && !open),
+            peak_error,
+            impact_speed: statistics.impact_speed(),
+            impact_speed_error,
             classification,
             errors: (!repeats).then(|| statistics.errors()),
             peak: statistics.peak(),
@@ -231,10 +253,25 @@ impl Attractor {
         }
     }
 
-    /// Takes over the other's measurement of the same motion if that one repeats and this does not.
+    /// Takes over the other's measurement of the same motion if that one repeats and this does not, and
+    /// what is larger in it if neither does.
     pub fn replace_if_settled(&mut self, other: Self) {
         if other.repeats() && !self.repeats() {
             *self = other;
+        } else {
+            self.take_extremes(&other);
+        }
+    }
+
+    /// Takes over the larger extremes, and the larger of their errors, of another measurement of the same
+    /// motion, where neither repeats and both have settled.
+    pub fn take_extremes(&mut self, other: &Self) {
+        let scatter = |one: &Self| one.settled && !one.repeats() && one.stop == Stop::EndTime;
+        if scatter(self) && scatter(other) && self.is_same(other) {
+            self.peak = self.peak.max(other.peak);
+            self.peak_error = self.peak_error.max(other.peak_error);
+            self.impact_speed = self.impact_speed.max(other.impact_speed);
+            self.impact_speed_error = self.impact_speed_error.max(other.impact_speed_error);
         }
     }
 

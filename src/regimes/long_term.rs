@@ -1,6 +1,6 @@
 //! The motions that starts lead to in the long run, many trajectories side by side.
 //!
-//! A transient that follows from the damping is left out. A motion that is seen to repeat is measured over
+//! A transient is left out by the rule of [`super::transient`]. A motion that is seen to repeat is measured over
 //! one repetition, any other over a window.
 
 mod watch;
@@ -8,17 +8,12 @@ mod watch;
 use serde::Serialize;
 
 use self::watch::{Repetition, Strobes, Watch};
-use super::starts;
-use super::{Regime, periodicity};
+use super::transient::{self, Transient};
+use super::{Regime, periodicity, starts};
 use crate::simulation::batch::{self, Extent};
 use crate::simulation::{Nobody, Simulation, StartError, Stop};
 use crate::system::{State, System};
 
-/// E-folds of the damped free motion that are left out: what a start leaves is then below 1e-5.
-const FADED: f64 = 12.0;
-/// Fewest and most periods left out: a motion needs some to be captured, and hardly damped ones fade
-/// by impacts or not at all.
-const LEFT_OUT: [f64; 2] = [150.0, 2000.0];
 /// Relative difference of root mean squares up to which two motions that hardly scatter are one.
 const ALIKE: f64 = 0.01;
 /// Impacts in one stretch, per period asked for, at which a trajectory is given up.
@@ -28,6 +23,8 @@ const MOST_IMPACTS: u64 = 1000;
 /// measured over one repetition. One that is not seen to repeat by then is looked at once more after as
 /// many periods measured, which repetitions that divide it fill whole.
 const WATCHED: u64 = 48;
+/// Flights of the absorber from wall to wall in a window in which it is slow: enough for extremes.
+const FLIGHTS: u32 = 16;
 /// Relative difference of peaks up to which a simulated motion is that of an exact orbit, and
 /// difference of impacts per period: what is left of a transient, and of a window's largest peak.
 const AS_EXACT: f64 = 0.01;
@@ -103,12 +100,12 @@ impl Motion {
             && (self.impacts_per_period - TWO).abs() <= AS_EXACT
     }
 
-    /// Whether it is of a kind that repeats, and was not seen to: an absorber that has come to rest, or was
+    /// Whether it drifts, or is of a kind that repeats and was not seen to: an absorber that has come to rest, or was
     /// captured, only late, or that drifts from one wall to the other for longer than the window.
     fn is_settling(&self) -> bool {
         let repeating =
             matches!(self.regime, Regime::AtRest | Regime::TwoSymmetric | Regime::TwoAsymmetric);
-        repeating && self.repeats_after.is_none()
+        !self.settled || (repeating && self.repeats_after.is_none())
     }
 
     /// Whether two starts ended in one motion, as far as root mean square and impacts tell. The errors of a
@@ -153,13 +150,21 @@ pub fn long_term(
     periods: u64,
 ) -> Result<Vec<Option<Motion>>, StartError> {
     let mut all = Group::default();
-    for (index, (system, start)) in starts.iter().enumerate() {
-        all.add(index, Simulation::new(system, *start, 0.0)?);
-    }
     let mut motions: Vec<Option<Motion>> = vec![None; starts.len()];
+    let mut transients: Vec<Transient> = Vec::with_capacity(starts.len());
+    for (index, (system, start)) in starts.iter().enumerate() {
+        let simulation = Simulation::new(system, *start, 0.0)?;
+        // Starts of one system follow each other.
+        let before = index.checked_sub(1).filter(|before| starts[*before].0 == *system);
+        transients.push(before.map_or_else(|| Transient::of(system), |before| transients[before]));
+        match transient::asleep(system, start) {
+            Some(state) => motions[index] = Some(Motion::asleep(system, state)),
+            None => all.add(index, simulation),
+        }
+    }
     for round in 0..ROUNDS {
         let mut again = Group::default();
-        for (one, motion) in measured_after_transient(all, periods * (1 + round)) {
+        for (one, motion) in measured_after_transient(all, &transients, periods * (1 + round)) {
             if motion.is_some_and(|motion| motion.is_settling()) {
                 again.add(one.index, one.simulation);
             }
@@ -171,18 +176,28 @@ pub fn long_term(
 }
 
 /// Leaves out a transient and measures what follows.
-fn measured_after_transient(mut all: Group, periods: u64) -> Vec<(Ended, Option<Motion>)> {
+fn measured_after_transient(
+    mut all: Group,
+    transients: &[Transient],
+    periods: u64,
+) -> Vec<(Ended, Option<Motion>)> {
     let mut nobody: Vec<Nobody> = all.simulations.iter().map(|_| Nobody).collect();
-    let faded = |one: &Simulation| extent(left_out(one.system()) - WATCHED);
-    let transients: Vec<Extent> = all.simulations.iter().map(faded).collect();
-    batch::run_each(&mut all.simulations, &transients, &mut nobody);
+    let watched = all.extents(|_, system| transient::window(system, WATCHED));
+    let faded = all.extents(|index, system| {
+        transients[index].periods.saturating_sub(transient::window(system, WATCHED))
+    });
+    batch::run_each(&mut all.simulations, &faded, &mut nobody);
     let mut watches: Vec<Strobes> = all.simulations.iter().map(|_| Strobes::new()).collect();
-    let watched = extent(WATCHED);
-    let stops = batch::run(&mut all.simulations, watched.periods, watched.impacts, &mut watches);
+    let stops = batch::run_each(&mut all.simulations, &watched, &mut watches);
     let (mut repeating, mut other) = (Group::default(), Group::default());
-    let mut known = Vec::new();
+    let (mut known, mut ended) = (Vec::new(), Vec::with_capacity(all.indices.len()));
     let trajectories = all.indices.into_iter().zip(all.simulations);
     for (((index, one), watch), stop) in trajectories.zip(watches).zip(stops) {
+        if let Some(state) = transient::asleep(one.system(), &one.state()) {
+            let motion = Motion::asleep(one.system(), state);
+            ended.push((Ended { index, simulation: one, stop }, Some(motion)));
+            continue;
+        }
         match periodicity::find(&watch.periods).filter(|_| stop == Stop::EndTime) {
             Some(found) => {
                 known.push(Repetition::of(found, &watch.log, one.system()));
@@ -191,9 +206,13 @@ fn measured_after_transient(mut all: Group, periods: u64) -> Vec<(Ended, Option<
             None => other.add(index, one),
         }
     }
-    let once: Vec<Extent> = known.iter().map(|one| extent(u64::from(one.found.periods))).collect();
+    let once: Vec<Extent> = repeating
+        .simulations
+        .iter()
+        .zip(&known)
+        .map(|(one, known)| extent(one.system(), u64::from(known.found.periods)))
+        .collect();
     let watches = repeating.watched();
-    let mut ended = Vec::with_capacity(repeating.indices.len() + other.indices.len());
     for ((one, watch), repetition) in repeating.go_on(watches, &once).into_iter().zip(known) {
         let motion = watch.motion(&one, Some(repetition));
         ended.push((one, motion));
@@ -206,14 +225,10 @@ fn measured_after_transient(mut all: Group, periods: u64) -> Vec<(Ended, Option<
 }
 
 /// So many periods, or as many impacts as no motion worth looking at has in them.
-fn extent(periods: u64) -> Extent {
-    Extent { periods, impacts: periods * MOST_IMPACTS }
-}
-
-/// Periods after which what a start leaves has faded.
-pub fn left_out(system: &System) -> u64 {
-    let decay = 0.5 * system.mass_ratio() * system.damping() * system.period();
-    (FADED / decay).clamp(LEFT_OUT[0], LEFT_OUT[1]) as u64
+fn extent(system: &System, periods: u64) -> Extent {
+    // A slow excitation has many natural periods in each of its own.
+    let natural = (1.0 / system.frequency_ratio()).max(1.0);
+    Extent { periods, impacts: (periods as f64 * natural) as u64 * MOST_IMPACTS }
 }
 
 /// Trajectories that go on together, and which starts they come from.
@@ -236,6 +251,11 @@ impl Group {
         self.simulations.push(simulation);
     }
 
+    fn extents(&self, periods: impl Fn(usize, &System) -> u64) -> Vec<Extent> {
+        let each = self.indices.iter().zip(&self.simulations);
+        each.map(|(index, one)| extent(one.system(), periods(*index, one.system()))).collect()
+    }
+
     fn watched(&self) -> Vec<Watch> {
         self.simulations.iter().map(Watch::begin).collect()
     }
@@ -248,25 +268,43 @@ impl Group {
     }
 }
 
-/// Measures trajectories that were not seen to repeat: those that then do over a short window, the
-/// others over `periods`.
+/// Measures trajectories that were not seen to repeat: those that then do over a short window, those
+/// without an impact in it over some flights of the absorber, the others over `periods`.
 fn measured(group: Group, periods: u64) -> Vec<(Ended, Watch)> {
-    let first = periods.min(WATCHED);
-    let (watches, count) = (group.watched(), group.simulations.len());
+    let first = |system: &System| transient::window(system, periods.min(WATCHED));
+    let (watches, short) = (group.watched(), group.extents(|_, system| first(system)));
     let (mut done, mut going, mut watches_on) = (Vec::new(), Group::default(), Vec::new());
-    for (one, mut watch) in group.go_on(watches, &vec![extent(first); count]) {
+    for (one, mut watch) in group.go_on(watches, &short) {
+        let window = first(one.simulation.system());
         let repeats = periodicity::find(watch.gauge.records())
-            .is_some_and(|found| WATCHED.is_multiple_of(u64::from(found.periods)));
-        if repeats || one.stop != Stop::EndTime || periods == first {
+            .is_some_and(|found| window.is_multiple_of(u64::from(found.periods)));
+        if repeats || one.stop != Stop::EndTime || periods == window {
             done.push((one, watch));
         } else {
             going.add(one.index, one.simulation);
             watches_on.push(watch);
         }
     }
-    let rest = vec![extent(periods - first); watches_on.len()];
+    let rest: Vec<Extent> = going
+        .simulations
+        .iter()
+        .zip(&watches_on)
+        .map(|(one, watch)| {
+            let system = one.system();
+            let flights = if watch.gauge.impacts() == 0 { flights(one) } else { 0 };
+            let wanted = transient::window(system, periods.max(flights));
+            extent(system, wanted.saturating_sub(first(system)))
+        })
+        .collect();
     done.extend(going.go_on(watches_on, &rest));
     done
+}
+
+/// Excitation periods of [`FLIGHTS`] flights of an absorber from wall to wall.
+fn flights(simulation: &Simulation) -> u64 {
+    let speed = simulation.state().y_velocity.abs();
+    let duration = f64::from(FLIGHTS) * 2.0 / speed;
+    if speed > 0.0 { (duration / simulation.system().period()) as u64 } else { 0 }
 }
 
 /// The motions of one system that trajectories have ended in.
@@ -282,6 +320,27 @@ pub fn distinct(ended: &[Option<Motion>]) -> Vec<Motion> {
 }
 
 impl Motion {
+    /// The motion without impacts, in closed form; `state` is on it.
+    fn asleep(system: &System, state: State) -> Self {
+        let peak = system.linear_response().map_or(0.0, |response| response.amplitude());
+        Self {
+            peak,
+            peak_error: 0.0,
+            rms: peak * std::f64::consts::FRAC_1_SQRT_2,
+            rms_error: 0.0,
+            impacts_per_period: 0.0,
+            impacts_error: 0.0,
+            impact_speed: 0.0,
+            impact_speed_error: 0.0,
+            settled: true,
+            regime: Regime::AtRest,
+            starts: 1,
+            efficiency: (peak > 0.0).then_some(0.0),
+            repeats_after: Some(1),
+            state,
+        }
+    }
+
     /// Takes over another start's measurement of the same motion: the larger extremes, and the
     /// larger of their errors, which do not depend on how long a motion is looked at.
     fn join(&mut self, other: &Self) {

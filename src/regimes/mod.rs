@@ -17,6 +17,7 @@ pub mod search;
 pub mod sequence;
 pub mod share;
 pub mod starts;
+pub mod transient;
 
 use serde::{Serialize, Serializer};
 
@@ -29,6 +30,7 @@ pub use nature::Nature;
 pub use periodicity::Periodicity;
 pub use search::FoundAttractor;
 pub use sequence::ImpactSequence;
+pub use transient::Transient;
 
 /// The regimes of section 3.1, and rest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use crate::numerics::scatter::drifts;
 use crate::simulation::PeriodRecord;
 
 /// Relative difference between two halves of a window above which the motion has not settled: a
@@ -150,8 +151,13 @@ fn correlation(pairs: impl Iterator<Item = (f64, f64)> + Clone, scale: f64) -> O
     (varies(aa, a) && varies(bb, scale)).then(|| ab / (aa * bb).sqrt())
 }
 
+/// Blocks among which a drift is looked for.
+const BLOCKS: usize = 10;
+
 /// Whether mean peak and number of visits to the walls agree between the halves of the window; rare
-/// chattering sequences of dozens of impacts each would make numbers of impacts differ.
+/// chattering sequences of dozens of impacts each would make numbers of impacts differ. And whether the
+/// mean square displacement does not go up or down beyond its scatter, as it does while a weakly damped
+/// vibration fades.
 pub fn settled(records: &[PeriodRecord]) -> bool {
     let half = records.len() / 2;
     let (first, second) = (&records[..half], &records[half..2 * half]);
@@ -159,7 +165,11 @@ pub fn settled(records: &[PeriodRecord]) -> bool {
     let visits = |part: &[PeriodRecord]| {
         part.iter().map(|record| f64::from(record.visits.iter().sum::<u32>())).sum::<f64>()
     };
-    close(peak(first), peak(second)) && close(visits(first), visits(second))
+    let blocks = records.chunks_exact((records.len() / BLOCKS).max(1));
+    let mean_square =
+        |block: &[PeriodRecord]| block.iter().map(|record| record.mean_square).sum::<f64>();
+    let drifting = drifts(&blocks.map(mean_square).collect::<Vec<_>>());
+    close(peak(first), peak(second)) && close(visits(first), visits(second)) && !drifting
 }
 
 fn close(a: f64, b: f64) -> bool {
@@ -260,5 +270,11 @@ mod tests {
         records.fill(quiet);
         records[10..].fill(record([1, 0], 1.3, 0.5));
         assert!(!settled(&records), "a larger peak");
+        records.fill(quiet);
+        assert!(settled(&records));
+        for (k, record) in (0..).zip(&mut records) {
+            record.mean_square = libm::exp(-0.002 * f64::from(k));
+        }
+        assert!(!settled(&records), "a vibration that fades by 4 %");
     }
 }

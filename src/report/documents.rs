@@ -279,6 +279,14 @@ pub struct MotionDocument {
     displacement: Displacement,
     /// How well averages are known, where the motion does not repeat.
     two_standard_errors: Option<ErrorsDocument>,
+    /// Largest relative speed of an impact, in metres a second for a physical case, else in the case's
+    /// unit per fast time.
+    impact_speed: f64,
+    /// By how much the largest values are expected to grow in a run ten times as long, where the motion
+    /// does not repeat.
+    growth_in_ten_times_as_long: Option<GrowthDocument>,
+    /// Whether the transient is over.
+    settled: bool,
     energy: Energy,
     sustained_contact: SustainedContact,
     largest_penetration_over_clearance: f64,
@@ -310,6 +318,14 @@ struct Displacement {
 struct ErrorsDocument {
     rms_over_clearance: f64,
     impacts_per_period: f64,
+}
+
+/// Growth of the largest values of a motion that does not repeat, in the units of those values.
+#[derive(Debug, Clone, Copy, Serialize)]
+struct GrowthDocument {
+    peak: f64,
+    peak_over_clearance: f64,
+    impact_speed: f64,
 }
 
 /// An attractor and the share of starts that led to it.
@@ -399,6 +415,8 @@ impl MotionDocument {
         let energy = |value: f64| {
             scales.energy_j(value).unwrap_or(value * scales.clearance * scales.clearance)
         };
+        let velocity =
+            |value: f64| scales.velocity_m_per_s(value).unwrap_or_else(|| scales.length(value));
         let balance = &motion.energy;
         let doubts = motion.doubts();
         Self {
@@ -418,6 +436,13 @@ impl MotionDocument {
             two_standard_errors: motion.errors.map(|[rms_over_clearance, impacts_per_period]| {
                 ErrorsDocument { rms_over_clearance, impacts_per_period }
             }),
+            impact_speed: velocity(motion.impact_speed),
+            growth_in_ten_times_as_long: (!motion.repeats()).then(|| GrowthDocument {
+                peak: scales.length(motion.peak_error),
+                peak_over_clearance: motion.peak_error,
+                impact_speed: velocity(motion.impact_speed_error),
+            }),
+            settled: motion.settled,
             energy: Energy {
                 input: energy(balance.input),
                 damper: energy(balance.damper),

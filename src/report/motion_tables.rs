@@ -19,7 +19,7 @@ pub fn attractors(case: &Case, study: &CaseStudy) -> Table {
             found.regime().words().to_owned(),
             share(found),
             impacts_per_period(attractor),
-            lengths.text(scales.length(attractor.peak)),
+            peak(attractor, &scales),
             lengths.text(scales.length(attractor.rms)) + &rms_known_to(attractor),
             percent(evidence.modulation_depth),
         ]
@@ -44,6 +44,15 @@ pub(super) fn impacts_per_period(attractor: &Attractor) -> String {
         Some([_, error]) if error > 0.0 && error.is_finite() => with_error(z, error),
         _ => significant(z, 4),
     }
+}
+
+/// The largest displacement that was seen, and of a motion that does not repeat also what a run ten times
+/// as long is expected to reach.
+pub(super) fn peak(attractor: &Attractor, scales: &Scales) -> String {
+    let lengths = LengthFormat::of(scales);
+    let text = |over_clearance: f64| lengths.text(scales.length(over_clearance));
+    let [seen, grown] = [attractor.peak, attractor.peak + attractor.peak_error].map(text);
+    if grown == seen { seen } else { format!("{seen}, {grown} in ten times as long") }
 }
 
 /// What follows the root mean square of a motion that does not repeat.
@@ -99,7 +108,12 @@ pub(super) fn nature(
             evidence.captures.longest
         )
     });
-    let measured = || exponent.into_iter().chain(captured).collect::<Vec<_>>().join("; ");
+    let unsettled = (!attractor.settled)
+        .then(|| format!("not settled after {} periods: its averages drift", attractor.followed));
+    let measured = || {
+        let all = unsettled.into_iter().chain(exponent).chain(captured);
+        all.collect::<Vec<_>>().join("; ")
+    };
     match attractor.classification.nature {
         Nature::Periodic { periods, .. } => {
             let every = match periods {
@@ -127,9 +141,7 @@ pub(super) fn nature(
             };
             ("at rest".into(), format!("no impact in {} periods{depends}", attractor.periods))
         }
-        Nature::TransientNotOver => {
-            (format!("transient not over after {} periods", attractor.followed), measured())
-        }
+        Nature::TransientNotOver => ("transient not over".into(), measured()),
         Nature::Chaotic if beside => {
             (format!("chaotic for {} periods, perhaps a transient", attractor.followed), measured())
         }

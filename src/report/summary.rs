@@ -146,7 +146,7 @@ pub fn simulation(case: &Case, motion: &Attractor, found: Option<&LongTermMotion
         "  {} impacts per period over {} periods; peak displacement {}, rms {}{}",
         motion_tables::impacts_per_period(motion),
         motion.periods,
-        lengths.text(scales.length(motion.peak)),
+        motion_tables::peak(motion, &scales),
         lengths.text(scales.length(motion.rms)),
         motion_tables::rms_known_to(motion),
     );
@@ -178,7 +178,7 @@ pub fn simulation(case: &Case, motion: &Attractor, found: Option<&LongTermMotion
                 "  {:>5}  {}, peak {}\n         {nature}; {reason}",
                 percent(one.share),
                 one.regime().words(),
-                lengths.text(scales.length(one.attractor.peak)),
+                motion_tables::peak(&one.attractor, &scales),
             );
         }
     }

@@ -21,7 +21,7 @@ use crate::orbits::{Boundaries, FullSystem};
 use crate::regimes::attractor::Effort;
 use crate::regimes::diagram::DiagramError;
 use crate::regimes::search::{self, SearchEffort};
-use crate::regimes::{Attractor, FoundAttractor, Regime};
+use crate::regimes::{Attractor, FoundAttractor, Regime, Transient};
 use crate::simulation::StartError;
 use crate::system::{State, System};
 use crate::validation::price::prices;
@@ -60,21 +60,20 @@ pub enum StudyError {
     Diagram(#[from] DiagramError),
 }
 
-/// How thoroughly a case is studied. The defaults settle every shipped case: transients of the 1:1
-/// motion die out within some hundred periods, and shares of 32 starts are good to about 9 %.
+/// How thoroughly a case is studied. Shares of 32 starts are good to about 9 %.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct StudyEffort {
     /// Evenly spread starts.
     pub starts: u32,
-    /// Periods left out as transient.
-    pub discard: u64,
+    /// Periods left out as transient; none for as many as [`Transient`] says.
+    pub discard: Option<u64>,
     /// Periods over which a motion that does not repeat is measured.
     pub periods: u64,
 }
 
 impl Default for StudyEffort {
     fn default() -> Self {
-        Self { starts: 32, discard: 400, periods: 1000 }
+        Self { starts: 32, discard: None, periods: 1000 }
     }
 }
 
@@ -93,14 +92,19 @@ impl StudyEffort {
         let starts = settings.starts.and_then(|starts| u32::try_from(starts).ok());
         Self {
             starts: starts.unwrap_or(default.starts),
-            discard: settings.discard.unwrap_or(default.discard),
+            discard: settings.discard.or(default.discard),
             periods: settings.periods.unwrap_or(default.periods),
         }
     }
 
-    fn each(&self) -> Effort {
+    /// Periods left out of the motions of a system.
+    pub fn left_out(&self, system: &System) -> u64 {
+        self.discard.unwrap_or_else(|| Transient::of(system).periods)
+    }
+
+    fn each(&self, system: &System) -> Effort {
         Effort {
-            discard: self.discard,
+            discard: self.left_out(system),
             periods: RECOGNITION.min(self.periods),
             prolongations: 4,
             impact_limit: IMPACT_LIMIT,
@@ -188,7 +192,7 @@ impl CaseStudy {
             fidelity::counted_motions(&analysis, &effort, progress)?;
         let exact = FullSystem::of(system);
         let area = settle_area(&analysis, &exact)?;
-        let claims = validation::confront(&analysis, &exact, &attractors, &effort.each())?;
+        let claims = validation::confront(&analysis, &exact, &attractors, &effort.each(system))?;
         let prices = prices(&analysis, &exact);
         let margins = Margins::of(&analysis, &exact)?;
         let confirmations = Confirmations::of(&exact, &margins)?;
@@ -201,7 +205,7 @@ impl CaseStudy {
             prices,
             margins,
             confirmations,
-            effort,
+            effort: StudyEffort { discard: Some(effort.left_out(system)), ..effort },
             motions_cost,
             band: None,
             simulated: true,
@@ -262,8 +266,17 @@ impl CaseStudy {
 
 /// The moving attractor that most starts lead to, or rest if there is no other.
 pub fn main_attractor(found: &[FoundAttractor]) -> Option<&FoundAttractor> {
-    let rests = |found: &&FoundAttractor| found.regime() == Regime::AtRest;
-    found.iter().find(|found| !rests(found)).or_else(|| found.first())
+    found.get(main_index(found))
+}
+
+/// The same, to be completed.
+pub fn main_attractor_mut(found: &mut [FoundAttractor]) -> Option<&mut FoundAttractor> {
+    let index = main_index(found);
+    found.get_mut(index)
+}
+
+fn main_index(found: &[FoundAttractor]) -> usize {
+    found.iter().position(|found| found.regime() != Regime::AtRest).unwrap_or(0)
 }
 
 /// Every long-term motion that evenly spread starts and the theory's predictions lead to.
@@ -277,7 +290,7 @@ pub fn long_term_motions(
 ) -> Result<LongTermMotions, StartError> {
     let search = SearchEffort {
         starts: effort.starts,
-        each: effort.each(),
+        each: effort.each(&analysis.system),
         measured: effort.periods,
         patience: PATIENCE * effort.periods,
     };

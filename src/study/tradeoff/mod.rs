@@ -246,7 +246,7 @@ fn start(
     let sample = StartBox::around(system);
     for index in 0..effort.starts {
         let start = sample.start(index);
-        if Attractor::reach(system, start, &effort.each())?.is_same(&main.attractor) {
+        if Attractor::reach(system, start, &effort.each(system))?.is_same(&main.attractor) {
             return Ok((start, Some(index)));
         }
     }

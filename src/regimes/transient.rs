@@ -1,0 +1,78 @@
+//! When what a start leaves has faded: the one rule by which every simulation leaves transients out.
+//!
+//! Free vibration of the oscillator fades with its own decay, `exp(-eps lambda tau/2)` in fast time, however
+//! many excitation periods that are; a motion near an attracting 1:1 orbit closes in on it with the orbit's
+//! largest multiplier, of which the rates of the slow flow are the leading order. The slower of both counts.
+//! What fades more slowly than a run can wait for is measured all the same, and said not to have settled if
+//! it still drifts.
+
+use serde::Serialize;
+
+use crate::orbits::attracting_orbit;
+use crate::system::{State, System};
+
+/// E-folds that are left out: of a free vibration as large as the motion that remains, 6e-6 is then left.
+const FADED: f64 = 12.0;
+/// The same beyond the ratio of a free vibration as large as the clearance to the steady motion: where the
+/// steady motion is small, 5e-5 of it is left.
+const FADED_BESIDE_STEADY: f64 = 10.0;
+/// Fewest excitation periods left out: a motion needs some to be captured, which the decay does not tell.
+const FEWEST: f64 = 150.0;
+/// Most natural periods, and most excitation periods, left out: what a run can wait for. A damping ratio
+/// of 0.04 % fades within the first, 0.4 % at 80 times the natural frequency within the second.
+const MOST: [f64; 2] = [5_000.0, 100_000.0];
+
+/// Fewest excitation periods that show a repetition; windows are no shorter.
+const SHORTEST: u64 = 8;
+
+/// A window of so many excitation periods, or as many of them as a run can wait for.
+pub fn window(system: &System, periods: u64) -> u64 {
+    let most = (MOST[0] * system.frequency_ratio()).min(MOST[1]) as u64;
+    periods.min(most.max(SHORTEST))
+}
+
+/// What is left out of a trajectory before it is measured.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Transient {
+    /// Excitation periods.
+    pub periods: u64,
+    /// Whether what a start leaves has faded by then; else that would take longer than a run can wait.
+    pub fades: bool,
+}
+
+impl Transient {
+    /// That of any start of a system.
+    pub fn of(system: &System) -> Self {
+        let decay = decay_rate(system) * system.period();
+        let orbit =
+            attracting_orbit(system).map(|found| -libm::log(found.orbit.radius_per_period()));
+        let steady = system.linear_response().map_or(1.0, |response| response.amplitude().min(1.0));
+        let beside = FADED_BESIDE_STEADY - libm::log(steady.max(f64::MIN_POSITIVE));
+        // Without excitation there is nothing beside which a free vibration is large.
+        let folds = if steady > 0.0 { FADED.max(beside) } else { FADED };
+        let needed = (folds / decay).max(orbit.map_or(0.0, |rate| FADED / rate));
+        let natural = system.frequency_ratio();
+        let most = (MOST[0] * natural).max(1.0).min(MOST[1]);
+        Self { periods: needed.max(FEWEST).min(most) as u64, fades: needed <= most }
+    }
+}
+
+/// Rate at which the slowest free vibration of the oscillator fades, per unit of fast time: `eps lambda/2`
+/// where it rings.
+fn decay_rate(system: &System) -> f64 {
+    let decay = 0.5 * system.mass_ratio() * system.damping();
+    if decay <= 1.0 { decay } else { 1.0 / (decay + ((decay - 1.0) * (decay + 1.0)).sqrt()) }
+}
+
+/// The long-term motion of an absorber at rest that no wall reaches any more, at excitation phase 0: the
+/// oscillator on its steady motion. None where the absorber moves, a wall may still reach it, or the free
+/// vibration stays.
+pub fn asleep(system: &System, state: &State) -> Option<State> {
+    let linear = system.linear_response()?;
+    let steady = linear.state(system);
+    // The energy of a free vibration never grows.
+    let free = libm::hypot(state.x - steady.x, state.x_velocity - steady.x_velocity);
+    let apart = state.y.abs() + linear.amplitude() + free;
+    let stays = state.y_velocity == 0.0 && apart < 1.0 && system.damping() > 0.0;
+    stays.then_some(State { y: state.y, ..steady })
+}
