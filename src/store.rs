@@ -15,7 +15,7 @@ use error::refused;
 use reports::FIGURES;
 
 pub use error::StoreError;
-pub use git::{GitError, read_reports_at};
+pub use git::{GitError, read_files_at, read_reports_at};
 pub use reports::{StoredReport, StoredReports, read_reports};
 pub use shards::{Growing, Shards};
 
@@ -126,9 +126,19 @@ pub fn list(path: &Path) -> Result<Listing, StoreError> {
 pub fn read_text_if_there(path: &Path) -> Result<Option<String>, StoreError> {
     match read_text(path) {
         Ok(text) => Ok(Some(text)),
-        Err(StoreError::Refused { cause, .. }) if cause.kind() == ErrorKind::NotFound => Ok(None),
+        Err(StoreError::Refused { cause, .. })
+            if matches!(cause.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) =>
+        {
+            Ok(None)
+        }
         Err(error) => Err(error),
     }
+}
+
+/// Whether two paths lead to the same file, which is there.
+pub fn is_same_file(a: &Path, b: &Path) -> bool {
+    let file = |path: &Path| std::fs::canonicalize(path).ok();
+    file(a).is_some_and(|a| file(b) == Some(a))
 }
 
 /// Replaces what is `ours` in a folder, which may be missing, by `files` (paths relative to it, as those

@@ -38,7 +38,7 @@
   const compare = () => {
     const chosen = new Set(boxes.filter((box) => box.checked).map((box) => box.dataset.case));
     const enough = chosen.size > 1;
-    all("[data-case]", numbers).forEach((cell) => { cell.hidden = !chosen.has(cell.dataset.case); });
+    all("#comparison [data-case]").forEach((part) => { part.hidden = !chosen.has(part.dataset.case); });
     all("tbody tr", numbers).forEach((row) => {
       const shown = all("td", row).filter((cell) => !cell.hidden);
       const texts = new Set(shown.map((cell) => cell.textContent.trim()));
@@ -46,7 +46,7 @@
       // No chosen case has this quantity.
       row.hidden = texts.size === 1 && texts.has("\u2013");
     });
-    numbers.parentElement.hidden = !enough;
+    [numbers.parentElement, document.querySelector("#figures")].forEach((part) => { part.hidden = !enough; });
     document.querySelector("#clear").hidden = chosen.size === 0;
     document.querySelector("#chosen").textContent = enough
       ? `${chosen.size} cases; ≠ marks what differs.`

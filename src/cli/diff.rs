@@ -1,23 +1,23 @@
 //! `vinesink diff OLD NEW`
 
-use std::path::{Path, PathBuf};
-
 use clap::{Args, ValueEnum};
 use miette::{Result, miette};
+use vinesink::diff::Difference;
 use vinesink::diff::markdown::{Addresses, markdown};
-use vinesink::diff::{Difference, Document, Reports};
-use vinesink::report::stored::ReadError;
-use vinesink::store::{self, StoredReport, StoredReports};
 
 use super::{Outcome, output};
+use side::Side;
+
+mod side;
 
 /// Say what changed between two reports, or two sets of reports
 ///
-/// Verdicts, criteria, inputs, numbers beyond what they are known to, and figures; everything else is
+/// Inputs, criteria and the most important numbers beyond what they are known to; everything else is
 /// folded away and counted. A number that carries an error may move within it, an exact one may not.
 /// OLD and NEW are each a folder with one report or many, a report.json, or a revision that git knows;
-/// what is both is taken for a folder. The exit code is 1 where anything but figures and wording
-/// changed.
+/// what is both is taken for a folder. Reports are named that were made from another text of their case
+/// or by another version of the program. The exit code is 1 where a report is out of date or anything but
+/// figures and wording changed.
 #[derive(Debug, Args)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Arguments {
@@ -30,6 +30,10 @@ pub struct Arguments {
     /// The folder that is read from a revision
     #[arg(long, value_name = "FOLDER", default_value = "reports")]
     path: String,
+    /// The folder with the cases that the reports are about [default: the folder `cases` beside the
+    /// reports, or in the working folder]
+    #[arg(long, value_name = "FOLDER")]
+    cases: Option<String>,
     /// Markdown for a comment or JSON for programs
     #[arg(long, value_enum, default_value = "markdown")]
     format: Format,
@@ -58,9 +62,18 @@ enum Format {
 }
 
 pub fn run(arguments: Arguments) -> Result<Outcome> {
-    let Arguments { path, format, .. } = &arguments;
-    let old = Side::read(&arguments.old, path)?;
-    let new = Side::read(&arguments.new, path)?;
+    let Arguments { path, format, cases, .. } = &arguments;
+    let mut old = Side::read(&arguments.old, path)?;
+    let mut new = Side::read(&arguments.new, path)?;
+    new.find_cases(cases.as_deref())?;
+    old.find_cases(cases.as_deref())?;
+    old.forget_cases_of(&new);
+    if let Some(folder) = cases.as_deref().filter(|_| !old.has_cases() && !new.has_cases()) {
+        return Err(miette!(
+            help = "name the folder with the case files, as `vinesink report` was given them",
+            "`{folder}` has the case of none of these reports"
+        ));
+    }
     if old.reports.is_empty() && new.reports.is_empty() {
         return Err(miette!(
             help = "name a folder that `vinesink report` has written, or for revisions the folder with --path",
@@ -94,40 +107,4 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
         }
     }
     Ok(if difference.is_significant() { Outcome::DoesNotHold } else { Outcome::Done })
-}
-
-/// One of the two that are compared.
-struct Side {
-    reports: Reports,
-    /// Where they were looked for, for messages.
-    place: String,
-    /// Where figures are, if they are files.
-    address: Option<String>,
-}
-
-impl Side {
-    fn read(argument: &str, folder: &str) -> Result<Self> {
-        let path = Path::new(argument);
-        let (stored, place, address) = if path.exists() {
-            let folder = if path.is_file() { path.parent().map(Path::to_owned) } else { None };
-            let address = folder.unwrap_or_else(|| PathBuf::from(path)).display().to_string();
-            let address = if address.is_empty() { ".".to_owned() } else { address };
-            (store::read_reports(path)?, format!("`{argument}`"), Some(address))
-        } else {
-            let place = format!("`{folder}` at `{argument}`");
-            (store::read_reports_at(argument, folder)?, place, None)
-        };
-        Ok(Self { reports: documents(stored)?, place, address })
-    }
-
-    fn is_one_report(&self) -> bool {
-        self.reports.contains_key("")
-    }
-}
-
-fn documents(stored: StoredReports) -> Result<Reports, ReadError> {
-    let document = |StoredReport { place, json, figures }: StoredReport| {
-        Document::parse(&place, &json, figures)
-    };
-    stored.into_iter().map(|(name, report)| Ok((name, document(report)?))).collect()
 }

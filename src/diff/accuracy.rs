@@ -36,24 +36,6 @@ pub enum Basis {
     Stated,
 }
 
-impl Basis {
-    /// The reason in a table.
-    pub fn words(self) -> &'static str {
-        match self {
-            Self::Rounding => "rounding",
-            Self::RootOfRounding => "root of rounding",
-            Self::Residual => "residual",
-            Self::Repetition => "closure of a repetition",
-            Self::TwoStandardErrors => "standard errors",
-            Self::Interval => "95 % intervals",
-            Self::Bracket => "brackets or enclosures",
-            Self::OtherErrors => "3 × errors of rms and z",
-            Self::Modulation => "depth of modulation",
-            Self::Stated => "stated errors",
-        }
-    }
-}
-
 /// How far a number may move.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Allowance {
@@ -83,7 +65,8 @@ pub(super) fn allowance(key: &str, old: Leaf<'_>, new: Leaf<'_>, a: f64, b: f64)
         "analysis/exact_boundaries/bracket"
         | "analysis/orbits/multipliers"
         | "attractors/proof/multipliers"
-        | "claims/difference" => Allowance::Restated,
+        | "claims/difference"
+        | "claims/tolerance/value" => Allowance::Restated,
         "analysis/exact_boundaries/clearance" => {
             let width = bracket(old.element) + bracket(new.element);
             Allowance::Within(width + ROUNDING * scale, Basis::Bracket)
@@ -101,9 +84,12 @@ pub(super) fn allowance(key: &str, old: Leaf<'_>, new: Leaf<'_>, a: f64, b: f64)
         }
         "layers/answers/error" | "layers/answers/others" => Allowance::Unjudged,
         _ if key.starts_with("layers/operations/") => Allowance::Unjudged,
-        // A few starts each; and the place of a smallest value is one of a grid's.
-        _ if key.starts_with("band/simulated/") => Allowance::Unjudged,
+        // The place of a smallest value is one of a grid's.
         "band/smallest_gap/at" => Allowance::Unjudged,
+        "band/worst_peak" => {
+            let errors = number(old.element, "error") + number(new.element, "error");
+            Allowance::Within(errors + ROUNDING * scale, Basis::Stated)
+        }
         "band/smallest_gap/share" | "band/stable_orbit/at" => {
             Allowance::Within(ROOT_OF_ROUNDING * scale, Basis::RootOfRounding)
         }

@@ -1,30 +1,35 @@
 //! What a number of `report.json` is called, and its unit.
 
 /// Numbers that a reviewer looks at first, by key, the most important first.
-const IMPORTANT: [&str; 16] = [
+const IMPORTANT: [&str; 20] = [
+    "band/worst_peak",
     "attractors/displacement/peak",
+    "layers/answers/value",
     "attractors/displacement/rms",
     "attractors/impacts_per_period",
     "attractors/share_of_starts",
-    "layers/answers/value",
-    "analysis/orbits/peak_displacement",
-    "analysis/orbits/spectral_radius",
+    "band/bare/largest_peak",
+    "band/tuned_mass_damper/largest_peak",
+    "band/stable_share",
+    "band/z3_share",
+    "bare_amplitude",
     "analysis/exact_boundaries/clearance",
-    "margins/best_clearance/factor",
     "margins/best_clearance/peak",
+    "analysis/orbits/peak_displacement",
+    "analysis/orbits/impact_speed",
+    "analysis/orbits/spectral_radius",
     "attractors/energetics/transfer_efficiency",
     "attractors/evidence/exponent/per_period",
-    "analysis/fixed_points/C",
     "analysis/boundaries/hopf_clearance",
     "analysis/boundaries/symmetry_breaking_clearance",
-    "bare_amplitude",
 ];
 
 /// Containers that a reader knows by another name, or by none.
-const CONTAINERS: [(&str, &str); 12] = [
+const CONTAINERS: [(&str, &str); 13] = [
     ("analysis", ""),
     ("answers", "answer"),
     ("attractors", "motion"),
+    ("band", "band:"),
     ("claims", "claim"),
     ("confirmations", "simulated:"),
     ("data", ""),
@@ -37,14 +42,19 @@ const CONTAINERS: [(&str, &str); 12] = [
 ];
 
 /// Ends of paths with a name of their own.
-const NAMES: [(&str, &str); 7] = [
+const NAMES: [(&str, &str); 12] = [
     ("displacement/peak", "peak of x"),
     ("displacement/rms", "rms of x"),
     ("exponent/per_period", "Lyapunov exponent per period"),
     ("impacts_per_period", "impacts per period z"),
+    ("bare/largest_peak", "worst peak without absorber"),
     ("bare_amplitude", "amplitude of the bare oscillator"),
     ("peak_displacement", "peak of x"),
     ("share_of_starts", "share of starts"),
+    ("stable_share", "share with a stable 1:1 orbit"),
+    ("tuned_mass_damper/largest_peak", "worst peak with the tuned mass damper"),
+    ("z3_share", "share in area Z3"),
+    ("worst_peak", "worst peak with the absorber"),
 ];
 
 /// Place of a number in the order of importance.
@@ -100,11 +110,11 @@ pub(super) fn unit(key: &str, physical: bool) -> &'static str {
         _ if last.ends_with("_over_clearance") => "b",
         _ if last.ends_with("_db") => "dB",
         "eta" | "Theta" | "phase" => "rad",
-        "share_of_starts" | "transfer_efficiency" => "%",
+        "share_of_starts" | "transfer_efficiency" | "stable_share" | "z3_share" => "%",
         "peak_velocity" | "impact_speed" | "impulse_per_mass" => si("m/s", "own units"),
         "peak" | "rms" if key.starts_with("attractors/displacement/") => si("m", "own units"),
         "bare_amplitude" | "peak_displacement" | "impact_displacement" => si("m", "own units"),
-        "theory" | "largest_peak" | "smallest_peak" | "mean_peak" => si("m", "own units"),
+        "theory" | "largest_peak" | "mean_peak" | "worst_peak" => si("m", "own units"),
         _ if key.starts_with("analysis/") && last.ends_with("clearance") => si("m", "own units"),
         _ if key.starts_with("attractors/energy/") && last != "relative_residual" => {
             si("J", "own units")
@@ -126,6 +136,7 @@ mod tests {
             ("analysis/orbits[2]/spectral_radius", "exact orbit 2: spectral radius"),
             ("analysis/boundaries/hopf_clearance", "boundaries hopf clearance"),
             ("claims[area]/observed/number[1]", "claim area: observed"),
+            ("bare/largest_peak", "worst peak without absorber"),
             ("bare_amplitude", "amplitude of the bare oscillator"),
         ];
         for (path, words) in named {

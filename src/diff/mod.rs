@@ -1,5 +1,6 @@
-//! What changed between two reports, or two sets of reports, as data: verdicts, criteria, inputs,
-//! numbers beyond what they are known to, figures; everything else is counted.
+//! What changed between two reports, or two sets of reports, as data: inputs, criteria, verdicts, numbers
+//! beyond what they are known to, figures; what moved within that is counted. Reports that are out of date
+//! are named.
 //!
 //! Pure: documents and figures come in as they were read, [`markdown`] writes down what comes out.
 
@@ -7,13 +8,12 @@ mod accuracy;
 mod compare;
 mod criteria;
 mod document;
-mod inputs;
 mod labels;
 mod leaves;
 pub mod markdown;
 mod motion;
 mod shown;
-mod words;
+mod stale;
 
 use std::collections::BTreeMap;
 
@@ -21,7 +21,8 @@ use serde::Serialize;
 
 pub use accuracy::Basis;
 pub use criteria::{CriterionChange, Found};
-pub use document::Document;
+pub use document::{CaseFile, Document, Remedy};
+pub use stale::{Reason, StaleReport};
 
 /// Reports of one side, by the name of their folder.
 pub type Reports = BTreeMap<String, Document>;
@@ -35,6 +36,8 @@ pub struct Difference {
     pub old: String,
     /// The same of the new ones.
     pub new: String,
+    /// Reports that their case, or this version of the program, would not give now.
+    pub stale: Vec<StaleReport>,
     /// How many reports are on both sides.
     pub compared: usize,
     /// Reports on both sides that are not the same, by name.
@@ -67,14 +70,14 @@ pub struct ReportDifference {
     pub title: String,
     /// The new verdict.
     pub headline: String,
-    /// The report's verdict, and claims that were confirmed or refuted and no longer are.
-    pub verdicts: Vec<WordChange>,
-    /// Criteria that flipped, moved, appeared or vanished.
-    pub criteria: Vec<CriterionChange>,
-    /// Regimes, areas, stability and whatever else has a name and not a size.
-    pub states: Vec<WordChange>,
     /// What the case says.
     pub inputs: Vec<WordChange>,
+    /// Criteria that flipped, moved, appeared or vanished.
+    pub criteria: Vec<CriterionChange>,
+    /// The report's verdict, and claims that were confirmed or refuted and no longer are.
+    pub verdicts: Vec<WordChange>,
+    /// Regimes, areas, stability and whatever else has a name and not a size, the most important first.
+    pub states: Vec<WordChange>,
     /// Numbers beyond what they are known to, the most important first.
     pub numbers: Vec<NumberChange>,
     /// Figures whose drawing is not the same.
@@ -88,7 +91,7 @@ pub struct ReportDifference {
 pub struct Folded {
     /// Numbers that moved within what they are known to.
     pub within: Vec<NumberChange>,
-    /// Texts that say the same in other words, or with other numbers.
+    /// Sentences about the above, and what comes and goes by chance.
     pub wording: Vec<WordChange>,
     /// How many values moved by chance, without a known error.
     pub unjudged: usize,
@@ -151,6 +154,7 @@ impl Difference {
             format: "vinesink/diff@1",
             old: old_label.to_owned(),
             new: new_label.to_owned(),
+            stale: Vec::new(),
             compared: 0,
             reports: Vec::new(),
             added: Vec::new(),
@@ -167,29 +171,29 @@ impl Difference {
                 None => difference.removed.push(Summary::of(document, name)),
             }
         }
-        let added = new.iter().filter(|(name, _)| !old.contains_key(*name));
-        difference.added = added.map(|(name, document)| Summary::of(document, name)).collect();
+        for (name, document) in new.iter().filter(|(name, _)| !old.contains_key(*name)) {
+            difference.stale.extend(stale::reasons("new", document));
+            difference.added.push(Summary::of(document, name));
+        }
         difference
     }
 
     fn add(&mut self, old: &Document, new: &Document, folder: &str) {
         self.compared += 1;
+        self.stale.extend(stale::reasons("old", old));
+        self.stale.extend(stale::reasons("new", new));
         let found = compare::reports(old, new, folder);
         if !found.is_same() {
             self.reports.push(found);
         }
     }
 
-    /// Whether anything changed that a reviewer must know: not figures alone, nor wording.
+    /// Whether anything changed or is out of date that a reviewer must know: not figures alone, nor wording.
     pub fn is_significant(&self) -> bool {
-        !self.added.is_empty()
+        !self.stale.is_empty()
+            || !self.added.is_empty()
             || !self.removed.is_empty()
             || self.reports.iter().any(ReportDifference::is_significant)
-    }
-
-    /// Whether there is anything to look at.
-    pub fn is_visible(&self) -> bool {
-        self.is_significant() || self.reports.iter().any(|report| !report.figures.is_empty())
     }
 }
 
@@ -215,7 +219,7 @@ impl Summary {
         Self {
             name: if name.is_empty() { document.name() } else { name }.to_owned(),
             title: document.text("title").to_owned(),
-            headline: document.report["verdict"]["headline"].as_str().unwrap_or("").to_owned(),
+            headline: document.headline().to_owned(),
         }
     }
 }

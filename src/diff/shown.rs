@@ -3,17 +3,17 @@
 use super::{CriterionChange, Found, NumberChange};
 use crate::report::criteria::unitless_words;
 use crate::report::numbers::{signed_percent, significant, with_minus};
+use crate::report::render::markdown_cell;
 
 /// A row of numbers, formatted.
 pub(super) struct Shown {
+    what: String,
     /// Before, with its unit.
-    pub old: String,
+    old: String,
     /// After.
-    pub new: String,
+    new: String,
     /// New minus old, relative where that is how people think of it.
-    pub change: String,
-    /// The largest change that means nothing, in the same way.
-    pub allowed: String,
+    change: String,
 }
 
 impl Shown {
@@ -24,25 +24,26 @@ impl Shown {
         // Enough digits to see the change.
         let relative = if size > 0.0 { change.change.abs() / size } else { 0.0 };
         let digits = if relative > 0.0 { (2.5 - libm::log10(relative)) as usize } else { 17 };
-        let digits = digits.clamp(4, 17);
+        let digits = digits.clamp(USUAL_DIGITS, 17);
         let value = |value: f64| format!("{}{unit}", significant(factor * value, digits));
-        let sign = if change.change < 0.0 { "" } else { "+" };
         let plain = ["dB", "rad", "%", ""].contains(&change.unit)
             || change.old.abs() < change.allowed
             || change.old == 0.0;
-        let (change_text, allowed) = if plain {
-            let value = |value: f64| format!("{}{unit}", significant(factor * value, 3));
-            (format!("{sign}{}", value(change.change)), value(change.allowed))
+        let sign = if change.change < 0.0 { "" } else { "+" };
+        let difference = if plain {
+            let unit = if unit == " %" { " points" } else { unit.as_str() };
+            format!("{sign}{}{unit}", significant(factor * change.change, 3))
         } else {
-            let relative = change.change / change.old.abs();
-            (share(relative, true), share(change.allowed / change.old.abs(), false))
+            share(change.change / change.old.abs())
         };
-        Self {
-            old: value(change.old),
-            new: value(change.new),
-            change: change_text,
-            allowed: format!("±{allowed}"),
-        }
+        let (old, new) = (value(change.old), value(change.new));
+        Self { what: change.what.clone(), old, new, change: difference }
+    }
+
+    /// A line of a table.
+    pub fn row(&self) -> String {
+        let Self { what, old, new, change } = self;
+        format!("| {} | {old} | {new} | {change} |", markdown_cell(what))
     }
 }
 
@@ -68,18 +69,16 @@ pub(super) fn found(change: &CriterionChange) -> [Option<String>; 2] {
     (USUAL_DIGITS..17).map(with).find(differ).unwrap_or_else(|| with(17))
 }
 
-/// Digits of what a criterion found.
+/// Digits of a number, unless two need more to be told apart.
 const USUAL_DIGITS: usize = 4;
 
 /// A relative change; nobody says 1e-7 %.
-fn share(relative: f64, signed: bool) -> String {
-    let text = if relative.abs() >= 1e-4 {
-        signed_percent(relative)
-    } else {
-        let sign = if relative < 0.0 { "−" } else { "+" };
-        format!("{sign}{}", with_minus(&format!("{:.0e}", relative.abs())))
-    };
-    if signed { text } else { text.trim_start_matches('+').to_owned() }
+fn share(relative: f64) -> String {
+    if relative.abs() >= 1e-4 {
+        return signed_percent(relative);
+    }
+    let sign = if relative < 0.0 { "−" } else { "+" };
+    format!("{sign}{}", with_minus(&format!("{:.0e}", relative.abs())))
 }
 
 /// The factor and the unit, with its space, that a person would use.

@@ -117,12 +117,16 @@ impl LengthFormat {
         if scales.length_unit() == LengthUnit::Own {
             return Self { per_unit: 1.0, unit: "units" };
         }
-        let clearance = scales.length(1.0);
+        Self::fitting(scales.length(1.0))
+    }
+
+    /// The prefix that suits a length in metres.
+    pub fn fitting(length: f64) -> Self {
         let prefixes = [(1e3, "km"), (1.0, "m"), (1e-3, "mm"), (1e-6, "µm"), (1e-9, "nm")];
         // 0.1 mm still reads better than 100 µm, and 300 mm better than 0.3 m.
         let fitting = prefixes
             .into_iter()
-            .find(|(size, _)| clearance >= 0.1 * size && *size != 1.0 || clearance >= *size);
+            .find(|(size, _)| length >= 0.1 * size && *size != 1.0 || length >= *size);
         let (per_unit, unit) = fitting.unwrap_or((1e-9, "nm"));
         Self { per_unit, unit }
     }

@@ -64,6 +64,53 @@ pub fn read(place: &str, text: &str) -> Result<Value, ReadError> {
     }
 }
 
+/// What `report.json` says of the largest peaks along a band, in metres or in the case's own unit: the one
+/// place that knows how they are written.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BandPeaks {
+    /// With the absorber, of every motion that was found.
+    pub absorber: Option<WorstPeak>,
+    /// Without it; nothing where nothing limits it.
+    pub bare: Option<f64>,
+    /// With a tuned mass damper of the same mass instead.
+    pub damper: Option<f64>,
+}
+
+/// The largest peak along a band, and how far it may be off.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WorstPeak {
+    /// The peak.
+    pub value: f64,
+    /// Its error.
+    pub error: f64,
+}
+
+/// What the peaks of a survey along a band are known to where the report does not say: relative.
+const BAND_ERROR: f64 = 0.02;
+
+impl BandPeaks {
+    /// The criterion that asks for the largest peak.
+    pub const CRITERION: &str = "peak_displacement";
+
+    /// Those of a report; nothing where its case has no band.
+    pub fn of(report: &Value) -> Option<Self> {
+        let band = report["data"].get("band").filter(|band| band.is_object())?;
+        let criteria = report["criteria"].as_array().into_iter().flatten();
+        // Judged over the band, with its error.
+        let judged = criteria.filter(|criterion| criterion["name"] == Self::CRITERION).find_map(
+            |criterion| Some((criterion["found"].as_f64()?, criterion["error"].as_f64()?)),
+        );
+        let places = band["simulated"].as_array().into_iter().flatten();
+        let largest = places.filter_map(|place| place["largest_peak"].as_f64()).reduce(f64::max);
+        let absorber = judged.or_else(|| largest.map(|peak| (peak, BAND_ERROR * peak)));
+        Some(Self {
+            absorber: absorber.map(|(value, error)| WorstPeak { value, error }),
+            bare: band["bare"]["largest_peak"].as_f64(),
+            damper: band["tuned_mass_damper"]["largest_peak"].as_f64(),
+        })
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

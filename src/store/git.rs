@@ -116,29 +116,55 @@ fn files(tree: &str) -> Result<BTreeMap<String, Vec<u8>>, String> {
             wanted.push((path.to_owned(), head.next().unwrap_or("").to_owned()));
         }
     }
-    // One process for all files. Its input is a file: two pipes to one process can block each other.
+    let names: Vec<&str> = wanted.iter().map(|(_, oid)| oid.as_str()).collect();
+    let contents = contents(&names)?;
+    let file = |((path, _), content): ((String, String), Option<Vec<u8>>)| {
+        let content = content.ok_or_else(|| format!("it does not return `{path}`"))?;
+        Ok((path, content))
+    };
+    wanted.into_iter().zip(contents).map(file).collect()
+}
+
+/// The contents of objects by their names, such as `main:./cases/a.toml`; nothing where there is none of
+/// that name.
+///
+/// # Errors
+/// [`GitError::Failed`] where git does not answer.
+pub fn read_files_at(names: &[String]) -> Result<Vec<Option<Vec<u8>>>, GitError> {
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    contents(&names).map_err(|message| {
+        let path = names.first().copied().unwrap_or_default().to_owned();
+        GitError::Failed { revision: "HEAD".into(), path, message }
+    })
+}
+
+/// The same in one process, whose input is a file: two pipes to one process can block each other.
+fn contents(names: &[&str]) -> Result<Vec<Option<Vec<u8>>>, String> {
     let mut input = tempfile::tempfile().map_err(|cause| cause.to_string())?;
-    let names: String = wanted.iter().map(|(_, oid)| format!("{oid}\n")).collect();
-    let written = input.write_all(names.as_bytes()).and_then(|()| input.rewind());
+    let lines: String = names.iter().map(|name| format!("{name}\n")).collect();
+    let written = input.write_all(lines.as_bytes()).and_then(|()| input.rewind());
     written.map_err(|cause| cause.to_string())?;
     let contents = stdout(&["cat-file", "--batch"], Some(input.into()))?;
     let mut rest = contents.as_slice();
-    let mut files = BTreeMap::new();
-    for (path, _) in wanted {
-        let (content, after) = next(rest).ok_or_else(|| format!("it does not return `{path}`"))?;
-        files.insert(path, content.to_vec());
+    let mut found = Vec::new();
+    for name in names {
+        let (content, after) = next(rest).ok_or_else(|| format!("it does not return `{name}`"))?;
+        found.push(content.map(<[u8]>::to_vec));
         rest = after;
     }
-    Ok(files)
+    Ok(found)
 }
 
-/// The first file of `git cat-file --batch`, and what follows: object, type and size on a line, the
-/// content, a line break.
-fn next(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
+/// The first answer of `git cat-file --batch`, and what follows: object, type and size on a line, the
+/// content, a line break; or a line that says that the object is missing.
+fn next(bytes: &[u8]) -> Option<(Option<&[u8]>, &[u8])> {
     let end = bytes.iter().position(|byte| *byte == b'\n')?;
-    let size = std::str::from_utf8(&bytes[..end]).ok()?.split(' ').nth(2)?.parse::<usize>().ok()?;
-    let content = bytes.get(end + 1..)?;
-    Some((content.get(..size)?, content.get(size + 1..)?))
+    let (line, content) = (std::str::from_utf8(&bytes[..end]).ok()?, bytes.get(end + 1..)?);
+    if line.ends_with(" missing") {
+        return Some((None, content));
+    }
+    let size = line.rsplit(' ').next()?.parse::<usize>().ok()?;
+    Some((Some(content.get(..size)?), content.get(size + 1..)?))
 }
 
 fn stdout(arguments: &[&str], input: Option<Stdio>) -> Result<Vec<u8>, String> {
@@ -164,12 +190,14 @@ mod tests {
 
     #[test]
     fn files_are_cut_out_of_the_stream() {
-        let stream = b"a1 blob 3\nx\ny\nb2 blob 0\n\nc3 missing\n";
-        let (first, rest) = next(stream).expect("a file");
-        assert_eq!(first, b"x\ny");
-        let (second, rest) = next(rest).expect("an empty file");
-        assert_eq!(second, b"");
-        assert_eq!(next(rest), None, "an object that is missing");
+        let stream = b"a1 blob 3\nx\ny\nno such:name missing\nb2 blob 0\n\n";
+        let (first, rest) = next(stream).expect("an answer");
+        assert_eq!(first, Some(b"x\ny".as_slice()));
+        let (second, rest) = next(rest).expect("an answer");
+        assert_eq!(second, None, "an object that is missing");
+        let (third, rest) = next(rest).expect("an answer");
+        assert_eq!(third, Some(b"".as_slice()));
+        assert_eq!(next(rest), None);
         assert_eq!(next(b"a1 blob 9\nshort\n"), None);
     }
 }

@@ -34,6 +34,10 @@ fn si_value(text: &str) -> Option<f64> {
     // What follows in brackets says where the number is from.
     let plain = plain.split(" (").next().unwrap_or_default();
     let (number, unit) = plain.split_once(' ').unwrap_or((plain, ""));
+    // A range, `8.0 to 8.7 Hz`, has its place by where it begins.
+    if let Some((_, unit)) = unit.strip_prefix("to ").and_then(|to| to.split_once(' ')) {
+        return si_value(&format!("{number} {unit}"));
+    }
     match unit {
         "" | "dB" => number.parse().ok(),
         // An error follows: `0.61 ± 0.05`.
@@ -67,6 +71,8 @@ mod tests {
         assert_eq!(order("0.61 ± 0.05"), Some(0.61));
         assert_eq!(order("56.00"), Some(56.0));
         assert_eq!(order("3.72 mm (exact orbit)"), Some(0.00372));
+        assert_eq!(order("8.0 to 8.7 Hz"), Some(8.0));
+        assert_eq!(order("0.9 to 1.1 kHz"), Some(900.0));
         for incomparable in ["0.475 units", "Z3, strip A1", "infinite", "undefined", ""] {
             assert_eq!(order(incomparable), None, "{incomparable}");
         }

@@ -9,9 +9,10 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 
+use super::numbers::{LengthFormat, decibels, significant};
 use super::render::{self, RenderError};
 use cell::{Cell, NOTHING};
-pub use summary::{Summary, Tone};
+pub use summary::{BandSummary, Summary, Verdict};
 
 /// The index for a browser, and the one that a forge shows, by their file names.
 pub const HTML: &str = "index.html";
@@ -69,26 +70,26 @@ pub struct Index {
 struct Entry {
     name: String,
     title: String,
+    /// What is said first, and the class of its colour.
+    verdict: String,
     tone: &'static str,
-    /// Place of the tone in a sorted column.
-    tone_order: u8,
+    /// Its place in a sorted column.
+    order: u8,
     headline: String,
-    /// What else there is to say of the verdict: criteria, notes.
-    remarks: Vec<String>,
+    /// How many notes the report has, if it has any.
+    notes: Option<String>,
     cells: Vec<Cell>,
-    figure: Option<Thumbnail>,
+    figure: Option<Picture>,
     has_tradeoff: bool,
     has_sweep: bool,
 }
 
-/// The small figure of a case.
+/// The first figure of a case, which is shown where cases stand side by side.
 #[derive(Debug, Clone, Serialize)]
-struct Thumbnail {
+struct Picture {
     /// Path from the index.
     path: String,
-    /// What it is, which is all that its size shows.
-    title: String,
-    /// What to see where it is larger.
+    /// What to see, for those who cannot see it.
     alt: String,
 }
 
@@ -102,11 +103,12 @@ struct Comparison {
 #[derive(Debug, Clone, Copy, Serialize)]
 struct Column {
     title: &'static str,
-    /// Whether it is sorted as numbers.
-    numeric: bool,
     /// Whether Markdown has it as well, where seven columns are the limit.
     always: bool,
-    /// The key number that it shows.
+    /// What it says of a case with a band.
+    #[serde(skip)]
+    along_band: fn(&BandSummary) -> Option<String>,
+    /// The key number that it shows of a case without one, or where a band says nothing.
     #[serde(skip)]
     quantity: &'static str,
     /// The key number that some cases have instead, with what it needs before and after it.
@@ -114,31 +116,72 @@ struct Column {
     instead: Option<(&'static str, &'static str, &'static str)>,
 }
 
-const fn column(title: &'static str, quantity: &'static str) -> Column {
-    Column { title, numeric: true, always: false, quantity, instead: None }
+const fn column(
+    title: &'static str,
+    along_band: fn(&BandSummary) -> Option<String>,
+    quantity: &'static str,
+) -> Column {
+    Column { title, always: true, along_band, quantity, instead: None }
 }
 
-const COLUMNS: [Column; 7] = [
+const CHANGE: Column = column("Change", BandSummary::change, "Change of the peak");
+
+const COLUMNS: [Column; 6] = [
     Column {
-        always: true,
         instead: Some(("Clearance", "", " units")),
-        ..column("Clearance b", "Clearance b")
+        ..column("Clearance b", |_| None, "Clearance b")
     },
     Column {
-        always: true,
         instead: Some(("Frequency ratio", "Ω = ", "")),
-        ..column("Frequency", "Excitation frequency")
+        ..column("Excitation", BandSummary::range, "Excitation frequency")
     },
-    column("Peak without", "Vibration of the bare oscillator"),
     Column {
-        always: true,
-        instead: Some(("Peak of the exact symmetric orbit", "", " (exact orbit)")),
-        ..column("Peak with", "Vibration with the absorber, peak")
+        always: false,
+        ..column("Without absorber", BandSummary::bare, "Vibration of the bare oscillator")
     },
-    Column { always: true, ..column("Change", "Change of the peak") },
-    column("Impacts z", "Impacts per period z"),
-    Column { numeric: false, ..column("Area", "Area of the case") },
+    Column {
+        instead: Some(("Peak of the exact symmetric orbit", "", " (exact orbit)")),
+        ..column("With absorber", BandSummary::absorber, "Vibration with the absorber, peak")
+    },
+    CHANGE,
+    column("Tuned mass damper", BandSummary::damper, "Vibration with a tuned mass damper"),
 ];
+
+impl BandSummary {
+    fn range(&self) -> Option<String> {
+        let [from, to] = &self.ends;
+        // One unit is enough for two numbers that share it.
+        let unit = to.split_once(' ').map_or("", |(_, unit)| unit);
+        let from = from.strip_suffix(unit).map_or(from.as_str(), str::trim_end);
+        Some(format!("{from} to {to}"))
+    }
+
+    fn bare(&self) -> Option<String> {
+        Some(self.peaks.bare.map_or_else(|| "no limit".into(), |peak| self.length(peak)))
+    }
+
+    fn absorber(&self) -> Option<String> {
+        self.peaks.absorber.map(|peak| self.length(peak.value))
+    }
+
+    fn change(&self) -> Option<String> {
+        Some(decibels(self.peaks.absorber?.value / self.peaks.bare?))
+    }
+
+    fn damper(&self) -> Option<String> {
+        let peak = self.peaks.damper?;
+        let change = self.peaks.bare.map(|bare| format!(" ({})", decibels(peak / bare)));
+        Some(format!("{}{}", self.length(peak), change.unwrap_or_default()))
+    }
+
+    fn length(&self, peak: f64) -> String {
+        if self.metres {
+            LengthFormat::fitting(peak).text(peak)
+        } else {
+            format!("{} units", significant(peak, 3))
+        }
+    }
+}
 
 /// Quantities of a reduced case that a physical one has by another name.
 const ALIASES: [(&str, &str); 2] = [("Clearance", "Clearance b"), ("Restitution", "Restitution r")];
@@ -193,17 +236,18 @@ impl Entry {
             1 => Some("1 note".to_owned()),
             several => Some(format!("{several} notes")),
         };
-        let figure = summary.figures.first().map(|figure| Thumbnail {
+        let figure = summary.figures.first().map(|figure| Picture {
             path: format!("{name}/figures/{}.svg", figure.name),
-            title: format!("{name}: {}", figure.title),
             alt: figure.alt.clone(),
         });
+        let verdict = verdict(&summary);
         Self {
-            tone: summary.verdict.tone.word(),
-            tone_order: summary.verdict.tone as u8,
-            remarks: summary.criteria_words().into_iter().chain(notes).collect(),
+            verdict: verdict.words(),
+            tone: verdict.tone(),
+            order: verdict.order(),
+            notes,
             cells: COLUMNS.iter().map(|column| cell(&summary, column)).collect(),
-            headline: summary.verdict.headline,
+            headline: summary.answer.headline,
             title: summary.title,
             name,
             figure,
@@ -213,23 +257,27 @@ impl Entry {
     }
 }
 
+fn verdict(summary: &Summary) -> Verdict {
+    summary.verdict(&cell(summary, &CHANGE))
+}
+
 fn cell(summary: &Summary, column: &Column) -> Cell {
-    if let Some(value) = summary.value(column.quantity) {
-        return Cell::number(Some(value));
-    }
-    let other = column.instead.and_then(|(quantity, before, after)| {
-        summary.value(quantity).map(|value| format!("{before}{value}{after}"))
-    });
-    Cell::number(other.as_deref())
+    let along_band = summary.band.as_ref().and_then(column.along_band);
+    let own = || summary.value(column.quantity).map(str::to_owned);
+    let instead = || {
+        let (quantity, before, after) = column.instead?;
+        Some(format!("{before}{}{after}", summary.value(quantity)?))
+    };
+    Cell::number(along_band.or_else(own).or_else(instead).as_deref())
 }
 
 fn summary(members: &[Member]) -> String {
-    let count = |tone| members.iter().filter(|one| one.summary.verdict.tone == tone).count();
+    let mut verdicts: Vec<Verdict> = members.iter().map(|one| verdict(&one.summary)).collect();
+    verdicts.sort_by_key(|verdict| verdict.order());
+    let kinds = verdicts.chunk_by(|a, b| a.order() == b.order());
+    let kinds: Vec<String> = kinds.map(|kind| kind[0].count(kind.len())).collect();
     let cases = if members.len() == 1 { "case" } else { "cases" };
-    let verdicts = [Tone::Good, Tone::Mixed, Tone::Bad].map(|tone| (count(tone), tone.word()));
-    let verdicts = verdicts.iter().filter(|(count, _)| *count > 0);
-    let verdicts: Vec<String> = verdicts.map(|(count, word)| format!("{count} {word}")).collect();
-    format!("{} {cases}: {}.", members.len(), verdicts.join(", "))
+    format!("{} {cases}: {}.", members.len(), kinds.join(", "))
 }
 
 /// Every quantity that a case has, in the order of the reports, with each case's value.
@@ -253,19 +301,11 @@ fn comparison(members: &[Member]) -> Vec<Comparison> {
         let row = rows.find(|row| common_name(&row.quantity) == quantity);
         row.map_or_else(|| NOTHING.to_owned(), |row| row.value.clone())
     };
-    let mut rows: Vec<Comparison> = quantities
-        .into_iter()
-        .map(|quantity| Comparison {
-            quantity: quantity.to_owned(),
-            values: members.iter().map(|member| value(member, quantity)).collect(),
-        })
-        .collect();
-    let criteria: Vec<_> = members.iter().map(|member| member.summary.criteria_words()).collect();
-    if criteria.iter().any(Option::is_some) {
-        let values = criteria.into_iter().map(|words| words.unwrap_or_else(|| NOTHING.to_owned()));
-        rows.insert(0, Comparison { quantity: "Criteria".to_owned(), values: values.collect() });
-    }
-    rows
+    let row = |quantity: &str| Comparison {
+        quantity: quantity.to_owned(),
+        values: members.iter().map(|member| value(member, quantity)).collect(),
+    };
+    quantities.into_iter().map(row).collect()
 }
 
 fn common_name(quantity: &str) -> &str {
@@ -296,7 +336,7 @@ mod tests {
         let reduced = [("Clearance", "1.0"), ("Forcing", "4.3"), ("Area", "Z1")];
         let members = vec![member("b", "bad", &reduced), member("a", "good", &physical)];
         let index = Index::new(members, Vec::new());
-        assert_eq!(index.summary, "2 cases: 1 good, 1 bad.");
+        assert_eq!(index.summary, "2 cases: 1 works, 1 does nothing.");
         let names: Vec<_> = index.cases.iter().map(|case| case.name.as_str()).collect();
         assert_eq!(names, ["a", "b"]);
         let rows: Vec<_> = index
