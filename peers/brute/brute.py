@@ -57,12 +57,13 @@ class Design:
             self.transients = self.ask("bare", n=2000)
         none = (0.0, self.keys["from"])
         return {"impacts": none,
-                "inactive": max([(t["amplitude"], t["f"]) for t in self.transients if t["amplitude"] < b], default=none),
-                "inactive-from-rest": max([(t["amplitude"], t["f"]) for t in self.transients if t["transient"] < b], default=none)}
+                **{name: max([(t["amplitude"], t["f"]) for t in self.transients if t[bounded] < b], default=none)
+                   for name, bounded in (("inactive", "amplitude"), ("inactive-from-rest", "transient"))}}
 
 
 def dense(design, b, frequencies=400, starts=6):
-    """`summary` of motions with impacts, and the largest peak of the first scan. The eight largest places are looked at again, closer and for 2,000 periods."""
+    """`summary` of motions with impacts, and the largest peak of the first scan. The eight largest places are looked
+    at again, closer and for 2,000 periods."""
     lo, hi = design.keys["from"], design.keys["to"]
     rows = design.ask("scan", b=b, n=frequencies, starts=starts)
     if not rows:
@@ -88,18 +89,20 @@ PASSES = [{"n": 61, "starts": 3, "window": 100, "windows": 1}, {"n": 121, "start
 
 
 class Search:
-    """The best of `count` clearances, by lower bounds `found`: a pass stops where the clearance can no longer be the best, and the
-    clearance with the lowest bound gets the next pass, until the lowest bound is the value of a dense scan."""
+    """The best of `count` clearances, by lower bounds `found`: a pass stops where the clearance can no longer be the
+    best, and the clearance with the lowest bound gets the next pass, until that is within 1 % of the best dense scan."""
 
     def __init__(self, design, count):
         lo, hi = design.bounds
         self.design, self.dense = design, {}
         self.grid = [lo * (hi / lo) ** (i / (count - 1)) for i in range(count)]
         self.found, self.passes = {}, {}
-        for i in sorted(range(count), key=lambda i: (-(i & -i) if i else -count, -i)):  # coarse to fine, from large to small
+        # Coarse to fine, from large to small.
+        for i in sorted(range(count), key=lambda i: (-(i & -i) if i else -count, -i)):
             b = self.grid[i]
             self.passes[b] = 0
-            self.next_pass(b, max(1.02 * self.lowest(c)[0] for c in CONVENTIONS if self.rest(b, c) <= 1.02 * self.lowest(c)[0]))
+            stops = [(c, 1.02 * self.lowest(c)[0]) for c in CONVENTIONS]
+            self.next_pass(b, max(stop for c, stop in stops if self.rest(b, c) <= stop))
 
     def rest(self, b, convention):
         return self.design.inactive(b)[convention][0]
@@ -128,11 +131,12 @@ class Search:
     def best(self, convention):
         while True:
             value, b = self.lowest(convention)
-            if b in self.dense:
-                return b
-            # A pass can end as soon as another clearance has become the lowest.
+            judged = min(((self.value(o, convention), o) for o in self.dense if o in self.passes), default=(math.inf, 0))
+            if judged[0] <= 1.01 * value:
+                return judged[1]
+            # A pass can end as soon as the clearance can no longer be the best.
             others = min(self.value(o, convention) for o in self.grid if o != b)
-            self.next_pass(b, max(1.05 * others, 1.05 * value))
+            self.next_pass(b, 1.05 * max(value, others))
 
 
 def table(design, out, count):
@@ -145,8 +149,15 @@ def table(design, out, count):
             rest, at = design.inactive(b)[c]
             if rest >= value:
                 value, f, typical, first, rate = rest, at, rest, rest, 0.0
-            out.writerow([design.name, c, what, f"{b:.5g}", f"{value:.5g}", f"{f:.6g}", f"{rate:.3g}", f"{typical:.5g}", f"{first:.5g}"])
+            row = [f"{b:.5g}", f"{value:.5g}", f"{f:.6g}", f"{rate:.3g}", f"{typical:.5g}", f"{first:.5g}"]
+            out.writerow([design.name, c, what, *row])
     print(f"{design.name}: {len(search.dense)} dense scans", file=sys.stderr)
+
+
+def scan(design, b, args):
+    v, f, typical, _, first = dense(design, b, args.frequencies, args.starts)
+    rest = [max(v, design.inactive(b)[c][0]) for c in CONVENTIONS[1:]]
+    return [f"{b:.5g}", f"{v:.5g}", f"{f:.7g}", *(f"{x:.5g}" for x in (typical, first, *rest))]
 
 
 def main():
@@ -161,25 +172,25 @@ def main():
     global BINARY
     with tempfile.TemporaryDirectory() as folder:
         BINARY = os.path.join(folder, "brute")
-        subprocess.run([os.environ.get("CC", "cc"), "-O3", "-march=native", "-ffp-contract=off", "-o", BINARY, f"{HERE}/brute.c", "-lm"], check=True)
+        compiler = [os.environ.get("CC", "cc"), "-O3", "-march=native", "-ffp-contract=off"]
+        subprocess.run([*compiler, "-o", BINARY, f"{HERE}/brute.c", "-lm"], check=True)
         out = csv.writer(sys.stdout, lineterminator="\n")
+        columns = "clearance_m impacts_m frequency_hz typical_m one_scan_m inactive_m inactive_from_rest_m"
         if args.verb == "table":
-            out.writerow("design convention what clearance_m worst_m frequency_hz impacts_per_period typical_m one_scan_m".split())
-        else:
-            out.writerow("clearance_m impacts_m frequency_hz typical_m one_scan_m inactive_m inactive_from_rest_m".split())
+            columns = "design convention what clearance_m worst_m frequency_hz impacts_per_period typical_m one_scan_m"
+        out.writerow(columns.split())
         for path in args.case:
             design = Design(path)
             if args.verb == "table":
                 table(design, out, args.clearances)
-                sys.stdout.flush()
-                continue
-            lo, hi = design.bounds or (0, 0)
-            n = args.clearances
-            for b in [args.clearance or design.clearance] if args.verb == "scan" else [lo * (hi / lo) ** (i / (n - 1)) for i in range(n)]:
-                v, f, typical, _, first = dense(design, b, args.frequencies, args.starts)
-                rest = design.inactive(b)
-                out.writerow([f"{x:.5g}" for x in (b, v)] + [f"{f:.7g}", f"{typical:.5g}", f"{first:.5g}"] + [f"{max(v, rest[c][0]):.5g}" for c in CONVENTIONS[1:]])
-                sys.stdout.flush()
+            elif args.verb == "scan":
+                out.writerow(scan(design, args.clearance or design.clearance, args))
+            else:
+                (lo, hi), n = design.bounds, args.clearances
+                for i in range(n):
+                    out.writerow(scan(design, lo * (hi / lo) ** (i / (n - 1)), args))
+                    sys.stdout.flush()
+            sys.stdout.flush()
 
 
 if __name__ == "__main__":
