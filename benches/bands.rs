@@ -10,8 +10,10 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use vinesink::analysis::Analysis;
-use vinesink::band::{Band, Survey, exact, theory};
+use vinesink::band::simulated::Sampling;
+use vinesink::band::{Band, Survey, SurveySettings, exact, theory};
 use vinesink::case::BandOver;
+use vinesink::executor::Serial;
 use vinesink::orbits::attracting_orbit;
 use vinesink::regimes::long_term::{Effort, motions};
 use vinesink::system::System;
@@ -73,10 +75,14 @@ fn main() {
         "place by place",
         timed(1, || places.iter().map(alone).collect::<Vec<_>>()),
     );
+    let survey = |sampling| {
+        let settings = SurveySettings { sampling, count_inactive: true };
+        timed(1, || Survey::of(&band, &settings, &Serial).expect("finite"))
+    };
     compared(
         "a survey of the band without simulation",
-        timed(1, || Survey::of(&band, false).expect("finite")),
+        survey(None),
         "with simulation it",
-        timed(1, || Survey::of(&band, true).expect("finite")),
+        survey(Some(Sampling::FULL)),
     );
 }

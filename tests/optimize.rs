@@ -240,7 +240,7 @@ fn a_written_case_differs_in_its_values_only() {
     let again = case(&found.best.written.text);
     assert_eq!(Choice::of(&again.design), found.best.choice);
     let task = Task::of(&again, None).expect("a task");
-    let score = task.score(&found.best.choice, &NOTHING).expect("a score");
+    let score = task.score(&found.best.choice, &NOTHING, &Serial).expect("a score");
     assert!((score - found.best.value).abs() < 1e-9, "{score}");
     // Three variables do better than one.
     let one = optimized(&band_text(""), None);

@@ -178,9 +178,9 @@ impl Motions {
                 of: Source::Simulated(*motion),
             })
         });
-        let all = || simulated.clone().chain(orbit).chain(self.worst_inactive());
-        let worst = all().max_by(|a, b| a.peak.total_cmp(&b.peak))?;
-        let reach = all().map(|one| one.peak + one.error).fold(0.0, f64::max);
+        let all: Vec<Worst> = simulated.chain(orbit).chain(self.worst_inactive()).collect();
+        let worst = *all.iter().max_by(|a, b| a.peak.total_cmp(&b.peak))?;
+        let reach = all.iter().map(|one| one.peak + one.error).fold(0.0, f64::max);
         Some(Worst { error: reach - worst.peak, ..worst })
     }
 

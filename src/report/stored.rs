@@ -85,9 +85,6 @@ pub struct WorstPeak {
     pub error: f64,
 }
 
-/// What the peaks of a survey along a band are known to where the report does not say: relative.
-const BAND_ERROR: f64 = 0.02;
-
 impl BandPeaks {
     /// The criterion that asks for the largest peak.
     pub const CRITERION: &str = "peak_displacement";
@@ -95,14 +92,8 @@ impl BandPeaks {
     /// Those of a report; nothing where its case has no band.
     pub fn of(report: &Value) -> Option<Self> {
         let band = report["data"].get("band").filter(|band| band.is_object())?;
-        let criteria = report["criteria"].as_array().into_iter().flatten();
-        // Judged over the band, with its error.
-        let judged = criteria.filter(|criterion| criterion["name"] == Self::CRITERION).find_map(
-            |criterion| Some((criterion["found"].as_f64()?, criterion["error"].as_f64()?)),
-        );
-        let places = band["simulated"].as_array().into_iter().flatten();
-        let largest = places.filter_map(|place| place["largest_peak"].as_f64()).reduce(f64::max);
-        let absorber = judged.or_else(|| largest.map(|peak| (peak, BAND_ERROR * peak)));
+        let worst = &band["worst"];
+        let absorber = worst["peak"].as_f64().zip(worst["error"].as_f64());
         Some(Self {
             absorber: absorber.map(|(value, error)| WorstPeak { value, error }),
             bare: band["bare"]["largest_peak"].as_f64(),

@@ -77,7 +77,15 @@ impl OptimizePage {
 }
 
 fn mass(choice: &Choice) -> String {
-    choice.mass.map_or_else(dash, |mass| format!("{} g", significant(1e3 * mass, 4)))
+    choice.mass.map_or_else(dash, mass_text)
+}
+
+/// A mass in kilograms with the prefix that suits it.
+fn mass_text(kilograms: f64) -> String {
+    match kilograms {
+        some if some >= 1.0 => format!("{} kg", significant(some, 4)),
+        some => format!("{} g", significant(1e3 * some, 4)),
+    }
 }
 
 fn dash() -> String {
@@ -134,7 +142,7 @@ fn looked_for(words: &Words) -> String {
                 format!("restitution {} to {}", significant(from, 3), significant(to, 3))
             }
             Variable::Mass => {
-                format!("mass {} to {} g", significant(1e3 * from, 4), significant(1e3 * to, 4))
+                format!("mass {} to {}", mass_text(from), mass_text(to))
             }
         }
     });
@@ -233,13 +241,17 @@ pub fn summary(case: &Case, found: &Optimization) -> String {
     }
     let _ = writeln!(text, "{}\n", looked_for(&words));
     let absorbers = absorbers(&words);
-    let titles: Vec<&str> = absorbers.columns.iter().map(|column| column.title).collect();
-    for row in std::iter::once(titles).chain(
-        absorbers.rows.iter().map(|row| row.iter().map(String::as_str).collect::<Vec<&str>>()),
-    ) {
-        let [name, values @ ..] = row.as_slice() else { continue };
-        let values: String = values.iter().map(|value| format!("{value:>14}")).collect();
-        let _ = writeln!(text, "{name:16}{values}");
+    let titles = absorbers.columns.iter().map(|column| column.title.to_owned()).collect();
+    let lines: Vec<Vec<String>> = std::iter::once(titles).chain(absorbers.rows).collect();
+    let width = |column: usize| lines.iter().map(|line| line[column].chars().count()).max();
+    let widths: Vec<usize> = (0..lines[0].len()).map(|k| width(k).unwrap_or(0)).collect();
+    for line in &lines {
+        let cells = line.iter().zip(&widths).enumerate();
+        let cells = cells.map(|(k, (cell, width))| match k {
+            0 => format!("{cell:width$}"),
+            _ => format!("  {cell:>width$}"),
+        });
+        let _ = writeln!(text, "{}", cells.collect::<String>());
     }
     let _ = writeln!(text);
     for sentence in words.claim() {

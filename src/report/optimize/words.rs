@@ -200,7 +200,7 @@ impl<'a> Words<'a> {
             percent(rivals.damper.damping_ratio),
             length(rivals.damped.amplitude),
             length(rivals.damped.stroke),
-            percent(DETUNED[1] - 1.0),
+            significant(100.0 * (DETUNED[1] - 1.0), 1) + " %",
         );
         let Some(worst) = best.worst else { return Some(format!("{said}.")) };
         let absorber = worst.peak + worst.error;
@@ -254,7 +254,7 @@ impl<'a> Words<'a> {
         match variable {
             Variable::Clearance => format!("clearance {}", self.length(value)),
             Variable::Restitution => format!("restitution {}", significant(value, 4)),
-            Variable::Mass => format!("mass {} g", significant(1e3 * value, 4)),
+            Variable::Mass => format!("mass {}", super::mass_text(value)),
         }
     }
 
