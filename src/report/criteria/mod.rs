@@ -64,6 +64,9 @@ pub struct CriteriaDocument {
     pub case: String,
     /// Its title.
     pub title: String,
+    /// What is probably a slip in its file; left out where nothing is.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<Place>,
     /// Whether all hold.
     pub holds: bool,
     /// One for each line of `[criteria]`, in the order of a report.
@@ -76,6 +79,7 @@ impl CriteriaDocument {
         Self {
             case: name.to_owned(),
             title: case.title.clone(),
+            warnings: case.warnings().iter().map(Place::from).collect(),
             holds: all_hold(judged),
             criteria: rows(case, judged),
         }
