@@ -3,9 +3,9 @@
 use std::fmt;
 use std::ops::Range;
 
-use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode};
+use miette::{Diagnostic, LabeledSpan, NamedSource, Severity, SourceCode};
 
-/// One thing wrong with a case file.
+/// One thing wrong with a case file, or suspicious in it.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{message}")]
 pub struct Problem {
@@ -15,6 +15,8 @@ pub struct Problem {
     pub expected: String,
     /// What to do about it.
     pub help: Option<String>,
+    /// An error, unless the case can be read all the same.
+    pub severity: Severity,
     /// The offending bytes of the text.
     pub span: Range<usize>,
     /// Line of the offending text, from 1.
@@ -40,6 +42,7 @@ impl Problem {
             message: message.into(),
             expected: expected.into(),
             help: None,
+            severity: Severity::Error,
             line: 1 + before.matches('\n').count(),
             column: 1 + before[line_start..].chars().count(),
             underlined: text[span.clone()].to_owned(),
@@ -49,6 +52,11 @@ impl Problem {
 
     pub(super) fn help(self, help: impl Into<String>) -> Self {
         Self { help: Some(help.into()), ..self }
+    }
+
+    /// The same as a warning.
+    pub(super) fn as_warning(self) -> Self {
+        Self { severity: Severity::Warning, ..self }
     }
 
     pub(super) fn maybe_help(self, help: Option<String>) -> Self {
@@ -64,6 +72,10 @@ fn within_line(text: &str, span: Range<usize>) -> Range<usize> {
 }
 
 impl Diagnostic for Problem {
+    fn severity(&self) -> Option<Severity> {
+        Some(self.severity)
+    }
+
     fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
         self.help.as_ref().map(|help| Box::new(help) as Box<dyn fmt::Display>)
     }

@@ -28,6 +28,7 @@ mod suggest;
 mod sweep;
 mod table;
 mod uncertainty;
+mod warnings;
 
 use toml::de::DeTable;
 
@@ -87,6 +88,7 @@ pub struct Case {
     /// The table `[sweep]`, if there is one.
     pub sweep: Option<SweepSettings>,
     inputs: Vec<Input>,
+    warnings: Vec<Problem>,
     system: System,
     scales: Scales,
 }
@@ -173,6 +175,12 @@ impl Case {
         }
     }
 
+    /// What is valid and almost surely a slip, such as kHz for Hz: each where it stands in the text after
+    /// a byte order mark, with what was probably meant as its help; in the order of lines.
+    pub fn warnings(&self) -> &[Problem] {
+        &self.warnings
+    }
+
     /// The dimensionless system.
     pub fn system(&self) -> System {
         self.system
@@ -217,6 +225,7 @@ fn read(reader: &mut Reader, document: &DeTable) -> Option<Case> {
     let sweep = sweep::read(reader, &root, design.as_ref());
     let design = design?;
     let system = system_of(reader, &root, &design)?;
+    let warnings = warnings::of(reader.text, document, &design, &system, band.as_ref());
     Some(Case {
         title: title?.to_owned(),
         source: source?.to_owned(),
@@ -232,6 +241,7 @@ fn read(reader: &mut Reader, document: &DeTable) -> Option<Case> {
         uncertainty,
         sweep,
         inputs: Vec::new(),
+        warnings,
         system,
         scales: design.scales(),
     })

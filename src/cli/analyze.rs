@@ -10,6 +10,7 @@ use vinesink::report::{Layers, summary};
 use vinesink::study::fidelity::{Answers, Plan, Simulated, counted_motions};
 use vinesink::study::{StudyEffort, settle_area};
 
+use super::budget::{Long, Work};
 use super::case_file::{self, CaseArgument, Fidelity, Format};
 use super::progress::Progress;
 use super::{Outcome, output};
@@ -32,6 +33,8 @@ pub struct Arguments {
     /// enough, else by none]
     #[arg(long, value_enum, value_name = "LAYER")]
     fidelity: Option<Fidelity>,
+    #[command(flatten)]
+    long: Long,
 }
 
 const EXAMPLES: &str = "\
@@ -42,12 +45,21 @@ Examples:
 
 pub fn run(arguments: Arguments) -> Result<Outcome> {
     let case = arguments.case.read()?;
+    let plan = case_file::plan(&case, arguments.fidelity)?;
+    let work = match plan.as_ref().is_some_and(Plan::needs_simulation) {
+        true => Work::motions(&case, &StudyEffort::of(&case.simulation)),
+        false => Work::default(),
+    };
+    let theory = Work::analysis(&case);
+    let progress = Progress::estimated("analysis", theory.seconds());
+    arguments.long.allows(&arguments.case.path, &case, &work.and(theory))?;
     let analysis = Analysis::of(&case.system())
         .into_diagnostic()
         .wrap_err_with(|| format!("{} cannot be analysed", arguments.case.path.display()))?;
     let exact = FullSystem::of(&case.system());
     let area = settle_area(&analysis, &exact).into_diagnostic()?;
-    let answers = match case_file::plan(&case, arguments.fidelity)? {
+    drop(progress);
+    let answers = match plan {
         Some(plan) => Some(answers(&case, &analysis, &plan)?),
         None => None,
     };
@@ -59,7 +71,8 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
         }
         Format::Json => {
             let document = AnalysisDocument::new(&analysis, &exact, area, &case.scales());
-            output::print_json(&document.with_answers(answers.clone()))?;
+            let document = document.with_answers(answers.clone());
+            output::print_json(&document.with_warnings(case.warnings()))?;
         }
     }
     let enough = answers.is_none_or(|answers| answers.enough());

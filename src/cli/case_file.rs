@@ -3,10 +3,12 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
-use miette::{IntoDiagnostic, Result};
+use miette::{IntoDiagnostic, NamedSource, Report, Result};
 use vinesink::case::Case;
 use vinesink::store;
 use vinesink::study::fidelity::{self, Demand, Plan};
+
+use super::output;
 
 /// The case that a command works on.
 #[derive(Debug, Args)]
@@ -25,8 +27,21 @@ impl CaseArgument {
 
 /// Reads a case file.
 pub fn read(path: &Path) -> Result<Case> {
+    read_with_text(path).map(|(case, _)| case)
+}
+
+/// Reads a case file; its text beside the case. What is probably a slip in it is said on standard error.
+pub fn read_with_text(path: &Path) -> Result<(Case, String)> {
     let text = store::read_text(path)?;
-    Ok(Case::parse(&path.display().to_string(), &text)?)
+    let name = path.display().to_string();
+    let case = Case::parse(&name, &text)?;
+    let visible = text.strip_prefix('\u{feff}').unwrap_or(&text);
+    for warning in case.warnings() {
+        let source = NamedSource::new(&name, visible.to_owned());
+        let shown = Report::new(warning.clone()).with_source_code(source);
+        output::complain(&format!("{shown:?}"));
+    }
+    Ok((case, text))
 }
 
 /// How a result is printed.

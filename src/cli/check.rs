@@ -12,7 +12,9 @@ use vinesink::report::criteria::{
     Checked, CriteriaDocument, FailedCase, Place, annotations, junit, markdown, text,
 };
 
+use super::budget::{Long, Work};
 use super::parallel::Parallel;
+use super::progress::Progress;
 use super::{Outcome, case_file, output};
 
 /// Hold each case against its criteria
@@ -29,6 +31,8 @@ pub struct Arguments {
     /// How the result is printed
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
+    #[command(flatten)]
+    long: Long,
 }
 
 const EXAMPLES: &str = "\
@@ -68,7 +72,7 @@ struct Document {
 pub fn run(arguments: Arguments) -> Result<Outcome> {
     let mut failures = Vec::new();
     let cases: Vec<Checked> =
-        arguments.cases.iter().map(|path| checked(path, &mut failures)).collect();
+        arguments.cases.iter().map(|path| checked(path, arguments.long, &mut failures)).collect();
     let holds = |one: &Checked| matches!(one, Checked::Judged(document) if document.holds);
     let holds = cases.iter().all(holds);
     match arguments.format {
@@ -93,12 +97,14 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
     last.map_or(Ok(outcome), Err)
 }
 
-fn checked(path: &Path, failures: &mut Vec<Report>) -> Checked {
+fn checked(path: &Path, long: Long, failures: &mut Vec<Report>) -> Checked {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-    match judged(path, &stem) {
+    match judged(path, &stem, long) {
         Ok(document) => Checked::Judged(document),
         Err(error) => {
-            let problems = error.downcast_ref::<CaseError>().into_iter().flat_map(places).collect();
+            let problems =
+                error.downcast_ref::<CaseError>().into_iter().flat_map(CaseError::problems);
+            let problems = problems.map(Place::from).collect();
             let failed = FailedCase { case: stem.into(), error: error.to_string(), problems };
             failures.push(error);
             Checked::Failed(failed)
@@ -106,16 +112,14 @@ fn checked(path: &Path, failures: &mut Vec<Report>) -> Checked {
     }
 }
 
-fn places(error: &CaseError) -> impl Iterator<Item = Place> + '_ {
-    error.problems().map(|problem| Place {
-        line: problem.line,
-        column: problem.column,
-        message: format!("{}; {}", problem.message, problem.expected),
-    })
-}
-
-fn judged(path: &Path, stem: &str) -> Result<CriteriaDocument> {
+fn judged(path: &Path, stem: &str, long: Long) -> Result<CriteriaDocument> {
     let case = case_file::read(path)?;
+    let work = match case.criteria.is_empty() {
+        true => Work::default(),
+        false => Work::criteria(&case),
+    };
+    long.allows(path, &case, &work)?;
+    let _progress = Progress::estimated(stem, work.seconds());
     let survey = Survey::of(&criteria::range(&case), &criteria::settings(&case), &Parallel);
     let judged = criteria::judge(&case, &survey.into_diagnostic()?);
     if case.criteria.is_empty() {

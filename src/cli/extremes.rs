@@ -32,14 +32,17 @@ Examples:
 
 pub fn run(arguments: Arguments) -> Result<Outcome> {
     let entries = entries().into_diagnostic()?;
-    let progress = Progress::new("extremes", entries.len() as u64);
+    let progress = Progress::new("extremes", entries.len() as u64 + 2);
     let mut outcomes = Vec::new();
     for entry in entries {
         outcomes.push(entry.outcome().into_diagnostic()?);
         progress.advance(1);
     }
     let units = unit_checks().into_diagnostic()?;
-    let page = Extremes::of(&outcomes, &tables().into_diagnostic()?, &units);
+    progress.advance(1);
+    let contact = tables().into_diagnostic()?;
+    progress.advance(1);
+    let page = Extremes::of(&outcomes, &contact, &units);
     let path = arguments.out.join("extremes.md");
     store::write_file(&path, page.markdown().into_diagnostic()?.as_bytes())?;
     output::print(format!("{}\n", path.display()))?;

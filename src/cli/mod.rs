@@ -2,6 +2,7 @@
 //! `pub fn run(arguments) -> Result<Outcome, miette::Report>`.
 
 mod analyze;
+mod budget;
 mod case_file;
 mod check;
 mod completions;

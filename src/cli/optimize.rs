@@ -9,7 +9,8 @@ use vinesink::optimize::{Optimization, Task};
 use vinesink::report::{optimize as page, render};
 use vinesink::store;
 
-use super::case_file::{CaseArgument, Format};
+use super::budget::{Long, Work};
+use super::case_file::{self, CaseArgument, Format};
 use super::parallel::Parallel;
 use super::{Outcome, index, output};
 
@@ -37,6 +38,8 @@ pub struct Arguments {
     /// Write the robust optimum, the best in expectation, instead
     #[arg(long, requires = "write")]
     robust: bool,
+    #[command(flatten)]
+    long: Long,
     /// Text for people or JSON for programs
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
@@ -83,8 +86,7 @@ impl From<Objective> for case::Objective {
 
 pub fn run(arguments: Arguments) -> Result<Outcome> {
     let path = &arguments.case.path;
-    let text = store::read_text(path)?;
-    let case = Case::parse(&path.display().to_string(), &text)?;
+    let (case, text) = case_file::read_with_text(path)?;
     if let Some(new) = arguments.write.as_ref().filter(|new| new.exists()) {
         return Err(store::StoreError::Exists { path: new.clone() }.into());
     }
@@ -98,6 +100,7 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
     let task = Task::of(&case, arguments.objective.map(Into::into)).map_err(|error| {
         miette!(help = "give the excitation an amplitude above 0", "{}: {error}", path.display())
     })?;
+    arguments.long.allows(path, &case, &Work::designs(&case))?;
     let found = Optimization::of(&case, &text, &task, &Parallel).into_diagnostic()?;
     let stem = path.file_stem().ok_or_else(|| miette!("{} is no file", path.display()))?;
     let name = stem.to_string_lossy();

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use miette::{IntoDiagnostic, Result};
+use vinesink::case::Case;
 use vinesink::report::figures;
 use vinesink::report::paper::{CASES, Member, Paper, TRANSFER};
 use vinesink::store;
@@ -34,15 +35,17 @@ Examples:
 
 pub fn run(arguments: Arguments) -> Result<Outcome> {
     let names: Vec<&str> = CASES.into_iter().chain([TRANSFER]).collect();
-    let progress = Progress::new("paper", names.len() as u64);
+    let read = |name: &str| case_file::read(&arguments.cases.join(format!("{name}.toml")));
+    let cases: Vec<Case> = names.iter().map(|name| read(name)).collect::<Result<_>>()?;
+    let steps = cases.iter().map(|case| CaseStudy::steps(&StudyEffort::of(&case.simulation)));
+    let progress = Progress::new("paper", steps.sum());
     let mut members = Vec::new();
-    for name in names {
-        let case = case_file::read(&arguments.cases.join(format!("{name}.toml")))?;
+    for (name, case) in names.into_iter().zip(cases) {
         let effort = StudyEffort::of(&case.simulation);
-        let study = CaseStudy::of(&case.system(), effort, &mut |_| {}).into_diagnostic()?;
+        let mut advance = |done| progress.advance(done);
+        let study = CaseStudy::of(&case.system(), effort, &mut advance).into_diagnostic()?;
         let figures = figures::all(&case, &study).into_diagnostic()?;
         members.push(Member { name: name.to_owned(), case, study, figures });
-        progress.advance(1);
     }
     let text = Paper::of(&members).and_then(|page| page.markdown()).into_diagnostic()?;
     let path = arguments.out.join("paper.md");

@@ -12,6 +12,7 @@ use vinesink::store::{self, Stale};
 use vinesink::study::fidelity::Plan;
 use vinesink::study::{CaseStudy, StudyEffort};
 
+use super::budget::{Long, Work};
 use super::case_file::{self, Fidelity};
 use super::parallel::Parallel;
 use super::progress::Progress;
@@ -39,6 +40,8 @@ pub struct Arguments {
     /// report.html is not looked at: it is the same report once more
     #[arg(long)]
     check: bool,
+    #[command(flatten)]
+    long: Long,
 }
 
 const EXAMPLES: &str = "\
@@ -61,8 +64,8 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
     for (path, name) in arguments.cases.iter().zip(names) {
         let folder = arguments.out.join(&name);
         let done = match arguments.check {
-            false => write(path, &name, &folder, arguments.fidelity),
-            true => check(path, &name, &folder, arguments.fidelity),
+            false => write(path, &name, &folder, &arguments),
+            true => check(path, &name, &folder, &arguments),
         };
         match done {
             Ok(Outcome::Done) => {}
@@ -104,16 +107,16 @@ fn names(cases: &[PathBuf]) -> Result<Vec<String>> {
 
 /// Writes one report; what was asked of accuracy does not hold where a layer that was insisted on, or
 /// the longest simulation, is not exact enough.
-fn write(path: &Path, name: &str, folder: &Path, forced: Option<Fidelity>) -> Result<Outcome> {
-    let (files, outcome) = rendered(path, name, forced)?;
+fn write(path: &Path, name: &str, folder: &Path, arguments: &Arguments) -> Result<Outcome> {
+    let (files, outcome) = rendered(path, name, arguments)?;
     store::replace_folder(folder, &files, render::is_of_report)?;
     output::print(format!("{}\n", folder.join("report.md").display()))?;
     Ok(outcome)
 }
 
 /// Says which files of a report are not as [`write()`] would leave them.
-fn check(path: &Path, name: &str, folder: &Path, forced: Option<Fidelity>) -> Result<Outcome> {
-    let (mut files, _) = rendered(path, name, forced)?;
+fn check(path: &Path, name: &str, folder: &Path, arguments: &Arguments) -> Result<Outcome> {
+    let (mut files, _) = rendered(path, name, arguments)?;
     files.remove(Path::new("report.html"));
     let stale = store::differing_files(folder, &files, render::is_of_report)?;
     if stale.is_empty() {
@@ -135,11 +138,18 @@ fn check(path: &Path, name: &str, folder: &Path, forced: Option<Fidelity>) -> Re
 }
 
 /// The files of a report, and whether it is exact enough and to be trusted.
-fn rendered(path: &Path, name: &str, forced: Option<Fidelity>) -> Result<(Files, Outcome)> {
+fn rendered(path: &Path, name: &str, arguments: &Arguments) -> Result<(Files, Outcome)> {
     let case = case_file::read(path)?;
     let effort = StudyEffort::of(&case.simulation);
-    let plan = case_file::plan(&case, forced)?;
+    let plan = case_file::plan(&case, arguments.fidelity)?;
     let simulates = plan.as_ref().is_none_or(Plan::needs_simulation);
+    let work = match simulates {
+        true => Work::motions(&case, &effort).and(Work::figures(&case)),
+        false => Work::default(),
+    };
+    let judges = !case.criteria.is_empty() || (simulates && case.band.is_some());
+    let along = if judges { Work::criteria(&case) } else { Work::default() };
+    arguments.long.allows(path, &case, &work.and(along))?;
     let progress = Progress::new(name, CaseStudy::steps(&effort) + FURTHER_STEPS);
     let study = if simulates {
         CaseStudy::of(&case.system(), effort, &mut |done| progress.advance(done))

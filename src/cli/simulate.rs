@@ -16,6 +16,7 @@ use vinesink::store;
 use vinesink::study::{self, LongTermMotions, StudyEffort};
 use vinesink::system::State;
 
+use super::budget::{Long, Work};
 use super::case_file::{CaseArgument, Format};
 use super::progress::Progress;
 use super::{Outcome, output};
@@ -45,6 +46,8 @@ pub struct Arguments {
     /// Write every impact of the measured window to this file
     #[arg(long, value_name = "FILE.csv")]
     impacts: Option<PathBuf>,
+    #[command(flatten)]
+    long: Long,
     /// Text for people or JSON for programs
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
@@ -64,6 +67,11 @@ const IMPACT_LIMIT: u64 = 200_000_000;
 pub fn run(arguments: Arguments) -> Result<Outcome> {
     let case = arguments.case.read()?;
     let effort = arguments.effort(&case);
+    let work = match arguments.initial {
+        Some(_) => Work::trajectory(&case, &effort),
+        None => Work::motions(&case, &effort).and(Work::trajectory(&case, &effort)),
+    };
+    arguments.long.allows(&arguments.case.path, &case, &work)?;
     let (motion, found) = match arguments.initial {
         Some(start) => (follow(&case, start, &effort, &arguments)?, None),
         None => {
@@ -82,7 +90,7 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
         Format::Text => output::print(summary::simulation(&case, &motion, found.as_ref()))?,
         Format::Json => {
             let document = SimulationDocument::new(&motion, found.as_ref(), &case.scales());
-            output::print_json(&document)?;
+            output::print_json(&document.with_warnings(case.warnings()))?;
         }
     }
     let doubts = motion.doubts();
@@ -111,6 +119,7 @@ fn follow(
     arguments: &Arguments,
 ) -> Result<Attractor> {
     let mut simulation = Simulation::new(&case.system(), start, 0.0).into_diagnostic()?;
+    let _progress = Progress::estimated("measuring", Work::trajectory(case, effort).seconds());
     let effort = Effort {
         discard: effort.left_out(&case.system()),
         periods: effort.periods,

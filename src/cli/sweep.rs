@@ -11,12 +11,13 @@ use std::time::Instant;
 use clap::{Args, Subcommand};
 use miette::{IntoDiagnostic, Result, miette};
 use rayon::iter::{IndexedParallelIterator as _, IntoParallelIterator as _, ParallelIterator as _};
-use vinesink::case::Case;
-use vinesink::store::{self, Shards};
+use vinesink::case::{Case, Layer};
+use vinesink::store::Shards;
 use vinesink::sweep::{Plan, parquet, work};
 
-use super::progress::Progress;
-use super::{Outcome, output};
+use super::budget::{Long, Work};
+use super::progress::{Progress, duration};
+use super::{Outcome, case_file, output};
 
 /// Work out every point of a case's table [sweep]
 ///
@@ -34,6 +35,8 @@ pub struct Arguments {
     /// Write nothing; say how many points there are and about how long they take
     #[arg(long)]
     dry_run: bool,
+    #[command(flatten)]
+    long: Long,
     #[command(flatten)]
     wanted: results::Wanted,
 }
@@ -135,9 +138,12 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
         (Some(Verb::Submit(arguments)), _) => submit::run(&arguments),
         (Some(Verb::Status(at)), _) => status(&Sweep::open(&at)?),
         (Some(Verb::Merge { sweep, wanted }), _) => Sweep::open(&sweep)?.merge(&wanted),
-        (None, Some(at)) if arguments.dry_run => estimate(&Sweep::open(&at)?),
         (None, Some(at)) => {
             let sweep = Sweep::open(&at)?;
+            sweep.is_ordinary(&at.case, arguments.long)?;
+            if arguments.dry_run {
+                return estimate(&sweep);
+            }
             sweep.work(&(0..sweep.plan.chunks()).collect::<Vec<_>>())?;
             sweep.merge(&arguments.wanted)
         }
@@ -158,8 +164,7 @@ struct Sweep {
 
 impl Sweep {
     fn open(at: &Where) -> Result<Self> {
-        let text = store::read_text(&at.case)?;
-        let case = Case::parse(&at.case.display().to_string(), &text)?;
+        let (case, text) = case_file::read_with_text(&at.case)?;
         let stem =
             at.case.file_stem().ok_or_else(|| miette!("{} is no file", at.case.display()))?;
         let plan = Plan::of(&case).ok_or_else(|| {
@@ -172,6 +177,13 @@ impl Sweep {
         Ok(Self { plan, case, case_text: text, folder: at.out.join(stem) })
     }
 
+    /// Whether each point takes as long as is ordinary, or more is asked for.
+    fn is_ordinary(&self, path: &Path, long: Long) -> Result<()> {
+        let simulates = self.plan.needs(Layer::Simulation);
+        let work = if simulates { Work::points(&self.plan) } else { Work::default() };
+        long.allows(path, &self.case, &work)
+    }
+
     fn shards(&self) -> Result<Shards> {
         Ok(Shards::open(&self.folder.join("chunks"), &self.plan.identity_of_chunks())?)
     }
@@ -180,7 +192,7 @@ impl Sweep {
     fn work(&self, chunks: &[u64]) -> Result<()> {
         let shards = self.shards()?;
         let points = |chunk: &u64| self.plan.chunk(*chunk).count() as u64;
-        let progress = Progress::with_rate("points", chunks.iter().map(points).sum());
+        let progress = Progress::new("points", chunks.iter().map(points).sum());
         let failure: Mutex<Option<miette::Report>> = Mutex::new(None);
         let stopped = || failure.lock().map_or(true, |failure| failure.is_some());
         // Each chunk on its own: in longer pieces a processor would be left with many at the end.
@@ -268,13 +280,16 @@ fn estimate(sweep: &Sweep) -> Result<Outcome> {
     let stretch = if plan.settings.follow { plan.points_per_chunk() } else { SAMPLE };
     let stretches = if plan.settings.follow { 1 } else { STRETCHES };
     let begin = Instant::now();
+    let progress = Progress::new("sample", stretches);
     let mut worked = 0;
     for k in 0..stretches {
         let from = (points - stretch.min(points)) * k / (STRETCHES - 1);
         let range = from..from + stretch.min(points);
         worked += range.end - range.start;
         work::points(plan, range).into_diagnostic()?;
+        progress.advance(1);
     }
+    drop(progress);
     let each = begin.elapsed().as_secs_f64() / worked.max(1) as f64;
     let threads = rayon::current_num_threads();
     let seconds = each * points as f64 / threads.min(plan.chunks() as usize).max(1) as f64;
@@ -284,12 +299,4 @@ fn estimate(sweep: &Sweep) -> Result<Outcome> {
         1e3 * each
     ))?;
     Ok(Outcome::Done)
-}
-
-fn duration(seconds: f64) -> String {
-    match seconds {
-        short if short < 120.0 => format!("{short:.0} s"),
-        some if some < 7200.0 => format!("{:.0} min", some / 60.0),
-        long => format!("{:.1} h", long / 3600.0),
-    }
 }

@@ -12,6 +12,7 @@ use vinesink::study::tradeoff::{Tradeoff, TradeoffEffort, Trial};
 use vinesink::study::{StudyEffort, StudyError};
 use vinesink::system::{State, System};
 
+use super::budget::{Long, Work};
 use super::case_file::{CaseArgument, Format};
 use super::progress::Progress;
 use super::{Outcome, index, output};
@@ -37,6 +38,8 @@ pub struct Arguments {
     /// Put seconds into the JSON document, which is then not the same twice
     #[arg(long)]
     seconds: bool,
+    #[command(flatten)]
+    long: Long,
 }
 
 const EXAMPLES: &str = "\
@@ -54,13 +57,19 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
     let system = case.system();
     let effort =
         TradeoffEffort { study: StudyEffort::of(&case.simulation), ..TradeoffEffort::default() };
-    let progress = Progress::new("layers", Tradeoff::steps(&effort));
+    let work = Work::motions(&case, &effort.study).and(Work::best_answer(&case));
+    arguments.long.allows(&arguments.case.path, &case, &work)?;
+    let timed = matches!(arguments.format, Format::Text) || arguments.seconds;
+    let steps = Tradeoff::steps(&effort);
+    // Each method once more on the clock; the starts are not.
+    let again = if timed { steps - u64::from(effort.study.starts) } else { 0 };
+    let progress = Progress::new("layers", steps + again);
     let found = Tradeoff::of(&system, &effort, &mut |done| progress.advance(done));
     let found = found.into_diagnostic()?;
     let asked = case.accuracy.and_then(|accuracy| accuracy.amplitude);
     let allowed = asked.unwrap_or(page::USUAL);
-    let timed = matches!(arguments.format, Format::Text) || arguments.seconds;
-    let seconds = if timed { seconds(&system, &found).into_diagnostic()? } else { Vec::new() };
+    let seconds =
+        if timed { seconds(&system, &found, &progress).into_diagnostic()? } else { Vec::new() };
     drop(progress);
     if let Some(out) = &arguments.out {
         let stem = arguments.case.path.file_stem();
@@ -83,8 +92,12 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
 }
 
 /// The shortest of several runs of each method, in seconds, in the order of the trials.
-fn seconds(system: &System, found: &Tradeoff) -> Result<Vec<f64>, StudyError> {
-    found.trials.iter().map(|trial| fastest(system, found.start, trial)).collect()
+fn seconds(system: &System, found: &Tradeoff, progress: &Progress) -> Result<Vec<f64>, StudyError> {
+    let timed = |trial| {
+        progress.advance(1);
+        fastest(system, found.start, trial)
+    };
+    found.trials.iter().map(timed).collect()
 }
 
 fn fastest(system: &System, start: State, trial: &Trial) -> Result<f64, StudyError> {

@@ -84,7 +84,7 @@ pub enum BranchEnd {
         /// Value of the parameter there.
         value: f64,
     },
-    /// So many points were asked for.
+    /// So many points were asked for, or each of them takes so much work.
     PointLimit {
         /// Last value of the parameter.
         value: f64,
@@ -114,6 +114,10 @@ pub struct Branch {
 /// Points after which a branch that neither ends nor closes is given up: with the largest step an
 /// arclength of a hundred clearances.
 const MOST_POINTS: usize = 2000;
+/// Radians of all points' flights, in the phase of the faster of structure and excitation, after which a
+/// branch is given up, as a point costs in their proportion: more than [`MOST_POINTS`] points of one
+/// excitation period near resonance, and a second or two where a period has a thousand oscillations.
+const MOST_RADIANS: f64 = 1e5;
 /// A fifth of the largest step: a branch may begin next to a bifurcation.
 const FIRST_STEP: f64 = 0.01;
 /// A twentieth of a clearance or radian: what a figure still shows as smooth, and short enough for
@@ -170,7 +174,9 @@ pub(super) fn trace(tracer: &Tracer, first: Point, origin: Origin, settings: &Se
     branch.points.extend(orbit.map(|orbit| BranchPoint { value: begin, orbit }));
     let mut here = first.clone();
     let mut step = settings.first_step;
-    while branch.points.len() < settings.most_points {
+    let mut radians = 0.0;
+    while branch.points.len() < settings.most_points && radians < MOST_RADIANS {
+        radians += tracer.radians(&here);
         let stepped = match tracer.at_edge(&here, step, settings.range) {
             Some((there, edge)) => Ok((there, step, Some(BranchEnd::Range { value: edge }))),
             None => tracer

@@ -77,6 +77,12 @@ impl<'a> Tracer<'a> {
         point.parameter * self.scale
     }
 
+    /// How long a point's flights take, in radians of the faster of structure and excitation.
+    pub fn radians(&self, point: &Point) -> f64 {
+        let frequency = self.base.frequency_ratio().max(1.0);
+        frequency * point.cycle.durations.iter().sum::<f64>()
+    }
+
     /// The impact map at a scaled parameter, and the derivatives of `gamma`, `Omega` and `r` by it.
     fn map(&self, scaled: f64) -> Option<(ImpactMap, [f64; 3])> {
         let value = scaled * self.scale;

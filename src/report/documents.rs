@@ -6,8 +6,9 @@
 
 use serde::Serialize;
 
+use super::criteria::Place;
 use crate::analysis::{Analysis, Area, Branch, FixedPoint, ManifoldPoint, Strip};
-use crate::case::Scales;
+use crate::case::{Problem, Scales};
 use crate::orbits::{
     AsymmetricOrbits, Bifurcation, Closure, FullSystem, Leading, Origin, SymmetricOrbit,
 };
@@ -39,6 +40,9 @@ pub struct AnalysisDocument {
     /// Which layer answered what; lengths over the clearance.
     #[serde(skip_serializing_if = "Option::is_none")]
     answers: Option<Answers>,
+    /// What is probably a slip in the case; left out where nothing is.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    warnings: Vec<Place>,
 }
 
 /// A symmetric 1:1 orbit of the full system.
@@ -165,6 +169,7 @@ impl AnalysisDocument {
                 .and_then(|found| found.asymmetric.as_ref())
                 .map(|found| AsymmetricDocument::new(found, scales)),
             answers: None,
+            warnings: Vec::new(),
         }
     }
 
@@ -172,6 +177,12 @@ impl AnalysisDocument {
     #[must_use]
     pub fn with_answers(self, answers: Option<Answers>) -> Self {
         Self { answers, ..self }
+    }
+
+    /// The same with what is probably a slip in the case.
+    #[must_use]
+    pub fn with_warnings(self, warnings: &[Problem]) -> Self {
+        Self { warnings: warnings.iter().map(Place::from).collect(), ..self }
     }
 }
 
@@ -263,6 +274,9 @@ pub struct SimulationDocument {
     /// Every long-term motion found, when no initial state was given.
     #[serde(skip_serializing_if = "Option::is_none")]
     attractors: Option<Vec<AttractorDocument>>,
+    /// What is probably a slip in the case; left out where nothing is.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    warnings: Vec<Place>,
 }
 
 /// A measured motion.
@@ -389,7 +403,14 @@ impl SimulationDocument {
                     .map(|(one, proof)| AttractorDocument::new(one, proof.as_ref(), scales))
                     .collect()
             }),
+            warnings: Vec::new(),
         }
+    }
+
+    /// The same with what is probably a slip in the case.
+    #[must_use]
+    pub fn with_warnings(self, warnings: &[Problem]) -> Self {
+        Self { warnings: warnings.iter().map(Place::from).collect(), ..self }
     }
 }
 

@@ -1,7 +1,8 @@
-//! Notes under the verdict: what was refuted, has not settled, or lies outside the theory's range.
+//! Notes under the verdict: what is probably a slip in the case, was refuted, has not settled, or lies outside the theory's range.
 
 use serde::Serialize;
 
+use super::criteria::Place;
 use super::numbers::{LengthFormat, fixed, percent, significant};
 use crate::case::Case;
 use crate::simulation::{Doubt, Stop};
@@ -13,7 +14,7 @@ use crate::validation::{Finding, Measure, Verdict};
 /// Something that must not be overlooked.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Note {
-    /// One of `refuted`, `unsettled`, `validity`, `numerics`.
+    /// One of `warning`, `refuted`, `unsettled`, `validity`, `numerics`.
     pub kind: &'static str,
     /// What.
     pub text: String,
@@ -23,6 +24,10 @@ pub struct Note {
 pub fn notes(case: &Case, study: &CaseStudy) -> Vec<Note> {
     let mut notes = Vec::new();
     let mut note = |kind, text: String| notes.push(Note { kind, text });
+    for Place { line, message, .. } in case.warnings().iter().map(Place::from) {
+        let end = if message.ends_with('?') { "" } else { "." };
+        note("warning", format!("Line {line} of the case: {message}{end}"));
+    }
     for claim in study.claims.iter().filter(|claim| claim.verdict == Verdict::Refuted) {
         note(
             "refuted",

@@ -13,6 +13,7 @@ use vinesink::sweep::columns::{self, Column};
 use vinesink::sweep::csv::Table;
 use vinesink::sweep::parquet::{Merger, Results};
 
+use super::super::progress::Progress;
 use super::super::{Outcome, index, output};
 use super::{Sweep, shown};
 
@@ -64,10 +65,12 @@ impl Sweep {
             ("vinesink.case".to_owned(), self.case_text.clone()),
         ];
         let mut merger = Merger::new(Growing::begin(path)?, empty, &notes).into_diagnostic()?;
+        let progress = Progress::new("chunks", self.plan.chunks());
         for chunk in 0..self.plan.chunks() {
             let file = shards.read(chunk)?;
             let which = || shown(&shards.path(chunk));
             merger.add(&file).into_diagnostic().wrap_err_with(which)?;
+            progress.advance(1);
         }
         Ok(merger.finish().into_diagnostic()?.finish()?)
     }

@@ -11,7 +11,7 @@ use clap::{Args, ValueEnum};
 use miette::Result;
 use vinesink::store;
 
-use super::{Outcome, Sweep, Where, output, shown};
+use super::{Long, Outcome, Sweep, Where, output, shown};
 use job::{Job, Submitted};
 
 /// Submit all chunks to the engine of a cluster, and the merge after them
@@ -24,6 +24,8 @@ use job::{Job, Submitted};
 pub struct Arguments {
     #[command(flatten)]
     sweep: Where,
+    #[command(flatten)]
+    long: Long,
     /// What runs the tasks
     #[arg(long, value_enum)]
     engine: Engine,
@@ -94,6 +96,7 @@ impl FromStr for Time {
 
 pub fn run(arguments: &Arguments) -> Result<Outcome> {
     let sweep = Sweep::open(&arguments.sweep)?;
+    sweep.is_ordinary(&arguments.sweep.case, arguments.long)?;
     let job = Job::of(arguments, &sweep)?;
     if arguments.dry_run {
         output::print(job.described())?;

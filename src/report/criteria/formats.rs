@@ -2,9 +2,11 @@
 
 use std::fmt::Write as _;
 
+use miette::Severity;
 use serde::Serialize;
 
 use super::{CriteriaDocument, CriterionRow, subject};
+use crate::case::Problem;
 use crate::report::figure::escape;
 
 /// What became of one case of several.
@@ -28,15 +30,35 @@ pub struct FailedCase {
     pub problems: Vec<Place>,
 }
 
-/// A place at which a case file is wrong.
+/// A place at which a case file is wrong, or probably is.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Place {
     /// The line, from 1.
     pub line: usize,
     /// The column in characters, from 1.
     pub column: usize,
-    /// What is wrong, and what was expected.
+    /// What is wrong, and what was expected or probably meant.
     pub message: String,
+}
+
+impl From<&Problem> for Place {
+    fn from(problem: &Problem) -> Self {
+        let Problem { line, column, message, expected, help, severity, .. } = problem;
+        let more = match severity {
+            Severity::Error => Some(expected),
+            Severity::Warning | Severity::Advice => help.as_ref(),
+        };
+        let more = more.map_or_else(String::new, |more| format!("; {more}"));
+        Self { line: *line, column: *column, message: format!("{message}{more}") }
+    }
+}
+
+impl Place {
+    fn annotation(&self, level: &str, file: &str, title: &str) -> String {
+        let Self { line, column, message } = self;
+        let message = escaped(message);
+        format!("::{level} file={file},line={line},col={column},title={title}::{message}\n")
+    }
 }
 
 impl FailedCase {
@@ -124,11 +146,9 @@ pub fn annotations(path: &str, checked: &Checked) -> String {
         Checked::Failed(failed) => {
             let title = property(&format!("{}: {FAILED}", failed.case));
             let path = property(path);
-            for Place { line, column, message } in &failed.problems {
-                let message = escaped(message);
-                let at = format!("line={line},col={column}");
-                let _ = writeln!(text, "::error file={path},{at},title={title}::{message}");
-            }
+            text.extend(
+                failed.problems.iter().map(|place| place.annotation("error", &path, &title)),
+            );
             if failed.problems.is_empty() {
                 let _ =
                     writeln!(text, "::error file={path},title={title}::{}", escaped(&failed.error));
@@ -136,6 +156,8 @@ pub fn annotations(path: &str, checked: &Checked) -> String {
             return text;
         }
     };
+    let (file, title) = (property(path), property(&document.case));
+    text.extend(document.warnings.iter().map(|place| place.annotation("warning", &file, &title)));
     for row in &document.criteria {
         let level = match (row.holds, row.near_limit) {
             (Some(true), false) => continue,

@@ -72,6 +72,9 @@ pub struct CriteriaDocument {
     pub case: String,
     /// Its title.
     pub title: String,
+    /// What is probably a slip in its file; left out where nothing is.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<Place>,
     /// Whether all hold.
     pub holds: bool,
     /// Whether the motion of an absorber that never wakes counts.
@@ -86,6 +89,7 @@ impl CriteriaDocument {
         Self {
             case: name.to_owned(),
             title: case.title.clone(),
+            warnings: case.warnings().iter().map(Place::from).collect(),
             holds: all_hold(judged),
             count_inactive: case.count_inactive,
             criteria: rows(case, judged),

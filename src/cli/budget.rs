@@ -1,0 +1,275 @@
+//! Work far beyond what is ordinary: said before it begins, and done only if it is asked for.
+
+use std::fmt;
+use std::path::Path;
+
+use clap::Args;
+use miette::{Result, miette};
+use vinesink::band::Band;
+use vinesink::case::Case;
+use vinesink::regimes::long_term::{self, left_out};
+use vinesink::study::StudyEffort;
+use vinesink::sweep::Plan;
+use vinesink::system::System;
+
+use super::progress::duration;
+
+/// Seconds that are ordinary: every shipped case takes a few.
+const ORDINARY: f64 = 60.0;
+/// Seconds for one excitation period, or for one oscillation of the structure where the period has several, of
+/// a trajectory alone: 1.3 us at frequency ratios of 0.001 to 0.1 and 1.6 us at 1 with four impacts a period,
+/// measured with `simulate --initial --periods` in the release profile on one core of an ARM server.
+const ALONE: f64 = 1.5e-6;
+/// The same side by side: 138 s for `check` of a band of 47 places, 8 starts and 400 periods of 1000 oscillations;
+/// near resonance it is a third.
+const SIDE_BY_SIDE: f64 = 0.9e-6;
+
+/// Places of a band that are simulated, about: even ones, and closer ones around the worst.
+const PLACES: u32 = 40;
+/// Designs that `optimize` holds against the whole band, about.
+const DESIGNS: u64 = 20;
+/// Windows that a motion is watched for which never repeats: twenty for a chaotic transient that may end, one
+/// measured, and longer ones while its averages drift, 2 + 4 + 8 + 16.
+const NEVER_REPEATS: u64 = 51;
+/// Periods in which a regime is recognised, at least once for each start.
+const RECOGNITION: u64 = 200;
+/// Periods of an analysis: 350 tell area Z1 from Z2 where closed form cannot, and the exact orbits with their
+/// boundaries take as long as 450, 7 s at a frequency ratio of 1e-4.
+const ANALYSIS: u64 = 800;
+/// Trajectories and periods of a figure that the case asks for: a diagram has 120 values, up and down.
+const FIGURE: [u64; 2] = [240, 350];
+/// Periods of the best answer of a trade-off.
+const BEST_ANSWER: u64 = 100_000;
+/// Points of a sweep that may take as long as other commands: how many there are is what the case asks for, and
+/// what `--dry-run` says.
+const POINTS: u64 = 60;
+
+/// Whether more than the ordinary is asked for.
+#[derive(Debug, Clone, Copy, Args)]
+pub struct Long {
+    /// Begin even where the work is far beyond what is ordinary
+    #[arg(long)]
+    long: bool,
+}
+
+impl Long {
+    /// Lets ordinary work pass, and any that is asked for.
+    pub fn allows(self, path: &Path, case: &Case, work: &Work) -> Result<()> {
+        let seconds = work.seconds();
+        if self.long || seconds <= ORDINARY {
+            return Ok(());
+        }
+        let slips = case.warnings().iter().filter_map(|warning| {
+            Some(format!("line {}: {}; ", warning.line, warning.help.as_ref()?))
+        });
+        Err(miette!(
+            help = format!("{}to do it all the same, add --long", slips.collect::<String>()),
+            "{} would take about {}{}",
+            path.display(),
+            duration(seconds),
+            work
+        ))
+    }
+}
+
+/// What a command simulates, as far as it is known before.
+#[derive(Debug, Default)]
+pub struct Work(Vec<Part>);
+
+/// Trajectories of one kind.
+#[derive(Debug)]
+struct Part {
+    /// How many, as factors with their names.
+    trajectories: Vec<(u64, &'static str)>,
+    periods: f64,
+    /// Oscillations of the structure in a period, or 1.
+    oscillations: f64,
+    /// Seconds for each of them.
+    each: f64,
+}
+
+impl Work {
+    /// Looking for all long-term motions of a case.
+    pub fn motions(case: &Case, effort: &StudyEffort) -> Self {
+        let each_start = effort.discard + effort.periods.min(RECOGNITION);
+        let longest = effort.periods.saturating_mul(NEVER_REPEATS);
+        let system = case.system();
+        Self(vec![
+            Part::alone(&system, vec![(effort.starts.into(), "starts")], each_start),
+            Part::alone(&system, vec![(1, "motion that may not repeat")], longest),
+        ])
+    }
+
+    /// One trajectory.
+    pub fn trajectory(case: &Case, effort: &StudyEffort) -> Self {
+        let periods = effort.discard.saturating_add(effort.periods);
+        Self(vec![Part::alone(&case.system(), vec![(1, "trajectory")], periods)])
+    }
+
+    /// Theory and exact orbits.
+    pub fn analysis(case: &Case) -> Self {
+        Self(vec![Part::alone(&case.system(), vec![(1, "trajectory")], ANALYSIS)])
+    }
+
+    /// A case's criteria, over its band if it has one.
+    pub fn criteria(case: &Case) -> Self {
+        Self(vec![Part::band(case, Vec::new())])
+    }
+
+    /// The search for the best design.
+    pub fn designs(case: &Case) -> Self {
+        Self(vec![Part::band(case, vec![(DESIGNS, "designs")])])
+    }
+
+    /// The figures that a case asks for.
+    pub fn figures(case: &Case) -> Self {
+        let [trajectories, periods] = FIGURE;
+        let counts = vec![(case.report.figures.len() as u64, "figures"), (trajectories, "values")];
+        Self(vec![Part::alone(&case.system(), counts, periods)])
+    }
+
+    /// The longest simulation of a trade-off.
+    pub fn best_answer(case: &Case) -> Self {
+        Self(vec![Part::alone(&case.system(), vec![(1, "trajectory")], BEST_ANSWER)])
+    }
+
+    /// Some points of a sweep.
+    pub fn points(plan: &Plan) -> Self {
+        let count = POINTS.min(plan.points());
+        let numbers = (0..count).map(|k| plan.points() / count * k);
+        let systems: Vec<System> = numbers.filter_map(|number| plan.point(number).system).collect();
+        let counts =
+            vec![(count, "points (of each sixty)"), (plan.settings.starts.into(), "starts")];
+        Self(vec![Part::side_by_side(&systems, counts, plan.settings.periods)])
+    }
+
+    /// Both.
+    pub fn and(mut self, other: Self) -> Self {
+        self.0.extend(other.0);
+        self
+    }
+
+    /// About how many seconds it takes.
+    pub fn seconds(&self) -> f64 {
+        self.0.iter().map(Part::seconds).sum()
+    }
+}
+
+impl Part {
+    fn alone(system: &System, trajectories: Vec<(u64, &'static str)>, periods: u64) -> Self {
+        let oscillations = oscillations(system);
+        Self { trajectories, periods: periods as f64, oscillations, each: ALONE }
+    }
+
+    fn band(case: &Case, mut trajectories: Vec<(u64, &'static str)>) -> Self {
+        let effort = long_term::Effort::default();
+        let systems: Vec<System> = match &case.band {
+            Some(settings) => {
+                let band = Band::of(&case.system(), settings);
+                band.places(PLACES).filter_map(|at| band.system(at).ok()).collect()
+            }
+            None => vec![case.system()],
+        };
+        trajectories.push((systems.len() as u64, "places"));
+        trajectories.push((effort.starts.into(), "starts"));
+        Self::side_by_side(&systems, trajectories, effort.periods)
+    }
+
+    /// Trajectories of which as many are of each system; periods and oscillations are averages.
+    fn side_by_side(
+        systems: &[System],
+        trajectories: Vec<(u64, &'static str)>,
+        measured: u64,
+    ) -> Self {
+        let periods = |system: &System| left_out(system).saturating_add(measured) as f64;
+        let count = systems.len().max(1) as f64;
+        let mean = |f: &dyn Fn(&System) -> f64| systems.iter().map(f).sum::<f64>() / count;
+        let total = mean(&|system| periods(system) * oscillations(system));
+        let periods = mean(&periods).max(1.0);
+        Self { trajectories, periods, oscillations: total / periods, each: SIDE_BY_SIDE }
+    }
+
+    fn seconds(&self) -> f64 {
+        let trajectories = self.trajectories.iter().map(|(count, _)| *count as f64);
+        trajectories.product::<f64>() * self.periods * self.oscillations * self.each
+    }
+}
+
+/// Oscillations of the structure in an excitation period, or 1 where it has less.
+fn oscillations(system: &System) -> f64 {
+    (1.0 / system.frequency_ratio()).max(1.0)
+}
+
+fn two_digits(value: f64) -> f64 {
+    format!("{value:.1e}").parse().unwrap_or(value)
+}
+
+/// ": ", and the part that takes longest.
+impl fmt::Display for Work {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let longest = self.0.iter().max_by(|a, b| a.seconds().total_cmp(&b.seconds()));
+        let Some(part) = longest else { return Ok(()) };
+        let counts = part.trajectories.iter().map(|(count, of)| format!("{count} {of} x "));
+        write!(f, ": {}{:.0} periods", counts.collect::<String>(), part.periods)?;
+        match part.oscillations {
+            few if few < 1.5 => Ok(()),
+            many => write!(f, " of about {} oscillations each", two_digits(many)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+
+    fn case(text: &str) -> Case {
+        Case::parse("case.toml", text).expect("a case")
+    }
+
+    fn all(case: &Case) -> [f64; 4] {
+        let motions = || Work::motions(case, &StudyEffort::of(&case.simulation));
+        let report = motions().and(Work::criteria(case)).and(Work::figures(case));
+        let tradeoff = motions().and(Work::best_answer(case));
+        let sweep = Plan::of(case).map_or(0.0, |plan| Work::points(&plan).seconds());
+        [report.seconds(), tradeoff.seconds(), Work::designs(case).seconds(), sweep]
+    }
+
+    /// Nothing that is shipped comes within a factor of three.
+    #[test]
+    fn shipped_cases_are_ordinary() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases");
+        let mut seen = 0;
+        for entry in fs::read_dir(folder).expect("the folder of cases") {
+            let path = entry.expect("an entry").path();
+            if path.extension().is_none_or(|extension| extension != "toml") {
+                continue;
+            }
+            let case = case(&fs::read_to_string(&path).expect("a text"));
+            let seconds = all(&case);
+            assert!(seconds.iter().all(|one| *one < ORDINARY / 3.0), "{path:?}: {seconds:?}");
+            seen += 1;
+        }
+        assert!(seen >= 14, "{seen}");
+    }
+
+    const REDUCED: &str = "title = \"t\"\nsource = \"s\"\n[reduced]\nmass_ratio = 0.015\n\
+        damping = 0.5\nrestitution = 0.6\nclearance = 1.0\nforcing = 4.0\n";
+
+    /// By hand: 8 starts of 600 periods and a motion of 51 windows of 1000, 1000 oscillations each.
+    #[test]
+    fn work_is_counted() {
+        let settings = "frequency_ratio = 0.001\n[simulation]\nstarts = 8\n";
+        let case = case(&format!("{REDUCED}{settings}"));
+        let work = Work::motions(&case, &StudyEffort::of(&case.simulation));
+        let oscillations = (8.0 * 600.0 + 51_000.0) * 1000.0;
+        assert!((work.seconds() / (oscillations * ALONE) - 1.0).abs() < 1e-12);
+        assert_eq!(
+            work.to_string(),
+            ": 1 motion that may not repeat x 51000 periods of about 1000 oscillations each"
+        );
+        // Above resonance it is the excitation that has to be followed.
+        let fast = self::case(&format!("{REDUCED}frequency_ratio = 1000.0\n"));
+        assert!((Work::analysis(&fast).seconds() / (800.0 * ALONE) - 1.0).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,300 @@
+//! Slips in a case are said, work far beyond what is ordinary is not begun, and long work shows progress.
+//!
+//! The truth is the slip itself: each case is a good one with one unit or one per cent sign changed.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Output;
+use std::time::Duration;
+
+use assert_cmd::Command;
+use tempfile::TempDir;
+use vinesink::case::Case;
+
+/// A footbridge whose mode lies in the middle of its band.
+const BRIDGE: &str = r#"title = "Footbridge mode 1, 2.1 Hz"
+source = "made up for this test"
+
+[oscillator]
+mass = "1200 kg"
+frequency = "2.1 Hz"
+damping_ratio = "0.4 %"
+
+[absorber]
+mass_ratio = "1.5 %"
+clearance = "50 mm"
+restitution = 0.6
+
+[excitation]
+kind = "force"
+amplitude = "250 N"
+frequency = "2.1 Hz"
+"#;
+const BAND: &str = "\n[band]\nfrom = \"1.9 Hz\"\nto = \"2.3 Hz\"\n";
+const CRITERIA: &str = "\n[criteria]\npeak_displacement = \"<= 8 mm\"\n";
+/// Hooke's way to the same structure: 4 pi^2 2.1^2 1200 N/m.
+const BY_STIFFNESS: [&str; 2] = ["frequency = \"2.1 Hz\"\nd", "stiffness = \"208.9 kN/m\"\nd"];
+const REDUCED: &str = "title = \"t\"\nsource = \"s\"\n[reduced]\nmass_ratio = 0.015\n\
+    damping = 0.5\nrestitution = 0.6\nclearance = 1.0\nforcing = 4.0\nfrequency_ratio = 1.0\n";
+
+/// A case with a slip in it.
+fn slipped(case: &str, from: &str, to: &str) -> String {
+    assert!(case.contains(from), "{from}");
+    case.replacen(from, to, 1)
+}
+
+/// Line, message and what was meant, of every warning.
+fn warnings(case: &str) -> Vec<(usize, String)> {
+    let case = Case::parse("case.toml", case).expect("a valid case");
+    let said = case.warnings().iter();
+    said.map(|one| (one.line, format!("{}; {}", one.message, one.help.as_deref().unwrap_or(""))))
+        .collect()
+}
+
+#[track_caller]
+fn one_warning(case: &str, line: usize, words: &[&str]) {
+    let said = warnings(case);
+    let [(at, text)] = said.as_slice() else { panic!("{said:?}") };
+    assert_eq!(*at, line, "{text}");
+    assert!(words.iter().all(|word| text.contains(word)), "{text}");
+}
+
+#[test]
+fn what_is_no_slip_is_not_warned_of() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases");
+    let entries = fs::read_dir(folder).expect("the folder of cases");
+    let paths = entries.map(|entry| entry.expect("an entry").path());
+    let cases: Vec<PathBuf> =
+        paths.filter(|path| path.extension() == Some("toml".as_ref())).collect();
+    assert!(cases.len() >= 14, "{cases:?}");
+    for path in cases {
+        assert_eq!(warnings(&fs::read_to_string(&path).expect("a text")), [], "{path:?}");
+    }
+    let fine = [
+        BRIDGE.to_owned(),
+        format!("{BRIDGE}{BAND}"),
+        REDUCED.to_owned(),
+        // A drive nineteen times as fast, a heavily damped structure, a large mass.
+        slipped(BRIDGE, "250 N\"\nfrequency = \"2.1 Hz", "250 N\"\nfrequency = \"40 Hz"),
+        slipped(BRIDGE, "damping_ratio = \"0.4 %\"", "damping_ratio = 0.2"),
+        slipped(BRIDGE, "mass_ratio = \"1.5 %\"", "mass_ratio = 0.5"),
+        // A limit of the theory, not a unit.
+        slipped(REDUCED, "mass_ratio = 0.015", "mass_ratio = 1e-9"),
+    ];
+    for case in fine {
+        assert_eq!(warnings(&case), [], "{case}");
+    }
+}
+
+#[test]
+fn frequencies_far_apart_name_the_slip() {
+    let kilohertz = slipped(BRIDGE, "frequency = \"2.1 Hz\"", "frequency = \"2.1 kHz\"");
+    // With a band the structure is alone against three frequencies; without, either may be the odd one.
+    let words = ["2.1 kHz, is 1000 times", "2.1 kHz for 2.1 Hz?"];
+    one_warning(&format!("{kilohertz}{BAND}"), 6, &words);
+    one_warning(&kilohertz, 17, &["1/1000 of", "2.1 Hz for 2.1 kHz?"]);
+    let drive = |unit: &str| {
+        slipped(BRIDGE, "N\"\nfrequency = \"2.1 Hz\"", &format!("N\"\nfrequency = \"{unit}\""))
+    };
+    one_warning(&drive("2.1 kHz"), 17, &["1000 times", "2.1 kHz for 2.1 Hz?"]);
+    // 126 turns per minute are 2.1 Hz.
+    one_warning(
+        &drive("126 Hz"),
+        17,
+        &["60 times", "126 Hz for as many turns per minute (2.1 Hz)?"],
+    );
+    one_warning(&drive("2.1 MHz"), 17, &["1000000 times", "check the units"]);
+    assert_eq!(warnings(&drive("62.9 Hz")), []);
+    one_warning(&drive("63.1 Hz"), 17, &["30 times"]);
+    one_warning(
+        &slipped(&format!("{BRIDGE}{BAND}"), "\"2.3 Hz\"", "\"2.3 kHz\""),
+        21,
+        &["2.3 kHz for 2.3 Hz?"],
+    );
+    let [from, to] = BY_STIFFNESS;
+    let by_stiffness = format!("{}{BAND}", slipped(BRIDGE, from, to));
+    assert_eq!(warnings(&by_stiffness), []);
+    one_warning(
+        &slipped(&by_stiffness, "kN/m", "MN/m").replace("208.9", "208900"),
+        6,
+        &["1000 times", "`stiffness` and `mass`"],
+    );
+    one_warning(
+        &slipped(REDUCED, "_ratio = 1.0", "_ratio = 31"),
+        9,
+        &["31 times", "1 is resonance"],
+    );
+}
+
+#[test]
+fn heavy_damping_names_the_slip() {
+    let ratio = |text: &str| {
+        slipped(BRIDGE, "damping_ratio = \"0.4 %\"", &format!("damping_ratio = {text}"))
+    };
+    one_warning(&ratio("40"), 7, &["= 40 means 4000 %", "was 0.4 % (0.004) or 40 % meant?"]);
+    one_warning(&ratio("0.4"), 7, &["means 40 %", "was 0.4 % (0.004) meant?"]);
+    one_warning(&ratio("\"40 %\""), 7, &["means 40 %", "was 0.4 % (0.004) meant?"]);
+    // Critical damping is 2 sqrt(k m) = 4 pi 2.1 1200 N s/m = 31.7 kN s/m.
+    let newtons = slipped(BRIDGE, "damping_ratio = \"0.4 %\"", "damping = \"126.7 kN s/m\"");
+    one_warning(&newtons, 7, &["a damping ratio of 400 %", "31700 N s/m"]);
+    one_warning(
+        &slipped(REDUCED, "damping = 0.5", "damping = 400"),
+        5,
+        &["300 %", "damping = 1.33"],
+    );
+}
+
+#[test]
+fn masses_that_are_no_absorber_name_the_slip() {
+    let mass = |text: &str| slipped(BRIDGE, "mass_ratio = \"1.5 %\"", text);
+    one_warning(&mass("mass_ratio = 1.5"), 10, &["1.5 times", "was 1.5 % (0.015) meant?"]);
+    one_warning(&mass("mass = \"18000 kg\""), 10, &["15 times", "units of both masses"]);
+    one_warning(&mass("mass = \"1 mg\""), 10, &["8.33e-10 times", "units of both masses"]);
+}
+
+fn written(folder: &TempDir, case: &str) -> String {
+    let path = folder.path().join("case.toml");
+    fs::write(&path, case).expect("a file");
+    path.to_str().expect("UTF-8").to_owned()
+}
+
+/// Runs the program with lines of progress `seconds` apart.
+fn vinesink(arguments: &[&str], seconds: &str) -> Output {
+    let mut command = Command::cargo_bin("vinesink").expect("the program");
+    // Work that is begun all the same takes minutes.
+    command
+        .args(arguments)
+        .env("VINESINK_PROGRESS_SECONDS", seconds)
+        .timeout(Duration::from_secs(60));
+    command.output().expect("it runs")
+}
+
+/// Standard error in one line.
+fn said(output: &Output) -> String {
+    let text = String::from_utf8_lossy(&output.stderr).into_owned();
+    text.split(['\n', '│', ' ']).filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ")
+}
+
+const NEVER: &str = "3600";
+
+#[test]
+fn a_slip_of_a_unit_is_refused_at_once() {
+    let folder = TempDir::new().expect("a folder");
+    let slip = slipped(BRIDGE, "frequency = \"2.1 Hz\"", "frequency = \"2.1 kHz\"");
+    let case = written(&folder, &format!("{slip}{BAND}{CRITERIA}"));
+    let out = folder.path().join("reports");
+    let out = out.to_str().expect("UTF-8");
+    let commands: [&[&str]; 5] =
+        [&["check"], &["simulate"], &["report", "--out", out], &["optimize"], &["tradeoff"]];
+    for command in commands {
+        let output = vinesink(&[command, &[&case]].concat(), NEVER);
+        let said = said(&output);
+        assert_eq!(output.status.code(), Some(2), "{command:?}: {said}");
+        let words = ["would take about", " min", " s:", "periods of about 1000 oscillations each"];
+        let found: Vec<bool> = words.iter().map(|word| said.contains(word)).collect();
+        assert!(found[0] && (found[1] || found[2]) && found[3], "{command:?}: {said}");
+        for word in ["⚠", "help: line 6: 2.1 kHz for 2.1 Hz?; to do it all the same, add --long"]
+        {
+            assert!(said.contains(word), "{command:?}: {said}");
+        }
+    }
+    // The theory has no oscillations to count.
+    let output = vinesink(&["analyze", &case], NEVER);
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+}
+
+#[test]
+fn many_periods_are_begun_only_when_asked_for() {
+    let folder = TempDir::new().expect("a folder");
+    let settings = "\n[simulation]\nperiods = 1_000_000\nstarts = 32\n";
+    let case = written(&folder, &format!("{BRIDGE}{settings}"));
+    let output = vinesink(&["simulate", &case], NEVER);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        said(&output).contains("51000000 periods help: to do it all the same"),
+        "{}",
+        said(&output)
+    );
+    let output = vinesink(&["sweep", &case, "--long"], NEVER);
+    assert!(said(&output).contains("does not say what to vary"), "{}", said(&output));
+    let slow = slipped(REDUCED, "_ratio = 1.0", "_ratio = 1e-5");
+    let axis = "[sweep]\nclearance = { from = 1.0, to = 2.0, count = 4 }\n";
+    let case = written(&folder, &format!("{slow}{axis}"));
+    for more in [&["--dry-run"][..], &[]] {
+        let output = vinesink(&[&["sweep", &case], more].concat(), NEVER);
+        assert_eq!(output.status.code(), Some(2), "{}", said(&output));
+        assert!(said(&output).contains("4 points"), "{}", said(&output));
+    }
+}
+
+#[test]
+fn what_was_asked_for_is_begun() {
+    let folder = TempDir::new().expect("a folder");
+    // One start, one value: the window of a motion that might never repeat is what would take long, and
+    // this one repeats.
+    let text = "[accuracy]\ncoexistence = true\n[simulation]\nperiods = 1_000_000\nstarts = 1\n";
+    let case = written(&folder, &format!("{BRIDGE}\n{text}").replace("50 mm", "20 mm"));
+    let refused = vinesink(&["analyze", &case], NEVER);
+    assert_eq!(refused.status.code(), Some(2), "{}", said(&refused));
+    let done = vinesink(&["analyze", &case, "--long"], NEVER);
+    assert_eq!(done.status.code(), Some(0), "{}", said(&done));
+    assert_eq!(said(&done), "");
+}
+
+#[test]
+fn warnings_are_carried_in_documents_and_reports() {
+    let folder = TempDir::new().expect("a folder");
+    let case = slipped(BRIDGE, "damping_ratio = \"0.4 %\"", "damping_ratio = 40");
+    let case = written(&folder, &format!("{case}{CRITERIA}"));
+    for command in ["analyze", "simulate", "check"] {
+        let output = vinesink(&[command, &case, "--format", "json"], NEVER);
+        let said = said(&output);
+        assert!(said.contains("⚠") && said.contains("damping_ratio = 40"), "{command}: {said}");
+        let document: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+        let warnings = match command {
+            "check" => &document["cases"][0]["warnings"],
+            _ => &document["warnings"],
+        };
+        assert_eq!(warnings[0]["line"], 7, "{command}: {document}");
+        let message = warnings[0]["message"].as_str().expect("a text");
+        assert!(message.ends_with("was 0.4 % (0.004) or 40 % meant?"), "{command}: {message}");
+    }
+    let github = vinesink(&["check", &case, "--format", "github"], NEVER);
+    let annotations = String::from_utf8_lossy(&github.stdout).into_owned();
+    assert!(
+        annotations.contains("::warning file=") && annotations.contains(",line=7,col=17,"),
+        "{annotations}"
+    );
+    let out = folder.path().join("reports");
+    let output = vinesink(&["report", &case, "--out", out.to_str().expect("UTF-8")], NEVER);
+    assert!(output.status.code().is_some_and(|code| code < 2), "{}", said(&output));
+    let page = fs::read_to_string(out.join("case/report.md")).expect("a report");
+    let note =
+        page.lines().position(|line| line.starts_with("- **Warning**: Line 7 of the case: "));
+    assert!(note.is_some_and(|line| line < 12), "{page}");
+}
+
+/// With no time between lines every step has one, whatever the machine.
+#[test]
+fn long_work_says_how_far_it_is() {
+    let folder = TempDir::new().expect("a folder");
+    let axis = "\n[sweep]\nclearance = { from = \"20 mm\", to = \"30 mm\", count = 3 }\n";
+    let case = written(&folder, &format!("{BRIDGE}{axis}\n[simulation]\nstarts = 4\n"));
+    let out = folder.path().to_str().expect("UTF-8");
+    let commands: [(&[&str], &str); 4] = [
+        (&["simulate"], "simulating: 4 of 4, ending"),
+        (&["report", "--out", out], "case: 4 of 14, about"),
+        (&["tradeoff", "--format", "json"], "layers: 4 of"),
+        (&["sweep", "--dry-run"], "sample: 8 of 8, ending"),
+    ];
+    for (command, line) in commands {
+        let arguments = [command, &[&case]].concat();
+        let [shown, silent] = ["0", NEVER].map(|seconds| vinesink(&arguments, seconds));
+        let text = String::from_utf8_lossy(&shown.stderr).into_owned();
+        assert!(text.lines().any(|said| said.starts_with(line)), "{command:?}: {text}");
+        assert_eq!(silent.stderr, b"", "{command:?}");
+        if command[0] != "sweep" {
+            assert_eq!(shown.stdout, silent.stdout, "{command:?}: results are their own");
+        }
+    }
+}
