@@ -601,7 +601,7 @@ fn a_report_of_another_case_text_is_out_of_date() {
     fs::write(&case, "b = 2").expect("written");
     let told = |arguments: &[&str]| {
         let printed = diff(path, arguments, 1);
-        let head = "## 0 of 1 report changed\n\n1 report out of date. 1 report is the same. ";
+        let head = "## 1 report out of date\n\n1 report is the same. ";
         assert!(printed.starts_with(head), "{printed}");
         printed
     };
@@ -659,7 +659,7 @@ fn a_report_of_another_version_is_out_of_date() {
     );
     assert!(printed.contains(&command), "{printed}");
     assert!(
-        printed.starts_with("## 0 of 2 reports changed\n\n2 reports out of date. "),
+        printed.starts_with("## 2 reports out of date\n\n2 reports are the same. "),
         "{printed}"
     );
 }
