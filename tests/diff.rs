@@ -511,22 +511,20 @@ reduction_db_tmd = ">= -3 dB"
 "#;
 
 /// Writes `cases/beam.toml` and, into `reports`, its report.
-fn beam(folder: &Path, clearance: &str, reports: Option<&str>) {
+fn beam(folder: &Path, clearance: &str, reports: &str) {
     fs::create_dir_all(folder.join("cases")).expect("a folder");
     let case = BAND.replace("50 mm", clearance);
     fs::write(folder.join("cases/beam.toml"), case).expect("written");
-    if let Some(reports) = reports {
-        let output = vinesink(folder, &["report", "cases/beam.toml", "--out", reports]);
-        assert!(output.status.success(), "{}", text(&output.stderr));
-    }
+    let output = vinesink(folder, &["report", "cases/beam.toml", "--out", reports]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
 }
 
 /// One changed number, with all that follows from it: forty lines are read, the rest is folded.
 #[test]
 fn one_changed_clearance_is_read_in_forty_lines() {
     let folder = tempfile::tempdir().expect("a folder");
-    beam(folder.path(), "50 mm", Some("old"));
-    beam(folder.path(), "60 mm", Some("reports"));
+    beam(folder.path(), "50 mm", "old");
+    beam(folder.path(), "60 mm", "reports");
     let printed = diff(folder.path(), &["old", "reports"], 1);
     let (read, folded) = printed.split_once("<details>").expect("a fold");
     assert!(read.lines().count() <= 40, "{} lines\n{read}", read.lines().count());
@@ -555,7 +553,7 @@ fn rounding_never_appears() {
             Value::Array(items) => items.iter_mut().for_each(|item| round(item, count)),
             Value::Number(number) if number.is_f64() => {
                 *count += 1;
-                let sign = if *count % 2 == 0 { 1.0 } else { -1.0 };
+                let sign = if count.is_multiple_of(2) { 1.0 } else { -1.0 };
                 *value = json!(value.as_f64().expect("a number") * (1.0 + sign * 1e-13));
             }
             _ => {}
@@ -586,55 +584,61 @@ fn rounding_never_appears() {
 /// A case that was edited after its report: the report is named, and what to do.
 #[test]
 fn a_report_of_another_case_text_is_out_of_date() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path();
-    beam(path, "50 mm", Some("reports"));
-    copy(&path.join("reports"), &path.join("old"));
-    let same = "No change: 1 report is the same within their errors.\n";
-    assert_eq!(diff(path, &["old", "reports"], 0), same);
-    beam(path, "60 mm", None);
+    let folder = two_trees(&[STEADY]);
+    let (path, file) = (folder.path(), format!("{STEADY}.toml"));
+    let hash = |text: &str| vinesink::digest::sha256(text.as_bytes());
+    let reported = |side: &str, text: &str| {
+        edit_side(&folder, side, STEADY, |report| {
+            report["provenance"]["case_sha256"] = json!(hash(text));
+        });
+    };
+    reported("old", "b = 1");
+    reported("new", "b = 1");
+    fs::create_dir(path.join("cases")).expect("a folder");
+    let case = path.join("cases").join(&file);
+    fs::write(&case, "b = 1").expect("written");
+    diff(path, &["old", "new"], 0);
+    fs::write(&case, "b = 2").expect("written");
     let told = |arguments: &[&str]| {
         let printed = diff(path, arguments, 1);
-        assert!(printed.contains("\n\n1 report out of date. "), "{printed}");
-        assert!(printed.contains("\n**Out of date**\n"), "{printed}");
+        let head = "## 1 report out of date\n\n1 report is the same. ";
+        assert!(printed.starts_with(head), "{printed}");
         printed
     };
-    let line =
-        "- `reports/beam/report.json` was made from another text of `cases/beam.toml` (SHA-256 ";
-    let command = "run `vinesink report cases/beam.toml --out reports`.";
-    for arguments in [
-        ["old", "reports"],
-        ["old/beam", "reports/beam"],
-        ["old/beam/report.json", "reports/beam/report.json"],
-    ] {
+    let [old, new] = ["old", "new"].map(|side| format!("{side}/{STEADY}"));
+    let files = [&old, &new].map(|report| format!("{report}/report.json"));
+    for arguments in [["old", "new"], [&old, &new], [&files[0], &files[1]]] {
         let printed = told(&arguments);
-        assert!(printed.contains(line) && printed.contains(command), "{printed}");
+        let [was, is] = [hash("b = 1"), hash("b = 2")];
+        let line = format!(
+            "\n**Out of date**\n\n- `{new}/report.json` was made from another text of `cases/{file}` (SHA-256 {}…, the file has {}…): run `vinesink report cases/{file} --out new`.\n",
+            &was[..8],
+            &is[..8]
+        );
+        assert!(printed.contains(&line), "{line}{printed}");
     }
-    let json: Value = serde_json::from_str(&diff(path, &["old", "reports", "--format", "json"], 1))
-        .expect("JSON");
-    let stale = &json["stale"][0];
-    assert_eq!(
-        (&stale["side"], &stale["reason"]),
-        (&json!("new"), &json!("case-text")),
-        "{json:#}"
-    );
-    assert_eq!(
-        stale["current"],
-        json!(vinesink::digest::sha256(BAND.replace("50 mm", "60 mm").as_bytes()))
-    );
-    // Cases of another name of folder, of none, and where no report's case is.
-    fs::rename(path.join("cases"), path.join("designs")).expect("renamed");
-    assert_eq!(diff(path, &["old", "reports"], 0), same);
-    assert!(told(&["old", "reports", "--cases", "designs"]).contains("`designs/beam.toml`"));
-    let none = refused(path, &["old", "reports", "--cases", "nowhere"]);
-    assert!(none.contains("`nowhere` has the case of none of these reports"), "{none}");
-    // Beside its report, the case is found from elsewhere as well.
-    fs::rename(path.join("designs"), path.join("cases")).expect("renamed");
+    let printed = diff(path, &["old", "new", "--format", "json"], 1);
+    let json: Value = serde_json::from_str(&printed).expect("JSON");
+    assert_eq!(json["stale"].as_array().map(Vec::len), Some(1), "{json:#}");
+    let (stale, current) = (&json["stale"][0], json!(hash("b = 2")));
+    assert_eq!((&stale["reason"], &stale["current"]), (&json!("case-text"), &current));
+    // From elsewhere the case is found beside its report.
     fs::create_dir(path.join("elsewhere")).expect("a folder");
-    diff(&path.join("elsewhere"), &["../old", "../reports"], 1);
-    // Written again, it is not out of date.
-    beam(path, "60 mm", Some("reports"));
-    assert!(!diff(path, &["old", "reports"], 1).contains("Out of date"));
+    diff(&path.join("elsewhere"), &["../old", "../new"], 1);
+    // Cases in a folder of another name, and where no report's case is.
+    fs::rename(path.join("cases"), path.join("designs")).expect("renamed");
+    diff(path, &["old", "new"], 0);
+    let named = told(&["old", "new", "--cases", "designs"]);
+    assert!(named.contains(&format!("`designs/{file}`")), "{named}");
+    let none = refused(path, &["old", "new", "--cases", "nowhere"]);
+    assert!(none.contains("`nowhere` has the case of none of these reports"), "{none}");
+    // The old one is an earlier version of the design, unless it has a case of its own.
+    reported("new", "b = 2");
+    diff(path, &["old", "new", "--cases", "designs"], 0);
+    fs::create_dir(path.join("old/cases")).expect("a folder");
+    fs::copy(path.join("designs").join(&file), path.join("old/cases").join(&file)).expect("copied");
+    fs::rename(path.join("designs"), path.join("cases")).expect("renamed");
+    assert!(told(&["old", "new"]).contains(&format!("of `old/cases/{file}`")));
 }
 
 #[test]
@@ -655,7 +659,7 @@ fn a_report_of_another_version_is_out_of_date() {
     );
     assert!(printed.contains(&command), "{printed}");
     assert!(
-        printed.starts_with("## 0 of 2 reports changed\n\n2 reports out of date. "),
+        printed.starts_with("## 2 reports out of date\n\n2 reports are the same. "),
         "{printed}"
     );
 }

@@ -120,6 +120,10 @@ fn a_case_with_a_band_is_judged_over_the_band() {
             !page.contains("11.7 mm |") && !page.contains(">11.7 mm<") && !page.contains("Mixed.")
         );
     }
+    let compared = html.split("<section").nth(1).expect("the comparison");
+    let row = compared.split("<th scope=\"row\">With absorber, over the band</th>").nth(1);
+    let row = row.and_then(|row| row.split("</tr>").next()).expect("a row of the comparison");
+    assert!(row.contains(">14.7 mm</td>"), "{row}");
     // No figure is too small to be read.
     assert!(!markdown.contains("<img") && !table.contains("<img"));
     // Where nothing limits the structure alone, and where a report lacks the rest.

@@ -117,12 +117,16 @@ fn head(difference: &Difference) -> String {
         0 => String::new(),
         equal => format!("{} the same. ", counted(equal, "report is", "reports are")),
     };
-    format!(
-        "## {significant} of {} changed\n\n{parts}. {equal}Old: `{}`, new: `{}`.\n",
-        counted(difference.compared, "report", "reports"),
-        difference.old,
-        difference.new,
-    )
+    let title = match significant {
+        0 => parts,
+        _ => {
+            let reports = counted(difference.compared, "report", "reports");
+            format!("{significant} of {reports} changed\n\n{parts}.")
+        }
+    };
+    let Difference { old, new, .. } = difference;
+    let end = if significant == 0 { "\n\n" } else { " " };
+    format!("## {title}{end}{equal}Old: `{old}`, new: `{new}`.\n")
 }
 
 /// Reports that are out of date: which, what differs, what to do. Those of one version are one line.

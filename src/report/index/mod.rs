@@ -280,7 +280,8 @@ fn summary(members: &[Member]) -> String {
     format!("{} {cases}: {}.", members.len(), kinds.join(", "))
 }
 
-/// Every quantity that a case has, in the order of the reports, with each case's value.
+/// What is known along bands, then every quantity that a case has, in the order of the reports, with each
+/// case's value.
 fn comparison(members: &[Member]) -> Vec<Comparison> {
     let mut quantities: Vec<&str> = Vec::new();
     for member in members {
@@ -305,7 +306,15 @@ fn comparison(members: &[Member]) -> Vec<Comparison> {
         quantity: quantity.to_owned(),
         values: members.iter().map(|member| value(member, quantity)).collect(),
     };
-    quantities.into_iter().map(row).collect()
+    let along_band = COLUMNS.iter().filter_map(|column| {
+        let value = |member: &Member| member.summary.band.as_ref().and_then(column.along_band);
+        let values: Vec<Option<String>> = members.iter().map(value).collect();
+        values.iter().any(Option::is_some).then(|| Comparison {
+            quantity: format!("{}, over the band", column.title),
+            values: values.into_iter().map(|value| value.unwrap_or(NOTHING.to_owned())).collect(),
+        })
+    });
+    along_band.chain(quantities.into_iter().map(row)).collect()
 }
 
 fn common_name(quantity: &str) -> &str {
