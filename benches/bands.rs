@@ -57,7 +57,7 @@ fn main() {
     compared(
         "areas of the theory along a band, ends to 1e-9",
         timed(20, || theory::zones(black_box(&band))),
-        "a scan with the certified solution, ends to 1e-3,",
+        "a scan with the whole analysis, ends to 1e-3,",
         timed(1, || share(&|one| Analysis::of(one).is_ok_and(|there| there.zone.is_z3()))),
     );
     compared(

@@ -1,8 +1,7 @@
 //! What a layer costs, in operations: the same number on every machine.
 //!
 //! An **operation** is one addition, multiplication, division or square root of floating-point
-//! numbers. An elementary function counts as [`ELEMENTARY`] of them, one step of rational arithmetic
-//! as [`EXACT`]. The operations of a function are counted in its source, where its call is noted;
+//! numbers. An elementary function counts as [`ELEMENTARY`] of them. The operations of a function are counted in its source, where its call is noted;
 //! comparisons, memory and allocation are not counted, nor is anything that happens once. The count
 //! is good for comparing layers that differ tenfold or more, and says nothing of vector
 //! instructions; `vinesink tradeoff` shows the time that an operation took beside it.
@@ -14,9 +13,6 @@ use std::cell::Cell;
 /// Operations that a sine, cosine, exponential, logarithm or arctangent stands for: a polynomial of
 /// some ten terms and the reduction of its argument.
 pub const ELEMENTARY: u64 = 20;
-/// Operations that an addition or multiplication of rationals with some hundred digits stands for:
-/// products of long integers and a greatest common divisor, measured against the others.
-pub const EXACT: u64 = 1000;
 
 thread_local! {
     static OPERATIONS: Cell<u64> = const { Cell::new(0) };

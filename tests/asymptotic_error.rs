@@ -104,21 +104,18 @@ fn errors_by_exact_orbit(system: &System) -> [f64; 4] {
 fn errors_of_boundaries(system: &System) -> BTreeMap<Bifurcation, f64> {
     let theory = Analysis::of(system).expect("analysable").boundaries;
     let exact = SymmetricFamily::of(system).expect("damped");
-    let node = |forcing: f64| {
-        let nodes = theory.saddle_nodes.iter().map(|node| node.forcing_over_clearance);
-        nodes.min_by(|a, b| (a - forcing).abs().total_cmp(&(b - forcing).abs())).expect("one")
-    };
-    let of_theory = |kind, forcing| match kind {
+    let node = theory.saddle_node.expect("one").forcing_over_clearance;
+    let of_theory = |kind| match kind {
         Bifurcation::SymmetryBreaking => Some(theory.symmetry_breaking),
         Bifurcation::NeimarkSacker => Some(theory.hopf),
-        Bifurcation::SaddleNode => Some(node(forcing)),
+        Bifurcation::SaddleNode => Some(node),
         _ => None,
     };
     let limits = exact.limits.iter();
     limits
         .filter_map(|limit| {
             let exact = limit.forcing_over_clearance;
-            Some((limit.kind, of_theory(limit.kind, exact)? / exact - 1.0))
+            Some((limit.kind, of_theory(limit.kind)? / exact - 1.0))
         })
         .collect()
 }

@@ -1,13 +1,13 @@
 //! What the program derives, against what was derived by hand, and against published numbers.
 
 use std::f64::consts::PI;
-use vinesink::equations::{Equations, Programs, equations};
+use vinesink::equations::{Equations, Programs, Quadratic, equations};
 use vinesink::simulation::contact::rebound;
 use vinesink::simulation::flow::Oscillator;
 use vinesink::symbolic::Symbol::{
-    AbsorberAmplitude, AbsorberPhase, AmplitudeRatio, Clearance, Damping, Detuning,
-    ExcitationPhase, FirstHarmonic, ForcingPerClearance, ManifoldCurvature, OscillatorAmplitude,
-    ReducedForcing, Restitution, RestitutionRatio, Shift,
+    AbsorberAmplitude, AbsorberPhase, AmplitudeRatio, Clearance, Damping, Detuning, Discriminant,
+    ExcitationPhase, FirstHarmonic, ForcingPerClearance, ForcingSquare, ManifoldCurvature,
+    OscillatorAmplitude, ReducedForcing, Restitution, RestitutionRatio, Shift,
 };
 use vinesink::symbolic::{Expr, Symbol, Values, to_mathml};
 use vinesink::system::{Excitation, Parameters, System};
@@ -22,6 +22,21 @@ fn assert_close(found: f64, expected: f64, relative: f64) {
 
 fn number(expression: &Expr, values: &Values) -> f64 {
     expression.evaluate(values).expect("all symbols have values")
+}
+
+fn quadratic(case: Case) -> Quadratic {
+    programs().quadratic(&case.values()).expect("set")
+}
+
+/// `gamma` that holds a point of the manifold.
+fn forcing(point: &Values) -> f64 {
+    libm::sqrt(number(&equations().fixed_points.forcing_squared, point))
+}
+
+/// `eta` of a fixed point.
+fn phase(point: &Values) -> f64 {
+    let [sine, cosine] = programs().sides(point).expect("set");
+    libm::atan2(sine, cosine)
 }
 
 fn programs() -> &'static Programs {
@@ -59,18 +74,17 @@ const CASES: [Case; 8] = [
 struct Hand {
     damping: f64,
     detuning: f64,
-    forcing: f64,
     curvature: f64,
     m: f64,
     k: f64,
 }
 
 impl Hand {
-    fn of(Case(r, damping, detuning, forcing): Case) -> Self {
+    fn of(Case(r, damping, detuning, _): Case) -> Self {
         let rho = (1.0 - r) / (1.0 + r);
         let curvature = 4.0 * rho * rho / (PI * PI);
         let (m, k) = (8.0 / (PI * PI), 16.0 * rho / (PI * PI * PI));
-        Self { damping, detuning, forcing, curvature, m, k }
+        Self { damping, detuning, curvature, m, k }
     }
 
     /// `c_2` by powers of `beta`.
@@ -93,10 +107,12 @@ impl Hand {
         sum
     }
 
-    fn quartic(&self) -> [f64; 5] {
-        let (mut sum, c) = (self.numerator(), self.square());
-        (0..3).for_each(|power| sum[power] -= self.forcing * self.forcing * c[power]);
-        sum
+    /// `gamma^2` of a fixed point at `beta`, by squaring and adding.
+    fn forcing_squared(&self, beta: f64) -> f64 {
+        let square = (1.0 - beta) * (1.0 - beta) + self.curvature * beta * beta;
+        let sine = self.damping * square + self.k * beta * beta;
+        let cosine = self.m * beta * (1.0 - beta) - 2.0 * self.detuning * square;
+        (sine * sine + cosine * cosine) / square
     }
 }
 
@@ -169,48 +185,72 @@ fn manifold_relations_hold_in_any_unit_of_length() {
     }
 }
 
+/// The two conditions, multiplied by C, squared and added by hand, are a quartic in beta; it is
+/// `c_2` times the quadratic, coefficient by coefficient, with the quadratic as PHYSICS writes it.
 #[test]
-fn quartic_coefficients_agree_with_those_derived_by_hand() {
+fn squaring_the_two_conditions_gives_the_manifold_times_the_quadratic() {
     for case in CASES {
-        let found = programs().fixed_point_coefficients_by_ratio(&case.values()).expect("set");
-        for (found, expected) in found.into_iter().zip(Hand::of(case).quartic()) {
+        let hand = Hand::of(case);
+        let (quadratic, square) = (quadratic(case).coefficients, hand.square());
+        let mut product = [0.0; 5];
+        for i in 0..3 {
+            for j in 0..3 {
+                product[i + j] += quadratic[i] * square[j];
+            }
+        }
+        for (found, expected) in product.into_iter().zip(hand.numerator()) {
             // The hand-derived sums hold terms up to 16 sigma^2, which cancel in part.
             assert_close(found, expected, 1e-12);
         }
-    }
-}
-
-#[test]
-fn the_shifted_quartic_is_the_same_polynomial() {
-    for case in CASES {
-        let values = case.values();
-        let by_shift = programs().fixed_point_coefficients(&values).expect("set");
-        let by_ratio = programs().fixed_point_coefficients_by_ratio(&values).expect("set");
-        let hand = Hand::of(case);
-        let (l, s) = (hand.damping * hand.curvature + hand.k, 2.0 * hand.detuning * hand.curvature);
-        let constant = l * l + s * s - hand.forcing * hand.forcing * hand.curvature;
-        assert_close(by_shift[0], constant, ROUNDING);
-        for step in -20..=20 {
-            let u = 0.1 * f64::from(step);
-            let size: f64 = by_ratio.iter().map(|c| c.abs()).sum::<f64>() * 81.0;
-            let difference = horner(&by_shift, u) - horner(&by_ratio, 1.0 + u);
-            // Horner's rule errs by a few units in the last place of the sum of sizes, 3^4 = 81.
-            assert!(difference.abs() < 1e-15 * 8.0 * size, "{case:?} {u}");
+        let Case(r, lambda, sigma, _) = case;
+        let (rho, s) = ((1.0 - r) / (1.0 + r), sigma * sigma + 0.25 * lambda * lambda);
+        let expected = [
+            4.0 * s,
+            -(8.0 * s + 32.0 * sigma / (PI * PI)),
+            4.0 * s * (1.0 + hand.curvature)
+                + 32.0 * (sigma / (PI * PI) + lambda * rho / (PI * PI * PI))
+                + 64.0 / (PI * PI * PI * PI),
+        ];
+        for (found, expected) in quadratic.into_iter().zip(expected) {
+            assert_close(found, expected, 1e-13);
         }
     }
 }
 
+/// The smallest forcing is where the quadratic's slope vanishes, and that is where the derivative of
+/// the condition as squared by hand does.
 #[test]
-fn shifted_coefficients_keep_their_digits_when_impacts_hardly_lose_energy() {
-    let values = Case(1.0 - 1e-9, 0.0, 2.0, 1.0).values();
-    let rho = 1e-9 / (2.0 - 1e-9);
-    let curvature = 4.0 * rho * rho / (PI * PI);
-    let k = 16.0 * rho / (PI * PI * PI);
-    let [constant, ..] = programs().fixed_point_coefficients(&values).expect("set");
-    let expected = k * k + 16.0 * curvature * curvature - curvature;
-    // 1 - r itself is rounded at 1e-16 of 1, that is 1e-7 of 1e-9; squared it is 2e-7.
-    assert!((constant - expected).abs() < 3e-7 * expected.abs(), "{constant} {expected}");
-    assert!(constant < 0.0);
+fn the_saddle_node_is_the_smallest_forcing() {
+    for case in CASES {
+        let (hand, found) = (Hand::of(case), quadratic(case));
+        let Case(r, lambda, sigma, _) = case;
+        let (rho, s) = ((1.0 - r) / (1.0 + r), sigma * sigma + 0.25 * lambda * lambda);
+        let [_, linear, square] = found.coefficients;
+        let expected = 8.0 * (rho * s / PI + lambda / (PI * PI)) / square.sqrt();
+        assert_close(found.collision, expected, ROUNDING);
+        let beta = -linear / (2.0 * square);
+        // Where C vanishes the condition by hand is 0 over 0.
+        if horner(&hand.square(), beta) > 1e-3 {
+            // Squares of numbers up to 12 lose their digits in the root.
+            let lost = 1e-14 * 144.0 / expected.max(1e-6);
+            assert_close(hand.forcing_squared(beta).max(0.0).sqrt(), expected, lost.max(1e-12));
+            for step in [-0.01, 0.01] {
+                assert!(hand.forcing_squared(beta + step) > hand.forcing_squared(beta), "{case:?}");
+            }
+        }
+    }
+}
+
+/// Near -4/pi^2 with little loss the terms of p_2 cancel if they are multiplied out.
+#[test]
+fn the_square_s_coefficient_keeps_its_digits() {
+    for distance in [1e-3, 1e-6, 1e-8] {
+        let sigma = distance - 4.0 / (PI * PI);
+        let [_, _, square] = quadratic(Case(1.0, 0.0, sigma, 1.0)).coefficients;
+        let expected = 4.0 * distance * distance;
+        // sigma itself is rounded at 6e-17.
+        assert!((square / expected - 1.0).abs() < 1e-15 / distance, "{square} {expected}");
+    }
 }
 
 #[test]
@@ -220,8 +260,7 @@ fn a_root_of_the_condition_is_a_rest_point_of_the_paper_s_equations() {
         for step in -6..=12 {
             let u = 0.1 * f64::from(step) + 0.03;
             let point = programs().at_shift(&case.values(), u).expect("R is set");
-            let forcing = libm::sqrt(programs().forcing_squared(&point).expect("set"));
-            let eta = programs().excitation_phase(&point).expect("set");
+            let (forcing, eta) = (forcing(&point), phase(&point));
             let c = libm::sqrt(programs().manifold_square(&point).expect("set"));
             let values = point
                 .with(Clearance, 1.0)
@@ -247,62 +286,27 @@ fn a_root_of_the_condition_is_a_rest_point_of_the_paper_s_equations() {
 }
 
 #[test]
-fn the_saddle_node_condition_is_the_derivative_of_the_forcing() {
-    for case in CASES.into_iter().take(3) {
-        let values = case.values();
-        let coefficients = programs().saddle_node_coefficients(&values).expect("set");
-        let forcing_squared = |u: f64| {
-            let point = programs().at_shift(&values, u).expect("R is set");
-            programs().forcing_squared(&point).expect("set")
-        };
-        for step in -6..=12 {
-            let u = 0.1 * f64::from(step) + 0.03;
-            let slope = |h: f64| (forcing_squared(u + h) - forcing_squared(u - h)) / (2.0 * h);
-            let (coarse, fine) = (slope(2e-5), slope(1e-5));
-            let point = programs().at_shift(&values, u).expect("R is set");
-            let square = programs().manifold_square(&point).expect("set");
-            let found = horner(&coefficients, u) / (square * square);
-            // Two steps show the truncation error; rounding over the step is 1e-16 / 1e-5.
-            let error = 2.0 * (coarse - fine).abs() + 1e-9 * (1.0 + forcing_squared(u));
-            assert!((found - fine).abs() < error, "{case:?} {u}: {found} {fine}");
-        }
-    }
-}
-
-#[test]
-fn saddle_node_coefficients_agree_by_ratio_and_with_hand() {
-    let expressions = &equations().fixed_points.saddle_node_by_ratio;
-    for case in CASES {
-        let (hand, values) = (Hand::of(case), case.values());
-        let (n, c) = (hand.numerator(), hand.square());
-        let mut expected = [0.0; 6];
-        for i in 0..5 {
-            for j in 0..3 {
-                if i + j > 0 {
-                    expected[i + j - 1] += (i as f64 - j as f64) * n[i] * c[j];
-                }
-            }
-        }
-        for (expression, expected) in expressions.iter().zip(expected) {
-            assert_close(number(expression, &values), expected, 1e-12);
-        }
-        let by_shift = programs().saddle_node_coefficients(&values).expect("set");
-        let size: f64 = expected.iter().map(|c| c.abs()).sum::<f64>() * 32.0;
-        let difference = horner(&by_shift, 0.4) - horner(&expected, 1.4);
-        assert!(difference.abs() < 1e-14 * size, "{case:?}");
-    }
-}
-
-#[test]
 fn the_frequency_response_solves_the_same_condition() {
     for case in CASES {
         for u in [-0.4, 0.1, 0.7] {
             let point = programs().at_shift(&case.values(), u).expect("R is set");
-            let quadratic = programs().detuning_coefficients(&point).expect("set");
-            let quartic = programs().fixed_point_coefficients(&point).expect("set");
-            // Terms up to sigma^2 c_2^2, about 100.
-            assert_close(horner(&quadratic, case.2), horner(&quartic, u), 1e-12);
+            let by_detuning = programs().detuning_coefficients(&point).expect("set");
+            let expected = Hand::of(case).forcing_squared(1.0 + u) - case.3 * case.3;
+            // Terms up to 4 sigma^2, about 100.
+            assert_close(horner(&by_detuning, case.2), expected, 1e-12);
         }
+    }
+}
+
+/// `gamma_SN^2 p_2 - gamma^2 p_2` by powers of the detuning is what it is at one detuning.
+#[test]
+fn detunings_of_a_saddle_node_are_where_its_forcing_is_the_case_s() {
+    for case in CASES {
+        let by_detuning = programs().collision_detunings(&case.values()).expect("set");
+        let Quadratic { coefficients: [_, _, square], collision, .. } = quadratic(case);
+        let expected = square * (collision - case.3) * (collision + case.3);
+        // Terms up to sigma^4.
+        assert_close(horner(&by_detuning, case.2), expected, 1e-12);
     }
 }
 
@@ -312,11 +316,12 @@ fn boundaries_are_fixed_points_at_the_special_points() {
         let values = case.values();
         let fold = programs().fold(&values).expect("set");
         let breaking = programs().symmetry_breaking(&values).expect("set");
-        let found = [programs().hopf_forcing(&values), programs().breaking_forcing(&values)];
-        for (shift, found) in [fold.shift, breaking.shift].into_iter().zip(found) {
-            let point = programs().at_shift(&values, shift).expect("set");
-            let expected = libm::sqrt(programs().forcing_squared(&point).expect("set"));
-            assert_close(found.expect("set"), expected, 1e-13);
+        let found = quadratic(case);
+        for (at, found) in [fold, breaking].into_iter().zip([found.hopf, found.breaking]) {
+            let expected = Hand::of(case).forcing_squared(at.ratio).sqrt();
+            assert_close(found, expected, 1e-12);
+            let point = programs().at_shift(&values, at.shift).expect("set");
+            assert_close(found, forcing(&point), ROUNDING);
         }
     }
 }
@@ -324,18 +329,14 @@ fn boundaries_are_fixed_points_at_the_special_points() {
 #[test]
 fn boundaries_reach_their_limits() {
     // r = 1: C = 0 at the fold, and only the absorber's own first harmonic, 8/pi^2, is left.
-    let elastic = Case(1.0, 1.8, -0.7, 1.0).values();
-    assert_close(programs().hopf_forcing(&elastic).expect("set"), 8.0 / (PI * PI), ROUNDING);
-    let meeting = programs().meeting_point(&elastic).expect("set");
-    assert_close(meeting.detuning, -4.0 / (PI * PI), ROUNDING);
+    let elastic = Case(1.0, 1.8, -0.7, 1.0);
+    assert_close(quadratic(elastic).hopf, 8.0 / (PI * PI), ROUNDING);
+    let meeting = programs().meeting_detuning(&elastic.values()).expect("set");
+    assert_close(meeting, -4.0 / (PI * PI), ROUNDING);
     // No damping: sine and cosine sides at the fold, by hand.
-    let hand = Hand::of(Case(0.6, 0.0, 0.3, 1.0));
-    let (beta, square) = (1.0 / (1.0 + hand.curvature), hand.curvature / (1.0 + hand.curvature));
-    let sine = hand.k * beta * beta;
-    let cosine = hand.m * beta * (1.0 - beta) - 0.6 * square;
-    let expected = libm::sqrt((sine * sine + cosine * cosine) / square);
-    let found = programs().hopf_forcing(&Case(0.6, 0.0, 0.3, 1.0).values()).expect("set");
-    assert_close(found, expected, ROUNDING);
+    let undamped = Case(0.6, 0.0, 0.3, 1.0);
+    let expected = Hand::of(undamped).forcing_squared(1.0 / (1.0 + Hand::of(undamped).curvature));
+    assert_close(quadratic(undamped).hopf, expected.sqrt(), 1e-13);
 }
 
 #[test]
@@ -350,18 +351,15 @@ fn p1_agrees_with_the_formula_derived_by_hand() {
         let sine = hand.damping * square + hand.k * beta * beta;
         let slope = 2.0 * hand.k * beta * sine / (hand.m * (1.0 - 2.0 * beta));
         let expected = (hand.m * beta * (1.0 - beta) + slope) / (2.0 * square);
-        let found = programs().meeting_point(&case.values()).expect("set");
+        let found = programs().meeting_detuning(&case.values()).expect("set");
         // By hand 1 - beta, as small as R, is a difference: for r = 0.999999 R is 1e-13.
         let tolerance = if hand.curvature < 1e-6 { 1e-2 } else { 1e-12 };
-        assert_close(found.detuning, expected, tolerance);
-        let values = case.values().with(Detuning, found.detuning);
-        let hopf = programs().hopf_forcing(&values).expect("set");
-        assert_close(found.forcing_per_clearance, hopf, ROUNDING);
-        // There the saddle-node condition holds at the fold itself.
-        let coefficients = programs().saddle_node_coefficients(&values).expect("set");
-        let fold = programs().fold(&values).expect("set");
-        let size = coefficients[0].abs().max(hand.curvature);
-        assert!(horner(&coefficients, fold.shift).abs() < 1e-12 * size, "{case:?}");
+        assert_close(found, expected, tolerance);
+        // There the saddle-node is at the fold itself.
+        let there = quadratic(Case(case.0, case.1, found, case.3));
+        let [_, linear, square] = there.coefficients;
+        assert_close(-linear / (2.0 * square), beta, 1e-12);
+        assert_close(there.collision, there.hopf, 1e-12);
     }
 }
 
@@ -398,11 +396,13 @@ impl TableOne {
 #[test]
 fn table_1_has_its_meeting_point_where_an_independent_program_found_it() {
     let table = TableOne::new();
-    let meeting = programs().meeting_point(&table.at(8.0)).expect("set");
+    let values = table.at(8.0);
+    let meeting = programs().meeting_detuning(&values).expect("set");
+    let there = programs().quadratic(&values.with(Detuning, meeting)).expect("set");
     // Half a unit of the last printed digit.
-    assert!((meeting.detuning - -0.70958).abs() < 0.5e-5, "{meeting:?}");
-    assert!((meeting.forcing_per_clearance - 1.11876).abs() < 0.5e-5, "{meeting:?}");
-    let frequency = table.frequency * (1.0 + table.mass_ratio * meeting.detuning);
+    assert!((meeting - -0.70958).abs() < 0.5e-5, "{meeting}");
+    assert!((there.hopf - 1.11876).abs() < 0.5e-5, "{there:?}");
+    let frequency = table.frequency * (1.0 + table.mass_ratio * meeting);
     assert!((frequency - 8.3036).abs() < 0.5e-4, "{frequency}");
 }
 
@@ -410,38 +410,44 @@ fn table_1_has_its_meeting_point_where_an_independent_program_found_it() {
 fn table_1_has_its_boundaries_where_an_independent_program_found_them() {
     let table = TableOne::new();
     let reduced_forcing = 0.25 / table.mass_ratio;
-    for (frequency, breaking, hopf) in [(8.0, 4.687, 15.346), (8.5, 6.443, 26.496)] {
-        let values = table.at(frequency);
-        let found_breaking = reduced_forcing / programs().breaking_forcing(&values).expect("set");
-        let found_hopf = reduced_forcing / programs().hopf_forcing(&values).expect("set");
-        // Half a unit of the last printed digit, in mm.
-        assert!((found_breaking - breaking).abs() < 0.5e-3, "{frequency}: {found_breaking}");
-        assert!((found_hopf - hopf).abs() < 0.5e-3, "{frequency}: {found_hopf}");
+    for (frequency, expected) in [(8.0, [4.687, 15.346, 16.259]), (8.5, [6.443, 26.496, 34.913])] {
+        let found = programs().quadratic(&table.at(frequency)).expect("set");
+        for (found, expected) in [found.breaking, found.hopf, found.collision].iter().zip(expected)
+        {
+            // Half a unit of the last printed digit, in mm.
+            let clearance = reduced_forcing / found;
+            assert!((clearance - expected).abs() < 0.5e-3, "{frequency}: {clearance} {expected}");
+        }
     }
 }
 
+/// Trace and determinant in closed form against difference quotients of the rates, at fixed points on
+/// both sides of the collision and of the fold.
 #[test]
-fn the_jacobian_is_the_limit_of_difference_quotients() {
+fn stability_is_the_limit_of_difference_quotients() {
     for case in CASES.into_iter().take(3) {
-        for (u, eta) in [(0.2, 0.3), (-0.5, 2.0), (0.9, -2.5)] {
-            let at = |u: f64, eta: f64| {
-                programs().at_shift(&case.values().with(ExcitationPhase, eta), u).expect("set")
+        for u in [-0.6, -0.3, 0.2, 0.9] {
+            let point = programs().at_shift(&case.values(), u).expect("set");
+            let (gamma, eta) = (forcing(&point), phase(&point));
+            let rates = |u: f64, eta: f64| {
+                let at = programs().at_shift(&case.values(), u).expect("set");
+                let at = at.with(ForcingPerClearance, gamma).with(ExcitationPhase, eta);
+                programs().slow_flow(&at).expect("set")
             };
-            let found = programs().stability(&at(u, eta)).expect("set");
-            let rates = |u: f64, eta: f64| programs().slow_flow(&at(u, eta)).expect("set");
             let step = 1e-5;
-            let by_shift = [rates(u + step, eta), rates(u - step, eta)];
-            let by_phase = [rates(u, eta + step), rates(u, eta - step)];
-            for row in 0..2 {
-                for (column, sides) in [by_shift, by_phase].iter().enumerate() {
-                    let expected = (sides[0][row] - sides[1][row]) / (2.0 * step);
-                    // step^2 of third derivatives of order 1000, and 1e-15 / step: below 1e-6.
-                    assert_close(found.jacobian[row][column], expected, 1e-6);
-                }
-            }
-            let [[a, b], [c, d]] = found.jacobian;
-            assert_close(found.trace, a + d, ROUNDING);
-            assert_close(found.determinant, a * d - b * c, ROUNDING);
+            let slope = |row: usize, [du, deta]: [f64; 2]| {
+                let sides = [rates(u + du, eta + deta), rates(u - du, eta - deta)];
+                (sides[0][row] - sides[1][row]) / (2.0 * step)
+            };
+            let by = [[step, 0.0], [0.0, step]];
+            let [[a, b], [c, d]] = [0, 1].map(|row| by.map(|by| slope(row, by)));
+            let [_, linear, square] = quadratic(case).coefficients;
+            let root = square * (1.0 + u) + 0.5 * linear;
+            let at = point.with(Discriminant, root * root);
+            let [trace, larger] = programs().stability(&at).expect("set");
+            // step^2 of third derivatives of order 1000, and 1e-15 / step: below 1e-6.
+            assert_close(trace, a + d, 1e-6);
+            assert_close(larger * root.signum(), a * d - b * c, 1e-5);
         }
     }
 }
@@ -459,7 +465,7 @@ fn values_of_a_system_hold_the_paper_s_short_hands() {
 
 #[test]
 fn the_main_formulas_read_as_on_paper() {
-    let Equations { stated, fixed_points, boundaries, .. } = equations();
+    let Equations { stated, fixed_points, boundaries, slow_flow, .. } = equations();
     let formulas = [
         (
             stated.motion_of_base.to_latex(),
@@ -479,16 +485,32 @@ fn the_main_formulas_read_as_on_paper() {
             r"\mathrm{D}_1 \eta = \frac{G \cos \eta}{2 C} - \frac{E \cos \Theta}{2 C} + \sigma",
         ),
         (
-            fixed_points.condition.to_latex(),
-            r"\left(\lambda c_2 + \frac{16}{\pi^{3}} \rho \beta^{2}\right)^{2} + \left(\frac{8}{\pi^{2}} \beta \left(1 - \beta\right) - 2 \sigma c_2\right)^{2} - \gamma^{2} c_2",
+            fixed_points.along.to_latex(),
+            r"\frac{2}{\pi} \lambda \rho \beta + 2 \sigma u + \frac{8}{\pi^{2}} \beta",
+        ),
+        (fixed_points.across.to_latex(), r"-\lambda u + \frac{4}{\pi} \rho \sigma \beta"),
+        (fixed_points.quadratic[0].to_latex(), r"\lambda^{2} + 4 \sigma^{2}"),
+        (
+            fixed_points.quadratic[1].to_latex(),
+            r"-\frac{32}{\pi^{2}} \sigma - 2 \lambda^{2} - 8 \sigma^{2}",
         ),
         (
-            fixed_points.by_shift[0].to_latex(),
-            r"\left(\lambda R + \frac{16}{\pi^{3}} \rho\right)^{2} + 4 R^{2} \sigma^{2} - R \gamma^{2}",
+            fixed_points.quadratic[2].to_latex(),
+            r"\left(\frac{2}{\pi} \lambda \rho + \frac{8}{\pi^{2}} + 2 \sigma\right)^{2} + \left(\frac{4}{\pi} \rho \sigma - \lambda\right)^{2}",
         ),
+        (
+            fixed_points.collision_forcing.to_latex(),
+            r"\frac{2 \left(\frac{4}{\pi^{2}} \lambda + \frac{1}{\pi} \lambda^{2} \rho + \frac{4}{\pi} \rho \sigma^{2}\right)}{\sqrt{p_2}}",
+        ),
+        (fixed_points.collision_ratio.to_latex(), r"-\frac{p_1}{2 p_2}"),
+        (
+            slow_flow.trace.to_latex(),
+            r"-\lambda - \frac{16 \rho \beta}{\pi^{3} \left(u + R \beta\right)}",
+        ),
+        (slow_flow.determinant.to_latex(), r"\frac{\sqrt{\Delta}}{4 \left(u + R \beta\right)}"),
         (
             boundaries.meeting_detuning.to_latex(),
-            r"\frac{2 \left(2 + \pi \lambda \rho\right)}{\pi^{2} \left(R - 1\right)}",
+            r"\frac{2 \left(2 + \pi \lambda \rho\right)}{\pi^{2} R - \pi^{2}}",
         ),
     ];
     for (found, expected) in formulas {
@@ -519,19 +541,22 @@ fn every_formula_of_the_report_converts_with_and_without_numbers() {
 
 #[test]
 fn what_the_report_prints_is_what_is_evaluated() {
-    let values = programs().at_shift(&CASES[0].values(), 0.2).expect("R is set");
-    let coefficients = programs().fixed_point_coefficients(&values).expect("set");
+    let values = CASES[0].values();
+    let Quadratic { coefficients, collision, hopf, .. } = quadratic(CASES[0]);
     let list = equations().for_report();
-    let quartic = list.iter().filter(|equation| equation.title.starts_with("Quartic"));
-    for (equation, coefficient) in quartic.zip(coefficients) {
-        assert_eq!(number(&equation.right, &values).to_bits(), coefficient.to_bits());
+    let printed = |left: &str| {
+        let equation = list.iter().find(|equation| equation.left == left);
+        equation.unwrap_or_else(|| panic!("{left} is not listed"))
+    };
+    let evaluated = |left: &str, values: &Values| number(&printed(left).right, values);
+    for (power, coefficient) in coefficients.into_iter().enumerate() {
+        assert_eq!(evaluated(&format!("p_{{{power}}}"), &values), coefficient);
     }
-    let p0 = list.iter().find(|equation| equation.left == "p_{0}").expect("listed");
-    assert!(
-        p0.to_latex_with(&values, 4).ends_with("= 0.001093"),
-        "{}",
-        p0.to_latex_with(&values, 4)
-    );
+    let values = values.with(ForcingSquare, coefficients[2]);
+    assert_eq!(evaluated(r"\gamma_{\mathrm{SN}}", &values), collision);
+    assert_eq!(evaluated(r"\gamma_{H}^{2}", &values).sqrt(), hopf);
+    let text = printed("p_{2}").to_latex_with(&values, 4);
+    assert!(text.ends_with("= 4.184"), "{text}");
 }
 
 /// What is simulated is what is stated: (1) with the closed-form motion put in leaves nothing, for

@@ -268,7 +268,7 @@ fn the_imports_of_the_program_are_seen() {
     };
     assert_eq!(of("simulation/run.rs"), ["numerics", "system"]);
     assert_eq!(of("simulation/flow.rs"), ["system", "tally"]);
-    assert_eq!(of("analysis/mod.rs"), ["numerics", "symbolic", "system"]);
+    assert_eq!(of("analysis/mod.rs"), ["symbolic", "system"]);
     let study = of("study/mod.rs");
     assert!(study.contains(&"validation".into()) && study.contains(&"case".into()), "{study:?}");
 }

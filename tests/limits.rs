@@ -88,7 +88,7 @@ fn the_hopf_forcing_of_elastic_impacts_is_eight_over_pi_squared() {
     }
 }
 
-/// r = 1 and lambda = 0 reduce the quartic to abs(m beta - 2 sigma (1 - beta)) = gamma.
+/// r = 1 and lambda = 0 leave abs(m beta - 2 sigma (1 - beta)) = gamma.
 #[test]
 fn fixed_points_of_an_undamped_elastic_absorber_are_two_straight_lines() {
     let m = 8.0 / (PI * PI);
@@ -211,7 +211,7 @@ fn nothing_moves_without_forcing() {
     }
 }
 
-/// At resonance without damping the quartic's lowest terms are (8/pi^2 beta)^2 = gamma^2.
+/// At resonance without damping (8/pi^2)^2 (1 + ...) beta^2 = gamma^2 is left.
 #[test]
 fn tiny_forcing_leaves_a_tiny_absorber_motion_or_none() {
     for gamma in [1e-3, 1e-6, 1e-9, 1e-12, 1e-20] {

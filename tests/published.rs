@@ -31,10 +31,9 @@ fn boundaries_in_clearance() {
         let boundaries = Analysis::of(&system).expect("analysable").boundaries;
         prints_as(common::forcing_mm() / boundaries.symmetry_breaking, 3, breaking);
         prints_as(common::forcing_mm() / boundaries.hopf, 3, hopf);
-        let nodes: Vec<_> =
-            boundaries.saddle_nodes.iter().filter(|node| node.branch == branch).collect();
-        assert_eq!(nodes.len(), 1, "{nodes:?}");
-        prints_as(common::forcing_mm() / nodes[0].forcing_over_clearance, 3, saddle_node);
+        let node = boundaries.saddle_node.expect("one");
+        assert_eq!(node.branch, branch);
+        prints_as(common::forcing_mm() / node.forcing_over_clearance, 3, saddle_node);
     }
 }
 

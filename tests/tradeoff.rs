@@ -9,6 +9,7 @@ mod common;
 use vinesink::analysis::motion::{root_mean_square, state_of};
 use vinesink::analysis::slow_motion::{SlowEnd, SlowFlow};
 use vinesink::analysis::{Analysis, FixedPoint};
+use vinesink::case::Case;
 use vinesink::equations::equations;
 use vinesink::orbits::{Measures, symmetric_orbits};
 use vinesink::regimes::Regime;
@@ -170,7 +171,39 @@ fn operations_are_counted_and_repeat() {
     let hundred = cost(simulation(100));
     let orbit = cost(Method::SymmetricOrbit);
     assert!(10_000 < orbit && orbit < hundred, "{orbit} {hundred}");
-    assert!(cost(Method::FixedPoints) > 100_000, "exact arithmetic is not free");
+}
+
+/// Fixed points with their stability are two roots of a quadratic: nothing on the page costs less,
+/// whether the motion repeats, is chaotic, or a force drives it.
+#[test]
+fn the_closed_form_is_the_cheapest_row() {
+    let force = include_str!("../cases/force-on-mass.toml");
+    let force = Case::parse("force-on-mass.toml", force).expect("a case").system();
+    let effort = TradeoffEffort {
+        lengths: vec![50],
+        steps: vec![50],
+        usual_length: 50,
+        longest: 400,
+        flights: 10,
+        ..small()
+    };
+    for (name, system) in [
+        ("periodic", common::table_1(8.0, 7.5)),
+        ("near the collision", common::table_1(8.0, 16.0)),
+        ("chaotic", common::table_1(8.0, 0.3)),
+        ("force", force),
+    ] {
+        let found = Tradeoff::of(&system, &effort, &mut |_| ()).expect("tried");
+        let closed = found.trials.iter().find(|trial| trial.method == Method::FixedPoints);
+        let closed = closed.expect("tried").operations;
+        // Each point has two angles of its own, and two at its motion's turning points.
+        let points = Analysis::of(&system).expect("analysable").fixed_points.len() as u64;
+        assert!(points > 0 && closed > points * 4 * ELEMENTARY, "{name}: {closed}");
+        assert!(closed <= 500, "{name}: {closed}");
+        let others = found.trials.iter().filter(|trial| trial.method != Method::FixedPoints);
+        let next = others.map(|trial| trial.operations).min().expect("others");
+        assert!(100 * closed < next, "{name}: {closed} beside {next}");
+    }
 }
 
 #[test]

@@ -2,11 +2,6 @@
 
 use serde::{Serialize, Serializer};
 
-use super::boundaries::Boundaries;
-use super::fixed_points::FixedPoint;
-use super::manifold::Branch;
-use crate::system::System;
-
 /// The areas of Fig. 5a.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Area {
@@ -85,22 +80,6 @@ impl Zone {
     pub const UNSETTLED: &'static str = "Z1|Z2";
     /// and its name in a sentence.
     pub const UNSETTLED_WORDS: &'static str = "Z1 or Z2";
-
-    /// Places a system by its fixed points and the Hopf boundary.
-    pub fn of(system: &System, fixed_points: &[FixedPoint], boundaries: &Boundaries) -> Self {
-        let on = |branch| fixed_points.iter().any(|point| point.branch == branch);
-        let below_hopf = system.forcing_per_clearance() < boundaries.hopf;
-        let (area, strip) = if on(Branch::Stable) {
-            (Some(Area::Z3), below_hopf.then_some(Strip::A1))
-        } else if on(Branch::Right) {
-            (None, None)
-        } else if on(Branch::Left) && below_hopf {
-            (Some(Area::Z3), Some(Strip::A2))
-        } else {
-            (Some(Area::Z4), None)
-        };
-        Self { area, strip }
-    }
 
     /// Whether it is in Z3, strips included: where the paper wants as much of a band as possible.
     pub fn is_z3(&self) -> bool {

@@ -6,7 +6,6 @@
 use serde::Serialize;
 
 use super::AnalysisError;
-use super::boundaries::quadratic_roots;
 use super::manifold::{Branch, Manifold};
 use crate::equations::equations;
 use crate::system::System;
@@ -36,12 +35,9 @@ pub fn response(
     manifold: &Manifold,
     largest: f64,
 ) -> Result<[Vec<Vec<ResponsePoint>>; 2], AnalysisError> {
-    let programs = &equations().programs;
-    let values = programs.values(system);
     let mut sides = [vec![Vec::new()], vec![Vec::new()]];
     for shift in amplitudes(manifold, largest) {
-        let at = programs.at_shift(&values, shift)?;
-        let roots = quadratic_roots(programs.detuning_coefficients(&at)?);
+        let roots = detunings(system, shift)?;
         let point = manifold.point(shift);
         for (index, side) in sides.iter_mut().enumerate() {
             let response = roots.get(index).map(|&detuning| ResponsePoint {
@@ -58,6 +54,30 @@ pub fn response(
         }
     }
     Ok(sides.map(|side| side.into_iter().filter(|piece| piece.len() > 1).collect()))
+}
+
+/// The detunings, ascending, at which `B = b (1 + shift)` is a fixed point: two, or none where the
+/// forcing does not reach that amplitude.
+///
+/// # Errors
+/// [`AnalysisError::Missing`] never, for a system.
+pub fn detunings(system: &System, shift: f64) -> Result<Vec<f64>, AnalysisError> {
+    let programs = &equations().programs;
+    let at = programs.at_shift(&programs.values(system), shift)?;
+    Ok(quadratic_roots(programs.detuning_coefficients(&at)?))
+}
+
+/// Real roots of `constant + linear x + square x^2`, ascending, by the formula that does not
+/// cancel.
+fn quadratic_roots([constant, linear, square]: [f64; 3]) -> Vec<f64> {
+    let discriminant = linear * linear - 4.0 * square * constant;
+    if square == 0.0 || discriminant.is_nan() || discriminant < 0.0 {
+        return Vec::new();
+    }
+    let q = -0.5 * (linear + discriminant.sqrt().copysign(linear));
+    let mut roots = if q == 0.0 { vec![0.0] } else { vec![q / square, constant / q] };
+    roots.sort_by(f64::total_cmp);
+    roots
 }
 
 /// Values of `B/b - 1` from almost -1 to `largest - 1`, with the ends of the branches among them.

@@ -1,12 +1,13 @@
 //! The slow invariant manifold (16), `C^2 = (1 + R) B^2 - 2 b B + b^2`, its branches, and whether
 //! a point of it is a motion.
 
-use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
+use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, TAU};
 
 use serde::Serialize;
 
 use crate::equations::{self, equations};
 use crate::symbolic::{MissingValue, Symbol, Values};
+use crate::tally;
 
 /// A part of the manifold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -114,19 +115,19 @@ impl Manifold {
     /// With `z` the sawtooth's phase, `w0 = C sin(z - Theta) + (2/pi) B z` from `z = -pi/2` to
     /// `pi/2`, with turning points where `cos(z - Theta) = -(2/pi) B / C`.
     pub fn largest_relative_displacement(&self, shift: f64) -> f64 {
+        tally::note(2 * tally::ELEMENTARY + 16);
         let ManifoldPoint { absorber, oscillator } = self.point(shift);
-        let theta = self.absorber_phase(1.0 + shift, shift);
-        let displacement =
-            |z: f64| (oscillator * libm::sin(z - theta) + FRAC_2_PI * absorber * z).abs();
-        let cosine = -FRAC_2_PI * absorber / oscillator;
-        if !(-1.0..=1.0).contains(&cosine) {
+        let slope = FRAC_2_PI * absorber;
+        if slope > oscillator {
             return 1.0;
         }
-        let angle = libm::acos(cosine);
-        [theta + angle, theta - angle, theta + angle - std::f64::consts::TAU]
+        let theta = self.absorber_phase(1.0 + shift, shift);
+        let angle = libm::acos(-slope / oscillator);
+        let swing = ((oscillator - slope) * (oscillator + slope)).sqrt();
+        [(theta + angle, swing), (theta - angle, -swing), (theta + angle - TAU, swing)]
             .into_iter()
-            .filter(|z| z.abs() < FRAC_PI_2)
-            .map(displacement)
+            .filter(|(z, _)| z.abs() < FRAC_PI_2)
+            .map(|(z, swing)| (swing + slope * z).abs())
             .fold(1.0, f64::max)
     }
 }

@@ -16,7 +16,6 @@ pub mod slow_motion;
 
 use serde::Serialize;
 
-use crate::numerics::polynomial::PolynomialError;
 use crate::symbolic::MissingValue;
 use crate::system::System;
 
@@ -29,12 +28,12 @@ pub use manifold::{Branch, Manifold, ManifoldPoint};
 /// Why a system cannot be analysed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum AnalysisError {
-    /// The condition for fixed points is not a polynomial with finite coefficients, not all zero.
+    /// The quadratic of the fixed points has a coefficient that is not finite.
     #[error(
-        "the theory's condition for fixed points cannot be solved: {0}; detuning, damping or \
-         forcing is too extreme for the asymptotic theory"
+        "the theory's condition for fixed points cannot be solved: a coefficient is not finite; \
+         detuning, damping or forcing is too extreme for the asymptotic theory"
     )]
-    Condition(#[from] PolynomialError),
+    Condition,
     /// A formula was evaluated without a value for one of its symbols.
     #[error(transparent)]
     Missing(#[from] MissingValue),
@@ -64,7 +63,8 @@ impl Analysis {
         let manifold = Manifold::of(system.restitution())?;
         let fixed_points = fixed_points::solve(system, &manifold)?;
         let boundaries = Boundaries::of(system, &manifold)?;
-        let zone = Zone::of(system, &fixed_points, &boundaries);
+        let curve = FixedPointCurve::of(system, &manifold);
+        let zone = curve.zone(system.forcing_per_clearance());
         Ok(Self { system: *system, manifold, fixed_points, boundaries, zone })
     }
 

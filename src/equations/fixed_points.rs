@@ -1,41 +1,51 @@
-//! Fixed points of the slow flow (18) on the manifold, as a quartic, and their frequency response.
+//! Fixed points of the slow flow (18) on the manifold: `gamma^2` is a quadratic in `beta`.
 //!
-//! With `S = lambda c_2 + (16/pi^3) rho beta^2` and `K = (8/pi^2) beta (1 - beta) - 2 sigma c_2`,
-//! both derived here, a fixed point has `gamma sqrt(c_2) sin(eta) = S` and
-//! `gamma sqrt(c_2) cos(eta) = K`, so `S^2 + K^2 = gamma^2 c_2`. Valid where (18) and (16) are.
+//! At rest (18) says `gamma sin(eta) = lambda C + E sin(Theta)`, `gamma cos(eta) = E cos(Theta) - 2 sigma C`
+//! (lengths over the clearance). Turned by the absorber's phase these are
+//! `gamma cos(eta - Theta) = E - 2 sigma C cos(Theta) + lambda C sin(Theta)` and
+//! `gamma sin(eta - Theta) = lambda C cos(Theta) + 2 sigma C sin(Theta)`, in which (14), (15) and `E` are
+//! linear in `beta`. Their squares add up to `gamma^2 = p_0 + p_1 beta + p_2 beta^2`, whose smallest value
+//! is the saddle-node's. Valid where (18) and (16) are.
 
 use super::Stated;
-use super::manifold::{Manifold, in_clearances, in_shift};
+use super::manifold::{Manifold, in_clearances};
 use crate::symbolic::Symbol::{
-    AbsorberPhase as Theta, AmplitudeRatio as beta, Detuning as sigma, ExcitationPhase as eta,
-    FirstHarmonic as E, ForcingPerClearance as gamma, ManifoldSquare as c_2,
-    OscillatorAmplitude as C, ReducedForcing as G, Shift as u,
+    AbsorberPhase as Theta, AmplitudeRatio as beta, CollisionForcing, Detuning as sigma,
+    Discriminant as Delta, ExcitationPhase as eta, FirstHarmonic as E, ForcingConstant as p_0,
+    ForcingLinear as p_1, ForcingPerClearance as gamma, ForcingSquare as p_2,
+    ManifoldSquare as c_2, OscillatorAmplitude as C, ReducedForcing as G, Shift as u,
 };
-use crate::symbolic::{AlgebraError, Expr, Symbol, cos, eliminate_angle, sin, sqrt};
+use crate::symbolic::{AlgebraError, Expr, Symbol, cos, fraction, sin, sqrt};
 
 /// The condition for a fixed point in its several forms.
 #[derive(Debug, Clone)]
 pub struct FixedPoints {
     /// `gamma sqrt(c_2) sin(eta)` in `beta`, `c_2`.
     pub sine: Expr,
-    /// `gamma sqrt(c_2) cos(eta)` in `beta`, `c_2`.
+    /// `gamma sqrt(c_2) cos(eta)` in `beta`, `u`, `c_2`.
     pub cosine: Expr,
-    /// What vanishes at a fixed point, in `beta`, `c_2`.
-    pub condition: Expr,
-    /// `gamma^2` at which there is a fixed point, in `beta`, `c_2`.
+    /// `gamma cos(eta - Theta)` in `beta`, `u`.
+    pub along: Expr,
+    /// `gamma sin(eta - Theta)` in `beta`, `u`.
+    pub across: Expr,
+    /// `gamma^2` at which there is a fixed point, in `beta`, `u`.
     pub forcing_squared: Expr,
-    /// Coefficients of the condition in ascending powers of `beta`.
-    pub by_ratio: [Expr; 5],
-    /// Coefficients of the condition in ascending powers of `u`; these are solved numerically.
-    pub by_shift: [Expr; 5],
-    /// Coefficients of the condition in ascending powers of `sigma`, in `beta`, `u`, `c_2`.
+    /// `p_0`, `p_1`, `p_2`: the same by powers of `beta`.
+    pub quadratic: [Expr; 3],
+    /// `gamma` at which two fixed points meet, in `p_2`.
+    pub collision_forcing: Expr,
+    /// `beta` at which they meet, in `p_1`, `p_2`.
+    pub collision_ratio: Expr,
+    /// `Delta`, a quarter of the discriminant, in `p_2` and `gamma` of the collision.
+    pub discriminant: Expr,
+    /// `beta` of the two fixed points, the smaller first, in `p_1`, `p_2`, `Delta`.
+    pub ratios: [Expr; 2],
+    /// The product of the two, in `p_0`, `p_2`, `gamma`.
+    pub product: Expr,
+    /// What vanishes at a fixed point, by powers of `sigma`, in `beta`, `u`: the frequency response.
     pub by_detuning: [Expr; 3],
-    /// Numerator of `d(gamma^2)/d(beta)`, two fixed points meeting, by powers of `beta`.
-    pub saddle_node_by_ratio: [Expr; 6],
-    /// The same by powers of `u`.
-    pub saddle_node_by_shift: [Expr; 6],
-    /// The same by powers of `sigma`, in `u`: at a given amplitude the boundary is explicit.
-    pub saddle_node_by_detuning: [Expr; 3],
+    /// What vanishes where two fixed points meet, by powers of `sigma`.
+    pub collision_by_detuning: [Expr; 5],
 }
 
 impl FixedPoints {
@@ -44,30 +54,51 @@ impl FixedPoints {
     /// # Errors
     /// Never for the stated equations; a test runs it.
     pub fn derive(stated: &Stated, manifold: &Manifold) -> Result<Self, AlgebraError> {
-        let sine = &stated.amplitude_rate.right.solve_linear(sin(eta))? * G;
-        let cosine = &stated.phase_rate.right.solve_linear(cos(eta))? * G;
-        let on_manifold =
-            |side: Expr| on_manifold(&(side.distribute() * C).distribute(), stated, manifold);
-        let (sine, cosine) = (on_manifold(sine), on_manifold(cosine));
-        let condition = eliminate_angle(&sine, &cosine, &(gamma * sqrt(c_2)));
-        let in_ratio = condition.substitute(c_2, &manifold.ratio_square);
-        let in_shift = in_shift(&condition.substitute(c_2, &manifold.ratio_square));
-        let by_ratio = collected(&in_ratio, beta)?;
-        let by_shift = collected(&in_shift, u)?;
-        let unforced =
-            |coefficients: &[Expr; 5]| coefficients.clone().map(|c| c.substitute(gamma, 0));
-        let saddle_node_by_shift = saddle_node(&unforced(&by_shift), &manifold.shifted_square, u)?;
+        let sine = (&stated.amplitude_rate.right.solve_linear(sin(eta))? * G).distribute();
+        let cosine = (&stated.phase_rate.right.solve_linear(cos(eta))? * G).distribute();
+        let turned = |side: Expr| {
+            let square = sin(Theta).squared();
+            let side = side.expand().substitute(square, 1 - cos(Theta).squared()).expand();
+            with_shift(&on_manifold(&side, stated, manifold))
+        };
+        let along = turned(&cosine * cos(Theta) + &sine * sin(Theta));
+        let across = turned(&sine * cos(Theta) - &cosine * sin(Theta));
+        let forcing_squared = along.squared() + across.squared();
+        // Both are linear in beta and u = beta - 1.
+        let parts = |side: &Expr| -> Result<[Expr; 2], AlgebraError> {
+            let [by_shift, by_ratio]: [Expr; 2] = collected(side, beta)?;
+            let [_, by_shift]: [Expr; 2] = collected(&by_shift, u)?;
+            Ok([by_ratio, by_shift])
+        };
+        let ([along_ratio, along_shift], [across_ratio, across_shift]) =
+            (parts(&along)?, parts(&across)?);
+        let (along_slope, across_slope) =
+            (&along_ratio + &along_shift, &across_ratio + &across_shift);
+        let distance = &along_shift * &across_ratio - &along_ratio * &across_shift;
+        let at_rest =
+            |side: &Expr| with_shift(&on_manifold(&(side * C).distribute(), stated, manifold));
+        let root = |sign: i32| (sign * sqrt(Delta) - fraction(1, 2) * p_1) / p_2;
+        let square = along_slope.squared() + across_slope.squared();
+        let condition = &forcing_squared - gamma.squared();
+        let collision = distance.squared() - gamma.squared() * &square;
         Ok(Self {
-            forcing_squared: condition.solve_linear(gamma.squared())?,
-            by_detuning: collected(&with_shift(&condition), sigma)?,
-            saddle_node_by_ratio: saddle_node(&unforced(&by_ratio), &manifold.ratio_square, beta)?,
-            saddle_node_by_detuning: collected(&polynomial(&saddle_node_by_shift, u), sigma)?,
-            saddle_node_by_shift,
-            sine,
-            cosine,
-            condition,
-            by_ratio,
-            by_shift,
+            sine: at_rest(&sine),
+            cosine: at_rest(&cosine),
+            quadratic: [
+                (along_shift.squared() + across_shift.squared()).expand(),
+                (-2 * (&along_shift * &along_slope + &across_shift * &across_slope)).expand(),
+                square,
+            ],
+            collision_forcing: distance.expand() / sqrt(p_2),
+            collision_ratio: -p_1 / (2 * p_2),
+            discriminant: p_2 * (gamma - CollisionForcing) * (gamma + CollisionForcing),
+            ratios: [root(-1), root(1)],
+            product: (p_0 - gamma.squared()) / p_2,
+            by_detuning: collected(&condition.expand(), sigma)?,
+            collision_by_detuning: collected(&collision.expand(), sigma)?,
+            along,
+            across,
+            forcing_squared,
         })
     }
 }
@@ -87,24 +118,6 @@ pub(super) fn on_manifold(expression: &Expr, stated: &Stated, manifold: &Manifol
 /// Writes `-u` for `1 - beta`, which keeps small differences exact.
 pub(super) fn with_shift(expression: &Expr) -> Expr {
     expression.substitute(1 - beta, -u)
-}
-
-/// `N' c_2 - N c_2'` by powers of `variable`, from the coefficients of `N = gamma^2 c_2`.
-fn saddle_node(
-    numerator: &[Expr; 5],
-    square: &Expr,
-    variable: Symbol,
-) -> Result<[Expr; 6], AlgebraError> {
-    let numerator = polynomial(numerator, variable);
-    let square = polynomial(&square.collect(variable)?, variable);
-    let rise = numerator.differentiate(variable) * &square;
-    collected(&(rise - numerator * square.differentiate(variable)), variable)
-}
-
-/// The polynomial with these coefficients.
-fn polynomial(coefficients: &[Expr], variable: Symbol) -> Expr {
-    let powers = std::iter::successors(Some(Expr::ONE), |power| Some(power * variable));
-    Expr::sum(coefficients.iter().zip(powers).map(|(coefficient, power)| coefficient * power))
 }
 
 /// Exactly `N` coefficients, ascending; those beyond the degree are 0.

@@ -22,7 +22,7 @@ pub use fixed_points::FixedPoints;
 pub use manifold::Manifold;
 pub use orbit_programs::{OrbitPrograms, Turning};
 pub use orbits::{OrbitConditions, SteadyMotion, SymmetricOrbits};
-pub use programs::{ManifoldPoint, MeetingPoint, Programs, Stability};
+pub use programs::{ManifoldPoint, Programs, Quadratic};
 pub use report::{Motion, ReportEquation};
 pub use slow_flow::SlowFlow;
 pub use stated::Stated;
@@ -59,7 +59,7 @@ impl Equations {
         let manifold = Manifold::derive(&stated)?;
         let fixed_points = FixedPoints::derive(&stated, &manifold)?;
         let boundaries = Boundaries::derive(&stated, &manifold, &fixed_points)?;
-        let slow_flow = SlowFlow::derive(&stated, &manifold);
+        let slow_flow = SlowFlow::derive(&stated, &manifold, &fixed_points);
         let orbits = SymmetricOrbits::derive(&stated)?;
         let programs =
             Programs::new(&stated, &manifold, &fixed_points, &boundaries, &slow_flow, &orbits);

@@ -3,7 +3,6 @@
 //! Every function here evaluates a compiled expression and does nothing else. Which symbols must
 //! have values is said at each; [`Programs::values`] and [`Programs::at_shift`] set them.
 
-use super::fixed_points::with_shift;
 use super::{Boundaries, FixedPoints, Manifold, OrbitPrograms, SlowFlow, Stated, SymmetricOrbits};
 use crate::symbolic::{Compiled, MissingValue, Symbol, Values};
 use crate::system::System;
@@ -19,24 +18,17 @@ pub struct ManifoldPoint {
     pub square: f64,
 }
 
-/// The point P1, where the saddle-node boundary ends on the Hopf boundary.
+/// `gamma^2 = p_0 + p_1 beta + p_2 beta^2` of the fixed points, and `gamma` where they change.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MeetingPoint {
-    /// `sigma`.
-    pub detuning: f64,
-    /// `gamma`.
-    pub forcing_per_clearance: f64,
-}
-
-/// What decides the stability of a fixed point of the slow flow.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stability {
-    /// Rows: rates of `u` and `eta`; columns: by `u` and `eta`.
-    pub jacobian: [[f64; 2]; 2],
-    /// Sum of the eigenvalues.
-    pub trace: f64,
-    /// Product of the eigenvalues.
-    pub determinant: f64,
+pub struct Quadratic {
+    /// `p_0`, `p_1`, `p_2`.
+    pub coefficients: [f64; 3],
+    /// `gamma` of the saddle-node.
+    pub collision: f64,
+    /// `gamma` of the Hopf boundary.
+    pub hopf: f64,
+    /// `gamma` of the symmetry-breaking boundary.
+    pub breaking: f64,
 }
 
 /// The derived expressions, compiled.
@@ -46,18 +38,13 @@ pub struct Programs {
     curvature: Compiled<1>,
     square: Compiled<1>,
     special_points: Compiled<6>,
-    by_ratio: Compiled<5>,
-    by_shift: Compiled<5>,
+    quadratic: Compiled<6>,
     by_detuning: Compiled<3>,
-    saddle_node: Compiled<6>,
-    saddle_node_by_detuning: Compiled<3>,
-    forcing_squared: Compiled<1>,
+    collision_by_detuning: Compiled<5>,
     sides: Compiled<2>,
-    hopf: Compiled<3>,
-    breaking: Compiled<3>,
     meeting_detuning: Compiled<1>,
     rates: Compiled<2>,
-    stability: Compiled<6>,
+    stability: Compiled<2>,
     /// Exact symmetric orbits.
     pub orbits: OrbitPrograms,
 }
@@ -71,7 +58,8 @@ impl Programs {
         slow_flow: &SlowFlow,
         orbits: &SymmetricOrbits,
     ) -> Self {
-        let [[a, b], [c, d]] = &slow_flow.jacobian;
+        let [constant, linear, square] = &fixed_points.quadratic;
+        let collision = fixed_points.collision_forcing.substitute(Symbol::ForcingSquare, square);
         Self {
             short_hands: Compiled::new([&stated.restitution_ratio.right]),
             curvature: Compiled::new([&stated.curvature.right]),
@@ -84,18 +72,20 @@ impl Programs {
                 &manifold.breaking_ratio,
                 &manifold.breaking_square,
             ]),
-            by_ratio: Compiled::new(fixed_points.by_ratio.each_ref()),
-            by_shift: Compiled::new(fixed_points.by_shift.each_ref()),
+            quadratic: Compiled::new([
+                constant,
+                linear,
+                square,
+                &collision,
+                &boundaries.hopf_squared,
+                &boundaries.breaking_squared,
+            ]),
             by_detuning: Compiled::new(fixed_points.by_detuning.each_ref()),
-            saddle_node: Compiled::new(fixed_points.saddle_node_by_shift.each_ref()),
-            saddle_node_by_detuning: Compiled::new(fixed_points.saddle_node_by_detuning.each_ref()),
-            forcing_squared: Compiled::new([&with_shift(&fixed_points.forcing_squared)]),
-            sides: Compiled::new([&fixed_points.sine, &with_shift(&fixed_points.cosine)]),
-            hopf: Compiled::new(boundaries.hopf.each_ref()),
-            breaking: Compiled::new(boundaries.breaking.each_ref()),
+            collision_by_detuning: Compiled::new(fixed_points.collision_by_detuning.each_ref()),
+            sides: Compiled::new([&fixed_points.sine, &fixed_points.cosine]),
             meeting_detuning: Compiled::new([&boundaries.meeting_detuning]),
             rates: Compiled::new([&slow_flow.ratio_rate, &slow_flow.phase_rate]),
-            stability: Compiled::new([a, b, c, d, &slow_flow.trace, &slow_flow.determinant]),
+            stability: Compiled::new([&slow_flow.trace, &slow_flow.determinant]),
             orbits: OrbitPrograms::new(orbits),
         }
     }
@@ -161,51 +151,20 @@ impl Programs {
         Ok(ManifoldPoint { shift, ratio, square })
     }
 
-    /// Coefficients of the fixed points' quartic by ascending powers of `u`; the ones to solve.
-    /// Needs `lambda`, `rho`, `R`, `sigma`, `gamma`.
+    /// The quadratic of the fixed points and the forcings at which they change. Needs `lambda`, `rho`,
+    /// `R`, `sigma`.
     ///
     /// # Errors
     /// If a value is missing.
-    pub fn fixed_point_coefficients(&self, values: &Values) -> Result<[f64; 5], MissingValue> {
-        self.by_shift.evaluate(values)
-    }
-
-    /// The same by ascending powers of `beta`, to show and to compare.
-    ///
-    /// # Errors
-    /// If a value is missing.
-    pub fn fixed_point_coefficients_by_ratio(
-        &self,
-        values: &Values,
-    ) -> Result<[f64; 5], MissingValue> {
-        self.by_ratio.evaluate(values)
-    }
-
-    /// Coefficients of `c_2^2 d(gamma^2)/du` by ascending powers of `u`, whose roots are double
-    /// fixed points. Needs `lambda`, `rho`, `R`, `sigma`.
-    ///
-    /// # Errors
-    /// If a value is missing.
-    pub fn saddle_node_coefficients(&self, values: &Values) -> Result<[f64; 6], MissingValue> {
-        self.saddle_node.evaluate(values)
-    }
-
-    /// Coefficients, by ascending powers of `sigma`, of the condition that two fixed points collide
-    /// at `u`. Needs `lambda`, `rho`, `R`, `u`.
-    ///
-    /// # Errors
-    /// If a value is missing.
-    pub fn saddle_node_detunings(&self, values: &Values) -> Result<[f64; 3], MissingValue> {
-        self.saddle_node_by_detuning.evaluate(values)
-    }
-
-    /// `gamma^2` for which a point of the manifold is a fixed point. Needs a point (see
-    /// [`Programs::at_shift`]), `lambda`, `rho`, `sigma`.
-    ///
-    /// # Errors
-    /// If a value is missing.
-    pub fn forcing_squared(&self, point: &Values) -> Result<f64, MissingValue> {
-        self.forcing_squared.evaluate(point).map(|[value]| value)
+    pub fn quadratic(&self, values: &Values) -> Result<Quadratic, MissingValue> {
+        let [constant, linear, square, collision, hopf, breaking] =
+            self.quadratic.evaluate(values)?;
+        Ok(Quadratic {
+            coefficients: [constant, linear, square],
+            collision,
+            hopf: hopf.sqrt(),
+            breaking: breaking.sqrt(),
+        })
     }
 
     /// Coefficients, by ascending powers of `sigma`, of the condition that a point of the manifold
@@ -217,59 +176,30 @@ impl Programs {
         self.by_detuning.evaluate(point)
     }
 
-    /// `eta` of a fixed point, in radians from -pi to pi. Needs a point, `lambda`, `rho`, `sigma`.
+    /// Coefficients, by ascending powers of `sigma`, of the condition that two fixed points meet. Needs
+    /// `lambda`, `rho`, `gamma`.
     ///
     /// # Errors
     /// If a value is missing.
-    pub fn excitation_phase(&self, point: &Values) -> Result<f64, MissingValue> {
-        let [sine, cosine] = self.sides.evaluate(point)?;
-        Ok(libm::atan2(sine, cosine))
+    pub fn collision_detunings(&self, values: &Values) -> Result<[f64; 5], MissingValue> {
+        self.collision_by_detuning.evaluate(values)
     }
 
-    /// `gamma^2` of the Hopf boundary by ascending powers of `sigma`. Take `gamma^2` off the first
-    /// one to solve for the detuning. Needs `lambda`, `rho`, `R`.
+    /// `gamma sqrt(c_2) sin(eta)` and `gamma sqrt(c_2) cos(eta)` of a fixed point. Needs a point,
+    /// `lambda`, `rho`, `sigma`.
     ///
     /// # Errors
     /// If a value is missing.
-    pub fn hopf_coefficients(&self, values: &Values) -> Result<[f64; 3], MissingValue> {
-        self.hopf.evaluate(values)
+    pub fn sides(&self, point: &Values) -> Result<[f64; 2], MissingValue> {
+        self.sides.evaluate(point)
     }
 
-    /// `gamma^2` of the symmetry-breaking boundary by ascending powers of `sigma`. Needs
-    /// `lambda`, `rho`, `R`.
+    /// `sigma` of P1. Needs `lambda`, `rho`, `R`.
     ///
     /// # Errors
     /// If a value is missing.
-    pub fn breaking_coefficients(&self, values: &Values) -> Result<[f64; 3], MissingValue> {
-        self.breaking.evaluate(values)
-    }
-
-    /// `gamma` of the Hopf boundary at `sigma`. Needs `lambda`, `rho`, `R`, `sigma`.
-    ///
-    /// # Errors
-    /// If a value is missing.
-    pub fn hopf_forcing(&self, values: &Values) -> Result<f64, MissingValue> {
-        let detuning = values.require(Symbol::Detuning)?;
-        Ok(root_of_quadratic(self.hopf_coefficients(values)?, detuning))
-    }
-
-    /// `gamma` of the symmetry-breaking boundary at `sigma`. Needs `lambda`, `rho`, `R`, `sigma`.
-    ///
-    /// # Errors
-    /// If a value is missing.
-    pub fn breaking_forcing(&self, values: &Values) -> Result<f64, MissingValue> {
-        let detuning = values.require(Symbol::Detuning)?;
-        Ok(root_of_quadratic(self.breaking_coefficients(values)?, detuning))
-    }
-
-    /// P1. Needs `lambda`, `rho`, `R`.
-    ///
-    /// # Errors
-    /// If a value is missing.
-    pub fn meeting_point(&self, values: &Values) -> Result<MeetingPoint, MissingValue> {
-        let [detuning] = self.meeting_detuning.evaluate(values)?;
-        let forcing_per_clearance = root_of_quadratic(self.hopf_coefficients(values)?, detuning);
-        Ok(MeetingPoint { detuning, forcing_per_clearance })
+    pub fn meeting_detuning(&self, values: &Values) -> Result<f64, MissingValue> {
+        self.meeting_detuning.evaluate(values).map(|[value]| value)
     }
 
     /// Rates of `u` and `eta` in slow time. Needs a point, `eta`, `lambda`, `rho`, `R`, `sigma`,
@@ -281,18 +211,12 @@ impl Programs {
         self.rates.evaluate(point)
     }
 
-    /// Jacobian of the slow flow, its trace and determinant. Needs what [`Programs::slow_flow`]
-    /// needs.
+    /// Trace of the slow flow's Jacobian at a fixed point, and its determinant at the larger one. Needs
+    /// a point, `Delta`, `lambda`, `rho`, `R`; not finite at the fold.
     ///
     /// # Errors
     /// If a value is missing.
-    pub fn stability(&self, point: &Values) -> Result<Stability, MissingValue> {
-        let [a, b, c, d, trace, determinant] = self.stability.evaluate(point)?;
-        Ok(Stability { jacobian: [[a, b], [c, d]], trace, determinant })
+    pub fn stability(&self, point: &Values) -> Result<[f64; 2], MissingValue> {
+        self.stability.evaluate(point)
     }
-}
-
-/// Square root of a quadratic that is a sum of squares, so that only rounding takes it below 0.
-fn root_of_quadratic([constant, linear, quadratic]: [f64; 3], variable: f64) -> f64 {
-    libm::sqrt((constant + variable * (linear + variable * quadratic)).max(0.0))
 }

@@ -2,8 +2,9 @@
 
 use super::Equations;
 use crate::symbolic::Symbol::{
-    AmplitudeRatio as beta, Detuning as sigma, ExcitationPhase as eta,
-    ForcingPerClearance as gamma, ManifoldSquare as c_2, RatioRate, Shift as u,
+    AbsorberPhase as Theta, AmplitudeRatio as beta, CollisionForcing, Detuning as sigma,
+    Discriminant as Delta, ExcitationPhase as eta, ForcingPerClearance as gamma,
+    ManifoldSquare as c_2, RatioRate,
 };
 use crate::symbolic::{Equation, Expr, Values, cos, format_number, sin, sqrt};
 use crate::system::Excitation;
@@ -193,16 +194,34 @@ impl Equations {
                 latex(c_2),
                 &m.shifted_square,
             ),
-            stated(&self.stated.shift, "the unknown that is solved for"),
+            stated(
+                &self.stated.shift,
+                "the distance from the amplitude at which the oscillator would stand still",
+            ),
         ]
     }
 
     fn fixed_points(&self) -> Vec<ReportEquation> {
         let f = &self.fixed_points;
         let side = |function: Expr| latex(gamma * sqrt(c_2) * function);
+        let turned = |function: &str| {
+            format!(r"{} \{function} \left({} - {}\right)", latex(gamma), latex(eta), latex(Theta))
+        };
         let mut list = vec![
             derived("Fixed point", "the phase of a fixed point", side(sin(eta)), &f.sine),
             derived("Fixed point", "the phase of a fixed point", side(cos(eta)), &f.cosine),
+            derived(
+                "Fixed point, in the absorber's phase",
+                "linear in the amplitude",
+                turned("cos"),
+                &f.along,
+            ),
+            derived(
+                "Fixed point, in the absorber's phase",
+                "linear in the amplitude",
+                turned("sin"),
+                &f.across,
+            ),
             derived(
                 "Forcing of a fixed point",
                 "which excitation holds an amplitude",
@@ -210,17 +229,50 @@ impl Equations {
                 &f.forcing_squared,
             ),
         ];
+        let title = "Quadratic of the fixed points";
         list.extend(by_powers(
-            "Quartic of the fixed points",
-            "coefficients of powers of u; its real roots are the fixed points",
+            title,
+            "coefficients of powers of the amplitude in the squared forcing",
             "p",
-            &f.by_shift,
+            &f.quadratic,
         ));
+        list.extend([
+            derived(
+                "Saddle-node",
+                "the forcing per clearance below which there is no fixed point",
+                latex(CollisionForcing),
+                &f.collision_forcing,
+            ),
+            derived(
+                "Saddle-node",
+                "the amplitude at which the two fixed points meet",
+                format!(r"{}_{{\mathrm{{SN}}}}", latex(beta)),
+                &f.collision_ratio,
+            ),
+            derived(
+                title,
+                "its sign is the number of fixed points: the distance from the saddle-node",
+                latex(Delta),
+                &f.discriminant,
+            ),
+        ]);
+        let ratio = |k: usize| format!("{}_{{{k}}}", latex(beta));
+        let [smaller, larger] = &f.ratios;
+        list.extend([
+            derived(
+                title,
+                "the smaller fixed point, evaluated from the product",
+                ratio(1),
+                smaller,
+            ),
+            derived(title, "the larger fixed point", ratio(2), larger),
+            derived(title, "the product of the two", ratio(1) + " " + &ratio(2), &f.product),
+        ]);
         list.extend(by_powers(
-            "Saddle-node condition",
-            "coefficients of powers of u; two fixed points meet at its roots",
-            "q",
-            &f.saddle_node_by_shift,
+            "Saddle-node over the detuning",
+            "coefficients of powers of the detuning: its roots are where two fixed points meet at this forcing",
+            "s",
+            &f.collision_by_detuning,
         ));
         list.extend(by_powers(
             "Frequency response",
@@ -233,31 +285,32 @@ impl Equations {
 
     fn boundaries(&self) -> Vec<ReportEquation> {
         let b = &self.boundaries;
-        let mut list = by_powers(
-            "Hopf boundary",
-            "squared forcing per clearance by powers of the detuning: the fixed point at the fold",
-            "h",
-            &b.hopf,
-        );
-        list.extend(by_powers(
-            "Symmetry-breaking boundary",
-            "squared forcing per clearance by powers of the detuning",
-            "a",
-            &b.breaking,
-        ));
-        let detuning = format!(r"{}_{{P1}}", latex(sigma));
-        list.push(derived(
-            "Meeting point P1",
-            "the detuning at which the saddle-node boundary reaches the Hopf boundary",
-            detuning,
-            &b.meeting_detuning,
-        ));
-        list
+        let named = |index: &str| format!("{}_{{{index}}}^{{2}}", latex(gamma));
+        vec![
+            derived(
+                "Hopf boundary",
+                "forcing per clearance with which a fixed point reaches the fold",
+                named("H"),
+                &b.hopf_squared,
+            ),
+            derived(
+                "Symmetry-breaking boundary",
+                "forcing per clearance with which a fixed point reaches symmetry breaking",
+                named("c"),
+                &b.breaking_squared,
+            ),
+            derived(
+                "Meeting point P1",
+                "the detuning at which the saddle-node boundary reaches the Hopf boundary",
+                format!(r"{}_{{P1}}", latex(sigma)),
+                &b.meeting_detuning,
+            ),
+        ]
     }
 
     fn flow(&self) -> Vec<ReportEquation> {
         let f = &self.slow_flow;
-        let slope = |row: usize, by: &str| format!("J_{{{} {by}}}", ["u", r"\eta"][row]);
+        let title = "Stability of a fixed point";
         vec![
             derived("Slow flow", "the amplitude's rate", latex(RatioRate), &f.ratio_rate),
             derived(
@@ -266,29 +319,12 @@ impl Equations {
                 self.stated.phase_rate.left.to_latex(),
                 &f.phase_rate,
             ),
+            derived(title, "trace of the slow flow's Jacobian", r"\mathrm{tr} J", &f.trace),
             derived(
-                "Jacobian",
-                "stability of a fixed point",
-                slope(0, &latex(u)),
-                &f.jacobian[0][0],
-            ),
-            derived(
-                "Jacobian",
-                "stability of a fixed point",
-                slope(0, &latex(eta)),
-                &f.jacobian[0][1],
-            ),
-            derived(
-                "Jacobian",
-                "stability of a fixed point",
-                slope(1, &latex(u)),
-                &f.jacobian[1][0],
-            ),
-            derived(
-                "Jacobian",
-                "stability of a fixed point",
-                slope(1, &latex(eta)),
-                &f.jacobian[1][1],
+                title,
+                "its determinant at the larger fixed point; at the smaller one the sign is the other",
+                r"\det J",
+                &f.determinant,
             ),
         ]
     }

@@ -1,5 +1,5 @@
 //! Numerical methods that know nothing of physics. Each result carries its evidence: a bracket, a
-//! residual, a certified count, the number of evaluations.
+//! residual, the number of evaluations.
 
 pub mod bracket;
 pub mod crossing;

@@ -148,7 +148,7 @@ impl AnalysisDocument {
                 symmetry_breaking_clearance: clearance(boundaries.symmetry_breaking),
                 hopf_clearance: clearance(boundaries.hopf),
                 saddle_node: boundaries
-                    .saddle_nodes
+                    .saddle_node
                     .iter()
                     .map(|node| SaddleNodeDocument {
                         clearance: clearance(node.forcing_over_clearance),

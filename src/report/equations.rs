@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::numbers::LengthFormat;
+use crate::analysis::FixedPointCurve;
 use crate::case::Case;
 use crate::equations::{Motion, ReportEquation, equations};
 use crate::orbits::flight::Flight;
@@ -116,7 +117,18 @@ fn values(case: &Case, study: &CaseStudy) -> Values {
     let scales = case.scales();
     let lengths = LengthFormat::of(&scales);
     let length = |over_clearance: f64| lengths.number(scales.length(over_clearance));
-    let mut values = case_values(case, system);
+    let curve = FixedPointCurve::of(system, &study.analysis.manifold);
+    let [constant, linear, square] = curve.coefficients();
+    let mut values = case_values(case, system)
+        .with(Symbol::ForcingConstant, constant)
+        .with(Symbol::ForcingLinear, linear)
+        .with(Symbol::ForcingSquare, square)
+        .with(Symbol::CollisionForcing, curve.collision_forcing());
+    // Without fixed points its root is none.
+    match equations().fixed_points.discriminant.evaluate(&values) {
+        Ok(discriminant) if discriminant >= 0.0 => values.set(Symbol::Discriminant, discriminant),
+        _ => {}
+    }
     let points = &study.analysis.fixed_points;
     let shown = points.iter().rfind(|point| point.stable).or_else(|| points.last());
     if let Some(point) = shown {

@@ -64,6 +64,9 @@ pub fn analysis(case: &Case, analysis: &Analysis, exact: &FullSystem, area: Sett
             },
         );
     }
+    if let Some(above) = analysis.fixed_points.iter().find_map(|point| point.above_collision) {
+        let _ = writeln!(text, "  the forcing is {} above their collision", percent(above));
+    }
     text.push_str("\nExact symmetric 1:1 orbits of the full system at this clearance\n");
     if exact.orbits.is_empty() {
         text.push_str("  none\n");

@@ -207,6 +207,7 @@ pub fn fixed_points(case: &Case, study: &CaseStudy) -> Table {
                 significant(point.determinant, 3)
             ),
             if point.stable { "stable" } else { "unstable" }.to_owned(),
+            point.above_collision.map_or_else(|| "–".to_owned(), percent),
         ]
     });
     let columns = [
@@ -217,6 +218,7 @@ pub fn fixed_points(case: &Case, study: &CaseStudy) -> Table {
         ("Branch", false),
         ("Slow flow", false),
         ("Motion", false),
+        ("γ above the collision", true),
     ];
     table(columns, rows.collect())
 }

@@ -76,7 +76,11 @@ symbol_table! {
     VelocityRatioBefore: "v-", "v_{-}", "1", "velocity of the oscillator before an impact over the absorber's speed";
     DisplacementCoefficient: "A", "A", "1", "loss of steady displacement at an impact per beta b";
     VelocityCoefficient: "D", "D", "1", "loss of steady velocity over Omega at an impact per beta b";
-    Discriminant: "Delta", r"\Delta", "1", "quarter of the discriminant of the quadratic of the symmetric orbits";
+    ForcingConstant: "p_0", "p_0", "1", "gamma^2 of a fixed point: constant part of the quadratic in beta";
+    ForcingLinear: "p_1", "p_1", "1", "gamma^2 of a fixed point: coefficient of beta";
+    ForcingSquare: "p_2", "p_2", "1", "gamma^2 of a fixed point: coefficient of beta^2";
+    CollisionForcing: "gamma_SN", r"\gamma_{\mathrm{SN}}", "1", "gamma at which two fixed points meet";
+    Discriminant: "Delta", r"\Delta", "1", "quarter of the discriminant of a quadratic in beta";
     SteadySine: "X_s", "X_s", "length", "coefficient of sin(phi) in the steady motion";
     SteadyCosine: "X_c", "X_c", "length", "coefficient of cos(phi) in the steady motion";
     SteadyDisplacement: "X", "X", "length", "displacement of the steady motion at an impact on the wall +b";

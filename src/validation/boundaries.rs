@@ -33,7 +33,7 @@ pub fn clearances_of(boundaries: &Boundaries, gamma: f64) -> Vec<BoundaryAt> {
         (BoundaryKind::Hopf, boundaries.hopf),
     ];
     let explicit = explicit.map(|(kind, at)| (kind, Branch::Stable, at));
-    let nodes = boundaries.saddle_nodes.iter();
+    let nodes = boundaries.saddle_node.iter();
     let nodes =
         nodes.map(|node| (BoundaryKind::SaddleNode, node.branch, node.forcing_over_clearance));
     let mut all: Vec<BoundaryAt> = explicit

@@ -1,7 +1,6 @@
 //! The areas along the manifold, and how the fixed points move as the clearance grows (Fig. 5).
 
-use crate::analysis::{AnalysisError, Branch, FixedPoint, Kind, Manifold, fixed_points};
-use crate::equations::equations;
+use crate::analysis::{Branch, FixedPoint, FixedPointCurve, Kind, Manifold, fixed_points};
 use crate::report::figure::{
     Axis, Color, Figure, Label, Layer, Layout, MarkedPoint, Marker, Panel, Role, Rule, Shape,
 };
@@ -54,7 +53,7 @@ pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
     second.layers.extend(levels.layers((from, to), top, from + 0.93 * (to - from)));
     let place = |clearance: f64, c: f64| [units.length(clearance), c];
     for (role, stable) in [(Role::Unstable, false), (Role::Stable, true)] {
-        let line = line(system, manifold, stable, &place)?;
+        let line = line(system, manifold, stable, &place);
         let name = if stable { "stable" } else { "unstable" };
         second = second.with(Layer::curve(role, line).labelled(name));
     }
@@ -95,8 +94,7 @@ pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
 fn route(scene: &Scene) -> Route {
     let boundaries = &scene.study.analysis.boundaries;
     let gamma = scene.study.analysis.system.forcing_per_clearance();
-    // The collision with the smallest forcing, beyond which no fixed point is left.
-    let outer = boundaries.outermost_collision();
+    let outer = boundaries.saddle_node;
     Route {
         breaking: gamma / boundaries.symmetry_breaking,
         hopf: gamma / boundaries.hopf,
@@ -119,19 +117,15 @@ fn line(
     manifold: &Manifold,
     stable: bool,
     place: &dyn Fn(f64, f64) -> [f64; 2],
-) -> Result<Vec<[f64; 2]>, AnalysisError> {
-    let programs = &equations().programs;
-    let values = programs.values(system);
+) -> Vec<[f64; 2]> {
+    let curve = FixedPointCurve::of(system, manifold);
     let mut shifts: Vec<f64> = (1..=SAMPLES)
         .map(|k| WIDEST * f64::from(k) / f64::from(SAMPLES) - 1.0)
         .chain([manifold.fold_shift, manifold.symmetry_breaking.absorber - 1.0])
         .collect();
     shifts.sort_by(f64::total_cmp);
-    let mut samples = Vec::new();
-    for shift in shifts {
-        let squared = programs.forcing_squared(&programs.at_shift(&values, shift)?)?;
-        samples.push((shift, squared.max(0.0).sqrt()));
-    }
+    let forcing = |shift: f64| (shift, curve.forcing_squared(1.0 + shift).sqrt());
+    let samples: Vec<(f64, f64)> = shifts.into_iter().map(forcing).collect();
     let gamma = system.forcing_per_clearance();
     let at =
         |(shift, forcing): (f64, f64)| place(gamma / forcing, manifold.point(shift).oscillator);
@@ -146,7 +140,7 @@ fn line(
             points.push(at(pair[1]));
         }
     }
-    Ok(points)
+    points
 }
 
 /// The fixed points of one clearance: stable ones filled, others hollow.

@@ -1,7 +1,6 @@
 //! What the saddle-node and the Hopf boundary are (Figs. 6a and 6b), and where they lie.
 
-use crate::analysis::{AnalysisError, Boundaries, Branch, Manifold};
-use crate::equations::equations;
+use crate::analysis::{AnalysisError, Boundaries, Branch, FixedPointCurve, Manifold};
 use crate::report::figure::{
     Axis, Color, Dash, Figure, Layer, Layout, MarkedPoint, Marker, Panel, Role, Rule, Shape, Style,
 };
@@ -80,17 +79,15 @@ fn condition(
     manifold: &Manifold,
     style: Style,
 ) -> Result<Condition, AnalysisError> {
-    let programs = &equations().programs;
-    let values = programs.values(there);
+    let curve = FixedPointCurve::of(there, manifold);
     let gamma = there.forcing_per_clearance();
     let mut line = Vec::new();
     for k in 0..=SAMPLES {
         let ratio = RANGE.0 + (RANGE.1 - RANGE.0) * f64::from(k) / f64::from(SAMPLES);
-        let squared = programs.forcing_squared(&programs.at_shift(&values, ratio - 1.0)?)?;
-        line.push([ratio, scene.units.length(gamma / squared.max(0.0).sqrt())]);
+        line.push([ratio, scene.units.length(gamma / curve.forcing_squared(ratio).sqrt())]);
     }
     let boundaries = Boundaries::of(there, manifold)?;
-    let outer = boundaries.outermost_collision();
+    let outer = boundaries.saddle_node;
     Ok(Condition {
         detuning: there.detuning(),
         color: style.color,

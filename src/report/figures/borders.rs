@@ -151,7 +151,7 @@ impl Borders {
 
 impl Border {
     fn of(system: &System, detuning: f64, at: &Boundaries) -> Self {
-        let outer = at.outermost_collision();
+        let outer = at.saddle_node;
         // Without a collision a fixed point that passes the fold lives on until B = 0, where C = b.
         let vanishing = libm::hypot(system.damping(), 2.0 * detuning);
         let (last, strip) = match outer {

@@ -1,7 +1,7 @@
 //! Frequency responses for four forcings per clearance across the areas (Fig. 7).
 
 use crate::analysis::frequency_response::ResponsePoint;
-use crate::analysis::{AnalysisError, BoundaryKind, boundaries};
+use crate::analysis::{AnalysisError, FixedPointCurve, Manifold};
 use crate::report::figure::{Axis, Color, Dash, Figure, Layer, Layout, Panel, Role, Style};
 use crate::report::numbers::percent;
 use crate::study::StudyError;
@@ -57,7 +57,7 @@ pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
             [units.frequency(1.0 + there.mass_ratio() * point.detuning), point.oscillator]
         };
         let pieces = branches_of(&there, manifold, last, &place)?;
-        members.push(Member { gamma: at, color, dash, pieces, share: share(&there)? });
+        members.push(Member { gamma: at, color, dash, pieces, share: share(system, at)? });
     }
     let levels = Levels { grazing: None, ..Levels::of(system, manifold)? };
     let y = || Axis::linear("oscillator amplitude C/b (1)").with_range(0.0, top);
@@ -94,8 +94,11 @@ pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
 /// symmetry breaking, one with which its top just reaches it, one inside Z3, and one below the fold
 /// at every frequency.
 fn family(system: &System) -> Result<[f64; 4], AnalysisError> {
-    let least = |kind| least(kind, system);
-    let (hopf, breaking) = (least(BoundaryKind::Hopf)?, least(BoundaryKind::SymmetryBreaking)?);
+    let least = |boundary: fn(&FixedPointCurve) -> f64| -> Result<f64, AnalysisError> {
+        Ok(curves(system)?.map(|curve| boundary(&curve)).fold(f64::INFINITY, f64::min))
+    };
+    let (hopf, breaking) =
+        (least(FixedPointCurve::hopf)?, least(FixedPointCurve::symmetry_breaking)?);
     Ok([2.5 * breaking, breaking, (hopf * breaking).sqrt(), 0.85 * hopf])
 }
 
@@ -104,37 +107,24 @@ fn family(system: &System) -> Result<[f64; 4], AnalysisError> {
 /// # Errors
 /// As the theory's boundaries.
 pub(in crate::report) fn shares(system: &System) -> Result<Vec<(f64, f64)>, AnalysisError> {
-    let mut shares = Vec::new();
-    for gamma in family(system)? {
-        let there = Parameters { forcing_per_clearance: gamma, ..system.parameters() };
-        if let Ok(there) = System::new(there) {
-            shares.push((system.forcing_per_clearance() / gamma, share(&there)?));
-        }
-    }
-    Ok(shares)
+    let gammas = family(system)?.into_iter();
+    let own = system.forcing_per_clearance();
+    gammas.map(|gamma| Ok((own / gamma, share(system, gamma)?))).collect()
 }
 
-/// The smallest forcing per clearance on a boundary, over all detunings of the band.
-fn least(kind: BoundaryKind, system: &System) -> Result<f64, AnalysisError> {
+/// The quadratics of the band's detunings.
+fn curves(system: &System) -> Result<impl Iterator<Item = FixedPointCurve>, AnalysisError> {
+    let manifold = Manifold::of(system.restitution())?;
     let detunings = (-SAMPLES..=SAMPLES).map(|k| BAND * f64::from(k) / f64::from(SAMPLES));
-    let points = boundaries::explicit_boundary(kind, system, detunings)?;
-    Ok(points.iter().map(|point| point.forcing_over_clearance).fold(f64::INFINITY, f64::min))
+    Ok(detunings.map(move |at| FixedPointCurve::at_detuning(system, &manifold, at)))
 }
 
-/// Share of the band `abs(sigma) < BAND` between Hopf and symmetry breaking: area Z3 without its
-/// strips.
-fn share(system: &System) -> Result<f64, AnalysisError> {
-    let forcings = |kind| {
-        let detunings = (-SAMPLES..=SAMPLES).map(|k| BAND * f64::from(k) / f64::from(SAMPLES));
-        boundaries::explicit_boundary(kind, system, detunings)
-    };
-    let (hopf, breaking) =
-        (forcings(BoundaryKind::Hopf)?, forcings(BoundaryKind::SymmetryBreaking)?);
-    let gamma = system.forcing_per_clearance();
-    let inside = hopf.iter().zip(&breaking).filter(|(hopf, breaking)| {
-        hopf.forcing_over_clearance <= gamma && gamma <= breaking.forcing_over_clearance
-    });
-    Ok(inside.count() as f64 / hopf.len() as f64)
+/// Share of the band `abs(sigma) < BAND` between Hopf and symmetry breaking at the forcing `gamma`:
+/// area Z3 without its strips.
+fn share(system: &System, gamma: f64) -> Result<f64, AnalysisError> {
+    let inside =
+        curves(system)?.filter(|curve| curve.hopf() <= gamma && gamma <= curve.symmetry_breaking());
+    Ok(inside.count() as f64 / f64::from(2 * SAMPLES + 1))
 }
 
 fn words(scene: &Scene, members: &[Member]) -> (String, String) {

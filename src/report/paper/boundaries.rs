@@ -70,7 +70,7 @@ pub(super) fn route(
     let boundaries = &member.study.analysis.boundaries;
     let gamma = member.study.analysis.system.forcing_per_clearance();
     let node = boundaries
-        .outermost_collision()
+        .saddle_node
         .ok_or(PaperError::NoResult { case: name, what: "collision of fixed points" })?;
     Ok((
         gamma / boundaries.symmetry_breaking,

@@ -139,16 +139,25 @@ fn sentence(
         if tradeoff.best.layer == Layer::Simulation { "is known to" } else { "misses by" };
     match closest {
         Some((trial, error)) => Some(format!(
-            "{name} {falls_short} {}: {}, {} operations.{}",
+            "{name} {falls_short} {}: {}, {} operations{}.{}",
             error_text(error),
             method(trial.method),
             operations(trial.operations),
+            winner.map_or_else(String::new, |winner| cheaper(trial, winner)),
             tradeoff.transient(trial).map_or_else(String::new, |left| transient(tradeoff, left))
         )),
         None => {
             let why = trials.find_map(|trial| trial.answer.why_not)?;
             Some(format!("{name} gives no answer: {why}."))
         }
+    }
+}
+
+/// How much less a method costs than the one that is enough, if that is worth saying.
+fn cheaper(trial: &Trial, winner: &Trial) -> String {
+    match winner.operations / trial.operations.max(1) {
+        0..10 => String::new(),
+        ratio => format!(", one in {} of that", significant(ratio as f64, 2)),
     }
 }
 
