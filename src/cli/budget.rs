@@ -7,7 +7,8 @@ use clap::Args;
 use miette::{Result, miette};
 use vinesink::band::Band;
 use vinesink::case::Case;
-use vinesink::regimes::long_term::{self, left_out};
+use vinesink::band::simulated::Sampling;
+use vinesink::regimes::Transient;
 use vinesink::study::StudyEffort;
 use vinesink::sweep::Plan;
 use vinesink::system::System;
@@ -25,9 +26,9 @@ const ALONE: f64 = 1.5e-6;
 const SIDE_BY_SIDE: f64 = 0.9e-6;
 
 /// Places of a band that are simulated, about: even ones, and closer ones around the worst.
-const PLACES: u32 = 40;
+const PLACES: u32 = 80;
 /// Designs that `optimize` holds against the whole band, about.
-const DESIGNS: u64 = 20;
+const DESIGNS: u64 = 50;
 /// Windows that a motion is watched for which never repeats: twenty for a chaotic transient that may end, one
 /// measured, and longer ones while its averages drift, 2 + 4 + 8 + 16.
 const NEVER_REPEATS: u64 = 51;
@@ -91,7 +92,7 @@ struct Part {
 impl Work {
     /// Looking for all long-term motions of a case.
     pub fn motions(case: &Case, effort: &StudyEffort) -> Self {
-        let each_start = effort.discard + effort.periods.min(RECOGNITION);
+        let each_start = effort.left_out(&case.system()) + effort.periods.min(RECOGNITION);
         let longest = effort.periods.saturating_mul(NEVER_REPEATS);
         let system = case.system();
         Self(vec![
@@ -102,7 +103,7 @@ impl Work {
 
     /// One trajectory.
     pub fn trajectory(case: &Case, effort: &StudyEffort) -> Self {
-        let periods = effort.discard.saturating_add(effort.periods);
+        let periods = effort.left_out(&case.system()).saturating_add(effort.periods);
         Self(vec![Part::alone(&case.system(), vec![(1, "trajectory")], periods)])
     }
 
@@ -162,7 +163,7 @@ impl Part {
     }
 
     fn band(case: &Case, mut trajectories: Vec<(u64, &'static str)>) -> Self {
-        let effort = long_term::Effort::default();
+        let sampling = Sampling::FULL;
         let systems: Vec<System> = match &case.band {
             Some(settings) => {
                 let band = Band::of(&case.system(), settings);
@@ -171,8 +172,8 @@ impl Part {
             None => vec![case.system()],
         };
         trajectories.push((systems.len() as u64, "places"));
-        trajectories.push((effort.starts.into(), "starts"));
-        Self::side_by_side(&systems, trajectories, effort.periods)
+        trajectories.push((sampling.starts.into(), "starts"));
+        Self::side_by_side(&systems, trajectories, sampling.periods)
     }
 
     /// Trajectories of which as many are of each system; periods and oscillations are averages.
@@ -181,7 +182,7 @@ impl Part {
         trajectories: Vec<(u64, &'static str)>,
         measured: u64,
     ) -> Self {
-        let periods = |system: &System| left_out(system).saturating_add(measured) as f64;
+        let periods = |system: &System| Transient::of(system).periods.saturating_add(measured) as f64;
         let count = systems.len().max(1) as f64;
         let mean = |f: &dyn Fn(&System) -> f64| systems.iter().map(f).sum::<f64>() / count;
         let total = mean(&|system| periods(system) * oscillations(system));
