@@ -153,7 +153,7 @@ const ORBIT: [(&str, Holds); 8] = [
     ("/residual", Number),
 ];
 
-const SIMULATION: [(&str, Holds); 15] = [
+const SIMULATION: [(&str, Holds); 17] = [
     ("/format", Text),
     ("/periods", Count),
     ("/impacts", Count),
@@ -161,6 +161,8 @@ const SIMULATION: [(&str, Holds); 15] = [
     ("/regime", Text),
     ("/displacement/peak", Number),
     ("/displacement/rms", Number),
+    ("/impact_speed", Number),
+    ("/settled", Flag),
     ("/energy/input", Number),
     ("/energy/damper", Number),
     ("/energy/impact", Number),
@@ -374,6 +376,59 @@ fn extremes_run() {
         has(&simulated, &SIMULATION);
         assert_eq!(simulated["stop"], "end-time", "{name}");
     }
+}
+
+/// A footbridge, 1200 kg at 2.1 Hz under 250 N, and 1.5 % of its mass in a cavity.
+fn bridge(clearance: &str, frequency: &str) -> String {
+    format!(
+        "title = \"bridge\"\nsource = \"by hand\"\n[oscillator]\nmass = \"1200 kg\"\nfrequency = \"2.1 Hz\"\n\
+         damping_ratio = \"0.4 %\"\n[absorber]\nmass_ratio = \"1.5 %\"\nclearance = \"{clearance}\"\n\
+         restitution = 0.6\n[excitation]\nkind = \"force\"\namplitude = \"250 N\"\nfrequency = \"{frequency}\"\n"
+    )
+}
+
+/// It printed 83.5 and 99.0 mm for one and the same chaotic motion, without an uncertainty.
+#[test]
+fn one_chaotic_motion_has_one_peak_with_its_growth() {
+    let folder = folder();
+    let path = written(&folder, "inactive.toml", &bridge("200 mm", "2.1 Hz"));
+    let reach = |motion: &Value| {
+        let number = |pointer| motion.pointer(pointer).and_then(Value::as_f64).expect("a number");
+        [number("/displacement/peak"), number("/growth_in_ten_times_as_long/peak")]
+    };
+    let many = json(&["simulate", &path]);
+    assert_eq!(many["nature"]["kind"], "chaotic");
+    let moving = many["attractors"].as_array().expect("a list");
+    let main = moving.iter().find(|one| one["regime"] == many["regime"]).expect("the same");
+    assert_eq!(reach(&many), reach(main));
+    let [peak, growth] = reach(&many);
+    assert!((0.02..0.25).contains(&(growth / peak)), "{growth} of {peak}");
+    for start in ["0,0,0.5,0", "0.5,0,0.2,0.3"] {
+        let [other, spread] = reach(&json(&["simulate", &path, "--initial", start]));
+        assert!(
+            other <= peak + growth && peak <= other + spread,
+            "{peak} {growth} {other} {spread}"
+        );
+    }
+    let printed = done(&["simulate", &path]);
+    assert_eq!(printed.matches(" in ten times as long").count(), 2, "{printed}");
+}
+
+/// 40 Hz on 2.1 Hz is waited for; asked to measure at once, it says that nothing has settled.
+#[test]
+fn what_has_not_settled_is_said() {
+    let folder = folder();
+    let path = written(&folder, "far-above.toml", &bridge("50 mm", "40 Hz"));
+    let early = ["simulate", &path, "--initial", "0.1,0,0,0", "--discard", "400"];
+    let document = json(&early);
+    assert_eq!(document["settled"], false);
+    assert!(document["displacement"]["peak"].as_f64().expect("a number") > 1e-4);
+    let printed = done(&early);
+    assert!(printed.contains("not settled after 1400 periods"), "{printed}");
+    let waited = json(&["simulate", &path, "--initial", "0.1,0,0,0"]);
+    // The bare amplitude: 250 N over 1200 kg ((40 Hz)^2 - (2.1 Hz)^2) (2 pi)^2.
+    let peak = waited["displacement"]["peak"].as_f64().expect("a number");
+    assert!((peak / 3.3073e-6 - 1.0).abs() < 1e-4 && waited["settled"] == true, "{peak}");
 }
 
 #[test]

@@ -38,7 +38,7 @@ const ROUNDS: u64 = 3;
 /// How thoroughly each place is simulated.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Effort {
-    /// Starts at each place: one from rest, the absorber halfway to a wall, the others evenly spread.
+    /// Starts at each place, as [`starts::of`] orders them.
     pub starts: u32,
     /// Excitation periods measured where a motion is not seen to repeat, after a transient that follows
     /// from the damping.
@@ -217,7 +217,7 @@ fn measured_after_transient(
         let motion = watch.motion(&one, Some(repetition));
         ended.push((one, motion));
     }
-    for (one, watch) in measured(other, periods) {
+    for (one, watch) in measured(other, transients, periods) {
         let motion = watch.motion(&one, None);
         ended.push((one, motion));
     }
@@ -269,8 +269,9 @@ impl Group {
 }
 
 /// Measures trajectories that were not seen to repeat: those that then do over a short window, those
-/// without an impact in it over some flights of the absorber, the others over `periods`.
-fn measured(group: Group, periods: u64) -> Vec<(Ended, Watch)> {
+/// without an impact in it over some flights of the absorber, but no longer than a transient, the others
+/// over `periods`.
+fn measured(group: Group, transients: &[Transient], periods: u64) -> Vec<(Ended, Watch)> {
     let first = |system: &System| transient::window(system, periods.min(WATCHED));
     let (watches, short) = (group.watched(), group.extents(|_, system| first(system)));
     let (mut done, mut going, mut watches_on) = (Vec::new(), Group::default(), Vec::new());
@@ -286,13 +287,14 @@ fn measured(group: Group, periods: u64) -> Vec<(Ended, Watch)> {
         }
     }
     let rest: Vec<Extent> = going
-        .simulations
+        .indices
         .iter()
-        .zip(&watches_on)
-        .map(|(one, watch)| {
+        .zip(going.simulations.iter().zip(&watches_on))
+        .map(|(index, (one, watch))| {
             let system = one.system();
             let flights = if watch.gauge.impacts() == 0 { flights(one) } else { 0 };
-            let wanted = transient::window(system, periods.max(flights));
+            let longer = flights.min(transients[*index].periods);
+            let wanted = transient::window(system, periods.max(longer));
             extent(system, wanted.saturating_sub(first(system)))
         })
         .collect();

@@ -155,9 +155,8 @@ fn correlation(pairs: impl Iterator<Item = (f64, f64)> + Clone, scale: f64) -> O
 const BLOCKS: usize = 10;
 
 /// Whether mean peak and number of visits to the walls agree between the halves of the window; rare
-/// chattering sequences of dozens of impacts each would make numbers of impacts differ. And whether the
-/// mean square displacement does not go up or down beyond its scatter, as it does while a weakly damped
-/// vibration fades.
+/// chattering sequences of dozens of impacts each would make numbers of impacts differ. And whether
+/// nothing drifts.
 pub fn settled(records: &[PeriodRecord]) -> bool {
     let half = records.len() / 2;
     let (first, second) = (&records[..half], &records[half..2 * half]);
@@ -165,11 +164,16 @@ pub fn settled(records: &[PeriodRecord]) -> bool {
     let visits = |part: &[PeriodRecord]| {
         part.iter().map(|record| f64::from(record.visits.iter().sum::<u32>())).sum::<f64>()
     };
+    close(peak(first), peak(second)) && close(visits(first), visits(second)) && !drifting(records)
+}
+
+/// Whether the mean square displacement goes up or down beyond its scatter, as it does while a weakly
+/// damped vibration fades.
+pub fn drifting(records: &[PeriodRecord]) -> bool {
     let blocks = records.chunks_exact((records.len() / BLOCKS).max(1));
     let mean_square =
         |block: &[PeriodRecord]| block.iter().map(|record| record.mean_square).sum::<f64>();
-    let drifting = drifts(&blocks.map(mean_square).collect::<Vec<_>>());
-    close(peak(first), peak(second)) && close(visits(first), visits(second)) && !drifting
+    drifts(&blocks.map(mean_square).collect::<Vec<_>>())
 }
 
 fn close(a: f64, b: f64) -> bool {

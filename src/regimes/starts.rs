@@ -18,10 +18,20 @@ const LARGEST: f64 = 10.0;
 /// on average if it may lie anywhere. Exactly in the middle the slightest push would wake it.
 pub const FROM_REST: State = State { y: 0.5, ..State::AT_REST };
 
-/// So many starts of a system: the one from rest, then others evenly spread; at least one.
+/// So many starts of a system: the one from rest; the oscillator on its steady motion, the absorber at rest
+/// in the middle, or over the oscillator where the motion is too large for that; then others evenly spread;
+/// at least one.
+///
+/// Where the steady motion is smaller than the clearance the second start leads to the motion without
+/// impacts, often the largest there is, which of 64 evenly spread starts none leads to.
 pub fn of(system: &System, count: u32) -> impl Iterator<Item = State> + use<> {
     let sample = StartBox::around(system);
-    [FROM_REST].into_iter().chain((1..count).map(move |index| sample.start(index - 1)))
+    let steady = system.linear_response().map(|linear| {
+        let state = linear.state(system);
+        if linear.amplitude() < 1.0 { state } else { State { y: state.x, ..state } }
+    });
+    let spread = (0..).map(move |index| sample.start(index));
+    [FROM_REST].into_iter().chain(steady).chain(spread).take(count.max(1) as usize)
 }
 
 /// The box that starts are drawn from, over the clearance.
@@ -86,7 +96,10 @@ mod tests {
         let starts: Vec<State> = of(&system, 5).collect();
         assert_eq!(starts[0], State { x: 0.0, x_velocity: 0.0, y: 0.5, y_velocity: 0.0 });
         let sample = StartBox::around(&system);
-        assert_eq!(starts[1..], [0, 1, 2, 3].map(|k| sample.start(k)));
+        let steady = system.linear_response().expect("damped");
+        assert!(steady.amplitude() > 1.0 && starts[1].gap() == 0.0);
+        assert_eq!(starts[1].x, steady.state(&system).x);
+        assert_eq!(starts[2..], [0, 1, 2].map(|k| sample.start(k)));
         assert_eq!(of(&system, 0).count(), 1);
     }
 }

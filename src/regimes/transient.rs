@@ -19,8 +19,8 @@ const FADED_BESIDE_STEADY: f64 = 10.0;
 /// Fewest excitation periods left out: a motion needs some to be captured, which the decay does not tell.
 const FEWEST: f64 = 150.0;
 /// Most natural periods, and most excitation periods, left out: what a run can wait for. A damping ratio
-/// of 0.04 % fades within the first, 0.4 % at 80 times the natural frequency within the second.
-const MOST: [f64; 2] = [5_000.0, 100_000.0];
+/// of 0.07 % fades within the first, 0.4 % at 60 times the natural frequency within the second.
+const MOST: [f64; 2] = [3_000.0, 50_000.0];
 
 /// Fewest excitation periods that show a repetition; windows are no shorter.
 const SHORTEST: u64 = 8;

@@ -82,7 +82,7 @@ impl Watch {
                 (signs, gauge.errors(), found.map(|found| found.periods))
             }
         };
-        let settled = repeats_after.is_some() || modulation::settled(gauge.records());
+        let settled = repeats_after.is_some() || !modulation::drifting(gauge.records());
         let growth = if repeats_after.is_some() { [0.0; 2] } else { gauge.growth_of_largest() };
         Some(Motion {
             peak: gauge.peak(),
