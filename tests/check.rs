@@ -96,14 +96,14 @@ fn a_motion_beside_the_orbit_counts() {
     let asleep = system.linear_response().expect("damped").amplitude();
     assert!(scales.length(orbit) < 3e-3 && scales.length(asleep) > 3e-3, "{orbit} {asleep}");
     let judged = judge(&case);
-    assert_eq!((judged[0].holds, judged[0].decided_by), (Some(false), Fidelity::Manifold));
-    assert_eq!(judged[0].found, Some(scales.length(asleep)));
+    // A modulated motion may be larger still.
+    assert!(judged[0].holds == Some(false) && judged[0].found >= Some(scales.length(asleep)));
     assert_eq!((judged[1].found, judged[1].holds), (Some(0.0), Some(false)));
-    // In a device in which it cannot rest there the orbit decides.
+    assert_eq!(judged[1].decided_by, Fidelity::Manifold);
+    assert!(judged[1].inactive.is_some_and(|share| share > 0.5), "{judged:?}");
+    // In a device in which it cannot rest there it does not count.
     let awake = judge(&alone("8 Hz", "16.6 mm", &format!("{criteria}\ncount_inactive = false")));
-    let found = awake[0].found.expect("measured");
-    assert!((found / scales.length(orbit) - 1.0).abs() < 1e-9, "{found}");
-    assert_eq!((awake[0].holds, awake[0].inactive), (Some(true), None));
+    assert!(awake[1].found > Some(0.1) && awake[1].inactive.is_none(), "{awake:?}");
 }
 
 /// An absorber that hardly moves is a mass on the oscillator, which then resonates in a peak narrower than

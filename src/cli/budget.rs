@@ -6,8 +6,8 @@ use std::path::Path;
 use clap::Args;
 use miette::{Result, miette};
 use vinesink::band::Band;
-use vinesink::case::Case;
 use vinesink::band::simulated::Sampling;
+use vinesink::case::Case;
 use vinesink::regimes::Transient;
 use vinesink::study::StudyEffort;
 use vinesink::sweep::Plan;
@@ -182,7 +182,8 @@ impl Part {
         trajectories: Vec<(u64, &'static str)>,
         measured: u64,
     ) -> Self {
-        let periods = |system: &System| Transient::of(system).periods.saturating_add(measured) as f64;
+        let periods =
+            |system: &System| Transient::of(system).periods.saturating_add(measured) as f64;
         let count = systems.len().max(1) as f64;
         let mean = |f: &dyn Fn(&System) -> f64| systems.iter().map(f).sum::<f64>() / count;
         let total = mean(&|system| periods(system) * oscillations(system));
