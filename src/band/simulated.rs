@@ -17,8 +17,10 @@ use crate::system::{State, System};
 pub struct Sampling {
     /// Even places at the beginning, the band's ends among them.
     pub even: u32,
-    /// Starts at each place, beside the motions of its neighbours.
+    /// Starts at each of the first places.
     pub starts: u32,
+    /// Starts at each place between them, beside the motions of its neighbours.
+    pub starts_between: u32,
     /// Starts where there is only one place.
     pub starts_alone: u32,
     /// Excitation periods over which a motion that does not repeat is measured.
@@ -31,11 +33,25 @@ pub struct Sampling {
 
 impl Sampling {
     /// What decides: a criterion, an optimum, a verdict.
-    pub const FULL: Self =
-        Self { even: 25, starts: 8, starts_alone: 32, periods: 250, most: 160, tolerance: 0.02 };
+    pub const FULL: Self = Self {
+        even: 25,
+        starts: 8,
+        starts_between: 3,
+        starts_alone: 32,
+        periods: 250,
+        most: 160,
+        tolerance: 0.02,
+    };
     /// Enough to rank designs before the best are sampled in full.
-    pub const SCREENING: Self =
-        Self { even: 13, starts: 3, starts_alone: 8, periods: 120, most: 40, tolerance: 0.1 };
+    pub const SCREENING: Self = Self {
+        even: 13,
+        starts: 3,
+        starts_between: 2,
+        starts_alone: 8,
+        periods: 120,
+        most: 40,
+        tolerance: 0.1,
+    };
 }
 
 /// A place of a band and the motions that starts led to there. Lengths over the clearance.
@@ -203,8 +219,12 @@ impl Sampler<'_> {
     fn at(&self, mut places: Vec<f64>, known: &[Place]) -> Result<Vec<Place>, StartError> {
         places.sort_by(f64::total_cmp);
         places.dedup();
-        let starts =
-            if self.band.is_point() { self.sampling.starts_alone } else { self.sampling.starts };
+        // Between known places the motions beside are the starts that matter.
+        let starts = match (self.band.is_point(), known.is_empty()) {
+            (true, _) => self.sampling.starts_alone,
+            (false, true) => self.sampling.starts,
+            (false, false) => self.sampling.starts_between,
+        };
         let task = |at: f64| {
             let system = self.band.system(at).ok()?;
             let right = known.partition_point(|place| place.at < at);

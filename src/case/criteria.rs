@@ -112,6 +112,16 @@ impl Subject {
         !matches!(self, Self::Z3Share | Self::StableShare | Self::MarginClearance)
     }
 
+    /// Whether it is the largest of something that was seen.
+    pub fn is_largest(self) -> bool {
+        matches!(self, Self::PeakDisplacement | Self::ImpactVelocity)
+    }
+
+    /// Whether it compares the largest displacement with another.
+    pub fn is_reduction(self) -> bool {
+        matches!(self, Self::ReductionDb | Self::ReductionDbTmd)
+    }
+
     /// What its value is.
     pub fn measure(self) -> Measure {
         match self {

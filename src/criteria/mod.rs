@@ -31,6 +31,8 @@ struct Value {
     at: Option<f64>,
     /// Share of resting places, where the motion is that of an absorber that never wakes.
     inactive: Option<f64>,
+    /// Whether the motion has settled.
+    settled: bool,
     by: Fidelity,
 }
 
@@ -55,6 +57,8 @@ pub struct Judged {
     /// Share of the absorber's resting places from which a start from rest stays in the motion that
     /// decides, where that is the motion of an absorber that never wakes.
     pub inactive: Option<f64>,
+    /// Whether the motion that decides has settled: false where it drifts for longer than a run can wait.
+    pub settled: bool,
     /// The layer that `found` is from.
     pub decided_by: Fidelity,
 }
@@ -134,6 +138,15 @@ impl Criterion {
         }
     }
 
+    /// Whether the error could turn what holds or not. A largest value may be larger than what was seen of
+    /// it, and not smaller.
+    fn is_open(&self, room: f64, error: f64) -> bool {
+        let within = error > 0.0 && room.abs() <= error;
+        let of_largest = self.subject.is_largest() && self.relation == Relation::AtMost;
+        let of_least = self.subject.is_reduction() && self.relation == Relation::AtLeast;
+        within && (room >= 0.0 || !(of_largest || of_least))
+    }
+
     fn judged(&self, value: Option<Value>, otherwise: Fidelity) -> Judged {
         let Some(value) = value else {
             return Judged {
@@ -145,6 +158,7 @@ impl Criterion {
                 near_limit: false,
                 at: None,
                 inactive: None,
+                settled: true,
                 decided_by: otherwise,
             };
         };
@@ -160,9 +174,10 @@ impl Criterion {
             error: value.error,
             margin: Some(room),
             holds: Some(room >= needed),
-            near_limit: value.error > 0.0 && room.abs() <= value.error,
+            near_limit: self.is_open(room, value.error),
             at: value.at,
             inactive: value.inactive,
+            settled: value.settled,
             decided_by: value.by,
         }
     }

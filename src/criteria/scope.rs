@@ -55,19 +55,26 @@ impl Scope<'_> {
         let shifted = [1.0 - error.min(0.9), 1.0 + error].map(share);
         let off =
             shifted.map(|other| (other - found).abs()).into_iter().fold(SHARE_ROUNDING, f64::max);
-        Value { found, error: off, at: None, inactive: None, by: Fidelity::Manifold }
+        Value { found, error: off, at: None, inactive: None, settled: true, by: Fidelity::Manifold }
     }
 
     fn stable_share(&self) -> Value {
         // All and nothing have no end that could be off.
         let error = if self.survey.motions.stability.len() > 1 { SHARE_ROUNDING } else { 0.0 };
         let found = self.survey.motions.stable_share();
-        Value { found, error, at: None, inactive: None, by: Fidelity::Orbit }
+        Value { found, error, at: None, inactive: None, settled: true, by: Fidelity::Orbit }
     }
 
     fn margin(&self) -> Value {
         let (at, found) = self.survey.smallest_gap;
-        Value { found, error: ROUNDING, at: self.place(at), inactive: None, by: Fidelity::Orbit }
+        Value {
+            found,
+            error: ROUNDING,
+            at: self.place(at),
+            inactive: None,
+            settled: true,
+            by: Fidelity::Orbit,
+        }
     }
 
     /// 1 where every place has one motion, 0 where one has several; `None` where nothing was simulated.
@@ -82,6 +89,7 @@ impl Scope<'_> {
             inactive: several
                 .filter(|_| motions.count_inactive)
                 .and_then(|place| Some(place.inactive?.share)),
+            settled: true,
             by: Fidelity::Simulation,
         })
     }
@@ -114,7 +122,14 @@ impl Scope<'_> {
         };
         let (at, _) = exact::largest_value(band, &self.survey.motions.stability, loss)?;
         let [found, error] = value(at, &attracting(band, at)?)?;
-        Some(Value { found, error, at: self.place(at), inactive: None, by: Fidelity::Orbit })
+        Some(Value {
+            found,
+            error,
+            at: self.place(at),
+            inactive: None,
+            settled: true,
+            by: Fidelity::Orbit,
+        })
     }
 
     /// The worst of an absorber that never wakes, in closed form, wherever it can rest.
@@ -131,6 +146,7 @@ impl Scope<'_> {
                 error,
                 at: self.place(at),
                 inactive: Some(inactive.share),
+                settled: true,
                 by: Fidelity::Manifold,
             })
         };
@@ -147,7 +163,8 @@ impl Scope<'_> {
                 let seen = Seen::simulated(motion, motions.unresolved);
                 let [found, error] = self.of_motion(criterion, &seen)?;
                 let at = self.place(place.at);
-                Some(Value { found, error, at, inactive: None, by: Fidelity::Simulation })
+                let (settled, by) = (motion.settled, Fidelity::Simulation);
+                Some(Value { found, error, at, inactive: None, settled, by })
             })
         })
     }

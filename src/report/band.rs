@@ -315,12 +315,7 @@ impl Section<'_> {
     }
 
     fn worst(&self, worst: &Worst) -> String {
-        match self.length(worst.error) {
-            error if worst.error > 1e-3 * worst.peak => {
-                format!("{} (+{error})", self.length(worst.peak))
-            }
-            _ => self.length(worst.peak),
-        }
+        self.units.length_with_error(worst.peak, worst.error)
     }
 
     fn zones(&self) -> Table {

@@ -257,7 +257,6 @@ impl Report {
         }
         let document = CriteriaDocument::new(&self.name, case, judged);
         self.criteria_headline = numbers::capitalised(&document.headline());
-        self.verdict.headline = format!("{}. {}", self.criteria_headline, self.verdict.headline);
         self.verdict.tone = document.tone();
         self.criteria_table = Some(document.table());
         self.criteria = document.criteria;

@@ -6,6 +6,9 @@ use super::notes::finding;
 use super::numbers::{
     LengthFormat, capitalised, decibels, fixed, percent, signed, signed_percent, significant,
 };
+use super::units::Units;
+use crate::band::rivals::Damped;
+use crate::band::{Band, Rivals};
 use crate::case::{Case, Input};
 use crate::study::CaseStudy;
 use crate::validation::{Claim, Finding, Measure};
@@ -82,6 +85,7 @@ pub fn key_rows(case: &Case, study: &CaseStudy) -> Vec<KeyRow> {
             "inputs",
         ));
     }
+    rows.extend(rivals(case, study));
     if let Some(main) = study.main_attractor() {
         let simulation = "simulation";
         let attractor = &main.attractor;
@@ -131,6 +135,34 @@ pub fn key_rows(case: &Case, study: &CaseStudy) -> Vec<KeyRow> {
         None => format!("{:?}", study.area.area),
     };
     rows.push(row("Area of the case", area, study.area.by.words(), "theory"));
+    rows
+}
+
+/// Along a band its worst motion, the bare oscillator and the tuned mass damper; at a single excitation the
+/// damper, beside what stands there already.
+fn rivals(case: &Case, study: &CaseStudy) -> Vec<KeyRow> {
+    let units = Units::of(case);
+    let length = |over_clearance: f64| units.length_text(over_clearance);
+    let damper = |rivals: &Rivals| {
+        let Damped { amplitude, stroke, .. } = rivals.damped;
+        format!("{}, stroke {}", length(amplitude), length(stroke))
+    };
+    let with_damper = "Vibration with a tuned mass damper";
+    let Some(survey) = &study.band else {
+        let here = Rivals::along(&Band::point(&study.analysis.system));
+        let from = "closed form, Den Hartog";
+        return vec![row(with_damper, damper(&here), from, "inputs")];
+    };
+    let over = |name: &str| format!("{name}, worst of the band");
+    let mut rows = Vec::new();
+    if let Some(worst) = survey.motions.worst() {
+        let at = units.band_text(survey.band().over, worst.at);
+        let words = format!("{} at {at}", units.length_with_error(worst.peak, worst.error));
+        rows.push(row(&over("Vibration with the absorber"), words, "all layers", "band"));
+    }
+    let bare = length(survey.rivals.bare.1);
+    rows.push(row(&over("Vibration of the bare oscillator"), bare, "closed form", "band"));
+    rows.push(row(&over(with_damper), damper(&survey.rivals), "closed form", "band"));
     rows
 }
 

@@ -41,6 +41,8 @@ pub struct CriterionRow {
     /// motion decides.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub inactive_share: Option<f64>,
+    /// Whether the motion that decides has settled.
+    pub settled: bool,
     /// `asked`, `found` and `margin` as a person reads them.
     #[serde(skip)]
     pub words: [String; 3],
@@ -60,6 +62,9 @@ impl CriterionRow {
         }
         if let Some(share) = self.inactive_share {
             words += &format!(" (absorber inactive from {} of resting places)", percent(share));
+        }
+        if !self.settled {
+            words += " (not settled)";
         }
         words
     }
@@ -192,13 +197,21 @@ fn row(case: &Case, judged: &Judged) -> CriterionRow {
             .zip(case.band.as_ref())
             .map_or_else(String::new, |(at, band)| Units::of(case).band_text(band.over, at)),
         inactive_share: judged.inactive,
+        settled: judged.settled,
         words: [asked, found, margin],
     }
 }
 
+/// Error of a reduction that changes a digit that is shown.
+const LEAST_DECIBELS: f64 = 0.05;
+
 /// By how much a simulated value may be worse, where that changes a digit that is shown.
 fn error_words(case: &Case, judged: &Judged) -> String {
-    let relevant = judged.found.is_some_and(|found| judged.error > 1e-3 * found.abs());
+    let least = match judged.criterion.subject.measure() {
+        Measure::Decibel => LEAST_DECIBELS,
+        _ => 1e-3 * judged.found.map_or(0.0, f64::abs),
+    };
+    let relevant = judged.error > least;
     if !judged.criterion.subject.is_of_motions() || !relevant {
         return String::new();
     }

@@ -17,12 +17,8 @@ pub(super) fn verdict(case: &Case, survey: &Survey, own: Verdict) -> Verdict {
     let (tone, vibration) = match motions.worst() {
         None => (Tone::Mixed, "no steady motion was found, and nothing was simulated".to_owned()),
         Some(worst) => {
-            let more = match worst.error > 1e-3 * worst.peak {
-                true => format!(" (+{})", length(worst.error)),
-                false => String::new(),
-            };
-            let up_to =
-                format!("vibration up to {}{more} at {}", length(worst.peak), place(worst.at));
+            let peak = units.length_with_error(worst.peak, worst.error);
+            let up_to = format!("vibration up to {peak} at {}", place(worst.at));
             if bare.is_finite() {
                 let change = decibels(worst.peak / bare);
                 let tone = match (worst.peak + worst.error) / bare {
