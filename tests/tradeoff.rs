@@ -196,13 +196,14 @@ fn the_closed_form_is_the_cheapest_row() {
         let found = Tradeoff::of(&system, &effort, &mut |_| ()).expect("tried");
         let closed = found.trials.iter().find(|trial| trial.method == Method::FixedPoints);
         let closed = closed.expect("tried").operations;
-        // Each point has two angles of its own, and two at its motion's turning points.
+        // Each point has two angles of its own.
         let points = Analysis::of(&system).expect("analysable").fixed_points.len() as u64;
-        assert!(points > 0 && closed > points * 4 * ELEMENTARY, "{name}: {closed}");
+        assert!(points > 0 && closed > points * 2 * ELEMENTARY, "{name}: {closed}");
         assert!(closed <= 500, "{name}: {closed}");
         let others = found.trials.iter().filter(|trial| trial.method != Method::FixedPoints);
         let next = others.map(|trial| trial.operations).min().expect("others");
-        assert!(100 * closed < next, "{name}: {closed} beside {next}");
+        // Tenfold differences of counts are real.
+        assert!(10 * closed < next, "{name}: {closed} beside {next}");
     }
 }
 

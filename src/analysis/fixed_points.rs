@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use super::AnalysisError;
 use super::curve::{Amplitude, FixedPointCurve};
-use super::manifold::{Branch, Manifold};
+use super::manifold::{Branch, Manifold, ManifoldPoint};
 use crate::equations::equations;
 use crate::symbolic::{Symbol, Values};
 use crate::system::System;
@@ -123,23 +123,28 @@ fn point(
     manifold: &Manifold,
     Amplitude { ratio, half_slope }: Amplitude,
 ) -> Result<FixedPoint, AnalysisError> {
-    tally::note(2 * tally::ELEMENTARY + 2);
+    tally::note(2 * tally::ELEMENTARY + 4);
     let programs = &equations().programs;
     let shift = ratio - 1.0;
     let at = programs.at_shift(values, shift)?.with(Symbol::AmplitudeRatio, ratio);
     let sides = programs.sides(&at)?;
     let discriminant = half_slope * half_slope;
-    let [trace, larger] = programs.stability(&at.with(Symbol::Discriminant, discriminant))?;
+    let [trace, larger] =
+        programs.stability(&at.clone().with(Symbol::Discriminant, discriminant))?;
     let determinant = larger.copysign(larger * half_slope);
-    let oscillator = manifold.point(shift).oscillator;
+    let oscillator = at.require(Symbol::ManifoldSquare)?.sqrt();
+    let absorber_phase = manifold.absorber_phase(ratio, shift);
     let branch = manifold.branch(shift);
-    let largest = manifold.largest_relative_displacement(shift);
+    let largest = Manifold::largest_relative_displacement(
+        ManifoldPoint { absorber: ratio, oscillator },
+        absorber_phase,
+    );
     let attracts = trace < 0.0 && determinant > 0.0;
     Ok(FixedPoint {
         absorber: ratio,
         oscillator,
         eta: libm::atan2(sides[0], sides[1]),
-        absorber_phase: manifold.absorber_phase(ratio, shift),
+        absorber_phase,
         branch,
         trace,
         determinant,

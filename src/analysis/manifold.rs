@@ -112,16 +112,15 @@ impl Manifold {
     /// Largest `abs(w0)` over the clearance between two impacts of the motion (12): above 1 the
     /// point is not a motion, because the absorber would have left its cavity.
     ///
-    /// With `z` the sawtooth's phase, `w0 = C sin(z - Theta) + (2/pi) B z` from `z = -pi/2` to
+    /// `theta` is the point's `Theta`. With `z` the sawtooth's phase, `w0 = C sin(z - Theta) + (2/pi) B z` from `z = -pi/2` to
     /// `pi/2`, with turning points where `cos(z - Theta) = -(2/pi) B / C`.
-    pub fn largest_relative_displacement(&self, shift: f64) -> f64 {
-        tally::note(2 * tally::ELEMENTARY + 16);
-        let ManifoldPoint { absorber, oscillator } = self.point(shift);
+    pub fn largest_relative_displacement(point: ManifoldPoint, theta: f64) -> f64 {
+        let ManifoldPoint { absorber, oscillator } = point;
         let slope = FRAC_2_PI * absorber;
         if slope > oscillator {
             return 1.0;
         }
-        let theta = self.absorber_phase(1.0 + shift, shift);
+        tally::note(tally::ELEMENTARY + 15);
         let angle = libm::acos(-slope / oscillator);
         let swing = ((oscillator - slope) * (oscillator + slope)).sqrt();
         [(theta + angle, swing), (theta - angle, -swing), (theta + angle - TAU, swing)]
