@@ -389,26 +389,23 @@ fn bridge(clearance: &str, frequency: &str) -> String {
 
 /// It printed 83.5 and 99.0 mm for one and the same chaotic motion, without an uncertainty.
 #[test]
-fn one_chaotic_motion_has_one_peak_with_its_growth() {
+fn one_chaotic_motion_has_one_peak_with_its_error() {
     let folder = folder();
     let path = written(&folder, "inactive.toml", &bridge("200 mm", "2.1 Hz"));
     let reach = |motion: &Value| {
         let number = |pointer| motion.pointer(pointer).and_then(Value::as_f64).expect("a number");
-        [number("/displacement/peak"), number("/growth_in_ten_times_as_long/peak")]
+        [number("/displacement/peak"), number("/errors_of_largest/peak")]
     };
     let many = json(&["simulate", &path]);
     assert_eq!(many["nature"]["kind"], "chaotic");
     let moving = many["attractors"].as_array().expect("a list");
     let main = moving.iter().find(|one| one["regime"] == many["regime"]).expect("the same");
     assert_eq!(reach(&many), reach(main));
-    let [peak, growth] = reach(&many);
-    assert!((0.02..0.25).contains(&(growth / peak)), "{growth} of {peak}");
+    let [peak, error] = reach(&many);
+    assert!((0.02..0.5).contains(&(error / peak)), "{error} of {peak}");
     for start in ["0,0,0.5,0", "0.5,0,0.2,0.3"] {
         let [other, spread] = reach(&json(&["simulate", &path, "--initial", start]));
-        assert!(
-            other <= peak + growth && peak <= other + spread,
-            "{peak} {growth} {other} {spread}"
-        );
+        assert!(other <= peak + error && peak <= other + spread, "{peak} {error} {other} {spread}");
     }
     let printed = done(&["simulate", &path]);
     assert_eq!(printed.matches(" in ten times as long").count(), 2, "{printed}");

@@ -445,7 +445,7 @@ fn long_term_motions_are_those_of_trajectories_alone() {
         for frequency_hz in [8.1, 8.3, 8.5] {
             let system = common::table_1(frequency_hz, clearance_mm);
             let begun: Vec<(System, State)> =
-                starts::of(&system, 3).map(|start| (system, start)).collect();
+                starts::of(&system, 4).map(|start| (system, start)).collect();
             let found = long_term(&begun, 96).expect("finite");
             for ((_, start), motion) in begun.iter().zip(found) {
                 let motion = motion.expect("no bad end");

@@ -49,7 +49,7 @@ fn what_is_left_out_is_a_time_of_the_structure() {
     // Where the orbit closes in more slowly than the structure decays, its multiplier counts.
     let slow = bridge(0.05, 1.053 * 2.1);
     let orbit = attracting_orbit(&slow).expect("an orbit").orbit;
-    let by_orbit = 12.0 / -orbit.radius_per_period().ln();
+    let by_orbit = -12.0 / libm::log(orbit.radius_per_period());
     assert!(by_orbit > 600.0, "{by_orbit}");
     assert_eq!(Transient::of(&slow), Transient { periods: by_orbit as u64, fades: true });
 }
@@ -95,15 +95,18 @@ fn an_excitation_far_above_the_structure_is_waited_for() {
 #[test]
 fn what_drifts_has_not_settled() {
     let system = bridge(0.05, 40.0);
-    let followed = |discard| {
-        let effort = Following { discard, periods: 1000, prolongations: 0, impact_limit: 1000 };
+    let followed = |discard, periods| {
+        let effort = Following { discard, periods, prolongations: 0, impact_limit: 1000 };
         let displaced = State { x: 0.5, ..State::AT_REST };
         Attractor::measure(&mut Simulation::new(&system, displaced, 0.0).expect("inside"), &effort)
     };
-    let early = followed(400);
+    let early = followed(400, 1000);
     assert!(!early.settled && early.peak > 100.0 * bare(&system), "{}", early.peak);
     assert_eq!(early.classification.nature, Nature::TransientNotOver);
-    let late = followed(20_000);
+    // Within 100 periods it fades by a seventh: a slope tells, halves of the window do not.
+    let short = followed(400, 100);
+    assert!(!short.settled && short.classification.evidence.settled);
+    let late = followed(20_000, 1000);
     assert!(late.settled && late.repeats(), "{:?}", late.classification);
 }
 
@@ -153,7 +156,7 @@ fn chaotic() -> Vec<System> {
 /// Against a run ten times as long, from another start.
 #[test]
 fn a_run_ten_times_as_long_stays_within_the_error_of_a_peak() {
-    let (mut count, mut within, mut fast) = (0, 0, 0);
+    let (mut count, mut within, mut fast, mut silly, mut mean) = (0, 0, 0, 0, 0.0);
     for system in chaotic() {
         let other = starts::of(&system, 10).nth(9).expect("ten");
         let long = long_term(&[(system, other)], 2500).expect("finite")[0].expect("measured");
@@ -169,10 +172,14 @@ fn a_run_ten_times_as_long_stays_within_the_error_of_a_peak() {
         within += u32::from(long.peak <= motion.peak + motion.peak_error);
         let fastest = motion.impact_speed + motion.impact_speed_error;
         fast += u32::from(long.impact_speed <= fastest);
-        assert!(motion.peak_error > 0.0 && motion.peak_error < 0.35 * motion.peak, "{motion:?}");
+        assert!(motion.peak_error > 0.0, "{motion:?}");
+        silly += u32::from(motion.peak_error > 0.25 * motion.peak);
+        mean += motion.peak_error / motion.peak;
     }
-    println!("{count} motions, {within} peaks and {fast} speeds within their errors");
+    mean /= f64::from(count);
+    println!("{count} motions: {within} peaks, {fast} speeds within; {silly} wide, mean {mean}");
     assert!(count >= 30, "{count}");
-    // Of 90 such motions 89 were; one in ten may be outside.
-    assert!(10 * within >= 9 * count && 10 * fast >= 9 * count, "{within}, {fast} of {count}");
+    // At odds of 19 to 1; and an error that says nothing would be no feat.
+    assert!(20 * within >= 19 * count && 20 * fast >= 19 * count, "{within}, {fast} of {count}");
+    assert!(mean < 0.2 && 5 * silly <= count, "{mean} {silly}");
 }

@@ -1,6 +1,6 @@
 //! How well an average, or a largest value, is known from its scatter.
 
-use std::f64::consts::{LN_10, PI};
+use std::f64::consts::PI;
 
 /// Twice the standard error of the mean of `blocks`, averages over stretches of equal length; infinite
 /// for fewer than two. Stretches shorter than a motion remembers make it too small.
@@ -9,18 +9,30 @@ pub fn twice_standard_error(blocks: &[f64]) -> f64 {
     deviation(blocks).map_or(f64::INFINITY, |deviation| 2.0 * deviation / count.sqrt())
 }
 
-/// By how much the largest value of a run ten times as long is expected to exceed that of this run, from
-/// the largest values of its `blocks`, stretches of equal length; 0 for fewer than two.
+/// How many times as long a run is whose largest value is spoken of.
+const LONGER: f64 = 10.0;
+/// Odds at which that stays within the error of what was seen.
+const ODDS: f64 = 19.0;
+
+/// By how much the largest value of another run, ten times as long as this one, may exceed that of this
+/// one, at odds of 19 to 1, from the largest values of its `blocks`, stretches of equal length; 0 for fewer
+/// than two. Where the largest of `runs` such runs is known, see [`error_of_largest_of`].
 ///
 /// Largest values of long blocks follow a Gumbel law with the scale `beta = s sqrt(6)/pi`, `s` their
 /// standard deviation, and the largest of `n` blocks lies `beta ln n` higher (Gumbel, Statistics of
-/// Extremes, 1958; Coles, An Introduction to Statistical Modeling of Extreme Values, 2001, chapter 3). A
-/// motion that stays within bounds grows by less.
-pub fn growth_of_largest(blocks: &[f64]) -> f64 {
-    match deviation(blocks) {
-        Some(deviation) => deviation * 6.0_f64.sqrt() / PI * LN_10,
-        None => 0.0,
-    }
+/// Extremes, 1958; Coles, An Introduction to Statistical Modeling of Extreme Values, 2001, chapter 3). So
+/// the longer run is expected `beta ln 10` higher, and the difference of two such values is logistic: it
+/// stays below another `beta ln 19` in 19 of 20 cases. A motion within bounds grows by less.
+pub fn error_of_largest(blocks: &[f64]) -> f64 {
+    let scale = |deviation: f64| deviation * 6.0_f64.sqrt() / PI;
+    deviation(blocks).map_or(0.0, |deviation| scale(deviation) * libm::log(LONGER * ODDS))
+}
+
+/// The share of that error which remains for the largest of so many runs: the longer run is then no longer
+/// ten times as long as all of them together.
+pub fn error_of_largest_of(runs: u32) -> f64 {
+    let longer = (LONGER / f64::from(runs.max(1))).max(1.0);
+    libm::log(longer * ODDS) / libm::log(LONGER * ODDS)
 }
 
 /// Ratio of a straight line's slope to its standard error above which it is none of chance: ten blocks
@@ -56,7 +68,7 @@ fn deviation(sample: &[f64]) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::{drifts, growth_of_largest, twice_standard_error};
+    use super::{drifts, error_of_largest, error_of_largest_of, twice_standard_error};
 
     #[test]
     fn the_error_is_that_of_a_mean() {
@@ -78,11 +90,15 @@ mod tests {
         assert!(!drifts(&little) && drifts(&more));
     }
 
-    /// By hand: variance 5/3, and sqrt(6) ln(10)/pi = 1.7953.
+    /// By hand: variance 5/3, and sqrt(6) ln(190)/pi = 4.0910.
     #[test]
-    fn the_largest_value_grows_with_the_scatter_of_blocks() {
-        let growth = growth_of_largest(&[1.0, 2.0, 3.0, 4.0]);
-        assert!((growth - 1.795_29 * (5.0_f64 / 3.0).sqrt()).abs() < 1e-4, "{growth}");
-        assert_eq!((growth_of_largest(&[7.0; 16]), growth_of_largest(&[7.0])), (0.0, 0.0));
+    fn the_error_of_a_largest_value_follows_from_the_scatter_of_blocks() {
+        let error = error_of_largest(&[1.0, 2.0, 3.0, 4.0]);
+        assert!((error - 4.091_03 * (5.0_f64 / 3.0).sqrt()).abs() < 1e-4, "{error}");
+        assert_eq!((error_of_largest(&[7.0; 16]), error_of_largest(&[7.0])), (0.0, 0.0));
+        // ln(190/5) / ln(190), and never less than ln(19) / ln(190).
+        assert!((error_of_largest_of(5) - 3.637_59 / 5.247_02).abs() < 1e-5);
+        assert!((error_of_largest_of(400) - 2.944_44 / 5.247_02).abs() < 1e-5);
+        assert_eq!(error_of_largest_of(1), 1.0);
     }
 }

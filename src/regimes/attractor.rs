@@ -5,8 +5,8 @@ use serde::Serialize;
 use super::lyapunov::Lyapunov;
 use super::modulation::{self, Amplitudes};
 use super::{
-    Classification, Energetics, Nature, Periodicity, Regime, Thresholds, classify, periodicity,
-    transient,
+    Classification, Energetics, Nature, Periodicity, Regime, Thresholds, Transient, classify,
+    periodicity, transient,
 };
 use crate::simulation::{
     self, Doubt, Energy, Impact, ImpactLog, Nobody, Simulation, StartError, Statistics, Stop,
@@ -36,8 +36,8 @@ pub struct Attractor {
     pub classification: Classification,
     /// Largest absolute displacement of the oscillator over the clearance that was seen.
     pub peak: f64,
-    /// By how much that is expected to grow in a window ten times as long, from the largest values of
-    /// blocks of the window; 0 where the motion repeats.
+    /// By how much another window, ten times as long, may exceed that, at odds of 19 to 1, from the largest
+    /// values of blocks of this one; 0 where the motion repeats.
     pub peak_error: f64,
     /// Largest relative speed of an impact, over the clearance, in fast time.
     pub impact_speed: f64,
@@ -96,7 +96,12 @@ impl Attractor {
     /// [`StartError`] for an impossible start.
     pub fn reach(system: &System, start: State, effort: &Effort) -> Result<Self, StartError> {
         let mut simulation = Simulation::new(system, start, 0.0)?;
-        if let Some(state) = transient::asleep(system, &start) {
+        let fades = || {
+            let transient = Transient::of(system);
+            transient.fades && transient.periods <= effort.discard
+        };
+        // Where the transient is left out, and nothing but the closed form would be left of it.
+        if let Some(state) = transient::asleep(system, &start).filter(|_| fades()) {
             simulation = Simulation::new(system, state, 0.0)?;
             return Ok(Self::measure(&mut simulation, &Effort { discard: 0, ..*effort }));
         }
@@ -196,10 +201,10 @@ impl Attractor {
         let classification = classify(&statistics, &log.impacts, exponent, period, &thresholds);
         let repeats = classification.evidence.periodicity.is_some();
         let [peak_error, impact_speed_error] =
-            if repeats { [0.0; 2] } else { statistics.growth_of_largest() };
+            if repeats { [0.0; 2] } else { statistics.errors_of_largest() };
         let open = classification.nature == Nature::TransientNotOver;
         Self {
-            settled: repeats || (classification.evidence.settled && !open),
+            settled: repeats || !(open || modulation::drifting(statistics.records())),
             peak_error,
             impact_speed: statistics.impact_speed(),
             impact_speed_error,
@@ -263,14 +268,20 @@ impl Attractor {
         }
     }
 
-    /// Takes over the larger extremes, and the larger of their errors, of another measurement of the same
-    /// motion, where neither repeats and both have settled.
+    /// Takes over the larger extremes of another measurement of the same motion, and the errors of the
+    /// longer one, where neither repeats and both have settled.
     pub fn take_extremes(&mut self, other: &Self) {
         let scatter = |one: &Self| one.settled && !one.repeats() && one.stop == Stop::EndTime;
-        if scatter(self) && scatter(other) && self.is_same(other) {
-            self.peak = self.peak.max(other.peak);
+        if !(scatter(self) && scatter(other) && self.is_same(other)) {
+            return;
+        }
+        self.peak = self.peak.max(other.peak);
+        self.impact_speed = self.impact_speed.max(other.impact_speed);
+        if other.periods > self.periods {
+            self.peak_error = other.peak_error;
+            self.impact_speed_error = other.impact_speed_error;
+        } else if other.periods == self.periods {
             self.peak_error = self.peak_error.max(other.peak_error);
-            self.impact_speed = self.impact_speed.max(other.impact_speed);
             self.impact_speed_error = self.impact_speed_error.max(other.impact_speed_error);
         }
     }

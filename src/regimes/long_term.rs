@@ -10,7 +10,7 @@ use serde::Serialize;
 use self::watch::{Repetition, Strobes, Watch};
 use super::transient::{self, Transient};
 use super::{Regime, periodicity, starts};
-use crate::numerics::scatter::growth_of_largest;
+use crate::numerics::scatter::{error_of_largest, error_of_largest_of};
 use crate::simulation::batch::{self, Extent};
 use crate::simulation::{Nobody, Simulation, StartError, Stop};
 use crate::system::{State, System};
@@ -57,8 +57,8 @@ impl Default for Effort {
 pub struct Motion {
     /// Largest absolute displacement of the oscillator that was seen.
     pub peak: f64,
-    /// By how much that is expected to grow in a window ten times as long, from the largest values of
-    /// blocks of the window; 0 for a motion that repeats.
+    /// By how much a window ten times as long may exceed that, at odds of 19 to 1, from the largest values
+    /// of blocks of the window; 0 for a motion that repeats.
     pub peak_error: f64,
     /// Root mean square displacement of the oscillator.
     pub rms: f64,
@@ -326,15 +326,17 @@ pub fn distinct(ended: &[Option<Motion>]) -> Vec<Motion> {
 }
 
 /// One motion of several measurements. The windows of many starts are longer blocks than those within a
-/// window, which a slow modulation makes unlike: their growth counts where it is smaller.
+/// window, which a slow modulation makes unlike: the errors from these count where they are smaller.
 fn joined(group: &[Motion]) -> Motion {
     let mut motion = group[0];
     group[1..].iter().for_each(|other| motion.join(other));
     if group.len() >= WINDOWS && motion.repeats_after.is_none() {
-        let growth =
-            |of: fn(&Motion) -> f64| growth_of_largest(&group.iter().map(of).collect::<Vec<f64>>());
-        motion.peak_error = motion.peak_error.min(growth(|one| one.peak));
-        motion.impact_speed_error = motion.impact_speed_error.min(growth(|one| one.impact_speed));
+        let runs = error_of_largest_of(group.len() as u32);
+        let error = |of: fn(&Motion) -> f64| {
+            runs * error_of_largest(&group.iter().map(of).collect::<Vec<f64>>())
+        };
+        motion.peak_error = motion.peak_error.min(error(|one| one.peak));
+        motion.impact_speed_error = motion.impact_speed_error.min(error(|one| one.impact_speed));
     }
     motion
 }
@@ -361,15 +363,24 @@ impl Motion {
         }
     }
 
-    /// Takes over another start's measurement of the same motion: the larger extremes, and the
-    /// larger of their errors, which do not depend on how long a motion is looked at.
+    /// Takes over another start's measurement of the same motion: the larger extremes, and errors
+    /// of what has been seen from so many starts, by their mean scatter.
     fn join(&mut self, other: &Self) {
         self.peak = self.peak.max(other.peak);
-        self.peak_error = self.peak_error.max(other.peak_error);
+        let starts = self.starts + other.starts;
+        let joined = |a: f64, b: f64| {
+            let sum = |error: f64, starts: u32| {
+                let alone = error / error_of_largest_of(starts);
+                f64::from(starts) * alone * alone
+            };
+            let mean = (sum(a, self.starts) + sum(b, other.starts)) / f64::from(starts);
+            mean.sqrt() * error_of_largest_of(starts)
+        };
+        self.peak_error = joined(self.peak_error, other.peak_error);
+        self.impact_speed_error = joined(self.impact_speed_error, other.impact_speed_error);
         self.impact_speed = self.impact_speed.max(other.impact_speed);
-        self.impact_speed_error = self.impact_speed_error.max(other.impact_speed_error);
         self.settled |= other.settled;
-        self.starts += other.starts;
+        self.starts = starts;
     }
 }
 

@@ -52,7 +52,7 @@ impl Transient {
         let folds = if steady > 0.0 { FADED.max(beside) } else { FADED };
         let needed = (folds / decay).max(orbit.map_or(0.0, |rate| FADED / rate));
         let natural = system.frequency_ratio();
-        let most = (MOST[0] * natural).max(1.0).min(MOST[1]);
+        let most = (MOST[0] * natural).clamp(1.0, MOST[1]);
         Self { periods: needed.max(FEWEST).min(most) as u64, fades: needed <= most }
     }
 }

@@ -296,9 +296,9 @@ pub struct MotionDocument {
     /// Largest relative speed of an impact, in metres a second for a physical case, else in the case's
     /// unit per fast time.
     impact_speed: f64,
-    /// By how much the largest values are expected to grow in a run ten times as long, where the motion
-    /// does not repeat.
-    growth_in_ten_times_as_long: Option<GrowthDocument>,
+    /// By how much a run ten times as long may exceed the largest values, at odds of 19 to 1, where the
+    /// motion does not repeat.
+    errors_of_largest: Option<LargestDocument>,
     /// Whether the transient is over.
     settled: bool,
     energy: Energy,
@@ -334,9 +334,9 @@ struct ErrorsDocument {
     impacts_per_period: f64,
 }
 
-/// Growth of the largest values of a motion that does not repeat, in the units of those values.
+/// Errors of the largest values of a motion that does not repeat, in the units of those values.
 #[derive(Debug, Clone, Copy, Serialize)]
-struct GrowthDocument {
+struct LargestDocument {
     peak: f64,
     peak_over_clearance: f64,
     impact_speed: f64,
@@ -458,7 +458,7 @@ impl MotionDocument {
                 ErrorsDocument { rms_over_clearance, impacts_per_period }
             }),
             impact_speed: velocity(motion.impact_speed),
-            growth_in_ten_times_as_long: (!motion.repeats()).then(|| GrowthDocument {
+            errors_of_largest: (!motion.repeats()).then(|| LargestDocument {
                 peak: scales.length(motion.peak_error),
                 peak_over_clearance: motion.peak_error,
                 impact_speed: velocity(motion.impact_speed_error),

@@ -47,12 +47,12 @@ pub(super) fn impacts_per_period(attractor: &Attractor) -> String {
 }
 
 /// The largest displacement that was seen, and of a motion that does not repeat also what a run ten times
-/// as long is expected to reach.
+/// as long may reach, at odds of 19 to 1.
 pub(super) fn peak(attractor: &Attractor, scales: &Scales) -> String {
     let lengths = LengthFormat::of(scales);
     let text = |over_clearance: f64| lengths.text(scales.length(over_clearance));
     let [seen, grown] = [attractor.peak, attractor.peak + attractor.peak_error].map(text);
-    if grown == seen { seen } else { format!("{seen}, {grown} in ten times as long") }
+    if grown == seen { seen } else { format!("{seen}, up to {grown} in ten times as long") }
 }
 
 /// What follows the root mean square of a motion that does not repeat.

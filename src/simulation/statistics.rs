@@ -14,7 +14,7 @@ use super::events::{Absorber, Impact, Observer, Segment, Side};
 use super::integrals::{Integrals, Integrator};
 use crate::numerics::bracket::brent;
 use crate::numerics::quadrature;
-use crate::numerics::scatter::{growth_of_largest, twice_standard_error};
+use crate::numerics::scatter::{error_of_largest, twice_standard_error};
 use crate::system::{State, System};
 use crate::tally;
 
@@ -175,17 +175,17 @@ impl Statistics {
         self.impact_speed
     }
 
-    /// By how much [`Self::peak`] and [`Self::impact_speed`] are expected to grow in a run ten times as
-    /// long, from their scatter between blocks of the kept periods, for a motion that does not repeat.
-    pub fn growth_of_largest(&self) -> [f64; 2] {
+    /// By how much another run, ten times as long, may exceed [`Self::peak`] and [`Self::impact_speed`] of a
+    /// motion that does not repeat, at odds of 19 to 1, from their scatter between blocks of the kept periods.
+    pub fn errors_of_largest(&self) -> [f64; 2] {
         let length = (self.records.len() / BLOCKS_OF_LARGEST).max(1);
-        let growth = |value: &dyn Fn(&PeriodRecord) -> f64| {
+        let error = |value: &dyn Fn(&PeriodRecord) -> f64| {
             let blocks = self.records.chunks_exact(length);
             let largest: Vec<f64> =
                 blocks.map(|block| block.iter().map(value).fold(0.0, f64::max)).collect();
-            growth_of_largest(&largest)
+            error_of_largest(&largest)
         };
-        [growth(&|record| record.peak), growth(&|record| record.impact_speed)]
+        [error(&|record| record.peak), error(&|record| record.impact_speed)]
     }
 
     /// Root mean square of the oscillator's displacement, over the clearance.

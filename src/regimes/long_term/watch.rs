@@ -83,16 +83,16 @@ impl Watch {
             }
         };
         let settled = repeats_after.is_some() || !modulation::drifting(gauge.records());
-        let growth = if repeats_after.is_some() { [0.0; 2] } else { gauge.growth_of_largest() };
+        let largest = if repeats_after.is_some() { [0.0; 2] } else { gauge.errors_of_largest() };
         Some(Motion {
             peak: gauge.peak(),
-            peak_error: growth[0],
+            peak_error: largest[0],
             rms: gauge.rms(),
             rms_error: errors[0],
             impacts_per_period,
             impacts_error: errors[1],
             impact_speed: gauge.impact_speed(),
-            impact_speed_error: growth[1],
+            impact_speed_error: largest[1],
             settled,
             regime: signs.regime(&thresholds),
             starts: 1,

@@ -224,10 +224,10 @@ impl Gauge {
         self.statistics.impact_speed()
     }
 
-    /// As [`Statistics::growth_of_largest`].
-    pub fn growth_of_largest(&mut self) -> [f64; 2] {
+    /// As [`Statistics::errors_of_largest`].
+    pub fn errors_of_largest(&mut self) -> [f64; 2] {
         self.search();
-        self.statistics.growth_of_largest()
+        self.statistics.errors_of_largest()
     }
 
     /// As [`Statistics::rms`].
