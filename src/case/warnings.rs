@@ -21,6 +21,8 @@ const PREFIX: [f64; 2] = [100.0, 10_000.0];
 const PER_MINUTE: [f64; 2] = [FAR_APART, 120.0];
 /// Damping ratio above which a structure hardly has a resonance.
 const HEAVY_DAMPING: f64 = 0.2;
+/// Relative error that a damping ratio has after it became a damping and a ratio again: some roundings.
+const ROUNDING: f64 = 1e-12;
 /// Mass ratios between which an absorber is a small mass, and a mass at all.
 const MASS_RATIOS: [f64; 2] = [1e-6, 0.5];
 
@@ -64,7 +66,7 @@ impl<'t> File<'t> {
     }
 
     fn warning(&self, at: &Value, message: String, label: &str, meant: String) -> Problem {
-        Problem::new(self.text, at.span.clone(), message, label).help(meant).as_warning()
+        Problem::new(self.text, at.span.clone(), message, label).help(meant).into_warning()
     }
 
     /// Frequencies of the drive, its own and the band's, that are far from the structure's.
@@ -139,7 +141,7 @@ impl<'t> File<'t> {
 
     fn damping(&self, design: &Design, system: &System) -> Option<Problem> {
         let ratio = 0.5 * system.mass_ratio() * system.damping();
-        if ratio <= HEAVY_DAMPING {
+        if ratio <= HEAVY_DAMPING * (1.0 + ROUNDING) {
             return None;
         }
         let at = match design {
