@@ -277,7 +277,9 @@ impl Sampler<'_> {
         let mut groups: Vec<&[Task]> = Vec::new();
         let each = tasks.iter().map(|task| task.starts.len()).max().unwrap_or(1).max(1);
         groups.extend(tasks.chunks((SIDE_BY_SIDE / each).max(1)));
-        let found = map(self.executor, "", groups.len(), |k| self.side_by_side(groups[k]));
+        let found = map(self.executor, "surveying the band", groups.len(), |k| {
+            self.side_by_side(groups[k])
+        });
         let mut motions = Vec::with_capacity(tasks.len());
         for group in found {
             motions.extend(group?);

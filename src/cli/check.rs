@@ -14,7 +14,6 @@ use vinesink::report::criteria::{
 
 use super::budget::{Long, Work};
 use super::parallel::Parallel;
-use super::progress::Progress;
 use super::{Outcome, case_file, output};
 
 /// Hold each case against its criteria
@@ -119,7 +118,6 @@ fn judged(path: &Path, stem: &str, long: Long) -> Result<CriteriaDocument> {
         false => Work::criteria(&case),
     };
     long.allows(path, &case, &work)?;
-    let _progress = Progress::estimated(stem, work.seconds());
     let survey = Survey::of(&criteria::range(&case), &criteria::settings(&case), &Parallel);
     let judged = criteria::judge(&case, &survey.into_diagnostic()?);
     if case.criteria.is_empty() {
