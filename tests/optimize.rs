@@ -84,7 +84,7 @@ fn the_optimum_of_an_exact_objective_is_that_of_brute_force() {
 fn the_winner_is_what_check_says_of_it() {
     let more = "[optimize]\nclearance = [\"10 mm\", \"30 mm\"]\n";
     let text = band_text(more)
-        .replace("peak_displacement = \"<= 14 mm\"", "peak_displacement = \"<= 1 m\"");
+        .replace("peak_displacement = \"<= 16 mm\"", "peak_displacement = \"<= 1 m\"");
     let found = optimized(&text, Some(Objective::WorstAmplitude));
     let best = &found.best;
     let written = case(&best.written.text);
@@ -110,20 +110,22 @@ fn the_winner_is_what_check_says_of_it() {
 #[test]
 fn the_best_of_those_that_meet_the_criteria_wins() {
     let bounds = "[optimize]\nclearance = [\"5 mm\", \"40 mm\"]\n";
-    let free = optimized(&band_text(bounds), Some(Objective::Z3Share));
-    assert!(free.best.is_feasible() && free.closest.is_none(), "{:?}", free.best.criteria);
-    let text = band_text(bounds)
-        .replace("impact_velocity = \"<= 1.5 m/s\"", "impact_velocity = \"<= 1.3 m/s\"");
+    let text = band_text(bounds);
+    let (without, _) = text.split_once("[criteria]").expect("criteria");
+    let free = optimized(&format!("{without}{bounds}"), Some(Objective::Z3Share));
     let bound = optimized(&text, Some(Objective::Z3Share));
-    for (found, limit) in [(&free, 1.5), (&bound, 1.3)] {
-        let speed =
-            found.best.criteria.iter().find(|one| one.criterion.subject == Subject::ImpactVelocity);
-        let speed = speed.and_then(|one| one.found).expect("measured");
-        println!("{limit} m/s: {:?}, {speed} m/s, share {}", found.best.choice, found.best.value);
-        assert_eq!(found.best.is_feasible(), speed <= limit);
-    }
-    let text = band_text(bounds)
-        .replace("peak_displacement = \"<= 14 mm\"", "peak_displacement = \"<= 1 mm\"");
+    println!("{:?} and {:?}", free.best.choice, bound.best.choice);
+    assert!(bound.succeeds() && bound.closest.is_none(), "{:?}", bound.best.criteria);
+    // The free optimum has an absorber that may never wake at resonance, and then a larger peak.
+    assert!(free.best.value > bound.best.value + 0.01, "{} {}", free.best.value, bound.best.value);
+    let preferred = |one: &&vinesink::optimize::Judged| one.value > bound.best.value;
+    let preferred: Vec<_> = bound.judged.iter().filter(preferred).collect();
+    assert!(!preferred.is_empty() && preferred.iter().all(|one| !one.feasible), "{preferred:?}");
+    // Close to where the criteria end: the nearest of those is less than 2 % away.
+    let distance = |one: &&vinesink::optimize::Judged| one.clearance / bound.best.choice.clearance;
+    let nearest = preferred.iter().map(distance).fold(f64::INFINITY, f64::min);
+    assert!(nearest < 1.02, "{nearest}");
+    let text = text.replace("peak_displacement = \"<= 16 mm\"", "peak_displacement = \"<= 1 mm\"");
     let none = optimized(&text, Some(Objective::Z3Share));
     assert!(!none.best.is_feasible() && !none.succeeds());
     let closest = none.closest.as_ref().expect("one misses least");
@@ -256,7 +258,16 @@ fn bounds_are_kept() {
     ];
     for table in tables {
         let found = optimized(&band_text(table), None);
-        assert!(found.task.allows(&found.best.choice), "{table}: {:?}", found.best.choice);
+        // The case's own absorber, out of bounds, may be better than all between them.
+        let kept = found.task.allows(&found.best.choice) || !found.improves();
+        assert!(kept, "{table}: {:?}", found.best.choice);
+        let [from, to] = [found.task.bounds[0].from, found.task.bounds[0].to];
+        let inside = |one: f64| from * (1.0 - 1e-9) <= one && one <= to * (1.0 + 1e-9);
+        assert!(
+            found.judged.iter().all(|one| inside(one.clearance)),
+            "{table}: {:?}",
+            found.judged
+        );
     }
 }
 

@@ -3,7 +3,7 @@
 
 use serde::Serialize;
 
-use super::numbers::{percent, signed_percent};
+use super::numbers::{percent, signed};
 use super::tables::{Table, table};
 use super::units::Units;
 use crate::analysis::{Area, Strip};
@@ -308,7 +308,8 @@ impl Section<'_> {
                 self.length(off.amplitude),
                 self.length(off.stroke)
             );
-            let name = format!("Both, structure's frequency {}", signed_percent(DETUNED[k] - 1.0));
+            let name =
+                format!("Both, structure's frequency {} %", signed(100.0 * (DETUNED[k] - 1.0), 0));
             rows.push(row(&name, words, "simulation; closed form"));
         }
         rows

@@ -6,7 +6,7 @@ use crate::band::{Band, Survey};
 use crate::case::BandOver;
 use crate::orbits::symmetric_orbits;
 use crate::report::figure::{
-    Axis, Color, Dash, Figure, Layer, MarkedPoint, Marker, Panel, Role, Shape, Style,
+    Axis, Color, Dash, Figure, Layer, MarkedPoint, Marker, Panel, Role, Rule, Shape, Style,
 };
 use crate::report::numbers::{percent, significant};
 use crate::system::System;
@@ -59,6 +59,13 @@ pub(super) fn figure(scene: &Scene) -> Option<Figure> {
         Layer::marked(marker, Role::Simulation.color(), marks.into_iter().map(|mark| mark.1))
             .labelled("simulated"),
     );
+    let panel = match scene.limit.filter(|limit| *limit < top) {
+        Some(limit) => {
+            let style = Style::new(Color::Vermillion, 1.4, Dash::Dotted);
+            panel.with(Layer::rule(Rule::Horizontal(units.length(limit)), style).labelled("limit"))
+        }
+        None => panel,
+    };
     let (caption, alt) = words(scene, survey);
     Some(Figure::new("band", "Response over the band").with_panel(panel).with_words(caption, alt))
 }

@@ -47,11 +47,17 @@ const ATTRACTORS: usize = 3;
 pub(super) struct Scene<'a> {
     study: &'a CaseStudy,
     units: Units,
+    /// The largest displacement that the case allows, over the clearance.
+    limit: Option<f64>,
 }
 
 impl<'a> Scene<'a> {
     pub(super) fn new(case: &Case, study: &'a CaseStudy) -> Self {
-        Self { study, units: Units::of(case) }
+        let limits = case.criteria.iter();
+        let limit = limits
+            .filter(|one| one.subject == Subject::PeakDisplacement)
+            .map(|one| one.limit / case.scales().length(1.0));
+        Self { study, units: Units::of(case), limit: limit.last() }
     }
 
     /// An attractor that moves and was followed to the end. One that was measured while it turned

@@ -47,10 +47,10 @@ pub(super) fn verdict(case: &Case, survey: &Survey, own: Verdict) -> Verdict {
             false => " This motion is not counted (count_inactive = false).",
         };
         sentences.push(format!(
-            "From rest the absorber never wakes from up to {} of its resting places: the structure then has up to {}, at {}.{counted}",
-            percent(inactive.share),
+            "From rest the absorber may never wake: the structure then has up to {}, at {} from {} of the resting places.{counted}",
             length(inactive.amplitude),
-            place(at)
+            place(at),
+            percent(inactive.share)
         ));
     }
     sentences.push(against_damper(survey, &length));
@@ -78,17 +78,23 @@ fn against_damper(survey: &Survey, length: &dyn Fn(f64) -> String) -> String {
         format!("The tuned mass damper needs a stroke of {}, {stroke}.", length(damped.stroke));
     let largest = |worst: crate::band::Worst| worst.peak + worst.error;
     let Some(worst) = survey.motions.worst() else { return text };
-    let wins = if largest(worst) < damped.amplitude { "absorber" } else { "tuned mass damper" };
-    text += &format!(" Over the band the {wins} vibrates less");
+    let vibrates_less = |absorber: f64, damper: f64| match absorber < damper {
+        true => "absorber",
+        false => "tuned mass damper",
+    };
+    let here = vibrates_less(largest(worst), damped.amplitude);
     let off = survey.detuned.iter().copied().flatten().map(largest).reduce(f64::max);
     let damper = survey.rivals.detuned.map(|one| one.amplitude).into_iter().fold(0.0, f64::max);
-    if let Some(off) = off {
-        let wins = if off < damper { "absorber" } else { "tuned mass damper" };
-        text += &format!(
-            "; with the structure's frequency off by 3 % the {wins} does (absorber up to {}, damper up to {})",
-            length(off),
-            length(damper)
-        );
-    }
-    text + "."
+    let Some(off) = off else { return format!("{text} The {here} vibrates less.") };
+    let there = vibrates_less(off, damper);
+    let (absorber, damper) = (length(off), length(damper));
+    text += &match here == there {
+        true => {
+            format!(" The {here} vibrates less, also with the structure's frequency off by 3 %")
+        }
+        false => format!(
+            " The {here} vibrates less, but with the structure's frequency off by 3 % the {there} does"
+        ),
+    };
+    format!("{text} (absorber up to {absorber}, damper up to {damper}).")
 }

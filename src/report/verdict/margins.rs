@@ -152,7 +152,7 @@ impl Writer<'_> {
         let rooms = ends.map(|end| (end / factor - 1.0).abs());
         match rooms.min_by(f64::total_cmp) {
             Some(room) if room < TOO_NEAR => {
-                format!("; a margin of {} is no margin for a design", percent(room))
+                format!("; the margin is {}, too small for a design", percent(room))
             }
             _ => String::new(),
         }
