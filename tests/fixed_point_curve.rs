@@ -76,6 +76,8 @@ impl Hand {
     }
 }
 
+type Forcing<'a> = &'a dyn Fn(&FixedPointCurve) -> f64;
+
 fn beta(step: u32) -> f64 {
     let t = f64::from(step) / f64::from(SCAN);
     LARGEST * t * t * t
@@ -218,7 +220,7 @@ proptest! {
         let gamma = system.forcing_per_clearance();
         let at = |sigma: f64| FixedPointCurve::at_detuning(&system, &theory.manifold, sigma);
         let collision = |curve: &FixedPointCurve| curve.collision().map_or(f64::NAN, |(gamma, _)| gamma);
-        let kinds: [(BoundaryKind, &dyn Fn(&FixedPointCurve) -> f64); 3] = [
+        let kinds: [(BoundaryKind, Forcing); 3] = [
             (BoundaryKind::Hopf, &FixedPointCurve::hopf),
             (BoundaryKind::SymmetryBreaking, &FixedPointCurve::symmetry_breaking),
             (BoundaryKind::SaddleNode, &collision),

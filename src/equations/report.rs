@@ -194,10 +194,7 @@ impl Equations {
                 latex(c_2),
                 &m.shifted_square,
             ),
-            stated(
-                &self.stated.shift,
-                "the distance from the amplitude at which the oscillator would stand still",
-            ),
+            stated(&self.stated.shift, "a small difference that the formulas keep exact"),
         ]
     }
 
@@ -250,24 +247,18 @@ impl Equations {
                 &f.collision_ratio,
             ),
             derived(
-                title,
-                "its sign is the number of fixed points: the distance from the saddle-node",
+                "Number of fixed points",
+                "two where it is above 0, none below: it is the distance from the saddle-node",
                 latex(Delta),
                 &f.discriminant,
             ),
         ]);
         let ratio = |k: usize| format!("{}_{{{k}}}", latex(beta));
         let [smaller, larger] = &f.ratios;
-        list.extend([
-            derived(
-                title,
-                "the smaller fixed point, evaluated from the product",
-                ratio(1),
-                smaller,
-            ),
-            derived(title, "the larger fixed point", ratio(2), larger),
-            derived(title, "the product of the two", ratio(1) + " " + &ratio(2), &f.product),
-        ]);
+        let ratios =
+            [(ratio(1), smaller), (ratio(2), larger), (ratio(1) + " " + &ratio(2), &f.product)];
+        let gives = "the one further from 0 is evaluated as a sum, the other from the product";
+        list.extend(ratios.map(|(left, right)| derived("Fixed points", gives, left, right)));
         list.extend(by_powers(
             "Saddle-node over the detuning",
             "coefficients of powers of the detuning: its roots are where two fixed points meet at this forcing",

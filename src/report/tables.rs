@@ -225,9 +225,8 @@ pub fn inputs(case: &Case) -> Table {
 pub fn fixed_points(case: &Case, study: &CaseStudy) -> Table {
     let scales = case.scales();
     let lengths = LengthFormat::of(&scales);
-    let rows = study.analysis.fixed_points.iter().enumerate().map(|(index, point)| {
+    let rows = study.analysis.fixed_points.iter().map(|point| {
         [
-            (index + 1).to_string(),
             lengths.with_digits(scales.length(point.oscillator), 4),
             lengths.with_digits(scales.length(point.absorber), 4),
             format!("{} rad", fixed(point.eta, 3)),
@@ -243,7 +242,6 @@ pub fn fixed_points(case: &Case, study: &CaseStudy) -> Table {
         ]
     });
     let columns = [
-        ("No.", true),
         ("C", true),
         ("B", true),
         ("η", true),
