@@ -31,7 +31,7 @@ mod return_map;
 mod transfer;
 pub(super) mod transfer_stretches;
 
-use crate::case::{Case, ExtraFigure};
+use crate::case::{Case, ExtraFigure, Subject};
 use crate::regimes::{FoundAttractor, Regime};
 use crate::simulation::Stop;
 use crate::study::{CaseStudy, StudyError};
