@@ -14,6 +14,7 @@ use tempfile::TempDir;
 use vinesink::analysis::Analysis;
 use vinesink::case::{Case, Recorded, SweepParameter};
 use vinesink::orbits::attracting_orbit;
+use vinesink::regimes::Transient;
 use vinesink::regimes::long_term::{Effort, Motion, motions};
 use vinesink::simulation::{Nobody, Simulation};
 use vinesink::sweep::{Plan, work};
@@ -429,8 +430,8 @@ fn closed_form_alone_is_recorded_without_simulation() {
     }
 }
 
-/// A layer that nothing is recorded of is not asked: no orbit's operations are noted, and no start is looked
-/// at, not even one that is impossible.
+/// A layer that nothing is recorded of is not asked: no orbit's operations are noted but those by which a
+/// transient is left out, and no start is looked at, not even one that is impossible.
 #[test]
 fn a_layer_that_nothing_is_recorded_of_is_not_asked() {
     let worked_out = |record: &str, axis: &str| {
@@ -442,7 +443,10 @@ fn a_layer_that_nothing_is_recorded_of_is_not_asked() {
     let [formula, orbit, reached] = ["bare_amplitude", "orbit_peak", "orbit_reached"].map(cost);
     // The operations of a formula are few, those of an orbit are many.
     assert!(orbit > 100 * formula && reached > 100 * formula, "{formula} {orbit} {reached}");
-    assert_eq!(cost("peak"), formula);
+    let axis = "clearance = { values = [\"20 mm\"] }";
+    let system = plan(&sweeping(axis)).point(0).system.expect("valid");
+    let rule = tally::counted(|| Transient::of(&system)).1;
+    assert_eq!(cost("peak"), formula + rule);
     // Over the clearance this is no number.
     let no_start = "initial_velocity = { values = [\"1.7e308 m/s\"] }";
     assert!(worked_out("peak", no_start).is_err());

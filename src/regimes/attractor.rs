@@ -5,8 +5,7 @@ use serde::Serialize;
 use super::lyapunov::Lyapunov;
 use super::modulation::{self, Amplitudes};
 use super::{
-    Classification, Energetics, Nature, Periodicity, Regime, Thresholds, Transient, classify,
-    periodicity, transient,
+    Classification, Energetics, Nature, Periodicity, Regime, Thresholds, classify, periodicity,
 };
 use crate::simulation::{
     self, Doubt, Energy, Impact, ImpactLog, Nobody, Simulation, StartError, Statistics, Stop,
@@ -96,15 +95,6 @@ impl Attractor {
     /// [`StartError`] for an impossible start.
     pub fn reach(system: &System, start: State, effort: &Effort) -> Result<Self, StartError> {
         let mut simulation = Simulation::new(system, start, 0.0)?;
-        let fades = || {
-            let transient = Transient::of(system);
-            transient.fades && transient.periods <= effort.discard
-        };
-        // Where the transient is left out, and nothing but the closed form would be left of it.
-        if let Some(state) = transient::asleep(system, &start).filter(|_| fades()) {
-            simulation = Simulation::new(system, state, 0.0)?;
-            return Ok(Self::measure(&mut simulation, &Effort { discard: 0, ..*effort }));
-        }
         let mut found = Self::measure(&mut simulation, effort);
         for _ in 0..effort.prolongations {
             let evidence = &found.classification.evidence;
