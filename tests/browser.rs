@@ -131,7 +131,7 @@ fn colours_follow_the_readers_preference_and_figures_stay_white() {
         let mut paper = |dark| {
             page.look(View { dark, ..DESKTOP });
             let colour = "getComputedStyle(document.body).backgroundColor";
-            let drawing = "document.querySelector('figure .drawing, td img')";
+            let drawing = "document.querySelector('figure .drawing, figure img')";
             let behind = format!("getComputedStyle({drawing}).backgroundColor");
             [page.evaluate(colour), page.evaluate(&behind)]
         };
