@@ -117,8 +117,9 @@ fn an_absorber_that_never_wakes_fails_the_criterion() {
         changed(folder.path(), "inactive", "[criteria]", "[criteria]\ncount_inactive = false");
     let [awake, error] = peak(&path);
     assert!(awake + error < bare, "{awake} (+{error})");
-    // The largest motion is irregular, and its peak is known to an error that is said.
-    assert!(error > 0.01 * awake && error < 0.3 * awake, "{awake} (+{error})");
+    // The largest motion is strongly modulated: windows of it have peaks from 72 to 130 mm, and the error
+    // that is said covers that.
+    assert!(awake + error > 0.13 && error < 0.5 * awake, "{awake} (+{error})");
     let text = vinesink(&["check", &path]);
     let text = String::from_utf8_lossy(&text.stdout);
     assert!(text.contains("an inactive absorber is not counted"), "{text}");

@@ -14,6 +14,7 @@ use regex::Regex;
 const ROOMS: &[(&str, &[&str])] = &[
     ("tally", &[]),
     ("digest", &[]),
+    ("executor", &[]),
     ("symbolic", &["tally"]),
     ("numerics", &["tally"]),
     ("system", &[]),
@@ -27,7 +28,7 @@ const ROOMS: &[(&str, &[&str])] = &[
         &["band", "case", "orbits", "regimes", "simulation", "study", "system", "validation"],
     ),
     ("extremes", &["case", "reference", "simulation", "system"]),
-    ("regimes", &["numerics", "simulation", "system", "tally"]),
+    ("regimes", &["numerics", "orbits", "simulation", "system", "tally"]),
     (
         "validation",
         &["analysis", "equations", "numerics", "orbits", "regimes", "simulation", "system"],
@@ -51,9 +52,22 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("case", &["digest", "numerics", "system"]),
     (
         "optimize",
-        &["analysis", "band", "case", "numerics", "orbits", "regimes", "simulation", "system"],
+        &[
+            "analysis",
+            "band",
+            "case",
+            "criteria",
+            "executor",
+            "numerics",
+            "orbits",
+            "simulation",
+            "system",
+        ],
     ),
-    ("band", &["analysis", "case", "numerics", "orbits", "regimes", "simulation", "system"]),
+    (
+        "band",
+        &["analysis", "case", "executor", "numerics", "orbits", "regimes", "simulation", "system"],
+    ),
     (
         "report",
         &[

@@ -258,13 +258,14 @@ mod tests {
     const REDUCED: &str = "title = \"t\"\nsource = \"s\"\n[reduced]\nmass_ratio = 0.015\n\
         damping = 0.5\nrestitution = 0.6\nclearance = 1.0\nforcing = 4.0\n";
 
-    /// By hand: 8 starts of 600 periods and a motion of 51 windows of 1000, 1000 oscillations each.
+    /// By hand: 8 starts of 3 periods, which are 3000 oscillations, and 200, and a motion of 51 windows of 1000;
+    /// 1000 oscillations each.
     #[test]
     fn work_is_counted() {
         let settings = "frequency_ratio = 0.001\n[simulation]\nstarts = 8\n";
         let case = case(&format!("{REDUCED}{settings}"));
         let work = Work::motions(&case, &StudyEffort::of(&case.simulation));
-        let oscillations = (8.0 * 600.0 + 51_000.0) * 1000.0;
+        let oscillations = (8.0 * 203.0 + 51_000.0) * 1000.0;
         assert!((work.seconds() / (oscillations * ALONE) - 1.0).abs() < 1e-12);
         assert_eq!(
             work.to_string(),

@@ -5,10 +5,10 @@
 /// may be found or not, as rounding has it.
 pub fn real_roots(coefficients: &[f64]) -> Vec<f64> {
     let degree = coefficients.iter().rposition(|coefficient| *coefficient != 0.0).unwrap_or(0);
-    let coefficients = &coefficients[..=degree.min(coefficients.len().saturating_sub(1))];
     if degree == 0 {
         return Vec::new();
     }
+    let coefficients = &coefficients[..=degree];
     let slope: Vec<f64> = (1..=degree).map(|power| power as f64 * coefficients[power]).collect();
     // Cauchy's bound.
     let largest = coefficients[..degree].iter().fold(0.0_f64, |most, c| most.max(c.abs()));

@@ -43,7 +43,7 @@ const ORBITS: [usize; 5] = [1, 15, 7, 5, 3];
 const SIMULATED: [usize; 5] = [1, 5, 3, 3, 2];
 /// Corner of a normally distributed deviation, over its standard deviation.
 const SIGMAS: f64 = 2.0;
-/// Judged absorbers that are looked at under deviations where the objective is simulated.
+/// Judged absorbers that are looked at under deviations.
 const CANDIDATES: usize = 5;
 
 /// The best in expectation; `None` where nothing is uncertain.
@@ -64,28 +64,31 @@ pub fn best(
     let deviations = task.deviations();
     let under = |choice: &Choice| task.under(choice, &deviations, executor);
     let of_nominal = under(&nominal.choice);
-    let (design, of_best) = match task.objective {
-        Objective::WorstAmplitude => {
-            let mut best = (nominal.clone(), of_nominal);
-            for design in smoothed(task, proposed, designs, nominal) {
-                let found = under(&design.choice);
-                if found.expected < best.1.expected {
-                    best = (design.clone(), found);
-                }
-            }
-            best
-        }
+    let mut candidates: Vec<Design> = match task.objective {
+        Objective::WorstAmplitude => smoothed(task, proposed, designs),
         _ => {
             let parts = expected_best(task, &deviations, &nominal.choice, executor)?;
-            let design = judge.design(&parts, executor)?;
-            let found = under(&design.choice);
-            if found.expected > of_nominal.expected {
-                (design, found)
-            } else {
-                (nominal.clone(), of_nominal)
-            }
+            let mut best: Vec<Design> = designs.to_vec();
+            best.sort_by(|a, b| b.value.total_cmp(&a.value));
+            best.insert(0, judge.design(&parts, executor)?);
+            best
         }
     };
+    // The robust one is subject to the criteria like the best as written.
+    candidates.retain(|one| one.is_feasible() == nominal.is_feasible());
+    let mut best = (nominal.clone(), of_nominal);
+    let score = |under: &UnderDeviations| match task.objective {
+        Objective::WorstAmplitude => -under.expected,
+        _ => under.expected,
+    };
+    for design in candidates.into_iter().filter(|one| one.choice != nominal.choice).take(CANDIDATES)
+    {
+        let found = under(&design.choice);
+        if score(&found) > score(&best.1) {
+            best = (design, found);
+        }
+    }
+    let (design, of_best) = best;
     Ok(Some(Robust {
         design,
         under: [of_best, of_nominal],
@@ -120,14 +123,9 @@ fn expected_best(
     found.map(|best| best.parts).ok_or(OptimizeError::Nowhere)
 }
 
-/// Judged absorbers that the coarse survey likes best once it is averaged over the deviation of the
-/// clearance, the best first.
-fn smoothed<'d>(
-    task: &Task,
-    proposed: &Proposed,
-    designs: &'d [Design],
-    nominal: &Design,
-) -> Vec<&'d Design> {
+/// Judged absorbers in the order in which the coarse survey likes them once it is averaged over the deviation
+/// of the clearance.
+fn smoothed(task: &Task, proposed: &Proposed, designs: &[Design]) -> Vec<Design> {
     let only_clearance =
         Uncertainty { clearance: task.uncertainty.clearance, ..Uncertainty::default() };
     let nodes = combinations(&only_clearance, SIMULATED[1]);
@@ -135,13 +133,10 @@ fn smoothed<'d>(
         let at = |off: &Deviation| design.choice.clearance + off.clearance;
         nodes.iter().map(|(off, weight)| weight * coarse(&proposed.landscape, at(off))).sum()
     };
-    let mut order: Vec<(f64, &Design)> = designs
-        .iter()
-        .filter(|one| one.choice != nominal.choice && one.is_feasible() == nominal.is_feasible())
-        .map(|one| (expected(one).max(one.value), one))
-        .collect();
+    let mut order: Vec<(f64, &Design)> =
+        designs.iter().map(|one| (expected(one).max(one.value), one)).collect();
     order.sort_by(|a, b| a.0.total_cmp(&b.0));
-    order.into_iter().map(|(_, design)| design).take(CANDIDATES).collect()
+    order.into_iter().map(|(_, design)| design.clone()).collect()
 }
 
 /// A landscape between its places.

@@ -10,7 +10,7 @@ use serde::Serialize;
 use self::watch::{Repetition, Strobes, Watch};
 use super::transient::{self, Transient};
 use super::{Regime, periodicity, starts};
-use crate::numerics::scatter::{error_of_largest, error_of_largest_of};
+use crate::numerics::scatter::error_of_largest_of;
 use crate::simulation::batch::{self, Extent};
 use crate::simulation::{Nobody, Simulation, StartError, Stop};
 use crate::system::{State, System};
@@ -310,35 +310,16 @@ fn flights(simulation: &Simulation) -> u64 {
     if speed > 0.0 { (duration / simulation.system().period()) as u64 } else { 0 }
 }
 
-/// Windows of one motion from which on they are block maxima themselves: four or fewer scatter by chance.
-const WINDOWS: usize = 5;
-
 /// The motions of one system that trajectories have ended in.
 pub fn distinct(ended: &[Option<Motion>]) -> Vec<Motion> {
-    let mut groups: Vec<Vec<Motion>> = Vec::new();
+    let mut distinct: Vec<Motion> = Vec::new();
     for motion in ended.iter().flatten() {
-        match groups.iter_mut().find(|group| group[0].is_same(motion)) {
-            Some(group) => group.push(*motion),
-            None => groups.push(vec![*motion]),
+        match distinct.iter_mut().find(|known| known.is_same(motion)) {
+            Some(known) => known.join(motion),
+            None => distinct.push(*motion),
         }
     }
-    groups.iter().map(|group| joined(group)).collect()
-}
-
-/// One motion of several measurements. The windows of many starts are longer blocks than those within a
-/// window, which a slow modulation makes unlike: the errors from these count where they are smaller.
-fn joined(group: &[Motion]) -> Motion {
-    let mut motion = group[0];
-    group[1..].iter().for_each(|other| motion.join(other));
-    if group.len() >= WINDOWS && motion.repeats_after.is_none() {
-        let runs = error_of_largest_of(group.len() as u32);
-        let error = |of: fn(&Motion) -> f64| {
-            runs * error_of_largest(&group.iter().map(of).collect::<Vec<f64>>())
-        };
-        motion.peak_error = motion.peak_error.min(error(|one| one.peak));
-        motion.impact_speed_error = motion.impact_speed_error.min(error(|one| one.impact_speed));
-    }
-    motion
+    distinct
 }
 
 impl Motion {

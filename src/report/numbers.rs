@@ -143,8 +143,11 @@ impl LengthFormat {
 
     /// A length with the given number of significant digits and its unit.
     pub fn with_digits(&self, length: f64, digits: usize) -> String {
-        let number = significant(self.number(length), digits);
-        format!("{number} {}", self.unit)
+        // A motion far larger than the clearance has a prefix of its own.
+        let far = self.unit != "units" && self.number(length).abs() >= 1000.0;
+        let format = if far { Self::fitting(length.abs()) } else { *self };
+        let number = significant(format.number(length), digits);
+        format!("{number} {}", format.unit)
     }
 }
 
