@@ -124,10 +124,10 @@ fn numbers_may_move_within_what_they_are_known_to() {
         (STEADY, &rms, 1.0 + 1e-5, "repetition", true),
         (STEADY, "/data/analysis/exact_boundaries/0/clearance", 1.0 + 1e-7, "bracket", true),
         (STEADY, "/data/analysis/fixed_points/0/residual", 100.0, "residual", false),
-        (CHAOTIC, &z, 1.0 + 0.15 / 1.45, "two-standard-errors", false),
-        (CHAOTIC, &z, 1.0 + 0.20 / 1.45, "two-standard-errors", true),
-        (CHAOTIC, &rms, 1.04, "two-standard-errors", false),
-        (CHAOTIC, &rms, 1.06, "two-standard-errors", true),
+        (CHAOTIC, &z, 1.0 + 0.40 / 1.29, "two-standard-errors", false),
+        (CHAOTIC, &z, 1.0 + 0.50 / 1.29, "two-standard-errors", true),
+        (CHAOTIC, &rms, 1.07, "two-standard-errors", false),
+        (CHAOTIC, &rms, 1.08, "two-standard-errors", true),
         (CHAOTIC, &captured, 1.3, "other-errors", false),
         (CHAOTIC, &captured, 2.5, "other-errors", true),
     ];
@@ -254,7 +254,7 @@ fn another_main_motion_is_compared_with_the_old_one() {
     for row in [
         "\n> Steady 1:1 resonance: the absorber works.",
         "| main motion | strongly-modulated | two-symmetric | |",
-        "| motion main: peak of x | 7.916 mm | 3.587 mm | −55 % |",
+        "| motion main: peak of x | 7.993 mm | 3.587 mm | −55 % |",
         "| Absorber clearance | 28 mm | 20 mm |",
         "Everything else: ",
     ] {
@@ -383,7 +383,7 @@ fn criteria_are_called_as_in_the_report() {
     change("new", "z3_share", 0.95, true);
     change("old", "stable_share", 0.749_99, false);
     change("new", "stable_share", 0.750_01, true);
-    change("new", "peak_displacement", 0.0135, true);
+    change("new", "peak_displacement", 0.0165, false);
     for side in ["old", "new"] {
         edit_side(&folder, side, BAND, |report| {
             report["criteria"].as_array_mut().expect("a list").push(json!({
@@ -394,16 +394,16 @@ fn criteria_are_called_as_in_the_report() {
     }
     let printed = diff(folder.path(), &["old", "new"], 1);
     for row in [
-        "| share of the band in area Z3 ≥ 90 % | fails (72.8 %) | holds (95.0 %) | **flipped** |",
+        "| share of the band in area Z3 ≥ 85 % | fails (72.8 %) | holds (95.0 %) | **flipped** |",
         "| share of the band with a stable 1:1 orbit ≥ 75 % | too close to call (74.999 %) | holds (75.001 %) | **flipped** |",
-        "| peak displacement ≤ 14 mm | fails (14.69 mm) | holds (13.50 mm) | **flipped** |",
+        "| peak displacement ≤ 16 mm | holds (14.46 mm) | too close to call (16.50 mm) | **flipped** |",
         "| no other motion beside true | holds (true) | fails (false) | **flipped** |",
     ] {
         assert!(printed.contains(row), "{row}\n{printed}");
     }
     let report = fs::read_to_string(shipped(BAND).join("report.md")).expect("a report");
     assert!(
-        report.contains("| share of the band in area Z3 | ✗ fails | ≥ 90.0 % | 72.8 % |"),
+        report.contains("| share of the band in area Z3 | ✗ fails | ≥ 85.0 % | 72.8 % |"),
         "{report}"
     );
 }

@@ -73,7 +73,7 @@ const CLOSE: f64 = 0.008;
 const LIKED: usize = 20;
 /// Rounds in which the neighbours of the best are judged, how many best there are, and the distance below
 /// which no further neighbour is: of a factor of 60 between the bounds, 0.8 % of the clearance.
-const ROUNDS: usize = 5;
+const ROUNDS: usize = 8;
 const BEST: usize = 2;
 const FINEST: f64 = 0.002;
 

@@ -2,8 +2,7 @@
 //!
 //! Free vibration of the oscillator fades with its own decay, `exp(-eps lambda tau/2)` in fast time, however
 //! many excitation periods that are; a motion near an attracting 1:1 orbit closes in on it with the orbit's
-//! largest multiplier, of which the rates of the slow flow are the leading order; an absorber that flies from
-//! wall to wall faster than the oscillator moves slows down with each impact. The slowest of these counts.
+//! largest multiplier, of which the rates of the slow flow are the leading order. The slower of both counts.
 //! What fades more slowly than a run can wait for is measured all the same, and said not to have settled if
 //! it still drifts.
 
@@ -17,9 +16,6 @@ const FADED: f64 = 12.0;
 /// The same beyond the ratio of a free vibration as large as the clearance to the steady motion: where the
 /// steady motion is small, 5e-5 of it is left.
 const FADED_BESIDE_STEADY: f64 = 10.0;
-/// Flights from wall to wall that are left out, at the speed of the steady oscillator: an absorber that is
-/// faster than the oscillator loses speed only at the walls, and comes down to that speed in so many.
-const FLIGHTS: f64 = 6.0;
 /// Fewest excitation periods left out: a motion needs some to be captured, which the decay does not tell.
 const FEWEST: f64 = 150.0;
 /// Most natural periods, and most excitation periods, left out: what a run can wait for. A damping ratio
@@ -59,9 +55,7 @@ impl Transient {
         let beside = FADED_BESIDE_STEADY - libm::log(steady.max(f64::MIN_POSITIVE));
         // Without excitation there is nothing beside which a free vibration is large.
         let folds = if steady > 0.0 { FADED.max(beside) } else { FADED };
-        let flights = FLIGHTS * 2.0 / (steady * system.frequency_ratio() * system.period());
-        let flights = if steady > 0.0 { flights } else { 0.0 };
-        let needed = (folds / decay).max(orbit.map_or(0.0, |rate| FADED / rate)).max(flights);
+        let needed = (folds / decay).max(orbit.map_or(0.0, |rate| FADED / rate));
         let natural = system.frequency_ratio();
         let most = (MOST[0] * natural).clamp(1.0, MOST[1]);
         if folds / decay > HOPELESS * most {

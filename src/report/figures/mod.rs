@@ -53,11 +53,10 @@ pub(super) struct Scene<'a> {
 
 impl<'a> Scene<'a> {
     pub(super) fn new(case: &Case, study: &'a CaseStudy) -> Self {
-        let limits = case.criteria.iter();
-        let limit = limits
-            .filter(|one| one.subject == Subject::PeakDisplacement)
-            .map(|one| one.limit / case.scales().length(1.0));
-        Self { study, units: Units::of(case), limit: limit.last() }
+        let mut limits = case.criteria.iter();
+        let asked = limits.find(|one| one.subject == Subject::PeakDisplacement);
+        let limit = asked.map(|one| one.limit / case.scales().length(1.0));
+        Self { study, units: Units::of(case), limit }
     }
 
     /// An attractor that moves and was followed to the end. One that was measured while it turned
