@@ -115,7 +115,7 @@ fn numbers_may_move_within_what_they_are_known_to() {
     let orbit = "/data/analysis/orbits/1/peak_displacement";
     let main = "/data/attractors/0";
     let (z, rms) = (format!("{main}/impacts_per_period"), format!("{main}/displacement/rms"));
-    let captured = format!("{main}/evidence/captures/share");
+    let power = format!("{main}/energetics/input_power");
     let cases: [(&str, &str, f64, &str, bool); 13] = [
         (STEADY, orbit, 1.0 + 1e-10, "rounding", false),
         (STEADY, orbit, 1.0 + 1e-8, "rounding", true),
@@ -125,11 +125,12 @@ fn numbers_may_move_within_what_they_are_known_to() {
         (STEADY, "/data/analysis/exact_boundaries/0/clearance", 1.0 + 1e-7, "bracket", true),
         (STEADY, "/data/analysis/fixed_points/0/residual", 100.0, "residual", false),
         (CHAOTIC, &z, 1.0 + 0.40 / 1.29, "two-standard-errors", false),
-        (CHAOTIC, &z, 1.0 + 0.50 / 1.29, "two-standard-errors", true),
+        (CHAOTIC, &z, 1.0 + 0.60 / 1.29, "two-standard-errors", true),
         (CHAOTIC, &rms, 1.07, "two-standard-errors", false),
-        (CHAOTIC, &rms, 1.08, "two-standard-errors", true),
-        (CHAOTIC, &captured, 1.3, "other-errors", false),
-        (CHAOTIC, &captured, 2.5, "other-errors", true),
+        (CHAOTIC, &rms, 1.1, "two-standard-errors", true),
+        // Averages that are known well.
+        ("li2016-8p5hz-fig4a", &power, 1.05, "other-errors", false),
+        ("li2016-8p5hz-fig4a", &power, 1.1, "other-errors", true),
     ];
     for (name, pointer, factor, basis, beyond) in cases {
         let folder = two_trees(&[name]);

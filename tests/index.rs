@@ -138,6 +138,7 @@ fn a_case_with_a_band_is_judged_over_the_band() {
     edit(&folder, "a", |report| {
         report["data"]["band"] = json!({"bare": {"largest_peak": null}});
         report["criteria"] = json!([]);
+        report["verdict"]["tone"] = json!("mixed");
     });
     assert_eq!(index(folder.path()).0, 0);
     let markdown = read(&folder, "README.md");
