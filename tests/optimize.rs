@@ -14,6 +14,7 @@ use vinesink::executor::{Executor, Serial};
 use vinesink::optimize::claim::Claim;
 use vinesink::optimize::{Deviation, Optimization, Task};
 use vinesink::orbits::symmetric_orbits;
+use vinesink::report::figure::Layer;
 use vinesink::report::optimize::OptimizePage;
 
 const NOTHING: Deviation =
@@ -491,6 +492,24 @@ fn the_command_writes_a_page_and_a_case() {
 fn sentences(text: &str, objective: Option<Objective>) -> Vec<String> {
     let case = case(text);
     OptimizePage::new("a case", &case, &optimized(text, objective), &[]).sentences
+}
+
+/// Between two simulated absorbers nothing is known, so no line joins them; an exact objective is a curve.
+#[test]
+fn the_landscape_draws_points_where_it_scatters() {
+    let text = band_text("[optimize]\nclearance = [\"10 mm\", \"20 mm\"]\n");
+    for (objective, scatters) in [(Objective::WorstAmplitude, true), (Objective::Z3Share, false)] {
+        let found = optimized(&text, Some(objective));
+        let figures = vinesink::report::optimize::figures(&case(&text), &found);
+        let landscape = &figures[0].panels[0].layers;
+        let curves = landscape.iter().filter(|layer| matches!(layer, Layer::Curve { .. })).count();
+        let most = landscape.iter().map(|layer| match layer {
+            Layer::Points { points, .. } => points.len(),
+            _ => 0,
+        });
+        assert_eq!(curves, usize::from(!scatters), "{objective:?}");
+        assert_eq!(most.max() >= Some(found.landscape.len()), scatters, "{objective:?}");
+    }
 }
 
 /// 12 kg at 8 Hz with 3 % of mass: at 20 mm 79 % of the band lie in Z3, all of it in strip A2.

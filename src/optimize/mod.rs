@@ -100,7 +100,7 @@ impl Optimization {
         let own = judge.own(executor)?;
         let proposed = choose::propose(task, executor)?;
         let mut designs = choose::judged(&judge, &proposed, executor)?;
-        let robust = robust::best(&judge, &proposed, &designs, executor)?;
+        let robust = robust::best(&judge, &proposed, &designs, &own, executor)?;
         let best = choose::best(&designs, task.objective).ok_or(OptimizeError::Nowhere)?.clone();
         // The case's own absorber is one of the bounds' as well as any.
         let best = if best.is_worse_than(&own, task.objective) { own.clone() } else { best };

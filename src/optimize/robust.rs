@@ -46,7 +46,8 @@ const SIGMAS: f64 = 2.0;
 /// Judged absorbers that are looked at under deviations.
 const CANDIDATES: usize = 5;
 
-/// The best in expectation; `None` where nothing is uncertain.
+/// The best in expectation of those that are not worse than the case's `own`; `None` where nothing is
+/// uncertain.
 ///
 /// # Errors
 /// [`OptimizeError`] of an absorber that cannot be written or simulated.
@@ -54,6 +55,7 @@ pub fn best(
     judge: &Judge,
     proposed: &Proposed,
     designs: &[Design],
+    own: &Design,
     executor: &dyn Executor,
 ) -> Result<Option<Robust>, OptimizeError> {
     let task = judge.task;
@@ -74,8 +76,10 @@ pub fn best(
             best
         }
     };
-    // The robust one is subject to the criteria like the best as written.
-    candidates.retain(|one| one.is_feasible() == nominal.is_feasible());
+    // Like the best as written, it is subject to the criteria and never worse than the case's own.
+    candidates.retain(|one| {
+        one.is_feasible() == nominal.is_feasible() && !one.is_worse_than(own, task.objective)
+    });
     let mut best = (nominal.clone(), of_nominal);
     let score = |under: &UnderDeviations| match task.objective {
         Objective::WorstAmplitude => -under.expected,
