@@ -13,7 +13,7 @@ use std::time::{Duration, Instant};
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use vinesink::analysis::Analysis;
-use vinesink::simulation::{Nobody, Simulation, Statistics, Stop, batch};
+use vinesink::simulation::{Simulation, Statistics, Stop, batch};
 use vinesink::study::tradeoff::by_hand::{ByHand, Listener, Locate};
 use vinesink::system::{State, System};
 
@@ -29,7 +29,7 @@ fn system(clearance_mm: f64) -> System {
 
 fn engine(system: &System, periods: u64) -> u64 {
     let mut simulation = Simulation::new(system, START, 0.0).expect("inside the cavity");
-    assert_eq!(simulation.run(periods, u64::MAX, &mut Nobody), Stop::EndTime);
+    assert_eq!(simulation.run(periods, u64::MAX, &mut ()), Stop::EndTime);
     simulation.impacts()
 }
 
@@ -45,7 +45,7 @@ fn side_by_side(system: &System, periods: u64) -> u64 {
             Simulation::new(system, start, 0.0).expect("inside the cavity")
         })
         .collect();
-    let mut nobody: Vec<Nobody> = simulations.iter().map(|_| Nobody).collect();
+    let mut nobody: Vec<()> = vec![(); simulations.len()];
     let stops = batch::run(&mut simulations, periods, u64::MAX, &mut nobody);
     assert!(stops.iter().all(|stop| *stop == Stop::EndTime));
     simulations.iter().map(Simulation::impacts).sum()
@@ -69,7 +69,7 @@ fn per_impact([ours, other]: [(Duration, u64); 2]) -> f64 {
 fn step_by_step(system: &System, periods: u64) -> u64 {
     let simulation = Simulation::new(system, START, 0.0).expect("inside the cavity");
     let mut simulation = simulation.step_by_step();
-    assert_eq!(simulation.run(periods, u64::MAX, &mut Nobody), Stop::EndTime);
+    assert_eq!(simulation.run(periods, u64::MAX, &mut ()), Stop::EndTime);
     simulation.impacts()
 }
 

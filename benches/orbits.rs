@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 use criterion::{Criterion, criterion_group, criterion_main};
 use vinesink::orbits::branch::{Direction, Settings, follow};
 use vinesink::orbits::{Branch, SymmetricFamily, symmetric_orbits};
-use vinesink::simulation::{Nobody, Simulation};
+use vinesink::simulation::Simulation;
 use vinesink::system::{Parameter, State, System};
 
 /// Periods in which the transient of a 1:1 motion dies out to 1e-10.
@@ -42,7 +42,7 @@ fn branch(system: &System) -> Branch {
 fn simulated(system: &System) -> State {
     let start = State { x: 0.1, x_velocity: 0.1, y: 0.0, y_velocity: 0.2 };
     let mut simulation = Simulation::new(system, start, 0.0).expect("inside the cavity");
-    simulation.run(TRANSIENT, u64::MAX, &mut Nobody);
+    simulation.run(TRANSIENT, u64::MAX, &mut ());
     simulation.state()
 }
 

@@ -13,8 +13,8 @@ use vinesink::digest;
 use vinesink::regimes::Transient;
 use vinesink::regimes::long_term::{Motion, long_term};
 use vinesink::regimes::starts;
+use vinesink::simulation::Simulation;
 use vinesink::simulation::batch::{self, Extent};
-use vinesink::simulation::{Nobody, Simulation};
 use vinesink::sweep::{Plan, parquet, work};
 use vinesink::system::{State, System};
 
@@ -69,7 +69,7 @@ impl Stretch {
         let begin = |(system, start): &(System, State)| Simulation::new(system, *start, 0.0);
         let begun = self.starts.iter().map(|one| begin(one).expect("finite"));
         let mut simulations: Vec<Simulation> = begun.collect();
-        let mut nobody: Vec<Nobody> = simulations.iter().map(|_| Nobody).collect();
+        let mut nobody: Vec<()> = vec![(); simulations.len()];
         black_box(batch::run_each(&mut simulations, &self.extents, &mut nobody));
     }
 }

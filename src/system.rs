@@ -211,7 +211,7 @@ impl State {
     pub const AT_REST: Self = Self { x: 0.0, x_velocity: 0.0, y: 0.0, y_velocity: 0.0 };
 
     /// Relative displacement `w = x - y`.
-    pub fn gap(&self) -> f64 {
+    pub fn relative_displacement(&self) -> f64 {
         self.x - self.y
     }
 

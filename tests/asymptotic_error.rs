@@ -44,8 +44,8 @@ fn errors(system: &System, scale: f64) -> [f64; 3] {
     assert_eq!(reached.classification.regime, Regime::TwoSymmetric, "eps scaled by {scale}");
     let seen = read_off(system, reached.oscillator_harmonic, reached.absorber_harmonic);
     [
-        seen.oscillator / point.oscillator - 1.0,
-        seen.absorber / point.absorber - 1.0,
+        seen.oscillator_amplitude / point.oscillator_amplitude - 1.0,
+        seen.absorber_amplitude / point.absorber_amplitude - 1.0,
         wrapped(seen.eta - point.eta),
     ]
 }
@@ -93,8 +93,8 @@ fn errors_by_exact_orbit(system: &System) -> [f64; 4] {
     let exact = Measures::of(system, &orbit.orbit.cycle).expect("damped");
     let seen = read_off(system, exact.oscillator_harmonic, exact.absorber_harmonic);
     [
-        seen.oscillator / point.oscillator - 1.0,
-        seen.absorber / point.absorber - 1.0,
+        seen.oscillator_amplitude / point.oscillator_amplitude - 1.0,
+        seen.absorber_amplitude / point.absorber_amplitude - 1.0,
         wrapped(seen.eta - point.eta),
         wrapped(seen.absorber_phase - point.absorber_phase),
     ]

@@ -2,9 +2,7 @@
 
 mod common;
 
-use vinesink::simulation::{
-    Impact, Nobody, Observer, Segment, Simulation, Statistics, Stop, batch,
-};
+use vinesink::simulation::{Impact, Observer, Segment, Simulation, Statistics, Stop, batch};
 use vinesink::system::{Excitation, Parameters, State, System};
 
 /// Everything that an observer is told.
@@ -132,11 +130,11 @@ fn each_goes_as_far_as_it_is_told() {
     let extents: Vec<batch::Extent> = (0..40)
         .map(|k| batch::Extent { periods: 3 * k % 31, impacts: if k % 4 == 0 { k } else { 500 } })
         .collect();
-    let mut nobody: Vec<Nobody> = (0..40).map(|_| Nobody).collect();
+    let mut nobody = vec![(); 40];
     let stops = batch::run_each(&mut together, &extents, &mut nobody);
     for (k, one) in alone.iter_mut().enumerate() {
         let batch::Extent { periods, impacts } = extents[k];
-        assert_eq!(one.run(periods, impacts, &mut Nobody), stops[k], "{k}");
+        assert_eq!(one.run(periods, impacts, &mut ()), stops[k], "{k}");
         assert_eq!(one.state(), together[k].state(), "{k}");
         assert_eq!((one.periods(), one.impacts()), (together[k].periods(), together[k].impacts()));
     }

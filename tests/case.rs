@@ -1,9 +1,9 @@
 //! What a case file means, and what is said about one that is wrong.
 
 use vinesink::case::{
-    BandOver, Case, CaseError, Choice, Damping, Design, Dimension, ExtraFigure, Force, Frequency,
-    Length, LengthUnit, Mass, Objective, Physical, PhysicalExcitation, Quantity, Rounding,
-    Stiffness, Subject, Tuning,
+    AbsorberDesign, BandOver, Case, CaseError, Damping, Design, Dimension, ExtraFigure, Force,
+    Frequency, Length, LengthUnit, Mass, Objective, Physical, PhysicalExcitation, Quantity,
+    Rounding, Stiffness, Subject, Tuning,
 };
 use vinesink::system::Excitation;
 
@@ -179,7 +179,7 @@ fn ratios_may_be_shares() {
     let input = case.inputs().iter().find(|input| input.name == "mass_ratio").expect("an input");
     assert_eq!((input.value, input.unit, input.as_written.as_str()), (0.03, "1", "3 %"));
     // Written again it stays a share.
-    let choice = Choice { mass: Some(0.2), ..Choice::of(&case.design) };
+    let choice = AbsorberDesign { mass: Some(0.2), ..AbsorberDesign::of(&case.design) };
     let again = case.rewritten("again", &text, &choice, Rounding::EXACT).expect("a case");
     let line = again.text.lines().find(|line| line.starts_with("mass_ratio")).expect("a line");
     let share = line.strip_prefix("mass_ratio = \"").and_then(|rest| rest.strip_suffix(" %\""));

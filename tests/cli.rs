@@ -414,7 +414,7 @@ fn one_chaotic_motion_has_one_peak_with_its_error() {
         [number("/displacement/peak"), number("/errors_of_largest/peak")]
     };
     let many = json(&["simulate", &path]);
-    assert_eq!(many["nature"]["kind"], "chaotic");
+    assert_eq!(many["dynamics"]["kind"], "chaotic");
     let moving = many["attractors"].as_array().expect("a list");
     let main = moving.iter().find(|one| one["regime"] == many["regime"]).expect("the same");
     assert_eq!(reach(&many), reach(main));

@@ -7,7 +7,7 @@ use common::table_1;
 use std::f64::consts::PI;
 
 use vinesink::regimes::attractor::Effort;
-use vinesink::regimes::{Attractor, FoundAttractor, Nature, Regime};
+use vinesink::regimes::{Attractor, DynamicsKind, FoundAttractor, Regime};
 use vinesink::simulation::{Impact, Simulation};
 use vinesink::study::{CaseStudy, LongTermMotions, Proof, StudyEffort};
 use vinesink::system::{State, System};
@@ -93,6 +93,6 @@ fn a_motion_that_alternates_is_not_a_doubled_one() {
     assert_eq!(proofs[0].orbit.cycle.periods(), 1);
     let leading = proofs[0].orbit.multipliers.values[0];
     assert!(leading[0] < -0.95 && leading[1] == 0.0, "no alternation: {leading:?}");
-    let nature = study.attractors[0].attractor.classification.nature;
-    assert_eq!(nature, Nature::Periodic { impacts: 2, periods: 1 });
+    let dynamics = study.attractors[0].attractor.classification.dynamics;
+    assert_eq!(dynamics, DynamicsKind::Periodic { impacts: 2, periods: 1 });
 }

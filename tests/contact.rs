@@ -26,7 +26,8 @@ impl Observer for First {
     fn segment(&mut self, segment: &Segment) {
         self.carried |= self.impacts.is_empty() && matches!(segment.absorber, Absorber::Carried(_));
         for k in 0..=20 {
-            let gap = segment.at(segment.duration * f64::from(k) / 20.0).gap().abs();
+            let gap =
+                segment.at(segment.duration * f64::from(k) / 20.0).relative_displacement().abs();
             self.widest = self.widest.max(gap);
         }
     }
@@ -179,7 +180,7 @@ fn chattering_costs_a_bounded_number_of_impacts_and_evaluations() {
         let table = common::table_1(8.0, 0.3).parameters();
         let system = System::new(Parameters { restitution, ..table }).expect("valid");
         let mut simulation = Simulation::new(&system, start, 0.0).expect("inside");
-        let stop = simulation.run(500, 1_000_000, &mut vinesink::simulation::Nobody);
+        let stop = simulation.run(500, 1_000_000, &mut ());
         assert_eq!(stop, Stop::EndTime);
         let impacts = simulation.impacts() as f64 / 500.0;
         // Beyond r = 0.9 the wall recedes before a sequence of this clearance is over.

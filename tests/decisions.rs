@@ -208,9 +208,13 @@ fn a_robust_optimum_keeps_its_word_at_the_corners() {
         std::fs::write(&path, there).expect("written");
         peak(&path)
     });
-    let worst = found.fold([0.0; 2], |worst: [f64; 2], one| {
-        if one[0] + one[1] > worst[0] + worst[1] { one } else { worst }
-    });
+    let worst =
+        found.fold(
+            [0.0; 2],
+            |worst: [f64; 2], one| {
+                if one[0] + one[1] > worst[0] + worst[1] { one } else { worst }
+            },
+        );
     println!("worst corner {worst:?} m");
     // A survey knows its worst peak to 2 %.
     let claimed = number(&said["worst_corner"]);

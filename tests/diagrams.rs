@@ -12,7 +12,7 @@ use common::table_1;
 use vinesink::case::Case;
 use vinesink::orbits::{Bifurcation, FullSystem};
 use vinesink::regimes::Regime;
-use vinesink::regimes::diagram::Way;
+use vinesink::regimes::diagram::SweepDirection;
 use vinesink::study::diagrams::{Diagram, STEPS};
 use vinesink::study::exact_branches::ExactBranches;
 use vinesink::system::{Parameter, Parameters, System};
@@ -83,7 +83,7 @@ fn hysteresis_is_found_where_two_exact_orbits_attract() {
     let last = diagram.hysteresis.last().expect("some").values[1];
     assert!((16.695 / narrow..16.695).contains(&(15.0 * last)), "{}", 15.0 * last);
     // Where the symmetric orbit alone attracts both ways find it.
-    for way in [Way::Up, Way::Down] {
+    for way in [SweepDirection::Up, SweepDirection::Down] {
         let points = diagram.way(way);
         let alone = points.iter().filter(|point| (0.4..0.9).contains(&point.value));
         assert!(alone.clone().count() > 20);

@@ -6,7 +6,7 @@ use assert_cmd::Command;
 use vinesink::extremes::{Verdict, entries, unit_checks};
 use vinesink::reference::{Event, Reference};
 use vinesink::simulation::trust::{self, Doubt};
-use vinesink::simulation::{Energy, Nobody, Simulation, Statistics, Stop};
+use vinesink::simulation::{Energy, Simulation, Statistics, Stop};
 use vinesink::system::{Parameters, State, System};
 
 const START: State = State { x: 0.25, x_velocity: 0.3, y: -0.4, y_velocity: 0.6 };
@@ -82,7 +82,7 @@ fn overdamped_and_slowly_driven_oscillators_cost_no_more_than_others() {
     for (parameters, periods) in [(heavy, 20), (slow, 1)] {
         let system = System::new(parameters).expect("valid");
         let mut simulation = Simulation::new(&system, START, 0.0).expect("inside");
-        assert_eq!(simulation.run(periods, 1_000_000, &mut Nobody), Stop::EndTime);
+        assert_eq!(simulation.run(periods, 1_000_000, &mut ()), Stop::EndTime);
         let time = periods as f64 * system.period();
         let events = time + simulation.impacts() as f64;
         let each = simulation.evaluations() as f64 / events;

@@ -63,8 +63,11 @@ impl Hand {
     /// The rates of (18) with the amplitudes and angles that are reported, over the sizes of their
     /// terms.
     fn residual(&self, point: &FixedPoint) -> f64 {
-        let theta = libm::atan2(2.0 / PI * self.rho * point.absorber, 1.0 - point.absorber);
-        let (c, e) = (point.oscillator, self.m * point.absorber);
+        let theta = libm::atan2(
+            2.0 / PI * self.rho * point.absorber_amplitude,
+            1.0 - point.absorber_amplitude,
+        );
+        let (c, e) = (point.oscillator_amplitude, self.m * point.absorber_amplitude);
         let size = (self.damping + 2.0 * self.detuning.abs()) * c + e + self.gamma;
         [
             [-self.damping * c, -e * libm::sin(theta), self.gamma * libm::sin(point.eta)],
@@ -130,11 +133,11 @@ proptest! {
     fn both_conditions_hold_at_every_fixed_point(system in systems()) {
         let (hand, theory) = (Hand::of(&system), analysis(&system));
         prop_assert!(theory.fixed_points.len() <= 2);
-        prop_assert!(theory.fixed_points.windows(2).all(|pair| pair[0].absorber < pair[1].absorber));
+        prop_assert!(theory.fixed_points.windows(2).all(|pair| pair[0].absorber_amplitude < pair[1].absorber_amplitude));
         for point in &theory.fixed_points {
             prop_assert!(hand.residual(point) < ROUNDING, "{:?}", point);
             prop_assert!(point.residual < ROUNDING, "{:?}", point);
-            prop_assert!(point.absorber > 0.0 && point.oscillator > 0.0);
+            prop_assert!(point.absorber_amplitude > 0.0 && point.oscillator_amplitude > 0.0);
         }
     }
 
@@ -148,7 +151,7 @@ proptest! {
         for step in 0..SCAN {
             let (left, right) = (beta(step), beta(step + 1));
             let mut inside = Vec::new();
-            while let Some(point) = points.next_if(|point| point.absorber <= right) {
+            while let Some(point) = points.next_if(|point| point.absorber_amplitude <= right) {
                 inside.push(point);
             }
             if hand.curvature < 1e-9 && left < 1.0 && 1.0 < right {
@@ -157,7 +160,7 @@ proptest! {
             let changes = (hand.condition(left) > 0.0) != (hand.condition(right) > 0.0);
             prop_assert_eq!(inside.len() % 2 == 1, changes, "{:?} in {}..{}", inside, left, right);
             if let [one, other] = inside[..] {
-                let between = hand.condition(0.5 * (one.absorber + other.absorber));
+                let between = hand.condition(0.5 * (one.absorber_amplitude + other.absorber_amplitude));
                 prop_assert!((between > 0.0) != (hand.condition(left) > 0.0), "{:?}", inside);
             }
         }
@@ -207,8 +210,8 @@ proptest! {
         prop_assert_eq!((theory.zone.area, theory.zone.strip), expected);
         if let [smaller, larger] = &theory.fixed_points[..] {
             prop_assert!(!smaller.stable && smaller.determinant * larger.determinant
-                * (smaller.absorber - theory.manifold.fold.absorber)
-                * (larger.absorber - theory.manifold.fold.absorber) < 0.0, "{:?}", theory.fixed_points);
+                * (smaller.absorber_amplitude - theory.manifold.fold.absorber_amplitude)
+                * (larger.absorber_amplitude - theory.manifold.fold.absorber_amplitude) < 0.0, "{:?}", theory.fixed_points);
         }
     }
 
@@ -262,5 +265,8 @@ fn the_published_collision_adds_two_points_on_its_near_side() {
     // At the collision itself there is one, and nothing is said of its stability.
     let at = analysis(&with_forcing(&base, gamma)).fixed_points;
     assert!(at.len() == 1 && at[0].determinant == 0.0 && !at[0].stable, "{at:?}");
-    assert!((at[0].absorber - node.absorber).abs() < 1e-15 && at[0].above_collision == Some(0.0));
+    assert!(
+        (at[0].absorber_amplitude - node.absorber_amplitude).abs() < 1e-15
+            && at[0].above_collision == Some(0.0)
+    );
 }

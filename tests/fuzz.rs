@@ -181,9 +181,9 @@ impl Observer for Watch {
             let way = segment.duration * (state.x_velocity.abs() + state.y_velocity.abs());
             let rounding = 256.0 * (1.0 + self.size) + panels * way;
             let allowed = 1.0 + f64::EPSILON * rounding;
-            let inside = state.gap().abs() <= allowed;
+            let inside = state.relative_displacement().abs() <= allowed;
             if !inside && self.complaint.is_none() {
-                let gap = state.gap();
+                let gap = state.relative_displacement();
                 self.complaint = Some(format!("abs(w) = {gap} of {allowed} in {segment:?}"));
             }
         }

@@ -6,7 +6,7 @@ mod reference;
 use std::f64::consts::TAU;
 
 use reference::{Moment, Real, Reference};
-use vinesink::simulation::{Impact, ImpactLog, Nobody, Simulation, Stop};
+use vinesink::simulation::{Impact, ImpactLog, Simulation, Stop};
 use vinesink::system::{State, System};
 
 /// Parts of a period in which the reference looks for impacts.
@@ -220,7 +220,7 @@ fn a_million_periods_later_the_impacts_come_at_the_same_phases() {
     let start = State { x: 0.25, x_velocity: 0.3, y: -0.4, y_velocity: 0.6 };
     let mut simulation = Simulation::new(&system, start, 0.0).expect("inside the cavity");
     let mut phases = |periods: u64| {
-        assert_eq!(simulation.run(periods, u64::MAX, &mut Nobody), Stop::EndTime);
+        assert_eq!(simulation.run(periods, u64::MAX, &mut ()), Stop::EndTime);
         let mut log = ImpactLog::default();
         assert_eq!(simulation.run(1, 10, &mut log), Stop::EndTime);
         let phases = log.impacts.iter().map(|impact| impact.phase);

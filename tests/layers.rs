@@ -12,23 +12,23 @@ use regex::Regex;
 /// Every room of the library and the rooms that it may use besides itself. Analysis, orbits and
 /// simulation are three independent answers to one question and never meet below `validation`.
 const ROOMS: &[(&str, &[&str])] = &[
-    ("tally", &[]),
+    ("operation_count", &[]),
     ("digest", &[]),
     ("executor", &[]),
-    ("symbolic", &["tally"]),
-    ("numerics", &["tally"]),
+    ("symbolic", &["operation_count"]),
+    ("numerics", &["operation_count"]),
     ("system", &[]),
     ("equations", &["symbolic", "system"]),
-    ("analysis", &["equations", "numerics", "symbolic", "system", "tally"]),
-    ("orbits", &["numerics", "system", "tally"]),
-    ("simulation", &["numerics", "system", "tally"]),
+    ("analysis", &["equations", "numerics", "symbolic", "system", "operation_count"]),
+    ("orbits", &["numerics", "system", "operation_count"]),
+    ("simulation", &["numerics", "system", "operation_count"]),
     ("reference", &["system"]),
     (
         "criteria",
         &["band", "case", "orbits", "regimes", "simulation", "study", "system", "validation"],
     ),
     ("extremes", &["case", "reference", "simulation", "system"]),
-    ("regimes", &["numerics", "orbits", "simulation", "system", "tally"]),
+    ("regimes", &["numerics", "orbits", "simulation", "system", "operation_count"]),
     (
         "validation",
         &["analysis", "equations", "numerics", "orbits", "regimes", "simulation", "system"],
@@ -45,7 +45,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "regimes",
             "simulation",
             "system",
-            "tally",
+            "operation_count",
             "validation",
         ],
     ),
@@ -113,7 +113,7 @@ const PURE: [&str; 18] = [
     "study",
     "symbolic",
     "system",
-    "tally",
+    "operation_count",
     "validation",
 ];
 
@@ -281,7 +281,7 @@ fn the_imports_of_the_program_are_seen() {
         rooms
     };
     assert_eq!(of("simulation/run.rs"), ["numerics", "system"]);
-    assert_eq!(of("simulation/flow.rs"), ["system", "tally"]);
+    assert_eq!(of("simulation/flow.rs"), ["system", "operation_count"]);
     assert_eq!(of("analysis/mod.rs"), ["symbolic", "system"]);
     let study = of("study/mod.rs");
     assert!(study.contains(&"validation".into()) && study.contains(&"case".into()), "{study:?}");

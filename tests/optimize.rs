@@ -8,7 +8,7 @@ use assert_cmd::Command;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::{RngCore, SeedableRng};
 use vinesink::band::{Survey, theory};
-use vinesink::case::{Case, Choice, Distribution, Objective, Subject, Uncertainty};
+use vinesink::case::{AbsorberDesign, Case, Distribution, Objective, Subject, Uncertainty};
 use vinesink::criteria;
 use vinesink::executor::{Executor, Serial};
 use vinesink::optimize::claim::Claim;
@@ -174,7 +174,7 @@ fn drawn(distribution: Distribution, normal: &mut Normal) -> f64 {
 }
 
 /// Average and standard error over deviations, the same for every absorber.
-fn monte_carlo(task: &Task, choice: &Choice, samples: u32) -> (f64, f64) {
+fn monte_carlo(task: &Task, choice: &AbsorberDesign, samples: u32) -> (f64, f64) {
     let mut normal = Normal(Xoshiro256PlusPlus::seed_from_u64(1));
     let Uncertainty { clearance, restitution, frequency_ratio, amplitude } = task.uncertainty;
     let (mut sum, mut squares) = (0.0, 0.0);
@@ -241,7 +241,7 @@ fn a_written_case_differs_in_its_values_only() {
     assert!(digits <= 5, "{clearance}");
     // What is shown is what is written.
     let again = case(&found.best.written.text);
-    assert_eq!(Choice::of(&again.design), found.best.choice);
+    assert_eq!(AbsorberDesign::of(&again.design), found.best.choice);
     let task = Task::of(&again, None).expect("a task");
     let score = task.score(&found.best.choice, &NOTHING, &Serial).expect("a score");
     assert!((score - found.best.value).abs() < 1e-9, "{score}");
@@ -286,7 +286,7 @@ fn of_a_plateau_the_middle_is_chosen() {
         for (at, inside) in
             [(low * 1.001, 1.0), (high * 0.999, 1.0), (low * 0.999, 0.0), (high * 1.001, 0.0)]
         {
-            let choice = Choice { clearance: at, ..found.best.choice };
+            let choice = AbsorberDesign { clearance: at, ..found.best.choice };
             assert_eq!(
                 found.task.score(&choice, &NOTHING, &Serial),
                 Some(inside),
@@ -589,7 +589,7 @@ fn what_is_written_is_told() {
         let (code, [stdout, _]) = optimize(&uncertain, &arguments);
         assert_eq!(code, Some(0));
         let clearance =
-            Choice::of(&case(&fs::read_to_string(&new).expect("a case")).design).clearance;
+            AbsorberDesign::of(&case(&fs::read_to_string(&new).expect("a case")).design).clearance;
         let line = stdout.lines().last().expect("a line");
         let number = line.strip_prefix(&format!("{new} has the {name}, clearance "));
         let number = number.and_then(|rest| rest.strip_suffix(" units.")?.parse::<f64>().ok());

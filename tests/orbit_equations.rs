@@ -143,10 +143,10 @@ proptest! {
         expected.retain(|beta| *beta > tolerance);
         prop_assert_eq!(found.len(), expected.len());
         for (orbit, beta) in found.iter().zip(expected) {
-            assert_near(beta, orbit.absorber, tolerance * (1.0 + beta), "beta");
-            let at = programs().at_ratio(&values, orbit.absorber).expect("set");
-            let after = curve.after_impact(&map.flight, orbit.absorber);
-            let size = 1.0 + orbit.absorber;
+            assert_near(beta, orbit.absorber_amplitude, tolerance * (1.0 + beta), "beta");
+            let at = programs().at_ratio(&values, orbit.absorber_amplitude).expect("set");
+            let after = curve.after_impact(&map.flight, orbit.absorber_amplitude);
+            let size = 1.0 + orbit.absorber_amplitude;
             assert_near(of(&at, ImpactDisplacement), after.x, 1e-14 * size, "x_0");
             assert_near(of(&at, XDotAfter), after.x_velocity, 1e-14 * size, "x'+");
             assert_near(of(&at, YDotAfter), after.y_velocity, 1e-14 * size, "y'+");
@@ -240,7 +240,7 @@ fn a_flight_gets_longer_by_what_is_stated() {
     let system = table_1(8.0, 15.0);
     let map = ImpactMap::of(&system).expect("damped");
     let orbit = symmetric_orbits(&system).expect("damped").pop().expect("exists");
-    let values = programs().at_ratio(&curve_of(&system), orbit.absorber).expect("set");
+    let values = programs().at_ratio(&curve_of(&system), orbit.absorber_amplitude).expect("set");
     let (start, duration) = (orbit.orbit.cycle.impacts[0], orbit.orbit.cycle.durations[0]);
     let gap = |change: f64, duration: f64| {
         let start =
@@ -353,7 +353,7 @@ fn the_report_s_formulas_render_whatever_has_a_value() {
     let system_at_rest = table_1(8.0, 30.0);
     assert!(symmetric_orbits(&system_at_rest).expect("damped").is_empty());
     let orbit = symmetric_orbits(&table_1(8.0, 15.0)).expect("damped").pop().expect("exists");
-    let with_orbit = programs().at_ratio(&curve_of(&table_1(8.0, 15.0)), orbit.absorber);
+    let with_orbit = programs().at_ratio(&curve_of(&table_1(8.0, 15.0)), orbit.absorber_amplitude);
     let undamped = equations().programs.values(&system(0.01, 0.0, 0.6, 1.0, 1.0));
     let mut complete = 0;
     for equation in exact {

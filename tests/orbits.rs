@@ -13,7 +13,7 @@ use vinesink::orbits::{
     Bifurcation, Leading, Measures, Multipliers, OrbitError, SymmetricFamily, Wall,
     symmetric_orbits,
 };
-use vinesink::simulation::{Nobody, Simulation, Statistics};
+use vinesink::simulation::{Simulation, Statistics};
 use vinesink::system::{Excitation, Parameters, System};
 
 /// Half a unit of the last printed digit.
@@ -217,7 +217,7 @@ proptest! {
             // Beyond that a simulation cannot be expected to stay near for half a period.
             prop_assume!(radius < 1e4);
             // Too close to grazing to tell.
-            prop_assume!(orbit.orbit.admissibility.room.abs() > 1e-6);
+            prop_assume!(orbit.orbit.admissibility.min_wall_distance.abs() > 1e-6);
             prop_assume!(orbit.impact_speed * system.restitution() > 1e-6);
             let linear = system.linear_response().expect("exists").amplitude();
             let impacts = simulated_impacts(&system, &orbit, 1);
@@ -253,8 +253,8 @@ fn a_disturbed_motion_returns_at_the_rate_of_the_multiplier() {
     let mut largest = |periods: u64| {
         (0..periods)
             .map(|_| {
-                simulation.run(1, u64::MAX, &mut Nobody);
-                reference.run(1, u64::MAX, &mut Nobody);
+                simulation.run(1, u64::MAX, &mut ());
+                reference.run(1, u64::MAX, &mut ());
                 distance(&simulation, &reference)
             })
             .fold(0.0, f64::max)
@@ -276,7 +276,7 @@ fn measures_of_an_orbit_are_those_of_its_simulation() {
         let after = orbit.orbit.cycle.impacts[0];
         let start = after.state(orbit.orbit.cycle.walls[0]);
         let mut simulation = Simulation::new(&system, start, after.phase).expect("on the wall");
-        simulation.run(2000, u64::MAX, &mut Nobody);
+        simulation.run(2000, u64::MAX, &mut ());
         let mut statistics = Statistics::begin(&system, simulation.state());
         simulation.run(10, u64::MAX, &mut statistics);
         let close = |a: f64, b: f64| (a - b).abs() < 1e-11 * (1.0 + a.abs());
@@ -337,7 +337,13 @@ fn next_to_a_limit(family: &SymmetricFamily, clearance: f64) -> bool {
 fn attracts_at(system: &System, clearance: f64) -> Option<Vec<f64>> {
     let there = system.with_clearance_scaled(clearance).ok()?;
     let orbits = symmetric_orbits(&there).ok()?;
-    Some(orbits.iter().filter(|one| one.orbit.attracts()).map(|one| one.absorber).collect())
+    Some(
+        orbits
+            .iter()
+            .filter(|one| one.orbit.attracts())
+            .map(|one| one.absorber_amplitude)
+            .collect(),
+    )
 }
 
 proptest! {

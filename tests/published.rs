@@ -52,9 +52,11 @@ fn manifold_of_restitution_0p6() {
     let manifold = Analysis::of(&common::table_1(8.0, 10.0)).expect("analysable").manifold;
     // B = b/(1+R), C = b sqrt(R/(1+R)) with R = 4 rho^2/pi^2 and rho = 1/4.
     let curvature = 0.25 / (std::f64::consts::PI * std::f64::consts::PI);
-    assert!((manifold.fold.absorber - 1.0 / (1.0 + curvature)).abs() < 1e-15);
-    assert!((manifold.fold.oscillator - (curvature / (1.0 + curvature)).sqrt()).abs() < 1e-15);
-    prints_as(manifold.symmetry_breaking.absorber, 5, "1.68148");
+    assert!((manifold.fold.absorber_amplitude - 1.0 / (1.0 + curvature)).abs() < 1e-15);
+    assert!(
+        (manifold.fold.oscillator_amplitude - (curvature / (1.0 + curvature)).sqrt()).abs() < 1e-15
+    );
+    prints_as(manifold.symmetry_breaking.absorber_amplitude, 5, "1.68148");
 }
 
 #[test]

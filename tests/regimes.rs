@@ -7,11 +7,11 @@ use std::f64::consts::PI;
 
 use vinesink::regimes::attractor::Effort;
 use vinesink::regimes::basins::{Axis, Basins, Cell, Coordinate, Plane};
-use vinesink::regimes::diagram::{Way, sweep};
+use vinesink::regimes::diagram::{SweepDirection, sweep};
 use vinesink::regimes::long_term::long_term;
 use vinesink::regimes::search::{self, SearchEffort};
-use vinesink::regimes::{Amplitudes, Attractor, Nature, Regime, share, starts};
-use vinesink::simulation::{Impact, Nobody, Observer, Side, Simulation, Statistics};
+use vinesink::regimes::{Amplitudes, Attractor, DynamicsKind, Regime, share, starts};
+use vinesink::simulation::{Impact, Observer, Side, Simulation, Statistics};
 use vinesink::system::{Parameter, State, System};
 
 const START: State = State { x: 0.3, x_velocity: 0.2, y: 0.1, y_velocity: 0.8 };
@@ -189,7 +189,7 @@ fn a_motion_and_its_mirror_image_are_one() {
     let system = common::table_1(8.0, 4.0);
     let one = reached(&system, START);
     let mut half = Simulation::new(&system, one.state, PI).expect("inside the cavity");
-    half.run(1, 1000, &mut Nobody);
+    half.run(1, 1000, &mut ());
     // One half-period further on, at phase 0 after pi .. 2 pi, the state's negative is a start.
     let State { x, x_velocity, y, y_velocity } = half.state();
     let mirrored = State { x: -x, x_velocity: -x_velocity, y: -y, y_velocity: -y_velocity };
@@ -219,41 +219,41 @@ fn motions_differ_by_what_they_are() {
     fn last(other: &mut Attractor) -> &mut Amplitudes {
         other.amplitudes.last_mut().expect("a period")
     }
-    assert!(!changed(|other| last(other).oscillator *= 1.002));
-    assert!(!changed(|other| last(other).absorber *= 1.002));
+    assert!(!changed(|other| last(other).oscillator_amplitude *= 1.002));
+    assert!(!changed(|other| last(other).absorber_amplitude *= 1.002));
     assert!(!changed(|other| last(other).peak *= 1.002));
     assert!(changed(|other| last(other).peak *= 1.0005));
     // What the window held before that does not matter: it may be the end of a transient.
     assert!(changed(|other| other.rms *= 1.1) && changed(|other| other.peak *= 1.1));
     assert!(!changed(|other| other.classification.evidence.sequence = None));
     assert!(!changed(|other| other.classification.regime = Regime::TwoAsymmetric));
-    fn open(other: &mut Attractor, nature: Nature) {
+    fn open(other: &mut Attractor, dynamics: DynamicsKind) {
         other.classification.evidence.periodicity = None;
         other.classification.evidence.sequence = None;
-        other.classification.nature = nature;
+        other.classification.dynamics = dynamics;
     }
     // Still on its way to the motion that repeats; its intervals may still be unequal.
     assert!(changed(|other| {
-        open(other, Nature::TransientNotOver);
+        open(other, DynamicsKind::TransientNotOver);
         other.classification.regime = Regime::TwoAsymmetric;
         other.peak *= 1.01;
     }));
     assert!(!changed(|other| {
-        open(other, Nature::TransientNotOver);
+        open(other, DynamicsKind::TransientNotOver);
         other.peak *= 1.03;
     }));
     assert!(!changed(|other| {
-        open(other, Nature::TransientNotOver);
+        open(other, DynamicsKind::TransientNotOver);
         other.classification.evidence.visits_per_period = 2.5;
     }));
-    assert!(!changed(|other| open(other, Nature::Chaotic)));
+    assert!(!changed(|other| open(other, DynamicsKind::Chaotic)));
     let mut chaotic = reached(&common::table_1(8.0, 20.0), START);
-    chaotic.classification.nature = Nature::Chaotic;
+    chaotic.classification.dynamics = DynamicsKind::Chaotic;
     let mut other = Attractor { rms: 1.1 * chaotic.rms, ..chaotic.clone() };
     assert!(chaotic.is_same(&other), "averages of some hundred periods scatter");
-    other.classification.nature = Nature::Undecided;
+    other.classification.dynamics = DynamicsKind::Undecided;
     assert!(chaotic.is_same(&other));
-    other.classification.nature = Nature::QuasiPeriodic;
+    other.classification.dynamics = DynamicsKind::QuasiPeriodic;
     assert!(!chaotic.is_same(&other));
 }
 
@@ -386,7 +386,7 @@ fn resonance_is_lost_later_upwards_than_it_returns_downwards() {
         let kept = kept.filter(|point| point.regime == Regime::TwoSymmetric);
         kept.map(|point| 10.0 * point.value).fold(0.0, f64::max)
     };
-    let (up, down) = (last_kept(Way::Up), last_kept(Way::Down));
+    let (up, down) = (last_kept(SweepDirection::Up), last_kept(SweepDirection::Down));
     assert!((16.2..16.695).contains(&up), "kept up to {up} mm");
     assert!(down > 0.0 && down < up - 1.0, "back at {down} mm");
     for point in &points {

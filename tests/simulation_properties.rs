@@ -127,7 +127,7 @@ impl Inspector {
         for k in 0..=pieces as u64 {
             let s = segment.duration * k as f64 / pieces;
             let state = segment.at(s);
-            let gap = state.gap().abs();
+            let gap = state.relative_displacement().abs();
             // NaN is not below anything.
             self.check(gap <= 1.0 + rounding(size(&state) + size(&start)), || {
                 format!("abs(w) = {gap} at {s} of {segment:?}")
@@ -319,7 +319,7 @@ proptest! {
             // w = relative(s) - y reaches 1 + margin at its first maximum, if no lower wall is near.
             let y = highest - 1.0 - margin;
             let start = State { x, x_velocity, y, y_velocity };
-            if low - y < -0.99 || start.gap().abs() > 0.999 {
+            if low - y < -0.99 || start.relative_displacement().abs() > 0.999 {
                 continue;
             }
             let mut simulation = Simulation::new(&system, start, 0.0).expect("inside the cavity");

@@ -13,13 +13,13 @@ use tempfile::TempDir;
 
 use vinesink::analysis::Analysis;
 use vinesink::case::{Case, Recorded, SweepParameter};
+use vinesink::operation_count;
 use vinesink::orbits::attracting_orbit;
 use vinesink::regimes::Transient;
 use vinesink::regimes::long_term::{Effort, Motion, motions};
-use vinesink::simulation::{Nobody, Simulation};
+use vinesink::simulation::Simulation;
 use vinesink::sweep::{Plan, work};
 use vinesink::system::System;
-use vinesink::tally;
 
 /// Table 1 of Li, Seguy, Berlioz (2016), hardly simulated, over two chunks and a bit.
 fn text(clearances: u32, frequencies: u32) -> String {
@@ -436,7 +436,7 @@ fn closed_form_alone_is_recorded_without_simulation() {
 fn a_layer_that_nothing_is_recorded_of_is_not_asked() {
     let worked_out = |record: &str, axis: &str| {
         let plan = plan(&sweeping(&format!("periods = 48\nrecord = [\"{record}\"]\n{axis}\n")));
-        let (columns, operations) = tally::counted(|| work::points(&plan, 0..1));
+        let (columns, operations) = operation_count::counted(|| work::points(&plan, 0..1));
         columns.map(|_| operations)
     };
     let cost = |record| worked_out(record, "clearance = { values = [\"20 mm\"] }").expect("finite");
@@ -445,7 +445,7 @@ fn a_layer_that_nothing_is_recorded_of_is_not_asked() {
     assert!(orbit > 100 * formula && reached > 100 * formula, "{formula} {orbit} {reached}");
     let axis = "clearance = { values = [\"20 mm\"] }";
     let system = plan(&sweeping(axis)).point(0).system.expect("valid");
-    let rule = tally::counted(|| Transient::of(&system)).1;
+    let rule = operation_count::counted(|| Transient::of(&system)).1;
     assert_eq!(cost("peak"), formula + rule);
     // Over the clearance this is no number.
     let no_start = "initial_velocity = { values = [\"1.7e308 m/s\"] }";
@@ -498,7 +498,7 @@ fn every_column_is_what_its_layer_says() {
             assert_eq!(column(&columns, "regime")[k], main.regime.key());
             let theory = Analysis::of(&system).expect("solved");
             let stable = theory.stable_points().filter(|point| point.admissible);
-            let least = stable.map(|point| b * point.oscillator).reduce(f64::min);
+            let least = stable.map(|point| b * point.oscillator_amplitude).reduce(f64::min);
             same("theory_peak [m]", least);
             let orbit = attracting_orbit(&system);
             same("orbit_peak [m]", orbit.as_ref().map(|one| b * one.peaks.displacement));
@@ -514,7 +514,7 @@ fn every_column_is_what_its_layer_says() {
             assert_eq!(column(&columns, "orbit_reached")[k], wanted, "{k}");
             let mut on = Simulation::new(&system, main.state, 0.0).expect("inside");
             for period in 1..=16 {
-                on.run(1, u64::MAX, &mut Nobody);
+                on.run(1, u64::MAX, &mut ());
                 same(&format!("section_{period:02} [m]"), Some(b * on.state().x));
             }
             // A deviation from the orbit shrinks by its multiplier each period.

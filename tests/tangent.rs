@@ -211,7 +211,7 @@ fn a_change_of_size_one_has_no_logarithm_yet() {
 /// The exponent of `system` over `periods`, once `discard` of them have passed.
 fn exponent(system: &System, start: State, discard: u64, periods: u64) -> Exponent {
     let mut simulation = Simulation::new(system, start, 0.0).expect("inside the cavity");
-    simulation.run(discard, u64::MAX, &mut vinesink::simulation::Nobody);
+    simulation.run(discard, u64::MAX, &mut ());
     let mut lyapunov = Lyapunov::begin(system);
     simulation.run(periods, u64::MAX, &mut lyapunov);
     lyapunov.exponent().expect("long enough")
@@ -244,7 +244,7 @@ fn neighbours_part_at_the_rate_of_a_positive_exponent() {
     let found = exponent(&system, START, 500, 20_000);
     assert!(found.converged && found.interval[0] > 0.0, "{found:?}");
     let mut simulation = Simulation::new(&system, START, 0.0).expect("inside the cavity");
-    simulation.run(500, u64::MAX, &mut vinesink::simulation::Nobody);
+    simulation.run(500, u64::MAX, &mut ());
     let (apart, periods, pairs) = (1e-10, 10, 1000);
     let mut sum = 0.0;
     for _ in 0..pairs {
@@ -256,11 +256,11 @@ fn neighbours_part_at_the_rate_of_a_positive_exponent() {
             libm::sqrt((0..4).map(|k| (a[k] - b[k]) * (a[k] - b[k])).sum())
         };
         // Alignment is no growth: it is over after a few periods.
-        simulation.run(5, u64::MAX, &mut vinesink::simulation::Nobody);
-        other.run(5, u64::MAX, &mut vinesink::simulation::Nobody);
+        simulation.run(5, u64::MAX, &mut ());
+        other.run(5, u64::MAX, &mut ());
         let aligned = distance(simulation.state(), other.state());
-        simulation.run(periods, u64::MAX, &mut vinesink::simulation::Nobody);
-        other.run(periods, u64::MAX, &mut vinesink::simulation::Nobody);
+        simulation.run(periods, u64::MAX, &mut ());
+        other.run(periods, u64::MAX, &mut ());
         let later = distance(simulation.state(), other.state());
         sum += libm::log(later / aligned) / periods as f64;
     }
@@ -276,7 +276,7 @@ fn the_exponent_vanishes_where_the_exact_orbit_ends() {
     let settled = |clearance: f64, start: State| {
         let system = common::table_1(8.0, clearance);
         let mut simulation = Simulation::new(&system, start, 0.0).expect("inside the cavity");
-        simulation.run(3000, u64::MAX, &mut vinesink::simulation::Nobody);
+        simulation.run(3000, u64::MAX, &mut ());
         simulation.state()
     };
     let mut state = settled(16.0, START);

@@ -11,17 +11,17 @@ use vinesink::analysis::slow_motion::{SlowEnd, SlowFlow};
 use vinesink::analysis::{Analysis, FixedPoint};
 use vinesink::case::Case;
 use vinesink::equations::equations;
+use vinesink::operation_count::{self, ELEMENTARY};
 use vinesink::orbits::{Measures, symmetric_orbits};
 use vinesink::regimes::Regime;
-use vinesink::simulation::{Nobody, Simulation, Statistics};
-use vinesink::study::fidelity::{Answers, Demand, Fidelity, KnownBy, Plan, Question};
+use vinesink::simulation::{Simulation, Statistics};
+use vinesink::study::fidelity::{AccuracyTarget, Answers, Fidelity, KnownBy, Plan, Question};
 use vinesink::study::tradeoff::by_hand::{ByHand, Flights, Listener, Locate};
 use vinesink::study::tradeoff::method::measured;
 use vinesink::study::tradeoff::{Layer, Method, Search, Tradeoff, TradeoffEffort, Trial};
 use vinesink::study::{CaseStudy, StudyEffort, StudyError};
 use vinesink::symbolic::Symbol;
 use vinesink::system::{Parameters, State, System};
-use vinesink::tally::{self, ELEMENTARY};
 
 const START: State = State { x: 0.3, x_velocity: -0.2, y: 0.1, y_velocity: 0.5 };
 
@@ -58,8 +58,12 @@ fn the_mean_square_of_a_fixed_point_is_that_of_its_motion() {
             sum += x * x;
         }
         let sampled = (sum / f64::from(parts)).sqrt();
-        let formula =
-            root_mean_square(&system, point.oscillator, point.absorber, point.absorber_phase);
+        let formula = root_mean_square(
+            &system,
+            point.oscillator_amplitude,
+            point.absorber_amplitude,
+            point.absorber_phase,
+        );
         assert!((formula / sampled - 1.0).abs() < 1e-8, "{formula} {sampled}");
     }
 }
@@ -73,7 +77,7 @@ fn the_slow_flow_in_c_is_the_derived_flow_in_b() {
     let flow = SlowFlow::of(&system, manifold);
     let programs = &equations().programs;
     for (shift, eta) in [(0.1, 0.4), (0.3, -2.0), (0.6, 2.5)] {
-        let c = manifold.point(shift).oscillator;
+        let c = manifold.point(shift).oscillator_amplitude;
         let [c_rate, eta_rate] = flow.rates([c, eta]).expect("above the fold");
         let point = programs.at_shift(&programs.values(&system), shift).expect("values");
         let point = point.with(Symbol::ExcitationPhase, eta);
@@ -93,14 +97,18 @@ fn the_slow_flow_settles_on_the_fixed_point_or_leaves_at_the_fold() {
         let analysis = Analysis::of(&system).expect("analysable");
         let flow = SlowFlow::of(&system, &analysis.manifold);
         let middle = 0.5
-            * (analysis.manifold.fold.oscillator + analysis.manifold.symmetry_breaking.oscillator);
+            * (analysis.manifold.fold.oscillator_amplitude
+                + analysis.manifold.symmetry_breaking.oscillator_amplitude);
         flow.follow(flow.point(middle, 0.0).expect("above the fold"), 5000)
     };
     let SlowEnd::Settles(at) = follow(8.0, 7.5) else { panic!("does not settle") };
     let point = stable_point(&common::table_1(8.0, 7.5));
     // The rates are below 1e-9 of the fastest, which is some ten; the slowest attraction is near 1.
-    assert!((at.oscillator - point.oscillator).abs() < 1e-7, "{at:?} {point:?}");
-    assert!((at.absorber - point.absorber).abs() < 1e-7, "{at:?} {point:?}");
+    assert!(
+        (at.oscillator_amplitude - point.oscillator_amplitude).abs() < 1e-7,
+        "{at:?} {point:?}"
+    );
+    assert!((at.absorber_amplitude - point.absorber_amplitude).abs() < 1e-7, "{at:?} {point:?}");
     // Z4: no fixed point to settle on.
     let SlowEnd::LeavesAtFold { periods } = follow(8.5, 30.0) else { panic!("stays") };
     assert!((0.1..200.0).contains(&periods), "{periods}");
@@ -116,7 +124,7 @@ fn the_baseline_with_bisection_is_of_fourth_order() {
     let system = common::table_1(8.0, 7.5);
     let periods = 4;
     let mut exact = Simulation::new(&system, START, 0.0).expect("inside");
-    exact.run(periods, u64::MAX, &mut Nobody);
+    exact.run(periods, u64::MAX, &mut ());
     assert!(exact.impacts() >= 4, "{} impacts say nothing", exact.impacts());
     let error = |steps| {
         let end = ByHand::new(&system, steps, Locate::Bisection).run(START, periods, &mut Silent);
@@ -294,7 +302,7 @@ fn the_errors_of_statistics_are_those_of_ten_blocks() {
     let system = common::table_1(8.5, 28.0);
     let begin = || {
         let mut simulation = Simulation::new(&system, START, 0.0).expect("within the cavity");
-        simulation.run(200, u64::MAX, &mut Nobody);
+        simulation.run(200, u64::MAX, &mut ());
         simulation
     };
     let answer = measured(&mut begin(), 400).expect("measured");
@@ -340,7 +348,7 @@ fn a_transient_that_lasts_is_no_scatter() {
 }
 
 fn plan(system: &System, amplitude: f64, forced: Option<Fidelity>) -> Result<Plan, StudyError> {
-    Plan::of(system, Demand { amplitude, ..Demand::default() }, forced)
+    Plan::of(system, AccuracyTarget { amplitude, ..AccuracyTarget::default() }, forced)
 }
 
 /// The theory's error at 8 Hz and 7.5 mm is 2.6 %, at 8.5 Hz and 15 mm 0.6 %.
@@ -371,7 +379,7 @@ fn the_cheapest_layer_that_is_known_to_be_exact_enough_answers() {
 #[test]
 fn coexistence_is_only_known_to_simulation() {
     let system = common::table_1(8.0, 7.5);
-    let demand = Demand { coexistence: true, ..Demand::default() };
+    let demand = AccuracyTarget { coexistence: true, ..AccuracyTarget::default() };
     let asked = Plan::of(&system, demand, None).expect("planned");
     assert_eq!(asked.layer, Fidelity::Orbit);
     assert!(asked.needs_simulation());
@@ -414,7 +422,7 @@ fn simulation_measures_as_long_as_the_accuracy_takes() {
     let study = CaseStudy::of(&system, effort, &mut |_| ()).expect("studied");
     let motions = study.simulated_motions();
     let cost = |amplitude: f64| {
-        let demand = Demand { amplitude, impacts_per_period: 1.0, coexistence: false };
+        let demand = AccuracyTarget { amplitude, impacts_per_period: 1.0, coexistence: false };
         let plan = Plan::of(&system, demand, None).expect("planned");
         let answers = plan.answers(motions).expect("answered");
         let first = &answers.answers[0];
@@ -431,8 +439,9 @@ fn simulation_measures_as_long_as_the_accuracy_takes() {
 fn what_an_orbit_answers_is_not_simulated() {
     let system = common::table_1(8.5, 15.0);
     let effort = StudyEffort { starts: 4, ..StudyEffort::default() };
-    let (cheap, little) = tally::counted(|| CaseStudy::without_simulation(&system, effort));
-    let (full, much) = tally::counted(|| CaseStudy::of(&system, effort, &mut |_| ()));
+    let (cheap, little) =
+        operation_count::counted(|| CaseStudy::without_simulation(&system, effort));
+    let (full, much) = operation_count::counted(|| CaseStudy::of(&system, effort, &mut |_| ()));
     let (cheap, full) = (cheap.expect("studied"), full.expect("studied"));
     assert!(!cheap.simulated && cheap.attractors.is_empty() && cheap.motions_cost == 0);
     assert!(full.simulated && full.motions_cost > 1_000_000, "{}", full.motions_cost);

@@ -10,7 +10,7 @@ use std::f64::consts::{FRAC_1_SQRT_2, TAU};
 use vinesink::orbits::attracting_orbit;
 use vinesink::regimes::attractor::Effort as Following;
 use vinesink::regimes::long_term::{Effort, Motion, long_term, motions};
-use vinesink::regimes::{Attractor, Nature, Regime, Transient, starts, transient};
+use vinesink::regimes::{Attractor, DynamicsKind, Regime, Transient, starts, transient};
 use vinesink::simulation::Simulation;
 use vinesink::system::{Excitation, Parameters, State, System};
 
@@ -78,7 +78,7 @@ fn an_excitation_far_above_the_structure_is_waited_for() {
     let system = bridge(0.05, 40.0);
     let steady = bare(&system);
     let found = from_starts(&system);
-    assert!(found.iter().any(|motion| motion.is_asleep() && motion.peak == steady));
+    assert!(found.iter().any(|motion| motion.is_inactive() && motion.peak == steady));
     for motion in &found {
         assert!((1.0..3.0).contains(&(motion.peak / steady)), "{motion:?}, bare {steady}");
     }
@@ -104,7 +104,7 @@ fn what_drifts_has_not_settled() {
     };
     let early = followed(400, 1000);
     assert!(!early.settled && early.peak > 100.0 * bare(&system), "{}", early.peak);
-    assert_eq!(early.classification.nature, Nature::TransientNotOver);
+    assert_eq!(early.classification.dynamics, DynamicsKind::TransientNotOver);
     // Within 100 periods it fades by a seventh: a slope tells, halves of the window do not.
     let short = followed(400, 100);
     assert!(!short.settled && short.classification.evidence.settled);
@@ -119,10 +119,10 @@ fn an_absorber_that_is_never_reached_is_in_closed_form() {
     let system = bridge(0.2, 2.1);
     let steady = bare(&system);
     let on_it = starts::of(&system, 2).nth(1).expect("two");
-    assert!(steady < 1.0 && transient::asleep(&system, &on_it).is_some());
+    assert!(steady < 1.0 && transient::inactive(&system, &on_it).is_some());
     let found = long_term(&[(system, on_it)], 250).expect("finite")[0].expect("measured");
     assert_eq!((found.peak, found.rms), (steady, steady * FRAC_1_SQRT_2));
-    assert!(found.is_asleep() && found.settled && found.regime == Regime::AtRest);
+    assert!(found.is_inactive() && found.settled && found.regime == Regime::AtRest);
     // By simulation, which the closed form replaces.
     let mut followed = Simulation::new(&system, on_it, 0.0).expect("inside");
     let effort = Following { discard: 0, periods: 50, prolongations: 0, impact_limit: 100 };
@@ -131,7 +131,7 @@ fn an_absorber_that_is_never_reached_is_in_closed_form() {
     assert!((measured.rms / found.rms - 1.0).abs() < 1e-9);
     for (x, y, y_velocity) in [(0.0, 0.3, 0.0), (0.0, 0.0, 1e-9), (0.5, 0.0, 0.0)] {
         let start = State { x, y, y_velocity, ..State::AT_REST };
-        assert_eq!(transient::asleep(&system, &start), None, "{start:?}");
+        assert_eq!(transient::inactive(&system, &start), None, "{start:?}");
     }
 }
 
@@ -142,7 +142,7 @@ fn eight_starts_find_the_motion_without_impacts() {
     for hertz in [2.1, 2.14, 2.2] {
         let system = bridge(0.2, hertz);
         let found = from_starts(&system);
-        assert_eq!(found.iter().filter(|motion| motion.is_asleep()).count(), 1, "{hertz}");
+        assert_eq!(found.iter().filter(|motion| motion.is_inactive()).count(), 1, "{hertz}");
         let largest = found.iter().map(|motion| motion.peak).fold(0.0, f64::max);
         assert!(largest >= bare(&system), "{hertz}");
     }

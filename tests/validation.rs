@@ -5,7 +5,7 @@ mod common;
 
 use vinesink::analysis::{Analysis, Strip};
 use vinesink::orbits::FullSystem;
-use vinesink::regimes::{FoundAttractor, Nature, Regime};
+use vinesink::regimes::{DynamicsKind, FoundAttractor, Regime};
 use vinesink::study::{CaseStudy, StudyEffort, long_term_motions};
 use vinesink::system::{Excitation, Parameters, System};
 use vinesink::validation::{Check, Finding, Verdict, motions, orbits};
@@ -63,16 +63,17 @@ fn an_area_that_rounding_decides_is_undecided() {
     }
     // Each of the answers that another rounding could give.
     let (analysis, motions) = found(0);
-    let of = |regime: Regime, late_starts: u32, nature: Option<Nature>| {
+    let of = |regime: Regime, late_starts: u32, dynamics: Option<DynamicsKind>| {
         let one = motions.iter().find(|one| one.regime() == regime).expect("found");
         let mut one = FoundAttractor { late_starts, ..one.clone() };
-        one.attractor.classification.nature = nature.unwrap_or(one.attractor.classification.nature);
+        one.attractor.classification.dynamics =
+            dynamics.unwrap_or(one.attractor.classification.dynamics);
         one
     };
-    let repeats = Some(Nature::Periodic { impacts: 3, periods: 2 });
+    let repeats = Some(DynamicsKind::Periodic { impacts: 3, periods: 2 });
     let steady = |late| of(Regime::TwoSymmetric, late, None);
-    let beside = |nature| of(Regime::BelowTwo, 0, nature);
-    assert_eq!(beside(None).attractor.classification.nature, Nature::Chaotic);
+    let beside = |dynamics| of(Regime::BelowTwo, 0, dynamics);
+    assert_eq!(beside(None).attractor.classification.dynamics, DynamicsKind::Chaotic);
     assert_eq!(verdict(&analysis, &[steady(0)]), Verdict::Confirmed);
     assert_eq!(verdict(&analysis, &[steady(7)]), Verdict::Undecided);
     assert_eq!(verdict(&analysis, &[steady(0), beside(None)]), Verdict::Undecided);

@@ -1,6 +1,6 @@
 //! vinesink's own engines.
 
-use vinesink::simulation::{Impact, Nobody, Observer, Simulation, Stop, batch};
+use vinesink::simulation::{Impact, Observer, Simulation, Stop, batch};
 use vinesink::system::{State, System};
 
 use crate::{Failure, Hit, Run, START, Tool, timed};
@@ -49,7 +49,7 @@ impl Engine {
     pub fn impacts(self, system: &System, periods: u64) -> Result<u64, Failure> {
         if self == Self::Batch {
             let mut simulations = together(system);
-            let mut nobody: Vec<Nobody> = simulations.iter().map(|_| Nobody).collect();
+            let mut nobody: Vec<()> = vec![(); simulations.len()];
             let stops = batch::run(&mut simulations, periods, u64::MAX, &mut nobody);
             return match stops.iter().find(|stop| **stop != Stop::EndTime) {
                 None => Ok(simulations.iter().map(Simulation::impacts).sum()),
@@ -57,7 +57,7 @@ impl Engine {
             };
         }
         let mut simulation = self.simulation(system);
-        match simulation.run(periods, u64::MAX, &mut Nobody) {
+        match simulation.run(periods, u64::MAX, &mut ()) {
             Stop::EndTime => Ok(simulation.impacts()),
             stop => Err(format!("the run ended at {}", stop.words()).into()),
         }

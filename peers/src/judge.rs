@@ -2,7 +2,7 @@
 //! flight by flight against the exact next impact.
 
 use vinesink::simulation::flow::Oscillator;
-use vinesink::simulation::{Impact, Nobody, Observer, Simulation};
+use vinesink::simulation::{Impact, Observer, Simulation};
 use vinesink::system::{State, System};
 
 use crate::reference::{Moment, Reference};
@@ -76,7 +76,7 @@ pub fn flights(system: &System, hits: &[Hit]) -> Flights {
         let mut simulation = simulation.step_by_step();
         let begin = simulation_phase(phase) / system.frequency_ratio();
         let mut next = Next::default();
-        simulation.run(PATIENCE, 1, &mut (&mut next, &mut Nobody));
+        simulation.run(PATIENCE, 1, &mut (&mut next, &mut ()));
         flights.checked += 1;
         let taken = to.time - from.time;
         match next.0 {

@@ -41,22 +41,22 @@ impl RungeKutta {
             let (mut time, mut left) = (k as f64 * h, h);
             loop {
                 let next = step(&force, time, &state, left);
-                let outwards = next.gap() * (next.x_velocity - next.y_velocity) > 0.0;
-                if next.gap().abs() <= 1.0 || !outwards {
+                let outwards = next.relative_displacement() * (next.x_velocity - next.y_velocity) > 0.0;
+                if next.relative_displacement().abs() <= 1.0 || !outwards {
                     state = next;
                     break;
                 }
                 let (mut before, mut after) = (0.0, left);
                 for _ in 0..HALVINGS {
                     let middle = 0.5 * (before + after);
-                    if step(&force, time, &state, middle).gap().abs() > 1.0 {
+                    if step(&force, time, &state, middle).relative_displacement().abs() > 1.0 {
                         after = middle;
                     } else {
                         before = middle;
                     }
                 }
                 let at = step(&force, time, &state, after);
-                let side = at.gap().signum();
+                let side = at.relative_displacement().signum();
                 let [x_velocity, y_velocity] = rebound(system, at.x_velocity, at.y_velocity);
                 state = State { x: at.x, x_velocity, y: at.x - side, y_velocity };
                 time += after;

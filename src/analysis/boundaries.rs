@@ -45,7 +45,7 @@ pub struct SaddleNode {
     pub forcing_over_clearance: f64,
     /// `B/b` at the collision.
     #[serde(rename = "B")]
-    pub absorber: f64,
+    pub absorber_amplitude: f64,
     /// The branch on which it happens.
     pub branch: Branch,
 }
@@ -88,7 +88,7 @@ impl Boundaries {
             hopf: curve.hopf(),
             saddle_node: curve.collision().map(|(forcing_over_clearance, absorber)| SaddleNode {
                 forcing_over_clearance,
-                absorber,
+                absorber_amplitude: absorber,
                 branch: manifold.branch(absorber - 1.0),
             }),
             codimension_two: CodimensionTwo {
@@ -122,7 +122,7 @@ pub fn crossings(
 ) -> Result<Vec<f64>, AnalysisError> {
     let shift = match kind {
         BoundaryKind::Hopf => manifold.fold_shift,
-        BoundaryKind::SymmetryBreaking => manifold.symmetry_breaking.absorber - 1.0,
+        BoundaryKind::SymmetryBreaking => manifold.symmetry_breaking.absorber_amplitude - 1.0,
         BoundaryKind::SaddleNode => {
             let programs = &equations().programs;
             let mut found = real_roots(&programs.collision_detunings(&programs.values(system))?);

@@ -7,9 +7,9 @@
 use super::areas::{Area, Strip, Zone};
 use super::manifold::{Branch, Manifold};
 use crate::equations::{Quadratic, equations};
+use crate::operation_count;
 use crate::symbolic::{Symbol, Values};
 use crate::system::System;
-use crate::tally;
 
 /// The quadratic of one detuning, damping and restitution.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -76,7 +76,7 @@ impl FixedPointCurve {
     /// `gamma` at which two fixed points collide, and `beta` there; none where one of them would not be
     /// positive.
     pub fn collision(&self) -> Option<(f64, f64)> {
-        tally::note(2);
+        operation_count::note(2);
         let beta = self.collision_ratio();
         let gamma = self.quadratic.collision;
         (beta > 0.0 && beta.is_finite() && gamma > 0.0).then_some((gamma, beta))
@@ -94,7 +94,7 @@ impl FixedPointCurve {
 
     /// The fixed points at a forcing, at most two, ascending; those with `B > 0` and `C > 0`.
     pub fn fixed_points(&self, gamma: f64) -> impl Iterator<Item = Amplitude> {
-        tally::note(15);
+        operation_count::note(15);
         let [constant, linear, square] = self.quadratic.coefficients;
         let collision = self.quadratic.collision;
         // The distance from the collision, not the difference of two squares that are almost equal.

@@ -12,9 +12,9 @@ use super::AnalysisError;
 use super::curve::{Amplitude, FixedPointCurve};
 use super::manifold::{Branch, Manifold, ManifoldPoint};
 use crate::equations::equations;
+use crate::operation_count;
 use crate::symbolic::{Symbol, Values};
 use crate::system::System;
-use crate::tally;
 
 /// Rounding allowed to a motion that touches the wall between impacts.
 const CAVITY_ROUNDING: f64 = 1e-12;
@@ -63,10 +63,10 @@ impl Kind {
 pub struct FixedPoint {
     /// `B/b`.
     #[serde(rename = "B")]
-    pub absorber: f64,
+    pub absorber_amplitude: f64,
     /// `C/b`.
     #[serde(rename = "C")]
-    pub oscillator: f64,
+    pub oscillator_amplitude: f64,
     /// Phase of the excitation against the oscillator, in `(-pi, pi]`.
     pub eta: f64,
     /// Phase of the absorber against the oscillator.
@@ -123,7 +123,7 @@ fn point(
     manifold: &Manifold,
     Amplitude { ratio, half_slope }: Amplitude,
 ) -> Result<FixedPoint, AnalysisError> {
-    tally::note(2 * tally::ELEMENTARY + 4);
+    operation_count::note(2 * operation_count::ELEMENTARY + 4);
     let programs = &equations().programs;
     let shift = ratio - 1.0;
     let at = programs.at_shift(values, shift)?.with(Symbol::AmplitudeRatio, ratio);
@@ -136,13 +136,13 @@ fn point(
     let absorber_phase = manifold.absorber_phase(ratio, shift);
     let branch = manifold.branch(shift);
     let largest = Manifold::largest_relative_displacement(
-        ManifoldPoint { absorber: ratio, oscillator },
+        ManifoldPoint { absorber_amplitude: ratio, oscillator_amplitude: oscillator },
         absorber_phase,
     );
     let attracts = trace < 0.0 && determinant > 0.0;
     Ok(FixedPoint {
-        absorber: ratio,
-        oscillator,
+        absorber_amplitude: ratio,
+        oscillator_amplitude: oscillator,
         eta: libm::atan2(sides[0], sides[1]),
         absorber_phase,
         branch,
@@ -166,7 +166,7 @@ fn residual(
     [ratio, oscillator]: [f64; 2],
     [sine, cosine]: [f64; 2],
 ) -> f64 {
-    tally::note(32);
+    operation_count::note(32);
     let harmonic = 8.0 * ratio / (PI * PI * oscillator);
     let gamma = system.forcing_per_clearance() / libm::hypot(sine, cosine);
     let amplitude_terms = [

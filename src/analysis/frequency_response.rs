@@ -17,10 +17,10 @@ pub struct ResponsePoint {
     pub detuning: f64,
     /// `B/b`.
     #[serde(rename = "B")]
-    pub absorber: f64,
+    pub absorber_amplitude: f64,
     /// `C/b`.
     #[serde(rename = "C")]
-    pub oscillator: f64,
+    pub oscillator_amplitude: f64,
     /// Where on the manifold.
     pub branch: Branch,
 }
@@ -42,8 +42,8 @@ pub fn response(
         for (index, side) in sides.iter_mut().enumerate() {
             let response = roots.get(index).map(|&detuning| ResponsePoint {
                 detuning,
-                absorber: point.absorber,
-                oscillator: point.oscillator,
+                absorber_amplitude: point.absorber_amplitude,
+                oscillator_amplitude: point.oscillator_amplitude,
                 branch: manifold.branch(shift),
             });
             match (response, side.last_mut()) {
@@ -86,7 +86,7 @@ fn amplitudes(manifold: &Manifold, largest: f64) -> Vec<f64> {
     let mut shifts: Vec<f64> =
         (1..=COUNT).map(|k| largest * f64::from(k) / f64::from(COUNT) - 1.0).collect();
     shifts.push(manifold.fold_shift);
-    shifts.push(manifold.symmetry_breaking.absorber - 1.0);
+    shifts.push(manifold.symmetry_breaking.absorber_amplitude - 1.0);
     shifts.sort_by(f64::total_cmp);
     shifts
 }

@@ -6,8 +6,8 @@ use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, TAU};
 use serde::Serialize;
 
 use crate::equations::{self, equations};
+use crate::operation_count;
 use crate::symbolic::{MissingValue, Symbol, Values};
-use crate::tally;
 
 /// A part of the manifold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -37,10 +37,10 @@ impl Branch {
 pub struct ManifoldPoint {
     /// Amplitude of the absorber's sawtooth, `B/b`.
     #[serde(rename = "B")]
-    pub absorber: f64,
+    pub absorber_amplitude: f64,
     /// Amplitude of the oscillator, `C/b`.
     #[serde(rename = "C")]
-    pub oscillator: f64,
+    pub oscillator_amplitude: f64,
 }
 
 /// The manifold of a restitution coefficient.
@@ -70,8 +70,8 @@ impl Manifold {
         let fold = programs.fold(&values)?;
         let breaking = programs.symmetry_breaking(&values)?;
         let point = |point: equations::ManifoldPoint| ManifoldPoint {
-            absorber: point.ratio,
-            oscillator: point.square.sqrt(),
+            absorber_amplitude: point.ratio,
+            oscillator_amplitude: point.square.sqrt(),
         };
         Ok(Self {
             restitution_ratio: values.require(Symbol::RestitutionRatio)?,
@@ -89,14 +89,14 @@ impl Manifold {
             .with(Symbol::Shift, shift);
         // Both symbols of the formula have values; a test would see the NaN.
         let square = equations().programs.manifold_square(&values).unwrap_or(f64::NAN);
-        ManifoldPoint { absorber: 1.0 + shift, oscillator: square.sqrt() }
+        ManifoldPoint { absorber_amplitude: 1.0 + shift, oscillator_amplitude: square.sqrt() }
     }
 
     /// The branch on which `B = b (1 + shift)` lies; the two ends of the stable branch belong to it.
     pub fn branch(&self, shift: f64) -> Branch {
         if shift < self.fold_shift {
             Branch::Left
-        } else if 1.0 + shift <= self.symmetry_breaking.absorber {
+        } else if 1.0 + shift <= self.symmetry_breaking.absorber_amplitude {
             Branch::Stable
         } else {
             Branch::Right
@@ -115,12 +115,13 @@ impl Manifold {
     /// `theta` is the point's `Theta`. With `z` the sawtooth's phase, `w0 = C sin(z - Theta) + (2/pi) B z` from `z = -pi/2` to
     /// `pi/2`, with turning points where `cos(z - Theta) = -(2/pi) B / C`.
     pub fn largest_relative_displacement(point: ManifoldPoint, theta: f64) -> f64 {
-        let ManifoldPoint { absorber, oscillator } = point;
+        let ManifoldPoint { absorber_amplitude: absorber, oscillator_amplitude: oscillator } =
+            point;
         let slope = FRAC_2_PI * absorber;
         if slope > oscillator {
             return 1.0;
         }
-        tally::note(tally::ELEMENTARY + 15);
+        operation_count::note(operation_count::ELEMENTARY + 15);
         let angle = libm::acos(-slope / oscillator);
         let swing = ((oscillator - slope) * (oscillator + slope)).sqrt();
         [(theta + angle, swing), (theta - angle, -swing), (theta + angle - TAU, swing)]

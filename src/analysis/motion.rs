@@ -3,8 +3,8 @@
 use std::f64::consts::{FRAC_2_PI, PI};
 
 use super::FixedPoint;
+use crate::operation_count;
 use crate::system::{State, System};
-use crate::tally;
 
 /// The state at excitation phase 0 on the leading-order motion of a fixed point:
 /// `v0 = C sin(Omega tau - eta)`, `w0 = v0 + (2/pi) B Pi(Omega tau - eta + Theta)`, from which
@@ -14,12 +14,12 @@ pub fn state_of(point: &FixedPoint, system: &System) -> State {
     let eps = system.mass_ratio();
     let omega = system.frequency_ratio();
     let (sin, cos) = libm::sincos(-point.eta);
-    let v = [point.oscillator * sin, point.oscillator * omega * cos];
+    let v = [point.oscillator_amplitude * sin, point.oscillator_amplitude * omega * cos];
     let sawtooth = point.absorber_phase - point.eta;
     let (folded, direction) = fold(sawtooth);
     let w = [
-        (v[0] + FRAC_2_PI * point.absorber * folded).clamp(-1.0, 1.0),
-        v[1] + FRAC_2_PI * point.absorber * omega * direction,
+        (v[0] + FRAC_2_PI * point.absorber_amplitude * folded).clamp(-1.0, 1.0),
+        v[1] + FRAC_2_PI * point.absorber_amplitude * omega * direction,
     ];
     let x = [(v[0] + eps * w[0]) / (1.0 + eps), (v[1] + eps * w[1]) / (1.0 + eps)];
     State { x: x[0], x_velocity: x[1], y: x[0] - w[0], y_velocity: x[1] - w[1] }
@@ -30,7 +30,7 @@ pub fn state_of(point: &FixedPoint, system: &System) -> State {
 /// `x = C sin z + k (2/pi) B Pi(z + Theta)`, whose mean square is
 /// `C^2/2 + k (8/pi^2) B C cos Theta + k^2 B^2/3`. Off the true orbit by a multiple of `eps`.
 pub fn root_mean_square(system: &System, oscillator: f64, absorber: f64, theta: f64) -> f64 {
-    tally::note(tally::ELEMENTARY + 16);
+    operation_count::note(operation_count::ELEMENTARY + 16);
     let share = system.mass_ratio() / (1.0 + system.mass_ratio());
     let joint = 8.0 / (PI * PI) * share * absorber * oscillator * libm::cos(theta);
     let own = share * share * absorber * absorber / 3.0;
@@ -47,9 +47,9 @@ fn fold(z: f64) -> (f64, f64) {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ReadOff {
     /// `C/b`: amplitude of `v = x + eps y`.
-    pub oscillator: f64,
+    pub oscillator_amplitude: f64,
     /// `B/b = (pi^2/8) E/b`, where `E` is the amplitude of `w - v = -(1 + eps) y`.
-    pub absorber: f64,
+    pub absorber_amplitude: f64,
     /// `eta`.
     pub eta: f64,
     /// `Theta`.
@@ -64,8 +64,8 @@ pub fn read_off(system: &System, oscillator: [f64; 2], absorber: [f64; 2]) -> Re
     let sawtooth = [-(1.0 + eps) * absorber[0], -(1.0 + eps) * absorber[1]];
     let phase = |harmonic: [f64; 2]| libm::atan2(harmonic[1], harmonic[0]);
     ReadOff {
-        oscillator: libm::hypot(v[0], v[1]),
-        absorber: PI * PI / 8.0 * libm::hypot(sawtooth[0], sawtooth[1]),
+        oscillator_amplitude: libm::hypot(v[0], v[1]),
+        absorber_amplitude: PI * PI / 8.0 * libm::hypot(sawtooth[0], sawtooth[1]),
         eta: -phase(v),
         absorber_phase: wrapped(phase(sawtooth) - phase(v)),
     }

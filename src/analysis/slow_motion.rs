@@ -18,8 +18,8 @@
 use std::f64::consts::{FRAC_2_PI, PI};
 
 use super::Manifold;
+use crate::operation_count::{self, ELEMENTARY};
 use crate::system::System;
-use crate::tally::{self, ELEMENTARY};
 
 /// Largest change of phase, or of the logarithm of an amplitude, in a step: the local error of the
 /// method is some `0.1^5/120`, far below the asymptotic error.
@@ -32,9 +32,9 @@ const SETTLED: f64 = 1e-9;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SlowPoint {
     /// `C/b`.
-    pub oscillator: f64,
+    pub oscillator_amplitude: f64,
     /// `B/b`.
-    pub absorber: f64,
+    pub absorber_amplitude: f64,
     /// `eta`, radians.
     pub eta: f64,
     /// `Theta`, radians.
@@ -89,7 +89,12 @@ impl SlowFlow {
         }
         let absorber = (1.0 + root.sqrt()) / grown;
         let (sine, cosine) = self.absorber_sides(absorber);
-        Some(SlowPoint { oscillator, absorber, eta, absorber_phase: libm::atan2(sine, cosine) })
+        Some(SlowPoint {
+            oscillator_amplitude: oscillator,
+            absorber_amplitude: absorber,
+            eta,
+            absorber_phase: libm::atan2(sine, cosine),
+        })
     }
 
     /// `C sin Theta` and `C cos Theta`, (15) and (14).
@@ -99,7 +104,7 @@ impl SlowFlow {
 
     /// Rates of `C` and `eta` in `tau1`, (18); `None` below the fold.
     pub fn rates(&self, [oscillator, eta]: [f64; 2]) -> Option<[f64; 2]> {
-        tally::note(2 * ELEMENTARY + 28);
+        operation_count::note(2 * ELEMENTARY + 28);
         let grown = 1.0 + self.curvature;
         let root = grown * oscillator * oscillator - self.curvature;
         if root.is_nan() || root < 0.0 {
@@ -127,7 +132,7 @@ impl SlowFlow {
         let steps = (self.period * self.fastest() / LARGEST_STEP).ceil().max(1.0);
         let step = self.period / steps;
         let all = periods * steps as u64;
-        let mut at = [start.oscillator, start.eta];
+        let mut at = [start.oscillator_amplitude, start.eta];
         let mut sum = 0.0;
         for done in 0..all {
             let left = SlowEnd::LeavesAtFold { periods: done as f64 / steps };
@@ -145,7 +150,7 @@ impl SlowFlow {
     }
 
     fn step(&self, at: [f64; 2], first: [f64; 2], step: f64) -> Option<[f64; 2]> {
-        tally::note(26);
+        operation_count::note(26);
         let moved = |rates: [f64; 2], by: f64| [at[0] + by * rates[0], at[1] + by * rates[1]];
         let second = self.rates(moved(first, 0.5 * step))?;
         let third = self.rates(moved(second, 0.5 * step))?;

@@ -37,7 +37,7 @@ fn strength(band: &Band, at: f64) -> f64 {
     let Ok(orbits) = symmetric_orbits(&system) else { return f64::NAN };
     let each = orbits.iter().map(|orbit| {
         let inside = 1.0 - orbit.orbit.multipliers.spectral_radius();
-        let room = orbit.orbit.admissibility.room;
+        let room = orbit.orbit.admissibility.min_wall_distance;
         let least = inside.min(room);
         // The sign is that of the proof, whatever rounding says of the numbers.
         if orbit.orbit.attracts() {

@@ -304,7 +304,7 @@ impl Sampler<'_> {
             .into_iter()
             .map(|count| {
                 let mut motions = distinct(&ended.by_ref().take(count).collect::<Vec<_>>());
-                motions.retain(|motion| !motion.is_asleep());
+                motions.retain(|motion| !motion.is_inactive());
                 motions
             })
             .collect())

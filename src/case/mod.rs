@@ -6,9 +6,9 @@
 //! add an optional table: a file like `simulation.rs`, a line in `OWN_TABLES`, a field in [`Case`] and
 //! one in the schema.
 
+mod absorber_design;
 mod accuracy;
 mod band;
-mod choice;
 mod criteria;
 mod document;
 mod error;
@@ -32,9 +32,9 @@ mod warnings;
 
 use toml::de::DeTable;
 
+pub use absorber_design::AbsorberDesign;
 pub use accuracy::AccuracySettings;
 pub use band::{BandOver, BandSettings};
-pub use choice::Choice;
 pub use criteria::{Criterion, Measure, Relation, Subject};
 pub use error::{CaseError, Problem};
 pub use inputs::Input;

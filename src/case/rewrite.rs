@@ -3,7 +3,7 @@
 use toml_edit::{DocumentMut, TableLike, Value};
 
 use super::quantity::{Dimension, Length, Mass, Quantity, Share};
-use super::{Case, CaseError, Choice, Design};
+use super::{AbsorberDesign, Case, CaseError, Design};
 
 /// Why a case file cannot be rewritten.
 #[derive(Debug, thiserror::Error)]
@@ -80,12 +80,12 @@ impl Case {
         &self,
         name: &str,
         text: &str,
-        choice: &Choice,
+        choice: &AbsorberDesign,
         clearance: Rounding,
     ) -> Result<Rewritten, RewriteError> {
         let mut document: DocumentMut =
             text.strip_prefix('\u{feff}').unwrap_or(text).parse::<DocumentMut>()?;
-        let own = Choice::of(&self.design);
+        let own = AbsorberDesign::of(&self.design);
         let step = if clearance == Rounding::EXACT { Step::Exact } else { Step::Nearest };
         let table = match self.design {
             Design::Physical(_) => "absorber",

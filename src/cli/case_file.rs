@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 use miette::{IntoDiagnostic, NamedSource, Report, Result};
 use vinesink::case::Case;
 use vinesink::store;
-use vinesink::study::fidelity::{self, Demand, Plan};
+use vinesink::study::fidelity::{self, AccuracyTarget, Plan};
 
 use super::output;
 
@@ -79,6 +79,6 @@ pub fn plan(case: &Case, forced: Option<Fidelity>) -> Result<Option<Plan>> {
     if case.accuracy.is_none() && forced.is_none() {
         return Ok(None);
     }
-    let demand = case.accuracy.as_ref().map_or_else(Demand::default, Demand::of);
+    let demand = case.accuracy.as_ref().map_or_else(AccuracyTarget::default, AccuracyTarget::of);
     Plan::of(&case.system(), demand, forced.map(Into::into)).map(Some).into_diagnostic()
 }

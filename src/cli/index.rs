@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use miette::{IntoDiagnostic, Result, WrapErr, miette};
-use vinesink::report::index::{self, Index, Member, OtherPage, Summary};
+use vinesink::report::index::{self, CaseReport, Index, OtherPage, Summary};
 use vinesink::store::{self, Listing};
 
 use super::{Outcome, output};
@@ -82,7 +82,7 @@ fn write(folder: &Path) -> Result<()> {
 }
 
 /// The reports among some folders; a folder without one is something else.
-fn members(folder: &Path, names: Vec<String>) -> Result<Vec<Member>> {
+fn members(folder: &Path, names: Vec<String>) -> Result<Vec<CaseReport>> {
     let mut members = Vec::new();
     for name in names {
         let path = folder.join(&name).join("report.json");
@@ -91,7 +91,7 @@ fn members(folder: &Path, names: Vec<String>) -> Result<Vec<Member>> {
         let files = store::list(&folder.join(&name))?.files;
         let has = |page: &str| files.iter().any(|file| file == page);
         let (has_tradeoff, has_sweep) = (has(index::TRADEOFF), has(index::SWEEP));
-        members.push(Member { name, summary, has_tradeoff, has_sweep });
+        members.push(CaseReport { name, summary, has_tradeoff, has_sweep });
     }
     Ok(members)
 }

@@ -6,7 +6,7 @@ use clap::Args;
 use miette::{IntoDiagnostic, Result};
 use vinesink::case::Case;
 use vinesink::report::figures;
-use vinesink::report::paper::{CASES, Member, Paper, TRANSFER};
+use vinesink::report::paper::{CASES, CaseReport, Paper, TRANSFER};
 use vinesink::store;
 use vinesink::study::{CaseStudy, StudyEffort};
 
@@ -45,7 +45,7 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
         let mut advance = |done| progress.advance(done);
         let study = CaseStudy::of(&case.system(), effort, &mut advance).into_diagnostic()?;
         let figures = figures::all(&case, &study).into_diagnostic()?;
-        members.push(Member { name: name.to_owned(), case, study, figures });
+        members.push(CaseReport { name: name.to_owned(), case, study, figures });
     }
     let text = Paper::of(&members).and_then(|page| page.markdown()).into_diagnostic()?;
     let path = arguments.out.join("paper.md");

@@ -123,7 +123,8 @@ impl Observer for Witness {
         self.carried = carried;
         for k in 0..=LOOKS {
             let s = segment.duration * f64::from(k) / f64::from(LOOKS);
-            self.penetration = self.penetration.max(segment.at(s).gap().abs() - 1.0);
+            self.penetration =
+                self.penetration.max(segment.at(s).relative_displacement().abs() - 1.0);
         }
     }
 

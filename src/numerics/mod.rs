@@ -3,9 +3,9 @@
 
 pub mod bracket;
 pub mod crossing;
+pub mod cyclic_word;
 pub mod gauss;
 pub mod lanes;
-pub mod necklace;
 pub mod polynomial;
 pub mod quadrature;
 pub mod scan;

@@ -6,7 +6,7 @@ use serde::Serialize;
 use super::search::{on_line, scan};
 use super::task::{Deviation, Task};
 use crate::analysis::{FixedPointCurve, Manifold};
-use crate::case::{BandOver, Choice, Objective};
+use crate::case::{AbsorberDesign, BandOver, Objective};
 use crate::executor::{Executor, Serial, map};
 use crate::numerics::scan::largest;
 use crate::orbits::{SymmetricFamily, attracting_orbit};
@@ -21,7 +21,7 @@ const PIECES: usize = 128;
 /// Width to which it is narrowed down, over the logarithm of the range.
 const WIDTH: f64 = 1e-7;
 
-/// The clearances that suit one excitation, in the units of a [`Choice`].
+/// The clearances that suit one excitation, in the units of a [`AbsorberDesign`].
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Suited {
     /// `Omega`.
@@ -37,7 +37,7 @@ const WIDE: [f64; 2] = [0.02, 50.0];
 
 /// The best clearance against the frequency of a single excitation with the case's own amplitude, with
 /// the chosen restitution and mass.
-pub fn chart(task: &Task, choice: &Choice, executor: &dyn Executor) -> Vec<Suited> {
+pub fn chart(task: &Task, choice: &AbsorberDesign, executor: &dyn Executor) -> Vec<Suited> {
     let Some((band, _)) = task.band_of(choice, &Deviation::default()) else { return Vec::new() };
     let own = band.base.frequency_ratio();
     let [from, to] = match &task.band {

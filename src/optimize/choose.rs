@@ -4,7 +4,7 @@ use super::OptimizeError;
 use super::design::{Design, Judge};
 use super::search::{self, Effort, Seen, distance, shortlist};
 use super::task::Task;
-use crate::case::{Choice, Objective};
+use crate::case::{AbsorberDesign, Objective};
 use crate::executor::{Executor, Serial, map};
 
 /// How thoroughly an exact objective is looked for.
@@ -32,7 +32,7 @@ pub fn propose(task: &Task, executor: &dyn Executor) -> Result<Proposed, Optimiz
     let exact = task.objective != Objective::WorstAmplitude;
     let effort = if exact { EXACT } else { SCREENED };
     let score = |parts: &[f64]| task.cheap_score(&task.choice(parts)).unwrap_or(f64::NEG_INFINITY);
-    let own = task.parts(&Choice::of(&task.design));
+    let own = task.parts(&AbsorberDesign::of(&task.design));
     let at =
         |part: f64| -> Vec<f64> { std::iter::once(part).chain(own[1..].iter().copied()).collect() };
     let on_line = |part: f64| score(&at(part));

@@ -5,15 +5,15 @@ use super::OptimizeError;
 use super::task::Task;
 use crate::band::rivals::Rivals;
 use crate::band::{Motions, Source, Survey, Worst};
-use crate::case::{Case, Choice, Measure, Objective, Relation, Rewritten, Rounding};
+use crate::case::{AbsorberDesign, Case, Measure, Objective, Relation, Rewritten, Rounding};
 use crate::criteria::{self, Judged};
 use crate::executor::Executor;
 
-/// A judged absorber. Lengths in the units of a [`Choice`].
+/// A judged absorber. Lengths in the units of a [`AbsorberDesign`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Design {
     /// The absorber, rounded as it is written.
-    pub choice: Choice,
+    pub choice: AbsorberDesign,
     /// Its case file.
     pub written: Rewritten,
     /// The objective: a share, a relative distance, or a length.
@@ -120,7 +120,7 @@ impl Judge<'_> {
             settings.sampling = Some(criteria::sampling(case));
         }
         let survey = Survey::of(&criteria::range(case), &settings, executor)?;
-        let choice = Choice::of(&case.design);
+        let choice = AbsorberDesign::of(&case.design);
         let worst = survey.motions.worst().filter(|_| settings.sampling.is_some());
         let (value, error) = match (amplitude, worst) {
             (true, Some(worst)) => (worst.peak * choice.clearance, worst.error * choice.clearance),
@@ -147,7 +147,7 @@ impl Judge<'_> {
         for rounding in Rounding::ALL {
             let written =
                 self.case.rewritten("the optimised case", self.text, &choice, rounding)?;
-            let kept = self.task.allows(&Choice::of(&written.case.design));
+            let kept = self.task.allows(&AbsorberDesign::of(&written.case.design));
             // Bounds closer together than four digits leave no rounding; the exact value is kept then.
             let last = rounding == Rounding::EXACT;
             if !(if last { best.is_none() } else { kept }) {

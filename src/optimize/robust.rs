@@ -6,7 +6,7 @@ use super::choose::Proposed;
 use super::design::{Design, Judge};
 use super::search::{self, Effort};
 use super::task::{Deviation, Task};
-use crate::case::{Choice, Distribution, Objective, Uncertainty};
+use crate::case::{AbsorberDesign, Distribution, Objective, Uncertainty};
 use crate::executor::{Executor, Serial, map};
 use crate::numerics::gauss;
 
@@ -64,7 +64,7 @@ pub fn best(
         return Ok(None);
     }
     let deviations = task.deviations();
-    let under = |choice: &Choice| task.under(choice, &deviations, executor);
+    let under = |choice: &AbsorberDesign| task.under(choice, &deviations, executor);
     let of_nominal = under(&nominal.choice);
     let mut candidates: Vec<Design> = match task.objective {
         Objective::WorstAmplitude => smoothed(task, proposed, designs),
@@ -105,7 +105,7 @@ pub fn best(
 fn expected_best(
     task: &Task,
     deviations: &[(Deviation, f64)],
-    nominal: &Choice,
+    nominal: &AbsorberDesign,
     executor: &dyn Executor,
 ) -> Result<Vec<f64>, OptimizeError> {
     let known = task.parts(nominal);
@@ -222,7 +222,7 @@ impl Task {
     /// The average score over deviations with weights; `None` where one leaves no system.
     pub fn expected(
         &self,
-        choice: &Choice,
+        choice: &AbsorberDesign,
         deviations: &[(Deviation, f64)],
         executor: &dyn Executor,
     ) -> Option<f64> {
@@ -235,7 +235,7 @@ impl Task {
     /// deviation leaves no system.
     fn under(
         &self,
-        choice: &Choice,
+        choice: &AbsorberDesign,
         deviations: &[(Deviation, f64)],
         executor: &dyn Executor,
     ) -> UnderDeviations {

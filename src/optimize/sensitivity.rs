@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::task::{Deviation, Task};
-use crate::case::Choice;
+use crate::case::AbsorberDesign;
 use crate::executor::{Executor, Serial, map};
 
 /// Relative change of a parameter; of the frequency a tenth of it, since resonance is sharp.
@@ -39,7 +39,7 @@ pub struct Sensitivity {
 }
 
 /// The sensitivities at an absorber.
-pub fn of(task: &Task, choice: &Choice, executor: &dyn Executor) -> Vec<Sensitivity> {
+pub fn of(task: &Task, choice: &AbsorberDesign, executor: &dyn Executor) -> Vec<Sensitivity> {
     let omega = task.design.system().map_or(1.0, |system| system.frequency_ratio());
     let at = |of: Changed, change: f64| {
         let mut choice = *choice;

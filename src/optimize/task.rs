@@ -6,7 +6,7 @@ use serde::Serialize;
 use crate::band::exact::stability;
 use crate::band::simulated::Sampling;
 use crate::band::{Band, Motions, SurveySettings, margin, theory};
-use crate::case::{BandOver, BandSettings, Case, Choice, Design, Objective, Uncertainty};
+use crate::case::{AbsorberDesign, BandOver, BandSettings, Case, Design, Objective, Uncertainty};
 use crate::criteria;
 use crate::executor::{Executor, Serial};
 use crate::system::{Parameter, System};
@@ -26,7 +26,7 @@ pub enum Variable {
     Mass,
 }
 
-/// A variable and the bounds it stays in, in the units of a [`Choice`].
+/// A variable and the bounds it stays in, in the units of a [`AbsorberDesign`].
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Bounds {
     /// What is chosen.
@@ -61,7 +61,7 @@ impl Bounds {
 /// How far something built is from what is written.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Deviation {
-    /// Of the clearance, in the units of a [`Choice`].
+    /// Of the clearance, in the units of a [`AbsorberDesign`].
     pub clearance: f64,
     /// Of the restitution.
     pub restitution: f64,
@@ -105,7 +105,7 @@ impl Task {
     /// [`TaskError`] where every absorber is as good as any other.
     pub fn of(case: &Case, objective: Option<Objective>) -> Result<Self, TaskError> {
         let settings = &case.optimize;
-        let own = Choice::of(&case.design);
+        let own = AbsorberDesign::of(&case.design);
         if case.system().forcing_per_clearance() == 0.0 {
             return Err(TaskError::NotDriven);
         }
@@ -130,8 +130,8 @@ impl Task {
     }
 
     /// The absorber at parts of the way between the bounds; what has none is the case's.
-    pub fn choice(&self, parts: &[f64]) -> Choice {
-        let mut choice = Choice::of(&self.design);
+    pub fn choice(&self, parts: &[f64]) -> AbsorberDesign {
+        let mut choice = AbsorberDesign::of(&self.design);
         for (bounds, part) in self.bounds.iter().zip(parts) {
             let value = bounds.at(*part);
             match bounds.variable {
@@ -144,12 +144,12 @@ impl Task {
     }
 
     /// The parts of the way at which an absorber lies; the inverse of [`Task::choice`].
-    pub fn parts(&self, choice: &Choice) -> Vec<f64> {
+    pub fn parts(&self, choice: &AbsorberDesign) -> Vec<f64> {
         self.bounds.iter().map(|bounds| bounds.part(value_of(bounds.variable, choice))).collect()
     }
 
     /// Whether an absorber keeps to the bounds, but for rounding.
-    pub fn allows(&self, choice: &Choice) -> bool {
+    pub fn allows(&self, choice: &AbsorberDesign) -> bool {
         const ROUNDING: f64 = 1e-12;
         self.bounds.iter().all(|bounds| {
             let value = value_of(bounds.variable, choice);
@@ -159,8 +159,8 @@ impl Task {
 
     /// The band of an absorber that deviates, and its clearance; a restitution stays between 0 and 1.
     /// `None` where no system has such values.
-    pub fn band_of(&self, choice: &Choice, off: &Deviation) -> Option<(Band, f64)> {
-        let choice = Choice {
+    pub fn band_of(&self, choice: &AbsorberDesign, off: &Deviation) -> Option<(Band, f64)> {
+        let choice = AbsorberDesign {
             clearance: choice.clearance + off.clearance,
             restitution: (choice.restitution + off.restitution).clamp(0.0, 1.0),
             mass: choice.mass,
@@ -196,20 +196,25 @@ impl Task {
     }
 
     /// The objective of an absorber that deviates, the more the better: an exact one, or minus the worst
-    /// amplitude with its error, in the units of a [`Choice`], by a full survey. `None` where there is no
+    /// amplitude with its error, in the units of a [`AbsorberDesign`], by a full survey. `None` where there is no
     /// system, or nothing could be measured.
-    pub fn score(&self, choice: &Choice, off: &Deviation, executor: &dyn Executor) -> Option<f64> {
+    pub fn score(
+        &self,
+        choice: &AbsorberDesign,
+        off: &Deviation,
+        executor: &dyn Executor,
+    ) -> Option<f64> {
         self.sampled_score(choice, off, self.sampling, executor)
     }
 
     /// The same by a coarse survey, which only ranks.
-    pub fn cheap_score(&self, choice: &Choice) -> Option<f64> {
+    pub fn cheap_score(&self, choice: &AbsorberDesign) -> Option<f64> {
         self.sampled_score(choice, &Deviation::default(), Sampling::SCREENING, &Serial)
     }
 
     fn sampled_score(
         &self,
-        choice: &Choice,
+        choice: &AbsorberDesign,
         off: &Deviation,
         sampling: Sampling,
         executor: &dyn Executor,
@@ -231,7 +236,7 @@ impl Task {
 }
 
 /// A variable of an absorber; 0 for a mass that there is not.
-pub fn value_of(variable: Variable, choice: &Choice) -> f64 {
+pub fn value_of(variable: Variable, choice: &AbsorberDesign) -> f64 {
     match variable {
         Variable::Clearance => choice.clearance,
         Variable::Restitution => choice.restitution,

@@ -5,7 +5,7 @@
 //! the wall's acceleration leaves it behind; where it does not, the absorber stays on the wall.
 //!
 //! Whether it does is proven by a search that cannot step over a contact
-//! ([`crate::numerics::crossing`]); how much room it has is measured at the turning points of the
+//! ([`crate::numerics::crossing`]); its smallest distance to a wall is measured at the turning points of the
 //! relative displacement.
 
 use serde::Serialize;
@@ -21,7 +21,7 @@ const TOUCH_ULPS: f64 = 64.0;
 const EARLY: f64 = 1e-7;
 /// Fast time for which one bound on the curvature is used.
 const HORIZON: f64 = 1.0;
-/// Width of the cavity over the clearance: more room than any turning point inside leaves.
+/// Width of the cavity over the clearance: more than any turning point inside leaves.
 const FULL_WIDTH: f64 = 2.0;
 /// Pieces per radian of the fastest oscillation in which sign changes are looked for: too short for
 /// an acceleration to change its sign twice in one, unless it hardly differs from 0 there.
@@ -39,8 +39,8 @@ pub struct Admissibility {
     pub admissible: bool,
     /// Smallest distance to a wall at a turning point between impacts, over the clearance; negative
     /// where a wall is penetrated, 2 where there is no turning point.
-    pub room: f64,
-    /// The flight, counted from 0, in which the room is smallest, and how far into it, 0 to 1.
+    pub min_wall_distance: f64,
+    /// The flight, counted from 0, in which that distance is smallest, and how far into it, 0 to 1.
     pub narrowest: Option<Narrowest>,
     /// Smallest speed at which a wall is met, over the clearance, in fast time; negative where an
     /// impact would come from outside.
@@ -72,7 +72,7 @@ impl Admissibility {
     pub fn of(map: &ImpactMap, flights: &[(AfterImpact, Wall, Wall, f64)]) -> Self {
         let mut found = Self {
             admissible: true,
-            room: FULL_WIDTH,
+            min_wall_distance: FULL_WIDTH,
             narrowest: None,
             slowest_impact: f64::INFINITY,
             slowest_departure: None,
@@ -89,8 +89,8 @@ impl Admissibility {
                 approach > 0.0 && free_of_contact(map, start, *from, *to, *duration);
             for (at, value) in turning_points(map, start, *from, *duration, &departure) {
                 let wall = if value > 0.0 { Wall::Plus } else { Wall::Minus };
-                if 1.0 - value.abs() < found.room {
-                    found.room = 1.0 - value.abs();
+                if 1.0 - value.abs() < found.min_wall_distance {
+                    found.min_wall_distance = 1.0 - value.abs();
                     let fraction = at / duration;
                     found.narrowest = Some(Narrowest { flight: index, fraction, wall });
                 }

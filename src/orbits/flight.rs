@@ -9,8 +9,8 @@
 //! driven exactly at its natural frequency.
 
 use super::OrbitError;
+use crate::operation_count::{self, ELEMENTARY};
 use crate::system::System;
-use crate::tally::{self, ELEMENTARY};
 
 /// The oscillator of a system, ready to be propagated.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -104,7 +104,7 @@ impl Flight {
 
     /// The steady motion at a phase.
     pub fn steady_at(&self, phase: f64) -> Kinematics {
-        tally::note(2 * ELEMENTARY + 7);
+        operation_count::note(2 * ELEMENTARY + 7);
         let (sin, cos) = libm::sincos(phase);
         let [s, c] = self.steady;
         Kinematics { x: s * sin + c * cos, v: self.frequency * (s * cos - c * sin) }
@@ -112,7 +112,7 @@ impl Flight {
 
     /// Free motion over `s`, whatever the damping.
     pub fn free(&self, s: f64) -> Free {
-        tally::note(3 * ELEMENTARY + 14);
+        operation_count::note(3 * ELEMENTARY + 14);
         let d = self.decay;
         let discriminant = (1.0 - d) * (1.0 + d);
         let (impulse, impulse_rate) = if discriminant > 0.0 {
@@ -161,7 +161,7 @@ impl Flight {
 
     /// Displacement and velocity a time `s` after `start` at `phase`.
     pub fn at(&self, phase: f64, start: Kinematics, s: f64) -> Kinematics {
-        tally::note(12);
+        operation_count::note(12);
         let free = self.free(s);
         let before = self.steady_at(phase);
         let after = self.steady_at(phase + self.frequency * s);
@@ -174,7 +174,7 @@ impl Flight {
 
     /// Acceleration at a phase, by equation (1).
     pub fn acceleration(&self, phase: f64, at: Kinematics) -> f64 {
-        tally::note(8);
+        operation_count::note(8);
         let steady = self.steady_at(phase);
         let omega = self.frequency;
         -omega * omega * steady.x - 2.0 * self.decay * (at.v - steady.v) - (at.x - steady.x)
@@ -183,7 +183,7 @@ impl Flight {
     /// Bound on the acceleration's size for `horizon` of time after passing through `at`: the root
     /// of `v^2 + x^2` grows no faster than the largest force.
     pub fn acceleration_bound(&self, at: Kinematics, horizon: f64) -> f64 {
-        tally::note(25);
+        operation_count::note(25);
         let [s, c] = self.steady;
         let omega = self.frequency;
         let stiffness = (1.0 - omega) * (1.0 + omega);
@@ -194,7 +194,7 @@ impl Flight {
 
     /// Where a flight of length `s` ends, with all derivatives.
     pub fn arrival(&self, phase: f64, start: Kinematics, s: f64) -> Arrival {
-        tally::note(60);
+        operation_count::note(60);
         let omega = self.frequency;
         let free = self.free(s);
         let before = self.steady_at(phase);
@@ -233,7 +233,7 @@ impl Flight {
 
     /// Derivative of the steady motion by `Omega` at a fixed phase.
     fn shifted(&self, phase: f64) -> Kinematics {
-        tally::note(2 * ELEMENTARY + 12);
+        operation_count::note(2 * ELEMENTARY + 12);
         let (sin, cos) = libm::sincos(phase);
         let [s, c] = self.steady;
         let [ds, dc] = self.steady_by_frequency;

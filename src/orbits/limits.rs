@@ -50,7 +50,7 @@ pub struct Limit {
     /// What happens there.
     pub kind: Bifurcation,
     /// `beta` there.
-    pub absorber: f64,
+    pub absorber_amplitude: f64,
     /// `gamma` there.
     pub forcing_over_clearance: f64,
     /// Clearance over the system's own at its own forcing.
@@ -113,7 +113,7 @@ impl Family {
         match kind {
             Bifurcation::SymmetryBreaking => minus_one(&cycle.jacobian(&map)),
             Bifurcation::NeimarkSacker => unit_product(&cycle.jacobian(&map)),
-            Bifurcation::Grazing => Admissibility::of(&map, &cycle.flights()).room,
+            Bifurcation::Grazing => Admissibility::of(&map, &cycle.flights()).min_wall_distance,
             Bifurcation::Sticking => self.curve.departure(&map.flight, beta),
             _ => beta - self.curve.turning(),
         }
@@ -130,7 +130,7 @@ impl Family {
         let aside = ASIDE * beta;
         Limit {
             kind,
-            absorber: beta,
+            absorber_amplitude: beta,
             forcing_over_clearance: forcing,
             clearance: clearance(beta),
             bracket: [a.min(b), a.max(b)],
@@ -147,7 +147,9 @@ impl Limit {
     /// As [`SymmetricFamily::of`].
     pub fn cycle(&self, system: &System) -> Result<Cycle, OrbitError> {
         let family = Family::of(system)?;
-        Ok(family.curve.cycle(&family.map_at(self.absorber).flight, self.absorber))
+        Ok(family
+            .curve
+            .cycle(&family.map_at(self.absorber_amplitude).flight, self.absorber_amplitude))
     }
 }
 
@@ -174,7 +176,7 @@ impl SymmetricFamily {
         {
             limits.extend(family.roots(kind));
         }
-        limits.sort_by(|a, b| a.absorber.total_cmp(&b.absorber));
+        limits.sort_by(|a, b| a.absorber_amplitude.total_cmp(&b.absorber_amplitude));
         let stable = family.stable_stretches(&limits);
         Ok(Self { limits, stable })
     }
@@ -282,7 +284,7 @@ impl Family {
     fn stable_stretches(&self, limits: &[Limit]) -> Vec<StableStretch> {
         let mut edges: Vec<(f64, Option<Bifurcation>)> =
             vec![(0.5 * LARGEST / f64::from(PIECES), None)];
-        edges.extend(limits.iter().map(|limit| (limit.absorber, Some(limit.kind))));
+        edges.extend(limits.iter().map(|limit| (limit.absorber_amplitude, Some(limit.kind))));
         edges.push((LARGEST, None));
         let mut found: Vec<StableStretch> = Vec::new();
         let clearance = |beta: f64| self.forcing / self.curve.forcing(beta);

@@ -35,7 +35,7 @@ fn tests(closure: Closure) -> [Test; 7] {
         Test { kind: Bifurcation::BranchPoint, value: |point| plus_one(&point.jacobian) },
         Test { kind: minus, value: |point| minus_one(&point.jacobian) },
         Test { kind: Bifurcation::NeimarkSacker, value: |point| unit_product(&point.jacobian) },
-        Test { kind: Bifurcation::Grazing, value: |point| point.admissibility.room },
+        Test { kind: Bifurcation::Grazing, value: |point| point.admissibility.min_wall_distance },
         Test {
             kind: Bifurcation::Sticking,
             value: |point| point.admissibility.slowest_departure.unwrap_or(f64::NAN),
@@ -65,7 +65,7 @@ pub(super) fn located(
     }
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
     // Where the branch turns back det(J - I) vanishes as well; that is the saddle-node's own. Where
-    // the absorber begins to stay on the wall the room jumps; that is the sticking's own.
+    // the absorber begins to stay on the wall the distance jumps; that is the sticking's own.
     let places = |kind: Bifurcation| -> Vec<f64> {
         found.iter().filter(|one| one.1.kind == kind).map(|one| one.0).collect()
     };

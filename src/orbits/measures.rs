@@ -12,8 +12,8 @@ use super::admissibility::sign_changes;
 use super::impact_map::ImpactMap;
 use super::orbit::Cycle;
 use crate::numerics::quadrature;
+use crate::operation_count;
 use crate::system::System;
-use crate::tally;
 
 /// Radians, or decay times, of the fastest motion in one panel of the quadrature: eight Gauss points
 /// on an eighth of a turn integrate products of two sinusoids to rounding.
@@ -123,7 +123,7 @@ fn integrals(system: &System, map: &ImpactMap, cycle: &Cycle) -> [f64; 7] {
     for (start, from, _, duration) in cycle.flights() {
         let place = start.x - from.sign();
         quadrature::graded_nodes(duration, panels[0], panels[1], |s, weight| {
-            tally::note(2 * tally::ELEMENTARY + 30);
+            operation_count::note(2 * operation_count::ELEMENTARY + 30);
             let at = map.oscillator_at(&start, s);
             let y = place + start.y_velocity * s;
             let (sin, cos) = libm::sincos(start.phase + omega * s);

@@ -5,7 +5,7 @@ use nalgebra::linalg::Schur;
 use nalgebra::{Complex, Matrix4, SMatrix};
 use serde::Serialize;
 
-use crate::tally;
+use crate::operation_count;
 
 /// Sweeps that the eigenvalue iteration may take; three or four per eigenvalue are usual.
 pub(super) const LARGEST_SWEEPS: usize = 300;
@@ -34,7 +34,7 @@ pub struct Multipliers {
 impl Multipliers {
     /// Eigenvalues of `jacobian`; `None` where it is not finite or the iteration does not converge.
     pub fn of(jacobian: &Matrix4<f64>) -> Option<Self> {
-        tally::note(SCHUR);
+        operation_count::note(SCHUR);
         let size = jacobian.amax();
         if !size.is_finite() {
             return None;

@@ -11,7 +11,7 @@ use super::admissibility::Admissibility;
 use super::impact_map::{AfterImpact, ImpactMap, Step, Wall};
 use super::multipliers::Multipliers;
 use super::newton::Convergence;
-use crate::numerics::necklace::canonical;
+use crate::numerics::cyclic_word::canonical;
 
 /// How a cycle of impacts closes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -76,7 +76,7 @@ impl Cycle {
     }
 
     /// The whole orbit's sequence of walls over one repetition, as `+-`, in the canonical form
-    /// of a [`crate::numerics::necklace`], so that one motion has one name.
+    /// of a [`crate::numerics::cyclic_word`], so that one motion has one name.
     pub fn sequence(&self) -> String {
         let mut walls = self.walls.clone();
         if matches!(self.closure, Closure::Mirrors { .. }) {

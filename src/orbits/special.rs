@@ -55,7 +55,7 @@ impl Bifurcation {
             Self::SaddleNode => "parameter component of the branch's tangent",
             Self::SymmetryBreaking | Self::PeriodDoubling => "det(J + I)",
             Self::NeimarkSacker => "det(J^(2) - I), second compound",
-            Self::Grazing => "smallest room between impacts",
+            Self::Grazing => "smallest distance to a wall between impacts",
             Self::Sticking => "smallest acceleration of a wall away from the absorber after impact",
             Self::VanishingImpact => "smallest impact speed",
             Self::BranchPoint => "det(J - I)",

@@ -44,7 +44,7 @@ pub struct SymmetricCurve {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SymmetricOrbit {
     /// `beta`, the amplitude of the absorber's sawtooth; the exact counterpart of `B/b`.
-    pub absorber: f64,
+    pub absorber_amplitude: f64,
     /// Displacement of the oscillator at the impacts on the `+b` wall, `x0 = 1 - beta`.
     pub impact_displacement: f64,
     /// Phase of the excitation at those impacts.
@@ -200,7 +200,7 @@ pub(super) fn symmetric_orbit(
     let orbit = Orbit::measured(map, cycle, convergence, Origin::ClosedForm).ok()?;
     let (eps, r) = (system.mass_ratio(), system.restitution());
     Some(SymmetricOrbit {
-        absorber: beta,
+        absorber_amplitude: beta,
         impact_displacement: after.x,
         phase: after.phase,
         peaks,

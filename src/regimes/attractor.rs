@@ -5,14 +5,15 @@ use serde::Serialize;
 use super::lyapunov::Lyapunov;
 use super::modulation::{self, Amplitudes};
 use super::{
-    Classification, Energetics, Nature, Periodicity, Regime, Thresholds, classify, periodicity,
+    Classification, DynamicsKind, Energetics, Periodicity, Regime, Thresholds, classify,
+    periodicity,
 };
+use crate::operation_count;
 use crate::simulation::{
-    self, Doubt, Energy, Impact, ImpactLog, Nobody, Simulation, StartError, Statistics, Stop,
+    self, Doubt, Energy, Impact, ImpactLog, Simulation, StartError, Statistics, Stop,
     SustainedContact,
 };
 use crate::system::{State, System};
-use crate::tally;
 
 /// How long a trajectory is followed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -173,7 +174,7 @@ impl Attractor {
     pub fn measure_with(simulation: &mut Simulation, effort: &Effort, log: &mut ImpactLog) -> Self {
         let system = *simulation.system();
         let before = simulation.operations();
-        let mut stop = simulation.run(effort.discard, effort.impact_limit, &mut Nobody);
+        let mut stop = simulation.run(effort.discard, effort.impact_limit, &mut ());
         let mut statistics = Statistics::begin(&system, simulation.state());
         let mut lyapunov = Lyapunov::begin(&system);
         // A transient given up for its impacts is measured all the same: the impacts are the regime.
@@ -183,7 +184,7 @@ impl Attractor {
             let measured = simulation.run(effort.periods, effort.impact_limit, observer);
             stop = if stop == Stop::EndTime { measured } else { stop };
         }
-        tally::note(simulation.operations() - before);
+        operation_count::note(simulation.operations() - before);
         let thresholds = Thresholds::default();
         let (oscillator_harmonic, absorber_harmonic) = statistics.harmonics();
         let exponent = lyapunov.exponent();
@@ -192,7 +193,7 @@ impl Attractor {
         let repeats = classification.evidence.periodicity.is_some();
         let [peak_error, impact_speed_error] =
             if repeats { [0.0; 2] } else { statistics.errors_of_largest() };
-        let open = classification.nature == Nature::TransientNotOver;
+        let open = classification.dynamics == DynamicsKind::TransientNotOver;
         Self {
             settled: repeats || !(open || modulation::drifting(statistics.records())),
             peak_error,
@@ -240,9 +241,12 @@ impl Attractor {
             (Some(_), None) => other.settles_on(self),
             (None, Some(_)) => self.settles_on(other),
             (None, None) => {
-                let decided = |nature| matches!(nature, Nature::Chaotic | Nature::QuasiPeriodic);
-                let contradict =
-                    decided(mine.nature) && decided(theirs.nature) && mine.nature != theirs.nature;
+                let decided = |dynamics| {
+                    matches!(dynamics, DynamicsKind::Chaotic | DynamicsKind::QuasiPeriodic)
+                };
+                let contradict = decided(mine.dynamics)
+                    && decided(theirs.dynamics)
+                    && mine.dynamics != theirs.dynamics;
                 same_regime && !contradict && within(self.rms, other.rms, SAME_MODULATED)
             }
         }
@@ -282,7 +286,7 @@ impl Attractor {
     fn settles_on(&self, other: &Self) -> bool {
         let visits = |one: &Self| one.classification.evidence.visits_per_period;
         let apart = (visits(self) - visits(other)).abs();
-        self.classification.nature == Nature::TransientNotOver
+        self.classification.dynamics == DynamicsKind::TransientNotOver
             && apart <= Thresholds::default().impacts_per_period
             && self.is_alike(other, SAME_SETTLING)
     }
@@ -294,7 +298,7 @@ impl Attractor {
             let periods = one.classification.evidence.periodicity.map_or(1, |found| found.periods);
             let tail = one.amplitudes.len().saturating_sub(periods as usize);
             one.amplitudes[tail..].iter().fold([0.0; 3], |[c, e, peak], at| {
-                [c + at.oscillator, e + at.absorber, peak.max(at.peak)]
+                [c + at.oscillator_amplitude, e + at.absorber_amplitude, peak.max(at.peak)]
             })
         };
         let pairs = last(self).into_iter().zip(last(other));

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::attractor::Effort;
-use super::{Attractor, Nature};
+use super::{Attractor, DynamicsKind};
 use crate::simulation::{StartError, Stop};
 use crate::system::{State, System};
 
@@ -150,7 +150,7 @@ impl Basins {
         if let Some(known) = self.scattered(&reached) {
             return Cell::Leads(known);
         }
-        let open = reached.classification.nature == Nature::TransientNotOver;
+        let open = reached.classification.dynamics == DynamicsKind::TransientNotOver;
         if open || reached.stop != Stop::EndTime {
             return Cell::NotSettled;
         }

@@ -5,7 +5,7 @@
 use serde::Serialize;
 
 use super::attractor::Effort;
-use super::{Attractor, Nature, Regime};
+use super::{Attractor, DynamicsKind, Regime};
 use crate::simulation::{StartError, Stop};
 use crate::system::{InvalidParameter, Parameter, State, System};
 
@@ -15,7 +15,7 @@ const MOST_POINTS: usize = 40;
 /// The way in which a value was reached.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Way {
+pub enum SweepDirection {
     /// From smaller values.
     Up,
     /// From larger values.
@@ -28,11 +28,11 @@ pub struct DiagramPoint {
     /// The parameter.
     pub value: f64,
     /// How it was reached.
-    pub way: Way,
+    pub way: SweepDirection,
     /// What the impacts do.
     pub regime: Regime,
     /// What kind of dynamics it is.
-    pub nature: Nature,
+    pub dynamics: DynamicsKind,
     /// `z`.
     pub impacts_per_period: f64,
     /// Largest displacement of the oscillator, over the base system's clearance.
@@ -74,8 +74,8 @@ pub fn sweep(
 ) -> Result<Vec<DiagramPoint>, DiagramError> {
     let mut ascending = values.to_vec();
     ascending.sort_by(f64::total_cmp);
-    let up = ascending.iter().map(|value| (*value, Way::Up));
-    let down = ascending.iter().rev().map(|value| (*value, Way::Down));
+    let up = ascending.iter().map(|value| (*value, SweepDirection::Up));
+    let down = ascending.iter().rev().map(|value| (*value, SweepDirection::Down));
     let mut points = Vec::with_capacity(2 * ascending.len());
     let mut last: Option<(f64, State)> = None;
     for (value, way) in up.chain(down) {
@@ -96,7 +96,7 @@ pub fn sweep(
 /// The same physical state over another clearance and at another natural frequency, each given as the old
 /// one over the new one. If the absorber is outside the new cavity, the wall has pushed it along.
 pub fn carried_over(state: State, clearance: f64, natural_frequency: f64) -> State {
-    let gap = (clearance * state.gap()).clamp(-1.0, 1.0);
+    let gap = (clearance * state.relative_displacement()).clamp(-1.0, 1.0);
     let x = clearance * state.x;
     let speed = clearance * natural_frequency;
     State {
@@ -107,14 +107,20 @@ pub fn carried_over(state: State, clearance: f64, natural_frequency: f64) -> Sta
     }
 }
 
-fn point(found: &Attractor, value: f64, way: Way, unit: f64, period: f64) -> DiagramPoint {
+fn point(
+    found: &Attractor,
+    value: f64,
+    way: SweepDirection,
+    unit: f64,
+    period: f64,
+) -> DiagramPoint {
     let impacts = tail(&found.impacts, MOST_POINTS + 1);
     let interval = |two: &[crate::simulation::Impact]| (two[1].tau - two[0].tau) / period;
     DiagramPoint {
         value,
         way,
         regime: found.classification.regime,
-        nature: found.classification.nature,
+        dynamics: found.classification.dynamics,
         impacts_per_period: found.classification.evidence.impacts_per_period,
         peak: unit * found.peak,
         period_peaks: tail(&found.amplitudes, MOST_POINTS)
@@ -144,7 +150,7 @@ mod tests {
         assert!((wider.y + 0.15).abs() < 1e-15);
         // From 1 to 0.5 the gap of 0.8 has no room: the wall is at 1.
         let narrower = carried_over(state, 2.0, 1.0);
-        assert_eq!((narrower.gap(), narrower.x), (1.0, 1.0));
+        assert_eq!((narrower.relative_displacement(), narrower.x), (1.0, 1.0));
         // Where time runs four times as fast, velocities are a quarter.
         let stiffer = carried_over(state, 1.0, 0.25);
         assert_eq!((stiffer.x, stiffer.x_velocity, stiffer.y_velocity), (0.5, -0.25, 0.5));

@@ -12,7 +12,7 @@ use super::transient::{self, Transient};
 use super::{Regime, periodicity, starts};
 use crate::numerics::scatter::error_of_largest_of;
 use crate::simulation::batch::{self, Extent};
-use crate::simulation::{Nobody, Simulation, StartError, Stop};
+use crate::simulation::{Simulation, StartError, Stop};
 use crate::system::{State, System};
 
 /// Relative difference of root mean squares up to which two motions that hardly scatter are one.
@@ -91,7 +91,7 @@ pub struct Motion {
 
 impl Motion {
     /// Whether the absorber takes no part: there is no impact.
-    pub fn is_asleep(&self) -> bool {
+    pub fn is_inactive(&self) -> bool {
         self.impacts_per_period == 0.0
     }
 
@@ -116,7 +116,7 @@ impl Motion {
         let near = |a: f64, b: f64, errors: f64| {
             (a - b).abs() <= (ALIKE * a.max(b)).max(if chaotic { 2.0 * errors } else { 0.0 })
         };
-        self.is_asleep() == other.is_asleep()
+        self.is_inactive() == other.is_inactive()
             && near(self.rms, other.rms, self.rms_error + other.rms_error)
             && near(
                 self.impacts_per_period,
@@ -158,8 +158,8 @@ pub fn long_term(
         // Starts of one system follow each other.
         let before = index.checked_sub(1).filter(|before| starts[*before].0 == *system);
         transients.push(before.map_or_else(|| Transient::of(system), |before| transients[before]));
-        match transient::asleep(system, start) {
-            Some(state) => motions[index] = Some(Motion::asleep(system, state)),
+        match transient::inactive(system, start) {
+            Some(state) => motions[index] = Some(Motion::inactive(system, state)),
             None => all.add(index, simulation),
         }
     }
@@ -182,7 +182,7 @@ fn measured_after_transient(
     transients: &[Transient],
     periods: u64,
 ) -> Vec<(Ended, Option<Motion>)> {
-    let mut nobody: Vec<Nobody> = all.simulations.iter().map(|_| Nobody).collect();
+    let mut nobody: Vec<()> = vec![(); all.simulations.len()];
     let watched = all.extents(|_, system| transient::window(system, WATCHED));
     let faded = all.extents(|index, system| {
         transients[index].periods.saturating_sub(transient::window(system, WATCHED))
@@ -194,8 +194,8 @@ fn measured_after_transient(
     let (mut known, mut ended) = (Vec::new(), Vec::with_capacity(all.indices.len()));
     let trajectories = all.indices.into_iter().zip(all.simulations);
     for (((index, one), watch), stop) in trajectories.zip(watches).zip(stops) {
-        if let Some(state) = transient::asleep(one.system(), &one.state()) {
-            let motion = Motion::asleep(one.system(), state);
+        if let Some(state) = transient::inactive(one.system(), &one.state()) {
+            let motion = Motion::inactive(one.system(), state);
             ended.push((Ended { index, simulation: one, stop }, Some(motion)));
             continue;
         }
@@ -214,7 +214,7 @@ fn measured_after_transient(
         .map(|(one, known)| extent(one.system(), u64::from(known.found.periods)))
         .collect();
     let watches = repeating.watched();
-    for ((one, watch), repetition) in repeating.go_on(watches, &once).into_iter().zip(known) {
+    for ((one, watch), repetition) in repeating.step(watches, &once).into_iter().zip(known) {
         let motion = watch.motion(&one, Some(repetition));
         ended.push((one, motion));
     }
@@ -261,7 +261,7 @@ impl Group {
         self.simulations.iter().map(Watch::begin).collect()
     }
 
-    fn go_on(mut self, mut watches: Vec<Watch>, extents: &[Extent]) -> Vec<(Ended, Watch)> {
+    fn step(mut self, mut watches: Vec<Watch>, extents: &[Extent]) -> Vec<(Ended, Watch)> {
         let stops = batch::run_each(&mut self.simulations, extents, &mut watches);
         let simulations = self.indices.into_iter().zip(self.simulations).zip(stops);
         let ended = |((index, simulation), stop)| Ended { index, simulation, stop };
@@ -276,9 +276,9 @@ fn measured(group: Group, transients: &[Transient], periods: u64) -> Vec<(Ended,
     let first = |system: &System| transient::window(system, periods.min(WATCHED));
     let (watches, short) = (group.watched(), group.extents(|_, system| first(system)));
     let (mut done, mut going, mut watches_on) = (Vec::new(), Group::default(), Vec::new());
-    for (one, mut watch) in group.go_on(watches, &short) {
+    for (one, mut watch) in group.step(watches, &short) {
         let window = first(one.simulation.system());
-        let repeats = periodicity::find(watch.gauge.records())
+        let repeats = periodicity::find(watch.impact_statistics.records())
             .is_some_and(|found| window.is_multiple_of(u64::from(found.periods)));
         if repeats || one.stop != Stop::EndTime || periods == window {
             done.push((one, watch));
@@ -293,13 +293,13 @@ fn measured(group: Group, transients: &[Transient], periods: u64) -> Vec<(Ended,
         .zip(going.simulations.iter().zip(&watches_on))
         .map(|(index, (one, watch))| {
             let system = one.system();
-            let flights = if watch.gauge.impacts() == 0 { flights(one) } else { 0 };
+            let flights = if watch.impact_statistics.impacts() == 0 { flights(one) } else { 0 };
             let longer = flights.min(transients[*index].periods);
             let wanted = transient::window(system, periods.max(longer));
             extent(system, wanted.saturating_sub(first(system)))
         })
         .collect();
-    done.extend(going.go_on(watches_on, &rest));
+    done.extend(going.step(watches_on, &rest));
     done
 }
 
@@ -324,7 +324,7 @@ pub fn distinct(ended: &[Option<Motion>]) -> Vec<Motion> {
 
 impl Motion {
     /// The motion without impacts, in closed form; `state` is on it.
-    fn asleep(system: &System, state: State) -> Self {
+    fn inactive(system: &System, state: State) -> Self {
         let peak = system.linear_response().map_or(0.0, |response| response.amplitude());
         Self {
             peak,
@@ -422,8 +422,8 @@ mod tests {
         assert!(scattered.is_same(&like(1.45)) && !scattered.is_same(&like(1.55)));
         let fewer = Motion { impacts_per_period: 1.0, ..scattered };
         assert!(scattered.is_same(&fewer), "within 1.2");
-        let asleep = Motion { impacts_per_period: 0.0, impacts_error: 3.0, ..scattered };
-        assert!(!scattered.is_same(&asleep));
+        let inactive = Motion { impacts_per_period: 0.0, impacts_error: 3.0, ..scattered };
+        assert!(!scattered.is_same(&inactive));
     }
 
     #[test]

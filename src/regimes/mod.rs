@@ -6,11 +6,11 @@
 pub mod attractor;
 pub mod basins;
 pub mod diagram;
+pub mod dynamics_kind;
 pub mod energetics;
 pub mod long_term;
 pub mod lyapunov;
 pub mod modulation;
-pub mod nature;
 pub mod periodicity;
 pub mod return_map;
 pub mod search;
@@ -23,10 +23,10 @@ use serde::{Serialize, Serializer};
 
 use crate::simulation::{Impact, Statistics};
 pub use attractor::Attractor;
+pub use dynamics_kind::DynamicsKind;
 pub use energetics::Energetics;
 pub use lyapunov::{Exponent, Lyapunov};
 pub use modulation::{AbsorberAmplitude, Amplitudes, Captures};
-pub use nature::Nature;
 pub use periodicity::Periodicity;
 pub use search::FoundAttractor;
 pub use sequence::ImpactSequence;
@@ -192,7 +192,7 @@ pub struct Classification {
     /// The name: what the impacts do.
     pub regime: Regime,
     /// What kind of dynamics it is.
-    pub nature: Nature,
+    pub dynamics: DynamicsKind,
     /// Why.
     pub evidence: Evidence,
 }
@@ -224,7 +224,7 @@ pub fn classify(
     };
     Classification {
         regime: Signs::of(&evidence).regime(thresholds),
-        nature: Nature::of(&evidence),
+        dynamics: DynamicsKind::of(&evidence),
         evidence,
     }
 }

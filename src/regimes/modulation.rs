@@ -31,9 +31,9 @@ pub struct Captures {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Amplitudes {
     /// `C`, amplitude of the oscillator's first harmonic, over the clearance.
-    pub oscillator: f64,
+    pub oscillator_amplitude: f64,
     /// `E`, amplitude of the absorber's first harmonic, over the clearance.
-    pub absorber: f64,
+    pub absorber_amplitude: f64,
     /// Largest absolute displacement of the oscillator, over the clearance.
     pub peak: f64,
     /// Whether the period belongs to a capture.
@@ -104,8 +104,8 @@ pub fn amplitudes(records: &[PeriodRecord], shortest: usize) -> Vec<Amplitudes> 
     for stretch in records.split_inclusive(|record| record.impacts != [1, 1]) {
         let alternating = stretch.iter().filter(|record| record.impacts == [1, 1]).count();
         all.extend(stretch.iter().map(|record| Amplitudes {
-            oscillator: size(record.oscillator_harmonic),
-            absorber: size(record.absorber_harmonic),
+            oscillator_amplitude: size(record.oscillator_harmonic),
+            absorber_amplitude: size(record.absorber_harmonic),
             peak: record.peak,
             captured: record.impacts == [1, 1] && alternating >= shortest.max(1),
         }));
@@ -121,18 +121,21 @@ fn size([sine, cosine]: [f64; 2]) -> f64 {
 pub fn absorber_amplitude(series: &[Amplitudes]) -> AbsorberAmplitude {
     let mean = |captured: bool| {
         let chosen = series.iter().filter(|one| one.captured == captured);
-        let (sum, count) = chosen.fold((0.0, 0_u32), |(sum, n), one| (sum + one.absorber, n + 1));
+        let (sum, count) =
+            chosen.fold((0.0, 0_u32), |(sum, n), one| (sum + one.absorber_amplitude, n + 1));
         (count > 0).then(|| sum / f64::from(count))
     };
-    let all = || series.iter().map(|one| one.absorber);
+    let all = || series.iter().map(|one| one.absorber_amplitude);
     AbsorberAmplitude {
         in_captures: mean(true),
         between: mean(false),
         smallest: all().reduce(f64::min).unwrap_or(0.0),
         largest: all().reduce(f64::max).unwrap_or(0.0),
         correlation_with_growth: correlation(
-            series.windows(3).map(|w| (w[1].absorber, w[2].oscillator - w[0].oscillator)),
-            series.iter().map(|one| one.oscillator).fold(0.0, f64::max),
+            series.windows(3).map(|w| {
+                (w[1].absorber_amplitude, w[2].oscillator_amplitude - w[0].oscillator_amplitude)
+            }),
+            series.iter().map(|one| one.oscillator_amplitude).fold(0.0, f64::max),
         ),
     }
 }

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::attractor::Effort;
 use super::starts::StartBox;
-use super::{Attractor, Classification, Nature, Regime, share};
+use super::{Attractor, Classification, DynamicsKind, Regime, share};
 use crate::simulation::{StartError, Stop};
 use crate::system::{State, System};
 
@@ -50,7 +50,7 @@ impl FoundAttractor {
     }
 }
 
-/// How often the window is doubled for a motion whose averages still drift or whose nature is still
+/// How often the window is doubled for a motion whose averages still drift or whose kind of dynamics is still
 /// open: an exponent's error shrinks with the window, and sixteen of them settle all but the rarest
 /// intermittency.
 const LONGEST_WAIT: u32 = 4;
@@ -130,8 +130,8 @@ fn look_longer(
     one.attractor = one.attractor.continued(system, patience, effort.measured)?;
     let mut measured = effort.measured;
     for _ in 0..LONGEST_WAIT {
-        let Classification { nature, evidence, .. } = &one.attractor.classification;
-        let open = matches!(nature, Nature::TransientNotOver | Nature::Undecided);
+        let Classification { dynamics, evidence, .. } = &one.attractor.classification;
+        let open = matches!(dynamics, DynamicsKind::TransientNotOver | DynamicsKind::Undecided);
         if one.attractor.repeats() || (evidence.settled && !open) {
             break;
         }

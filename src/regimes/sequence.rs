@@ -4,7 +4,7 @@ use std::fmt::{self, Display, Formatter};
 
 use serde::{Serialize, Serializer};
 
-use crate::numerics::necklace::canonical;
+use crate::numerics::cyclic_word::canonical;
 use crate::simulation::{Impact, Side};
 
 /// Most impacts that a sequence holds. A longer one is chattering, whose order of walls says no

@@ -72,10 +72,10 @@ mod tests {
     #[test]
     fn starts_are_inside_the_cavity_and_spread_evenly() {
         let starts: Vec<State> = (0..64).map(|k| StartBox { reach: 2.0 }.start(k)).collect();
-        assert!(starts.iter().all(|start| start.gap().abs() <= 1.0));
+        assert!(starts.iter().all(|start| start.relative_displacement().abs() <= 1.0));
         // Each half of each axis gets 32 of 64 starts; an even sequence misses by a few.
         let axes: [fn(&State) -> f64; 4] =
-            [|s| s.x, |s| s.x_velocity, State::gap, |s| s.y_velocity];
+            [|s| s.x, |s| s.x_velocity, State::relative_displacement, |s| s.y_velocity];
         for axis in axes {
             let upper = starts.iter().filter(|start| axis(start) > 0.0).count();
             assert!(upper.abs_diff(32) <= 4, "{upper}");
@@ -97,7 +97,7 @@ mod tests {
         assert_eq!(starts[0], State { x: 0.0, x_velocity: 0.0, y: 0.5, y_velocity: 0.0 });
         let sample = StartBox::around(&system);
         let steady = system.linear_response().expect("damped");
-        assert!(steady.amplitude() > 1.0 && starts[1].gap() == 0.0);
+        assert!(steady.amplitude() > 1.0 && starts[1].relative_displacement() == 0.0);
         assert_eq!(starts[1].x, steady.state(&system).x);
         assert_eq!(starts[2..], [0, 1, 2].map(|k| sample.start(k)));
         assert_eq!(of(&system, 0).count(), 1);

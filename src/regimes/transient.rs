@@ -76,7 +76,7 @@ fn decay_rate(system: &System) -> f64 {
 /// The long-term motion of an absorber at rest that no wall reaches any more, at excitation phase 0: the
 /// oscillator on its steady motion. None where the absorber moves, a wall may still reach it, or the free
 /// vibration stays.
-pub fn asleep(system: &System, state: &State) -> Option<State> {
+pub fn inactive(system: &System, state: &State) -> Option<State> {
     let linear = system.linear_response()?;
     let steady = linear.state(system);
     // The energy of a free vibration never grows.

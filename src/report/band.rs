@@ -276,7 +276,7 @@ impl Section<'_> {
             theory,
         ));
         rows.push(row("of it in strip A2 (beats)", percent(survey.strip_share(Strip::A2)), theory));
-        rows.push(row("Smallest gap to a boundary", self.gap(), "exact orbits"));
+        rows.push(row("Smallest gap to a boundary", self.relative_displacement(), "exact orbits"));
         if !motions.places.is_empty() {
             let several = self.simulated_places(|place| place.motions.len() > 1);
             rows.push(row("Several motions with impacts", several, "simulation"));
@@ -327,7 +327,7 @@ impl Section<'_> {
         table([("From", true), ("To", true), ("Area by theory", false)], rows.collect())
     }
 
-    fn gap(&self) -> String {
+    fn relative_displacement(&self) -> String {
         let (at, gap) = self.survey.smallest_gap;
         if gap > 0.0 {
             format!("{} of the clearance, at {}", percent(gap), self.place(at))

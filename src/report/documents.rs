@@ -12,12 +12,12 @@ use crate::case::{Problem, Scales};
 use crate::orbits::{
     AsymmetricOrbits, Bifurcation, Closure, FullSystem, Leading, Origin, SymmetricOrbit,
 };
-use crate::regimes::{Attractor, Energetics, Evidence, FoundAttractor, Nature, Regime};
+use crate::regimes::{Attractor, DynamicsKind, Energetics, Evidence, FoundAttractor, Regime};
 use crate::simulation::{Doubt, Energy, Stop, SustainedContact};
 use crate::study::fidelity::Answers;
 use crate::study::{LongTermMotions, Proof, SettledArea, SettledBy};
 use crate::system::{Excitation, System};
-use crate::validation::price::prices;
+use crate::validation::asymptotic_error::asymptotic_errors;
 
 /// `vinesink/analysis@1`.
 #[derive(Debug, Clone, Serialize)]
@@ -152,7 +152,7 @@ impl AnalysisDocument {
                     .iter()
                     .map(|node| SaddleNodeDocument {
                         clearance: clearance(node.forcing_over_clearance),
-                        absorber: node.absorber,
+                        absorber: node.absorber_amplitude,
                         branch: node.branch,
                     })
                     .collect(),
@@ -202,7 +202,7 @@ impl OrbitDocument {
             spectral_radius: found.multipliers.spectral_radius(),
             leading_multiplier: found.multipliers.leading(),
             admissible: found.admissibility.admissible,
-            room_over_clearance: found.admissibility.room,
+            room_over_clearance: found.admissibility.min_wall_distance,
             stable: found.attracts(),
             residual: found.convergence.residual,
             sequence: found.cycle.sequence(),
@@ -233,7 +233,7 @@ fn exact_boundaries(
 ) -> Vec<ExactBoundaryDocument> {
     let limits = exact.boundaries.iter().flat_map(|found| &found.symmetric.limits);
     let limits: Vec<_> = limits.collect();
-    prices(analysis, exact)
+    asymptotic_errors(analysis, exact)
         .into_iter()
         .map(|price| {
             let limit = limits.iter().find(|limit| Some(limit.clearance) == price.exact);
@@ -286,7 +286,7 @@ pub struct MotionDocument {
     impacts: u64,
     impacts_per_period: f64,
     regime: Regime,
-    nature: Nature,
+    dynamics: DynamicsKind,
     /// Dimensionless: per m1, lengths over the clearance, fast time.
     energetics: Energetics,
     evidence: Evidence,
@@ -445,7 +445,7 @@ impl MotionDocument {
             impacts: motion.impact_count,
             impacts_per_period: motion.classification.evidence.impacts_per_period,
             regime: motion.classification.regime,
-            nature: motion.classification.nature,
+            dynamics: motion.classification.dynamics,
             energetics: motion.energetics,
             evidence: motion.classification.evidence,
             displacement: Displacement {

@@ -105,7 +105,7 @@ fn orbit_values(case: &Case, study: &CaseStudy) -> Values {
     let curve = programs.curve(&propagator, system.excitation()).unwrap_or(propagator);
     let shown = orbits.iter().rfind(|orbit| orbit.orbit.attracts()).or_else(|| orbits.last());
     match shown {
-        Some(orbit) => programs.at_ratio(&curve, orbit.absorber).unwrap_or(curve),
+        Some(orbit) => programs.at_ratio(&curve, orbit.absorber_amplitude).unwrap_or(curve),
         None => curve,
     }
 }
@@ -136,8 +136,8 @@ fn values(case: &Case, study: &CaseStudy) -> Values {
         values = programs.at_shift(&values, point.shift).unwrap_or(values);
         values.set(Symbol::ExcitationPhase, point.eta);
         values.set(Symbol::AbsorberPhase, point.absorber_phase);
-        values.set(Symbol::OscillatorAmplitude, length(point.oscillator));
-        values.set(Symbol::AbsorberAmplitude, length(point.absorber));
+        values.set(Symbol::OscillatorAmplitude, length(point.oscillator_amplitude));
+        values.set(Symbol::AbsorberAmplitude, length(point.absorber_amplitude));
         let harmonic = equations().stated.first_harmonic.right.evaluate(&values);
         if let Ok(harmonic) = harmonic {
             values.set(Symbol::FirstHarmonic, harmonic);

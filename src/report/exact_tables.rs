@@ -7,7 +7,7 @@ use crate::analysis::{BoundaryKind, Branch};
 use crate::case::{Case, Scales};
 use crate::orbits::{Leading, SymmetricOrbit};
 use crate::study::CaseStudy;
-use crate::validation::price::counterpart;
+use crate::validation::asymptotic_error::counterpart;
 
 /// The symmetric 1:1 orbits of the full system.
 pub fn orbits(case: &Case, study: &CaseStudy) -> Table {
@@ -75,7 +75,7 @@ pub fn boundaries(case: &Case, study: &CaseStudy) -> Table {
     let length = |factor: f64| lengths.with_digits(scales.length(factor), 4);
     let none = || "\u{2013}".to_owned();
     let mut rows: Vec<(f64, [String; 6])> = study
-        .prices
+        .asymptotic_errors
         .iter()
         .map(|price| {
             let place = price.exact.or(price.theory).unwrap_or(0.0);

@@ -100,7 +100,7 @@ pub struct Tables {
     /// Every long-term motion.
     pub attractors: Table,
     /// What kind of dynamics each of them is, and what says so.
-    pub natures: Table,
+    pub dynamics: Table,
     /// Where their energy goes.
     pub energies: Table,
     /// Fixed points of the slow flow.
@@ -194,7 +194,7 @@ impl Report {
             band: band::tables(case, study),
             tables: Tables {
                 attractors: motion_tables::attractors(case, study),
-                natures: motion_tables::natures(study),
+                dynamics: motion_tables::dynamics_table(study),
                 energies: motion_tables::energies(case, study),
                 fixed_points: tables::fixed_points(case, study),
                 orbits: exact_tables::orbits(case, study),

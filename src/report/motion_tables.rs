@@ -5,7 +5,7 @@ use super::numbers::{
 };
 use super::tables::{Table, table};
 use crate::case::{Case, Scales};
-use crate::regimes::{Attractor, Exponent, FoundAttractor, Nature};
+use crate::regimes::{Attractor, DynamicsKind, Exponent, FoundAttractor};
 use crate::study::{CaseStudy, Proof};
 
 /// Every long-term motion.
@@ -75,10 +75,10 @@ pub(super) fn text_of(exponent: &Exponent) -> String {
 }
 
 /// What kind of dynamics each motion is, and what says so.
-pub fn natures(study: &CaseStudy) -> Table {
+pub fn dynamics_table(study: &CaseStudy) -> Table {
     let beside = repeats(&study.attractors);
     let rows = study.attractors.iter().zip(&study.proofs).map(|(found, proof)| {
-        let (kind, evidence) = nature(&found.attractor, proof.as_ref(), beside);
+        let (kind, evidence) = dynamics(&found.attractor, proof.as_ref(), beside);
         [found.regime().words().to_owned(), kind, evidence]
     });
     table([("Motion", false), ("Nature", false), ("Evidence", false)], rows.collect())
@@ -90,7 +90,7 @@ pub(super) fn repeats(found: &[FoundAttractor]) -> bool {
 }
 
 /// What kind of dynamics, and what says so; `beside` says whether another motion repeats.
-pub(super) fn nature(
+pub(super) fn dynamics(
     attractor: &Attractor,
     proof: Option<&Proof>,
     beside: bool,
@@ -114,8 +114,8 @@ pub(super) fn nature(
         let all = unsettled.into_iter().chain(exponent).chain(captured);
         all.collect::<Vec<_>>().join("; ")
     };
-    match attractor.classification.nature {
-        Nature::Periodic { periods, .. } => {
+    match attractor.classification.dynamics {
+        DynamicsKind::Periodic { periods, .. } => {
             let every = match periods {
                 1 => "periodic, every period".into(),
                 more => format!("periodic, every {more} periods"),
@@ -133,7 +133,7 @@ pub(super) fn nature(
             };
             (every, proven)
         }
-        Nature::AtRest => {
+        DynamicsKind::AtRest => {
             let depends = if attractor.keeps_its_start() {
                 "; undamped, so its peak depends on the start"
             } else {
@@ -141,8 +141,8 @@ pub(super) fn nature(
             };
             ("at rest".into(), format!("no impact in {} periods{depends}", attractor.periods))
         }
-        Nature::TransientNotOver => ("transient not over".into(), measured()),
-        Nature::Chaotic if beside => {
+        DynamicsKind::TransientNotOver => ("transient not over".into(), measured()),
+        DynamicsKind::Chaotic if beside => {
             (format!("chaotic for {} periods, perhaps a transient", attractor.followed), measured())
         }
         other => (other.words().to_owned(), measured()),

@@ -79,7 +79,7 @@ pub fn notes(case: &Case, study: &CaseStudy) -> Vec<Note> {
             "validity",
             format!(
                 "The fixed point at B/b = {} is not a motion: the absorber would reach {} times the clearance between impacts.",
-                significant(point.absorber, 3),
+                significant(point.absorber_amplitude, 3),
                 significant(point.largest_relative_displacement, 3)
             ),
         );

@@ -10,7 +10,7 @@ use crate::case::Case;
 use crate::orbits::{Bifurcation, FullSystem};
 use crate::regimes::Attractor;
 use crate::study::{LongTermMotions, Proof, SettledArea, SettledBy};
-use crate::validation::price::prices;
+use crate::validation::asymptotic_error::asymptotic_errors;
 
 /// What the theory and the exact orbits say of a case.
 pub fn analysis(case: &Case, analysis: &Analysis, exact: &FullSystem, area: SettledArea) -> String {
@@ -36,10 +36,10 @@ pub fn analysis(case: &Case, analysis: &Analysis, exact: &FullSystem, area: Sett
     let _ = writeln!(
         text,
         "Slow invariant manifold: fold at B = {}, C = {}; symmetry breaking at B = {}, C = {}",
-        length(manifold.fold.absorber),
-        length(manifold.fold.oscillator),
-        length(manifold.symmetry_breaking.absorber),
-        length(manifold.symmetry_breaking.oscillator),
+        length(manifold.fold.absorber_amplitude),
+        length(manifold.fold.oscillator_amplitude),
+        length(manifold.symmetry_breaking.absorber_amplitude),
+        length(manifold.symmetry_breaking.oscillator_amplitude),
     );
     text.push_str(
         "\nFixed points of the slow flow (1:1 resonance, leading order in the mass ratio)\n",
@@ -51,8 +51,8 @@ pub fn analysis(case: &Case, analysis: &Analysis, exact: &FullSystem, area: Sett
         let _ = writeln!(
             text,
             "  C = {}, B = {}, eta = {} rad: {} on the {} branch, {}{}",
-            length(point.oscillator),
-            length(point.absorber),
+            length(point.oscillator_amplitude),
+            length(point.absorber_amplitude),
             fixed(point.eta, 3),
             point.kind.words(),
             point.branch.words(),
@@ -90,7 +90,7 @@ pub fn analysis(case: &Case, analysis: &Analysis, exact: &FullSystem, area: Sett
         );
     }
     text.push_str("\nBoundaries at this frequency and forcing, as clearances: theory, exact\n");
-    for price in prices(analysis, exact) {
+    for price in asymptotic_errors(analysis, exact) {
         let shown = |at: Option<f64>| at.map_or_else(|| "none".into(), length);
         let _ = writeln!(
             text,
@@ -155,8 +155,8 @@ pub fn simulation(case: &Case, motion: &Attractor, found: Option<&LongTermMotion
     );
     let proof = Proof::of(&case.system(), motion);
     let beside = found.is_some_and(|found| motion_tables::repeats(&found.attractors));
-    let (nature, reason) = motion_tables::nature(motion, proof.as_ref(), beside);
-    let _ = writeln!(text, "  {nature}; {reason}");
+    let (dynamics, reason) = motion_tables::dynamics(motion, proof.as_ref(), beside);
+    let _ = writeln!(text, "  {dynamics}; {reason}");
     let _ = writeln!(
         text,
         "  modulation depth {}, captured in 1:1 resonance {} of the time",
@@ -175,10 +175,11 @@ pub fn simulation(case: &Case, motion: &Attractor, found: Option<&LongTermMotion
     if let Some(found) = found {
         text.push_str("\nLong-term motions found, by share of starts\n");
         for (one, proof) in found.attractors.iter().zip(&found.proofs) {
-            let (nature, reason) = motion_tables::nature(&one.attractor, proof.as_ref(), beside);
+            let (dynamics, reason) =
+                motion_tables::dynamics(&one.attractor, proof.as_ref(), beside);
             let _ = writeln!(
                 text,
-                "  {:>5}  {}, peak {}\n         {nature}; {reason}",
+                "  {:>5}  {}, peak {}\n         {dynamics}; {reason}",
                 percent(one.share),
                 one.regime().words(),
                 motion_tables::peak(&one.attractor, &scales),

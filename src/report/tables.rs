@@ -125,7 +125,7 @@ pub fn key_rows(case: &Case, study: &CaseStudy) -> Vec<KeyRow> {
     if let Some(point) = study.analysis.stable_points().last() {
         rows.push(row(
             "Amplitude C of the stable fixed point",
-            length(point.oscillator),
+            length(point.oscillator_amplitude),
             "slow flow, (18)",
             "theory",
         ));
@@ -227,8 +227,8 @@ pub fn fixed_points(case: &Case, study: &CaseStudy) -> Table {
     let lengths = LengthFormat::of(&scales);
     let rows = study.analysis.fixed_points.iter().map(|point| {
         [
-            lengths.with_digits(scales.length(point.oscillator), 4),
-            lengths.with_digits(scales.length(point.absorber), 4),
+            lengths.with_digits(scales.length(point.oscillator_amplitude), 4),
+            lengths.with_digits(scales.length(point.absorber_amplitude), 4),
             format!("{} rad", fixed(point.eta, 3)),
             point.branch.words().to_owned(),
             format!(

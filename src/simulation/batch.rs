@@ -225,8 +225,8 @@ impl<S: Simd> Lanes<S> {
         let mut again = 0;
         for lane in (0..LANES).filter(|lane| lanes >> lane & 1 == 1) {
             let Some(index) = self.task[lane] else { continue };
-            queue.tasks[index].simulation.stand(&self.moment(lane));
-            if self.go_on(lane, true, queue) {
+            queue.tasks[index].simulation.resume(&self.moment(lane));
+            if self.step(lane, true, queue) {
                 again |= 1 << lane;
             }
         }
@@ -234,7 +234,7 @@ impl<S: Simd> Lanes<S> {
     }
 
     /// After its trajectory was set to where it stands; whether the lane flies again.
-    fn go_on<O: Observer>(&mut self, lane: usize, doubt: bool, queue: &mut Queue<'_, O>) -> bool {
+    fn step<O: Observer>(&mut self, lane: usize, doubt: bool, queue: &mut Queue<'_, O>) -> bool {
         let Some(index) = self.task[lane] else { return false };
         match queue.tasks[index].alone(doubt) {
             Some(moment) => {
@@ -376,7 +376,7 @@ fn tightened<S: Simd>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::simulation::{Impact, ImpactLog, Nobody};
+    use crate::simulation::{Impact, ImpactLog};
     use crate::system::{Excitation, Parameters, System};
 
     fn simulations() -> Vec<Simulation> {
@@ -412,7 +412,7 @@ mod tests {
             );
             for simulation in &mut alone {
                 *simulation = simulation.clone().at_level(level);
-                simulation.run(60, u64::MAX, &mut Nobody);
+                simulation.run(60, u64::MAX, &mut ());
             }
             let states = |all: Vec<Simulation>| all.iter().map(Simulation::state).collect();
             let impacts: Vec<Vec<Impact>> = logs.into_iter().map(|log| log.impacts).collect();

@@ -134,8 +134,7 @@ pub trait Observer {
 }
 
 /// An observer that ignores everything: for transients.
-pub struct Nobody;
-impl Observer for Nobody {
+impl Observer for () {
     const SEGMENTS: bool = false;
 }
 

@@ -8,8 +8,8 @@
 //! steady motion would dwarf the real one; then it is the response from rest, whose formula has no
 //! small denominator. Valid for every finite parameter set.
 
+use crate::operation_count;
 use crate::system::System;
-use crate::tally;
 
 /// Gain of the steady motion over the excitation above which the response from rest replaces it:
 /// four digits are the most that the subtraction of the two large parts may cost.
@@ -230,7 +230,7 @@ impl Motion {
     /// place of the larger of the free and the forced part.
     pub fn at(&self, s: f64) -> Kinematics {
         // A sine, a cosine and an exponential of the free part, a sine and a cosine of the other.
-        tally::note(5 * tally::ELEMENTARY + 28);
+        operation_count::note(5 * operation_count::ELEMENTARY + 28);
         let o = &self.oscillator;
         let propagator = o.propagator(s);
         let free = propagator.carry(o, self.free_x, self.free_v);

@@ -11,8 +11,8 @@ use super::events::{Absorber, Segment};
 use super::flow::{Oscillator, mean_of_exponential};
 use super::peaks::{self, Moment};
 use super::phasor::{Rates, Steady};
+use crate::operation_count;
 use crate::system::System;
-use crate::tally;
 
 type Phasor = Complex<f64>;
 
@@ -119,7 +119,7 @@ impl Integrator {
             Absorber::Carried(_) => self.carrying?,
         };
         // Both phasors' ends, two means, five integrals and their sums.
-        tally::note(5 * tally::ELEMENTARY + 300);
+        operation_count::note(5 * operation_count::ELEMENTARY + 300);
         let (duration, frequency) = (segment.duration, self.frequency);
         let begin = self.excitation(segment.phase);
         let end = self.excitation(segment.phase + frequency * duration);

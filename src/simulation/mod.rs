@@ -23,9 +23,9 @@ pub mod trust;
 mod walls;
 
 pub use contact::ContactTolerance;
-pub use events::{Absorber, Impact, Nobody, Observer, Segment, Side, StartError};
+pub use events::{Absorber, Impact, Observer, Segment, Side, StartError};
 pub use history::{ImpactLog, Trace, TracePoint};
 pub use run::{Simulation, Stop};
-pub use statistics::{Energy, Gauge, PeriodRecord, Statistics, SustainedContact};
+pub use statistics::{Energy, ImpactStatistics, PeriodRecord, Statistics, SustainedContact};
 pub use tangent::Tangent;
 pub use trust::{Doubt, doubts};

@@ -52,7 +52,7 @@ impl Limits {
 
 /// Why flights ended.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Pause {
+pub(super) enum FlightEnd {
     /// A limit was reached.
     Limit,
     /// Nothing is proven about the next flight: the slow search must fly it.
@@ -69,8 +69,8 @@ impl Simulation {
         from: Moment,
         limits: Limits,
         observer: &mut O,
-    ) -> (Moment, Pause) {
-        let Some(rates) = self.rates() else { return (from, Pause::Doubt) };
+    ) -> (Moment, FlightEnd) {
+        let Some(rates) = self.rates() else { return (from, FlightEnd::Doubt) };
         let system = self.system();
         let r = system.restitution();
         let sticking = Sticking {
@@ -109,7 +109,7 @@ impl Flights<'_> {
         simd: S,
         from: Moment,
         observer: &mut O,
-    ) -> (Moment, Pause) {
+    ) -> (Moment, FlightEnd) {
         let rates = self.rates;
         let mut at = from;
         // What has just been thrown back leaves its wall.
@@ -118,21 +118,21 @@ impl Flights<'_> {
             let Moment { state: State { x, x_velocity: v, y, y_velocity }, steady, .. } = at;
             let line = Line { y, velocity: y_velocity };
             if !leaves && walls::blocked(x, v, line) {
-                return (at, Pause::Doubt);
+                return (at, FlightEnd::Doubt);
             }
             let (here, slack) = rates.begin(x, v, steady, line);
             if rates.short(&here) {
-                return (at, Pause::Doubt);
+                return (at, FlightEnd::Doubt);
             }
             let left = rates.left(at.phase);
             let Some(landing) = rates.fly(simd, here, slack, line, left, &mut at.evaluations)
             else {
-                return (at, Pause::Doubt);
+                return (at, FlightEnd::Doubt);
             };
             let Landing { wall, time, x, v, steady } = landing;
             let y = y + y_velocity * time;
             if !(x.abs() <= f64::MAX && y.abs() <= f64::MAX) {
-                return (at, Pause::Doubt);
+                return (at, FlightEnd::Doubt);
             }
             if O::SEGMENTS && time > 0.0 && observer.flights() {
                 observer.segment(&self.simulation.flown(&at, time));
@@ -144,7 +144,7 @@ impl Flights<'_> {
                 observer.period(&before);
                 leaves = false;
                 if self.limits.reached(&at) {
-                    return (at, Pause::Limit);
+                    return (at, FlightEnd::Limit);
                 }
                 continue;
             };
@@ -156,11 +156,11 @@ impl Flights<'_> {
             let State { x, x_velocity: v, y, y_velocity } = at.state;
             let line = Line { y, velocity: y_velocity };
             if walls::may_stick(x, v, line, side.sign(), &self.sticking) {
-                return (at, Pause::MayStick(side));
+                return (at, FlightEnd::MayStick(side));
             }
             leaves = true;
             if self.limits.reached(&at) {
-                return (at, Pause::Limit);
+                return (at, FlightEnd::Limit);
             }
         }
     }

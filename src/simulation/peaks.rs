@@ -8,7 +8,7 @@ use super::certificate::{Quintic, Slack};
 use super::phasor::{At, Line, Rates, Steady};
 use super::run::PANEL;
 use crate::numerics::lanes::{LANES, Mask, Real, Wide};
-use crate::tally;
+use crate::operation_count;
 
 /// The oscillator at one moment.
 #[derive(Debug, Clone, Copy)]
@@ -29,7 +29,7 @@ pub(super) struct Flight {
 /// That of one flight, whose end is not at hand.
 pub(super) fn alone(rates: &Rates<f64>, begin: &Moment<f64>, duration: f64) -> f64 {
     let panels = (duration / rates.step).ceil().max(1.0);
-    tally::note(PANEL * panels as u64);
+    operation_count::note(PANEL * panels as u64);
     dispatch!(Level::baseline(), simd => highest(simd, rates, begin, duration, None))
 }
 

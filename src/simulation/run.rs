@@ -9,9 +9,9 @@ use fearless_simd::Level;
 use serde::Serialize;
 
 use super::contact::{AtWall, ContactTolerance, Rebound, rebound};
-use super::events::{Absorber, Impact, Nobody, Observer, Segment, Side, StartError};
+use super::events::{Absorber, Impact, Observer, Segment, Side, StartError};
 use super::flow::{Kinematics, Motion, Oscillator};
-use super::panels::{Limits, Pause};
+use super::panels::{FlightEnd, Limits};
 use super::phasor::{Line, Rates, Steady};
 use super::walls::{self, TOUCH_ULPS, inverse_loss};
 use crate::numerics::crossing::{Band, Curve, Edge, Sample, Search, first_crossing};
@@ -105,8 +105,10 @@ impl Simulation {
         if numbers.iter().any(|number| !number.is_finite()) {
             return Err(StartError::NotFinite { state: start });
         }
-        if start.gap().abs() > 1.0 + TOUCH_ULPS * f64::EPSILON * (1.0 + start.x.abs()) {
-            return Err(StartError::OutsideCavity { gap: start.gap() });
+        if start.relative_displacement().abs()
+            > 1.0 + TOUCH_ULPS * f64::EPSILON * (1.0 + start.x.abs())
+        {
+            return Err(StartError::OutsideCavity { gap: start.relative_displacement() });
         }
         let mut simulation = Self {
             system: *system,
@@ -124,10 +126,10 @@ impl Simulation {
             evaluations: 0,
         };
         // A start on a wall, without relative velocity, is sustained contact if the wall pushes.
-        let touching = 1.0 - start.gap().abs() <= simulation.touch();
+        let touching = 1.0 - start.relative_displacement().abs() <= simulation.touch();
         if touching && start.x_velocity == start.y_velocity {
-            let side = if start.gap() > 0.0 { Side::Plus } else { Side::Minus };
-            simulation.perhaps_stick(side, &mut Nobody);
+            let side = if start.relative_displacement() > 0.0 { Side::Plus } else { Side::Minus };
+            simulation.perhaps_stick(side, &mut ());
         }
         Ok(simulation)
     }
@@ -171,7 +173,7 @@ impl Simulation {
         self.evaluations
     }
 
-    /// What flights and impacts have cost so far, in operations as [`crate::tally`] counts them;
+    /// What flights and impacts have cost so far, in operations as [`crate::operation_count`] counts them;
     /// what observers do is not in it.
     pub fn operations(&self) -> u64 {
         PANEL * self.evaluations + FLIGHT * (self.impacts + self.turns)
@@ -190,14 +192,14 @@ impl Simulation {
             if let Some(stop) = limits.stop(self) {
                 return stop;
             }
-            if let Err(stop) = self.go_on(limits, observer) {
+            if let Err(stop) = self.step(limits, observer) {
                 return stop;
             }
         }
     }
 
     /// Continues by one impact, release or end of a period, or several within the limits.
-    pub(super) fn go_on<O: Observer>(
+    pub(super) fn step<O: Observer>(
         &mut self,
         limits: Limits,
         observer: &mut O,
@@ -207,11 +209,11 @@ impl Simulation {
         }
         let Some(departure) = self.departure() else { return self.fly_step_by_step(observer) };
         let (moment, pause) = self.fly_in_panels(self.level, departure, limits, observer);
-        self.stand(&moment);
+        self.resume(&moment);
         match pause {
-            Pause::Limit => {}
-            Pause::MayStick(side) => self.perhaps_stick(side, observer),
-            Pause::Doubt => self.fly_step_by_step(observer)?,
+            FlightEnd::Limit => {}
+            FlightEnd::MayStick(side) => self.perhaps_stick(side, observer),
+            FlightEnd::Doubt => self.fly_step_by_step(observer)?,
         }
         Ok(())
     }
@@ -245,7 +247,7 @@ impl Simulation {
     }
 
     /// Puts it where a flight elsewhere has brought it.
-    pub(super) fn stand(&mut self, at: &Moment) {
+    pub(super) fn resume(&mut self, at: &Moment) {
         let Moment { state, steady, phase, turns, impacts, evaluations } = *at;
         (self.state, self.steady) = (state, Some(steady));
         (self.phase, self.mode) = (phase, Mode::Flight);
@@ -347,7 +349,7 @@ impl Simulation {
     /// closing acceleration `a <= 0` the gap stays open for `3 |a| / jerk bound`, and with `a = 0`
     /// and closing jerk `j < 0` for `4 |j| / snap bound`.
     fn tangential_start(&self, motion: &Motion, touch: f64) -> f64 {
-        let gap = self.state.gap();
+        let gap = self.state.relative_displacement();
         let at = Kinematics { x: self.state.x, v: self.state.x_velocity };
         if self.state.x_velocity != self.state.y_velocity || 1.0 - gap.abs() > touch {
             return 0.0;
@@ -425,7 +427,7 @@ impl Simulation {
             y_velocity_before: before.y_velocity,
             y_velocity_after: after.y_velocity,
             loss: after.loss,
-            penetration: (before.gap().abs() - 1.0).max(0.0),
+            penetration: (before.relative_displacement().abs() - 1.0).max(0.0),
         }
     }
 

@@ -4,7 +4,7 @@
 //! stored energy, in closed form where the oscillator rings and else by quadrature that is exact to
 //! rounding, so that the balance is a check and not an identity.
 
-mod gauge;
+mod impact_statistics;
 
 use std::f64::consts::FRAC_PI_4;
 
@@ -15,10 +15,10 @@ use super::integrals::{Integrals, Integrator};
 use crate::numerics::bracket::brent;
 use crate::numerics::quadrature;
 use crate::numerics::scatter::{error_of_largest, twice_standard_error};
+use crate::operation_count;
 use crate::system::{State, System};
-use crate::tally;
 
-pub use gauge::Gauge;
+pub use impact_statistics::ImpactStatistics;
 
 /// Energy balance over a window, per unit of the oscillator's mass, over the squared clearance.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -309,7 +309,7 @@ impl Statistics {
         let mut sums = [0.0; 7];
         quadrature::graded_nodes(segment.duration, self.first_panel, self.panel, |s, weight| {
             let State { x, x_velocity, y, .. } = segment.at(s);
-            tally::note(2 * tally::ELEMENTARY + 30);
+            operation_count::note(2 * operation_count::ELEMENTARY + 30);
             let (sin, cos) = libm::sincos(segment.phase + omega * s);
             let force = sine * sin + cosine * cos;
             let terms = [

@@ -195,11 +195,15 @@ mod tests {
         });
         assert!(same(kept(struck.change), kept(change)), "{struck:?}");
         // The gap's change is reversed and shrinks by r.
-        assert!((struck.change.gap() + 0.6 * change.gap()).abs() < 1e-14, "{struck:?}");
+        assert!(
+            (struck.change.relative_displacement() + 0.6 * change.relative_displacement()).abs()
+                < 1e-14,
+            "{struck:?}"
+        );
         let mut stuck = Tangent::begin(&system, change);
         stuck.sticks(0.0);
         assert!(same(kept(stuck.change), kept(change)), "{stuck:?}");
-        assert_eq!(stuck.change.gap(), 0.0);
+        assert_eq!(stuck.change.relative_displacement(), 0.0);
         assert_eq!(stuck.change.x_velocity, stuck.change.y_velocity);
     }
 }

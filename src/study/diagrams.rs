@@ -7,8 +7,8 @@ use crate::orbits::{
     Bifurcation, Closure, FullSystem, ImpactMap, Origin, StableStretch, symmetric_orbits,
 };
 use crate::regimes::attractor::Effort;
-use crate::regimes::diagram::{DiagramPoint, Way, sweep};
-use crate::regimes::{Nature, Regime};
+use crate::regimes::diagram::{DiagramPoint, SweepDirection, sweep};
+use crate::regimes::{DynamicsKind, Regime};
 use crate::system::{Parameter, State, System};
 
 use super::StudyError;
@@ -122,7 +122,7 @@ impl Diagram {
     }
 
     /// The points of one way, by ascending value.
-    pub fn way(&self, way: Way) -> Vec<&DiagramPoint> {
+    pub fn way(&self, way: SweepDirection) -> Vec<&DiagramPoint> {
         one_way(&self.points, way)
     }
 }
@@ -210,7 +210,7 @@ fn agreement(
 ) -> Option<Agreement> {
     let mut found = Agreement { compared: 0, without_orbit: 0, largest: 0.0, at: f64::NAN };
     for point in points {
-        let Nature::Periodic { impacts, periods: 1 } = point.nature else { continue };
+        let DynamicsKind::Periodic { impacts, periods: 1 } = point.dynamics else { continue };
         let Ok(there) = parameter.applied(base, point.value) else { continue };
         let Ok(map) = ImpactMap::of(&there) else { continue };
         let unit = parameter.unit(point.value);
@@ -238,14 +238,14 @@ fn agreement(
     (found.compared > 0).then_some(found)
 }
 
-fn one_way(points: &[DiagramPoint], way: Way) -> Vec<&DiagramPoint> {
+fn one_way(points: &[DiagramPoint], way: SweepDirection) -> Vec<&DiagramPoint> {
     let mut chosen: Vec<&DiagramPoint> = points.iter().filter(|point| point.way == way).collect();
     chosen.sort_by(|a, b| a.value.total_cmp(&b.value));
     chosen
 }
 
 fn hysteresis(points: &[DiagramPoint]) -> Vec<Hysteresis> {
-    let (up, down) = (one_way(points, Way::Up), one_way(points, Way::Down));
+    let (up, down) = (one_way(points, SweepDirection::Up), one_way(points, SweepDirection::Down));
     let pairs: Vec<[&DiagramPoint; 2]> = up.into_iter().zip(down).map(|(a, b)| [a, b]).collect();
     let runs = pairs.chunk_by(|a, b| differ(*a) == differ(*b));
     let runs = runs.filter(|run| differ(run[0]) && run.len() >= SHORTEST);
@@ -262,7 +262,7 @@ fn hysteresis(points: &[DiagramPoint]) -> Vec<Hysteresis> {
 
 /// Whether two motions at one value are not the same.
 fn differ([up, down]: [&DiagramPoint; 2]) -> bool {
-    let repeats = |point: &DiagramPoint| matches!(point.nature, Nature::Periodic { .. });
+    let repeats = |point: &DiagramPoint| matches!(point.dynamics, DynamicsKind::Periodic { .. });
     let limit = if repeats(up) || repeats(down) { SAME_PERIODIC } else { SAME_MODULATED };
     let [a, b] = [up, down].map(|point| {
         let peaks = &point.period_peaks;

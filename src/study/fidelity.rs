@@ -11,11 +11,11 @@ use super::tradeoff::{Answer, Method};
 use super::{LongTermMotions, StudyError, main_attractor};
 use crate::analysis::Analysis;
 use crate::case::AccuracySettings;
+use crate::operation_count;
 use crate::regimes::{FoundAttractor, Regime};
 use crate::simulation::{Doubt, Simulation};
 use crate::study::Proof;
 use crate::system::{State, System};
-use crate::tally;
 use crate::validation::tolerance::asymptotic_error;
 
 /// A layer that can answer, by rising cost of what it can be trusted with.
@@ -43,7 +43,7 @@ impl Fidelity {
 
 /// How exact the answers must be.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Demand {
+pub struct AccuracyTarget {
     /// Largest relative error of the root mean square displacement.
     pub amplitude: f64,
     /// Largest error of the impacts per period.
@@ -52,7 +52,7 @@ pub struct Demand {
     pub coexistence: bool,
 }
 
-impl Default for Demand {
+impl Default for AccuracyTarget {
     /// A per cent of the amplitude, which is what clearances and restitution are known to; and impacts
     /// as exactly as regimes are told apart.
     fn default() -> Self {
@@ -60,7 +60,7 @@ impl Default for Demand {
     }
 }
 
-impl Demand {
+impl AccuracyTarget {
     /// What a case asks for.
     pub fn of(settings: &AccuracySettings) -> Self {
         let usual = Self::default();
@@ -131,7 +131,7 @@ pub struct Plan {
     /// The system.
     pub system: System,
     /// What was asked for.
-    pub demand: Demand,
+    pub demand: AccuracyTarget,
     /// The layer that was insisted on.
     pub forced: Option<Fidelity>,
     /// The layer that answers amplitude, impacts and regime.
@@ -146,7 +146,7 @@ pub struct Plan {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Answers {
     /// What was asked for.
-    pub demand: Demand,
+    pub demand: AccuracyTarget,
     /// The layer that was insisted on, if one was.
     pub forced: Option<Fidelity>,
     /// One for each question.
@@ -197,7 +197,7 @@ impl Plan {
     /// has no answer.
     pub fn of(
         system: &System,
-        demand: Demand,
+        demand: AccuracyTarget,
         forced: Option<Fidelity>,
     ) -> Result<Self, StudyError> {
         // None of these simulates, so none of them has a start.
@@ -259,7 +259,8 @@ impl Plan {
         let mut cost = simulated.map(|simulated| simulated.operations);
         let mut answers = match (self.layer, simulated) {
             (Fidelity::Simulation, Some(simulated)) => {
-                let (answers, further) = tally::counted(|| self.by_simulation(&simulated));
+                let (answers, further) =
+                    operation_count::counted(|| self.by_simulation(&simulated));
                 cost = cost.map(|cost| cost + further);
                 answers?
             }
@@ -356,7 +357,7 @@ impl Plan {
         loop {
             let before = simulation.operations();
             let answer = measured(&mut simulation, periods).ok_or(StudyError::NoMotion)?;
-            tally::note(simulation.operations() - before);
+            operation_count::note(simulation.operations() - before);
             let within = |scatter: Option<f64>, allowed: f64| scatter.is_some_and(|s| s <= allowed);
             let enough = within(answer.scatter, self.demand.amplitude)
                 && within(answer.impacts_scatter, self.demand.impacts_per_period);
@@ -444,6 +445,6 @@ pub fn counted_motions(
     progress: &mut dyn FnMut(u64),
 ) -> Result<(LongTermMotions, u64), StudyError> {
     let (found, operations) =
-        tally::counted(|| super::long_term_motions(analysis, effort, progress));
+        operation_count::counted(|| super::long_term_motions(analysis, effort, progress));
     Ok((found?, operations))
 }

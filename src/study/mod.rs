@@ -24,8 +24,8 @@ use crate::regimes::search::{self, SearchEffort};
 use crate::regimes::{Attractor, FoundAttractor, Regime, Transient};
 use crate::simulation::StartError;
 use crate::system::{State, System};
-use crate::validation::price::prices;
-use crate::validation::{self, Claim, Price};
+use crate::validation::asymptotic_error::asymptotic_errors;
+use crate::validation::{self, AsymptoticError, Claim};
 
 pub use confirmations::Confirmations;
 pub use margins::Margins;
@@ -128,14 +128,14 @@ pub struct CaseStudy {
     /// The exact layer: symmetric orbits and the boundaries around them.
     pub exact: FullSystem,
     /// The theory's boundaries beside the exact ones.
-    pub prices: Vec<Price>,
+    pub asymptotic_errors: Vec<AsymptoticError>,
     /// Distances to the nearest boundaries.
     pub margins: Margins,
     /// What simulation says of them.
     pub confirmations: Confirmations,
     /// How thoroughly.
     pub effort: StudyEffort,
-    /// What finding the attractors has cost, in operations as [`crate::tally`] counts them.
+    /// What finding the attractors has cost, in operations as [`crate::operation_count`] counts them.
     #[serde(skip)]
     pub motions_cost: u64,
     /// What is known along the case's band; none without one.
@@ -193,7 +193,7 @@ impl CaseStudy {
         let exact = FullSystem::of(system);
         let area = settle_area(&analysis, &exact)?;
         let claims = validation::confront(&analysis, &exact, &attractors, &effort.each(system))?;
-        let prices = prices(&analysis, &exact);
+        let asymptotic_errors = asymptotic_errors(&analysis, &exact);
         let margins = Margins::of(&analysis, &exact)?;
         let confirmations = Confirmations::of(&exact, &margins)?;
         Ok(Self {
@@ -202,7 +202,7 @@ impl CaseStudy {
             proofs,
             claims,
             exact,
-            prices,
+            asymptotic_errors,
             margins,
             confirmations,
             effort: StudyEffort { discard: Some(effort.left_out(system)), ..effort },
@@ -226,7 +226,7 @@ impl CaseStudy {
             attractors: Vec::new(),
             proofs: Vec::new(),
             claims: validation::confront_theory(&analysis, &exact),
-            prices: prices(&analysis, &exact),
+            asymptotic_errors: asymptotic_errors(&analysis, &exact),
             margins: Margins::of(&analysis, &exact)?,
             confirmations: Confirmations::none(),
             effort,
@@ -303,7 +303,7 @@ pub fn long_term_motions(
 fn predicted_starts(analysis: &Analysis) -> Vec<State> {
     let system = &analysis.system;
     let rest = system.linear_response().map(|linear| linear.state(system));
-    let rest = rest.filter(|state| state.gap().abs() < 1.0);
+    let rest = rest.filter(|state| state.relative_displacement().abs() < 1.0);
     analysis.fixed_points.iter().map(|point| state_of(point, system)).chain(rest).collect()
 }
 

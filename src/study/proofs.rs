@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use crate::orbits::newton::solve;
 use crate::orbits::{AfterImpact, Closure, Cycle, Measures, Orbit, Origin, Wall};
-use crate::regimes::{Attractor, FoundAttractor, Nature};
+use crate::regimes::{Attractor, DynamicsKind, FoundAttractor};
 use crate::simulation::{Impact, Side};
 use crate::system::System;
 
@@ -76,7 +76,7 @@ impl LongTermMotions {
             let proof = Proof::of(system, &one.attractor);
             if let Some(proof) = &proof {
                 // What is proven stands above what was seen.
-                one.attractor.classification.nature = proof.nature();
+                one.attractor.classification.dynamics = proof.dynamics();
             }
             let known = motions.proofs.iter().position(|known| match (known, &proof) {
                 (Some(known), Some(proof)) => {
@@ -97,10 +97,10 @@ impl LongTermMotions {
 }
 
 impl Proof {
-    fn nature(&self) -> Nature {
+    fn dynamics(&self) -> DynamicsKind {
         let cycle = &self.orbit.cycle;
         let impacts = u32::try_from(cycle.impact_count()).unwrap_or(u32::MAX);
-        Nature::Periodic { impacts, periods: cycle.periods() }
+        DynamicsKind::Periodic { impacts, periods: cycle.periods() }
     }
 }
 

@@ -151,7 +151,7 @@ fn amplitudes(system: &System, reached: &Attractor) -> [f64; 2] {
         matches!(reached.classification.regime, Regime::StronglyModulated | Regime::BelowTwo);
     if !wanders || reached.impacts.is_empty() {
         let seen = read_off(system, reached.oscillator_harmonic, reached.absorber_harmonic);
-        return [seen.absorber, seen.oscillator];
+        return [seen.absorber_amplitude, seen.oscillator_amplitude];
     }
     let mut mean = [0.0; 2];
     for impact in &reached.impacts {

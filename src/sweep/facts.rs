@@ -77,7 +77,7 @@ fn zone(system: &System) -> Zone {
 fn smallest_stable((system, manifold): (&System, &Manifold)) -> Option<f64> {
     let points = fixed_points::solve(system, manifold).ok()?;
     let stable = points.iter().filter(|point| point.stable && point.admissible);
-    stable.map(|point| point.oscillator).min_by(f64::total_cmp)
+    stable.map(|point| point.oscillator_amplitude).min_by(f64::total_cmp)
 }
 
 /// Relative distance from a boundary to where it is looked whether the area there is another.

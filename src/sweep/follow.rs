@@ -106,7 +106,7 @@ mod tests {
         let axes = [(SweepParameter::InitialDisplacement, 2e-3), (SweepParameter::Clearance, 0.02)];
         let found = start(axes.into_iter(), &scales(0.02)).expect("an axis says");
         assert!((found.x - 0.1).abs() < 1e-15 && found.x_velocity == 0.0);
-        assert!((found.gap() + FROM_REST.y).abs() < 1e-15, "{found:?}");
+        assert!((found.relative_displacement() + FROM_REST.y).abs() < 1e-15, "{found:?}");
         let axes = [
             (SweepParameter::InitialVelocity, 5e-3),
             (SweepParameter::InitialAbsorberDisplacement, -4e-3),

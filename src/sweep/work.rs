@@ -85,7 +85,7 @@ fn simulated(plan: &Plan, points: &[Point]) -> Result<Vec<Vec<Found>>, StartErro
 
 /// The system of a point whose start, if an axis says one, is possible.
 fn startable(point: &Point) -> Option<System> {
-    let inside = point.start.is_none_or(|start| start.gap().abs() <= 1.0);
+    let inside = point.start.is_none_or(|start| start.relative_displacement().abs() <= 1.0);
     point.system.filter(|_| inside)
 }
 

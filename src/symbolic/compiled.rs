@@ -7,7 +7,7 @@
 use super::evaluate::{Machine, apply, perform};
 use super::expr::Function;
 use super::{Expr, MissingValue, Symbol, Values};
-use crate::tally;
+use crate::operation_count;
 use std::collections::HashMap;
 use std::convert::Infallible;
 
@@ -30,7 +30,7 @@ impl Step {
             Self::Number(_) | Self::Symbol(_) => 0,
             Self::Add(..) | Self::Multiply(..) | Self::Divide(..) => 1,
             Self::Function(Function::Sqrt, _) => 1,
-            Self::Function(Function::Sin | Function::Cos, _) => tally::ELEMENTARY,
+            Self::Function(Function::Sin | Function::Cos, _) => operation_count::ELEMENTARY,
         }
     }
 }
@@ -40,7 +40,7 @@ impl Step {
 pub struct Compiled<const N: usize> {
     steps: Vec<Step>,
     results: [u16; N],
-    /// Operations of one evaluation, as [`crate::tally`] counts them.
+    /// Operations of one evaluation, as [`crate::operation_count`] counts them.
     cost: u64,
 }
 
@@ -70,7 +70,7 @@ impl<const N: usize> Compiled<N> {
     /// # Errors
     /// If a symbol has no value; the error names it.
     pub fn evaluate(&self, values: &Values) -> Result<[f64; N], MissingValue> {
-        tally::note(self.cost);
+        operation_count::note(self.cost);
         let mut slots = [0.0; CAPACITY];
         let at = |slots: &[f64; CAPACITY], place: u16| slots[usize::from(place) % CAPACITY];
         for (place, step) in self.steps.iter().enumerate() {

@@ -1,6 +1,6 @@
 //! Claims about the boundaries around the case: where they lie.
 
-use super::price::{Price, prices};
+use super::asymptotic_error::{AsymptoticError, asymptotic_errors};
 use super::tolerance::{Tolerance, asymptotic_error, beyond};
 use super::{Check, Claim, Finding, Measure};
 use crate::analysis::{Analysis, Boundaries, BoundaryKind, Branch};
@@ -56,10 +56,10 @@ pub fn positions(analysis: &Analysis, exact: &FullSystem) -> Vec<Claim> {
             beyond(2.0 * error)
         ),
     };
-    let near = |price: &Price| {
+    let near = |price: &AsymptoticError| {
         price.exact.or(price.theory).is_some_and(|at| (1.0 / FAR..FAR).contains(&at))
     };
-    prices(analysis, exact)
+    asymptotic_errors(analysis, exact)
         .into_iter()
         .filter(|price| price.bounds_stability && near(price))
         .filter_map(|price| {

@@ -6,15 +6,15 @@
 //! proportion to the mass ratio, and the tolerance of each claim says how. A refuted claim is a
 //! result, not an error. Only claims that the case raises are checked.
 
+pub mod asymptotic_error;
 pub mod boundaries;
 pub mod motions;
 pub mod orbits;
-pub mod price;
 pub mod tolerance;
 
 use serde::Serialize;
 
-pub use price::Price;
+pub use asymptotic_error::AsymptoticError;
 pub use tolerance::Tolerance;
 
 use crate::analysis::Analysis;

@@ -7,7 +7,7 @@ use crate::analysis::motion::{read_off, wrapped};
 use crate::analysis::{Analysis, Area, FixedPoint, Strip};
 use crate::orbits::{FullSystem, Measures, SymmetricOrbit};
 use crate::regimes::attractor::Effort;
-use crate::regimes::{Attractor, FoundAttractor, Nature, Regime};
+use crate::regimes::{Attractor, DynamicsKind, FoundAttractor, Regime};
 use crate::simulation::StartError;
 
 /// For each fixed point: stable or not, and if an exact orbit is near it: amplitudes and phases.
@@ -32,7 +32,7 @@ pub fn fixed_points(analysis: &Analysis, exact: &FullSystem) -> Vec<Claim> {
             id: format!("fixed-point-{number}-stability"),
             statement: format!(
                 "fixed point {number} (B/b = {:.3}) is {}",
-                point.absorber,
+                point.absorber_amplitude,
                 if point.stable { "stable" } else { "unstable" }
             ),
             source: "manifold and slow flow (18)",
@@ -64,8 +64,9 @@ fn counterpart<'a>(
     exact: &'a FullSystem,
     point: &FixedPoint,
 ) -> Option<&'a SymmetricOrbit> {
-    let distance =
-        |orbit: &SymmetricOrbit, point: &FixedPoint| (orbit.absorber / point.absorber - 1.0).abs();
+    let distance = |orbit: &SymmetricOrbit, point: &FixedPoint| {
+        (orbit.absorber_amplitude / point.absorber_amplitude - 1.0).abs()
+    };
     let nearest =
         exact.orbits.iter().min_by(|a, b| distance(a, point).total_cmp(&distance(b, point)))?;
     let mine = distance(nearest, point);
@@ -105,11 +106,11 @@ fn amplitudes(
         }
     };
     let length = Measure::LengthOverClearance;
-    let (c, b) = (point.oscillator, point.absorber);
+    let (c, b) = (point.oscillator_amplitude, point.absorber_amplitude);
     let angle = Measure::Angle;
     vec![
-        compare("C", "amplitude C", "slow flow (18)", c, observed.oscillator, length),
-        compare("B", "amplitude B", "manifold (16)", b, observed.absorber, length),
+        compare("C", "amplitude C", "slow flow (18)", c, observed.oscillator_amplitude, length),
+        compare("B", "amplitude B", "manifold (16)", b, observed.absorber_amplitude, length),
         compare("eta", "phase η", "slow flow (18)", point.eta, observed.eta, angle),
         compare(
             "Theta",
@@ -161,8 +162,8 @@ pub fn area(analysis: &Analysis, attractors: &[FoundAttractor]) -> Option<Claim>
         moving.partition(|found| found.regime() == Regime::TwoSymmetric);
     let modulated = others.iter().any(|found| found.regime() == Regime::StronglyModulated);
     let stays = |found: &&FoundAttractor| {
-        let nature = found.attractor.classification.nature;
-        matches!(nature, Nature::Periodic { .. } | Nature::QuasiPeriodic)
+        let dynamics = found.attractor.classification.dynamics;
+        matches!(dynamics, DynamicsKind::Periodic { .. } | DynamicsKind::QuasiPeriodic)
     };
     let beside = !others.is_empty();
     let may_end = beside && !others.iter().any(stays);

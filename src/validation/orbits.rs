@@ -9,7 +9,7 @@ use super::{Check, Claim, Finding, Tolerance, Verdict};
 use crate::orbits::{AfterImpact, Bifurcation, FullSystem, Limit, SymmetricOrbit, Wall};
 use crate::regimes::attractor::Effort;
 use crate::regimes::{AbsorberAmplitude, Attractor, Evidence, Periodicity, Regime};
-use crate::simulation::{Nobody, Simulation, StartError};
+use crate::simulation::{Simulation, StartError};
 use crate::system::System;
 
 /// Disturbance of the absorber's speed, relative: linear, and far above rounding.
@@ -47,7 +47,7 @@ pub fn simulated(exact: &FullSystem) -> Result<Vec<Claim>, StartError> {
 /// The state at the next end of an excitation period on the orbit, by simulation from its impact.
 fn begun(system: &System, after: &AfterImpact, wall: Wall) -> Result<Simulation, StartError> {
     let mut simulation = Simulation::new(system, after.state(wall), after.phase)?;
-    simulation.run(1, u64::MAX, &mut Nobody);
+    simulation.run(1, u64::MAX, &mut ());
     Ok(simulation)
 }
 
@@ -55,7 +55,7 @@ fn repeats(system: &System, orbit: &SymmetricOrbit, number: usize) -> Result<Cla
     let cycle = &orbit.orbit.cycle;
     let mut simulation = begun(system, &cycle.impacts[0], cycle.walls[0])?;
     let before = simulation.state();
-    simulation.run(1, u64::MAX, &mut Nobody);
+    simulation.run(1, u64::MAX, &mut ());
     let size = 1.0 + orbit.peaks.displacement + orbit.peaks.velocity;
     let missed = before.distance(&simulation.state()) / size;
     let growth = orbit.orbit.radius_per_period().max(1.0);
@@ -97,8 +97,8 @@ fn shrinks(
     let first = reference.state().distance(&simulation.state());
     // An unstable reference leaves as well: rounding grows with the disturbance, from far below it.
     for _ in 0..periods {
-        reference.run(1, u64::MAX, &mut Nobody);
-        simulation.run(1, u64::MAX, &mut Nobody);
+        reference.run(1, u64::MAX, &mut ());
+        simulation.run(1, u64::MAX, &mut ());
     }
     let ratio = reference.state().distance(&simulation.state()) / first;
     let word = |stable: bool| if stable { "dies out" } else { "grows" };

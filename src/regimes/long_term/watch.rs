@@ -2,7 +2,7 @@
 
 use super::{Ended, Motion, WATCHED};
 use crate::regimes::{Captures, Periodicity, Signs, Thresholds, modulation, periodicity};
-use crate::simulation::{Gauge, Impact, ImpactLog, Observer, Segment, Simulation, Stop};
+use crate::simulation::{Impact, ImpactLog, ImpactStatistics, Observer, Segment, Simulation, Stop};
 use crate::system::{State, System};
 
 /// Impacts that are kept to tell a regime by: their intervals are averaged.
@@ -10,33 +10,33 @@ const KEPT_IMPACTS: usize = 1000;
 
 /// Measures one trajectory.
 pub(super) struct Watch {
-    pub(super) gauge: Gauge,
+    pub(super) impact_statistics: ImpactStatistics,
     log: ImpactLog,
 }
 
 impl Observer for Watch {
     fn flights(&self) -> bool {
-        self.gauge.flights()
+        self.impact_statistics.flights()
     }
     fn segment(&mut self, segment: &Segment) {
-        self.gauge.segment(segment);
+        self.impact_statistics.segment(segment);
     }
     fn impact(&mut self, impact: &Impact) {
         self.log.impact(impact);
-        self.gauge.impact(impact);
+        self.impact_statistics.impact(impact);
     }
     fn sticks(&mut self, loss: f64) {
-        self.gauge.sticks(loss);
+        self.impact_statistics.sticks(loss);
     }
     fn period(&mut self, state: &State) {
-        self.gauge.period(state);
+        self.impact_statistics.period(state);
     }
 }
 
 impl Watch {
     pub(super) fn begin(simulation: &Simulation) -> Self {
         Self {
-            gauge: Gauge::begin(simulation.system(), simulation.state()),
+            impact_statistics: ImpactStatistics::begin(simulation.system(), simulation.state()),
             log: ImpactLog::of_the_last(KEPT_IMPACTS),
         }
     }
@@ -51,11 +51,11 @@ impl Watch {
         if !matches!(stop, Stop::EndTime | Stop::ImpactLimit) {
             return None;
         }
-        let gauge = &mut self.gauge;
+        let impact_statistics = &mut self.impact_statistics;
         let thresholds = Thresholds::default();
         let period = simulation.system().period();
         let (impacts_per_period, visits_per_period) =
-            (gauge.impacts_per_period(), gauge.visits_per_period());
+            (impact_statistics.impacts_per_period(), impact_statistics.visits_per_period());
         let (signs, errors, repeats_after) = match repetition {
             Some(Repetition { found, asymmetry }) => {
                 let signs = Signs {
@@ -69,7 +69,7 @@ impl Watch {
                 (signs, [0.0; 2], Some(found.periods))
             }
             None => {
-                let records = gauge.records();
+                let records = impact_statistics.records();
                 let found = periodicity::find(records);
                 let signs = Signs {
                     impacts_per_period,
@@ -79,24 +79,25 @@ impl Watch {
                     captures: modulation::captures(records, thresholds.shortest_capture),
                     modulation_depth: modulation::depth(records),
                 };
-                (signs, gauge.errors(), found.map(|found| found.periods))
+                (signs, impact_statistics.errors(), found.map(|found| found.periods))
             }
         };
-        let settled = repeats_after.is_some() || !modulation::drifting(gauge.records());
-        let largest = if repeats_after.is_some() { [0.0; 2] } else { gauge.errors_of_largest() };
+        let settled = repeats_after.is_some() || !modulation::drifting(impact_statistics.records());
+        let largest =
+            if repeats_after.is_some() { [0.0; 2] } else { impact_statistics.errors_of_largest() };
         Some(Motion {
-            peak: gauge.peak(),
+            peak: impact_statistics.peak(),
             peak_error: largest[0],
-            rms: gauge.rms(),
+            rms: impact_statistics.rms(),
             rms_error: errors[0],
             impacts_per_period,
             impacts_error: errors[1],
-            impact_speed: gauge.impact_speed(),
+            impact_speed: impact_statistics.impact_speed(),
             impact_speed_error: largest[1],
             settled,
             regime: signs.regime(&thresholds),
             starts: 1,
-            efficiency: gauge.efficiency(),
+            efficiency: impact_statistics.efficiency(),
             repeats_after,
             state: simulation.state(),
         })

@@ -128,8 +128,11 @@ fn top(scene: &Scene, bare: &[[f64; 2]], simulated: &[SweepPoint], here: Option<
 /// `(1 + eps) x = (1 + eps) C sin z + eps (2/pi) B Pi(z + Theta)`, which is stationary where
 /// `cos z = -/+ eps (2/pi) B/((1 + eps) C)`, or has a corner.
 fn peak(mass_ratio: f64, manifold: &Manifold, point: &ResponsePoint) -> f64 {
-    let ManifoldPoint { absorber, oscillator } =
-        ManifoldPoint { absorber: point.absorber, oscillator: point.oscillator };
+    let ManifoldPoint { absorber_amplitude: absorber, oscillator_amplitude: oscillator } =
+        ManifoldPoint {
+            absorber_amplitude: point.absorber_amplitude,
+            oscillator_amplitude: point.oscillator_amplitude,
+        };
     let theta = manifold.absorber_phase(absorber, absorber - 1.0);
     let share = mass_ratio / (1.0 + mass_ratio) * FRAC_2_PI * absorber;
     let displacement =

@@ -31,13 +31,13 @@ pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
     let analysis = &scene.study.analysis;
     let (system, manifold) = (&analysis.system, &analysis.manifold);
     let gamma = system.forcing_per_clearance();
-    if gamma == 0.0 || manifold.fold.oscillator == 0.0 {
+    if gamma == 0.0 || manifold.fold.oscillator_amplitude == 0.0 {
         return Ok(None);
     }
     let route = route(scene);
     let chosen = chosen(&route);
     let levels = Levels::of(system, manifold)?;
-    let top = manifold.point(WIDEST - 1.0).oscillator;
+    let top = manifold.point(WIDEST - 1.0).oscillator_amplitude;
     let y = || Axis::linear("oscillator amplitude C/b (1)").with_range(0.0, top);
     let [left, right, stable] = branches(manifold, WIDEST);
     let x = Axis::linear("absorber amplitude B/b (1)").with_range(0.0, WIDEST);
@@ -73,12 +73,12 @@ pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
         let Ok(there) = system.with_clearance_scaled(clearance) else { continue };
         let points = fixed_points::solve(&there, manifold)?;
         let name = format!("b = {}", units.length_text(clearance));
-        first
-            .layers
-            .extend(marks(&points, color, shape, Some(&name), &|p| [p.absorber, p.oscillator]));
-        second
-            .layers
-            .extend(marks(&points, color, shape, None, &|p| place(clearance, p.oscillator)));
+        first.layers.extend(marks(&points, color, shape, Some(&name), &|p| {
+            [p.absorber_amplitude, p.oscillator_amplitude]
+        }));
+        second.layers.extend(marks(&points, color, shape, None, &|p| {
+            place(clearance, p.oscillator_amplitude)
+        }));
     }
     let (caption, alt) = words(scene, &route, &levels);
     Ok(Some(
@@ -121,14 +121,15 @@ fn line(
     let curve = FixedPointCurve::of(system, manifold);
     let mut shifts: Vec<f64> = (1..=SAMPLES)
         .map(|k| WIDEST * f64::from(k) / f64::from(SAMPLES) - 1.0)
-        .chain([manifold.fold_shift, manifold.symmetry_breaking.absorber - 1.0])
+        .chain([manifold.fold_shift, manifold.symmetry_breaking.absorber_amplitude - 1.0])
         .collect();
     shifts.sort_by(f64::total_cmp);
     let forcing = |shift: f64| (shift, curve.forcing_squared(1.0 + shift).sqrt());
     let samples: Vec<(f64, f64)> = shifts.into_iter().map(forcing).collect();
     let gamma = system.forcing_per_clearance();
-    let at =
-        |(shift, forcing): (f64, f64)| place(gamma / forcing, manifold.point(shift).oscillator);
+    let at = |(shift, forcing): (f64, f64)| {
+        place(gamma / forcing, manifold.point(shift).oscillator_amplitude)
+    };
     let mut points = Vec::new();
     for pair in samples.windows(2) {
         let within = manifold.branch(pair[0].0) == Branch::Stable

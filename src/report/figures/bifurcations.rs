@@ -36,7 +36,8 @@ pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
     let (system, manifold) = (&analysis.system, &analysis.manifold);
     let meeting = analysis.boundaries.codimension_two;
     let known = meeting.forcing_over_clearance > 0.0 && meeting.detuning.is_finite();
-    if system.forcing_per_clearance() == 0.0 || !known || manifold.fold.oscillator == 0.0 {
+    if system.forcing_per_clearance() == 0.0 || !known || manifold.fold.oscillator_amplitude == 0.0
+    {
         return Ok(None);
     }
     let away = system.detuning() - meeting.detuning;
@@ -94,15 +95,16 @@ fn condition(
         style,
         line,
         hopf: gamma / boundaries.hopf,
-        collision: outer
-            .map(|node| (node.absorber, gamma / node.forcing_over_clearance, node.branch)),
+        collision: outer.map(|node| {
+            (node.absorber_amplitude, gamma / node.forcing_over_clearance, node.branch)
+        }),
     })
 }
 
 /// Which clearance gives a fixed point which amplitude: its top is the collision.
 fn first(scene: &Scene, manifold: &Manifold, conditions: &[Condition], y: Axis) -> Panel {
     let units = &scene.units;
-    let fold = manifold.fold.absorber;
+    let fold = manifold.fold.absorber_amplitude;
     let x = Axis::linear("absorber amplitude B/b (1)").with_range(RANGE.0, RANGE.1);
     let mut panel = Panel::new(x, y)
         .with_heading("clearance of a fixed point")

@@ -19,8 +19,9 @@ pub(super) fn figure(scene: &Scene) -> Option<Figure> {
     if !comes_and_goes {
         return None;
     }
-    let absorber = panel(scene, shown, "absorber amplitude E", |one| one.absorber, true);
-    let oscillator = panel(scene, shown, "oscillator amplitude C", |one| one.oscillator, false);
+    let absorber = panel(scene, shown, "absorber amplitude E", |one| one.absorber_amplitude, true);
+    let oscillator =
+        panel(scene, shown, "oscillator amplitude C", |one| one.oscillator_amplitude, false);
     let (caption, alt) = words(scene)?;
     Some(
         Figure::new("captures", "Captures in 1:1 resonance, and what the amplitudes do in them")

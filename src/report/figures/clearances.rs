@@ -83,7 +83,7 @@ fn on_manifold(scene: &Scene, found: &[WalkPoint]) -> Panel {
     let manifold = &scene.study.analysis.manifold;
     let farthest = found.iter().map(|point| point.amplitudes[0]).fold(2.0, f64::max);
     let highest = found.iter().map(|point| point.amplitudes[1]).fold(1.0, f64::max);
-    let lowest = manifold.fold.oscillator.max(0.02);
+    let lowest = manifold.fold.oscillator_amplitude.max(0.02);
     let nearest = found.iter().map(|point| point.amplitudes[0]).fold(0.4, f64::min).max(LEAST);
     let [left, right, stable] = branches(manifold, 1.4 * farthest);
     let mut panel = Panel::new(

@@ -1,7 +1,7 @@
 //! Bifurcation diagrams: one parameter swept up and down by simulation, with the exact orbits over it.
 
 use crate::orbits::Bifurcation;
-use crate::regimes::diagram::{DiagramPoint, Way};
+use crate::regimes::diagram::{DiagramPoint, SweepDirection};
 use crate::report::figure::{
     Axis, Color, Dash, Figure, Label, Layer, Layout, MarkedPoint, Marker, Panel, Role, Rule, Scale,
     Shape, Style,
@@ -59,10 +59,14 @@ pub(super) const fn noun(parameter: Parameter) -> &'static str {
 
 /// How each way looks: squares, dots in them, and thin lines across, which dots on top would cut into
 /// dashes.
-const DOWN: (Way, &str, Marker, Color) =
-    (Way::Down, "simulated, down", Marker::hollow(Shape::Square).sized(5.4), Color::Orange);
-const UP: (Way, &str, Marker, Color) =
-    (Way::Up, "simulated, up", Marker::dot().sized(3.8), Color::ReddishPurple);
+const DOWN: (SweepDirection, &str, Marker, Color) = (
+    SweepDirection::Down,
+    "simulated, down",
+    Marker::hollow(Shape::Square).sized(5.4),
+    Color::Orange,
+);
+const UP: (SweepDirection, &str, Marker, Color) =
+    (SweepDirection::Up, "simulated, up", Marker::dot().sized(3.8), Color::ReddishPurple);
 
 const STABLE: Style = Style::new(Color::Black, 1.2, Dash::Solid);
 const UNSTABLE: Style = Style::new(Color::Black, 1.0, Dash::Dashed);
@@ -202,12 +206,12 @@ impl Shown<'_> {
     }
 
     /// A place where only one way leads: in the widest hysteresis.
-    fn told_apart(&self, way: Way) -> Option<[f64; 2]> {
+    fn told_apart(&self, way: SweepDirection) -> Option<[f64; 2]> {
         let width = |one: &&Hysteresis| one.values[1] / one.values[0];
         let found = self.diagram.hysteresis.iter();
         let widest = found.max_by(|a, b| width(a).total_cmp(&width(b)))?;
         let middle = f64::midpoint(widest.values[0], widest.values[1]);
-        let peak = widest.peaks[usize::from(way == Way::Down)];
+        let peak = widest.peaks[usize::from(way == SweepDirection::Down)];
         Some([self.place(middle), self.units.length(peak)])
     }
 
@@ -222,7 +226,7 @@ impl Shown<'_> {
                 (height - low) / (high - low)
             }
         };
-        let way = |(way, name, marker, color): (Way, &str, Marker, Color)| {
+        let way = |(way, name, marker, color): (SweepDirection, &str, Marker, Color)| {
             let points = self.diagram.way(way).into_iter().flat_map(|point| {
                 let x = self.place(point.value);
                 thinned((heights.simulated)(point), &part).into_iter().map(move |y| [x, y])

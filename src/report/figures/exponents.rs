@@ -35,7 +35,7 @@ pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
         let name = format!(
             "{}, {}",
             found.regime().words(),
-            found.attractor.classification.nature.words()
+            found.attractor.classification.dynamics.words()
         );
         let color = colors[shown.len()];
         if !exponents.is_empty() {

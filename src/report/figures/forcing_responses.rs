@@ -23,7 +23,7 @@ const BAND: f64 = 6.0;
 const SAMPLES: i32 = 2000;
 
 /// One of the four.
-struct Member {
+struct CaseReport {
     gamma: f64,
     color: Color,
     dash: Dash,
@@ -36,11 +36,11 @@ pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
     let analysis = &scene.study.analysis;
     let (system, manifold) = (&analysis.system, &analysis.manifold);
     let gamma = system.forcing_per_clearance();
-    if gamma == 0.0 || manifold.fold.oscillator == 0.0 {
+    if gamma == 0.0 || manifold.fold.oscillator_amplitude == 0.0 {
         return Ok(None);
     }
     let family = family(system)?;
-    let top = ABOVE_BREAKING * manifold.symmetry_breaking.oscillator;
+    let top = ABOVE_BREAKING * manifold.symmetry_breaking.oscillator_amplitude;
     let last = top + 1.0;
     let units = &scene.units;
     let mut members = Vec::new();
@@ -54,10 +54,10 @@ pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
         let there = Parameters { forcing_per_clearance: at, ..system.parameters() };
         let Ok(there) = System::new(there) else { return Ok(None) };
         let place = |point: &ResponsePoint| {
-            [units.frequency(1.0 + there.mass_ratio() * point.detuning), point.oscillator]
+            [units.frequency(1.0 + there.mass_ratio() * point.detuning), point.oscillator_amplitude]
         };
         let pieces = branches_of(&there, manifold, last, &place)?;
-        members.push(Member { gamma: at, color, dash, pieces, share: share(system, at)? });
+        members.push(CaseReport { gamma: at, color, dash, pieces, share: share(system, at)? });
     }
     let levels = Levels { grazing: None, ..Levels::of(system, manifold)? };
     let y = || Axis::linear("oscillator amplitude C/b (1)").with_range(0.0, top);
@@ -127,7 +127,7 @@ fn share(system: &System, gamma: f64) -> Result<f64, AnalysisError> {
     Ok(inside.count() as f64 / f64::from(2 * SAMPLES + 1))
 }
 
-fn words(scene: &Scene, members: &[Member]) -> (String, String) {
+fn words(scene: &Scene, members: &[CaseReport]) -> (String, String) {
     let units = &scene.units;
     let system = &scene.study.analysis.system;
     let gamma = system.forcing_per_clearance();

@@ -26,8 +26,8 @@ impl Levels {
             None => None,
         };
         Ok(Self {
-            fold: manifold.fold.oscillator,
-            breaking: manifold.symmetry_breaking.oscillator,
+            fold: manifold.fold.oscillator_amplitude,
+            breaking: manifold.symmetry_breaking.oscillator_amplitude,
             grazing,
         })
     }
@@ -62,5 +62,5 @@ fn level(system: &System, manifold: &Manifold, clearance: f64) -> Result<Option<
     let Ok(there) = system.with_clearance_scaled(clearance) else { return Ok(None) };
     let points = fixed_points::solve(&there, manifold)?;
     let right = points.iter().rfind(|point| point.branch == Branch::Right);
-    Ok(right.map(|point| point.oscillator))
+    Ok(right.map(|point| point.oscillator_amplitude))
 }

@@ -18,11 +18,11 @@ const SAMPLES: u32 = 200;
 
 /// The manifold's three branches up to `B/b = last`: left, right, stable.
 pub(super) fn branches(manifold: &Manifold, last: f64) -> [Layer; 3] {
-    let breaking = manifold.symmetry_breaking.absorber;
+    let breaking = manifold.symmetry_breaking.absorber_amplitude;
     let part = |role, first: f64, last: f64| {
         let at = |k: u32| first + (last - first) * f64::from(k) / f64::from(SAMPLES);
         let points = (0..=SAMPLES).map(|k| manifold.point(at(k)));
-        Layer::curve(role, points.map(|p| [p.absorber, p.oscillator]).collect())
+        Layer::curve(role, points.map(|p| [p.absorber_amplitude, p.oscillator_amplitude]).collect())
     };
     [
         part(Role::Unstable, -1.0, manifold.fold_shift),
@@ -36,8 +36,8 @@ pub(super) fn observed(scene: &Scene, found: &FoundAttractor) -> Option<[f64; 2]
     let attractor = &found.attractor;
     let system = &scene.study.analysis.system;
     let seen = read_off(system, attractor.oscillator_harmonic, attractor.absorber_harmonic);
-    let finite = seen.absorber.is_finite() && seen.oscillator.is_finite();
-    finite.then_some([seen.absorber, seen.oscillator])
+    let finite = seen.absorber_amplitude.is_finite() && seen.oscillator_amplitude.is_finite();
+    finite.then_some([seen.absorber_amplitude, seen.oscillator_amplitude])
 }
 
 /// A fixed point in words.
@@ -51,8 +51,8 @@ pub(super) fn describe(point: &FixedPoint) -> String {
     format!(
         "fixed point, {} of the slow flow on the {branch}, {stability} motion: B/b = {}, C/b = {}",
         point.kind.words(),
-        significant(point.absorber, 4),
-        significant(point.oscillator, 4)
+        significant(point.absorber_amplitude, 4),
+        significant(point.oscillator_amplitude, 4)
     )
 }
 
@@ -80,7 +80,7 @@ fn named_markers(points: &[FixedPoint]) -> Vec<Layer> {
                 _ => Some(format!("{name}s")),
             }
         });
-    let layers = markers(points, &|point| [point.absorber, point.oscillator]);
+    let layers = markers(points, &|point| [point.absorber_amplitude, point.oscillator_amplitude]);
     layers.into_iter().zip(names).filter_map(|(layer, name)| Some(layer.labelled(name?))).collect()
 }
 
@@ -98,25 +98,27 @@ pub(super) fn figure(scene: &Scene) -> Figure {
     let farthest = analysis
         .fixed_points
         .iter()
-        .map(|point| point.absorber)
+        .map(|point| point.absorber_amplitude)
         .chain(seen.iter().map(|(at, _)| at[0]))
         .fold(0.0, f64::max);
     let last = (1.08 * farthest).max(WIDEST);
     let [left, right, stable] = branches(manifold, last);
     let (fold, breaking) = (manifold.fold, manifold.symmetry_breaking);
     let special = [(fold, "fold"), (breaking, "symmetry breaking")].map(|(at, name)| {
-        MarkedPoint::new(at.absorber, at.oscillator).with_label(name).with_tooltip(format!(
-            "{name}: B/b = {}, C/b = {}",
-            significant(at.absorber, 4),
-            significant(at.oscillator, 4)
-        ))
+        MarkedPoint::new(at.absorber_amplitude, at.oscillator_amplitude)
+            .with_label(name)
+            .with_tooltip(format!(
+                "{name}: B/b = {}, C/b = {}",
+                significant(at.absorber_amplitude, 4),
+                significant(at.oscillator_amplitude, 4)
+            ))
     });
     let mut panel = Panel::new(
         Axis::linear("absorber amplitude B/b (1)").with_range(0.0, last),
         Axis::linear("oscillator amplitude C/b (1)"),
     );
     if last > FAR {
-        let bottom = (0.6 * fold.oscillator).max(LEAST);
+        let bottom = (0.6 * fold.oscillator_amplitude).max(LEAST);
         panel.x = Axis::log(panel.x.label).with_range(LEAST, last);
         panel.y = Axis::log(panel.y.label).with_range(bottom, 1.3 * last);
     }
@@ -158,7 +160,7 @@ fn words(scene: &Scene, seen: &[([f64; 2], Regime)]) -> (String, String) {
         }
         (None, 1) => format!(
             "At {place} the only fixed point is unstable (C = {}).",
-            scene.units.length_text(analysis.fixed_points[0].oscillator)
+            scene.units.length_text(analysis.fixed_points[0].oscillator_amplitude)
         ),
         (None, 2) => format!("At {place} both fixed points are unstable."),
         (None, n) => format!("At {place} all {n} fixed points are unstable."),
@@ -169,12 +171,13 @@ fn words(scene: &Scene, seen: &[([f64; 2], Regime)]) -> (String, String) {
             } else {
                 format!("one of {n} fixed points is")
             },
-            amplitudes(point.oscillator, point.absorber)
+            amplitudes(point.oscillator_amplitude, point.absorber_amplitude)
         ),
     };
     let close = predicted.and_then(|point| {
         let two = seen.iter().filter(|(_, regime)| regime.is_two_per_period());
-        let away = |at: &[f64; 2]| (at[1] - point.oscillator).abs() / point.oscillator;
+        let away =
+            |at: &[f64; 2]| (at[1] - point.oscillator_amplitude).abs() / point.oscillator_amplitude;
         two.map(|(at, _)| (at, away(at))).min_by(|a, b| a.1.total_cmp(&b.1))
     });
     let second = match close {
@@ -182,7 +185,11 @@ fn words(scene: &Scene, seen: &[([f64; 2], Regime)]) -> (String, String) {
             " Simulation settles at C = {}, {} {} than predicted.",
             scene.units.length_text(at[1]),
             crate::report::numbers::percent(away),
-            if at[1] >= predicted.map_or(0.0, |p| p.oscillator) { "more" } else { "less" }
+            if at[1] >= predicted.map_or(0.0, |p| p.oscillator_amplitude) {
+                "more"
+            } else {
+                "less"
+            }
         ),
         None => String::new(),
     };
@@ -191,8 +198,8 @@ fn words(scene: &Scene, seen: &[([f64; 2], Regime)]) -> (String, String) {
     let alt = format!(
         "The oscillator's amplitude over the absorber's: a curve that falls to a fold at B/b = {} and rises again, stable up to \
          symmetry breaking at B/b = {}. {caption}",
-        significant(fold.absorber, 3),
-        significant(breaking.absorber, 3)
+        significant(fold.absorber_amplitude, 3),
+        significant(breaking.absorber_amplitude, 3)
     );
     (caption, alt)
 }

@@ -13,9 +13,9 @@ use crate::system::System;
 use crate::validation::tolerance::has_resonance;
 
 use super::Scene;
+use super::asymptotic_error;
 use super::borders::Borders;
 use super::canvas::{Canvas, interpolated};
-use super::price;
 
 /// Half the window is at least so many mass ratios ...
 const MASS_RATIOS: f64 = 15.0;
@@ -79,8 +79,8 @@ pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
     panel.layers.extend(names(&borders, &place, &grazing, &canvas, case));
     panel = panel.with(Layer::this_case(case, Some(tooltip(scene))));
     let (mut caption, mut alt) = words(scene);
-    let below = price::panel(scene, &exact, x)?;
-    if let Some(price) = below.as_ref().and_then(|_| price::words(scene)) {
+    let below = asymptotic_error::panel(scene, &exact, x)?;
+    if let Some(price) = below.as_ref().and_then(|_| asymptotic_error::words(scene)) {
         caption = format!("{caption} {price}");
         alt = format!("{alt} {price}");
     }

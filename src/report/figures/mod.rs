@@ -5,6 +5,7 @@
 
 mod amplitude;
 mod areas;
+mod asymptotic_error;
 mod band;
 mod basins;
 mod bifurcations;
@@ -24,7 +25,6 @@ mod map;
 pub(super) mod modulation;
 mod motion;
 mod plane;
-mod price;
 mod response;
 pub(super) mod restitutions;
 mod return_map;

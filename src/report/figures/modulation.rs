@@ -66,7 +66,8 @@ pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
     let away = distance(scene, &landed, &captures);
     let last = 1.08 * all.iter().map(|at| at[0]).fold(2.0, f64::max);
     let top = 1.12 * all.iter().map(|at| at[1]).fold(0.0, f64::max);
-    let bottom = 0.75 * all.iter().map(|at| at[1]).fold(manifold.fold.oscillator, f64::min);
+    let bottom =
+        0.75 * all.iter().map(|at| at[1]).fold(manifold.fold.oscillator_amplitude, f64::min);
     let panel = |heading: &str, stretch: Option<Stretch>| {
         let line = match stretch {
             Some(stretch) => path(&|at| stretch.holds(at)),
@@ -144,7 +145,7 @@ fn distance(scene: &Scene, landed: &[(f64, [f64; 2])], captures: &[Stretch]) -> 
             settled(*at) && manifold.branch(absorber - 1.0) == Branch::Stable
         })
         .map(|(_, [absorber, oscillator])| {
-            let on = manifold.point(absorber - 1.0).oscillator;
+            let on = manifold.point(absorber - 1.0).oscillator_amplitude;
             let relative = (oscillator - on) / on;
             relative * relative
         })

@@ -73,7 +73,7 @@ fn series(scene: &Scene, system: &System, trace: &Trace) -> [Panel; 2] {
         (0..trace.points.len()).map(|k| [time(trace.points[k].periods), value(k)]).collect()
     };
     let x = line(&|k| units.length(trace.points[k].state.x));
-    let w = line(&|k| units.length(trace.points[k].state.gap()));
+    let w = line(&|k| units.length(trace.points[k].state.relative_displacement()));
     let wall = units.length(1.0);
     let many = trace.impacts.len() > TOOLTIPS;
     let impacts = trace.impacts.iter().map(|(periods, impact)| {
@@ -107,7 +107,7 @@ fn projection(scene: &Scene, system: &System, trace: &Trace) -> Panel {
     let highest = path.iter().map(|at| at[1]).fold(0.0, f64::max);
     let manifold = &scene.study.analysis.manifold;
     let last = (1.1 * farthest).max(2.2);
-    let top = (1.15 * highest).max(1.3 * manifold.symmetry_breaking.oscillator);
+    let top = (1.15 * highest).max(1.3 * manifold.symmetry_breaking.oscillator_amplitude);
     let [left, right, stable] = branches(manifold, last);
     // A motion that hardly moves in this plane would be lost without marks.
     let landed = trace.impacts.iter().map(|(_, impact)| projected_after(system, impact));

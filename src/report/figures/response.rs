@@ -31,10 +31,11 @@ pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
     if gamma == 0.0 || others.is_empty() {
         return Ok(None);
     }
-    let highest = analysis.fixed_points.iter().map(|point| point.oscillator).fold(0.0, f64::max);
-    let top = (1.15 * highest).max(ABOVE_BREAKING * breaking.oscillator);
-    let log = top > FAR * breaking.oscillator;
-    let bottom = if log { (0.7 * manifold.fold.oscillator).max(1e-5 * top) } else { 0.0 };
+    let highest =
+        analysis.fixed_points.iter().map(|point| point.oscillator_amplitude).fold(0.0, f64::max);
+    let top = (1.15 * highest).max(ABOVE_BREAKING * breaking.oscillator_amplitude);
+    let log = top > FAR * breaking.oscillator_amplitude;
+    let bottom = if log { (0.7 * manifold.fold.oscillator_amplitude).max(1e-5 * top) } else { 0.0 };
     let axis = || {
         let axis = Axis::linear("oscillator amplitude C/b (1)").with_range(bottom, top);
         Axis { scale: if log { Scale::Log } else { Scale::Linear }, ..axis }
@@ -53,7 +54,7 @@ pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
     .with(right)
     .with(stable.labelled("stable"))
     .with_heading("manifold");
-    first.layers.extend(fixed(&|p| [p.absorber, p.oscillator]));
+    first.layers.extend(fixed(&|p| [p.absorber_amplitude, p.oscillator_amplitude]));
 
     let units = &scene.units;
     let (from, to) = window(system);
@@ -72,7 +73,7 @@ pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
         // The samples are spread evenly: a curve that matters only below must not be coarse there.
         let reach = if at == gamma { last } else { last.min(OTHERS) };
         let place = |point: &ResponsePoint| {
-            [units.frequency(1.0 + there.mass_ratio() * point.detuning), point.oscillator]
+            [units.frequency(1.0 + there.mass_ratio() * point.detuning), point.oscillator_amplitude]
         };
         let pieces = branches_of(&there, manifold, reach, &place)?;
         let own = if color == Color::Black { ", this case" } else { "" };
@@ -80,7 +81,7 @@ pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
         second.layers.extend(curves(&pieces, color, emphasis, name));
     }
     let ratio = system.frequency_ratio();
-    second.layers.extend(fixed(&|p| [units.frequency(ratio), p.oscillator]));
+    second.layers.extend(fixed(&|p| [units.frequency(ratio), p.oscillator_amplitude]));
     let (caption, alt) = words(scene);
     Ok(Some(
         Figure::new("response", "Frequency response beside the manifold")
@@ -138,7 +139,7 @@ fn words(scene: &Scene) -> (String, String) {
     let case = match stable {
         Some(point) => format!(
             "At {place} the stable response has C = {}",
-            units.length_text(point.oscillator)
+            units.length_text(point.oscillator_amplitude)
         ),
         None => format!("Nothing is stable at {place}"),
     };

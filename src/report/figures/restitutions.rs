@@ -103,7 +103,8 @@ fn over_all(level: f64) -> Result<Vec<Taken>, StudyError> {
 
 /// The oscillator's amplitude `C/b`: the stable fixed point's, else the observed one.
 fn level(scene: &Scene) -> Option<f64> {
-    let stable = scene.study.analysis.stable_points().last().map(|point| point.oscillator);
+    let stable =
+        scene.study.analysis.stable_points().last().map(|point| point.oscillator_amplitude);
     stable.or_else(|| Some(observed(scene, scene.first_drawn()?)?[1]))
 }
 
@@ -138,11 +139,11 @@ fn manifolds(level: f64) -> Result<Panel, StudyError> {
     let mut marks = Vec::new();
     for (restitution, color, dash) in SHOWN {
         let manifold = manifold(restitution)?;
-        let breaking = manifold.symmetry_breaking.absorber - 1.0;
+        let breaking = manifold.symmetry_breaking.absorber_amplitude - 1.0;
         let part = |first: f64, end: f64| -> Vec<[f64; 2]> {
             (0..=SAMPLES)
                 .map(|k| manifold.point(first + (end - first) * f64::from(k) / f64::from(SAMPLES)))
-                .map(|point| [point.absorber, point.oscillator])
+                .map(|point| [point.absorber_amplitude, point.oscillator_amplitude])
                 .collect()
         };
         let thin = Style::new(color, 1.0, dash);

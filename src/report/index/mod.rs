@@ -29,7 +29,7 @@ const SIGNATURE: &str = "This page is written by";
 
 /// A report in its folder.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Member {
+pub struct CaseReport {
     /// Name of its folder, which is that of the case.
     pub name: String,
     /// What its `report.json` says.
@@ -188,7 +188,7 @@ const ALIASES: [(&str, &str); 2] = [("Clearance", "Clearance b"), ("Restitution"
 
 impl Index {
     /// The index of some reports, in the order of their names.
-    pub fn new(mut members: Vec<Member>, mut others: Vec<OtherPage>) -> Self {
+    pub fn new(mut members: Vec<CaseReport>, mut others: Vec<OtherPage>) -> Self {
         members.sort_by(|a, b| a.name.cmp(&b.name));
         others.sort_by(|a, b| a.file.cmp(&b.file));
         Self {
@@ -229,8 +229,8 @@ impl OtherPage {
 }
 
 impl Entry {
-    fn of(member: Member) -> Self {
-        let Member { name, summary, has_tradeoff, has_sweep } = member;
+    fn of(member: CaseReport) -> Self {
+        let CaseReport { name, summary, has_tradeoff, has_sweep } = member;
         let notes = match summary.notes.len() {
             0 => None,
             1 => Some("1 note".to_owned()),
@@ -271,7 +271,7 @@ fn cell(summary: &Summary, column: &Column) -> Cell {
     Cell::number(along_band.or_else(own).or_else(instead).as_deref())
 }
 
-fn summary(members: &[Member]) -> String {
+fn summary(members: &[CaseReport]) -> String {
     let mut verdicts: Vec<Verdict> = members.iter().map(|one| verdict(&one.summary)).collect();
     verdicts.sort_by_key(|verdict| verdict.order());
     let kinds = verdicts.chunk_by(|a, b| a.order() == b.order());
@@ -282,7 +282,7 @@ fn summary(members: &[Member]) -> String {
 
 /// What is known along bands, then every quantity that a case has, in the order of the reports, with each
 /// case's value.
-fn comparison(members: &[Member]) -> Vec<Comparison> {
+fn comparison(members: &[CaseReport]) -> Vec<Comparison> {
     let mut quantities: Vec<&str> = Vec::new();
     for member in members {
         let mut place = 0;
@@ -297,7 +297,7 @@ fn comparison(members: &[Member]) -> Vec<Comparison> {
             };
         }
     }
-    let value = |member: &Member, quantity: &str| {
+    let value = |member: &CaseReport, quantity: &str| {
         let mut rows = member.summary.key_rows.iter();
         let row = rows.find(|row| common_name(&row.quantity) == quantity);
         row.map_or_else(|| NOTHING.to_owned(), |row| row.value.clone())
@@ -307,7 +307,7 @@ fn comparison(members: &[Member]) -> Vec<Comparison> {
         values: members.iter().map(|member| value(member, quantity)).collect(),
     };
     let along_band = COLUMNS.iter().filter_map(|column| {
-        let value = |member: &Member| member.summary.band.as_ref().and_then(column.along_band);
+        let value = |member: &CaseReport| member.summary.band.as_ref().and_then(column.along_band);
         let values: Vec<Option<String>> = members.iter().map(value).collect();
         values.iter().any(Option::is_some).then(|| Comparison {
             quantity: format!("{}, over the band", column.title),
@@ -325,7 +325,7 @@ fn common_name(quantity: &str) -> &str {
 mod tests {
     use super::*;
 
-    fn member(name: &str, tone: &str, rows: &[(&str, &str)]) -> Member {
+    fn member(name: &str, tone: &str, rows: &[(&str, &str)]) -> CaseReport {
         let rows: Vec<_> = rows
             .iter()
             .map(|(quantity, value)| serde_json::json!({"quantity": quantity, "value": value}))
@@ -335,7 +335,7 @@ mod tests {
             "verdict": {"tone": tone, "headline": "H"}, "key_rows": rows,
         });
         let summary = Summary::read(name, &text.to_string()).expect("a report");
-        Member { name: name.to_owned(), summary, has_tradeoff: false, has_sweep: false }
+        CaseReport { name: name.to_owned(), summary, has_tradeoff: false, has_sweep: false }
     }
 
     #[test]

@@ -11,7 +11,7 @@ use super::figure::Figure;
 use super::numbers::{percent, significant};
 use super::tables::{Table, table};
 use crate::band::simulated::Place;
-use crate::case::{Case, Choice, Uncertainty};
+use crate::case::{AbsorberDesign, Case, Uncertainty};
 use crate::optimize::claim::Claim;
 use crate::optimize::robust::{Robust, UnderDeviations};
 use crate::optimize::sensitivity::{Changed, Sensitivity};
@@ -76,7 +76,7 @@ impl OptimizePage {
     }
 }
 
-fn mass(choice: &Choice) -> String {
+fn mass(choice: &AbsorberDesign) -> String {
     choice.mass.map_or_else(dash, mass_text)
 }
 
@@ -288,7 +288,7 @@ pub struct OptimizationDocument {
     /// Whether the optimum is another absorber than the case's own, and not worse.
     improves: bool,
     /// The best absorber, rounded as it is written; none where nothing is reached.
-    optimum: Option<Choice>,
+    optimum: Option<AbsorberDesign>,
     /// The objective at the optimum as it is shown, and as a check of the written case gives it.
     claimed: ValueDocument,
     checked: ValueDocument,
@@ -322,7 +322,7 @@ struct ValueDocument {
 #[derive(Debug, Clone, Serialize)]
 struct DesignDocument {
     #[serde(flatten)]
-    choice: Choice,
+    choice: AbsorberDesign,
     #[serde(flatten)]
     objective: ValueDocument,
     feasible: bool,

@@ -3,7 +3,7 @@
 use crate::analysis::Strip;
 use crate::band::rivals::DETUNED;
 use crate::band::{Source, theory};
-use crate::case::{BandOver, Case, Choice, Objective, Scales};
+use crate::case::{AbsorberDesign, BandOver, Case, Objective, Scales};
 use crate::criteria::Judged;
 use crate::optimize::claim::Claim;
 use crate::optimize::task::value_of;
@@ -306,7 +306,7 @@ impl<'a> Words<'a> {
     }
 
     /// An absorber, by what of it is chosen.
-    pub fn absorber(&self, choice: &Choice) -> String {
+    pub fn absorber(&self, choice: &AbsorberDesign) -> String {
         let bounds = self.found.task.bounds.iter();
         let values =
             bounds.map(|bounds| self.variable(bounds.variable, value_of(bounds.variable, choice)));

@@ -1,6 +1,6 @@
 //! Figs. 3 and 5 to 7: the manifold, its areas, the boundaries, and the responses.
 
-use super::{Check, Draft, Member, PaperError, Shelf, TRANSFER, check};
+use super::{CaseReport, CaseSet, Check, Draft, PaperError, TRANSFER, check};
 use crate::analysis::Branch;
 use crate::regimes::Regime;
 use crate::report::figures::forcing_responses;
@@ -13,7 +13,7 @@ use crate::validation::tolerance::asymptotic_error;
 /// Hopf boundary.
 const BEFORE_HOPF: [f64; 12] = [0.4, 0.5, 0.6, 0.65, 0.7, 0.75, 0.8, 0.85, 0.9, 0.925, 0.95, 0.975];
 
-pub(super) fn figure_3(shelf: &Shelf) -> Result<Draft, PaperError> {
+pub(super) fn figure_3(shelf: &CaseSet) -> Result<Draft, PaperError> {
     let name = "li2016-8p5hz-fig4c";
     let member = shelf.case(name)?;
     let analysis = &member.study.analysis;
@@ -26,10 +26,11 @@ pub(super) fn figure_3(shelf: &Shelf) -> Result<Draft, PaperError> {
     let attractor = &found.attractor;
     let harmonics = (attractor.oscillator_harmonic, attractor.absorber_harmonic);
     let seen = crate::analysis::motion::read_off(system, harmonics.0, harmonics.1);
-    let on = analysis.manifold.point(seen.absorber - 1.0).oscillator;
-    let away = (seen.oscillator - on).abs() / on;
+    let on = analysis.manifold.point(seen.absorber_amplitude - 1.0).oscillator_amplitude;
+    let away = (seen.oscillator_amplitude - on).abs() / on;
     let allowed = asymptotic_error(system);
-    let inside = (fold.absorber..=breaking.absorber).contains(&seen.absorber);
+    let inside =
+        (fold.absorber_amplitude..=breaking.absorber_amplitude).contains(&seen.absorber_amplitude);
     Ok(Draft {
         number: "3",
         title: "Slow invariant manifold with its stability",
@@ -37,13 +38,13 @@ pub(super) fn figure_3(shelf: &Shelf) -> Result<Draft, PaperError> {
         images: vec![shelf.image(name, "sim", 720)?],
         checks: vec![
             check(
-                predicted.branch == Branch::Stable && fold.absorber < breaking.absorber,
+                predicted.branch == Branch::Stable && fold.absorber_amplitude < breaking.absorber_amplitude,
                 format!(
                     "One stable branch between two unstable ones: from the fold, $B/b = {}$, $C/b = {}$, to symmetry breaking, $B/b = {}$, $C/b = {}$.",
-                    significant(fold.absorber, 4),
-                    significant(fold.oscillator, 4),
-                    significant(breaking.absorber, 4),
-                    significant(breaking.oscillator, 4)
+                    significant(fold.absorber_amplitude, 4),
+                    significant(fold.oscillator_amplitude, 4),
+                    significant(breaking.absorber_amplitude, 4),
+                    significant(breaking.oscillator_amplitude, 4)
                 ),
             ),
             check(
@@ -64,7 +65,7 @@ pub(super) fn figure_3(shelf: &Shelf) -> Result<Draft, PaperError> {
 
 /// Clearances over the case's: symmetry breaking, Hopf, collision with its branch.
 pub(super) fn route(
-    member: &Member,
+    member: &CaseReport,
     name: &'static str,
 ) -> Result<(f64, f64, f64, Branch), PaperError> {
     let boundaries = &member.study.analysis.boundaries;
@@ -80,7 +81,7 @@ pub(super) fn route(
     ))
 }
 
-pub(super) fn figure_5(shelf: &Shelf) -> Result<Draft, PaperError> {
+pub(super) fn figure_5(shelf: &CaseSet) -> Result<Draft, PaperError> {
     let slow = "li2016-8hz-b15mm";
     let (beat, hysteresis) = (shelf.case(TRANSFER)?, shelf.case(slow)?);
     let (_, hopf, last, branch) = route(beat, TRANSFER)?;
@@ -128,7 +129,7 @@ pub(super) fn figure_5(shelf: &Shelf) -> Result<Draft, PaperError> {
     })
 }
 
-pub(super) fn figure_6(shelf: &Shelf) -> Result<Draft, PaperError> {
+pub(super) fn figure_6(shelf: &CaseSet) -> Result<Draft, PaperError> {
     let slow = "li2016-8hz-b15mm";
     let (member, hysteresis) = (shelf.case(TRANSFER)?, shelf.case(slow)?);
     let (_, hopf, _, branch) = route(member, TRANSFER)?;
@@ -181,7 +182,7 @@ fn tex(value: f64) -> String {
 }
 
 /// Whether the oscillator vibrates least where 1:1 resonance ends.
-fn optimum(member: &Member, hopf: f64) -> Result<(Check, String), PaperError> {
+fn optimum(member: &CaseReport, hopf: f64) -> Result<(Check, String), PaperError> {
     let clearances = BEFORE_HOPF.map(|part| part * hopf);
     let found = walk(&member.study.analysis.system, &clearances)?;
     let steady: Vec<&WalkPoint> =
@@ -205,7 +206,7 @@ fn optimum(member: &Member, hopf: f64) -> Result<(Check, String), PaperError> {
     Ok((check(least.clearance == last.clearance, words), remark))
 }
 
-pub(super) fn figure_7(shelf: &Shelf) -> Result<Draft, PaperError> {
+pub(super) fn figure_7(shelf: &CaseSet) -> Result<Draft, PaperError> {
     let member = shelf.case(TRANSFER)?;
     let shares =
         forcing_responses::shares(&member.study.analysis.system).map_err(StudyError::from)?;

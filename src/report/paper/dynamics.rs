@@ -1,6 +1,6 @@
 //! Figs. 8, 9 and 12: modulation on the manifold, restitution, transfer.
 
-use super::{Draft, PaperError, Shelf, TRANSFER, check};
+use super::{CaseSet, Draft, PaperError, TRANSFER, check};
 use crate::analysis::{AnalysisError, Manifold};
 use crate::regimes::Regime;
 use crate::report::figures::transfer_stretches::{self, Three};
@@ -12,7 +12,7 @@ use crate::study::StudyError;
 /// impacts of a few percent are what the paper's enlargement shows.
 const CLOSE: f64 = 0.1;
 
-pub(super) fn figure_8(shelf: &Shelf) -> Result<Draft, PaperError> {
+pub(super) fn figure_8(shelf: &CaseSet) -> Result<Draft, PaperError> {
     let member = shelf.case(TRANSFER)?;
     let away = modulation::away_from_branch(&member.scene())?
         .ok_or(PaperError::NoResult { case: TRANSFER, what: "capture on the stable branch" })?;
@@ -39,7 +39,7 @@ pub(super) fn figure_8(shelf: &Shelf) -> Result<Draft, PaperError> {
     })
 }
 
-pub(super) fn figure_9(shelf: &Shelf) -> Result<Draft, PaperError> {
+pub(super) fn figure_9(shelf: &CaseSet) -> Result<Draft, PaperError> {
     let (high, low) = ("li2016-8hz-b4mm", "li2016-8hz-b15mm");
     let of = |name: &'static str| -> Result<restitutions::Strongest, PaperError> {
         restitutions::strongest_of(&shelf.case(name)?.scene())?
@@ -48,8 +48,8 @@ pub(super) fn figure_9(shelf: &Shelf) -> Result<Draft, PaperError> {
     let (at_high, at_low) = (of(high)?, of(low)?);
     let manifold =
         |r| Manifold::of(r).map_err(|error| StudyError::from(AnalysisError::from(error)));
-    let elastic = manifold(1.0)?.symmetry_breaking.oscillator;
-    let dull = manifold(0.2)?.fold.oscillator;
+    let elastic = manifold(1.0)?.symmetry_breaking.oscillator_amplitude;
+    let dull = manifold(0.2)?.fold.oscillator_amplitude;
     let between = |r: f64| r > 0.0 && r < 1.0;
     Ok(Draft {
         number: "9",
@@ -58,7 +58,7 @@ pub(super) fn figure_9(shelf: &Shelf) -> Result<Draft, PaperError> {
         images: vec![shelf.image(high, "restitutions", 860)?, shelf.image(low, "restitutions", 860)?],
         checks: vec![
             check(
-                manifold(0.2)?.fold.oscillator > manifold(0.6)?.fold.oscillator,
+                manifold(0.2)?.fold.oscillator_amplitude > manifold(0.6)?.fold.oscillator_amplitude,
                 "A smaller $r$ lifts the fold, so that 1:1 resonance needs a larger amplitude.",
             ),
             check(
@@ -94,7 +94,7 @@ pub(super) fn figure_9(shelf: &Shelf) -> Result<Draft, PaperError> {
     })
 }
 
-pub(super) fn figure_12(shelf: &Shelf) -> Result<Draft, PaperError> {
+pub(super) fn figure_12(shelf: &CaseSet) -> Result<Draft, PaperError> {
     let name = "li2016-8hz-b15mm";
     let (member, measured) = (shelf.case(TRANSFER)?, shelf.case(name)?);
     let main = member.main().ok_or(PaperError::NoResult { case: TRANSFER, what: "motion" })?;

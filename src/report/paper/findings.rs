@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::boundaries::route;
-use super::{Member, PaperError, Shelf};
+use super::{CaseReport, CaseSet, PaperError};
 use crate::orbits::Bifurcation;
 use crate::report::numbers::decibels;
 
@@ -23,7 +23,7 @@ pub struct Limit {
 }
 
 /// Limits at the two frequencies of the paper, from a case in the middle of Z3 each.
-pub(super) fn limits(shelf: &Shelf) -> Result<Vec<Limit>, PaperError> {
+pub(super) fn limits(shelf: &CaseSet) -> Result<Vec<Limit>, PaperError> {
     let of = |name: &'static str, frequency: &str| -> Result<Limit, PaperError> {
         let member = shelf.case(name)?;
         let (breaking, hopf, last, branch) = route(member, name)?;
@@ -54,9 +54,9 @@ pub(super) fn limits(shelf: &Shelf) -> Result<Vec<Limit>, PaperError> {
 }
 
 /// The findings, each a line.
-pub(super) fn findings(shelf: &Shelf) -> Result<Vec<String>, PaperError> {
+pub(super) fn findings(shelf: &CaseSet) -> Result<Vec<String>, PaperError> {
     let (below, above) = ("li2016-8hz-b7p5mm", "li2016-8p5hz-fig4c");
-    let change = |name: &'static str| -> Result<(&Member, f64, f64), PaperError> {
+    let change = |name: &'static str| -> Result<(&CaseReport, f64, f64), PaperError> {
         let member = shelf.case(name)?;
         let bare = member.study.analysis.system.linear_response();
         let bare = bare.ok_or(PaperError::NoResult { case: name, what: "linear response" })?;

@@ -73,7 +73,7 @@ pub enum PaperError {
 
 /// A studied case with its figures.
 #[derive(Debug)]
-pub struct Member {
+pub struct CaseReport {
     /// The case file's stem, which is also its report's folder.
     pub name: String,
     /// The case.
@@ -84,7 +84,7 @@ pub struct Member {
     pub figures: Vec<Figure>,
 }
 
-impl Member {
+impl CaseReport {
     /// A length over the clearance in words.
     fn length(&self, over_clearance: f64) -> String {
         let scales = self.case.scales();
@@ -106,10 +106,10 @@ impl Member {
 }
 
 /// Studied cases by name.
-struct Shelf<'a>(&'a [Member]);
+struct CaseSet<'a>(&'a [CaseReport]);
 
-impl<'a> Shelf<'a> {
-    fn case(&self, name: &'static str) -> Result<&'a Member, PaperError> {
+impl<'a> CaseSet<'a> {
+    fn case(&self, name: &'static str) -> Result<&'a CaseReport, PaperError> {
         self.0.iter().find(|member| member.name == name).ok_or(PaperError::NoCase(name))
     }
 
@@ -241,8 +241,8 @@ impl Paper {
     ///
     /// # Errors
     /// [`PaperError`] names what is missing.
-    pub fn of(members: &[Member]) -> Result<Self, PaperError> {
-        let shelf = Shelf(members);
+    pub fn of(members: &[CaseReport]) -> Result<Self, PaperError> {
+        let shelf = CaseSet(members);
         let sections = vec![
             boundaries::figure_3(&shelf)?.into(),
             regimes::figure_4(&shelf)?.into(),

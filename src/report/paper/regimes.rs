@@ -1,6 +1,6 @@
 //! Figs. 4 and 11: which regime comes at which clearance.
 
-use super::{Check, Draft, Image, PaperError, Shelf, TRANSFER, check};
+use super::{CaseSet, Check, Draft, Image, PaperError, TRANSFER, check};
 use crate::orbits::Bifurcation;
 use crate::regimes::Regime;
 use crate::report::numbers::{percent, significant};
@@ -27,7 +27,7 @@ const FIGURE_11: [(&str, &str, Regime); 6] = [
 ];
 
 fn compared(
-    shelf: &Shelf,
+    shelf: &CaseSet,
     cases: &[(&'static str, &'static str, Regime)],
 ) -> Result<Vec<Check>, PaperError> {
     let mut checks = Vec::new();
@@ -49,7 +49,7 @@ fn compared(
     Ok(checks)
 }
 
-pub(super) fn figure_4(shelf: &Shelf) -> Result<Draft, PaperError> {
+pub(super) fn figure_4(shelf: &CaseSet) -> Result<Draft, PaperError> {
     let mut checks = compared(shelf, &FIGURE_4)?;
     let (mut impacts, mut levels, mut words) = (Vec::new(), Vec::new(), Vec::new());
     let mut images: Vec<Image> = Vec::new();
@@ -100,7 +100,7 @@ pub(super) fn figure_4(shelf: &Shelf) -> Result<Draft, PaperError> {
     })
 }
 
-pub(super) fn figure_11(shelf: &Shelf) -> Result<Draft, PaperError> {
+pub(super) fn figure_11(shelf: &CaseSet) -> Result<Draft, PaperError> {
     let mut checks = compared(shelf, &FIGURE_11)?;
     let mut images = Vec::new();
     for (_, name, _) in FIGURE_11 {
@@ -132,7 +132,7 @@ pub(super) fn figure_11(shelf: &Shelf) -> Result<Draft, PaperError> {
 
 /// Why no forcing amplitude makes the experiment's order of regimes: the clearance of every boundary
 /// is proportional to `F`, since `F/b` alone decides at given parameters.
-fn remarks(shelf: &Shelf) -> Result<Vec<String>, PaperError> {
+fn remarks(shelf: &CaseSet) -> Result<Vec<String>, PaperError> {
     let [three, asymmetric, steady, modulated] =
         ["li2016-8hz-b2p5mm", "li2016-8hz-b4mm", "li2016-8hz-b7p5mm", "li2016-8hz-b11p5mm"];
     let clearance = |name: &'static str| -> Result<f64, PaperError> {

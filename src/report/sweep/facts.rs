@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::grid::{Grid, Pass};
+use super::grid::{Grid, SweepDirection};
 use super::kinds::AREAS;
 use crate::regimes::Regime;
 
@@ -14,7 +14,7 @@ const SAME_PEAK: f64 = 0.02;
 #[derive(Debug, Clone, Serialize)]
 pub(super) struct Facts {
     #[serde(skip)]
-    pub pass: Pass,
+    pub pass: SweepDirection,
     /// `up`, `down`, or nothing where each point was looked at by itself.
     pub direction: Option<&'static str>,
     /// Points with a motion.
@@ -108,7 +108,7 @@ fn extremes(grid: &Grid, values: Option<&[Option<f64>]>) -> [Option<Extreme>; 2]
 }
 
 impl Facts {
-    pub(super) fn of(grid: &Grid, pass: Pass) -> Self {
+    pub(super) fn of(grid: &Grid, pass: SweepDirection) -> Self {
         let points = grid.points();
         let regimes = grid.regimes(pass);
         let peak = grid.number("peak", pass);
@@ -146,11 +146,11 @@ impl Facts {
             }
         };
         let found = Regime::ALL.into_iter().map(of_regime);
-        let areas = grid.text("area", Pass::Single);
+        let areas = grid.text("area", SweepDirection::Single);
         let by_area = areas.iter().flat_map(|areas| {
             AREAS.iter().map(|(area, _)| group(area, &|point| areas[point] == Some(*area)))
         });
-        let orbit = grid.number("orbit_peak", Pass::Single);
+        let orbit = grid.number("orbit_peak", SweepDirection::Single);
         let by_orbit = orbit.iter().flat_map(|orbit| {
             [
                 group("exact 1:1 orbit attracts", &|point| orbit[point].is_some()),
@@ -162,9 +162,9 @@ impl Facts {
         Self {
             pass,
             direction: match pass {
-                Pass::Single => None,
-                Pass::Up => Some("up"),
-                Pass::Down => Some("down"),
+                SweepDirection::Single => None,
+                SweepDirection::Up => Some("up"),
+                SweepDirection::Down => Some("down"),
             },
             worked_out,
             regimes: found.filter(|one| one.points > 0).collect(),
@@ -185,7 +185,7 @@ impl Facts {
     }
 }
 
-fn coexistence(grid: &Grid, pass: Pass, worked_out: usize) -> Option<Coexistence> {
+fn coexistence(grid: &Grid, pass: SweepDirection, worked_out: usize) -> Option<Coexistence> {
     let motions = grid.number("motions", pass)?;
     let several: Vec<usize> = (0..motions.len())
         .filter(|point| motions[*point].is_some_and(|count| count > 1.0))
@@ -205,8 +205,8 @@ fn coexistence(grid: &Grid, pass: Pass, worked_out: usize) -> Option<Coexistence
 
 /// Where it is not recorded whether a start leads to the orbit, only a single motion that is another one
 /// tells that none does.
-fn orbit_missed(grid: &Grid, pass: Pass) -> Option<usize> {
-    let orbit = grid.number("orbit_peak", Pass::Single)?;
+fn orbit_missed(grid: &Grid, pass: SweepDirection) -> Option<usize> {
+    let orbit = grid.number("orbit_peak", SweepDirection::Single)?;
     if let Some(reached) = grid.number("orbit_reached", pass) {
         let missed = |(orbit, reached): &(&Option<f64>, &Option<f64>)| {
             orbit.is_some() && reached.is_some_and(|reached| reached == 0.0)
@@ -224,8 +224,8 @@ fn orbit_missed(grid: &Grid, pass: Pass) -> Option<usize> {
 /// Points at which what was followed up differs from what was followed down; `None` where a motion was not
 /// followed.
 pub(super) fn hysteresis(grid: &Grid) -> Option<Vec<bool>> {
-    let (up, down) = (grid.regimes(Pass::Up), grid.regimes(Pass::Down));
-    let peaks = [Pass::Up, Pass::Down].map(|pass| grid.number("peak", pass));
+    let (up, down) = (grid.regimes(SweepDirection::Up), grid.regimes(SweepDirection::Down));
+    let peaks = [SweepDirection::Up, SweepDirection::Down].map(|pass| grid.number("peak", pass));
     let regimes = up.zip(down);
     if regimes.is_none() && peaks.iter().any(Option::is_none) {
         return None;

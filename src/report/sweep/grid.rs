@@ -8,7 +8,7 @@ use crate::sweep::columns::Values;
 
 /// How the motions of a column were come by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Pass {
+pub(super) enum SweepDirection {
     /// Looked for at each point by itself.
     Single,
     /// Followed with the axis ascending.
@@ -17,7 +17,7 @@ pub(super) enum Pass {
     Down,
 }
 
-impl Pass {
+impl SweepDirection {
     pub(super) const fn suffix(self) -> &'static str {
         match self {
             Self::Single => "",
@@ -69,17 +69,20 @@ impl<'a> Grid<'a> {
         self.swept.axes.iter().any(AxisShown::is_initial)
     }
 
-    pub(super) fn passes(&self) -> Vec<Pass> {
-        let any = |pass: Pass| {
+    pub(super) fn passes(&self) -> Vec<SweepDirection> {
+        let any = |pass: SweepDirection| {
             SIMULATED.iter().any(|name| self.values(name, pass).is_some())
                 || self.values("section_01", pass).is_some()
         };
-        let found: Vec<Pass> =
-            [Pass::Single, Pass::Up, Pass::Down].into_iter().filter(|pass| any(*pass)).collect();
-        if found.is_empty() { vec![Pass::Single] } else { found }
+        let found: Vec<SweepDirection> =
+            [SweepDirection::Single, SweepDirection::Up, SweepDirection::Down]
+                .into_iter()
+                .filter(|pass| any(*pass))
+                .collect();
+        if found.is_empty() { vec![SweepDirection::Single] } else { found }
     }
 
-    fn values(&self, name: &str, pass: Pass) -> Option<&'a Values> {
+    fn values(&self, name: &str, pass: SweepDirection) -> Option<&'a Values> {
         let suffix = pass.suffix();
         let same = |column: &str| column.strip_suffix(suffix) == Some(name);
         let column = self.swept.columns.iter().find(|column| same(&column.name))?;
@@ -87,7 +90,7 @@ impl<'a> Grid<'a> {
     }
 
     /// A column of numbers, or of whole numbers as such.
-    pub(super) fn number(&self, name: &str, pass: Pass) -> Option<Vec<Option<f64>>> {
+    pub(super) fn number(&self, name: &str, pass: SweepDirection) -> Option<Vec<Option<f64>>> {
         let finite = |value: &Option<f64>| value.filter(|value| value.is_finite());
         match self.values(name, pass)? {
             Values::Number(values) => Some(values.iter().map(finite).collect()),
@@ -102,19 +105,23 @@ impl<'a> Grid<'a> {
     }
 
     /// A column of lengths in displayed units.
-    pub(super) fn length(&self, name: &str, pass: Pass) -> Option<Vec<Option<f64>>> {
+    pub(super) fn length(&self, name: &str, pass: SweepDirection) -> Option<Vec<Option<f64>>> {
         let shown = |value: Option<f64>| value.map(|value| self.lengths.number(value));
         Some(self.number(name, pass)?.into_iter().map(shown).collect())
     }
 
-    pub(super) fn text(&self, name: &str, pass: Pass) -> Option<&'a [Option<&'static str>]> {
+    pub(super) fn text(
+        &self,
+        name: &str,
+        pass: SweepDirection,
+    ) -> Option<&'a [Option<&'static str>]> {
         match self.values(name, pass)? {
             Values::Text(values) => Some(values),
             _ => None,
         }
     }
 
-    pub(super) fn regimes(&self, pass: Pass) -> Option<Vec<Option<Regime>>> {
+    pub(super) fn regimes(&self, pass: SweepDirection) -> Option<Vec<Option<Regime>>> {
         let regimes = self.text("regime", pass)?.iter();
         Some(regimes.map(|name| name.and_then(Regime::of_key)).collect())
     }

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::facts::{Facts, Group};
-use super::grid::{Grid, Pass};
+use super::grid::{Grid, SweepDirection};
 use super::words::{from_to, signed};
 use crate::regimes::Regime;
 use crate::report::numbers::{percent_sharply, significant};
@@ -32,7 +32,7 @@ pub(super) fn tables(grid: &Grid, facts: &[Facts]) -> Vec<TitledTable> {
     for facts in facts {
         let titled = |title: &str, words: &str, table: Table| TitledTable {
             title: match facts.pass {
-                Pass::Single => title.to_owned(),
+                SweepDirection::Single => title.to_owned(),
                 pass => format!("{title}, {}", pass.words()),
             },
             words: words.to_owned(),
@@ -105,7 +105,7 @@ fn without_empty(mut table: Table) -> Table {
     table
 }
 
-fn stretches(grid: &Grid, pass: Pass) -> Table {
+fn stretches(grid: &Grid, pass: SweepDirection) -> Table {
     let axis = &grid.swept.axes[0];
     let regimes = grid.regimes(pass).unwrap_or_default();
     let rate = grid.number("impacts_per_period", pass);

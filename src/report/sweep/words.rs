@@ -2,7 +2,7 @@
 
 use super::AxisShown;
 use super::facts::{Extreme, Facts};
-use super::grid::{Grid, Pass};
+use super::grid::{Grid, SweepDirection};
 use super::kinds::area_words;
 use crate::analysis::Area;
 use crate::regimes::Regime;
@@ -45,7 +45,7 @@ impl Words<'_> {
         let most = match main {
             Some((facts, main)) => {
                 let way = match facts.pass {
-                    Pass::Single => String::new(),
+                    SweepDirection::Single => String::new(),
                     pass => format!(" {}", pass.words()),
                 };
                 let words = capitalised(main.regime.words());
@@ -61,7 +61,7 @@ impl Words<'_> {
     }
 
     fn largest_area(&self) -> String {
-        let Some(areas) = self.grid.text("area", Pass::Single) else {
+        let Some(areas) = self.grid.text("area", SweepDirection::Single) else {
             return format!("{} points.", self.grid.points());
         };
         let count = |name: &str| areas.iter().filter(|area| **area == Some(name)).count();
@@ -121,7 +121,7 @@ impl Words<'_> {
     /// The end of a sentence about a pass.
     fn way(&self, facts: &Facts) -> String {
         match facts.pass {
-            Pass::Single => String::new(),
+            SweepDirection::Single => String::new(),
             pass => format!(" ({})", pass.words()),
         }
     }
@@ -129,7 +129,7 @@ impl Words<'_> {
     fn others(&self, facts: &Facts) -> Option<String> {
         let main = facts.main()?;
         // The headline has told the first pass's main one.
-        let again = facts.pass == Pass::Down;
+        let again = facts.pass == SweepDirection::Down;
         let mut rest: Vec<_> =
             facts.regimes.iter().filter(|one| again || one.regime != main.regime).collect();
         rest.sort_by_key(|one| std::cmp::Reverse(one.points));
@@ -139,7 +139,7 @@ impl Words<'_> {
             .collect();
         let told = told.join("; ");
         Some(match facts.pass {
-            Pass::Down => format!("On the way down: {told}."),
+            SweepDirection::Down => format!("On the way down: {told}."),
             _ if told.is_empty() => "No other motion was found.".to_owned(),
             _ => format!("Beside it: {told}."),
         })
@@ -287,7 +287,7 @@ impl Words<'_> {
             false => format!("from {} to {}", axis.number(from), axis.number(to)),
         };
         let middle = usize::midpoint(from, to);
-        let what = |pass: Pass| {
+        let what = |pass: SweepDirection| {
             let regime = self.grid.regimes(pass).and_then(|all| all[middle]);
             let peak = self.grid.number("peak", pass).and_then(|all| all[middle]);
             let peak = peak.map(|peak| format!("peak {}", self.grid.lengths.text(peak)));
@@ -297,7 +297,7 @@ impl Words<'_> {
                 (None, peak) => peak.unwrap_or_else(|| "nothing measured".to_owned()),
             }
         };
-        format!("{place} {} up, {} down", what(Pass::Up), what(Pass::Down))
+        format!("{place} {} up, {} down", what(SweepDirection::Up), what(SweepDirection::Down))
     }
 
     pub(super) fn method(&self) -> Vec<String> {
@@ -316,7 +316,9 @@ impl Words<'_> {
         let measured = format!(
             "a motion that is not seen to repeat was measured over {periods} excitation periods"
         );
-        if self.hysteresis.is_some() || self.facts.iter().any(|facts| facts.pass != Pass::Single) {
+        if self.hysteresis.is_some()
+            || self.facts.iter().any(|facts| facts.pass != SweepDirection::Single)
+        {
             let name = swept.axes.last().map_or("axis", |axis| axis.name.as_str());
             all.push(format!(
                 "Along the {name} a motion was followed from point to point, up and then down; {measured}."
@@ -338,13 +340,13 @@ impl Words<'_> {
                     .to_owned(),
             );
         }
-        if self.grid.text("area", Pass::Single).is_some() {
+        if self.grid.text("area", SweepDirection::Single).is_some() {
             all.push(
                 "Areas are those of the closed form, at leading order in the mass ratio."
                     .to_owned(),
             );
         }
-        if self.grid.number("orbit_peak", Pass::Single).is_some() {
+        if self.grid.number("orbit_peak", SweepDirection::Single).is_some() {
             all.push(
                 "Exact 1:1 orbits have two symmetric impacts per period, without expansion in the mass ratio and without simulation; \
                  they attract where all multipliers lie inside the unit circle."
@@ -353,7 +355,7 @@ impl Words<'_> {
         }
         if self
             .grid
-            .number("reduction_db", self.facts.first().map_or(Pass::Single, |f| f.pass))
+            .number("reduction_db", self.facts.first().map_or(SweepDirection::Single, |f| f.pass))
             .is_some()
         {
             all.push(

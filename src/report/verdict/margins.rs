@@ -6,7 +6,7 @@ use crate::orbits::{Bifurcation, StableStretch};
 use crate::regimes::Regime;
 use crate::report::numbers::{decibels, percent, significant};
 use crate::study::margins::{ExactMargin, ExactMargins};
-use crate::validation::Price;
+use crate::validation::AsymptoticError;
 
 impl Writer<'_> {
     /// Both ways in clearance, or where a steady motion would be.
@@ -43,8 +43,8 @@ impl Writer<'_> {
         let [below, above] = margins.clearance;
         let side = |margin: Option<ExactMargin>, name: &str| {
             let margin = margin?;
-            let same = |price: &&Price| price.exact == Some(margin.factor);
-            let price = self.study.prices.iter().find(same)?;
+            let same = |price: &&AsymptoticError| price.exact == Some(margin.factor);
+            let price = self.study.asymptotic_errors.iter().find(same)?;
             let (at, difference) = (price.theory?, price.difference?);
             Some(format!("the {name} limit at {} ({})", self.length(at), off(difference)))
         };

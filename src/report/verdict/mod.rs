@@ -10,7 +10,7 @@ use serde::Serialize;
 use super::numbers::{LengthFormat, decibels, known_to, percent, significant, with_error};
 use crate::band::{Band, Inactive, Rivals};
 use crate::case::Case;
-use crate::regimes::{FoundAttractor, Nature, Regime};
+use crate::regimes::{DynamicsKind, FoundAttractor, Regime};
 use crate::study::CaseStudy;
 use crate::validation::Verdict as Outcome;
 
@@ -258,11 +258,11 @@ impl Writer<'_> {
                     (0, _) => "from a start on the predicted motion".into(),
                     _ => format!("{} of the starts", percent(found.share)),
                 };
-                let nature = match found.attractor.classification.nature {
-                    Nature::AtRest | Nature::Periodic { .. } => String::new(),
+                let dynamics = match found.attractor.classification.dynamics {
+                    DynamicsKind::AtRest | DynamicsKind::Periodic { .. } => String::new(),
                     other => format!("{}, ", other.words()),
                 };
-                format!("{} ({nature}peak {peak}, {share})", found.regime().words())
+                format!("{} ({dynamics}peak {peak}, {share})", found.regime().words())
             })
             .collect();
         if others.is_empty() {

@@ -2,7 +2,7 @@
 
 use super::{Outcome, Writer};
 use crate::analysis::{Area, Strip};
-use crate::regimes::{FoundAttractor, Nature, Regime};
+use crate::regimes::{DynamicsKind, FoundAttractor, Regime};
 use crate::report::motion_tables::text_of;
 use crate::report::numbers::{capitalised, significant};
 
@@ -51,7 +51,7 @@ impl Writer<'_> {
             all => format!("{confirmed} of {all} claims of theory and orbits are confirmed"),
         };
         let by = self.study.area.by.words();
-        let nature = self.nature(main);
+        let dynamics = self.dynamics(main);
         let orbit = match self.study.exact.attracting() {
             Some(_) if main.regime() == Regime::TwoSymmetric => String::new(),
             Some(_) => "; the exact symmetric orbit is stable beside it".into(),
@@ -61,33 +61,33 @@ impl Writer<'_> {
             None => "; no exact symmetric orbit is stable".into(),
         };
         format!(
-            "{} (area {area:?}{strip} by {by}: {criterion}), {nature}: {led}{orbit}; {claims}.",
+            "{} (area {area:?}{strip} by {by}: {criterion}), {dynamics}: {led}{orbit}; {claims}.",
             capitalised(main.regime().words()),
         )
     }
 
     /// What kind of dynamics the motion is, and what proves it.
-    fn nature(&self, found: &FoundAttractor) -> String {
+    fn dynamics(&self, found: &FoundAttractor) -> String {
         let attractor = &found.attractor;
         let proofs = self.study.attractors.iter().zip(&self.study.proofs);
         let proof = proofs
             .filter(|(one, _)| std::ptr::eq(*one, found))
             .find_map(|(_, proof)| proof.as_ref());
-        match (attractor.classification.nature, proof) {
-            (Nature::Periodic { .. }, Some(proof)) => format!(
+        match (attractor.classification.dynamics, proof) {
+            (DynamicsKind::Periodic { .. }, Some(proof)) => format!(
                 "periodic, proven by an exact orbit with largest multiplier {} per period",
                 significant(proof.orbit.radius_per_period(), 3)
             ),
-            (Nature::Periodic { periods, .. }, None) => match periods {
+            (DynamicsKind::Periodic { periods, .. }, None) => match periods {
                 1 => "repeating every period".into(),
                 more => format!("repeating every {more} periods"),
             },
-            (Nature::TransientNotOver, _) => {
+            (DynamicsKind::TransientNotOver, _) => {
                 format!("a transient not over after {} periods", attractor.followed)
             }
             (other, _) => {
                 let exponent = attractor.classification.evidence.exponent;
-                let exponent = exponent.filter(|_| other != Nature::AtRest).map(|exponent| {
+                let exponent = exponent.filter(|_| other != DynamicsKind::AtRest).map(|exponent| {
                     format!(" with Lyapunov exponent {} per period", text_of(&exponent))
                 });
                 format!("{}{}", other.words(), exponent.unwrap_or_default())

@@ -23,7 +23,7 @@ impl Writer<'_> {
                 ),
             ),
             None => (
-                self.study.analysis.stable_points().last()?.oscillator,
+                self.study.analysis.stable_points().last()?.oscillator_amplitude,
                 "Two symmetric impacts per period, by a stable fixed point of the slow flow that no exact orbit confirms".into(),
             ),
         };

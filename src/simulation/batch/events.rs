@@ -111,11 +111,11 @@ impl<S: Simd> Lanes<S> {
         for lane in (0..LANES).filter(|lane| special >> lane & 1 == 1) {
             let Some(index) = self.task[lane] else { continue };
             let task = &mut queue.tasks[index];
-            task.simulation.stand(&self.moment(lane));
+            task.simulation.resume(&self.moment(lane));
             if stuck >> lane & 1 == 1 {
                 task.simulation.perhaps_stick(side(wall[lane]), task.observer);
             }
-            if self.go_on(lane, false, queue) {
+            if self.step(lane, false, queue) {
                 again |= 1 << lane;
             }
         }

@@ -26,7 +26,7 @@ impl<O: Observer> Task<'_, O> {
             }
             doubt = false;
             let one = Limits::of(self.simulation, 1, 1);
-            if let Err(stop) = self.simulation.go_on(one, self.observer) {
+            if let Err(stop) = self.simulation.step(one, self.observer) {
                 self.stop = Some(stop);
                 return None;
             }

@@ -5,9 +5,9 @@
 //! of the cavity holds an impact; nothing is looked for between the ends of steps. It shares no code
 //! with the event engine, except for what it is compared with.
 
+use crate::operation_count::{self, ELEMENTARY};
 use crate::simulation::{Impact, Observer, Side, Simulation, StartError, Stop};
 use crate::system::{State, System};
-use crate::tally::{self, ELEMENTARY};
 
 /// Halvings of a step that locate an impact to rounding.
 const HALVINGS: u32 = 50;
@@ -61,7 +61,7 @@ impl ByHand {
     }
 
     fn advanced(&self, time: f64, at: &State, h: f64) -> State {
-        tally::note(4 * (2 * ELEMENTARY + 7) + 36);
+        operation_count::note(4 * (2 * ELEMENTARY + 7) + 36);
         let (x, v) = (at.x, at.x_velocity);
         let half = 0.5 * h;
         let a1 = self.acceleration(time, x, v);
@@ -83,15 +83,16 @@ impl ByHand {
     fn located(&self, time: f64, at: &State, end: &State, h: f64) -> f64 {
         match self.locate {
             Locate::Interpolation => {
-                let wall = end.gap().signum();
-                let part = (wall - at.gap()) / (end.gap() - at.gap());
+                let wall = end.relative_displacement().signum();
+                let part = (wall - at.relative_displacement())
+                    / (end.relative_displacement() - at.relative_displacement());
                 h * part.clamp(0.0, 1.0)
             }
             Locate::Bisection => {
                 let (mut before, mut after) = (0.0, h);
                 for _ in 0..HALVINGS {
                     let middle = 0.5 * (before + after);
-                    if self.advanced(time, at, middle).gap().abs() > 1.0 {
+                    if self.advanced(time, at, middle).relative_displacement().abs() > 1.0 {
                         after = middle;
                     } else {
                         before = middle;
@@ -106,7 +107,7 @@ impl ByHand {
         let (eps, r) = (self.system.mass_ratio(), self.system.restitution());
         let exchanged = (1.0 + r) * (at.x_velocity - at.y_velocity) / (1.0 + eps);
         // The mass is put on the wall, where linear interpolation leaves it short of it.
-        at.y = at.x - at.gap().signum();
+        at.y = at.x - at.relative_displacement().signum();
         at.x_velocity -= eps * exchanged;
         at.y_velocity += exchanged;
         at
@@ -137,8 +138,8 @@ impl ByHand {
         let (mut state, mut time, mut left) = (start, from, h);
         for _ in 0..MOST_IN_STEP {
             let next = self.advanced(time, &state, left);
-            let outwards = next.gap() * (next.x_velocity - next.y_velocity) > 0.0;
-            if next.gap().abs() <= 1.0 || !outwards {
+            let outwards = next.relative_displacement() * (next.x_velocity - next.y_velocity) > 0.0;
+            if next.relative_displacement().abs() <= 1.0 || !outwards {
                 return next;
             }
             let passed = self.located(time, &state, &next, left);
@@ -196,7 +197,7 @@ impl Flights {
             let exact = next(&hand.system, state, phase)?;
             found.compared += 1;
             let took = after - before;
-            let side = if end.gap() > 0.0 { Side::Plus } else { Side::Minus };
+            let side = if end.relative_displacement() > 0.0 { Side::Plus } else { Side::Minus };
             match exact {
                 Some(exact) if exact.side == side && (exact.tau - took).abs() <= width => {}
                 Some(exact) if exact.tau < took => found.missed += 1,

@@ -5,12 +5,12 @@ use crate::analysis::motion::root_mean_square;
 use crate::analysis::slow_motion::{SlowEnd, SlowFlow};
 use crate::analysis::{FixedPoint, Manifold, fixed_points};
 use crate::numerics::scatter::twice_standard_error;
+use crate::operation_count;
 use crate::orbits::{Measures, symmetric_orbits};
 use crate::regimes::{Attractor, Regime, Thresholds, classify};
 use crate::simulation::{ContactTolerance, ImpactLog, Simulation, Statistics, Stop};
 use crate::study::{Proof, StudyError};
 use crate::system::{State, System};
-use crate::tally;
 
 /// Which search for impacts a simulation uses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -148,7 +148,7 @@ impl Method {
     /// # Errors
     /// [`StudyError`] where it cannot be carried out.
     pub fn run(self, system: &System, start: State) -> Result<(Answer, u64), StudyError> {
-        let (answer, operations) = tally::counted(|| self.answer(system, start));
+        let (answer, operations) = operation_count::counted(|| self.answer(system, start));
         Ok((answer?, operations))
     }
 
@@ -183,7 +183,12 @@ fn steady(rms: f64) -> Answer {
 
 /// The answer that a stable fixed point is.
 pub fn of_fixed_point(system: &System, point: &FixedPoint) -> Answer {
-    steady(root_mean_square(system, point.oscillator, point.absorber, point.absorber_phase))
+    steady(root_mean_square(
+        system,
+        point.oscillator_amplitude,
+        point.absorber_amplitude,
+        point.absorber_phase,
+    ))
 }
 
 fn closed_form(system: &System) -> Result<Answer, StudyError> {
@@ -202,19 +207,23 @@ fn slow_flow(system: &System, periods: u64) -> Result<Answer, StudyError> {
     let manifold =
         Manifold::of(system.restitution()).map_err(crate::analysis::AnalysisError::from)?;
     let flow = SlowFlow::of(system, &manifold);
-    let middle = 0.5 * (manifold.fold.oscillator + manifold.symmetry_breaking.oscillator);
+    let middle = 0.5
+        * (manifold.fold.oscillator_amplitude + manifold.symmetry_breaking.oscillator_amplitude);
     let Some(start) = flow.point(middle, 0.0) else {
         return Ok(no_answer("the stable branch has no middle"));
     };
     Ok(match flow.follow(start, periods) {
         SlowEnd::Settles(at) | SlowEnd::Moving(at)
-            if at.absorber > manifold.symmetry_breaking.absorber =>
+            if at.absorber_amplitude > manifold.symmetry_breaking.absorber_amplitude =>
         {
             no_answer("beyond symmetry breaking, where the branch is unstable")
         }
-        SlowEnd::Settles(at) | SlowEnd::Moving(at) => {
-            steady(root_mean_square(system, at.oscillator, at.absorber, at.absorber_phase))
-        }
+        SlowEnd::Settles(at) | SlowEnd::Moving(at) => steady(root_mean_square(
+            system,
+            at.oscillator_amplitude,
+            at.absorber_amplitude,
+            at.absorber_phase,
+        )),
         SlowEnd::LeavesAtFold { .. } => {
             no_answer("leaves the manifold at the fold: the theory gives no steady amplitude")
         }
@@ -270,14 +279,14 @@ fn simulated(
         simulation = simulation.step_by_step();
     }
     let discard = periods / 2;
-    let stop = simulation.run(discard, IMPACT_LIMIT, &mut crate::simulation::Nobody);
+    let stop = simulation.run(discard, IMPACT_LIMIT, &mut ());
     let answer = match stop {
         Stop::EndTime => measured(&mut simulation, periods - discard),
         other => Some(no_answer(other.words())),
     };
     // The slow search notes every evaluation itself.
     if search == Search::Panels {
-        tally::note(simulation.operations());
+        operation_count::note(simulation.operations());
     }
     Ok(answer.unwrap_or_else(|| no_answer("the run was ended by its limit on impacts")))
 }
@@ -386,14 +395,14 @@ impl Sums {
 
 impl Listener for Sums {
     fn impact(&mut self, _: f64, _: &State) {
-        tally::note(12);
+        operation_count::note(12);
         self.impacts += 1;
         if let Some(block) = self.block() {
             block[2] += 1.0;
         }
     }
     fn step(&mut self, state: &State) {
-        tally::note(2);
+        operation_count::note(2);
         if let Some(block) = self.block() {
             block[0] += 1.0;
             block[1] += state.x * state.x;

@@ -6,7 +6,7 @@
 //! none the longest simulation, with the scatter between its blocks. Errors are differences from it;
 //! one that is smaller than the best answer's own is only known to be below that.
 //!
-//! Costs are operations as [`crate::tally`] counts them. Time is not measured here: whoever has a
+//! Costs are operations as [`crate::operation_count`] counts them. Time is not measured here: whoever has a
 //! clock runs [`Method::run`] again.
 
 pub mod by_hand;

@@ -1,7 +1,7 @@
 //! Diagrams over one axis.
 
 use super::super::AxisShown;
-use super::super::grid::{Grid, Pass};
+use super::super::grid::{Grid, SweepDirection};
 use super::super::kinds;
 use crate::regimes::Regime;
 use crate::report::figure::{Axis, Tick};
@@ -39,13 +39,15 @@ fn horizontal(axis: &AxisShown) -> Axis {
 }
 
 /// How points of a pass look where colours do not tell regimes.
-fn marks(pass: Pass) -> (Marker, Color, &'static str) {
+fn marks(pass: SweepDirection) -> (Marker, Color, &'static str) {
     match pass {
-        Pass::Single => {
+        SweepDirection::Single => {
             (Marker::filled(Shape::Circle).sized(4.4), Color::ReddishPurple, "simulated")
         }
-        Pass::Up => (Marker::filled(Shape::Circle).sized(4.4), Color::ReddishPurple, "way up"),
-        Pass::Down => (Marker::hollow(Shape::Square).sized(5.4), Color::Blue, "way down"),
+        SweepDirection::Up => {
+            (Marker::filled(Shape::Circle).sized(4.4), Color::ReddishPurple, "way up")
+        }
+        SweepDirection::Down => (Marker::hollow(Shape::Square).sized(5.4), Color::Blue, "way down"),
     }
 }
 
@@ -63,16 +65,16 @@ fn line(axis: &AxisShown, values: &[Option<f64>]) -> Vec<[f64; 2]> {
 /// up and the way down are both drawn.
 fn diagram(grid: &Grid, axis: &AxisShown) -> Option<Figure> {
     let passes = grid.passes();
-    let peaks: Vec<(Pass, Vec<Option<f64>>)> =
+    let peaks: Vec<(SweepDirection, Vec<Option<f64>>)> =
         passes.iter().filter_map(|pass| Some((*pass, grid.length("peak", *pass)?))).collect();
     let label = format!("largest displacement ({})", grid.lengths.unit);
     let mut panel = Panel::new(horizontal(axis), Axis::linear(label));
-    if let Some(bare) = grid.length("bare_amplitude", Pass::Single) {
+    if let Some(bare) = grid.length("bare_amplitude", SweepDirection::Single) {
         let layer = Layer::curve(Role::BareOscillator, line(axis, &bare));
         panel = panel.with(layer.labelled("without absorber"));
     }
-    if let (Some(largest), [(Pass::Single, main)]) =
-        (grid.length("largest_peak", Pass::Single), peaks.as_slice())
+    if let (Some(largest), [(SweepDirection::Single, main)]) =
+        (grid.length("largest_peak", SweepDirection::Single), peaks.as_slice())
     {
         // Another motion where it is told apart from the main one at this size.
         let other = |(largest, main): (&Option<f64>, &Option<f64>)| {
@@ -86,7 +88,7 @@ fn diagram(grid: &Grid, axis: &AxisShown) -> Option<Figure> {
         }
     }
     for (pass, values) in &peaks {
-        match grid.regimes(*pass).filter(|_| *pass == Pass::Single) {
+        match grid.regimes(*pass).filter(|_| *pass == SweepDirection::Single) {
             Some(regimes) => panel.layers.extend(by_regime(axis, values, &regimes)),
             None => {
                 let (marker, color, name) = marks(*pass);
@@ -96,7 +98,7 @@ fn diagram(grid: &Grid, axis: &AxisShown) -> Option<Figure> {
         }
     }
     // In front of the marks, which it would else be hidden by where they agree.
-    let orbit = grid.length("orbit_peak", Pass::Single);
+    let orbit = grid.length("orbit_peak", SweepDirection::Single);
     if let Some(orbit) = orbit.filter(|orbit| orbit.iter().any(Option::is_some)) {
         let layer = Layer::curve(Role::ExactOrbit, line(axis, &orbit));
         panel = panel.with(layer.labelled("exact 1:1 orbit"));
@@ -153,7 +155,7 @@ fn by_regime(axis: &AxisShown, values: &[Option<f64>], regimes: &[Option<Regime>
 }
 
 /// The regimes of each pass as a row of colours, and those that occur.
-fn strip(grid: &Grid, axis: &AxisShown, passes: &[Pass]) -> Option<(Panel, Vec<Regime>)> {
+fn strip(grid: &Grid, axis: &AxisShown, passes: &[SweepDirection]) -> Option<(Panel, Vec<Regime>)> {
     let rows: Option<Vec<Vec<Option<Regime>>>> =
         passes.iter().map(|pass| grid.regimes(*pass)).collect();
     let rows = rows?;
@@ -166,7 +168,7 @@ fn strip(grid: &Grid, axis: &AxisShown, passes: &[Pass]) -> Option<(Panel, Vec<R
         y_edges: (0..=rows.len()).map(|k| k as f64).collect(),
         cells: Cells::Kinds(tints, cells),
     };
-    let name = |pass: &Pass| if *pass == Pass::Up { "up" } else { "down" };
+    let name = |pass: &SweepDirection| if *pass == SweepDirection::Up { "up" } else { "down" };
     let ticks = passes
         .iter()
         .rev()
@@ -190,9 +192,10 @@ fn section(grid: &Grid, axis: &AxisShown) -> Option<Figure> {
             continue;
         }
         let (_, color, name) = marks(pass);
-        let marker = Marker { filled: pass != Pass::Down, ..Marker::dot() };
+        let marker = Marker { filled: pass != SweepDirection::Down, ..Marker::dot() };
         let layer = Layer::marked(marker, color, dots);
-        panel = panel.with(if pass == Pass::Single { layer } else { layer.labelled(name) });
+        panel =
+            panel.with(if pass == SweepDirection::Single { layer } else { layer.labelled(name) });
     }
     if panel.layers.is_empty() {
         return None;
@@ -222,7 +225,7 @@ fn values(
         if known.is_empty() {
             continue;
         }
-        match grid.regimes(pass).filter(|_| pass == Pass::Single) {
+        match grid.regimes(pass).filter(|_| pass == SweepDirection::Single) {
             Some(regimes) => panel.layers.extend(by_regime(axis, &values, &regimes)),
             None => {
                 let (marker, color, name) = marks(pass);

@@ -1,7 +1,7 @@
 //! Maps over two axes; several side by side where there are more axes, or motions were followed up and down.
 
 use super::super::AxisShown;
-use super::super::grid::{Grid, Pass, Plane};
+use super::super::grid::{Grid, Plane, SweepDirection};
 use super::super::kinds::{self, AREAS, COUNTS};
 use super::overlay::{self, Overlay};
 use crate::regimes::Regime;
@@ -20,11 +20,11 @@ const BAR: u32 = 128;
 struct Panels<'a> {
     grid: &'a Grid<'a>,
     plane: Plane<'a>,
-    shown: Vec<(usize, Pass)>,
+    shown: Vec<(usize, SweepDirection)>,
 }
 
 /// What the cells of a panel hold.
-type Content<'a> = dyn Fn(usize, Pass) -> Option<Cells> + 'a;
+type Content<'a> = dyn Fn(usize, SweepDirection) -> Option<Cells> + 'a;
 
 /// What a kind of map is.
 struct Map<'a> {
@@ -74,7 +74,7 @@ impl<'a> Panels<'a> {
         Self { grid, plane, shown }
     }
 
-    fn heading(&self, slice: usize, pass: Pass) -> Option<String> {
+    fn heading(&self, slice: usize, pass: SweepDirection) -> Option<String> {
         let words = [self.grid.slice_words(slice), pass.words().to_owned()];
         let words: Vec<String> = words.into_iter().filter(|words| !words.is_empty()).collect();
         (!words.is_empty()).then(|| words.join(", "))
@@ -173,9 +173,9 @@ impl<'a> Panels<'a> {
 
     fn regimes(&self) -> Option<Figure> {
         let of = |pass| self.grid.regimes(pass);
-        let all: Vec<(Pass, Vec<Option<Regime>>)> =
+        let all: Vec<(SweepDirection, Vec<Option<Regime>>)> =
             self.grid.passes().into_iter().filter_map(|pass| Some((pass, of(pass)?))).collect();
-        let content = |slice: usize, pass: Pass| {
+        let content = |slice: usize, pass: SweepDirection| {
             let (_, regimes) = all.iter().find(|(of, _)| *of == pass)?;
             let cells = self.plane.cells(regimes, slice);
             let cells = cells.iter().map(|regime| Some((*regime)?.index() as u8)).collect();
@@ -220,8 +220,8 @@ impl<'a> Panels<'a> {
         if self.grid.passes().iter().any(|pass| self.grid.regimes(*pass).is_some()) {
             return None;
         }
-        let areas = self.grid.text("area", Pass::Single)?;
-        let content = |slice: usize, _: Pass| {
+        let areas = self.grid.text("area", SweepDirection::Single)?;
+        let content = |slice: usize, _: SweepDirection| {
             let index = |name: &str| AREAS.iter().position(|(area, _)| *area == name);
             let cells = self.plane.cells(areas, slice);
             let cells = cells.iter().map(|area| Some(index((*area)?)? as u8)).collect();
@@ -244,18 +244,18 @@ impl<'a> Panels<'a> {
 
     /// A quantity on a ramp; nothing where it is not recorded.
     fn values(&self, name: &'static str, column: &str, ramp: Ramp) -> Option<Figure> {
-        let of = |pass: Pass| match column {
+        let of = |pass: SweepDirection| match column {
             "reduction_db" | "efficiency" | "lyapunov" => self.grid.number(column, pass),
             _ => self.grid.length("peak", pass),
         };
-        let all: Vec<(Pass, Vec<Option<f64>>)> =
+        let all: Vec<(SweepDirection, Vec<Option<f64>>)> =
             self.grid.passes().into_iter().filter_map(|pass| Some((pass, of(pass)?))).collect();
         let shown = self.shown.iter().flat_map(|(slice, pass)| {
             let here = all.iter().find(|(of, _)| of == pass);
             here.map(|(_, values)| self.plane.cells(values, *slice)).unwrap_or_default()
         });
         let (range, cut) = range(shown.flatten().collect())?;
-        let content = |slice: usize, pass: Pass| {
+        let content = |slice: usize, pass: SweepDirection| {
             let (_, values) = all.iter().find(|(of, _)| *of == pass)?;
             Some(Cells::Values(ramp, range, self.plane.cells(values, slice)))
         };
@@ -304,10 +304,10 @@ impl<'a> Panels<'a> {
         if self.grid.swept.starts < 2 && !self.grid.is_basin() {
             return None;
         }
-        let motions = self.grid.number("motions", Pass::Single)?;
+        let motions = self.grid.number("motions", SweepDirection::Single)?;
         let most = COUNTS.len() - 1;
         let kind = |count: f64| (count.max(0.0) as usize).min(most);
-        let content = |slice: usize, _: Pass| {
+        let content = |slice: usize, _: SweepDirection| {
             let cells = self.plane.cells(&motions, slice);
             let cells = cells.iter().map(|count| Some(kind((*count)?) as u8)).collect();
             Some(Cells::Kinds(COUNTS.to_vec(), cells))

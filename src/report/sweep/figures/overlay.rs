@@ -1,6 +1,6 @@
 //! What is drawn over a map: boundaries of the theory and of exact orbits, areas by name, the case.
 
-use super::super::grid::{Grid, Pass, Plane};
+use super::super::grid::{Grid, Plane, SweepDirection};
 use super::super::kinds::{AREAS, area_words};
 use super::contours;
 use crate::analysis::Manifold;
@@ -121,13 +121,13 @@ fn traced(grid: &Grid, plane: Plane, slice: usize, named: bool) -> Overlay {
     let (x_edges, y_edges) = (plane.x.edges(), plane.y.edges());
     let mut layers = Vec::new();
     let mut drawn = [false; 2];
-    if let Some(areas) = grid.text("area", Pass::Single) {
+    if let Some(areas) = grid.text("area", SweepDirection::Single) {
         let curve = contours::between(&plane.cells(areas, slice), &x_edges, &y_edges);
         drawn[0] = !curve.is_empty();
         let layer = Layer::styled(Style::new(Color::Vermillion, 1.7, Dash::Solid), curve);
         layers.extend(cased(label(layer, "areas of the theory", named && drawn[0])));
     }
-    if let Some(orbit) = grid.number("orbit_peak", Pass::Single) {
+    if let Some(orbit) = grid.number("orbit_peak", SweepDirection::Single) {
         let attracts: Vec<Option<bool>> =
             plane.cells(&orbit, slice).iter().map(|peak| Some(peak.is_some())).collect();
         let curve = contours::between(&attracts, &x_edges, &y_edges);
@@ -160,7 +160,7 @@ fn label(layer: Layer, words: &str, named: bool) -> Layer {
 /// The names of the areas, each in the middle of its largest part, where it has room in a figure with so many
 /// columns.
 pub(super) fn area_names(grid: &Grid, plane: Plane, slice: usize, columns: usize) -> Vec<Layer> {
-    let Some(areas) = grid.text("area", Pass::Single) else { return Vec::new() };
+    let Some(areas) = grid.text("area", SweepDirection::Single) else { return Vec::new() };
     let cells = plane.cells(areas, slice);
     let (across, up) = (plane.x.values.len(), plane.y.values.len());
     let inside = depths(&cells, across, up);

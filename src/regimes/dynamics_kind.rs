@@ -7,7 +7,7 @@ use super::{Evidence, Exponent};
 /// What kind of dynamics a motion is; the regime says what its impacts do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
-pub enum Nature {
+pub enum DynamicsKind {
     /// No impacts, and every period like the one before.
     AtRest,
     /// It was seen to repeat.
@@ -28,8 +28,8 @@ pub enum Nature {
     Undecided,
 }
 
-impl Nature {
-    /// The nature in a few words.
+impl DynamicsKind {
+    /// The kind of dynamics in a few words.
     pub fn words(self) -> &'static str {
         match self {
             Self::AtRest => "at rest",
@@ -61,7 +61,7 @@ const SAME_DEPTH: std::ops::Range<f64> = 0.9..1.1;
 /// chaotic one in a short window, keeps within a factor of two.
 const STEADY_DEPTH: std::ops::Range<f64> = 0.5..2.0;
 
-impl Nature {
+impl DynamicsKind {
     /// Decides by the evidence, in this order (of a chaotic motion no window says whether it stays:
     /// beside a motion that repeats it may be a transient of any length):
     ///
@@ -138,35 +138,35 @@ mod tests {
 
     #[test]
     fn the_exponent_decides_where_nothing_repeats() {
-        let of = |low, high| Nature::of(&evidence(Some(exponent(low, high))));
-        assert_eq!(of(0.3, 0.4), Nature::Chaotic);
-        assert_eq!(of(-0.4, -0.3), Nature::TransientNotOver);
-        assert_eq!(of(-1e-3, 1e-3), Nature::QuasiPeriodic);
+        let of = |low, high| DynamicsKind::of(&evidence(Some(exponent(low, high))));
+        assert_eq!(of(0.3, 0.4), DynamicsKind::Chaotic);
+        assert_eq!(of(-0.4, -0.3), DynamicsKind::TransientNotOver);
+        assert_eq!(of(-1e-3, 1e-3), DynamicsKind::QuasiPeriodic);
         // Too wide to tell, on either side of zero.
-        assert_eq!(of(-0.1, 1e-3), Nature::Undecided);
-        assert_eq!(of(-1e-3, 0.1), Nature::Undecided);
+        assert_eq!(of(-0.1, 1e-3), DynamicsKind::Undecided);
+        assert_eq!(of(-1e-3, 0.1), DynamicsKind::Undecided);
         // Above zero by no more than a linear drift over 1000 periods, 2 ln(1000)/1000 = 0.0138.
-        assert_eq!(of(0.013, 0.3), Nature::Undecided);
-        assert_eq!(of(0.0145, 0.3), Nature::Chaotic);
-        assert_eq!(Nature::of(&evidence(None)), Nature::Undecided);
+        assert_eq!(of(0.013, 0.3), DynamicsKind::Undecided);
+        assert_eq!(of(0.0145, 0.3), DynamicsKind::Chaotic);
+        assert_eq!(DynamicsKind::of(&evidence(None)), DynamicsKind::Undecided);
     }
 
     #[test]
     fn what_has_not_converged_or_settled_decides_nothing() {
         let loose = |low, high| Some(Exponent { converged: false, ..exponent(low, high) });
-        assert_eq!(Nature::of(&evidence(loose(0.3, 0.4))), Nature::Undecided);
-        assert_eq!(Nature::of(&evidence(loose(-1e-3, 1e-3))), Nature::Undecided);
+        assert_eq!(DynamicsKind::of(&evidence(loose(0.3, 0.4))), DynamicsKind::Undecided);
+        assert_eq!(DynamicsKind::of(&evidence(loose(-1e-3, 1e-3))), DynamicsKind::Undecided);
         let zero = evidence(Some(exponent(-1e-3, 1e-3)));
         let drifting = Evidence { settled: false, ..zero };
-        assert_eq!(Nature::of(&drifting), Nature::TransientNotOver);
+        assert_eq!(DynamicsKind::of(&drifting), DynamicsKind::TransientNotOver);
         for (growth, expected) in [
-            (0.4, Nature::TransientNotOver),
-            (0.8, Nature::Undecided),
-            (1.05, Nature::QuasiPeriodic),
-            (2.5, Nature::TransientNotOver),
+            (0.4, DynamicsKind::TransientNotOver),
+            (0.8, DynamicsKind::Undecided),
+            (1.05, DynamicsKind::QuasiPeriodic),
+            (2.5, DynamicsKind::TransientNotOver),
         ] {
             let modulated = Evidence { modulation_growth: growth, ..zero };
-            assert_eq!(Nature::of(&modulated), expected, "{growth}");
+            assert_eq!(DynamicsKind::of(&modulated), expected, "{growth}");
         }
     }
 
@@ -174,11 +174,11 @@ mod tests {
     fn what_repeats_is_periodic_whatever_its_exponent_looks_like() {
         let found = Periodicity { impacts: 3, periods: 2, closure: 1e-9 };
         let repeating = Evidence { periodicity: Some(found), ..evidence(Some(exponent(0.3, 0.4))) };
-        assert_eq!(Nature::of(&repeating), Nature::Periodic { impacts: 3, periods: 2 });
+        assert_eq!(DynamicsKind::of(&repeating), DynamicsKind::Periodic { impacts: 3, periods: 2 });
         let silent = Evidence { impacts_per_period: 0.0, ..repeating };
-        assert_eq!(Nature::of(&silent), Nature::AtRest);
+        assert_eq!(DynamicsKind::of(&silent), DynamicsKind::AtRest);
         // An absorber that drifts through its cavity is not at rest.
         let drifting = Evidence { periodicity: None, ..silent };
-        assert_eq!(Nature::of(&drifting), Nature::Undecided);
+        assert_eq!(DynamicsKind::of(&drifting), DynamicsKind::Undecided);
     }
 }

@@ -7,7 +7,7 @@
 mod common;
 
 use vinesink::regimes::attractor::Effort;
-use vinesink::regimes::{Attractor, Nature, Regime};
+use vinesink::regimes::{Attractor, DynamicsKind, Regime};
 use vinesink::system::{Excitation, Parameters, State, System};
 
 const START: State = State { x: 0.3, x_velocity: 0.2, y: 0.1, y_velocity: 0.8 };
@@ -17,24 +17,24 @@ fn reached(system: &System, discard: u64, periods: u64) -> Attractor {
     Attractor::reach(system, START, &effort).expect("inside the cavity")
 }
 
-fn nature(system: &System, discard: u64, periods: u64) -> (Regime, Nature) {
+fn dynamics(system: &System, discard: u64, periods: u64) -> (Regime, DynamicsKind) {
     let classification = reached(system, discard, periods).classification;
-    (classification.regime, classification.nature)
+    (classification.regime, classification.dynamics)
 }
 
 #[test]
 fn the_published_regimes_have_their_natures() {
-    let once = Nature::Periodic { impacts: 2, periods: 1 };
+    let once = DynamicsKind::Periodic { impacts: 2, periods: 1 };
     for (frequency, clearance, regime, expected) in [
         (8.0, 4.0, Regime::TwoAsymmetric, once),
         (8.0, 7.5, Regime::TwoSymmetric, once),
         (8.5, 20.0, Regime::TwoSymmetric, once),
-        (8.0, 20.0, Regime::BelowTwo, Nature::Chaotic),
-        (8.5, 27.0, Regime::StronglyModulated, Nature::Chaotic),
-        (8.5, 30.0, Regime::StronglyModulated, Nature::Chaotic),
-        (8.5, 35.0, Regime::BelowTwo, Nature::Chaotic),
+        (8.0, 20.0, Regime::BelowTwo, DynamicsKind::Chaotic),
+        (8.5, 27.0, Regime::StronglyModulated, DynamicsKind::Chaotic),
+        (8.5, 30.0, Regime::StronglyModulated, DynamicsKind::Chaotic),
+        (8.5, 35.0, Regime::BelowTwo, DynamicsKind::Chaotic),
     ] {
-        let found = nature(&common::table_1(frequency, clearance), 1500, 2000);
+        let found = dynamics(&common::table_1(frequency, clearance), 1500, 2000);
         assert_eq!(found, (regime, expected), "{frequency} Hz, b = {clearance} mm");
     }
 }
@@ -45,10 +45,10 @@ fn a_motion_that_is_still_settling_is_not_over() {
     let system = common::table_1(8.5, 20.0);
     let early = reached(&system, 80, 90);
     assert!(!early.repeats(), "{:?}", early.classification.evidence);
-    assert_eq!(early.classification.nature, Nature::TransientNotOver);
+    assert_eq!(early.classification.dynamics, DynamicsKind::TransientNotOver);
     assert!(early.classification.evidence.modulation_growth < 0.5);
     let late = reached(&system, 1500, 200);
-    assert_eq!(late.classification.nature, Nature::Periodic { impacts: 2, periods: 1 });
+    assert_eq!(late.classification.dynamics, DynamicsKind::Periodic { impacts: 2, periods: 1 });
     assert!(early.is_same(&late) && late.is_same(&early), "one motion would be listed twice");
 }
 
@@ -64,12 +64,17 @@ fn a_chaotic_transient_is_chaotic_until_it_is_over() {
         let start = State { x: 0.0, x_velocity, y: 0.0, y_velocity: -0.2 };
         let early = Attractor::reach(&system, start, &effort).expect("inside the cavity");
         // One that has just ended is settling, and says so.
-        if early.repeats() || early.classification.nature == Nature::TransientNotOver {
+        if early.repeats() || early.classification.dynamics == DynamicsKind::TransientNotOver {
             continue;
         }
-        assert_eq!(early.classification.nature, Nature::Chaotic, "{:?}", early.classification);
+        assert_eq!(
+            early.classification.dynamics,
+            DynamicsKind::Chaotic,
+            "{:?}",
+            early.classification
+        );
         let late = early.continued(&system, 20_000, 1000).expect("finite");
-        if late.classification.nature == (Nature::Periodic { impacts: 2, periods: 1 }) {
+        if late.classification.dynamics == (DynamicsKind::Periodic { impacts: 2, periods: 1 }) {
             assert!(!early.is_same(&late));
             ended += 1;
         }
@@ -80,8 +85,8 @@ fn a_chaotic_transient_is_chaotic_until_it_is_over() {
 /// A window of 20 periods decides nothing that does not repeat.
 #[test]
 fn a_short_window_leaves_chaos_undecided_or_open() {
-    let (_, found) = nature(&common::table_1(8.0, 20.0), 1500, 20);
-    assert!(matches!(found, Nature::Undecided | Nature::TransientNotOver), "{found:?}");
+    let (_, found) = dynamics(&common::table_1(8.0, 20.0), 1500, 20);
+    assert!(matches!(found, DynamicsKind::Undecided | DynamicsKind::TransientNotOver), "{found:?}");
 }
 
 /// Past a Neimark-Sacker bifurcation that is not abrupt: two symmetric impacts, modulated for ever.
@@ -97,11 +102,16 @@ fn a_modulation_that_never_repeats_nor_parts_neighbours_is_quasi_periodic() {
     })
     .expect("valid");
     let found = reached(&system, 2000, 16_000);
-    assert_eq!(found.classification.nature, Nature::QuasiPeriodic, "{:?}", found.classification);
+    assert_eq!(
+        found.classification.dynamics,
+        DynamicsKind::QuasiPeriodic,
+        "{:?}",
+        found.classification
+    );
     assert!(found.classification.evidence.modulation_depth > 0.2);
     // Less of it is no proof.
-    let (_, short) = nature(&system, 2000, 200);
-    assert_eq!(short, Nature::Undecided);
+    let (_, short) = dynamics(&system, 2000, 200);
+    assert_eq!(short, DynamicsKind::Undecided);
 }
 
 /// Neighbours of an undamped elastic motion drift apart in proportion to time, which must not be
@@ -122,7 +132,12 @@ fn linear_drift_of_a_motion_without_losses_is_not_chaos() {
     for periods in [200, 1000, 5000] {
         let effort = Effort { discard: 0, periods, prolongations: 0, impact_limit: 1_000_000 };
         let found = Attractor::reach(&system, start, &effort).expect("inside the cavity");
-        assert_ne!(found.classification.nature, Nature::Chaotic, "{:?}", found.classification);
+        assert_ne!(
+            found.classification.dynamics,
+            DynamicsKind::Chaotic,
+            "{:?}",
+            found.classification
+        );
     }
 }
 
@@ -133,10 +148,10 @@ fn rest_is_rest_only_once_the_oscillator_has_settled() {
     let effort = Effort { discard: 0, periods: 100, prolongations: 0, impact_limit: 1000 };
     let found = Attractor::reach(&system, rest, &effort).expect("inside the cavity");
     assert_eq!(found.classification.regime, Regime::AtRest);
-    assert_eq!(found.classification.nature, Nature::AtRest);
+    assert_eq!(found.classification.dynamics, DynamicsKind::AtRest);
     // From a start off the steady motion the oscillator is on its way for hundreds of periods.
     let away = State { x: rest.x + 0.1, y: rest.y + 0.1, ..rest };
     let found = Attractor::reach(&system, away, &effort).expect("inside the cavity");
     assert_eq!(found.classification.regime, Regime::AtRest);
-    assert_ne!(found.classification.nature, Nature::AtRest);
+    assert_ne!(found.classification.dynamics, DynamicsKind::AtRest);
 }

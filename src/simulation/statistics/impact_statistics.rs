@@ -29,7 +29,7 @@ const LEAST_DAMPING: f64 = 1e-4;
 /// An [`Observer`] that measures what [`Statistics`] does, but for harmonics and the balance of energy.
 /// Without a damping ratio of 1e-4 or an oscillator that rings it is as dear.
 #[derive(Debug, Clone)]
-pub struct Gauge {
+pub struct ImpactStatistics {
     statistics: Statistics,
     telescope: Option<Telescope>,
     open: Open,
@@ -189,7 +189,7 @@ impl Telescope {
     }
 }
 
-impl Gauge {
+impl ImpactStatistics {
     /// Begins to measure at `start`, at the beginning of an excitation period.
     pub fn begin(system: &System, start: State) -> Self {
         let statistics = Statistics::begin(system, start);
@@ -283,7 +283,7 @@ impl Gauge {
     }
 }
 
-impl Observer for Gauge {
+impl Observer for ImpactStatistics {
     fn flights(&self) -> bool {
         self.telescope.is_none()
     }
@@ -351,12 +351,16 @@ mod tests {
     fn it_measures_what_statistics_do() {
         let (mut in_contact, mut without) = (0, 0);
         for system in systems() {
-            let mut both = (Gauge::begin(&system, START), Statistics::begin(&system, START));
+            let mut both =
+                (ImpactStatistics::begin(&system, START), Statistics::begin(&system, START));
             without += u32::from(both.0.telescope.is_none());
             let mut simulation = Simulation::new(&system, START, 0.0).expect("inside");
-            let (gauge, statistics) = (&mut both.0, &mut both.1);
-            assert_eq!(simulation.run(60, u64::MAX, &mut (gauge, statistics)), Stop::EndTime);
-            let (mut gauge, statistics) = both;
+            let (impact_statistics, statistics) = (&mut both.0, &mut both.1);
+            assert_eq!(
+                simulation.run(60, u64::MAX, &mut (impact_statistics, statistics)),
+                Stop::EndTime
+            );
+            let (mut impact_statistics, statistics) = both;
             in_contact += u32::from(statistics.sustained_contact().intervals > 0);
             // The antiderivative is as large as the phasors squared over the damping, and is rounded
             // some ten times at each of two ends.
@@ -366,7 +370,7 @@ mod tests {
             let phasors = (size + steady) * (size + steady);
             let damping = 2.0 * system.mass_ratio() * system.damping();
             let rounded = 40.0 * f64::EPSILON * phasors / damping.max(1e-4);
-            for (one, other) in gauge.records().iter().zip(statistics.records()) {
+            for (one, other) in impact_statistics.records().iter().zip(statistics.records()) {
                 assert_eq!(
                     (one.impacts, one.visits, one.end),
                     (other.impacts, other.visits, other.end)
@@ -381,11 +385,11 @@ mod tests {
                 let (a, b) = (one.peak, other.peak);
                 assert!((a - b).abs() <= 1e-13 * (size + steady), "{a} {b} {system:?}");
             }
-            assert!((gauge.peak() / statistics.peak() - 1.0).abs() < 1e-12);
-            assert!((gauge.rms() / statistics.rms() - 1.0).abs() < 1e-9, "{system:?}");
+            assert!((impact_statistics.peak() / statistics.peak() - 1.0).abs() < 1e-12);
+            assert!((impact_statistics.rms() / statistics.rms() - 1.0).abs() < 1e-9, "{system:?}");
             let energy = statistics.energy();
             let wanted = (energy.input > 0.0).then(|| energy.impact / energy.input);
-            let found = gauge.efficiency();
+            let found = impact_statistics.efficiency();
             let near = found.zip(wanted).map(|(a, b)| (a - b).abs() < 1e-8 * b.max(1.0));
             assert!(near.unwrap_or(found == wanted), "{found:?} {wanted:?} {system:?}");
         }

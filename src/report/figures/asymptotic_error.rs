@@ -5,7 +5,7 @@ use crate::orbits::{Bifurcation, Boundaries};
 use crate::report::figure::{Axis, Layer, MarkedPoint, Panel, Role, Rule};
 use crate::report::numbers::signed_percent;
 use crate::study::StudyError;
-use crate::validation::price::prices_over_frequency;
+use crate::validation::asymptotic_error::prices_over_frequency;
 
 use super::Scene;
 
@@ -26,18 +26,19 @@ pub(super) fn panel(
     x: Axis,
 ) -> Result<Option<Panel>, StudyError> {
     let analysis = &scene.study.analysis;
-    let prices = prices_over_frequency(&analysis.system, &analysis.manifold, exact)?;
+    let asymptotic_errors = prices_over_frequency(&analysis.system, &analysis.manifold, exact)?;
     let units = &scene.units;
     let (mut low, mut high) = (-LEAST, LEAST);
     let mut layers = vec![Layer::rule(Rule::Horizontal(0.0), Role::Guide.style())];
     for (kind, role, name) in COMPARED {
         let mut marks = Vec::new();
         let mut line = Vec::new();
-        for (ratio, prices) in &prices {
-            let counts = |price: &&crate::validation::Price| {
+        for (ratio, asymptotic_errors) in &asymptotic_errors {
+            let counts = |price: &&crate::validation::AsymptoticError| {
                 price.kind == kind && price.bounds_stability && price.difference.is_some()
             };
-            let difference = prices.iter().find(counts).and_then(|price| price.difference);
+            let difference =
+                asymptotic_errors.iter().find(counts).and_then(|price| price.difference);
             let at = [units.frequency(*ratio), 100.0 * difference.unwrap_or(f64::NAN)];
             line.push(at);
             let Some(difference) = difference else { continue };
@@ -68,7 +69,8 @@ pub(super) fn panel(
 /// What the panel says at the case's own frequency; `None` where no boundary has a counterpart.
 pub(super) fn words(scene: &Scene) -> Option<String> {
     let say = |(kind, _, name): (Bifurcation, Role, &str)| {
-        let mut bounds = scene.study.prices.iter().filter(|price| price.bounds_stability);
+        let mut bounds =
+            scene.study.asymptotic_errors.iter().filter(|price| price.bounds_stability);
         let price = bounds.find(|price| price.kind == kind)?;
         Some(format!("{} for {name}", signed_percent(price.difference?)))
     };

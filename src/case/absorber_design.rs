@@ -6,7 +6,7 @@ use super::Design;
 
 /// The absorber of a design.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Choice {
+pub struct AbsorberDesign {
     /// `b`, in metres or the case's own unit.
     pub clearance: f64,
     /// `r`.
@@ -15,7 +15,7 @@ pub struct Choice {
     pub mass: Option<f64>,
 }
 
-impl Choice {
+impl AbsorberDesign {
     /// That of a design.
     pub fn of(design: &Design) -> Self {
         match design {
@@ -35,7 +35,7 @@ impl Design {
     /// The same oscillator and excitation with another absorber. Mass ratio, damping `lambda` and
     /// forcing `G` of its system follow from the mass.
     #[must_use]
-    pub fn with(&self, choice: &Choice) -> Self {
+    pub fn with(&self, choice: &AbsorberDesign) -> Self {
         match *self {
             Self::Physical(physical) => {
                 let mut changed = physical;

@@ -9,7 +9,7 @@ use crate::system::System;
 
 /// A boundary of the theory beside its exact counterpart; clearances over the case's own.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Price {
+pub struct AsymptoticError {
     /// The bifurcation of the full system.
     pub kind: Bifurcation,
     /// Where the theory puts it; `None` where it has none.
@@ -32,7 +32,7 @@ pub fn counterpart(kind: BoundaryKind) -> Bifurcation {
 }
 
 /// Every boundary of the case's frequency and forcing, by theory and exactly, by ascending clearance.
-pub fn prices(analysis: &Analysis, exact: &FullSystem) -> Vec<Price> {
+pub fn asymptotic_errors(analysis: &Analysis, exact: &FullSystem) -> Vec<AsymptoticError> {
     let limits = exact.boundaries.as_ref().map_or(&[][..], |found| &found.symmetric.limits);
     between(&clearances(analysis), limits)
 }
@@ -46,27 +46,27 @@ pub fn prices_over_frequency(
     system: &System,
     manifold: &Manifold,
     exact: &[orbits::Boundaries],
-) -> Result<Vec<(f64, Vec<Price>)>, AnalysisError> {
-    let mut prices = Vec::new();
+) -> Result<Vec<(f64, Vec<AsymptoticError>)>, AnalysisError> {
+    let mut asymptotic_errors = Vec::new();
     for at in exact {
         let Ok(there) = system.with_frequency_ratio(at.frequency_ratio) else { continue };
         let theory = analysis::Boundaries::of(&there, manifold)?;
         let theory = clearances_of(&theory, there.forcing_per_clearance());
-        prices.push((at.frequency_ratio, between(&theory, &at.symmetric.limits)));
+        asymptotic_errors.push((at.frequency_ratio, between(&theory, &at.symmetric.limits)));
     }
-    Ok(prices)
+    Ok(asymptotic_errors)
 }
 
-fn between(theory: &[BoundaryAt], limits: &[Limit]) -> Vec<Price> {
+fn between(theory: &[BoundaryAt], limits: &[Limit]) -> Vec<AsymptoticError> {
     let compared = |limit: &&Limit| {
         theory.iter().any(|at| counterpart(at.kind) == limit.kind) || limit.bounds_stability
     };
-    let mut prices: Vec<Price> = limits
+    let mut asymptotic_errors: Vec<AsymptoticError> = limits
         .iter()
         .filter(compared)
         .map(|limit| {
             let near = nearest(theory, limit);
-            Price {
+            AsymptoticError {
                 kind: limit.kind,
                 theory: near.map(|at| at.clearance),
                 exact: Some(limit.clearance),
@@ -76,9 +76,9 @@ fn between(theory: &[BoundaryAt], limits: &[Limit]) -> Vec<Price> {
         })
         .collect();
     for at in theory {
-        let taken = prices.iter().any(|price| price.theory == Some(at.clearance));
+        let taken = asymptotic_errors.iter().any(|price| price.theory == Some(at.clearance));
         if !taken {
-            prices.push(Price {
+            asymptotic_errors.push(AsymptoticError {
                 kind: counterpart(at.kind),
                 theory: Some(at.clearance),
                 exact: None,
@@ -87,9 +87,9 @@ fn between(theory: &[BoundaryAt], limits: &[Limit]) -> Vec<Price> {
             });
         }
     }
-    let place = |price: &Price| price.exact.or(price.theory).unwrap_or(0.0);
-    prices.sort_by(|a, b| place(a).total_cmp(&place(b)));
-    prices
+    let place = |price: &AsymptoticError| price.exact.or(price.theory).unwrap_or(0.0);
+    asymptotic_errors.sort_by(|a, b| place(a).total_cmp(&place(b)));
+    asymptotic_errors
 }
 
 /// Relative distance in clearance beyond which two boundaries of one kind are not counterparts.
