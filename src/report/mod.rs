@@ -6,6 +6,7 @@ pub mod documents;
 pub mod extremes;
 pub mod figure;
 pub mod figures;
+pub mod html;
 pub mod index;
 pub mod numbers;
 pub mod optimize;
@@ -14,6 +15,7 @@ pub mod render;
 pub mod stored;
 pub mod summary;
 pub mod sweep;
+pub mod template;
 pub mod tradeoff;
 
 mod band;

@@ -30,7 +30,7 @@ const OPTIMIZE_MARKDOWN: &str = include_str!("../../templates/optimize.md.tera")
 const OPTIMIZE_HTML: &str = include_str!("../../templates/optimize.html.tera");
 const SWEEP_MARKDOWN: &str = include_str!("../../templates/sweep.md.tera");
 const SWEEP_HTML: &str = include_str!("../../templates/sweep.html.tera");
-const STYLE: &str = include_str!("../../templates/report.css");
+pub(super) const STYLE: &str = include_str!("../../templates/report.css");
 
 /// The drawings that belong to pages of other commands, in the folder of a report.
 const FIGURES_OF_OTHERS: [&str; 3] =
@@ -182,13 +182,13 @@ pub fn optimize(
 }
 
 /// Every figure as SVG, by its name.
-fn drawings(figures: &[Figure]) -> Result<BTreeMap<String, String>, RenderError> {
+pub(super) fn drawings(figures: &[Figure]) -> Result<BTreeMap<String, String>, RenderError> {
     let each = figures.iter();
     each.map(|figure| Ok((figure.name.clone(), figure::render(figure)?))).collect()
 }
 
 /// The same as files of a report's folder.
-fn figure_files(drawings: BTreeMap<String, String>) -> BTreeMap<PathBuf, Vec<u8>> {
+pub(super) fn figure_files(drawings: BTreeMap<String, String>) -> BTreeMap<PathBuf, Vec<u8>> {
     let each = drawings.into_iter();
     each.map(|(name, drawing)| (format!("figures/{name}.svg").into(), drawing.into_bytes()))
         .collect()
@@ -297,7 +297,7 @@ fn engine(name: &str, template: &str) -> Result<Tera, RenderError> {
 }
 
 /// Text whose characters mean nothing to Markdown; a line of its own stays one line.
-fn markdown_text(text: &str) -> String {
+pub(super) fn markdown_text(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
     for letter in text.chars() {
         match letter {
@@ -337,14 +337,14 @@ fn url_path(path: &str) -> String {
     })
 }
 
-fn attribute(text: &str) -> String {
+pub(super) fn attribute(text: &str) -> String {
     text.replace('&', "&amp;")
         .replace('"', "&quot;")
         .replace('<', "&lt;")
         .replace(['\n', '\r'], " ")
 }
 
-fn without_repeated_blank_lines(text: &str) -> String {
+pub(super) fn without_repeated_blank_lines(text: &str) -> String {
     let mut result = String::with_capacity(text.len());
     let mut blank = true;
     for line in text.lines().map(str::trim_end) {

@@ -16,6 +16,9 @@ pub struct Figure {
     pub caption: String,
     /// What to see, for those who cannot see the figure; it is not drawn.
     pub alt: String,
+    /// What title, caption and alternative text are made from; none where they are set.
+    #[serde(skip)]
+    pub facts: Option<Facts>,
     /// Width and height in pixels.
     pub size: (u32, u32),
     /// The panels, in the order of the layout's cells.
@@ -24,6 +27,15 @@ pub struct Figure {
     pub layout: Layout,
     /// What the tints of its images stand for, in rows above all panels.
     pub keys: Vec<Key>,
+}
+
+/// What a figure's words are made from.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Facts {
+    /// A template whose first three lines are title, caption and alternative text.
+    pub template: &'static str,
+    /// What it gets.
+    pub data: serde_json::Value,
 }
 
 /// A tint and what it stands for.
@@ -43,6 +55,7 @@ impl Figure {
             title: title.into(),
             caption: String::new(),
             alt: String::new(),
+            facts: None,
             size: (720, 450),
             panels: Vec::new(),
             layout: Layout::Row,
@@ -55,6 +68,13 @@ impl Figure {
     pub fn with_words(mut self, caption: impl Into<String>, alt: impl Into<String>) -> Self {
         self.caption = caption.into();
         self.alt = alt.into();
+        self
+    }
+
+    /// Leaves title, caption and alternative text to a template, which gets the data.
+    #[must_use]
+    pub fn with_facts(mut self, template: &'static str, data: serde_json::Value) -> Self {
+        self.facts = Some(Facts { template, data });
         self
     }
 

@@ -1,0 +1,179 @@
+//! Every quantity that a page, a table, a figure or a file names: identifier, symbol, name, dimension, digits.
+
+/// What a quantity is. Its unit follows from the dimension.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Kind {
+    /// Its key in files.
+    pub id: &'static str,
+    /// Its symbol; empty where it has none.
+    pub symbol: &'static str,
+    /// Its name within a sentence, in the singular.
+    pub name: &'static str,
+    /// Its dimension.
+    pub dimension: Dimension,
+    /// How many digits a reader gets.
+    pub digits: Digits,
+    /// What its error means.
+    pub error: ErrorKind,
+}
+
+/// A dimension; [`crate::quantity::Units`] has the units and prefixes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Dimension {
+    /// m
+    Length,
+    /// s
+    Time,
+    /// Hz
+    Frequency,
+    /// m/s
+    Velocity,
+    /// m/s²
+    Acceleration,
+    /// kg
+    Mass,
+    /// N/m
+    Stiffness,
+    /// N s/m
+    Damping,
+    /// N
+    Force,
+    /// J
+    Energy,
+    /// W
+    Power,
+    /// N s
+    Impulse,
+    /// rad
+    Angle,
+    /// A part of a whole, shown in per cent.
+    Share,
+    /// A relative change or error, shown in per cent with its sign.
+    Change,
+    /// dB, with its sign.
+    Level,
+    /// Without dimension.
+    Number,
+    /// A whole number.
+    Count,
+}
+
+/// How many digits of a number a reader gets.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Digits {
+    /// Significant digits.
+    Significant(u8),
+    /// Digits after the point.
+    Decimals(u8),
+}
+
+/// What the error of a quantity means.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ErrorKind {
+    /// The value of an average: it may be off either way.
+    Interval,
+    /// The largest value seen: the true one may be larger by the error.
+    Bound,
+}
+
+macro_rules! catalogue {
+    ($($(#[$doc:meta])* $constant:ident = $id:literal, $symbol:literal, $name:literal, $dimension:ident, $digits:ident($count:literal), $error:ident;)*) => {
+        $(
+            $(#[$doc])*
+            #[doc = concat!("The ", $name, ".")]
+            pub static $constant: Kind = Kind {
+                id: $id,
+                symbol: $symbol,
+                name: $name,
+                dimension: Dimension::$dimension,
+                digits: Digits::$digits($count),
+                error: ErrorKind::$error,
+            };
+        )*
+        /// All kinds, in the order of the catalogue.
+        pub static ALL: &[&Kind] = &[$(&$constant),*];
+    };
+}
+
+catalogue! {
+    OSCILLATOR_MASS = "oscillator_mass", "m₁", "mass of the oscillator", Mass, Significant(4), Interval;
+    STIFFNESS = "stiffness", "k₁", "stiffness", Stiffness, Significant(4), Interval;
+    DAMPING = "damping", "c₁", "damping", Damping, Significant(4), Interval;
+    DAMPING_RATIO = "damping_ratio", "ζ", "damping ratio", Share, Significant(3), Interval;
+    NATURAL_FREQUENCY = "natural_frequency", "f₀", "natural frequency", Frequency, Significant(4), Interval;
+    ABSORBER_MASS = "absorber_mass", "m₂", "mass of the absorber", Mass, Significant(4), Interval;
+    MASS_RATIO = "mass_ratio", "ε", "mass ratio", Share, Significant(3), Interval;
+    CLEARANCE = "clearance", "b", "clearance", Length, Significant(4), Interval;
+    RESTITUTION = "restitution", "r", "restitution", Number, Significant(3), Interval;
+    BASE_AMPLITUDE = "base_amplitude", "F", "amplitude of the base", Length, Significant(4), Interval;
+    FORCE_AMPLITUDE = "force_amplitude", "P", "amplitude of the force", Force, Significant(4), Interval;
+    EXCITATION_FREQUENCY = "excitation_frequency", "f", "excitation frequency", Frequency, Significant(4), Interval;
+    EXCITATION_FACTOR = "excitation_factor", "", "excitation amplitude over the case's", Number, Significant(4), Interval;
+    FREQUENCY_RATIO = "frequency_ratio", "Ω", "frequency ratio", Number, Significant(4), Interval;
+    DETUNING = "detuning", "σ", "detuning", Number, Significant(4), Interval;
+    REDUCED_DAMPING = "reduced_damping", "λ", "reduced damping", Number, Significant(4), Interval;
+    REDUCED_FORCING = "reduced_forcing", "G", "reduced forcing", Length, Significant(4), Interval;
+    FORCING_PER_CLEARANCE = "forcing_per_clearance", "γ", "reduced forcing over the clearance", Number, Significant(4), Interval;
+    PEAK = "peak_displacement", "x̂", "peak displacement", Length, Significant(3), Bound;
+    PEAK_VELOCITY = "peak_velocity", "", "peak velocity", Velocity, Significant(3), Bound;
+    RMS = "rms_displacement", "", "rms displacement", Length, Significant(3), Interval;
+    BARE_PEAK = "bare_peak", "", "peak displacement without absorber", Length, Significant(3), Interval;
+    INACTIVE_PEAK = "inactive_peak", "", "peak displacement with an inactive absorber", Length, Significant(3), Interval;
+    INACTIVE_SHARE = "inactive_share", "", "share of the absorber's resting places from which it stays inactive", Share, Significant(2), Interval;
+    DAMPER_PEAK = "damper_peak", "", "peak displacement with a tuned mass damper", Length, Significant(3), Interval;
+    DAMPER_STROKE = "damper_stroke", "", "stroke of the tuned mass damper", Length, Significant(3), Interval;
+    DAMPER_FREQUENCY = "damper_frequency", "", "frequency of the tuned mass damper", Frequency, Significant(4), Interval;
+    DAMPER_FREQUENCY_RATIO = "damper_frequency_ratio", "", "frequency of the tuned mass damper over the structure's", Number, Significant(4), Interval;
+    DAMPER_DAMPING_RATIO = "damper_damping_ratio", "", "damping ratio of the tuned mass damper", Share, Significant(3), Interval;
+    CHANGE_DB = "change_db", "", "change against the structure without absorber", Level, Decimals(1), Interval;
+    RMS_CHANGE_DB = "rms_change_db", "", "change of the rms against the structure without absorber", Level, Decimals(1), Interval;
+    IMPACTS_PER_PERIOD = "impacts_per_period", "z", "impacts per period", Number, Significant(4), Interval;
+    IMPACT_SPEED = "impact_speed", "", "impact speed", Velocity, Significant(3), Bound;
+    START_SHARE = "start_share", "", "share of the starts", Share, Significant(2), Interval;
+    MODULATION = "modulation_depth", "", "modulation", Share, Significant(2), Interval;
+    CAPTURE_SHARE = "capture_share", "", "share of the time in 1:1 resonance", Share, Significant(2), Interval;
+    CONTACT_SHARE = "contact_share", "", "share of the time in sustained contact", Share, Significant(2), Interval;
+    LYAPUNOV_EXPONENT = "lyapunov_exponent", "", "Lyapunov exponent per period", Number, Significant(3), Interval;
+    WORK = "work_per_period", "", "work of the excitation per period", Energy, Significant(3), Interval;
+    DAMPER_LOSS = "damper_loss_per_period", "", "loss in the structure's damper per period", Energy, Significant(3), Interval;
+    IMPACT_LOSS = "impact_loss_per_period", "", "loss in impacts per period", Energy, Significant(3), Interval;
+    LOSS_PER_IMPACT = "loss_per_impact", "", "loss per impact", Energy, Significant(3), Interval;
+    EFFICIENCY = "transfer_efficiency", "", "share of the work that impacts dissipate", Share, Significant(2), Interval;
+    OSCILLATOR_AMPLITUDE = "oscillator_amplitude", "C", "amplitude of the oscillator", Length, Significant(4), Interval;
+    ABSORBER_AMPLITUDE = "absorber_amplitude", "B", "amplitude of the absorber", Length, Significant(4), Interval;
+    ABSORBER_AMPLITUDE_RATIO = "absorber_amplitude_over_clearance", "B/b", "amplitude of the absorber over the clearance", Number, Significant(3), Interval;
+    ETA = "eta", "η", "phase of the oscillator", Angle, Decimals(3), Interval;
+    THETA = "theta", "Θ", "phase of the absorber", Angle, Decimals(3), Interval;
+    TRACE = "trace", "", "trace", Number, Significant(3), Interval;
+    DETERMINANT = "determinant", "", "determinant", Number, Significant(3), Interval;
+    ABOVE_COLLISION = "above_collision", "", "distance of the forcing above the collision of the fixed points", Share, Significant(2), Interval;
+    IMPACT_DISPLACEMENT = "impact_displacement", "", "displacement at impact", Length, Significant(4), Interval;
+    IMPACT_PHASE = "impact_phase", "", "phase of the impact", Angle, Decimals(3), Interval;
+    SPECTRAL_RADIUS = "spectral_radius", "", "largest multiplier", Number, Significant(4), Interval;
+    BOUNDARY = "boundary_clearance", "b", "clearance at the boundary", Length, Significant(4), Interval;
+    THEORY_ERROR = "theory_error", "", "error of theory", Change, Significant(2), Interval;
+    MARGIN = "margin", "", "change until the boundary", Change, Significant(2), Interval;
+    GAP = "gap", "", "distance of the clearance from the next boundary", Share, Significant(2), Interval;
+    Z3_SHARE = "z3_share", "", "share in area Z3", Share, Significant(3), Interval;
+    A1_SHARE = "a1_share", "", "share in strip A1", Share, Significant(3), Interval;
+    A2_SHARE = "a2_share", "", "share in strip A2", Share, Significant(3), Interval;
+    STABLE_SHARE = "stable_share", "", "share with a stable 1:1 orbit", Share, Significant(3), Interval;
+    REDUCTION_DB = "reduction_db", "", "reduction against the structure without absorber", Level, Decimals(1), Interval;
+    REDUCTION_DB_TMD = "reduction_db_tmd", "", "reduction against a tuned mass damper", Level, Decimals(1), Interval;
+}
+
+/// The kind with an identifier.
+pub fn kind(id: &str) -> Option<&'static Kind> {
+    ALL.iter().copied().find(|kind| kind.id == id)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn identifiers_are_unique() {
+        let ids: std::collections::BTreeSet<&str> = ALL.iter().map(|kind| kind.id).collect();
+        assert_eq!(ids.len(), ALL.len());
+    }
+}

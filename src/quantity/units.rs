@@ -1,0 +1,275 @@
+//! Units and prefixes: from a number in SI to what a reader sees.
+
+use super::catalogue::{Digits, Dimension, ErrorKind, Kind};
+use super::numbers::{fixed, significant, with_minus};
+
+/// A unit with a prefix.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Unit {
+    /// Its symbol; empty for a pure number.
+    pub symbol: &'static str,
+    /// Its size in the unit without prefix.
+    pub size: f64,
+}
+
+const fn unit(symbol: &'static str, size: f64) -> Unit {
+    Unit { symbol, size }
+}
+
+/// Units of each dimension from the largest to the smallest.
+const LENGTHS: &[Unit] =
+    &[unit("km", 1e3), unit("m", 1.0), unit("mm", 1e-3), unit("µm", 1e-6), unit("nm", 1e-9)];
+const TIMES: &[Unit] = &[unit("s", 1.0), unit("ms", 1e-3), unit("µs", 1e-6)];
+const FREQUENCIES: &[Unit] = &[unit("kHz", 1e3), unit("Hz", 1.0), unit("mHz", 1e-3)];
+const VELOCITIES: &[Unit] =
+    &[unit("km/s", 1e3), unit("m/s", 1.0), unit("mm/s", 1e-3), unit("µm/s", 1e-6)];
+const ACCELERATIONS: &[Unit] = &[unit("m/s²", 1.0), unit("mm/s²", 1e-3)];
+const MASSES: &[Unit] = &[unit("t", 1e3), unit("kg", 1.0), unit("g", 1e-3), unit("mg", 1e-6)];
+const STIFFNESSES: &[Unit] = &[unit("MN/m", 1e6), unit("kN/m", 1e3), unit("N/m", 1.0)];
+const DAMPINGS: &[Unit] = &[unit("kN s/m", 1e3), unit("N s/m", 1.0), unit("mN s/m", 1e-3)];
+const FORCES: &[Unit] = &[unit("MN", 1e6), unit("kN", 1e3), unit("N", 1.0), unit("mN", 1e-3)];
+const ENERGIES: &[Unit] =
+    &[unit("kJ", 1e3), unit("J", 1.0), unit("mJ", 1e-3), unit("µJ", 1e-6), unit("nJ", 1e-9)];
+const POWERS: &[Unit] = &[unit("kW", 1e3), unit("W", 1.0), unit("mW", 1e-3), unit("µW", 1e-6)];
+const IMPULSES: &[Unit] = &[unit("kN s", 1e3), unit("N s", 1.0), unit("mN s", 1e-3)];
+const ANGLES: &[Unit] = &[unit("rad", 1.0)];
+const SHARES: &[Unit] = &[unit("%", 0.01)];
+const LEVELS: &[Unit] = &[unit("dB", 1.0)];
+const NUMBERS: &[Unit] = &[unit("", 1.0)];
+
+impl Dimension {
+    /// Its units in SI, from the largest to the smallest.
+    fn units(self) -> &'static [Unit] {
+        match self {
+            Self::Length => LENGTHS,
+            Self::Time => TIMES,
+            Self::Frequency => FREQUENCIES,
+            Self::Velocity => VELOCITIES,
+            Self::Acceleration => ACCELERATIONS,
+            Self::Mass => MASSES,
+            Self::Stiffness => STIFFNESSES,
+            Self::Damping => DAMPINGS,
+            Self::Force => FORCES,
+            Self::Energy => ENERGIES,
+            Self::Power => POWERS,
+            Self::Impulse => IMPULSES,
+            Self::Angle => ANGLES,
+            Self::Share | Self::Change => SHARES,
+            Self::Level => LEVELS,
+            Self::Number | Self::Count => NUMBERS,
+        }
+    }
+
+    /// Its unit for a case in reduced units, where the oscillator has m1 = k1 = 1 and lengths are in the unit
+    /// of the case's own clearance.
+    fn own_unit(self) -> Option<Unit> {
+        match self {
+            Self::Length => Some(unit("units", 1.0)),
+            Self::Time => Some(unit("/ω₀", 1.0)),
+            // A frequency is a ratio to the natural one.
+            Self::Frequency => Some(unit("f₀", 1.0)),
+            Self::Velocity => Some(unit("ω₀ units", 1.0)),
+            Self::Acceleration => Some(unit("ω₀² units", 1.0)),
+            Self::Energy => Some(unit("m₁ω₀² units²", 1.0)),
+            Self::Power => Some(unit("m₁ω₀³ units²", 1.0)),
+            Self::Impulse => Some(unit("m₁ω₀ units", 1.0)),
+            Self::Mass => Some(unit("m₁", 1.0)),
+            Self::Stiffness => Some(unit("k₁", 1.0)),
+            Self::Force => Some(unit("k₁ units", 1.0)),
+            Self::Damping => Some(unit("m₁ω₀", 1.0)),
+            _ => None,
+        }
+    }
+}
+
+/// Smallest and largest number that is shown in a page's own unit of length before another prefix is taken.
+const PAGE_RANGE: [f64; 2] = [0.01, 1000.0];
+
+/// The units of one page.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Units {
+    /// Whether numbers are in SI; otherwise in reduced units.
+    pub physical: bool,
+    /// The unit that the page's lengths share: that of the clearance.
+    length: Unit,
+}
+
+impl Units {
+    /// Those of a case with a clearance in metres.
+    pub fn physical(clearance_m: f64) -> Self {
+        // 0.1 mm reads better than 100 µm, and 300 mm better than 0.3 m.
+        let fits = |one: &&Unit| clearance_m >= one.size * if one.size == 1.0 { 1.0 } else { 0.1 };
+        let length = LENGTHS.iter().find(fits).copied();
+        Self { physical: true, length: length.unwrap_or(unit("nm", 1e-9)) }
+    }
+
+    /// Those of a case in reduced units.
+    pub const fn reduced() -> Self {
+        Self { physical: false, length: unit("units", 1.0) }
+    }
+
+    /// The unit in which a number of a dimension is shown: lengths of a page share theirs, others have the
+    /// prefix that keeps the number between 1 and 1000.
+    pub fn unit(&self, dimension: Dimension, value: f64) -> Unit {
+        if !self.physical
+            && let Some(own) = dimension.own_unit()
+        {
+            return own;
+        }
+        let size = value.abs();
+        let [least, most] = PAGE_RANGE;
+        if dimension == Dimension::Length
+            && (size == 0.0 || (least..most).contains(&(size / self.length.size)))
+        {
+            return self.length;
+        }
+        let units = dimension.units();
+        let plain = units.iter().find(|one| one.size == 1.0).or(units.first());
+        let fitting = units.iter().find(|one| size >= one.size).or(units.last());
+        let found = if size == 0.0 || !size.is_finite() { plain } else { fitting };
+        found.copied().unwrap_or(unit("", 1.0))
+    }
+
+    /// The unit of an axis or a table's column that reaches up to a value.
+    pub fn axis_unit(&self, kind: &Kind, largest: f64) -> Unit {
+        self.unit(kind.dimension, largest)
+    }
+
+    /// An axis label: "clearance b (mm)".
+    pub fn axis_label(&self, kind: &Kind, largest: f64) -> String {
+        let unit = self.axis_unit(kind, largest).symbol;
+        let symbol =
+            if kind.symbol.is_empty() { String::new() } else { format!(" {}", kind.symbol) };
+        format!("{}{symbol} ({})", kind.name, if unit.is_empty() { "1" } else { unit })
+    }
+
+    /// A number of some kind with its unit.
+    pub fn text(&self, kind: &Kind, value: f64) -> String {
+        self.with_digits(kind, value, kind.digits)
+    }
+
+    /// The same with other digits.
+    pub fn with_digits(&self, kind: &Kind, value: f64, digits: Digits) -> String {
+        if value.is_infinite() && value > 0.0 {
+            return "without limit".into();
+        }
+        match kind.dimension {
+            Dimension::Share => percent(value, digits),
+            Dimension::Change => signed(&percent(value.abs(), digits), value),
+            Dimension::Level => signed(&format!("{} dB", rounded(value.abs(), digits)), value),
+            _ => {
+                let unit = self.unit(kind.dimension, value);
+                joined(&rounded(value / unit.size, digits), unit.symbol)
+            }
+        }
+    }
+
+    /// A number with its error: `0.68 ± 0.10`, or `3.56 mm (+0.12 mm)` for a largest value. An error that does
+    /// not change a digit is left out.
+    pub fn with_error(&self, kind: &Kind, value: f64, error: f64, digits: Digits) -> String {
+        let text = self.with_digits(kind, value, digits);
+        if error <= 1e-3 * value.abs() || !error.is_finite() {
+            return text;
+        }
+        match kind.error {
+            ErrorKind::Bound => {
+                let unit = self.unit(kind.dimension, value);
+                let more = joined(&significant(error / unit.size, 2), unit.symbol);
+                format!("{text} (+{more})")
+            }
+            ErrorKind::Interval => {
+                let unit = self.unit(kind.dimension, value);
+                let number = super::numbers::with_error(value / unit.size, error / unit.size);
+                joined(&number, unit.symbol)
+            }
+        }
+    }
+}
+
+fn joined(number: &str, unit: &str) -> String {
+    if unit.is_empty() { number.to_owned() } else { format!("{number} {unit}") }
+}
+
+fn rounded(value: f64, digits: Digits) -> String {
+    match digits {
+        Digits::Significant(digits) => significant(value, usize::from(digits)),
+        Digits::Decimals(decimals) => fixed(value, usize::from(decimals)),
+    }
+}
+
+/// A part in per cent: below 10 % with as many significant digits as asked for, at most two decimals.
+fn percent(share: f64, digits: Digits) -> String {
+    if share == 0.0 || share == 1.0 {
+        return format!("{} %", 100.0 * share);
+    }
+    if share.abs() < 5e-5 {
+        return "< 0.01 %".into();
+    }
+    let percent = 100.0 * share;
+    let decimals = match digits {
+        Digits::Decimals(decimals) => i32::from(decimals),
+        Digits::Significant(digits) => {
+            let magnitude = libm::floor(libm::log10(percent.abs() * (1.0 + 1e-9))) as i32;
+            (i32::from(digits) - 1 - magnitude).clamp(0, 2)
+        }
+    };
+    format!("{} %", fixed(percent, decimals as usize))
+}
+
+/// Text of an absolute value with the sign of the value.
+fn signed(text: &str, value: f64) -> String {
+    let zero = !text.contains(|c: char| ('1'..='9').contains(&c));
+    match (zero, value < 0.0) {
+        (true, _) => text.to_owned(),
+        (false, true) => with_minus(&format!("-{text}")),
+        (false, false) => format!("+{text}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::catalogue as of;
+    use super::*;
+
+    #[test]
+    fn a_prefix_keeps_the_number_between_1_and_1000() {
+        let units = Units::physical(7.5e-3);
+        for (kind, value, text) in [
+            (&of::PEAK, 3.561_9e-3, "3.56 mm"),
+            (&of::PEAK, 0.150_68, "151 mm"),
+            (&of::PEAK, 1.5, "1.50 m"),
+            (&of::PEAK, 3.1e-6, "3.10 µm"),
+            (&of::PEAK, 0.0, "0 mm"),
+            (&of::ABSORBER_MASS, 18.0, "18.00 kg"),
+            (&of::ABSORBER_MASS, 0.032, "32.00 g"),
+            (&of::WORK, 24.742, "24.7 J"),
+            (&of::WORK, 9.76e-3, "9.76 mJ"),
+            (&of::CHANGE_DB, -5.03, "−5.0 dB"),
+            (&of::CHANGE_DB, 1.44, "+1.4 dB"),
+            (&of::CHANGE_DB, 0.01, "0.0 dB"),
+            (&of::THEORY_ERROR, -0.033, "−3.3 %"),
+            (&of::MARGIN, 1.234, "+123 %"),
+            (&of::Z3_SHARE, 0.728_21, "72.8 %"),
+            (&of::START_SHARE, 0.256, "26 %"),
+            (&of::START_SHARE, 1.0, "100 %"),
+            (&of::MODULATION, 3e-16, "< 0.01 %"),
+            (&of::BARE_PEAK, f64::INFINITY, "without limit"),
+            (&of::ETA, 0.3271, "0.327 rad"),
+        ] {
+            assert_eq!(units.text(kind, value), text, "{}", kind.id);
+        }
+        assert_eq!(Units::reduced().text(&of::PEAK, 1.0342), "1.03 units");
+        assert_eq!(units.axis_label(&of::CLEARANCE, 0.02), "clearance b (mm)");
+    }
+
+    #[test]
+    fn a_largest_value_says_how_much_larger_it_may_be_and_an_average_both_ways() {
+        let units = Units::physical(0.1);
+        let digits = Digits::Significant(3);
+        let found = units.with_error(&of::PEAK, 0.1223, 0.0049, digits);
+        assert_eq!(found, "122 mm (+4.9 mm)");
+        let found = units.with_error(&of::IMPACTS_PER_PERIOD, 0.6834, 0.1021, digits);
+        assert_eq!(found, "0.68 ± 0.10");
+        assert_eq!(units.with_error(&of::PEAK, 0.1223, 1e-6, digits), "122 mm");
+    }
+}

@@ -1,0 +1,242 @@
+//! An HTML page from its Markdown: one file that needs nothing from outside, with the drawings inline, formulas
+//! as MathML, a table of contents and tables that scroll.
+
+use std::collections::{BTreeMap, HashMap};
+
+use pulldown_cmark::{CowStr, Event, HeadingLevel, Options, Parser, Tag, TagEnd};
+use tera::escape_html;
+
+use super::render::{RenderError, STYLE};
+use crate::symbolic::to_mathml;
+
+/// What a page is made from.
+pub struct Page<'a> {
+    /// Title of the document.
+    pub title: &'a str,
+    /// Class of the first quotation, the verdict: `good`, `mixed` or `bad`; empty for none of them.
+    pub tone: &'a str,
+    /// The Markdown of the page, with the files that it links to after it.
+    pub markdown: &'a str,
+    /// The drawings as SVG, by their name.
+    pub drawings: &'a BTreeMap<String, String>,
+}
+
+/// The page as HTML.
+///
+/// # Errors
+/// [`RenderError::Formula`] if a formula is not understood.
+pub fn page(page: &Page) -> Result<String, RenderError> {
+    let mut writer = Writer::new(page);
+    let options = Options::ENABLE_TABLES | Options::ENABLE_MATH;
+    let mut events = Vec::new();
+    for event in Parser::new_ext(page.markdown, options) {
+        writer.take(event, &mut events)?;
+    }
+    writer.end_figure(&mut events);
+    let mut body = String::new();
+    pulldown_cmark::html::push_html(&mut body, events.into_iter());
+    Ok(format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <meta name=\"generator\" content=\"{} {}\">\n<title>{}</title>\n<link rel=\"icon\" href=\"data:,\">\n\
+         <style>\n{STYLE}</style>\n</head>\n<body>\n<div class=\"page\">\n\
+         <nav aria-label=\"Contents\">\n<strong>Contents</strong>\n<ol>\n{}</ol>\n</nav>\n<main>\n{body}</main>\n</div>\n\
+         </body>\n</html>\n",
+        env!("CARGO_PKG_NAME"),
+        env!("CARGO_PKG_VERSION"),
+        escaped(page.title),
+        writer.contents,
+    ))
+}
+
+/// Turns the events of Markdown into those of the page.
+struct Writer<'a> {
+    page: &'a Page<'a>,
+    /// Entries of the table of contents.
+    contents: String,
+    /// Text of the heading that is being read, and its level.
+    heading: Option<(HeadingLevel, String)>,
+    /// The section's heading: regions for screen readers are named after it.
+    section: String,
+    /// How often each name of a region was given.
+    regions: HashMap<String, u32>,
+    figure: Caption,
+    quoted: bool,
+}
+
+/// What follows a drawing is its caption.
+#[derive(PartialEq)]
+enum Caption {
+    None,
+    Expected,
+    Open,
+}
+
+impl<'a> Writer<'a> {
+    fn new(page: &'a Page<'a>) -> Self {
+        Self {
+            page,
+            contents: String::new(),
+            heading: None,
+            section: page.title.to_owned(),
+            regions: HashMap::new(),
+            figure: Caption::None,
+            quoted: false,
+        }
+    }
+
+    fn take(&mut self, event: Event<'a>, out: &mut Vec<Event<'a>>) -> Result<(), RenderError> {
+        match event {
+            Event::Start(Tag::Heading { level, .. }) => {
+                self.end_figure(out);
+                self.heading = Some((level, String::new()));
+            }
+            Event::End(TagEnd::Heading(_)) => self.end_heading(out),
+            Event::Text(ref text) | Event::Code(ref text) if self.heading.is_some() => {
+                if let Some((_, heading)) = &mut self.heading {
+                    heading.push_str(text);
+                }
+            }
+            Event::InlineMath(latex) => out.push(html(inline_math(&latex)?)),
+            Event::DisplayMath(latex) => {
+                out.push(html(format!("<span class=\"formula\">{}</span>", to_mathml(&latex)?)));
+            }
+            Event::Html(ref text) | Event::InlineHtml(ref text) if text.starts_with("<img ") => {
+                self.end_figure(out);
+                self.drawing(text, out);
+            }
+            Event::Start(Tag::Paragraph) if self.figure == Caption::Expected => {
+                self.figure = Caption::Open;
+                out.push(html("<figcaption>"));
+            }
+            Event::End(TagEnd::Paragraph) if self.figure == Caption::Open => {
+                out.push(html("</figcaption></figure>\n"));
+                self.figure = Caption::None;
+            }
+            Event::Start(Tag::BlockQuote(_)) if !self.quoted => {
+                out.push(html(format!("<section class=\"verdict {}\">\n", self.page.tone)));
+            }
+            Event::End(TagEnd::BlockQuote(_)) if !self.quoted => {
+                self.quoted = true;
+                out.push(html("</section>\n"));
+            }
+            Event::Start(Tag::Table(_)) => {
+                let name = self.region();
+                out.push(html(format!(
+                    "<div class=\"table\" role=\"region\" aria-label=\"{name}\" tabindex=\"0\">"
+                )));
+                out.push(event);
+            }
+            Event::End(TagEnd::Table) => out.extend([event, html("</div>\n")]),
+            Event::Start(Tag::Link { link_type, dest_url, title, id }) => {
+                let dest_url = inside(dest_url);
+                out.push(Event::Start(Tag::Link { link_type, dest_url, title, id }));
+            }
+            other => out.push(other),
+        }
+        Ok(())
+    }
+
+    fn end_heading(&mut self, out: &mut Vec<Event<'a>>) {
+        let Some((level, text)) = self.heading.take() else { return };
+        let (id, name) = (slug(&text), escaped(&text));
+        if level == HeadingLevel::H2 {
+            self.contents.push_str(&format!("<li><a href=\"#{id}\">{name}</a></li>\n"));
+        }
+        self.section.clone_from(&text);
+        out.push(html(format!("<{level} id=\"{id}\">{name}</{level}>\n")));
+    }
+
+    /// The name of a region, another for each.
+    fn region(&mut self) -> String {
+        let count = self.regions.entry(self.section.clone()).or_default();
+        *count += 1;
+        match *count {
+            1 => escaped(&self.section),
+            more => format!("{} ({more})", escaped(&self.section)),
+        }
+    }
+
+    /// A drawing inline instead of a link to its file.
+    fn drawing(&mut self, image: &str, out: &mut Vec<Event<'a>>) {
+        let part = |key: &str| {
+            let rest = image.split_once(&format!("{key}=\""))?.1;
+            Some(rest.split_once('"')?.0)
+        };
+        let file = part("src").unwrap_or_default();
+        let name = file.rsplit('/').next().unwrap_or_default().trim_end_matches(".svg");
+        let Some(drawing) = self.page.drawings.get(name) else {
+            return out.push(html(image.to_owned()));
+        };
+        let width = part("width").unwrap_or("720");
+        out.push(html(format!(
+            "<figure><div class=\"drawing\" style=\"--drawn: {width}px\" tabindex=\"0\">{drawing}</div>"
+        )));
+        self.figure = Caption::Expected;
+    }
+
+    /// Ends a figure without caption.
+    fn end_figure(&mut self, out: &mut Vec<Event<'a>>) {
+        if self.figure == Caption::Expected {
+            out.push(html("</figure>\n"));
+            self.figure = Caption::None;
+        }
+    }
+}
+
+fn html<'a>(text: impl Into<CowStr<'a>>) -> Event<'a> {
+    Event::InlineHtml(text.into())
+}
+
+fn inline_math(latex: &str) -> Result<String, RenderError> {
+    Ok(to_mathml(latex)?.replacen("display=\"block\"", "display=\"inline\"", 1))
+}
+
+/// A link to a file that is part of the page.
+fn inside(link: CowStr<'_>) -> CowStr<'_> {
+    match link.split_once(".md") {
+        Some((file, "")) if !file.contains('/') => format!("#{file}").into(),
+        Some((file, anchor)) if !file.contains('/') && anchor.starts_with('#') => {
+            anchor.to_owned().into()
+        }
+        _ => link,
+    }
+}
+
+/// The anchor of a heading, as GitHub makes it.
+fn slug(heading: &str) -> String {
+    let kept = heading.chars().filter(|c| c.is_alphanumeric() || " -_".contains(*c));
+    kept.flat_map(char::to_lowercase).map(|c| if c == ' ' { '-' } else { c }).collect()
+}
+
+fn escaped(text: &str) -> String {
+    let mut bytes = Vec::new();
+    // Writing to memory does not fail.
+    let _ = escape_html(text, &mut bytes);
+    String::from_utf8_lossy(&bytes).into_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_page_has_its_drawings_formulas_and_contents() {
+        let drawings = BTreeMap::from([("map".to_owned(), "<svg></svg>".to_owned())]);
+        let markdown = "# Case & co\n\n> **Works.** Yes.\n\n<img src=\"figures/map.svg\" width=\"720\" alt=\"A map\">\n\nWhat to see.\n\n## Theory, (18)\n\n| a | b |\n| --- | ---: |\n| $x^2$ | [c](validation.md#claims) |\n";
+        let made = Page { title: "Case & co", tone: "good", markdown, drawings: &drawings };
+        let text = page(&made).expect("a page");
+        for part in [
+            "<title>Case &amp; co</title>",
+            "<h1 id=\"case--co\">Case &amp; co</h1>",
+            "<section class=\"verdict good\">",
+            "<svg></svg></div><figcaption>What to see.</figcaption></figure>",
+            "<li><a href=\"#theory-18\">Theory, (18)</a></li>",
+            "aria-label=\"Theory, (18)\"",
+            "<math display=\"inline\"",
+            "<a href=\"#claims\">c</a>",
+        ] {
+            assert!(text.contains(part), "{part} in {text}");
+        }
+    }
+}

@@ -1,0 +1,115 @@
+//! Sentences come from `templates/`: a template gets quantities and enums as data, chooses the words and has
+//! the numbers written by the filters below.
+//!
+//! | filter | of | gives |
+//! |---|---|---|
+//! | `q` | a quantity | the number with its unit and error; `digits=4`, `decimals=1`, `error=false` change it; `–` for none |
+//! | `label` | a quantity or its id | "clearance b" |
+//! | `name`, `symbol` | the same | its parts |
+//! | `num(digits=3)` | a number | significant digits |
+//! | `pct` | a number | a share in per cent |
+//! | `many(one="start", more="starts")` | a count | "1 start", "3 starts" |
+//! | `cap` | text | with a capital letter first |
+//! | `md`, `cell`, `attr` | text of a user | safe in Markdown, in a table's cell, in an attribute |
+
+use serde::Serialize;
+use tera::{Context, Kwargs, Map, State, Tera, TeraResult, Value};
+
+use super::figure::Figure;
+use super::render::{RenderError, attribute, markdown_cell, markdown_text};
+use crate::quantity::catalogue::{self, Digits, Kind};
+use crate::quantity::{Units, numbers};
+
+/// Every template: its name and its text.
+const TEMPLATES: &[(&str, &str)] = &[];
+
+/// Components that every template may use.
+const COMPONENTS: (&str, &str) = ("components", include_str!("../../templates/components.tera"));
+
+/// A template filled in; a quantity is written in `units`.
+///
+/// # Errors
+/// [`RenderError::Template`] if template and context do not fit.
+pub fn render(name: &str, units: &Units, context: &impl Serialize) -> Result<String, RenderError> {
+    let found = TEMPLATES.iter().find(|(known, _)| *known == name);
+    let (name, text) = found.ok_or_else(|| tera::Error::message(format!("no template {name}")))?;
+    let mut tera = Tera::new();
+    register(&mut tera, *units);
+    tera.add_raw_templates([COMPONENTS, (*name, *text)])?;
+    Ok(tera.render(name, &Context::from_serialize(context)?)?)
+}
+
+/// The figures with title, caption and alternative text from their templates: the first three lines of one.
+///
+/// # Errors
+/// [`RenderError::Template`] if a template and its figure do not fit.
+pub fn worded(mut figures: Vec<Figure>, units: &Units) -> Result<Vec<Figure>, RenderError> {
+    for figure in &mut figures {
+        let Some(facts) = &figure.facts else { continue };
+        let text = render(facts.template, units, &facts.data)?;
+        let mut lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
+        let mut next = || lines.next().unwrap_or_default().to_owned();
+        (figure.title, figure.caption, figure.alt) = (next(), next(), next());
+    }
+    Ok(figures)
+}
+
+fn register(tera: &mut Tera, units: Units) {
+    tera.register_filter("q", move |value: &Value, options: Kwargs, _: &State| {
+        quantity_text(&units, value, &options)
+    });
+    tera.register_filter("label", |value: &Value, _: Kwargs, _: &State| {
+        let kind = kind_of(value)?;
+        Ok::<_, tera::Error>(match kind.symbol {
+            "" => kind.name.to_owned(),
+            symbol => format!("{} {symbol}", kind.name),
+        })
+    });
+    tera.register_filter("name", |value: &Value, _: Kwargs, _: &State| {
+        kind_of(value).map(|kind| kind.name)
+    });
+    tera.register_filter("symbol", |value: &Value, _: Kwargs, _: &State| {
+        kind_of(value).map(|kind| kind.symbol)
+    });
+    tera.register_filter("num", |value: f64, options: Kwargs, _: &State| {
+        let digits = options.get::<u8>("digits")?.unwrap_or(3);
+        Ok::<_, tera::Error>(numbers::significant(value, usize::from(digits)))
+    });
+    tera.register_filter("pct", |value: f64, _: Kwargs, _: &State| numbers::percent(value));
+    tera.register_filter("many", |count: u64, options: Kwargs, _: &State| {
+        let word: &str = options.must_get(if count == 1 { "one" } else { "more" })?;
+        Ok::<_, tera::Error>(format!("{count} {word}"))
+    });
+    tera.register_filter("cap", |text: &str, _: Kwargs, _: &State| numbers::capitalised(text));
+    tera.register_filter("md", |text: &str, _: Kwargs, _: &State| markdown_text(text));
+    tera.register_filter("cell", |text: &str, _: Kwargs, _: &State| markdown_cell(text));
+    tera.register_filter("attr", |text: &str, _: Kwargs, _: &State| attribute(text));
+}
+
+/// The kind of a quantity, or of an id.
+fn kind_of(value: &Value) -> TeraResult<&'static Kind> {
+    let id = value.as_str().or_else(|| field(value.as_map()?, "id")?.as_str());
+    let kind = id.and_then(catalogue::kind);
+    kind.ok_or_else(|| tera::Error::message(format!("{value} is not of the catalogue")))
+}
+
+fn field<'a>(map: &'a Map, key: &'static str) -> Option<&'a Value> {
+    map.get(&tera::value::Key::Str(key))
+}
+
+fn quantity_text(units: &Units, value: &Value, options: &Kwargs) -> TeraResult<String> {
+    let Some(map) = value.as_map() else { return Ok("\u{2013}".into()) };
+    let kind = kind_of(value)?;
+    let number = |key| field(map, key).and_then(Value::as_f64);
+    let digits = match (options.get::<u8>("digits")?, options.get::<u8>("decimals")?) {
+        (Some(digits), _) => Digits::Significant(digits),
+        (_, Some(decimals)) => Digits::Decimals(decimals),
+        _ => kind.digits,
+    };
+    let Some(value) = number("value") else { return Ok("without limit".into()) };
+    let error = match options.get::<bool>("error")? {
+        Some(false) => 0.0,
+        _ => number("error").unwrap_or(0.0),
+    };
+    Ok(units.with_error(kind, value, error, digits))
+}
