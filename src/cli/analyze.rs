@@ -5,8 +5,8 @@ use miette::{IntoDiagnostic, Result, WrapErr};
 use vinesink::analysis::Analysis;
 use vinesink::case::Case;
 use vinesink::orbits::FullSystem;
+use vinesink::report::console;
 use vinesink::report::documents::AnalysisDocument;
-use vinesink::report::{Layers, summary};
 use vinesink::study::fidelity::{Answers, Plan, Simulated, counted_motions};
 use vinesink::study::{StudyEffort, settle_area};
 
@@ -65,9 +65,8 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
     };
     match arguments.format {
         Format::Text => {
-            let layers = answers.as_ref().map(|answers| Layers::new(&case, answers).text());
-            let text = summary::analysis(&case, &analysis, &exact, area);
-            output::print(text + &layers.unwrap_or_default())?;
+            let text = console::analysis(&case, &analysis, &exact, area, answers.as_ref());
+            output::print(text.into_diagnostic()?)?;
         }
         Format::Json => {
             let document = AnalysisDocument::new(&analysis, &exact, area, &case.scales());

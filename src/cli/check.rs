@@ -9,8 +9,9 @@ use vinesink::band::Survey;
 use vinesink::case::CaseError;
 use vinesink::criteria;
 use vinesink::report::criteria::{
-    Checked, CriteriaDocument, FailedCase, Place, annotations, junit, markdown, text,
+    Checked, FailedCase, JudgedCase, annotations, junit, markdown, text,
 };
+use vinesink::report::document::place::Place;
 
 use super::budget::{Long, Work};
 use super::parallel::Parallel;
@@ -111,7 +112,7 @@ fn checked(path: &Path, long: Long, failures: &mut Vec<Report>) -> Checked {
     }
 }
 
-fn judged(path: &Path, stem: &str, long: Long) -> Result<CriteriaDocument> {
+fn judged(path: &Path, stem: &str, long: Long) -> Result<JudgedCase> {
     let case = case_file::read(path)?;
     let work = match case.criteria.is_empty() {
         true => Work::default(),
@@ -123,7 +124,7 @@ fn judged(path: &Path, stem: &str, long: Long) -> Result<CriteriaDocument> {
     if case.criteria.is_empty() {
         output::complain(&format!("{}: there is no table [criteria]", path.display()));
     }
-    Ok(CriteriaDocument::new(stem, &case, &judged))
+    JudgedCase::new(stem, &case, &judged).into_diagnostic()
 }
 
 fn separated(parts: impl Iterator<Item = String>) -> String {

@@ -7,7 +7,8 @@ use clap::Args;
 use miette::{IntoDiagnostic, Result, miette};
 use vinesink::band::{Survey, SurveySettings};
 use vinesink::criteria;
-use vinesink::report::{Report, figures, render};
+use vinesink::report::document::{Document, Source};
+use vinesink::report::{equations, figures, render, template};
 use vinesink::store::{self, Stale};
 use vinesink::study::fidelity::Plan;
 use vinesink::study::{CaseStudy, StudyEffort};
@@ -167,16 +168,11 @@ fn rendered(path: &Path, name: &str, arguments: &Arguments) -> Result<(Files, Ou
         let detuned = survey(&settings)?.with_detuned(&settings, &Parallel);
         study = study.along(detuned.into_diagnostic()?);
     }
-    let drawn = figures::all(&case, &study).into_diagnostic()?;
-    progress.advance(FURTHER_STEPS / 2);
-    let mut report = Report::new(name, &case, &study, &drawn);
     let mut outcome = Outcome::Done;
-    if let Some(plan) = plan {
-        let answers = plan.answers(study.simulated_motions()).into_diagnostic()?;
-        if !answers.enough() {
-            outcome = Outcome::DoesNotHold;
-        }
-        report = report.with_answers(&case, &answers);
+    let answers = plan.map(|plan| plan.answers(study.simulated_motions())).transpose();
+    let answers = answers.into_diagnostic()?;
+    if answers.as_ref().is_some_and(|answers| !answers.enough()) {
+        outcome = Outcome::DoesNotHold;
     }
     let judged = match &study.band {
         _ if case.criteria.is_empty() => Vec::new(),
@@ -185,7 +181,18 @@ fn rendered(path: &Path, name: &str, arguments: &Arguments) -> Result<(Files, Ou
         }
         _ => criteria::judge(&case, &survey(&criteria::settings(&case))?),
     };
-    report = report.with_criteria(&case, &judged);
+    let units = Document::units(&case);
+    let drawn = figures::all(&case, &study).into_diagnostic()?;
+    let drawn = template::worded(drawn, &units).into_diagnostic()?;
+    progress.advance(FURTHER_STEPS / 2);
+    let document = Document::of(&Source {
+        name,
+        case: &case,
+        study: &study,
+        judged: &judged,
+        answers: answers.as_ref(),
+        figures: &drawn,
+    });
     // As `simulate`: what is not to be trusted is written down, and does not pass for an answer.
     let motions = study.simulated_motions();
     let trusted = motions.is_none_or(|motions| {
@@ -197,5 +204,7 @@ fn rendered(path: &Path, name: &str, arguments: &Arguments) -> Result<(Files, Ou
         ));
         outcome = Outcome::DoesNotHold;
     }
-    Ok((render::files(&report, &case, &drawn).into_diagnostic()?, outcome))
+    let equations = equations::groups(&case, &study);
+    let files = render::files(&document, &equations, &units, &drawn).into_diagnostic()?;
+    Ok((files, outcome))
 }

@@ -9,8 +9,8 @@ use vinesink::analysis::Analysis;
 use vinesink::case::Case;
 use vinesink::regimes::Attractor;
 use vinesink::regimes::attractor::Effort;
+use vinesink::report::console;
 use vinesink::report::documents::SimulationDocument;
-use vinesink::report::summary;
 use vinesink::simulation::{Impact, ImpactLog, Simulation};
 use vinesink::store;
 use vinesink::study::{self, LongTermMotions, StudyEffort};
@@ -87,7 +87,10 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
         }
     };
     match arguments.format {
-        Format::Text => output::print(summary::simulation(&case, &motion, found.as_ref()))?,
+        Format::Text => {
+            let text = console::simulation(&case, &motion, found.as_ref());
+            output::print(text.into_diagnostic()?)?;
+        }
         Format::Json => {
             let document = SimulationDocument::new(&motion, found.as_ref(), &case.scales());
             output::print_json(&document.with_warnings(case.warnings()))?;

@@ -5,7 +5,7 @@ use super::compare::VERDICT;
 use super::shown::{self, Shown};
 use super::stale::{Reason, StaleReport};
 use super::{CriterionChange, Difference, Found, ReportDifference, Summary, WordChange};
-use crate::report::criteria::{subject, verdict};
+use crate::report::criteria_rows::{subject, verdict};
 use crate::report::numbers::with_minus;
 use crate::report::render::markdown_cell as cell;
 

@@ -1,7 +1,7 @@
 //! Numbers of a difference as a reviewer reads them: with enough digits to see the change.
 
 use super::{CriterionChange, Found, NumberChange};
-use crate::report::criteria::unitless_words;
+use crate::report::criteria_rows::unitless_words;
 use crate::report::numbers::{signed_percent, significant, with_minus};
 use crate::report::render::markdown_cell;
 

@@ -152,6 +152,11 @@ catalogue! {
     SPECTRAL_RADIUS = "spectral_radius", "", "largest multiplier", Number, Significant(4), Interval;
     BOUNDARY = "boundary_clearance", "b", "clearance at the boundary", Length, Significant(4), Interval;
     THEORY_ERROR = "theory_error", "", "error of theory", Change, Significant(2), Interval;
+    ANGLE_ERROR = "angle_error", "", "error of an angle", Angle, Decimals(4), Interval;
+    TOLERANCE = "tolerance", "", "allowed error", Share, Significant(2), Interval;
+    CLAIMED_LENGTH = "length", "", "length", Length, Significant(4), Interval;
+    CLAIMED_ANGLE = "angle", "", "angle", Angle, Decimals(3), Interval;
+    OFFSET = "offset", "", "distance of the excitation from resonance", Share, Significant(2), Interval;
     MARGIN = "margin", "", "change until the boundary", Change, Significant(2), Interval;
     GAP = "gap", "", "distance of the clearance from the next boundary", Share, Significant(2), Interval;
     Z3_SHARE = "z3_share", "", "share in area Z3", Share, Significant(3), Interval;

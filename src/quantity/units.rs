@@ -60,6 +60,15 @@ impl Dimension {
         }
     }
 
+    /// The symbol of its unit without prefix: that of SI, or `1` for a pure number and for a case in reduced
+    /// units.
+    pub fn symbol(self, physical: bool) -> &'static str {
+        let pure = matches!(self, Self::Share | Self::Change | Self::Number | Self::Count);
+        let own = !physical && self.own_unit().is_some();
+        let plain = self.units().iter().find(|one| one.size == 1.0);
+        plain.filter(|_| !pure && !own).map_or("1", |unit| unit.symbol)
+    }
+
     /// Its unit for a case in reduced units, where the oscillator has m1 = k1 = 1 and lengths are in the unit
     /// of the case's own clearance.
     fn own_unit(self) -> Option<Unit> {
@@ -106,6 +115,11 @@ impl Units {
     /// Those of a case in reduced units.
     pub const fn reduced() -> Self {
         Self { physical: false, length: unit("units", 1.0) }
+    }
+
+    /// The symbol of the unit that lengths share.
+    pub const fn length_symbol(&self) -> &'static str {
+        self.length.symbol
     }
 
     /// The unit in which a number of a dimension is shown: lengths of a page share theirs, others have the

@@ -6,7 +6,7 @@
 
 use serde::Serialize;
 
-use super::criteria::Place;
+use super::document::place::Place;
 use crate::analysis::{Analysis, Area, Branch, FixedPoint, ManifoldPoint, Strip};
 use crate::case::{Problem, Scales};
 use crate::orbits::{

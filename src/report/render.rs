@@ -1,24 +1,25 @@
 //! From a report to the files of its folder. Nothing is decided here.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use serde::Serialize;
 use tera::{Context, Kwargs, State, Tera, Value};
 
-use super::Report;
+use super::document::{Document, Tone};
+use super::equations::EquationGroup;
 use super::extremes::Extremes;
 use super::figure::{self, Figure, FigureError};
+use super::html;
 use super::index::Index;
-use super::numbers::LengthFormat;
 use super::optimize::OptimizePage;
 use super::paper::Paper;
 use super::sweep::SweepPage;
+use super::template;
 use super::tradeoff::TradeoffPage;
-use crate::case::Case;
-use crate::symbolic::{MathError, to_mathml};
+use crate::quantity::Units;
+use crate::symbolic::MathError;
 
-const MARKDOWN: &str = include_str!("../../templates/report.md.tera");
-const HTML: &str = include_str!("../../templates/report.html.tera");
 const PAPER: &str = include_str!("../../templates/paper.md.tera");
 const EXTREMES: &str = include_str!("../../templates/extremes.md.tera");
 const TRADEOFF: &str = include_str!("../../templates/tradeoff.md.tera");
@@ -43,7 +44,8 @@ const FIGURES_OF_SWEEP: &str = "figures/sweep-";
 /// not.
 pub fn is_of_report(file: &Path) -> bool {
     let Some(name) = file.to_str() else { return false };
-    if ["report.md", "report.html", "report.json"].contains(&name) {
+    if ["report.md", "validation.md", "equations.md", "report.html", "report.json"].contains(&name)
+    {
         return true;
     }
     let drawing = name.strip_prefix("figures/").and_then(|name| name.strip_suffix(".svg"));
@@ -68,33 +70,61 @@ pub enum RenderError {
     Json(#[from] serde_json::Error),
 }
 
+/// What the equations of a case are printed from.
+#[derive(Serialize)]
+struct EquationsPage<'a> {
+    title: &'a str,
+    length_unit: &'static str,
+    equations: &'a [EquationGroup],
+}
+
 /// The files of a report's folder, by their path in it.
 ///
 /// # Errors
 /// [`RenderError`] says which part cannot be rendered.
 pub fn files(
-    report: &Report,
-    case: &Case,
+    document: &Document,
+    equations: &[EquationGroup],
+    units: &Units,
     figures: &[Figure],
 ) -> Result<BTreeMap<PathBuf, Vec<u8>>, RenderError> {
     let drawings = drawings(figures)?;
-    let pages = [
-        ("report.md", markdown(report, case)?),
-        ("report.html", html(report, case, &drawings)?),
-        ("report.json", json(report)?),
-    ];
+    let page = |name: &str| -> Result<String, RenderError> {
+        Ok(without_repeated_blank_lines(&template::render(name, units, document)?))
+    };
+    let (report, validation) = (page("report.md")?, page("validation.md")?);
+    let (title, length_unit) = (document.title.as_str(), units.length_symbol());
+    let equations = EquationsPage { title, length_unit, equations };
+    let equations =
+        without_repeated_blank_lines(&template::render("equations.md", units, &equations)?);
+    let whole = format!("{report}\n{}\n{}", appendix(&validation), appendix(&equations));
+    let tone = match document.verdict.tone {
+        Tone::Good => "good",
+        Tone::Mixed => "mixed",
+        Tone::Bad => "bad",
+    };
+    let html = html::page(&html::Page { title, tone, markdown: &whole, drawings: &drawings })?;
     let mut files = figure_files(drawings);
+    let pages = [
+        ("report.md", report),
+        ("validation.md", validation),
+        ("equations.md", equations),
+        ("report.html", html),
+        ("report.json", serde_json::to_string_pretty(document)? + "\n"),
+    ];
     files.extend(pages.map(|(name, text)| (PathBuf::from(name), text.into_bytes())));
     Ok(files)
 }
 
-/// The report as Markdown that reads well as plain text and on GitHub.
-///
-/// # Errors
-/// [`RenderError::Template`] if template and report do not fit.
-pub fn markdown(report: &Report, case: &Case) -> Result<String, RenderError> {
-    let text = engine("report.md", MARKDOWN)?.render("report.md", &context(report, case)?)?;
-    Ok(without_repeated_blank_lines(&text))
+/// A page of its own as a part of another: its headings one level deeper, without the other's title.
+fn appendix(page: &str) -> String {
+    page.lines()
+        .map(|line| match line.strip_prefix("# ") {
+            Some(title) => format!("## {}\n", title.split(':').next().unwrap_or(title)),
+            None if line.starts_with('#') => format!("#{line}\n"),
+            None => format!("{line}\n"),
+        })
+        .collect()
 }
 
 /// The page that compares the paper's figures, as Markdown.
@@ -218,55 +248,6 @@ pub fn sweep(
     let mut files = figure_files(drawings);
     files.extend(pages.map(|(name, text)| (PathBuf::from(name), text.into_bytes())));
     Ok(files)
-}
-
-/// The report as one HTML page that needs nothing from outside.
-///
-/// # Errors
-/// [`RenderError`] if template and report do not fit, or a formula is not understood.
-pub fn html(
-    report: &Report,
-    case: &Case,
-    drawings: &BTreeMap<String, String>,
-) -> Result<String, RenderError> {
-    let mut context = context(report, case)?;
-    context.insert("style", STYLE);
-    context.insert("drawings", drawings);
-    context.insert("math", &formulas(report)?);
-    Ok(engine("report.html", HTML)?.render("report.html", &context)?)
-}
-
-fn json(report: &Report) -> Result<String, RenderError> {
-    Ok(serde_json::to_string_pretty(report)? + "\n")
-}
-
-fn context(report: &Report, case: &Case) -> Result<Context, RenderError> {
-    let mut context = Context::new();
-    context.insert("report", report);
-    // Both are left out of the JSON document where they say nothing new.
-    context.insert("layers", &report.layers);
-    context.insert("band", &report.band);
-    context.insert("criteria_table", &report.criteria_table);
-    context.insert("criteria_headline", &report.criteria_headline);
-    context.insert("simulated", &report.simulated);
-    // The equations are left out of the JSON document, and with it out of the serialised report.
-    context.insert("equations", &report.equations);
-    context.insert("length_unit", LengthFormat::of(&case.scales()).unit);
-    Ok(context)
-}
-
-/// Every formula of the report in MathML, by its LaTeX.
-fn formulas(report: &Report) -> Result<HashMap<String, String>, RenderError> {
-    let formulas = report.equations.iter().flat_map(|group| &group.formulas);
-    let equations = formulas.flat_map(|formula| [formula.general.clone(), formula.numbers.clone()]);
-    let cells = report.tables.inputs.rows.iter().flatten();
-    let symbols = cells.filter_map(|cell| Some(dollars(cell)?.to_owned()));
-    let mut math = HashMap::new();
-    for latex in equations.chain(symbols) {
-        let mathml = to_mathml(&latex)?;
-        math.insert(latex, mathml);
-    }
-    Ok(math)
 }
 
 /// The formula in a cell that is nothing but one.

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use super::FORMAT;
+use super::document::FORMAT;
 
 /// Why a file is not a report that can be read.
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]

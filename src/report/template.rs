@@ -3,7 +3,7 @@
 //!
 //! | filter | of | gives |
 //! |---|---|---|
-//! | `q` | a quantity | the number with its unit and error; `digits=4`, `decimals=1`, `error=false` change it; `–` for none |
+//! | `q` | a quantity | the number with its unit and error; `digits=4`, `decimals=1`, `error=false`, `sign=true` change it; `–` for none |
 //! | `label` | a quantity or its id | "clearance b" |
 //! | `name`, `symbol` | the same | its parts |
 //! | `num(digits=3)` | a number | significant digits |
@@ -21,7 +21,14 @@ use crate::quantity::catalogue::{self, Digits, Kind};
 use crate::quantity::{Units, numbers};
 
 /// Every template: its name and its text.
-const TEMPLATES: &[(&str, &str)] = &[];
+const TEMPLATES: &[(&str, &str)] = &[
+    ("report.md", include_str!("../../templates/report.md.tera")),
+    ("validation.md", include_str!("../../templates/validation.md.tera")),
+    ("analyze.txt", include_str!("../../templates/analyze.txt.tera")),
+    ("simulate.txt", include_str!("../../templates/simulate.txt.tera")),
+    ("criteria", include_str!("../../templates/criteria.tera")),
+    ("equations.md", include_str!("../../templates/equations.md.tera")),
+];
 
 /// Components that every template may use.
 const COMPONENTS: (&str, &str) = ("components", include_str!("../../templates/components.tera"));
@@ -111,5 +118,7 @@ fn quantity_text(units: &Units, value: &Value, options: &Kwargs) -> TeraResult<S
         Some(false) => 0.0,
         _ => number("error").unwrap_or(0.0),
     };
-    Ok(units.with_error(kind, value, error, digits))
+    let text = units.with_error(kind, value, error, digits);
+    let sign = options.get::<bool>("sign")? == Some(true) && value > 0.0 && !text.starts_with('+');
+    Ok(if sign { format!("+{text}") } else { text })
 }

@@ -15,7 +15,7 @@ use serde::Serialize;
 
 use crate::analysis::motion::state_of;
 use crate::analysis::{Analysis, AnalysisError, Area, Branch};
-use crate::band::Survey;
+use crate::band::{Band, Inactive, Rivals, Survey};
 use crate::case::SimulationSettings;
 use crate::orbits::{Boundaries, FullSystem};
 use crate::regimes::attractor::Effort;
@@ -143,6 +143,12 @@ pub struct CaseStudy {
     pub band: Option<Survey>,
     /// Whether anything was simulated; if not, `attractors` is empty.
     pub simulated: bool,
+    /// The bare oscillator and a tuned mass damper at the case's own excitation.
+    #[serde(skip)]
+    pub rivals: Rivals,
+    /// What an absorber that starts from rest leaves where it stays inactive.
+    #[serde(skip)]
+    pub inactive: Option<Inactive>,
 }
 
 /// An area and which layer settled it.
@@ -209,6 +215,8 @@ impl CaseStudy {
             motions_cost,
             band: None,
             simulated: true,
+            rivals: Rivals::along(&Band::point(system)),
+            inactive: Inactive::of(system),
             analysis,
         })
     }
@@ -233,6 +241,8 @@ impl CaseStudy {
             motions_cost: 0,
             band: None,
             simulated: false,
+            rivals: Rivals::along(&Band::point(system)),
+            inactive: Inactive::of(system),
             exact,
             analysis,
         })

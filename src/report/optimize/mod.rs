@@ -1,12 +1,12 @@
 //! The page of `vinesink optimize`: the best absorber in words, tables and two figures.
 
+mod damper;
 mod figure;
 mod words;
 
 use serde::Serialize;
 
 use super::FigureRow;
-use super::band::DamperDocument;
 use super::figure::Figure;
 use super::numbers::{percent, significant};
 use super::tables::{Table, table};
@@ -16,6 +16,7 @@ use crate::optimize::claim::Claim;
 use crate::optimize::robust::{Robust, UnderDeviations};
 use crate::optimize::sensitivity::{Changed, Sensitivity};
 use crate::optimize::{Bounds, Design, Optimization, Variable, chart};
+use damper::DamperDocument;
 use words::Words;
 
 pub use figure::figures;

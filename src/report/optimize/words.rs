@@ -8,7 +8,7 @@ use crate::criteria::Judged;
 use crate::optimize::claim::Claim;
 use crate::optimize::task::value_of;
 use crate::optimize::{Bounds, Design, Deviation, Optimization, Variable};
-use crate::report::criteria::{self, CriterionRow};
+use crate::report::criteria_rows::{self as criteria, CriterionRow};
 use crate::report::numbers::{LengthFormat, fixed, percent, signed_percent, significant};
 use crate::report::units::Units;
 

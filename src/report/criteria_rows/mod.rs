@@ -1,18 +1,12 @@
 //! Judged criteria in words and as data: for a terminal, a report, a pull request and build servers.
 
-mod formats;
-
 use serde::Serialize;
 
 use super::numbers::{LengthFormat, fixed, percent, percent_sharply, significant};
-use super::tables::{Table, table};
 use super::units::Units;
-use super::verdict::Tone;
 use crate::case::{Case, Measure, Relation, Subject};
-use crate::criteria::{Judged, all_hold};
+use crate::criteria::Judged;
 use crate::study::fidelity::Fidelity;
-
-pub use formats::{Checked, FailedCase, Place, annotations, junit, markdown, text};
 
 /// A criterion, judged: one line of every format. Numbers in SI units, or the case's own.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -67,90 +61,6 @@ impl CriterionRow {
             words += " (not settled)";
         }
         words
-    }
-}
-
-/// Every criterion of one case.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct CriteriaDocument {
-    /// The case's name: the stem of its file.
-    pub case: String,
-    /// Its title.
-    pub title: String,
-    /// What is probably a slip in its file; left out where nothing is.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub warnings: Vec<Place>,
-    /// Whether all hold.
-    pub holds: bool,
-    /// Whether the motion of an absorber that never wakes counts.
-    pub count_inactive: bool,
-    /// One for each line of `[criteria]`, in the order of a report.
-    pub criteria: Vec<CriterionRow>,
-}
-
-impl CriteriaDocument {
-    /// Writes down what was judged.
-    pub fn new(name: &str, case: &Case, judged: &[Judged]) -> Self {
-        Self {
-            case: name.to_owned(),
-            title: case.title.clone(),
-            warnings: case.warnings().iter().map(Place::from).collect(),
-            holds: all_hold(judged),
-            count_inactive: case.count_inactive,
-            criteria: rows(case, judged),
-        }
-    }
-
-    /// The criteria as a table.
-    pub(super) fn table(&self) -> Table {
-        let columns = [
-            ("Criterion", false),
-            ("Verdict", false),
-            ("Asked", true),
-            ("Found", true),
-            ("Margin", true),
-            ("Decided by", false),
-        ];
-        table(columns, self.criteria.iter().map(formats::cells).collect())
-    }
-
-    /// How many criteria could be turned by their error.
-    fn too_close(&self) -> usize {
-        self.criteria.iter().filter(|row| row.near_limit).count()
-    }
-
-    /// Good where all hold, bad where one fails, in between where the errors leave it open.
-    pub(super) fn tone(&self) -> Tone {
-        let fails = |row: &CriterionRow| row.holds != Some(true) && !row.near_limit;
-        match (self.criteria.iter().any(fails), self.too_close()) {
-            (true, _) => Tone::Bad,
-            (false, 0) => Tone::Good,
-            (false, _) => Tone::Mixed,
-        }
-    }
-
-    /// How many hold, in words.
-    pub fn headline(&self) -> String {
-        let count = self.criteria.len();
-        let holding = self.criteria.iter().filter(|row| row.holds == Some(true)).count();
-        let headline = match (count, count - holding) {
-            (0, _) => "no criteria: add a table [criteria] to the case".into(),
-            (1, 0) => "its one criterion holds".into(),
-            (1, _) => "its one criterion fails".into(),
-            (_, 0) => format!("all {count} criteria hold"),
-            (_, 1) => format!("1 of {count} criteria fails"),
-            (_, failing) => format!("{failing} of {count} criteria fail"),
-        };
-        let too_close = match self.too_close() {
-            0 => String::new(),
-            1 => ", 1 too close to call".into(),
-            some => format!(", {some} too close to call"),
-        };
-        let inactive = match self.count_inactive {
-            true => "",
-            false => "; an inactive absorber is not counted (count_inactive = false)",
-        };
-        headline + &too_close + inactive
     }
 }
 

@@ -1,0 +1,92 @@
+//! From dimensionless results to quantities in SI, or in the units of a reduced case.
+
+use crate::case::{BandOver, Case, Design, PhysicalExcitation, Scales};
+use crate::method::Method;
+use crate::quantity::catalogue as of;
+use crate::quantity::{Kind, Quantity, Units};
+
+/// Makes the quantities of one case.
+#[derive(Debug, Clone, Copy)]
+pub struct Scale {
+    scales: Scales,
+    /// The case's excitation, and its amplitude in SI.
+    excitation: (&'static Kind, f64),
+}
+
+impl Scale {
+    /// That of a case.
+    pub fn of(case: &Case) -> Self {
+        let scales = case.scales();
+        let excitation = match &case.design {
+            Design::Physical(physical) => match physical.excitation {
+                PhysicalExcitation::BaseDisplacement { amplitude_m } => {
+                    (&of::BASE_AMPLITUDE, amplitude_m)
+                }
+                PhysicalExcitation::Force { amplitude_n } => (&of::FORCE_AMPLITUDE, amplitude_n),
+            },
+            Design::Reduced(_) => (&of::REDUCED_FORCING, scales.forcing),
+        };
+        Self { scales, excitation }
+    }
+
+    /// The units of the case's pages.
+    pub fn units(&self) -> Units {
+        match self.scales.natural_frequency_rad_per_s {
+            Some(_) => Units::physical(self.scales.clearance),
+            None => Units::reduced(),
+        }
+    }
+
+    /// A length over the clearance.
+    pub fn length(&self, kind: &'static Kind, over_clearance: f64, method: Method) -> Quantity {
+        Quantity::new(kind, self.scales.length(over_clearance), method)
+    }
+
+    /// The same with an error.
+    pub fn length_with(
+        &self,
+        kind: &'static Kind,
+        [value, error]: [f64; 2],
+        method: Method,
+    ) -> Quantity {
+        self.length(kind, value, method).with_error(self.scales.length(error))
+    }
+
+    /// A velocity over the clearance, in fast time, with its error.
+    pub fn velocity(
+        &self,
+        kind: &'static Kind,
+        [value, error]: [f64; 2],
+        method: Method,
+    ) -> Quantity {
+        let factor = self.scales.velocity_m_per_s(1.0).unwrap_or_else(|| self.scales.length(1.0));
+        Quantity::new(kind, factor * value, method).with_error(factor * error)
+    }
+
+    /// An energy per unit of the oscillator's mass, over the squared clearance, in fast time.
+    pub fn energy(&self, kind: &'static Kind, value: f64, method: Method) -> Quantity {
+        let own = self.scales.clearance * self.scales.clearance;
+        Quantity::new(kind, self.scales.energy_j(value).unwrap_or(own * value), method)
+    }
+
+    /// An excitation frequency: in Hz, or over the natural one for a reduced case.
+    pub fn frequency(&self, ratio: f64, method: Method) -> Quantity {
+        match self.scales.frequency_hz(ratio) {
+            Some(hertz) => Quantity::new(&of::EXCITATION_FREQUENCY, hertz, method),
+            None => Quantity::new(&of::FREQUENCY_RATIO, ratio, method),
+        }
+    }
+
+    /// An excitation amplitude over the case's.
+    pub fn amplitude(&self, over_own: f64, method: Method) -> Quantity {
+        Quantity::new(self.excitation.0, over_own * self.excitation.1, method)
+    }
+
+    /// A place of a band.
+    pub fn place(&self, over: BandOver, at: f64) -> Quantity {
+        match over {
+            BandOver::Frequency => self.frequency(at, Method::Given),
+            BandOver::Amplitude => self.amplitude(at, Method::Given),
+        }
+    }
+}
