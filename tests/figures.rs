@@ -6,7 +6,7 @@ mod common;
 use std::fs;
 
 use vinesink::case::{Case, ExtraFigure, ReportSettings};
-use vinesink::report::Report;
+use vinesink::report::document::{Document, Source};
 use vinesink::report::figure::{Color, Figure, Layer, Scale, Shape, draw};
 use vinesink::report::figures::all;
 use vinesink::study::{CaseStudy, StudyEffort};
@@ -293,8 +293,15 @@ fn a_figure_with_nothing_to_show_is_named() {
     case.report.figures = vec![ExtraFigure::Captures, ExtraFigure::Exponents];
     let study = CaseStudy::of(&case.system(), QUICK, &mut |_| {}).expect("can be studied");
     let drawn = all(&case, &study).expect("can be drawn");
-    let report = Report::new("one", &case, &study, &drawn);
-    assert_eq!(report.left_out, ["captures"]);
+    let source = Source {
+        name: "one",
+        case: &case,
+        study: &study,
+        judged: &[],
+        answers: None,
+        figures: &drawn,
+    };
+    assert_eq!(Document::of(&source).left_out, ["captures"]);
 }
 
 /// Without damping a free vibration never fades, so that no peak may be named for an absorber at rest;

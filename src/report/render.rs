@@ -11,7 +11,6 @@ use super::equations::EquationGroup;
 use super::extremes::Extremes;
 use super::figure::{self, Figure, FigureError};
 use super::html;
-use super::index::Index;
 use super::optimize::OptimizePage;
 use super::paper::Paper;
 use super::sweep::SweepPage;
@@ -23,10 +22,6 @@ use crate::symbolic::MathError;
 const PAPER: &str = include_str!("../../templates/paper.md.tera");
 const EXTREMES: &str = include_str!("../../templates/extremes.md.tera");
 const TRADEOFF: &str = include_str!("../../templates/tradeoff.md.tera");
-const INDEX_MARKDOWN: &str = include_str!("../../templates/index.md.tera");
-const INDEX_HTML: &str = include_str!("../../templates/index.html.tera");
-const INDEX_STYLE: &str = include_str!("../../templates/index.css");
-const INDEX_SCRIPT: &str = include_str!("../../templates/index.js");
 const OPTIMIZE_MARKDOWN: &str = include_str!("../../templates/optimize.md.tera");
 const OPTIMIZE_HTML: &str = include_str!("../../templates/optimize.html.tera");
 const SWEEP_MARKDOWN: &str = include_str!("../../templates/sweep.md.tera");
@@ -166,30 +161,6 @@ pub fn tradeoff(
     ]))
 }
 
-/// The index of a folder of reports, as Markdown.
-///
-/// # Errors
-/// [`RenderError::Template`] if template and index do not fit.
-pub fn index_markdown(index: &Index) -> Result<String, RenderError> {
-    let mut context = Context::new();
-    context.insert("index", index);
-    let text = engine("README.md", INDEX_MARKDOWN)?.render("README.md", &context)?;
-    Ok(without_repeated_blank_lines(&text))
-}
-
-/// The index of a folder of reports, as an HTML page that needs only the figures beside it.
-///
-/// # Errors
-/// [`RenderError::Template`] if template and index do not fit.
-pub fn index_html(index: &Index) -> Result<String, RenderError> {
-    let mut context = Context::new();
-    context.insert("index", index);
-    context.insert("style", STYLE);
-    context.insert("index_style", INDEX_STYLE);
-    context.insert("script", INDEX_SCRIPT);
-    Ok(engine("index.html", INDEX_HTML)?.render("index.html", &context)?)
-}
-
 /// The page of an optimisation with its figures, by their path in the case's folder.
 ///
 /// # Errors
@@ -307,7 +278,7 @@ fn lower_first(text: &str) -> String {
 }
 
 /// A path as a link writes it: everything that could mean something else is encoded.
-fn url_path(path: &str) -> String {
+pub(super) fn url_path(path: &str) -> String {
     path.bytes().fold(String::with_capacity(path.len()), |mut link, byte| {
         if byte.is_ascii_alphanumeric() || b"-._~/".contains(&byte) {
             link.push(char::from(byte));

@@ -3,20 +3,20 @@
 //!
 //! | filter | of | gives |
 //! |---|---|---|
-//! | `q` | a quantity | the number with its unit and error; `digits=4`, `decimals=1`, `error=false`, `sign=true` change it; `–` for none |
+//! | `q` | a quantity | the number with its unit and error; `digits=4`, `decimals=1`, `error=false`, `sign=true`, `reduced=true` (units) change it; `–` for none |
 //! | `label` | a quantity or its id | "clearance b" |
 //! | `name`, `symbol` | the same | its parts |
 //! | `num(digits=3)` | a number | significant digits |
 //! | `pct` | a number | a share in per cent |
 //! | `many(one="start", more="starts")` | a count | "1 start", "3 starts" |
 //! | `cap` | text | with a capital letter first |
-//! | `md`, `cell`, `attr` | text of a user | safe in Markdown, in a table's cell, in an attribute |
+//! | `md`, `cell`, `attr`, `path` | text of a user | safe in Markdown, in a table's cell, in an attribute, in a link |
 
 use serde::Serialize;
 use tera::{Context, Kwargs, Map, State, Tera, TeraResult, Value};
 
 use super::figure::Figure;
-use super::render::{RenderError, attribute, markdown_cell, markdown_text};
+use super::render::{RenderError, attribute, markdown_cell, markdown_text, url_path};
 use crate::quantity::catalogue::{self, Digits, Kind};
 use crate::quantity::{Units, numbers};
 
@@ -27,11 +27,20 @@ const TEMPLATES: &[(&str, &str)] = &[
     ("analyze.txt", include_str!("../../templates/analyze.txt.tera")),
     ("simulate.txt", include_str!("../../templates/simulate.txt.tera")),
     ("criteria", include_str!("../../templates/criteria.tera")),
+    ("README.md", include_str!("../../templates/index.md.tera")),
+    ("index.html", include_str!("../../templates/index.html.tera")),
     ("equations.md", include_str!("../../templates/equations.md.tera")),
 ];
 
 /// Components that every template may use.
 const COMPONENTS: (&str, &str) = ("components", include_str!("../../templates/components.tera"));
+
+/// What other templates include: styles and scripts.
+const INCLUDED: &[(&str, &str)] = &[
+    ("report.css", include_str!("../../templates/report.css")),
+    ("index.css", include_str!("../../templates/index.css")),
+    ("index.js", include_str!("../../templates/index.js")),
+];
 
 /// A template filled in; a quantity is written in `units`.
 ///
@@ -42,7 +51,8 @@ pub fn render(name: &str, units: &Units, context: &impl Serialize) -> Result<Str
     let (name, text) = found.ok_or_else(|| tera::Error::message(format!("no template {name}")))?;
     let mut tera = Tera::new();
     register(&mut tera, *units);
-    tera.add_raw_templates([COMPONENTS, (*name, *text)])?;
+    let included = INCLUDED.iter().copied().filter(|(file, _)| text.contains(file));
+    tera.add_raw_templates(included.chain([COMPONENTS, (*name, *text)]))?;
     Ok(tera.render(name, &Context::from_serialize(context)?)?)
 }
 
@@ -90,6 +100,7 @@ fn register(tera: &mut Tera, units: Units) {
     tera.register_filter("cap", |text: &str, _: Kwargs, _: &State| numbers::capitalised(text));
     tera.register_filter("md", |text: &str, _: Kwargs, _: &State| markdown_text(text));
     tera.register_filter("cell", |text: &str, _: Kwargs, _: &State| markdown_cell(text));
+    tera.register_filter("path", |text: &str, _: Kwargs, _: &State| url_path(text));
     tera.register_filter("attr", |text: &str, _: Kwargs, _: &State| attribute(text));
 }
 
@@ -104,6 +115,15 @@ fn field<'a>(map: &'a Map, key: &'static str) -> Option<&'a Value> {
     map.get(&tera::value::Key::Str(key))
 }
 
+/// A number as its author would write it: 8 Hz, not 8.000 Hz.
+fn without_zeros(text: &str) -> String {
+    let (number, unit) = text.split_at(text.find(' ').unwrap_or(text.len()));
+    match number.contains('.') {
+        true => format!("{}{unit}", number.trim_end_matches('0').trim_end_matches('.')),
+        false => text.to_owned(),
+    }
+}
+
 fn quantity_text(units: &Units, value: &Value, options: &Kwargs) -> TeraResult<String> {
     let Some(map) = value.as_map() else { return Ok("\u{2013}".into()) };
     let kind = kind_of(value)?;
@@ -113,12 +133,18 @@ fn quantity_text(units: &Units, value: &Value, options: &Kwargs) -> TeraResult<S
         (_, Some(decimals)) => Digits::Decimals(decimals),
         _ => kind.digits,
     };
+    let units = match options.get::<bool>("reduced")? {
+        Some(true) => &Units::reduced(),
+        _ => units,
+    };
     let Some(value) = number("value") else { return Ok("without limit".into()) };
     let error = match options.get::<bool>("error")? {
         Some(false) => 0.0,
         _ => number("error").unwrap_or(0.0),
     };
     let text = units.with_error(kind, value, error, digits);
+    let given = field(map, "method").and_then(Value::as_str) == Some("given");
+    let text = if given { without_zeros(&text) } else { text };
     let sign = options.get::<bool>("sign")? == Some(true) && value > 0.0 && !text.starts_with('+');
     Ok(if sign { format!("+{text}") } else { text })
 }

@@ -31,7 +31,7 @@ pub use motions::MotionFacts;
 pub use notes::{Note, TheoryLimit};
 pub use scale::Scale;
 pub use theory::TheoryFacts;
-pub use verdict::{Headline, Tone, Verdict};
+pub use verdict::{Headline, Tone, Verdict, Word};
 
 /// Name and version of the format of `report.json`.
 pub const FORMAT: &str = "vinesink/report@2";

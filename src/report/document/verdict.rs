@@ -1,6 +1,6 @@
 //! The answer: what an engineer wants to know first, as data.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::NOTICEABLE;
 use super::criteria::{Badge, CriteriaFacts};
@@ -8,7 +8,7 @@ use crate::regimes::{FoundAttractor, Regime};
 use crate::study::CaseStudy;
 
 /// Whether the news is good.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Tone {
     /// The criteria hold, or without any the absorber reduces the vibration.
@@ -55,13 +55,35 @@ pub enum Reason {
     LittleAlone,
 }
 
+/// The answer in a word. The order is that of a sorted column.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Word {
+    /// All criteria hold.
+    Holds,
+    /// The absorber reduces the vibration.
+    Works,
+    /// No criterion fails by more than its error.
+    TooCloseToCall,
+    /// Something between.
+    Mixed,
+    /// Hardly any change.
+    DoesNothing,
+    /// More vibration.
+    MakesItWorse,
+    /// Nothing drives the case, or no motion was found.
+    NoAnswer,
+    /// A criterion fails.
+    Fails,
+}
+
 /// The answer.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Verdict {
     /// Good, mixed or bad.
     pub tone: Tone,
-    /// What the criteria came to; none without criteria.
-    pub badge: Option<Badge>,
+    /// What the criteria came to, or without any what the absorber does.
+    pub word: Word,
     /// At the case's own excitation.
     pub headline: Headline,
     /// Along the band; none without one, or where nothing was found.
@@ -78,17 +100,16 @@ impl Verdict {
         use crate::validation::Verdict::Confirmed;
         let headline = headline(study);
         let band = along_band(study);
-        let badge = criteria.map(|criteria| criteria.badge);
-        let tone = match badge {
-            Some(Badge::Holds) => Tone::Good,
-            Some(Badge::Fails) => Tone::Bad,
-            Some(Badge::TooCloseToCall) => Tone::Mixed,
-            None => band.map_or_else(|| tone(study, headline), Headline::tone),
+        let word = match criteria.map(|criteria| criteria.badge) {
+            Some(Badge::Holds) => Word::Holds,
+            Some(Badge::Fails) => Word::Fails,
+            Some(Badge::TooCloseToCall) => Word::TooCloseToCall,
+            None => band.map_or_else(|| word(study, headline), Headline::word),
         };
         let main = study.main_attractor();
         Self {
-            tone,
-            badge,
+            tone: word.tone(),
+            word,
             headline,
             band,
             reason: main
@@ -99,23 +120,35 @@ impl Verdict {
     }
 }
 
-impl Headline {
+impl Word {
     fn tone(self) -> Tone {
         match self {
-            Self::Less => Tone::Good,
-            Self::NoMotion | Self::AtRest | Self::Worse => Tone::Bad,
-            _ => Tone::Mixed,
+            Self::Holds | Self::Works => Tone::Good,
+            Self::TooCloseToCall | Self::Mixed => Tone::Mixed,
+            _ => Tone::Bad,
+        }
+    }
+}
+
+impl Headline {
+    fn word(self) -> Word {
+        match self {
+            Self::Less => Word::Works,
+            Self::Worse => Word::MakesItWorse,
+            Self::Little | Self::AtRest => Word::DoesNothing,
+            Self::NoMotion | Self::NothingDrives => Word::NoAnswer,
+            Self::UnlimitedWithout | Self::HigherPeaks | Self::LessOnAverage => Word::Mixed,
         }
     }
 }
 
 /// A smaller vibration is only good news where it is steady 1:1 resonance that starts were seen to end in.
-fn tone(study: &CaseStudy, headline: Headline) -> Tone {
+fn word(study: &CaseStudy, headline: Headline) -> Word {
     let steady = study.main_attractor().is_some_and(|main| main.regime() == Regime::TwoSymmetric);
     match headline {
-        Headline::UnlimitedWithout if steady => Tone::Good,
-        Headline::Less if !steady => Tone::Mixed,
-        other => other.tone(),
+        Headline::UnlimitedWithout if steady => Word::Works,
+        Headline::Less if !steady => Word::Mixed,
+        other => other.word(),
     }
 }
 

@@ -1,0 +1,266 @@
+//! The index of a folder of reports: every case with its verdict and its main numbers, and the cases side by
+//! side. Made from the `report.json` of each, not from the cases.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use super::document::{Tone, Word};
+use super::render::{self, RenderError};
+use super::stored::{self, ReadError};
+use super::template;
+use crate::quantity::{Units, catalogue};
+
+/// The index for a browser, and the one that a forge shows, by their file names.
+pub const HTML: &str = "index.html";
+/// See [`HTML`].
+pub const MARKDOWN: &str = "README.md";
+
+/// The pages of accuracy and cost that may lie in a case's folder.
+pub const TRADEOFF: &str = "tradeoff.md";
+/// Where the page of a sweep is, in the folder of a report.
+pub const SWEEP: &str = "sweep.md";
+
+/// What both files of an index say of themselves, so that no other file is taken for one.
+const SIGNATURE: &str = "This page is written by";
+/// A clearance in m whose unit, mm, is that of an index of cases of any size.
+const USUAL_CLEARANCE: f64 = 1e-3;
+
+/// A report in its folder.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CaseReport {
+    /// Name of its folder, which is that of the case.
+    pub name: String,
+    /// What its `report.json` says.
+    #[serde(flatten)]
+    pub summary: Summary,
+    /// Whether the folder has a page of accuracy and cost.
+    pub has_tradeoff: bool,
+    /// Whether the page of a sweep lies beside its report.
+    pub has_sweep: bool,
+}
+
+/// What an index needs of a report. Quantities as [`crate::quantity::Quantity`] is written.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Summary {
+    title: String,
+    /// `si` or `reduced`.
+    units: String,
+    verdict: Answer,
+    criteria: Option<Count>,
+    quantities: BTreeMap<String, Value>,
+    notes: Vec<serde_json::Map<String, Value>>,
+    figures: Vec<Drawing>,
+    band: Option<Band>,
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Answer {
+    tone: Tone,
+    word: Word,
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Count {
+    failing: usize,
+    count: usize,
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Drawing {
+    name: String,
+    alt: String,
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Band {
+    from: Value,
+    to: Value,
+    worst: Option<Peak>,
+    bare: Peak,
+    damper: Peak,
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Peak {
+    peak: Value,
+    #[serde(default)]
+    change: Option<Value>,
+}
+
+/// Another page in the folder.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct OtherPage {
+    /// File name.
+    pub file: String,
+    /// Its headline.
+    pub title: String,
+}
+
+/// An index, ready to be printed.
+#[derive(Debug, Clone, Serialize)]
+pub struct Index {
+    cases: Vec<Entry>,
+    /// How many cases have each verdict, in the order of a sorted column.
+    words: Vec<(Word, usize)>,
+    /// Identifiers of the quantities that some case has, in the order of the catalogue.
+    ids: Vec<&'static str>,
+    /// Other pages by file name.
+    others: Vec<OtherPage>,
+    version: &'static str,
+}
+
+#[derive(Debug, Clone, Serialize)]
+struct Entry {
+    #[serde(flatten)]
+    case: CaseReport,
+    reduced: bool,
+    /// Place of the verdict in a sorted column.
+    order: u8,
+    cells: [Cell; 6],
+}
+
+/// A number of the table; `to` for the other end of a range.
+#[derive(Debug, Clone, Serialize)]
+struct Cell {
+    from: Option<Value>,
+    to: Option<Value>,
+}
+
+impl Summary {
+    /// Reads the text of a `report.json`; `place` is where it lies, for messages.
+    ///
+    /// # Errors
+    /// [`ReadError`] says what is wrong with it, where, and what to do.
+    pub fn read(place: &str, text: &str) -> Result<Self, ReadError> {
+        stored::read(place, text)?;
+        // Out of the text once more, which knows the line where something is missing.
+        serde_json::from_str(text)
+            .map_err(|cause| ReadError::Incomplete { place: place.to_owned(), cause })
+    }
+
+    /// Clearance, excitation, vibration without and with absorber, change, tuned mass damper.
+    fn cells(&self) -> [Cell; 6] {
+        let of = |ids: &[&str]| ids.iter().find_map(|id| self.quantities.get(*id)).cloned();
+        let one = |from: Option<Value>| Cell { from, to: None };
+        let clearance = one(of(&["clearance"]));
+        match &self.band {
+            Some(band) => [
+                clearance,
+                Cell { from: Some(band.from.clone()), to: Some(band.to.clone()) },
+                one(Some(band.bare.peak.clone())),
+                one(band.worst.as_ref().map(|worst| worst.peak.clone())),
+                one(band.worst.as_ref().and_then(|worst| worst.change.clone())),
+                one(Some(band.damper.peak.clone())),
+            ],
+            None => [
+                clearance,
+                one(of(&["excitation_frequency", "frequency_ratio"])),
+                one(of(&["bare_peak"])),
+                one(of(&["peak_displacement"])),
+                one(of(&["change_db"])),
+                one(of(&["damper_peak"])),
+            ],
+        }
+    }
+}
+
+impl Index {
+    /// The index of some reports, in the order of their names.
+    pub fn new(mut cases: Vec<CaseReport>, mut others: Vec<OtherPage>) -> Self {
+        cases.sort_by(|a, b| a.name.cmp(&b.name));
+        others.sort_by(|a, b| a.file.cmp(&b.file));
+        let mut words: BTreeMap<Word, usize> = BTreeMap::new();
+        for case in &cases {
+            *words.entry(case.summary.verdict.word).or_default() += 1;
+        }
+        let known = |id: &&str| cases.iter().any(|case| case.summary.quantities.contains_key(*id));
+        let ids = catalogue::ALL.iter().map(|kind| kind.id).filter(known).collect();
+        let entry = |case: CaseReport| Entry {
+            reduced: case.summary.units == "reduced",
+            order: case.summary.verdict.word as u8,
+            cells: case.summary.cells(),
+            case,
+        };
+        Self {
+            ids,
+            words: words.into_iter().collect(),
+            cases: cases.into_iter().map(entry).collect(),
+            others,
+            version: env!("CARGO_PKG_VERSION"),
+        }
+    }
+
+    /// Both files of the index, by their names.
+    ///
+    /// # Errors
+    /// [`RenderError::Template`] if template and index do not fit.
+    pub fn files(&self) -> Result<BTreeMap<PathBuf, Vec<u8>>, RenderError> {
+        let units = Units::physical(USUAL_CLEARANCE);
+        let text = |name: &str| template::render(name, &units, self);
+        let markdown = render::without_repeated_blank_lines(&text(MARKDOWN)?);
+        let html = text(HTML)?;
+        Ok(BTreeMap::from([
+            (PathBuf::from(HTML), html.into_bytes()),
+            (PathBuf::from(MARKDOWN), markdown.into_bytes()),
+        ]))
+    }
+}
+
+/// Whether the text of a file is an index that may be replaced by a newer one.
+pub fn is_index(text: &str) -> bool {
+    // `vinesink index` stands in code marks, which differ between the two files.
+    text.contains(SIGNATURE) && text.contains("vinesink index")
+}
+
+impl OtherPage {
+    /// A page by its first headline, or by its file name where it has none.
+    pub fn new(file: String, text: &str) -> Self {
+        let headline = text.lines().find_map(|line| line.strip_prefix("# "));
+        Self { title: headline.unwrap_or(&file).trim().to_owned(), file }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn case(name: &str, word: &str, units: &str, peak: f64) -> CaseReport {
+        let number =
+            |id: &str, value: f64| serde_json::json!({"id": id, "value": value, "error": 0});
+        let text = serde_json::json!({
+            "format": "vinesink/report@2", "title": "T", "units": units, "notes": [], "figures": [],
+            "verdict": {"tone": "good", "word": word}, "criteria": null, "band": null,
+            "quantities": {"clearance": number("clearance", 0.02), "peak_displacement": number("peak_displacement", peak)},
+        });
+        let summary = Summary::read(name, &text.to_string()).expect("a report");
+        CaseReport { name: name.to_owned(), summary, has_tradeoff: false, has_sweep: false }
+    }
+
+    #[test]
+    fn cases_come_by_name_with_numbers_in_their_units() {
+        let cases =
+            vec![case("b", "does-nothing", "reduced", 1.5), case("a", "works", "si", 3.56e-3)];
+        let index = Index::new(cases, Vec::new());
+        let files = index.files().expect("rendered");
+        let text = String::from_utf8_lossy(&files[&PathBuf::from(MARKDOWN)]).into_owned();
+        assert!(text.contains("2 cases: 1 works, 1 does nothing."), "{text}");
+        let rows: Vec<&str> = text.lines().filter(|line| line.starts_with("| [")).collect();
+        assert!(rows[0].contains("**Works**") && rows[0].contains("3.56 mm"), "{rows:?}");
+        assert!(rows[1].contains("**Does nothing**") && rows[1].contains("1.50 units"), "{rows:?}");
+        for (name, bytes) in files {
+            assert!(is_index(&String::from_utf8_lossy(&bytes)), "{}", name.display());
+        }
+        assert!(!is_index("# My own notes\n\nWritten after `vinesink report`.\n"));
+    }
+
+    #[test]
+    fn half_a_report_is_refused() {
+        let half = "{\"format\": \"vinesink/report@2\",\n \"title\": \"T\"}";
+        let half = Summary::read("a/report.json", half).expect_err("refused").to_string();
+        assert!(half.starts_with("a/report.json") && half.contains("missing field"), "{half}");
+        assert!(half.contains("line 2"), "{half}");
+    }
+}
