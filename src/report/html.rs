@@ -61,7 +61,10 @@ struct Writer<'a> {
     /// How often each name of a region was given.
     regions: HashMap<String, u32>,
     figure: Caption,
+    /// Whether the first quotation is over, and whether it is being read.
     quoted: bool,
+    in_verdict: bool,
+    tables: usize,
 }
 
 /// What follows a drawing is its caption.
@@ -82,6 +85,8 @@ impl<'a> Writer<'a> {
             regions: HashMap::new(),
             figure: Caption::None,
             quoted: false,
+            in_verdict: false,
+            tables: 0,
         }
     }
 
@@ -114,20 +119,26 @@ impl<'a> Writer<'a> {
                 self.figure = Caption::None;
             }
             Event::Start(Tag::BlockQuote(_)) if !self.quoted => {
+                self.in_verdict = true;
                 out.push(html(format!("<section class=\"verdict {}\">\n", self.page.tone)));
             }
             Event::End(TagEnd::BlockQuote(_)) if !self.quoted => {
-                self.quoted = true;
+                (self.quoted, self.in_verdict) = (true, false);
                 out.push(html("</section>\n"));
             }
             Event::Start(Tag::Table(_)) => {
                 let name = self.region();
+                // The first numbers of a page stand out.
+                let class = if self.tables == 0 { "table tiles" } else { "table" };
+                self.tables += 1;
                 out.push(html(format!(
-                    "<div class=\"table\" role=\"region\" aria-label=\"{name}\" tabindex=\"0\">"
+                    "<div class=\"{class}\" role=\"region\" aria-label=\"{name}\" tabindex=\"0\">"
                 )));
                 out.push(event);
             }
             Event::End(TagEnd::Table) => out.extend([event, html("</div>\n")]),
+            Event::SoftBreak if self.in_verdict => out.push(html("<br>\n")),
+            Event::Text(text) => out.push(Event::Text(unbroken(&text).into())),
             Event::Start(Tag::Link { link_type, dest_url, title, id }) => {
                 let dest_url = inside(dest_url);
                 out.push(Event::Start(Tag::Link { link_type, dest_url, title, id }));
@@ -195,7 +206,7 @@ fn inline_math(latex: &str) -> Result<String, RenderError> {
 /// A link to a file that is part of the page.
 fn inside(link: CowStr<'_>) -> CowStr<'_> {
     match link.split_once(".md") {
-        Some((file, "")) if !file.contains('/') => format!("#{file}").into(),
+        Some((file, "")) if !file.contains('/') => format!("#page-{file}").into(),
         Some((file, anchor)) if !file.contains('/') && anchor.starts_with('#') => {
             anchor.to_owned().into()
         }
@@ -207,6 +218,20 @@ fn inside(link: CowStr<'_>) -> CowStr<'_> {
 fn slug(heading: &str) -> String {
     let kept = heading.chars().filter(|c| c.is_alphanumeric() || " -_".contains(*c));
     kept.flat_map(char::to_lowercase).map(|c| if c == ' ' { '-' } else { c }).collect()
+}
+
+/// Text in which a number stays on the line of its unit.
+fn unbroken(text: &str) -> String {
+    let mut before = ' ';
+    let mut letters = text.chars().peekable();
+    let mut result = String::with_capacity(text.len());
+    while let Some(letter) = letters.next() {
+        let unit = letters.peek().is_some_and(|next| next.is_alphabetic() || *next == '%');
+        let space = letter == ' ' && before.is_ascii_digit() && unit;
+        result.push(if space { '\u{a0}' } else { letter });
+        before = letter;
+    }
+    result
 }
 
 fn escaped(text: &str) -> String {

@@ -92,7 +92,9 @@ pub fn files(
     let equations = EquationsPage { title, length_unit, equations };
     let equations =
         without_repeated_blank_lines(&template::render("equations.md", units, &equations)?);
-    let whole = format!("{report}\n{}\n{}", appendix(&validation), appendix(&equations));
+    let whole =
+        [report.clone(), appendix("validation", &validation), appendix("equations", &equations)]
+            .join("\n");
     let tone = match document.verdict.tone {
         Tone::Good => "good",
         Tone::Mixed => "mixed",
@@ -111,15 +113,18 @@ pub fn files(
     Ok(files)
 }
 
-/// A page of its own as a part of another: its headings one level deeper, without the other's title.
-fn appendix(page: &str) -> String {
-    page.lines()
-        .map(|line| match line.strip_prefix("# ") {
-            Some(title) => format!("## {}\n", title.split(':').next().unwrap_or(title)),
-            None if line.starts_with('#') => format!("#{line}\n"),
-            None => format!("{line}\n"),
-        })
-        .collect()
+/// A page of its own as a part of another, where links to it lead: its headings one level deeper, without the
+/// other's title.
+fn appendix(name: &str, page: &str) -> String {
+    let line = |line: &str| match line.strip_prefix("# ") {
+        Some(title) => {
+            let title = title.split(':').next().unwrap_or(title);
+            format!("<a id=\"page-{name}\"></a>\n\n## {title}\n")
+        }
+        None if line.starts_with('#') => format!("#{line}\n"),
+        None => format!("{line}\n"),
+    };
+    page.lines().map(line).collect()
 }
 
 /// The page that compares the paper's figures, as Markdown.
