@@ -109,8 +109,8 @@ mod tests {
     #[test]
     fn other_documents_are_refused() {
         let read = |text: &str| read("x/report.json", text);
-        assert!(read(r#"{"format": "vinesink/report@1"}"#).is_ok());
-        let newer = read(r#"{"format": "vinesink/report@2"}"#).expect_err("another version");
+        assert!(read(r#"{"format": "vinesink/report@2"}"#).is_ok());
+        let newer = read(r#"{"format": "vinesink/report@1"}"#).expect_err("another version");
         let newer = newer.to_string();
         assert!(newer.contains("`vinesink/report@2`") && newer.contains("`vinesink/report@1`"));
         for text in ["[]", "{}", "3", "\"x\"", "null", "{\"format\": 1}", "{\"title\": \"T\"}"] {
