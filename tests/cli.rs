@@ -346,7 +346,7 @@ fn analyze_says_where_the_theory_is_out_of_its_range() {
     };
     let usual = || reduced(0.01, 1.0, 0.6, 4.0);
     for (text, warning) in [
-        (reduced(0.5, 1.0, 0.6, 4.0), "is not small: the theory"),
+        (reduced(0.5, 1.0, 0.6, 4.0), "is not small; the theory"),
         (reduced(0.05, 40.0, 0.6, 4.0), "is heavily damped"),
         (reduced(0.01, 1.0, 1.0, 4.0), "Elastic impacts"),
     ] {
@@ -357,7 +357,7 @@ fn analyze_says_where_the_theory_is_out_of_its_range() {
 /// Where a case has no stable orbit of its own, the text says at which clearances there is one.
 #[test]
 fn analyze_lists_the_clearances_with_a_stable_orbit() {
-    let listed = "stable at clearances from 4.85 mm (symmetry breaking) to 16.7 mm (saddle-node)";
+    let listed = "stable at clearances from 4.846 mm (symmetry breaking) to 16.70 mm (saddle-node)";
     for (name, end) in [("b20mm", ", so none at this one\n"), ("b7p5mm", "\n")] {
         let printed = done(&["analyze", &shipped(&format!("li2016-8hz-{name}.toml"))]);
         assert!(printed.contains(&format!("{listed}{end}")), "{printed}");
