@@ -1,0 +1,178 @@
+//! Every template over what a study may come to: each verdict, regime and kind of dynamics, one and several, with
+//! and without each part. The facts are those of a shipped report, changed.
+
+use std::fs;
+
+use serde_json::{Value, json};
+use vinesink::quantity::Units;
+use vinesink::report::html;
+use vinesink::report::template::render;
+
+const REGIMES: [&str; 6] =
+    ["at-rest", "two-symmetric", "two-asymmetric", "above-two", "below-two", "strongly-modulated"];
+const WORDS: [&str; 8] = [
+    "holds",
+    "works",
+    "too-close-to-call",
+    "mixed",
+    "does-nothing",
+    "makes-it-worse",
+    "no-answer",
+    "fails",
+];
+const HEADLINES: [&str; 9] = [
+    "no-motion",
+    "nothing-drives",
+    "unlimited-without",
+    "at-rest",
+    "higher-peaks",
+    "less-on-average",
+    "worse",
+    "little",
+    "less",
+];
+
+fn shipped(name: &str) -> Value {
+    let text = fs::read_to_string(format!("reports/{name}/report.json")).expect("a report");
+    serde_json::from_str(&text).expect("JSON")
+}
+
+fn units() -> Units {
+    Units::physical(7.5e-3)
+}
+
+/// The page, which must read as sentences: no number that is none, no gap, no doubled sign or end.
+fn page(name: &str, facts: &Value) -> String {
+    let text = render(name, &units(), facts).unwrap_or_else(|error| panic!("{name}: {error}"));
+    for wrong in [
+        "NaN",
+        "undefined",
+        "null",
+        "inf ",
+        "..",
+        " ,",
+        " .",
+        "( ",
+        "  |  |",
+        "1 starts",
+        "1 notes",
+    ] {
+        let line = text.lines().find(|line| {
+            // Cells and alternative texts may have signs of their own.
+            !line.contains("$") && line.contains(wrong) && !line.starts_with("<img")
+        });
+        assert!(line.is_none(), "{name}: {wrong:?} in {line:?}");
+    }
+    text
+}
+
+#[test]
+fn every_verdict_is_a_sentence() {
+    for case in ["li2016-8hz-b7p5mm", "li2016-band", "reduced-unit-clearance"] {
+        let mut facts = shipped(case);
+        for word in WORDS {
+            for headline in HEADLINES {
+                facts["verdict"]["word"] = json!(word);
+                facts["verdict"]["headline"] = json!(headline);
+                for reason in
+                    [json!(null), json!("lowers-resonance"), json!("grows-between-captures")]
+                {
+                    facts["verdict"]["reason"] = reason;
+                    let text = page("report.md", &facts);
+                    assert!(text.lines().nth(2).is_some_and(|line| line.ends_with('.')), "{text}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn every_motion_is_named_with_its_evidence() {
+    let mut facts = shipped("li2016-8hz-b15mm");
+    for regime in REGIMES {
+        for dynamics in [
+            json!({"kind": "at-rest"}),
+            json!({"kind": "periodic", "impacts": 2, "periods": 1}),
+            json!({"kind": "periodic", "impacts": 7, "periods": 3}),
+            json!({"kind": "quasi-periodic"}),
+            json!({"kind": "chaotic"}),
+            json!({"kind": "transient-not-over"}),
+            json!({"kind": "undecided"}),
+        ] {
+            for proof in [json!(null), facts["motions"][0]["proof"].clone()] {
+                let motion = &mut facts["motions"][0];
+                motion["regime"] = json!(regime);
+                motion["dynamics"] = dynamics.clone();
+                motion["proof"] = proof;
+                motion["settled"] = json!(dynamics["kind"] != "transient-not-over");
+                let text = page("report.md", &facts);
+                assert!(text.contains("| two") || !regime.starts_with("two"), "{regime}: {text}");
+                page("validation.md", &facts);
+            }
+        }
+    }
+}
+
+/// A report without one of its parts is still whole.
+#[test]
+fn no_part_is_needed_by_another() {
+    for (part, nothing) in [
+        ("motions", json!([])),
+        ("inactive", json!(null)),
+        ("criteria", json!(null)),
+        ("band", json!(null)),
+        ("claims", json!([])),
+        ("notes", json!([])),
+        ("figures", json!([])),
+    ] {
+        let mut facts = shipped("li2016-band");
+        facts[part] = nothing;
+        if part == "motions" {
+            facts["main"] = json!(null);
+            facts["simulated"] = json!(false);
+        }
+        page("report.md", &facts);
+        page("validation.md", &facts);
+    }
+    let mut facts = shipped("li2016-8hz-b7p5mm");
+    for part in ["fixed_points", "orbits", "boundaries", "stretches"] {
+        facts["theory"][part] = json!([]);
+    }
+    for part in ["limits", "kept", "lost", "best", "attracting", "amplitude_error"] {
+        facts["theory"][part] = json!(null);
+    }
+    page("report.md", &facts);
+}
+
+#[test]
+fn every_note_is_a_sentence() {
+    let mut facts = shipped("li2016-8hz-b7p5mm");
+    let share =
+        |value: f64| json!({"id": "mass_ratio", "value": value, "error": 0.0, "method": "given"});
+    facts["notes"] = json!([
+        {"kind": "warning", "line": 7, "column": 3, "message": "did you mean 0.40 %?"},
+        {"kind": "refuted", "claim": 1},
+        {"kind": "stopped", "motion": 0},
+        {"kind": "not-stationary", "motion": 0},
+        {"kind": "doubtful", "motion": 0},
+        {"kind": "limit", "limit": "elastic"},
+        {"kind": "limit", "limit": "mass-ratio", "value": share(0.2)},
+        {"kind": "limit", "limit": "offset", "value": share(0.3)},
+        {"kind": "limit", "limit": "damping", "value": share(0.4)},
+        {"kind": "not-admissible", "point": 0},
+    ]);
+    let text = page("report.md", &facts);
+    let notes = text.lines().filter(|line| line.starts_with("- **")).count();
+    assert_eq!(notes, 10, "{text}");
+}
+
+#[test]
+fn markdown_becomes_a_page() {
+    let facts = shipped("li2016-band");
+    let markdown = page("report.md", &facts);
+    let drawings = std::collections::BTreeMap::new();
+    let made = html::Page { title: "T", tone: "bad", markdown: &markdown, drawings: &drawings };
+    let html = html::page(&made).expect("a page");
+    assert!(html.contains("<section class=\"verdict bad\">") && html.contains("<table>"));
+    assert_eq!(html.matches("<div class=\"table tiles\"").count(), 1);
+}
