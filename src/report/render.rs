@@ -16,7 +16,7 @@ use super::paper::Paper;
 use super::sweep::SweepPage;
 use super::template;
 use super::tradeoff::TradeoffPage;
-use crate::quantity::Units;
+use crate::quantity::{Units, catalogue};
 use crate::symbolic::MathError;
 
 const PAPER: &str = include_str!("../../templates/paper.md.tera");
@@ -107,10 +107,36 @@ pub fn files(
         ("validation.md", validation),
         ("equations.md", equations),
         ("report.html", html),
-        ("report.json", serde_json::to_string_pretty(document)? + "\n"),
+        ("report.json", with_quantities_in_lines(&serde_json::to_string_pretty(document)?)),
     ];
     files.extend(pages.map(|(name, text)| (PathBuf::from(name), text.into_bytes())));
     Ok(files)
+}
+
+/// JSON with each quantity on a line of its own: a number that changes is a line that changes.
+fn with_quantities_in_lines(json: &str) -> String {
+    let mut text = String::with_capacity(json.len());
+    let mut lines = json.lines().peekable();
+    while let Some(line) = lines.next() {
+        text.push_str(line);
+        let first = lines.peek().map_or("", |next| next.trim_start());
+        let id = first.strip_prefix("\"id\": \"").and_then(|rest| rest.strip_suffix("\","));
+        if line.ends_with('{') && id.and_then(catalogue::kind).is_some() {
+            for part in lines.by_ref() {
+                let part = part.trim_start();
+                let end = part.starts_with('}');
+                if !end && !text.ends_with('{') {
+                    text.push(' ');
+                }
+                text.push_str(part);
+                if end {
+                    break;
+                }
+            }
+        }
+        text.push('\n');
+    }
+    text
 }
 
 /// A page of its own as a part of another, where links to it lead: its headings one level deeper, without the
