@@ -150,10 +150,12 @@ struct Group {
 impl Group {
     fn add(groups: &mut Vec<Self>, motion: Option<Motion>, start: Option<u32>) {
         let Some(motion) = motion else { return };
+        // A quiet window is that of the motion without impacts, whether or not its absorber still flies.
         let same = |known: &Motion| {
-            let repeat = known.repeats() && motion.repeats();
-            let alike = !repeat || known.is_inactive() || known.is_alike(&motion, SAME_PERIODIC);
-            alike && known.repeats() == motion.repeats() && known.is_same(&motion)
+            let repeat = known.repeats();
+            let alike = !repeat || known.is_alike(&motion, SAME_PERIODIC);
+            let both = known.is_inactive() || repeat == motion.repeats() && alike;
+            both && known.is_same(&motion)
         };
         match groups.iter_mut().find(|known| same(&known.motion)) {
             Some(known) => {
@@ -196,7 +198,7 @@ impl Group {
         some_repeat: bool,
         effort: &SearchEffort,
     ) -> Result<Attractor, StartError> {
-        let recognised = Window { discard: 0, ..effort.window(system) };
+        let recognised = effort.window(system);
         if self.motion.repeats() || self.motion.stop != Stop::EndTime {
             return Attractor::of(&self.motion, system, &recognised);
         }
