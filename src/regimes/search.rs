@@ -104,7 +104,7 @@ impl SearchEffort {
 /// Follows the evenly spread starts and those in `predicted`, matches what they end in, and measures that
 /// in full.
 ///
-/// Ordered by share, largest first; ties by order of discovery.
+/// Ordered by share, largest first, those that have settled before the others; ties by order of discovery.
 ///
 /// # Errors
 /// [`StartError`] if a predicted start is impossible.
@@ -136,7 +136,7 @@ pub fn find(
         }
     }
     distinct.iter_mut().for_each(|one| one.set_share(effort.starts));
-    distinct.sort_by_key(|one| std::cmp::Reverse(one.starts));
+    distinct.sort_by_key(|one| (!one.attractor.settled, std::cmp::Reverse(one.starts)));
     Ok(distinct)
 }
 
