@@ -15,8 +15,9 @@ use vinesink::band::{Band, Survey, SurveySettings, exact, theory};
 use vinesink::case::BandOver;
 use vinesink::executor::Serial;
 use vinesink::orbits::attracting_orbit;
-use vinesink::regimes::long_term::{Effort, motions};
-use vinesink::system::System;
+use vinesink::regimes::long_term::motions;
+use vinesink::regimes::{Effort, starts};
+use vinesink::system::{State, System};
 
 /// Places of a scan whose share is good to a thousandth.
 const SCANNED: u32 = 1001;
@@ -66,9 +67,12 @@ fn main() {
         "a scan, ends to 1e-3,",
         timed(1, || share(&|one| attracting_orbit(one).is_some())),
     );
-    let places = systems(SIMULATED);
+    let place = |system: System| (system, starts::of(&system, 8).collect::<Vec<State>>());
+    let places: Vec<_> = systems(SIMULATED).into_iter().map(place).collect();
     let effort = Effort::default();
-    let alone = |system: &System| motions(std::slice::from_ref(system), &effort).expect("finite");
+    let alone = |place: &(System, Vec<State>)| {
+        motions(std::slice::from_ref(place), &effort).expect("finite")
+    };
     compared(
         "motions at 33 places from 8 starts, side by side",
         timed(1, || motions(&places, &effort).expect("finite")),

@@ -11,8 +11,7 @@ use std::time::{Duration, Instant};
 use vinesink::case::Case;
 use vinesink::digest;
 use vinesink::regimes::Transient;
-use vinesink::regimes::long_term::{Motion, long_term};
-use vinesink::regimes::starts;
+use vinesink::regimes::{Effort, Motion, long_term, starts};
 use vinesink::simulation::Simulation;
 use vinesink::simulation::batch::{self, Extent};
 use vinesink::sweep::{Plan, parquet, work};
@@ -55,7 +54,7 @@ impl Stretch {
             |system| starts::of(&system, plan.settings.starts).map(move |start| (system, start));
         let starts: Vec<(System, State)> = systems.flat_map(of).collect();
         let periods = plan.settings.periods;
-        let motions = long_term(&starts, periods).expect("finite");
+        let motions = long_term(&starts, &Effort::over(periods)).expect("finite");
         let extent = |(motion, (system, _)): (&Option<Motion>, &(System, State))| {
             let once = motion.and_then(|motion| motion.repeats_after).map(u64::from);
             let all = Transient::of(system).periods + once.unwrap_or(periods);
@@ -87,7 +86,10 @@ fn main() {
         &mut || stretches.iter().for_each(Stretch::flown),
         &mut || {
             for stretch in &stretches {
-                black_box(long_term(&stretch.starts, plan.settings.periods).expect("finite"));
+                black_box(
+                    long_term(&stretch.starts, &Effort::over(plan.settings.periods))
+                        .expect("finite"),
+                );
             }
         },
         &mut || {

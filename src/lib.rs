@@ -4,6 +4,7 @@
 
 pub mod analysis;
 pub mod band;
+pub mod bifurcation;
 pub mod case;
 pub mod criteria;
 pub mod diff;

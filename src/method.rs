@@ -19,3 +19,17 @@ pub enum Method {
     /// The reference in 77 decimal digits.
     Reference,
 }
+
+impl Method {
+    /// The name in a report.
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::Given => "given",
+            Self::ClosedForm => "closed form",
+            Self::Theory => "theory",
+            Self::ExactOrbit => "exact orbit",
+            Self::Simulation => "simulation",
+            Self::Reference => "reference",
+        }
+    }
+}

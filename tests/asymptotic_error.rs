@@ -12,8 +12,7 @@ use std::collections::BTreeMap;
 use vinesink::analysis::Analysis;
 use vinesink::analysis::motion::{read_off, state_of, wrapped};
 use vinesink::orbits::{Bifurcation, Measures, SymmetricFamily, symmetric_orbits};
-use vinesink::regimes::attractor::Effort;
-use vinesink::regimes::{Attractor, Regime};
+use vinesink::regimes::{Attractor, Regime, Window};
 use vinesink::system::{Parameters, System};
 use vinesink::validation::tolerance::asymptotic_error;
 
@@ -38,7 +37,7 @@ fn errors(system: &System, scale: f64) -> [f64; 3] {
     let [point] = stable.as_slice() else { panic!("one stable fixed point, not {stable:?}") };
     // Transients last some hundred periods over eps.
     let discard = (2000.0 / scale) as u64;
-    let effort = Effort { discard, periods: 20, prolongations: 0, impact_limit: 1_000_000 };
+    let effort = Window { discard, periods: 20, impact_limit: 1_000_000 };
     let start = state_of(point, system);
     let reached = Attractor::reach(system, start, &effort).expect("inside the cavity");
     assert_eq!(reached.classification.regime, Regime::TwoSymmetric, "eps scaled by {scale}");

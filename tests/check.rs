@@ -9,8 +9,8 @@ use vinesink::band::{Band, Survey, exact, theory};
 use vinesink::case::Case;
 use vinesink::criteria::{self, Judged};
 use vinesink::executor::Serial;
+use vinesink::method::Method;
 use vinesink::orbits::attracting_orbit;
-use vinesink::study::fidelity::Fidelity;
 
 const DESIGN: &str = "\
 title = \"a band\"
@@ -60,7 +60,7 @@ fn shares_are_those_of_the_band() {
     let stable = band.share(&exact::stability(&band), |stable| *stable);
     assert_eq!(judged[0].found, Some(z3));
     assert_eq!(judged[0].holds, Some(z3 >= 0.8));
-    assert_eq!(judged[0].decided_by, Fidelity::Manifold);
+    assert_eq!(judged[0].decided_by, Method::Theory);
     // 83.6 % against 80 %, where the theory's own error moves the share by more than that.
     assert!(judged[0].near_limit && judged[0].error > z3 - 0.8, "{judged:?}");
     assert_eq!((judged[1].found, judged[1].holds), (Some(stable), Some(stable <= 0.5)));
@@ -77,11 +77,11 @@ fn the_worst_motion_decides_whatever_the_limit_is() {
     assert_eq!(found("3 mm"), found("1 m"));
     // At resonance with 15 mm every start leads to the orbit.
     let found = judge(&alone("8.35 Hz", "15 mm", "peak_displacement = \"<= 20 mm\""))[0].clone();
-    assert_eq!((found.holds, found.decided_by), (Some(true), Fidelity::Orbit));
+    assert_eq!((found.holds, found.decided_by), (Some(true), Method::ExactOrbit));
     // At 8.7 Hz no symmetric orbit attracts.
     let text = "impacts_per_period = 2\ncount_inactive = false";
     let found = judge(&alone("8.7 Hz", "20 mm", text))[0].clone();
-    assert_eq!((found.holds, found.decided_by), (Some(false), Fidelity::Simulation));
+    assert_eq!((found.holds, found.decided_by), (Some(false), Method::Simulation));
 }
 
 /// At 8 Hz and 16.6 mm the orbit that attracts is smaller than the motion of an absorber that never
@@ -99,7 +99,7 @@ fn a_motion_beside_the_orbit_counts() {
     // A modulated motion may be larger still.
     assert!(judged[0].holds == Some(false) && judged[0].found >= Some(scales.length(inactive)));
     assert_eq!((judged[1].found, judged[1].holds), (Some(0.0), Some(false)));
-    assert_eq!(judged[1].decided_by, Fidelity::Manifold);
+    assert_eq!(judged[1].decided_by, Method::ClosedForm);
     assert!(judged[1].inactive.is_some_and(|share| share > 0.5), "{judged:?}");
     // In a device in which it cannot rest there it does not count.
     let awake = judge(&alone("8 Hz", "16.6 mm", &format!("{criteria}\ncount_inactive = false")));

@@ -581,12 +581,12 @@ fn accuracy_decides_which_layer_answers() {
     let html = fs::read_to_string(page.join("report.html")).expect("a page");
     assert!(html.contains("id=\"which-layer-answered\"") && !html.contains("id=\"motions\""));
     let answers = json(&["analyze", &cheap])["answers"].clone();
-    assert_eq!(answers["answers"][0]["layer"], "manifold");
+    assert_eq!(answers["answers"][0]["layer"], "theory");
     // What neither asks for accuracy nor insists on a layer is as it always was.
     let plain = shipped("li2016-8hz-b7p5mm.toml");
     assert!(json(&["analyze", &plain]).get("answers").is_none());
     let forced = json(&["analyze", &plain, "--fidelity", "orbit"]);
-    assert_eq!(forced["answers"]["answers"][0]["layer"], "orbit");
+    assert_eq!(forced["answers"]["answers"][0]["layer"], "exact-orbit");
     // 2.6 % is done, but is not the usual 1 %.
     let output = vinesink(&["analyze", &plain, "--fidelity", "manifold"]);
     assert_eq!(output.status.code(), Some(1), "{}", text_of(&output));

@@ -6,20 +6,19 @@ mod common;
 use common::table_1;
 use std::f64::consts::PI;
 
-use vinesink::regimes::attractor::Effort;
-use vinesink::regimes::{Attractor, DynamicsKind, FoundAttractor, Regime};
+use vinesink::regimes::{Attractor, DynamicsKind, FoundAttractor, Regime, Window};
 use vinesink::simulation::{Impact, Simulation};
 use vinesink::study::{CaseStudy, LongTermMotions, Proof, StudyEffort};
 use vinesink::system::{State, System};
 
 /// The transients of both motions here are over after some hundred periods.
-const EFFORT: Effort =
-    Effort { discard: 2000, periods: 200, prolongations: 0, impact_limit: u64::MAX };
+const WINDOW: Window = Window { discard: 2000, periods: 200, impact_limit: u64::MAX };
 
 fn found(attractor: Attractor, starts: u32) -> FoundAttractor {
     FoundAttractor {
         attractor,
         starts,
+        first_start: None,
         share: 0.0,
         share_interval: [0.0, 1.0],
         reached_from_theory: false,
@@ -34,7 +33,7 @@ fn mirrored(system: &System, motion: &Attractor) -> Attractor {
     let image = State { x: -x, x_velocity: -x_velocity, y: -y, y_velocity: -y_velocity };
     // The excitation changes its sign after half a period.
     let start = Simulation::new(system, image, PI).expect("inside the cavity");
-    Attractor::measure(&mut { start }, &EFFORT)
+    Attractor::measure(&mut { start }, &WINDOW)
 }
 
 /// Two asymmetric impacts per period exist twice, each the mirror image of the other, with the weaker
@@ -43,7 +42,7 @@ fn mirrored(system: &System, motion: &Attractor) -> Attractor {
 fn a_motion_and_its_mirror_image_are_one() {
     let system = table_1(8.5, 6.0);
     let start = State { x: 0.0, x_velocity: 0.0, y: 0.0, y_velocity: 1.0 };
-    let one = Attractor::reach(&system, start, &EFFORT).expect("inside the cavity");
+    let one = Attractor::reach(&system, start, &WINDOW).expect("inside the cavity");
     assert_eq!(one.classification.regime, Regime::TwoAsymmetric);
     let image = mirrored(&system, &one);
     let fastest = |motion: &Attractor| {
@@ -68,7 +67,7 @@ fn asymmetric_and_three_impacts_coexist() {
     let start = State { x: 0.0, x_velocity: 0.0, y: 0.0, y_velocity: 1.0 };
     let there = |clearance: f64, start: State| {
         let system = table_1(8.5, clearance);
-        Attractor::reach(&system, start, &EFFORT).expect("inside the cavity")
+        Attractor::reach(&system, start, &WINDOW).expect("inside the cavity")
     };
     let asymmetric = there(5.09, start);
     let three = [4.9, 5.0, 5.05, 5.09].iter().fold(there(4.8, start), |motion, clearance| {

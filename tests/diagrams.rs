@@ -88,7 +88,7 @@ fn hysteresis_is_found_where_two_exact_orbits_attract() {
         let alone = points.iter().filter(|point| (0.4..0.9).contains(&point.value));
         assert!(alone.clone().count() > 20);
         for point in alone {
-            assert_eq!(point.regime, Regime::TwoSymmetric, "{}", 15.0 * point.value);
+            assert_eq!(point.motion.regime, Regime::TwoSymmetric, "{}", 15.0 * point.value);
         }
     }
 }

@@ -6,14 +6,13 @@
 
 mod common;
 
-use vinesink::regimes::attractor::Effort;
-use vinesink::regimes::{Attractor, DynamicsKind, Regime};
+use vinesink::regimes::{Attractor, DynamicsKind, Regime, Window};
 use vinesink::system::{Excitation, Parameters, State, System};
 
 const START: State = State { x: 0.3, x_velocity: 0.2, y: 0.1, y_velocity: 0.8 };
 
 fn reached(system: &System, discard: u64, periods: u64) -> Attractor {
-    let effort = Effort { discard, periods, prolongations: 0, impact_limit: 1_000_000 };
+    let effort = Window { discard, periods, impact_limit: 1_000_000 };
     Attractor::reach(system, START, &effort).expect("inside the cavity")
 }
 
@@ -57,7 +56,8 @@ fn a_motion_that_is_still_settling_is_not_over() {
 #[test]
 fn a_chaotic_transient_is_chaotic_until_it_is_over() {
     let system = common::table_1(8.0, 14.5);
-    let effort = Effort { discard: 400, periods: 1000, prolongations: 0, impact_limit: 1_000_000 };
+    let effort = Window { discard: 400, periods: 1000, impact_limit: 1_000_000 };
+    let long = Window { discard: 20_000, ..effort };
     let mut ended = 0;
     for k in 0..60 {
         let x_velocity = 0.1 + 0.01 * f64::from(k);
@@ -73,7 +73,7 @@ fn a_chaotic_transient_is_chaotic_until_it_is_over() {
             "{:?}",
             early.classification
         );
-        let late = early.continued(&system, 20_000, 1000).expect("finite");
+        let late = Attractor::reach(&system, early.state, &long).expect("finite");
         if late.classification.dynamics == (DynamicsKind::Periodic { impacts: 2, periods: 1 }) {
             assert!(!early.is_same(&late));
             ended += 1;
@@ -130,7 +130,7 @@ fn linear_drift_of_a_motion_without_losses_is_not_chaos() {
     // The oscillator hardly moves: the absorber flies to and fro at nearly constant speed.
     let start = State { x: 1e-7, x_velocity: 0.0, y: 0.0, y_velocity: 1e-7 };
     for periods in [200, 1000, 5000] {
-        let effort = Effort { discard: 0, periods, prolongations: 0, impact_limit: 1_000_000 };
+        let effort = Window { discard: 0, periods, impact_limit: 1_000_000 };
         let found = Attractor::reach(&system, start, &effort).expect("inside the cavity");
         assert_ne!(
             found.classification.dynamics,
@@ -145,7 +145,7 @@ fn linear_drift_of_a_motion_without_losses_is_not_chaos() {
 fn rest_is_rest_only_once_the_oscillator_has_settled() {
     let system = common::table_1(7.0, 30.0);
     let rest = State { y: 0.0, ..system.linear_response().expect("damped").state(&system) };
-    let effort = Effort { discard: 0, periods: 100, prolongations: 0, impact_limit: 1000 };
+    let effort = Window { discard: 0, periods: 100, impact_limit: 1000 };
     let found = Attractor::reach(&system, rest, &effort).expect("inside the cavity");
     assert_eq!(found.classification.regime, Regime::AtRest);
     assert_eq!(found.classification.dynamics, DynamicsKind::AtRest);

@@ -8,7 +8,8 @@ use std::f64::consts::PI;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use vinesink::analysis::{Analysis, Branch, FixedPoint, Strip, boundaries};
-use vinesink::analysis::{Area, BoundaryKind, FixedPointCurve};
+use vinesink::analysis::{Area, FixedPointCurve};
+use vinesink::bifurcation::Bifurcation;
 use vinesink::system::{Excitation, Parameters, System};
 
 /// Amplitudes at which the conditions are evaluated; denser where the manifold turns.
@@ -223,10 +224,10 @@ proptest! {
         let gamma = system.forcing_per_clearance();
         let at = |sigma: f64| FixedPointCurve::at_detuning(&system, &theory.manifold, sigma);
         let collision = |curve: &FixedPointCurve| curve.collision().map_or(f64::NAN, |(gamma, _)| gamma);
-        let kinds: [(BoundaryKind, Forcing); 3] = [
-            (BoundaryKind::Hopf, &FixedPointCurve::hopf),
-            (BoundaryKind::SymmetryBreaking, &FixedPointCurve::symmetry_breaking),
-            (BoundaryKind::SaddleNode, &collision),
+        let kinds: [(Bifurcation, Forcing); 3] = [
+            (Bifurcation::NeimarkSacker, &FixedPointCurve::hopf),
+            (Bifurcation::SymmetryBreaking, &FixedPointCurve::symmetry_breaking),
+            (Bifurcation::SaddleNode, &collision),
         ];
         for (kind, forcing) in kinds {
             let found = boundaries::crossings(kind, &system, &theory.manifold).expect("complete");

@@ -12,6 +12,7 @@ use regex::Regex;
 /// Every room of the library and the rooms that it may use besides itself. Analysis, orbits and
 /// simulation are three independent answers to one question and never meet below `validation`.
 const ROOMS: &[(&str, &[&str])] = &[
+    ("bifurcation", &[]),
     ("method", &[]),
     ("operation_count", &[]),
     ("digest", &[]),
@@ -21,27 +22,52 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("numerics", &["operation_count"]),
     ("system", &[]),
     ("equations", &["symbolic", "system"]),
-    ("analysis", &["equations", "numerics", "symbolic", "system", "operation_count"]),
-    ("orbits", &["numerics", "system", "operation_count"]),
+    (
+        "analysis",
+        &["bifurcation", "equations", "numerics", "symbolic", "system", "operation_count"],
+    ),
+    ("orbits", &["bifurcation", "numerics", "system", "operation_count"]),
     ("simulation", &["numerics", "system", "operation_count"]),
     ("reference", &["system"]),
     (
         "criteria",
-        &["band", "case", "orbits", "regimes", "simulation", "study", "system", "validation"],
+        &[
+            "band",
+            "case",
+            "method",
+            "orbits",
+            "regimes",
+            "simulation",
+            "study",
+            "system",
+            "validation",
+        ],
     ),
     ("extremes", &["case", "reference", "simulation", "system"]),
     ("regimes", &["numerics", "orbits", "simulation", "system", "operation_count"]),
     (
         "validation",
-        &["analysis", "equations", "numerics", "orbits", "regimes", "simulation", "system"],
+        &[
+            "analysis",
+            "bifurcation",
+            "equations",
+            "method",
+            "numerics",
+            "orbits",
+            "regimes",
+            "simulation",
+            "system",
+        ],
     ),
     (
         "study",
         &[
             "analysis",
             "band",
+            "bifurcation",
             "case",
             "equations",
+            "method",
             "numerics",
             "orbits",
             "regimes",
@@ -75,6 +101,7 @@ const ROOMS: &[(&str, &[&str])] = &[
         &[
             "analysis",
             "band",
+            "bifurcation",
             "case",
             "criteria",
             "equations",
@@ -100,14 +127,16 @@ const ROOMS: &[(&str, &[&str])] = &[
 
 /// Rooms in which there is physics and nothing else: no files, no clock, no printing, no threads, no
 /// randomness.
-const PURE: [&str; 18] = [
+const PURE: [&str; 20] = [
     "analysis",
     "band",
+    "bifurcation",
     "criteria",
     "diff",
     "digest",
     "equations",
     "extremes",
+    "method",
     "numerics",
     "optimize",
     "orbits",

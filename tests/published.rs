@@ -4,8 +4,7 @@
 mod common;
 
 use vinesink::analysis::{Analysis, Area, Branch, Strip, Zone};
-use vinesink::regimes::Attractor;
-use vinesink::regimes::attractor::Effort;
+use vinesink::regimes::{Attractor, Window};
 use vinesink::system::State;
 
 /// `value` rounded to `decimals` equals `printed`.
@@ -94,7 +93,7 @@ fn peaks_of_the_symmetric_orbits() {
     for (frequency, clearance, peak) in table {
         let system = common::table_1(frequency, clearance);
         let start = State { x: 0.2, x_velocity: 0.2, y: 0.0, y_velocity: 0.8 };
-        let effort = Effort { discard: 1500, periods: 50, prolongations: 0, impact_limit: 100_000 };
+        let effort = Window { discard: 1500, periods: 50, impact_limit: 100_000 };
         let found = Attractor::reach(&system, start, &effort).expect("inside the cavity");
         prints_as(found.peak * clearance, 3, peak);
     }
@@ -107,7 +106,7 @@ fn order_of_regimes_at_8_hz() {
     for (clearance, regime) in table {
         let system = common::table_1(8.0, clearance);
         let start = State { x: 0.3, x_velocity: 0.2, y: 0.1, y_velocity: 0.8 };
-        let effort = Effort { discard: 800, periods: 200, prolongations: 3, impact_limit: 100_000 };
+        let effort = Window { discard: 800, periods: 200, impact_limit: 100_000 };
         let found = Attractor::reach(&system, start, &effort).expect("inside the cavity");
         assert_eq!(found.classification.regime, regime, "b = {clearance} mm");
     }

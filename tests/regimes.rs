@@ -5,21 +5,21 @@ mod common;
 
 use std::f64::consts::PI;
 
-use vinesink::regimes::attractor::Effort;
-use vinesink::regimes::basins::{Axis, Basins, Cell, Coordinate, Plane};
+use vinesink::regimes::basins::{Basins, Cell};
 use vinesink::regimes::diagram::{SweepDirection, sweep};
-use vinesink::regimes::long_term::long_term;
 use vinesink::regimes::search::{self, SearchEffort};
-use vinesink::regimes::{Amplitudes, Attractor, DynamicsKind, Regime, share, starts};
-use vinesink::simulation::{Impact, Observer, Side, Simulation, Statistics};
+use vinesink::regimes::{
+    Amplitudes, Attractor, DynamicsKind, Effort, Regime, Window, long_term, share, starts,
+};
+use vinesink::simulation::{Impact, Observer, Side, Simulation, Statistics, Stop};
 use vinesink::system::{Parameter, State, System};
 
 const START: State = State { x: 0.3, x_velocity: 0.2, y: 0.1, y_velocity: 0.8 };
-const EFFORT: Effort =
-    Effort { discard: 800, periods: 200, prolongations: 3, impact_limit: 200_000 };
+const WINDOW: Window = Window { discard: 800, periods: 200, impact_limit: 200_000 };
+const EFFORT: Effort = Effort::over(200);
 
 fn reached(system: &System, start: State) -> Attractor {
-    Attractor::reach(system, start, &EFFORT).expect("inside the cavity")
+    Attractor::reach(system, start, &WINDOW).expect("inside the cavity")
 }
 
 /// The walls in the order in which they are hit, and where the absorber stuck.
@@ -157,7 +157,7 @@ fn without_excitation_there_is_no_efficiency() {
         vinesink::system::Parameters { forcing_per_clearance: 0.0, ..system.parameters() };
     let system = System::new(parameters).expect("valid");
     let mut simulation = Simulation::new(&system, START, 0.0).expect("inside the cavity");
-    let effort = Effort { discard: 0, periods: 5, ..EFFORT };
+    let effort = Window { discard: 0, periods: 5, ..WINDOW };
     let found = Attractor::measure(&mut simulation, &effort).energetics;
     assert!(found.impact_power > 0.0);
     assert_eq!((found.transfer_efficiency, found.peak_change_db), (None, None));
@@ -249,7 +249,8 @@ fn motions_differ_by_what_they_are() {
     assert!(!changed(|other| open(other, DynamicsKind::Chaotic)));
     let mut chaotic = reached(&common::table_1(8.0, 20.0), START);
     chaotic.classification.dynamics = DynamicsKind::Chaotic;
-    let mut other = Attractor { rms: 1.1 * chaotic.rms, ..chaotic.clone() };
+    let mut other = chaotic.clone();
+    other.rms *= 1.1;
     assert!(chaotic.is_same(&other), "averages of some hundred periods scatter");
     other.classification.dynamics = DynamicsKind::Undecided;
     assert!(chaotic.is_same(&other));
@@ -260,7 +261,7 @@ fn motions_differ_by_what_they_are() {
 #[test]
 fn a_settled_measurement_replaces_one_that_was_not() {
     let system = common::table_1(8.5, 20.0);
-    let short = Effort { discard: 80, periods: 90, prolongations: 0, impact_limit: 100_000 };
+    let short = Window { discard: 80, periods: 90, impact_limit: 100_000 };
     let early = Attractor::reach(&system, START, &short).expect("inside the cavity");
     let late = reached(&system, START);
     let mut kept = early.clone();
@@ -273,8 +274,7 @@ fn a_settled_measurement_replaces_one_that_was_not() {
 #[test]
 fn a_search_gives_every_share_with_its_interval() {
     let system = common::table_1(8.0, 16.4);
-    let each = Effort { discard: 600, periods: 200, prolongations: 2, impact_limit: 100_000 };
-    let effort = SearchEffort { starts: 12, each, measured: 400, patience: 400 };
+    let effort = SearchEffort { starts: 12, discard: Some(600), periods: 400 };
     let found = search::find(&system, &[], &effort, &mut |_| ()).expect("inside the cavity");
     assert!(found.len() > 1, "two motions coexist");
     assert_eq!(found.iter().map(|one| one.starts).sum::<u32>(), 12);
@@ -313,19 +313,21 @@ fn an_impact_of_the_last_repetition_restarts_the_motion() {
 #[test]
 fn a_modulated_motion_stays_one_in_short_windows() {
     let system = common::table_1(8.5, 28.0);
-    let long = Effort { discard: 400, periods: 2000, prolongations: 0, impact_limit: 1_000_000 };
+    let long = Window { discard: 400, periods: 2000, impact_limit: 1_000_000 };
     let known = Attractor::reach(&system, START, &long).expect("inside the cavity");
     assert!(!known.repeats());
-    let axis = |coordinate| Axis { coordinate, range: [-1.2, 1.2], cells: 8 };
-    let plane = Plane {
-        horizontal: axis(Coordinate::Displacement),
-        vertical: axis(Coordinate::Velocity),
-        fixed: [0.0, 0.0, 0.0, 1.0],
+    let middle = |cell: u32| 2.4 * (f64::from(cell) + 0.5) / 8.0 - 1.2;
+    let start = |k: u32| State {
+        x: middle(k % 8),
+        x_velocity: middle(k / 8),
+        y: middle(k % 8),
+        y_velocity: 1.0,
     };
-    let short = Effort { discard: 300, periods: 25, prolongations: 0, impact_limit: 20_000 };
-    let basins = Basins::of(&system, plane, vec![known], &short, &mut |_| ()).expect("finite");
-    let regimes: Vec<Regime> =
-        basins.attractors.iter().map(|found| found.classification.regime).collect();
+    let starts: Vec<State> = (0..64).map(start).collect();
+    let short = Effort { discard: Some(300), ..Effort::over(25) };
+    let basins =
+        Basins::of(&system, &starts, vec![known.motion], &short, &mut |_| ()).expect("finite");
+    let regimes: Vec<Regime> = basins.motions.iter().map(|found| found.regime).collect();
     let moving = regimes.iter().filter(|regime| **regime != Regime::AtRest).count();
     assert_eq!(moving, 1, "{regimes:?}");
     assert!(basins.counts()[0] > 32, "{:?}", basins.counts());
@@ -334,40 +336,38 @@ fn a_modulated_motion_stays_one_in_short_windows() {
 #[test]
 fn basins_hold_both_answers_at_8_hz_and_16_4_mm() {
     let system = common::table_1(8.0, 16.4);
-    let axis = |coordinate, reach: f64, cells| Axis { coordinate, range: [-reach, reach], cells };
-    let plane = Plane {
-        horizontal: axis(Coordinate::Gap, 1.5, 6),
-        vertical: axis(Coordinate::AbsorberVelocity, 0.6, 4),
-        fixed: [0.2, 0.1, 0.0, 0.0],
+    // Relative displacements of -0.75 to 0.75, velocities of the absorber of -0.45 to 0.45.
+    let place = |k: u32, step: f64, count: u32| step * (f64::from(k) - 0.5 * f64::from(count - 1));
+    let start = |k: u32| State {
+        x: 0.2,
+        x_velocity: 0.1,
+        y: 0.2 - place(k % 4, 0.5, 4),
+        y_velocity: place(k / 4, 0.3, 4),
     };
-    let effort = Effort { discard: 600, periods: 200, prolongations: 2, impact_limit: 100_000 };
+    let starts: Vec<State> = (0..16).map(start).collect();
+    let effort = Effort { discard: Some(600), ..Effort::over(200) };
     let mut told = 0;
     let basins =
-        Basins::of(&system, plane, Vec::new(), &effort, &mut |n| told += n).expect("finite");
-    assert_eq!((told, basins.cells.len()), (24, 24));
-    let regimes: Vec<Regime> =
-        basins.attractors.iter().map(|found| found.classification.regime).collect();
+        Basins::of(&system, &starts, Vec::new(), &effort, &mut |n| told += n).expect("finite");
+    assert_eq!((told, basins.cells.len()), (16, 16));
+    let regimes: Vec<Regime> = basins.motions.iter().map(|found| found.regime).collect();
     assert!(regimes.contains(&Regime::TwoSymmetric) && regimes.contains(&Regime::BelowTwo));
     assert_eq!(regimes.len(), 2, "{regimes:?}");
-    for row in 0..4 {
-        for column in 0..6 {
-            let start = plane.start(column, row);
-            let cell = basins.cell(column, row).expect("inside");
-            // Middles at -1.25, -0.75, .. 1.25: the outermost are outside the cavity.
-            assert_eq!(cell == Cell::Impossible, column == 0 || column == 5, "{cell:?} {start:?}");
-            if let Cell::Leads(index) = cell {
-                let again = Attractor::reach(&system, start, &effort).expect("inside");
-                assert_eq!(again.classification.regime, regimes[index]);
-            }
+    for (start, cell) in starts.iter().zip(&basins.cells) {
+        if let Cell::Leads(index) = cell {
+            let again = long_term(&[(system, *start)], &effort).expect("inside")[0];
+            assert_eq!(again.expect("followed").regime, regimes[*index]);
         }
     }
-    assert_eq!((basins.cell(6, 0), basins.cell(0, 4)), (None, None));
     let settled = basins.counts().iter().sum::<usize>();
     assert!(settled >= 12 && basins.counts().iter().all(|count| *count > 0), "{settled}");
     // What is known keeps its place.
-    let known = basins.attractors.clone();
-    let again = Basins::of(&system, plane, known, &effort, &mut |_| ()).expect("finite");
-    assert_eq!((again.cells, again.attractors.len()), (basins.cells, 2));
+    let known = basins.motions.clone();
+    let again = Basins::of(&system, &starts, known, &effort, &mut |_| ()).expect("finite");
+    assert_eq!((again.cells, again.motions.len()), (basins.cells, 2));
+    // Outside the cavity there is no start.
+    let outside = State { y: 1.5, ..State::AT_REST };
+    assert!(Basins::of(&system, &[outside], Vec::new(), &effort, &mut |_| ()).is_err());
 }
 
 /// 1:1 resonance is kept upwards to the exact saddle-node at b = 16.695 mm, and comes back downwards
@@ -376,24 +376,24 @@ fn basins_hold_both_answers_at_8_hz_and_16_4_mm() {
 fn resonance_is_lost_later_upwards_than_it_returns_downwards() {
     let base = common::table_1(8.0, 10.0);
     let values: Vec<f64> = (0..=8).map(|k| 1.375 + 0.05 * f64::from(k)).collect();
-    let effort = Effort { discard: 300, periods: 200, prolongations: 2, impact_limit: 100_000 };
+    let effort = Effort { discard: Some(300), ..Effort::over(200) };
     let mut told = 0;
     let points = sweep(&base, Parameter::Clearance, &values, START, &effort, &mut |n| told += n)
         .expect("systems");
     assert_eq!((points.len(), told), (18, 18));
     let last_kept = |way| {
         let kept = points.iter().filter(|point| point.way == way);
-        let kept = kept.filter(|point| point.regime == Regime::TwoSymmetric);
+        let kept = kept.filter(|point| point.motion.regime == Regime::TwoSymmetric);
         kept.map(|point| 10.0 * point.value).fold(0.0, f64::max)
     };
     let (up, down) = (last_kept(SweepDirection::Up), last_kept(SweepDirection::Down));
     assert!((16.2..16.695).contains(&up), "kept up to {up} mm");
     assert!(down > 0.0 && down < up - 1.0, "back at {down} mm");
     for point in &points {
-        assert!(!point.lost_to_impact_limit && point.period_peaks.len() == 40, "{point:?}");
+        assert!(point.motion.stop == Stop::EndTime && point.period_peaks.len() == 40, "{point:?}");
         let highest = point.period_peaks.iter().copied().fold(0.0, f64::max);
         assert!(highest <= point.peak * (1.0 + 1e-12));
-        if point.regime == Regime::TwoSymmetric {
+        if point.motion.regime == Regime::TwoSymmetric {
             assert!((point.peak - highest).abs() < 1e-4 * highest);
             assert!(point.intervals.iter().all(|dt| (dt - 0.5).abs() < 1e-4), "{point:?}");
         }
@@ -430,10 +430,10 @@ fn other_parameters_are_swept_in_their_own_units() {
 #[test]
 fn the_limit_on_impacts_shows_in_the_diagram() {
     let base = common::table_1(8.0, 0.3);
-    let effort = Effort { impact_limit: 100, ..EFFORT };
+    let effort = Effort { most_impacts: 1, ..EFFORT };
     let points =
         sweep(&base, Parameter::Clearance, &[1.0], START, &effort, &mut |_| ()).expect("system");
-    assert!(points.iter().all(|point| point.lost_to_impact_limit));
+    assert!(points.iter().all(|point| point.motion.stop == Stop::ImpactLimit));
 }
 
 /// Measured side by side from impacts alone, a motion that repeats has the regime, the repetition and the peak
@@ -446,7 +446,7 @@ fn long_term_motions_are_those_of_trajectories_alone() {
             let system = common::table_1(frequency_hz, clearance_mm);
             let begun: Vec<(System, State)> =
                 starts::of(&system, 4).map(|start| (system, start)).collect();
-            let found = long_term(&begun, 96).expect("finite");
+            let found = long_term(&begun, &Effort::over(96)).expect("finite");
             for ((_, start), motion) in begun.iter().zip(found) {
                 let motion = motion.expect("no bad end");
                 let alone = reached(&system, *start);

@@ -15,8 +15,9 @@ use vinesink::analysis::Analysis;
 use vinesink::case::{Case, Recorded, SweepParameter};
 use vinesink::operation_count;
 use vinesink::orbits::attracting_orbit;
-use vinesink::regimes::Transient;
-use vinesink::regimes::long_term::{Effort, Motion, motions};
+use vinesink::regimes::long_term::motions;
+use vinesink::regimes::starts::{self, FROM_REST};
+use vinesink::regimes::{Effort, Motion};
 use vinesink::simulation::Simulation;
 use vinesink::sweep::{Plan, work};
 use vinesink::system::System;
@@ -130,7 +131,7 @@ fn a_row_is_what_the_layers_say_of_its_system() {
         same("orbit_peak", orbit);
         let bare = system.linear_response().expect("damped").amplitude();
         same("bare_amplitude", Some(length(bare)));
-        let alone = motions(&[system], &Effort { starts: 1, periods: 48 }).expect("finite");
+        let alone = motions(&[(system, vec![FROM_REST])], &Effort::over(48)).expect("finite");
         same("motions", Some(alone[0].len() as f64));
         same("peak", Some(length(alone[0][0].peak)));
         same("rms", Some(length(alone[0][0].rms)));
@@ -445,8 +446,13 @@ fn a_layer_that_nothing_is_recorded_of_is_not_asked() {
     assert!(orbit > 100 * formula && reached > 100 * formula, "{formula} {orbit} {reached}");
     let axis = "clearance = { values = [\"20 mm\"] }";
     let system = plan(&sweeping(axis)).point(0).system.expect("valid");
-    let rule = operation_count::counted(|| Transient::of(&system)).1;
-    assert_eq!(cost("peak"), formula + rule);
+    let starts = plan(&sweeping(axis)).settings.starts;
+    let simulate = || {
+        motions(&[(system, starts::of(&system, starts).collect())], &Effort::over(48)).map(|_| ())
+    };
+    let (simulated, operations) = operation_count::counted(simulate);
+    assert!(simulated.is_ok());
+    assert_eq!(cost("peak"), formula + operations);
     // Over the clearance this is no number.
     let no_start = "initial_velocity = { values = [\"1.7e308 m/s\"] }";
     assert!(worked_out("peak", no_start).is_err());
@@ -478,8 +484,10 @@ fn every_column_is_what_its_layer_says() {
                 let near = found.zip(wanted).map(|(a, b)| (a - b).abs() <= 1e-12 * size(b));
                 assert!(near.unwrap_or(found == wanted), "{k} {name}: {found:?} {wanted:?}");
             };
-            let effort = Effort { starts, periods: 100 };
-            let found = motions(&[system], &effort).expect("finite").remove(0);
+            let found =
+                motions(&[(system, starts::of(&system, starts).collect())], &Effort::over(100))
+                    .expect("finite")
+                    .remove(0);
             let main: &Motion =
                 found.iter().reduce(|a, b| if b.starts > a.starts { b } else { a }).expect("one");
             several += u32::from(found.len() > 1);
@@ -565,13 +573,11 @@ fn a_motion_is_followed_both_ways() {
     let mut system =
         plan(&sweeping(&format!("clearance = {{ values = [\"{} mm\"] }}\n", 1e3 * clearances[k])));
     system.settings.starts = 64;
-    let there =
-        motions(&[system.point(0).system.expect("valid")], &Effort { starts: 64, periods: 100 });
+    let of = system.point(0).system.expect("valid");
+    let there = motions(&[(of, starts::of(&of, 64).collect())], &Effort::over(100));
     let there = &there.expect("finite")[0];
     for peak in [up[k], down[k]] {
-        let near = |motion: &&vinesink::regimes::long_term::Motion| {
-            (motion.peak * clearances[k] / peak - 1.0).abs() < 0.02
-        };
+        let near = |motion: &&Motion| (motion.peak * clearances[k] / peak - 1.0).abs() < 0.02;
         assert!(there.iter().any(|motion| near(&motion)), "{peak}: {there:?}");
     }
 }

@@ -8,9 +8,11 @@ mod common;
 use std::f64::consts::{FRAC_1_SQRT_2, TAU};
 
 use vinesink::orbits::attracting_orbit;
-use vinesink::regimes::attractor::Effort as Following;
-use vinesink::regimes::long_term::{Effort, Motion, long_term, motions};
-use vinesink::regimes::{Attractor, DynamicsKind, Regime, Transient, starts, transient};
+use vinesink::regimes::long_term::motions;
+use vinesink::regimes::{
+    Attractor, DynamicsKind, Effort, Motion, Regime, Transient, Window, long_term, starts,
+    transient,
+};
 use vinesink::simulation::Simulation;
 use vinesink::system::{Excitation, Parameters, State, System};
 
@@ -29,7 +31,9 @@ fn bridge(clearance: f64, hertz: f64) -> System {
 }
 
 fn from_starts(system: &System) -> Vec<Motion> {
-    motions(std::slice::from_ref(system), &Effort::default()).expect("finite").remove(0)
+    motions(&[(*system, starts::of(system, 8).collect())], &Effort::default())
+        .expect("finite")
+        .remove(0)
 }
 
 /// The bare amplitude, over the clearance.
@@ -82,12 +86,8 @@ fn an_excitation_far_above_the_structure_is_waited_for() {
     for motion in &found {
         assert!((1.0..3.0).contains(&(motion.peak / steady)), "{motion:?}, bare {steady}");
     }
-    let effort = Following {
-        discard: Transient::of(&system).periods,
-        periods: 1000,
-        prolongations: 0,
-        impact_limit: 100_000,
-    };
+    let effort =
+        Window { discard: Transient::of(&system).periods, periods: 1000, impact_limit: 100_000 };
     let moving = State { x: 0.5, x_velocity: 0.1, y: 0.2, y_velocity: 0.3 };
     let reached = Attractor::reach(&system, moving, &effort).expect("inside");
     assert!(reached.peak < 3.0 * steady, "{} {steady}", reached.peak);
@@ -98,7 +98,7 @@ fn an_excitation_far_above_the_structure_is_waited_for() {
 fn what_drifts_has_not_settled() {
     let system = bridge(0.05, 40.0);
     let followed = |discard, periods| {
-        let effort = Following { discard, periods, prolongations: 0, impact_limit: 1000 };
+        let effort = Window { discard, periods, impact_limit: 1000 };
         let displaced = State { x: 0.5, ..State::AT_REST };
         Attractor::measure(&mut Simulation::new(&system, displaced, 0.0).expect("inside"), &effort)
     };
@@ -120,12 +120,13 @@ fn an_absorber_that_is_never_reached_is_in_closed_form() {
     let steady = bare(&system);
     let on_it = starts::of(&system, 2).nth(1).expect("two");
     assert!(steady < 1.0 && transient::inactive(&system, &on_it).is_some());
-    let found = long_term(&[(system, on_it)], 250).expect("finite")[0].expect("measured");
+    let found =
+        long_term(&[(system, on_it)], &Effort::default()).expect("finite")[0].expect("measured");
     assert_eq!((found.peak, found.rms), (steady, steady * FRAC_1_SQRT_2));
     assert!(found.is_inactive() && found.settled && found.regime == Regime::AtRest);
     // By simulation, which the closed form replaces.
     let mut followed = Simulation::new(&system, on_it, 0.0).expect("inside");
-    let effort = Following { discard: 0, periods: 50, prolongations: 0, impact_limit: 100 };
+    let effort = Window { discard: 0, periods: 50, impact_limit: 100 };
     let measured = Attractor::measure(&mut followed, &effort);
     assert!((measured.peak / steady - 1.0).abs() < 1e-9 && measured.impact_count == 0);
     assert!((measured.rms / found.rms - 1.0).abs() < 1e-9);
@@ -161,7 +162,8 @@ fn a_run_ten_times_as_long_stays_within_the_error_of_a_peak() {
     let (mut count, mut within, mut fast, mut silly, mut mean) = (0, 0, 0, 0, 0.0);
     for system in chaotic() {
         let other = starts::of(&system, 10).nth(9).expect("ten");
-        let long = long_term(&[(system, other)], 2500).expect("finite")[0].expect("measured");
+        let long = long_term(&[(system, other)], &Effort::over(2500)).expect("finite")[0]
+            .expect("measured");
         let same = |motion: &&Motion| {
             let near = (motion.rms / long.rms - 1.0).abs() < 0.25;
             near && motion.repeats_after.is_none() && motion.impacts_per_period > 0.0

@@ -4,11 +4,12 @@
 mod common;
 
 use vinesink::analysis::{Analysis, Strip};
+use vinesink::method::Method;
 use vinesink::orbits::FullSystem;
 use vinesink::regimes::{DynamicsKind, FoundAttractor, Regime};
 use vinesink::study::{CaseStudy, StudyEffort, long_term_motions};
 use vinesink::system::{Excitation, Parameters, System};
-use vinesink::validation::{Check, Finding, Verdict, motions, orbits};
+use vinesink::validation::{Finding, Verdict, motions, orbits};
 
 #[test]
 fn in_strip_a1_answers_coexist_and_close_fixed_points_are_told_apart() {
@@ -30,10 +31,10 @@ fn in_strip_a1_answers_coexist_and_close_fixed_points_are_told_apart() {
     assert_eq!(unstable.verdict, Verdict::Confirmed, "{unstable:?}");
     assert_eq!(stable.predicted, Finding::Words("stable".into()));
     assert_eq!(stable.verdict, Verdict::Confirmed, "{stable:?}");
-    assert!([unstable, stable].iter().all(|claim| claim.checked_by == Check::ExactOrbit));
+    assert!([unstable, stable].iter().all(|claim| claim.checked_by == Method::ExactOrbit));
     // Simulation, in turn, confirms both orbits: one repeats and holds, one repeats and is left.
     for id in ["orbit-1-repeats", "orbit-2-repeats", "orbit-1-stability", "orbit-2-stability"] {
-        assert_eq!(claim(id).checked_by, Check::Simulation);
+        assert_eq!(claim(id).checked_by, Method::Simulation);
         assert_eq!(claim(id).verdict, Verdict::Confirmed, "{:?}", claim(id));
     }
 }

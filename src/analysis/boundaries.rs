@@ -11,32 +11,10 @@ use super::AnalysisError;
 use super::curve::FixedPointCurve;
 use super::frequency_response::detunings;
 use super::manifold::{Branch, Manifold};
+use crate::bifurcation::Bifurcation;
 use crate::equations::equations;
 use crate::numerics::polynomial::real_roots;
 use crate::system::System;
-
-/// The three boundaries of the theory.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum BoundaryKind {
-    /// Two symmetric impacts turn asymmetric.
-    SymmetryBreaking,
-    /// A fixed point reaches the fold.
-    Hopf,
-    /// Two fixed points collide.
-    SaddleNode,
-}
-
-impl BoundaryKind {
-    /// The name in a report.
-    pub fn words(self) -> &'static str {
-        match self {
-            Self::SymmetryBreaking => "symmetry breaking",
-            Self::Hopf => "Hopf",
-            Self::SaddleNode => "saddle-node",
-        }
-    }
-}
 
 /// A collision of two fixed points at the system's detuning.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -99,37 +77,39 @@ impl Boundaries {
     }
 
     /// All boundaries as `(kind, gamma)`.
-    pub fn all(&self) -> impl Iterator<Item = (BoundaryKind, f64)> {
+    pub fn all(&self) -> impl Iterator<Item = (Bifurcation, f64)> {
         let node = self.saddle_node.map(|node| node.forcing_over_clearance);
         [
-            (BoundaryKind::SymmetryBreaking, Some(self.symmetry_breaking)),
-            (BoundaryKind::Hopf, Some(self.hopf)),
-            (BoundaryKind::SaddleNode, node),
+            (Bifurcation::SymmetryBreaking, Some(self.symmetry_breaking)),
+            (Bifurcation::NeimarkSacker, Some(self.hopf)),
+            (Bifurcation::SaddleNode, node),
         ]
         .into_iter()
         .filter_map(|(kind, gamma)| Some((kind, gamma?)))
     }
 }
 
-/// Detunings at which a boundary passes through the system's `gamma`, ascending.
+/// Detunings at which a boundary passes through the system's `gamma`, ascending; none of a bifurcation that
+/// the slow flow does not have.
 ///
 /// # Errors
 /// [`AnalysisError::Missing`] never, for a system.
 pub fn crossings(
-    kind: BoundaryKind,
+    kind: Bifurcation,
     system: &System,
     manifold: &Manifold,
 ) -> Result<Vec<f64>, AnalysisError> {
     let shift = match kind {
-        BoundaryKind::Hopf => manifold.fold_shift,
-        BoundaryKind::SymmetryBreaking => manifold.symmetry_breaking.absorber_amplitude - 1.0,
-        BoundaryKind::SaddleNode => {
+        Bifurcation::NeimarkSacker => manifold.fold_shift,
+        Bifurcation::SymmetryBreaking => manifold.symmetry_breaking.absorber_amplitude - 1.0,
+        Bifurcation::SaddleNode => {
             let programs = &equations().programs;
             let mut found = real_roots(&programs.collision_detunings(&programs.values(system))?);
             let curve = |detuning| FixedPointCurve::at_detuning(system, manifold, detuning);
             found.retain(|detuning| curve(*detuning).collision().is_some());
             return Ok(found);
         }
+        _ => return Ok(Vec::new()),
     };
     detunings(system, shift)
 }

@@ -20,7 +20,7 @@ use crate::symbolic::MissingValue;
 use crate::system::System;
 
 pub use areas::{Area, Strip, Zone};
-pub use boundaries::{Boundaries, BoundaryKind, SaddleNode};
+pub use boundaries::{Boundaries, SaddleNode};
 pub use curve::FixedPointCurve;
 pub use fixed_points::{FixedPoint, Kind};
 pub use manifold::{Branch, Manifold, ManifoldPoint};

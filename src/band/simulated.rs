@@ -7,8 +7,9 @@ use serde::Serialize;
 use super::{Band, Inactive, Stretch, exact};
 use crate::case::BandOver;
 use crate::executor::{Executor, map};
-use crate::regimes::long_term::{Motion, distinct, long_term};
-use crate::regimes::starts;
+use crate::regimes::long_term::motions;
+use crate::regimes::motion::distinct;
+use crate::regimes::{Effort, Motion, starts};
 use crate::simulation::StartError;
 use crate::system::{State, System};
 
@@ -132,7 +133,7 @@ const SIDE_BY_SIDE: usize = 64;
 /// Starts that are to be followed at a place.
 struct Task {
     at: f64,
-    starts: Vec<State>,
+    of: (System, Vec<State>),
 }
 
 /// Samples a band.
@@ -230,21 +231,18 @@ impl Sampler<'_> {
             let right = known.partition_point(|place| place.at < at);
             let beside = known[right.saturating_sub(1)..known.len().min(right + 1)].iter();
             let beside = beside.flat_map(|place| followed(place, 0.0));
-            Some(Task { at, starts: starts::of(&system, starts).chain(beside).collect() })
+            Some(Task { at, of: (system, starts::of(&system, starts).chain(beside).collect()) })
         };
         let tasks: Vec<Task> = places.into_iter().filter_map(task).collect();
         let found = self.simulated(&tasks)?;
-        let place = |(task, motions): (&Task, Vec<Motion>)| {
-            let system = self.band.system(task.at).ok()?;
-            Some(Place {
-                at: task.at,
-                motions,
-                orbit: exact::attracting(self.band, task.at).map(|orbit| orbit.peaks.displacement),
-                inactive: Inactive::of(&system),
-                followed: 0.0,
-            })
+        let place = |(task, motions): (&Task, Vec<Motion>)| Place {
+            at: task.at,
+            motions,
+            orbit: exact::attracting(self.band, task.at).map(|orbit| orbit.peaks.displacement),
+            inactive: Inactive::of(&task.of.0),
+            followed: 0.0,
         };
-        Ok(tasks.iter().zip(found).filter_map(place).collect())
+        Ok(tasks.iter().zip(found).map(place).collect())
     }
 
     /// Follows larger motions to the places beside them; whether there were any.
@@ -257,9 +255,10 @@ impl Sampler<'_> {
             let beside = beside.into_iter().flatten().filter_map(|beside| places.get(beside));
             let starts: Vec<State> =
                 beside.clone().flat_map(|place| followed(place, known)).collect();
-            if !starts.is_empty() {
+            let at = places[k].at;
+            if let (false, Ok(system)) = (starts.is_empty(), self.band.system(at)) {
                 chosen.push((k, beside.map(Place::peak).fold(0.0, f64::max)));
-                tasks.push(Task { at: places[k].at, starts });
+                tasks.push(Task { at, of: (system, starts) });
             }
         }
         let found = self.simulated(&tasks)?;
@@ -275,7 +274,7 @@ impl Sampler<'_> {
     /// The motions with impacts that each task's starts lead to.
     fn simulated(&self, tasks: &[Task]) -> Result<Vec<Vec<Motion>>, StartError> {
         let mut groups: Vec<&[Task]> = Vec::new();
-        let each = tasks.iter().map(|task| task.starts.len()).max().unwrap_or(1).max(1);
+        let each = tasks.iter().map(|task| task.of.1.len()).max().unwrap_or(1).max(1);
         groups.extend(tasks.chunks((SIDE_BY_SIDE / each).max(1)));
         let found = map(self.executor, "surveying the band", groups.len(), |k| {
             self.side_by_side(groups[k])
@@ -288,26 +287,10 @@ impl Sampler<'_> {
     }
 
     fn side_by_side(&self, tasks: &[Task]) -> Result<Vec<Vec<Motion>>, StartError> {
-        let mut starts: Vec<(System, State)> = Vec::new();
-        let mut counts = Vec::with_capacity(tasks.len());
-        for task in tasks {
-            let system = self.band.system(task.at).ok();
-            let of = system
-                .into_iter()
-                .flat_map(|one| task.starts.iter().map(move |start| (one, *start)));
-            let before = starts.len();
-            starts.extend(of);
-            counts.push(starts.len() - before);
-        }
-        let mut ended = long_term(&starts, self.sampling.periods)?.into_iter();
-        Ok(counts
-            .into_iter()
-            .map(|count| {
-                let mut motions = distinct(&ended.by_ref().take(count).collect::<Vec<_>>());
-                motions.retain(|motion| !motion.is_inactive());
-                motions
-            })
-            .collect())
+        let places: Vec<_> = tasks.iter().map(|task| task.of.clone()).collect();
+        let mut found = motions(&places, &Effort::over(self.sampling.periods))?;
+        found.iter_mut().for_each(|all| all.retain(|motion| !motion.is_inactive()));
+        Ok(found)
     }
 
     /// The middles of gaps in which the largest peak may exceed the largest that is known by more than the

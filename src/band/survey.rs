@@ -8,7 +8,7 @@ use super::simulated::{self, Place, Sampling};
 use super::{Band, Inactive, Stretch, inactive, margin, theory};
 use crate::analysis::{Strip, Zone};
 use crate::executor::Executor;
-use crate::regimes::long_term::Motion;
+use crate::regimes::Motion;
 use crate::simulation::StartError;
 
 /// What a survey looks at.

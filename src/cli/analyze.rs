@@ -7,8 +7,8 @@ use vinesink::case::Case;
 use vinesink::orbits::FullSystem;
 use vinesink::report::console;
 use vinesink::report::documents::AnalysisDocument;
-use vinesink::study::fidelity::{Answers, Plan, Simulated, counted_motions};
-use vinesink::study::{StudyEffort, settle_area};
+use vinesink::study::fidelity::{Answers, Plan};
+use vinesink::study::{StudyEffort, long_term_motions, settle_area};
 
 use super::budget::{Long, Work};
 use super::case_file::{self, CaseArgument, Fidelity, Format};
@@ -85,9 +85,7 @@ fn answers(case: &Case, analysis: &Analysis, plan: &Plan) -> Result<Answers> {
     }
     let effort = StudyEffort::of(&case.simulation);
     let progress = Progress::new("simulating", u64::from(effort.starts));
-    let (found, cost) =
-        counted_motions(analysis, &effort, &mut |done| progress.advance(done)).into_diagnostic()?;
-    let simulated =
-        Simulated { attractors: &found.attractors, proofs: &found.proofs, operations: cost };
-    plan.answers(Some(simulated)).into_diagnostic()
+    let mut advance = |done| progress.advance(done);
+    let found = long_term_motions(analysis, &effort, &mut advance).into_diagnostic()?;
+    plan.answers(Some((&found).into())).into_diagnostic()
 }

@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 use miette::{IntoDiagnostic, NamedSource, Report, Result};
 use vinesink::case::Case;
+use vinesink::method::Method;
 use vinesink::store;
-use vinesink::study::fidelity::{self, AccuracyTarget, Plan};
+use vinesink::study::fidelity::{AccuracyTarget, Plan};
 
 use super::output;
 
@@ -64,11 +65,11 @@ pub enum Fidelity {
     Simulation,
 }
 
-impl From<Fidelity> for fidelity::Fidelity {
+impl From<Fidelity> for Method {
     fn from(asked: Fidelity) -> Self {
         match asked {
-            Fidelity::Manifold => Self::Manifold,
-            Fidelity::Orbit => Self::Orbit,
+            Fidelity::Manifold => Self::Theory,
+            Fidelity::Orbit => Self::ExactOrbit,
             Fidelity::Simulation => Self::Simulation,
         }
     }

@@ -7,8 +7,7 @@ use clap::Args;
 use miette::{IntoDiagnostic, Result, miette};
 use vinesink::analysis::Analysis;
 use vinesink::case::Case;
-use vinesink::regimes::Attractor;
-use vinesink::regimes::attractor::Effort;
+use vinesink::regimes::{Attractor, Window};
 use vinesink::report::console;
 use vinesink::report::documents::SimulationDocument;
 use vinesink::simulation::{Impact, ImpactLog, Simulation};
@@ -123,17 +122,16 @@ fn follow(
 ) -> Result<Attractor> {
     let mut simulation = Simulation::new(&case.system(), start, 0.0).into_diagnostic()?;
     let _progress = Progress::estimated("measuring", Work::trajectory(case, effort).seconds());
-    let effort = Effort {
+    let window = Window {
         discard: effort.left_out(&case.system()),
         periods: effort.periods,
-        prolongations: 0,
         impact_limit: IMPACT_LIMIT,
     };
     let Some(path) = &arguments.impacts else {
-        return Ok(Attractor::measure(&mut simulation, &effort));
+        return Ok(Attractor::measure(&mut simulation, &window));
     };
     let mut log = ImpactLog::default();
-    let motion = Attractor::measure_with(&mut simulation, &effort, &mut log);
+    let motion = Attractor::measure_with(&mut simulation, &window, &mut log);
     store::write_file(path, csv(&log.impacts).as_bytes())?;
     Ok(motion)
 }

@@ -12,8 +12,8 @@ use crate::band::rivals::reduction_db;
 use crate::band::simulated::Sampling;
 use crate::band::{Band, Inactive, Rivals, Survey, SurveySettings};
 use crate::case::{Case, Criterion, Relation, Scales, Subject};
-use crate::regimes::long_term::Motion;
-use crate::study::fidelity::Fidelity;
+use crate::method::Method;
+use crate::regimes::Motion;
 
 use scope::Scope;
 
@@ -33,7 +33,7 @@ struct Value {
     inactive: Option<f64>,
     /// Whether the motion has settled.
     settled: bool,
-    by: Fidelity,
+    by: Method,
 }
 
 /// A criterion and what was found.
@@ -60,7 +60,7 @@ pub struct Judged {
     /// Whether the motion that decides has settled: false where it drifts for longer than a run can wait.
     pub settled: bool,
     /// The layer that `found` is from.
-    pub decided_by: Fidelity,
+    pub decided_by: Method,
 }
 
 /// A motion of the oscillator, whichever layer it is from. Lengths over the clearance, fast time; each
@@ -147,7 +147,7 @@ impl Criterion {
         within && (room >= 0.0 || !(of_largest || of_least))
     }
 
-    fn judged(&self, value: Option<Value>, otherwise: Fidelity) -> Judged {
+    fn judged(&self, value: Option<Value>, otherwise: Method) -> Judged {
         let Some(value) = value else {
             return Judged {
                 criterion: self.clone(),

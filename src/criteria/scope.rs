@@ -4,8 +4,8 @@ use super::{Judged, ROUNDING, Seen, Value, of_motion};
 use crate::band::exact::{self, attracting};
 use crate::band::{Survey, inactive, theory};
 use crate::case::{Criterion, Scales, Subject};
+use crate::method::Method;
 use crate::orbits::{Measures, SymmetricOrbit};
-use crate::study::fidelity::Fidelity;
 use crate::system::System;
 use crate::validation::tolerance::asymptotic_error;
 
@@ -24,11 +24,11 @@ impl Scope<'_> {
     /// Judges one criterion.
     pub(super) fn judge(&self, criterion: &Criterion) -> Judged {
         let (value, by) = match criterion.subject {
-            Subject::Z3Share => (Some(self.z3_share()), Fidelity::Manifold),
-            Subject::StableShare => (Some(self.stable_share()), Fidelity::Orbit),
-            Subject::MarginClearance => (Some(self.margin()), Fidelity::Orbit),
-            Subject::NoCoexistence => (self.one_motion(), Fidelity::Simulation),
-            _ => (self.worst(criterion), Fidelity::Simulation),
+            Subject::Z3Share => (Some(self.z3_share()), Method::Theory),
+            Subject::StableShare => (Some(self.stable_share()), Method::ExactOrbit),
+            Subject::MarginClearance => (Some(self.margin()), Method::ExactOrbit),
+            Subject::NoCoexistence => (self.one_motion(), Method::Simulation),
+            _ => (self.worst(criterion), Method::Simulation),
         };
         criterion.judged(value, by)
     }
@@ -55,14 +55,14 @@ impl Scope<'_> {
         let shifted = [1.0 - error.min(0.9), 1.0 + error].map(share);
         let off =
             shifted.map(|other| (other - found).abs()).into_iter().fold(SHARE_ROUNDING, f64::max);
-        Value { found, error: off, at: None, inactive: None, settled: true, by: Fidelity::Manifold }
+        Value { found, error: off, at: None, inactive: None, settled: true, by: Method::Theory }
     }
 
     fn stable_share(&self) -> Value {
         // All and nothing have no end that could be off.
         let error = if self.survey.motions.stability.len() > 1 { SHARE_ROUNDING } else { 0.0 };
         let found = self.survey.motions.stable_share();
-        Value { found, error, at: None, inactive: None, settled: true, by: Fidelity::Orbit }
+        Value { found, error, at: None, inactive: None, settled: true, by: Method::ExactOrbit }
     }
 
     fn margin(&self) -> Value {
@@ -73,7 +73,7 @@ impl Scope<'_> {
             at: self.place(at),
             inactive: None,
             settled: true,
-            by: Fidelity::Orbit,
+            by: Method::ExactOrbit,
         }
     }
 
@@ -90,7 +90,7 @@ impl Scope<'_> {
                 .filter(|_| motions.count_inactive)
                 .and_then(|place| Some(place.inactive?.share)),
             settled: true,
-            by: Fidelity::Simulation,
+            by: Method::Simulation,
         })
     }
 
@@ -128,7 +128,7 @@ impl Scope<'_> {
             at: self.place(at),
             inactive: None,
             settled: true,
-            by: Fidelity::Orbit,
+            by: Method::ExactOrbit,
         })
     }
 
@@ -147,7 +147,7 @@ impl Scope<'_> {
                 at: self.place(at),
                 inactive: Some(inactive.share),
                 settled: true,
-                by: Fidelity::Manifold,
+                by: Method::ClosedForm,
             })
         };
         let (at, _) =
@@ -163,7 +163,7 @@ impl Scope<'_> {
                 let seen = Seen::simulated(motion, motions.unresolved);
                 let [found, error] = self.of_motion(criterion, &seen)?;
                 let at = self.place(place.at);
-                let (settled, by) = (motion.settled, Fidelity::Simulation);
+                let (settled, by) = (motion.settled, Method::Simulation);
                 Some(Value { found, error, at, inactive: None, settled, by })
             })
         })

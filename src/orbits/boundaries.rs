@@ -9,8 +9,9 @@ use serde::Serialize;
 use super::OrbitError;
 use super::branch::{Branch, BranchEnd, Settings};
 use super::limits::{Limit, SymmetricFamily};
-use super::special::{Bifurcation, SpecialPoint};
+use super::special::SpecialPoint;
 use super::switching::leave;
+use crate::bifurcation::Bifurcation;
 use crate::system::{Parameter, System};
 
 /// Clearances, over that of the symmetry breaking, in which the asymmetric orbits are followed; past

@@ -4,9 +4,10 @@
 use super::mirror;
 use super::multipliers::{minus_one, plus_one, unit_product};
 use super::orbit::{Closure, Orbit, Origin};
-use super::special::{Bifurcation, SpecialPoint};
+use super::special::SpecialPoint;
 use super::switching;
 use super::tracer::{Point, Tracer};
+use crate::bifurcation::Bifurcation;
 use crate::numerics::bracket::brent;
 
 /// Width over the step to which a bifurcation is located: with steps of some hundredths the rounding

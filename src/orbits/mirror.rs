@@ -9,8 +9,9 @@ use std::f64::consts::PI;
 use super::impact_map::AfterImpact;
 use super::multipliers::minus_one;
 use super::orbit::{Closure, Cycle, Orbit};
-use super::special::{Bifurcation, SpecialPoint};
+use super::special::SpecialPoint;
 use super::tracer::{Point, Tracer};
+use crate::bifurcation::Bifurcation;
 use crate::numerics::bracket::brent;
 
 /// Relative width to which the parameter is located: some units in the last place.

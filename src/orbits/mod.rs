@@ -27,6 +27,7 @@ pub mod switching;
 pub mod symmetric;
 mod tracer;
 
+pub use crate::bifurcation::Bifurcation;
 pub use admissibility::Admissibility;
 pub use boundaries::{AsymmetricOrbits, Boundaries};
 pub use branch::{Branch, BranchEnd, BranchPoint};
@@ -37,7 +38,7 @@ pub use measures::{EnergyPerPeriod, Measures, Peaks};
 pub use multipliers::{Leading, Multipliers};
 pub use newton::Convergence;
 pub use orbit::{Closure, Cycle, Orbit, Origin};
-pub use special::{Bifurcation, SpecialPoint};
+pub use special::SpecialPoint;
 pub use symmetric::{SymmetricOrbit, attracting_orbit, symmetric_orbits};
 
 /// Why an orbit is not returned.

@@ -8,8 +8,9 @@ use super::branch::{Branch, Settings, trace};
 use super::impact_map::AfterImpact;
 use super::multipliers::LARGEST_SWEEPS;
 use super::orbit::{Closure, Cycle, Orbit, Origin};
-use super::special::{Bifurcation, SpecialPoint};
+use super::special::SpecialPoint;
 use super::tracer::Tracer;
+use crate::bifurcation::Bifurcation;
 use crate::system::{Parameter, System};
 
 /// How far a new branch is entered, in the norm of the first state: far enough to tell it from the

@@ -87,7 +87,7 @@ impl<'a> Tracer<'a> {
     fn map(&self, scaled: f64) -> Option<(ImpactMap, [f64; 3])> {
         let value = scaled * self.scale;
         let system = self.parameter.applied(self.base, value).ok()?;
-        let weights = weights(self.parameter, self.base, value).map(|w| w * self.scale);
+        let weights = self.parameter.derivatives(self.base, value).map(|w| w * self.scale);
         Some((ImpactMap::of(&system).ok()?, weights))
     }
 
@@ -224,18 +224,6 @@ impl<'a> Tracer<'a> {
     }
 }
 
-/// Derivatives of forcing `gamma`, frequency and restitution by the parameter, at `value`: what
-/// [`Parameter::applied`] does to them.
-fn weights(parameter: Parameter, base: &System, value: f64) -> [f64; 3] {
-    let gamma = base.forcing_per_clearance();
-    match parameter {
-        Parameter::Clearance => [-gamma / (value * value), 0.0, 0.0],
-        Parameter::FrequencyRatio => [0.0, 1.0, 0.0],
-        Parameter::Forcing => [gamma, 0.0, 0.0],
-        Parameter::Restitution => [0.0, 0.0, 1.0],
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -265,7 +253,7 @@ mod tests {
                 [there.forcing_per_clearance(), there.frequency_ratio(), there.restitution()]
             };
             let (up, down) = (at(value + h), at(value - h));
-            for (k, weight) in weights(parameter, &base, value).iter().enumerate() {
+            for (k, weight) in parameter.derivatives(&base, value).iter().enumerate() {
                 // h^2 times a third derivative of 3 / 0.8^4 and rounding over h.
                 let difference = (up[k] - down[k]) / (2.0 * h);
                 assert!((difference - weight).abs() < 1e-8, "{parameter:?} {k}: {difference}");

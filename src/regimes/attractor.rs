@@ -1,12 +1,13 @@
-//! Long-term motions, found from many starts and matched by what they are.
+//! A motion measured in full: statistics, energy, the kind of dynamics, its impacts.
 
-use serde::Serialize;
+use std::ops::{Deref, DerefMut};
 
 use super::lyapunov::Lyapunov;
 use super::modulation::{self, Amplitudes};
+use super::motion::within;
+use super::thresholds::{IMPACTS_PER_PERIOD, SHORTEST_CAPTURE};
 use super::{
-    Classification, DynamicsKind, Energetics, Periodicity, Regime, Thresholds, classify,
-    periodicity,
+    Classification, DynamicsKind, Energetics, Motion, Periodicity, Regime, classify, periodicity,
 };
 use crate::operation_count;
 use crate::simulation::{
@@ -15,40 +16,24 @@ use crate::simulation::{
 };
 use crate::system::{State, System};
 
-/// How long a trajectory is followed.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Effort {
-    /// Excitation periods left out as transient.
+/// What is measured of a trajectory.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Window {
+    /// Excitation periods left out before.
     pub discard: u64,
     /// Excitation periods measured.
     pub periods: u64,
-    /// How often the transient is prolonged while the motion has neither repeated nor settled.
-    pub prolongations: u32,
-    /// Largest number of impacts in one stretch.
+    /// Largest number of impacts in either.
     pub impact_limit: u64,
 }
 
-/// What a trajectory became.
-#[derive(Debug, Clone, Serialize)]
+/// A motion measured in full over a window; as a [`Motion`] it has peak, root mean square and the rest.
+#[derive(Debug, Clone)]
 pub struct Attractor {
+    /// The motion.
+    pub motion: Motion,
     /// Its regime, and why.
-    #[serde(flatten)]
     pub classification: Classification,
-    /// Largest absolute displacement of the oscillator over the clearance that was seen.
-    pub peak: f64,
-    /// By how much another window, ten times as long, may exceed that, at odds of 19 to 1, from the largest
-    /// values of blocks of this one; 0 where the motion repeats.
-    pub peak_error: f64,
-    /// Largest relative speed of an impact, over the clearance, in fast time.
-    pub impact_speed: f64,
-    /// As `peak_error`.
-    pub impact_speed_error: f64,
-    /// Whether its transient is over: it repeats, or its averages do not drift.
-    pub settled: bool,
-    /// Root mean square displacement of the oscillator over the clearance.
-    pub rms: f64,
-    /// Two standard errors of `rms` and of the impacts per period, where the motion does not repeat.
-    pub errors: Option<[f64; 2]>,
     /// First harmonic of the oscillator: coefficients of `sin` and `cos` of the excitation's phase.
     pub oscillator_harmonic: [f64; 2],
     /// The same for the absorber.
@@ -63,84 +48,65 @@ pub struct Attractor {
     pub periods: u64,
     /// Impacts in them.
     pub impact_count: u64,
-    /// Periods since the start, transient included.
-    pub followed: u64,
-    /// Why the measurement ended.
-    pub stop: Stop,
     /// Largest penetration of a wall over the clearance.
     pub penetration: f64,
-    /// A state on the attractor, at excitation phase 0.
-    pub state: State,
     /// The last impacts of the measured window.
-    #[serde(skip)]
     pub impacts: Vec<Impact>,
     /// `C`, `E` and the peak in every period that was kept of the measured window.
-    #[serde(skip)]
     pub amplitudes: Vec<Amplitudes>,
+}
+
+impl Deref for Attractor {
+    type Target = Motion;
+    fn deref(&self) -> &Motion {
+        &self.motion
+    }
+}
+
+impl DerefMut for Attractor {
+    fn deref_mut(&mut self) -> &mut Motion {
+        &mut self.motion
+    }
 }
 
 /// Impacts that are kept of each attractor, at least: enough for every figure and every average.
 const KEPT_IMPACTS: usize = 20_000;
 /// Relative difference of `C`, `E` and peak in the last repetition below which two repeating motions
 /// with the same impacts are one: a thousand times what a repetition to 1e-6 leaves open.
-const SAME_PERIODIC: f64 = 1e-3;
+pub(super) const SAME_PERIODIC: f64 = 1e-3;
 /// The same for a motion that is still settling and the one that it settles on.
 const SAME_SETTLING: f64 = 0.02;
 /// The same for motions that do not repeat, whose averages over some hundred periods scatter.
 const SAME_MODULATED: f64 = 0.2;
 
 impl Attractor {
-    /// Follows a trajectory until its transient is over and measures it.
+    /// Measures a trajectory from a start at excitation phase 0.
     ///
     /// # Errors
     /// [`StartError`] for an impossible start.
-    pub fn reach(system: &System, start: State, effort: &Effort) -> Result<Self, StartError> {
-        let mut simulation = Simulation::new(system, start, 0.0)?;
-        let mut found = Self::measure(&mut simulation, effort);
-        for _ in 0..effort.prolongations {
-            let evidence = &found.classification.evidence;
-            let resting = evidence.impacts_per_period == 0.0 && evidence.settled;
-            if found.stop != Stop::EndTime || evidence.periodicity.is_some() || resting {
-                break;
-            }
-            // A strongly modulated motion never repeats; it only has to be stationary.
-            if evidence.settled && evidence.modulation_depth > 0.02 {
-                break;
-            }
-            found = Self::measure(&mut simulation, effort);
-        }
-        if found.arrived_late() {
-            found = Self::measure(&mut simulation, effort);
-        }
-        Ok(found)
+    pub fn reach(system: &System, start: State, window: &Window) -> Result<Self, StartError> {
+        Ok(Self::measure(&mut Simulation::new(system, start, 0.0)?, window))
     }
 
-    /// Continues from where this attractor was left, leaves out `discard` periods and measures over
-    /// `periods`; twice, if a transient turns out to have ended on the way.
+    /// Measures a motion on from where it was left.
     ///
     /// # Errors
-    /// [`StartError`] if the attractor's state is not finite.
-    pub fn continued(
-        &self,
+    /// [`StartError`] if its state is not finite.
+    pub(super) fn of(
+        motion: &Motion,
         system: &System,
-        discard: u64,
-        periods: u64,
+        window: &Window,
     ) -> Result<Self, StartError> {
-        let mut simulation = Simulation::new(system, self.state, 0.0)?;
-        let effort = Effort { discard, periods, prolongations: 0, impact_limit: u64::MAX };
-        let mut found = Self::measure(&mut simulation, &effort);
-        if found.arrived_late() {
-            found = Self::measure(&mut simulation, &Effort { discard: 0, ..effort });
-        }
-        found.take_extremes(self);
-        Ok(Self { followed: self.followed + found.followed, ..found })
+        let mut found = Self::reach(system, motion.state, window)?;
+        found.followed += motion.followed;
+        found.take_extremes_of(motion);
+        Ok(found)
     }
 
     /// Whether its amplitude is that of its start: without impacts and damping a free vibration never
     /// fades.
     pub fn keeps_its_start(&self) -> bool {
-        let rests = self.classification.regime == Regime::AtRest;
-        rests && self.peak > 0.0 && self.energetics.damper_power == 0.0
+        self.regime == Regime::AtRest && self.peak > 0.0 && self.energetics.damper_power == 0.0
     }
 
     /// Every reason not to trust the measurement.
@@ -148,61 +114,34 @@ impl Attractor {
         simulation::doubts(self.stop, &self.energy, self.penetration, self.peak)
     }
 
-    /// Whether the motion was seen to repeat.
-    pub fn repeats(&self) -> bool {
-        self.classification.evidence.periodicity.is_some()
-    }
-
-    /// Whether the motion repeats at the end of the window but did not from its beginning: a chaotic
-    /// transient, which may last thousands of periods, ended within it.
-    fn arrived_late(&self) -> bool {
-        let evidence = &self.classification.evidence;
-        evidence.periodicity.is_some_and(|found| {
-            let z = f64::from(found.impacts) / f64::from(found.periods);
-            let threshold = Thresholds::default().impacts_per_period;
-            (evidence.impacts_per_period - z).abs() > threshold || !evidence.settled
-        })
-    }
-
     /// Continues a trajectory through its transient and measures what follows.
-    pub fn measure(simulation: &mut Simulation, effort: &Effort) -> Self {
-        let mut log = ImpactLog::of_the_last(KEPT_IMPACTS);
-        Self::measure_with(simulation, effort, &mut log)
+    pub fn measure(simulation: &mut Simulation, window: &Window) -> Self {
+        Self::measure_with(simulation, window, &mut ImpactLog::of_the_last(KEPT_IMPACTS))
     }
 
     /// The same, the impacts of the measured window being kept in `log`.
-    pub fn measure_with(simulation: &mut Simulation, effort: &Effort, log: &mut ImpactLog) -> Self {
+    pub fn measure_with(simulation: &mut Simulation, window: &Window, log: &mut ImpactLog) -> Self {
         let system = *simulation.system();
         let before = simulation.operations();
-        let mut stop = simulation.run(effort.discard, effort.impact_limit, &mut ());
+        let mut stop = simulation.run(window.discard, window.impact_limit, &mut ());
         let mut statistics = Statistics::begin(&system, simulation.state());
         let mut lyapunov = Lyapunov::begin(&system);
         // A transient given up for its impacts is measured all the same: the impacts are the regime.
         if matches!(stop, Stop::EndTime | Stop::ImpactLimit) {
             let mut counts = (&mut statistics, &mut *log);
             let observer = &mut (&mut counts, &mut lyapunov);
-            let measured = simulation.run(effort.periods, effort.impact_limit, observer);
+            let measured = simulation.run(window.periods, window.impact_limit, observer);
             stop = if stop == Stop::EndTime { measured } else { stop };
         }
         operation_count::note(simulation.operations() - before);
-        let thresholds = Thresholds::default();
         let (oscillator_harmonic, absorber_harmonic) = statistics.harmonics();
-        let exponent = lyapunov.exponent();
-        let period = system.period();
-        let classification = classify(&statistics, &log.impacts, exponent, period, &thresholds);
-        let repeats = classification.evidence.periodicity.is_some();
-        let [peak_error, impact_speed_error] =
-            if repeats { [0.0; 2] } else { statistics.errors_of_largest() };
-        let open = classification.dynamics == DynamicsKind::TransientNotOver;
+        let classification =
+            classify(&statistics, &log.impacts, lyapunov.exponent(), system.period());
+        let mut motion = Motion::of(&statistics, &classification, simulation, stop);
+        motion.settled &= classification.dynamics != DynamicsKind::TransientNotOver;
         Self {
-            settled: repeats || !(open || modulation::drifting(statistics.records())),
-            peak_error,
-            impact_speed: statistics.impact_speed(),
-            impact_speed_error,
+            motion,
             classification,
-            errors: (!repeats).then(|| statistics.errors()),
-            peak: statistics.peak(),
-            rms: statistics.rms(),
             oscillator_harmonic,
             absorber_harmonic,
             energy: statistics.energy(),
@@ -210,12 +149,9 @@ impl Attractor {
             sustained_contact: statistics.sustained_contact(),
             periods: statistics.periods(),
             impact_count: statistics.impacts(),
-            followed: simulation.periods(),
-            stop,
             penetration: statistics.penetration(),
-            state: simulation.state(),
             impacts: log.impacts.clone(),
-            amplitudes: modulation::amplitudes(statistics.records(), thresholds.shortest_capture),
+            amplitudes: modulation::amplitudes(statistics.records(), SHORTEST_CAPTURE),
         }
     }
 
@@ -265,19 +201,29 @@ impl Attractor {
     /// Takes over the larger extremes of another measurement of the same motion, and the errors of the
     /// longer one, where neither repeats and both have settled.
     pub fn take_extremes(&mut self, other: &Self) {
-        let scatter = |one: &Self| one.settled && !one.repeats() && one.stop == Stop::EndTime;
-        if !(scatter(self) && scatter(other) && self.is_same(other)) {
-            return;
+        if other.periods >= self.periods {
+            let longer = other.periods > self.periods;
+            let error = |own: f64, other: f64| if longer { other } else { own.max(other) };
+            if self.scatters_like(other) {
+                self.peak_error = error(self.peak_error, other.peak_error);
+                self.impact_speed_error = error(self.impact_speed_error, other.impact_speed_error);
+            }
         }
-        self.peak = self.peak.max(other.peak);
-        self.impact_speed = self.impact_speed.max(other.impact_speed);
-        if other.periods > self.periods {
-            self.peak_error = other.peak_error;
-            self.impact_speed_error = other.impact_speed_error;
-        } else if other.periods == self.periods {
-            self.peak_error = self.peak_error.max(other.peak_error);
-            self.impact_speed_error = self.impact_speed_error.max(other.impact_speed_error);
+        self.take_extremes_of(other);
+    }
+
+    fn take_extremes_of(&mut self, other: &Motion) {
+        if self.scatters_like(other) {
+            self.peak = self.peak.max(other.peak);
+            self.impact_speed = self.impact_speed.max(other.impact_speed);
         }
+    }
+
+    /// Whether neither of two measurements repeats and both have settled on averages that agree.
+    fn scatters_like(&self, other: &Motion) -> bool {
+        let scatters = |one: &Motion| one.settled && !one.repeats() && one.stop == Stop::EndTime;
+        let alike = self.regime == other.regime && within(self.rms, other.rms, SAME_MODULATED);
+        scatters(self) && scatters(other) && alike
     }
 
     /// Whether this motion, which does not repeat yet, is on its way to the other, which does. Near
@@ -287,7 +233,7 @@ impl Attractor {
         let visits = |one: &Self| one.classification.evidence.visits_per_period;
         let apart = (visits(self) - visits(other)).abs();
         self.classification.dynamics == DynamicsKind::TransientNotOver
-            && apart <= Thresholds::default().impacts_per_period
+            && apart <= IMPACTS_PER_PERIOD
             && self.is_alike(other, SAME_SETTLING)
     }
 
@@ -305,19 +251,10 @@ impl Attractor {
         pairs.into_iter().all(|(a, b)| within(a, b, SAME_PERIODIC))
     }
 
-    fn is_alike(&self, other: &Self, limit: f64) -> bool {
-        within(self.rms, other.rms, limit) && within(self.peak, other.peak, limit)
-    }
-
     /// The impacts of one repetition, each a complete state of the motion; `None` if it does not
     /// repeat. An exact orbit solver can begin here.
     pub fn last_repetition(&self) -> Option<(Periodicity, &[Impact])> {
         let found = self.classification.evidence.periodicity?;
         Some((found, periodicity::last_repetition(found, &self.impacts)?))
     }
-}
-
-/// Whether two sizes differ by no more than `limit`, relative to the larger.
-fn within(a: f64, b: f64, limit: f64) -> bool {
-    (a - b).abs() <= limit * a.max(b)
 }

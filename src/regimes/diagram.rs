@@ -4,13 +4,17 @@
 
 use serde::Serialize;
 
-use super::attractor::Effort;
-use super::{Attractor, DynamicsKind, Regime};
-use crate::simulation::{StartError, Stop};
+use super::Motion;
+use super::long_term::{Effort, long_term};
+use super::watch::Watch;
+use crate::simulation::{Impact, Simulation, StartError, Stop};
 use crate::system::{InvalidParameter, Parameter, State, System};
 
-/// Most points of each kind at one value: a chaotic band is a band with this many.
+/// Most points of each kind at one value, and periods from which they are taken: a chaotic band is a band
+/// with this many.
 const MOST_POINTS: usize = 40;
+/// Impacts after which these periods are given up: a hundred in each.
+const MOST_IMPACTS: u64 = 4000;
 
 /// The way in which a value was reached.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -23,18 +27,14 @@ pub enum SweepDirection {
 }
 
 /// The motion at one value.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct DiagramPoint {
     /// The parameter.
     pub value: f64,
     /// How it was reached.
     pub way: SweepDirection,
-    /// What the impacts do.
-    pub regime: Regime,
-    /// What kind of dynamics it is.
-    pub dynamics: DynamicsKind,
-    /// `z`.
-    pub impacts_per_period: f64,
+    /// The motion; lengths over the clearance at this value.
+    pub motion: Motion,
     /// Largest displacement of the oscillator, over the base system's clearance.
     pub peak: f64,
     /// Largest displacement of the last periods one by one, over the base system's clearance.
@@ -43,9 +43,6 @@ pub struct DiagramPoint {
     pub intervals: Vec<f64>,
     /// Excitation phase of the last impacts, `0 .. 2 pi`.
     pub phases: Vec<f64>,
-    /// Whether the motion was given up at the limit on impacts: it chatters without end, and the
-    /// numbers are those of the part that was simulated.
-    pub lost_to_impact_limit: bool,
 }
 
 /// Why a diagram cannot be drawn.
@@ -60,7 +57,8 @@ pub enum DiagramError {
 }
 
 /// Moves `parameter` over `values` in ascending order and back, beginning at `start` (over the clearance
-/// at the first value). Every point is followed with `effort`, `progress` is told of each.
+/// at the first value). Every point is followed with `effort`, `progress` is told of each; one that cannot be
+/// followed is left out.
 ///
 /// # Errors
 /// [`DiagramError`] for values without a system, or an impossible start.
@@ -81,13 +79,11 @@ pub fn sweep(
     for (value, way) in up.chain(down) {
         let system = parameter.applied(base, value)?;
         let unit = parameter.unit(value);
-        let begin = match last {
-            Some((before, state)) => carried_over(state, before / unit, 1.0),
-            None => start,
-        };
-        let found = Attractor::reach(&system, begin, effort)?;
-        points.push(point(&found, value, way, unit, system.period()));
-        last = Some((unit, found.state));
+        let begin = last.map_or(start, |(before, state)| carried_over(state, before / unit, 1.0));
+        if let Some(motion) = long_term(&[(system, begin)], effort)?[0] {
+            points.push(DiagramPoint::of(motion, &system, value, way, unit)?);
+            last = Some((unit, motion.state));
+        }
         progress(1);
     }
     Ok(points)
@@ -107,29 +103,35 @@ pub fn carried_over(state: State, clearance: f64, natural_frequency: f64) -> Sta
     }
 }
 
-fn point(
-    found: &Attractor,
-    value: f64,
-    way: SweepDirection,
-    unit: f64,
-    period: f64,
-) -> DiagramPoint {
-    let impacts = tail(&found.impacts, MOST_POINTS + 1);
-    let interval = |two: &[crate::simulation::Impact]| (two[1].tau - two[0].tau) / period;
-    DiagramPoint {
-        value,
-        way,
-        regime: found.classification.regime,
-        dynamics: found.classification.dynamics,
-        impacts_per_period: found.classification.evidence.impacts_per_period,
-        peak: unit * found.peak,
-        period_peaks: tail(&found.amplitudes, MOST_POINTS)
-            .iter()
-            .map(|one| unit * one.peak)
-            .collect(),
-        intervals: impacts.windows(2).map(interval).collect(),
-        phases: tail(impacts, MOST_POINTS).iter().map(|impact| impact.phase).collect(),
-        lost_to_impact_limit: found.stop == Stop::ImpactLimit,
+impl DiagramPoint {
+    /// Adds to a motion what a diagram shows of its last periods and impacts.
+    fn of(
+        motion: Motion,
+        system: &System,
+        value: f64,
+        way: SweepDirection,
+        unit: f64,
+    ) -> Result<Self, StartError> {
+        let mut simulation = Simulation::new(system, motion.state, 0.0)?;
+        let mut watch = Watch::begin(&simulation);
+        let periods = MOST_POINTS as u64;
+        let stop = simulation.run(periods, MOST_IMPACTS, &mut watch);
+        let records = watch.statistics().records();
+        let period_peaks: Vec<f64> = records.iter().map(|one| unit * one.peak).collect();
+        let impacts = tail(&watch.log.impacts, MOST_POINTS + 1);
+        let interval = |two: &[Impact]| (two[1].tau - two[0].tau) / system.period();
+        Ok(Self {
+            value,
+            way,
+            peak: period_peaks.iter().copied().fold(unit * motion.peak, f64::max),
+            period_peaks,
+            intervals: impacts.windows(2).map(interval).collect(),
+            phases: tail(impacts, MOST_POINTS).iter().map(|impact| impact.phase).collect(),
+            motion: Motion {
+                stop: if motion.stop == Stop::EndTime { stop } else { motion.stop },
+                ..motion
+            },
+        })
     }
 }
 

@@ -9,6 +9,7 @@
 
 use serde::Serialize;
 
+use crate::numerics::scatter::twice_standard_error;
 use crate::simulation::{Impact, Observer, Segment, Tangent};
 use crate::system::{State, System};
 
@@ -119,21 +120,22 @@ impl Lyapunov {
             return None;
         }
         let means: Vec<f64> = self.blocks.iter().map(|sum| sum / self.length as f64).collect();
-        let all = Sample::of(&means);
-        let half = count / 2;
-        let (first, second) = (Sample::of(&means[..half]), Sample::of(&means[half..]));
-        let apart = (first.mean - second.mean).abs();
-        let agree = apart <= AGREEMENT * libm::hypot(first.error, second.error);
-        let block_correlation = correlation(&means, all.mean);
+        let mean = |part: &[f64]| part.iter().sum::<f64>() / part.len() as f64;
+        let error = |part: &[f64]| 0.5 * twice_standard_error(part);
+        let (per_period, standard_error) = (mean(&means), error(&means));
+        let (first, second) = means.split_at(count / 2);
+        let apart = (mean(first) - mean(second)).abs();
+        let agree = apart <= AGREEMENT * libm::hypot(error(first), error(second));
+        let block_correlation = correlation(&means, per_period);
         let independent = block_correlation < DEPENDENT;
         let low = means.iter().copied().fold(f64::INFINITY, f64::min);
         let high = means.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let margin = STUDENT * all.error;
+        let margin = STUDENT * standard_error;
         let interval =
-            if independent { [all.mean - margin, all.mean + margin] } else { [low, high] };
+            if independent { [per_period - margin, per_period + margin] } else { [low, high] };
         Some(Exponent {
-            per_period: all.mean,
-            standard_error: all.error,
+            per_period,
+            standard_error,
             interval,
             periods: count as u64 * self.length,
             block: self.length,
@@ -165,21 +167,6 @@ impl Observer for Lyapunov {
         } else {
             self.record(growth);
         }
-    }
-}
-
-/// Mean of independent numbers and its standard error.
-struct Sample {
-    mean: f64,
-    error: f64,
-}
-
-impl Sample {
-    fn of(numbers: &[f64]) -> Self {
-        let count = numbers.len() as f64;
-        let mean = numbers.iter().sum::<f64>() / count;
-        let spread: f64 = numbers.iter().map(|number| (number - mean) * (number - mean)).sum();
-        Self { mean, error: (spread / ((count - 1.0) * count)).sqrt() }
     }
 }
 

@@ -11,6 +11,7 @@ pub mod energetics;
 pub mod long_term;
 pub mod lyapunov;
 pub mod modulation;
+pub mod motion;
 pub mod periodicity;
 pub mod return_map;
 pub mod search;
@@ -18,25 +19,27 @@ pub mod sequence;
 pub mod share;
 pub mod starts;
 pub mod transient;
+mod watch;
 
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 
 use crate::simulation::{Impact, Statistics};
-pub use attractor::Attractor;
+pub use attractor::{Attractor, Window};
 pub use dynamics_kind::DynamicsKind;
 pub use energetics::Energetics;
+pub use long_term::{Effort, long_term};
 pub use lyapunov::{Exponent, Lyapunov};
 pub use modulation::{AbsorberAmplitude, Amplitudes, Captures};
+pub use motion::Motion;
 pub use periodicity::Periodicity;
 pub use search::FoundAttractor;
 pub use sequence::ImpactSequence;
 pub use transient::Transient;
 
 /// The regimes of section 3.1, and rest.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Regime {
-    /// No impacts at all: the absorber stands still and the oscillator vibrates as if alone.
-    AtRest,
     /// More than two impacts per period, Fig. 4a.
     AboveTwo,
     /// Two impacts per period at unequal intervals, Fig. 4b.
@@ -47,6 +50,8 @@ pub enum Regime {
     StronglyModulated,
     /// Fewer than two impacts per period without captures, Fig. 4e.
     BelowTwo,
+    /// No impacts at all: the absorber stands still and the oscillator vibrates as if alone.
+    AtRest,
 }
 
 impl Regime {
@@ -79,14 +84,7 @@ impl Regime {
 
     /// Its place in [`Regime::ALL`].
     pub const fn index(self) -> usize {
-        match self {
-            Self::AboveTwo => 0,
-            Self::TwoAsymmetric => 1,
-            Self::TwoSymmetric => 2,
-            Self::StronglyModulated => 3,
-            Self::BelowTwo => 4,
-            Self::AtRest => 5,
-        }
+        self as usize
     }
 
     /// The regime in a few words.
@@ -119,43 +117,23 @@ impl Regime {
     }
 }
 
-impl Serialize for Regime {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_str(self.key())
-    }
-}
-
-/// Where one regime ends and another begins. Each field is a convention, with its reason.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Thresholds {
+/// Where one regime ends and another begins. Each is a convention, with its reason.
+pub mod thresholds {
     /// Distance of `z` from 2 that still counts as two impacts per period: in a few hundred periods
     /// a single extra impact moves `z` by less.
-    pub impacts_per_period: f64,
+    pub const IMPACTS_PER_PERIOD: f64 = 0.01;
     /// Difference of successive impact intervals, over the period, above which a motion is
     /// asymmetric. A periodic orbit repeats to 1e-6, so 1e-3 is a thousand times above its noise.
-    pub asymmetry: f64,
+    pub const ASYMMETRY: f64 = 1e-3;
     /// The same for a motion that does not repeat, where modulation itself makes intervals unequal.
-    pub asymmetry_modulated: f64,
+    pub const ASYMMETRY_MODULATED: f64 = 0.02;
     /// Shortest capture, in periods: three successive periods with two alternating impacts cannot
     /// be told from coincidence below that.
-    pub shortest_capture: usize,
+    pub const SHORTEST_CAPTURE: usize = 3;
     /// Share of the time in captures above which a motion with `z < 2` is strongly modulated.
-    pub captured_share: f64,
+    pub const CAPTURED_SHARE: f64 = 0.05;
     /// Modulation depth above which modulation is strong.
-    pub modulation_depth: f64,
-}
-
-impl Default for Thresholds {
-    fn default() -> Self {
-        Self {
-            impacts_per_period: 0.01,
-            asymmetry: 1e-3,
-            asymmetry_modulated: 0.02,
-            shortest_capture: 3,
-            captured_share: 0.05,
-            modulation_depth: 0.1,
-        }
-    }
+    pub const MODULATION_DEPTH: f64 = 0.1;
 }
 
 /// The numbers that a regime was decided by.
@@ -197,94 +175,71 @@ pub struct Classification {
     pub evidence: Evidence,
 }
 
-/// Names the motion measured by `statistics` and `impacts` over one window.
+/// Names the motion measured by `statistics` and `impacts` over one window. One that repeats is named by its last
+/// repetition: before that may be the end of a transient.
 pub fn classify(
     statistics: &Statistics,
     impacts: &[Impact],
     exponent: Option<Exponent>,
     period: f64,
-    thresholds: &Thresholds,
 ) -> Classification {
     let records = statistics.records();
     let periodicity = periodicity::find(records);
     let repetition = periodicity.and_then(|found| periodicity::last_repetition(found, impacts));
-    let amplitudes = modulation::amplitudes(records, thresholds.shortest_capture);
+    let amplitudes = modulation::amplitudes(records, thresholds::SHORTEST_CAPTURE);
+    let (per_period, last) = match periodicity {
+        Some(found) => {
+            let per = |count: u32| f64::from(count) / f64::from(found.periods);
+            let visits = found.last(records).iter().flat_map(|record| record.visits).sum();
+            // Two impacts more make as many intervals follow each other as there are impacts.
+            let from = impacts.len().saturating_sub(found.impacts as usize + 2);
+            ([per(found.impacts), per(visits)], &impacts[from..])
+        }
+        None => ([statistics.impacts_per_period(), statistics.visits_per_period()], impacts),
+    };
     let evidence = Evidence {
-        impacts_per_period: statistics.impacts_per_period(),
-        visits_per_period: statistics.visits_per_period(),
+        impacts_per_period: per_period[0],
+        visits_per_period: per_period[1],
         periodicity,
         sequence: repetition.and_then(ImpactSequence::of),
-        asymmetry: periodicity::asymmetry(impacts, period),
+        asymmetry: periodicity::asymmetry(last, period),
         modulation_depth: modulation::depth(records),
         modulation_growth: modulation::growth(records),
-        captures: modulation::captures(records, thresholds.shortest_capture),
+        captures: modulation::captures(&amplitudes),
         absorber_amplitude: modulation::absorber_amplitude(&amplitudes),
         exponent,
         settled: modulation::settled(records),
     };
-    Classification {
-        regime: Signs::of(&evidence).regime(thresholds),
-        dynamics: DynamicsKind::of(&evidence),
-        evidence,
-    }
+    let (regime, dynamics) = (Regime::of(&evidence), DynamicsKind::of(&evidence));
+    Classification { regime, dynamics, evidence }
 }
 
-/// Those numbers of [`Evidence`] that a regime is decided by.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Signs {
-    /// `z`.
-    pub impacts_per_period: f64,
-    /// The same with every chattering sequence that ended in sustained contact counted once.
-    pub visits_per_period: f64,
-    /// Whether the motion repeats.
-    pub repeats: bool,
-    /// Mean difference of successive impact intervals over the excitation period.
-    pub asymmetry: f64,
-    /// Stretches of 1:1 resonance; of no account where the motion repeats.
-    pub captures: Captures,
-    /// `(max - min) / (max + min)` of the oscillator's peak per period; of no account where the motion
-    /// repeats.
-    pub modulation_depth: f64,
-}
-
-impl Signs {
+impl Regime {
     fn of(evidence: &Evidence) -> Self {
-        Self {
-            impacts_per_period: evidence.impacts_per_period,
-            visits_per_period: evidence.visits_per_period,
-            repeats: evidence.periodicity.is_some(),
-            asymmetry: evidence.asymmetry,
-            captures: evidence.captures,
-            modulation_depth: evidence.modulation_depth,
-        }
-    }
-
-    /// The regime.
-    pub fn regime(&self, thresholds: &Thresholds) -> Regime {
-        if self.impacts_per_period == 0.0 {
-            return Regime::AtRest;
+        if evidence.impacts_per_period == 0.0 {
+            return Self::AtRest;
         }
         // Many impacts make a motion of more than two per period only where the absorber goes to and
         // fro in every period; a chattering sequence now and then is one visit to a wall.
-        let to_and_fro = self.visits_per_period > 2.0 - thresholds.impacts_per_period;
-        let excess = self.impacts_per_period - 2.0;
-        if excess > thresholds.impacts_per_period && to_and_fro {
-            return Regime::AboveTwo;
+        let to_and_fro = evidence.visits_per_period > 2.0 - thresholds::IMPACTS_PER_PERIOD;
+        let excess = evidence.impacts_per_period - 2.0;
+        if excess > thresholds::IMPACTS_PER_PERIOD && to_and_fro {
+            return Self::AboveTwo;
         }
+        let captures = &evidence.captures;
         // One capture and one escape are a transient; modulation returns.
-        let escapes =
-            self.captures.count > 1 && self.captures.share < 1.0 - thresholds.captured_share;
-        let strong = self.modulation_depth > thresholds.modulation_depth;
-        let captured = self.captures.share > thresholds.captured_share;
-        if !self.repeats && captured && escapes && strong {
-            return Regime::StronglyModulated;
+        let escapes = captures.count > 1 && captures.share < 1.0 - thresholds::CAPTURED_SHARE;
+        let strong = evidence.modulation_depth > thresholds::MODULATION_DEPTH;
+        let captured = captures.share > thresholds::CAPTURED_SHARE;
+        let repeats = evidence.periodicity.is_some();
+        if !repeats && captured && escapes && strong {
+            return Self::StronglyModulated;
         }
         if !to_and_fro {
-            return Regime::BelowTwo;
+            return Self::BelowTwo;
         }
-        let limit =
-            if self.repeats { thresholds.asymmetry } else { thresholds.asymmetry_modulated };
-        if self.asymmetry > limit { Regime::TwoAsymmetric } else { Regime::TwoSymmetric }
+        let limit = if repeats { thresholds::ASYMMETRY } else { thresholds::ASYMMETRY_MODULATED };
+        if evidence.asymmetry > limit { Self::TwoAsymmetric } else { Self::TwoSymmetric }
     }
 }
 

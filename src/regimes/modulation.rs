@@ -76,26 +76,20 @@ pub fn growth(records: &[PeriodRecord]) -> f64 {
     if first > 0.0 { second / first } else { 1.0 }
 }
 
-/// Captures of at least `shortest` periods.
-pub fn captures(records: &[PeriodRecord], shortest: usize) -> Captures {
-    let mut lengths: Vec<usize> = stretches(records, shortest).map(<[PeriodRecord]>::len).collect();
+/// The captures in a series of periods.
+pub fn captures(series: &[Amplitudes]) -> Captures {
+    let runs = series.chunk_by(|a, b| a.captured == b.captured).filter(|run| run[0].captured);
+    let mut lengths: Vec<usize> = runs.map(<[Amplitudes]>::len).collect();
     lengths.sort_unstable();
     let (count, captured) = (lengths.len(), lengths.iter().sum::<usize>());
     let middle = |k: usize| lengths.get(k).copied().unwrap_or(0) as f64;
     Captures {
         count,
-        share: captured as f64 / records.len().max(1) as f64,
+        share: captured as f64 / series.len().max(1) as f64,
         longest: lengths.last().copied().unwrap_or(0),
         mean: captured as f64 / count.max(1) as f64,
         median: 0.5 * (middle(count.saturating_sub(1) / 2) + middle(count / 2)),
     }
-}
-
-/// Stretches of at least `shortest` periods with one impact on each wall.
-fn stretches(records: &[PeriodRecord], shortest: usize) -> impl Iterator<Item = &[PeriodRecord]> {
-    records
-        .split(|record| record.impacts != [1, 1])
-        .filter(move |stretch| stretch.len() >= shortest.max(1))
 }
 
 /// `C` and `E` of every period, with the captures of at least `shortest` periods.
@@ -193,6 +187,7 @@ mod tests {
             visits: impacts,
             mean_square: 0.0,
             impact_speed: 1.0,
+            lost: [0.0; 2],
             peak: oscillator,
             end: State::AT_REST,
             absorber_harmonic: [0.6 * absorber, -0.8 * absorber],
@@ -207,14 +202,14 @@ mod tests {
     #[test]
     fn captures_are_counted_and_measured() {
         // Lengths 3, 5, 1 (too short), 4: mean 4, median 4, 12 of 17 periods.
-        let found = captures(&series("ccc.ccccc.c..cccc"), 3);
+        let found = captures(&amplitudes(&series("ccc.ccccc.c..cccc"), 3));
         assert_eq!((found.count, found.longest, found.mean, found.median), (3, 5, 4.0, 4.0));
         assert!((found.share - 12.0 / 17.0).abs() < 1e-15);
-        let even = captures(&series("ccc.cccccccc"), 3);
+        let even = captures(&amplitudes(&series("ccc.cccccccc"), 3));
         assert_eq!((even.mean, even.median), (5.5, 5.5));
-        let uneven = captures(&series("ccc.ccc.cccccccccc.cccc"), 3);
+        let uneven = captures(&amplitudes(&series("ccc.ccc.cccccccccc.cccc"), 3));
         assert_eq!((uneven.mean, uneven.median), (5.0, 3.5));
-        assert_eq!(captures(&series("cc.cc"), 3), Captures::default());
+        assert_eq!(captures(&amplitudes(&series("cc.cc"), 3)), Captures::default());
     }
 
     #[test]

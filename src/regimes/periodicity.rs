@@ -3,7 +3,6 @@
 use serde::Serialize;
 
 use crate::simulation::{Impact, PeriodRecord};
-use crate::system::State;
 
 /// Longest repetition that is looked for, in excitation periods.
 const LONGEST: usize = 24;
@@ -25,49 +24,39 @@ pub struct Periodicity {
     pub closure: f64,
 }
 
+impl Periodicity {
+    /// The records of the last repetition.
+    pub fn last(self, records: &[PeriodRecord]) -> &[PeriodRecord] {
+        &records[records.len().saturating_sub(self.periods as usize)..]
+    }
+}
+
 /// The impacts of one repetition, the last `found.impacts` of `impacts`, in order of time; `None` if
 /// fewer were kept. Together they determine the motion: each is a state, with its phase.
 pub fn last_repetition(found: Periodicity, impacts: &[Impact]) -> Option<&[Impact]> {
     impacts.get(impacts.len().checked_sub(found.impacts as usize)?..)
 }
 
-/// An excitation period, seen at its end.
-pub trait Strobed {
-    /// The state at its end, phase 0.
-    fn end(&self) -> &State;
-    /// Its impacts.
-    fn impacts(&self) -> u32;
-}
-
-impl Strobed for PeriodRecord {
-    fn end(&self) -> &State {
-        &self.end
-    }
-    fn impacts(&self) -> u32 {
-        self.impacts.iter().sum()
-    }
-}
-
 /// The shortest repetition at the end of `records`, if there is one.
-pub fn find(records: &[impl Strobed]) -> Option<Periodicity> {
+pub fn find(records: &[PeriodRecord]) -> Option<Periodicity> {
     (1..=LONGEST).find_map(|periods| repeats_after(records, periods))
 }
 
-fn repeats_after(records: &[impl Strobed], periods: usize) -> Option<Periodicity> {
+fn repeats_after(records: &[PeriodRecord], periods: usize) -> Option<Periodicity> {
     let needed = (REPETITIONS + 1) * periods;
     if records.len() < needed {
         return None;
     }
     let tail = &records[records.len() - needed..];
-    let size = tail.iter().map(|record| record.end().size()).fold(0.0, f64::max);
+    let size = tail.iter().map(|record| record.end.size()).fold(0.0, f64::max);
     let closure = tail
         .iter()
         .zip(&tail[periods..])
-        .map(|(before, after)| before.end().distance(after.end()))
+        .map(|(before, after)| before.end.distance(&after.end))
         .fold(0.0, f64::max)
         / size.max(f64::MIN_POSITIVE);
     let last = &tail[tail.len() - periods..];
-    let impacts = last.iter().map(Strobed::impacts).sum();
+    let impacts = last.iter().flat_map(|record| record.impacts).sum();
     (closure <= CLOSURE).then_some(Periodicity { impacts, periods: periods as u32, closure })
 }
 

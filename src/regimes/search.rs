@@ -1,21 +1,23 @@
-//! Every long-term motion that a set of starts leads to, with the share of starts.
+//! Every long-term motion that a set of starts leads to, measured in full, with the share of starts.
 
 use serde::Serialize;
 
-use super::attractor::Effort;
+use super::attractor::{SAME_PERIODIC, Window};
+use super::long_term::{Effort, long_term};
 use super::starts::StartBox;
-use super::{Attractor, Classification, DynamicsKind, Regime, share};
+use super::{Attractor, Classification, DynamicsKind, Motion, Regime, share};
 use crate::simulation::{StartError, Stop};
 use crate::system::{State, System};
 
 /// An attractor and how it was found.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone)]
 pub struct FoundAttractor {
     /// The motion, measured over a long window.
-    #[serde(flatten)]
     pub attractor: Attractor,
     /// How many of the evenly spread starts led here.
     pub starts: u32,
+    /// The first of them, counted from 0.
+    pub first_start: Option<u32>,
     /// The same as a share of all evenly spread starts.
     pub share: f64,
     /// 95 % interval of the share that infinitely many starts would give (Wilson).
@@ -31,12 +33,13 @@ pub struct FoundAttractor {
 impl FoundAttractor {
     /// Its regime.
     pub fn regime(&self) -> Regime {
-        self.attractor.classification.regime
+        self.attractor.regime
     }
 
     /// Takes over the starts of another one that turned out to be the same motion.
     pub fn absorb(&mut self, other: Self) {
         self.starts += other.starts;
+        self.first_start = self.first_start.into_iter().chain(other.first_start).min();
         self.late_starts += other.late_starts;
         self.longest_transient = self.longest_transient.max(other.longest_transient);
         self.reached_from_theory |= other.reached_from_theory;
@@ -54,24 +57,54 @@ impl FoundAttractor {
 /// open: an exponent's error shrinks with the window, and sixteen of them settle all but the rarest
 /// intermittency.
 const LONGEST_WAIT: u32 = 4;
+/// Starts that are followed side by side before progress is told: the lanes of a batch.
+const TOGETHER: usize = 16;
 
-/// How thoroughly attractors are searched.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+/// Periods in which a regime is recognised; several times the slowest modulation.
+pub const RECOGNITION: u64 = 200;
+/// How many times the measured periods a motion that does not repeat is watched first, beside one that does: a
+/// chaotic transient may last as long.
+const PATIENCE: u64 = 20;
+
+/// How thoroughly long-term motions are searched. Shares of 32 starts are good to about 9 %.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct SearchEffort {
     /// Evenly spread starts.
     pub starts: u32,
-    /// Each of them.
-    pub each: Effort,
-    /// Periods over which each distinct attractor is measured.
-    pub measured: u64,
-    /// Periods for which a motion that does not repeat is watched first, beside one that does: a
-    /// chaotic transient may last as long.
-    pub patience: u64,
+    /// Periods left out as transient; none for as many as [`Transient`](super::Transient) says.
+    pub discard: Option<u64>,
+    /// Periods over which a motion that does not repeat is measured.
+    pub periods: u64,
 }
 
-/// Follows the evenly spread starts and those in `predicted`, and matches what they end in.
+impl Default for SearchEffort {
+    fn default() -> Self {
+        Self { starts: 32, discard: None, periods: 1000 }
+    }
+}
+
+impl SearchEffort {
+    /// Periods left out of the motions of a system.
+    pub fn left_out(&self, system: &System) -> u64 {
+        self.each().left_out(system)
+    }
+
+    fn each(&self) -> Effort {
+        Effort { discard: self.discard, ..Effort::over(RECOGNITION.min(self.periods)) }
+    }
+
+    /// In which a motion is recognised.
+    pub fn window(&self, system: &System) -> Window {
+        let each = self.each();
+        let impact_limit = each.extent(system, each.periods).impacts;
+        Window { discard: self.left_out(system), periods: each.periods, impact_limit }
+    }
+}
+
+/// Follows the evenly spread starts and those in `predicted`, matches what they end in, and measures that
+/// in full.
 ///
-/// Ordered by share, largest first; ties by order of discovery.
+/// Ordered by share, largest first, those that have settled before the others; ties by order of discovery.
 ///
 /// # Errors
 /// [`StartError`] if a predicted start is impossible.
@@ -81,78 +114,108 @@ pub fn find(
     effort: &SearchEffort,
     progress: &mut dyn FnMut(u64),
 ) -> Result<Vec<FoundAttractor>, StartError> {
-    let mut found: Vec<FoundAttractor> = Vec::new();
     let sample = StartBox::around(system);
-    let spread = (0..effort.starts).map(|index| (sample.start(index), false));
-    for (start, from_theory) in predicted.iter().map(|start| (*start, true)).chain(spread) {
-        let reached = Attractor::reach(system, start, &effort.each)?;
-        let known = found.iter().position(|known| known.attractor.is_same(&reached));
-        let index = known.unwrap_or(found.len());
-        if let Some(known) = known {
-            found[known].attractor.replace_if_settled(reached);
-        } else {
-            found.push(FoundAttractor {
-                attractor: reached,
-                starts: 0,
-                share: 0.0,
-                share_interval: [0.0, 1.0],
-                reached_from_theory: false,
-                late_starts: 0,
-                longest_transient: 0,
-            });
+    let spread = (0..effort.starts).map(|index| (sample.start(index), Some(index)));
+    let starts: Vec<(State, Option<u32>)> =
+        predicted.iter().map(|start| (*start, None)).chain(spread).collect();
+    let mut groups: Vec<Group> = Vec::new();
+    for some in starts.chunks(TOGETHER) {
+        let begun: Vec<(System, State)> = some.iter().map(|(start, _)| (*system, *start)).collect();
+        for (motion, (_, number)) in long_term(&begun, &effort.each())?.into_iter().zip(some) {
+            Group::add(&mut groups, motion, *number);
         }
-        found[index].starts += u32::from(!from_theory);
-        found[index].reached_from_theory |= from_theory;
-        progress(1);
+        progress(some.len() as u64);
     }
-    let some_repeat = found.iter().any(|one| one.attractor.repeats());
-    for one in &mut found {
-        look_longer(system, one, some_repeat, effort)?;
-    }
-    found.sort_by_key(|one| std::cmp::Reverse(one.starts));
-    let mut distinct = merged(found);
-    distinct.iter_mut().for_each(|one| one.set_share(effort.starts));
-    Ok(distinct)
-}
-
-/// A motion that repeats needs no longer look. The others are averages, which intermittent motions
-/// take long to give; and beside a motion that repeats they may be transients.
-fn look_longer(
-    system: &System,
-    one: &mut FoundAttractor,
-    some_repeat: bool,
-    effort: &SearchEffort,
-) -> Result<(), StartError> {
-    if one.attractor.repeats() || one.attractor.stop != Stop::EndTime {
-        return Ok(());
-    }
-    let patience = if some_repeat { effort.patience } else { 0 };
-    one.attractor = one.attractor.continued(system, patience, effort.measured)?;
-    let mut measured = effort.measured;
-    for _ in 0..LONGEST_WAIT {
-        let Classification { dynamics, evidence, .. } = &one.attractor.classification;
-        let open = matches!(dynamics, DynamicsKind::TransientNotOver | DynamicsKind::Undecided);
-        if one.attractor.repeats() || (evidence.settled && !open) {
-            break;
-        }
-        measured = measured.saturating_mul(2);
-        one.attractor = one.attractor.continued(system, 0, measured)?;
-    }
-    if one.attractor.repeats() {
-        one.late_starts = one.starts;
-        one.longest_transient = one.attractor.followed;
-    }
-    Ok(())
-}
-
-/// Merges attractors that the long measurement shows to be the same.
-fn merged(found: Vec<FoundAttractor>) -> Vec<FoundAttractor> {
+    let some_repeat = groups.iter().any(|group| group.motion.repeats());
     let mut distinct: Vec<FoundAttractor> = Vec::new();
-    for one in found {
+    for group in groups {
+        let one = group.measured(system, some_repeat, effort)?;
         match distinct.iter_mut().find(|known| known.attractor.is_same(&one.attractor)) {
             Some(known) => known.absorb(one),
             None => distinct.push(one),
         }
     }
-    distinct
+    distinct.iter_mut().for_each(|one| one.set_share(effort.starts));
+    distinct.sort_by_key(|one| (!one.attractor.settled, std::cmp::Reverse(one.starts)));
+    Ok(distinct)
+}
+
+/// A motion and the starts that led to it.
+struct Group {
+    motion: Motion,
+    /// Numbers of the evenly spread ones; none for a predicted motion.
+    starts: Vec<Option<u32>>,
+}
+
+impl Group {
+    fn add(groups: &mut Vec<Self>, motion: Option<Motion>, start: Option<u32>) {
+        let Some(motion) = motion else { return };
+        // A quiet window is that of the motion without impacts, whether or not its absorber still flies.
+        let same = |known: &Motion| {
+            let repeat = known.repeats();
+            let alike = !repeat || known.is_alike(&motion, SAME_PERIODIC);
+            let both = known.is_inactive() || repeat == motion.repeats() && alike;
+            both && known.is_same(&motion)
+        };
+        match groups.iter_mut().find(|known| same(&known.motion)) {
+            Some(known) => {
+                known.motion.join(&motion);
+                known.starts.push(start);
+            }
+            None => groups.push(Self { motion, starts: vec![start] }),
+        }
+    }
+
+    /// Measures the motion in full. One that repeats needs no longer look. The others are averages, which
+    /// intermittent motions take long to give; and beside a motion that repeats they may be transients.
+    fn measured(
+        self,
+        system: &System,
+        some_repeat: bool,
+        effort: &SearchEffort,
+    ) -> Result<FoundAttractor, StartError> {
+        let spread = self.starts.iter().flatten();
+        let mut found = FoundAttractor {
+            starts: spread.clone().count() as u32,
+            first_start: spread.min().copied(),
+            reached_from_theory: self.starts.contains(&None),
+            attractor: self.attractor(system, some_repeat, effort)?,
+            share: 0.0,
+            share_interval: [0.0, 1.0],
+            late_starts: 0,
+            longest_transient: 0,
+        };
+        if found.attractor.repeats() && !self.motion.repeats() {
+            found.late_starts = found.starts;
+            found.longest_transient = found.attractor.followed;
+        }
+        Ok(found)
+    }
+
+    fn attractor(
+        &self,
+        system: &System,
+        some_repeat: bool,
+        effort: &SearchEffort,
+    ) -> Result<Attractor, StartError> {
+        let recognised = effort.window(system);
+        if self.motion.repeats() || self.motion.stop != Stop::EndTime {
+            return Attractor::of(&self.motion, system, &recognised);
+        }
+        let patience = if some_repeat { PATIENCE.saturating_mul(effort.periods) } else { 0 };
+        let mut window =
+            Window { discard: patience, periods: effort.periods, impact_limit: u64::MAX };
+        let mut found = Attractor::of(&self.motion, system, &window)?;
+        for _ in 0..LONGEST_WAIT {
+            let Classification { dynamics, evidence, .. } = &found.classification;
+            let open = matches!(dynamics, DynamicsKind::TransientNotOver | DynamicsKind::Undecided);
+            if found.repeats() || (evidence.settled && !open) {
+                break;
+            }
+            window = Window { discard: 0, periods: window.periods.saturating_mul(2), ..window };
+            found = Attractor::of(&found, system, &window)?;
+        }
+        // Of a transient that has ended within a window nothing is left in the next.
+        if found.repeats() { Attractor::of(&found, system, &recognised) } else { Ok(found) }
+    }
 }

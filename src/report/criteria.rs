@@ -12,7 +12,7 @@ use super::render::RenderError;
 use super::template;
 use crate::case::Case;
 use crate::criteria::Judged;
-use crate::study::fidelity::Fidelity;
+use crate::method::Method;
 
 /// What became of one case of several.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -65,7 +65,7 @@ pub struct CriterionRow {
     /// Whether the error could turn that.
     pub near_limit: bool,
     /// Which layer decided.
-    pub decided_by: Fidelity,
+    pub decided_by: Method,
     /// Where in the band it is worst, with unit; empty where that says nothing.
     pub at: String,
     /// Share of the absorber's resting places from which a start from rest never wakes it, where that motion

@@ -9,13 +9,14 @@ use serde::Serialize;
 use super::document::place::Place;
 use crate::analysis::{Analysis, Area, Branch, FixedPoint, ManifoldPoint, Strip};
 use crate::case::{Problem, Scales};
+use crate::method::Method;
 use crate::orbits::{
     AsymmetricOrbits, Bifurcation, Closure, FullSystem, Leading, Origin, SymmetricOrbit,
 };
 use crate::regimes::{Attractor, DynamicsKind, Energetics, Evidence, FoundAttractor, Regime};
 use crate::simulation::{Doubt, Energy, Stop, SustainedContact};
 use crate::study::fidelity::Answers;
-use crate::study::{LongTermMotions, Proof, SettledArea, SettledBy};
+use crate::study::{LongTermMotions, Proof, SettledArea};
 use crate::system::{Excitation, System};
 use crate::validation::asymptotic_error::asymptotic_errors;
 
@@ -29,7 +30,7 @@ pub struct AnalysisDocument {
     boundaries: BoundariesDocument,
     area: Area,
     /// The layer that told the area; closed form cannot tell Z1 from Z2.
-    area_settled_by: SettledBy,
+    area_settled_by: Method,
     strip: Option<Strip>,
     /// Exact symmetric orbits of the full system.
     orbits: Vec<OrbitDocument>,
@@ -454,7 +455,7 @@ impl MotionDocument {
                 peak_over_clearance: motion.peak,
                 rms_over_clearance: motion.rms,
             },
-            two_standard_errors: motion.errors.map(|[rms_over_clearance, impacts_per_period]| {
+            two_standard_errors: motion.errors().map(|[rms_over_clearance, impacts_per_period]| {
                 ErrorsDocument { rms_over_clearance, impacts_per_period }
             }),
             impact_speed: velocity(motion.impact_speed),

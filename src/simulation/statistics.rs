@@ -58,6 +58,8 @@ pub struct PeriodRecord {
     pub impact_speed: f64,
     /// Mean square displacement of the oscillator.
     pub mean_square: f64,
+    /// Energy lost in the damper and in impacts up to the end of the period.
+    pub lost: [f64; 2],
     /// State at the end of the period, phase 0.
     pub end: State,
     /// First harmonic of the absorber: coefficients of `sin` and `cos` of the excitation's phase.
@@ -242,6 +244,14 @@ impl Statistics {
         }
     }
 
+    /// Share of the excitation's work that impacts dissipate; none where it does no work. The work is
+    /// what becomes of it.
+    pub fn efficiency(&self) -> Option<f64> {
+        let energy = self.energy();
+        let work = energy.stored + energy.damper + energy.impact;
+        (work > 0.0).then(|| energy.impact / work)
+    }
+
     /// Mean first harmonics of oscillator and absorber over the kept periods: coefficients of `sin` and `cos`.
     pub fn harmonics(&self) -> ([f64; 2], [f64; 2]) {
         let count = self.records.len().max(1) as f64;
@@ -412,6 +422,7 @@ impl Observer for Statistics {
             peak: current.peak,
             impact_speed: current.impact_speed,
             mean_square: current.squared / self.system.period(),
+            lost: [self.damper, self.impact_loss],
             end: *state,
             absorber_harmonic: current.y_harmonic,
             oscillator_harmonic: current.x_harmonic,

@@ -5,17 +5,17 @@ use serde::Serialize;
 
 use super::margins::Margins;
 use crate::orbits::FullSystem;
-use crate::regimes::attractor::Effort;
+use crate::regimes::search::RECOGNITION;
 use crate::regimes::starts::StartBox;
-use crate::regimes::{Attractor, Regime};
+use crate::regimes::{Effort, Regime, long_term};
 use crate::simulation::StartError;
 use crate::system::System;
 
 /// Evenly spread starts per clearance: a motion that half of all starts lead to is missed by all of
 /// them once in 256 times.
 const STARTS: u32 = 8;
-/// Effort of each: transients of the 1:1 motion die out within some hundred periods.
-const EACH: Effort = Effort { discard: 400, periods: 100, prolongations: 1, impact_limit: 50_000 };
+/// Each of them, as those of a study.
+const EACH: Effort = Effort::over(RECOGNITION);
 /// Relative width to which a limit is bracketed.
 const WIDTH: f64 = 0.01;
 
@@ -43,7 +43,8 @@ impl Probe {
     /// [`StartError`] never, for starts inside the cavity.
     pub fn at(system: &System, factor: f64) -> Result<Option<Self>, StartError> {
         let Ok(there) = system.with_clearance_scaled(factor) else { return Ok(None) };
-        let starts = StartBox::around(&there);
+        let sample = StartBox::around(&there);
+        let starts: Vec<_> = (0..STARTS).map(|index| (there, sample.start(index))).collect();
         let mut probe = Self {
             factor,
             starts: STARTS,
@@ -52,14 +53,13 @@ impl Probe {
             other: None,
             other_peak: 0.0,
         };
-        for index in 0..STARTS {
-            let reached = Attractor::reach(&there, starts.start(index), &EACH)?;
+        for reached in long_term(&starts, &EACH)?.into_iter().flatten() {
             let peak = reached.peak * factor;
-            if reached.classification.regime == Regime::TwoSymmetric {
+            if reached.regime == Regime::TwoSymmetric {
                 probe.steady += 1;
                 probe.steady_peak = probe.steady_peak.max(peak);
             } else if peak > probe.other_peak {
-                probe.other = Some(reached.classification.regime);
+                probe.other = Some(reached.regime);
                 probe.other_peak = peak;
             }
         }

@@ -6,9 +6,8 @@ use crate::orbits::newton::solve;
 use crate::orbits::{
     Bifurcation, Closure, FullSystem, ImpactMap, Origin, StableStretch, symmetric_orbits,
 };
-use crate::regimes::attractor::Effort;
 use crate::regimes::diagram::{DiagramPoint, SweepDirection, sweep};
-use crate::regimes::{DynamicsKind, Regime};
+use crate::regimes::{Effort, Regime};
 use crate::system::{Parameter, State, System};
 
 use super::StudyError;
@@ -16,12 +15,9 @@ use super::exact_branches::ExactBranches;
 
 /// Values of the parameter: six pixels apart in a figure, and a second or so of simulation.
 pub const STEPS: u32 = 120;
-/// Periods of each value: transients of orbits with multipliers below 0.97 fade below 1e-3 in the
-/// first 250, and are given two more rounds where they have not; a modulation returns several times
-/// in the next 100. More than ten impacts per period are given up: that regime is recognised, and its
-/// cost has to end somewhere.
-pub const EFFORT: Effort =
-    Effort { discard: 250, periods: 100, prolongations: 2, impact_limit: 2_500 };
+/// Each value: a modulation returns several times in 100 periods. More than ten impacts per period are given
+/// up: that regime is recognised, and its cost has to end somewhere.
+pub const EFFORT: Effort = Effort { discard: None, periods: 100, most_impacts: 10 };
 /// An absorber that crosses its cavity, at the first value; all others begin where the last one ended.
 const START: State = State { x: 0.0, x_velocity: 0.0, y: 0.0, y_velocity: 1.0 };
 
@@ -114,7 +110,9 @@ impl Diagram {
         range: [f64; 2],
         exact: ExactBranches,
     ) -> Result<Self, StudyError> {
-        let values: Vec<f64> = (0..STEPS).map(|k| value(parameter, range, k)).collect();
+        let values: Vec<f64> = (0..STEPS)
+            .map(|k| parameter.between(range, f64::from(k) / f64::from(STEPS - 1)))
+            .collect();
         let points = sweep(base, parameter, &values, START, &EFFORT, &mut |_| {})?;
         let agreement = agreement(base, parameter, &points, &exact);
         let hysteresis = hysteresis(&points);
@@ -124,21 +122,6 @@ impl Diagram {
     /// The points of one way, by ascending value.
     pub fn way(&self, way: SweepDirection) -> Vec<&DiagramPoint> {
         one_way(&self.points, way)
-    }
-}
-
-/// Whether equal ratios of the parameter deserve equal room.
-#[must_use]
-pub fn is_logarithmic(parameter: Parameter) -> bool {
-    matches!(parameter, Parameter::Clearance | Parameter::Forcing)
-}
-
-fn value(parameter: Parameter, [low, high]: [f64; 2], k: u32) -> f64 {
-    let share = f64::from(k) / f64::from(STEPS - 1);
-    if is_logarithmic(parameter) {
-        low * libm::exp(share * libm::log(high / low))
-    } else {
-        low + share * (high - low)
     }
 }
 
@@ -210,7 +193,10 @@ fn agreement(
 ) -> Option<Agreement> {
     let mut found = Agreement { compared: 0, without_orbit: 0, largest: 0.0, at: f64::NAN };
     for point in points {
-        let DynamicsKind::Periodic { impacts, periods: 1 } = point.dynamics else { continue };
+        let motion = &point.motion;
+        if motion.repeats_after != Some(1) || motion.is_inactive() {
+            continue;
+        }
         let Ok(there) = parameter.applied(base, point.value) else { continue };
         let Ok(map) = ImpactMap::of(&there) else { continue };
         let unit = parameter.unit(point.value);
@@ -218,7 +204,7 @@ fn agreement(
         let Some(simulated) = point.period_peaks.last() else { continue };
         let of_kind = exact.attracting(point.value).map(|near| &near.cycle).filter(|cycle| {
             let (Closure::Mirrors { periods } | Closure::Repeats { periods }) = cycle.closure;
-            periods == 1 && cycle.impact_count() == impacts as usize
+            periods == 1 && cycle.impact_count() as f64 == motion.impacts_per_period
         });
         let solved = of_kind.filter_map(|cycle| solve(&there, cycle, Origin::Continuation).ok());
         let peaks = solved.filter(|orbit| orbit.attracts()).map(|orbit| {
@@ -253,7 +239,7 @@ fn hysteresis(points: &[DiagramPoint]) -> Vec<Hysteresis> {
         let middle = run[run.len() / 2];
         Hysteresis {
             values: [run[0][0].value, run[run.len() - 1][0].value],
-            regimes: middle.map(|point| point.regime),
+            regimes: middle.map(|point| point.motion.regime),
             peaks: middle.map(|point| point.peak),
         }
     });
@@ -262,8 +248,8 @@ fn hysteresis(points: &[DiagramPoint]) -> Vec<Hysteresis> {
 
 /// Whether two motions at one value are not the same.
 fn differ([up, down]: [&DiagramPoint; 2]) -> bool {
-    let repeats = |point: &DiagramPoint| matches!(point.dynamics, DynamicsKind::Periodic { .. });
-    let limit = if repeats(up) || repeats(down) { SAME_PERIODIC } else { SAME_MODULATED };
+    let limit =
+        if up.motion.repeats() || down.motion.repeats() { SAME_PERIODIC } else { SAME_MODULATED };
     let [a, b] = [up, down].map(|point| {
         let peaks = &point.period_peaks;
         let mean = peaks.iter().sum::<f64>() / peaks.len().max(1) as f64;
@@ -271,7 +257,7 @@ fn differ([up, down]: [&DiagramPoint; 2]) -> bool {
         [mean, wide]
     });
     let larger = a[0].max(b[0]);
-    let impacts = (up.impacts_per_period - down.impacts_per_period).abs();
+    let impacts = (up.motion.impacts_per_period - down.motion.impacts_per_period).abs();
     (a[0] - b[0]).abs() > limit * larger
         // A repeating motion is no modulated one of the same mean ...
         || (a[1] - b[1]).abs() > 2.0 * limit * larger

@@ -7,39 +7,16 @@
 use serde::{Serialize, Serializer};
 
 use super::tradeoff::method::{impacts_per_period, measured};
-use super::tradeoff::{Answer, Method};
-use super::{LongTermMotions, StudyError, main_attractor};
-use crate::analysis::Analysis;
+use super::tradeoff::{Answer, Method as Trial, ORBIT_ROUNDING};
+use super::{LongTermMotions, StudyError, main_attractor, main_index};
 use crate::case::AccuracySettings;
+use crate::method::Method;
 use crate::operation_count;
 use crate::regimes::{FoundAttractor, Regime};
 use crate::simulation::{Doubt, Simulation};
 use crate::study::Proof;
 use crate::system::{State, System};
 use crate::validation::tolerance::asymptotic_error;
-
-/// A layer that can answer, by rising cost of what it can be trusted with.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Fidelity {
-    /// Manifold and fixed points of the slow flow, in closed form.
-    Manifold,
-    /// The exact symmetric orbit.
-    Orbit,
-    /// Event-driven simulation.
-    Simulation,
-}
-
-impl Fidelity {
-    /// The name in a report.
-    pub fn words(self) -> &'static str {
-        match self {
-            Self::Manifold => "closed form",
-            Self::Orbit => "exact orbit",
-            Self::Simulation => "simulation",
-        }
-    }
-}
 
 /// How exact the answers must be.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -108,7 +85,7 @@ pub struct Answered {
     /// What was asked.
     pub question: Question,
     /// Which layer answers.
-    pub layer: Fidelity,
+    pub layer: Method,
     /// A number: lengths over the clearance.
     pub value: Option<f64>,
     /// A regime.
@@ -133,9 +110,9 @@ pub struct Plan {
     /// What was asked for.
     pub demand: AccuracyTarget,
     /// The layer that was insisted on.
-    pub forced: Option<Fidelity>,
+    pub forced: Option<Method>,
     /// The layer that answers amplitude, impacts and regime.
-    pub layer: Fidelity,
+    pub layer: Method,
     /// What the closed form says, and what that cost in operations.
     pub closed_form: (Answer, u64),
     /// The same for the symmetric orbit.
@@ -148,7 +125,7 @@ pub struct Answers {
     /// What was asked for.
     pub demand: AccuracyTarget,
     /// The layer that was insisted on, if one was.
-    pub forced: Option<Fidelity>,
+    pub forced: Option<Method>,
     /// One for each question.
     pub answers: Vec<Answered>,
     /// Relative error of the closed form, where the exact orbit measures it.
@@ -167,7 +144,7 @@ fn by_layer<S: Serializer>(
     operations: &[Option<u64>; 3],
     serializer: S,
 ) -> Result<S::Ok, S::Error> {
-    let layers = [Fidelity::Manifold, Fidelity::Orbit, Fidelity::Simulation];
+    let layers = [Method::Theory, Method::ExactOrbit, Method::Simulation];
     serializer.collect_map(layers.iter().zip(operations))
 }
 
@@ -189,6 +166,13 @@ pub struct Simulated<'a> {
     pub operations: u64,
 }
 
+impl<'a> From<&'a LongTermMotions> for Simulated<'a> {
+    fn from(found: &'a LongTermMotions) -> Self {
+        let LongTermMotions { attractors, proofs, operations } = found;
+        Self { attractors, proofs, operations: *operations }
+    }
+}
+
 impl Plan {
     /// Decides from the closed form and the symmetric orbit.
     ///
@@ -198,27 +182,21 @@ impl Plan {
     pub fn of(
         system: &System,
         demand: AccuracyTarget,
-        forced: Option<Fidelity>,
+        forced: Option<Method>,
     ) -> Result<Self, StudyError> {
         // None of these simulates, so none of them has a start.
         let nowhere = State::AT_REST;
-        let closed_form = Method::FixedPoints.run(system, nowhere)?;
-        let orbit = Method::SymmetricOrbit.run(system, nowhere)?;
-        let mut plan = Self {
-            system: *system,
-            demand,
-            forced,
-            layer: Fidelity::Simulation,
-            closed_form,
-            orbit,
-        };
+        let closed_form = Trial::FixedPoints.run(system, nowhere)?;
+        let orbit = Trial::SymmetricOrbit.run(system, nowhere)?;
+        let mut plan =
+            Self { system: *system, demand, forced, layer: Method::Simulation, closed_form, orbit };
         plan.layer = match forced {
             Some(layer) => layer,
             None if plan.error_of_closed_form().is_some_and(|e| e.abs() <= demand.amplitude) => {
-                Fidelity::Manifold
+                Method::Theory
             }
-            None if plan.orbit.0.rms.is_some() => Fidelity::Orbit,
-            None => Fidelity::Simulation,
+            None if plan.orbit.0.rms.is_some() => Method::ExactOrbit,
+            None => Method::Simulation,
         };
         plan.check()?;
         Ok(plan)
@@ -226,11 +204,9 @@ impl Plan {
 
     fn check(&self) -> Result<(), StudyError> {
         let (answer, instead) = match self.layer {
-            Fidelity::Manifold => {
-                (&self.closed_form.0, "the exact orbit or simulation may have one")
-            }
-            Fidelity::Orbit => (&self.orbit.0, "simulation has one"),
-            Fidelity::Simulation => return Ok(()),
+            Method::Theory => (&self.closed_form.0, "the exact orbit or simulation may have one"),
+            Method::ExactOrbit => (&self.orbit.0, "simulation has one"),
+            _ => return Ok(()),
         };
         match (answer.rms, answer.why_not) {
             (None, Some(why)) => {
@@ -248,7 +224,7 @@ impl Plan {
     /// Whether long-term motions must be simulated: for the amplitude itself, or for what coexists,
     /// unless a cheaper layer was insisted on.
     pub fn needs_simulation(&self) -> bool {
-        self.layer == Fidelity::Simulation || (self.demand.coexistence && self.forced.is_none())
+        self.layer == Method::Simulation || (self.demand.coexistence && self.forced.is_none())
     }
 
     /// The answers; `simulated` are the long-term motions, where [`Plan::needs_simulation`].
@@ -258,19 +234,19 @@ impl Plan {
     pub fn answers(&self, simulated: Option<Simulated>) -> Result<Answers, StudyError> {
         let mut cost = simulated.map(|simulated| simulated.operations);
         let mut answers = match (self.layer, simulated) {
-            (Fidelity::Simulation, Some(simulated)) => {
+            (Method::Simulation, Some(simulated)) => {
                 let (answers, further) =
                     operation_count::counted(|| self.by_simulation(&simulated));
                 cost = cost.map(|cost| cost + further);
                 answers?
             }
-            (Fidelity::Simulation, None) => return Err(StudyError::NoMotion),
+            (Method::Simulation, None) => return Err(StudyError::NoMotion),
             (layer, _) => self.by_closed_form_or_orbit(layer),
         };
         if self.demand.coexistence {
             answers.push(coexistence(self.layer, simulated.map(|simulated| simulated.attractors)));
         }
-        let compared = self.layer != Fidelity::Simulation;
+        let compared = self.layer != Method::Simulation;
         let main = simulated.and_then(|simulated| main_attractor(simulated.attractors));
         let doubts = match main {
             Some(main) if !compared => main.attractor.doubts(),
@@ -294,60 +270,61 @@ impl Plan {
         })
     }
 
-    fn by_closed_form_or_orbit(&self, layer: Fidelity) -> Vec<Answered> {
-        let (answer, error, known_by) = match layer {
-            Fidelity::Manifold => match self.error_of_closed_form() {
-                Some(error) => (&self.closed_form.0, error.abs(), KnownBy::ExactOrbit),
-                None => {
-                    let error = asymptotic_error(&self.system);
-                    (&self.closed_form.0, error, KnownBy::Asymptotics)
-                }
-            },
-            _ => (&self.orbit.0, super::tradeoff::ORBIT_ROUNDING, KnownBy::Closure),
-        };
+    fn by_closed_form_or_orbit(&self, layer: Method) -> Vec<Answered> {
         // Two impacts a period are what both mean by the motion; they are as certain as it is.
-        let certain = known_by != KnownBy::Asymptotics;
-        let known = Known { layer, known_by };
-        vec![
-            known.number(Question::Amplitude, answer.rms, error, self.demand.amplitude),
-            Answered {
-                enough: certain,
-                ..known.number(
-                    Question::ImpactsPerPeriod,
-                    answer.impacts_per_period,
-                    0.0,
-                    self.demand.impacts_per_period,
-                )
-            },
-            Answered { enough: certain, ..known.regime(answer.regime) },
-        ]
+        let (answer, error, known_by) = match (layer, self.error_of_closed_form()) {
+            (Method::Theory, Some(error)) => {
+                (&self.closed_form.0, error.abs(), KnownBy::ExactOrbit)
+            }
+            (Method::Theory, None) => {
+                (&self.closed_form.0, asymptotic_error(&self.system), KnownBy::Asymptotics)
+            }
+            _ => (&self.orbit.0, ORBIT_ROUNDING, KnownBy::Closure),
+        };
+        self.told(layer, known_by, answer, [error, 0.0])
     }
 
     fn by_simulation(&self, simulated: &Simulated) -> Result<Vec<Answered>, StudyError> {
-        let main = main_attractor(simulated.attractors).ok_or(StudyError::NoMotion)?;
-        let proof = simulated
-            .attractors
-            .iter()
-            .zip(simulated.proofs)
-            .filter(|(one, _)| std::ptr::eq(*one, main))
-            .find_map(|(_, proof)| proof.as_ref());
-        let (answer, known_by) = match proof {
-            Some(proof) => (of_proof(main, proof), KnownBy::Closure),
-            None => (self.long_enough(main)?, KnownBy::Scatter),
+        let main = main_index(simulated.attractors);
+        let found = simulated.attractors.get(main).ok_or(StudyError::NoMotion)?;
+        let (answer, known_by) = match simulated.proofs.get(main).and_then(Option::as_ref) {
+            Some(proof) => (of_proof(proof), KnownBy::Closure),
+            None => (self.long_enough(found)?, KnownBy::Scatter),
         };
-        let known = Known { layer: Fidelity::Simulation, known_by };
-        let impacts = answer.impacts_scatter.unwrap_or(f64::INFINITY);
-        let amplitude = answer.scatter.unwrap_or(f64::INFINITY);
-        Ok(vec![
-            known.number(Question::Amplitude, answer.rms, amplitude, self.demand.amplitude),
-            known.number(
-                Question::ImpactsPerPeriod,
-                answer.impacts_per_period,
-                impacts,
-                self.demand.impacts_per_period,
-            ),
-            known.regime(Some(main.regime())),
-        ])
+        let answer = Answer { regime: Some(found.regime()), ..answer };
+        let errors = [answer.scatter, answer.impacts_scatter];
+        let errors = errors.map(|scatter| scatter.unwrap_or(f64::INFINITY));
+        Ok(self.told(Method::Simulation, known_by, &answer, errors))
+    }
+
+    /// Amplitude, impacts per period and regime as a layer answers them, with the errors of the first two.
+    fn told(
+        &self,
+        layer: Method,
+        known_by: KnownBy,
+        answer: &Answer,
+        errors: [f64; 2],
+    ) -> Vec<Answered> {
+        let number = |question, value: Option<f64>, error: f64, allowed: f64| Answered {
+            value,
+            error: Some(error),
+            allowed: Some(allowed),
+            enough: value.is_some() && error <= allowed,
+            ..Answered::new(question, layer, known_by)
+        };
+        let AccuracyTarget { amplitude, impacts_per_period, .. } = self.demand;
+        let impacts = answer.impacts_per_period;
+        let impacts = number(Question::ImpactsPerPeriod, impacts, errors[1], impacts_per_period);
+        let certain = known_by != KnownBy::Asymptotics;
+        vec![
+            number(Question::Amplitude, answer.rms, errors[0], amplitude),
+            Answered { enough: certain && impacts.enough, ..impacts },
+            Answered {
+                regime: answer.regime,
+                enough: certain && answer.regime.is_some(),
+                ..Answered::new(Question::Regime, layer, known_by)
+            },
+        ]
     }
 
     /// Measures the motion over windows that double until their scatter is small enough.
@@ -373,78 +350,38 @@ impl Plan {
 const SHORTEST: u64 = 2000;
 const LONGEST: u64 = 512_000;
 
-fn of_proof(main: &FoundAttractor, proof: &Proof) -> Answer {
+fn of_proof(proof: &Proof) -> Answer {
     Answer {
         rms: Some(proof.measures.rms),
-        scatter: Some(super::tradeoff::ORBIT_ROUNDING),
-        settles: false,
+        scatter: Some(ORBIT_ROUNDING),
         impacts_per_period: Some(impacts_per_period(proof)),
         impacts_scatter: Some(0.0),
-        regime: Some(main.regime()),
-        why_not: None,
+        ..Answer::default()
     }
 }
 
-fn coexistence(layer: Fidelity, found: Option<&[FoundAttractor]>) -> Answered {
-    let others = found.map(|found| found.len().saturating_sub(1));
-    Answered {
-        question: Question::Coexistence,
-        layer: if others.is_some() { Fidelity::Simulation } else { layer },
-        value: None,
-        regime: None,
-        others,
-        error: None,
-        known_by: KnownBy::Outcome,
-        allowed: None,
-        enough: others.is_some(),
-    }
-}
-
-struct Known {
-    layer: Fidelity,
-    known_by: KnownBy,
-}
-
-impl Known {
-    fn number(&self, question: Question, value: Option<f64>, error: f64, allowed: f64) -> Answered {
-        Answered {
+impl Answered {
+    fn new(question: Question, layer: Method, known_by: KnownBy) -> Self {
+        Self {
             question,
-            layer: self.layer,
-            value,
+            layer,
+            value: None,
             regime: None,
             others: None,
-            error: Some(error),
-            known_by: self.known_by,
-            allowed: Some(allowed),
-            enough: value.is_some() && error <= allowed,
-        }
-    }
-
-    fn regime(&self, regime: Option<Regime>) -> Answered {
-        Answered {
-            question: Question::Regime,
-            layer: self.layer,
-            value: None,
-            regime,
-            others: None,
             error: None,
-            known_by: self.known_by,
+            known_by,
             allowed: None,
-            enough: regime.is_some(),
+            enough: false,
         }
     }
 }
 
-/// The long-term motions of a case with what finding them cost, in operations.
-///
-/// # Errors
-/// As [`super::long_term_motions`].
-pub fn counted_motions(
-    analysis: &Analysis,
-    effort: &super::StudyEffort,
-    progress: &mut dyn FnMut(u64),
-) -> Result<(LongTermMotions, u64), StudyError> {
-    let (found, operations) =
-        operation_count::counted(|| super::long_term_motions(analysis, effort, progress));
-    Ok((found?, operations))
+fn coexistence(layer: Method, found: Option<&[FoundAttractor]>) -> Answered {
+    let others = found.map(|found| found.len().saturating_sub(1));
+    let layer = if others.is_some() { Method::Simulation } else { layer };
+    Answered {
+        others,
+        enough: others.is_some(),
+        ..Answered::new(Question::Coexistence, layer, KnownBy::Outcome)
+    }
 }

@@ -3,7 +3,7 @@
 
 use serde::Serialize;
 
-use crate::analysis::{Analysis, AnalysisError, BoundaryKind, Branch, boundaries};
+use crate::analysis::{Analysis, AnalysisError, Branch, boundaries};
 use crate::orbits::{BestClearance, Bifurcation, FullSystem};
 use crate::system::System;
 use crate::validation::boundaries::{EITHER_SIDE, clearances, ends_steady_resonance};
@@ -13,7 +13,7 @@ use crate::validation::tolerance::LARGEST_OFFSET;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Margin {
     /// Which boundary.
-    pub kind: BoundaryKind,
+    pub kind: Bifurcation,
     /// For a saddle-node in clearance: the branch on which two fixed points collide.
     pub branch: Branch,
     /// Whether steady 1:1 resonance begins or ends there, as far as the theory says.
@@ -90,7 +90,8 @@ const FAR: f64 = 2.0;
 fn in_frequency(analysis: &Analysis) -> Result<Neighbours, AnalysisError> {
     let system = &analysis.system;
     let mut all = Vec::new();
-    for kind in [BoundaryKind::SymmetryBreaking, BoundaryKind::Hopf, BoundaryKind::SaddleNode] {
+    for kind in [Bifurcation::SymmetryBreaking, Bifurcation::NeimarkSacker, Bifurcation::SaddleNode]
+    {
         for detuning in boundaries::crossings(kind, system, &analysis.manifold)? {
             let ratio = 1.0 + system.mass_ratio() * detuning;
             // Far from resonance a boundary of this theory means nothing.
@@ -100,7 +101,7 @@ fn in_frequency(analysis: &Analysis) -> Result<Neighbours, AnalysisError> {
             let Ok(there) = system.with_frequency_ratio(ratio) else { continue };
             let ends = ends_steady_resonance(&there, 1.0);
             // A saddle-node within an area only leans the response.
-            if kind == BoundaryKind::SaddleNode && !ends && !changes_area(&there) {
+            if kind == Bifurcation::SaddleNode && !ends && !changes_area(&there) {
                 continue;
             }
             all.push(Margin {

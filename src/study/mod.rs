@@ -17,16 +17,18 @@ use crate::analysis::motion::state_of;
 use crate::analysis::{Analysis, AnalysisError, Area, Branch};
 use crate::band::{Band, Inactive, Rivals, Survey};
 use crate::case::SimulationSettings;
+use crate::method::Method;
+use crate::operation_count;
 use crate::orbits::{Boundaries, FullSystem};
-use crate::regimes::attractor::Effort;
 use crate::regimes::diagram::DiagramError;
-use crate::regimes::search::{self, SearchEffort};
-use crate::regimes::{Attractor, FoundAttractor, Regime, Transient};
+use crate::regimes::search;
+use crate::regimes::{Effort, FoundAttractor, Regime, long_term};
 use crate::simulation::StartError;
 use crate::system::{State, System};
 use crate::validation::asymptotic_error::asymptotic_errors;
 use crate::validation::{self, AsymptoticError, Claim};
 
+pub use crate::regimes::search::SearchEffort as StudyEffort;
 pub use confirmations::Confirmations;
 pub use margins::Margins;
 pub use proofs::{LongTermMotions, Proof};
@@ -60,31 +62,6 @@ pub enum StudyError {
     Diagram(#[from] DiagramError),
 }
 
-/// How thoroughly a case is studied. Shares of 32 starts are good to about 9 %.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-pub struct StudyEffort {
-    /// Evenly spread starts.
-    pub starts: u32,
-    /// Periods left out as transient; none for as many as [`Transient`] says.
-    pub discard: Option<u64>,
-    /// Periods over which a motion that does not repeat is measured.
-    pub periods: u64,
-}
-
-impl Default for StudyEffort {
-    fn default() -> Self {
-        Self { starts: 32, discard: None, periods: 1000 }
-    }
-}
-
-/// Periods in which a regime is recognised; several times the slowest modulation.
-const RECOGNITION: u64 = 200;
-/// How many times the measured periods a motion is watched for being a transient.
-const PATIENCE: u64 = 20;
-/// Impacts after which a stretch is given up: some hundred per period, far above any settled motion
-/// that a design would want.
-const IMPACT_LIMIT: u64 = 200_000;
-
 impl StudyEffort {
     /// The effort that a case asks for; the default where it leaves the choice.
     pub fn of(settings: &SimulationSettings) -> Self {
@@ -96,24 +73,10 @@ impl StudyEffort {
             periods: settings.periods.unwrap_or(default.periods),
         }
     }
-
-    /// Periods left out of the motions of a system.
-    pub fn left_out(&self, system: &System) -> u64 {
-        self.discard.unwrap_or_else(|| Transient::of(system).periods)
-    }
-
-    fn each(&self, system: &System) -> Effort {
-        Effort {
-            discard: self.left_out(system),
-            periods: RECOGNITION.min(self.periods),
-            prolongations: 4,
-            impact_limit: IMPACT_LIMIT,
-        }
-    }
 }
 
 /// Everything that is known about a case.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone)]
 pub struct CaseStudy {
     /// The theory.
     pub analysis: Analysis,
@@ -136,18 +99,14 @@ pub struct CaseStudy {
     /// How thoroughly.
     pub effort: StudyEffort,
     /// What finding the attractors has cost, in operations as [`crate::operation_count`] counts them.
-    #[serde(skip)]
     pub motions_cost: u64,
     /// What is known along the case's band; none without one.
-    #[serde(skip)]
     pub band: Option<Survey>,
     /// Whether anything was simulated; if not, `attractors` is empty.
     pub simulated: bool,
     /// The bare oscillator and a tuned mass damper at the case's own excitation.
-    #[serde(skip)]
     pub rivals: Rivals,
     /// What an absorber that starts from rest leaves where it stays inactive.
-    #[serde(skip)]
     pub inactive: Option<Inactive>,
 }
 
@@ -156,29 +115,18 @@ pub struct CaseStudy {
 pub struct SettledArea {
     /// Z1 to Z4.
     pub area: Area,
-    /// What told it.
-    pub by: SettledBy,
+    /// What told it: closed form; the grazing of the exact asymmetric orbits, which separates Z1 from Z2; or,
+    /// where there is no such orbit, a short simulation.
+    pub by: Method,
 }
 
-/// The layer that told the area.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum SettledBy {
-    /// Fixed points and boundaries of the slow flow.
-    ClosedForm,
-    /// The grazing of the exact asymmetric orbits, which separates Z1 from Z2.
-    ExactOrbit,
-    /// A short simulation, where there is no such orbit.
-    Simulation,
-}
-
-impl SettledBy {
-    /// The layer's name in a report.
-    pub fn words(self) -> &'static str {
-        match self {
-            Self::ClosedForm => "theory",
-            Self::ExactOrbit => "theory and exact orbits",
-            Self::Simulation => "theory and simulation",
+impl SettledArea {
+    /// What told it, as a report says.
+    pub fn told_by(&self) -> &'static str {
+        match self.by {
+            Method::Theory => "theory",
+            Method::ExactOrbit => "theory and exact orbits",
+            _ => "theory and simulation",
         }
     }
 }
@@ -193,31 +141,24 @@ impl CaseStudy {
         effort: StudyEffort,
         progress: &mut dyn FnMut(u64),
     ) -> Result<Self, StudyError> {
-        let analysis = Analysis::of(system)?;
-        let (LongTermMotions { attractors, proofs }, motions_cost) =
-            fidelity::counted_motions(&analysis, &effort, progress)?;
-        let exact = FullSystem::of(system);
-        let area = settle_area(&analysis, &exact)?;
-        let claims = validation::confront(&analysis, &exact, &attractors, &effort.each(system))?;
-        let asymptotic_errors = asymptotic_errors(&analysis, &exact);
-        let margins = Margins::of(&analysis, &exact)?;
-        let confirmations = Confirmations::of(&exact, &margins)?;
+        let study = Self::without_simulation(system, effort)?;
+        let LongTermMotions { attractors, proofs, operations } =
+            long_term_motions(&study.analysis, &effort, progress)?;
+        let (analysis, exact) = (&study.analysis, &study.exact);
+        let window = effort.window(system);
+        let further = validation::confront_simulation(analysis, exact, &attractors, &window)?;
+        let confirmations = Confirmations::of(exact, &study.margins)?;
+        let mut claims = study.claims;
+        claims.extend(further);
         Ok(Self {
-            area,
             attractors,
             proofs,
             claims,
-            exact,
-            asymptotic_errors,
-            margins,
             confirmations,
-            effort: StudyEffort { discard: Some(effort.left_out(system)), ..effort },
-            motions_cost,
-            band: None,
+            effort: StudyEffort { discard: Some(window.discard), ..effort },
+            motions_cost: operations,
             simulated: true,
-            rivals: Rivals::along(&Band::point(system)),
-            inactive: Inactive::of(system),
-            analysis,
+            ..study
         })
     }
 
@@ -298,15 +239,10 @@ pub fn long_term_motions(
     effort: &StudyEffort,
     progress: &mut dyn FnMut(u64),
 ) -> Result<LongTermMotions, StartError> {
-    let search = SearchEffort {
-        starts: effort.starts,
-        each: effort.each(&analysis.system),
-        measured: effort.periods,
-        patience: PATIENCE * effort.periods,
-    };
     let system = &analysis.system;
-    let found = search::find(system, &predicted_starts(analysis), &search, progress)?;
-    Ok(LongTermMotions::proven(system, found, effort.starts))
+    let find = || search::find(system, &predicted_starts(analysis), effort, progress);
+    let (found, operations) = operation_count::counted(find);
+    Ok(LongTermMotions { operations, ..LongTermMotions::proven(system, found?, effort.starts) })
 }
 
 /// Starts on every motion that theory predicts, rest included.
@@ -325,23 +261,21 @@ fn predicted_starts(analysis: &Analysis) -> Vec<State> {
 /// [`StartError`] if the predicted motion lies outside the cavity.
 pub fn settle_area(analysis: &Analysis, exact: &FullSystem) -> Result<SettledArea, StartError> {
     if let Some(area) = analysis.zone.area {
-        return Ok(SettledArea { area, by: SettledBy::ClosedForm });
+        return Ok(SettledArea { area, by: Method::Theory });
     }
     if let Some(grazing) = exact.boundaries.as_ref().and_then(Boundaries::grazing) {
         let area = if grazing > 1.0 { Area::Z1 } else { Area::Z2 };
-        return Ok(SettledArea { area, by: SettledBy::ExactOrbit });
+        return Ok(SettledArea { area, by: Method::ExactOrbit });
     }
     let beyond = analysis.fixed_points.iter().rfind(|point| point.branch == Branch::Right);
     let regime = match beyond {
         Some(point) => {
             let start = state_of(point, &analysis.system);
-            // Enough to leave the unstable symmetric motion and count impacts.
-            let effort =
-                Effort { discard: 300, periods: 50, prolongations: 0, impact_limit: IMPACT_LIMIT };
-            Attractor::reach(&analysis.system, start, &effort)?.classification.regime
+            // Enough to count impacts.
+            long_term(&[(analysis.system, start)], &Effort::over(50))?[0].map(|found| found.regime)
         }
-        None => Regime::TwoAsymmetric,
+        None => None,
     };
-    let area = if regime == Regime::AboveTwo { Area::Z1 } else { Area::Z2 };
-    Ok(SettledArea { area, by: SettledBy::Simulation })
+    let area = if regime == Some(Regime::AboveTwo) { Area::Z1 } else { Area::Z2 };
+    Ok(SettledArea { area, by: Method::Simulation })
 }

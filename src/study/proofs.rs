@@ -65,6 +65,8 @@ pub struct LongTermMotions {
     pub attractors: Vec<FoundAttractor>,
     /// For each of them the exact orbit that it is, where it is one.
     pub proofs: Vec<Option<Proof>>,
+    /// What finding them has cost, in operations as [`crate::operation_count`] counts them.
+    pub operations: u64,
 }
 
 impl LongTermMotions {

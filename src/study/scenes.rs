@@ -7,16 +7,20 @@ use serde::Serialize;
 
 use crate::analysis::Analysis;
 use crate::analysis::motion::{read_off, state_of};
-use crate::regimes::attractor::Effort;
-use crate::regimes::{Attractor, Exponent, Lyapunov, Regime};
+use crate::regimes::{Attractor, Effort, Exponent, Lyapunov, Motion, Regime, Window, long_term};
 use crate::simulation::{Impact, Simulation, StartError, Stop, Trace};
-use crate::system::{State, System};
+use crate::system::{InvalidParameter, State, System};
 
-use super::{IMPACT_LIMIT, StudyError};
+use super::StudyError;
 
 /// Effort of one point of a map: enough to recognise a regime. More than ten thousand impacts in a
 /// few hundred periods are recognised as more than two per period without going on.
-const POINT: Effort = Effort { discard: 400, periods: 100, prolongations: 1, impact_limit: 10_000 };
+const POINT: Effort = Effort { discard: None, periods: 100, most_impacts: 25 };
+/// Impacts after which an exponent is given up: some hundred per period, far above any settled motion
+/// that a design would want.
+const MOST_IMPACTS: u64 = 200_000;
+/// What is measured of it in full.
+const MEASURED: Window = Window { discard: 0, periods: 100, impact_limit: 10_000 };
 
 /// The motion on an attractor, from its state at phase 0.
 ///
@@ -49,7 +53,7 @@ pub fn exponents(
     let mut found = Vec::new();
     let mut done = 0;
     for &all in periods {
-        if simulation.run(all - done, IMPACT_LIMIT, &mut lyapunov) != Stop::EndTime {
+        if simulation.run(all - done, MOST_IMPACTS, &mut lyapunov) != Stop::EndTime {
             break;
         }
         done = all;
@@ -94,14 +98,13 @@ pub struct SweepPoint {
 /// # Errors
 /// [`StudyError`] where theory or simulation cannot be carried out.
 pub fn sweep(system: &System, frequency_ratios: &[f64]) -> Result<Vec<SweepPoint>, StudyError> {
-    let mut points = Vec::new();
-    for &frequency_ratio in frequency_ratios {
-        let Ok(there) = system.with_frequency_ratio(frequency_ratio) else { continue };
-        let Some(reached) = visited(&there)? else { continue };
-        let regime = reached.classification.regime;
-        points.push(SweepPoint { frequency_ratio, peak: reached.peak, regime });
-    }
-    Ok(points)
+    let found = visited(frequency_ratios, |ratio| system.with_frequency_ratio(ratio))?;
+    let point = |(frequency_ratio, _, motion): (f64, System, Motion)| SweepPoint {
+        frequency_ratio,
+        peak: motion.peak,
+        regime: motion.regime,
+    };
+    Ok(found.into_iter().map(point).collect())
 }
 
 /// What simulation finds at one clearance, everything else being the case's.
@@ -126,29 +129,36 @@ pub struct WalkPoint {
 /// # Errors
 /// [`StudyError`] where theory or simulation cannot be carried out.
 pub fn walk(system: &System, clearances: &[f64]) -> Result<Vec<WalkPoint>, StudyError> {
-    let mut points = Vec::new();
-    for &clearance in clearances {
-        let Ok(there) = system.with_clearance_scaled(clearance) else { continue };
-        let Some(reached) = visited(&there)? else { continue };
-        points.push(WalkPoint {
+    let found = visited(clearances, |factor| system.with_clearance_scaled(factor))?;
+    let point = |(clearance, there, motion): (f64, System, Motion)| {
+        Ok(WalkPoint {
             clearance,
-            peak: clearance * reached.peak,
-            regime: reached.classification.regime,
-            amplitudes: amplitudes(&there, &reached),
-        });
-    }
-    Ok(points)
+            peak: clearance * motion.peak,
+            regime: motion.regime,
+            amplitudes: amplitudes(&there, &Attractor::reach(&there, motion.state, &MEASURED)?),
+        })
+    };
+    found.into_iter().map(point).collect()
 }
 
-/// What the motion that the theory predicts becomes; `None` where nothing could be measured.
-fn visited(system: &System) -> Result<Option<Attractor>, StudyError> {
-    let reached = Attractor::reach(system, moving_start(&Analysis::of(system)?), &POINT)?;
-    Ok((reached.stop == Stop::EndTime).then_some(reached))
+/// What the motion that the theory predicts becomes in each system that there is; those where nothing
+/// could be measured are left out.
+fn visited(
+    values: &[f64],
+    system: impl Fn(f64) -> Result<System, InvalidParameter>,
+) -> Result<Vec<(f64, System, Motion)>, StudyError> {
+    let there = values.iter().filter_map(|value| Some((*value, system(*value).ok()?)));
+    let there: Vec<(f64, System)> = there.collect();
+    let start = |(_, there): &(f64, System)| Ok((*there, moving_start(&Analysis::of(there)?)));
+    let starts: Vec<(System, State)> =
+        there.iter().map(start).collect::<Result<_, StudyError>>()?;
+    let ended = there.into_iter().zip(long_term(&starts, &POINT)?);
+    let followed = ended.filter_map(|((value, there), motion)| Some((value, there, motion?)));
+    Ok(followed.filter(|(_, _, motion)| motion.stop == Stop::EndTime).collect())
 }
 
 fn amplitudes(system: &System, reached: &Attractor) -> [f64; 2] {
-    let wanders =
-        matches!(reached.classification.regime, Regime::StronglyModulated | Regime::BelowTwo);
+    let wanders = matches!(reached.regime, Regime::StronglyModulated | Regime::BelowTwo);
     if !wanders || reached.impacts.is_empty() {
         let seen = read_off(system, reached.oscillator_harmonic, reached.absorber_harmonic);
         return [seen.absorber_amplitude, seen.oscillator_amplitude];

@@ -3,9 +3,7 @@
 
 use crate::simulation::{Impact, Trace};
 
-/// Shortest stretch with two alternating impacts in every period that counts as a capture; as in
-/// [`crate::regimes::Thresholds`], fewer cannot be told from coincidence.
-pub const SHORTEST_CAPTURE: usize = 3;
+pub use crate::regimes::thresholds::SHORTEST_CAPTURE;
 
 /// Some whole periods of a trace.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

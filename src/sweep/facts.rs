@@ -3,7 +3,7 @@
 use crate::analysis::{Area, FixedPointCurve, Manifold, Zone, fixed_points};
 use crate::case::{Layer, Recorded};
 use crate::orbits::{SymmetricOrbit, attracting_orbit};
-use crate::regimes::long_term::Motion;
+use crate::regimes::Motion;
 use crate::system::System;
 
 use super::{Plan, Point};

@@ -5,8 +5,8 @@ use super::facts::Found;
 use super::{Plan, Point};
 use crate::case::{Scales, SweepParameter};
 use crate::regimes::diagram::carried_over;
-use crate::regimes::long_term::long_term;
 use crate::regimes::starts::FROM_REST;
+use crate::regimes::{Effort, long_term};
 use crate::simulation::StartError;
 use crate::system::{State, System};
 
@@ -54,7 +54,7 @@ pub(super) fn along(plan: &Plan, points: &[Point]) -> Result<Vec<Vec<Found>>, St
             (*system, from.unwrap_or(FROM_REST))
         };
         let starts: Vec<(System, State)> = places.iter().map(start).collect();
-        let motions = long_term(&starts, plan.settings.periods)?;
+        let motions = long_term(&starts, &Effort::over(plan.settings.periods))?;
         for line in 0..stands.len() {
             let motion = places.iter().position(|(of, ..)| *of == line).and_then(|k| motions[k]);
             let point = &points[line * length + k];

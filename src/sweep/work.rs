@@ -7,8 +7,8 @@ use super::facts::{Facts, Found};
 use super::follow;
 use super::{Plan, Point};
 use crate::case::{Layer, Recorded};
-use crate::regimes::Lyapunov;
-use crate::regimes::long_term::{Effort, long_term, motions};
+use crate::regimes::long_term::motions;
+use crate::regimes::{Effort, Lyapunov, starts};
 use crate::simulation::{Observer, Simulation, StartError, batch};
 use crate::system::{State, System};
 
@@ -51,26 +51,10 @@ fn simulated(plan: &Plan, points: &[Point]) -> Result<Vec<Vec<Found>>, StartErro
         follow::along(plan, points)?
     } else {
         let mut found: Vec<Vec<Found>> = points.iter().map(|_| vec![Found::default()]).collect();
-        let (there, systems): (Vec<usize>, Vec<System>) = points
-            .iter()
-            .enumerate()
-            .filter_map(|(index, point)| Some((index, startable(point)?)))
-            .unzip();
-        let all = match there.first().and_then(|first| points[*first].start) {
-            Some(_) => {
-                let start =
-                    |(index, system): (&usize, &System)| Some((*system, points[*index].start?));
-                let starts: Vec<(System, State)> =
-                    there.iter().zip(&systems).filter_map(start).collect();
-                let ended = long_term(&starts, plan.settings.periods)?;
-                ended.into_iter().map(|motion| motion.into_iter().collect()).collect()
-            }
-            None => {
-                let Effort { starts, periods } =
-                    Effort { starts: plan.settings.starts, periods: plan.settings.periods };
-                motions(&systems, &Effort { starts, periods })?
-            }
-        };
+        let places = points.iter().enumerate();
+        let places = places.filter_map(|(index, point)| Some((index, startable(plan, point)?)));
+        let (there, places): (Vec<usize>, Vec<(System, Vec<State>)>) = places.unzip();
+        let all = motions(&places, &Effort::over(plan.settings.periods))?;
         for (index, motions) in there.into_iter().zip(all) {
             found[index][0].motions = motions;
         }
@@ -83,10 +67,15 @@ fn simulated(plan: &Plan, points: &[Point]) -> Result<Vec<Vec<Found>>, StartErro
     Ok(found)
 }
 
-/// The system of a point whose start, if an axis says one, is possible.
-fn startable(point: &Point) -> Option<System> {
-    let inside = point.start.is_none_or(|start| start.relative_displacement().abs() <= 1.0);
-    point.system.filter(|_| inside)
+/// The system of a point and its starts: the one that axes say, if it is possible, or the usual ones.
+fn startable(plan: &Plan, point: &Point) -> Option<(System, Vec<State>)> {
+    let system = point.system?;
+    let starts = match point.start {
+        Some(start) if start.relative_displacement().abs() > 1.0 => return None,
+        Some(start) => vec![start],
+        None => starts::of(&system, plan.settings.starts).collect(),
+    };
+    Some((system, starts))
 }
 
 /// Adds what only a second look at the main motions tells: exponents and sections.

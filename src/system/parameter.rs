@@ -22,6 +22,56 @@ pub enum Parameter {
 }
 
 impl Parameter {
+    /// All of them.
+    pub const ALL: [Self; 4] =
+        [Self::Clearance, Self::FrequencyRatio, Self::Forcing, Self::Restitution];
+
+    /// Its name in a sentence.
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::Clearance => "clearance",
+            Self::FrequencyRatio => "excitation frequency",
+            Self::Forcing => "excitation amplitude",
+            Self::Restitution => "restitution",
+        }
+    }
+
+    /// The symbol of its value.
+    pub const fn symbol(self) -> &'static str {
+        match self {
+            Self::Clearance => "b",
+            Self::FrequencyRatio => "Ω",
+            Self::Forcing => "F",
+            Self::Restitution => "r",
+        }
+    }
+
+    /// Whether equal ratios of it deserve equal room, rather than equal differences.
+    pub const fn is_logarithmic(self) -> bool {
+        matches!(self, Self::Clearance | Self::Forcing)
+    }
+
+    /// The value at a part of the way between two, from 0 to 1.
+    pub fn between(self, [low, high]: [f64; 2], part: f64) -> f64 {
+        if self.is_logarithmic() {
+            low * libm::exp(part * libm::log(high / low))
+        } else {
+            low + part * (high - low)
+        }
+    }
+
+    /// Derivatives of forcing `gamma`, frequency and restitution by the parameter, at `value`: what
+    /// [`Parameter::applied`] does to them.
+    pub fn derivatives(self, base: &System, value: f64) -> [f64; 3] {
+        let gamma = base.forcing_per_clearance();
+        match self {
+            Self::Clearance => [-gamma / (value * value), 0.0, 0.0],
+            Self::FrequencyRatio => [0.0, 1.0, 0.0],
+            Self::Forcing => [gamma, 0.0, 0.0],
+            Self::Restitution => [0.0, 0.0, 1.0],
+        }
+    }
+
     /// Its value in the base system, dimensionless.
     pub fn of(self, base: &System) -> f64 {
         match self {
@@ -65,13 +115,6 @@ mod tests {
     use super::*;
     use crate::system::Excitation;
 
-    const ALL: [Parameter; 4] = [
-        Parameter::Clearance,
-        Parameter::FrequencyRatio,
-        Parameter::Forcing,
-        Parameter::Restitution,
-    ];
-
     fn base() -> System {
         // So light an absorber that the frequency ratio cannot hold the detuning.
         System::new(Parameters {
@@ -89,7 +132,7 @@ mod tests {
     #[test]
     fn its_own_value_gives_the_base_system_back() {
         let base = base();
-        for parameter in ALL {
+        for parameter in Parameter::ALL {
             let again = parameter.applied(&base, parameter.of(&base)).expect("valid");
             assert_eq!(again.parameters(), base.parameters(), "{parameter:?}");
             // A detuning that is given as a frequency ratio is as good as that number.
@@ -111,7 +154,7 @@ mod tests {
 
     #[test]
     fn values_without_a_system_are_refused() {
-        for parameter in ALL {
+        for parameter in Parameter::ALL {
             assert!(parameter.applied(&base(), -1.0).is_err(), "{parameter:?}");
             assert!(parameter.applied(&base(), f64::NAN).is_err(), "{parameter:?}");
         }

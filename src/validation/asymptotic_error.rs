@@ -1,9 +1,9 @@
-//! The price of the asymptotics: how far the theory's boundaries lie from those of the full system.
+//! The error of the asymptotics: how far the theory's boundaries lie from those of the full system.
 
 use serde::Serialize;
 
 use super::boundaries::{BoundaryAt, clearances, clearances_of};
-use crate::analysis::{self, Analysis, AnalysisError, BoundaryKind, Manifold};
+use crate::analysis::{self, Analysis, AnalysisError, Manifold};
 use crate::orbits::{self, Bifurcation, FullSystem, Limit};
 use crate::system::System;
 
@@ -22,15 +22,6 @@ pub struct AsymptoticError {
     pub bounds_stability: bool,
 }
 
-/// What the full system calls a boundary of the theory.
-pub fn counterpart(kind: BoundaryKind) -> Bifurcation {
-    match kind {
-        BoundaryKind::SymmetryBreaking => Bifurcation::SymmetryBreaking,
-        BoundaryKind::Hopf => Bifurcation::NeimarkSacker,
-        BoundaryKind::SaddleNode => Bifurcation::SaddleNode,
-    }
-}
-
 /// Every boundary of the case's frequency and forcing, by theory and exactly, by ascending clearance.
 pub fn asymptotic_errors(analysis: &Analysis, exact: &FullSystem) -> Vec<AsymptoticError> {
     let limits = exact.boundaries.as_ref().map_or(&[][..], |found| &found.symmetric.limits);
@@ -42,26 +33,25 @@ pub fn asymptotic_errors(analysis: &Analysis, exact: &FullSystem) -> Vec<Asympto
 ///
 /// # Errors
 /// [`AnalysisError`] where the theory cannot be evaluated.
-pub fn prices_over_frequency(
+pub fn errors_over_frequency(
     system: &System,
     manifold: &Manifold,
     exact: &[orbits::Boundaries],
 ) -> Result<Vec<(f64, Vec<AsymptoticError>)>, AnalysisError> {
-    let mut asymptotic_errors = Vec::new();
+    let mut errors = Vec::new();
     for at in exact {
         let Ok(there) = system.with_frequency_ratio(at.frequency_ratio) else { continue };
         let theory = analysis::Boundaries::of(&there, manifold)?;
         let theory = clearances_of(&theory, there.forcing_per_clearance());
-        asymptotic_errors.push((at.frequency_ratio, between(&theory, &at.symmetric.limits)));
+        errors.push((at.frequency_ratio, between(&theory, &at.symmetric.limits)));
     }
-    Ok(asymptotic_errors)
+    Ok(errors)
 }
 
 fn between(theory: &[BoundaryAt], limits: &[Limit]) -> Vec<AsymptoticError> {
-    let compared = |limit: &&Limit| {
-        theory.iter().any(|at| counterpart(at.kind) == limit.kind) || limit.bounds_stability
-    };
-    let mut asymptotic_errors: Vec<AsymptoticError> = limits
+    let compared =
+        |limit: &&Limit| theory.iter().any(|at| at.kind == limit.kind) || limit.bounds_stability;
+    let mut errors: Vec<AsymptoticError> = limits
         .iter()
         .filter(compared)
         .map(|limit| {
@@ -76,10 +66,10 @@ fn between(theory: &[BoundaryAt], limits: &[Limit]) -> Vec<AsymptoticError> {
         })
         .collect();
     for at in theory {
-        let taken = asymptotic_errors.iter().any(|price| price.theory == Some(at.clearance));
+        let taken = errors.iter().any(|error| error.theory == Some(at.clearance));
         if !taken {
-            asymptotic_errors.push(AsymptoticError {
-                kind: counterpart(at.kind),
+            errors.push(AsymptoticError {
+                kind: at.kind,
                 theory: Some(at.clearance),
                 exact: None,
                 difference: None,
@@ -87,9 +77,9 @@ fn between(theory: &[BoundaryAt], limits: &[Limit]) -> Vec<AsymptoticError> {
             });
         }
     }
-    let place = |price: &AsymptoticError| price.exact.or(price.theory).unwrap_or(0.0);
-    asymptotic_errors.sort_by(|a, b| place(a).total_cmp(&place(b)));
-    asymptotic_errors
+    let place = |error: &AsymptoticError| error.exact.or(error.theory).unwrap_or(0.0);
+    errors.sort_by(|a, b| place(a).total_cmp(&place(b)));
+    errors
 }
 
 /// Relative distance in clearance beyond which two boundaries of one kind are not counterparts.
@@ -99,7 +89,7 @@ fn nearest(theory: &[BoundaryAt], limit: &Limit) -> Option<BoundaryAt> {
     let distance = |at: &BoundaryAt| libm::log(at.clearance / limit.clearance).abs();
     theory
         .iter()
-        .filter(|at| counterpart(at.kind) == limit.kind)
+        .filter(|at| at.kind == limit.kind)
         .filter(|at| distance(at) < LARGEST_DISTANCE)
         .min_by(|a, b| distance(a).total_cmp(&distance(b)))
         .copied()

@@ -2,8 +2,9 @@
 
 use super::asymptotic_error::{AsymptoticError, asymptotic_errors};
 use super::tolerance::{Tolerance, asymptotic_error, beyond};
-use super::{Check, Claim, Finding, Measure};
-use crate::analysis::{Analysis, Boundaries, BoundaryKind, Branch};
+use super::{Claim, Measure};
+use crate::analysis::{Analysis, Boundaries, Branch};
+use crate::method::Method;
 use crate::orbits::{Bifurcation, FullSystem};
 use crate::system::System;
 
@@ -14,7 +15,7 @@ const FAR: f64 = 3.0;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BoundaryAt {
     /// Which one.
-    pub kind: BoundaryKind,
+    pub kind: Bifurcation,
     /// For a saddle-node: the branch on which two fixed points collide.
     pub branch: Branch,
     /// Its clearance over the case's.
@@ -29,13 +30,13 @@ pub fn clearances(analysis: &Analysis) -> Vec<BoundaryAt> {
 /// The same of boundaries at any frequency, for the forcing per clearance `gamma`.
 pub fn clearances_of(boundaries: &Boundaries, gamma: f64) -> Vec<BoundaryAt> {
     let explicit = [
-        (BoundaryKind::SymmetryBreaking, boundaries.symmetry_breaking),
-        (BoundaryKind::Hopf, boundaries.hopf),
+        (Bifurcation::SymmetryBreaking, boundaries.symmetry_breaking),
+        (Bifurcation::NeimarkSacker, boundaries.hopf),
     ];
     let explicit = explicit.map(|(kind, at)| (kind, Branch::Stable, at));
     let nodes = boundaries.saddle_node.iter();
     let nodes =
-        nodes.map(|node| (BoundaryKind::SaddleNode, node.branch, node.forcing_over_clearance));
+        nodes.map(|node| (Bifurcation::SaddleNode, node.branch, node.forcing_over_clearance));
     let mut all: Vec<BoundaryAt> = explicit
         .into_iter()
         .chain(nodes)
@@ -56,26 +57,22 @@ pub fn positions(analysis: &Analysis, exact: &FullSystem) -> Vec<Claim> {
             beyond(2.0 * error)
         ),
     };
-    let near = |price: &AsymptoticError| {
-        price.exact.or(price.theory).is_some_and(|at| (1.0 / FAR..FAR).contains(&at))
+    let near = |boundary: &AsymptoticError| {
+        boundary.exact.or(boundary.theory).is_some_and(|at| (1.0 / FAR..FAR).contains(&at))
     };
     asymptotic_errors(analysis, exact)
         .into_iter()
-        .filter(|price| price.bounds_stability && near(price))
-        .filter_map(|price| {
-            let (predicted, observed) = (price.theory?, price.exact?);
-            let difference = predicted / observed - 1.0;
-            Some(Claim {
-                id: format!("boundary-{}", price.kind.words().replace([' ', '–'], "-")),
-                statement: format!("clearance of the {} boundary", name(price.kind)),
-                source: "boundaries of the slow flow",
-                predicted: Finding::Number(predicted, Measure::LengthOverClearance),
-                observed: Finding::Number(observed, Measure::LengthOverClearance),
-                checked_by: Check::ExactOrbit,
-                difference: Some(difference),
-                verdict: tolerance.judge(difference),
-                tolerance: tolerance.clone(),
-            })
+        .filter(|boundary| boundary.bounds_stability && near(boundary))
+        .filter_map(|boundary| {
+            let id = format!("boundary-{}", boundary.kind.words().replace([' ', '–'], "-"));
+            Some(Claim::of_number(
+                [id, format!("clearance of the {} boundary", name(boundary.kind))],
+                "boundaries of the slow flow",
+                [boundary.theory?, boundary.exact?],
+                Measure::LengthOverClearance,
+                Method::ExactOrbit,
+                tolerance.clone(),
+            ))
         })
         .collect()
 }

@@ -18,9 +18,10 @@ pub use asymptotic_error::AsymptoticError;
 pub use tolerance::Tolerance;
 
 use crate::analysis::Analysis;
+use crate::analysis::motion::wrapped;
+use crate::method::Method;
 use crate::orbits::FullSystem;
-use crate::regimes::FoundAttractor;
-use crate::regimes::attractor::Effort;
+use crate::regimes::{FoundAttractor, Window};
 use crate::simulation::StartError;
 
 /// What a comparison came to.
@@ -46,26 +47,6 @@ impl Verdict {
             Self::Confirmed => "confirmed",
             Self::Refuted => "refuted",
             Self::Undecided => "undecided",
-        }
-    }
-}
-
-/// The layer that a claim is checked by.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Check {
-    /// The exact orbits of the full system.
-    ExactOrbit,
-    /// Direct simulation.
-    Simulation,
-}
-
-impl Check {
-    /// The name in a report.
-    pub fn words(self) -> &'static str {
-        match self {
-            Self::ExactOrbit => "exact orbit",
-            Self::Simulation => "simulation",
         }
     }
 }
@@ -104,7 +85,7 @@ pub struct Claim {
     /// By the layer that checks it.
     pub observed: Finding,
     /// That layer.
-    pub checked_by: Check,
+    pub checked_by: Method,
     /// The error of the claim: predicted minus observed, relative to the observed for lengths, absolute
     /// for angles. How far an orbit misses itself has no sign.
     pub difference: Option<f64>,
@@ -114,6 +95,57 @@ pub struct Claim {
     pub verdict: Verdict,
 }
 
+impl Claim {
+    /// About an outcome that either happens or does not: what was predicted and what observed, and `why` that
+    /// tells whether it `holds`.
+    fn of_outcome(
+        [id, statement]: [String; 2],
+        source: &'static str,
+        [predicted, observed]: [String; 2],
+        checked_by: Method,
+        why: impl Into<String>,
+        holds: bool,
+    ) -> Self {
+        Self {
+            id,
+            statement,
+            source,
+            predicted: Finding::Words(predicted),
+            observed: Finding::Words(observed),
+            checked_by,
+            difference: None,
+            tolerance: tolerance::outcome(why),
+            verdict: Verdict::of(holds),
+        }
+    }
+
+    /// About a number: what was predicted and what observed.
+    fn of_number(
+        [id, statement]: [String; 2],
+        source: &'static str,
+        [predicted, observed]: [f64; 2],
+        measure: Measure,
+        checked_by: Method,
+        tolerance: Tolerance,
+    ) -> Self {
+        let difference = match measure {
+            Measure::Angle => wrapped(predicted - observed),
+            Measure::LengthOverClearance => predicted / observed - 1.0,
+        };
+        Self {
+            id,
+            statement,
+            source,
+            predicted: Finding::Number(predicted, measure),
+            observed: Finding::Number(observed, measure),
+            checked_by,
+            difference: Some(difference),
+            verdict: tolerance.judge(difference),
+            tolerance,
+        }
+    }
+}
+
 /// Confronts the theory with the exact orbits, and nothing with simulation.
 pub fn confront_theory(analysis: &Analysis, exact: &FullSystem) -> Vec<Claim> {
     let mut claims = motions::fixed_points(analysis, exact);
@@ -121,21 +153,19 @@ pub fn confront_theory(analysis: &Analysis, exact: &FullSystem) -> Vec<Claim> {
     claims
 }
 
-/// Confronts the theory with the exact orbits, the exact orbits with simulation, and both with the
-/// attractors that were found.
+/// Confronts the exact orbits with simulation, and them and the theory with the attractors that were found.
 ///
 /// # Errors
 /// [`StartError`] if a predicted motion lies outside the cavity.
-pub fn confront(
+pub fn confront_simulation(
     analysis: &Analysis,
     exact: &FullSystem,
     attractors: &[FoundAttractor],
-    effort: &Effort,
+    window: &Window,
 ) -> Result<Vec<Claim>, StartError> {
-    let mut claims = confront_theory(analysis, exact);
-    claims.extend(orbits::simulated(exact)?);
+    let mut claims = orbits::simulated(exact)?;
     claims.extend(orbits::limits(exact)?);
-    claims.extend(motions::rest(analysis, effort)?);
+    claims.extend(motions::rest(analysis, window)?);
     claims.extend(motions::area(analysis, attractors));
     Ok(claims)
 }

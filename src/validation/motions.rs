@@ -1,13 +1,13 @@
 //! Claims about the motions of the case itself.
 
 use super::boundaries::{BoundaryAt, clearances};
-use super::tolerance::{asymptotic, exact, outcome};
-use super::{Check, Claim, Finding, Measure, Verdict};
-use crate::analysis::motion::{read_off, wrapped};
+use super::tolerance::{asymptotic, exact};
+use super::{Claim, Measure, Verdict};
+use crate::analysis::motion::read_off;
 use crate::analysis::{Analysis, Area, FixedPoint, Strip};
+use crate::method::Method;
 use crate::orbits::{FullSystem, Measures, SymmetricOrbit};
-use crate::regimes::attractor::Effort;
-use crate::regimes::{Attractor, DynamicsKind, FoundAttractor, Regime};
+use crate::regimes::{Attractor, DynamicsKind, FoundAttractor, Regime, Window};
 use crate::simulation::StartError;
 
 /// For each fixed point: stable or not, and if an exact orbit is near it: amplitudes and phases.
@@ -28,28 +28,26 @@ pub fn fixed_points(analysis: &Analysis, exact: &FullSystem) -> Vec<Claim> {
             None => "no orbit near it".into(),
         };
         let attracts = orbit.is_some_and(|orbit| orbit.orbit.attracts());
-        claims.push(Claim {
-            id: format!("fixed-point-{number}-stability"),
-            statement: format!(
-                "fixed point {number} (B/b = {:.3}) is {}",
-                point.absorber_amplitude,
-                if point.stable { "stable" } else { "unstable" }
-            ),
-            source: "manifold and slow flow (18)",
-            predicted: Finding::Words(if point.stable { "stable" } else { "unstable" }.into()),
-            observed: Finding::Words(observed),
-            checked_by: Check::ExactOrbit,
-            difference: None,
-            tolerance: outcome(
-                "multipliers of the exact orbit nearest to the point, within twice ε (2 + |σ| + λ) \
-                 or, next to a saddle-node, its root",
-            ),
-            verdict: if unsolved {
-                Verdict::Undecided
-            } else {
-                Verdict::of(orbit.is_some() && attracts == point.stable)
-            },
-        });
+        let predicted = if point.stable { "stable" } else { "unstable" };
+        let mut claim = Claim::of_outcome(
+            [
+                format!("fixed-point-{number}-stability"),
+                format!(
+                    "fixed point {number} (B/b = {:.3}) is {predicted}",
+                    point.absorber_amplitude
+                ),
+            ],
+            "manifold and slow flow (18)",
+            [predicted.into(), observed],
+            Method::ExactOrbit,
+            "multipliers of the exact orbit nearest to the point, within twice ε (2 + |σ| + λ) or, next to a \
+             saddle-node, its root",
+            orbit.is_some() && attracts == point.stable,
+        );
+        if unsolved {
+            claim.verdict = Verdict::Undecided;
+        }
+        claims.push(claim);
         claims
             .extend(orbit.into_iter().flat_map(|orbit| amplitudes(analysis, point, orbit, number)));
     }
@@ -89,21 +87,14 @@ fn amplitudes(
         read_off(&analysis.system, measures.oscillator_harmonic, measures.absorber_harmonic);
     let tolerance = asymptotic(&analysis.system);
     let compare = |id: &str, statement: &str, source, predicted: f64, observed: f64, measure| {
-        let difference = match measure {
-            Measure::Angle => wrapped(predicted - observed),
-            Measure::LengthOverClearance => predicted / observed - 1.0,
-        };
-        Claim {
-            id: format!("fixed-point-{number}-{id}"),
-            statement: format!("{statement} at fixed point {number}"),
+        Claim::of_number(
+            [format!("fixed-point-{number}-{id}"), format!("{statement} at fixed point {number}")],
             source,
-            predicted: Finding::Number(predicted, measure),
-            observed: Finding::Number(observed, measure),
-            checked_by: Check::ExactOrbit,
-            difference: Some(difference),
-            tolerance: tolerance.clone(),
-            verdict: tolerance.judge(difference),
-        }
+            [predicted, observed],
+            measure,
+            Method::ExactOrbit,
+            tolerance.clone(),
+        )
     };
     let length = Measure::LengthOverClearance;
     let (c, b) = (point.oscillator_amplitude, point.absorber_amplitude);
@@ -125,7 +116,7 @@ fn amplitudes(
 
 /// Rest is a motion of the full system exactly where the bare oscillator's amplitude is below the
 /// clearance.
-pub fn rest(analysis: &Analysis, effort: &Effort) -> Result<Option<Claim>, StartError> {
+pub fn rest(analysis: &Analysis, window: &Window) -> Result<Option<Claim>, StartError> {
     let system = &analysis.system;
     let Some(linear) = system.linear_response() else {
         return Ok(None);
@@ -135,22 +126,18 @@ pub fn rest(analysis: &Analysis, effort: &Effort) -> Result<Option<Claim>, Start
     if linear.amplitude() >= 1.0 || linear.amplitude() == 0.0 {
         return Ok(None);
     }
-    let reached = Attractor::reach(system, linear.state(system), effort)?;
+    let reached = Attractor::reach(system, linear.state(system), window)?;
     let rests = reached.classification.regime == Regime::AtRest;
-    let difference = linear.amplitude() / reached.peak - 1.0;
-    let tolerance = exact();
-    let verdict = Verdict::of(rests && difference.abs() < tolerance.value);
-    Ok(Some(Claim {
-        id: "rest".into(),
-        statement: "absorber at rest, oscillator vibrates as if alone".into(),
-        source: "equation of motion (1)",
-        predicted: Finding::Number(linear.amplitude(), Measure::LengthOverClearance),
-        observed: Finding::Number(reached.peak, Measure::LengthOverClearance),
-        checked_by: Check::Simulation,
-        difference: Some(difference),
-        tolerance,
-        verdict,
-    }))
+    let claim = Claim::of_number(
+        ["rest".into(), "absorber at rest, oscillator vibrates as if alone".into()],
+        "equation of motion (1)",
+        [linear.amplitude(), reached.peak],
+        Measure::LengthOverClearance,
+        Method::Simulation,
+        exact(),
+    );
+    let verdict = if rests { claim.verdict } else { Verdict::Refuted };
+    Ok(Some(Claim { verdict, ..claim }))
 }
 
 /// What area and strip say of the attractors found. Beside a motion that repeats a chaotic one may be a
@@ -190,21 +177,17 @@ pub fn area(analysis: &Analysis, attractors: &[FoundAttractor]) -> Option<Claim>
         reason += "; a chaotic motion beside a steady one may be a transient, and how many starts are \
                    still on it when watching ends depends on rounding";
     }
-    Some(Claim {
-        id: "area".into(),
-        statement: format!("the case lies in area {area}"),
-        source: "fixed points and boundaries",
-        predicted: Finding::Words(predicted.into()),
-        observed: Finding::Words(listed(attractors)),
-        checked_by: Check::Simulation,
-        difference: None,
-        tolerance: outcome(reason),
-        verdict: if by_chance || !steady && !beside {
-            Verdict::Undecided
-        } else {
-            Verdict::of(holds)
-        },
-    })
+    let claim = Claim::of_outcome(
+        ["area".into(), format!("the case lies in area {area}")],
+        "fixed points and boundaries",
+        [predicted.into(), listed(attractors)],
+        Method::Simulation,
+        reason,
+        holds,
+    );
+    let open = by_chance || !steady && !beside;
+    let verdict = if open { Verdict::Undecided } else { claim.verdict };
+    Some(Claim { verdict, ..claim })
 }
 
 /// An area is only as certain as the boundary next to it.
@@ -216,7 +199,7 @@ fn near_boundary(analysis: &Analysis) -> String {
     match nearest {
         Some(at) if distance(&at) < error => format!(
             "share of all starts; the {} boundary is {:.1} % away, within the theory's error of {:.1} %",
-            at.kind.words(),
+            at.kind.words_in_slow_flow(),
             100.0 * distance(&at),
             100.0 * error
         ),

@@ -4,11 +4,10 @@
 //! event. A motion near an orbit that attracts is never simulated for longer than it takes to see
 //! its disturbance shrink.
 
-use super::tolerance::outcome;
-use super::{Check, Claim, Finding, Tolerance, Verdict};
+use super::{Claim, Finding, Tolerance, Verdict};
+use crate::method::Method;
 use crate::orbits::{AfterImpact, Bifurcation, FullSystem, Limit, SymmetricOrbit, Wall};
-use crate::regimes::attractor::Effort;
-use crate::regimes::{AbsorberAmplitude, Attractor, Evidence, Periodicity, Regime};
+use crate::regimes::{AbsorberAmplitude, Attractor, Regime, Window};
 use crate::simulation::{Simulation, StartError};
 use crate::system::System;
 
@@ -26,8 +25,7 @@ const ASIDE: f64 = 0.01;
 /// Relative disturbance there: small beside the basin of an orbit that is about to lose stability.
 const SMALL: f64 = 1e-3;
 /// Long enough to leave an orbit one percent beyond its limit.
-const EFFORT: Effort =
-    Effort { discard: 4000, periods: 100, prolongations: 0, impact_limit: 100_000 };
+const WINDOW: Window = Window { discard: 4000, periods: 100, impact_limit: 100_000 };
 
 /// For each admissible symmetric orbit: a simulation started on it repeats, and a small disturbance
 /// shrinks or grows as its multipliers say.
@@ -69,7 +67,7 @@ fn repeats(system: &System, orbit: &SymmetricOrbit, number: usize) -> Result<Cla
         source: "exact orbit",
         predicted: Finding::Words("repeats".into()),
         observed: Finding::Words(format!("misses itself by {missed:.0e}")),
-        checked_by: Check::Simulation,
+        checked_by: Method::Simulation,
         difference: Some(missed),
         verdict: Verdict::of(missed <= tolerance.value),
         tolerance,
@@ -102,22 +100,20 @@ fn shrinks(
     }
     let ratio = reference.state().distance(&simulation.state()) / first;
     let word = |stable: bool| if stable { "dies out" } else { "grows" };
-    Ok(Some(Claim {
-        id: format!("orbit-{number}-stability"),
-        statement: format!(
-            "a small disturbance of exact orbit {number} {} (multiplier {radius:.3} per period)",
-            word(stable)
-        ),
-        source: "exact orbit",
-        predicted: Finding::Words(word(stable).into()),
-        observed: Finding::Words(format!("{ratio:.1e} of it after {periods} periods")),
-        checked_by: Check::Simulation,
-        difference: None,
-        tolerance: outcome(
-            "a disturbance of 1e−6 is followed until it should change a hundredfold",
-        ),
-        verdict: Verdict::of((ratio < 1.0) == stable),
-    }))
+    Ok(Some(Claim::of_outcome(
+        [
+            format!("orbit-{number}-stability"),
+            format!(
+                "a small disturbance of exact orbit {number} {} (multiplier {radius:.3} per period)",
+                word(stable)
+            ),
+        ],
+        "exact orbit",
+        [word(stable).into(), format!("{ratio:.1e} of it after {periods} periods")],
+        Method::Simulation,
+        "a disturbance of 1e−6 is followed until it should change a hundredfold",
+        (ratio < 1.0) == stable,
+    )))
 }
 
 /// On either side of each limit of stability next to the case: the motion stays, or leaves.
@@ -149,23 +145,20 @@ pub fn limits(exact: &FullSystem) -> Result<Vec<Claim>, StartError> {
             (false, _) => "not steady 1:1",
         };
         let agrees = |(attracts, reached): (bool, Reached)| attracts == reached.is_steady_flight();
-        claims.push(Claim {
-            id: format!("limit-{}", limit.kind.words().replace([' ', '–'], "-")),
-            statement: format!("{}: what the motion becomes on either side", limit.kind.words()),
-            source: "exact limit",
-            predicted: Finding::Words(format!("{} below, {} above", name(below.0), name(above.0))),
-            observed: Finding::Words(format!(
-                "{} below, {} above",
-                below.1.words(),
-                above.1.words()
-            )),
-            checked_by: Check::Simulation,
-            difference: None,
-            tolerance: outcome(
-                "started on the orbit, disturbed by 1e−3, 1 % to either side of the limit",
-            ),
-            verdict: Verdict::of(agrees(below) && agrees(above)),
-        });
+        claims.push(Claim::of_outcome(
+            [
+                format!("limit-{}", limit.kind.words().replace([' ', '–'], "-")),
+                format!("{}: what the motion becomes on either side", limit.kind.words()),
+            ],
+            "exact limit",
+            [
+                format!("{} below, {} above", name(below.0), name(above.0)),
+                format!("{} below, {} above", below.1.words(), above.1.words()),
+            ],
+            Method::Simulation,
+            "started on the orbit, disturbed by 1e−3, 1 % to either side of the limit",
+            agrees(below) && agrees(above),
+        ));
     }
     Ok(claims)
 }
@@ -174,40 +167,16 @@ pub fn limits(exact: &FullSystem) -> Result<Vec<Claim>, StartError> {
 #[derive(Clone, Copy)]
 struct Reached {
     regime: Regime,
-    course: Course,
+    /// Excitation periods after which it repeats; none on a torus, as next to a Neimark–Sacker limit.
+    repeats_after: Option<u32>,
     /// Whether the absorber rests on a wall in every repetition of it.
     rests: bool,
-}
-
-/// How the periods of a motion follow one another.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Course {
-    /// Each like the one before, but for what is left of the disturbance.
-    Steady,
-    /// Like those that many periods before.
-    Every(u32),
-    /// They vary and do not return, as on the torus next to a Neimark–Sacker limit.
-    Modulated,
-}
-
-impl Course {
-    /// That of a motion which was disturbed by [`SMALL`]: a modulation no deeper than that is left of the
-    /// disturbance where the motion is slow to settle.
-    fn of(evidence: &Evidence) -> Self {
-        let AbsorberAmplitude { smallest, largest, .. } = evidence.absorber_amplitude;
-        match evidence.periodicity {
-            Some(Periodicity { periods: 1, .. }) => Self::Steady,
-            Some(Periodicity { periods, .. }) => Self::Every(periods),
-            None if largest - smallest <= SMALL * (largest + smallest) => Self::Steady,
-            None => Self::Modulated,
-        }
-    }
 }
 
 impl Reached {
     /// A regime is named by its impacts alone, which a small torus shares with the orbit inside of it.
     fn is_steady_flight(self) -> bool {
-        self.regime == Regime::TwoSymmetric && self.course == Course::Steady && !self.rests
+        self.regime == Regime::TwoSymmetric && self.repeats_after == Some(1) && !self.rests
     }
 
     fn words(self) -> String {
@@ -216,20 +185,24 @@ impl Reached {
             return regime.to_owned();
         }
         let rests = if self.rests { " with rests" } else { "" };
-        match self.course {
-            Course::Steady => format!("{regime}{rests}"),
-            Course::Every(periods) => format!("{regime}{rests} that repeats in {periods} periods"),
-            Course::Modulated => format!("modulated {regime}{rests}"),
+        match self.repeats_after {
+            Some(1) => format!("{regime}{rests}"),
+            Some(periods) => format!("{regime}{rests} that repeats in {periods} periods"),
+            None => format!("modulated {regime}{rests}"),
         }
     }
 }
 
 fn stays(system: &System, after: &AfterImpact) -> Result<Reached, StartError> {
     let simulation = begun(system, after, Wall::Plus)?;
-    let found = Attractor::reach(system, simulation.state(), &EFFORT)?;
+    let found = Attractor::reach(system, simulation.state(), &WINDOW)?;
+    let AbsorberAmplitude { smallest, largest, .. } =
+        found.classification.evidence.absorber_amplitude;
+    // A modulation no deeper than the disturbance is left of it, where the motion is slow to settle.
+    let steady = largest - smallest <= SMALL * (largest + smallest);
     Ok(Reached {
-        regime: found.classification.regime,
-        course: Course::of(&found.classification.evidence),
+        regime: found.regime,
+        repeats_after: found.repeats_after.or(steady.then_some(1)),
         rests: found.sustained_contact.duration_tau > 0.0,
     })
 }

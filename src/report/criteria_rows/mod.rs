@@ -6,7 +6,7 @@ use super::numbers::{LengthFormat, fixed, percent, percent_sharply, significant}
 use super::units::Units;
 use crate::case::{Case, Measure, Relation, Subject};
 use crate::criteria::Judged;
-use crate::study::fidelity::Fidelity;
+use crate::method::Method;
 
 /// A criterion, judged: one line of every format. Numbers in SI units, or the case's own.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -28,7 +28,7 @@ pub struct CriterionRow {
     /// Whether the error could turn that.
     pub near_limit: bool,
     /// Which layer decided.
-    pub decided_by: Fidelity,
+    pub decided_by: Method,
     /// Where in the band it is worst, with unit; empty where that says nothing.
     pub at: String,
     /// Share of the absorber's resting places from which a start from rest never wakes it, where that

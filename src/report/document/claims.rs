@@ -6,7 +6,7 @@ use super::scale::Scale;
 use crate::method::Method;
 use crate::quantity::Quantity;
 use crate::quantity::catalogue as of;
-use crate::validation::{Check, Claim, Finding, Measure, Verdict};
+use crate::validation::{Claim, Finding, Measure, Verdict};
 
 /// A claim and what came of it.
 #[derive(Debug, Clone, Serialize)]
@@ -14,7 +14,7 @@ pub struct ClaimFacts {
     id: String,
     statement: String,
     source: &'static str,
-    checked_by: Check,
+    checked_by: Method,
     predicted: FindingFacts,
     observed: FindingFacts,
     /// Predicted minus observed: relative for lengths, in radians for angles.
@@ -55,10 +55,7 @@ impl ClaimFacts {
     pub fn of(scale: &Scale, claim: &Claim) -> Self {
         let angle = matches!(claim.predicted, Finding::Number(_, Measure::Angle));
         let kind = if angle { &of::ANGLE_ERROR } else { &of::THEORY_ERROR };
-        let observed_by = match claim.checked_by {
-            Check::ExactOrbit => Method::ExactOrbit,
-            Check::Simulation => Method::Simulation,
-        };
+        let observed_by = claim.checked_by;
         Self {
             id: claim.id.clone(),
             statement: claim.statement.clone(),

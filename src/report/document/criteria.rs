@@ -8,7 +8,6 @@ use crate::criteria::Judged;
 use crate::method::Method;
 use crate::quantity::catalogue as of;
 use crate::quantity::{Kind, Quantity};
-use crate::study::fidelity::Fidelity;
 
 /// What all criteria together came to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -81,7 +80,7 @@ pub struct CriterionFacts {
     /// Whether the motion that decides has settled.
     pub settled: bool,
     /// The layer that decided.
-    pub decided_by: Fidelity,
+    pub decided_by: Method,
     /// How far `found` may be off, whether or not a page shows it.
     #[serde(skip)]
     pub error: f64,
@@ -132,11 +131,7 @@ fn kind(subject: Subject) -> Option<&'static Kind> {
 impl CriterionFacts {
     fn of(case: &Case, scale: &Scale, judged: &Judged) -> Self {
         let Criterion { subject, relation, limit, as_written } = &judged.criterion;
-        let method = match judged.decided_by {
-            Fidelity::Manifold => Method::ClosedForm,
-            Fidelity::Orbit => Method::ExactOrbit,
-            Fidelity::Simulation => Method::Simulation,
-        };
+        let method = judged.decided_by;
         let kind = kind(*subject);
         let quantity = |value: f64| kind.map(|kind| Quantity::new(kind, value, method));
         // The errors of shares and margins are rounding, or theory's own.

@@ -139,7 +139,7 @@ impl MotionFacts {
         proof: Option<&Proof>,
     ) -> Self {
         let evidence = &motion.classification.evidence;
-        let [rms_error, impacts_error] = motion.errors.unwrap_or_default();
+        let [rms_error, impacts_error] = motion.errors().unwrap_or_default();
         let number = |kind, value: f64| Quantity::new(kind, value, Simulation);
         let level = |kind, value: Option<f64>| value.map(|value| number(kind, value));
         let energetics = &motion.energetics;

@@ -3,15 +3,15 @@
 use serde::Serialize;
 
 use super::scale::Scale;
-use crate::analysis::{Analysis, Area, BoundaryKind, Branch, FixedPoint, Kind as PointKind, Strip};
-use crate::method::Method::{ExactOrbit, Simulation, Theory};
+use crate::analysis::{Analysis, Area, Branch, FixedPoint, Kind as PointKind, Strip};
+use crate::method::Method::{self, ExactOrbit, Simulation, Theory};
 use crate::orbits::{Bifurcation, FullSystem, Leading, StableStretch, SymmetricOrbit};
 use crate::quantity::Quantity;
 use crate::quantity::catalogue as of;
 use crate::regimes::Regime;
 use crate::study::confirmations::Probe;
 use crate::study::margins::{ExactMargin, ExactMargins};
-use crate::study::{CaseStudy, SettledArea, SettledBy};
+use crate::study::{CaseStudy, SettledArea};
 use crate::validation::AsymptoticError;
 use crate::validation::asymptotic_error::asymptotic_errors;
 use crate::validation::boundaries::clearances;
@@ -108,7 +108,7 @@ pub struct ProbeFacts {
 #[derive(Debug, Clone, Serialize)]
 pub struct TheoryFacts {
     area: Area,
-    area_by: SettledBy,
+    area_by: Method,
     strip: Option<Strip>,
     fixed_points: Vec<PointFacts>,
     orbits: Vec<OrbitFacts>,
@@ -249,7 +249,7 @@ impl Facts<'_> {
             found.push(BoundaryFacts {
                 kind: one.kind,
                 branch: theory
-                    .filter(|known| known.kind == BoundaryKind::SaddleNode)
+                    .filter(|known| known.kind == Bifurcation::SaddleNode)
                     .map(|known| known.branch),
                 of_asymmetric: false,
                 theory: one.theory.map(|at| length(at, Theory)),

@@ -5,7 +5,7 @@ use crate::orbits::{Bifurcation, Boundaries};
 use crate::report::figure::{Axis, Layer, MarkedPoint, Panel, Role, Rule};
 use crate::report::numbers::signed_percent;
 use crate::study::StudyError;
-use crate::validation::asymptotic_error::prices_over_frequency;
+use crate::validation::asymptotic_error::errors_over_frequency;
 
 use super::Scene;
 
@@ -26,7 +26,7 @@ pub(super) fn panel(
     x: Axis,
 ) -> Result<Option<Panel>, StudyError> {
     let analysis = &scene.study.analysis;
-    let asymptotic_errors = prices_over_frequency(&analysis.system, &analysis.manifold, exact)?;
+    let asymptotic_errors = errors_over_frequency(&analysis.system, &analysis.manifold, exact)?;
     let units = &scene.units;
     let (mut low, mut high) = (-LEAST, LEAST);
     let mut layers = vec![Layer::rule(Rule::Horizontal(0.0), Role::Guide.style())];

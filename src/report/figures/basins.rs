@@ -1,11 +1,12 @@
 //! Which starts lead to which long-term motion: basins of attraction on a plane of starting states.
 
-use crate::regimes::attractor::Effort;
-use crate::regimes::basins::{Axis as StartAxis, Basins, Cell, Coordinate, Plane};
+use crate::regimes::basins::{Basins, Cell};
 use crate::regimes::starts::StartBox;
+use crate::regimes::{Effort, Regime, Transient};
 use crate::report::figure::{Axis, Color, Figure, Layer, Marker, Panel, Shape};
 use crate::report::numbers::percent;
 use crate::study::StudyError;
+use crate::system::State;
 
 use super::Scene;
 
@@ -13,7 +14,7 @@ use super::Scene;
 const CELLS: u32 = 40;
 /// Enough to recognise the motion; in a shorter window a strongly modulated one may show no capture.
 /// Ten impacts per period are recognised as that without going on.
-const EFFORT: Effort = Effort { discard: 300, periods: 200, prolongations: 1, impact_limit: 3_000 };
+const EFFORT: Effort = Effort { discard: None, periods: 200, most_impacts: 10 };
 /// Colour and marker of each motion, so that they can be told apart without colours.
 const LOOKS: [(Color, Marker); 5] = [
     (Color::SkyBlue, Marker::filled(Shape::Square).sized(9.0)),
@@ -27,19 +28,18 @@ const OPEN: (Color, Marker) = (Color::Grey, Marker::filled(Shape::Cross).sized(5
 pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
     let system = &scene.study.analysis.system;
     let reach = StartBox::around(system).reach;
-    let axis = |coordinate| StartAxis { coordinate, range: [-reach, reach], cells: CELLS };
-    let plane = Plane {
-        horizontal: axis(Coordinate::Displacement),
-        vertical: axis(Coordinate::Velocity),
-        fixed: [0.0; 4],
+    let middle = |cell: u32| reach * (2.0 * (f64::from(cell) + 0.5) / f64::from(CELLS) - 1.0);
+    // The absorber lies at rest in the middle of its cavity.
+    let start = |index: u32| {
+        let (x, x_velocity) = (middle(index % CELLS), middle(index / CELLS));
+        State { x, x_velocity, y: x, y_velocity: 0.0 }
     };
-    let known = scene.study.attractors.iter().map(|found| found.attractor.clone()).collect();
-    let basins = Basins::of(system, plane, known, &EFFORT, &mut |_| {})?;
+    let starts: Vec<State> = (0..CELLS * CELLS).map(start).collect();
+    let known = scene.study.attractors.iter().map(|found| found.attractor.motion).collect();
+    let basins = Basins::of(system, &starts, known, &EFFORT, &mut |_| {})?;
     let units = &scene.units;
-    let place = |index: usize| {
-        let (column, row) = (index as u32 % CELLS, index as u32 / CELLS);
-        [units.length(plane.horizontal.middle(column)), units.velocity(plane.vertical.middle(row))]
-    };
+    let place =
+        |index: usize| [units.length(starts[index].x), units.velocity(starts[index].x_velocity)];
     let marks = |wanted: &dyn Fn(Cell) -> bool| -> Vec<[f64; 2]> {
         let all = basins.cells.iter().enumerate();
         all.filter(|(_, cell)| wanted(**cell)).map(|(index, _)| place(index)).collect()
@@ -49,15 +49,17 @@ pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
         Axis::linear(units.length_axis("oscillator displacement x at the start")).with_range(-x, x),
         Axis::linear(units.velocity_axis("oscillator velocity at the start")).with_range(-y, y),
     );
+    // Without impacts and damping a free vibration never fades.
+    let undamped = system.damping() == 0.0;
     let mut said = Vec::new();
     let share = |count: usize| percent(count as f64 / basins.cells.len() as f64);
-    for (index, motion) in basins.attractors.iter().enumerate() {
+    for (index, motion) in basins.motions.iter().enumerate() {
         let marks = marks(&|cell| cell == Cell::Leads(index));
         if marks.is_empty() {
             continue;
         }
-        let regime = motion.classification.regime.words();
-        let name = if motion.keeps_its_start() {
+        let regime = motion.regime.words();
+        let name = if motion.regime == Regime::AtRest && undamped {
             format!("{regime} (peak depends on the start)")
         } else {
             format!("{regime}, peak {}", units.length_text(motion.peak))
@@ -74,7 +76,7 @@ pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
     let caption = format!(
         "Of {} starts with the absorber at rest in the middle of its cavity (excitation phase 0), each followed for at least {} excitation periods, {}.",
         basins.cells.len(),
-        EFFORT.discard + EFFORT.periods,
+        Transient::of(system).periods,
         said.join("; ")
     );
     let alt = format!(

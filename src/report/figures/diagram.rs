@@ -8,7 +8,7 @@ use crate::report::figure::{
 };
 use crate::report::numbers::significant;
 use crate::study::StudyError;
-use crate::study::diagrams::{Diagram, Hysteresis, is_logarithmic};
+use crate::study::diagrams::{Diagram, Hysteresis};
 use crate::study::exact_branches::ExactPoint;
 use crate::system::Parameter;
 use crate::validation::tolerance::has_resonance;
@@ -37,7 +37,7 @@ pub(super) fn figure(
     let Some(diagram) = Diagram::around(&study.exact, parameter)? else { return Ok(None) };
     let shown = Shown { scene, units, diagram: &diagram };
     let (caption, alt) = shown.words();
-    let title = format!("Bifurcation diagram over the {}", noun(parameter));
+    let title = format!("Bifurcation diagram over the {}", parameter.words());
     Ok(Some(
         Figure::new(name, title)
             .with_size(800, 680)
@@ -46,15 +46,6 @@ pub(super) fn figure(
             .with_panel(shown.intervals())
             .with_words(caption, alt),
     ))
-}
-
-pub(super) const fn noun(parameter: Parameter) -> &'static str {
-    match parameter {
-        Parameter::Clearance => "clearance",
-        Parameter::FrequencyRatio => "excitation frequency",
-        Parameter::Forcing => "excitation amplitude",
-        Parameter::Restitution => "restitution",
-    }
 }
 
 /// How each way looks: squares, dots in them, and thin lines across, which dots on top would cut into
@@ -122,7 +113,7 @@ impl Shown<'_> {
             Parameter::Forcing => self.units.forcing_axis(),
             Parameter::Restitution => "restitution r (1)".to_owned(),
         };
-        let axis = if is_logarithmic(parameter) { Axis::log(label) } else { Axis::linear(label) };
+        let axis = if parameter.is_logarithmic() { Axis::log(label) } else { Axis::linear(label) };
         axis.with_range(first, last)
     }
 

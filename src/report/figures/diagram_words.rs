@@ -4,19 +4,19 @@ use crate::report::numbers::significant;
 use crate::study::diagrams::{EFFORT, Hysteresis, STEPS};
 use crate::study::exact_branches::Stretch;
 
-use super::diagram::{Shown, noun};
+use super::diagram::Shown;
 
 /// Hysteresis is told for so many places.
 const MOST_TOLD: usize = 3;
 
 impl Shown<'_> {
     pub(super) fn words(&self) -> (String, String) {
-        let noun = noun(self.diagram.parameter);
+        let noun = self.diagram.parameter.words();
         let [first, last] = self.diagram.range.map(|value| self.text(value));
         let method = format!(
-            "The {noun} was swept from {first} to {last} and back in {STEPS} steps, each going on from the one before, {} \
-             periods left out and {} measured.",
-            EFFORT.discard, EFFORT.periods
+            "The {noun} was swept from {first} to {last} and back in {STEPS} steps, each going on from the one before. \
+             At each of them the transient was left out; a motion that does not repeat was measured over {} periods.",
+            EFFORT.periods
         );
         let hysteresis = match &self.diagram.hysteresis[..] {
             [] => "Up and down end in the same motions: no hysteresis was found in steps of this size.".to_owned(),

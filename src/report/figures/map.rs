@@ -1,6 +1,7 @@
 //! The case among its boundaries, in frequency and clearance (Figs. 5 and 6c).
 
-use crate::analysis::{BoundaryKind, Strip};
+use crate::analysis::Strip;
+use crate::bifurcation::Bifurcation;
 use crate::orbits::boundaries::over_frequency;
 use crate::orbits::{Boundaries, Limit};
 use crate::report::figure::{
@@ -226,9 +227,9 @@ fn words(scene: &Scene) -> (String, String) {
     let units = &scene.units;
     let say = |margin: Margin| {
         let name = match margin.kind {
-            BoundaryKind::SymmetryBreaking => "symmetry breaking",
-            BoundaryKind::Hopf => "the Hopf boundary",
-            BoundaryKind::SaddleNode => "the saddle-node boundary",
+            Bifurcation::SymmetryBreaking => "symmetry breaking",
+            Bifurcation::NeimarkSacker => "the Hopf boundary",
+            _ => "the saddle-node boundary",
         };
         let distance = match margin.factor {
             f if f > 2.0 => format!("{} times as large", significant(f, 2)),

@@ -16,7 +16,7 @@ use super::super::events::{Absorber, Impact, Observer, Segment};
 use super::super::integrals::Ringing;
 use super::super::peaks::{self, Flight, Moment};
 use super::super::phasor::{Rates, Steady};
-use super::{PeriodRecord, Statistics};
+use super::Statistics;
 use crate::numerics::lanes::LANES;
 use crate::system::{State, System};
 
@@ -198,60 +198,10 @@ impl ImpactStatistics {
         Self { statistics, telescope, open }
     }
 
-    /// As [`Statistics::impacts`].
-    pub fn impacts(&self) -> u64 {
-        self.statistics.impacts()
-    }
-
-    /// As [`Statistics::impacts_per_period`].
-    pub fn impacts_per_period(&self) -> f64 {
-        self.statistics.impacts_per_period()
-    }
-
-    /// As [`Statistics::visits_per_period`].
-    pub fn visits_per_period(&self) -> f64 {
-        self.statistics.visits_per_period()
-    }
-
-    /// As [`Statistics::peak`].
-    pub fn peak(&mut self) -> f64 {
+    /// What has been measured so far. Harmonics and the work of the excitation may be missing and are then 0.
+    pub fn statistics(&mut self) -> &Statistics {
         self.search();
-        self.statistics.peak()
-    }
-
-    /// As [`Statistics::impact_speed`].
-    pub fn impact_speed(&self) -> f64 {
-        self.statistics.impact_speed()
-    }
-
-    /// As [`Statistics::errors_of_largest`].
-    pub fn errors_of_largest(&mut self) -> [f64; 2] {
-        self.search();
-        self.statistics.errors_of_largest()
-    }
-
-    /// As [`Statistics::rms`].
-    pub fn rms(&self) -> f64 {
-        self.statistics.rms()
-    }
-
-    /// As [`Statistics::errors`].
-    pub fn errors(&self) -> [f64; 2] {
-        self.statistics.errors()
-    }
-
-    /// As [`Statistics::records`], but that harmonics may be missing and are then 0.
-    pub fn records(&mut self) -> &[PeriodRecord] {
-        self.search();
-        self.statistics.records()
-    }
-
-    /// Share of the excitation's work that impacts dissipate; none where it does no work. The work is
-    /// what becomes of it.
-    pub fn efficiency(&self) -> Option<f64> {
-        let energy = self.statistics.energy();
-        let work = energy.stored + energy.damper + energy.impact;
-        (work > 0.0).then(|| energy.impact / work)
+        &self.statistics
     }
 
     /// A flight ends at a place. It is kept to be searched for its peak, if that may matter.
@@ -370,7 +320,9 @@ mod tests {
             let phasors = (size + steady) * (size + steady);
             let damping = 2.0 * system.mass_ratio() * system.damping();
             let rounded = 40.0 * f64::EPSILON * phasors / damping.max(1e-4);
-            for (one, other) in impact_statistics.records().iter().zip(statistics.records()) {
+            for (one, other) in
+                impact_statistics.statistics().records().iter().zip(statistics.records())
+            {
                 assert_eq!(
                     (one.impacts, one.visits, one.end),
                     (other.impacts, other.visits, other.end)
@@ -385,11 +337,16 @@ mod tests {
                 let (a, b) = (one.peak, other.peak);
                 assert!((a - b).abs() <= 1e-13 * (size + steady), "{a} {b} {system:?}");
             }
-            assert!((impact_statistics.peak() / statistics.peak() - 1.0).abs() < 1e-12);
-            assert!((impact_statistics.rms() / statistics.rms() - 1.0).abs() < 1e-9, "{system:?}");
+            assert!(
+                (impact_statistics.statistics().peak() / statistics.peak() - 1.0).abs() < 1e-12
+            );
+            assert!(
+                (impact_statistics.statistics().rms() / statistics.rms() - 1.0).abs() < 1e-9,
+                "{system:?}"
+            );
             let energy = statistics.energy();
             let wanted = (energy.input > 0.0).then(|| energy.impact / energy.input);
-            let found = impact_statistics.efficiency();
+            let found = impact_statistics.statistics().efficiency();
             let near = found.zip(wanted).map(|(a, b)| (a - b).abs() < 1e-8 * b.max(1.0));
             assert!(near.unwrap_or(found == wanted), "{found:?} {wanted:?} {system:?}");
         }

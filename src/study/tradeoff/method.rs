@@ -7,7 +7,7 @@ use crate::analysis::{FixedPoint, Manifold, fixed_points};
 use crate::numerics::scatter::twice_standard_error;
 use crate::operation_count;
 use crate::orbits::{Measures, symmetric_orbits};
-use crate::regimes::{Attractor, Regime, Thresholds, classify};
+use crate::regimes::{Attractor, Regime, Window, classify};
 use crate::simulation::{ContactTolerance, ImpactLog, Simulation, Statistics, Stop};
 use crate::study::{Proof, StudyError};
 use crate::system::{State, System};
@@ -243,13 +243,9 @@ fn symmetric_orbit(system: &System) -> Answer {
 
 fn orbit_near(system: &System, start: State, periods: u64) -> Result<Answer, StudyError> {
     let mut simulation = Simulation::new(system, start, 0.0)?;
-    let effort = crate::regimes::attractor::Effort {
-        discard: periods / 2,
-        periods: periods - periods / 2,
-        prolongations: 0,
-        impact_limit: IMPACT_LIMIT,
-    };
-    let found = Attractor::measure(&mut simulation, &effort);
+    let discard = periods / 2;
+    let window = Window { discard, periods: periods - discard, impact_limit: IMPACT_LIMIT };
+    let found = Attractor::measure(&mut simulation, &window);
     Ok(match Proof::of(system, &found) {
         Some(proof) => Answer {
             rms: Some(proof.measures.rms),
@@ -316,8 +312,7 @@ pub fn measured(simulation: &mut Simulation, periods: u64) -> Option<Answer> {
         .collect();
     let rms = statistics.rms();
     let [scatter, impacts_scatter] = scatters(&means, rms);
-    let classified =
-        classify(&statistics, &log.impacts, None, system.period(), &Thresholds::default());
+    let classified = classify(&statistics, &log.impacts, None, system.period());
     Some(Answer {
         rms: Some(rms),
         scatter: Some(scatter),

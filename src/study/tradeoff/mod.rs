@@ -17,7 +17,7 @@ use serde::Serialize;
 use super::{LongTermMotions, StudyEffort, StudyError, long_term_motions, main_attractor};
 use crate::analysis::Analysis;
 use crate::regimes::starts::StartBox;
-use crate::regimes::{Attractor, FoundAttractor, Regime};
+use crate::regimes::{FoundAttractor, Regime};
 use crate::simulation::{ContactTolerance, Simulation};
 use crate::system::{State, System};
 use by_hand::{ByHand, Flights, Locate};
@@ -182,7 +182,10 @@ impl Tradeoff {
         let main = main_attractor(&motions.attractors).ok_or(StudyError::NoMotion)?;
         let best = best(system, &motions, main, effort)?;
         progress(1);
-        let (start, start_number) = start(system, main, &effort.study)?;
+        // The first start that leads there, so that transients are those of the case.
+        let start_number = main.first_start;
+        let start = start_number
+            .map_or(main.attractor.state, |number| StartBox::around(system).start(number));
         let rests = main.attractor.sustained_contact.intervals > 0;
         let mut trials = Vec::new();
         for method in methods(&best, rests, effort) {
@@ -235,22 +238,6 @@ impl Tradeoff {
         let of_layer = self.trials.iter().filter(|trial| trial.method.layer() == layer);
         of_layer.filter(lasts).min_by_key(|trial| trial.operations)
     }
-}
-
-/// The first evenly spread start that leads to the motion, so that transients are those of the case.
-fn start(
-    system: &System,
-    main: &FoundAttractor,
-    effort: &StudyEffort,
-) -> Result<(State, Option<u32>), StudyError> {
-    let sample = StartBox::around(system);
-    for index in 0..effort.starts {
-        let start = sample.start(index);
-        if Attractor::reach(system, start, &effort.each(system))?.is_same(&main.attractor) {
-            return Ok((start, Some(index)));
-        }
-    }
-    Ok((main.attractor.state, None))
 }
 
 fn best(

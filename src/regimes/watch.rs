@@ -1,0 +1,60 @@
+//! What watches a trajectory side by side with others.
+
+use super::{Motion, classify};
+use crate::simulation::{
+    Impact, ImpactLog, ImpactStatistics, Observer, Segment, Simulation, Statistics, Stop,
+};
+use crate::system::State;
+
+/// Impacts that are kept to tell a regime by: their intervals are averaged.
+const KEPT_IMPACTS: usize = 1000;
+
+/// Measures one trajectory from its impacts.
+pub(super) struct Watch {
+    statistics: ImpactStatistics,
+    pub log: ImpactLog,
+}
+
+impl Observer for Watch {
+    fn flights(&self) -> bool {
+        self.statistics.flights()
+    }
+    fn segment(&mut self, segment: &Segment) {
+        self.statistics.segment(segment);
+    }
+    fn impact(&mut self, impact: &Impact) {
+        self.log.impact(impact);
+        self.statistics.impact(impact);
+    }
+    fn sticks(&mut self, loss: f64) {
+        self.statistics.sticks(loss);
+    }
+    fn period(&mut self, state: &State) {
+        self.statistics.period(state);
+    }
+}
+
+impl Watch {
+    pub fn begin(simulation: &Simulation) -> Self {
+        Self {
+            statistics: ImpactStatistics::begin(simulation.system(), simulation.state()),
+            log: ImpactLog::of_the_last(KEPT_IMPACTS),
+        }
+    }
+
+    /// What has been measured so far; without harmonics and work.
+    pub fn statistics(&mut self) -> &Statistics {
+        self.statistics.statistics()
+    }
+
+    /// The motion measured; none where the trajectory came to a bad end.
+    pub fn motion(&mut self, simulation: &Simulation, stop: Stop) -> Option<Motion> {
+        if !matches!(stop, Stop::EndTime | Stop::ImpactLimit) {
+            return None;
+        }
+        let statistics = self.statistics.statistics();
+        let period = simulation.system().period();
+        let classification = classify(statistics, &self.log.impacts, None, period);
+        Some(Motion::of(statistics, &classification, simulation, stop))
+    }
+}
