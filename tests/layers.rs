@@ -19,8 +19,8 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("numerics", &["operation_count"]),
     ("system", &[]),
     ("equations", &["symbolic", "system"]),
-    ("analysis", &["equations", "numerics", "symbolic", "system", "operation_count"]),
-    ("orbits", &["numerics", "system", "operation_count"]),
+    ("analysis", &["equations", "numerics", "system", "operation_count"]),
+    ("orbits", &["numerics", "symbolic", "system", "operation_count"]),
     ("simulation", &["numerics", "system", "operation_count"]),
     ("reference", &["system"]),
     (

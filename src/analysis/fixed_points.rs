@@ -11,9 +11,10 @@ use serde::Serialize;
 use super::AnalysisError;
 use super::curve::{Amplitude, FixedPointCurve};
 use super::manifold::{Branch, Manifold, ManifoldPoint};
-use crate::equations::equations;
+use crate::equations::fixed_points::{COSINE_SIDE, SINE_SIDE};
+use crate::equations::manifold::MANIFOLD_SQUARE;
+use crate::equations::slow_flow::{DETERMINANT, TRACE};
 use crate::operation_count;
-use crate::symbolic::{Symbol, Values};
 use crate::system::System;
 
 /// Rounding allowed to a motion that touches the wall between impacts.
@@ -100,39 +101,34 @@ pub struct FixedPoint {
 /// All fixed points with `B > 0`, by ascending `B`.
 ///
 /// # Errors
-/// [`AnalysisError::Condition`] when a coefficient of the quadratic overflows.
+/// [`AnalysisError`] when a coefficient of the quadratic overflows.
 pub fn solve(system: &System, manifold: &Manifold) -> Result<Vec<FixedPoint>, AnalysisError> {
     let curve = FixedPointCurve::of(system, manifold);
     let gamma = system.forcing_per_clearance();
     if !curve.coefficients().iter().chain([&(gamma * gamma)]).all(|one| one.is_finite()) {
-        return Err(AnalysisError::Condition);
+        return Err(AnalysisError);
     }
     let above = curve.collision().map(|(collision, _)| (gamma - collision) / collision);
-    let values = equations().programs.values(system);
-    curve
-        .fixed_points(gamma)
-        .map(|at| {
-            Ok(FixedPoint { above_collision: above, ..point(system, &values, manifold, at)? })
-        })
-        .collect()
+    let point = |at| FixedPoint { above_collision: above, ..point(system, manifold, at) };
+    Ok(curve.fixed_points(gamma).map(point).collect())
 }
 
 fn point(
     system: &System,
-    values: &Values,
     manifold: &Manifold,
     Amplitude { ratio, half_slope }: Amplitude,
-) -> Result<FixedPoint, AnalysisError> {
+) -> FixedPoint {
     operation_count::note(2 * operation_count::ELEMENTARY + 4);
-    let programs = &equations().programs;
+    let (lambda, sigma) = (system.damping(), system.detuning());
+    let (rho, curvature) = (manifold.restitution_ratio, manifold.curvature);
     let shift = ratio - 1.0;
-    let at = programs.at_shift(values, shift)?.with(Symbol::AmplitudeRatio, ratio);
-    let sides = programs.sides(&at)?;
-    let discriminant = half_slope * half_slope;
-    let [trace, larger] =
-        programs.stability(&at.clone().with(Symbol::Discriminant, discriminant))?;
+    let square = MANIFOLD_SQUARE.at([curvature, shift]);
+    let sides =
+        [SINE_SIDE.at([lambda, rho, ratio, square]), COSINE_SIDE.at([sigma, ratio, shift, square])];
+    let trace = TRACE.at([lambda, rho, curvature, ratio, shift]);
+    let larger = DETERMINANT.at([curvature, ratio, shift, half_slope * half_slope]);
     let determinant = larger.copysign(larger * half_slope);
-    let oscillator = at.require(Symbol::ManifoldSquare)?.sqrt();
+    let oscillator = square.sqrt();
     let absorber_phase = manifold.absorber_phase(ratio, shift);
     let branch = manifold.branch(shift);
     let largest = Manifold::largest_relative_displacement(
@@ -140,7 +136,7 @@ fn point(
         absorber_phase,
     );
     let attracts = trace < 0.0 && determinant > 0.0;
-    Ok(FixedPoint {
+    FixedPoint {
         absorber_amplitude: ratio,
         oscillator_amplitude: oscillator,
         eta: libm::atan2(sides[0], sides[1]),
@@ -155,7 +151,7 @@ fn point(
         admissible: largest <= 1.0 + CAVITY_ROUNDING,
         above_collision: None,
         shift,
-    })
+    }
 }
 
 /// The rates of (18) at a point, written out term by term, over the sizes of their terms. This is

@@ -125,7 +125,7 @@ fn taken(restitution: f64, level: f64) -> Result<Option<Taken>, StudyError> {
 }
 
 fn manifold(restitution: f64) -> Result<Manifold, StudyError> {
-    Ok(Manifold::of(restitution).map_err(crate::analysis::AnalysisError::from)?)
+    Ok(Manifold::of(restitution))
 }
 
 fn manifolds(level: f64) -> Result<Panel, StudyError> {
