@@ -311,11 +311,9 @@ fn a_root_of_the_condition_is_a_rest_point_of_the_paper_s_equations() {
             let u = 0.1 * f64::from(step) + 0.03;
             let point = case.at(u);
             let (forcing, eta) = (forcing(&point), phase(&point));
-            let values = point
-                .with(Symbol::B, 1.0 + u)
-                .with(Symbol::G, forcing)
-                .with(Symbol::gamma, forcing)
-                .with(Symbol::eta, eta);
+            let values = Case(case.0, case.1, case.2, forcing).at(u);
+            let values = values.with(Symbol::B, 1.0 + u).with(Symbol::G, forcing);
+            let values = values.with(Symbol::eta, eta);
             let c = libm::sqrt(of(&values, Symbol::c_2));
             let values = completed(values.with(Symbol::C, c));
             // Rates are differences of terms of order 10, divided by C of order 0.1.
