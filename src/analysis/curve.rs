@@ -15,7 +15,7 @@ use crate::system::System;
 pub struct FixedPointCurve {
     manifold: Manifold,
     /// `p_0`, `p_1`, `p_2`.
-    coefficients: [f64; 3],
+    pub(super) coefficients: [f64; 3],
     collision_ratio: f64,
     collision_forcing: f64,
     hopf: f64,
@@ -52,11 +52,6 @@ impl FixedPointCurve {
             hopf: formulas::HOPF.at([lambda, rho, manifold.curvature, detuning]),
             symmetry_breaking: formulas::BREAKING.at([lambda, rho, detuning]),
         }
-    }
-
-    /// `p_0`, `p_1`, `p_2`.
-    pub fn coefficients(&self) -> [f64; 3] {
-        self.coefficients
     }
 
     /// `gamma^2` of the fixed point with `beta = B/b`: no difference of large numbers, since the

@@ -105,7 +105,7 @@ pub struct FixedPoint {
 pub fn solve(system: &System, manifold: &Manifold) -> Result<Vec<FixedPoint>, AnalysisError> {
     let curve = FixedPointCurve::of(system, manifold);
     let gamma = system.forcing_per_clearance();
-    if !curve.coefficients().iter().chain([&(gamma * gamma)]).all(|one| one.is_finite()) {
+    if !curve.coefficients.iter().chain([&(gamma * gamma)]).all(|one| one.is_finite()) {
         return Err(AnalysisError);
     }
     let above = curve.collision().map(|(collision, _)| (gamma - collision) / collision);
