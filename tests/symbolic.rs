@@ -171,7 +171,7 @@ fn values_that_follow_are_completed() {
 #[test]
 fn latex_is_readable() {
     let cases = [
-        ("-(b - B) / 2.0", r"-\frac{\left(b - B\right)}{2}"),
+        ("-(b - B) / 2.0", r"-\frac{b - B}{2}"),
         ("(b - B) / 2.0", r"\frac{b - B}{2}"),
         ("2.0 / (3.0 * PI) * square(B)", r"\frac{2}{3 \pi} B^{2}"),
         ("1.0 / (2.0 * sqrt(1.0 + R))", r"\frac{1}{2 \sqrt{1 + R}}"),
@@ -197,6 +197,8 @@ fn numbers_in_formulas_are_unambiguous() {
         ("square(lambda)", r"\left(-0.500\right)^{2}"),
         ("square(R)", r"\left(1.25\times 10^{-7}\right)^{2}"),
         ("-lambda", r"-\left(-0.500\right)"),
+        ("-lambda / b", r"-\frac{-0.500}{2.00}"),
+        ("lambda / b", r"-\frac{0.500}{2.00}"),
         ("B + lambda", r"3.00 - 0.500"),
         ("B - lambda", r"3.00 + 0.500"),
         ("sqrt(b) * B", r"\sqrt{2.00} \cdot 3.00"),

@@ -35,9 +35,11 @@ equations! {
         ACROSS(lambda, rho, sigma, beta, u): [gamma * sin(eta - Theta)]
             = 4.0 / PI * rho * sigma * beta - lambda * u;
     }
-    "Quadratic of the fixed points", "coefficients of powers of the amplitude in the squared forcing",
+    "Forcing of a fixed point", "which excitation holds an amplitude",
     "derived here: the sum of the squares of the two conditions before" => {
         FORCING_SQUARED(p_0, p_1, p_2, beta): [square(gamma)] = p_0 + p_1 * beta + p_2 * square(beta);
+    }
+    "Quadratic of the fixed points", "coefficients of powers of the amplitude in the squared forcing", DERIVED => {
         CONSTANT(lambda, sigma): [p_0] = square(lambda) + 4.0 * square(sigma);
         LINEAR(lambda, sigma): [p_1] = -2.0 * square(lambda) - 8.0 * square(sigma) - 32.0 / square(PI) * sigma;
         SQUARE(lambda, rho, sigma): [p_2]

@@ -17,6 +17,8 @@ equations! {
     "Slow invariant manifold", "every motion with two symmetric impacts per cycle",
     "derived here from (14) and (15); paper (16)" => {
         MANIFOLD(R, b, B): [square(C)] = (1.0 + R) * square(B) - 2.0 * b * B + square(b);
+    }
+    "Manifold over the clearance", "the form that is evaluated", "derived here" => {
         MANIFOLD_SQUARE(R, u): [c_2] = square(u) + R * square(1.0 + u);
     }
     "Phase of the absorber", "from (14) and (15)", "derived here" => {

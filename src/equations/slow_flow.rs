@@ -20,7 +20,7 @@ equations! {
             = gamma * sqrt(c_2) * sin(eta) - lambda * c_2 - 16.0 / cube(PI) * rho * square(beta);
         RATIO_RATE(R, beta, u, D1_c_2): [D1_beta] = D1_c_2 / (2.0 * (u + R * beta));
         PHASE_RATE(sigma, gamma, beta, u, c_2, eta): [D1_eta]
-            = gamma * cos(eta) / (2.0 * sqrt(c_2)) + 4.0 / square(PI) * beta * u / c_2 + sigma;
+            = gamma * cos(eta) / (2.0 * sqrt(c_2)) + 4.0 * beta * u / (square(PI) * c_2) + sigma;
     }
     "Stability of a fixed point",
     "trace of the slow flow's Jacobian, and its determinant at the larger fixed point; at the smaller one the sign is the other",

@@ -47,6 +47,8 @@ equations! {
     }
     "Reduced forcing", "the size of the excitation", DEFINITION => {
         REDUCED_FORCING(eps, F): [G] = F / eps;
+    }
+    "Forcing per clearance", "the one measure of excitation against clearance", DEFINITION => {
         FORCING_PER_CLEARANCE(G, b): [gamma] = G / b;
     }
     "Detuning", "how far the excitation is from resonance", "paper (7)" => {
@@ -83,6 +85,8 @@ equations! {
     }
     "Absorber amplitude per clearance", "the one unknown of a fixed point", DEFINITION => {
         AMPLITUDE_RATIO(b, B): [beta] = B / b;
+    }
+    "Amplitude beyond the clearance", "a small difference that the formulas keep exact", DEFINITION => {
         SHIFT(beta): [u] = beta - 1.0;
     }
 }

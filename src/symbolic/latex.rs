@@ -92,13 +92,17 @@ impl Writer<'_> {
                 Piece::new(format!("-{}", inner.parenthesised_if(needed)), Kind::Product)
             }
             Expr::Binary('/', sides) => {
-                let [above, below] = [0, 1].map(|side| self.piece(&sides[side]));
+                let below = self.piece(&sides[1]).text;
+                if let Expr::Negative(above) = &sides[0] {
+                    let text = format!(r"-\frac{{{}}}{{{below}}}", self.piece(above).text);
+                    return Piece::new(text, Kind::Product);
+                }
+                let above = self.piece(&sides[0]);
                 let (sign, above) = match above.text.strip_prefix('-') {
                     Some(rest) if above.kind != Kind::Sum => ("-", rest),
                     _ => ("", above.text.as_str()),
                 };
-                let text = format!(r"{sign}\frac{{{above}}}{{{}}}", below.text);
-                Piece::new(text, Kind::Product)
+                Piece::new(format!(r"{sign}\frac{{{above}}}{{{below}}}"), Kind::Product)
             }
             Expr::Binary('*', sides) => self.product(&sides[0], &sides[1]),
             Expr::Binary(sign, sides) => self.sum(*sign, &sides[0], &sides[1]),
