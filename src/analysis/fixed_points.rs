@@ -4,8 +4,6 @@
 //! stability within the slow flow; a point is a stable motion when it also lies on the manifold's
 //! stable branch.
 
-use std::f64::consts::{FRAC_2_PI, PI};
-
 use serde::Serialize;
 
 use super::AnalysisError;
@@ -14,6 +12,7 @@ use super::manifold::{Branch, Manifold, ManifoldPoint};
 use crate::equations::fixed_points::{COSINE_SIDE, SINE_SIDE};
 use crate::equations::manifold::MANIFOLD_SQUARE;
 use crate::equations::slow_flow::{DETERMINANT, TRACE};
+use crate::equations::stated::{AMPLITUDE_RATE, FIRST_HARMONIC, PHASE_RATE};
 use crate::operation_count;
 use crate::system::System;
 
@@ -129,6 +128,7 @@ fn point(
     let larger = DETERMINANT.at([curvature, ratio, shift, half_slope * half_slope]);
     let determinant = larger.copysign(larger * half_slope);
     let oscillator = square.sqrt();
+    let eta = libm::atan2(sides[0], sides[1]);
     let absorber_phase = manifold.absorber_phase(ratio, shift);
     let branch = manifold.branch(shift);
     let largest = Manifold::largest_relative_displacement(
@@ -139,14 +139,14 @@ fn point(
     FixedPoint {
         absorber_amplitude: ratio,
         oscillator_amplitude: oscillator,
-        eta: libm::atan2(sides[0], sides[1]),
+        eta,
         absorber_phase,
         branch,
         trace,
         determinant,
         kind: Kind::of(trace, determinant),
         stable: attracts && branch == Branch::Stable,
-        residual: residual(system, manifold, [ratio, oscillator], sides),
+        residual: residual(system, [oscillator, ratio, absorber_phase, eta]),
         largest_relative_displacement: largest,
         admissible: largest <= 1.0 + CAVITY_ROUNDING,
         above_collision: None,
@@ -154,29 +154,24 @@ fn point(
     }
 }
 
-/// The rates of (18) at a point, written out term by term, over the sizes of their terms. This is
-/// on purpose not the derived quadratic: it checks it.
-fn residual(
-    system: &System,
-    manifold: &Manifold,
-    [ratio, oscillator]: [f64; 2],
-    [sine, cosine]: [f64; 2],
-) -> f64 {
-    operation_count::note(32);
-    let harmonic = 8.0 * ratio / (PI * PI * oscillator);
-    let gamma = system.forcing_per_clearance() / libm::hypot(sine, cosine);
-    let amplitude_terms = [
-        -system.damping() * oscillator,
-        -harmonic * FRAC_2_PI * manifold.restitution_ratio * ratio,
-        gamma * sine,
+/// The rates of (18) at a point with `[C/b, B/b, Theta, eta]`, each over the sum of its terms' absolute
+/// values. These are on purpose the paper's equations and not the derived quadratic: they check it.
+fn residual(system: &System, [oscillator, absorber, theta, eta]: [f64; 4]) -> f64 {
+    operation_count::note(4 * operation_count::ELEMENTARY + 16);
+    let (lambda, sigma) = (system.damping(), system.detuning());
+    let (gamma, harmonic) = (system.forcing_per_clearance(), FIRST_HARMONIC.at([absorber]));
+    let rates = [
+        2.0 * AMPLITUDE_RATE.at([lambda, gamma, oscillator, harmonic, theta, eta]),
+        2.0 * oscillator * PHASE_RATE.at([sigma, gamma, oscillator, harmonic, theta, eta]),
     ];
-    let phase_terms =
-        [2.0 * system.detuning() * oscillator, gamma * cosine, -harmonic * (1.0 - ratio)];
-    [amplitude_terms, phase_terms]
-        .map(|terms| {
-            let size: f64 = terms.iter().map(|term| term.abs()).sum();
-            terms.iter().sum::<f64>().abs() / size.max(f64::MIN_POSITIVE)
-        })
-        .into_iter()
-        .fold(0.0, f64::max)
+    let sides = |angle: f64, own: f64| {
+        let (sin, cos) = libm::sincos(angle);
+        [sin, cos].map(|part| (own * part).abs())
+    };
+    let (by_absorber, by_forcing) = (sides(theta, harmonic), sides(eta, gamma));
+    let own = [lambda * oscillator, 2.0 * sigma.abs() * oscillator];
+    let relative = |k: usize| {
+        rates[k].abs() / (own[k] + by_absorber[k] + by_forcing[k]).max(f64::MIN_POSITIVE)
+    };
+    relative(0).max(relative(1))
 }
