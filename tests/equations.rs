@@ -1,4 +1,5 @@
-//! What the program derives, against what was derived by hand, and against published numbers.
+//! What follows from the paper's equations, against those equations, what was derived by hand, and published
+//! numbers.
 
 use std::f64::consts::PI;
 

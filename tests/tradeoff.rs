@@ -68,7 +68,7 @@ fn the_mean_square_of_a_fixed_point_is_that_of_its_motion() {
     }
 }
 
-/// The stated equations that are integrated, against the flow in `B` that the program derives from them.
+/// The flow in `C` that is integrated, against the derived flow in `B`.
 #[test]
 fn the_slow_flow_in_c_is_the_derived_flow_in_b() {
     let system = common::table_1(8.5, 20.0);

@@ -1,6 +1,6 @@
 //! Fixed points, boundaries and areas without an iteration: `gamma^2` is a quadratic in `beta = B/b`.
 //!
-//! [`crate::equations::FixedPoints`] derives it: `gamma^2 = p_0 + p_1 beta + p_2 beta^2`, with its smallest
+//! [`crate::equations::fixed_points`] derives it: `gamma^2 = p_0 + p_1 beta + p_2 beta^2`, with its smallest
 //! value, the saddle-node's, in closed form. The number of fixed points is the sign of
 //! `gamma - gamma_SN`, and near the collision the distance from it is what is known of them.
 

@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use crate::equations::manifold::{
     ABSORBER_PHASE, BREAKING_RATIO, BREAKING_SHIFT, FOLD_OSCILLATOR, FOLD_RATIO, FOLD_SHIFT,
-    MANIFOLD_SQUARE,
+    MANIFOLD_SQUARE, STABLE_RATIO, STABLE_ROOT,
 };
 use crate::equations::stated::{CURVATURE, RESTITUTION_RATIO};
 use crate::operation_count;
@@ -88,6 +88,12 @@ impl Manifold {
             absorber_amplitude: 1.0 + shift,
             oscillator_amplitude: MANIFOLD_SQUARE.at([self.curvature, shift]).sqrt(),
         }
+    }
+
+    /// `B/b` on the stable branch, or beyond it, by `C/b`: the larger root of (16); `None` below the fold.
+    pub fn stable_absorber(&self, oscillator: f64) -> Option<f64> {
+        let root = STABLE_ROOT.at([self.curvature, oscillator * oscillator]);
+        (root >= 0.0).then(|| STABLE_RATIO.at([self.curvature, root]))
     }
 
     /// The branch on which `B = b (1 + shift)` lies; the two ends of the stable branch belong to it.

@@ -11,7 +11,6 @@
 
 use super::Manifold;
 use super::motion::SlowVariables;
-use crate::equations::manifold::{STABLE_RATIO, STABLE_ROOT};
 use crate::equations::slow_flow::{PHASE_RATE, SQUARE_RATE};
 use crate::operation_count;
 use crate::system::System;
@@ -53,15 +52,9 @@ impl SlowFlow {
         Self { system: *system, manifold: *manifold, period }
     }
 
-    /// `B/b` on the stable branch by `c_2`; `None` below the fold.
-    fn absorber(&self, square: f64) -> Option<f64> {
-        let root = STABLE_ROOT.at([self.manifold.curvature, square]);
-        (root >= 0.0).then(|| STABLE_RATIO.at([self.manifold.curvature, root]))
-    }
-
     /// The point of the stable branch with amplitude `C/b` and phase `eta`; `None` below the fold.
     pub fn point(&self, oscillator: f64, eta: f64) -> Option<SlowVariables> {
-        let absorber = self.absorber(oscillator * oscillator)?;
+        let absorber = self.manifold.stable_absorber(oscillator)?;
         Some(SlowVariables {
             oscillator_amplitude: oscillator,
             absorber_amplitude: absorber,
@@ -74,7 +67,7 @@ impl SlowFlow {
     pub fn rates(&self, [oscillator, eta]: [f64; 2]) -> Option<[f64; 2]> {
         operation_count::note(4);
         let square = oscillator * oscillator;
-        let absorber = self.absorber(square)?;
+        let absorber = self.manifold.stable_absorber(oscillator)?;
         let (lambda, sigma) = (self.system.damping(), self.system.detuning());
         let gamma = self.system.forcing_per_clearance();
         let rho = self.manifold.restitution_ratio;
