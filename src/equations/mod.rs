@@ -6,7 +6,7 @@
 //! the paper's equations. [`crate::orbits::equations`] holds such motions exactly, at any mass ratio and
 //! frequency.
 
-#![allow(non_upper_case_globals, non_snake_case)]
+#![allow(non_snake_case)]
 
 pub mod fixed_points;
 pub mod manifold;

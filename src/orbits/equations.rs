@@ -11,7 +11,7 @@
 //! between the walls from impact to impact. `tests/orbit_equations.rs` proves what is derived against what is
 //! stated.
 
-#![allow(non_upper_case_globals, non_snake_case)]
+#![allow(non_snake_case)]
 
 use std::f64::consts::PI;
 
