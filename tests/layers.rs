@@ -22,11 +22,8 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("numerics", &["operation_count"]),
     ("system", &[]),
     ("equations", &["symbolic", "system"]),
-    (
-        "analysis",
-        &["bifurcation", "equations", "numerics", "symbolic", "system", "operation_count"],
-    ),
-    ("orbits", &["bifurcation", "numerics", "system", "operation_count"]),
+    ("analysis", &["bifurcation", "equations", "numerics", "system", "operation_count"]),
+    ("orbits", &["bifurcation", "numerics", "symbolic", "system", "operation_count"]),
     ("simulation", &["numerics", "system", "operation_count"]),
     ("reference", &["system"]),
     (
@@ -315,7 +312,7 @@ fn the_imports_of_the_program_are_seen() {
     };
     assert_eq!(of("simulation/run.rs"), ["numerics", "system"]);
     assert_eq!(of("simulation/flow.rs"), ["operation_count", "system"]);
-    assert_eq!(of("analysis/mod.rs"), ["symbolic", "system"]);
+    assert_eq!(of("analysis/mod.rs"), ["system"]);
     let study = of("study/mod.rs");
     assert!(study.contains(&"validation".into()) && study.contains(&"case".into()), "{study:?}");
 }

@@ -1,9 +1,9 @@
 //! Areas Z1 to Z4 and the strips A1 and A2 (sections 3.2 and 3.3, Figs. 5 and 6c).
 
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 
 /// The areas of Fig. 5a.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub enum Area {
     /// More than two impacts per period.
     Z1,
@@ -30,14 +30,8 @@ impl Area {
     }
 }
 
-impl Serialize for Area {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_str(self.key())
-    }
-}
-
 /// The transition strips of Fig. 6c.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub enum Strip {
     /// Hysteresis: steady 1:1 resonance beside a modulated response.
     A1,
@@ -55,12 +49,6 @@ impl Strip {
             Self::A1 => "A1",
             Self::A2 => "A2",
         }
-    }
-}
-
-impl Serialize for Strip {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_str(self.key())
     }
 }
 

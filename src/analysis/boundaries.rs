@@ -7,12 +7,11 @@
 
 use serde::Serialize;
 
-use super::AnalysisError;
 use super::curve::FixedPointCurve;
 use super::frequency_response::detunings;
 use super::manifold::{Branch, Manifold};
 use crate::bifurcation::Bifurcation;
-use crate::equations::equations;
+use crate::equations::fixed_points as formulas;
 use crate::numerics::polynomial::real_roots;
 use crate::system::System;
 
@@ -53,15 +52,13 @@ pub struct Boundaries {
 
 impl Boundaries {
     /// Boundaries at the system's detuning.
-    ///
-    /// # Errors
-    /// [`AnalysisError::Missing`] never, for a system.
-    pub fn of(system: &System, manifold: &Manifold) -> Result<Self, AnalysisError> {
+    pub fn of(system: &System, manifold: &Manifold) -> Self {
         let curve = FixedPointCurve::of(system, manifold);
-        let programs = &equations().programs;
-        let meeting = programs.meeting_detuning(&programs.values(system))?;
+        let Manifold { restitution_ratio, curvature, .. } = *manifold;
+        let meeting =
+            formulas::MEETING_DETUNING.at([system.damping(), restitution_ratio, curvature]);
         let at_meeting = FixedPointCurve::at_detuning(system, manifold, meeting);
-        Ok(Self {
+        Self {
             symmetry_breaking: curve.symmetry_breaking(),
             hopf: curve.hopf(),
             saddle_node: curve.collision().map(|(forcing_over_clearance, absorber)| SaddleNode {
@@ -73,7 +70,7 @@ impl Boundaries {
                 detuning: meeting,
                 forcing_over_clearance: at_meeting.hopf(),
             },
-        })
+        }
     }
 
     /// All boundaries as `(kind, gamma)`.
@@ -89,27 +86,34 @@ impl Boundaries {
     }
 }
 
-/// Detunings at which a boundary passes through the system's `gamma`, ascending; none of a bifurcation that
-/// the slow flow does not have.
-///
-/// # Errors
-/// [`AnalysisError::Missing`] never, for a system.
-pub fn crossings(
-    kind: Bifurcation,
-    system: &System,
-    manifold: &Manifold,
-) -> Result<Vec<f64>, AnalysisError> {
-    let shift = match kind {
-        Bifurcation::NeimarkSacker => manifold.fold_shift,
-        Bifurcation::SymmetryBreaking => manifold.symmetry_breaking.absorber_amplitude - 1.0,
+/// Detunings at which a boundary passes through the system's `gamma`, ascending; none of a bifurcation that the
+/// slow flow does not have.
+pub fn crossings(kind: Bifurcation, system: &System, manifold: &Manifold) -> Vec<f64> {
+    let breaking = manifold.symmetry_breaking.absorber_amplitude - 1.0;
+    match kind {
+        Bifurcation::NeimarkSacker => detunings(system, manifold, manifold.fold_shift),
+        Bifurcation::SymmetryBreaking => detunings(system, manifold, breaking),
         Bifurcation::SaddleNode => {
-            let programs = &equations().programs;
-            let mut found = real_roots(&programs.collision_detunings(&programs.values(system))?);
             let curve = |detuning| FixedPointCurve::at_detuning(system, manifold, detuning);
+            let mut found = real_roots(&collision_detunings(system, manifold));
             found.retain(|detuning| curve(*detuning).collision().is_some());
-            return Ok(found);
+            found
         }
-        _ => return Ok(Vec::new()),
-    };
-    detunings(system, shift)
+        _ => Vec::new(),
+    }
+}
+
+/// Coefficients, by ascending powers of `sigma`, of the condition that two fixed points meet.
+fn collision_detunings(system: &System, manifold: &Manifold) -> [f64; 5] {
+    let (lambda, gamma) = (system.damping(), system.forcing_per_clearance());
+    let rho = manifold.restitution_ratio;
+    let constant = formulas::NODE_CONSTANT.at([lambda, rho]);
+    let square = formulas::NODE_SQUARE.at([rho]);
+    [
+        formulas::NODE_DETUNING_0.at([lambda, rho, gamma, constant]),
+        formulas::NODE_DETUNING_1.at([gamma]),
+        formulas::NODE_DETUNING_2.at([manifold.curvature, gamma, constant, square]),
+        formulas::NODE_DETUNING_3.at([]),
+        formulas::NODE_DETUNING_4.at([square]),
+    ]
 }

@@ -1,21 +1,25 @@
 //! Fixed points, boundaries and areas without an iteration: `gamma^2` is a quadratic in `beta = B/b`.
 //!
-//! [`crate::equations::FixedPoints`] derives it: `gamma^2 = p_0 + p_1 beta + p_2 beta^2`, with its smallest
+//! [`crate::equations::fixed_points`] derives it: `gamma^2 = p_0 + p_1 beta + p_2 beta^2`, with its smallest
 //! value, the saddle-node's, in closed form. The number of fixed points is the sign of
 //! `gamma - gamma_SN`, and near the collision the distance from it is what is known of them.
 
 use super::areas::{Area, Strip, Zone};
 use super::manifold::{Branch, Manifold};
-use crate::equations::{Quadratic, equations};
+use crate::equations::fixed_points as formulas;
 use crate::operation_count;
-use crate::symbolic::{Symbol, Values};
 use crate::system::System;
 
-/// The quadratic of one detuning, damping and restitution.
+/// The quadratic of one detuning, damping and restitution, and the forcings `gamma` where its roots change.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FixedPointCurve {
     manifold: Manifold,
-    quadratic: Quadratic,
+    /// `p_0`, `p_1`, `p_2`.
+    pub(super) coefficients: [f64; 3],
+    collision_ratio: f64,
+    collision_forcing: f64,
+    hopf: f64,
+    symmetry_breaking: f64,
 }
 
 /// Amplitude of a fixed point.
@@ -35,75 +39,61 @@ impl FixedPointCurve {
 
     /// The same at another detuning.
     pub fn at_detuning(system: &System, manifold: &Manifold, detuning: f64) -> Self {
-        let values = Values::new()
-            .with(Symbol::Damping, system.damping())
-            .with(Symbol::RestitutionRatio, manifold.restitution_ratio)
-            .with(Symbol::ManifoldCurvature, manifold.curvature)
-            .with(Symbol::Detuning, detuning);
-        // All symbols of the formulas have values; a test would see the NaN.
-        let quadratic = equations().programs.quadratic(&values).unwrap_or(Quadratic {
-            coefficients: [f64::NAN; 3],
-            collision: f64::NAN,
-            hopf: f64::NAN,
-            breaking: f64::NAN,
-        });
-        Self { manifold: *manifold, quadratic }
-    }
-
-    /// `p_0`, `p_1`, `p_2`.
-    pub fn coefficients(&self) -> [f64; 3] {
-        self.quadratic.coefficients
-    }
-
-    /// `gamma_SN`, also where its `beta` is not positive.
-    pub fn collision_forcing(&self) -> f64 {
-        self.quadratic.collision
+        let (lambda, rho) = (system.damping(), manifold.restitution_ratio);
+        let constant = formulas::CONSTANT.at([lambda, detuning]);
+        let linear = formulas::LINEAR.at([lambda, detuning]);
+        let square = formulas::SQUARE.at([lambda, rho, detuning]);
+        let node = [formulas::NODE_CONSTANT.at([lambda, rho]), formulas::NODE_SQUARE.at([rho])];
+        Self {
+            manifold: *manifold,
+            coefficients: [constant, linear, square],
+            collision_ratio: formulas::NODE_RATIO.at([linear, square]),
+            collision_forcing: formulas::NODE_FORCING.at([detuning, square, node[0], node[1]]),
+            hopf: formulas::HOPF.at([lambda, rho, manifold.curvature, detuning]),
+            symmetry_breaking: formulas::BREAKING.at([lambda, rho, detuning]),
+        }
     }
 
     /// `gamma^2` of the fixed point with `beta = B/b`: no difference of large numbers, since the
     /// smallest value is known.
     pub fn forcing_squared(&self, beta: f64) -> f64 {
-        let [_, _, square] = self.quadratic.coefficients;
-        let distance = beta - self.collision_ratio();
-        self.quadratic.collision * self.quadratic.collision + square * distance * distance
-    }
-
-    fn collision_ratio(&self) -> f64 {
-        let [_, linear, square] = self.quadratic.coefficients;
-        -linear / (2.0 * square)
+        let [_, _, square] = self.coefficients;
+        let node = [self.collision_ratio, self.collision_forcing];
+        formulas::FORCING_FROM_NODE.at([square, node[0], node[1], beta])
     }
 
     /// `gamma` at which two fixed points collide, and `beta` there; none where one of them would not be
     /// positive.
     pub fn collision(&self) -> Option<(f64, f64)> {
-        operation_count::note(2);
-        let beta = self.collision_ratio();
-        let gamma = self.quadratic.collision;
+        let (gamma, beta) = (self.collision_forcing, self.collision_ratio);
         (beta > 0.0 && beta.is_finite() && gamma > 0.0).then_some((gamma, beta))
     }
 
     /// `gamma_H`, where a fixed point reaches the fold.
     pub fn hopf(&self) -> f64 {
-        self.quadratic.hopf
+        self.hopf
     }
 
     /// `gamma_c`, where a fixed point reaches symmetry breaking.
     pub fn symmetry_breaking(&self) -> f64 {
-        self.quadratic.breaking
+        self.symmetry_breaking
     }
 
     /// The fixed points at a forcing, at most two, ascending; those with `B > 0` and `C > 0`.
     pub fn fixed_points(&self, gamma: f64) -> impl Iterator<Item = Amplitude> {
-        operation_count::note(15);
-        let [constant, linear, square] = self.quadratic.coefficients;
-        let collision = self.quadratic.collision;
+        operation_count::note(1);
+        let [constant, linear, square] = self.coefficients;
         // The distance from the collision, not the difference of two squares that are almost equal.
-        let discriminant = square * ((gamma - collision) * (gamma + collision));
+        let discriminant = formulas::DISCRIMINANT.at([gamma, square, self.collision_forcing]);
         let root = discriminant.sqrt();
         // The root further from 0 first, which is a sum; the other from their product.
-        let middle = -0.5 * linear;
-        let far = middle + root.copysign(middle);
-        let (far, near) = (far / square, (constant - gamma * gamma) / far);
+        let far = if linear.is_sign_negative() {
+            &formulas::LARGER_RATIO
+        } else {
+            &formulas::SMALLER_RATIO
+        };
+        let far = far.at([linear, square, discriminant]);
+        let near = formulas::RATIO_PRODUCT.at([gamma, constant, square]) / far;
         let lower = Amplitude { ratio: far.min(near), half_slope: -root };
         let upper = Amplitude { ratio: far.max(near), half_slope: root };
         let both = if root > 0.0 { [Some(lower), Some(upper)] } else { [None, Some(upper)] };

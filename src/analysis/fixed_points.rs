@@ -4,16 +4,16 @@
 //! stability within the slow flow; a point is a stable motion when it also lies on the manifold's
 //! stable branch.
 
-use std::f64::consts::{FRAC_2_PI, PI};
-
 use serde::Serialize;
 
 use super::AnalysisError;
 use super::curve::{Amplitude, FixedPointCurve};
 use super::manifold::{Branch, Manifold, ManifoldPoint};
-use crate::equations::equations;
+use crate::equations::fixed_points::{COSINE_SIDE, SINE_SIDE};
+use crate::equations::manifold::MANIFOLD_SQUARE;
+use crate::equations::slow_flow::{DETERMINANT, TRACE};
+use crate::equations::stated::{AMPLITUDE_RATE, FIRST_HARMONIC, PHASE_RATE};
 use crate::operation_count;
-use crate::symbolic::{Symbol, Values};
 use crate::system::System;
 
 /// Rounding allowed to a motion that touches the wall between impacts.
@@ -100,39 +100,35 @@ pub struct FixedPoint {
 /// All fixed points with `B > 0`, by ascending `B`.
 ///
 /// # Errors
-/// [`AnalysisError::Condition`] when a coefficient of the quadratic overflows.
+/// [`AnalysisError`] when a coefficient of the quadratic overflows.
 pub fn solve(system: &System, manifold: &Manifold) -> Result<Vec<FixedPoint>, AnalysisError> {
     let curve = FixedPointCurve::of(system, manifold);
     let gamma = system.forcing_per_clearance();
-    if !curve.coefficients().iter().chain([&(gamma * gamma)]).all(|one| one.is_finite()) {
-        return Err(AnalysisError::Condition);
+    if !curve.coefficients.iter().chain([&(gamma * gamma)]).all(|one| one.is_finite()) {
+        return Err(AnalysisError);
     }
     let above = curve.collision().map(|(collision, _)| (gamma - collision) / collision);
-    let values = equations().programs.values(system);
-    curve
-        .fixed_points(gamma)
-        .map(|at| {
-            Ok(FixedPoint { above_collision: above, ..point(system, &values, manifold, at)? })
-        })
-        .collect()
+    let point = |at| FixedPoint { above_collision: above, ..point(system, manifold, at) };
+    Ok(curve.fixed_points(gamma).map(point).collect())
 }
 
 fn point(
     system: &System,
-    values: &Values,
     manifold: &Manifold,
     Amplitude { ratio, half_slope }: Amplitude,
-) -> Result<FixedPoint, AnalysisError> {
+) -> FixedPoint {
     operation_count::note(2 * operation_count::ELEMENTARY + 4);
-    let programs = &equations().programs;
+    let (lambda, sigma) = (system.damping(), system.detuning());
+    let (rho, curvature) = (manifold.restitution_ratio, manifold.curvature);
     let shift = ratio - 1.0;
-    let at = programs.at_shift(values, shift)?.with(Symbol::AmplitudeRatio, ratio);
-    let sides = programs.sides(&at)?;
-    let discriminant = half_slope * half_slope;
-    let [trace, larger] =
-        programs.stability(&at.clone().with(Symbol::Discriminant, discriminant))?;
+    let square = MANIFOLD_SQUARE.at([curvature, shift]);
+    let sides =
+        [SINE_SIDE.at([lambda, rho, ratio, square]), COSINE_SIDE.at([sigma, ratio, shift, square])];
+    let trace = TRACE.at([lambda, rho, curvature, ratio, shift]);
+    let larger = DETERMINANT.at([curvature, ratio, shift, half_slope * half_slope]);
     let determinant = larger.copysign(larger * half_slope);
-    let oscillator = at.require(Symbol::ManifoldSquare)?.sqrt();
+    let oscillator = square.sqrt();
+    let eta = libm::atan2(sides[0], sides[1]);
     let absorber_phase = manifold.absorber_phase(ratio, shift);
     let branch = manifold.branch(shift);
     let largest = Manifold::largest_relative_displacement(
@@ -140,47 +136,42 @@ fn point(
         absorber_phase,
     );
     let attracts = trace < 0.0 && determinant > 0.0;
-    Ok(FixedPoint {
+    FixedPoint {
         absorber_amplitude: ratio,
         oscillator_amplitude: oscillator,
-        eta: libm::atan2(sides[0], sides[1]),
+        eta,
         absorber_phase,
         branch,
         trace,
         determinant,
         kind: Kind::of(trace, determinant),
         stable: attracts && branch == Branch::Stable,
-        residual: residual(system, manifold, [ratio, oscillator], sides),
+        residual: residual(system, [oscillator, ratio, absorber_phase, eta]),
         largest_relative_displacement: largest,
         admissible: largest <= 1.0 + CAVITY_ROUNDING,
         above_collision: None,
         shift,
-    })
+    }
 }
 
-/// The rates of (18) at a point, written out term by term, over the sizes of their terms. This is
-/// on purpose not the derived quadratic: it checks it.
-fn residual(
-    system: &System,
-    manifold: &Manifold,
-    [ratio, oscillator]: [f64; 2],
-    [sine, cosine]: [f64; 2],
-) -> f64 {
-    operation_count::note(32);
-    let harmonic = 8.0 * ratio / (PI * PI * oscillator);
-    let gamma = system.forcing_per_clearance() / libm::hypot(sine, cosine);
-    let amplitude_terms = [
-        -system.damping() * oscillator,
-        -harmonic * FRAC_2_PI * manifold.restitution_ratio * ratio,
-        gamma * sine,
+/// The rates of (18) at a point with `[C/b, B/b, Theta, eta]`, each over the sum of its terms' absolute
+/// values. These are on purpose the paper's equations and not the derived quadratic: they check it.
+fn residual(system: &System, [oscillator, absorber, theta, eta]: [f64; 4]) -> f64 {
+    operation_count::note(4 * operation_count::ELEMENTARY + 16);
+    let (lambda, sigma) = (system.damping(), system.detuning());
+    let (gamma, harmonic) = (system.forcing_per_clearance(), FIRST_HARMONIC.at([absorber]));
+    let rates = [
+        2.0 * AMPLITUDE_RATE.at([lambda, gamma, oscillator, harmonic, theta, eta]),
+        2.0 * oscillator * PHASE_RATE.at([sigma, gamma, oscillator, harmonic, theta, eta]),
     ];
-    let phase_terms =
-        [2.0 * system.detuning() * oscillator, gamma * cosine, -harmonic * (1.0 - ratio)];
-    [amplitude_terms, phase_terms]
-        .map(|terms| {
-            let size: f64 = terms.iter().map(|term| term.abs()).sum();
-            terms.iter().sum::<f64>().abs() / size.max(f64::MIN_POSITIVE)
-        })
-        .into_iter()
-        .fold(0.0, f64::max)
+    let sides = |angle: f64, own: f64| {
+        let (sin, cos) = libm::sincos(angle);
+        [sin, cos].map(|part| (own * part).abs())
+    };
+    let (by_absorber, by_forcing) = (sides(theta, harmonic), sides(eta, gamma));
+    let own = [lambda * oscillator, 2.0 * sigma.abs() * oscillator];
+    let relative = |k: usize| {
+        rates[k].abs() / (own[k] + by_absorber[k] + by_forcing[k]).max(f64::MIN_POSITIVE)
+    };
+    relative(0).max(relative(1))
 }

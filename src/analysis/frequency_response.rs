@@ -5,9 +5,8 @@
 
 use serde::Serialize;
 
-use super::AnalysisError;
-use super::manifold::{Branch, Manifold};
-use crate::equations::equations;
+use super::manifold::{Branch, Manifold, ManifoldPoint};
+use crate::equations::fixed_points::{DETUNING_0, DETUNING_1, DETUNING_2, UNTUNED};
 use crate::system::System;
 
 /// A point of the response curve.
@@ -27,18 +26,15 @@ pub struct ResponsePoint {
 
 /// The two sides of the response curve, by ascending amplitude: where the quadratic has no real
 /// root the sides are interrupted, which cuts them into pieces.
-///
-/// # Errors
-/// [`AnalysisError::Missing`] never, for a system.
 pub fn response(
     system: &System,
     manifold: &Manifold,
     largest: f64,
-) -> Result<[Vec<Vec<ResponsePoint>>; 2], AnalysisError> {
+) -> [Vec<Vec<ResponsePoint>>; 2] {
     let mut sides = [vec![Vec::new()], vec![Vec::new()]];
     for shift in amplitudes(manifold, largest) {
-        let roots = detunings(system, shift)?;
         let point = manifold.point(shift);
+        let roots = detunings(system, manifold, shift);
         for (index, side) in sides.iter_mut().enumerate() {
             let response = roots.get(index).map(|&detuning| ResponsePoint {
                 detuning,
@@ -53,18 +49,21 @@ pub fn response(
             }
         }
     }
-    Ok(sides.map(|side| side.into_iter().filter(|piece| piece.len() > 1).collect()))
+    sides.map(|side| side.into_iter().filter(|piece| piece.len() > 1).collect())
 }
 
 /// The detunings, ascending, at which `B = b (1 + shift)` is a fixed point: two, or none where the
 /// forcing does not reach that amplitude.
-///
-/// # Errors
-/// [`AnalysisError::Missing`] never, for a system.
-pub fn detunings(system: &System, shift: f64) -> Result<Vec<f64>, AnalysisError> {
-    let programs = &equations().programs;
-    let at = programs.at_shift(&programs.values(system), shift)?;
-    Ok(quadratic_roots(programs.detuning_coefficients(&at)?))
+pub fn detunings(system: &System, manifold: &Manifold, shift: f64) -> Vec<f64> {
+    let ManifoldPoint { absorber_amplitude: ratio, oscillator_amplitude: oscillator } =
+        manifold.point(shift);
+    let (lambda, gamma) = (system.damping(), system.forcing_per_clearance());
+    let untuned = UNTUNED.at([lambda, manifold.restitution_ratio, ratio]);
+    quadratic_roots([
+        DETUNING_0.at([lambda, gamma, shift, untuned]),
+        DETUNING_1.at([ratio, shift]),
+        DETUNING_2.at([oscillator * oscillator]),
+    ])
 }
 
 /// Real roots of `constant + linear x + square x^2`, ascending, by the formula that does not

@@ -5,9 +5,12 @@ use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, TAU};
 
 use serde::Serialize;
 
-use crate::equations::{self, equations};
+use crate::equations::manifold::{
+    ABSORBER_PHASE, BREAKING_RATIO, BREAKING_SHIFT, FOLD_OSCILLATOR, FOLD_RATIO, FOLD_SHIFT,
+    MANIFOLD_SQUARE, STABLE_RATIO, STABLE_ROOT,
+};
+use crate::equations::stated::{CURVATURE, RESTITUTION_RATIO};
 use crate::operation_count;
-use crate::symbolic::{MissingValue, Symbol, Values};
 
 /// A part of the manifold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -61,35 +64,36 @@ pub struct Manifold {
 
 impl Manifold {
     /// The manifold for restitution `r` in `0..=1`.
-    ///
-    /// # Errors
-    /// [`MissingValue`] if a formula asks for more than `r`, which a test rules out.
-    pub fn of(restitution: f64) -> Result<Self, MissingValue> {
-        let programs = &equations().programs;
-        let values = programs.values_of(restitution);
-        let fold = programs.fold(&values)?;
-        let breaking = programs.symmetry_breaking(&values)?;
-        let point = |point: equations::ManifoldPoint| ManifoldPoint {
-            absorber_amplitude: point.ratio,
-            oscillator_amplitude: point.square.sqrt(),
-        };
-        Ok(Self {
-            restitution_ratio: values.require(Symbol::RestitutionRatio)?,
-            curvature: values.require(Symbol::ManifoldCurvature)?,
-            fold: point(fold),
-            symmetry_breaking: point(breaking),
-            fold_shift: fold.shift,
-        })
+    pub fn of(restitution: f64) -> Self {
+        let restitution_ratio = RESTITUTION_RATIO.at([restitution]);
+        let curvature = CURVATURE.at([restitution_ratio]);
+        Self {
+            restitution_ratio,
+            curvature,
+            fold: ManifoldPoint {
+                absorber_amplitude: FOLD_RATIO.at([curvature]),
+                oscillator_amplitude: FOLD_OSCILLATOR.at([curvature, 1.0]),
+            },
+            symmetry_breaking: ManifoldPoint {
+                absorber_amplitude: BREAKING_RATIO.at([]),
+                oscillator_amplitude: MANIFOLD_SQUARE.at([curvature, BREAKING_SHIFT.at([])]).sqrt(),
+            },
+            fold_shift: FOLD_SHIFT.at([curvature]),
+        }
     }
 
     /// The point whose absorber amplitude is `b (1 + shift)`, by (16) in its shifted form.
     pub fn point(&self, shift: f64) -> ManifoldPoint {
-        let values = Values::new()
-            .with(Symbol::ManifoldCurvature, self.curvature)
-            .with(Symbol::Shift, shift);
-        // Both symbols of the formula have values; a test would see the NaN.
-        let square = equations().programs.manifold_square(&values).unwrap_or(f64::NAN);
-        ManifoldPoint { absorber_amplitude: 1.0 + shift, oscillator_amplitude: square.sqrt() }
+        ManifoldPoint {
+            absorber_amplitude: 1.0 + shift,
+            oscillator_amplitude: MANIFOLD_SQUARE.at([self.curvature, shift]).sqrt(),
+        }
+    }
+
+    /// `B/b` on the stable branch, or beyond it, by `C/b`: the larger root of (16); `None` below the fold.
+    pub fn stable_absorber(&self, oscillator: f64) -> Option<f64> {
+        let root = STABLE_ROOT.at([self.curvature, oscillator * oscillator]);
+        (root >= 0.0).then(|| STABLE_RATIO.at([self.curvature, root]))
     }
 
     /// The branch on which `B = b (1 + shift)` lies; the two ends of the stable branch belong to it.
@@ -106,7 +110,7 @@ impl Manifold {
     /// `Theta`, the phase of the absorber against the oscillator, from (14) and (15), at `B = b
     /// ratio`; `shift` is `ratio - 1`, each being passed with its own accuracy.
     pub fn absorber_phase(&self, ratio: f64, shift: f64) -> f64 {
-        libm::atan2(FRAC_2_PI * self.restitution_ratio * ratio, -shift)
+        ABSORBER_PHASE.at([self.restitution_ratio, ratio, shift])
     }
 
     /// Largest `abs(w0)` over the clearance between two impacts of the motion (12): above 1 the

@@ -16,7 +16,6 @@ pub mod slow_motion;
 
 use serde::Serialize;
 
-use crate::symbolic::MissingValue;
 use crate::system::System;
 
 pub use areas::{Area, Strip, Zone};
@@ -25,19 +24,13 @@ pub use curve::FixedPointCurve;
 pub use fixed_points::{FixedPoint, Kind};
 pub use manifold::{Branch, Manifold, ManifoldPoint};
 
-/// Why a system cannot be analysed.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum AnalysisError {
-    /// The quadratic of the fixed points has a coefficient that is not finite.
-    #[error(
-        "the theory's condition for fixed points cannot be solved: a coefficient is not finite; \
-         detuning, damping or forcing is too extreme for the asymptotic theory"
-    )]
-    Condition,
-    /// A formula was evaluated without a value for one of its symbols.
-    #[error(transparent)]
-    Missing(#[from] MissingValue),
-}
+/// The quadratic of the fixed points has a coefficient that is not finite.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "the theory's condition for fixed points cannot be solved: a coefficient is not finite; \
+     detuning, damping or forcing is too extreme for the asymptotic theory"
+)]
+pub struct AnalysisError;
 
 /// Everything that the theory says of one system.
 #[derive(Debug, Clone, Serialize)]
@@ -60,9 +53,9 @@ impl Analysis {
     /// # Errors
     /// [`AnalysisError`] where the fixed-point condition overflows.
     pub fn of(system: &System) -> Result<Self, AnalysisError> {
-        let manifold = Manifold::of(system.restitution())?;
+        let manifold = Manifold::of(system.restitution());
         let fixed_points = fixed_points::solve(system, &manifold)?;
-        let boundaries = Boundaries::of(system, &manifold)?;
+        let boundaries = Boundaries::of(system, &manifold);
         let curve = FixedPointCurve::of(system, &manifold);
         let zone = curve.zone(system.forcing_per_clearance());
         Ok(Self { system: *system, manifold, fixed_points, boundaries, zone })

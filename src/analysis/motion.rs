@@ -43,9 +43,9 @@ fn fold(z: f64) -> (f64, f64) {
     if turned < PI { (turned - 0.5 * PI, 1.0) } else { (1.5 * PI - turned, -1.0) }
 }
 
-/// Amplitudes and phases of the theory, read off a motion's first harmonics.
+/// Amplitudes and phases of the theory, at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ReadOff {
+pub struct SlowVariables {
     /// `C/b`: amplitude of `v = x + eps y`.
     pub oscillator_amplitude: f64,
     /// `B/b = (pi^2/8) E/b`, where `E` is the amplitude of `w - v = -(1 + eps) y`.
@@ -58,12 +58,12 @@ pub struct ReadOff {
 
 /// Reads `C`, `B`, `eta`, `Theta` off the first harmonics (coefficients of `sin` and `cos` of the
 /// excitation's phase) of oscillator and absorber.
-pub fn read_off(system: &System, oscillator: [f64; 2], absorber: [f64; 2]) -> ReadOff {
+pub fn read_off(system: &System, oscillator: [f64; 2], absorber: [f64; 2]) -> SlowVariables {
     let eps = system.mass_ratio();
     let v = [oscillator[0] + eps * absorber[0], oscillator[1] + eps * absorber[1]];
     let sawtooth = [-(1.0 + eps) * absorber[0], -(1.0 + eps) * absorber[1]];
     let phase = |harmonic: [f64; 2]| libm::atan2(harmonic[1], harmonic[0]);
-    ReadOff {
+    SlowVariables {
         oscillator_amplitude: libm::hypot(v[0], v[1]),
         absorber_amplitude: PI * PI / 8.0 * libm::hypot(sawtooth[0], sawtooth[1]),
         eta: -phase(v),

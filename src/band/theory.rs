@@ -11,7 +11,7 @@ const PIECES: u32 = 256;
 
 /// The areas and strips along a band, in order; where there is no system or no theory, Z4.
 pub fn zones(band: &Band) -> Vec<Stretch<Zone>> {
-    let Ok(manifold) = Manifold::of(band.base.restitution()) else { return Vec::new() };
+    let manifold = Manifold::of(band.base.restitution());
     let curve = |at: f64| {
         let system = band.system(at).ok()?;
         Some((FixedPointCurve::of(&system, &manifold), system.forcing_per_clearance()))

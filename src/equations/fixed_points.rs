@@ -1,131 +1,95 @@
 //! Fixed points of the slow flow (18) on the manifold: `gamma^2` is a quadratic in `beta`.
 //!
 //! At rest (18) says `gamma sin(eta) = lambda C + E sin(Theta)`, `gamma cos(eta) = E cos(Theta) - 2 sigma C`
-//! (lengths over the clearance). Turned by the absorber's phase these are
+//! (lengths over the clearance); times `C`, with (14), (15) and `E`, these are the first two below. Turned by
+//! the absorber's phase they are
 //! `gamma cos(eta - Theta) = E - 2 sigma C cos(Theta) + lambda C sin(Theta)` and
 //! `gamma sin(eta - Theta) = lambda C cos(Theta) + 2 sigma C sin(Theta)`, in which (14), (15) and `E` are
 //! linear in `beta`. Their squares add up to `gamma^2 = p_0 + p_1 beta + p_2 beta^2`, whose smallest value
-//! is the saddle-node's. Valid where (18) and (16) are.
+//! is the saddle-node's: two lines `a + a' beta` and `c + c' beta` come closest to the origin at the
+//! distance `(a c' - c a')/sqrt(a'^2 + c'^2)`, here `(n_0 + n_2 sigma^2)/sqrt(p_2)`.
+//!
+//! A fixed point at the fold is the Hopf boundary (paper, Fig. 6b), one where a multiplier of the impact
+//! pair is -1 the symmetry-breaking boundary; two meeting at the fold are P1 (Fig. 6c), where
+//! `beta_SN = 1/(1 + R)`, in which the squares of `sigma` cancel. By powers of `sigma` the condition is the
+//! frequency response, and that of the saddle-node a quartic. Valid where (18) and (16) are.
 
-use super::Stated;
-use super::manifold::{Manifold, in_clearances};
-use crate::symbolic::Symbol::{
-    AbsorberPhase as Theta, AmplitudeRatio as beta, CollisionForcing, Detuning as sigma,
-    Discriminant as Delta, ExcitationPhase as eta, FirstHarmonic as E, ForcingConstant as p_0,
-    ForcingLinear as p_1, ForcingPerClearance as gamma, ForcingSquare as p_2,
-    ManifoldSquare as c_2, OscillatorAmplitude as C, ReducedForcing as G, Shift as u,
-};
-use crate::symbolic::{AlgebraError, Expr, Symbol, cos, fraction, sin, sqrt};
+use std::f64::consts::PI;
 
-/// The condition for a fixed point in its several forms.
-#[derive(Debug, Clone)]
-pub struct FixedPoints {
-    /// `gamma sqrt(c_2) sin(eta)` in `beta`, `c_2`.
-    pub sine: Expr,
-    /// `gamma sqrt(c_2) cos(eta)` in `beta`, `u`, `c_2`.
-    pub cosine: Expr,
-    /// `gamma cos(eta - Theta)` in `beta`, `u`.
-    pub along: Expr,
-    /// `gamma sin(eta - Theta)` in `beta`, `u`.
-    pub across: Expr,
-    /// `gamma^2` at which there is a fixed point, in `beta`, `u`.
-    pub forcing_squared: Expr,
-    /// `p_0`, `p_1`, `p_2`: the same by powers of `beta`.
-    pub quadratic: [Expr; 3],
-    /// `gamma` at which two fixed points meet, in `p_2`.
-    pub collision_forcing: Expr,
-    /// `beta` at which they meet, in `p_1`, `p_2`.
-    pub collision_ratio: Expr,
-    /// `Delta`, a quarter of the discriminant, in `p_2` and `gamma` of the collision.
-    pub discriminant: Expr,
-    /// `beta` of the two fixed points, the smaller first, in `p_1`, `p_2`, `Delta`.
-    pub ratios: [Expr; 2],
-    /// The product of the two, in `p_0`, `p_2`, `gamma`.
-    pub product: Expr,
-    /// What vanishes at a fixed point, by powers of `sigma`, in `beta`, `u`: the frequency response.
-    pub by_detuning: [Expr; 3],
-    /// What vanishes where two fixed points meet, by powers of `sigma`.
-    pub collision_by_detuning: [Expr; 5],
-}
+use crate::symbolic::{cube, equations, sqrt, square};
 
-impl FixedPoints {
-    /// Derives everything from (18) and the manifold.
-    ///
-    /// # Errors
-    /// Never for the stated equations; a test runs it.
-    pub fn derive(stated: &Stated, manifold: &Manifold) -> Result<Self, AlgebraError> {
-        let sine = (&stated.amplitude_rate.right.solve_linear(sin(eta))? * G).distribute();
-        let cosine = (&stated.phase_rate.right.solve_linear(cos(eta))? * G).distribute();
-        let turned = |side: Expr| {
-            let square = sin(Theta).squared();
-            let side = side.expand().substitute(square, 1 - cos(Theta).squared()).expand();
-            with_shift(&on_manifold(&side, stated, manifold))
-        };
-        let along = turned(&cosine * cos(Theta) + &sine * sin(Theta));
-        let across = turned(&sine * cos(Theta) - &cosine * sin(Theta));
-        let forcing_squared = along.squared() + across.squared();
-        // Both are linear in beta and u = beta - 1.
-        let parts = |side: &Expr| -> Result<[Expr; 2], AlgebraError> {
-            let [by_shift, by_ratio]: [Expr; 2] = collected(side, beta)?;
-            let [_, by_shift]: [Expr; 2] = collected(&by_shift, u)?;
-            Ok([by_ratio, by_shift])
-        };
-        let ([along_ratio, along_shift], [across_ratio, across_shift]) =
-            (parts(&along)?, parts(&across)?);
-        let (along_slope, across_slope) =
-            (&along_ratio + &along_shift, &across_ratio + &across_shift);
-        let distance = &along_shift * &across_ratio - &along_ratio * &across_shift;
-        let at_rest =
-            |side: &Expr| with_shift(&on_manifold(&(side * C).distribute(), stated, manifold));
-        let root = |sign: i32| (sign * sqrt(Delta) - fraction(1, 2) * p_1) / p_2;
-        let square = along_slope.squared() + across_slope.squared();
-        let condition = &forcing_squared - gamma.squared();
-        let collision = distance.squared() - gamma.squared() * &square;
-        Ok(Self {
-            sine: at_rest(&sine),
-            cosine: at_rest(&cosine),
-            quadratic: [
-                (along_shift.squared() + across_shift.squared()).expand(),
-                (-2 * (&along_shift * &along_slope + &across_shift * &across_slope)).expand(),
-                square,
-            ],
-            collision_forcing: distance.expand() / sqrt(p_2),
-            collision_ratio: -p_1 / (2 * p_2),
-            discriminant: p_2 * (gamma - CollisionForcing) * (gamma + CollisionForcing),
-            ratios: [root(-1), root(1)],
-            product: (p_0 - gamma.squared()) / p_2,
-            by_detuning: collected(&condition.expand(), sigma)?,
-            collision_by_detuning: collected(&collision.expand(), sigma)?,
-            along,
-            across,
-            forcing_squared,
-        })
+const DERIVED: &str = "derived here";
+
+equations! {
+    /// In reading order.
+    GROUPS =
+    "Fixed point", "the phase of a fixed point", DERIVED => {
+        SINE_SIDE(lambda, rho, beta, c_2): [gamma * sqrt(c_2) * sin(eta)]
+            = lambda * c_2 + 16.0 / cube(PI) * rho * square(beta);
+        COSINE_SIDE(sigma, beta, u, c_2): [gamma * sqrt(c_2) * cos(eta)]
+            = -(8.0 / square(PI)) * beta * u - 2.0 * sigma * c_2;
     }
-}
-
-/// Puts (14), (15) and `E` in, and measures lengths in clearances, so that `C^2` is `c_2`.
-pub(super) fn on_manifold(expression: &Expr, stated: &Stated, manifold: &Manifold) -> Expr {
-    let expression = expression
-        .substitute(E, &stated.first_harmonic.right)
-        .substitute(sin(Theta), &manifold.sine)
-        .substitute(cos(Theta), &manifold.cosine);
-    in_clearances(&expression)
-        .substitute(C.squared(), c_2)
-        .substitute(C, sqrt(c_2))
-        .substitute(G, gamma)
-}
-
-/// Writes `-u` for `1 - beta`, which keeps small differences exact.
-pub(super) fn with_shift(expression: &Expr) -> Expr {
-    expression.substitute(1 - beta, -u)
-}
-
-/// Exactly `N` coefficients, ascending; those beyond the degree are 0.
-pub(super) fn collected<const N: usize>(
-    expression: &Expr,
-    variable: Symbol,
-) -> Result<[Expr; N], AlgebraError> {
-    let coefficients = expression.collect(variable)?;
-    assert!(coefficients.len() <= N, "degree {} in {variable}", coefficients.len() - 1);
-    Ok(std::array::from_fn(|power| coefficients.get(power).cloned().unwrap_or(Expr::ZERO)))
+    "Fixed point, in the absorber's phase", "linear in the amplitude", DERIVED => {
+        ALONG(lambda, rho, sigma, beta, u): [gamma * cos(eta - Theta)]
+            = 2.0 / PI * lambda * rho * beta + 8.0 / square(PI) * beta + 2.0 * sigma * u;
+        ACROSS(lambda, rho, sigma, beta, u): [gamma * sin(eta - Theta)]
+            = 4.0 / PI * rho * sigma * beta - lambda * u;
+    }
+    "Forcing of a fixed point", "which excitation holds an amplitude",
+    "derived here: the sum of the squares of the two conditions before" => {
+        FORCING_SQUARED(p_0, p_1, p_2, beta): [square(gamma)] = p_0 + p_1 * beta + p_2 * square(beta);
+    }
+    "Quadratic of the fixed points", "coefficients of powers of the amplitude in the squared forcing", DERIVED => {
+        CONSTANT(lambda, sigma): [p_0] = square(lambda) + 4.0 * square(sigma);
+        LINEAR(lambda, sigma): [p_1] = -2.0 * square(lambda) - 8.0 * square(sigma) - 32.0 / square(PI) * sigma;
+        SQUARE(lambda, rho, sigma): [p_2]
+            = square(2.0 / PI * lambda * rho + 8.0 / square(PI) + 2.0 * sigma) + square(4.0 / PI * rho * sigma - lambda);
+    }
+    "Saddle-node", "the forcing per clearance below which there is no fixed point, and the amplitude at which two meet",
+    DERIVED => {
+        NODE_CONSTANT(lambda, rho): [n_0] = 8.0 / square(PI) * lambda + 2.0 / PI * square(lambda) * rho;
+        NODE_SQUARE(rho): [n_2] = 8.0 / PI * rho;
+        NODE_FORCING(sigma, p_2, n_0, n_2): [gamma_SN] = (n_0 + n_2 * square(sigma)) / sqrt(p_2);
+        NODE_RATIO(p_1, p_2): [beta_SN] = -p_1 / (2.0 * p_2);
+        FORCING_FROM_NODE(p_2, beta_SN, gamma_SN, beta): [square(gamma)]
+            = square(gamma_SN) + p_2 * square(beta - beta_SN);
+    }
+    "Number of fixed points", "two where it is above 0, none below: it is the distance from the saddle-node",
+    DERIVED => {
+        DISCRIMINANT(gamma, p_2, gamma_SN): [Delta] = p_2 * (gamma - gamma_SN) * (gamma + gamma_SN);
+    }
+    "Fixed points", "the one further from 0 is evaluated as a sum, the other from the product", DERIVED => {
+        SMALLER_RATIO(p_1, p_2, Delta): [beta_1] = (-p_1 / 2.0 - sqrt(Delta)) / p_2;
+        LARGER_RATIO(p_1, p_2, Delta): [beta_2] = (-p_1 / 2.0 + sqrt(Delta)) / p_2;
+        RATIO_PRODUCT(gamma, p_0, p_2): [beta_1 * beta_2] = (p_0 - square(gamma)) / p_2;
+    }
+    "Saddle-node over the detuning",
+    "coefficients of powers of the detuning: its roots are where two fixed points meet at this forcing", DERIVED => {
+        NODE_DETUNING_0(lambda, rho, gamma, n_0): [s_0]
+            = square(n_0) - square(gamma) * (square(2.0 / PI * lambda * rho + 8.0 / square(PI)) + square(lambda));
+        NODE_DETUNING_1(gamma): [s_1] = -(32.0 / square(PI)) * square(gamma);
+        NODE_DETUNING_2(R, gamma, n_0, n_2): [s_2] = 2.0 * n_0 * n_2 - 4.0 * (1.0 + R) * square(gamma);
+        NODE_DETUNING_3(): [s_3] = 0.0;
+        NODE_DETUNING_4(n_2): [s_4] = square(n_2);
+    }
+    "Frequency response", "coefficients of powers of the detuning at a given amplitude", DERIVED => {
+        UNTUNED(lambda, rho, beta): [a_1] = 2.0 / PI * lambda * rho * beta + 8.0 / square(PI) * beta;
+        DETUNING_0(lambda, gamma, u, a_1): [f_0] = square(a_1) + square(lambda * u) - square(gamma);
+        DETUNING_1(beta, u): [f_1] = 32.0 / square(PI) * beta * u;
+        DETUNING_2(c_2): [f_2] = 4.0 * c_2;
+    }
+    "Hopf boundary", "forcing per clearance with which a fixed point reaches the fold", DERIVED => {
+        HOPF(lambda, rho, R, sigma): [gamma_H]
+            = sqrt(square(2.0 / PI * lambda * rho + 8.0 / square(PI) - 2.0 * sigma * R)
+                + square(4.0 / PI * rho * sigma + lambda * R)) / (1.0 + R);
+    }
+    "Symmetry-breaking boundary", "forcing per clearance with which a fixed point reaches symmetry breaking",
+    DERIVED => {
+        BREAKING(lambda, rho, sigma): [gamma_c]
+            = sqrt(square(2.0 * PI * lambda * rho + 8.0 + 8.0 * sigma)
+                + square(4.0 * PI * rho * sigma - 4.0 * lambda)) / (square(PI) - 4.0);
+    }
+    "Meeting point P1", "the detuning at which the saddle-node boundary reaches the Hopf boundary", DERIVED => {
+        MEETING_DETUNING(lambda, rho, R): [sigma_P1] = 2.0 * (2.0 + PI * lambda * rho) / (square(PI) * (R - 1.0));
+    }
 }

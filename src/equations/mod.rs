@@ -1,78 +1,40 @@
-//! The paper's equations, stated once, and everything that the program derives from them.
+//! The paper's equations and what follows from them, each written once: analysis evaluates them, reports
+//! print them.
 //!
-//! [`Stated`] holds the equations as given; [`Manifold`], [`FixedPoints`], [`Boundaries`] and
-//! [`SlowFlow`] hold what follows from them, as expressions. [`Programs`] evaluates exactly these
-//! expressions, and [`Equations::for_report`] lists them for a reader. All of the asymptotic
-//! results hold at first order in the mass ratio, near 1:1 resonance, for two symmetric impacts
-//! per cycle; [`SymmetricOrbits`] holds such motions exactly, at any mass ratio and frequency.
+//! Results hold at first order in the mass ratio, near 1:1 resonance, for two symmetric impacts per cycle.
+//! What follows from the paper is derived in each file's head, and `tests/equations.rs` proves it against
+//! the paper's equations. [`crate::orbits::equations`] holds such motions exactly, at any mass ratio and
+//! frequency.
 
-mod boundaries;
-mod fixed_points;
-mod manifold;
-mod orbit_programs;
-mod orbit_report;
-mod orbits;
-mod programs;
-mod report;
-mod slow_flow;
-mod stated;
+#![allow(non_snake_case)]
 
-pub use boundaries::Boundaries;
-pub use fixed_points::FixedPoints;
-pub use manifold::Manifold;
-pub use orbit_programs::{OrbitPrograms, Turning};
-pub use orbits::{OrbitConditions, SteadyMotion, SymmetricOrbits};
-pub use programs::{ManifoldPoint, Programs, Quadratic};
-pub use report::{Motion, ReportEquation};
-pub use slow_flow::SlowFlow;
-pub use stated::Stated;
+pub mod fixed_points;
+pub mod manifold;
+pub mod slow_flow;
+pub mod stated;
 
-use crate::symbolic::AlgebraError;
-use std::sync::LazyLock;
+use crate::symbolic::{Group, Symbol, Values};
+use crate::system::{Excitation, System};
 
-/// All equations, stated and derived, with the programs that evaluate them.
-#[derive(Debug, Clone)]
-pub struct Equations {
-    /// As given.
-    pub stated: Stated,
-    /// The slow invariant manifold.
-    pub manifold: Manifold,
-    /// Fixed points of the slow flow.
-    pub fixed_points: FixedPoints,
-    /// Boundaries of regimes.
-    pub boundaries: Boundaries,
-    /// The slow flow on the manifold.
-    pub slow_flow: SlowFlow,
-    /// Exact symmetric orbits.
-    pub orbits: SymmetricOrbits,
-    /// Evaluation of the above.
-    pub programs: Programs,
+/// All equations of the theory in reading order: what is assumed, the manifold, the fixed points, the
+/// boundaries, the slow flow.
+pub fn groups(excitation: Excitation) -> impl Iterator<Item = &'static Group> + Clone {
+    let motion = match excitation {
+        Excitation::BaseDisplacement => stated::MOTION_OF_BASE_GROUP,
+        Excitation::Force => stated::MOTION_BY_FORCE_GROUP,
+    };
+    [motion, stated::GROUPS, manifold::GROUPS, fixed_points::GROUPS, slow_flow::GROUPS]
+        .into_iter()
+        .flatten()
 }
 
-impl Equations {
-    /// Derives everything. [`equations`] does it once for the whole program.
-    ///
-    /// # Errors
-    /// Never for the stated equations, which are constants of the program; a test runs it.
-    pub fn derive() -> Result<Self, AlgebraError> {
-        let stated = Stated::new();
-        let manifold = Manifold::derive(&stated)?;
-        let fixed_points = FixedPoints::derive(&stated, &manifold)?;
-        let boundaries = Boundaries::derive(&stated, &manifold, &fixed_points)?;
-        let slow_flow = SlowFlow::derive(&stated, &manifold, &fixed_points);
-        let orbits = SymmetricOrbits::derive(&stated)?;
-        let programs =
-            Programs::new(&stated, &manifold, &fixed_points, &boundaries, &slow_flow, &orbits);
-        Ok(Self { stated, manifold, fixed_points, boundaries, slow_flow, orbits, programs })
-    }
-}
-
-/// The equations, derived at the first call.
-///
-/// # Panics
-/// If the derivation fails, which depends on nothing but the program itself.
-pub fn equations() -> &'static Equations {
-    static EQUATIONS: LazyLock<Equations> =
-        LazyLock::new(|| Equations::derive().expect("the stated equations can be solved"));
-    &EQUATIONS
+/// `epsilon`, `lambda`, `r`, `Omega`, `sigma`, `gamma` of a system.
+pub fn values_of(system: &System) -> Values {
+    Values::default()
+        .with(Symbol::eps, system.mass_ratio())
+        .with(Symbol::lambda, system.damping())
+        .with(Symbol::r, system.restitution())
+        .with(Symbol::Omega, system.frequency_ratio())
+        .with(Symbol::sigma, system.detuning())
+        .with(Symbol::gamma, system.forcing_per_clearance())
 }

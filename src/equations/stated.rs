@@ -1,206 +1,92 @@
-//! The equations as they are given, each exactly once.
+//! The equations as they are given.
 //!
 //! Numbers are those of Li, Seguy, Berlioz, "On the dynamics around targeted energy transfer for
 //! vibro-impact nonlinear energy sink", Nonlinear Dynamics (2016). An equation without a number is
-//! a definition, or derived beyond the paper and then says so in its source. The sawtooth's phase,
-//! which the paper also calls `eta`, is `zeta` here, as in (17).
+//! a definition, or derived beyond the paper and then says so in its source.
 
-use crate::symbolic::Symbol::{
-    self, AbsorberAmplitude as B, AbsorberPhase as Theta, AmplitudeRate, AmplitudeRatio as beta,
-    BaseAmplitude as F, Clearance as b, CosineLength as s, Damping as lambda, Determinant,
-    Detuning as sigma, ExcitationPhase as eta, FastTime as tau, FirstHarmonic as E,
-    ForcingPerClearance as gamma, FrequencyRatio as Omega, ImpactFactor as k,
-    ManifoldCurvature as R, MassRatio as epsilon, OscillatorAmplitude as C,
-    OscillatorPhase as theta, PhaseRate, Pi as pi, ReducedForcing as G, Restitution as r,
-    RestitutionRatio as rho, SawtoothPhase as zeta, Shift as u, SineLength as c, Trace, WDotAfter,
-    WDotBefore, X as x, XDot, XDotDot, YDotDot,
-};
-use crate::symbolic::{Equation, Expr, cos, fraction, sin};
+use std::f64::consts::PI;
 
-const FIRST_ORDER: &str = "first order in epsilon, 1:1 resonance, two symmetric impacts per cycle";
+use crate::symbolic::{cos, equations, sin, square};
 
-/// Every equation that the program starts from.
-#[derive(Debug, Clone)]
-pub struct Stated {
-    /// (1) for motion of the base.
-    pub motion_of_base: Equation,
-    /// (1) for a force on the oscillator.
-    pub motion_by_force: Equation,
-    /// (1), second line.
-    pub absorber_motion: Equation,
-    /// (2) in the relative displacement.
-    pub restitution: Equation,
-    /// The reduced forcing.
-    pub reduced_forcing: Equation,
-    /// (7).
-    pub detuning: Equation,
-    /// (14).
-    pub impact_position: Equation,
-    /// (15).
-    pub impact_velocity: Equation,
-    /// `rho`.
-    pub restitution_ratio: Equation,
-    /// `R`.
-    pub curvature: Equation,
-    /// (16) as the paper prints it; what the program uses is derived from (14) and (15).
-    pub manifold: Equation,
-    /// `E`, derived beyond the paper.
-    pub first_harmonic: Equation,
-    /// (18), first line.
-    pub amplitude_rate: Equation,
-    /// (18), second line.
-    pub phase_rate: Equation,
-    /// (19), first line.
-    pub absorber_phase: Equation,
-    /// `gamma`.
-    pub forcing_per_clearance: Equation,
-    /// `beta`.
-    pub amplitude_ratio: Equation,
-    /// `u`.
-    pub shift: Equation,
-    /// `s`, used by the trace.
-    pub cosine_length: Equation,
-    /// `c`, used by the trace.
-    pub sine_length: Equation,
-    /// `k`, used by the trace.
-    pub impact_factor: Equation,
-    /// Trace of the half-period map, derived beyond the paper.
-    pub trace: Equation,
-    /// Determinant of the half-period map, derived beyond the paper.
-    pub determinant: Equation,
-}
+const DEFINITION: &str = "definition";
+const FREE: &str = "paper (1); exact while |w| < b";
+const IMPACTS_14: &str =
+    "paper (14); first order in epsilon, 1:1 resonance, two symmetric impacts per cycle";
+const IMPACTS_15: &str =
+    "paper (15); first order in epsilon, 1:1 resonance, two symmetric impacts per cycle";
+const SLOW: &str = "paper (18); first order in epsilon, near 1:1 resonance";
+const PAIR: &str = "impact pair at order 0, derived here; two symmetric impacts per cycle";
 
-pub(super) fn equation(
-    number: Option<&'static str>,
-    name: &'static str,
-    left: impl Into<Expr>,
-    right: impl Into<Expr>,
-    source: &'static str,
-) -> Equation {
-    Equation { number, name, left: left.into(), right: right.into(), source }
-}
-
-pub(super) fn definition(name: &'static str, symbol: Symbol, right: impl Into<Expr>) -> Equation {
-    equation(None, name, symbol, right, "definition")
-}
-
-impl Stated {
-    /// States them.
-    pub fn new() -> Self {
-        let oscillator = XDotDot + epsilon * lambda * XDot + x;
-        let spring_force = epsilon * G * sin(Omega * tau);
-        let damper_force = epsilon.squared() * lambda * G * Omega * cos(Omega * tau);
-        Self {
-            motion_of_base: equation(
-                Some("(1)"),
-                "Motion between impacts, the base moving",
-                oscillator.clone(),
-                &spring_force + damper_force,
-                "paper (1); exact while |w| < b",
-            ),
-            motion_by_force: equation(
-                None,
-                "Motion between impacts, a force acting on the oscillator",
-                oscillator,
-                spring_force,
-                "paper (1) without the damper's share of the excitation; exact while |w| < b",
-            ),
-            absorber_motion: equation(
-                Some("(1)"),
-                "Motion of the absorber between impacts",
-                YDotDot,
-                0,
-                "paper (1); exact while |w| < b",
-            ),
-            restitution: equation(
-                Some("(2)"),
-                "Restitution at an impact",
-                WDotAfter,
-                -r * WDotBefore,
-                "paper (2), (5); where |w| = b, with the momentum conserved",
-            ),
-            reduced_forcing: definition("Reduced forcing", G, F / epsilon),
-            detuning: equation(Some("(7)"), "Detuning", Omega, 1 + epsilon * sigma, "paper (7)"),
-            impact_position: equation(
-                Some("(14)"),
-                "Position at an impact",
-                C * cos(Theta),
-                b - B,
-                FIRST_ORDER,
-            ),
-            impact_velocity: equation(
-                Some("(15)"),
-                "Velocities at an impact",
-                C * (1 + r) * sin(Theta),
-                2 / Expr::from(pi) * B * (1 - r),
-                FIRST_ORDER,
-            ),
-            restitution_ratio: definition("Restitution ratio", rho, (1 - r) / (1 + r)),
-            curvature: definition("Curvature of the manifold", R, 4 * rho.squared() / pi.squared()),
-            manifold: equation(
-                Some("(16)"),
-                "Slow invariant manifold",
-                C.squared(),
-                (1 + 4 * (1 - r).squared() / (pi.squared() * (1 + r).squared())) * B.squared()
-                    - 2 * b * B
-                    + b.squared(),
-                "paper (16), to compare with what (14) and (15) give",
-            ),
-            first_harmonic: equation(
-                None,
-                "First harmonic of the sawtooth",
-                E,
-                8 * B / pi.squared(),
-                "Fourier series of (2/pi) B Pi, derived here; exact for two symmetric impacts per cycle",
-            ),
-            amplitude_rate: equation(
-                Some("(18)"),
-                "Slow rate of the oscillator's amplitude",
-                AmplitudeRate,
-                fraction(-1, 2) * lambda * C - fraction(1, 2) * E * sin(Theta)
-                    + fraction(1, 2) * G * sin(eta),
-                "paper (18); first order in epsilon, near 1:1 resonance",
-            ),
-            phase_rate: equation(
-                Some("(18)"),
-                "Slow rate of the excitation's phase",
-                PhaseRate,
-                fraction(1, 2) * G * cos(eta) / C - fraction(1, 2) * E * cos(Theta) / C + sigma,
-                "paper (18); first order in epsilon, near 1:1 resonance",
-            ),
-            absorber_phase: equation(
-                Some("(19)"),
-                "Phase of the absorber",
-                Theta,
-                zeta - theta,
-                "paper (19)",
-            ),
-            forcing_per_clearance: definition("Forcing per clearance", gamma, G / b),
-            amplitude_ratio: definition("Absorber amplitude per clearance", beta, B / b),
-            shift: definition("Amplitude beyond the clearance", u, beta - 1),
-            cosine_length: definition("Cosine length", s, C * cos(Theta)),
-            sine_length: definition("Sine length", c, C * sin(Theta)),
-            impact_factor: definition("Impact factor", k, pi * (1 - r) / (2 * c)),
-            trace: equation(
-                None,
-                "Trace of the half-period map",
-                Trace,
-                2 * r + (1 + r) * s * k,
-                "impact pair at order 0, derived here; two symmetric impacts per cycle",
-            ),
-            determinant: equation(
-                None,
-                "Determinant of the half-period map",
-                Determinant,
-                r.squared(),
-                "impact pair at order 0, derived here; two symmetric impacts per cycle",
-            ),
-        }
+equations! {
+    /// (1) if the base moves.
+    MOTION_OF_BASE_GROUP =
+    "Motion between impacts, the base moving", "the motion that is simulated when the base moves", FREE => {
+        MOTION_OF_BASE(eps, lambda, Omega, G, tau): [x_dot_dot + eps * lambda * x_dot + x]
+            = eps * G * sin(Omega * tau) + square(eps) * lambda * Omega * G * cos(Omega * tau);
     }
 }
 
-impl Default for Stated {
-    fn default() -> Self {
-        Self::new()
+equations! {
+    /// (1) if a force acts on the oscillator.
+    MOTION_BY_FORCE_GROUP =
+    "Motion between impacts, a force acting on the oscillator", "the motion that is simulated when a force acts",
+    "paper (1) without the damper's share of the excitation; exact while |w| < b" => {
+        MOTION_BY_FORCE(eps, Omega, G, tau): [x_dot_dot + eps * lambda * x_dot + x] = eps * G * sin(Omega * tau);
+    }
+}
+
+equations! {
+    /// What holds for either excitation.
+    GROUPS =
+    "Motion of the absorber between impacts", "a straight line between impacts", FREE => {
+        ABSORBER_MOTION(): [y_dot_dot] = 0.0;
+    }
+    "Restitution at an impact", "the velocity after an impact",
+    "paper (2), (5); where |w| = b, with the momentum conserved" => {
+        RESTITUTION(r, w_dot_before): [w_dot_after] = -r * w_dot_before;
+    }
+    "Reduced forcing", "the size of the excitation", DEFINITION => {
+        REDUCED_FORCING(eps, F): [G] = F / eps;
+    }
+    "Forcing per clearance", "the one measure of excitation against clearance", DEFINITION => {
+        FORCING_PER_CLEARANCE(G, b): [gamma] = G / b;
+    }
+    "Detuning", "how far the excitation is from resonance", "paper (7)" => {
+        FREQUENCY_RATIO(eps, sigma): [Omega] = 1.0 + eps * sigma;
+    }
+    "Restitution ratio", "the loss at an impact", DEFINITION => {
+        RESTITUTION_RATIO(r): [rho] = (1.0 - r) / (1.0 + r);
+    }
+    "Curvature of the manifold", "the shape of the manifold", DEFINITION => {
+        CURVATURE(rho): [R] = 4.0 * square(rho) / square(PI);
+    }
+    "Position at an impact", "one relation of the amplitudes at an impact", IMPACTS_14 => {
+        IMPACT_POSITION(b, B): [C * cos(Theta)] = b - B;
+    }
+    "Velocities at an impact", "the other relation of the amplitudes at an impact", IMPACTS_15 => {
+        IMPACT_VELOCITIES(r, B): [(1.0 + r) * C * sin(Theta)] = 2.0 / PI * (1.0 - r) * B;
+    }
+    "First harmonic of the sawtooth", "the absorber's action on the oscillator",
+    "Fourier series of (2/pi) B Pi, derived here; exact for two symmetric impacts per cycle" => {
+        FIRST_HARMONIC(B): [E] = 8.0 / square(PI) * B;
+    }
+    "Slow rate of the oscillator's amplitude", "growth or decay of the oscillator's motion", SLOW => {
+        AMPLITUDE_RATE(lambda, G, C, E, Theta, eta): [D1_C]
+            = -lambda * C / 2.0 - E * sin(Theta) / 2.0 + G * sin(eta) / 2.0;
+    }
+    "Slow rate of the excitation's phase", "drift of the phase against the excitation", SLOW => {
+        PHASE_RATE(sigma, G, C, E, Theta, eta): [D1_eta]
+            = G * cos(eta) / (2.0 * C) - E * cos(Theta) / (2.0 * C) + sigma;
+    }
+    "Half-period map of the impact pair", "stability of the impacts at order 0", PAIR => {
+        IMPACT_FACTOR(r, C, Theta): [k] = PI * (1.0 - r) / (2.0 * C * sin(Theta));
+        PAIR_TRACE(r, C, k, Theta): [tr] = 2.0 * r + (1.0 + r) * k * C * cos(Theta);
+        PAIR_DETERMINANT(r): [det] = square(r);
+    }
+    "Absorber amplitude per clearance", "the one unknown of a fixed point", DEFINITION => {
+        AMPLITUDE_RATIO(b, B): [beta] = B / b;
+    }
+    "Amplitude beyond the clearance", "a small difference that the formulas keep exact", DEFINITION => {
+        SHIFT(beta): [u] = beta - 1.0;
     }
 }

@@ -11,27 +11,6 @@ pub struct Root {
     pub residual: f64,
 }
 
-/// Why no root is reported.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-pub enum NoRoot {
-    /// The ends do not bracket a sign change.
-    #[error("no sign change between {from} and {to}")]
-    NotBracketed {
-        /// Lower end.
-        from: f64,
-        /// Upper end.
-        to: f64,
-    },
-    /// The iteration did not shrink the bracket to the tolerance.
-    #[error("no convergence between {from} and {to}")]
-    NotConverged {
-        /// Lower end.
-        from: f64,
-        /// Upper end.
-        to: f64,
-    },
-}
-
 /// Stops on an exact zero or on a bracket of `width`; never on a small function value, which would
 /// accept a point far from the root of a badly scaled function.
 struct BracketWidth {
@@ -50,29 +29,41 @@ impl Convergency<f64> for BracketWidth {
     }
 }
 
-/// Brent's method on `[from, to]` until the bracket is `width` wide.
-///
-/// # Errors
-/// [`NoRoot`] when the ends do not differ in sign, or the bracket does not shrink.
-pub fn brent(
-    from: f64,
-    to: f64,
-    width: f64,
-    mut function: impl FnMut(f64) -> f64,
-) -> Result<Root, NoRoot> {
+/// Brent's method on `[from, to]` until the bracket is `width` wide; `None` where the ends do not differ
+/// in sign, or the bracket does not shrink.
+pub fn brent(from: f64, to: f64, width: f64, mut function: impl FnMut(f64) -> f64) -> Option<Root> {
     let (at_from, at_to) = (function(from), function(to));
     for (at, residual) in [(from, at_from), (to, at_to)] {
         if residual == 0.0 {
-            return Ok(Root { at, residual });
+            return Some(Root { at, residual });
         }
     }
     if at_from.is_nan() || at_to.is_nan() || (at_from > 0.0) == (at_to > 0.0) {
-        return Err(NoRoot::NotBracketed { from, to });
+        return None;
     }
-    let mut convergency = BracketWidth { width };
-    let at = find_root_brent(from, to, &mut function, &mut convergency)
-        .map_err(|_| NoRoot::NotConverged { from, to })?;
-    Ok(Root { at, residual: function(at) })
+    let at = find_root_brent(from, to, &mut function, &mut BracketWidth { width }).ok()?;
+    Some(Root { at, residual: function(at) })
+}
+
+/// Where `function` changes between above 0 and not above 0, from the side on which it is at `from`, to
+/// rounding and whatever the magnitudes; what is not a number counts as not above. `None` where both
+/// ends are on one side.
+pub fn bisected([mut from, mut to]: [f64; 2], mut function: impl FnMut(f64) -> f64) -> Option<f64> {
+    let above = function(from) > 0.0;
+    if (function(to) > 0.0) == above {
+        return None;
+    }
+    loop {
+        let middle = 0.5 * (from + to);
+        if middle == from || middle == to {
+            return Some(to);
+        }
+        if (function(middle) > 0.0) == above {
+            from = middle;
+        } else {
+            to = middle;
+        }
+    }
 }
 
 #[cfg(test)]
@@ -87,6 +78,7 @@ mod tests {
 
     #[test]
     fn ends_of_one_sign_are_refused() {
-        assert!(matches!(brent(0.0, 1.0, 1e-15, |x| x + 1.0), Err(NoRoot::NotBracketed { .. })));
+        assert_eq!(brent(0.0, 1.0, 1e-15, |x| x + 1.0), None);
+        assert_eq!(bisected([0.0, 1.0], |x| x + 1.0), None);
     }
 }

@@ -178,44 +178,45 @@ impl<S: Simd> IndexMut<usize> for Wide<S> {
     }
 }
 
-macro_rules! vector_by_vector {
-    ($type:ident: $($name:ident $method:ident),*) => {$(
-        impl<S: Simd> $name for $type<S> {
-            type Output = Self;
-            #[inline(always)]
-            fn $method(mut self, other: Self) -> Self {
-                for k in 0..VECTORS {
-                    self.0[k] = self.0[k].$method(other.0[k]);
-                }
-                self
-            }
+/// `$of`, a [`Wide`] or [`WideMask`], with every vector `k` replaced: a loop, because a closure would not be
+/// compiled for the vector instructions.
+macro_rules! each_vector {
+    ($of:ident, $k:ident => $vector:expr) => {{
+        for $k in 0..VECTORS {
+            $of.0[$k] = $vector;
         }
-    )*};
-    ($type:ident with f64: $($name:ident $method:ident),*) => {$(
-        impl<S: Simd> $name<f64> for $type<S> {
+        $of
+    }};
+}
+
+macro_rules! binary_operators {
+    ($($type:ident $trait:ident<$other:ty> $method:ident: $k:ident, $right:ident => $operand:expr;)*) => {$(
+        impl<S: Simd> $trait<$other> for $type<S> {
             type Output = Self;
             #[inline(always)]
-            fn $method(mut self, other: f64) -> Self {
-                for k in 0..VECTORS {
-                    self.0[k] = self.0[k].$method(other);
-                }
-                self
+            fn $method(mut self, $right: $other) -> Self {
+                each_vector!(self, $k => self.0[$k].$method($operand))
             }
         }
     )*};
 }
-vector_by_vector!(Wide: Add add, Sub sub, Mul mul, Div div);
-vector_by_vector!(Wide with f64: Add add, Sub sub, Mul mul);
-vector_by_vector!(WideMask: BitAnd bitand, BitOr bitor);
+binary_operators! {
+    Wide Add<Self> add: k, other => other.0[k];
+    Wide Sub<Self> sub: k, other => other.0[k];
+    Wide Mul<Self> mul: k, other => other.0[k];
+    Wide Div<Self> div: k, other => other.0[k];
+    Wide Add<f64> add: k, other => other;
+    Wide Sub<f64> sub: k, other => other;
+    Wide Mul<f64> mul: k, other => other;
+    WideMask BitAnd<Self> bitand: k, other => other.0[k];
+    WideMask BitOr<Self> bitor: k, other => other.0[k];
+}
 
 impl<S: Simd> Neg for Wide<S> {
     type Output = Self;
     #[inline(always)]
     fn neg(mut self) -> Self {
-        for k in 0..VECTORS {
-            self.0[k] = -self.0[k];
-        }
-        self
+        each_vector!(self, k => -self.0[k])
     }
 }
 
@@ -223,10 +224,7 @@ impl<S: Simd> Not for WideMask<S> {
     type Output = Self;
     #[inline(always)]
     fn not(mut self) -> Self {
-        for k in 0..VECTORS {
-            self.0[k] = !self.0[k];
-        }
-        self
+        each_vector!(self, k => !self.0[k])
     }
 }
 
@@ -238,40 +236,25 @@ impl<S: Simd> Real for Wide<S> {
     }
     #[inline(always)]
     fn abs(mut self) -> Self {
-        for k in 0..VECTORS {
-            self.0[k] = self.0[k].simd.abs_f64x8(self.0[k]);
-        }
-        self
+        each_vector!(self, k => self.0[k].simd.abs_f64x8(self.0[k]))
     }
     #[inline(always)]
     fn sqrt(mut self) -> Self {
-        for k in 0..VECTORS {
-            self.0[k] = self.0[k].simd.sqrt_f64x8(self.0[k]);
-        }
-        self
+        each_vector!(self, k => self.0[k].simd.sqrt_f64x8(self.0[k]))
     }
     #[inline(always)]
     fn less(self, other: Self) -> Self::Mask {
         let mut mask = WideMask([self.0[0].simd_lt(other.0[0]); VECTORS]);
-        for k in 1..VECTORS {
-            mask.0[k] = self.0[k].simd_lt(other.0[k]);
-        }
-        mask
+        each_vector!(mask, k => self.0[k].simd_lt(other.0[k]))
     }
     #[inline(always)]
     fn at_most(self, other: Self) -> Self::Mask {
         let mut mask = WideMask([self.0[0].simd_le(other.0[0]); VECTORS]);
-        for k in 1..VECTORS {
-            mask.0[k] = self.0[k].simd_le(other.0[k]);
-        }
-        mask
+        each_vector!(mask, k => self.0[k].simd_le(other.0[k]))
     }
     #[inline(always)]
     fn choose(mask: Self::Mask, mut yes: Self, no: Self) -> Self {
-        for k in 0..VECTORS {
-            yes.0[k] = mask.0[k].select(yes.0[k], no.0[k]);
-        }
-        yes
+        each_vector!(yes, k => mask.0[k].select(yes.0[k], no.0[k]))
     }
     #[inline(always)]
     fn polynomials<T: Simd, const N: usize>(

@@ -1,5 +1,7 @@
 //! Real roots of a polynomial, between those of its derivative.
 
+use super::bracket::bisected;
+
 /// All real roots, ascending; `coefficients` ascend by power. Between neighbouring roots of the
 /// derivative, and beyond them, a polynomial changes its sign at most once. Roots of even multiplicity
 /// may be found or not, as rounding has it.
@@ -18,25 +20,6 @@ pub fn real_roots(coefficients: &[f64]) -> Vec<f64> {
     places.push(bound);
     let value = |at: f64| coefficients.iter().rev().fold(0.0, |sum, c| sum * at + c);
     places.windows(2).filter_map(|pair| bisected([pair[0], pair[1]], value)).collect()
-}
-
-/// Where `value` changes between above 0 and not above 0, to rounding, whatever the magnitudes.
-fn bisected([mut low, mut high]: [f64; 2], value: impl Fn(f64) -> f64) -> Option<f64> {
-    let above = value(low) > 0.0;
-    if (value(high) > 0.0) == above {
-        return None;
-    }
-    loop {
-        let middle = 0.5 * (low + high);
-        if !(low < middle && middle < high) {
-            return Some(high);
-        }
-        if (value(middle) > 0.0) == above {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
 }
 
 #[cfg(test)]

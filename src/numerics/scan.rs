@@ -1,28 +1,30 @@
 //! Functions of one variable, looked at everywhere: where they change their sign, where they are
 //! largest.
 
+use super::bracket::bisected;
+
 /// Golden section, and steps of it: down to 1e-8 of two pieces, where a smooth extremum is flat.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 /// See [`GOLDEN`].
 const NARROWINGS: u32 = 40;
-/// Halvings of a piece: to rounding.
-const HALVINGS: u32 = 60;
+
+/// Ends of `pieces` even pieces.
+fn places([from, to]: [f64; 2], pieces: u32) -> impl Iterator<Item = f64> {
+    let part = move |k: u32| f64::from(k) / f64::from(pieces);
+    (0..=pieces).map(move |k| from * (1.0 - part(k)) + to * part(k))
+}
 
 /// Every place between `from` and `to` at which `f` changes between above 0 and not above 0; what is
 /// not a number counts as not above. Exact to rounding for each that is found. Found is every change
 /// between neighbours among `pieces` even pieces, and every pair of changes around an extremum that
 /// lies between two neighbours on the same side.
-pub fn sign_changes([from, to]: [f64; 2], pieces: u32, mut f: impl FnMut(f64) -> f64) -> Vec<f64> {
-    let place = |k: u32| {
-        let part = f64::from(k) / f64::from(pieces);
-        from * (1.0 - part) + to * part
-    };
-    let mut points: Vec<(f64, f64)> = (0..=pieces).map(|k| (place(k), f(place(k)))).collect();
+pub fn sign_changes(range: [f64; 2], pieces: u32, mut f: impl FnMut(f64) -> f64) -> Vec<f64> {
+    let mut points: Vec<(f64, f64)> = places(range, pieces).map(|at| (at, f(at))).collect();
     let dips: Vec<(f64, f64)> = points.windows(3).filter_map(|three| dip(three, &mut f)).collect();
     points.extend(dips);
     points.sort_by(|a, b| a.0.total_cmp(&b.0));
     let pairs = points.windows(2).filter(|pair| (pair[0].1 > 0.0) != (pair[1].1 > 0.0));
-    pairs.map(|pair| bisected(pair[0], pair[1].0, &mut f)).collect()
+    pairs.filter_map(|pair| bisected([pair[0].0, pair[1].0], &mut f)).collect()
 }
 
 /// A place between three neighbours on one side at which the function is on the other, if its size
@@ -35,89 +37,66 @@ fn dip(three: &[(f64, f64)], f: &mut impl FnMut(f64) -> f64) -> Option<(f64, f64
     if !(one_side && middle <= left && middle <= right) {
         return None;
     }
-    let height = |at: f64| {
-        let value = f(at);
-        if above { value } else { -value }
-    };
-    let (at, height) = below(three[0].0, three[2].0, height)?;
-    Some((at, if above { height } else { -height }))
+    let (at, height) = below(three[0].0, three[2].0, |at| size(f(at)))?;
+    Some((at, size(height)))
 }
 
 /// A place at which a function that is above 0 at both ends is not, by golden section; `None` where it
 /// has a smallest value above 0.
-pub fn below(
-    mut low: f64,
-    mut high: f64,
-    mut height: impl FnMut(f64) -> f64,
-) -> Option<(f64, f64)> {
-    for _ in 0..NARROWINGS {
-        let inner = [low + (high - low) * (1.0 - GOLDEN), low + (high - low) * GOLDEN];
-        let heights = inner.map(&mut height);
-        for (at, value) in inner.into_iter().zip(heights) {
-            if value.is_nan() || value <= 0.0 {
-                return Some((at, value));
-            }
+pub fn below(low: f64, high: f64, mut height: impl FnMut(f64) -> f64) -> Option<(f64, f64)> {
+    let not_above = |value: f64| value.is_nan() || value <= 0.0;
+    let mut found = None;
+    narrow([low, high], |at| {
+        let value = height(at);
+        if not_above(value) {
+            found = Some((at, value));
         }
-        if heights[0] < heights[1] {
-            high = inner[1];
-        } else {
-            low = inner[0];
-        }
-    }
-    None
+        found.is_none().then_some(-value)
+    });
+    found
 }
 
-fn bisected((mut from, value): (f64, f64), mut to: f64, f: &mut impl FnMut(f64) -> f64) -> f64 {
-    let above = value > 0.0;
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (from + to);
-        if middle == from || middle == to {
-            break;
-        }
-        if (f(middle) > 0.0) == above {
-            from = middle;
+/// Narrows a range around the largest value of `f` by golden section, until `f` says `None`.
+fn narrow([mut low, mut high]: [f64; 2], mut f: impl FnMut(f64) -> Option<f64>) {
+    let mut value = |part: f64, [low, high]: [f64; 2]| {
+        let at = low + (high - low) * part;
+        f(at).map(|value| (at, value))
+    };
+    let Some(mut left) = value(1.0 - GOLDEN, [low, high]) else { return };
+    let Some(mut right) = value(GOLDEN, [low, high]) else { return };
+    for _ in 0..NARROWINGS {
+        // Each step keeps one of the two places inside.
+        let next = if left.1 > right.1 {
+            (high, right) = (right.0, left);
+            value(1.0 - GOLDEN, [low, high]).map(|found| left = found)
         } else {
-            to = middle;
+            (low, left) = (left.0, right);
+            value(GOLDEN, [low, high]).map(|found| right = found)
+        };
+        if next.is_none() {
+            return;
         }
     }
-    0.5 * (from + to)
 }
 
 /// The largest value of a continuous function and where it is, from `pieces` even pieces, the best
 /// narrowed down; `None` where it is a number nowhere.
 pub fn largest(
-    [from, to]: [f64; 2],
+    range: [f64; 2],
     pieces: u32,
     mut f: impl FnMut(f64) -> Option<f64>,
 ) -> Option<(f64, f64)> {
-    let place = |k: u32| {
-        let part = f64::from(k) / f64::from(pieces);
-        from * (1.0 - part) + to * part
-    };
-    let tried = (0..=pieces).filter_map(|k| Some((place(k), f(place(k))?)));
+    let tried = places(range, pieces).filter_map(|at| Some((at, f(at)?)));
     let mut best = tried.max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let [from, to] = range;
     let step = (to - from) / f64::from(pieces);
-    let (mut low, mut high) = ((best.0 - step).max(from), (best.0 + step).min(to));
-    let mut value = |at: f64| {
-        let found = (at, f(at).unwrap_or(f64::NEG_INFINITY));
-        if found.1 > best.1 {
-            best = found;
+    narrow([(best.0 - step).max(from), (best.0 + step).min(to)], |at| {
+        let value = f(at).unwrap_or(f64::NEG_INFINITY);
+        if value > best.1 {
+            best = (at, value);
         }
-        found
-    };
-    let inner = |low: f64, high: f64, part: f64| low + (high - low) * part;
-    let (mut left, mut right) =
-        (value(inner(low, high, 1.0 - GOLDEN)), value(inner(low, high, GOLDEN)));
-    for _ in 0..NARROWINGS {
-        // Each step keeps one of the two places inside.
-        if left.1 > right.1 {
-            (high, right) = (right.0, left);
-            left = value(inner(low, high, 1.0 - GOLDEN));
-        } else {
-            (low, left) = (left.0, right);
-            right = value(inner(low, high, GOLDEN));
-        }
-    }
+        Some(value)
+    });
     Some(best)
 }
 

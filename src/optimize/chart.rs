@@ -72,7 +72,7 @@ fn widest(system: &System) -> Option<[f64; 2]> {
 fn best(objective: Objective, system: &System) -> Option<f64> {
     match objective {
         Objective::Z3Share => {
-            let manifold = Manifold::of(system.restitution()).ok()?;
+            let manifold = Manifold::of(system.restitution());
             let curve = FixedPointCurve::of(system, &manifold);
             let factor = |part: f64| WIDE[0] * libm::pow(WIDE[1] / WIDE[0], part);
             let inside = |part: f64| {

@@ -206,7 +206,7 @@ fn turning_points(
     let mut found = Vec::new();
     let mut note = |at: f64| found.push((at, map.gap_at(start, from, at).x));
     let mut between = |low: f64, high: f64| {
-        if let Ok(root) = brent(low, high, TURNED * duration, slope)
+        if let Some(root) = brent(low, high, TURNED * duration, slope)
             && root.at > 0.0
             && root.at < duration
         {
@@ -220,7 +220,7 @@ fn turning_points(
             between(low, high);
         } else if before.0 * before.1 < 0.0
             && after.0 * after.1 > 0.0
-            && let Ok(flattest) = brent(low, high, TURNED * duration, curvature)
+            && let Some(flattest) = brent(low, high, TURNED * duration, curvature)
             && (slope(flattest.at) > 0.0) != (before.0 > 0.0)
         {
             // It turns and turns back within one piece, as it does after a weak rebound.
@@ -251,7 +251,7 @@ pub(super) fn sign_changes(
     for [from, to] in pieces(duration, frequency) {
         let after = function(to);
         if (before > 0.0) != (after > 0.0)
-            && let Ok(root) = brent(from, to, TURNED * duration, &function)
+            && let Some(root) = brent(from, to, TURNED * duration, &function)
             && root.at > 0.0
             && root.at < duration
         {

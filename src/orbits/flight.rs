@@ -9,6 +9,7 @@
 //! driven exactly at its natural frequency.
 
 use super::OrbitError;
+use super::equations::{REPEATED_DISPLACEMENT, REPEATED_VELOCITY};
 use crate::operation_count::{self, ELEMENTARY};
 use crate::system::System;
 
@@ -134,10 +135,9 @@ impl Flight {
         Free { keep: impulse_rate + 2.0 * d * impulse, impulse, impulse_rate }
     }
 
-    /// `(Phi + I)^-1 (0, 1)` for the free motion `Phi` over half an excitation period: what a motion
-    /// that repeats with opposite sign keeps of an impulse. Near resonance `Phi` is close to `-I`;
-    /// the small differences are formed before anything is rounded.
-    pub fn repeated_impulse(&self) -> [f64; 2] {
+    /// `g` and `1 + g'` after half an excitation period. Near resonance both are small, and are formed
+    /// before anything is rounded.
+    pub fn half_period_response(&self) -> [f64; 2] {
         let d = self.decay;
         let s = std::f64::consts::PI / self.frequency;
         let discriminant = (1.0 - d) * (1.0 + d);
@@ -154,9 +154,15 @@ impl Flight {
             let free = self.free(s);
             (free.impulse, free.impulse_rate + 1.0)
         };
-        let keep_plus_one = rate_plus_one + 2.0 * d * impulse;
-        let determinant = keep_plus_one * rate_plus_one + impulse * impulse;
-        [-impulse / determinant, keep_plus_one / determinant]
+        [impulse, rate_plus_one]
+    }
+
+    /// `(Phi + I)^-1 (0, 1)` for the free motion `Phi` over half an excitation period: what a motion
+    /// that repeats with opposite sign keeps of an impulse.
+    pub fn repeated_impulse(&self) -> [f64; 2] {
+        let [impulse, rate_plus_one] = self.half_period_response();
+        let parameters = [self.decay, impulse, rate_plus_one];
+        [REPEATED_DISPLACEMENT.at(parameters), REPEATED_VELOCITY.at(parameters)]
     }
 
     /// Displacement and velocity a time `s` after `start` at `phase`.

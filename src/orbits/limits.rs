@@ -257,7 +257,7 @@ impl Family {
     }
 
     fn root(&self, kind: Bifurcation, [from, to]: [f64; 2], scale: f64) -> Option<Limit> {
-        let root = brent(from, to, WIDTH, |beta| self.test(kind, beta)).ok()?;
+        let root = brent(from, to, WIDTH, |beta| self.test(kind, beta))?;
         self.is_real(kind, root.at, scale)
             .then(|| self.limit(kind, root.at, [root.at - WIDTH, root.at + WIDTH]))
     }

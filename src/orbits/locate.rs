@@ -105,7 +105,7 @@ fn locate(
         if s == 0.0 { Ok(here.clone()) } else { tracer.advance(here, s) }
     };
     let value = |s: f64| at(s).map_or(f64::NAN, |point| (test.value)(&point));
-    let root = brent(0.0, step, LOCATED * step, value).ok()?;
+    let root = brent(0.0, step, LOCATED * step, value)?;
     let point = at(root.at).ok()?;
     let orbit = tracer.orbit(&point, Origin::Continuation)?;
     let kind = renamed(test.kind, &orbit)?;

@@ -40,7 +40,7 @@ pub(super) fn met(tracer: &Tracer, here: &Point, there: &Point) -> Option<(f64, 
         let (low, high) = (guess - reach, guess + reach);
         (test(low) * test(high) < 0.0).then_some((low, high))
     })?;
-    let root = brent(low, high, LOCATED * guess.abs(), test).ok()?;
+    let root = brent(low, high, LOCATED * guess.abs(), test)?;
     let orbit = tracer.at(&half, root.at)?;
     let scale = tracer.scale();
     let value = root.at * scale;

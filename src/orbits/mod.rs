@@ -2,7 +2,7 @@
 //!
 //! Nothing is expanded in the mass ratio and nothing is integrated step by step. Between impacts the
 //! motion is closed form ([`flight`]); from one impact to the next it is a map with an exact Jacobian
-//! ([`impact_map`]). Its symmetric two-impact cycles solve one quadratic ([`symmetric`]); all others
+//! ([`impact_map`]). Its symmetric two-impact cycles solve one quadratic ([`symmetric`], [`equations`]); all others
 //! are found by Newton's method ([`newton`]) and followed by continuation ([`branch`]), with their
 //! bifurcations. Where the symmetric ones begin and end is [`limits`]; with the asymmetric ones that
 //! follow them, [`boundaries`]. Nothing here knows of the
@@ -11,6 +11,7 @@
 pub mod admissibility;
 pub mod boundaries;
 pub mod branch;
+pub mod equations;
 pub mod flight;
 pub mod full_system;
 mod identity;

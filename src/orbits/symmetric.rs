@@ -1,29 +1,23 @@
 //! Symmetric 1:1 orbits in closed form: two impacts per excitation period, half a period apart.
 //!
-//! Half a period `T/2` after an impact at the `+b` wall everything has changed sign. With the
-//! displacement `x0 = 1 - beta` at impact (lengths over the clearance, `beta > 0`) the absorber flies
-//! with `u = 4 beta / T`, and equation (2) gives `x'+ = a u`, `a = (1 - r - 2 eps r)/(1 + r)`. With
-//! `q = (Phi + I)^-1 (0, 1)`, `Phi` the free motion of the oscillator over `T/2`, the steady motion at
-//! impact must be
+//! [`equations`](super::equations) states and derives what is evaluated here: the steady motion at an impact
+//! is linear in the absorber's amplitude `beta` (lengths over the clearance), so that its squared amplitude,
 //!
-//! `X = 1 - A beta`, `X'/Omega = -D beta`, `A = 1 - 8 eps q1/T`, `D = -4 (a + 2 eps q2)/(Omega T)`,
+//! `(1 - A beta)^2 + (D beta)^2 = gamma^2 chi^2`, `chi` the linear amplitude per unit of `gamma`,
 //!
-//! and since `X^2 + (X'/Omega)^2` is the squared linear amplitude,
-//!
-//! `(A^2 + D^2) beta^2 - 2 A beta + 1 = gamma^2 chi^2`, `chi` the linear amplitude per unit of `gamma`:
-//!
-//! the slow invariant manifold (16) and its fixed points in one, at any mass ratio. Each `beta` belongs
+//! is the slow invariant manifold (16) and its fixed points in one, at any mass ratio. Each `beta` belongs
 //! to one forcing; each forcing to at most two orbits.
 
 use serde::Serialize;
 
 use super::OrbitError;
+use super::equations as formulas;
 use super::flight::Flight;
 use super::impact_map::{AfterImpact, ImpactMap, Wall};
 use super::measures::Peaks;
 use super::newton::Convergence;
 use super::orbit::{Closure, Cycle, Orbit, Origin};
-use crate::system::System;
+use crate::system::{Excitation, System};
 
 /// The coefficients that all symmetric orbits of a system share; the forcing enters nowhere.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -71,35 +65,32 @@ impl SymmetricCurve {
     pub(super) fn with(system: &System, flight: &Flight) -> Self {
         let (eps, r) = (system.mass_ratio(), system.restitution());
         let omega = system.frequency_ratio();
-        let half_period = std::f64::consts::PI / omega;
+        let period = formulas::PERIOD.at([omega]);
         let [q1, q2] = flight.repeated_impulse();
-        let rebound = (1.0 - r - 2.0 * eps * r) / (1.0 + r);
-        let [s, c] = flight.steady();
+        let rebound = formulas::VELOCITY_RATIO_AFTER.at([eps, r]);
+        let stiffness = formulas::STIFFNESS.at([omega]);
+        let loss = formulas::LOSS.at([eps, system.damping(), omega]);
+        let gain = match system.excitation() {
+            Excitation::BaseDisplacement => &formulas::BASE_GAIN,
+            Excitation::Force => &formulas::FORCE_GAIN,
+        };
         Self {
-            displacement: 1.0 - 4.0 * eps * q1 / half_period,
-            velocity: -2.0 * (rebound + 2.0 * eps * q2) / (omega * half_period),
+            displacement: formulas::DISPLACEMENT_LOSS.at([eps, period, q1]),
+            velocity: formulas::VELOCITY_LOSS.at([eps, omega, period, q2, rebound]),
             rebound,
-            gain: libm::hypot(s, c) / system.forcing_per_clearance().max(f64::MIN_POSITIVE),
-            half_period,
+            gain: gain.at([eps, stiffness, loss]),
+            half_period: 0.5 * period,
         }
-    }
-
-    /// Squared amplitude of the steady motion that the orbit with `beta` needs, over the clearance.
-    pub fn squared_amplitude(&self, beta: f64) -> f64 {
-        let x = 1.0 - self.displacement * beta;
-        let v = self.velocity * beta;
-        x * x + v * v
     }
 
     /// `gamma` at which the orbit with `beta` exists.
     pub fn forcing(&self, beta: f64) -> f64 {
-        self.squared_amplitude(beta).sqrt() / self.gain
+        formulas::FORCING.at([beta, self.gain, self.displacement, self.velocity])
     }
 
-    /// `beta` where the two orbits collide: the saddle-node, `A / (A^2 + D^2)`.
+    /// `beta` where the two orbits collide: the saddle-node.
     pub fn turning(&self) -> f64 {
-        let (a, d) = (self.displacement, self.velocity);
-        a / (a * a + d * d)
+        formulas::TURNING_RATIO.at([self.displacement, self.velocity])
     }
 
     /// Acceleration with which the wall leaves the absorber behind after an impact, at `beta`: linear
@@ -126,17 +117,16 @@ impl SymmetricCurve {
     /// `beta` of the orbits at the squared linear amplitude `squared`, ascending, positive ones only.
     pub fn absorber_amplitudes(&self, squared: f64) -> Vec<f64> {
         let (a, d) = (self.displacement, self.velocity);
-        let leading = a * a + d * d;
-        // The discriminant without the cancellation of a^2 against it: a^2 squared - d^2 (1 - squared).
-        let discriminant = leading * squared - d * d;
-        if !(discriminant >= 0.0 && leading > 0.0) {
+        let discriminant = formulas::DISCRIMINANT.at([squared, a, d]);
+        if discriminant.is_nan() || discriminant < 0.0 {
             return Vec::new();
         }
-        let root = discriminant.sqrt();
-        // The sum that does not cancel, and the other root from their product.
-        let sum = if a >= 0.0 { a + root } else { a - root };
-        let product = 1.0 - squared;
-        let mut found = if sum == 0.0 { vec![0.0] } else { vec![sum / leading, product / sum] };
+        let far = if a >= 0.0 { &formulas::LARGER_RATIO } else { &formulas::SMALLER_RATIO };
+        let far = far.at([discriminant, a, d]);
+        let mut found = vec![far];
+        if far != 0.0 {
+            found.push(formulas::RATIO_PRODUCT.at([squared, a, d]) / far);
+        }
         found.retain(|beta| beta.is_finite() && *beta > 0.0);
         found.sort_by(f64::total_cmp);
         found.dedup();
@@ -145,14 +135,14 @@ impl SymmetricCurve {
 
     /// The state after the impact on the `+b` wall on the orbit with `beta`.
     pub fn after_impact(&self, flight: &Flight, beta: f64) -> AfterImpact {
-        let speed = 2.0 * beta / self.half_period;
+        let speed = formulas::SPEED.at([2.0 * self.half_period, beta]);
         let [s, c] = flight.steady();
-        let x = 1.0 - self.displacement * beta;
-        let v = -self.velocity * beta;
+        let x = formulas::DISPLACEMENT.at([1.0, beta, self.displacement]);
+        let v = formulas::VELOCITY.at([beta, self.velocity]);
         AfterImpact {
-            phase: libm::atan2(s * x - c * v, c * x + s * v),
+            phase: formulas::PHASE.at([s, c, x, v]),
             x: 1.0 - beta,
-            x_velocity: self.rebound * speed,
+            x_velocity: formulas::VELOCITY_AFTER.at([self.rebound, speed]),
             y_velocity: speed,
         }
     }
@@ -176,7 +166,7 @@ pub fn symmetric_orbits(system: &System) -> Result<Vec<SymmetricOrbit>, OrbitErr
     let map = ImpactMap::of(system)?;
     let curve = SymmetricCurve::with(system, &map.flight);
     let [s, c] = map.flight.steady();
-    let found = curve.absorber_amplitudes(s * s + c * c);
+    let found = curve.absorber_amplitudes(formulas::STEADY_SQUARE.at([1.0, s, c]));
     Ok(found.iter().filter_map(|beta| symmetric_orbit(system, &map, &curve, *beta)).collect())
 }
 
@@ -205,7 +195,7 @@ pub(super) fn symmetric_orbit(
         phase: after.phase,
         peaks,
         impulse: 2.0 * eps * after.y_velocity,
-        impact_speed: 2.0 * after.y_velocity * (1.0 + eps) / (1.0 + r),
+        impact_speed: formulas::IMPACT_SPEED.at([eps, r, after.y_velocity]),
         orbit,
     })
 }

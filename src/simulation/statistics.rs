@@ -360,7 +360,7 @@ impl Statistics {
             let after = segment.motion.at(from + step);
             let mut peak = before.x.abs().max(after.x.abs());
             if (before.v > 0.0) != (after.v > 0.0)
-                && let Ok(root) = brent(from, from + step, 1e-12, |s| segment.motion.at(s).v)
+                && let Some(root) = brent(from, from + step, 1e-12, |s| segment.motion.at(s).v)
             {
                 peak = peak.max(segment.motion.at(root.at).x.abs());
             }

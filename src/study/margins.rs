@@ -92,7 +92,7 @@ fn in_frequency(analysis: &Analysis) -> Result<Neighbours, AnalysisError> {
     let mut all = Vec::new();
     for kind in [Bifurcation::SymmetryBreaking, Bifurcation::NeimarkSacker, Bifurcation::SaddleNode]
     {
-        for detuning in boundaries::crossings(kind, system, &analysis.manifold)? {
+        for detuning in boundaries::crossings(kind, system, &analysis.manifold) {
             let ratio = 1.0 + system.mass_ratio() * detuning;
             // Far from resonance a boundary of this theory means nothing.
             if (ratio - 1.0).abs() > LARGEST_OFFSET {

@@ -1,6 +1,6 @@
 //! What the layers know of a point.
 
-use crate::analysis::{Area, FixedPointCurve, Manifold, Zone, fixed_points};
+use crate::analysis::{FixedPointCurve, Manifold, Zone, fixed_points};
 use crate::case::{Layer, Recorded};
 use crate::orbits::{SymmetricOrbit, attracting_orbit};
 use crate::regimes::Motion;
@@ -49,7 +49,7 @@ impl<'a> Facts<'a> {
     pub fn of(plan: &Plan, point: &'a Point, found: Vec<Found>) -> Self {
         let wants = |recorded| plan.settings.record.contains(&recorded);
         let system = point.system.as_ref();
-        let manifold = system.and_then(|system| Manifold::of(system.restitution()).ok());
+        let manifold = system.map(|system| Manifold::of(system.restitution()));
         let theory = system.zip(manifold.as_ref());
         Self {
             point,
@@ -68,9 +68,7 @@ impl<'a> Facts<'a> {
 }
 
 fn zone(system: &System) -> Zone {
-    let Ok(manifold) = Manifold::of(system.restitution()) else {
-        return Zone { area: Some(Area::Z4), strip: None };
-    };
+    let manifold = Manifold::of(system.restitution());
     FixedPointCurve::of(system, &manifold).zone(system.forcing_per_clearance())
 }
 

@@ -1,22 +1,21 @@
 //! LaTeX of an expression, with symbols or with a case's numbers in their place.
 //!
 //! Only commands that both MathJax and the converter to MathML know: `\frac`, `\sqrt`, `\sin`,
-//! `\cos`, `\left( \right)`, `\cdot`, `\times`, and the symbols of the table. Hosts of Markdown
+//! `\cos`, `\mathrm`, `\left( \right)`, `\cdot`, `\times`, and the symbols of the table. Hosts of Markdown
 //! forbid some macros, `\operatorname` among them: none is used.
 
-use super::expr::Function;
-use super::{Expr, Symbol, Values};
+use super::{Expr, Function, Symbol, Values};
 
 impl Expr {
     /// The expression in LaTeX.
     pub fn to_latex(&self) -> String {
-        Writer { values: None, digits: 0 }.expression(self)
+        Writer { values: &Values::default(), digits: 1 }.piece(self).text
     }
 
     /// The expression in LaTeX with numbers for the symbols that have values, to `digits`
     /// significant digits. `pi` remains a symbol, as do symbols without a value.
     pub fn to_latex_with(&self, values: &Values, digits: usize) -> String {
-        Writer { values: Some(values), digits }.expression(self)
+        Writer { values, digits }.piece(self).text
     }
 }
 
@@ -41,208 +40,152 @@ pub fn format_number(number: f64, digits: usize) -> String {
     format!("{number:.decimals$}")
 }
 
-/// A piece of LaTeX and what has to be known to put it next to others.
+/// What has to be known of a piece of LaTeX to put it next to others.
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    /// A letter, a root or a function: stands by itself.
+    Closed,
+    /// A number without sign or power of ten.
+    Number,
+    /// Another number, factors side by side or a fraction: in parentheses as a base.
+    Product,
+    /// Terms with signs between them: in parentheses as a factor, too.
+    Sum,
+}
+
 struct Piece {
     text: String,
     kind: Kind,
 }
 
-#[derive(Clone, Copy, PartialEq)]
-enum Kind {
-    /// A letter, a command or a group that stands by itself.
-    Closed,
-    /// A number without sign or power of ten.
-    Plain,
-    /// A number that needs parentheses as a base or a later factor.
-    Awkward,
-    /// Terms with signs between them.
-    Open,
-}
-
-struct Writer<'a> {
-    values: Option<&'a Values>,
-    digits: usize,
-}
-
-impl Writer<'_> {
-    fn expression(&self, expr: &Expr) -> String {
-        match expr {
-            Expr::Sum(terms) => self.sum(terms),
-            Expr::Product(factors) => self.product(factors),
-            Expr::Number(_) => self.product(std::slice::from_ref(expr)),
-            Expr::Power(_, exponent) if *exponent < 0 => self.product(std::slice::from_ref(expr)),
-            other => self.factor(other).text,
-        }
+impl Piece {
+    fn new(text: String, kind: Kind) -> Self {
+        Self { text, kind }
     }
 
-    fn sum(&self, terms: &[Expr]) -> String {
-        let mut text = String::new();
-        for term in terms {
-            let term = self.expression(term);
-            match term.strip_prefix('-') {
-                Some(rest) if text.is_empty() => text = format!("-{}", rest.trim_start()),
-                Some(rest) => text.push_str(&format!(" - {}", rest.trim_start())),
-                None if text.is_empty() => text = term,
-                None => text.push_str(&format!(" + {term}")),
-            }
-        }
-        text
+    fn is_negative(&self) -> bool {
+        self.text.starts_with('-')
     }
 
-    /// A product: constants as one fraction in front, unless other factors are below the line too.
-    fn product(&self, factors: &[Expr]) -> String {
-        let is_constant = |expr: &Expr| match expr {
-            Expr::Number(_) | Expr::Symbol(Symbol::Pi) => true,
-            Expr::Power(base, _) => **base == Expr::Symbol(Symbol::Pi),
-            _ => false,
-        };
-        let negative = matches!(&factors[0], Expr::Number(number) if number.is_negative());
-        let is_below = |expr: &&Expr| matches!(expr, Expr::Power(_, exponent) if *exponent < 0);
-        let one_line = factors.iter().filter(is_below).all(is_constant);
-        let (constants, others): (Vec<&Expr>, Vec<&Expr>) =
-            factors.iter().partition(|factor| one_line && is_constant(factor));
-        let front = self.quotient(&constants);
-        let back = self.quotient(&others);
-        let text = match (front, back) {
-            (Some(front), Some(back)) => juxtapose(vec![front, back]),
-            (Some(piece), None) | (None, Some(piece)) => piece.text,
-            (None, None) => "1".to_owned(),
-        };
-        if !negative {
-            text
-        } else if text.starts_with('-') {
-            format!(r"-\left({text}\right)")
-        } else {
-            format!("-{text}")
-        }
+    fn parenthesised_if(self, needed: bool) -> String {
+        if needed { parenthesised(&self.text) } else { self.text }
     }
-
-    /// Factors over factors; the sign is left to the caller. Nothing for the factor 1.
-    fn quotient(&self, factors: &[&Expr]) -> Option<Piece> {
-        let (mut above, mut below) = (Vec::new(), Vec::new());
-        for factor in factors {
-            match factor {
-                Expr::Number(number) => {
-                    let size = number.abs();
-                    if size.numerator() != 1 {
-                        above.push(plain(size.numerator()));
-                    }
-                    if size.denominator() != 1 {
-                        below.push(plain(size.denominator()));
-                    }
-                }
-                Expr::Power(base, exponent) if *exponent < 0 => {
-                    below.push(self.power(base, -exponent));
-                }
-                other => above.push(self.factor(other)),
-            }
-        }
-        if below.is_empty() {
-            return match above.len() {
-                0 => None,
-                1 => above.pop(),
-                _ => Some(Piece { kind: leading_kind(&above), text: juxtapose(above) }),
-            };
-        }
-        let above = if above.is_empty() { "1".to_owned() } else { alone_or_juxtaposed(above) };
-        let below = alone_or_juxtaposed(below);
-        Some(Piece { text: format!(r"\frac{{{above}}}{{{below}}}"), kind: Kind::Closed })
-    }
-
-    fn factor(&self, expr: &Expr) -> Piece {
-        match expr {
-            Expr::Number(_) | Expr::Product(_) | Expr::Sum(_) => {
-                Piece { text: self.expression(expr), kind: Kind::Open }
-            }
-            Expr::Symbol(symbol) => self.symbol(*symbol),
-            Expr::Power(base, exponent) => self.power(base, *exponent),
-            Expr::Function(function, argument) => self.function(*function, argument, 1),
-        }
-    }
-
-    fn symbol(&self, symbol: Symbol) -> Piece {
-        let value = self.values.and_then(|values| values.get(symbol));
-        match value {
-            Some(value) if symbol != Symbol::Pi => {
-                let text = format_number(value, self.digits);
-                let is_plain = text.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.');
-                Piece { text, kind: if is_plain { Kind::Plain } else { Kind::Awkward } }
-            }
-            _ => Piece { text: symbol.entry().latex.to_owned(), kind: Kind::Closed },
-        }
-    }
-
-    fn power(&self, base: &Expr, exponent: i32) -> Piece {
-        if exponent == 1 {
-            return self.factor(base);
-        }
-        if let Expr::Function(function @ (Function::Sin | Function::Cos), argument) = base {
-            return self.function(*function, argument, exponent);
-        }
-        let base = self.factor(base);
-        let kind = if base.kind == Kind::Plain { Kind::Plain } else { Kind::Closed };
-        let base = match base.kind {
-            Kind::Closed | Kind::Plain => base.text,
-            Kind::Awkward | Kind::Open => parenthesised(&base.text),
-        };
-        Piece { text: format!("{base}^{{{exponent}}}"), kind }
-    }
-
-    fn function(&self, function: Function, argument: &Expr, exponent: i32) -> Piece {
-        let text = self.expression(argument);
-        let name = match function {
-            Function::Sqrt => {
-                return Piece { text: format!(r"\sqrt{{{text}}}"), kind: Kind::Closed };
-            }
-            Function::Sin => r"\sin",
-            Function::Cos => r"\cos",
-        };
-        let power = if exponent == 1 { String::new() } else { format!("^{{{exponent}}}") };
-        let is_symbol = matches!(argument, Expr::Symbol(_)) && !text.starts_with('-');
-        let argument = if is_symbol { text } else { parenthesised(&text) };
-        Piece { text: format!("{name}{power} {argument}"), kind: Kind::Closed }
-    }
-}
-
-fn plain(number: i128) -> Piece {
-    Piece { text: number.to_string(), kind: Kind::Plain }
 }
 
 fn parenthesised(text: &str) -> String {
     format!(r"\left({text}\right)")
 }
 
-fn leading_kind(pieces: &[Piece]) -> Kind {
-    match pieces[0].kind {
-        Kind::Awkward if !pieces[0].text.starts_with('-') => Kind::Plain,
-        Kind::Awkward | Kind::Open => Kind::Closed,
-        kind => kind,
-    }
+struct Writer<'a> {
+    values: &'a Values,
+    digits: usize,
 }
 
-fn alone_or_juxtaposed(mut pieces: Vec<Piece>) -> String {
-    if pieces.len() == 1 { pieces.remove(0).text } else { juxtapose(pieces) }
-}
-
-/// Factors side by side: sums and negative numbers in parentheses, a dot before a number.
-fn juxtapose(pieces: Vec<Piece>) -> String {
-    let mut text = String::new();
-    for piece in pieces {
-        let is_number = matches!(piece.kind, Kind::Plain | Kind::Awkward);
-        let dotted = is_number && !text.is_empty();
-        let negative = piece.kind == Kind::Awkward && piece.text.starts_with('-');
-        let piece = if piece.kind == Kind::Open || negative {
-            parenthesised(&piece.text)
-        } else {
-            piece.text
-        };
-        let separator = match (text.is_empty(), dotted) {
-            (true, _) => "",
-            (false, true) => r" \cdot ",
-            (false, false) => " ",
-        };
-        text.push_str(separator);
-        text.push_str(&piece);
+impl Writer<'_> {
+    fn piece(&self, expr: &Expr) -> Piece {
+        match expr {
+            Expr::Number(number) => Piece::new(number.to_string(), Kind::Number),
+            Expr::Symbol(symbol) => self.symbol(*symbol),
+            Expr::Negative(inner) => {
+                let inner = self.piece(inner);
+                let needed = inner.kind == Kind::Sum || inner.is_negative();
+                Piece::new(format!("-{}", inner.parenthesised_if(needed)), Kind::Product)
+            }
+            Expr::Binary('/', sides) => {
+                let below = self.piece(&sides[1]).text;
+                if let Expr::Negative(above) = &sides[0] {
+                    let text = format!(r"-\frac{{{}}}{{{below}}}", self.piece(above).text);
+                    return Piece::new(text, Kind::Product);
+                }
+                let above = self.piece(&sides[0]);
+                let (sign, above) = match above.text.strip_prefix('-') {
+                    Some(rest) if above.kind != Kind::Sum => ("-", rest),
+                    _ => ("", above.text.as_str()),
+                };
+                Piece::new(format!(r"{sign}\frac{{{above}}}{{{below}}}"), Kind::Product)
+            }
+            Expr::Binary('*', sides) => self.product(&sides[0], &sides[1]),
+            Expr::Binary(sign, sides) => self.sum(*sign, &sides[0], &sides[1]),
+            Expr::Function(function, arguments) => self.function(*function, arguments),
+        }
     }
-    text
+
+    fn symbol(&self, symbol: Symbol) -> Piece {
+        match self.values.get(symbol) {
+            Some(value) if symbol != Symbol::PI => {
+                let text = format_number(value, self.digits);
+                let is_plain = text.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.');
+                Piece::new(text, if is_plain { Kind::Number } else { Kind::Product })
+            }
+            _ => Piece::new(symbol.entry().latex.to_owned(), Kind::Closed),
+        }
+    }
+
+    /// A term that begins with a minus sign turns the sign before it.
+    fn sum(&self, sign: char, left: &Expr, right: &Expr) -> Piece {
+        let (left, right) = (self.piece(left).text, self.piece(right));
+        let turned = if sign == '+' { '-' } else { '+' };
+        let text = match right.text.strip_prefix('-') {
+            Some(rest) if right.kind != Kind::Sum => format!("{left} {turned} {rest}"),
+            _ => {
+                let needed = right.kind == Kind::Sum && (sign == '-' || right.is_negative());
+                format!("{left} {sign} {}", right.parenthesised_if(needed))
+            }
+        };
+        Piece::new(text, Kind::Sum)
+    }
+
+    /// Factors side by side: sums, and later factors that begin with a sign, in parentheses; a dot
+    /// before a number.
+    fn product(&self, left: &Expr, right: &Expr) -> Piece {
+        let (left, right) = (self.piece(left), self.piece(right));
+        let digit = |c: char| c.is_ascii_digit();
+        let mixed = left.text.ends_with(digit) && right.text.starts_with(r"\frac");
+        let needed = right.kind == Kind::Sum || right.is_negative();
+        let right = right.parenthesised_if(needed);
+        let dot = if mixed || right.starts_with(digit) { r"\cdot " } else { "" };
+        let needed = left.kind == Kind::Sum;
+        Piece::new(format!("{} {dot}{right}", left.parenthesised_if(needed)), Kind::Product)
+    }
+
+    fn function(&self, function: Function, arguments: &[Expr]) -> Piece {
+        match function {
+            Function::Square => self.power(&arguments[0], 2),
+            Function::Cube => self.power(&arguments[0], 3),
+            Function::Sin => self.angle_function(r"\sin", &arguments[0]),
+            Function::Cos => self.angle_function(r"\cos", &arguments[0]),
+            Function::Sqrt => {
+                let text = format!(r"\sqrt{{{}}}", self.piece(&arguments[0]).text);
+                Piece::new(text, Kind::Closed)
+            }
+            Function::Atan2 => {
+                let [y, x] = [0, 1].map(|which| self.piece(&arguments[which]).text);
+                let text = format!(r"\mathrm{{atan2}}{}", parenthesised(&format!("{y}, {x}")));
+                Piece::new(text, Kind::Closed)
+            }
+        }
+    }
+
+    fn angle_function(&self, name: &str, argument: &Expr) -> Piece {
+        let angle = self.piece(argument);
+        let needed = !matches!(argument, Expr::Symbol(_)) || angle.is_negative();
+        Piece::new(format!("{name} {}", angle.parenthesised_if(needed)), Kind::Closed)
+    }
+
+    fn power(&self, base: &Expr, exponent: u32) -> Piece {
+        match base {
+            Expr::Function(Function::Sin, angle) => {
+                self.angle_function(&format!(r"\sin^{{{exponent}}}"), &angle[0])
+            }
+            Expr::Function(Function::Cos, angle) => {
+                self.angle_function(&format!(r"\cos^{{{exponent}}}"), &angle[0])
+            }
+            _ => {
+                let base = self.piece(base);
+                let kind = if base.kind == Kind::Number { Kind::Number } else { Kind::Closed };
+                let needed = matches!(base.kind, Kind::Sum | Kind::Product);
+                Piece::new(format!("{}^{{{exponent}}}", base.parenthesised_if(needed)), kind)
+            }
+        }
+    }
 }

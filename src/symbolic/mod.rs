@@ -1,31 +1,22 @@
-//! Expressions with named symbols: stated once, transformed, differentiated, evaluated, printed.
+//! Equations that are written once: as code that is evaluated, and as the same text, typeset.
 //!
-//! This is no computer-algebra system. It knows rational functions, square roots, sines and
-//! cosines, and the steps of algebra that the paper's equations need: substitution, multiplying
-//! out, collecting powers, linear equations, derivatives, `sin^2 + cos^2 = 1`. What is evaluated
-//! is what is printed: values and LaTeX come from the same [`Expr`].
+//! [`equations!`](crate::symbolic::equations) takes an equation's right side as an ordinary Rust
+//! expression. The compiler makes a function of it; its text is read again ([`Expr`]) where it is
+//! printed, with symbols or with a case's numbers. So what is printed is what is evaluated, operation by
+//! operation, and evaluating costs what the expression costs. Nothing here rearranges an expression: what
+//! follows from the paper's equations is derived by hand and proven by the tests, against those equations.
 
-mod calculus;
-mod compiled;
 mod equation;
-mod error;
-mod evaluate;
 mod expr;
 mod latex;
 mod mathml;
-mod operators;
-mod polynomial;
-mod quotient;
-mod rational;
 mod symbol;
+mod values;
 
-pub use calculus::eliminate_angle;
-pub use compiled::{CAPACITY, Compiled};
-pub use equation::Equation;
-pub use error::{AlgebraError, MissingValue};
-pub use evaluate::Values;
-pub use expr::{Expr, Function, cos, fraction, sin, sqrt};
+pub(crate) use equation::equations;
+pub use equation::{Equation, Formula, Group, operations};
+pub use expr::{Expr, Function, atan2, cos, cube, sin, sqrt, square};
 pub use latex::format_number;
 pub use mathml::{MathError, to_mathml};
-pub use rational::Rational;
 pub use symbol::{Symbol, SymbolEntry};
+pub use values::{MissingValue, Values};

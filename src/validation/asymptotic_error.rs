@@ -41,7 +41,7 @@ pub fn errors_over_frequency(
     let mut errors = Vec::new();
     for at in exact {
         let Ok(there) = system.with_frequency_ratio(at.frequency_ratio) else { continue };
-        let theory = analysis::Boundaries::of(&there, manifold)?;
+        let theory = analysis::Boundaries::of(&there, manifold);
         let theory = clearances_of(&theory, there.forcing_per_clearance());
         errors.push((at.frequency_ratio, between(&theory, &at.symmetric.limits)));
     }

@@ -87,7 +87,7 @@ fn condition(
         let ratio = RANGE.0 + (RANGE.1 - RANGE.0) * f64::from(k) / f64::from(SAMPLES);
         line.push([ratio, scene.units.length(gamma / curve.forcing_squared(ratio).sqrt())]);
     }
-    let boundaries = Boundaries::of(there, manifold)?;
+    let boundaries = Boundaries::of(there, manifold);
     let outer = boundaries.saddle_node;
     Ok(Condition {
         detuning: there.detuning(),

@@ -45,7 +45,7 @@ impl Borders {
     ) -> Result<Self, AnalysisError> {
         let of = |detuning: f64| -> Result<Option<Boundaries>, AnalysisError> {
             let there = system.with_detuning(detuning).ok();
-            there.map(|there| Boundaries::of(&there, manifold)).transpose()
+            Ok(there.map(|there| Boundaries::of(&there, manifold)))
         };
         let within = |detuning: f64| (first..=last).contains(&detuning);
         let even = |a: f64, b: f64| {

@@ -22,7 +22,7 @@ pub(super) fn branches_of(
     place: &dyn Fn(&ResponsePoint) -> [f64; 2],
 ) -> Result<Vec<Piece>, AnalysisError> {
     let mut all: Vec<Piece> = Vec::new();
-    for (side, curves) in response(system, manifold, largest)?.iter().enumerate() {
+    for (side, curves) in response(system, manifold, largest).iter().enumerate() {
         let outwards = if side == 0 { 1.0 } else { -1.0 };
         let stable = |pair: &[ResponsePoint]| {
             let within = pair.iter().all(|point| point.branch == Branch::Stable);

@@ -114,7 +114,7 @@ pub(in crate::report) fn shares(system: &System) -> Result<Vec<(f64, f64)>, Anal
 
 /// The quadratics of the band's detunings.
 fn curves(system: &System) -> Result<impl Iterator<Item = FixedPointCurve>, AnalysisError> {
-    let manifold = Manifold::of(system.restitution())?;
+    let manifold = Manifold::of(system.restitution());
     let detunings = (-SAMPLES..=SAMPLES).map(|k| BAND * f64::from(k) / f64::from(SAMPLES));
     Ok(detunings.map(move |at| FixedPointCurve::at_detuning(system, &manifold, at)))
 }

@@ -1,8 +1,7 @@
 //! The manifold, and what it takes from the oscillator, for five restitutions (Fig. 9).
 
-use std::f64::consts::{FRAC_2_PI, PI};
-
 use crate::analysis::{Branch, Manifold};
+use crate::equations::stated::FIRST_HARMONIC;
 use crate::orbits::symmetric_orbits;
 use crate::report::figure::{
     Axis, Color, Dash, Figure, Label, Layer, Layout, MarkedPoint, Marker, Panel, Role, Rule, Shape,
@@ -112,20 +111,15 @@ fn level(scene: &Scene) -> Option<f64> {
 /// `B/b`; none below the fold.
 fn taken(restitution: f64, level: f64) -> Result<Option<Taken>, StudyError> {
     let manifold = manifold(restitution)?;
-    let r = manifold.curvature;
-    let root = level * level * (1.0 + r) - r;
-    if root < 0.0 {
-        return Ok(None);
-    }
-    let absorber = (1.0 + root.sqrt()) / (1.0 + r);
-    let harmonic = 8.0 / (PI * PI) * absorber;
-    let sine = FRAC_2_PI * manifold.restitution_ratio * absorber / level;
+    let Some(absorber) = manifold.stable_absorber(level) else { return Ok(None) };
+    let harmonic = FIRST_HARMONIC.at([absorber]);
+    let sine = libm::sin(manifold.absorber_phase(absorber, absorber - 1.0));
     let branch = manifold.branch(absorber - 1.0);
     Ok(Some(Taken { restitution, absorber, harmonic, damping: harmonic * sine, branch }))
 }
 
 fn manifold(restitution: f64) -> Result<Manifold, StudyError> {
-    Ok(Manifold::of(restitution).map_err(crate::analysis::AnalysisError::from)?)
+    Ok(Manifold::of(restitution))
 }
 
 fn manifolds(level: f64) -> Result<Panel, StudyError> {

@@ -1,12 +1,11 @@
 //! Figs. 8, 9 and 12: modulation on the manifold, restitution, transfer.
 
 use super::{CaseSet, Draft, PaperError, TRANSFER, check};
-use crate::analysis::{AnalysisError, Manifold};
+use crate::analysis::Manifold;
 use crate::regimes::Regime;
 use crate::report::figures::transfer_stretches::{self, Three};
 use crate::report::figures::{modulation, restitutions};
 use crate::report::numbers::{percent, significant};
-use crate::study::StudyError;
 
 /// While captured the motion may be this far from the stable branch, relative in `C`: steps between
 /// impacts of a few percent are what the paper's enlargement shows.
@@ -46,10 +45,8 @@ pub(super) fn figure_9(shelf: &CaseSet) -> Result<Draft, PaperError> {
             .ok_or(PaperError::NoResult { case: name, what: "point of the manifold" })
     };
     let (at_high, at_low) = (of(high)?, of(low)?);
-    let manifold =
-        |r| Manifold::of(r).map_err(|error| StudyError::from(AnalysisError::from(error)));
-    let elastic = manifold(1.0)?.symmetry_breaking.oscillator_amplitude;
-    let dull = manifold(0.2)?.fold.oscillator_amplitude;
+    let elastic = Manifold::of(1.0).symmetry_breaking.oscillator_amplitude;
+    let dull = Manifold::of(0.2).fold.oscillator_amplitude;
     let between = |r: f64| r > 0.0 && r < 1.0;
     Ok(Draft {
         number: "9",
@@ -58,7 +55,7 @@ pub(super) fn figure_9(shelf: &CaseSet) -> Result<Draft, PaperError> {
         images: vec![shelf.image(high, "restitutions", 860)?, shelf.image(low, "restitutions", 860)?],
         checks: vec![
             check(
-                manifold(0.2)?.fold.oscillator_amplitude > manifold(0.6)?.fold.oscillator_amplitude,
+                Manifold::of(0.2).fold.oscillator_amplitude > Manifold::of(0.6).fold.oscillator_amplitude,
                 "A smaller $r$ lifts the fold, so that 1:1 resonance needs a larger amplitude.",
             ),
             check(

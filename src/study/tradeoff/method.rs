@@ -192,8 +192,7 @@ pub fn of_fixed_point(system: &System, point: &FixedPoint) -> Answer {
 }
 
 fn closed_form(system: &System) -> Result<Answer, StudyError> {
-    let manifold =
-        Manifold::of(system.restitution()).map_err(crate::analysis::AnalysisError::from)?;
+    let manifold = Manifold::of(system.restitution());
     let points = fixed_points::solve(system, &manifold)?;
     let stable = points.iter().rfind(|point| point.stable && point.admissible);
     Ok(match stable {
@@ -204,8 +203,7 @@ fn closed_form(system: &System) -> Result<Answer, StudyError> {
 
 /// The flow begins in the middle of the stable branch, in phase with the excitation.
 fn slow_flow(system: &System, periods: u64) -> Result<Answer, StudyError> {
-    let manifold =
-        Manifold::of(system.restitution()).map_err(crate::analysis::AnalysisError::from)?;
+    let manifold = Manifold::of(system.restitution());
     let flow = SlowFlow::of(system, &manifold);
     let middle = 0.5
         * (manifold.fold.oscillator_amplitude + manifold.symmetry_breaking.oscillator_amplitude);

@@ -63,7 +63,7 @@ fn computed(grid: &Grid, plane: Plane) -> Option<Vec<Layer>> {
     let own = units.frequency(1.0);
     let [first, last] = [*edges.first()?, *edges.last()?].map(|frequency| frequency / own);
     let detuning = |ratio: f64| (ratio - 1.0) / system.mass_ratio();
-    let manifold = Manifold::of(system.restitution()).ok()?;
+    let manifold = Manifold::of(system.restitution());
     let window = (detuning(first), detuning(last));
     let borders = Borders::over(&system, &manifold, window).ok()?;
     let place = |detuning: f64, at: f64| {
