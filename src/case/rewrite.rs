@@ -65,7 +65,7 @@ fn rounded(value: f64, step: Step) -> f64 {
 fn written<D: Dimension>(si: f64, as_written: &str, step: Step) -> String {
     let begins = |c: char| c == '%' || c.is_alphabetic() && !matches!(c, 'e' | 'E');
     let number = as_written.trim().find(begins);
-    let unit = number.map_or(D::SI, |at| as_written.trim()[at..].trim());
+    let unit = number.map_or(D::OF.si, |at| as_written.trim()[at..].trim());
     let one = Quantity::<D>::parse(&format!("1 {unit}")).map_or(1.0, Quantity::si);
     format!("{} {unit}", rounded(si / one, step))
 }

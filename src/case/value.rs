@@ -1,0 +1,428 @@
+//! Reads one value of a table as the schema of its key says.
+
+use serde_json::{Value, json};
+use std::ops::Range;
+use toml::Spanned;
+use toml::de::{DeString, DeValue};
+
+use super::Design;
+use super::error::Problem;
+use super::form::{Bound, Form, toml};
+use super::inputs::Input;
+use super::reader::Reader;
+use super::suggest::nearest;
+use super::sweep::SweepParameter;
+use super::table::{Table, kind};
+
+/// A value, and what to call it.
+#[derive(Clone)]
+pub(super) struct Place<'a> {
+    /// The last part of its table's name.
+    pub table: &'a str,
+    pub key: &'static str,
+    /// The key in a sentence.
+    pub subject: String,
+    /// A line that gives the key its example.
+    pub line: String,
+    pub value: &'a Spanned<DeValue<'a>>,
+    /// The bytes that a sign takes up before a number in quotes.
+    pub sign: usize,
+    /// Whether it stands alone, not in a list.
+    pub alone: bool,
+}
+
+impl Reader<'_> {
+    /// The value of a key, quantities in SI units; `None` for a table, and for what was reported.
+    pub fn value(
+        &mut self,
+        table: &Table,
+        key: &'static str,
+        value: &Spanned<DeValue>,
+    ) -> Option<Value> {
+        let place = self.place(table, key, value);
+        self.item(place, table.schema_of(key))
+    }
+
+    /// A key's own value.
+    pub fn place<'a>(
+        &self,
+        table: &'a Table,
+        key: &'static str,
+        value: &'a Spanned<DeValue<'a>>,
+    ) -> Place<'a> {
+        let name = table.path.rsplit('.').next().unwrap_or_default();
+        let (subject, line) = (format!("`{key}`"), self.line(table, key));
+        Place { table: name, key, subject, line, value, sign: 0, alone: true }
+    }
+
+    fn item(&mut self, mut place: Place, schema: &'static Value) -> Option<Value> {
+        if schema["x-signed"].is_string() {
+            return super::uncertainty::read_error(self, place, self.form(schema)?);
+        }
+        if let Some(form) = self.form(schema) {
+            return self.number(&place, &form).map(Value::from);
+        }
+        if !names(schema).is_empty() {
+            return self.name(&place, schema);
+        }
+        match schema["type"].as_str()? {
+            "array" => {
+                place.alone = false;
+                self.list(&place, schema)
+            }
+            "integer" => self.whole_number(&place, schema),
+            "boolean" => self.flag(&place),
+            "string" => self.plain_text(&place),
+            _ => None,
+        }
+    }
+
+    /// How a number is written; that of a parameter as in the case's design.
+    fn form(&self, schema: &'static Value) -> Option<Form> {
+        let parameter = schema["x-parameter"].as_str().or(schema["x-signed"].as_str());
+        let Some(parameter) = parameter else { return Form::of(schema) };
+        let mut form = SweepParameter::of_name(parameter)?.form(self.design.as_ref()?)?;
+        let bound = Bound::of(schema);
+        form.bound = if bound.is_any() { bound } else { form.bound };
+        if let Some(symbol) = schema["x-symbol"].as_str() {
+            form.symbol = symbol.to_owned();
+        }
+        Some(form)
+    }
+
+    /// A line that gives a key its example, in the units of the case's design.
+    pub fn line(&self, table: &Table, key: &str) -> String {
+        format!("{key} = {}", self.example(table.schema_of(key)))
+    }
+
+    fn example(&self, schema: &'static Value) -> String {
+        let plain = &schema["x-plain"][0];
+        if matches!(self.design, Some(Design::Reduced(_))) && !plain.is_null() {
+            return toml(plain);
+        }
+        let of_items = || Some(format!("[{}]", self.form(&schema["items"])?.example));
+        let of_parameter = || self.form(schema).map(|form| form.example);
+        match &schema["examples"][0] {
+            Value::Null => of_parameter()
+                .or_else(of_items)
+                .unwrap_or_else(|| names(schema).into_iter().next().unwrap_or_default()),
+            _ if schema["x-parameter"].is_string() && self.design.is_some() => {
+                of_parameter().unwrap_or_default()
+            }
+            example => toml(example),
+        }
+    }
+
+    /// Reports a value.
+    pub fn refuse(&mut self, place: &Place, problem: &str, expected: String, help: String) {
+        let message = format!("{} {problem}", place.subject);
+        self.report(place.value.span(), message, expected, help);
+    }
+
+    /// A number, in SI units.
+    pub fn number(&mut self, place: &Place, form: &Form) -> Option<f64> {
+        let behind_sign = |text: &DeString| text[place.sign..].trim().parse::<f64>().ok();
+        let number = match (place.value.get_ref(), form.measurand) {
+            (DeValue::String(text), _)
+                if form.plain && place.sign > 0 && behind_sign(text).is_some() =>
+            {
+                behind_sign(text)
+            }
+            (DeValue::String(text), None) if place.sign > 0 => {
+                self.no_number_behind_sign(place, form, text)
+            }
+            (DeValue::String(text), Some(_))
+                if form.plain && behind_sign(text).is_some_and(f64::is_finite) =>
+            {
+                self.no_per_cent(place, form, text.trim())
+            }
+            (DeValue::String(text), Some(measurand)) => {
+                match measurand.parse(&text[place.sign..]) {
+                    Ok(number) => Some(number),
+                    Err(error) => self.no_quantity(place, text, error),
+                }
+            }
+            (other, _) => match plain_number(other).filter(|_| form.plain) {
+                Some(number) => Some(number),
+                None => self.no_number(place, form, other),
+            },
+        };
+        self.bounded(place, form, number?)
+    }
+
+    fn no_per_cent(&mut self, place: &Place, form: &Form, number: &str) -> Option<f64> {
+        let key = place.key;
+        let help =
+            format!("write {key} = {number}, or, if per cent is meant, {key} = \"{number} %\"");
+        self.refuse(place, "is a number in quotes without %", plain_or_share(form), help);
+        None
+    }
+
+    fn no_number_behind_sign(&mut self, place: &Place, form: &Form, text: &str) -> Option<f64> {
+        let sign = text[..place.sign].trim();
+        let problem = format!("is \"{text}\", which is no number behind its sign");
+        let expected = format!("expected a plain number {}", form.bound.words());
+        let Place { line, key, .. } = place;
+        let help = format!("write {line}, or {key} = \"{sign} {}\"", form.example);
+        self.refuse(place, &problem, expected, help);
+        None
+    }
+
+    /// Reports a text that is no quantity; what is to be written instead keeps its sign.
+    fn no_quantity(
+        &mut self,
+        place: &Place,
+        text: &DeString,
+        error: super::QuantityError,
+    ) -> Option<f64> {
+        let range = place.sign + error.range.start..place.sign + error.range.end;
+        let span = inside_quotes(self.text, place.value.span(), text, range);
+        let corrected = |help: String| match help.strip_prefix("write \"") {
+            Some(rest) => format!("write \"{}{rest}", &text[..place.sign]),
+            None => help,
+        };
+        let message = format!("{} {}", place.subject, error.message);
+        let problem = Problem::new(self.text, span, message, error.expected);
+        self.problems.push(Problem { help: error.help.map(corrected), ..problem });
+        None
+    }
+
+    /// Reports what is neither text nor a number where one of these belongs.
+    fn no_number(&mut self, place: &Place, form: &Form, found: &DeValue) -> Option<f64> {
+        let write = format!("write {}", place.line);
+        let words = form.bound.words();
+        let (problem, expected, help) = match (form.measurand, found) {
+            (None, _) => (
+                format!("is {}, but it is a plain number", kind(found)),
+                format!("expected a number {words}, without quotes or unit"),
+                write,
+            ),
+            (Some(_), _) if form.plain => {
+                let help = format!("{write}, or {} = {}", place.key, form.share);
+                (format!("is {}", kind(found)), plain_or_share(form), help)
+            }
+            (Some(measurand), DeValue::Integer(_) | DeValue::Float(_)) => {
+                let unit = measurand.example.split_once(' ').map_or(measurand.si, |(_, unit)| unit);
+                let written = self.as_written(place.value.span());
+                let help = match place.alone {
+                    true => {
+                        format!("if {unit} is meant, write {} = \"{written} {unit}\"", place.key)
+                    }
+                    false => format!("if {unit} is meant, write \"{written} {unit}\""),
+                };
+                ("has no unit".to_owned(), expected_quantity(form), help)
+            }
+            (Some(_), _) => (format!("is {}", kind(found)), expected_quantity(form), write),
+        };
+        self.refuse(place, &problem, expected, help);
+        None
+    }
+
+    fn bounded(&mut self, place: &Place, form: &Form, number: f64) -> Option<f64> {
+        let as_written = self.as_written(place.value.span());
+        if number.is_finite() && form.bound.holds(number) {
+            if place.alone {
+                let (table, name, symbol) =
+                    (place.table.to_owned(), place.key, form.symbol.clone());
+                let unit = form.unit();
+                self.inputs.push(Input { table, name, symbol, value: number, unit, as_written });
+            }
+            return Some(number);
+        }
+        let value = if number.is_finite() { "a value" } else { "a finite value" };
+        let expected = format!("expected {value} {}", form.bound.words());
+        let help = format!("write for example {}", place.line);
+        self.refuse(place, &format!("is {as_written}"), expected, help);
+        None
+    }
+
+    fn whole_number(&mut self, place: &Place, schema: &Value) -> Option<Value> {
+        let help = format!("write for example {}", place.line);
+        let DeValue::Integer(integer) = place.value.get_ref() else {
+            let problem = format!("is {}", self.as_written(place.value.span()));
+            self.refuse(
+                place,
+                &problem,
+                "expected a whole number, without quotes".to_owned(),
+                help,
+            );
+            return None;
+        };
+        let bound = Bound::of(schema);
+        let whole = i128::from_str_radix(integer.as_str(), integer.radix()).ok();
+        let whole = whole.and_then(|whole| u64::try_from(whole).ok());
+        let Some(number) = whole.filter(|whole| bound.holds(*whole as f64)) else {
+            let expected = format!("expected a whole number {}", bound.words());
+            self.refuse(place, &format!("is {integer}"), expected, help);
+            return None;
+        };
+        let symbol = schema["x-symbol"].as_str().unwrap_or_default().to_owned();
+        let form = Form {
+            measurand: None,
+            plain: true,
+            bound,
+            example: String::new(),
+            share: String::new(),
+            symbol,
+        };
+        self.bounded(place, &form, number as f64).map(|_| number.into())
+    }
+
+    fn flag(&mut self, place: &Place) -> Option<Value> {
+        let value = place.value.get_ref();
+        if let DeValue::Boolean(flag) = value {
+            return Some(Value::Bool(*flag));
+        }
+        let problem = format!("is {}, but it is true or false", kind(value));
+        let expected = "expected true or false, without quotes".to_owned();
+        self.refuse(place, &problem, expected, format!("write for example {}", place.line));
+        None
+    }
+
+    /// Text that must not be blank.
+    fn plain_text(&mut self, place: &Place) -> Option<Value> {
+        let (problem, expected) = match place.value.get_ref() {
+            DeValue::String(text) if !text.trim().is_empty() => return Some(json!(text)),
+            DeValue::String(_) => ("is empty".to_owned(), "expected text"),
+            other => (format!("is {}", kind(other)), "expected text in quotes"),
+        };
+        self.refuse(place, &problem, expected.to_owned(), format!("write {}", place.line));
+        None
+    }
+
+    fn name(&mut self, place: &Place, schema: &Value) -> Option<Value> {
+        let names = names(schema);
+        let text = place.value.get_ref().as_str().unwrap_or_default();
+        let quoted = format!("\"{text}\"");
+        if names.contains(&quoted) {
+            return Some(text.into());
+        }
+        let written = self.text[place.value.span()].to_owned();
+        let near: Vec<&str> = names.iter().map(String::as_str).collect();
+        let help = match nearest(&quoted, &near) {
+            Some(near) if !text.is_empty() => format!("did you mean {near}?"),
+            _ => format!("write for example {}; {}", place.line, first_sentence(schema)),
+        };
+        self.refuse(place, &format!("is {written}"), format!("expected {}", or(&names)), help);
+        None
+    }
+
+    /// A list of values, or of pairs of them.
+    fn list(&mut self, place: &Place, schema: &'static Value) -> Option<Value> {
+        let help = format!("write for example {}", place.line);
+        let DeValue::Array(items) = place.value.get_ref() else {
+            let problem = format!("is {}, but it is a list", kind(place.value.get_ref()));
+            let expected = "expected values between brackets".to_owned();
+            self.refuse(place, &problem, expected, help);
+            return None;
+        };
+        let [least, most] = ["minItems", "maxItems"].map(|word| schema[word].as_u64());
+        let count = items.len() as u64;
+        if least.is_some_and(|least| count < least) || most.is_some_and(|most| count > most) {
+            let problem = match count {
+                0 => "is empty".to_owned(),
+                _ => format!("has {count} values"),
+            };
+            let expected = match most {
+                Some(most) => format!("expected {most} values between brackets"),
+                None => "expected values between brackets".to_owned(),
+            };
+            self.refuse(place, &problem, expected, help);
+            return None;
+        }
+        let mut found = Vec::with_capacity(items.len());
+        for (k, item) in items.iter().enumerate() {
+            let own = schema["prefixItems"].get(k).unwrap_or(&schema["items"]);
+            let subject = format!("a value of `{}`", place.key);
+            let line = place.line.clone();
+            let one = Place { subject, line, value: item, ..*place };
+            let read = self.item(one, own)?;
+            if schema["uniqueItems"] == true && found.contains(&read) {
+                let message = format!("`{}` names {read} twice", place.key);
+                self.report(item.span(), message, "expected each once", "remove one of them");
+                return None;
+            }
+            found.push(read);
+        }
+        self.ascending(place, schema, &found)?;
+        Some(found.into())
+    }
+
+    /// Reports numbers that do not rise, where the schema says that they do.
+    fn ascending(&mut self, place: &Place, schema: &Value, found: &[Value]) -> Option<()> {
+        // A pair has its place by its first number.
+        let order = |value: &Value| value.get(0).unwrap_or(value).as_f64();
+        let rises = |two: &[Value]| order(&two[0]) < order(&two[1]);
+        if schema["x-ascending"] != true || found.windows(2).all(rises) {
+            return Some(());
+        }
+        let message = format!("the values of `{}` do not rise", place.key);
+        let help = "sort them, and keep each once";
+        self.report(place.value.span(), message, "expected each above the one before", help);
+        None
+    }
+}
+
+/// A number without a unit, whole or not.
+fn plain_number(value: &DeValue) -> Option<f64> {
+    let number = match value {
+        DeValue::Float(float) => float.as_str().parse::<f64>().ok()?,
+        // A whole number too long for an integer is still a number.
+        DeValue::Integer(integer) => {
+            match i128::from_str_radix(integer.as_str(), integer.radix()) {
+                Ok(whole) => whole as f64,
+                Err(_) => integer.as_str().parse::<f64>().ok()?,
+            }
+        }
+        _ => return None,
+    };
+    // Adding 0 makes -0 an ordinary 0.
+    Some(number + 0.0)
+}
+
+fn expected_quantity(form: &Form) -> String {
+    let name = form.measurand.map_or("a number", |measurand| measurand.name);
+    format!("expected {name} such as {}", form.example)
+}
+
+fn plain_or_share(form: &Form) -> String {
+    let Form { bound, share, .. } = form;
+    format!("expected a number {} without quotes, or a share such as {share}", bound.words())
+}
+
+/// What the schema says about a value, in a sentence.
+fn first_sentence(schema: &Value) -> String {
+    let words = schema["description"].as_str().unwrap_or_default().replace('\n', " ");
+    words.split(". ").next().unwrap_or_default().trim_end_matches('.').to_owned()
+}
+
+/// The names that a key may hold, in quotes.
+fn names(schema: &Value) -> Vec<String> {
+    let described = schema["oneOf"].as_array().into_iter().flatten().map(|one| &one["const"]);
+    let plain = schema["enum"].as_array().into_iter().flatten();
+    described.chain(plain).filter(|name| name.is_string()).map(Value::to_string).collect()
+}
+
+/// "or" before the last.
+pub(super) fn or(names: &[String]) -> String {
+    match names.split_last() {
+        Some((last, rest)) if !rest.is_empty() => format!("{} or {last}", rest.join(", ")),
+        _ => names.concat(),
+    }
+}
+
+/// Where `range` of a string's content stands in the file; the whole value when escapes hide it.
+fn inside_quotes(
+    text: &str,
+    value: Range<usize>,
+    content: &str,
+    range: Range<usize>,
+) -> Range<usize> {
+    let raw = &text[value.clone()];
+    match raw.get(1..raw.len().saturating_sub(1)) {
+        Some(inner) if inner == content && !range.is_empty() && range.len() < content.len() => {
+            value.start + 1 + range.start..value.start + 1 + range.end
+        }
+        _ => value,
+    }
+}
