@@ -84,8 +84,7 @@ impl<'t> Reader<'t> {
         entries: &'d DeTable<'d>,
     ) -> Table<'d> {
         let mut keys = fields::<T>().to_vec();
-        let all = schema["properties"].as_object().into_iter().flatten();
-        keys.extend(all.map(|(key, _)| key.as_str()).filter(|key| !fields::<T>().contains(key)));
+        keys.extend(schema["x-keys"].as_array().into_iter().flatten().filter_map(Value::as_str));
         let mut table = Table { path, schema, keys, entries, span, misspelled: Vec::new() };
         let known = |key: &str| table.keys.contains(&key);
         let unknown = entries.iter().filter(|(key, _)| !known(key.get_ref()));

@@ -3,7 +3,7 @@
 //! `reader.rs` reads by the same schema: which keys there are, how their values are written, and within
 //! which bounds. What JSON Schema has no word for begins with `x-`, and is left out of what is printed:
 //! `x-measurand` what a text with a unit measures, `x-parameter` whose units the case's design decides,
-//! `x-symbol` the symbol in LaTeX.
+//! `x-symbol` the symbol in LaTeX, `x-plain` an example beside `[reduced]`, `x-keys` the order of keys.
 
 use std::borrow::Cow;
 use std::sync::LazyLock;
@@ -71,13 +71,15 @@ impl JsonSchema for Ratio {
 /// Gives a table a key for each name of an enum, with the name's own description.
 pub(super) fn add_names<T: JsonSchema>(schema: &mut Schema, of: impl Fn(&str) -> Value) {
     let names = schema_of::<T>();
-    for name in names["oneOf"].as_array().into_iter().flatten() {
+    let names = names["oneOf"].as_array().into_iter().flatten();
+    for name in names {
         let key = name["const"].as_str().unwrap_or_default();
         let mut property = of(key);
         property["description"] = name["description"].clone();
-        if let Some(properties) = schema.ensure_object()["properties"].as_object_mut() {
-            properties.insert(key.to_owned(), property);
-        }
+        let object = schema.ensure_object();
+        object["properties"][key] = property;
+        let keys = object.entry("x-keys").or_insert_with(|| json!([]));
+        keys.as_array_mut().into_iter().for_each(|keys| keys.push(key.into()));
     }
 }
 

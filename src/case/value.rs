@@ -9,6 +9,7 @@ use super::Design;
 use super::error::Problem;
 use super::form::{Bound, Form, toml};
 use super::inputs::Input;
+use super::quantity::Measurand;
 use super::reader::Reader;
 use super::suggest::nearest;
 use super::sweep::SweepParameter;
@@ -87,6 +88,14 @@ impl Reader<'_> {
         if let Some(symbol) = schema["x-symbol"].as_str() {
             form.symbol = symbol.to_owned();
         }
+        let plain =
+            [&schema["x-plain"][0], &schema["examples"][0]].into_iter().find(|one| one.is_number());
+        let own = match form.measurand {
+            None => plain,
+            Some(of) => Some(&schema["examples"][0])
+                .filter(|one| one.as_str().and_then(Measurand::of) == Some(of)),
+        };
+        form.example = own.map_or(form.example, toml);
         Some(form)
     }
 
@@ -97,19 +106,14 @@ impl Reader<'_> {
 
     fn example(&self, schema: &'static Value) -> String {
         let plain = &schema["x-plain"][0];
-        if matches!(self.design, Some(Design::Reduced(_))) && !plain.is_null() {
-            return toml(plain);
-        }
-        let of_items = || Some(format!("[{}]", self.form(&schema["items"])?.example));
-        let of_parameter = || self.form(schema).map(|form| form.example);
-        match &schema["examples"][0] {
-            Value::Null => of_parameter()
-                .or_else(of_items)
-                .unwrap_or_else(|| names(schema).into_iter().next().unwrap_or_default()),
-            _ if schema["x-parameter"].is_string() && self.design.is_some() => {
-                of_parameter().unwrap_or_default()
-            }
-            example => toml(example),
+        match (&schema["examples"][0], self.form(schema)) {
+            _ if matches!(self.design, Some(Design::Reduced(_))) && !plain.is_null() => toml(plain),
+            (_, Some(form)) => form.example,
+            (Value::Null, None) => match self.form(&schema["items"]) {
+                Some(form) => format!("[{}]", form.example),
+                None => names(schema).into_iter().next().unwrap_or_default(),
+            },
+            (example, None) => toml(example),
         }
     }
 
@@ -301,7 +305,7 @@ impl Reader<'_> {
         let near: Vec<&str> = names.iter().map(String::as_str).collect();
         let help = match nearest(&quoted, &near) {
             Some(near) if !text.is_empty() => format!("did you mean {near}?"),
-            _ => format!("write for example {}; {}", place.line, first_sentence(schema)),
+            _ => format!("write for example {} ({})", place.line, first_sentence(schema)),
         };
         self.refuse(place, &format!("is {written}"), format!("expected {}", or(&names)), help);
         None
@@ -311,38 +315,35 @@ impl Reader<'_> {
     fn list(&mut self, place: &Place, schema: &'static Value) -> Option<Value> {
         let help = format!("write for example {}", place.line);
         let DeValue::Array(items) = place.value.get_ref() else {
-            let problem = format!("is {}, but it is a list", kind(place.value.get_ref()));
-            let expected = "expected values between brackets".to_owned();
-            self.refuse(place, &problem, expected, help);
+            let problem = match is_pair(schema) {
+                true => "is not a pair".to_owned(),
+                false => format!("is {}, but it is a list", kind(place.value.get_ref())),
+            };
+            self.refuse(place, &problem, expected_items(schema), help);
             return None;
         };
-        let [least, most] = ["minItems", "maxItems"].map(|word| schema[word].as_u64());
         let count = items.len() as u64;
-        if least.is_some_and(|least| count < least) || most.is_some_and(|most| count > most) {
-            let problem = match count {
-                0 => "is empty".to_owned(),
-                _ => format!("has {count} values"),
-            };
-            let expected = match most {
-                Some(most) => format!("expected {most} values between brackets"),
-                None => "expected values between brackets".to_owned(),
-            };
-            self.refuse(place, &problem, expected, help);
+        let few = schema["minItems"].as_u64().is_some_and(|least| count < least);
+        if few || schema["maxItems"].as_u64().is_some_and(|most| count > most) {
+            let problem = if is_pair(schema) { "is not a pair" } else { "is empty" };
+            self.refuse(place, problem, expected_items(schema), help);
             return None;
         }
         let mut found = Vec::with_capacity(items.len());
         for (k, item) in items.iter().enumerate() {
             let own = schema["prefixItems"].get(k).unwrap_or(&schema["items"]);
             let subject = format!("a value of `{}`", place.key);
-            let line = place.line.clone();
-            let one = Place { subject, line, value: item, ..*place };
-            let read = self.item(one, own)?;
-            if schema["uniqueItems"] == true && found.contains(&read) {
+            let read = self.item(Place { subject, value: item, ..place.clone() }, own);
+            if let (Some(read), true) = (&read, schema["uniqueItems"] == true)
+                && found.contains(read)
+            {
                 let message = format!("`{}` names {read} twice", place.key);
                 self.report(item.span(), message, "expected each once", "remove one of them");
-                return None;
             }
-            found.push(read);
+            found.extend(read);
+        }
+        if found.len() < items.len() {
+            return None;
         }
         self.ascending(place, schema, &found)?;
         Some(found.into())
@@ -388,6 +389,20 @@ fn expected_quantity(form: &Form) -> String {
 fn plain_or_share(form: &Form) -> String {
     let Form { bound, share, .. } = form;
     format!("expected a number {} without quotes, or a share such as {share}", bound.words())
+}
+
+fn is_pair(schema: &Value) -> bool {
+    schema["maxItems"] == 2
+}
+
+fn expected_items(schema: &Value) -> String {
+    let items = match &schema["items"] {
+        _ if is_pair(schema) => "two values",
+        names_of if !names(names_of).is_empty() => "names in quotes",
+        pairs if is_pair(pairs) => "pairs",
+        _ => "values",
+    };
+    format!("expected {items}, between brackets")
 }
 
 /// What the schema says about a value, in a sentence.
