@@ -260,15 +260,8 @@ impl Reader<'_> {
             self.refuse(place, &format!("is {integer}"), expected, help);
             return None;
         };
-        let symbol = schema["x-symbol"].as_str().unwrap_or_default().to_owned();
-        let form = Form {
-            measurand: None,
-            plain: true,
-            bound,
-            example: String::new(),
-            share: String::new(),
-            symbol,
-        };
+        let symbol = schema["x-symbol"].as_str().unwrap_or_default();
+        let form = Form { bound, ..Form::free(None, "", symbol) };
         self.bounded(place, &form, number as f64).map(|_| number.into())
     }
 
