@@ -15,6 +15,7 @@ mod error;
 mod form;
 mod inputs;
 mod names;
+mod number;
 mod optimize;
 mod physical;
 mod quantity;
