@@ -762,6 +762,12 @@ fn the_starting_case_shows_every_optional_key_and_parses_without_its_comment_sig
             assert!(own.contains(&format!("{key} = ")), "{key} is not in [{table}]");
         }
     }
+    for table in ["oscillator", "absorber", "excitation"] {
+        let keys = schema["properties"][table]["properties"].as_object().expect("keys");
+        for key in keys.keys() {
+            assert!(full.contains(&format!("{key} = ")), "{key} of [{table}] is not shown");
+        }
+    }
     for objective in Objective::ALL {
         assert!(full.contains(&format!("\"{}\"", objective.name())), "{objective:?}");
     }

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use toml::de::DeValue;
 
 use super::Design;
-use super::form::Form;
+use super::form::{Bound, Form};
 use super::names::names;
 use super::quantity::{Decibel, Dimension, Share};
 use super::reader::Reader;
@@ -124,14 +124,14 @@ pub(super) struct CriteriaTable {
 
 fn with_subjects(schema: &mut Schema) {
     add_names::<Subject>(schema, |key| {
-        let (example, plain) = match key {
-            "z3_share" | "stable_share" => (json!(">= 80 %"), Value::Null),
-            "peak_displacement" | "rms_displacement" => (json!("<= 3 mm"), json!("<= 0.3")),
-            "reduction_db" | "reduction_db_tmd" => (json!(">= 12"), Value::Null),
-            "impact_velocity" => (json!("<= 0.5 m/s"), json!("<= 1.5")),
-            "impacts_per_period" => (json!(2), Value::Null),
-            "no_coexistence" => (json!(true), Value::Null),
-            _ => (json!(">= 10 %"), Value::Null),
+        let (example, plain) = match Subject::of_name(key).map(Subject::measure) {
+            _ if key == "margin_clearance" => (json!(">= 10 %"), Value::Null),
+            Some(Measure::Length) => (json!("<= 3 mm"), json!("<= 0.3")),
+            Some(Measure::Velocity) => (json!("<= 0.5 m/s"), json!("<= 1.5")),
+            Some(Measure::Decibel) => (json!(">= 12"), Value::Null),
+            Some(Measure::Count) => (json!(2), Value::Null),
+            Some(Measure::Flag) => (json!(true), Value::Null),
+            Some(Measure::Share) | None => (json!(">= 80 %"), Value::Null),
         };
         let types = match &example {
             Value::Bool(_) => json!([{ "type": "boolean" }]),
@@ -164,41 +164,35 @@ fn criterion(
     let as_written = reader.as_written(value.span());
     let place = Place { alone: false, ..reader.place(table, key, value) };
     let form = form(measure, design)?;
-    let (relation, limit) = match value.get_ref() {
-        DeValue::Boolean(flag) if measure == Measure::Flag => {
-            (Relation::Equal, f64::from(u8::from(*flag)))
+    let found = match (value.get_ref(), measure) {
+        (DeValue::Boolean(flag), Measure::Flag) => {
+            let limit = f64::from(u8::from(*flag));
+            return Some(Criterion { subject, relation: Relation::Equal, limit, as_written });
         }
-        DeValue::Integer(_) | DeValue::Float(_) if measure == Measure::Count => {
-            (Relation::Equal, reader.number(&place, &form)?)
+        (DeValue::Integer(_) | DeValue::Float(_), Measure::Count) => Ok((Relation::Equal, 0)),
+        (other, Measure::Flag) => Err(format!("is {}", kind(other))),
+        (DeValue::String(text), _) => {
+            relation_of(text).ok_or_else(|| format!("is \"{text}\", which says neither >= nor <="))
         }
-        DeValue::String(text) if measure != Measure::Flag => {
-            let found = relation_of(text);
-            if found.is_none() {
-                refuse(
-                    reader,
-                    &place,
-                    measure,
-                    &format!("is \"{text}\", which says neither >= nor <="),
-                );
-            }
-            let (relation, sign) = found?;
-            (relation, reader.number(&Place { sign, ..place.clone() }, &form)?)
+        (DeValue::Integer(_) | DeValue::Float(_), _) => {
+            Err(format!("does not say whether {as_written} is the least or the most"))
         }
-        DeValue::Integer(_) | DeValue::Float(_) if measure != Measure::Flag => {
-            let problem = format!("does not say whether {as_written} is the least or the most");
-            refuse(reader, &place, measure, &problem);
-            return None;
-        }
-        other => {
-            refuse(reader, &place, measure, &format!("is {}", kind(other)));
-            return None;
-        }
+        (other, _) => Err(format!("is {}", kind(other))),
     };
-    if let Err(problem) = possible(limit, &as_written, measure) {
-        refuse(reader, &place, measure, &problem);
-        return None;
+    let found = match found {
+        Ok((relation, sign)) => {
+            let limit = reader.number(&Place { sign, ..place.clone() }, &form)?;
+            impossible(limit, &as_written, measure).map_or(Ok((relation, limit)), Err)
+        }
+        Err(problem) => Err(problem),
+    };
+    match found {
+        Ok((relation, limit)) => Some(Criterion { subject, relation, limit, as_written }),
+        Err(problem) => {
+            refuse(reader, &place, measure, &problem);
+            None
+        }
     }
-    Some(Criterion { subject, relation, limit, as_written })
 }
 
 /// How a limit is written.
@@ -209,7 +203,10 @@ fn form(measure: Measure, design: &Design) -> Option<Form> {
         Measure::Decibel => Some(or_plain(Decibel::OF)),
         Measure::Length => SweepParameter::InitialDisplacement.form(design),
         Measure::Velocity => SweepParameter::InitialVelocity.form(design),
-        Measure::Count | Measure::Flag => Some(Form::free(None, "2", "")),
+        Measure::Count | Measure::Flag => {
+            let bound = Bound::of(&json!({ "minimum": 0 }));
+            Some(Form { bound, ..Form::free(None, "2", "") })
+        }
     }
 }
 
@@ -228,21 +225,21 @@ fn relation_of(text: &str) -> Option<(Relation, usize)> {
 }
 
 /// What is wrong with a limit that no value of its kind can have.
-fn possible(limit: f64, written: &str, measure: Measure) -> Result<(), String> {
-    let share = limit <= 1.0 || written.ends_with('%') || limit > 100.0;
+fn impossible(limit: f64, written: &str, measure: Measure) -> Option<String> {
     let number = written.trim_start_matches(['>', '<', '=', '≥', '≤', ' ']);
-    match measure {
-        Measure::Share if !share => Err(format!(
-            "asks for {number}, and a share is at most 1; if {number} % is meant, write the % sign"
-        )),
+    let why = match measure {
+        Measure::Share if limit > 1.0 && limit <= 100.0 && !written.ends_with('%') => {
+            format!("a share is at most 1; if {number} % is meant, write the % sign")
+        }
         Measure::Share if !(0.0..=1.0).contains(&limit) => {
-            Err(format!("asks for {number}, and a share lies between 0 and 100 %"))
+            "a share lies between 0 and 100 %".to_owned()
         }
         Measure::Length | Measure::Velocity | Measure::Count if limit < 0.0 => {
-            Err(format!("asks for {number}, and it is never below 0"))
+            "it is never below 0".to_owned()
         }
-        _ => Ok(()),
-    }
+        _ => return None,
+    };
+    Some(format!("asks for {number}, and {why}"))
 }
 
 fn refuse(reader: &mut Reader, place: &Place, measure: Measure, problem: &str) {

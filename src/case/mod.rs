@@ -210,9 +210,9 @@ fn read(reader: &mut Reader, document: &DeTable) -> Option<Case> {
     let file = reader.read::<CaseFile>(&root);
     let design = read_design(reader, &root);
     reader.design = design;
-    let simulation = reader.optional::<SimulationSettings>(&root, "simulation");
-    let report = reader.optional::<ReportSettings>(&root, "report");
-    let accuracy = reader.optional::<AccuracySettings>(&root, "accuracy");
+    let simulation = reader.settings::<SimulationSettings>(&root, "simulation");
+    let report = reader.settings::<ReportSettings>(&root, "report");
+    let accuracy = reader.settings::<AccuracySettings>(&root, "accuracy");
     let band = band::read(reader, &root);
     let (criteria, count_inactive) = criteria::read(reader, &root);
     let optimize = optimize::read(reader, &root);
@@ -226,9 +226,9 @@ fn read(reader: &mut Reader, document: &DeTable) -> Option<Case> {
         source: file.source,
         text_hash: String::new(),
         design,
-        simulation: simulation.map_or_else(Default::default, |(_, read)| read),
-        report: report.map_or_else(Default::default, |(_, read)| read),
-        accuracy: accuracy.map(|(_, read)| read),
+        simulation: simulation.unwrap_or_default(),
+        report: report.unwrap_or_default(),
+        accuracy,
         band,
         criteria,
         count_inactive,

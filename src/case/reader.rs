@@ -126,6 +126,11 @@ impl<'t> Reader<'t> {
         Some((table, read))
     }
 
+    /// The same without its places.
+    pub fn settings<T: DeserializeOwned>(&mut self, root: &Table, name: &str) -> Option<T> {
+        self.optional(root, name).map(|(_, read)| read)
+    }
+
     /// Reads the values of a table, but for those that are tables themselves; quantities become numbers
     /// in SI units. `None` where something that must be there is not, or not as it should be.
     pub fn read<T: DeserializeOwned>(&mut self, table: &Table) -> Option<T> {
@@ -160,11 +165,11 @@ impl<'t> Reader<'t> {
     fn exactly_one(&mut self, table: &Table, [first, second]: [&'static str; 2]) {
         match (table.has(first), table.has(second)) {
             (true, true) => {
-                let later = table.span_of(first).start.max(table.span_of(second).start);
-                let later = if table.span_of(first).start == later { first } else { second };
+                let spans = [first, second].map(|key| table.span_of(key));
+                let later = spans.into_iter().max_by_key(|span| span.start).unwrap_or_default();
                 let message = format!("`{first}` and `{second}` say the same thing twice");
                 let expected = "expected only one of the two";
-                self.report(table.span_of(later), message, expected, "remove one of the two lines");
+                self.report(later, message, expected, "remove one of the two lines");
             }
             (false, false) => {
                 let help = format!(
