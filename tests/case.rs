@@ -180,7 +180,7 @@ fn ratios_may_be_shares() {
     assert_eq!((input.value, input.unit, input.as_written.as_str()), (0.03, "1", "3 %"));
     // Written again it stays a share.
     let choice = AbsorberDesign { mass: Some(0.2), ..AbsorberDesign::of(&case.design) };
-    let again = case.rewritten("again", &text, &choice, Rounding::EXACT).expect("a case");
+    let again = case.rewritten("again", &text, &choice, Rounding::Exact).expect("a case");
     let line = again.text.lines().find(|line| line.starts_with("mass_ratio")).expect("a line");
     let share = line.strip_prefix("mass_ratio = \"").and_then(|rest| rest.strip_suffix(" %\""));
     let share: f64 = share.expect(line).parse().expect("a number");
@@ -640,20 +640,25 @@ fn a_report_may_hold_further_figures() {
 fn figures_that_do_not_exist_are_refused() {
     let list = |line: &str| format!("{PHYSICAL}\n[report]\n{line}\n");
     let unknown = list("figures = [\"areas\", \"tranfser\"]");
-    let error = refused_with(&unknown, 20, "\"tranfser\"", "unknown figure \"tranfser\"");
+    let error = refused_with(&unknown, 20, "\"tranfser\"", "a value of `figures` is \"tranfser\"");
     says(&error, "did you mean \"transfer\"?");
     says(
         &error,
-        "expected one of areas, bifurcations, forcing-responses, modulation, restitutions",
+        "expected \"areas\", \"bifurcations\", \"forcing-responses\", \"modulation\", \"restitutions\"",
     );
-    let usual = refused_with(&list("figures = [\"map\"]"), 20, "\"map\"", "unknown figure \"map\"");
+    let usual = refused_with(
+        &list("figures = [\"map\"]"),
+        20,
+        "\"map\"",
+        "a value of `figures` is \"map\"",
+    );
     says(&usual, "the usual figures are in every report");
     let twice = list("figures = [\"areas\",\n  \"areas\"]");
     let error = refused_with(&twice, 21, "\"areas\"", "`figures` names \"areas\" twice");
-    says(&error, "expected each figure once");
-    let number = "`figures` holds a number, but it is a list of names";
+    says(&error, "expected each once");
+    let number = "a value of `figures` is 7";
     refused_with(&list("figures = [7]"), 20, "7", number);
-    let text = "`figures` is text, but it is a list of names";
+    let text = "`figures` is text, but it is a list";
     says(&refused_with(&list("figures = \"areas\""), 20, "\"areas\"", text), "between brackets");
     let key = "unknown key `figure` in [report]";
     says(
@@ -755,6 +760,12 @@ fn the_starting_case_shows_every_optional_key_and_parses_without_its_comment_sig
         let keys = schema["properties"][table]["properties"].as_object().expect("keys");
         for key in keys.keys() {
             assert!(own.contains(&format!("{key} = ")), "{key} is not in [{table}]");
+        }
+    }
+    for table in ["oscillator", "absorber", "excitation"] {
+        let keys = schema["properties"][table]["properties"].as_object().expect("keys");
+        for key in keys.keys() {
+            assert!(full.contains(&format!("{key} = ")), "{key} of [{table}] is not shown");
         }
     }
     for objective in Objective::ALL {

@@ -43,7 +43,7 @@ fn holds(keyword: &str, expected: &Value, schema: &Value, value: &Value) -> bool
         value.as_f64().is_none_or(|number| keeps(number, limit))
     };
     match keyword {
-        "$schema" | "title" | "description" | "examples" | "format" => true,
+        "$schema" | "title" | "description" | "examples" | "format" | "default" => true,
         "type" => match expected.as_str().expect("one type") {
             "object" => value.is_object(),
             "string" => value.is_string(),
@@ -77,6 +77,15 @@ fn holds(keyword: &str, expected: &Value, schema: &Value, value: &Value) -> bool
         }
         "items" => {
             value.as_array().is_none_or(|items| items.iter().all(|item| valid(expected, item)))
+        }
+        "prefixItems" => value
+            .as_array()
+            .is_none_or(|items| items.iter().zip(list()).all(|(item, schema)| valid(schema, item))),
+        "minItems" => {
+            value.as_array().is_none_or(|i| i.len() as u64 >= expected.as_u64().expect(""))
+        }
+        "maxItems" => {
+            value.as_array().is_none_or(|i| i.len() as u64 <= expected.as_u64().expect(""))
         }
         "uniqueItems" => value.as_array().is_none_or(|items| {
             let texts: BTreeSet<String> = items.iter().map(Value::to_string).collect();

@@ -223,7 +223,7 @@ fn criteria_that_say_nothing_are_refused_with_what_to_write() {
         ("from = \"9 Hz\"\nto = \"8 Hz\"", "ends where it begins"),
         ("from = \"8 Hz\"\nto = \"9 mm\"", "unit of a length"),
         ("from = \"8 Hz\"", "`to` is missing"),
-        ("of = \"colour\"\nfrom = \"8 Hz\"\nto = \"9 Hz\"", "`of` is colour"),
+        ("of = \"colour\"\nfrom = \"8 Hz\"\nto = \"9 Hz\"", "`of` is \"colour\""),
         ("from = \"8 Hz\"\nto = \"9 Hz\"\nspectrum = [[\"8 Hz\"]]", "not a pair"),
         (
             "from = \"8 Hz\"\nto = \"9 Hz\"\nspectrum = [[\"9 Hz\", \"1 mm\"], [\"8 Hz\", \"1 mm\"]]",

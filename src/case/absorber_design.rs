@@ -32,6 +32,14 @@ impl AbsorberDesign {
 }
 
 impl Design {
+    /// The amplitude of its excitation, in m, in N, or in its own unit.
+    pub(super) fn amplitude(&self) -> f64 {
+        match self {
+            Self::Physical(physical) => physical.excitation.amplitude(),
+            Self::Reduced(reduced) => reduced.forcing,
+        }
+    }
+
     /// The same oscillator and excitation with another absorber. Mass ratio, damping `lambda` and
     /// forcing `G` of its system follow from the mass.
     #[must_use]

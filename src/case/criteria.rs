@@ -1,38 +1,45 @@
 //! The optional table `[criteria]`: what a design must achieve.
 
-use toml::Spanned;
+use schemars::{JsonSchema, Schema};
+use serde::Deserialize;
+use serde_json::{Value, json};
 use toml::de::DeValue;
 
 use super::Design;
-use super::quantity::{Dimension, Length, Quantity, Share, Velocity};
+use super::form::{Bound, Form};
+use super::names::names;
+use super::quantity::{Decibel, Dimension, Share};
 use super::reader::Reader;
-use super::suggest::nearest;
+use super::schema::add_names;
+use super::sweep::SweepParameter;
 use super::table::{Table, kind};
+use super::value::Place;
 
-/// What a criterion is about. Over a band the worst place of it counts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Subject {
-    /// Share of the band in area Z3 of the theory, strips included.
-    Z3Share,
-    /// Share of the band with a stable symmetric 1:1 orbit.
-    StableShare,
-    /// Largest absolute displacement of the oscillator.
-    PeakDisplacement,
-    /// Root mean square displacement of the oscillator.
-    RmsDisplacement,
-    /// Largest amplitude along the band against the bare oscillator's largest, in decibels; positive
-    /// where it is smaller.
-    ReductionDb,
-    /// The same against the best tuned mass damper of the same mass.
-    ReductionDbTmd,
-    /// Share by which the clearance may be off before the stable 1:1 motion is lost.
-    MarginClearance,
-    /// Largest relative speed of an impact.
-    ImpactVelocity,
-    /// Impacts per excitation period.
-    ImpactsPerPeriod,
-    /// Whether every start leads to the same long-term motion.
-    NoCoexistence,
+names! { key:
+    /// What a criterion is about. Over a band the worst place of it counts.
+    pub enum Subject {
+        /// Share of the band in area Z3 of the theory, strips included.
+        Z3Share = "z3_share",
+        /// Share of the band with a stable symmetric 1:1 orbit.
+        StableShare = "stable_share",
+        /// Largest absolute displacement of the oscillator.
+        PeakDisplacement = "peak_displacement",
+        /// Root mean square displacement of the oscillator.
+        RmsDisplacement = "rms_displacement",
+        /// Largest amplitude along the band against the bare oscillator's largest, in decibels; positive
+        /// where it is smaller.
+        ReductionDb = "reduction_db",
+        /// The same against the best tuned mass damper of the same mass.
+        ReductionDbTmd = "reduction_db_tmd",
+        /// Share by which the clearance may be off before the stable 1:1 motion is lost.
+        MarginClearance = "margin_clearance",
+        /// Largest relative speed of an impact.
+        ImpactVelocity = "impact_velocity",
+        /// Impacts per excitation period.
+        ImpactsPerPeriod = "impacts_per_period",
+        /// Whether every start leads to the same long-term motion.
+        NoCoexistence = "no_coexistence",
+    }
 }
 
 /// How a value is measured against its limit.
@@ -77,36 +84,6 @@ pub struct Criterion {
 }
 
 impl Subject {
-    /// Every subject, in the order of a report.
-    pub const ALL: [Self; 10] = [
-        Self::Z3Share,
-        Self::StableShare,
-        Self::PeakDisplacement,
-        Self::RmsDisplacement,
-        Self::ReductionDb,
-        Self::ReductionDbTmd,
-        Self::MarginClearance,
-        Self::ImpactVelocity,
-        Self::ImpactsPerPeriod,
-        Self::NoCoexistence,
-    ];
-
-    /// The key in a case file.
-    pub fn key(self) -> &'static str {
-        match self {
-            Self::Z3Share => "z3_share",
-            Self::StableShare => "stable_share",
-            Self::PeakDisplacement => "peak_displacement",
-            Self::RmsDisplacement => "rms_displacement",
-            Self::ReductionDb => "reduction_db",
-            Self::ReductionDbTmd => "reduction_db_tmd",
-            Self::MarginClearance => "margin_clearance",
-            Self::ImpactVelocity => "impact_velocity",
-            Self::ImpactsPerPeriod => "impacts_per_period",
-            Self::NoCoexistence => "no_coexistence",
-        }
-    }
-
     /// Whether it is about the motions that can happen, which only simulation finds.
     pub fn is_of_motions(self) -> bool {
         !matches!(self, Self::Z3Share | Self::StableShare | Self::MarginClearance)
@@ -133,116 +110,109 @@ impl Subject {
             Self::NoCoexistence => Measure::Flag,
         }
     }
-
-    fn example(self) -> &'static str {
-        match self {
-            Self::Z3Share | Self::StableShare => "\">= 0.8\"",
-            Self::PeakDisplacement => "\"<= 3 mm\"",
-            Self::RmsDisplacement => "\"<= 2 mm\"",
-            Self::ReductionDb | Self::ReductionDbTmd => "\">= 12\"",
-            Self::MarginClearance => "\">= 10 %\"",
-            Self::ImpactVelocity => "\"<= 0.5 m/s\"",
-            Self::ImpactsPerPeriod => "2",
-            Self::NoCoexistence => "true",
-        }
-    }
 }
 
-pub(super) const TABLE: &str = "criteria";
-pub(super) const KEYS: &[&str] = &[
-    "z3_share",
-    "stable_share",
-    "peak_displacement",
-    "rms_displacement",
-    "reduction_db",
-    "reduction_db_tmd",
-    "margin_clearance",
-    "impact_velocity",
-    "impacts_per_period",
-    "no_coexistence",
-    "count_inactive",
-];
+/// What the design must achieve; over a band its worst place counts. The table may be left out.
+#[derive(Deserialize, JsonSchema)]
+#[schemars(extend("additionalProperties" = false), transform = with_subjects)]
+pub(super) struct CriteriaTable {
+    /// Whether an absorber that rests where no wall reaches it, and never wakes, counts as a motion; true
+    /// unless given. False for a device in which it cannot rest there.
+    #[schemars(example = false)]
+    count_inactive: Option<bool>,
+}
+
+fn with_subjects(schema: &mut Schema) {
+    add_names::<Subject>(schema, |key| {
+        let (example, plain) = match Subject::of_name(key).map(Subject::measure) {
+            _ if key == "margin_clearance" => (json!(">= 10 %"), Value::Null),
+            Some(Measure::Length) => (json!("<= 3 mm"), json!("<= 0.3")),
+            Some(Measure::Velocity) => (json!("<= 0.5 m/s"), json!("<= 1.5")),
+            Some(Measure::Decibel) => (json!(">= 12"), Value::Null),
+            Some(Measure::Count) => (json!(2), Value::Null),
+            Some(Measure::Flag) => (json!(true), Value::Null),
+            Some(Measure::Share) | None => (json!(">= 80 %"), Value::Null),
+        };
+        let types = match &example {
+            Value::Bool(_) => json!([{ "type": "boolean" }]),
+            Value::Number(_) => json!([{ "type": "number", "minimum": 0 }, { "type": "string" }]),
+            _ => json!([{ "type": "string" }]),
+        };
+        json!({ "anyOf": types, "examples": [example], "x-plain": [plain] })
+    });
+}
 
 /// Reads the table, and whether an inactive absorber counts, which it does unless the table says
 /// otherwise. Empty where there is none, or no design whose units it could be in.
-pub(super) fn read(
-    reader: &mut Reader,
-    root: &Table,
-    design: Option<&Design>,
-) -> (Vec<Criterion>, bool) {
-    let table = reader.table(root, TABLE);
-    let (Some(table), Some(design)) = (table, design) else { return (Vec::new(), true) };
-    let count_inactive = table.flag(reader, "count_inactive").unwrap_or(true);
-    let mut found = Vec::new();
-    for subject in Subject::ALL {
-        let Some((_, value)) = table.entry(subject.key()) else { continue };
-        found.extend(criterion(reader, subject, value, design));
-    }
-    (found, count_inactive)
+pub(super) fn read(reader: &mut Reader, root: &Table) -> (Vec<Criterion>, bool) {
+    let read = reader.optional::<CriteriaTable>(root, "criteria");
+    let (Some((table, read)), Some(design)) = (read, reader.design) else {
+        return (Vec::new(), true);
+    };
+    let there = Subject::ALL.into_iter().filter(|subject| table.has(subject.key()));
+    let found = there.filter_map(|subject| criterion(reader, &table, subject, &design)).collect();
+    (found, read.count_inactive.unwrap_or(true))
 }
 
 fn criterion(
     reader: &mut Reader,
+    table: &Table,
     subject: Subject,
-    value: &Spanned<DeValue>,
     design: &Design,
 ) -> Option<Criterion> {
+    let (key, measure, value) = (subject.key(), subject.measure(), table.value(subject.key())?);
     let as_written = reader.as_written(value.span());
-    let of = |relation, limit| {
-        Some(Criterion { subject, relation, limit, as_written: as_written.clone() })
-    };
-    let key = subject.key();
-    let problem = match (value.get_ref(), subject.measure()) {
+    let place = Place { alone: false, ..reader.place(table, key, value) };
+    let form = form(measure, design)?;
+    let found = match (value.get_ref(), measure) {
         (DeValue::Boolean(flag), Measure::Flag) => {
-            return of(Relation::Equal, f64::from(u8::from(*flag)));
+            let limit = f64::from(u8::from(*flag));
+            return Some(Criterion { subject, relation: Relation::Equal, limit, as_written });
         }
-        (DeValue::Integer(_) | DeValue::Float(_), Measure::Count) => {
-            match as_written.parse::<f64>() {
-                Ok(count) if count.is_finite() && count >= 0.0 => {
-                    return of(Relation::Equal, count);
-                }
-                _ => format!("`{key}` is {as_written}"),
-            }
+        (DeValue::Integer(_) | DeValue::Float(_), Measure::Count) => Ok((Relation::Equal, 0)),
+        (other, Measure::Flag) => Err(format!("is {}", kind(other))),
+        (DeValue::String(text), _) => {
+            relation_of(text).ok_or_else(|| format!("is \"{text}\", which says neither >= nor <="))
         }
-        (DeValue::Integer(_) | DeValue::Float(_), measure) if measure != Measure::Flag => {
-            format!("`{key}` does not say whether {as_written} is the least or the most")
+        (DeValue::Integer(_) | DeValue::Float(_), _) => {
+            Err(format!("does not say whether {as_written} is the least or the most"))
         }
-        (DeValue::String(text), measure) if measure != Measure::Flag => {
-            match bound(text, subject, design) {
-                Ok((relation, limit)) => return of(relation, limit),
-                Err(message) => format!("`{key}` {message}"),
-            }
-        }
-        (other, _) => format!("`{key}` is {}", kind(other)),
+        (other, _) => Err(format!("is {}", kind(other))),
     };
-    let expected = match subject.measure() {
-        Measure::Flag => "expected true or false".to_owned(),
-        Measure::Count => {
-            "expected a number without quotes, or \">=\" or \"<=\" and a number, in quotes"
-                .to_owned()
+    let found = match found {
+        Ok((relation, sign)) => {
+            let limit = reader.number(&Place { sign, ..place.clone() }, &form)?;
+            impossible(limit, &as_written, measure).map_or(Ok((relation, limit)), Err)
         }
-        _ => "expected \">=\" or \"<=\", and a value with its unit, in quotes".to_owned(),
+        Err(problem) => Err(problem),
     };
-    let mut help = format!("write for example {key} = {}", example(subject, design));
-    if subject.measure() == Measure::Count {
-        help += &format!(", or {key} = \">= {}\"", example(subject, design));
-    }
-    reader.report(value.span(), problem, expected, help);
-    None
-}
-
-/// An example in the way the case is written.
-fn example(subject: Subject, design: &Design) -> &'static str {
-    match (subject.measure(), design) {
-        (Measure::Length, Design::Reduced(_)) => "\"<= 0.3\"",
-        (Measure::Velocity, Design::Reduced(_)) => "\"<= 1.5\"",
-        _ => subject.example(),
+    match found {
+        Ok((relation, limit)) => Some(Criterion { subject, relation, limit, as_written }),
+        Err(problem) => {
+            refuse(reader, &place, measure, &problem);
+            None
+        }
     }
 }
 
-/// A relation and a limit in the unit of the subject.
-fn bound(text: &str, subject: Subject, design: &Design) -> Result<(Relation, f64), String> {
-    let text = text.trim();
+/// How a limit is written.
+fn form(measure: Measure, design: &Design) -> Option<Form> {
+    let or_plain = |of| Form { plain: true, ..Form::free(Some(of), "", "") };
+    match measure {
+        Measure::Share => Some(or_plain(Share::OF)),
+        Measure::Decibel => Some(or_plain(Decibel::OF)),
+        Measure::Length => SweepParameter::InitialDisplacement.form(design),
+        Measure::Velocity => SweepParameter::InitialVelocity.form(design),
+        Measure::Count | Measure::Flag => {
+            let bound = Bound::of(&json!({ "minimum": 0 }));
+            Some(Form { bound, ..Form::free(None, "2", "") })
+        }
+    }
+}
+
+/// The relation that a text begins with, and the bytes that its sign takes up.
+fn relation_of(text: &str) -> Option<(Relation, usize)> {
+    let begun = text.trim_start();
     let relations = [
         (">=", Relation::AtLeast),
         ("≥", Relation::AtLeast),
@@ -250,96 +220,39 @@ fn bound(text: &str, subject: Subject, design: &Design) -> Result<(Relation, f64
         ("≤", Relation::AtMost),
         ("==", Relation::Equal),
     ];
-    let found = relations
-        .iter()
-        .find_map(|(sign, relation)| text.strip_prefix(sign).map(|rest| (*relation, rest.trim())));
-    let Some((relation, rest)) = found else {
-        return Err(match nearest(text.get(..2).unwrap_or(text), &[">=", "<="]) {
-            Some(_) => format!("is \"{text}\", which does not begin with >= or <="),
-            None => format!("is \"{text}\", which says neither >= nor <="),
-        });
-    };
-    let physical = matches!(design, Design::Physical(_));
-    let plain = || {
-        rest.parse::<f64>()
-            .ok()
-            .filter(|number| number.is_finite())
-            .ok_or_else(|| format!("asks for \"{rest}\", which is not a number"))
-    };
-    let limit = match subject.measure() {
-        Measure::Share if rest.ends_with('%') => quantity::<Share>(rest)?,
-        Measure::Length if physical => quantity::<Length>(rest)?,
-        Measure::Velocity if physical => quantity::<Velocity>(rest)?,
-        Measure::Decibel => match rest.strip_suffix("dB") {
-            Some(number) => number
-                .trim()
-                .parse::<f64>()
-                .map_err(|_| format!("asks for \"{rest}\", which is not a number of decibels"))?,
-            None => plain()?,
-        },
-        _ => plain()?,
-    };
-    possible(limit, rest, subject.measure())?;
-    Ok((relation, limit))
+    let (sign, relation) = relations.into_iter().find(|(sign, _)| begun.starts_with(sign))?;
+    Some((relation, text.len() - begun.len() + sign.len()))
 }
 
-/// Refuses a limit that no value of its kind can have.
-fn possible(limit: f64, written: &str, measure: Measure) -> Result<(), String> {
-    match measure {
-        Measure::Share if limit > 1.0 && limit <= 100.0 && !written.ends_with('%') => Err(format!(
-            "asks for {written}, and a share is at most 1; if {written} % is meant, write the % sign"
-        )),
+/// What is wrong with a limit that no value of its kind can have.
+fn impossible(limit: f64, written: &str, measure: Measure) -> Option<String> {
+    let number = written.trim_start_matches(['>', '<', '=', '≥', '≤', ' ']);
+    let why = match measure {
+        Measure::Share if limit > 1.0 && limit <= 100.0 && !written.ends_with('%') => {
+            format!("a share is at most 1; if {number} % is meant, write the % sign")
+        }
         Measure::Share if !(0.0..=1.0).contains(&limit) => {
-            Err(format!("asks for {written}, and a share lies between 0 and 100 %"))
+            "a share lies between 0 and 100 %".to_owned()
         }
         Measure::Length | Measure::Velocity | Measure::Count if limit < 0.0 => {
-            Err(format!("asks for {written}, and it is never below 0"))
+            "it is never below 0".to_owned()
         }
-        _ => Ok(()),
+        _ => return None,
+    };
+    Some(format!("asks for {number}, and {why}"))
+}
+
+fn refuse(reader: &mut Reader, place: &Place, measure: Measure, problem: &str) {
+    let expected = match measure {
+        Measure::Flag => "expected true or false",
+        Measure::Count => {
+            "expected a number without quotes, or \">=\" or \"<=\" and a number, in quotes"
+        }
+        _ => "expected \">=\" or \"<=\", and a value with its unit, in quotes",
+    };
+    let mut help = format!("write for example {}", place.line);
+    if measure == Measure::Count {
+        help += &format!(", or {} = \">= 2\"", place.key);
     }
-}
-
-fn quantity<D: Dimension>(text: &str) -> Result<f64, String> {
-    Quantity::<D>::parse(text).map(Quantity::si).map_err(|error| error.message)
-}
-
-/// What the design must achieve; over a band its worst place counts. The table may be left out.
-#[derive(schemars::JsonSchema)]
-#[schemars(deny_unknown_fields)]
-#[expect(dead_code, reason = "describes the table to editors; read() is what reads it")]
-pub(super) struct CriteriaTable {
-    /// Share of the band in area Z3 of the theory, strips included.
-    #[schemars(example = ">= 0.8")]
-    z3_share: Option<String>,
-    /// Share of the band with a stable symmetric 1:1 orbit.
-    #[schemars(example = ">= 80 %")]
-    stable_share: Option<String>,
-    /// Largest absolute displacement of the oscillator.
-    #[schemars(example = "<= 3 mm")]
-    peak_displacement: Option<String>,
-    /// Root mean square displacement of the oscillator.
-    #[schemars(example = "<= 2 mm")]
-    rms_displacement: Option<String>,
-    /// Decibels by which the largest amplitude is below the bare oscillator's largest.
-    #[schemars(example = ">= 12")]
-    reduction_db: Option<String>,
-    /// The same against the best tuned mass damper of the same mass.
-    #[schemars(example = ">= 0")]
-    reduction_db_tmd: Option<String>,
-    /// Share by which the clearance may be off before the stable 1:1 motion is lost.
-    #[schemars(example = ">= 10 %")]
-    margin_clearance: Option<String>,
-    /// Largest relative speed of an impact.
-    #[schemars(example = "<= 0.5 m/s")]
-    impact_velocity: Option<String>,
-    /// Impacts per excitation period: a number, or a bound.
-    #[schemars(example = 2)]
-    impacts_per_period: Option<serde_json::Value>,
-    /// Whether every start must lead to the same long-term motion.
-    #[schemars(example = true)]
-    no_coexistence: Option<bool>,
-    /// Whether an absorber that rests where no wall reaches it, and never wakes, counts as a motion; true
-    /// unless given. False for a device in which it cannot rest there.
-    #[schemars(example = false)]
-    count_inactive: Option<bool>,
+    reader.refuse(place, problem, expected.to_owned(), help);
 }

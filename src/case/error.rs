@@ -58,10 +58,6 @@ impl Problem {
     pub(super) fn into_warning(self) -> Self {
         Self { severity: Severity::Warning, ..self }
     }
-
-    pub(super) fn maybe_help(self, help: Option<String>) -> Self {
-        Self { help, ..self }
-    }
 }
 
 fn within_line(text: &str, span: Range<usize>) -> Range<usize> {

@@ -9,11 +9,11 @@ use std::f64::consts::TAU;
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Input {
     /// The table it stands in; empty for a derived number.
-    pub table: &'static str,
+    pub table: String,
     /// The key in the case file, or the name of what was derived.
     pub name: &'static str,
     /// The symbol in LaTeX.
-    pub symbol: &'static str,
+    pub symbol: String,
     /// The value in `unit`.
     pub value: f64,
     /// SI unit symbol, "1" for a pure number (lengths of a reduced case included).
@@ -50,5 +50,12 @@ impl Case {
 }
 
 fn derived(name: &'static str, symbol: &'static str, value: f64, unit: &'static str) -> Input {
-    Input { table: "", name, symbol, value, unit, as_written: String::new() }
+    Input {
+        table: String::new(),
+        name,
+        symbol: symbol.to_owned(),
+        value,
+        unit,
+        as_written: String::new(),
+    }
 }

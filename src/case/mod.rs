@@ -3,8 +3,8 @@
 //!
 //! A case is TOML. It gives a design either in physical units (`[oscillator]`, `[absorber]`,
 //! `[excitation]`) or dimensionless (`[reduced]`), and may carry settings in optional tables. To
-//! add an optional table: a file like `simulation.rs`, a line in `OWN_TABLES`, a field in [`Case`] and
-//! one in the schema.
+//! add an optional table: a file like `simulation.rs`, and a field in [`Case`] and in `CaseFile`. The struct
+//! of a table is what it is read into and what its schema is derived from.
 
 mod absorber_design;
 mod accuracy;
@@ -12,8 +12,10 @@ mod band;
 mod criteria;
 mod document;
 mod error;
+mod form;
 mod inputs;
-mod list;
+mod names;
+mod number;
 mod optimize;
 mod physical;
 mod quantity;
@@ -28,8 +30,12 @@ mod suggest;
 mod sweep;
 mod table;
 mod uncertainty;
+mod value;
 mod warnings;
 
+use schemars::JsonSchema;
+use serde::Deserialize;
+use serde_json::{Value, json};
 use toml::de::DeTable;
 
 pub use absorber_design::AbsorberDesign;
@@ -41,8 +47,8 @@ pub use inputs::Input;
 pub use optimize::{Objective, OptimizeSettings};
 pub use physical::{Physical, PhysicalExcitation};
 pub use quantity::{
-    Damping, Dimension, Force, Frequency, Length, Mass, Quantity, QuantityError, Share, Stiffness,
-    Unit, Velocity,
+    Damping, Dimension, Force, Frequency, Length, Mass, Measurand, Quantity, QuantityError, Share,
+    Stiffness, Unit, Velocity,
 };
 pub use reduced::{Reduced, Tuning};
 pub use report::{ExtraFigure, ReportSettings};
@@ -102,54 +108,43 @@ pub enum Design {
     Reduced(Reduced),
 }
 
-/// Every table with the keys it may have; the top level is "".
-const TABLES: &[(&str, &[&str])] = &{
-    let mut tables = [("", &[] as &[&str]); OWN_TABLES.len() + SweepParameter::ALL.len()];
-    let mut k = 0;
-    while k < tables.len() {
-        tables[k] = if k < OWN_TABLES.len() {
-            OWN_TABLES[k]
-        } else {
-            (SweepParameter::ALL[k - OWN_TABLES.len()].key(), sweep::AXIS_KEYS)
-        };
-        k += 1;
-    }
-    tables
-};
-/// Those without the axes of a sweep, which are tables in `[sweep]`.
-const OWN_TABLES: &[(&str, &[&str])] = &[
-    (
-        "",
-        &[
-            "title",
-            "source",
-            "oscillator",
-            "absorber",
-            "excitation",
-            "reduced",
-            "simulation",
-            "report",
-            "accuracy",
-            "band",
-            "criteria",
-            "optimize",
-            "uncertainty",
-            "sweep",
-        ],
-    ),
-    (physical::TABLES[0], physical::OSCILLATOR),
-    (physical::TABLES[1], physical::ABSORBER),
-    (physical::TABLES[2], physical::EXCITATION),
-    (reduced::TABLE, reduced::KEYS),
-    (simulation::TABLE, simulation::KEYS),
-    (report::TABLE, report::KEYS),
-    (accuracy::TABLE, accuracy::KEYS),
-    (band::TABLE, band::KEYS),
-    (criteria::TABLE, criteria::KEYS),
-    (optimize::TABLE, optimize::KEYS),
-    (uncertainty::TABLE, uncertainty::KEYS),
-    (sweep::TABLE, sweep::KEYS),
-];
+/// A design of a vibro-impact nonlinear energy sink: either the tables oscillator, absorber and
+/// excitation, or the table reduced.
+#[derive(Deserialize, JsonSchema)]
+#[expect(
+    dead_code,
+    reason = "each table is read by itself, so that one that is wrong hides no other"
+)]
+#[schemars(title = "vinesink case", deny_unknown_fields, extend("oneOf" = one_design()))]
+struct CaseFile {
+    /// What this case is, in a line.
+    #[schemars(pattern(r"\S"), example = "what this case is, in a line")]
+    title: String,
+    /// Where the numbers come from: a publication, a measurement, a guess.
+    #[schemars(pattern(r"\S"))]
+    #[schemars(example = "where the numbers come from: a publication, a measurement, a guess")]
+    source: String,
+    oscillator: Option<physical::OscillatorTable>,
+    absorber: Option<physical::AbsorberTable>,
+    excitation: Option<physical::ExcitationTable>,
+    reduced: Option<reduced::ReducedTable>,
+    simulation: Option<SimulationSettings>,
+    report: Option<ReportSettings>,
+    accuracy: Option<AccuracySettings>,
+    band: Option<band::BandTable>,
+    criteria: Option<criteria::CriteriaTable>,
+    optimize: Option<OptimizeSettings>,
+    uncertainty: Option<Uncertainty>,
+    sweep: Option<sweep::SweepTable>,
+}
+
+fn one_design() -> Value {
+    let any_physical = physical::TABLES.map(|table| json!({ "required": [table] }));
+    json!([
+        { "required": physical::TABLES, "not": { "required": [reduced::TABLE] } },
+        { "required": [reduced::TABLE], "not": { "anyOf": any_physical } },
+    ])
+}
 
 const STARTING_CASE: &str = include_str!("starting_case.toml");
 
@@ -166,7 +161,8 @@ impl Case {
             Ok(document) => document,
             Err(problems) => return Err(CaseError::new(name, visible, problems)),
         };
-        let mut reader = Reader::new(visible, TABLES);
+        let mut reader =
+            Reader { text: visible, problems: Vec::new(), inputs: Vec::new(), design: None };
         match read(&mut reader, &document) {
             Some(case) if reader.problems.is_empty() => {
                 Ok(Self { text_hash: sha256(text.as_bytes()), inputs: reader.inputs, ..case })
@@ -210,29 +206,28 @@ fn read(reader: &mut Reader, document: &DeTable) -> Option<Case> {
         );
         return None;
     }
-    let root = reader.root(document);
-    let title = root.text(reader, "title", "title = \"what this case is, in a line\"");
-    let cited = "source = \"where the numbers come from: a publication, a measurement, a guess\"";
-    let source = root.text(reader, "source", cited);
+    let root = reader.root::<CaseFile>(&schema::SCHEMA, document);
+    let file = reader.read::<CaseFile>(&root);
     let design = read_design(reader, &root);
-    let simulation = simulation::read(reader, &root);
-    let report = report::read(reader, &root);
-    let accuracy = accuracy::read(reader, &root);
-    let band = band::read(reader, &root, design.as_ref());
-    let (criteria, count_inactive) = criteria::read(reader, &root, design.as_ref());
-    let optimize = optimize::read(reader, &root, design.as_ref());
-    let uncertainty = uncertainty::read(reader, &root, design.as_ref());
-    let sweep = sweep::read(reader, &root, design.as_ref());
-    let design = design?;
+    reader.design = design;
+    let simulation = reader.settings::<SimulationSettings>(&root, "simulation");
+    let report = reader.settings::<ReportSettings>(&root, "report");
+    let accuracy = reader.settings::<AccuracySettings>(&root, "accuracy");
+    let band = band::read(reader, &root);
+    let (criteria, count_inactive) = criteria::read(reader, &root);
+    let optimize = optimize::read(reader, &root);
+    let uncertainty = uncertainty::read(reader, &root);
+    let sweep = sweep::read(reader, &root);
+    let (file, design) = (file?, design?);
     let system = system_of(reader, &root, &design)?;
     let warnings = warnings::of(reader.text, document, &design, &system, band.as_ref());
     Some(Case {
-        title: title?.to_owned(),
-        source: source?.to_owned(),
+        title: file.title,
+        source: file.source,
         text_hash: String::new(),
         design,
-        simulation,
-        report,
+        simulation: simulation.unwrap_or_default(),
+        report: report.unwrap_or_default(),
         accuracy,
         band,
         criteria,

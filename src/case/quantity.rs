@@ -8,18 +8,31 @@ use std::fmt;
 use std::marker::PhantomData;
 use std::ops::{Div, Range};
 
+use serde::Deserialize;
+
 use super::suggest::nearest;
 
-/// What a quantity measures, and how it may be written.
-pub trait Dimension: 'static {
+/// What can be measured, and how it may be written.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Measurand {
     /// As in "a length".
-    const NAME: &'static str;
+    pub name: &'static str,
     /// The SI unit that values are held in.
-    const SI: &'static str;
+    pub si: &'static str,
     /// A quantity a person might write, unit included.
-    const EXAMPLE: &'static str;
+    pub example: &'static str,
     /// Every unit accepted, the usual ones first.
-    const UNITS: &'static [Unit];
+    pub units: &'static [Unit],
+}
+
+/// A [`Measurand`] as a type.
+pub trait Dimension: 'static {
+    /// What it is.
+    const OF: &'static Measurand;
+    /// As in "a length".
+    const NAME: &'static str = Self::OF.name;
+    /// Every unit accepted, the usual ones first.
+    const UNITS: &'static [Unit] = Self::OF.units;
 }
 
 /// A unit that a case file may use: `value_si = number * 10^exponent / divisor`.
@@ -36,15 +49,13 @@ const fn unit(symbol: &'static str, exponent: i32) -> Unit {
 }
 
 macro_rules! dimension {
-    ($(#[$doc:meta])* $name:ident, $words:literal, $si:literal, $example:literal, $units:expr) => {
+    ($(#[$doc:meta])* $type:ident, $name:literal, $si:literal, $example:literal, $units:expr) => {
         $(#[$doc])*
         #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-        pub enum $name {}
-        impl Dimension for $name {
-            const NAME: &'static str = $words;
-            const SI: &'static str = $si;
-            const EXAMPLE: &'static str = $example;
-            const UNITS: &'static [Unit] = $units;
+        pub enum $type {}
+        impl Dimension for $type {
+            const OF: &'static Measurand =
+                &Measurand { name: $name, si: $si, example: $example, units: $units };
         }
     };
 }
@@ -99,7 +110,132 @@ dimension!(
     &[unit("N", 0), unit("mN", -3), unit("kN", 3), unit("uN", -6), unit("nN", -9), unit("MN", 6)]
 );
 
+dimension!(
+    /// Decibels.
+    Decibel, "a level", "dB", "12 dB", &[unit("dB", 0)]
+);
+
+/// Everything that can be measured.
+const ALL: [&Measurand; 9] = [
+    Length::OF,
+    Mass::OF,
+    Stiffness::OF,
+    Damping::OF,
+    Frequency::OF,
+    Force::OF,
+    Velocity::OF,
+    Share::OF,
+    Decibel::OF,
+];
+
+impl Measurand {
+    /// That of a name, as in "a length".
+    pub(super) fn named(name: &str) -> Option<&'static Self> {
+        ALL.into_iter().find(|one| one.name == name)
+    }
+
+    /// What a text that begins with a number and a known unit measures, a share excepted.
+    pub(super) fn of(text: &str) -> Option<&'static Self> {
+        Self::of_unit(text[leading_number(text)?.end..].trim())
+    }
+
+    /// What a unit measures; a share is no dimension that another could be mistaken for.
+    fn of_unit(symbol: &str) -> Option<&'static Self> {
+        ALL.into_iter().find(|one| *one != Share::OF && one.unit(symbol).is_some())
+    }
+
+    fn unit(&self, written: &str) -> Option<&'static Unit> {
+        let plain = plain_spelling(written);
+        self.units.iter().find(|unit| unit.symbol == plain)
+    }
+
+    /// The value in SI units of a number followed by a unit, such as `7.5 mm`.
+    pub(super) fn parse(&self, text: &str) -> Result<f64, QuantityError> {
+        let number = leading_number(text).ok_or_else(|| self.not_a_number(text))?;
+        let rest = text[number.end..].trim();
+        let start = text.len() - text[number.end..].trim_start().len();
+        if rest.is_empty() {
+            let help = format!("write the unit behind the number: {}", self.accepted());
+            return Err(self.error("has no unit".to_owned(), 0..text.len()).with_help(help));
+        }
+        if rest.starts_with(',') {
+            let message = "has a comma where a decimal point belongs".to_owned();
+            let help = format!("write \"{}\"", text.replacen(',', ".", 1));
+            return Err(self.error(message, 0..text.len()).with_help(help));
+        }
+        let unit = self.unit(rest);
+        let unit = unit.ok_or_else(|| self.unsuitable_unit(rest, start..start + rest.len()))?;
+        scaled(&text[number.clone()], unit).map_err(|message| self.error(message, number))
+    }
+
+    fn error(&self, message: String, range: Range<usize>) -> QuantityError {
+        let expected = format!("expected {} such as \"{}\"", self.name, self.example);
+        QuantityError { message, expected, help: None, range }
+    }
+
+    fn not_a_number(&self, text: &str) -> QuantityError {
+        let word: String = text.trim_start().chars().take_while(|c| c.is_alphabetic()).collect();
+        let sign = text.trim_start().trim_start_matches(['+', '-']).to_lowercase();
+        let message = if text.trim().is_empty() {
+            "is empty".to_owned()
+        } else if sign.starts_with("inf") || sign.starts_with("nan") {
+            format!("is \"{text}\", which is not a finite number")
+        } else if Self::of_unit(&word).is_some() {
+            format!("is \"{text}\", a unit without a number")
+        } else {
+            format!("is \"{text}\", which does not begin with a number")
+        };
+        self.error(message, 0..text.len())
+    }
+
+    fn unsuitable_unit(&self, written: &str, range: Range<usize>) -> QuantityError {
+        let symbols: Vec<&str> = self.units.iter().map(|unit| unit.symbol).collect();
+        let unknown = format!("has the unknown unit `{written}`");
+        let (message, help) =
+            match (Self::of_unit(written), nearest(&plain_spelling(written), &symbols)) {
+                (Some(other), _) => {
+                    let other = other.name;
+                    let message =
+                        format!("is {}, but `{written}` is the unit of {other}", self.name);
+                    (message, self.accepted())
+                }
+                (None, Some(near)) => {
+                    (unknown, format!("did you mean `{near}`? {}", self.accepted()))
+                }
+                (None, None) => (unknown, self.accepted()),
+            };
+        self.error(message, range).with_help(help)
+    }
+
+    fn accepted(&self) -> String {
+        let symbols: Vec<&str> = self.units.iter().map(|unit| unit.symbol).collect();
+        format!("{} is accepted in {}", self.name, symbols.join(", "))
+    }
+}
+
+/// Moves the decimal point of a number, so that it is rounded once.
+fn scaled(number: &str, unit: &Unit) -> Result<f64, String> {
+    let (mantissa, written) = match number.split_once(['e', 'E']) {
+        Some((mantissa, exponent)) => (mantissa, exponent.parse::<i32>()),
+        None => (number, Ok(0)),
+    };
+    let exponent = written.map_err(|_| format!("has an absurd exponent in {number}"))?;
+    let shifted = format!("{mantissa}e{}", i64::from(exponent) + i64::from(unit.exponent));
+    let si = shifted.parse::<f64>().unwrap_or(f64::NAN) / unit.divisor;
+    if si == 0.0 && mantissa.contains(|c| matches!(c, '1'..='9')) {
+        return Err(format!("is {number} {}, too small to be told from 0", unit.symbol));
+    }
+    // Adding 0 makes -0 an ordinary 0.
+    if si.is_finite() {
+        Ok(si + 0.0)
+    } else {
+        Err(format!("is {number} {}, too large", unit.symbol))
+    }
+}
+
 /// A finite value of one dimension, in SI units.
+#[derive(Clone, Copy, PartialEq, Deserialize)]
+#[serde(transparent, bound = "")]
 pub struct Quantity<D> {
     si: f64,
     dimension: PhantomData<D>,
@@ -119,6 +255,12 @@ pub struct QuantityError {
     pub range: Range<usize>,
 }
 
+impl QuantityError {
+    fn with_help(self, help: String) -> Self {
+        Self { help: Some(help), ..self }
+    }
+}
+
 impl<D: Dimension> Quantity<D> {
     /// Reads a number followed by a unit, such as `7.5 mm`.
     ///
@@ -126,18 +268,7 @@ impl<D: Dimension> Quantity<D> {
     /// [`QuantityError`] for a missing, unknown or unsuitable unit, and for a number that is
     /// missing, not finite or beyond what a double can hold.
     pub fn parse(text: &str) -> Result<Self, QuantityError> {
-        let number = leading_number(text).ok_or_else(|| not_a_number::<D>(text))?;
-        let rest = text[number.end..].trim();
-        let start = text.len() - text[number.end..].trim_start().len();
-        let at = start..start + rest.len();
-        if rest.is_empty() {
-            return Err(without_unit::<D>(text));
-        }
-        if rest.starts_with(',') {
-            return Err(decimal_comma::<D>(text));
-        }
-        let found = find(D::UNITS, rest).ok_or_else(|| unsuitable_unit::<D>(rest, at))?;
-        Self::scaled(&text[number.clone()], found).map_err(|message| error::<D>(message, number))
+        D::OF.parse(text).map(|si| Self { si, dimension: PhantomData })
     }
 
     /// A quantity from its SI value; `None` unless finite.
@@ -146,49 +277,10 @@ impl<D: Dimension> Quantity<D> {
         si.is_finite().then_some(Self { si: si + 0.0, dimension: PhantomData })
     }
 
-    /// The value in [`Dimension::SI`].
+    /// The value in the SI unit of its [`Measurand`].
     pub fn si(self) -> f64 {
         self.si
     }
-
-    fn scaled(number: &str, unit: &Unit) -> Result<Self, String> {
-        let (mantissa, written) = match number.split_once(['e', 'E']) {
-            Some((mantissa, exponent)) => (mantissa, exponent.parse::<i32>()),
-            None => (number, Ok(0)),
-        };
-        let exponent = written.map_err(|_| format!("has an absurd exponent in {number}"))?;
-        let shifted = format!("{mantissa}e{}", i64::from(exponent) + i64::from(unit.exponent));
-        let si = shifted.parse::<f64>().unwrap_or(f64::NAN) / unit.divisor;
-        if si == 0.0 && mantissa.contains(|c| matches!(c, '1'..='9')) {
-            return Err(format!("is {number} {}, too small to be told from 0", unit.symbol));
-        }
-        Self::from_si(si).ok_or_else(|| format!("is {number} {}, too large", unit.symbol))
-    }
-}
-
-/// Every unit with the name of what it measures, to recognise a unit of another dimension.
-fn measured_by(symbol: &str) -> Option<&'static str> {
-    let dimensions: [(&'static str, &'static [Unit]); 7] = [
-        (Length::NAME, Length::UNITS),
-        (Mass::NAME, Mass::UNITS),
-        (Stiffness::NAME, Stiffness::UNITS),
-        (Damping::NAME, Damping::UNITS),
-        (Frequency::NAME, Frequency::UNITS),
-        (Force::NAME, Force::UNITS),
-        (Velocity::NAME, Velocity::UNITS),
-    ];
-    dimensions.iter().find(|(_, units)| find(units, symbol).is_some()).map(|(name, _)| *name)
-}
-
-/// What a text that begins with a number and a known unit measures, as in "a length".
-pub(super) fn dimension_of(text: &str) -> Option<&'static str> {
-    let number = leading_number(text)?;
-    measured_by(text[number.end..].trim())
-}
-
-fn find(units: &'static [Unit], written: &str) -> Option<&'static Unit> {
-    let plain = plain_spelling(written);
-    units.iter().find(|unit| unit.symbol == plain)
 }
 
 /// One spelling for the many ways to write a product, a quotient and a micro sign.
@@ -226,73 +318,6 @@ fn digits(bytes: &[u8], from: usize) -> usize {
     from + bytes.iter().skip(from).take_while(|byte| byte.is_ascii_digit()).count()
 }
 
-fn error<D: Dimension>(message: String, range: Range<usize>) -> QuantityError {
-    let expected = format!("expected {} such as \"{}\"", D::NAME, D::EXAMPLE);
-    QuantityError { message, expected, help: None, range }
-}
-
-fn not_a_number<D: Dimension>(text: &str) -> QuantityError {
-    let word: String = text.trim_start().chars().take_while(|c| c.is_alphabetic()).collect();
-    let sign = text.trim_start().trim_start_matches(['+', '-']).to_lowercase();
-    let message = if text.trim().is_empty() {
-        "is empty".to_owned()
-    } else if sign.starts_with("inf") || sign.starts_with("nan") {
-        format!("is \"{text}\", which is not a finite number")
-    } else if measured_by(&word).is_some() {
-        format!("is \"{text}\", a unit without a number")
-    } else {
-        format!("is \"{text}\", which does not begin with a number")
-    };
-    error::<D>(message, 0..text.len())
-}
-
-fn without_unit<D: Dimension>(text: &str) -> QuantityError {
-    let help = format!("write the unit behind the number: {}", accepted::<D>());
-    QuantityError { help: Some(help), ..error::<D>("has no unit".to_owned(), 0..text.len()) }
-}
-
-fn decimal_comma<D: Dimension>(text: &str) -> QuantityError {
-    let help = format!("write \"{}\"", text.replacen(',', ".", 1));
-    let message = "has a comma where a decimal point belongs".to_owned();
-    QuantityError { help: Some(help), ..error::<D>(message, 0..text.len()) }
-}
-
-fn unsuitable_unit<D: Dimension>(written: &str, range: Range<usize>) -> QuantityError {
-    let symbols: Vec<&str> = D::UNITS.iter().map(|unit| unit.symbol).collect();
-    let plain = plain_spelling(written);
-    let (message, help) = match (measured_by(written), nearest(&plain, &symbols)) {
-        (Some(other), _) => {
-            let message = format!("is {}, but `{written}` is the unit of {other}", D::NAME);
-            (message, accepted::<D>())
-        }
-        (None, Some(near)) => {
-            let message = format!("has the unknown unit `{written}`");
-            (message, format!("did you mean `{near}`? {}", accepted::<D>()))
-        }
-        (None, None) => (format!("has the unknown unit `{written}`"), accepted::<D>()),
-    };
-    QuantityError { help: Some(help), ..error::<D>(message, range) }
-}
-
-fn accepted<D: Dimension>() -> String {
-    let symbols: Vec<&str> = D::UNITS.iter().map(|unit| unit.symbol).collect();
-    format!("{} is accepted in {}", D::NAME, symbols.join(", "))
-}
-
-impl<D> Clone for Quantity<D> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<D> Copy for Quantity<D> {}
-
-impl<D> PartialEq for Quantity<D> {
-    fn eq(&self, other: &Self) -> bool {
-        self.si == other.si
-    }
-}
-
 impl<D: Dimension> fmt::Debug for Quantity<D> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Display::fmt(self, f)
@@ -302,7 +327,7 @@ impl<D: Dimension> fmt::Debug for Quantity<D> {
 /// The shortest text that [`Quantity::parse`] reads back to the same value.
 impl<D: Dimension> fmt::Display for Quantity<D> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} {}", self.si, D::SI)
+        write!(f, "{} {}", self.si, D::OF.si)
     }
 }
 

@@ -1,153 +1,33 @@
-//! Reads the tables of a case file: every value checked once, every problem kept with its place.
+//! Reads the tables of a case file as their schema says: every value checked once, every problem kept
+//! with its place. What is in order becomes the struct that the schema was derived from.
 
+use std::borrow::Cow;
 use std::ops::Range;
 
+use serde::de::DeserializeOwned;
+use serde_json::{Map, Value};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::Design;
 use super::error::Problem;
 use super::inputs::Input;
 use super::suggest::nearest;
 use super::table::{Table, kind};
-
-/// A numeric key of a case file.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Field {
-    pub key: &'static str,
-    /// The symbol in LaTeX.
-    pub symbol: &'static str,
-    pub bound: Bound,
-    /// A value as a person might write it, quotes included.
-    pub example: &'static str,
-}
-
-impl Field {
-    pub const fn new(
-        key: &'static str,
-        symbol: &'static str,
-        bound: Bound,
-        example: &'static str,
-    ) -> Self {
-        Self { key, symbol, bound, example }
-    }
-
-    pub fn line(&self) -> String {
-        format!("{} = {}", self.key, self.example)
-    }
-}
-
-/// The values a field may take, besides being finite.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Bound {
-    Positive,
-    NotNegative,
-    UpToOne,
-    Any,
-}
-
-impl Bound {
-    pub fn holds(self, value: f64) -> bool {
-        match self {
-            Self::Positive => value > 0.0,
-            Self::NotNegative => value >= 0.0,
-            Self::UpToOne => (0.0..=1.0).contains(&value),
-            Self::Any => true,
-        }
-    }
-
-    pub fn words(self) -> &'static str {
-        match self {
-            Self::Positive => "above 0",
-            Self::NotNegative => "0 or more",
-            Self::UpToOne => "from 0 to 1",
-            Self::Any => "of any size",
-        }
-    }
-}
 
 /// The text being read, with what was found wrong and what was read so far.
 pub(super) struct Reader<'t> {
     pub text: &'t str,
     pub problems: Vec<Problem>,
     pub inputs: Vec<Input>,
-    /// Every table with the keys it may have, the top level under the name "".
-    tables: &'static [(&'static str, &'static [&'static str])],
+    /// The design, once it is read: it decides the units of the optional tables.
+    pub design: Option<Design>,
 }
 
 impl<'t> Reader<'t> {
-    /// `tables` lists every table with the keys it may have, the top level under the name "".
-    pub fn new(text: &'t str, tables: &'static [(&'static str, &'static [&'static str])]) -> Self {
-        Self { text, problems: Vec::new(), inputs: Vec::new(), tables }
-    }
-
-    /// Opens the top level, reporting every unknown key in it.
-    pub fn root<'d>(&mut self, entries: &'d DeTable<'d>) -> Table<'d> {
-        self.open("", 0..self.first_line(), entries)
-    }
-
     /// The bytes of the first line, to point at when there is nothing better.
     pub fn first_line(&self) -> usize {
         self.text.lines().next().map_or(0, str::len)
-    }
-
-    /// Opens a table, reporting every unknown key in it; `None` when there is no such table.
-    pub fn table<'d>(&mut self, root: &Table<'d>, name: &'static str) -> Option<Table<'d>> {
-        let (key, value) = root.entry(name)?;
-        if let DeValue::Table(entries) = value.get_ref() {
-            return Some(self.open(name, key.span(), entries));
-        }
-        let message = format!("`{name}` is {}, but it must be a table", kind(value.get_ref()));
-        let help = format!("write [{name}] on a line of its own and the table's keys below it");
-        self.report(key.span(), message, format!("expected the table [{name}]"), help);
-        None
-    }
-
-    fn open<'d>(
-        &mut self,
-        name: &'static str,
-        span: Range<usize>,
-        entries: &'d DeTable<'d>,
-    ) -> Table<'d> {
-        let known = self.tables.iter().find(|(table, _)| *table == name).map_or(&[][..], |t| t.1);
-        let mut misspelled = Vec::new();
-        for (key, value) in
-            entries.iter().filter(|(key, _)| !known.contains(&key.get_ref().as_ref()))
-        {
-            let table = matches!(value.get_ref(), DeValue::Table(_));
-            misspelled.extend(self.unknown_key(name, known, key, table));
-        }
-        Table::new(name, span, entries, misspelled)
-    }
-
-    fn unknown_key(
-        &mut self,
-        name: &'static str,
-        known: &[&'static str],
-        key: &Spanned<std::borrow::Cow<'_, str>>,
-        table: bool,
-    ) -> Option<&'static str> {
-        let written = key.get_ref().as_ref();
-        let homes = self.homes_of(written);
-        let guess = if homes.is_empty() { nearest(written, known) } else { None };
-        let what = if table { "table" } else { "key" };
-        let place = if name.is_empty() { String::new() } else { format!(" in [{name}]") };
-        let expected = format!("expected one of {}", known.join(", "));
-        let help = match guess {
-            Some(guess) => format!("did you mean `{guess}`?"),
-            None if !homes.is_empty() => format!("`{written}` belongs in {homes}"),
-            None => format!("remove `{written}`, or write one of the keys named above"),
-        };
-        self.report(key.span(), format!("unknown {what} `{written}`{place}"), expected, help);
-        guess
-    }
-
-    fn homes_of(&self, key: &str) -> String {
-        let homes = self.tables.iter().filter(|(_, keys)| keys.contains(&key));
-        let named = homes.map(|(table, _)| match *table {
-            "" => "the lines before the first table".to_owned(),
-            table => format!("[{table}]"),
-        });
-        named.collect::<Vec<_>>().join(" or ")
     }
 
     /// Records a problem.
@@ -164,5 +44,204 @@ impl<'t> Reader<'t> {
     /// The bytes of a value as its author wrote it, without the quotes.
     pub fn as_written(&self, span: Range<usize>) -> String {
         self.text[span].trim_matches(['"', '\'']).to_owned()
+    }
+
+    /// Opens the top level, reporting every unknown key in it.
+    pub fn root<'d, T: DeserializeOwned>(
+        &mut self,
+        schema: &'static Value,
+        entries: &'d DeTable<'d>,
+    ) -> Table<'d> {
+        self.open::<T>(String::new(), schema, 0..self.first_line(), entries)
+    }
+
+    /// Opens a table, reporting every unknown key in it; `None` when there is no such table.
+    pub fn table<'d, T: DeserializeOwned>(
+        &mut self,
+        parent: &Table<'d>,
+        name: &str,
+    ) -> Option<Table<'d>> {
+        let (key, value) = parent.entries.get_key_value(name)?;
+        let path = match parent.path.as_str() {
+            "" => name.to_owned(),
+            parent => format!("{parent}.{name}"),
+        };
+        if let DeValue::Table(entries) = value.get_ref() {
+            let schema = &parent.schema["properties"][name];
+            return Some(self.open::<T>(path, schema, key.span(), entries));
+        }
+        let message = format!("`{name}` is {}, but it must be a table", kind(value.get_ref()));
+        let help = format!("write [{path}] on a line of its own and the table's keys below it");
+        self.report(key.span(), message, format!("expected the table [{path}]"), help);
+        None
+    }
+
+    fn open<'d, T: DeserializeOwned>(
+        &mut self,
+        path: String,
+        schema: &'static Value,
+        span: Range<usize>,
+        entries: &'d DeTable<'d>,
+    ) -> Table<'d> {
+        let mut keys = fields::<T>().to_vec();
+        keys.extend(schema["x-keys"].as_array().into_iter().flatten().filter_map(Value::as_str));
+        let mut table = Table { path, schema, keys, entries, span, misspelled: Vec::new() };
+        let known = |key: &str| table.keys.contains(&key);
+        let unknown = entries.iter().filter(|(key, _)| !known(key.get_ref()));
+        let guesses: Vec<_> =
+            unknown.filter_map(|(key, value)| self.unknown_key(&table, key, value)).collect();
+        table.misspelled = guesses;
+        table
+    }
+
+    fn unknown_key(
+        &mut self,
+        table: &Table,
+        key: &Spanned<Cow<'_, str>>,
+        value: &Spanned<DeValue>,
+    ) -> Option<&'static str> {
+        let written = key.get_ref().as_ref();
+        let homes = homes_of(written);
+        let guess = if homes.is_empty() { nearest(written, &table.keys) } else { None };
+        let what = if value.get_ref().is_table() { "table" } else { "key" };
+        let expected = format!("expected one of {}", table.keys.join(", "));
+        let help = match guess {
+            Some(guess) => format!("did you mean `{guess}`?"),
+            None if !homes.is_empty() => format!("`{written}` belongs in {homes}"),
+            None => format!("remove `{written}`, or write one of the keys named above"),
+        };
+        let message = format!("unknown {what} `{written}`{}", table.place());
+        self.report(key.span(), message, expected, help);
+        guess
+    }
+
+    /// Reads a table that may be missing.
+    pub fn optional<'d, T: DeserializeOwned>(
+        &mut self,
+        root: &Table<'d>,
+        name: &str,
+    ) -> Option<(Table<'d>, T)> {
+        let table = self.table::<T>(root, name)?;
+        let read = self.read(&table)?;
+        Some((table, read))
+    }
+
+    /// The same without its places.
+    pub fn settings<T: DeserializeOwned>(&mut self, root: &Table, name: &str) -> Option<T> {
+        self.optional(root, name).map(|(_, read)| read)
+    }
+
+    /// Reads the values of a table, but for those that are tables themselves; quantities become numbers
+    /// in SI units. `None` where something that must be there is not, or not as it should be.
+    pub fn read<T: DeserializeOwned>(&mut self, table: &Table) -> Option<T> {
+        for pair in table.alternatives() {
+            self.exactly_one(table, pair);
+        }
+        let mut found = Map::new();
+        for key in table.keys.iter().copied() {
+            match table.value(key) {
+                Some(value) => {
+                    let read = self.value(table, key, value);
+                    found.extend(read.map(|read| (key.to_owned(), read)));
+                }
+                None if table.requires(key) && !table.misspelled.contains(&key) => {
+                    let help = format!("add the line {}", self.line(table, key));
+                    self.missing(table, &format!("`{key}`"), help);
+                }
+                None => {}
+            }
+        }
+        let read = serde_json::from_value(Value::Object(found));
+        if let (Err(error), true, true) =
+            (&read, self.problems.is_empty(), self.design.is_some() || table.path.is_empty())
+        {
+            let message = format!("the table cannot be read: {error}");
+            self.report(table.span.clone(), message, "expected a table", "check its keys");
+        }
+        read.ok()
+    }
+
+    /// Reports both, and neither, of two alternative keys.
+    fn exactly_one(&mut self, table: &Table, [first, second]: [&'static str; 2]) {
+        match (table.has(first), table.has(second)) {
+            (true, true) => {
+                let spans = [first, second].map(|key| table.span_of(key));
+                let later = spans.into_iter().max_by_key(|span| span.start).unwrap_or_default();
+                let message = format!("`{first}` and `{second}` say the same thing twice");
+                let expected = "expected only one of the two";
+                self.report(later, message, expected, "remove one of the two lines");
+            }
+            (false, false) => {
+                let help = format!(
+                    "add the line {}  or  {}",
+                    self.line(table, first),
+                    self.line(table, second)
+                );
+                self.missing(table, &format!("`{first}` or `{second}`"), help);
+            }
+            _ => {}
+        }
+    }
+
+    fn missing(&mut self, table: &Table, what: &str, help: String) {
+        let expected = match table.path.as_str() {
+            "" => format!("expected {what} before the first table"),
+            _ => format!("expected {what} in this table"),
+        };
+        let message = format!("{what} is missing{}", table.place());
+        self.report(table.span.clone(), message, expected, help);
+    }
+}
+
+/// The tables that a key belongs in.
+fn homes_of(key: &str) -> String {
+    let root = &super::schema::SCHEMA["properties"];
+    let mut homes = Vec::new();
+    if root.get(key).is_some() {
+        homes.push("the lines before the first table".to_owned());
+    }
+    for name in fields::<super::CaseFile>() {
+        let keys = &root[name]["properties"];
+        if keys.get(key).is_some() {
+            homes.push(format!("[{name}]"));
+        }
+        let nested = keys.as_object().into_iter().flatten();
+        if nested.into_iter().any(|(_, table)| table["properties"].get(key).is_some()) {
+            homes.push(format!("an axis of [{name}]"));
+        }
+    }
+    homes.join(" or ")
+}
+
+/// The keys of a table in the order in which its struct declares them.
+fn fields<T: DeserializeOwned>() -> &'static [&'static str] {
+    let mut keys: &[&str] = &[];
+    // It ends with an error as soon as it has the keys.
+    let _ = T::deserialize(Fields(&mut keys));
+    keys
+}
+
+struct Fields<'k>(&'k mut &'static [&'static str]);
+
+impl<'de> serde::Deserializer<'de> for Fields<'_> {
+    type Error = serde::de::value::Error;
+
+    fn deserialize_any<V: serde::de::Visitor<'de>>(self, _: V) -> Result<V::Value, Self::Error> {
+        Err(serde::de::Error::custom("only a struct has keys"))
+    }
+
+    fn deserialize_struct<V: serde::de::Visitor<'de>>(
+        self,
+        _: &'static str,
+        keys: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, Self::Error> {
+        *self.0 = keys;
+        self.deserialize_any(visitor)
+    }
+
+    serde::forward_to_deserialize_any! {
+        bool i8 i16 i32 i64 u8 u16 u32 u64 f32 f64 char str string bytes byte_buf option unit
+        unit_struct newtype_struct seq tuple tuple_struct map enum identifier ignored_any
     }
 }

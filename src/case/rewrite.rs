@@ -33,39 +33,48 @@ pub struct Rewritten {
     pub case: Case,
 }
 
-/// How a rounded value is rounded.
+/// How a value is rounded when it is written, to four significant digits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Step {
-    Down,
+pub enum Rounding {
+    /// To the nearest number.
     Nearest,
+    /// To the one below.
+    Down,
+    /// To the one above.
     Up,
+    /// Not at all.
     Exact,
+}
+
+impl Rounding {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Nearest, Self::Down, Self::Up, Self::Exact];
 }
 
 /// Significant digits of a written value.
 const DIGITS: i32 = 4;
 
 /// A value above 0 with [`DIGITS`] significant digits, rounded or moved on by one in the last of them.
-fn rounded(value: f64, step: Step) -> f64 {
-    if value == 0.0 || step == Step::Exact {
+fn rounded(value: f64, step: Rounding) -> f64 {
+    if value == 0.0 || step == Rounding::Exact {
         return value;
     }
     let place = libm::floor(libm::log10(value)) as i32 - (DIGITS - 1);
     let units = value / libm::pow(10.0, f64::from(place));
     let units = match step {
-        Step::Down => libm::floor(units),
-        Step::Nearest => libm::rint(units),
-        Step::Up | Step::Exact => libm::ceil(units),
+        Rounding::Down => libm::floor(units),
+        Rounding::Nearest => libm::rint(units),
+        Rounding::Up | Rounding::Exact => libm::ceil(units),
     };
     // Read back from decimal digits, so that it is the double that a person would write.
     format!("{units}e{place}").parse().unwrap_or(value)
 }
 
 /// A number in the unit in which `as_written` gives its own.
-fn written<D: Dimension>(si: f64, as_written: &str, step: Step) -> String {
+fn written<D: Dimension>(si: f64, as_written: &str, step: Rounding) -> String {
     let begins = |c: char| c == '%' || c.is_alphabetic() && !matches!(c, 'e' | 'E');
     let number = as_written.trim().find(begins);
-    let unit = number.map_or(D::SI, |at| as_written.trim()[at..].trim());
+    let unit = number.map_or(D::OF.si, |at| as_written.trim()[at..].trim());
     let one = Quantity::<D>::parse(&format!("1 {unit}")).map_or(1.0, Quantity::si);
     format!("{} {unit}", rounded(si / one, step))
 }
@@ -86,21 +95,19 @@ impl Case {
         let mut document: DocumentMut =
             text.strip_prefix('\u{feff}').unwrap_or(text).parse::<DocumentMut>()?;
         let own = AbsorberDesign::of(&self.design);
-        let step = if clearance == Rounding::EXACT { Step::Exact } else { Step::Nearest };
-        let table = match self.design {
-            Design::Physical(_) => "absorber",
-            Design::Reduced(_) => "reduced",
-        };
-        let unit_of = |key: &str| {
+        let step = if clearance == Rounding::Exact { Rounding::Exact } else { Rounding::Nearest };
+        let physical = matches!(self.design, Design::Physical(_));
+        let table = if physical { "absorber" } else { "reduced" };
+        let as_written = |key: &str| {
             let input = self.inputs().iter().find(|one| one.table == table && one.name == key);
             input.map_or("", |input| input.as_written.as_str())
         };
         if choice.clearance != own.clearance {
-            let value = match self.design {
-                Design::Physical(_) => {
-                    written::<Length>(choice.clearance, unit_of("clearance"), clearance.0).into()
+            let value = match physical {
+                true => {
+                    written::<Length>(choice.clearance, as_written("clearance"), clearance).into()
                 }
-                Design::Reduced(_) => rounded(choice.clearance, clearance.0).into(),
+                false => rounded(choice.clearance, clearance).into(),
             };
             set(&mut document, table, "clearance", value)?;
         }
@@ -111,34 +118,20 @@ impl Case {
         if let (Some(mass), Design::Physical(physical)) = (choice.mass, &self.design)
             && mass != physical.absorber_mass_kg
         {
-            if unit_of("mass_ratio").is_empty() {
-                let value = written::<Mass>(mass, unit_of("mass"), step);
-                set(&mut document, table, "mass", value.into())?;
-            } else {
-                let (ratio, as_written) = (mass / physical.mass_kg, unit_of("mass_ratio"));
-                let value = if as_written.ends_with('%') {
-                    written::<Share>(ratio, as_written, step).into()
-                } else {
-                    rounded(ratio, step).into()
-                };
-                set(&mut document, table, "mass_ratio", value)?;
-            }
+            let ratio = mass / physical.mass_kg;
+            let (key, value) = match as_written("mass_ratio") {
+                "" => ("mass", written::<Mass>(mass, as_written("mass"), step).into()),
+                share if share.ends_with('%') => {
+                    ("mass_ratio", written::<Share>(ratio, share, step).into())
+                }
+                _ => ("mass_ratio", rounded(ratio, step).into()),
+            };
+            set(&mut document, table, key, value)?;
         }
         let text = document.to_string();
         let case = Case::parse(name, &text).map_err(Box::new)?;
         Ok(Rewritten { text, case })
     }
-}
-
-/// How the clearance is rounded when it is written.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Rounding(Step);
-
-impl Rounding {
-    /// Not at all.
-    pub const EXACT: Self = Self(Step::Exact);
-    /// To the nearest number of four digits, to the one below, to the one above, and not at all.
-    pub const ALL: [Self; 4] = [Self(Step::Nearest), Self(Step::Down), Self(Step::Up), Self::EXACT];
 }
 
 /// Replaces a value and keeps what stands around it.

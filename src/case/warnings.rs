@@ -9,7 +9,7 @@ use toml::de::{DeTable, DeValue};
 use super::error::Problem;
 use super::physical::TABLES;
 use super::reduced;
-use super::{BandOver, BandSettings, Design, Physical, band};
+use super::{BandOver, BandSettings, Design, Physical};
 use crate::system::System;
 use std::f64::consts::TAU;
 
@@ -82,8 +82,8 @@ impl<'t> File<'t> {
         };
         let mut drives = vec![(own, system.frequency_ratio())];
         if let Some(BandSettings { over: BandOver::Frequency, range: [from, to], .. }) = band {
-            drives.push((self.value(band::TABLE, &["from"]), *from));
-            drives.push((self.value(band::TABLE, &["to"]), *to));
+            drives.push((self.value("band", &["from"]), *from));
+            drives.push((self.value("band", &["to"]), *to));
         }
         let far = |ratio: f64| ratio.max(1.0 / ratio) > FAR_APART;
         let distant = drives.iter().filter(|(_, ratio)| far(*ratio)).count();

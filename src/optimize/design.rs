@@ -149,7 +149,7 @@ impl Judge<'_> {
                 self.case.rewritten("the optimised case", self.text, &choice, rounding)?;
             let kept = self.task.allows(&AbsorberDesign::of(&written.case.design));
             // Bounds closer together than four digits leave no rounding; the exact value is kept then.
-            let last = rounding == Rounding::EXACT;
+            let last = rounding == Rounding::Exact;
             if !(if last { best.is_none() } else { kept }) {
                 continue;
             }

@@ -1,127 +1,53 @@
 //! What an axis of a sweep can vary.
 
-use super::super::physical::PhysicalExcitation;
-use super::super::quantity::{
-    Damping, Dimension, Force, Frequency, Length, Mass, Stiffness, Velocity,
-};
-use super::super::reader::Bound;
+use serde_json::Value;
+
+use super::super::form::Form;
+use super::super::names::names;
+use super::super::physical::{Kind, PhysicalExcitation};
+use super::super::quantity::{Dimension, Force, Length, Measurand, Velocity};
 use super::super::reduced::Tuning;
+use super::super::schema::SCHEMA;
 use super::super::{Design, LengthUnit};
 
-/// A number of a case, or of a start, that an axis varies; every other number of the case stays.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum SweepParameter {
-    /// `b`.
-    Clearance,
-    /// `f` in Hz, or `Omega` of a reduced design.
-    Frequency,
-    /// `sigma` of a reduced design.
-    Detuning,
-    /// `F` in m or `P` in N, or `G` of a reduced design.
-    Amplitude,
-    /// `r`.
-    Restitution,
-    /// `m2` in kg.
-    AbsorberMass,
-    /// `m2/m1`.
-    MassRatio,
-    /// `m1` in kg.
-    Mass,
-    /// `k1` in N/m.
-    Stiffness,
-    /// `c1` in N s/m, or `lambda` of a reduced design.
-    Damping,
-    /// `c1/(2 sqrt(k1 m1))`.
-    DampingRatio,
-    /// `x` at the start.
-    InitialDisplacement,
-    /// `x'` at the start.
-    InitialVelocity,
-    /// `y` at the start.
-    InitialAbsorberDisplacement,
-    /// `y'` at the start.
-    InitialAbsorberVelocity,
-}
-
-/// How values of a parameter are written.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Written {
-    Number,
-    Length,
-    Mass,
-    Frequency,
-    Stiffness,
-    Damping,
-    Force,
-    Velocity,
-}
-
-/// How values are written, and what they may be.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Form {
-    pub written: Written,
-    pub bound: Bound,
-    /// A value as a person might write it.
-    pub example: &'static str,
-}
-
-impl Written {
-    /// The unit that values are held in.
-    pub fn unit(self) -> &'static str {
-        match self {
-            Self::Number => "1",
-            Self::Length => Length::SI,
-            Self::Mass => Mass::SI,
-            Self::Frequency => Frequency::SI,
-            Self::Stiffness => Stiffness::SI,
-            Self::Damping => Damping::SI,
-            Self::Force => Force::SI,
-            Self::Velocity => Velocity::SI,
-        }
+names! { key:
+    /// A number of a case, or of a start, that an axis varies; every other number of the case stays. A
+    /// design's own are in SI units, or plain numbers of a reduced design.
+    pub enum SweepParameter {
+        /// Clearances.
+        Clearance = "clearance",
+        /// Frequencies of the excitation, or frequency ratios beside [reduced].
+        Frequency = "frequency",
+        /// Detunings sigma, beside [reduced].
+        Detuning = "detuning",
+        /// Amplitudes of the excitation, as in [excitation]; the reduced forcing G beside [reduced].
+        Amplitude = "amplitude",
+        /// Restitutions.
+        Restitution = "restitution",
+        /// Masses of the absorber, with a unit.
+        AbsorberMass = "absorber_mass",
+        /// Masses of the absorber over that of the oscillator.
+        MassRatio = "mass_ratio",
+        /// Masses of the oscillator, with a unit.
+        Mass = "mass",
+        /// Stiffnesses of the oscillator, with a unit.
+        Stiffness = "stiffness",
+        /// Viscous dampings of the oscillator, with a unit; lambda beside [reduced].
+        Damping = "damping",
+        /// Dampings of the oscillator over the critical one.
+        DampingRatio = "damping_ratio",
+        /// Displacements of the oscillator at the start.
+        InitialDisplacement = "initial_displacement",
+        /// Velocities of the oscillator at the start.
+        InitialVelocity = "initial_velocity",
+        /// Displacements of the absorber at the start; unless given it is half a clearance from the oscillator.
+        InitialAbsorberDisplacement = "initial_absorber_displacement",
+        /// Velocities of the absorber at the start.
+        InitialAbsorberVelocity = "initial_absorber_velocity",
     }
 }
 
 impl SweepParameter {
-    /// All of them.
-    pub const ALL: [Self; 15] = [
-        Self::Clearance,
-        Self::Frequency,
-        Self::Detuning,
-        Self::Amplitude,
-        Self::Restitution,
-        Self::AbsorberMass,
-        Self::MassRatio,
-        Self::Mass,
-        Self::Stiffness,
-        Self::Damping,
-        Self::DampingRatio,
-        Self::InitialDisplacement,
-        Self::InitialVelocity,
-        Self::InitialAbsorberDisplacement,
-        Self::InitialAbsorberVelocity,
-    ];
-
-    /// Its key in a case, and its column in results.
-    pub const fn key(self) -> &'static str {
-        match self {
-            Self::Clearance => "clearance",
-            Self::Frequency => "frequency",
-            Self::Detuning => "detuning",
-            Self::Amplitude => "amplitude",
-            Self::Restitution => "restitution",
-            Self::AbsorberMass => "absorber_mass",
-            Self::MassRatio => "mass_ratio",
-            Self::Mass => "mass",
-            Self::Stiffness => "stiffness",
-            Self::Damping => "damping",
-            Self::DampingRatio => "damping_ratio",
-            Self::InitialDisplacement => "initial_displacement",
-            Self::InitialVelocity => "initial_velocity",
-            Self::InitialAbsorberDisplacement => "initial_absorber_displacement",
-            Self::InitialAbsorberVelocity => "initial_absorber_velocity",
-        }
-    }
-
     /// Its name and symbol in a text about a design.
     pub fn words(self, design: &Design) -> [&'static str; 2] {
         let excitation = match design {
@@ -153,27 +79,6 @@ impl SweepParameter {
         }
     }
 
-    /// Its symbol in LaTeX.
-    pub(super) const fn symbol(self) -> &'static str {
-        match self {
-            Self::Clearance => "b",
-            Self::Frequency => "f",
-            Self::Detuning => r"\sigma",
-            Self::Amplitude => "F",
-            Self::Restitution => "r",
-            Self::AbsorberMass => "m_2",
-            Self::MassRatio => r"\varepsilon",
-            Self::Mass => "m_1",
-            Self::Stiffness => "k_1",
-            Self::Damping => "c_1",
-            Self::DampingRatio => r"\zeta_1",
-            Self::InitialDisplacement => "x_0",
-            Self::InitialVelocity => r"\dot{x}_0",
-            Self::InitialAbsorberDisplacement => "y_0",
-            Self::InitialAbsorberVelocity => r"\dot{y}_0",
-        }
-    }
-
     /// Whether it is a part of the start, not of the design.
     pub fn is_initial(self) -> bool {
         matches!(
@@ -194,7 +99,7 @@ impl SweepParameter {
     pub fn is_length(self, design: &Design) -> bool {
         match self {
             Self::Clearance | Self::InitialDisplacement | Self::InitialAbsorberDisplacement => true,
-            Self::Amplitude => self.unit(design) != Force::SI,
+            Self::Amplitude => self.unit(design) != Force::OF.si,
             _ => false,
         }
     }
@@ -209,98 +114,82 @@ impl SweepParameter {
         }
     }
 
-    /// How its values are written beside a design; `None` where the design has no such number.
-    pub(super) fn form(self, design: &Design) -> Option<Form> {
-        let form = |written, bound, example| Some(Form { written, bound, example });
-        let number = |bound, example| form(Written::Number, bound, example);
-        let physical = match design {
-            Design::Physical(physical) => physical,
-            Design::Reduced(_) => {
-                return match self {
-                    Self::Clearance => number(Bound::Positive, "1.0"),
-                    Self::Frequency => number(Bound::Positive, "0.97"),
-                    Self::Detuning => number(Bound::Any, "-5.0"),
-                    Self::Amplitude => number(Bound::NotNegative, "4.3"),
-                    Self::Restitution => number(Bound::UpToOne, "0.6"),
-                    Self::MassRatio => number(Bound::Positive, "0.0077"),
-                    Self::Damping => number(Bound::NotNegative, "1.8"),
-                    Self::AbsorberMass | Self::Mass | Self::Stiffness | Self::DampingRatio => None,
-                    _ => number(Bound::Any, "0.5"),
-                };
-            }
+    /// The table and the key in which a design has it; `None` where it has no such number.
+    fn place(self, design: &Design) -> Option<[&'static str; 2]> {
+        Some(match design {
+            Design::Physical(_) => match self {
+                Self::Clearance | Self::Restitution | Self::MassRatio => ["absorber", self.key()],
+                Self::AbsorberMass => ["absorber", "mass"],
+                Self::Mass | Self::Stiffness | Self::Damping | Self::DampingRatio => {
+                    ["oscillator", self.key()]
+                }
+                Self::Frequency | Self::Amplitude => ["excitation", self.key()],
+                _ => return None,
+            },
+            Design::Reduced(_) => match self {
+                Self::Clearance
+                | Self::Restitution
+                | Self::MassRatio
+                | Self::Damping
+                | Self::Detuning => ["reduced", self.key()],
+                Self::Frequency => ["reduced", "frequency_ratio"],
+                Self::Amplitude => ["reduced", "forcing"],
+                _ => return None,
+            },
+        })
+    }
+
+    /// How its values are written beside a design: as the design's own; `None` where it has no such number.
+    pub(in super::super) fn form(self, design: &Design) -> Option<Form> {
+        let of_start = |measurand: &'static Measurand, example: &str, symbol: &str| {
+            let physical = matches!(design, Design::Physical(_));
+            let example = if physical { example } else { "0.5" };
+            Some(Form::free(physical.then_some(measurand), example, symbol))
         };
         match self {
-            Self::Clearance => form(Written::Length, Bound::Positive, "\"7.5 mm\""),
-            Self::Frequency => form(Written::Frequency, Bound::Positive, "\"8 Hz\""),
-            Self::Detuning => None,
-            Self::Amplitude => match physical.excitation {
-                PhysicalExcitation::BaseDisplacement { .. } => {
-                    form(Written::Length, Bound::NotNegative, "\"0.25 mm\"")
-                }
-                PhysicalExcitation::Force { .. } => {
-                    form(Written::Force, Bound::NotNegative, "\"2.9 N\"")
-                }
-            },
-            Self::Restitution => number(Bound::UpToOne, "0.6"),
-            Self::AbsorberMass => form(Written::Mass, Bound::Positive, "\"32 g\""),
-            Self::MassRatio => number(Bound::Positive, "0.0077"),
-            Self::Mass => form(Written::Mass, Bound::Positive, "\"4.168 kg\""),
-            Self::Stiffness => form(Written::Stiffness, Bound::Positive, "\"11.47 kN/m\""),
-            Self::Damping => form(Written::Damping, Bound::NotNegative, "\"3.02 N s/m\""),
-            Self::DampingRatio => number(Bound::NotNegative, "0.0069"),
-            Self::InitialDisplacement | Self::InitialAbsorberDisplacement => {
-                form(Written::Length, Bound::Any, "\"5 mm\"")
-            }
-            Self::InitialVelocity | Self::InitialAbsorberVelocity => {
-                form(Written::Velocity, Bound::Any, "\"0.2 m/s\"")
-            }
+            Self::InitialDisplacement => of_start(Length::OF, "\"5 mm\"", "x_0"),
+            Self::InitialVelocity => of_start(Velocity::OF, "\"0.2 m/s\"", r"\dot{x}_0"),
+            Self::InitialAbsorberDisplacement => of_start(Length::OF, "\"5 mm\"", "y_0"),
+            Self::InitialAbsorberVelocity => of_start(Velocity::OF, "\"0.2 m/s\"", r"\dot{y}_0"),
+            _ => Form::of(self.schema(design)?),
         }
+    }
+
+    fn schema(self, design: &Design) -> Option<&'static Value> {
+        let [table, key] = self.place(design)?;
+        let schema = &SCHEMA["properties"][table];
+        let kind = match design {
+            Design::Physical(physical) if self == Self::Amplitude => physical.excitation,
+            _ => return Some(&schema["properties"][key]),
+        };
+        let force = matches!(kind, PhysicalExcitation::Force { .. });
+        let kind = if force { Kind::Force } else { Kind::BaseDisplacement };
+        let branch = Kind::ALL.iter().position(|one| *one == kind)?;
+        Some(&schema["oneOf"][branch]["properties"][key])
     }
 
     /// The unit of its values beside a design: an SI unit, or "1".
     pub fn unit(self, design: &Design) -> &'static str {
-        match self.form(design) {
-            // Lengths of a reduced design are in a unit of its own.
-            Some(form) => form.written.unit(),
-            None => LengthUnit::Own.symbol(),
-        }
+        // Lengths of a reduced design are in a unit of its own.
+        self.form(design).map_or(LengthUnit::Own.symbol(), |form| form.unit())
     }
 
     /// Its value in a design; `None` for a part of the start, or what the design has not.
     pub fn of(self, design: &Design) -> Option<f64> {
-        match design {
-            Design::Physical(p) => Some(match self {
-                Self::Clearance => p.clearance_m,
-                Self::Frequency => p.frequency_hz,
-                Self::Amplitude => match p.excitation {
-                    PhysicalExcitation::BaseDisplacement { amplitude_m } => amplitude_m,
-                    PhysicalExcitation::Force { amplitude_n } => amplitude_n,
-                },
-                Self::Restitution => p.restitution,
-                Self::AbsorberMass => p.absorber_mass_kg,
-                Self::MassRatio => p.absorber_mass_kg / p.mass_kg,
-                Self::Mass => p.mass_kg,
-                Self::Stiffness => p.stiffness_n_per_m,
-                Self::Damping => p.damping_n_s_per_m,
-                Self::DampingRatio => p.damping_n_s_per_m / p.critical_damping_n_s_per_m(),
-                _ => return None,
+        match (self, design) {
+            (Self::MassRatio, Design::Physical(p)) => Some(p.absorber_mass_kg / p.mass_kg),
+            (Self::DampingRatio, Design::Physical(p)) => {
+                Some(p.damping_n_s_per_m / p.critical_damping_n_s_per_m())
+            }
+            (Self::Frequency, Design::Reduced(r)) => Some(match r.tuning {
+                Tuning::FrequencyRatio(ratio) => ratio,
+                Tuning::Detuning(detuning) => libm::fma(r.mass_ratio, detuning, 1.0),
             }),
-            Design::Reduced(r) => Some(match self {
-                Self::Clearance => r.clearance,
-                Self::Frequency => match r.tuning {
-                    Tuning::FrequencyRatio(ratio) => ratio,
-                    Tuning::Detuning(detuning) => libm::fma(r.mass_ratio, detuning, 1.0),
-                },
-                Self::Detuning => match r.tuning {
-                    Tuning::FrequencyRatio(ratio) => (ratio - 1.0) / r.mass_ratio,
-                    Tuning::Detuning(detuning) => detuning,
-                },
-                Self::Amplitude => r.forcing,
-                Self::Restitution => r.restitution,
-                Self::MassRatio => r.mass_ratio,
-                Self::Damping => r.damping,
-                _ => return None,
+            (Self::Detuning, Design::Reduced(r)) => Some(match r.tuning {
+                Tuning::FrequencyRatio(ratio) => (ratio - 1.0) / r.mass_ratio,
+                Tuning::Detuning(detuning) => detuning,
             }),
+            _ => self.number(&mut design.clone()).copied(),
         }
     }
 
@@ -309,40 +198,39 @@ impl SweepParameter {
     #[must_use]
     pub fn applied(self, design: &Design, value: f64) -> Design {
         let mut changed = *design;
-        match &mut changed {
-            Design::Physical(p) => match self {
-                Self::Clearance => p.clearance_m = value,
-                Self::Frequency => p.frequency_hz = value,
-                Self::Amplitude => {
-                    p.excitation = match p.excitation {
-                        PhysicalExcitation::BaseDisplacement { .. } => {
-                            PhysicalExcitation::BaseDisplacement { amplitude_m: value }
-                        }
-                        PhysicalExcitation::Force { .. } => {
-                            PhysicalExcitation::Force { amplitude_n: value }
-                        }
-                    }
+        match (self, &mut changed) {
+            (Self::MassRatio, Design::Physical(p)) => p.absorber_mass_kg = value * p.mass_kg,
+            (Self::DampingRatio, Design::Physical(p)) => {
+                p.damping_n_s_per_m = value * p.critical_damping_n_s_per_m();
+            }
+            (Self::Frequency, Design::Reduced(r)) => r.tuning = Tuning::FrequencyRatio(value),
+            (Self::Detuning, Design::Reduced(r)) => r.tuning = Tuning::Detuning(value),
+            (_, changed) => {
+                if let Some(number) = self.number(changed) {
+                    *number = value;
                 }
-                Self::Restitution => p.restitution = value,
-                Self::AbsorberMass => p.absorber_mass_kg = value,
-                Self::MassRatio => p.absorber_mass_kg = value * p.mass_kg,
-                Self::Mass => p.mass_kg = value,
-                Self::Stiffness => p.stiffness_n_per_m = value,
-                Self::Damping => p.damping_n_s_per_m = value,
-                Self::DampingRatio => p.damping_n_s_per_m = value * p.critical_damping_n_s_per_m(),
-                _ => {}
-            },
-            Design::Reduced(r) => match self {
-                Self::Clearance => r.clearance = value,
-                Self::Frequency => r.tuning = Tuning::FrequencyRatio(value),
-                Self::Detuning => r.tuning = Tuning::Detuning(value),
-                Self::Amplitude => r.forcing = value,
-                Self::Restitution => r.restitution = value,
-                Self::MassRatio => r.mass_ratio = value,
-                Self::Damping => r.damping = value,
-                _ => {}
-            },
+            }
         }
         changed
+    }
+
+    /// The number of a design that is the parameter itself, neither a ratio nor a detuning.
+    fn number(self, design: &mut Design) -> Option<&mut f64> {
+        Some(match (self, design) {
+            (Self::Clearance, Design::Physical(p)) => &mut p.clearance_m,
+            (Self::Frequency, Design::Physical(p)) => &mut p.frequency_hz,
+            (Self::Amplitude, Design::Physical(p)) => p.excitation.amplitude_mut(),
+            (Self::Restitution, Design::Physical(p)) => &mut p.restitution,
+            (Self::AbsorberMass, Design::Physical(p)) => &mut p.absorber_mass_kg,
+            (Self::Mass, Design::Physical(p)) => &mut p.mass_kg,
+            (Self::Stiffness, Design::Physical(p)) => &mut p.stiffness_n_per_m,
+            (Self::Damping, Design::Physical(p)) => &mut p.damping_n_s_per_m,
+            (Self::Clearance, Design::Reduced(r)) => &mut r.clearance,
+            (Self::Amplitude, Design::Reduced(r)) => &mut r.forcing,
+            (Self::Restitution, Design::Reduced(r)) => &mut r.restitution,
+            (Self::MassRatio, Design::Reduced(r)) => &mut r.mass_ratio,
+            (Self::Damping, Design::Reduced(r)) => &mut r.damping,
+            _ => return None,
+        })
     }
 }
