@@ -286,7 +286,7 @@ fn long_work_says_how_far_it_is() {
     let out = folder.path().to_str().expect("UTF-8");
     let commands: [(&[&str], &str); 4] = [
         (&["simulate"], "simulating: 4 of 4, ending"),
-        (&["report", "--out", out], "case: 4 of 14, about"),
+        (&["report", "--out", out], "case: 5 of 14, about"),
         (&["tradeoff", "--format", "json"], "layers: 4 of"),
         (&["sweep", "--dry-run"], "sample: 8 of 8, ending"),
     ];
