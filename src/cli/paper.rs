@@ -5,9 +5,11 @@ use std::path::PathBuf;
 use clap::Args;
 use miette::{IntoDiagnostic, Result};
 use vinesink::case::Case;
-use vinesink::report::figures;
+use vinesink::report::document::Document;
 use vinesink::report::paper::{CASES, CaseReport, Paper, TRANSFER};
+use vinesink::report::{figures, template};
 use vinesink::store;
+use vinesink::study::plots::Plot;
 use vinesink::study::{CaseStudy, StudyEffort};
 
 use super::progress::Progress;
@@ -44,7 +46,9 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
         let effort = StudyEffort::of(&case.simulation);
         let mut advance = |done| progress.advance(done);
         let study = CaseStudy::of(&case.system(), effort, &mut advance).into_diagnostic()?;
-        let figures = figures::all(&case, &study).into_diagnostic()?;
+        let plots = Plot::all(&case, &study).into_diagnostic()?;
+        let drawn = figures::all(&case, &study, &plots);
+        let figures = template::worded(drawn, &Document::units(&case)).into_diagnostic()?;
         members.push(CaseReport { name: name.to_owned(), case, study, figures });
     }
     let text = Paper::of(&members).and_then(|page| page.markdown()).into_diagnostic()?;

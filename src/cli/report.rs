@@ -11,6 +11,7 @@ use vinesink::report::document::{Document, Source};
 use vinesink::report::{equations, figures, render, template};
 use vinesink::store::{self, Stale};
 use vinesink::study::fidelity::Plan;
+use vinesink::study::plots::Plot;
 use vinesink::study::{CaseStudy, StudyEffort};
 
 use super::budget::{Long, Work};
@@ -182,7 +183,8 @@ fn rendered(path: &Path, name: &str, arguments: &Arguments) -> Result<(Files, Ou
         _ => criteria::judge(&case, &survey(&criteria::settings(&case))?),
     };
     let units = Document::units(&case);
-    let drawn = figures::all(&case, &study).into_diagnostic()?;
+    let plots = Plot::all(&case, &study).into_diagnostic()?;
+    let drawn = figures::all(&case, &study, &plots);
     let drawn = template::worded(drawn, &units).into_diagnostic()?;
     progress.advance(FURTHER_STEPS / 2);
     let document = Document::of(&Source {

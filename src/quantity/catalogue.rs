@@ -141,7 +141,7 @@ catalogue! {
     EFFICIENCY = "transfer_efficiency", "", "share of the work that impacts dissipate", Share, Significant(2), Interval;
     OSCILLATOR_AMPLITUDE = "oscillator_amplitude", "C", "amplitude of the oscillator", Length, Significant(4), Interval;
     ABSORBER_AMPLITUDE = "absorber_amplitude", "B", "amplitude of the absorber", Length, Significant(4), Interval;
-    ABSORBER_AMPLITUDE_RATIO = "absorber_amplitude_over_clearance", "B/b", "amplitude of the absorber over the clearance", Number, Significant(3), Interval;
+    ABSORBER_AMPLITUDE_RATIO = "absorber_amplitude_over_clearance", "B/b", "absorber amplitude", Number, Significant(3), Interval;
     ETA = "eta", "η", "phase of the oscillator", Angle, Decimals(3), Interval;
     THETA = "theta", "Θ", "phase of the absorber", Angle, Decimals(3), Interval;
     TRACE = "trace", "", "trace", Number, Significant(3), Interval;
@@ -164,6 +164,18 @@ catalogue! {
     A2_SHARE = "a2_share", "", "share in strip A2", Share, Significant(3), Interval;
     STABLE_SHARE = "stable_share", "", "share with a stable 1:1 orbit", Share, Significant(3), Interval;
     REDUCTION_DB = "reduction_db", "", "reduction against the structure without absorber", Level, Decimals(1), Interval;
+    OSCILLATOR_AMPLITUDE_RATIO = "oscillator_amplitude_over_clearance", "C/b", "oscillator amplitude", Number, Significant(3), Interval;
+    HARMONIC_AMPLITUDE = "harmonic_amplitude", "E", "first harmonic of the absorber", Length, Significant(3), Interval;
+    HARMONIC_AMPLITUDE_RATIO = "harmonic_amplitude_over_clearance", "E/b", "first harmonic of the absorber", Number, Significant(3), Interval;
+    TIME = "time", "t", "time", Time, Significant(4), Interval;
+    DISPLACEMENT = "displacement", "x", "displacement", Length, Significant(3), Interval;
+    RELATIVE_DISPLACEMENT = "relative_displacement", "w", "relative displacement", Length, Significant(3), Interval;
+    VELOCITY = "velocity", "ẋ", "velocity", Velocity, Significant(3), Interval;
+    ACCELERATION = "acceleration", "ẍ", "acceleration", Acceleration, Significant(3), Interval;
+    IMPULSE = "impulse", "", "impulse", Impulse, Significant(3), Interval;
+    IMPACT_INTERVAL = "impact_interval", "Δt/T", "time between impacts", Number, Significant(3), Interval;
+    NEXT_INTERVAL = "next_impact_interval", "Δtₖ₊₁/T", "the next one", Number, Significant(3), Interval;
+    WINDOW = "window", "", "window in excitation periods", Number, Significant(3), Interval;
     REDUCTION_DB_TMD = "reduction_db_tmd", "", "reduction against a tuned mass damper", Level, Decimals(1), Interval;
 }
 

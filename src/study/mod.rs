@@ -6,6 +6,7 @@ pub mod diagrams;
 pub mod exact_branches;
 pub mod fidelity;
 pub mod margins;
+pub mod plots;
 pub mod proofs;
 pub mod scenes;
 pub mod stretches;

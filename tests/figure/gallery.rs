@@ -207,7 +207,11 @@ fn motion() -> Figure {
     .with_heading("projection");
     Figure::new("motion", "A modulated response")
         .with_size(860, 420)
-        .with_layout(Layout::TimeSeriesAndProjection)
+        .with_layout(Layout::cells(
+            &[1.15, 1.0],
+            &[1.0, 1.0],
+            &[[0, 0, 1, 1], [0, 1, 1, 1], [1, 0, 1, 2]],
+        ))
         .with_panel(top.with_heading("time series"))
         .with_panel(low)
         .with_panel(side)

@@ -1,6 +1,6 @@
 //! Places that a label could take, and how good each would be.
 
-use super::geometry::{Rect, in_polygon};
+use super::geometry::{Rect, in_polygon, square_distance};
 use super::text::Anchor;
 
 /// The eight sides of a point, the liked ones first: `[right, down]`, and a small penalty.
@@ -156,19 +156,9 @@ fn within(area: &[[f64; 2]], size: [f64; 2]) -> Vec<Candidate> {
 
 /// The distance of a point from the edges of an area.
 fn depth(area: &[[f64; 2]], p: [f64; 2]) -> f64 {
-    let mut least = f64::INFINITY;
-    for (i, b) in area.iter().enumerate() {
-        let a = area[(i + area.len() - 1) % area.len()];
-        let d = [b[0] - a[0], b[1] - a[1]];
-        let square = d[0] * d[0] + d[1] * d[1];
-        let t = if square > 0.0 {
-            (((p[0] - a[0]) * d[0] + (p[1] - a[1]) * d[1]) / square).clamp(0.0, 1.0)
-        } else {
-            0.0
-        };
-        least = least.min(libm::hypot(p[0] - a[0] - t * d[0], p[1] - a[1] - t * d[1]));
-    }
-    least
+    let before = |i: usize| area[(i + area.len() - 1) % area.len()];
+    let edges = area.iter().enumerate().map(|(i, b)| square_distance(p, before(i), *b));
+    edges.fold(f64::INFINITY, f64::min).sqrt()
 }
 
 /// Beside a point, then further and further from it, with a leader where that is far.

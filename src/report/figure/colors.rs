@@ -6,10 +6,8 @@
 
 use std::f64::consts::PI;
 
-use serde::Serialize;
-
 /// A colour of an area: red, green and blue of sRGB, from 0 to 255.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Tint(pub [u8; 3]);
 
 impl Tint {
@@ -56,8 +54,7 @@ fn linear_of_lab([lightness, a, b]: [f64; 3]) -> [f64; 3] {
 }
 
 /// From values to colours.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ramp {
     /// From light yellow over green to dark blue: a helix of constant chroma.
     Sequential,

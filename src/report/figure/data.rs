@@ -1,12 +1,10 @@
 //! What a figure is: plain data, in the units of its axes.
 
-use serde::Serialize;
-
 use super::colors::Tint;
 use super::layers::Layer;
 
 /// A figure: one or more panels, and the words that go with them.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Figure {
     /// The file's stem.
     pub name: String,
@@ -17,7 +15,6 @@ pub struct Figure {
     /// What to see, for those who cannot see the figure; it is not drawn.
     pub alt: String,
     /// What title, caption and alternative text are made from; none where they are set.
-    #[serde(skip)]
     pub facts: Option<Facts>,
     /// Width and height in pixels.
     pub size: (u32, u32),
@@ -39,7 +36,7 @@ pub struct Facts {
 }
 
 /// A tint and what it stands for.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Key {
     /// The tint.
     pub tint: Tint,
@@ -109,20 +106,12 @@ impl Figure {
 
 /// Where the panels go. Panels one above the other whose x axes have the same label and scale share
 /// that axis: one range, and the words only at the lowest.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Layout {
     /// Side by side; also right for a single panel.
     Row,
     /// One above the other.
     Column,
-    /// Row by row, with that many columns.
-    Grid {
-        /// The number of columns.
-        columns: usize,
-    },
-    /// All panels but the last one above the other on the left, the last one on the right over the full height.
-    TimeSeriesAndProjection,
     /// Anything else.
     Cells {
         /// Relative widths of the columns.
@@ -135,31 +124,40 @@ pub enum Layout {
 }
 
 impl Layout {
+    /// A grid with relative widths of its columns and heights of its rows, and for each panel the first column
+    /// and row of its cell and how many it takes.
+    #[must_use]
+    pub fn cells(widths: &[f64], heights: &[f64], cells: &[[usize; 4]]) -> Self {
+        let cell = |[column, row, columns, rows]: &[usize; 4]| Cell {
+            column: *column,
+            row: *row,
+            columns: *columns,
+            rows: *rows,
+        };
+        Self::Cells {
+            widths: widths.to_vec(),
+            heights: heights.to_vec(),
+            cells: cells.iter().map(cell).collect(),
+        }
+    }
+
     /// Panels side by side, with these relative widths.
     #[must_use]
     pub fn columns(widths: &[f64]) -> Self {
-        let cell = |column| Cell { column, row: 0, columns: 1, rows: 1 };
-        Self::Cells {
-            widths: widths.to_vec(),
-            heights: vec![1.0],
-            cells: (0..widths.len()).map(cell).collect(),
-        }
+        let cells: Vec<[usize; 4]> = (0..widths.len()).map(|column| [column, 0, 1, 1]).collect();
+        Self::cells(widths, &[1.0], &cells)
     }
 
     /// Panels one above the other, with these relative heights.
     #[must_use]
     pub fn rows(heights: &[f64]) -> Self {
-        let cell = |row| Cell { column: 0, row, columns: 1, rows: 1 };
-        Self::Cells {
-            widths: vec![1.0],
-            heights: heights.to_vec(),
-            cells: (0..heights.len()).map(cell).collect(),
-        }
+        let cells: Vec<[usize; 4]> = (0..heights.len()).map(|row| [0, row, 1, 1]).collect();
+        Self::cells(&[1.0], heights, &cells)
     }
 }
 
 /// A rectangle of grid cells.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Cell {
     /// First column, from 0.
     pub column: usize,
@@ -172,7 +170,7 @@ pub struct Cell {
 }
 
 /// One pair of axes and what is drawn between them.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Panel {
     /// The horizontal axis.
     pub x: Axis,
@@ -216,7 +214,7 @@ impl Panel {
 }
 
 /// An axis.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
     /// Name, symbol and unit: `clearance b (mm)`.
     pub label: String,
@@ -255,8 +253,7 @@ impl Axis {
 }
 
 /// How values become lengths.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scale {
     /// In proportion.
     Linear,
@@ -265,10 +262,10 @@ pub enum Scale {
 }
 
 /// A tick at a given value.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Tick {
     /// Where.
     pub value: f64,
-    /// What to write; the number itself if absent.
+    /// What to write; nothing beside a minor tick.
     pub label: Option<String>,
 }

@@ -149,3 +149,13 @@ pub(super) fn in_polygon(corners: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
     }
     inside
 }
+
+/// The squared distance of a point from a segment (not from the line through it: a curve may turn back).
+pub(super) fn square_distance(p: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
+    let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
+    let square = dx * dx + dy * dy;
+    let t = if square > 0.0 { ((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / square } else { 0.0 };
+    let t = t.clamp(0.0, 1.0);
+    let (ex, ey) = (p[0] - a[0] - t * dx, p[1] - a[1] - t * dy);
+    ex * ex + ey * ey
+}

@@ -1,16 +1,14 @@
 //! A panel's cells as an image: one colour a cell, in a PNG inside the drawing.
 
-use base64::Engine;
-use base64::engine::general_purpose::STANDARD;
-use serde::Serialize;
-
 use super::colors::{Ramp, Tint};
 use super::data::Scale;
 use super::geometry::Rect;
 use super::limits::Span;
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 
 /// Cells of a grid with their boundaries in data coordinates.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Image {
     /// Where columns begin and end, ascending; one more than there are columns.
     pub x_edges: Vec<f64>,
@@ -21,8 +19,7 @@ pub struct Image {
 }
 
 /// What cells hold.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Cells {
     /// Kinds, at most 255 of them: which of the tints, or nothing where none is known.
     Kinds(Vec<Tint>, Vec<Option<u8>>),
@@ -125,56 +122,58 @@ fn thinned(cells: &[usize], one_in: usize) -> Vec<usize> {
     (0..count).map(|k| cells[(2 * k + 1) * cells.len() / (2 * count)]).collect()
 }
 
+/// What an image's cells hold as numbers of a palette, the last of which is for what is not known.
+struct Indexed<'a> {
+    palette: Vec<Tint>,
+    colour: Box<dyn Fn(usize) -> u8 + 'a>,
+}
+
+impl<'a> Indexed<'a> {
+    /// Values take one of so many levels.
+    fn of(image: &'a Image, levels: f64) -> Self {
+        let (mut palette, colour): (Vec<Tint>, Box<dyn Fn(usize) -> u8 + 'a>) = match &image.cells {
+            Cells::Kinds(tints, cells) => {
+                let unknown = tints.len() as u8;
+                let of = move |cell: usize| cells.get(cell).copied().flatten().unwrap_or(unknown);
+                (tints.clone(), Box::new(of))
+            }
+            Cells::Values(ramp, (low, high), cells) => {
+                let (low, span) = (*low, high - low);
+                let tint = |k: u32| {
+                    let value = low + span * (f64::from(k) + 0.5) / levels;
+                    ramp.tint(value, (low, low + span))
+                };
+                let level = move |value: f64| {
+                    ((value - low) / span * levels).floor().clamp(0.0, levels - 1.0) as u8
+                };
+                let of = move |cell: usize| {
+                    cells.get(cell).copied().flatten().map_or(levels as u8, level)
+                };
+                ((0..levels as u32).map(tint).collect(), Box::new(of))
+            }
+        };
+        palette.push(Tint::UNKNOWN);
+        Self { palette, colour }
+    }
+}
+
 /// The image as a URL that holds it; coarser where it would be too large: first fewer levels, then fewer
 /// pixels.
 pub(super) fn url(image: &Image, placed: &Placed, coarseness: f64) -> String {
+    let kinds = matches!(image.cells, Cells::Kinds(..));
+    let one_in = if kinds { coarseness } else { (coarseness / 4.0).max(1.0) } as usize;
+    let Indexed { palette, colour } = Indexed::of(image, (LEVELS / coarseness).max(FEWEST_LEVELS));
     let across = image.x_edges.len() - 1;
-    let (palette, pixels) = match &image.cells {
-        Cells::Kinds(tints, cells) => {
-            let one_in = coarseness as usize;
-            let unknown = tints.len() as u8;
-            let colour = |cell: usize| cells.get(cell).copied().flatten().unwrap_or(unknown);
-            let palette: Vec<Tint> = tints.iter().copied().chain([Tint::UNKNOWN]).collect();
-            (palette, picked(placed, across, one_in, &colour))
-        }
-        Cells::Values(ramp, (low, high), cells) => {
-            let one_in = (coarseness / 4.0).max(1.0) as usize;
-            let levels = (LEVELS / coarseness).max(FEWEST_LEVELS);
-            let tint = |k: u32| {
-                let value = low + (high - low) * (f64::from(k) + 0.5) / levels;
-                ramp.tint(value, (*low, *high))
-            };
-            let palette: Vec<Tint> = (0..levels as u32).map(tint).chain([Tint::UNKNOWN]).collect();
-            let colour = |cell: usize| match cells.get(cell).copied().flatten() {
-                Some(value) => {
-                    let level = (value - low) / (high - low) * levels;
-                    level.floor().clamp(0.0, levels - 1.0) as u8
-                }
-                None => levels as u8,
-            };
-            (palette, picked(placed, across, one_in, &colour))
-        }
-    };
+    let (columns, rows) = (thinned(&placed.columns, one_in), thinned(&placed.rows, one_in));
+    let row = |row: &usize| columns.iter().map(|column| colour(row * across + column)).collect();
+    let pixels: Vec<Vec<u8>> = rows.iter().map(row).collect();
     format!("data:image/png;base64,{}", STANDARD.encode(png(&palette, &pixels)))
 }
 
 /// The image in a few large blocks: each tint with its rectangles.
 pub(super) fn blocks(image: &Image, placed: &Placed) -> Vec<(Tint, Vec<Rect>)> {
     let across = image.x_edges.len() - 1;
-    let tint = |cell: usize| match &image.cells {
-        Cells::Kinds(tints, cells) => {
-            let kind = cells.get(cell).copied().flatten();
-            kind.and_then(|kind| tints.get(usize::from(kind)).copied()).unwrap_or(Tint::UNKNOWN)
-        }
-        Cells::Values(ramp, range, cells) => match cells.get(cell).copied().flatten() {
-            Some(value) => {
-                let part = ((value - range.0) / (range.1 - range.0)).clamp(0.0, 1.0);
-                let level = (part * BLOCK_LEVELS).floor().min(BLOCK_LEVELS - 1.0) + 0.5;
-                ramp.tint(range.0 + (range.1 - range.0) * level / BLOCK_LEVELS, *range)
-            }
-            None => Tint::UNKNOWN,
-        },
-    };
+    let Indexed { palette, colour } = Indexed::of(image, BLOCK_LEVELS);
     let sampled = |cells: &[usize], most: usize| thinned(cells, cells.len().div_ceil(most));
     let (columns, rows) = (sampled(&placed.columns, BLOCKS[0]), sampled(&placed.rows, BLOCKS[1]));
     let place = &placed.place;
@@ -182,7 +181,8 @@ pub(super) fn blocks(image: &Image, placed: &Placed) -> Vec<(Tint, Vec<Rect>)> {
     let y = |k: usize| place.top + place.height() * k as f64 / rows.len() as f64;
     let mut found: Vec<(Tint, Vec<Rect>)> = Vec::new();
     for (row, cells) in rows.iter().enumerate() {
-        let tints: Vec<Tint> = columns.iter().map(|column| tint(cells * across + column)).collect();
+        let tint = |column: &usize| palette[usize::from(colour(cells * across + column))];
+        let tints: Vec<Tint> = columns.iter().map(tint).collect();
         let mut begin = 0;
         for run in tints.chunk_by(|a, b| a == b) {
             let rect = Rect::new(x(begin), y(row), x(begin + run.len()), y(row + 1));
@@ -194,19 +194,6 @@ pub(super) fn blocks(image: &Image, placed: &Placed) -> Vec<(Tint, Vec<Rect>)> {
         }
     }
     found
-}
-
-/// The palette's number for every pixel, row by row from the top.
-fn picked(
-    placed: &Placed,
-    across: usize,
-    one_in: usize,
-    colour: &dyn Fn(usize) -> u8,
-) -> Vec<Vec<u8>> {
-    let columns = thinned(&placed.columns, one_in);
-    let rows = thinned(&placed.rows, one_in);
-    let row = |row: &usize| columns.iter().map(|column| colour(row * across + column)).collect();
-    rows.iter().map(row).collect()
 }
 
 /// A file with a palette, as few bits to a pixel as it takes, and the better of two filters.

@@ -1,13 +1,10 @@
 //! What is drawn in a panel: plain data, in the units of its axes.
 
-use serde::Serialize;
-
 use super::image::Image;
 use super::palette::{Color, Marker, Role, Style};
 
 /// Something drawn in a panel.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[serde(rename_all = "kebab-case", tag = "kind")]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Layer {
     /// A line through points; a value that is not finite interrupts it.
     Curve {
@@ -137,7 +134,7 @@ impl Layer {
 
 /// The name of a layer. It is written beside the data where that is possible without covering
 /// anything, and in a row above the panel where it is not.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Label {
     /// The words.
     pub text: String,
@@ -165,7 +162,7 @@ impl From<String> for Label {
 }
 
 /// A point with what can be said about it.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct MarkedPoint {
     /// Abscissa.
     pub x: f64,
@@ -206,7 +203,7 @@ impl From<[f64; 2]> for MarkedPoint {
 }
 
 /// How an area is filled.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fill {
     /// Its colour.
     pub color: Color,
@@ -231,8 +228,7 @@ impl Fill {
 }
 
 /// Lines across an area.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Hatch {
     /// None.
     None,
@@ -243,8 +239,7 @@ pub enum Hatch {
 }
 
 /// A straight line, in data coordinates.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Rule {
     /// At one ordinate.
     Horizontal(f64),

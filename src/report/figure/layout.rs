@@ -1,12 +1,14 @@
 //! Where the panels are: margins adapt to the words, so that nothing is cut.
 
+use std::collections::BTreeMap;
+
 use super::data::{Axis, Cell, Figure, Layout, Panel, Scale};
 use super::error::FigureError;
 use super::geometry::Rect;
 use super::layers::Layer;
 use super::limits::{Span, Spans, spans};
 use super::text::{self, LARGE, SMALL, width, wrap};
-use super::ticks::{Mark, shortest, ticks};
+use super::ticks::{Mark, ticks};
 
 /// From the plot to the nearest tick label, pixels.
 pub(super) const TICK: f64 = 9.0;
@@ -67,51 +69,32 @@ struct Grid {
 }
 
 fn grid(figure: &Figure) -> Result<Grid, FigureError> {
-    let count = figure.panels.len();
-    let cell = |column, row| Cell { column, row, columns: 1, rows: 1 };
-    let even = |columns: usize, rows: usize, cells| Grid {
-        widths: vec![1.0; columns],
-        heights: vec![1.0; rows],
-        cells,
+    let even = vec![1.0; figure.panels.len()];
+    let layout = match &figure.layout {
+        Layout::Row => &Layout::columns(&even),
+        Layout::Column => &Layout::rows(&even),
+        cells => cells,
     };
-    let grid = match &figure.layout {
-        Layout::Row => even(count, 1, (0..count).map(|i| cell(i, 0)).collect()),
-        Layout::Column => even(1, count, (0..count).map(|i| cell(0, i)).collect()),
-        Layout::Grid { columns } => {
-            let n = (*columns).clamp(1, count);
-            even(n, count.div_ceil(n), (0..count).map(|i| cell(i % n, i / n)).collect())
-        }
-        Layout::TimeSeriesAndProjection => {
-            let rows = (count - 1).max(1);
-            let mut cells: Vec<Cell> = (0..count - 1).map(|i| cell(0, i)).collect();
-            cells.push(Cell { column: usize::from(count > 1), row: 0, columns: 1, rows });
-            let widths = if count > 1 { vec![1.15, 1.0] } else { vec![1.0] };
-            Grid { widths, heights: vec![1.0; rows], cells }
-        }
-        Layout::Cells { widths, heights, cells } => {
-            Grid { widths: widths.clone(), heights: heights.clone(), cells: cells.clone() }
-        }
+    let Layout::Cells { widths, heights, cells } = layout.clone() else {
+        unreachable!("rows and columns are cells")
     };
-    check(figure, grid)
-}
-
-fn check(figure: &Figure, grid: Grid) -> Result<Grid, FigureError> {
-    let wrong = |reason: String| FigureError::Layout { name: figure.name.clone(), reason };
-    if grid.cells.len() != figure.panels.len() {
-        let (cells, panels) = (grid.cells.len(), figure.panels.len());
-        return Err(wrong(format!("{panels} panels, but {cells} cells for them")));
+    let wrong = |reason: String| Err(FigureError::Layout { name: figure.name.clone(), reason });
+    if cells.len() != figure.panels.len() {
+        let panels = figure.panels.len();
+        return wrong(format!("{panels} panels, but {} cells for them", cells.len()));
     }
-    if let Some(w) = grid.widths.iter().chain(&grid.heights).find(|w| !(**w > 0.0 && **w < 1e6)) {
-        return Err(wrong(format!("a relative width or height is {w}, expected above 0")));
+    if let Some(w) = widths.iter().chain(&heights).find(|w| !(**w > 0.0 && **w < 1e6)) {
+        return wrong(format!("a relative width or height is {w}, expected above 0"));
     }
-    for (i, c) in grid.cells.iter().enumerate() {
-        let inside =
-            c.column + c.columns <= grid.widths.len() && c.row + c.rows <= grid.heights.len();
-        if !inside || c.columns == 0 || c.rows == 0 {
-            return Err(wrong(format!("the cell of panel {i} is empty or outside the grid")));
-        }
+    let fits = |c: &Cell| {
+        c.column + c.columns <= widths.len()
+            && c.row + c.rows <= heights.len()
+            && c.columns * c.rows > 0
+    };
+    if let Some(i) = cells.iter().position(|cell| !fits(cell)) {
+        return wrong(format!("the cell of panel {i} is empty or outside the grid"));
     }
-    Ok(grid)
+    Ok(Grid { widths, heights, cells })
 }
 
 /// Panels one above the other with the same horizontal axis.
@@ -175,22 +158,19 @@ pub(super) fn lay_out(figure: &Figure, legends: &[Vec<usize>]) -> Result<Vec<Fra
 /// Gives the vertical axes of a column their words at the same distance, and the panels of a row
 /// their headings at the same height.
 fn align(grid: &Grid, frames: &mut [Frame]) {
-    for column in 0..grid.widths.len() {
-        let of = |i: &usize| grid.cells[*i].column == column;
-        let members: Vec<usize> = (0..frames.len()).filter(of).collect();
-        let room = members.iter().map(|&i| frames[i].tick_room).fold(0.0, f64::max);
-        for i in members {
-            frames[i].tick_room = room;
-        }
-    }
-    for row in 0..grid.heights.len() {
-        let of = |i: &usize| grid.cells[*i].row == row;
-        let members: Vec<usize> = (0..frames.len()).filter(of).collect();
-        let room = members.iter().map(|&i| frames[i].legend_room).fold(0.0, f64::max);
-        for i in members {
-            frames[i].legend_room = room;
-        }
-    }
+    let share =
+        |frames: &mut [Frame], track: fn(&Cell) -> usize, room: fn(&mut Frame) -> &mut f64| {
+            let mut largest: BTreeMap<usize, f64> = BTreeMap::new();
+            for (cell, frame) in grid.cells.iter().zip(frames.iter_mut()) {
+                let most = largest.entry(track(cell)).or_default();
+                *most = most.max(*room(frame));
+            }
+            for (cell, frame) in grid.cells.iter().zip(frames) {
+                *room(frame) = largest[&track(cell)];
+            }
+        };
+    share(frames, |cell| cell.column, |frame| &mut frame.tick_room);
+    share(frames, |cell| cell.row, |frame| &mut frame.legend_room);
 }
 
 /// The plot, made smaller so that one unit is equally long on both axes.
@@ -237,10 +217,9 @@ fn fitting(axis: &Axis, span: &Span, length: f64, most: f64, ordinate: bool) -> 
         distance >= f64::midpoint(extent(a), extent(b)) + gap
     };
     if let Some(given) = &axis.ticks {
-        let words = |v: f64, l: &Option<String>| l.clone().unwrap_or_else(|| shortest(v));
         let mut marks: Vec<Mark> = Vec::new();
         for tick in given.iter().filter(|t| (-1e-9..=1.0 + 1e-9).contains(&span.part(t.value))) {
-            let mark = Mark { value: tick.value, words: words(tick.value, &tick.label) };
+            let mark = Mark { value: tick.value, words: tick.label.clone().unwrap_or_default() };
             let clear = marks.iter().filter(|m| !m.words.is_empty()).all(|m| free(m, &mark));
             marks.push(if clear { mark } else { Mark { words: String::new(), ..mark } });
         }
@@ -329,37 +308,39 @@ pub(super) fn label_of(layer: &Layer) -> Option<&super::layers::Label> {
     }
 }
 
-/// Legend entries in rows, the last row just above the plot.
-fn legend_places(panel: &Panel, legend: &[usize], room: f64) -> Vec<(usize, [f64; 2])> {
-    let (mut x, mut row, mut places) = (0.0, 0, Vec::new());
-    for &layer in legend {
-        let Some(label) = label_of(&panel.layers[layer]) else { continue };
-        let size = swatch(&panel.layers[layer]) + GAP + text::width(&label.text, SMALL);
+/// Entries of these widths in rows of some room: where each begins, and in which row.
+fn in_rows(widths: impl IntoIterator<Item = f64>, room: f64) -> Vec<(f64, f64)> {
+    let (mut x, mut row) = (0.0, 0.0);
+    let place = |size: f64| {
         if x > 0.0 && x + size > room {
-            (x, row) = (0.0, row + 1);
+            (x, row) = (0.0, row + 1.0);
         }
-        places.push((layer, [x, f64::from(row)]));
+        let at = (x, row);
         x += size + BETWEEN;
-    }
-    for (_, at) in &mut places {
-        at[1] = -(f64::from(row) - at[1] + 1.0) * LEGEND + 0.3 * LEGEND;
-    }
-    places
+        at
+    };
+    widths.into_iter().map(place).collect()
 }
 
-/// The middle of the left edge of each key's sample, from a left end; rows as in the legend.
+/// Legend entries, the last row just above the plot.
+fn legend_places(panel: &Panel, legend: &[usize], room: f64) -> Vec<(usize, [f64; 2])> {
+    let entry = |&index: &usize| {
+        let layer = &panel.layers[index];
+        Some((index, swatch(layer) + GAP + text::width(&label_of(layer)?.text, SMALL)))
+    };
+    let entries: Vec<(usize, f64)> = legend.iter().filter_map(entry).collect();
+    let places = in_rows(entries.iter().map(|(_, width)| *width), room);
+    let last = places.last().map_or(0.0, |(_, row)| *row);
+    let above = |row: f64| -(last - row + 1.0) * LEGEND + 0.3 * LEGEND;
+    let placed = entries.iter().zip(places);
+    placed.map(|((index, _), (x, row))| (*index, [x, above(row)])).collect()
+}
+
+/// The middle of the left edge of each key's sample, from a left end.
 pub(super) fn key_places(figure: &Figure, left: f64) -> Vec<[f64; 2]> {
-    let room = KEYS * f64::from(figure.size.0);
-    let (mut x, mut row, mut places) = (0.0, 0, Vec::new());
-    for key in &figure.keys {
-        let size = KEY + GAP + text::width(&key.label, SMALL);
-        if x > 0.0 && x + size > room {
-            (x, row) = (0.0, row + 1);
-        }
-        places.push([left + x, 8.0 + LEGEND * (f64::from(row) + 0.5)]);
-        x += size + BETWEEN;
-    }
-    places
+    let widths = figure.keys.iter().map(|key| KEY + GAP + text::width(&key.label, SMALL));
+    let places = in_rows(widths, KEYS * f64::from(figure.size.0));
+    places.into_iter().map(|(x, row)| [left + x, 8.0 + LEGEND * (row + 0.5)]).collect()
 }
 
 /// The height that the keys take.

@@ -79,15 +79,6 @@ pub(super) fn outline(marker: Marker, at: [f64; 2]) -> String {
     d
 }
 
-/// A marker as an element of its own, with some content.
-pub(super) fn element(marker: Marker, at: [f64; 2], content: &str) -> String {
-    if is_dot(marker) || marker.shape != Shape::Circle {
-        return format!("<path d=\"{}\">{content}</path>", outline(marker, at));
-    }
-    let ([x, y], r) = (at.map(tenths), tenths(marker.diameter / 2.0).max(1));
-    format!("<circle cx=\"{x}\" cy=\"{y}\" r=\"{r}\">{content}</circle>")
-}
-
 /// A star with five points as path data.
 pub(super) fn star(at: [f64; 2], radius: f64) -> String {
     let mut d = String::new();

@@ -4,7 +4,7 @@
 //! figure gives the same bytes. The way from one to the other:
 //!
 //! ```text
-//! Figure ─> limits ─> layout ─> shapes ─> labels ─┬─> frame (plotters: grid, axes, their words)
+//! Figure ─> limits ─> layout ─> shapes ─> labels ─┬─> frame (grid, axes, their words)
 //!                       ^                   │     └─> paint (data, names, tooltips)
 //!                       └── names without ──┘
 //!                           a place go to a legend

@@ -193,8 +193,8 @@ fn points_of(svg: &mut String, points: &[MarkedPoint], dots: &[Dot], marker: Mar
             0 | 1 => String::new(),
             count => format!(" (and {} more here)", count - 1),
         };
-        let title = format!("<title>{}{more}</title>", escape(said));
-        let _ = writeln!(svg, "{}", markers::element(marker, dot.at, &title));
+        let (d, said) = (markers::outline(marker, dot.at), escape(said));
+        let _ = writeln!(svg, "<path d=\"{d}\"><title>{said}{more}</title></path>");
     }
     svg.push_str("</g>\n");
 }

@@ -3,11 +3,8 @@
 //! The palette is Okabe and Ito's, which readers with any common colour vision can tell apart. A
 //! [`Role`] fixes colour, stroke and marker at once, so that a figure printed in grey says the same.
 
-use serde::Serialize;
-
 /// A colour of the Okabe-Ito palette, and the two greys of the background.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Color {
     /// `#000000`.
     Black,
@@ -37,41 +34,34 @@ impl Color {
     /// The colour as an SVG attribute's value.
     #[must_use]
     pub const fn hex(self) -> &'static str {
-        match self {
-            Self::Black => "#000000",
-            Self::Orange => "#E69F00",
-            Self::SkyBlue => "#56B4E9",
-            Self::BluishGreen => "#009E73",
-            Self::Yellow => "#F0E442",
-            Self::Blue => "#0072B2",
-            Self::Vermillion => "#D55E00",
-            Self::ReddishPurple => "#CC79A7",
-            Self::Grey => "#6E6E6E",
-            Self::Light => "#B8B8B8",
-            Self::White => "#FFFFFF",
-        }
+        self.codes()[0]
     }
 
     /// The same hue, dark enough for text on white (contrast at least 4.5 to 1).
     #[must_use]
     pub const fn text_hex(self) -> &'static str {
+        self.codes()[1]
+    }
+
+    const fn codes(self) -> [&'static str; 2] {
         match self {
-            Self::Black => "#000000",
-            Self::Orange => "#8F5F00",
-            Self::SkyBlue => "#1B6FA3",
-            Self::BluishGreen => "#007353",
-            Self::Yellow => "#6B6400",
-            Self::Blue => "#0067A1",
-            Self::Vermillion => "#B24E00",
-            Self::ReddishPurple => "#9C4478",
-            Self::Grey | Self::Light | Self::White => "#5A5A5A",
+            Self::Black => ["#000000", "#000000"],
+            Self::Orange => ["#E69F00", "#8F5F00"],
+            Self::SkyBlue => ["#56B4E9", "#1B6FA3"],
+            Self::BluishGreen => ["#009E73", "#007353"],
+            Self::Yellow => ["#F0E442", "#6B6400"],
+            Self::Blue => ["#0072B2", "#0067A1"],
+            Self::Vermillion => ["#D55E00", "#B24E00"],
+            Self::ReddishPurple => ["#CC79A7", "#9C4478"],
+            Self::Grey => ["#6E6E6E", "#5A5A5A"],
+            Self::Light => ["#B8B8B8", "#5A5A5A"],
+            Self::White => ["#FFFFFF", "#5A5A5A"],
         }
     }
 }
 
 /// How a line is interrupted.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Dash {
     /// Not at all.
     Solid,
@@ -100,7 +90,7 @@ impl Dash {
 }
 
 /// How a line looks.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Style {
     /// Its colour.
     pub color: Color,
@@ -124,9 +114,14 @@ impl Style {
     }
 }
 
+impl From<Role> for Style {
+    fn from(role: Role) -> Self {
+        role.style()
+    }
+}
+
 /// The outline of a marker.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Shape {
     /// A circle.
     Circle,
@@ -143,7 +138,7 @@ pub enum Shape {
 }
 
 /// How a point looks.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Marker {
     /// Its outline.
     pub shape: Shape,
@@ -180,8 +175,7 @@ impl Marker {
 }
 
 /// What a curve or a point stands for; it decides how it looks, the same in every figure.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Role {
     /// A stable branch: thick and solid.
     Stable,

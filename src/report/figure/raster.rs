@@ -69,11 +69,7 @@ impl Raster {
 
     /// Whether any of some bits is taken in a rectangle.
     pub(super) fn any(&self, rect: &Rect, bits: u64) -> bool {
-        let [left, right, top, bottom] = self.squares(rect);
-        (top..=bottom).any(|row| {
-            let row = &self.taken[row * self.columns..][left..=right];
-            row.iter().any(|square| square & bits != 0)
-        })
+        self.count(rect, bits) > 0
     }
 
     /// How many squares of a rectangle have any of some bits.

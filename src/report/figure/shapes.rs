@@ -1,11 +1,13 @@
 //! Layers in pixels: cut at the plot and reduced to what can be seen.
 
+use std::collections::BTreeMap;
+
 use super::data::Panel;
 use super::geometry::{Rect, clip_polygon, clip_polyline};
 use super::image::{Placed, placed};
 use super::layers::{Layer, MarkedPoint, Rule};
 use super::layout::Frame;
-use super::simplify::{merge, simplify};
+use super::simplify::simplify;
 
 /// A point to be drawn.
 #[derive(Debug, Clone)]
@@ -90,17 +92,30 @@ fn ends(rule: Rule, frame: &Frame) -> Option<[[f64; 2]; 2]> {
     }
 }
 
+/// The visible points; one that is closer than `distance` to an earlier one is represented by that one, unless
+/// it has a label.
 fn dots(points: &[MarkedPoint], frame: &Frame, distance: f64) -> Vec<Dot> {
     let edge = frame.plot.grown(0.5);
-    let inside: Vec<(usize, [f64; 2])> = points
-        .iter()
-        .enumerate()
-        .map(|(index, p)| (index, frame.map([p.x, p.y])))
-        .filter(|(_, at)| Rect::has(*at, &edge))
-        .collect();
-    let places: Vec<[f64; 2]> = inside.iter().map(|(_, at)| *at).collect();
-    merge(&places, distance, |i| points[inside[i].0].label.is_some())
-        .into_iter()
-        .map(|m| Dot { at: places[m.index], index: inside[m.index].0, count: m.count })
-        .collect()
+    let mut kept: Vec<Dot> = Vec::new();
+    let mut cells: BTreeMap<[i64; 2], Vec<usize>> = BTreeMap::new();
+    for (index, point) in points.iter().enumerate() {
+        let at = frame.map([point.x, point.y]);
+        if !Rect::has(at, &edge) {
+            continue;
+        }
+        let [column, row] = at.map(|v| (v / distance).floor() as i64);
+        let around = (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| [column + dx, row + dy]));
+        let near = around.filter_map(|cell| cells.get(&cell)).flatten().copied().find(|&k| {
+            let other = kept[k].at;
+            libm::hypot(other[0] - at[0], other[1] - at[1]) < distance
+        });
+        match near.filter(|_| point.label.is_none()) {
+            Some(k) => kept[k].count += 1,
+            None => {
+                cells.entry([column, row]).or_default().push(kept.len());
+                kept.push(Dot { at, index, count: 1 });
+            }
+        }
+    }
+    kept
 }

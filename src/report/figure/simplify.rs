@@ -1,6 +1,6 @@
 //! Fewer points, same picture: every function here moves a line by less than its tolerance.
 
-use std::collections::BTreeMap;
+use super::geometry::square_distance;
 
 /// A curve is cut into pieces of this many points before it is simplified, so that the worst case
 /// (no point can go) costs a bounded time per point. It adds one point per thousand.
@@ -67,54 +67,4 @@ fn peucker(points: &[[f64; 2]], tolerance: f64) -> Vec<[f64; 2]> {
         }
     }
     points.iter().zip(&keep).filter(|(_, keep)| **keep).map(|(p, _)| *p).collect()
-}
-
-/// The squared distance of a point from a segment (not from the line through it: a curve may turn back).
-fn square_distance(p: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
-    let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
-    let square = dx * dx + dy * dy;
-    let t = if square > 0.0 { ((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / square } else { 0.0 };
-    let t = t.clamp(0.0, 1.0);
-    let (ex, ey) = (p[0] - a[0] - t * dx, p[1] - a[1] - t * dy);
-    ex * ex + ey * ey
-}
-
-/// Points that stand for themselves and for others closer than a distance.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Merged {
-    /// The index of the one that is drawn.
-    pub index: usize,
-    /// How many it stands for, itself included.
-    pub count: usize,
-}
-
-/// Lets every point that is closer than `distance` to an earlier one be represented by that one.
-/// Points for which `alone` holds stand for themselves.
-pub(super) fn merge(
-    points: &[[f64; 2]],
-    distance: f64,
-    alone: impl Fn(usize) -> bool,
-) -> Vec<Merged> {
-    let mut kept: Vec<Merged> = Vec::new();
-    let mut cells: BTreeMap<(i64, i64), Vec<usize>> = BTreeMap::new();
-    for (index, point) in points.iter().enumerate() {
-        let cell = ((point[0] / distance).floor() as i64, (point[1] / distance).floor() as i64);
-        let near = (-1..=1)
-            .flat_map(|dx| (-1..=1).map(move |dy| (cell.0 + dx, cell.1 + dy)))
-            .filter_map(|cell| cells.get(&cell))
-            .flatten()
-            .copied()
-            .find(|&k| {
-                let other = points[kept[k].index];
-                libm::hypot(other[0] - point[0], other[1] - point[1]) < distance
-            });
-        match near {
-            Some(k) if !alone(index) => kept[k].count += 1,
-            _ => {
-                cells.entry(cell).or_default().push(kept.len());
-                kept.push(Merged { index, count: 1 });
-            }
-        }
-    }
-    kept
 }

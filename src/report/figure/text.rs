@@ -98,7 +98,18 @@ impl Words {
 
     /// Writes the words; a halo is the same words below, drawn broad and white.
     pub(super) fn write(&self, svg: &mut String) {
-        let [x, y] = [self.at[0], self.at[1] + 0.35 * self.size].map(tenths);
+        // From the middle of the digits to the baseline.
+        let drop = 0.35 * self.size;
+        let [x, y] = if self.upright {
+            [self.at[0] + drop, self.at[1]].map(tenths)
+        } else {
+            [self.at[0], self.at[1] + drop].map(tenths)
+        };
+        let turn = if self.upright {
+            format!(" transform=\"rotate(-90 {x} {y})\"")
+        } else {
+            String::new()
+        };
         let size = tenths(self.size);
         let bold = if self.bold { " font-weight=\"bold\"" } else { "" };
         let anchor = match self.anchor {
@@ -106,7 +117,7 @@ impl Words {
             other => format!(" text-anchor=\"{}\"", other.name()),
         };
         let text = escape(&self.text);
-        let place = format!("x=\"{x}\" y=\"{y}\" font-size=\"{size}\"{bold}{anchor}");
+        let place = format!("x=\"{x}\" y=\"{y}\" font-size=\"{size}\"{bold}{anchor}{turn}");
         if self.halo {
             let _ = writeln!(
                 svg,

@@ -118,17 +118,6 @@ pub(super) fn plain(value: f64, places: usize) -> String {
     }
 }
 
-/// A number as short as it can be, for ticks that were given without words.
-pub(super) fn shortest(value: f64) -> String {
-    let (sign, size) = (if value < 0.0 { "\u{2212}" } else { "" }, value.abs());
-    if size != 0.0 && !(1e-4..1e6).contains(&size) {
-        let exponent = libm::floor(libm::log10(size) + 1e-12) as i32;
-        let mantissa = size / libm::pow(10.0, f64::from(exponent));
-        return format!("{sign}{}×10{}", (mantissa * 1e6).round() / 1e6, raised(exponent));
-    }
-    format!("{sign}{}", (size * 1e9).round() / 1e9)
-}
-
 /// An exponent, raised.
 fn raised(exponent: i32) -> String {
     exponent

@@ -1,67 +1,47 @@
 //! Bifurcation diagrams: one parameter swept up and down by simulation, with the exact orbits over it.
 
+use serde_json::{Value, json};
+
 use crate::orbits::Bifurcation;
+use crate::quantity::catalogue as of;
 use crate::regimes::diagram::{DiagramPoint, SweepDirection};
 use crate::report::figure::{
-    Axis, Color, Dash, Figure, Label, Layer, Layout, MarkedPoint, Marker, Panel, Role, Rule, Scale,
-    Shape, Style,
+    Color, Dash, Figure, Label, Layer, Layout, MarkedPoint, Marker, Panel, Role, Scale, Shape,
+    Style,
 };
-use crate::report::numbers::significant;
-use crate::study::StudyError;
-use crate::study::diagrams::{Diagram, Hysteresis};
+use crate::study::diagrams::{Diagram, EFFORT, Hysteresis, STEPS};
 use crate::study::exact_branches::ExactPoint;
+use crate::study::plots::first_drawn;
 use crate::system::Parameter;
-use crate::validation::tolerance::has_resonance;
 
 use super::Scene;
-use super::diagram_lines::thinned;
-use crate::report::units::Units;
+use super::chart::Chart;
 
 /// Longest time between impacts that is shown, in periods; a modulated motion has single longer ones.
 const LONGEST: f64 = 1.6;
 /// Room above and below the points, as part of their span.
 const MARGIN: f64 = 0.06;
-/// Samples of the oscillator without absorber.
-const BARE: u32 = 200;
+/// Most points of one value and way: a chaotic band is a band with so many.
+const MOST_POINTS: usize = 10;
+/// Points of one value closer than this part of an axis are one.
+const APART: f64 = 0.006;
+/// Heights of orbits that are one in the figure.
+const LEVEL: f64 = 1e-9;
 
-pub(super) fn figure(
-    scene: &Scene,
-    name: &str,
-    parameter: Parameter,
-) -> Result<Option<Figure>, StudyError> {
-    let (study, units) = (scene.study, &scene.units);
-    let system = &study.analysis.system;
-    if system.forcing_per_clearance() == 0.0 || !has_resonance(system) {
-        return Ok(None);
-    }
-    let Some(diagram) = Diagram::around(&study.exact, parameter)? else { return Ok(None) };
-    let shown = Shown { scene, units, diagram: &diagram };
-    let (caption, alt) = shown.words();
-    let title = format!("Bifurcation diagram over the {}", parameter.words());
-    Ok(Some(
-        Figure::new(name, title)
-            .with_size(800, 680)
-            .with_layout(Layout::rows(&[1.5, 1.0]))
-            .with_panel(shown.peaks())
-            .with_panel(shown.intervals())
-            .with_words(caption, alt),
-    ))
-}
-
-/// How each way looks: squares, dots in them, and thin lines across, which dots on top would cut into
-/// dashes.
-const DOWN: (SweepDirection, &str, Marker, Color) = (
-    SweepDirection::Down,
-    "simulated, down",
-    Marker::hollow(Shape::Square).sized(5.4),
-    Color::Orange,
-);
-const UP: (SweepDirection, &str, Marker, Color) =
-    (SweepDirection::Up, "simulated, up", Marker::dot().sized(3.8), Color::ReddishPurple);
-
-const STABLE: Style = Style::new(Color::Black, 1.2, Dash::Solid);
-const UNSTABLE: Style = Style::new(Color::Black, 1.0, Dash::Dashed);
-
+/// How each way looks: squares, dots in them, and thin lines across, which dots on top would cut into dashes.
+const WAYS: [(SweepDirection, &str, Marker, Color); 2] = [
+    (
+        SweepDirection::Down,
+        "simulated, down",
+        Marker::hollow(Shape::Square).sized(5.4),
+        Color::Orange,
+    ),
+    (SweepDirection::Up, "simulated, up", Marker::dot().sized(3.8), Color::ReddishPurple),
+];
+const EXACT: [(bool, &str, Style); 2] = [
+    (false, "exact orbit, unstable", Style::new(Color::Black, 1.0, Dash::Dashed)),
+    (true, "exact orbit, stable", Style::new(Color::Black, 1.2, Dash::Solid)),
+];
 /// How a bifurcation is marked, where it is one that a reader of this figure looks for.
 const KINDS: [(Bifurcation, Shape, Color); 6] = [
     (Bifurcation::SaddleNode, Shape::Cross, Color::Vermillion),
@@ -72,141 +52,79 @@ const KINDS: [(Bifurcation, Shape, Color); 6] = [
     (Bifurcation::Sticking, Shape::Triangle, Color::Black),
 ];
 
-/// What the panels show.
-pub(super) struct Shown<'a> {
-    scene: &'a Scene<'a>,
-    pub units: &'a Units,
-    pub diagram: &'a Diagram,
+/// One panel: what is shown of a simulated motion and of an exact orbit at one value.
+struct Heights<'a> {
+    diagram: &'a Diagram,
+    chart: Chart,
+    simulated: fn(&DiagramPoint) -> Vec<f64>,
+    exact: fn(&ExactPoint) -> Vec<f64>,
 }
 
-/// Heights of what is at one value: of a simulated motion, and of an exact orbit.
-pub(super) struct Heights<'a> {
-    simulated: &'a dyn Fn(&DiagramPoint) -> Vec<f64>,
-    pub exact: &'a dyn Fn(&ExactPoint) -> Vec<f64>,
+/// The largest displacement in each period above, the times between impacts below.
+pub(super) fn figure(scene: &Scene, diagram: &Diagram, bare: &[[f64; 2]]) -> Figure {
+    let parameter = diagram.parameter;
+    let own = parameter.of(scene.system());
+    let log = [parameter.is_logarithmic(), parameter == Parameter::Forcing];
+    let peaks = |point: &DiagramPoint| point.period_peaks.clone();
+    let range = fitted(diagram, log[1]);
+    let kinds = [scene.kind(parameter), &of::PEAK];
+    let upper = Heights {
+        diagram,
+        chart: Chart::new(scene, kinds, [diagram.range, range]).with_log(log),
+        simulated: peaks,
+        exact: |point| vec![point.peak],
+    };
+    let mut first = upper.chart.panel().with(upper.chart.vertical(own, Role::Guide));
+    let bare = upper.chart.curve(Role::BareOscillator, bare);
+    first = first.with(bare.labelled("without absorber"));
+    upper.draw(scene, &mut first, true);
+    if let Some(found) = first_drawn(scene.study) {
+        let at = [own, found.attractor.peak];
+        let here = scene.mark(&upper.chart, at, "this case");
+        first = first.with(Layer::this_case(upper.chart.at(at), here.tooltip));
+    }
+    let all = diagram.points.iter().flat_map(|point| &point.intervals);
+    let longest = all.copied().fold(0.5, f64::max).min(LONGEST);
+    let kinds = [scene.kind(parameter), &of::IMPACT_INTERVAL];
+    let ranges = [diagram.range, [0.0, (1.0 + MARGIN) * longest]];
+    let lower = Heights {
+        diagram,
+        chart: Chart::new(scene, kinds, ranges).with_log([log[0], false]),
+        simulated: |point| point.intervals.clone(),
+        exact: |point| point.intervals.clone(),
+    };
+    let mut second = lower.chart.panel().with(lower.chart.vertical(own, Role::Guide));
+    lower.draw(scene, &mut second, false);
+    let name = match parameter {
+        Parameter::FrequencyRatio => "diagram-frequency",
+        Parameter::Forcing => "diagram-forcing",
+        _ => "diagram-clearance",
+    };
+    scene
+        .figure(name, "captions/diagram", facts(scene, diagram))
+        .with_size(800, 680)
+        .with_layout(Layout::rows(&[1.5, 1.0]))
+        .with_panel(first)
+        .with_panel(second)
 }
 
-impl Shown<'_> {
-    pub(super) fn place(&self, value: f64) -> f64 {
-        match self.diagram.parameter {
-            Parameter::Clearance => self.units.length(value),
-            Parameter::FrequencyRatio => self.units.frequency(value),
-            Parameter::Forcing => self.units.forcing(value),
-            Parameter::Restitution => value,
-        }
+/// A range that shows all simulated points and every attracting orbit.
+fn fitted(diagram: &Diagram, log: bool) -> [f64; 2] {
+    let simulated = diagram.points.iter().flat_map(|point| &point.period_peaks).copied();
+    let stable = diagram.exact.pieces.iter().filter(|piece| piece.stable);
+    let exact = stable.flat_map(|piece| &piece.points).map(|point| point.peak);
+    let all: Vec<f64> = simulated.chain(exact).filter(|value| *value > 0.0).collect();
+    let low = all.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = all.iter().copied().fold(0.0, f64::max);
+    if low >= high {
+        return [low, f64::NAN];
     }
+    let (ratio, room) = (libm::pow(high / low, MARGIN), MARGIN * (high - low));
+    if log { [low / ratio, high * ratio] } else { [(low - room).max(0.0), high + room] }
+}
 
-    pub(super) fn text(&self, value: f64) -> String {
-        match self.diagram.parameter {
-            Parameter::Clearance => self.units.length_text(value),
-            Parameter::FrequencyRatio => self.units.frequency_text(value),
-            Parameter::Forcing => self.units.forcing_text(value),
-            Parameter::Restitution => significant(value, 3),
-        }
-    }
-
-    fn axis(&self) -> Axis {
-        let parameter = self.diagram.parameter;
-        let [first, last] = self.diagram.range.map(|value| self.place(value));
-        let label = match parameter {
-            Parameter::Clearance => self.units.length_axis("clearance b"),
-            Parameter::FrequencyRatio => self.units.frequency_axis().to_owned(),
-            Parameter::Forcing => self.units.forcing_axis(),
-            Parameter::Restitution => "restitution r (1)".to_owned(),
-        };
-        let axis = if parameter.is_logarithmic() { Axis::log(label) } else { Axis::linear(label) };
-        axis.with_range(first, last)
-    }
-
-    fn own(&self) -> f64 {
-        self.diagram.parameter.of(&self.scene.study.analysis.system)
-    }
-
-    /// Largest displacement in each period.
-    fn peaks(&self) -> Panel {
-        let units = self.units;
-        let heights = Heights {
-            simulated: &|point| point.period_peaks.iter().map(|peak| units.length(*peak)).collect(),
-            exact: &|point| vec![units.length(point.peak)],
-        };
-        let log = self.diagram.parameter == Parameter::Forcing;
-        let name = units.length_axis("peak of x in each period");
-        let axis = if log { Axis::log(name) } else { Axis::linear(name) };
-        let axis = self.fitted(axis, &heights);
-        let mut panel = Panel::new(self.axis(), axis).with(self.case());
-        let bare = Layer::curve(Role::BareOscillator, self.bare());
-        panel = panel.with(bare.labelled("without absorber"));
-        self.draw(&mut panel, &heights, true);
-        let found = self.scene.first_drawn().map(|found| found.attractor.peak);
-        if let Some(peak) = found {
-            let at = [self.place(self.own()), units.length(peak)];
-            let words = format!("this case: peak {}", units.length_text(peak));
-            panel = panel.with(Layer::this_case(at, Some(words)));
-        }
-        panel
-    }
-
-    /// Times between impacts.
-    fn intervals(&self) -> Panel {
-        let heights = Heights {
-            simulated: &|point| point.intervals.clone(),
-            exact: &|point| point.intervals.clone(),
-        };
-        let all = self.diagram.points.iter().flat_map(|point| &point.intervals);
-        let longest = all.copied().fold(0.5, f64::max).min(LONGEST);
-        let axis = Axis::linear("impact interval over period (1)")
-            .with_range(0.0, (1.0 + MARGIN) * longest);
-        let mut panel = Panel::new(self.axis(), axis).with(self.case());
-        self.draw(&mut panel, &heights, false);
-        panel
-    }
-
-    fn case(&self) -> Layer {
-        Layer::rule(Rule::Vertical(self.place(self.own())), Role::Guide.style())
-    }
-
-    /// The oscillator alone.
-    fn bare(&self) -> Vec<[f64; 2]> {
-        let [low, high] = self.diagram.range;
-        let parameter = self.diagram.parameter;
-        let system = &self.scene.study.analysis.system;
-        let at = |k: u32| {
-            let value = low + (high - low) * f64::from(k) / f64::from(BARE);
-            let there = parameter.applied(system, value).ok()?;
-            let amplitude = parameter.unit(value) * there.linear_response()?.amplitude();
-            Some([self.place(value), self.units.length(amplitude)])
-        };
-        (0..=BARE).filter_map(at).collect()
-    }
-
-    /// An axis that shows all simulated points and every attracting orbit.
-    fn fitted(&self, axis: Axis, heights: &Heights) -> Axis {
-        let simulated = self.diagram.points.iter().flat_map(heights.simulated);
-        let stable = self.diagram.exact.pieces.iter().filter(|piece| piece.stable);
-        let exact = stable.flat_map(|piece| &piece.points).flat_map(heights.exact);
-        let all = || simulated.clone().chain(exact.clone()).filter(|value| *value > 0.0);
-        let (low, high) = (all().fold(f64::INFINITY, f64::min), all().fold(0.0, f64::max));
-        if low >= high {
-            return axis;
-        }
-        if axis.scale == Scale::Log {
-            let room = libm::pow(high / low, MARGIN);
-            return axis.with_range(low / room, high * room);
-        }
-        let room = MARGIN * (high - low);
-        axis.with_range((low - room).max(0.0), high + room)
-    }
-
-    /// A place where only one way leads: in the widest hysteresis.
-    fn told_apart(&self, way: SweepDirection) -> Option<[f64; 2]> {
-        let width = |one: &&Hysteresis| one.values[1] / one.values[0];
-        let found = self.diagram.hysteresis.iter();
-        let widest = found.max_by(|a, b| width(a).total_cmp(&width(b)))?;
-        let middle = f64::midpoint(widest.values[0], widest.values[1]);
-        let peak = widest.peaks[usize::from(way == SweepDirection::Down)];
-        Some([self.place(middle), self.units.length(peak)])
-    }
-
-    fn draw(&self, panel: &mut Panel, heights: &Heights, named: bool) {
+impl Heights<'_> {
+    fn draw(&self, scene: &Scene, panel: &mut Panel, named: bool) {
         let label = |layer: Layer, name: &str| if named { layer.labelled(name) } else { layer };
         let (low, high) = panel.y.range.unwrap_or((0.0, 1.0));
         let log = panel.y.scale == Scale::Log;
@@ -217,44 +135,133 @@ impl Shown<'_> {
                 (height - low) / (high - low)
             }
         };
-        let way = |(way, name, marker, color): (SweepDirection, &str, Marker, Color)| {
+        for (way, name, marker, color) in WAYS {
             let points = self.diagram.way(way).into_iter().flat_map(|point| {
-                let x = self.place(point.value);
-                thinned((heights.simulated)(point), &part).into_iter().map(move |y| [x, y])
+                let all = (self.simulated)(point).into_iter();
+                let all = all.map(|height| self.chart.at([point.value, height]));
+                thinned(all.collect(), &part)
             });
             let layer = Layer::marked(marker, color, points);
-            match self.told_apart(way).filter(|_| named) {
+            panel.layers.push(match self.told_apart(way).filter(|_| named) {
                 Some(place) => layer.labelled(Label::near(name, place)),
                 None => label(layer, name),
-            }
-        };
-        let exact = |stable: bool, style: Style, name: &str| {
-            label(Layer::styled(style, self.lines(stable, heights)), name)
-        };
-        panel.layers.extend([
-            way(DOWN),
-            way(UP),
-            exact(false, UNSTABLE, "exact orbit, unstable"),
-            exact(true, STABLE, "exact orbit, stable"),
-        ]);
-        for (kind, shape, color) in KINDS {
-            let marks = self.diagram.exact.marks.iter().filter(|mark| {
-                let told = mark.beside_stable || kind == Bifurcation::Grazing;
-                mark.kind == kind && told
             });
-            let points: Vec<MarkedPoint> = marks
-                .flat_map(|mark| {
-                    let words = format!("{} at {}", kind.words(), self.text(mark.at.value));
-                    let mut all = (heights.exact)(&mark.at);
-                    all.dedup_by(|a, b| (*a - *b).abs() < 1e-6 * *b);
-                    let x = self.place(mark.at.value);
-                    all.into_iter().map(move |y| MarkedPoint::new(x, y).with_tooltip(words.clone()))
-                })
-                .collect();
+        }
+        for (stable, name, style) in EXACT {
+            panel.layers.push(label(Layer::styled(style, self.lines(stable)), name));
+        }
+        for (kind, shape, color) in KINDS {
+            let points = self.marks(scene, kind);
             if !points.is_empty() {
-                let marker = Marker::hollow(shape).sized(8.0);
-                panel.layers.push(label(Layer::marked(marker, color, points), kind.words()));
+                let layer = Layer::marked(Marker::hollow(shape).sized(8.0), color, points);
+                panel.layers.push(label(layer, kind.words()));
             }
         }
     }
+
+    fn marks(&self, scene: &Scene, kind: Bifurcation) -> Vec<MarkedPoint> {
+        let told = self.diagram.exact.marks.iter().filter(|mark| {
+            mark.kind == kind && (mark.beside_stable || kind == Bifurcation::Grazing)
+        });
+        let all = told.flat_map(|mark| {
+            let mut all = (self.exact)(&mark.at);
+            all.dedup_by(|a, b| (*a - *b).abs() < 1e-6 * *b);
+            all.into_iter().map(|y| scene.mark(&self.chart, [mark.at.value, y], kind.words()))
+        });
+        all.collect()
+    }
+
+    /// A place where only one way leads: in the widest hysteresis.
+    fn told_apart(&self, way: SweepDirection) -> Option<[f64; 2]> {
+        let width = |one: &&Hysteresis| one.values[1] / one.values[0];
+        let found = self.diagram.hysteresis.iter();
+        let widest = found.max_by(|a, b| width(a).total_cmp(&width(b)))?;
+        let middle = f64::midpoint(widest.values[0], widest.values[1]);
+        let peak = widest.peaks[usize::from(way == SweepDirection::Down)];
+        Some(self.chart.at([middle, peak]))
+    }
+
+    /// All pieces of one stability as one line with gaps.
+    fn lines(&self, stable: bool) -> Vec<[f64; 2]> {
+        let mut line = Vec::new();
+        let mut known: Vec<Vec<[f64; 2]>> = Vec::new();
+        for piece in self.diagram.exact.pieces.iter().filter(|piece| piece.stable == stable) {
+            let all: Vec<Vec<f64>> = piece.points.iter().map(self.exact).collect();
+            for k in 0..all.first().map_or(0, Vec::len) {
+                let points = piece.points.iter().zip(&all);
+                let points = points.map(|(point, all)| self.chart.at([point.value, all[k]]));
+                // Dashes over dashes would look solid.
+                let Some(points) = outside(points.collect(), &known) else { continue };
+                line.extend(points.iter().copied().chain([[f64::NAN; 2]]));
+                known.push(points);
+            }
+        }
+        line
+    }
+}
+
+/// Points of one value that can be told apart, at most [`MOST_POINTS`], evenly chosen.
+fn thinned(mut points: Vec<[f64; 2]>, part: &dyn Fn(f64) -> f64) -> Vec<[f64; 2]> {
+    points.retain(|at| (0.0..=1.0).contains(&part(at[1])));
+    points.sort_by(|a, b| a[1].total_cmp(&b[1]));
+    points.dedup_by(|next, kept| part(next[1]) - part(kept[1]) < APART);
+    if points.len() <= MOST_POINTS {
+        return points;
+    }
+    let step = (points.len() - 1) as f64 / (MOST_POINTS - 1) as f64;
+    (0..MOST_POINTS).map(|k| points[(step * k as f64) as usize]).collect()
+}
+
+/// A level line without what other level lines of its height cover already; any other line as it is.
+fn outside(points: Vec<[f64; 2]>, known: &[Vec<[f64; 2]>]) -> Option<Vec<[f64; 2]>> {
+    let height = points.first()?[1];
+    let level = |line: &[[f64; 2]]| line.iter().all(|at| (at[1] - height).abs() < LEVEL);
+    if !level(&points) {
+        return Some(points);
+    }
+    let ends = |line: &[[f64; 2]]| {
+        let low = line.iter().map(|at| at[0]).fold(f64::INFINITY, f64::min);
+        [low, line.iter().map(|at| at[0]).fold(f64::NEG_INFINITY, f64::max)]
+    };
+    let [mut low, mut high] = ends(&points);
+    for [from, to] in known.iter().filter(|line| level(line)).map(|line| ends(line)) {
+        if from <= low {
+            low = low.max(to);
+        }
+        if to >= high {
+            high = high.min(from);
+        }
+    }
+    (low < high).then(|| vec![[low, height], [high, height]])
+}
+
+fn facts(scene: &Scene, diagram: &Diagram) -> Value {
+    let kind = scene.kind(diagram.parameter);
+    let value = |value| scene.exact(kind, value);
+    let hysteresis = diagram.hysteresis.iter().map(|one| {
+        json!({
+            "values": one.values.map(value),
+            "regimes": one.regimes,
+            "peaks": one.peaks.map(|peak| scene.seen(&of::PEAK, peak)),
+        })
+    });
+    let stretches = diagram.exact.attracting_stretches();
+    let attracting = stretches.iter().map(|one| {
+        json!({"values": one.values.map(value), "ends": one.ends.map(|end| end.map(Bifurcation::words))})
+    });
+    json!({
+        "over": kind.id,
+        "digits": if diagram.parameter == Parameter::FrequencyRatio { 4 } else { 3 },
+        "range": diagram.range.map(value),
+        "steps": STEPS,
+        "periods": EFFORT.periods,
+        "hysteresis": hysteresis.collect::<Vec<_>>(),
+        "attracting": attracting.collect::<Vec<_>>(),
+        "agreement": diagram.agreement.map(|found| json!({
+            "compared": found.compared,
+            "without_orbit": found.without_orbit,
+            "largest": found.largest,
+            "at": value(found.at),
+        })),
+    })
 }

@@ -1,132 +1,193 @@
-//! The figures of a report, made from what is known about a case.
+//! The figures of a report, made from the [`Plot`]s of a study.
 //!
-//! Each file makes one kind of figure as plain data for [`super::figure`]. A figure that has
-//! nothing to say for a case is left out.
+//! A figure places data on axes; names, units and prefixes come from the catalogue of quantities, title,
+//! caption and alternative text from `templates/captions/`.
 
-mod amplitude;
-mod areas;
-mod asymptotic_error;
-mod band;
-mod basins;
-mod bifurcations;
 pub(super) mod borders;
-mod branches;
-mod canvas;
-mod captures;
-mod clearances;
+mod boundaries;
+mod chart;
 mod diagram;
-mod diagram_lines;
-mod diagram_words;
-mod exponents;
-pub(super) mod forcing_responses;
-mod levels;
-mod manifold;
-mod map;
-pub(super) mod modulation;
-mod motion;
-mod plane;
-mod response;
-pub(super) mod restitutions;
-mod return_map;
-mod transfer;
-pub(super) mod transfer_stretches;
+mod motions;
+mod over_time;
+mod parts;
+mod peaks;
+mod responses;
+mod statistics;
 
-use crate::case::{Case, ExtraFigure, Subject};
-use crate::regimes::{FoundAttractor, Regime};
-use crate::simulation::Stop;
-use crate::study::{CaseStudy, StudyError};
-use crate::system::Parameter;
+use serde_json::{Value, json};
 
-use super::figure::Figure;
-use super::units::Units;
+use crate::case::{BandOver, Case, Scales, Subject};
+use crate::method::Method;
+use crate::quantity::{Digits, Dimension, Kind, Quantity, Units, catalogue as of};
+use crate::study::CaseStudy;
+use crate::study::plots::Plot;
+use crate::system::{Parameter, System};
 
-/// So many attractors are drawn.
-const ATTRACTORS: usize = 3;
+use super::document::Scale;
+use super::figure::{Figure, MarkedPoint};
+use chart::Chart;
 
-/// What every figure is made from.
-pub(super) struct Scene<'a> {
+/// All figures of a report, in reading order; their words are still to be filled in by
+/// [`super::template::worded`].
+pub fn all(case: &Case, study: &CaseStudy, plots: &[Plot]) -> Vec<Figure> {
+    let scene = Scene::new(case, study);
+    plots.iter().filter_map(|plot| scene.figure_of(plot)).collect()
+}
+
+/// A studied case and its units. Numbers that go in are dimensionless: lengths over the clearance, times in
+/// excitation periods, frequencies and excitation amplitudes as ratios.
+struct Scene<'a> {
     study: &'a CaseStudy,
+    scales: Scales,
     units: Units,
-    /// The largest displacement that the case allows, over the clearance.
+    /// The excitation's amplitude, and what it is.
+    forcing: (&'static Kind, f64),
+    /// The largest displacement that the case allows.
     limit: Option<f64>,
 }
 
 impl<'a> Scene<'a> {
-    pub(super) fn new(case: &Case, study: &'a CaseStudy) -> Self {
+    fn new(case: &Case, study: &'a CaseStudy) -> Self {
+        let scales = case.scales();
         let mut limits = case.criteria.iter();
         let asked = limits.find(|one| one.subject == Subject::PeakDisplacement);
-        let limit = asked.map(|one| one.limit / case.scales().length(1.0));
-        Self { study, units: Units::of(case), limit }
-    }
-
-    /// An attractor that moves and was followed to the end. One that was measured while it turned
-    /// into another (its average is not that of the repetition it ends with) is none.
-    fn drawn(&self, index: usize) -> Option<&'a FoundAttractor> {
-        let found = self.study.attractors.get(index)?;
-        let evidence = &found.attractor.classification.evidence;
-        let lasts = evidence.periodicity.is_none_or(|repetition| {
-            let repeated = f64::from(repetition.impacts) / f64::from(repetition.periods);
-            let least = 0.05 * repeated.max(1.0);
-            (evidence.impacts_per_period - repeated).abs() < least
-        });
-        let followed = found.attractor.stop == Stop::EndTime;
-        (found.regime() != Regime::AtRest && followed && lasts).then_some(found)
-    }
-
-    /// The first attractor that can be drawn: the one that most starts lead to.
-    fn first_drawn(&self) -> Option<&'a FoundAttractor> {
-        (0..self.study.attractors.len()).find_map(|index| self.drawn(index))
-    }
-}
-
-/// All figures in reading order: the response over the case's band first, if it has one, then the case
-/// among its boundaries; those that the case asks for last.
-///
-/// # Errors
-/// [`StudyError`] where theory or simulation cannot be carried out.
-pub fn all(case: &Case, study: &CaseStudy) -> Result<Vec<Figure>, StudyError> {
-    let scene = Scene::new(case, study);
-    let mut figures = Vec::new();
-    figures.extend(band::figure(&scene));
-    figures.extend(map::figure(&scene)?);
-    figures.push(plane::figure(&scene)?);
-    figures.push(manifold::figure(&scene));
-    figures.extend(response::figure(&scene)?);
-    if !study.simulated {
-        // All others simulate.
-        return Ok(figures);
-    }
-    figures.extend(amplitude::figure(&scene)?);
-    for index in 0..study.attractors.len().min(ATTRACTORS) {
-        figures.extend(motion::figure(&scene, index)?);
-        figures.extend(return_map::figure(&scene, index));
-    }
-    for wanted in &case.report.figures {
-        figures.extend(further(&scene, *wanted)?);
-    }
-    Ok(figures)
-}
-
-/// A figure that is made only where a case asks for it.
-fn further(scene: &Scene, wanted: ExtraFigure) -> Result<Option<Figure>, StudyError> {
-    match wanted {
-        ExtraFigure::Areas => areas::figure(scene),
-        ExtraFigure::Bifurcations => bifurcations::figure(scene),
-        ExtraFigure::ForcingResponses => forcing_responses::figure(scene),
-        ExtraFigure::Modulation => modulation::figure(scene),
-        ExtraFigure::Restitutions => restitutions::figure(scene),
-        ExtraFigure::Basins => basins::figure(scene),
-        ExtraFigure::Captures => Ok(captures::figure(scene)),
-        ExtraFigure::Exponents => exponents::figure(scene),
-        ExtraFigure::Clearances => clearances::figure(scene),
-        ExtraFigure::Transfer => transfer::figure(scene),
-        ExtraFigure::TransferStretches => transfer_stretches::figure(scene),
-        ExtraFigure::DiagramClearance => {
-            diagram::figure(scene, wanted.name(), Parameter::Clearance)
+        let own = Scale::of(case).amplitude(1.0, Method::Given);
+        let limit = asked.map(|one| one.limit / scales.length(1.0));
+        Self {
+            study,
+            scales,
+            units: Scale::of(case).units(),
+            forcing: (own.kind, own.value),
+            limit,
         }
-        ExtraFigure::DiagramFrequency => {
-            diagram::figure(scene, wanted.name(), Parameter::FrequencyRatio)
+    }
+
+    fn figure_of(&self, plot: &Plot) -> Option<Figure> {
+        match plot {
+            Plot::Band(data) => peaks::band(self, data),
+            Plot::Map(data) => Some(boundaries::map(self, data)),
+            Plot::Plane(data) => Some(boundaries::plane(self, data)),
+            Plot::Manifold => Some(responses::manifold(self)),
+            Plot::Responses(data) => Some(responses::figure(self, data)),
+            Plot::Amplitude(data) => Some(peaks::amplitude(self, data)),
+            Plot::Motion(data) => Some(over_time::motion(self, data)),
+            Plot::ReturnMap(index) => statistics::return_map(self, *index),
+            Plot::Areas(data) => Some(responses::areas(self, data)),
+            Plot::Bifurcations(data) => Some(boundaries::bifurcations(self, data)),
+            Plot::Modulation(data) => Some(motions::modulation(self, data)),
+            Plot::Restitutions(data) => Some(motions::restitutions(self, data)),
+            Plot::Basins(data) => Some(statistics::basins(self, data)),
+            Plot::Captures => over_time::captures(self),
+            Plot::Exponents(data) => statistics::exponents(self, data),
+            Plot::Clearances(data) => Some(peaks::clearances(self, data)),
+            Plot::Transfer(data) => Some(over_time::transfer(self, data)),
+            Plot::TransferStretches(data) => over_time::stretches(self, data),
+            Plot::Diagram(data, bare) => Some(diagram::figure(self, data, bare)),
         }
-        ExtraFigure::DiagramForcing => diagram::figure(scene, wanted.name(), Parameter::Forcing),
+    }
+
+    const fn system(&self) -> &'a System {
+        &self.study.analysis.system
+    }
+
+    /// The clearance, over the case's, that a forcing per clearance stands for.
+    fn clearance(&self, gamma: f64) -> f64 {
+        self.system().forcing_per_clearance() / gamma
+    }
+
+    /// The frequency ratio of a detuning.
+    fn ratio(&self, detuning: f64) -> f64 {
+        1.0 + self.system().mass_ratio() * detuning
+    }
+
+    /// A dimensionless number in SI, or in the units of a reduced case.
+    fn si(&self, kind: &Kind, value: f64) -> f64 {
+        if kind.id == self.forcing.0.id {
+            return value * self.forcing.1;
+        }
+        let (scales, tau) = (&self.scales, value * self.system().period());
+        let velocity = scales.velocity_m_per_s(value).unwrap_or_else(|| scales.length(value));
+        match kind.dimension {
+            Dimension::Length => scales.length(value),
+            Dimension::Frequency => scales.frequency_hz(value).unwrap_or(value),
+            Dimension::Time => scales.time_s(tau).unwrap_or(tau),
+            Dimension::Velocity => velocity,
+            Dimension::Acceleration => scales.acceleration_m_per_s2(value).unwrap_or(velocity),
+            Dimension::Impulse => scales.oscillator_mass_kg.unwrap_or(1.0) * velocity,
+            _ => value,
+        }
+    }
+
+    fn quantity(&self, kind: &'static Kind, value: f64, method: Method) -> Quantity {
+        Quantity::new(kind, self.si(kind, value), method)
+    }
+
+    /// A number of the theory.
+    fn theory(&self, kind: &'static Kind, value: f64) -> Quantity {
+        self.quantity(kind, value, Method::Theory)
+    }
+
+    /// A number of an exact orbit.
+    fn exact(&self, kind: &'static Kind, value: f64) -> Quantity {
+        self.quantity(kind, value, Method::ExactOrbit)
+    }
+
+    /// A simulated number.
+    fn seen(&self, kind: &'static Kind, value: f64) -> Quantity {
+        self.quantity(kind, value, Method::Simulation)
+    }
+
+    /// A number with its unit.
+    fn text(&self, kind: &Kind, value: f64) -> String {
+        self.units.text(kind, self.si(kind, value))
+    }
+
+    /// A name of a curve by its clearance: `b = 7.500 mm`.
+    fn at_clearance(&self, clearance: f64) -> String {
+        let clearance = self.si(&of::BOUNDARY, clearance);
+        format!("b = {}", self.units.with_digits(&of::BOUNDARY, clearance, Digits::Significant(3)))
+    }
+
+    /// What a tooltip says: `simulated, symmetric 1:1: f = 8.304 Hz, x̂ = 3.56 mm`.
+    fn tip(&self, what: &str, values: &[(&'static Kind, f64)]) -> String {
+        let say = |(kind, value): &(&'static Kind, f64)| {
+            let symbol = if kind.symbol.is_empty() { kind.name } else { kind.symbol };
+            format!("{symbol} = {}", self.text(kind, *value))
+        };
+        let said: Vec<String> = values.iter().map(say).collect();
+        format!("{what}: {}", said.join(", "))
+    }
+
+    /// A point with a tooltip that gives both of its coordinates.
+    fn mark(&self, chart: &Chart, at: [f64; 2], what: &str) -> MarkedPoint {
+        let [x, y] = chart.kinds();
+        MarkedPoint::from(chart.at(at)).with_tooltip(self.tip(what, &[(x, at[0]), (y, at[1])]))
+    }
+
+    /// What a parameter is.
+    fn kind(&self, parameter: Parameter) -> &'static Kind {
+        match parameter {
+            Parameter::Clearance => &of::CLEARANCE,
+            Parameter::FrequencyRatio => &of::EXCITATION_FREQUENCY,
+            Parameter::Forcing => self.forcing.0,
+            Parameter::Restitution => &of::RESTITUTION,
+        }
+    }
+
+    /// What a band goes over.
+    fn band_kind(&self, over: BandOver) -> &'static Kind {
+        match over {
+            BandOver::Frequency => self.kind(Parameter::FrequencyRatio),
+            BandOver::Amplitude => self.forcing.0,
+        }
+    }
+
+    /// A figure whose words come from `templates/captions/`; every template has the case's frequency and
+    /// clearance beside the facts.
+    fn figure(&self, name: impl Into<String>, template: &'static str, mut facts: Value) -> Figure {
+        let given = |kind, value| json!(self.quantity(kind, value, Method::Given));
+        facts["frequency"] = given(&of::EXCITATION_FREQUENCY, self.system().frequency_ratio());
+        facts["clearance"] = given(&of::CLEARANCE, 1.0);
+        Figure::new(name, "").with_facts(template, facts)
     }
 }

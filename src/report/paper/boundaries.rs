@@ -3,9 +3,9 @@
 use super::{CaseReport, CaseSet, Check, Draft, PaperError, TRANSFER, check};
 use crate::analysis::Branch;
 use crate::regimes::Regime;
-use crate::report::figures::forcing_responses;
 use crate::report::numbers::{MINUS, percent, significant};
 use crate::study::StudyError;
+use crate::study::plots::responses::shares;
 use crate::study::scenes::{WalkPoint, walk};
 use crate::validation::tolerance::asymptotic_error;
 
@@ -208,8 +208,7 @@ fn optimum(member: &CaseReport, hopf: f64) -> Result<(Check, String), PaperError
 
 pub(super) fn figure_7(shelf: &CaseSet) -> Result<Draft, PaperError> {
     let member = shelf.case(TRANSFER)?;
-    let shares =
-        forcing_responses::shares(&member.study.analysis.system).map_err(StudyError::from)?;
+    let shares = shares(&member.study.analysis.system).map_err(StudyError::from)?;
     let [far, touching, inside, below] = shares.as_slice() else {
         return Err(PaperError::NoResult { case: TRANSFER, what: "four responses" });
     };

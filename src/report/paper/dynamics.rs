@@ -3,9 +3,9 @@
 use super::{CaseSet, Draft, PaperError, TRANSFER, check};
 use crate::analysis::Manifold;
 use crate::regimes::Regime;
-use crate::report::figures::transfer_stretches::{self, Three};
-use crate::report::figures::{modulation, restitutions};
 use crate::report::numbers::{percent, significant};
+use crate::study::plots::restitutions::Strongest;
+use crate::study::plots::{Modulation, Restitutions, Transfer};
 
 /// While captured the motion may be this far from the stable branch, relative in `C`: steps between
 /// impacts of a few percent are what the paper's enlargement shows.
@@ -13,7 +13,8 @@ const CLOSE: f64 = 0.1;
 
 pub(super) fn figure_8(shelf: &CaseSet) -> Result<Draft, PaperError> {
     let member = shelf.case(TRANSFER)?;
-    let away = modulation::away_from_branch(&member.scene())?
+    let away = Modulation::of(&member.study)?
+        .and_then(|found| found.away)
         .ok_or(PaperError::NoResult { case: TRANSFER, what: "capture on the stable branch" })?;
     Ok(Draft {
         number: "8",
@@ -40,8 +41,9 @@ pub(super) fn figure_8(shelf: &CaseSet) -> Result<Draft, PaperError> {
 
 pub(super) fn figure_9(shelf: &CaseSet) -> Result<Draft, PaperError> {
     let (high, low) = ("li2016-8hz-b4mm", "li2016-8hz-b15mm");
-    let of = |name: &'static str| -> Result<restitutions::Strongest, PaperError> {
-        restitutions::strongest_of(&shelf.case(name)?.scene())?
+    let of = |name: &'static str| -> Result<Strongest, PaperError> {
+        Restitutions::of(&shelf.case(name)?.study)?
+            .map(|found| found.strongest)
             .ok_or(PaperError::NoResult { case: name, what: "point of the manifold" })
     };
     let (at_high, at_low) = (of(high)?, of(low)?);
@@ -95,8 +97,14 @@ pub(super) fn figure_12(shelf: &CaseSet) -> Result<Draft, PaperError> {
     let name = "li2016-8hz-b15mm";
     let (member, measured) = (shelf.case(TRANSFER)?, shelf.case(name)?);
     let main = member.main().ok_or(PaperError::NoResult { case: TRANSFER, what: "motion" })?;
-    let Three { weak, falls, sparse, searched } = transfer_stretches::three(&member.scene())?
+    let transfer = Transfer::of(&member.case, &member.study)?
         .ok_or(PaperError::NoResult { case: TRANSFER, what: "stretches" })?;
+    let ([weak, falls, sparse], searched) = (transfer.parts, Transfer::PERIODS);
+    let scales = member.case.scales();
+    let millinewton_seconds = |impulse: f64| {
+        let velocity = scales.velocity_m_per_s(impulse).unwrap_or(f64::NAN);
+        significant(1e3 * scales.oscillator_mass_kg.unwrap_or(f64::NAN) * velocity, 3)
+    };
     let captures = main.attractor.classification.evidence.captures;
     let absorber = main.attractor.classification.evidence.absorber_amplitude;
     let follows = absorber.correlation_with_growth.unwrap_or(0.0);
@@ -133,20 +141,20 @@ pub(super) fn figure_12(shelf: &CaseSet) -> Result<Draft, PaperError> {
                         format!(
                             "(e) The amplitude falls while captured: by {} in {} periods.",
                             percent(-at.change),
-                            at.periods
+                            at.stretch.periods
                         )
                     },
                 ),
             ),
             check(
-                sparse.is_some_and(|at| at.impacts < 2 * at.periods),
+                sparse.is_some_and(|at| at.impacts < 2 * at.stretch.periods),
                 sparse.map_or_else(
                     || "(f) It grows where impacts are missing.".to_owned(),
                     |at| {
                         format!(
                             "(f) It grows where impacts are missing: by {} in {} periods with {} impacts.",
                             percent(at.change),
-                            at.periods,
+                            at.stretch.periods,
                             at.impacts
                         )
                     },
@@ -170,8 +178,8 @@ pub(super) fn figure_12(shelf: &CaseSet) -> Result<Draft, PaperError> {
                     |(falls, sparse)| {
                         format!(
                             "Impacts are stronger where the amplitude falls: {} mN s on average, against {} mN s where it grows.",
-                            significant(falls.impulse, 3),
-                            significant(sparse.impulse, 3)
+                            millinewton_seconds(falls.impulse),
+                            millinewton_seconds(sparse.impulse)
                         )
                     },
                 ),

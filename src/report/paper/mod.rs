@@ -13,7 +13,6 @@ mod regimes;
 use serde::Serialize;
 
 use super::figure::Figure;
-use super::figures::Scene;
 use super::numbers::LengthFormat;
 use super::render::RenderError;
 use crate::case::Case;
@@ -98,10 +97,6 @@ impl CaseReport {
 
     fn regime(&self) -> Option<Regime> {
         self.main().map(FoundAttractor::regime)
-    }
-
-    fn scene(&self) -> Scene<'_> {
-        Scene::new(&self.case, &self.study)
     }
 }
 

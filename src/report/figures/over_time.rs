@@ -1,0 +1,334 @@
+//! Motions over time (Figs. 4 and 12).
+
+use std::f64::consts::TAU;
+
+use serde_json::{Value, json};
+
+use crate::quantity::{Kind, catalogue as of};
+use crate::regimes::modulation::Amplitudes;
+use crate::report::figure::{
+    Color, Dash, Figure, Fill, Hatch, Layer, Layout, MarkedPoint, Marker, Panel, Role, Style,
+};
+use crate::simulation::{Impact, Trace, TracePoint};
+use crate::study::plots::traces::Part;
+use crate::study::plots::{Motion, Transfer, first_drawn};
+use crate::study::stretches::{Stretch, impulse};
+use crate::system::{Excitation, State, System};
+
+use super::Scene;
+use super::chart::Chart;
+use super::parts;
+
+/// Up to so many impacts have a tooltip.
+const TOOLTIPS: usize = 40;
+
+/// A quantity over time between two periods; the axis counts from `start`.
+struct Series<'a> {
+    trace: &'a Trace,
+    chart: Chart,
+    window: [f64; 2],
+    start: f64,
+}
+
+impl<'a> Series<'a> {
+    fn new(
+        scene: &Scene,
+        trace: &'a Trace,
+        (kind, range): (&'static Kind, [f64; 2]),
+        window: [f64; 2],
+        start: f64,
+    ) -> Self {
+        let x = window.map(|at| at - start);
+        Self { trace, chart: Chart::new(scene, [&of::TIME, kind], [x, range]), window, start }
+    }
+
+    /// A line of what `value` says of each sample.
+    fn curve(&self, role: Role, value: &dyn Fn(&TracePoint) -> f64) -> Layer {
+        let [first, last] = self.window;
+        let inside = self.trace.points.iter();
+        let inside = inside.filter(|point| (first..=last).contains(&point.periods));
+        let points = inside.map(|point| [point.periods - self.start, value(point)]);
+        self.chart.curve(role, &points.collect::<Vec<_>>())
+    }
+
+    fn impacts(&self) -> impl Iterator<Item = (f64, &'a Impact)> {
+        let ([first, last], start) = (self.window, self.start);
+        let inside = self.trace.impacts.iter().filter(move |(at, _)| (first..=last).contains(at));
+        inside.map(move |(at, impact)| (*at - start, impact))
+    }
+
+    /// Impacts where `value` says, with their impulse as tooltip if there are few.
+    fn marks(&self, scene: &Scene, value: &dyn Fn(f64, &Impact) -> f64) -> Layer {
+        let few = self.impacts().count() <= TOOLTIPS;
+        let marks = self.impacts().map(|(time, impact)| {
+            let strength = impulse(scene.system().mass_ratio(), impact);
+            let tip = scene.tip("impact", &[(&of::TIME, time), (&of::IMPULSE, strength)]);
+            let place = self.chart.at([time, value(time + self.start, impact)]);
+            MarkedPoint { tooltip: few.then_some(tip), ..MarkedPoint::from(place) }
+        });
+        Layer::points(Role::Impact, marks)
+    }
+}
+
+/// A range that follows from what is drawn.
+const FITTED: [f64; 2] = [0.0, f64::NAN];
+
+/// A motion: oscillator and relative displacement over time, and both amplitudes on the manifold.
+pub(super) fn motion(scene: &Scene, data: &Motion) -> Figure {
+    let window = [0.0, data.trace.points.last().map_or(1.0, |point| point.periods)];
+    let series = |kind, range| Series::new(scene, &data.trace, (kind, range), window, 0.0);
+    let top = series(&of::DISPLACEMENT, FITTED);
+    let low = series(&of::RELATIVE_DISPLACEMENT, [-1.35, 1.35]);
+    let first = top.chart.panel().with(top.curve(Role::Simulation, &|point| point.state.x));
+    let gap = low.curve(Role::Simulation, &|point| point.state.relative_displacement());
+    let second = low
+        .chart
+        .panel()
+        .with(low.chart.horizontal(1.0, Role::Guide).labelled("walls at ±b"))
+        .with(low.chart.horizontal(-1.0, Role::Guide))
+        .with(gap)
+        .with(low.marks(scene, &|_, impact| impact.side.sign()).labelled("impacts"));
+    let number = data.index + 1;
+    scene
+        .figure(format!("motion-{number}"), "captions/motion", motion_facts(scene, data))
+        .with_size(860, 420)
+        .with_layout(Layout::cells(
+            &[1.15, 1.0],
+            &[1.0, 1.0],
+            &[[0, 0, 1, 1], [0, 1, 1, 1], [1, 0, 1, 2]],
+        ))
+        .with_panel(first)
+        .with_panel(second)
+        .with_panel(projection(scene, data))
+}
+
+fn projection(scene: &Scene, data: &Motion) -> Panel {
+    let path = data.projection.line(None);
+    let [farthest, highest] =
+        [0, 1].map(|index| path.iter().map(|at| at[index]).fold(0.0, f64::max));
+    let manifold = &scene.study.analysis.manifold;
+    let last = (1.1 * farthest).max(2.2);
+    let top = (1.15 * highest).max(1.3 * manifold.symmetry_breaking.oscillator_amplitude);
+    let chart = parts::amplitudes(scene, [0.0, last], [0.0, top]);
+    let mut panel = chart.panel().with_heading("on the manifold");
+    panel.layers.extend(parts::manifold_layers(manifold, last));
+    panel = panel.with(Layer::curve(Role::Simulation, path).labelled("motion"));
+    // A motion that hardly moves in this plane would be lost without marks.
+    let landed = &data.projection.landed;
+    if landed.len() > TOOLTIPS {
+        return panel;
+    }
+    let marks = landed.iter().map(|(_, at)| *at);
+    let marker = Role::Simulation.marker().sized(9.0);
+    panel.with(Layer::marked(marker, Role::Simulation.color(), marks))
+}
+
+fn motion_facts(scene: &Scene, data: &Motion) -> Value {
+    let attractor = &scene.study.attractors[data.index].attractor;
+    let evidence = &attractor.classification.evidence;
+    let depth = evidence.modulation_depth;
+    json!({
+        "number": data.index + 1,
+        "periods": data.periods,
+        "regime": attractor.classification.regime,
+        "repeats": evidence.periodicity.is_some(),
+        "peak": scene.seen(&of::PEAK, attractor.peak),
+        "z": scene.seen(&of::IMPACTS_PER_PERIOD, evidence.impacts_per_period),
+        "asymmetry": evidence.asymmetry,
+        "captured": scene.seen(&of::CAPTURE_SHARE, evidence.captures.share),
+        "varies": 2.0 * depth / (1.0 + depth),
+    })
+}
+
+/// Periods of captures shown: a dozen captures, each still wide enough to be seen.
+const CAPTURES: usize = 150;
+
+/// The amplitudes `C` and `E` of equation (17) period by period (section 4.2 of Li, Seguy, Berlioz 2016).
+pub(super) fn captures(scene: &Scene) -> Option<Figure> {
+    let found = first_drawn(scene.study)?;
+    let all = &found.attractor.amplitudes;
+    let shown = &all[all.len().saturating_sub(CAPTURES)..];
+    if shown.iter().all(|one| one.captured) || shown.iter().all(|one| !one.captured) {
+        return None;
+    }
+    let absorber =
+        capture_panel(scene, shown, &of::HARMONIC_AMPLITUDE, |one| one.absorber_amplitude);
+    let oscillator =
+        capture_panel(scene, shown, &of::OSCILLATOR_AMPLITUDE, |one| one.oscillator_amplitude);
+    let evidence = &found.attractor.classification.evidence;
+    let (captures, amplitude) = (&evidence.captures, &evidence.absorber_amplitude);
+    let mean = |value: Option<f64>| value.map(|value| scene.seen(&of::HARMONIC_AMPLITUDE, value));
+    let facts = json!({
+        "share": scene.seen(&of::CAPTURE_SHARE, captures.share),
+        "mean": captures.mean,
+        "longest": captures.longest,
+        "inside": mean(amplitude.in_captures),
+        "between": mean(amplitude.between),
+        "correlation": amplitude.correlation_with_growth,
+    });
+    Some(
+        scene
+            .figure("captures", "captions/captures", facts)
+            .with_size(860, 520)
+            .with_layout(Layout::Column)
+            .with_panel(absorber)
+            .with_panel(oscillator),
+    )
+}
+
+/// One amplitude over time, the captures shaded. A period's amplitudes belong to its middle.
+fn capture_panel(
+    scene: &Scene,
+    shown: &[Amplitudes],
+    kind: &'static Kind,
+    value: fn(&Amplitudes) -> f64,
+) -> Panel {
+    let line: Vec<[f64; 2]> =
+        shown.iter().enumerate().map(|(k, one)| [k as f64 + 0.5, value(one)]).collect();
+    let top = 1.1 * line.iter().map(|at| at[1]).fold(0.0, f64::max);
+    let chart = Chart::new(scene, [&of::TIME, kind], [[0.0, shown.len() as f64], [0.0, top]]);
+    let mut panel = chart.panel();
+    let mut first = 0;
+    for run in shown.chunk_by(|a, b| a.captured == b.captured) {
+        let ends = [first, first + run.len()].map(|period| period as f64);
+        if run[0].captured {
+            let fill = Fill { color: Color::BluishGreen, opacity: 0.15, hatch: Hatch::None };
+            let side = |y: f64| ends.map(|x| chart.at([x, y]));
+            panel.layers.push(Layer::between(&side(0.0), &side(top), fill));
+        }
+        first += run.len();
+    }
+    panel = panel.with(chart.curve(Role::Simulation, &line));
+    let named = kind.id == of::HARMONIC_AMPLITUDE.id;
+    for (captured, name) in [(true, "in a capture"), (false, "between captures")] {
+        let chosen = line.iter().zip(shown).filter(|(_, one)| one.captured == captured);
+        let marks = chart.line(chosen.map(|(at, _)| at));
+        let marker = Marker { filled: captured, ..Role::Simulation.marker().sized(3.6) };
+        let layer = Layer::marked(marker, Role::Simulation.color(), marks);
+        panel = panel.with(if named { layer.labelled(name) } else { layer });
+    }
+    panel
+}
+
+/// Acceleration of the oscillator between impacts, over `omega0^2 b`, by (1).
+fn acceleration(system: &System, periods: f64, state: &State) -> f64 {
+    let (sine, cosine) = system.excitation_amplitudes();
+    let (sin, cos) = libm::sincos(TAU * periods.fract());
+    let damping = system.mass_ratio() * system.damping();
+    sine * sin + cosine * cos - damping * state.x_velocity - state.x
+}
+
+/// Displacement of the base over the clearance, `F sin(Omega tau)`; for a force the displacement that it would
+/// give at rest.
+fn excitation(scene: &Scene, series: &Series) -> Layer {
+    let system = scene.system();
+    let amplitude = system.mass_ratio() * system.forcing_per_clearance();
+    let name = match system.excitation() {
+        Excitation::BaseDisplacement => "base",
+        Excitation::Force => "force over stiffness",
+    };
+    let value = |point: &TracePoint| amplitude * libm::sin(TAU * point.periods.fract());
+    series.curve(Role::Forcing, &value).labelled(name)
+}
+
+/// Displacement, acceleration and every impact's strength over some seconds.
+pub(super) fn transfer(scene: &Scene, data: &Transfer) -> Figure {
+    let system = scene.system();
+    let window = [data.window.first, data.window.end()].map(|period| period as f64);
+    let series = |kind, range| Series::new(scene, &data.trace, (kind, range), window, window[0]);
+    let top = series(&of::DISPLACEMENT, FITTED);
+    let first = top
+        .chart
+        .panel()
+        .with(excitation(scene, &top))
+        .with(top.curve(Role::Simulation, &|point| point.state.x).labelled("oscillator"));
+    // In the middle of its jump.
+    let struck = |periods: f64, impact: &Impact| {
+        let x_velocity = 0.5 * (impact.x_velocity_before + impact.x_velocity_after);
+        acceleration(system, periods, &State { x: impact.x, x_velocity, y: 0.0, y_velocity: 0.0 })
+    };
+    let middle = series(&of::ACCELERATION, FITTED);
+    let smooth = |point: &TracePoint| acceleration(system, point.periods, &point.state);
+    let second = middle
+        .chart
+        .panel()
+        .with(middle.curve(Role::Simulation, &smooth))
+        .with(middle.marks(scene, &struck).labelled("impacts"));
+    let strength = |impact: &Impact| impulse(system.mass_ratio(), impact);
+    let largest = top.impacts().map(|(_, impact)| strength(impact)).fold(0.0, f64::max);
+    let low = series(&of::IMPULSE, [0.0, 1.1 * largest.max(1e-12)]);
+    let stems: Vec<[f64; 2]> = low
+        .impacts()
+        .flat_map(|(time, impact)| [[time, 0.0], [time, strength(impact)], [f64::NAN; 2]])
+        .collect();
+    let style = Style::new(Color::Vermillion, 1.6, Dash::Solid);
+    let third = low.chart.panel().with(Layer::styled(style, low.chart.line(&stems)));
+    scene
+        .figure("transfer", "captions/transfer", transfer_facts(scene, data, largest))
+        .with_size(860, 620)
+        .with_layout(Layout::Column)
+        .with_panel(first)
+        .with_panel(second)
+        .with_panel(third)
+}
+
+fn transfer_facts(scene: &Scene, data: &Transfer, largest: f64) -> Value {
+    let window = data.window;
+    let captures = data.periods.captures();
+    let whole = |capture: &&Stretch| window.first <= capture.first && capture.end() <= window.end();
+    let inside: Vec<&Stretch> = captures.iter().filter(whole).collect();
+    let captured: usize = inside.iter().map(|capture| capture.periods).sum();
+    let peaks = &data.periods.peaks[window.first..window.end()];
+    let peak = |value| scene.seen(&of::PEAK, value);
+    json!({
+        "low": peak(peaks.iter().copied().fold(f64::INFINITY, f64::min)),
+        "high": peak(peaks.iter().copied().fold(0.0, f64::max)),
+        "captures": inside.len(),
+        "share": captured as f64 / window.periods as f64,
+        "periods": window.periods,
+        "largest": scene.seen(&of::IMPULSE, largest),
+    })
+}
+
+/// Three short stretches of it: weak impacts, decrease, few impacts (Figs. 12d to 12f).
+pub(super) fn stretches(scene: &Scene, data: &Transfer) -> Option<Figure> {
+    let names = ["d: captured, yet it grows", "e: captured, it falls", "f: few impacts, it grows"];
+    let shown = names.into_iter().zip(data.parts).filter_map(|(name, part)| Some((name, part?)));
+    let shown: Vec<(&str, Part)> = shown.collect();
+    let told = shown.iter().map(|(name, part)| {
+        json!({
+            "part": &name[..1],
+            "impacts": part.impacts,
+            "impulse": (part.impacts > 0).then(|| scene.seen(&of::IMPULSE, part.impulse)),
+            "periods": part.stretch.periods,
+            "change": scene.seen(&of::MARGIN, part.change),
+        })
+    });
+    let facts = json!({
+        "parts": told.collect::<Vec<_>>(),
+        "weak": data.parts[0].is_some(),
+        "searched": Transfer::PERIODS,
+        "longest": Transfer::SHORT,
+    });
+    let figure = scene
+        .figure("transfer-stretches", "captions/transfer-stretches", facts)
+        .with_size(720, 40 + 210 * shown.len() as u32)
+        .with_layout(Layout::Column);
+    let panels = shown.iter().map(|(name, part)| stretch_panel(scene, data, name, part));
+    let figure = panels.fold(figure, Figure::with_panel);
+    (!shown.is_empty()).then_some(figure)
+}
+
+/// Displacement over one stretch. A time axis of its own would hide where in the window it lies.
+fn stretch_panel(scene: &Scene, data: &Transfer, name: &str, part: &Part) -> Panel {
+    let window = [part.stretch.first, part.stretch.end()].map(|period| period as f64);
+    let kind = (&of::DISPLACEMENT, FITTED);
+    let series = Series::new(scene, &data.trace, kind, window, data.window.first as f64);
+    series
+        .chart
+        .panel()
+        .with_heading(name)
+        .with(excitation(scene, &series))
+        .with(series.curve(Role::Simulation, &|point| point.state.x).labelled("oscillator"))
+        .with(series.marks(scene, &|_, impact| impact.x).labelled("impacts"))
+}

@@ -1,0 +1,123 @@
+//! What several figures draw alike.
+
+use crate::analysis::{FixedPoint, Manifold};
+use crate::quantity::catalogue as of;
+use crate::regimes::Regime;
+use crate::report::figure::{Color, Fill, Hatch, Layer, MarkedPoint, Marker, Role, Shape};
+use crate::study::plots::{Levels, Line};
+
+use super::Scene;
+use super::chart::Chart;
+
+const fn tint(color: Color, opacity: f64) -> Fill {
+    Fill { color, opacity, hatch: Hatch::None }
+}
+/// The areas of Fig. 5a.
+pub(super) const Z1: Fill = tint(Color::Vermillion, 0.1);
+pub(super) const Z2: Fill = tint(Color::Yellow, 0.2);
+pub(super) const Z3: Fill = tint(Color::BluishGreen, 0.12);
+pub(super) const Z4: Fill = tint(Color::Light, 0.15);
+
+/// Samples of each branch of the manifold.
+const SAMPLES: u32 = 200;
+
+/// The plane of the manifold up to these amplitudes.
+pub(super) fn amplitudes(scene: &Scene, x: [f64; 2], y: [f64; 2]) -> Chart {
+    Chart::new(scene, [&of::ABSORBER_AMPLITUDE_RATIO, &of::OSCILLATOR_AMPLITUDE_RATIO], [x, y])
+}
+
+/// The manifold between two values of `B/b - 1`.
+pub(super) fn manifold_part(manifold: &Manifold, [first, last]: [f64; 2]) -> Line {
+    let at = |k: u32| first + (last - first) * f64::from(k) / f64::from(SAMPLES);
+    let points = (0..=SAMPLES).map(|k| manifold.point(at(k)));
+    points.map(|point| [point.absorber_amplitude, point.oscillator_amplitude]).collect()
+}
+
+/// The manifold up to `B/b = last`: what is not stable, and the stable branch.
+pub(super) fn manifold(manifold: &Manifold, last: f64) -> [Line; 2] {
+    let breaking = manifold.symmetry_breaking.absorber_amplitude;
+    let left = manifold_part(manifold, [-1.0, manifold.fold_shift]);
+    let right = manifold_part(manifold, [breaking - 1.0, last.max(breaking) - 1.0]);
+    let stable = manifold_part(manifold, [manifold.fold_shift, breaking - 1.0]);
+    [[left, right].join(&[f64::NAN; 2]), stable]
+}
+
+/// The manifold's curves, unstable parts first.
+pub(super) fn manifold_layers(of: &Manifold, last: f64) -> [Layer; 2] {
+    let [unstable, stable] = manifold(of, last);
+    [Layer::curve(Role::Unstable, unstable), Layer::curve(Role::Stable, stable)]
+}
+
+/// Fixed points by their places: stable ones filled, unstable ones hollow, named where that is asked for.
+pub(super) fn fixed_points(
+    scene: &Scene,
+    points: &[FixedPoint],
+    named: bool,
+    place: &dyn Fn(&FixedPoint) -> [f64; 2],
+) -> Vec<Layer> {
+    let layer = |(role, stable, one, more): (Role, bool, &str, &str)| {
+        let chosen = points.iter().filter(|point| point.stable == stable);
+        let marks: Vec<MarkedPoint> = chosen.map(|at| fixed_point(scene, at, place(at))).collect();
+        let name = if marks.len() == 1 { one } else { more };
+        let layer = Layer::marked(role.marker().sized(9.0), role.color(), marks.clone());
+        let layer = if named { layer.labelled(name) } else { layer };
+        (!marks.is_empty()).then_some(layer)
+    };
+    let both = [
+        (Role::Stable, true, "stable fixed point", "stable fixed points"),
+        (Role::Unstable, false, "unstable fixed point", "unstable fixed points"),
+    ];
+    both.into_iter().filter_map(layer).collect()
+}
+
+/// A fixed point's mark.
+pub(super) fn fixed_point(scene: &Scene, point: &FixedPoint, at: [f64; 2]) -> MarkedPoint {
+    let stability = if point.stable { "stable" } else { "unstable" };
+    let what = format!("{stability} fixed point, {} of the slow flow", point.kind.words());
+    let amplitudes = [
+        (&of::ABSORBER_AMPLITUDE_RATIO, point.absorber_amplitude),
+        (&of::OSCILLATOR_AMPLITUDE_RATIO, point.oscillator_amplitude),
+    ];
+    MarkedPoint::from(at).with_tooltip(scene.tip(&what, &amplitudes))
+}
+
+/// How simulated regimes are marked.
+const REGIMES: [(&str, Marker, &[Regime]); 5] = [
+    ("symmetric 1:1", Marker::filled(Shape::Circle), &[Regime::TwoSymmetric]),
+    ("asymmetric", Marker::hollow(Shape::Triangle), &[Regime::TwoAsymmetric]),
+    ("more impacts", Marker::hollow(Shape::Square), &[Regime::AboveTwo]),
+    (
+        "modulated or fewer",
+        Marker::filled(Shape::Cross).sized(8.0),
+        &[Regime::StronglyModulated, Regime::BelowTwo],
+    ),
+    ("at rest", Marker::hollow(Shape::Circle), &[Regime::AtRest]),
+];
+
+/// Simulated motions by regime.
+pub(super) fn by_regime(found: &[(Regime, MarkedPoint)], named: bool) -> Vec<Layer> {
+    let layer = |(name, marker, regimes): (&str, Marker, &[Regime])| {
+        let chosen = found.iter().filter(|(regime, _)| regimes.contains(regime));
+        let marks: Vec<MarkedPoint> = chosen.map(|(_, mark)| mark.clone()).collect();
+        let some = !marks.is_empty();
+        let layer = Layer::marked(marker, Role::Simulation.color(), marks);
+        some.then(|| if named { layer.labelled(name) } else { layer })
+    };
+    REGIMES.into_iter().filter_map(layer).collect()
+}
+
+/// The areas as bands of `C/b` over the whole of a panel, in the units of its axes.
+pub(super) fn levels(levels: &Levels, chart: &Chart) -> Vec<Layer> {
+    let ([first, last], [bottom, top]) = (chart.range(0), chart.range(1));
+    let band = |name: &str, low: f64, high: f64, fill| {
+        let side = |y| [chart.at([first, y]), chart.at([last, y])];
+        (low < high.min(top))
+            .then(|| Layer::between(&side(low), &side(high.min(top)), fill).labelled(name))
+    };
+    let beyond = match levels.grazing {
+        Some(level) => [band("Z2", levels.breaking, level, Z2), band("Z1", level, top, Z1)],
+        None => [band("Z1, Z2", levels.breaking, top, Z2), None],
+    };
+    let below = [band("Z4", bottom, levels.fold, Z4), band("Z3", levels.fold, levels.breaking, Z3)];
+    below.into_iter().chain(beyond).flatten().collect()
+}

@@ -1,0 +1,210 @@
+//! Peak displacement over the band, over frequency and over the clearance: what a designer wants to know.
+
+use serde_json::json;
+
+use crate::quantity::catalogue as of;
+use crate::regimes::Regime;
+use crate::report::figure::{
+    Color, Dash, Figure, Layer, Layout, MarkedPoint, Marker, Panel, Role, Shape, Style,
+};
+use crate::study::plots::{Amplitude, BandCurves};
+use crate::study::scenes::WalkPoint;
+
+use super::Scene;
+use super::chart::Chart;
+use super::parts;
+
+/// The response over the case's band, and what else could be done.
+pub(super) fn band(scene: &Scene, data: &BandCurves) -> Option<Figure> {
+    let survey = scene.study.band.as_ref()?;
+    let band = survey.band();
+    let found = simulated(scene);
+    let drawn = data.orbits.iter().flatten().map(|point| point[1]);
+    let highest = drawn.chain(found.iter().map(|(at, _)| at[1]));
+    let highest = highest.filter(|value| value.is_finite()).fold(0.0, f64::max);
+    let rival = data.bare.iter().chain(&data.damper).map(|point| point[1]).fold(0.0, f64::max);
+    // The bare oscillator's resonance is cut where it would hide the rest.
+    let top = 1.05 * if highest > 0.0 { rival.min(1.6 * highest).max(highest) } else { rival };
+    let kinds = [scene.band_kind(band.over), &of::PEAK];
+    let chart = Chart::new(scene, kinds, [band.range, [0.0, top]]);
+    let damper = Style::new(Color::Orange, 1.6, Dash::LongDashed);
+    let marks = found.iter().map(|(at, what)| scene.mark(&chart, *at, what));
+    let marker = Marker::filled(Shape::Cross).sized(7.0);
+    let [stable, unstable] = &data.orbits;
+    let mut panel = chart
+        .panel()
+        .with(chart.curve(Role::BareOscillator, &data.bare).labelled("without absorber"))
+        .with(Layer::styled(damper, chart.line(&data.damper)).labelled("tuned mass damper"))
+        .with(chart.curve(Role::Unstable, unstable).labelled("unstable 1:1"))
+        .with(chart.curve(Role::Stable, stable).labelled("stable 1:1 (exact)"))
+        .with(Layer::marked(marker, Role::Simulation.color(), marks).labelled("simulated"));
+    if let Some(limit) = scene.limit.filter(|limit| *limit < top) {
+        let style = Style::new(Color::Vermillion, 1.4, Dash::Dotted);
+        panel = panel.with(chart.horizontal(limit, style).labelled("limit"));
+    }
+    let zone = |zone: &crate::band::Stretch<crate::analysis::Zone>| {
+        let ends = [zone.from, zone.to].map(|at| scene.theory(kinds[0], at));
+        json!({"from": ends[0], "to": ends[1], "area": zone.of.area, "strip": zone.of.strip})
+    };
+    let facts = json!({
+        "z3": scene.theory(&of::Z3_SHARE, survey.z3_share()),
+        "stable": scene.exact(&of::STABLE_SHARE, survey.motions.stable_share()),
+        "zones": survey.zones.iter().map(zone).collect::<Vec<_>>(),
+        "inactive": survey.motions.count_inactive && survey.motions.inactive.is_some(),
+    });
+    Some(scene.figure("band", "captions/band", facts).with_panel(panel))
+}
+
+/// Simulated peaks along the band where they are not the exact orbit's.
+fn simulated(scene: &Scene) -> Vec<([f64; 2], String)> {
+    let Some(survey) = &scene.study.band else { return Vec::new() };
+    let mut found = Vec::new();
+    for place in &survey.motions.places {
+        for motion in place.beside_orbit() {
+            let impacts = scene.text(&of::IMPACTS_PER_PERIOD, motion.impacts_per_period);
+            found.push(([place.at, motion.peak], format!("simulated, z = {impacts}")));
+        }
+        if let Some(inactive) = place.inactive.filter(|_| survey.motions.count_inactive) {
+            let share = scene.text(&of::INACTIVE_SHARE, inactive.share);
+            let what = format!("inactive absorber, from {share} of its resting places");
+            found.push(([place.at, inactive.amplitude], what));
+        }
+    }
+    found
+}
+
+/// With and without absorber over frequency.
+pub(super) fn amplitude(scene: &Scene, data: &Amplitude) -> Figure {
+    let kinds = [&of::EXCITATION_FREQUENCY, &of::PEAK];
+    let chart = Chart::new(scene, kinds, [data.window, [0.0, data.top]]);
+    let [stable, unstable] = &data.theory;
+    let mut panel = chart
+        .panel()
+        .with(chart.curve(Role::BareOscillator, &data.bare).labelled("without absorber"))
+        .with(chart.curve(Role::Unstable, unstable).labelled("unstable 1:1"))
+        .with(chart.curve(Role::Stable, stable).labelled("stable 1:1 (theory)"));
+    for (attracts, name) in [(true, "exact stable orbit"), (false, "exact unstable orbit")] {
+        let chosen = data.exact.iter().filter(|one| one.attracts == attracts);
+        let marks: Vec<MarkedPoint> = chosen
+            .map(|one| {
+                let radius = scene.text(&of::SPECTRAL_RADIUS, one.radius);
+                scene.mark(&chart, one.at, &format!("{name}, multiplier {radius} per period"))
+            })
+            .collect();
+        let marker = Marker { filled: attracts, ..Marker::hollow(Shape::Circle).sized(4.0) };
+        if !marks.is_empty() {
+            let layer = Layer::marked(marker, Role::ExactOrbit.color(), marks);
+            panel = panel.with(layer.labelled(name));
+        }
+    }
+    let found = data.simulated.iter().map(|one| {
+        let what = format!("simulated, {}", one.regime.words());
+        (one.regime, scene.mark(&chart, [one.frequency_ratio, one.peak], &what))
+    });
+    panel.layers.extend(parts::by_regime(&found.collect::<Vec<_>>(), true));
+    if let Some(peak) = data.here {
+        let at = [scene.system().frequency_ratio(), peak];
+        let here = scene.mark(&chart, at, "this case");
+        panel = panel.with(Layer::this_case(chart.at(at), here.tooltip));
+    }
+    let both = data.here.zip(data.alone.filter(|alone| *alone > 0.0));
+    let facts = json!({
+        "peak": data.here.map(|peak| scene.seen(&of::PEAK, peak)),
+        "bare": data.alone.map(|peak| scene.theory(&of::BARE_PEAK, peak)),
+        "change": both.map(|(peak, alone)| scene.seen(&of::CHANGE_DB, decibels(peak / alone))),
+        "ratio": both.map(|(peak, alone)| peak / alone),
+    });
+    scene.figure("amplitude", "captions/amplitude", facts).with_panel(panel)
+}
+
+fn decibels(ratio: f64) -> f64 {
+    20.0 * libm::log10(ratio)
+}
+
+/// What simulation finds at many clearances: where on the manifold (Fig. 11g), and how much the oscillator
+/// vibrates (section 3.1 and the red cross in Fig. 6c).
+pub(super) fn clearances(scene: &Scene, found: &[WalkPoint]) -> Figure {
+    let bare = scene.system().linear_response().map(|bare| bare.amplitude());
+    let least = found.iter().min_by(|a, b| a.peak.total_cmp(&b.peak));
+    let change = least.zip(bare).map(|(least, bare)| decibels(least.peak / bare));
+    let hopf = scene.clearance(scene.study.analysis.boundaries.hopf);
+    let facts = json!({
+        "count": found.len(),
+        "least": least.map(|at| json!({
+            "peak": scene.seen(&of::PEAK, at.peak),
+            "clearance": scene.seen(&of::CLEARANCE, at.clearance),
+            "regime": at.regime,
+        })),
+        "hopf": scene.theory(&of::BOUNDARY, hopf),
+        "bare": bare.map(|bare| scene.theory(&of::BARE_PEAK, bare)),
+        "change": change.map(|change| scene.seen(&of::CHANGE_DB, change)),
+    });
+    scene
+        .figure("clearances", "captions/clearances", facts)
+        .with_size(860, 470)
+        .with_layout(Layout::columns(&[1.0, 1.0]))
+        .with_panel(on_manifold(scene, found))
+        .with_panel(over_clearance(scene, found, bare))
+}
+
+/// The motions by regime, and the case.
+fn walked(
+    scene: &Scene,
+    found: &[WalkPoint],
+    chart: &Chart,
+    place: fn(&WalkPoint) -> [f64; 2],
+) -> Vec<Layer> {
+    let marks = found.iter().map(|point| -> (Regime, MarkedPoint) {
+        let what = format!("{}, {}", scene.at_clearance(point.clearance), point.regime.words());
+        (point.regime, scene.mark(chart, place(point), &what))
+    });
+    let named = chart.kinds()[1].id == of::PEAK.id;
+    let mut layers = parts::by_regime(&marks.collect::<Vec<_>>(), named);
+    if let Some(here) = found.iter().find(|point| point.clearance == 1.0) {
+        layers.push(Layer::this_case(chart.at(place(here)), Some("this case".to_owned())));
+    }
+    layers
+}
+
+fn on_manifold(scene: &Scene, found: &[WalkPoint]) -> Panel {
+    let manifold = &scene.study.analysis.manifold;
+    let over = |index: usize| found.iter().map(move |point| point.amplitudes[index]);
+    let farthest = over(0).fold(2.0, f64::max);
+    let nearest = over(0).fold(0.4, f64::min).max(0.02);
+    let heights = [manifold.fold.oscillator_amplitude.max(0.02), over(1).fold(1.0, f64::max)];
+    let y = [0.7 * heights[0], 1.4 * heights[1]];
+    let chart = parts::amplitudes(scene, [0.7 * nearest, 1.4 * farthest], y).with_log([true; 2]);
+    let mut panel = chart.panel().with_heading("on the manifold");
+    panel.layers.extend(parts::manifold_layers(manifold, 1.4 * farthest));
+    panel.layers.extend(walked(scene, found, &chart, |point| point.amplitudes));
+    // The ends of the walk say which way the clearance grows.
+    let ends = [found.first(), found.last()].into_iter().flatten().map(|point| {
+        MarkedPoint::from(point.amplitudes).with_label(scene.at_clearance(point.clearance))
+    });
+    panel.with(Layer::marked(Role::Guide.marker().sized(3.0), Color::Black, ends))
+}
+
+fn over_clearance(scene: &Scene, found: &[WalkPoint], bare: Option<f64>) -> Panel {
+    let highest = found.iter().map(|point| point.peak).chain(bare).fold(0.0, f64::max);
+    let ends = [found.first(), found.last()].map(|at| at.map_or(1.0, |at| at.clearance));
+    let ranges = [[0.9 * ends[0], 1.15 * ends[1]], [0.0, 1.15 * highest]];
+    let chart = Chart::new(scene, [&of::CLEARANCE, &of::PEAK], ranges).with_log([true, false]);
+    let boundaries = &scene.study.analysis.boundaries;
+    let [breaking, hopf] =
+        [boundaries.symmetry_breaking, boundaries.hopf].map(|gamma| scene.clearance(gamma));
+    let mut panel = chart
+        .panel()
+        .with_heading("peak displacement")
+        .with(chart.vertical(breaking, Role::SymmetryBreaking).labelled("breaking"))
+        .with(chart.vertical(hopf, Role::Hopf).labelled("Hopf"));
+    let last = scene.study.margins.clearance.iter().map(|at| at.factor).fold(hopf, f64::max);
+    if last > 1.02 * hopf {
+        panel = panel.with(chart.vertical(last, Role::SaddleNode).labelled("collision"));
+    }
+    if let Some(bare) = bare {
+        let rule = chart.horizontal(bare, Role::BareOscillator);
+        panel = panel.with(rule.labelled("without absorber"));
+    }
+    panel.layers.extend(walked(scene, found, &chart, |point| [point.clearance, point.peak]));
+    panel
+}

@@ -1,0 +1,241 @@
+//! The slow invariant manifold and what lies on it (Figs. 3, 5 and 7).
+
+use serde_json::{Value, json};
+
+use crate::quantity::catalogue as of;
+use crate::regimes::Regime;
+use crate::report::figure::{
+    Color, Dash, Figure, Label, Layer, Layout, MarkedPoint, Marker, Panel, Role, Shape, Style,
+};
+use crate::study::plots::responses::BAND;
+use crate::study::plots::restitutions::observed;
+use crate::study::plots::{Areas, Responses, drawn};
+
+use super::Scene;
+use super::chart::Chart;
+use super::parts;
+
+/// Beyond this `B/b` the plane of the manifold is logarithmic.
+const FAR: f64 = 40.0;
+
+/// With the case's fixed points and its observed motions.
+pub(super) fn manifold(scene: &Scene) -> Figure {
+    let analysis = &scene.study.analysis;
+    let manifold = &analysis.manifold;
+    let seen: Vec<([f64; 2], Regime)> = (0..scene.study.attractors.len())
+        .filter_map(|index| drawn(scene.study, index))
+        .filter_map(|found| Some((observed(scene.study, found)?, found.regime())))
+        .collect();
+    let reached = analysis.fixed_points.iter().map(|point| point.absorber_amplitude);
+    let farthest = reached.chain(seen.iter().map(|(at, _)| at[0])).fold(0.0, f64::max);
+    let last = (1.08 * farthest).max(2.5);
+    let [fold, breaking] = [manifold.fold, manifold.symmetry_breaking];
+    let log = last > FAR;
+    let bottom = (0.6 * fold.oscillator_amplitude).max(0.05);
+    let ranges =
+        if log { [[0.05, last], [bottom, 1.3 * last]] } else { [[0.0, last], [0.0, f64::NAN]] };
+    let chart = parts::amplitudes(scene, ranges[0], ranges[1]).with_log([log; 2]);
+    let special = [(fold, "fold"), (breaking, "symmetry breaking")].map(|(at, name)| {
+        let at = [at.absorber_amplitude, at.oscillator_amplitude];
+        scene.mark(&chart, at, name).with_label(name)
+    });
+    let [unstable, stable] = parts::manifold_layers(manifold, last);
+    let mut panel = chart
+        .panel()
+        .with(unstable.labelled("unstable"))
+        .with(stable.labelled("stable"))
+        .with(Layer::marked(Role::Guide.marker().sized(6.0), Color::Black, special));
+    let place = |point: &crate::analysis::FixedPoint| {
+        [point.absorber_amplitude, point.oscillator_amplitude]
+    };
+    panel.layers.extend(parts::fixed_points(scene, &analysis.fixed_points, true, &place));
+    if !seen.is_empty() {
+        let marks = seen.iter().map(|(at, regime)| scene.mark(&chart, *at, regime.words()));
+        panel = panel.with(Layer::points(Role::Simulation, marks).labelled("simulated"));
+    }
+    scene.figure("sim", "captions/sim", manifold_facts(scene, &seen)).with_panel(panel)
+}
+
+fn manifold_facts(scene: &Scene, seen: &[([f64; 2], Regime)]) -> Value {
+    let analysis = &scene.study.analysis;
+    let predicted = analysis.stable_points().last();
+    let two = seen.iter().filter(|(_, regime)| regime.is_two_per_period());
+    let close = predicted.and_then(|point| {
+        let change = |at: &[f64; 2]| at[1] / point.oscillator_amplitude - 1.0;
+        two.map(|(at, _)| (at[1], change(at))).min_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))
+    });
+    let ratio = |value| scene.theory(&of::ABSORBER_AMPLITUDE_RATIO, value);
+    json!({
+        "fixed_points": analysis.fixed_points.len(),
+        "stable": predicted.map(|point| json!({
+            "oscillator": scene.theory(&of::OSCILLATOR_AMPLITUDE, point.oscillator_amplitude),
+            "absorber": scene.theory(&of::ABSORBER_AMPLITUDE, point.absorber_amplitude),
+        })),
+        "seen": close.map(|(oscillator, change)| json!({
+            "oscillator": scene.seen(&of::OSCILLATOR_AMPLITUDE, oscillator),
+            "change": scene.seen(&of::THEORY_ERROR, change),
+        })),
+        "fold": ratio(analysis.manifold.fold.absorber_amplitude),
+        "breaking": ratio(analysis.manifold.symmetry_breaking.absorber_amplitude),
+    })
+}
+
+/// Colours and dashes of the responses, from the smallest clearance to the largest; the case's own is black.
+const STYLES: [(Color, Dash); 4] = [
+    (Color::Orange, Dash::Dotted),
+    (Color::BluishGreen, Dash::Dashed),
+    (Color::SkyBlue, Dash::DashDot),
+    (Color::Blue, Dash::LongDashed),
+];
+
+/// Frequency responses beside the manifold.
+pub(super) fn figure(scene: &Scene, data: &Responses) -> Figure {
+    let analysis = &scene.study.analysis;
+    let log = data.heights[0] > 0.0;
+    let last = 2.0 * data.heights[1] + if data.own { 1.0 } else { 0.0 };
+    let reach = last.min(data.heights[1] + 1.0);
+    let left = parts::amplitudes(scene, [0.0, last], data.heights).with_log([false, log]);
+    let kinds = [&of::EXCITATION_FREQUENCY, &of::OSCILLATOR_AMPLITUDE_RATIO];
+    let right = Chart::new(scene, kinds, [data.window, data.heights]).with_log([false, log]);
+    let [unstable, stable] = parts::manifold_layers(&analysis.manifold, reach);
+    let mut first = left.panel().with_heading("manifold");
+    first.layers.extend(parts::levels(&data.levels, &left));
+    first = first.with(unstable.labelled("unstable")).with(stable.labelled("stable"));
+    let mut second = right.panel().with_heading("responses");
+    second.layers.extend(parts::levels(&data.levels, &right));
+    for (k, member) in data.members.iter().enumerate() {
+        let own = data.own && k + 1 == data.members.len();
+        let (color, dash) =
+            if own { (Color::Black, Dash::Dashed) } else { STYLES[k % STYLES.len()] };
+        let [stable, unstable] = [0, 1].map(|part| right.line(&member.lines[part]));
+        let width = if own { 3.4 } else { 2.2 };
+        let name = scene.at_clearance(member.clearance);
+        let name = if own { format!("{name}, this case") } else { name };
+        let named = usize::from(!stable.is_empty());
+        let mut layers = [
+            Layer::styled(Style::new(color, 1.1, dash), unstable),
+            Layer::styled(Style::new(color, width, Dash::Solid), stable),
+        ];
+        layers[named] = layers[named].clone().labelled(name);
+        second.layers.extend(layers);
+    }
+    if data.own {
+        let ratio = scene.system().frequency_ratio();
+        second.layers.insert(0, right.vertical(ratio, Role::Guide));
+        let points = &analysis.fixed_points;
+        first.layers.extend(parts::fixed_points(scene, points, false, &|point| {
+            left.at([point.absorber_amplitude, point.oscillator_amplitude])
+        }));
+        second.layers.extend(parts::fixed_points(scene, points, false, &|point| {
+            right.at([ratio, point.oscillator_amplitude])
+        }));
+    }
+    let name = if data.own { "response" } else { "forcing-responses" };
+    let template = if data.own { "captions/response" } else { "captions/forcing-responses" };
+    scene
+        .figure(name, template, response_facts(scene, data))
+        .with_size(860, 450)
+        .with_layout(Layout::columns(&[2.0, 3.0]))
+        .with_panel(first)
+        .with_panel(second)
+}
+
+fn response_facts(scene: &Scene, data: &Responses) -> Value {
+    let analysis = &scene.study.analysis;
+    let clearance = |value| scene.theory(&of::BOUNDARY, value);
+    let band = [-BAND, BAND].map(|at| scene.theory(&of::EXCITATION_FREQUENCY, scene.ratio(at)));
+    let shares = data.members.iter().map(|at| {
+        json!({"clearance": clearance(at.clearance), "share": scene.theory(&of::Z3_SHARE, at.share)})
+    });
+    let stable = analysis.stable_points().last();
+    json!({
+        "stable": stable.map(|at| scene.theory(&of::OSCILLATOR_AMPLITUDE, at.oscillator_amplitude)),
+        "fixed_points": analysis.fixed_points.len(),
+        "narrowest": clearance(scene.clearance(analysis.boundaries.symmetry_breaking)),
+        "widest": clearance(scene.clearance(analysis.boundaries.hopf)),
+        "band": band,
+        "shares": shares.collect::<Vec<_>>(),
+    })
+}
+
+/// The areas along the manifold, and how the fixed points move as the clearance grows.
+pub(super) fn areas(scene: &Scene, data: &Areas) -> Figure {
+    let manifold = &scene.study.analysis.manifold;
+    let [breaking, hopf] = data.boundaries;
+    let top = manifold.point(Areas::WIDEST - 1.0).oscillator_amplitude;
+    let reach = 1.12 * data.last.map_or(hopf, |(last, _)| last.max(hopf));
+    let left = parts::amplitudes(scene, [0.0, Areas::WIDEST], [0.0, top]);
+    let kinds = [&of::CLEARANCE, &of::OSCILLATOR_AMPLITUDE_RATIO];
+    let right = Chart::new(scene, kinds, [[0.4 * breaking, reach], [0.0, top]]);
+    let mut first = left.panel().with_heading("on the manifold");
+    first.layers.extend(parts::levels(&data.levels, &left));
+    first.layers.extend(parts::manifold_layers(manifold, Areas::WIDEST));
+    let mut second = right.panel().with_heading("over the clearance");
+    second.layers.extend(parts::levels(&data.levels, &right));
+    let [stable, unstable] = &data.lines;
+    let near = |at, height| {
+        Label::near(height, right.at([at, if height == "Hopf" { 0.6 } else { 0.8 } * top]))
+    };
+    second = second
+        .with(right.curve(Role::Unstable, unstable).labelled("unstable"))
+        .with(right.curve(Role::Stable, stable).labelled("stable"))
+        .with(right.vertical(hopf, Role::Hopf).labelled(near(hopf, "Hopf")));
+    if let Some((last, _)) = data.last {
+        second =
+            second.with(right.vertical(last, Role::SaddleNode).labelled(near(last, "collision")));
+    }
+    chosen(scene, data, [&left, &right], [&mut first, &mut second]);
+    scene
+        .figure("areas", "captions/areas", area_facts(scene, data))
+        .with_size(860, 450)
+        .with_panel(first)
+        .with_panel(second)
+}
+
+/// Colours and shapes of the clearances that show the way.
+const LOOKS: [(Color, Shape); 5] = [
+    (Color::Black, Shape::Circle),
+    (Color::Orange, Shape::Square),
+    (Color::BluishGreen, Shape::Triangle),
+    (Color::SkyBlue, Shape::Diamond),
+    (Color::ReddishPurple, Shape::Circle),
+];
+
+/// The fixed points of some clearances in both panels: stable ones filled, others hollow.
+fn chosen(scene: &Scene, data: &Areas, charts: [&Chart; 2], panels: [&mut Panel; 2]) {
+    for ((clearance, points), (color, shape)) in data.chosen.iter().zip(LOOKS) {
+        for (k, chart) in charts.into_iter().enumerate() {
+            let mut name = (k == 0).then(|| scene.at_clearance(*clearance));
+            for stable in [true, false] {
+                let marker = if stable { Marker::filled(shape) } else { Marker::hollow(shape) };
+                let marks = points.iter().filter(|point| point.stable == stable).map(|point| {
+                    let x = if k == 0 { point.absorber_amplitude } else { *clearance };
+                    parts::fixed_point(scene, point, chart.at([x, point.oscillator_amplitude]))
+                });
+                let marks: Vec<MarkedPoint> = marks.collect();
+                if marks.is_empty() {
+                    continue;
+                }
+                let layer = Layer::marked(marker.sized(9.0), color, marks);
+                let layer = match name.take() {
+                    Some(name) => layer.labelled(name),
+                    None => layer,
+                };
+                panels[k].layers.push(layer);
+            }
+        }
+    }
+}
+
+fn area_facts(scene: &Scene, data: &Areas) -> Value {
+    let clearance = |value| scene.theory(&of::BOUNDARY, value);
+    let level = |value| scene.theory(&of::OSCILLATOR_AMPLITUDE_RATIO, value);
+    json!({
+        "breaking": clearance(data.boundaries[0]),
+        "hopf": clearance(data.boundaries[1]),
+        "last": data.last.map(|(at, branch)| json!({"at": clearance(at), "branch": branch})),
+        "fold_level": level(data.levels.fold),
+        "breaking_level": level(data.levels.breaking),
+        "grazing_level": data.levels.grazing.map(level),
+    })
+}

@@ -1,0 +1,192 @@
+//! Return maps (Fig. 11), basins of attraction, and Lyapunov exponents.
+
+use serde_json::{Value, json};
+
+use crate::quantity::catalogue as of;
+use crate::regimes::basins::Cell;
+use crate::regimes::return_map::pairs;
+use crate::regimes::{Attractor, Exponent, Regime};
+use crate::report::figure::{
+    Color, Dash, Figure, Fill, Hatch, Label, Layer, MarkedPoint, Marker, Role, Rule, Shape, Style,
+};
+use crate::study::plots::{MotionExponents, StartPlane, drawn};
+
+use super::Scene;
+use super::chart::Chart;
+
+/// At most so many points of a return map, the last ones.
+const POINTS: usize = 600;
+/// Points that differ by less in both coordinates are one.
+const SAME: f64 = 2e-3;
+/// Up to so many points are drawn large and with a tooltip.
+const SINGLE: usize = 12;
+/// Axes of a return map end at the data between these, in periods.
+const ENDS: [f64; 2] = [1.25, 4.0];
+
+/// Each time between impacts against the next one; none where there are too few impacts.
+pub(super) fn return_map(scene: &Scene, index: usize) -> Option<Figure> {
+    let attractor = &drawn(scene.study, index)?.attractor;
+    let first = attractor.impacts.len().saturating_sub(POINTS + 2);
+    let all = pairs(&attractor.impacts[first..], scene.system().period());
+    let points = distinct(&all);
+    let largest = points.iter().flatten().copied().reduce(f64::max)?;
+    let end = (1.08 * largest).clamp(ENDS[0], ENDS[1]);
+    let kinds = [&of::IMPACT_INTERVAL, &of::NEXT_INTERVAL];
+    let chart = Chart::new(scene, kinds, [[0.0, end]; 2]);
+    let few = points.len() <= SINGLE;
+    let marker = Marker::dot().sized(if few { 8.0 } else { 3.6 });
+    let marks = points.iter().map(|at| {
+        let mark = scene.mark(&chart, *at, "time between impacts");
+        if few { mark } else { MarkedPoint::from(*at) }
+    });
+    let names = if end < 2.0 { ["L1: sum is T", "L4: equal"] } else { ["L1", "L4"] };
+    let near = 0.94 * end;
+    let style = Role::Guide.style().colored(Color::Grey);
+    let guide = |rule, name, at| Layer::rule(rule, style).labelled(Label::near(name, at));
+    let sloped = |through, slope| Rule::Sloped { through, slope };
+    let panel = chart
+        .panel()
+        .with(guide(sloped([0.0, 1.0], -1.0), names[0], [0.7, 0.35]))
+        .with(guide(Rule::Vertical(1.0), "L2", [1.0, near]))
+        .with(guide(Rule::Horizontal(1.0), "L3", [near, 1.0]))
+        .with(guide(sloped([0.0, 0.0], 1.0), names[1], [0.95 * near, 0.95 * near]))
+        .with(Layer::marked(marker, Role::Simulation.color(), marks))
+        .with_equal_aspect();
+    let facts = return_facts(scene, attractor, &all, &points, index + 1);
+    let figure = scene.figure(format!("return-map-{}", index + 1), "captions/return-map", facts);
+    Some(figure.with_size(480, 450).with_panel(panel))
+}
+
+/// The points without those that coincide with an earlier one.
+fn distinct(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let mut kept: Vec<[f64; 2]> = Vec::new();
+    for point in points {
+        let same = |other: &[f64; 2]| (0..2).all(|i| (point[i] - other[i]).abs() < SAME);
+        if !kept.iter().any(same) {
+            kept.push(*point);
+        }
+    }
+    kept
+}
+
+fn return_facts(
+    scene: &Scene,
+    attractor: &Attractor,
+    all: &[[f64; 2]],
+    distinct: &[[f64; 2]],
+    number: usize,
+) -> Value {
+    let on_line = all.iter().filter(|[x, y]| (x + y - 1.0).abs() < 0.02).count();
+    let firsts = || distinct.iter().map(|point| point[0]);
+    let (least, most) = (firsts().fold(f64::INFINITY, f64::min), firsts().fold(0.0, f64::max));
+    let interval = |value| scene.seen(&of::IMPACT_INTERVAL, value);
+    let z = attractor.classification.evidence.impacts_per_period;
+    json!({
+        "number": number,
+        "points": distinct.len(),
+        // Each of them seen several times.
+        "repeats": distinct.len() <= SINGLE && all.len() >= 4 * distinct.len(),
+        "least": interval(least),
+        "most": interval(most),
+        "z": scene.seen(&of::IMPACTS_PER_PERIOD, z),
+        "on_line": on_line as f64 / all.len() as f64,
+        "beyond": (most > ENDS[1]).then(|| interval(ENDS[1])),
+    })
+}
+
+/// Colour and marker of each motion, so that they can be told apart without colours.
+const LOOKS: [(Color, Marker); 5] = [
+    (Color::SkyBlue, Marker::filled(Shape::Square).sized(9.0)),
+    (Color::Vermillion, Marker::filled(Shape::Circle).sized(6.0)),
+    (Color::BluishGreen, Marker::filled(Shape::Triangle).sized(7.0)),
+    (Color::ReddishPurple, Marker::filled(Shape::Diamond).sized(7.0)),
+    (Color::Orange, Marker::hollow(Shape::Square).sized(6.0)),
+];
+
+/// Which starts lead to which long-term motion.
+pub(super) fn basins(scene: &Scene, data: &StartPlane) -> Figure {
+    let cells = &data.basins.cells;
+    let kinds = [&of::DISPLACEMENT, &of::VELOCITY];
+    let chart = Chart::new(scene, kinds, [[-data.reach, data.reach]; 2]);
+    let marks = |wanted: Cell| -> Vec<[f64; 2]> {
+        let chosen = data.starts.iter().zip(cells).filter(|(_, cell)| **cell == wanted);
+        chart.line(chosen.map(|(start, _)| start))
+    };
+    // Without impacts and damping a free vibration never fades.
+    let undamped = scene.system().damping() == 0.0;
+    let share = |count: usize| count as f64 / cells.len() as f64;
+    let mut panel = chart.panel().with_heading("the oscillator at the start");
+    let mut motions = Vec::new();
+    for (index, motion) in data.basins.motions.iter().enumerate() {
+        let marks = marks(Cell::Leads(index));
+        if marks.is_empty() {
+            continue;
+        }
+        let (regime, free) = (motion.regime, motion.regime == Regime::AtRest && undamped);
+        let peak = if free {
+            "depends on the start".to_owned()
+        } else {
+            scene.text(&of::PEAK, motion.peak)
+        };
+        motions.push(json!({
+            "share": scene.seen(&of::START_SHARE, share(marks.len())),
+            "regime": regime,
+            "peak": (!free).then(|| scene.seen(&of::PEAK, motion.peak)),
+        }));
+        let (color, marker) = LOOKS[index.min(LOOKS.len() - 1)];
+        let name = format!("{}, peak {peak}", regime.words());
+        panel = panel.with(Layer::marked(marker, color, marks).labelled(name));
+    }
+    let open = marks(Cell::NotSettled);
+    let facts = json!({
+        "starts": cells.len(),
+        "periods": data.transient,
+        "motions": motions,
+        "open": (!open.is_empty()).then(|| scene.seen(&of::START_SHARE, share(open.len()))),
+    });
+    if !open.is_empty() {
+        let marker = Marker::filled(Shape::Cross).sized(5.0);
+        panel = panel.with(Layer::marked(marker, Color::Grey, open).labelled("not settled"));
+    }
+    scene.figure("basins", "captions/basins", facts).with_size(640, 640).with_panel(panel)
+}
+
+/// How the largest Lyapunov exponent of each motion converges, and what the exact orbit says of it.
+pub(super) fn exponents(scene: &Scene, data: &[MotionExponents]) -> Option<Figure> {
+    let windows = || data.iter().flat_map(|one| &one.exponents).map(|at| at.periods as f64);
+    let x = [windows().reduce(f64::min)?, windows().fold(0.0, f64::max)];
+    let kinds = [&of::WINDOW, &of::LYAPUNOV_EXPONENT];
+    let chart = Chart::new(scene, kinds, [x, [0.0, f64::NAN]]).with_log([true, false]);
+    let mut panel = chart.panel().with(chart.horizontal(0.0, Role::Guide));
+    let mut motions = Vec::new();
+    for (one, color) in data.iter().zip([Color::Blue, Color::Vermillion, Color::BluishGreen]) {
+        let line = |value: fn(&Exponent) -> f64| -> Vec<[f64; 2]> {
+            one.exponents.iter().map(|at| [at.periods as f64, value(at)]).collect()
+        };
+        let fill = Fill { color, opacity: 0.15, hatch: Hatch::None };
+        let interval = [line(|at| at.interval[0]), line(|at| at.interval[1])];
+        let found = &scene.study.attractors[one.index];
+        let dynamics = found.attractor.classification.dynamics.words();
+        let style = Style::new(color, 1.8, Dash::Solid);
+        let exponent = Layer::styled(style, line(|at| at.per_period));
+        let name = format!("{}, {dynamics}", found.regime().words());
+        panel = panel.with(Layer::between(&interval[0], &interval[1], fill));
+        panel = panel.with(exponent.labelled(name));
+        if let Some(exact) = one.exact {
+            let style = Style { dash: Dash::Dashed, ..Role::ExactOrbit.style() };
+            let rule = chart.horizontal(exact, style);
+            panel = panel.with(rule.labelled("logarithm of the multiplier"));
+        }
+        let last = one.exponents.last()?;
+        let value = scene.seen(&of::LYAPUNOV_EXPONENT, last.per_period);
+        motions.push(json!({
+            "regime": found.regime(),
+            "dynamics": dynamics,
+            "exponent": value.with_error(2.0 * last.standard_error),
+            "periods": last.periods,
+            "exact": one.exact.map(|exact| scene.exact(&of::LYAPUNOV_EXPONENT, exact)),
+        }));
+    }
+    let facts = json!({ "motions": motions });
+    Some(scene.figure("exponents", "captions/exponents", facts).with_panel(panel))
+}

@@ -1,0 +1,134 @@
+//! Peak displacement of the oscillator over frequency: theory, exact orbits, simulation, and without absorber.
+
+use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, PI};
+
+use crate::analysis::Manifold;
+use crate::analysis::frequency_response::ResponsePoint;
+use crate::orbits::symmetric_orbits;
+use crate::simulation::Stop;
+use crate::study::scenes::{SweepPoint, sweep};
+use crate::study::{CaseStudy, StudyError};
+use crate::system::System;
+
+use super::{Line, even, responses, window};
+
+/// Simulated frequencies.
+const SWEEP: u32 = 17;
+/// Frequencies of the exact orbits.
+const EXACT: u32 = 60;
+/// Samples of the bare oscillator's resonance.
+const BARE: u32 = 600;
+/// The resonance of the bare oscillator is cut at this many times the absorber's highest peak.
+const CUT: f64 = 2.2;
+
+/// Peaks over frequency, over the clearance.
+#[derive(Debug, Clone)]
+pub struct Amplitude {
+    /// First and last frequency ratio.
+    pub window: [f64; 2],
+    /// Without absorber.
+    pub bare: Line,
+    /// The theory's 1:1 motions: the stable ones, and the others.
+    pub theory: [Line; 2],
+    /// Exact symmetric orbits that are motions.
+    pub exact: Vec<ExactPeak>,
+    /// Simulated motions.
+    pub simulated: Vec<SweepPoint>,
+    /// The case's main motion, where it could be followed.
+    pub here: Option<f64>,
+    /// The case without absorber; none if its vibration grows without limit.
+    pub alone: Option<f64>,
+    /// The largest that is shown.
+    pub top: f64,
+}
+
+/// An exact symmetric orbit at one frequency.
+#[derive(Debug, Clone, Copy)]
+pub struct ExactPeak {
+    /// Frequency ratio and peak.
+    pub at: [f64; 2],
+    /// Whether it attracts.
+    pub attracts: bool,
+    /// Its largest multiplier per period.
+    pub radius: f64,
+}
+
+impl Amplitude {
+    pub(super) fn of(study: &CaseStudy) -> Result<Option<Self>, StudyError> {
+        let (system, manifold) = (&study.analysis.system, &study.analysis.manifold);
+        if system.forcing_per_clearance() == 0.0 {
+            // Everything comes to rest.
+            return Ok(None);
+        }
+        let window = window(system);
+        let over = |count| even(window[0], window[1], count);
+        let mut bare: Line = over(BARE)
+            .chain([system.frequency_ratio(), 1.0])
+            .map(|ratio| [ratio, bare_amplitude(system, ratio).unwrap_or(f64::NAN)])
+            .collect();
+        bare.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        let half = 0.5 * (window[1] - window[0]) / f64::from(SWEEP);
+        let middles: Vec<f64> = even(window[0] + half, window[1] - half, SWEEP - 1).collect();
+        let simulated = sweep(system, &middles)?;
+        let attractor = study.main_attractor().map(|found| &found.attractor);
+        let known = attractor.filter(|one| one.stop == Stop::EndTime && one.periods > 0);
+        let here = known.map(|one| one.peak).filter(|peak| peak.is_finite());
+        let alone = bare_amplitude(system, system.frequency_ratio()).filter(|at| at.is_finite());
+        let top = top(&bare, &simulated, here, alone);
+        let place = |point: &ResponsePoint| {
+            let ratio = 1.0 + system.mass_ratio() * point.detuning;
+            [ratio, peak(system.mass_ratio(), manifold, point)]
+        };
+        let theory = responses::lines(system, manifold, 2.0 + top, &place)?;
+        let exact = over(EXACT).flat_map(|ratio| exact(system, ratio)).collect();
+        Ok(Some(Self { window, bare, theory, exact, simulated, here, alone, top }))
+    }
+}
+
+fn bare_amplitude(system: &System, ratio: f64) -> Option<f64> {
+    Some(system.with_frequency_ratio(ratio).ok()?.linear_response()?.amplitude())
+}
+
+/// The upper end of the axis: all that was simulated, and the bare oscillator's resonance as far as it
+/// leaves the rest legible.
+fn top(bare: &Line, simulated: &[SweepPoint], here: Option<f64>, alone: Option<f64>) -> f64 {
+    let largest = |values: &mut dyn Iterator<Item = f64>| {
+        values.filter(|value| value.is_finite()).fold(0.0, f64::max)
+    };
+    let moving = largest(&mut simulated.iter().map(|point| point.peak).chain(here));
+    let resonance = largest(&mut bare.iter().map(|point| point[1]));
+    let cut = if moving > 0.0 { resonance.min(CUT * moving) } else { resonance };
+    let alone = alone.unwrap_or(0.0).min(2.0 * CUT * moving.max(1e-3));
+    let top = 1.08 * moving.max(cut).max(alone);
+    if top > 0.0 { top } else { 1.0 }
+}
+
+/// Largest displacement over the clearance of the motion that a point of the response stands for:
+/// `(1 + eps) x = (1 + eps) C sin z + eps (2/pi) B Pi(z + Theta)`, which is stationary where
+/// `cos z = -/+ eps (2/pi) B/((1 + eps) C)`, or has a corner.
+fn peak(mass_ratio: f64, manifold: &Manifold, point: &ResponsePoint) -> f64 {
+    let (absorber, oscillator) = (point.absorber_amplitude, point.oscillator_amplitude);
+    let theta = manifold.absorber_phase(absorber, absorber - 1.0);
+    let share = mass_ratio / (1.0 + mass_ratio) * FRAC_2_PI * absorber;
+    let displacement =
+        |z: f64| oscillator * libm::sin(z) + share * libm::asin(libm::sin(z + theta));
+    let turning = libm::acos((share / oscillator).clamp(-1.0, 1.0));
+    let corner = FRAC_PI_2 - theta;
+    [turning, -turning, PI - turning, PI + turning, corner, corner + PI]
+        .into_iter()
+        .map(|z| displacement(z).abs())
+        .fold(0.0, f64::max)
+}
+
+/// The admissible symmetric orbits at one frequency.
+fn exact(system: &System, ratio: f64) -> Vec<ExactPeak> {
+    let there = system.with_frequency_ratio(ratio).ok();
+    let orbits = there.and_then(|there| symmetric_orbits(&there).ok()).unwrap_or_default();
+    let admissible = orbits.iter().filter(|one| one.orbit.admissibility.admissible);
+    let peak = |one: &crate::orbits::SymmetricOrbit| ExactPeak {
+        at: [ratio, one.peaks.displacement],
+        attracts: one.orbit.attracts(),
+        radius: one.orbit.radius_per_period(),
+    };
+    admissible.map(peak).collect()
+}

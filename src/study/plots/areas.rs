@@ -1,0 +1,109 @@
+//! The areas along the manifold, and how the fixed points move as the clearance grows (Fig. 5).
+
+use crate::analysis::{Branch, FixedPoint, FixedPointCurve, Manifold, fixed_points};
+use crate::orbits::Boundaries;
+use crate::study::{CaseStudy, StudyError};
+use crate::system::System;
+
+use super::{Line, on_stable_branch};
+
+/// The areas of Fig. 5a as levels of `C/b`: below the fold there is no 1:1 motion (Z4), up to symmetry
+/// breaking a steady one (Z3), beyond that Z2, then Z1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Levels {
+    /// Between Z4 and Z3.
+    pub fold: f64,
+    /// Between Z3 and Z2.
+    pub breaking: f64,
+    /// Between Z2 and Z1: where the exact orbits gain a third impact, if anywhere.
+    pub grazing: Option<f64>,
+}
+
+impl Levels {
+    pub(super) fn of_manifold(manifold: &Manifold) -> Self {
+        Self {
+            fold: manifold.fold.oscillator_amplitude,
+            breaking: manifold.symmetry_breaking.oscillator_amplitude,
+            grazing: None,
+        }
+    }
+
+    fn of(study: &CaseStudy) -> Result<Self, StudyError> {
+        let (system, manifold) = (&study.analysis.system, &study.analysis.manifold);
+        let grazing = study.exact.boundaries.as_ref().and_then(Boundaries::grazing);
+        let there = grazing.and_then(|clearance| system.with_clearance_scaled(clearance).ok());
+        let points = there.map(|there| fixed_points::solve(&there, manifold)).transpose()?;
+        let right = points.iter().flatten().rfind(|point| point.branch == Branch::Right);
+        let grazing = right.map(|point| point.oscillator_amplitude);
+        Ok(Self { grazing, ..Self::of_manifold(manifold) })
+    }
+}
+
+/// Areas and fixed points at the case's frequency; clearances over the case's.
+#[derive(Debug, Clone)]
+pub struct Areas {
+    /// Where the areas end.
+    pub levels: Levels,
+    /// Clearances of symmetry breaking and Hopf boundary.
+    pub boundaries: [f64; 2],
+    /// Where the last fixed points collide, and on which branch.
+    pub last: Option<(f64, Branch)>,
+    /// Fixed points over the clearance, `[clearance, C/b]`: stable ones, and the others.
+    pub lines: [Line; 2],
+    /// Clearances that show the way, with their fixed points.
+    pub chosen: Vec<(f64, Vec<FixedPoint>)>,
+}
+
+impl Areas {
+    /// The manifold is shown up to this `B/b`.
+    pub const WIDEST: f64 = 2.6;
+
+    pub(super) fn of(study: &CaseStudy) -> Result<Option<Self>, StudyError> {
+        let (system, manifold) = (&study.analysis.system, &study.analysis.manifold);
+        let gamma = system.forcing_per_clearance();
+        if gamma == 0.0 || manifold.fold.oscillator_amplitude == 0.0 {
+            return Ok(None);
+        }
+        let at = &study.analysis.boundaries;
+        let [breaking, hopf] = [gamma / at.symmetry_breaking, gamma / at.hopf];
+        let last = at.saddle_node.map(|node| (gamma / node.forcing_over_clearance, node.branch));
+        // One in each area, and two on the way to the collision.
+        let end = last.map_or(1.3 * hopf, |(last, _)| last);
+        let between = |part: f64| hopf + part * (end - hopf);
+        let mut chosen = Vec::new();
+        for clearance in
+            [0.75 * breaking, (breaking * hopf).sqrt(), 0.93 * hopf, between(0.5), between(0.97)]
+        {
+            let Ok(there) = system.with_clearance_scaled(clearance) else { continue };
+            chosen.push((clearance, fixed_points::solve(&there, manifold)?));
+        }
+        let (boundaries, lines) = ([breaking, hopf], lines(system, manifold));
+        Ok(Some(Self { levels: Levels::of(study)?, boundaries, last, lines, chosen }))
+    }
+}
+
+/// At a given amplitude the clearance is explicit. A fixed point is a saddle where `gamma^2` falls with the
+/// amplitude.
+fn lines(system: &System, manifold: &Manifold) -> [Line; 2] {
+    let curve = FixedPointCurve::of(system, manifold);
+    let gamma = system.forcing_per_clearance();
+    let mut shifts: Vec<f64> = super::even(-1.0, Areas::WIDEST - 1.0, 1200)
+        .skip(1)
+        .chain([manifold.fold_shift, manifold.symmetry_breaking.absorber_amplitude - 1.0])
+        .collect();
+    shifts.sort_by(f64::total_cmp);
+    let forcing = |shift: f64| curve.forcing_squared(1.0 + shift).sqrt();
+    let place = |shift: f64| [gamma / forcing(shift), manifold.point(shift).oscillator_amplitude];
+    let stable = |pair: &[f64]| {
+        let branches = [manifold.branch(pair[0]), manifold.branch(pair[1])];
+        on_stable_branch(branches, forcing(pair[1]) > forcing(pair[0]))
+    };
+    let mut lines = [Vec::new(), Vec::new()];
+    let pairs: Vec<&[f64]> = shifts.windows(2).collect();
+    for run in pairs.chunk_by(|a, b| stable(a) == stable(b)) {
+        let line = &mut lines[usize::from(!stable(run[0]))];
+        line.extend(run.iter().map(|pair| place(pair[0])));
+        line.extend([place(run[run.len() - 1][1]), [f64::NAN; 2]]);
+    }
+    lines
+}

@@ -1,0 +1,128 @@
+//! The manifold, and what it takes from the oscillator, at several restitutions (Fig. 9).
+
+use std::f64::consts::{FRAC_2_PI, PI};
+
+use crate::analysis::motion::read_off;
+use crate::analysis::{AnalysisError, Branch, Manifold};
+use crate::orbits::symmetric_orbits;
+use crate::regimes::FoundAttractor;
+use crate::study::{CaseStudy, StudyError};
+use crate::system::{Parameters, System};
+
+use super::first_drawn;
+
+/// Steps in restitution.
+const STEPS: u32 = 200;
+/// Restitutions among which the smallest vibration is looked for.
+const TRIED: u32 = 100;
+
+/// What the manifold gives at one restitution for the oscillator's amplitude.
+#[derive(Debug, Clone, Copy)]
+pub struct Taken {
+    /// `r`.
+    pub restitution: f64,
+    /// `B/b`.
+    pub absorber: f64,
+    /// `E/b = 8 B/(pi^2 b)`.
+    pub harmonic: f64,
+    /// `E sin(Theta)/b`, the part that enters the first equation of (18).
+    pub damping: f64,
+    /// Where on the manifold.
+    pub branch: Branch,
+}
+
+/// Which restitutions matter at an oscillator amplitude.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Strongest {
+    /// Where `E` is largest, among those with a steady 1:1 motion.
+    pub harmonic: f64,
+    /// Where `E sin(Theta)` is, among the same.
+    pub damping: f64,
+    /// The smallest and the largest with a steady 1:1 motion.
+    pub stable: [f64; 2],
+}
+
+/// Restitutions at the oscillator amplitude of a case.
+#[derive(Debug, Clone)]
+pub struct Restitutions {
+    /// `C/b`: the stable fixed point's, else the observed one.
+    pub level: f64,
+    /// By ascending restitution.
+    pub taken: Vec<Taken>,
+    /// Which matter.
+    pub strongest: Strongest,
+    /// Those of Fig. 9, with their manifolds.
+    pub manifolds: Vec<(f64, Manifold)>,
+    /// At the case's clearance and forcing: the restitution whose exact symmetric orbit attracts and vibrates
+    /// least, with its peak.
+    pub best: Option<(f64, f64)>,
+}
+
+impl Restitutions {
+    /// Of a case's own amplitude; none where nothing is steady at it.
+    ///
+    /// # Errors
+    /// As the manifold.
+    pub fn of(study: &CaseStudy) -> Result<Option<Self>, StudyError> {
+        let stable = study.analysis.stable_points().last().map(|point| point.oscillator_amplitude);
+        let seen = || Some(observed(study, first_drawn(study)?)?[1]);
+        let Some(level) = stable.or_else(seen) else { return Ok(None) };
+        let mut all = Vec::new();
+        for k in 0..=STEPS {
+            all.extend(taken(f64::from(k) / f64::from(STEPS), level)?);
+        }
+        let Some(strongest) = strongest(&all) else { return Ok(None) };
+        let of = |r| Ok::<_, AnalysisError>((r, Manifold::of(r)));
+        let manifolds = [1.0, 0.8, 0.6, 0.4, 0.2].map(of).into_iter().collect::<Result<_, _>>()?;
+        let best = best(&study.analysis.system);
+        Ok(Some(Self { level, taken: all, strongest, manifolds, best }))
+    }
+}
+
+/// What was observed of a motion: `[B/b, C/b]` by its first harmonics.
+pub fn observed(study: &CaseStudy, found: &FoundAttractor) -> Option<[f64; 2]> {
+    let attractor = &found.attractor;
+    let system = &study.analysis.system;
+    let seen = read_off(system, attractor.oscillator_harmonic, attractor.absorber_harmonic);
+    let place = [seen.absorber_amplitude, seen.oscillator_amplitude];
+    place.iter().all(|value| value.is_finite()).then_some(place)
+}
+
+/// The right one of the two points of the manifold at a given `C/b`, from (16) as a quadratic in `B/b`; none
+/// below the fold.
+fn taken(restitution: f64, level: f64) -> Result<Option<Taken>, AnalysisError> {
+    let manifold = Manifold::of(restitution);
+    let r = manifold.curvature;
+    let root = level * level * (1.0 + r) - r;
+    let absorber = (1.0 + root.sqrt()) / (1.0 + r);
+    let harmonic = 8.0 / (PI * PI) * absorber;
+    let sine = FRAC_2_PI * manifold.restitution_ratio * absorber / level;
+    let branch = manifold.branch(absorber - 1.0);
+    let found = Taken { restitution, absorber, harmonic, damping: harmonic * sine, branch };
+    Ok((root >= 0.0).then_some(found))
+}
+
+/// Where 1:1 resonance is not steady the manifold takes nothing.
+fn strongest(all: &[Taken]) -> Option<Strongest> {
+    let stable = || all.iter().filter(|at| at.branch == Branch::Stable);
+    let largest = |value: fn(&Taken) -> f64| {
+        let at = stable().max_by(|a, b| value(a).total_cmp(&value(b)))?;
+        Some(at.restitution)
+    };
+    Some(Strongest {
+        harmonic: largest(|at| at.harmonic)?,
+        damping: largest(|at| at.damping)?,
+        stable: [stable().next()?.restitution, stable().next_back()?.restitution],
+    })
+}
+
+/// At small restitutions an orbit of the theory may be none: the absorber would leave its cavity.
+fn best(system: &System) -> Option<(f64, f64)> {
+    let tried = (0..=TRIED).map(|k| f64::from(k) / f64::from(TRIED)).filter_map(|restitution| {
+        let there = System::new(Parameters { restitution, ..system.parameters() }).ok()?;
+        let orbits = symmetric_orbits(&there).ok()?;
+        let orbit = orbits.iter().find(|orbit| orbit.orbit.attracts())?;
+        Some((restitution, orbit.peaks.displacement))
+    });
+    tried.min_by(|a, b| a.1.total_cmp(&b.1))
+}
