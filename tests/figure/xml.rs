@@ -48,12 +48,15 @@ fn text(text: &str) {
 
 /// The frame of the first plot: left, top, right, bottom, tenths of a pixel.
 pub fn frame(svg: &str) -> [f64; 4] {
-    let path = svg.split("<path fill=\"none\" stroke=\"#777777\"").nth(1).expect("a frame");
-    let d = path.split(" d=\"").nth(1).unwrap().split('"').next().unwrap();
-    // The frame is the last piece: `M left top H right V bottom H left z`.
-    let piece = d.rsplit('M').next().unwrap().trim_end_matches('z');
-    let corners: Vec<f64> = piece.split([' ', 'H', 'V']).map(|v| v.parse().unwrap()).collect();
-    [corners[0], corners[1], corners[2], corners[3]]
+    let polyline =
+        svg.split("<polyline").find(|p| p.contains("#777777") && p.matches(',').count() > 4);
+    let points =
+        polyline.expect("a frame").split("points=\"").nth(1).unwrap().split('"').next().unwrap();
+    let corners: Vec<Vec<f64>> = points
+        .split_whitespace()
+        .map(|p| p.split(',').map(|v| v.parse().unwrap()).collect())
+        .collect();
+    [corners[0][0], corners[0][1], corners[2][0], corners[2][1]]
 }
 
 /// The lines of curves and rules, in tenths of a pixel.

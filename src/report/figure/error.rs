@@ -54,4 +54,12 @@ pub enum FigureError {
         /// The limit.
         limit: usize,
     },
+    /// The drawing library refused.
+    #[error("figure {name}: {reason}")]
+    Backend {
+        /// The figure's name.
+        name: String,
+        /// The library's words.
+        reason: String,
+    },
 }

@@ -1,57 +1,85 @@
-//! Ground, grid, frame, ticks and the words around a plot.
+//! What the drawing library draws: background, grid, frame, ticks and the words of the axes.
 
-use std::fmt::Write;
+use plotters::coord::Shift;
+use plotters::element::PathElement;
+use plotters::prelude::{DrawingArea, IntoDrawingArea, SVGBackend};
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+use plotters::style::{Color, FontTransform, IntoFont, IntoTextStyle, RGBColor, WHITE};
 
 use super::data::Figure;
+use super::error::FigureError;
 use super::layout::{Frame, LINE, TICK};
-use super::text::{Anchor, LARGE, SMALL, Words, tenths};
+use super::text::{Anchor, FAMILY, LARGE, SMALL, Words, tenths};
 
-const GRID: &str = "#E9E9E9";
-const EDGE: &str = "#777777";
+const GRID: RGBColor = RGBColor(0xE9, 0xE9, 0xE9);
+const EDGE: RGBColor = RGBColor(0x77, 0x77, 0x77);
 /// Lengths of ticks with and without words, pixels.
 const LONG: f64 = 4.0;
 const SHORT: f64 = 2.5;
 
-/// Draws the white ground and the frames of all panels; returns their words.
-pub(super) fn draw(svg: &mut String, figure: &Figure, frames: &[Frame]) -> Vec<Words> {
-    let (width, height) = figure.size;
-    let _ = writeln!(svg, "<rect width=\"{width}0\" height=\"{height}0\" fill=\"#FFFFFF\"/>");
-    for frame in frames {
-        lines(svg, frame);
+type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+
+/// Draws the frames of all panels: the file's beginning without the closing tag, and its words.
+pub(super) fn draw(figure: &Figure, frames: &[Frame]) -> Result<(String, Vec<Words>), FigureError> {
+    let (width, height) = (10 * figure.size.0, 10 * figure.size.1);
+    let mut svg = String::new();
+    let mut words = Vec::new();
+    let refused = |error: &dyn std::fmt::Display| FigureError::Backend {
+        name: figure.name.clone(),
+        reason: error.to_string(),
+    };
+    {
+        let area = SVGBackend::with_string(&mut svg, (width, height)).into_drawing_area();
+        area.fill(&WHITE).map_err(|e| refused(&e))?;
+        for frame in frames {
+            lines(&area, frame).map_err(|e| refused(&e))?;
+            for word in frame_words(frame) {
+                write(&area, &word).map_err(|e| refused(&e))?;
+                words.push(word);
+            }
+        }
+        area.present().map_err(|e| refused(&e))?;
     }
-    let words: Vec<Words> = frames.iter().flat_map(frame_words).collect();
-    for word in &words {
-        word.write(svg);
-    }
-    words
+    // The library's head is replaced by one with a title, its end is left to the caller.
+    let body = svg.split_once('>').map_or("", |(_, body)| body);
+    let body = body.trim_start().strip_suffix("</svg>\n").unwrap_or(body);
+    Ok((body.replace("opacity=\"1\" ", ""), words))
 }
 
-fn lines(svg: &mut String, frame: &Frame) {
-    let [left, top, right, bottom] =
-        [frame.plot.left, frame.plot.top, frame.plot.right, frame.plot.bottom].map(tenths);
-    let (mut grid, mut ticks) = (String::new(), String::new());
-    let length = |words: &str| tenths(if words.is_empty() { SHORT } else { LONG });
+type Refused<'a> = plotters::drawing::DrawingAreaErrorKind<
+    <SVGBackend<'a> as plotters::prelude::DrawingBackend>::ErrorType,
+>;
+
+fn lines<'a>(area: &Area<'a>, frame: &Frame) -> Result<(), Refused<'a>> {
+    let plot = &frame.plot;
+    let point = |x: f64, y: f64| (tenths(x), tenths(y));
+    let line = |a: (i32, i32), b: (i32, i32), color: RGBColor| {
+        area.draw(&PathElement::new(vec![a, b], color.stroke_width(8)))
+    };
+    let across = |v: f64| frame.map([v, frame.spans.y.first])[0];
+    let up = |v: f64| frame.map([frame.spans.x.first, v])[1];
+    for mark in frame.x_ticks.iter().filter(|m| !m.words.is_empty()) {
+        let x = across(mark.value);
+        line(point(x, plot.top), point(x, plot.bottom), GRID)?;
+    }
+    for mark in frame.y_ticks.iter().filter(|m| !m.words.is_empty()) {
+        let y = up(mark.value);
+        line(point(plot.left, y), point(plot.right, y), GRID)?;
+    }
+    let length = |words: &str| if words.is_empty() { SHORT } else { LONG };
     for mark in &frame.x_ticks {
-        let x = tenths(frame.map([mark.value, frame.spans.y.first])[0]);
-        let _ = write!(ticks, "M{x} {bottom}v{}", length(&mark.words));
-        if !mark.words.is_empty() {
-            let _ = write!(grid, "M{x} {top}V{bottom}");
-        }
+        let x = across(mark.value);
+        line(point(x, plot.bottom), point(x, plot.bottom + length(&mark.words)), EDGE)?;
     }
     for mark in &frame.y_ticks {
-        let y = tenths(frame.map([frame.spans.x.first, mark.value])[1]);
-        let _ = write!(ticks, "M{left} {y}h-{}", length(&mark.words));
-        if !mark.words.is_empty() {
-            let _ = write!(grid, "M{left} {y}H{right}");
-        }
+        let y = up(mark.value);
+        line(point(plot.left, y), point(plot.left - length(&mark.words), y), EDGE)?;
     }
-    let _ = write!(ticks, "M{left} {top}H{right}V{bottom}H{left}z");
-    for (color, d) in [(GRID, grid), (EDGE, ticks)] {
-        if !d.is_empty() {
-            let stroke = format!("stroke=\"{color}\" stroke-width=\"8\"");
-            let _ = writeln!(svg, "<path fill=\"none\" {stroke} d=\"{d}\"/>");
-        }
-    }
+    let [left, right] = [plot.left, plot.right];
+    let corners = [(left, plot.top), (right, plot.top), (right, plot.bottom), (left, plot.bottom)];
+    let around: Vec<(i32, i32)> =
+        corners.iter().chain(&corners[..1]).map(|(x, y)| point(*x, *y)).collect();
+    area.draw(&PathElement::new(around, EDGE.stroke_width(8)))
 }
 
 /// The words around a plot.
@@ -85,4 +113,26 @@ fn frame_words(frame: &Frame) -> Vec<Words> {
         all.push(dark(Words { bold: true, ..words }));
     }
     all
+}
+
+fn write<'a>(area: &Area<'a>, words: &Words) -> Result<(), Refused<'a>> {
+    let horizontal = match words.anchor {
+        Anchor::Start => HPos::Left,
+        Anchor::Middle => HPos::Center,
+        Anchor::End => HPos::Right,
+    };
+    // The library divides a font's size by 1.24, and puts the baseline half an ex below.
+    let font = (FAMILY, words.size * 12.4).into_font();
+    let font = if words.bold { font.style(plotters::style::FontStyle::Bold) } else { font };
+    let font = if words.upright { font.transform(FontTransform::Rotate270) } else { font };
+    let shade = if words.color == "#000000" { RGBColor(0, 0, 0) } else { RGBColor(51, 51, 51) };
+    let style = font.color(&shade).pos(Pos::new(horizontal, VPos::Center));
+    let drop = 0.09 * words.size;
+    let [x, y] = if words.upright {
+        [words.at[0] + drop, words.at[1]]
+    } else {
+        [words.at[0], words.at[1] + drop]
+    };
+    let style = style.into_text_style(area);
+    area.draw(&plotters::element::Text::new(words.text.clone(), (tenths(x), tenths(y)), style))
 }

@@ -58,7 +58,7 @@ pub fn draw(figure: &Figure) -> Result<Drawing, FigureError> {
     let mut coarseness = 1.0;
     let mut bytes = 0;
     for _ in 0..ATTEMPTS {
-        let drawing = compose(figure, &frames, &labels, coarseness);
+        let drawing = compose(figure, &frames, &labels, coarseness)?;
         bytes = drawing.svg.len();
         if bytes <= LIMIT {
             return Ok(drawing);
@@ -98,9 +98,15 @@ fn arrange(figure: &Figure) -> Result<(Vec<Frame>, Vec<Labels>), FigureError> {
     }
 }
 
-fn compose(figure: &Figure, frames: &[Frame], labels: &[Labels], coarseness: f64) -> Drawing {
+fn compose(
+    figure: &Figure,
+    frames: &[Frame],
+    labels: &[Labels],
+    coarseness: f64,
+) -> Result<Drawing, FigureError> {
+    let (body, mut words) = frame::draw(figure, frames)?;
     let mut svg = head(figure);
-    let mut words = frame::draw(&mut svg, figure, frames);
+    svg.push_str(&body);
     for ((panel, frame), labels) in figure.panels.iter().zip(frames).zip(labels) {
         let shapes = shapes(panel, frame, coarseness);
         for (layer, shape) in panel.layers.iter().zip(&shapes) {
@@ -121,7 +127,7 @@ fn compose(figure: &Figure, frames: &[Frame], labels: &[Labels], coarseness: f64
     words.extend(keys(&mut svg, figure, frames));
     svg.push_str("</svg>\n");
     let placed = |w: Words| PlacedText { room: w.bounds(), text: w.text };
-    Drawing { svg, texts: words.into_iter().map(placed).collect() }
+    Ok(Drawing { svg, texts: words.into_iter().map(placed).collect() })
 }
 
 fn head(figure: &Figure) -> String {
