@@ -164,6 +164,7 @@ catalogue! {
     A2_SHARE = "a2_share", "", "share in strip A2", Share, Significant(3), Interval;
     STABLE_SHARE = "stable_share", "", "share with a stable 1:1 orbit", Share, Significant(3), Interval;
     REDUCTION_DB = "reduction_db", "", "reduction against the structure without absorber", Level, Decimals(1), Interval;
+    SMALLEST_MARGIN = "smallest_margin", "", "smallest margin in clearance", Share, Significant(3), Interval;
     REDUCTION_DB_TMD = "reduction_db_tmd", "", "reduction against a tuned mass damper", Level, Decimals(1), Interval;
 }
 

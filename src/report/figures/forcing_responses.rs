@@ -106,7 +106,7 @@ fn family(system: &System) -> Result<[f64; 4], AnalysisError> {
 ///
 /// # Errors
 /// As the theory's boundaries.
-pub(in crate::report) fn shares(system: &System) -> Result<Vec<(f64, f64)>, AnalysisError> {
+pub(crate) fn shares(system: &System) -> Result<Vec<(f64, f64)>, AnalysisError> {
     let gammas = family(system)?.into_iter();
     let own = system.forcing_per_clearance();
     gammas.map(|gamma| Ok((own / gamma, share(system, gamma)?))).collect()

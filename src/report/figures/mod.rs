@@ -18,18 +18,18 @@ mod diagram;
 mod diagram_lines;
 mod diagram_words;
 mod exponents;
-pub(super) mod forcing_responses;
+pub(crate) mod forcing_responses;
 mod levels;
 mod manifold;
 mod map;
-pub(super) mod modulation;
+pub(crate) mod modulation;
 mod motion;
 mod plane;
 mod response;
-pub(super) mod restitutions;
+pub(crate) mod restitutions;
 mod return_map;
 mod transfer;
-pub(super) mod transfer_stretches;
+pub(crate) mod transfer_stretches;
 
 use crate::case::{Case, ExtraFigure, Subject};
 use crate::regimes::{FoundAttractor, Regime};
@@ -44,7 +44,7 @@ use super::units::Units;
 const ATTRACTORS: usize = 3;
 
 /// What every figure is made from.
-pub(super) struct Scene<'a> {
+pub(crate) struct Scene<'a> {
     study: &'a CaseStudy,
     units: Units,
     /// The largest displacement that the case allows, over the clearance.
@@ -52,7 +52,7 @@ pub(super) struct Scene<'a> {
 }
 
 impl<'a> Scene<'a> {
-    pub(super) fn new(case: &Case, study: &'a CaseStudy) -> Self {
+    pub(crate) fn new(case: &Case, study: &'a CaseStudy) -> Self {
         let mut limits = case.criteria.iter();
         let asked = limits.find(|one| one.subject == Subject::PeakDisplacement);
         let limit = asked.map(|one| one.limit / case.scales().length(1.0));

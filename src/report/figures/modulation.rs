@@ -26,7 +26,7 @@ const TRANSITION: usize = 3;
 ///
 /// # Errors
 /// As the simulation.
-pub(in crate::report) fn away_from_branch(scene: &Scene) -> Result<Option<f64>, StudyError> {
+pub(crate) fn away_from_branch(scene: &Scene) -> Result<Option<f64>, StudyError> {
     let Some(found) = scene.first_drawn() else { return Ok(None) };
     let system = &scene.study.analysis.system;
     let trace = scenes::trace(system, found.attractor.state, PERIODS, DENSITY)?;

@@ -60,7 +60,7 @@ pub(super) fn figure(scene: &Scene) -> Result<Option<Figure>, StudyError> {
 
 /// Which restitutions matter at an oscillator amplitude.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(in crate::report) struct Strongest {
+pub(crate) struct Strongest {
     /// Where `E` is largest, among those with a steady 1:1 motion.
     pub harmonic: f64,
     /// Where `E sin(Theta)` is, among the same.
@@ -73,7 +73,7 @@ pub(in crate::report) struct Strongest {
 ///
 /// # Errors
 /// As the manifold.
-pub(in crate::report) fn strongest_of(scene: &Scene) -> Result<Option<Strongest>, StudyError> {
+pub(crate) fn strongest_of(scene: &Scene) -> Result<Option<Strongest>, StudyError> {
     let Some(level) = level(scene) else { return Ok(None) };
     Ok(strongest(&over_all(level)?))
 }

@@ -15,7 +15,7 @@ const SHORT: usize = 5;
 
 /// A short stretch and what it shows.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(in crate::report) struct Shown {
+pub(crate) struct Shown {
     stretch: Stretch,
     /// Last peak over the first one, less 1.
     pub change: f64,
@@ -29,7 +29,7 @@ pub(in crate::report) struct Shown {
 
 /// The three stretches, as far as the motion has them.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(in crate::report) struct Three {
+pub(crate) struct Three {
     /// (d) captured, and yet the amplitude grows.
     pub weak: Option<Shown>,
     /// (e) captured, and the amplitude falls most.
@@ -61,7 +61,7 @@ impl Three {
 ///
 /// # Errors
 /// As the simulation.
-pub(in crate::report) fn three(scene: &Scene) -> Result<Option<Three>, StudyError> {
+pub(crate) fn three(scene: &Scene) -> Result<Option<Three>, StudyError> {
     Ok(Window::of(scene)?.map(|window| Three::of(scene, &window)))
 }
 

@@ -1,0 +1,86 @@
+//! Figs. 8, 9 and 12: modulation on the manifold, restitution, transfer.
+
+use serde_json::{Value, json};
+
+use super::{CaseSet, HYSTERESIS, PaperError, Section, TRANSFER};
+use crate::analysis::Manifold;
+use crate::regimes::Regime;
+use crate::report::figures::transfer_stretches::{self, Shown, Three};
+use crate::report::figures::{modulation, restitutions};
+
+/// While captured the motion may be this far from the stable branch, relative in `C`: steps between
+/// impacts of a few percent are what the paper's enlargement shows.
+const CLOSE: f64 = 0.1;
+
+pub(super) fn figure_8(cases: &CaseSet) -> Result<Section, PaperError> {
+    let member = cases.case(TRANSFER)?;
+    let away = modulation::away_from_branch(&member.scene())?;
+    let away = member.needs(away, "capture on the stable branch")?;
+    Ok(Section::new(
+        [
+            ("modulated", member.regime() == Some(Regime::StronglyModulated)),
+            ("follows", away < CLOSE),
+        ],
+        json!({ "clearance": member.length(1.0), "away": away }),
+    ))
+}
+
+pub(super) fn figure_9(cases: &CaseSet) -> Result<Section, PaperError> {
+    let of = |name: &'static str| -> Result<restitutions::Strongest, PaperError> {
+        let member = cases.case(name)?;
+        member.needs(restitutions::strongest_of(&member.scene())?, "point of the manifold")
+    };
+    let (high, low) = (of("li2016-8hz-b4mm")?, of(HYSTERESIS)?);
+    let fold = |r| Manifold::of(r).fold.oscillator_amplitude;
+    let elastic = Manifold::of(1.0).symmetry_breaking.oscillator_amplitude;
+    let dull = fold(0.2);
+    let intermediate = |pair: [f64; 2]| pair.into_iter().all(|r| r > 0.0 && r < 1.0);
+    let (harmonic, damping) = ([high.harmonic, low.harmonic], [high.damping, low.damping]);
+    Ok(Section::new(
+        [
+            ("lifts_the_fold", dull > fold(0.6)),
+            ("harmonic", intermediate(harmonic)),
+            ("damping", intermediate(damping)),
+            ("one_amplitude", elastic < dull),
+        ],
+        json!({ "harmonic": harmonic, "damping": damping, "elastic": elastic, "dull": dull }),
+    ))
+}
+
+pub(super) fn figure_12(cases: &CaseSet) -> Result<Section, PaperError> {
+    let (member, measured) = (cases.case(TRANSFER)?, cases.case("li2016-8hz-b15mm")?);
+    let stretches = member.needs(transfer_stretches::three(&member.scene())?, "stretches")?;
+    let Three { weak, falls, sparse, searched } = stretches;
+    let main = member.main()?;
+    let evidence = &main.attractor.classification.evidence;
+    let correlation = evidence.absorber_amplitude.correlation_with_growth.unwrap_or(0.0);
+    let told = |at: Option<Shown>| -> Option<Value> {
+        let at = at?;
+        Some(json!({
+            "change": at.change.abs(), "periods": at.periods, "impacts": at.impacts, "impulse": at.impulse,
+        }))
+    };
+    let stronger = falls.zip(sparse).is_some_and(|(falls, sparse)| falls.impulse > sparse.impulse);
+    Ok(Section::new(
+        [
+            ("papers_own", measured.regime() == Some(Regime::StronglyModulated)),
+            ("captures", main.regime() == Regime::StronglyModulated),
+            ("falls", falls.is_some()),
+            ("sparse", sparse.is_some_and(|at| at.impacts < 2 * at.periods)),
+            ("correlation", correlation < 0.0),
+            ("weak", weak.is_some()),
+            ("stronger", stronger),
+        ],
+        json!({
+            "papers_own": measured.length(1.0),
+            "papers_regime": measured.regime().map(Regime::key),
+            "clearance": member.length(1.0),
+            "captured": evidence.captures.share,
+            "longest": evidence.captures.longest,
+            "falls": told(falls),
+            "sparse": told(sparse),
+            "correlation": correlation,
+            "searched": searched,
+        }),
+    ))
+}
