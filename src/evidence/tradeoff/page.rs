@@ -293,7 +293,6 @@ mod tests {
         let document = TradeoffDocument::new(&case, &found, 0.01, None);
         let files = document.files(&case, &found).expect("files");
         let page = String::from_utf8_lossy(&files[std::path::Path::new("tradeoff.md")]);
-        println!("{page}\n\n{terminal}");
         let answer =
             "For 1 % in amplitude the exact orbit is enough: symmetric orbit, closed form, ";
         for part in [answer, "The closed form misses by 2.6 %: manifold and fixed points, "] {
