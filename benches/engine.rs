@@ -13,8 +13,8 @@ use std::time::{Duration, Instant};
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use vinesink::analysis::Analysis;
+use vinesink::evidence::tradeoff::by_hand::{ByHand, Listener, Locate};
 use vinesink::simulation::{Simulation, Statistics, Stop, batch};
-use vinesink::study::tradeoff::by_hand::{ByHand, Listener, Locate};
 use vinesink::system::{State, System};
 
 const PERIODS: u64 = 200;

@@ -8,7 +8,7 @@ mod common;
 
 use std::f64::consts::TAU;
 
-use vinesink::extremes::contact::{contact_costs, tolerances};
+use vinesink::evidence::extremes::contact_costs;
 use vinesink::simulation::{
     Absorber, Impact, Observer, Segment, Simulation, StartError, Statistics, Stop,
 };
@@ -150,20 +150,17 @@ fn an_impact_at_the_end_of_a_period_happens_once() {
 fn ending_a_chattering_sequence_early_costs_less_than_the_excursion() {
     let heavy =
         System::new(Parameters { mass_ratio: 0.9, ..common::table_1(8.0, 7.5).parameters() });
-    let start = State { x: 0.3, x_velocity: 0.2, y: 0.1, y_velocity: 0.8 };
     for system in [common::table_1(8.0, 0.3), heavy.expect("valid")] {
-        let costs = contact_costs(&system, start, 6, 20, 100_000, &tolerances()).expect("measured");
+        let costs = contact_costs(&system, 20).expect("measured");
         for cost in &costs {
             assert_eq!(cost.releases, 6, "{cost:?}");
             let floor = 100.0 * f64::EPSILON * (1.0 + 20.0);
-            let allowed = cost.tolerance.excursion + floor;
+            let allowed = cost.excursion + floor;
             assert!(cost.time < allowed && cost.displacement < allowed, "{cost:?}");
         }
         // It is the tolerance that is measured: a coarse one is seen, and costs less.
         let of = |excursion: f64| {
-            let found = costs
-                .iter()
-                .find(|cost| cost.tolerance.excursion == excursion && cost.tolerance.drift == 0.01);
+            let found = costs.iter().find(|cost| cost.excursion == excursion && cost.drift == 0.01);
             found.copied().expect("in the list")
         };
         assert!(of(1e-4).displacement > 10.0 * of(1e-12).displacement, "{costs:?}");

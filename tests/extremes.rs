@@ -3,8 +3,8 @@
 mod common;
 
 use assert_cmd::Command;
-use vinesink::extremes::{Verdict, entries, unit_checks};
-use vinesink::reference::{Event, Reference};
+use vinesink::evidence::extremes::{Verdict, entries, unit_checks};
+use vinesink::evidence::reference::{Event, Reference};
 use vinesink::simulation::trust::{self, Doubt};
 use vinesink::simulation::{Energy, Simulation, Statistics, Stop};
 use vinesink::system::{Parameters, State, System};
@@ -20,7 +20,7 @@ fn whatever_is_trusted_agrees_with_the_reference() {
             continue;
         }
         let outcome = entry.outcome().expect("memory");
-        let name = format!("{:?} {}", outcome.entry.group, outcome.entry.value);
+        let name = format!("{:?} {:?}", outcome.entry.varied, outcome.entry.start);
         match outcome.verdict {
             Verdict::Holds => {
                 let comparison = outcome.measured.and_then(|measured| measured.comparison);

@@ -10,7 +10,9 @@ use std::path::{Path, PathBuf};
 use regex::Regex;
 
 /// Every room of the library and the rooms that it may use besides itself. Analysis, orbits and
-/// simulation are three independent answers to one question and never meet below `validation`.
+/// simulation are three independent answers to one question and never meet below `validation`. What shows
+/// that the product can be trusted, `evidence`, is used by the program alone; in it the reference shares
+/// nothing with what it judges.
 const ROOMS: &[(&str, &[&str])] = &[
     ("bifurcation", &[]),
     ("method", &[]),
@@ -25,7 +27,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("analysis", &["bifurcation", "equations", "numerics", "system", "operation_count"]),
     ("orbits", &["bifurcation", "numerics", "symbolic", "system", "operation_count"]),
     ("simulation", &["numerics", "system", "operation_count"]),
-    ("reference", &["system"]),
+    ("evidence/reference", &["system"]),
     (
         "criteria",
         &[
@@ -40,7 +42,25 @@ const ROOMS: &[(&str, &[&str])] = &[
             "validation",
         ],
     ),
-    ("extremes", &["case", "reference", "simulation", "system"]),
+    (
+        "evidence",
+        &[
+            "analysis",
+            "bifurcation",
+            "case",
+            "evidence/reference",
+            "method",
+            "operation_count",
+            "orbits",
+            "quantity",
+            "regimes",
+            "report",
+            "simulation",
+            "study",
+            "system",
+            "validation",
+        ],
+    ),
     ("regimes", &["numerics", "orbits", "simulation", "system", "operation_count"]),
     (
         "validation",
@@ -102,7 +122,6 @@ const ROOMS: &[(&str, &[&str])] = &[
             "case",
             "criteria",
             "equations",
-            "extremes",
             "method",
             "numerics",
             "optimize",
@@ -124,7 +143,7 @@ const ROOMS: &[(&str, &[&str])] = &[
 
 /// Rooms in which there is physics and nothing else: no files, no clock, no printing, no threads, no
 /// randomness.
-const PURE: [&str; 20] = [
+const PURE: [&str; 21] = [
     "analysis",
     "band",
     "bifurcation",
@@ -132,12 +151,13 @@ const PURE: [&str; 20] = [
     "diff",
     "digest",
     "equations",
-    "extremes",
+    "evidence",
+    "evidence/reference",
     "method",
     "numerics",
     "optimize",
     "orbits",
-    "reference",
+    "quantity",
     "regimes",
     "simulation",
     "study",
@@ -160,11 +180,15 @@ const OUTSIDE: [&str; 9] = [
     "rayon",
 ];
 
+/// A room within another one, for which stricter rules hold.
+const INNER: [&str; 1] = ["evidence/reference"];
+
 /// The room of a file of `src/`, and how many modules deep its items lie below the crate.
 fn place(path: &str) -> (&str, usize) {
     let parts: Vec<&str> = path.trim_end_matches(".rs").split('/').collect();
     let depth = parts.len() - usize::from(parts.last() == Some(&"mod"));
-    (parts[0], depth)
+    let inner = INNER.iter().find(|room| path.starts_with(&format!("{room}/")));
+    (inner.copied().unwrap_or(parts[0]), depth)
 }
 
 /// The source without comments. Text in quotes is kept, so a comment sign in one hides the rest of
@@ -209,15 +233,21 @@ fn paths(source: &str) -> Vec<String> {
     found
 }
 
-/// The room that a path leads to, seen from a module `depth` deep.
-fn destination(path: &str, depth: usize) -> Option<&str> {
+/// The room that a path leads to, seen from a module of a room that lies `depth` deep.
+fn destination<'a>(path: &'a str, room: &'a str, depth: usize) -> Option<&'a str> {
     let mut steps = path.split("::").map(str::trim);
     let supers = path.split("::").take_while(|step| step.trim() == "super").count();
     let first = match steps.next()? {
         "crate" | "vinesink" => steps.next()?,
         "super" if supers >= depth => steps.nth(supers - 1)?,
+        "super" if INNER.contains(&room) && supers + 1 == depth => room.split('/').next()?,
         _ => return None,
     };
+    let second = steps.next().map(|second| format!("{first}/{second}"));
+    let inner = INNER.iter().find(|room| second.as_deref() == Some(**room));
+    if let Some(inner) = inner {
+        return Some(inner);
+    }
     ROOMS.iter().map(|(room, _)| *room).chain(["cli"]).find(|room| *room == first)
 }
 
@@ -230,7 +260,7 @@ fn violations(path: &str, source: &str) -> Vec<String> {
     match (allowed, room) {
         (Some(allowed), _) => {
             for path in &paths {
-                let Some(to) = destination(path, depth) else { continue };
+                let Some(to) = destination(path, room, depth) else { continue };
                 if to != room && !allowed.contains(&to) {
                     found.push(format!("{room} uses {to}: {path}"));
                 }
@@ -300,10 +330,10 @@ fn the_imports_of_the_program_are_seen() {
     let of = |wanted: &str| {
         let sources = sources();
         let (_, source) = sources.iter().find(|(path, _)| path == wanted).expect("a source");
-        let depth = place(wanted).1;
+        let (room, depth) = place(wanted);
         let mut rooms: Vec<String> = paths(source)
             .iter()
-            .filter_map(|path| destination(path, depth))
+            .filter_map(|path| destination(path, room, depth))
             .map(str::to_owned)
             .collect();
         rooms.sort();
@@ -332,7 +362,13 @@ fn made_up_sources_are_refused() {
         ("simulation/run.rs", "use crate::{\n    numerics,\n    equations::equations,\n};"),
         ("orbits/mod.rs", "use crate::simulation::flow;"),
         ("orbits/mod.rs", "use crate::analysis::Manifold;"),
-        ("reference/mod.rs", "use crate::simulation::Simulation;"),
+        ("evidence/reference/mod.rs", "use crate::simulation::Simulation;"),
+        ("evidence/reference/mod.rs", "use crate::evidence::extremes::Run;"),
+        ("evidence/reference/mod.rs", "use super::extremes::Run;"),
+        ("evidence/reference/real.rs", "use super::super::extremes::Run;"),
+        ("study/fidelity.rs", "use crate::evidence::tradeoff::Method;"),
+        ("report/document/mod.rs", "use crate::evidence::tradeoff::ErrorOf;"),
+        ("simulation/run.rs", "use crate::evidence::reference::Reference;"),
         ("numerics/bracket.rs", "use crate::system::System;"),
         ("symbolic/expr.rs", "use crate::numerics::bracket;"),
         ("validation/mod.rs", "use crate::study::CaseStudy;"),
@@ -369,6 +405,9 @@ fn made_up_sources_that_keep_to_their_rooms_pass() {
         ("simulation/run.rs", "mod tests { use super::*; use crate::system::System; }"),
         ("numerics/bracket.rs", "use roots::find_root_brent;"),
         ("store.rs", "use std::fs;"),
+        ("evidence/extremes/measure.rs", "use crate::evidence::reference::Reference;"),
+        ("evidence/reference/mod.rs", "use oscillator::Motion;\nuse crate::system::System;"),
+        ("evidence/reference/oscillator.rs", "use super::real::Real;"),
         ("cli/output.rs", "use std::io; fn f() { println!(); }"),
     ];
     for (path, source) in right {

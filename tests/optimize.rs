@@ -15,7 +15,7 @@ use vinesink::optimize::claim::Claim;
 use vinesink::optimize::{Deviation, Optimization, Task};
 use vinesink::orbits::symmetric_orbits;
 use vinesink::report::figure::Layer;
-use vinesink::report::optimize::OptimizePage;
+use vinesink::report::optimize::summary;
 
 const NOTHING: Deviation =
     Deviation { clearance: 0.0, restitution: 0.0, frequency_ratio: 0.0, amplitude: 0.0 };
@@ -131,10 +131,12 @@ fn the_best_of_those_that_meet_the_criteria_wins() {
     assert!(!none.best.is_feasible() && !none.succeeds());
     let closest = none.closest.as_ref().expect("one misses least");
     assert!(closest.violation() <= none.best.violation());
-    let told = OptimizePage::new("a case", &case(&text), &none, &[]);
-    assert!(told.headline.starts_with("No absorber between the bounds meets all criteria."));
-    let tmd = |sentence: &String| sentence.starts_with("A tuned mass damper of the same mass");
-    assert!(told.sentences.iter().any(tmd), "{:?}", told.sentences);
+    let told = summary(&case(&text), &none).expect("a text");
+    let answer = told.lines().nth(2).expect("it follows the title");
+    let lead = "No absorber between the bounds meets all criteria. Closest to them is clearance ";
+    assert!(answer.starts_with(lead) && answer.contains("asked ≤ 1 mm"), "{told}");
+    assert!(told.contains("\nA tuned mass damper of the same mass"), "{told}");
+    assert!(told.contains("\nbest by the objective  "), "{told}");
 }
 
 /// Standard normal numbers with a fixed beginning, by Box and Muller.
@@ -330,7 +332,7 @@ fn the_claim_is_measured_where_a_scan_finds_it() {
             let stable = orbits.iter().find(|orbit| orbit.orbit.attracts())?;
             Some(stable.peaks.displacement * factor)
         };
-        println!("{name}: {claim:?}, distance {}, excess {}", claim.distance(), claim.excess());
+        println!("{name}: {claim:?}, distance {}, excess {}", claim.distance, claim.excess);
         assert!(amplitude(claim.end_clearance * 0.9999).is_some(), "{name}");
         assert!(amplitude(claim.end_clearance * 1.0001).is_none(), "{name}");
         let scanned = (0..3000)
@@ -488,10 +490,10 @@ fn the_command_writes_a_page_and_a_case() {
     assert!(String::from_utf8_lossy(&robust.stderr).contains("[uncertainty]"));
 }
 
-/// The sentences of the page.
+/// The sentences of the page, each in its line.
 fn sentences(text: &str, objective: Option<Objective>) -> Vec<String> {
-    let case = case(text);
-    OptimizePage::new("a case", &case, &optimized(text, objective), &[]).sentences
+    let told = summary(&case(text), &optimized(text, objective)).expect("a text");
+    told.lines().map(str::to_owned).collect()
 }
 
 /// Between two simulated absorbers nothing is known, so no line joins them; an exact objective is a curve.

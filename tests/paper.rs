@@ -8,7 +8,7 @@ use assert_cmd::Command;
 use regex::Regex;
 use tempfile::TempDir;
 use vinesink::case::{Case, ExtraFigure};
-use vinesink::report::paper::{CASES, TRANSFER};
+use vinesink::evidence::paper::{CASES, TRANSFER};
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).to_owned()

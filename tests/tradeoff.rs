@@ -11,15 +11,15 @@ use vinesink::analysis::slow_motion::{SlowEnd, SlowFlow};
 use vinesink::analysis::{Analysis, FixedPoint};
 use vinesink::case::Case;
 use vinesink::equations::{self, slow_flow};
+use vinesink::evidence::tradeoff::by_hand::{ByHand, Flights, Listener, Locate};
+use vinesink::evidence::tradeoff::{Layer, Method, Search, Tradeoff, TradeoffEffort, Trial};
 use vinesink::method::Method as Known;
 use vinesink::operation_count::{self, ELEMENTARY};
 use vinesink::orbits::{Measures, symmetric_orbits};
 use vinesink::regimes::Regime;
 use vinesink::simulation::{Simulation, Statistics};
+use vinesink::study::answer::measured;
 use vinesink::study::fidelity::{AccuracyTarget, Answers, KnownBy, Plan, Question};
-use vinesink::study::tradeoff::by_hand::{ByHand, Flights, Listener, Locate};
-use vinesink::study::tradeoff::method::measured;
-use vinesink::study::tradeoff::{Layer, Method, Search, Tradeoff, TradeoffEffort, Trial};
 use vinesink::study::{CaseStudy, StudyEffort, StudyError};
 use vinesink::symbolic::Symbol;
 use vinesink::system::{Parameters, State, System};
@@ -164,7 +164,7 @@ fn operations_are_counted_and_repeat() {
     let system = common::table_1(8.0, 7.5);
     let cost = |method: Method| method.run(&system, START).expect("runs").1;
     let simulation =
-        |periods| Method::Simulation { periods, search: Search::Panels, excursion: 1e-12 };
+        |periods| Method::Simulation { periods, search: Search::Panels, excursion: None };
     let fixed = |periods| Method::FixedStep { periods, steps: 100, locate: Locate::Interpolation };
     assert_eq!(cost(simulation(200)), cost(simulation(200)));
     for [short, long] in
@@ -294,7 +294,7 @@ fn a_modulated_case_is_known_no_better_than_it_scatters() {
         }
     }
     // Contact tolerances are tried where there is contact.
-    let other = |method: Method| matches!(method, Method::Simulation { excursion: 1e-3, .. });
+    let other = |method: Method| matches!(method, Method::Simulation { excursion: Some(1e-3), .. });
     assert!(found.trials.iter().any(|trial| other(trial.method)));
 }
 

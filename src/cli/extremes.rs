@@ -4,9 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 use miette::{IntoDiagnostic, Result};
-use vinesink::extremes::contact::tables;
-use vinesink::extremes::{entries, unit_checks};
-use vinesink::report::extremes::Extremes;
+use vinesink::evidence::extremes::contact::tables;
+use vinesink::evidence::extremes::{entries, holds, page, unit_checks};
 use vinesink::store;
 
 use super::progress::Progress;
@@ -42,10 +41,10 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
     progress.advance(1);
     let contact = tables().into_diagnostic()?;
     progress.advance(1);
-    let page = Extremes::of(&outcomes, &contact, &units);
+    let text = page(&outcomes, &contact, &units).into_diagnostic()?;
     let path = arguments.out.join("extremes.md");
-    store::write_file(&path, page.markdown().into_diagnostic()?.as_bytes())?;
+    store::write_file(&path, text.as_bytes())?;
     output::print(format!("{}\n", path.display()))?;
     index::refresh(&arguments.out)?;
-    Ok(if page.holds() { Outcome::Done } else { Outcome::DoesNotHold })
+    Ok(if holds(&outcomes, &units) { Outcome::Done } else { Outcome::DoesNotHold })
 }

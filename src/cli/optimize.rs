@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 use miette::{IntoDiagnostic, Result, miette};
 use vinesink::case::{self, Case};
 use vinesink::optimize::{Optimization, Task};
-use vinesink::report::{optimize as page, render};
+use vinesink::report::optimize as page;
 use vinesink::store;
 
 use super::budget::{Long, Work};
@@ -103,12 +103,8 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
     arguments.long.allows(path, &case, &Work::designs(&case))?;
     let found = Optimization::of(&case, &text, &task, &Parallel).into_diagnostic()?;
     let stem = path.file_stem().ok_or_else(|| miette!("{} is no file", path.display()))?;
-    let name = stem.to_string_lossy();
     if let Some(out) = &arguments.out {
-        let figures = page::figures(&case, &found);
-        let page = page::OptimizePage::new(&name, &case, &found, &figures);
-        let files = render::optimize(&page, &figures).into_diagnostic()?;
-        store::add_to_folder(&out.join(stem), &files)?;
+        store::add_to_folder(&out.join(stem), &page::files(&case, &found).into_diagnostic()?)?;
         index::refresh(out)?;
     }
     let written = match &arguments.write {
@@ -117,7 +113,7 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
     };
     match arguments.format {
         Format::Text => {
-            let summary = page::summary(&case, &found);
+            let summary = page::summary(&case, &found).into_diagnostic()?;
             output::print(written.map_or(summary.clone(), |line| format!("{summary}\n{line}\n")))?;
         }
         Format::Json => {
@@ -132,19 +128,12 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
 /// file.
 fn written(new: &Path, case: &Case, found: &Optimization, robust: bool) -> Result<String> {
     let robust = found.robust.as_ref().filter(|_| robust);
-    let choice = robust.map_or(found.best.choice, |robust| robust.design.choice);
-    let why = match (found.reached(), found.improves() && choice != found.own.choice) {
-        (true, true) => {
-            let design = robust.map_or(&found.best, |robust| &robust.design);
-            store::write_new(new, design.written.text.as_bytes())?;
-            return Ok(format!(
-                "{} has {}.",
-                new.display(),
-                page::written(case, found, robust.is_some())
-            ));
-        }
-        (true, false) => "nothing between the bounds is better than the case's own absorber",
-        (false, _) => "nothing between the bounds reaches the objective",
-    };
-    Ok(format!("{} is not written: {why}.", new.display()))
+    let design = robust.map_or(&found.best, |robust| &robust.design);
+    let better = found.improves() && design.choice != found.own.choice;
+    if better {
+        store::write_new(new, design.written.text.as_bytes())?;
+    }
+    let file = new.display().to_string();
+    let design = Some(design).filter(|_| better);
+    page::written(case, found, &file, design, robust.is_some()).into_diagnostic()
 }

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use clap::Args;
 use miette::{IntoDiagnostic, Result};
 use vinesink::case::Case;
+use vinesink::evidence::paper::{CASES, CaseReport, TRANSFER, page};
 use vinesink::report::document::Document;
-use vinesink::report::paper::{CASES, CaseReport, Paper, TRANSFER};
 use vinesink::report::{figures, template};
 use vinesink::store;
 use vinesink::study::plots::Plot;
@@ -36,7 +36,7 @@ Examples:
   vinesink paper --cases cases --out /somewhere/else";
 
 pub fn run(arguments: Arguments) -> Result<Outcome> {
-    let names: Vec<&str> = CASES.into_iter().chain([TRANSFER]).collect();
+    let names: Vec<&'static str> = CASES.into_iter().chain([TRANSFER]).collect();
     let read = |name: &str| case_file::read(&arguments.cases.join(format!("{name}.toml")));
     let cases: Vec<Case> = names.iter().map(|name| read(name)).collect::<Result<_>>()?;
     let steps = cases.iter().map(|case| CaseStudy::steps(&StudyEffort::of(&case.simulation)));
@@ -49,9 +49,9 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
         let plots = Plot::all(&case, &study).into_diagnostic()?;
         let drawn = figures::all(&case, &study, &plots);
         let figures = template::worded(drawn, &Document::units(&case)).into_diagnostic()?;
-        members.push(CaseReport { name: name.to_owned(), case, study, figures });
+        members.push(CaseReport { name, case, study, figures });
     }
-    let text = Paper::of(&members).and_then(|page| page.markdown()).into_diagnostic()?;
+    let text = page(&members).into_diagnostic()?;
     let path = arguments.out.join("paper.md");
     store::write_file(&path, text.as_bytes())?;
     output::print(format!("{}\n", path.display()))?;

@@ -6,9 +6,9 @@ use std::time::Instant;
 
 use clap::Args;
 use miette::{IntoDiagnostic, Result, miette};
-use vinesink::report::{render, tradeoff as page};
+use vinesink::evidence::tradeoff::page::{TradeoffDocument, USUAL};
+use vinesink::evidence::tradeoff::{Tradeoff, TradeoffEffort, Trial};
 use vinesink::store;
-use vinesink::study::tradeoff::{Tradeoff, TradeoffEffort, Trial};
 use vinesink::study::{StudyEffort, StudyError};
 use vinesink::system::{State, System};
 
@@ -67,25 +67,22 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
     let found = Tradeoff::of(&system, &effort, &mut |done| progress.advance(done));
     let found = found.into_diagnostic()?;
     let asked = case.accuracy.and_then(|accuracy| accuracy.amplitude);
-    let allowed = asked.unwrap_or(page::USUAL);
+    let allowed = asked.unwrap_or(USUAL);
     let seconds =
         if timed { seconds(&system, &found, &progress).into_diagnostic()? } else { Vec::new() };
     drop(progress);
     if let Some(out) = &arguments.out {
         let stem = arguments.case.path.file_stem();
         let stem = stem.ok_or_else(|| miette!("{} is no file", arguments.case.path.display()))?;
-        let figure = page::figure(&found, allowed);
-        let name = stem.to_string_lossy();
-        let text = page::TradeoffPage::new(&name, &case, &found, allowed, &figure);
-        let files = render::tradeoff(&text, &figure).into_diagnostic()?;
-        store::add_to_folder(&out.join(stem), &files)?;
+        let page = TradeoffDocument::new(&case, &found, allowed, None);
+        store::add_to_folder(&out.join(stem), &page.files(&case, &found).into_diagnostic()?)?;
         index::refresh(out)?;
     }
+    let document = |seconds| TradeoffDocument::new(&case, &found, allowed, seconds);
     match arguments.format {
-        Format::Text => output::print(page::summary(&case, &found, allowed, &seconds))?,
+        Format::Text => output::print(document(Some(&seconds)).text(&case).into_diagnostic()?)?,
         Format::Json => {
-            let seconds = arguments.seconds.then_some(seconds.as_slice());
-            output::print_json(&page::TradeoffDocument::new(&case, &found, allowed, seconds))?;
+            output::print_json(&document(arguments.seconds.then_some(seconds.as_slice())))?;
         }
     }
     Ok(Outcome::Done)

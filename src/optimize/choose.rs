@@ -2,15 +2,16 @@
 
 use super::OptimizeError;
 use super::design::{Design, Judge};
-use super::search::{self, Effort, Seen, distance, shortlist};
+use super::search::{self, Effort, Found, Seen, distance, shortlist};
 use super::task::Task;
 use crate::case::{AbsorberDesign, Objective};
 use crate::executor::{Executor, Serial, map};
 
 /// How thoroughly an exact objective is looked for.
-const EXACT: Effort = Effort { pieces: 400, particles: 40, steps: 30, width: 1e-7 };
+const EXACT: Effort = Effort { pieces: 400, particles: 40, steps: 30, width: 1e-7, smooth: true };
 /// How thoroughly a coarse survey is: a place costs a thousand times as much.
-const SCREENED: Effort = Effort { pieces: 96, particles: 16, steps: 12, width: 1e-2 };
+const SCREENED: Effort =
+    Effort { pieces: 96, particles: 16, steps: 12, width: 1e-2, smooth: false };
 
 /// What the cheap layers propose.
 pub struct Proposed {
@@ -33,36 +34,18 @@ pub fn propose(task: &Task, executor: &dyn Executor) -> Result<Proposed, Optimiz
     let effort = if exact { EXACT } else { SCREENED };
     let score = |parts: &[f64]| task.cheap_score(&task.choice(parts)).unwrap_or(f64::NEG_INFINITY);
     let own = task.parts(&AbsorberDesign::of(&task.design));
-    let at =
-        |part: f64| -> Vec<f64> { std::iter::once(part).chain(own[1..].iter().copied()).collect() };
-    let on_line = |part: f64| score(&at(part));
-    let scanned = search::scan("looking between the bounds", effort.pieces, executor, &on_line);
-    let landscape = scanned
-        .iter()
-        .map(|(part, score)| (task.bounds[0].at(*part), task.value(*score)))
-        .collect();
-    let mut seen: Vec<Seen> = scanned.iter().map(|(part, score)| (at(*part), *score)).collect();
-    let mut best = None;
-    let mut plateau = [task.bounds[0].from, task.bounds[0].to];
-    if exact {
-        let line =
-            search::on_line(&scanned, effort.width, &on_line).ok_or(OptimizeError::Nowhere)?;
-        plateau = line.plateau.map(|part| task.bounds[0].at(part));
-        best = Some(at(line.parts[0]));
+    let what = "looking between the bounds";
+    let Found { line, seen, best } = search::everywhere(what, &own, &effort, executor, &score);
+    if best.is_none() && (exact || task.bounds.len() > 1) {
+        return Err(OptimizeError::Nowhere);
     }
-    if task.bounds.len() > 1 {
-        let known: Vec<Vec<f64>> = best.iter().cloned().chain(top(&seen)).collect();
-        let found = search::in_box(&known, task.bounds.len(), &effort, &score, exact)
-            .ok_or(OptimizeError::Nowhere)?;
-        plateau = found.plateau.map(|part| task.bounds[0].at(part));
-        seen.extend(found.seen);
-        best = exact.then_some(found.parts);
-    }
-    Ok(Proposed { seen, best, plateau, landscape })
-}
-
-fn top(seen: &[Seen]) -> Option<Vec<f64>> {
-    seen.iter().max_by(|a, b| a.1.total_cmp(&b.1)).map(|(parts, _)| parts.clone())
+    let clearance = |part: f64| task.bounds[0].at(part);
+    Ok(Proposed {
+        plateau: best.as_ref().map_or([0.0, 1.0], |best| best.plateau).map(clearance),
+        landscape: line.iter().map(|(at, score)| (clearance(*at), task.value(*score))).collect(),
+        best: best.filter(|_| exact).map(|best| best.parts),
+        seen,
+    })
 }
 
 /// Distance of candidates all over the bounds, over the way between them, and how many there are.

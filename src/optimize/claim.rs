@@ -24,6 +24,12 @@ pub struct Claim {
     pub end_amplitude: f64,
     /// What ends it, as its bifurcation is called.
     pub ends_by: Option<&'static str>,
+    /// How far the best clearance lies below the end, over the end.
+    pub distance: f64,
+    /// By how much the amplitude at the end exceeds the best one, over the latter.
+    pub excess: f64,
+    /// Whether both places are one.
+    pub holds: bool,
 }
 
 impl Claim {
@@ -36,27 +42,16 @@ impl Claim {
         })?;
         let end = stretch.clearance[1];
         let end_amplitude = full.steady_peak(end * (1.0 - INSIDE))?;
+        let (distance, excess) = (1.0 - best.factor / end, end_amplitude / best.peak - 1.0);
         Some(Self {
             best_clearance: best.factor,
             best_amplitude: best.peak,
             end_clearance: end,
             end_amplitude,
             ends_by: stretch.ends[1].map(|kind| kind.words()),
+            distance,
+            excess,
+            holds: distance <= SAME_PLACE || excess <= 0.0,
         })
-    }
-
-    /// How far the best clearance lies below the end, over the end.
-    pub fn distance(&self) -> f64 {
-        1.0 - self.best_clearance / self.end_clearance
-    }
-
-    /// By how much the amplitude at the end exceeds the best one, over the latter.
-    pub fn excess(&self) -> f64 {
-        self.end_amplitude / self.best_amplitude - 1.0
-    }
-
-    /// Whether both places are one.
-    pub fn holds(&self) -> bool {
-        self.distance() <= SAME_PLACE || self.excess() <= 0.0
     }
 }

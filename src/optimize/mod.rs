@@ -19,7 +19,11 @@ mod choose;
 pub use design::Design;
 pub use task::{Bounds, Deviation, Task, TaskError, Variable};
 
-use crate::case::{Case, Objective, RewriteError};
+use serde::Serialize;
+
+use crate::analysis::Strip;
+use crate::band::theory;
+use crate::case::{AbsorberDesign, Case, Objective, RewriteError};
 use crate::executor::Executor;
 use crate::simulation::StartError;
 use design::Judge;
@@ -67,12 +71,15 @@ pub struct Optimization {
     pub sensitivities: Vec<sensitivity::Sensitivity>,
     /// The paper's claim on the case itself.
     pub claim: Option<claim::Claim>,
+    /// Where the share in Z3 is looked for, how much of it is in the strips A1 and A2, in which the motion is
+    /// not, or not always, a steady 1:1 one.
+    pub strips: Option<[f64; 2]>,
     /// The best clearance of one excitation alone.
     pub chart: Vec<chart::Suited>,
 }
 
 /// An absorber that was judged, as the landscape shows it.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Judged {
     /// Its clearance, in the units of a choice.
     pub clearance: f64,
@@ -82,6 +89,16 @@ pub struct Judged {
     pub error: f64,
     /// Whether its criteria hold.
     pub feasible: bool,
+}
+
+fn strips(task: &Task, choice: &AbsorberDesign) -> Option<[f64; 2]> {
+    if task.objective != Objective::Z3Share {
+        return None;
+    }
+    let (band, _) = task.band_of(choice, &Deviation::default())?;
+    let zones = theory::zones(&band);
+    let share = |strip| band.share(&zones, |zone| zone.is_z3() && zone.strip == Some(strip));
+    Some([Strip::A1, Strip::A2].map(share))
 }
 
 impl Optimization {
@@ -124,6 +141,7 @@ impl Optimization {
             landscape: proposed.landscape,
             sensitivities: sensitivity::of(task, &best.choice, executor),
             claim: claim::Claim::of(&case.system()),
+            strips: strips(task, &best.choice),
             chart: chart::chart(task, &best.choice, executor),
             task: task.clone(),
             checked: (again.value, again.error),

@@ -33,7 +33,7 @@ pub struct UnderDeviations {
 }
 
 /// How thoroughly the expectation of an exact objective is looked for.
-const ROBUST: Effort = Effort { pieces: 80, particles: 16, steps: 12, width: 1e-4 };
+const ROBUST: Effort = Effort { pieces: 80, particles: 16, steps: 12, width: 1e-4, smooth: true };
 /// Nodes of each uncertain parameter where that many are uncertain, from none to four, for an
 /// objective in closed form: at most 625 together. Shares have kinks, which many nodes even out.
 const CLOSED_FORM: [usize; 5] = [1, 21, 15, 7, 5];
@@ -108,23 +108,13 @@ fn expected_best(
     nominal: &AbsorberDesign,
     executor: &dyn Executor,
 ) -> Result<Vec<f64>, OptimizeError> {
-    let known = task.parts(nominal);
     let score = |parts: &[f64]| {
         let found = task.expected(&task.choice(parts), deviations, &Serial);
         found.unwrap_or(f64::NEG_INFINITY)
     };
-    let at = |part: f64| -> Vec<f64> {
-        std::iter::once(part).chain(known[1..].iter().copied()).collect()
-    };
-    let on_line = |part: f64| score(&at(part));
-    let scanned = search::scan("expected objective", ROBUST.pieces, executor, &on_line);
-    let line = search::on_line(&scanned, ROBUST.width, &on_line).ok_or(OptimizeError::Nowhere)?;
-    if task.bounds.len() == 1 {
-        return Ok(line.parts);
-    }
-    let known = [known.clone(), at(line.parts[0])];
-    let found = search::in_box(&known, task.bounds.len(), &ROBUST, &score, true);
-    found.map(|best| best.parts).ok_or(OptimizeError::Nowhere)
+    let from = task.parts(nominal);
+    let found = search::everywhere("expected objective", &from, &ROBUST, executor, &score);
+    found.best.map(|best| best.parts).ok_or(OptimizeError::Nowhere)
 }
 
 /// Judged absorbers in the order in which the coarse survey likes them once it is averaged over the deviation
@@ -182,23 +172,23 @@ fn products(
     values: impl Fn(Distribution) -> Vec<(f64, f64)>,
 ) -> Vec<(Deviation, f64)> {
     let Uncertainty { clearance, restitution, frequency_ratio, amplitude } = *uncertainty;
-    let [clearances, restitutions, frequency_ratios, amplitudes] =
-        [clearance, restitution, frequency_ratio, amplitude].map(values);
-    let mut found = Vec::new();
-    for (clearance, a) in &clearances {
-        for (restitution, b) in &restitutions {
-            for (frequency_ratio, c) in &frequency_ratios {
-                for (amplitude, d) in &amplitudes {
-                    let off = Deviation {
-                        clearance: *clearance,
-                        restitution: *restitution,
-                        frequency_ratio: *frequency_ratio,
-                        amplitude: *amplitude,
-                    };
-                    found.push((off, a * b * c * d));
-                }
-            }
-        }
+    let each: [(Distribution, fn(&mut Deviation) -> &mut f64); 4] = [
+        (clearance, |off| &mut off.clearance),
+        (restitution, |off| &mut off.restitution),
+        (frequency_ratio, |off| &mut off.frequency_ratio),
+        (amplitude, |off| &mut off.amplitude),
+    ];
+    let mut found = vec![(Deviation::default(), 1.0)];
+    for (distribution, of) in each {
+        let values = values(distribution);
+        let combined = found.iter().flat_map(|(off, weight)| {
+            values.iter().map(move |(value, share)| {
+                let mut off = *off;
+                *of(&mut off) = *value;
+                (off, weight * share)
+            })
+        });
+        found = combined.collect();
     }
     found
 }

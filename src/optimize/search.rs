@@ -26,6 +26,8 @@ pub struct Effort {
     pub steps: u64,
     /// Width to which a maximum is narrowed down on a line.
     pub width: f64,
+    /// Whether the score is smooth, so that a maximum can be narrowed down at all.
+    pub smooth: bool,
 }
 
 /// A place with its score.
@@ -176,6 +178,41 @@ pub fn on_line(
     Some(best)
 }
 
+/// What was found between all bounds.
+pub struct Found {
+    /// The score along the first coordinate, the others being those that were given.
+    pub line: Vec<(f64, f64)>,
+    /// Every place of that line, and every one that was asked for in several dimensions.
+    pub seen: Vec<Seen>,
+    /// The best place; `None` where nothing has a score, and on a line whose score is not smooth.
+    pub best: Option<Best>,
+}
+
+/// The best place between all bounds: along the first coordinate from a place, then in all dimensions.
+pub fn everywhere(
+    what: &str,
+    from: &[f64],
+    effort: &Effort,
+    executor: &dyn Evaluations,
+    score: Score,
+) -> Found {
+    let at = |part: f64| -> Vec<f64> {
+        std::iter::once(part).chain(from[1..].iter().copied()).collect()
+    };
+    let along = |part: f64| score(&at(part));
+    let line = scan(what, effort.pieces, executor, &along);
+    let mut seen: Vec<Seen> = line.iter().map(|(part, score)| (at(*part), *score)).collect();
+    let narrowed = if effort.smooth { on_line(&line, effort.width, &along) } else { None };
+    let mut best = narrowed.map(|best| Best { parts: at(best.parts[0]), ..best });
+    if from.len() > 1 {
+        let top = seen.iter().max_by(|a, b| a.1.total_cmp(&b.1)).map(|(parts, _)| parts.clone());
+        let known = best.into_iter().map(|best| best.parts).chain(top).chain([from.to_vec()]);
+        best = in_box(&known.collect::<Vec<_>>(), effort, score);
+        seen.extend(best.iter_mut().flat_map(|best| std::mem::take(&mut best.seen)));
+    }
+    Found { line, seen, best }
+}
+
 /// Golden section between two places; what it finds is remembered by the problem.
 fn narrowed(problem: &Problem, from: f64, to: f64, width: f64) {
     let solver = GoldenSectionSearch::new(from, to).and_then(|solver| solver.with_tolerance(width));
@@ -190,13 +227,8 @@ fn narrowed(problem: &Problem, from: f64, to: f64, width: f64) {
 
 /// The best place in several dimensions: a swarm with a fixed beginning, then for a smooth score a simplex
 /// from the best of it and of `known` places; `None` where nothing has a score.
-pub fn in_box(
-    known: &[Vec<f64>],
-    dimensions: usize,
-    effort: &Effort,
-    score: Score,
-    smooth: bool,
-) -> Option<Best> {
+fn in_box(known: &[Vec<f64>], effort: &Effort, score: Score) -> Option<Best> {
+    let dimensions = known.first()?.len();
     let problem = Problem::new(score);
     for parts in known {
         problem.asked(parts);
@@ -213,7 +245,7 @@ pub fn in_box(
     if start.is_empty() {
         return None;
     }
-    if !smooth {
+    if !effort.smooth {
         let (parts, score) = problem.best.into_inner();
         let plateau = [parts[0]; 2];
         return Some(Best { parts, score, plateau, seen: problem.seen.into_inner() });

@@ -25,16 +25,16 @@ pub enum Changed {
     Amplitude,
 }
 
-/// The score with a parameter a little smaller and a little larger.
+/// The objective with a parameter a little smaller and a little larger.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Sensitivity {
     /// The parameter.
     pub of: Changed,
     /// Its relative change.
     pub change: f64,
-    /// Score with the parameter smaller by that, `None` where there is no such system.
+    /// Its value with the parameter smaller by that, `None` where there is no such system.
     pub smaller: Option<f64>,
-    /// Score with it larger by that.
+    /// With it larger by that.
     pub larger: Option<f64>,
 }
 
@@ -51,7 +51,7 @@ pub fn of(task: &Task, choice: &AbsorberDesign, executor: &dyn Executor) -> Vec<
             Changed::Frequency => off.frequency_ratio = change * omega,
             Changed::Amplitude => off.amplitude = change,
         }
-        task.score(&choice, &off, &Serial)
+        task.score(&choice, &off, &Serial).map(|score| task.value(score))
     };
     let mut all = vec![
         (Changed::Clearance, CHANGE),

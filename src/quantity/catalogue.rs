@@ -176,6 +176,7 @@ catalogue! {
     IMPACT_INTERVAL = "impact_interval", "Δt/T", "time between impacts", Number, Significant(3), Interval;
     NEXT_INTERVAL = "next_impact_interval", "Δtₖ₊₁/T", "the next one", Number, Significant(3), Interval;
     WINDOW = "window", "", "window in excitation periods", Number, Significant(3), Interval;
+    SMALLEST_MARGIN = "smallest_margin", "", "smallest margin in clearance", Share, Significant(3), Interval;
     REDUCTION_DB_TMD = "reduction_db_tmd", "", "reduction against a tuned mass damper", Level, Decimals(1), Interval;
 }
 

@@ -27,6 +27,25 @@ pub fn significant(value: f64, digits: usize) -> String {
     with_minus(&format!("{value:.decimals$}"))
 }
 
+/// A number inside a formula: `digits` significant digits or all that it has, with powers of ten from 1e4 on
+/// and below 1e-3, and a hyphen for a minus.
+pub fn tex(value: f64, digits: Option<u8>) -> String {
+    let digits = digits.map_or(usize::MAX, usize::from);
+    let text = match digits {
+        usize::MAX => format!("{value:e}"),
+        digits => format!("{value:.*e}", digits - 1),
+    };
+    match text.split_once('e') {
+        Some((mantissa, exponent)) if !(1e-3..1e4).contains(&value.abs()) && value != 0.0 => {
+            let factor =
+                if mantissa == "1" { String::new() } else { format!("{mantissa} \\cdot ") };
+            format!("{factor}10^{{{exponent}}}")
+        }
+        _ if digits == usize::MAX => value.to_string(),
+        _ => significant(value, digits).replace(MINUS, "-"),
+    }
+}
+
 /// `value` with a fixed number of decimals; a rounded zero has no sign.
 pub fn fixed(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
@@ -100,6 +119,29 @@ pub fn decibels(ratio: f64) -> String {
 /// Text with its leading hyphen replaced by a minus sign, in mantissa and exponent.
 pub fn with_minus(text: &str) -> String {
     text.replace('-', &MINUS.to_string())
+}
+
+/// A relative error in per cent or powers of ten; one that is only `below` the value says so.
+pub fn relative_error(value: f64, below: bool) -> String {
+    // Nobody says 1e-7 %.
+    const FINE: f64 = 1e-4;
+    let size = if value < FINE { significant(value, 1) } else { percent(value) };
+    if below { format!("below {size}") } else { size }
+}
+
+/// A count of operations with two digits, in powers of ten from a thousand on.
+pub fn operations(count: u64) -> String {
+    let scientific = format!("{:.1e}", count as f64);
+    if count < 1000 { count.to_string() } else { with_minus(&scientific) }
+}
+
+/// A share as people ask for it: "1 %", not "1.0 %".
+pub fn asked(share: f64) -> String {
+    // Below what a percentage says with two decimals.
+    if share < 5e-5 {
+        return significant(share, 1);
+    }
+    percent(share).replace(".0 %", " %")
 }
 
 /// Lengths of one case, all in the same unit: the prefix that suits its clearance.

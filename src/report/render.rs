@@ -8,22 +8,13 @@ use tera::{Context, Kwargs, State, Tera, Value};
 
 use super::document::{Document, Tone};
 use super::equations::EquationGroup;
-use super::extremes::Extremes;
 use super::figure::{self, Figure, FigureError};
 use super::html;
-use super::optimize::OptimizePage;
-use super::paper::Paper;
 use super::sweep::SweepPage;
 use super::template;
-use super::tradeoff::TradeoffPage;
 use crate::quantity::{Units, catalogue};
 use crate::symbolic::MathError;
 
-const PAPER: &str = include_str!("../../templates/paper.md.tera");
-const EXTREMES: &str = include_str!("../../templates/extremes.md.tera");
-const TRADEOFF: &str = include_str!("../../templates/tradeoff.md.tera");
-const OPTIMIZE_MARKDOWN: &str = include_str!("../../templates/optimize.md.tera");
-const OPTIMIZE_HTML: &str = include_str!("../../templates/optimize.html.tera");
 const SWEEP_MARKDOWN: &str = include_str!("../../templates/sweep.md.tera");
 const SWEEP_HTML: &str = include_str!("../../templates/sweep.html.tera");
 pub(super) const STYLE: &str = include_str!("../../templates/report.css");
@@ -153,74 +144,14 @@ fn appendix(name: &str, page: &str) -> String {
     page.lines().map(line).collect()
 }
 
-/// The page that compares the paper's figures, as Markdown.
-///
-/// # Errors
-/// [`RenderError::Template`] if template and page do not fit.
-pub fn paper(page: &Paper) -> Result<String, RenderError> {
-    let mut context = Context::new();
-    context.insert("paper", page);
-    let text = engine("paper.md", PAPER)?.render("paper.md", &context)?;
-    Ok(without_repeated_blank_lines(&text))
-}
-
-/// The page about the simulation at the ends of its range, as Markdown.
-///
-/// # Errors
-/// [`RenderError::Template`] if template and page do not fit.
-pub fn extremes(page: &Extremes) -> Result<String, RenderError> {
-    let mut context = Context::new();
-    context.insert("page", page);
-    let text = engine("extremes.md", EXTREMES)?.render("extremes.md", &context)?;
-    Ok(without_repeated_blank_lines(&text))
-}
-
-/// The page of accuracy and cost with its figure, by their path in the case's folder.
-///
-/// # Errors
-/// [`RenderError`] if template and page do not fit, or the figure cannot be drawn.
-pub fn tradeoff(
-    page: &TradeoffPage,
-    drawn: &Figure,
-) -> Result<BTreeMap<PathBuf, Vec<u8>>, RenderError> {
-    let mut context = Context::new();
-    context.insert("page", page);
-    let text = engine("tradeoff.md", TRADEOFF)?.render("tradeoff.md", &context)?;
-    Ok(BTreeMap::from([
-        (PathBuf::from("tradeoff.md"), without_repeated_blank_lines(&text).into_bytes()),
-        (PathBuf::from(format!("figures/{}.svg", drawn.name)), figure::render(drawn)?.into_bytes()),
-    ]))
-}
-
-/// The page of an optimisation with its figures, by their path in the case's folder.
-///
-/// # Errors
-/// [`RenderError`] if template and page do not fit, or a figure cannot be drawn.
-pub fn optimize(
-    page: &OptimizePage,
-    drawn: &[Figure],
-) -> Result<BTreeMap<PathBuf, Vec<u8>>, RenderError> {
-    let drawings = drawings(drawn)?;
-    let mut context = Context::new();
-    context.insert("page", page);
-    context.insert("style", STYLE);
-    context.insert("drawings", &drawings);
-    let text = engine("optimize.md", OPTIMIZE_MARKDOWN)?.render("optimize.md", &context)?;
-    let html = engine("optimize.html", OPTIMIZE_HTML)?.render("optimize.html", &context)?;
-    let mut files = figure_files(drawings);
-    files.insert("optimize.md".into(), without_repeated_blank_lines(&text).into_bytes());
-    files.insert("optimize.html".into(), html.into_bytes());
-    Ok(files)
-}
-
 /// Every figure as SVG, by its name.
-pub(super) fn drawings(figures: &[Figure]) -> Result<BTreeMap<String, String>, RenderError> {
+pub(crate) fn drawings(figures: &[Figure]) -> Result<BTreeMap<String, String>, RenderError> {
     let each = figures.iter();
     each.map(|figure| Ok((figure.name.clone(), figure::render(figure)?))).collect()
 }
 
 /// The same as files of a report's folder.
-pub(super) fn figure_files(drawings: BTreeMap<String, String>) -> BTreeMap<PathBuf, Vec<u8>> {
+pub(crate) fn figure_files(drawings: BTreeMap<String, String>) -> BTreeMap<PathBuf, Vec<u8>> {
     let each = drawings.into_iter();
     each.map(|(name, drawing)| (format!("figures/{name}.svg").into(), drawing.into_bytes()))
         .collect()
@@ -327,7 +258,7 @@ pub(super) fn attribute(text: &str) -> String {
         .replace(['\n', '\r'], " ")
 }
 
-pub(super) fn without_repeated_blank_lines(text: &str) -> String {
+pub(crate) fn without_repeated_blank_lines(text: &str) -> String {
     let mut result = String::with_capacity(text.len());
     let mut blank = true;
     for line in text.lines().map(str::trim_end) {

@@ -4,10 +4,15 @@
 //! | filter | of | gives |
 //! |---|---|---|
 //! | `q` | a quantity | the number with its unit and error; `digits=4`, `decimals=1`, `error=false`, `sign=true`, `reduced=true` (units) change it; `–` for none |
+//! | `q(of="clearance")` | a plain number in SI | the same, as a quantity of that kind |
 //! | `label` | a quantity or its id | "clearance b" |
 //! | `name`, `symbol` | the same | its parts |
 //! | `num(digits=3)` | a number | significant digits |
+//! | `tex` | a number; `digits=4` | the same inside a formula; without digits all that it has |
 //! | `pct` | a number | a share in per cent |
+//! | `asked` | a number | a share as people ask for it: "1 %" |
+//! | `relative_error` | a number; `below=true` | a relative error in per cent or powers of ten |
+//! | `operations` | a count | two digits, in powers of ten from a thousand on |
 //! | `many(one="start", more="starts")` | a count | "1 start", "3 starts" |
 //! | `cap` | text | with a capital letter first |
 //! | `md`, `cell`, `attr`, `path` | text of a user | safe in Markdown, in a table's cell, in an attribute, in a link |
@@ -53,10 +58,27 @@ const TEMPLATES: &[(&str, &str)] = &[
         "captions/transfer-stretches",
         include_str!("../../templates/captions/transfer-stretches.tera"),
     ),
+    ("captions/optimize-chart", include_str!("../../templates/captions/optimize-chart.tera")),
+    (
+        "captions/optimize-landscape",
+        include_str!("../../templates/captions/optimize-landscape.tera"),
+    ),
+    ("optimize.md", include_str!("../../templates/optimize.md.tera")),
+    ("optimize.txt", include_str!("../../templates/optimize.txt.tera")),
+    ("optimize-written.txt", include_str!("../../templates/optimize-written.txt.tera")),
+    ("captions/tradeoff", include_str!("../../templates/captions/tradeoff.tera")),
+    ("extremes.md", include_str!("../../templates/extremes.md.tera")),
+    ("paper.md", include_str!("../../templates/paper.md.tera")),
+    ("tradeoff.md", include_str!("../../templates/tradeoff.md.tera")),
+    ("tradeoff.txt", include_str!("../../templates/tradeoff.txt.tera")),
 ];
 
 /// Components that every template may use.
-const COMPONENTS: (&str, &str) = ("components", include_str!("../../templates/components.tera"));
+const COMPONENTS: [(&str, &str); 3] = [
+    ("components", include_str!("../../templates/components.tera")),
+    ("optimize", include_str!("../../templates/optimize.tera")),
+    ("evidence", include_str!("../../templates/evidence.tera")),
+];
 
 /// What other templates include: styles and scripts.
 const INCLUDED: &[(&str, &str)] = &[
@@ -75,7 +97,7 @@ pub fn render(name: &str, units: &Units, context: &impl Serialize) -> Result<Str
     let mut tera = Tera::new();
     register(&mut tera, *units);
     let included = INCLUDED.iter().copied().filter(|(file, _)| text.contains(file));
-    tera.add_raw_templates(included.chain([COMPONENTS, (*name, *text)]))?;
+    tera.add_raw_templates(included.chain(COMPONENTS).chain([(*name, *text)]))?;
     Ok(tera.render(name, &Context::from_serialize(context)?)?)
 }
 
@@ -115,6 +137,17 @@ fn register(tera: &mut Tera, units: Units) {
         let digits = options.get::<u8>("digits")?.unwrap_or(3);
         Ok::<_, tera::Error>(numbers::significant(value, usize::from(digits)))
     });
+    tera.register_filter("tex", |value: f64, options: Kwargs, _: &State| {
+        Ok::<_, tera::Error>(numbers::tex(value, options.get::<u8>("digits")?))
+    });
+    tera.register_filter("asked", |share: f64, _: Kwargs, _: &State| numbers::asked(share));
+    tera.register_filter("relative_error", |value: f64, options: Kwargs, _: &State| {
+        let below = options.get::<bool>("below")?.unwrap_or(false);
+        Ok::<_, tera::Error>(numbers::relative_error(value, below))
+    });
+    tera.register_filter("operations", |count: u64, _: Kwargs, _: &State| {
+        numbers::operations(count)
+    });
     tera.register_filter("pct", |value: f64, _: Kwargs, _: &State| numbers::percent(value));
     tera.register_filter("many", |count: u64, options: Kwargs, _: &State| {
         let word: &str = options.must_get(if count == 1 { "one" } else { "more" })?;
@@ -148,9 +181,14 @@ fn without_zeros(text: &str) -> String {
 }
 
 fn quantity_text(units: &Units, value: &Value, options: &Kwargs) -> TeraResult<String> {
-    let Some(map) = value.as_map() else { return Ok("\u{2013}".into()) };
-    let kind = kind_of(value)?;
-    let number = |key| field(map, key).and_then(Value::as_f64);
+    let of = options.get::<&str>("of")?.and_then(catalogue::kind);
+    let plain = of.zip(value.as_f64());
+    let (kind, map) = match (plain, value.as_map()) {
+        (Some((kind, _)), _) => (kind, None),
+        (None, Some(map)) => (kind_of(value)?, Some(map)),
+        (None, None) => return Ok("\u{2013}".into()),
+    };
+    let number = |key| field(map?, key).and_then(Value::as_f64);
     let digits = match (options.get::<u8>("digits")?, options.get::<u8>("decimals")?) {
         (Some(digits), _) => Digits::Significant(digits),
         (_, Some(decimals)) => Digits::Decimals(decimals),
@@ -160,14 +198,46 @@ fn quantity_text(units: &Units, value: &Value, options: &Kwargs) -> TeraResult<S
         Some(true) => &Units::reduced(),
         _ => units,
     };
-    let Some(value) = number("value") else { return Ok("without limit".into()) };
+    let value = plain.map(|(_, value)| value).or_else(|| number("value"));
+    let Some(value) = value else { return Ok("without limit".into()) };
     let error = match options.get::<bool>("error")? {
         Some(false) => 0.0,
         _ => number("error").unwrap_or(0.0),
     };
     let text = units.with_error(kind, value, error, digits);
-    let given = field(map, "method").and_then(Value::as_str) == Some("given");
+    let given = map.and_then(|map| field(map, "method")).and_then(Value::as_str) == Some("given");
     let text = if given { without_zeros(&text) } else { text };
     let sign = options.get::<bool>("sign")? == Some(true) && value > 0.0 && !text.starts_with('+');
     Ok(if sign { format!("+{text}") } else { text })
+}
+
+/// Text for a terminal: the tables of its Markdown with their columns aligned.
+pub fn aligned(markdown: &str) -> String {
+    let lines: Vec<&str> = markdown.lines().collect();
+    let is_row = |line: &&str| line.starts_with('|');
+    let blocks = lines.chunk_by(|a, b| is_row(a) == is_row(b));
+    let aligned = blocks.map(|block| match is_row(&block[0]) {
+        true => table_text(block),
+        false => block.iter().map(|line| format!("{line}\n")).collect(),
+    });
+    aligned.collect()
+}
+
+/// Rows of a Markdown table; its second line says which columns are aligned to the right.
+fn table_text(lines: &[&str]) -> String {
+    let cells = |line: &&str| -> Vec<String> {
+        line.trim_matches('|').split('|').map(|cell| cell.trim().to_owned()).collect()
+    };
+    let mut rows: Vec<Vec<String>> = lines.iter().map(cells).collect();
+    let marks = if rows.len() > 1 { rows.remove(1) } else { Vec::new() };
+    let width = |k: usize| rows.iter().filter_map(|row| Some(row.get(k)?.chars().count())).max();
+    let text = |row: &Vec<String>| {
+        let cells = row.iter().enumerate().map(|(k, cell)| {
+            let width = width(k).unwrap_or(0);
+            let right = marks.get(k).is_some_and(|mark| mark.ends_with(':'));
+            if right { format!("{cell:>width$}") } else { format!("{cell:width$}") }
+        });
+        format!("{}\n", cells.collect::<Vec<_>>().join("  ").trim_end())
+    };
+    rows.iter().map(text).collect()
 }

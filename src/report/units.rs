@@ -60,15 +60,6 @@ impl Units {
         self.lengths.text(self.scales.length(over_clearance))
     }
 
-    /// A largest length over the clearance, with how much larger it may be where that changes a digit.
-    pub(super) fn length_with_error(&self, over_clearance: f64, error: f64) -> String {
-        let length = self.length_text(over_clearance);
-        match error > 1e-3 * over_clearance {
-            true => format!("{length} (+{})", self.length_text(error)),
-            false => length,
-        }
-    }
-
     /// The label of an axis with a length.
     pub(super) fn length_axis(&self, name: &str) -> String {
         format!("{name} ({})", self.lengths.unit)

@@ -6,8 +6,7 @@
 
 use serde::{Serialize, Serializer};
 
-use super::tradeoff::method::{impacts_per_period, measured};
-use super::tradeoff::{Answer, Method as Trial, ORBIT_ROUNDING};
+use super::answer::{self, Answer, ORBIT_ROUNDING, impacts_per_period, measured};
 use super::{LongTermMotions, StudyError, main_attractor, main_index};
 use crate::case::AccuracySettings;
 use crate::method::Method;
@@ -15,7 +14,7 @@ use crate::operation_count;
 use crate::regimes::{FoundAttractor, Regime};
 use crate::simulation::{Doubt, Simulation};
 use crate::study::Proof;
-use crate::system::{State, System};
+use crate::system::System;
 use crate::validation::tolerance::asymptotic_error;
 
 /// How exact the answers must be.
@@ -184,10 +183,9 @@ impl Plan {
         demand: AccuracyTarget,
         forced: Option<Method>,
     ) -> Result<Self, StudyError> {
-        // None of these simulates, so none of them has a start.
-        let nowhere = State::AT_REST;
-        let closed_form = Trial::FixedPoints.run(system, nowhere)?;
-        let orbit = Trial::SymmetricOrbit.run(system, nowhere)?;
+        let (closed_form, cost) = operation_count::counted(|| answer::closed_form(system));
+        let closed_form = (closed_form?, cost);
+        let orbit = operation_count::counted(|| answer::symmetric_orbit(system));
         let mut plan =
             Self { system: *system, demand, forced, layer: Method::Simulation, closed_form, orbit };
         plan.layer = match forced {

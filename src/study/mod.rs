@@ -1,6 +1,7 @@
 //! Puts the layers together for one case: what is analysed, simulated and confronted, and how far
 //! the nearest boundaries are.
 
+pub mod answer;
 pub mod confirmations;
 pub mod diagrams;
 pub mod exact_branches;
@@ -10,7 +11,6 @@ pub mod plots;
 pub mod proofs;
 pub mod scenes;
 pub mod stretches;
-pub mod tradeoff;
 
 use serde::Serialize;
 

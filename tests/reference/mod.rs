@@ -3,8 +3,8 @@
 //! oscillators under base displacement; no sustained contact.
 #![allow(dead_code)]
 
-use vinesink::reference::real::Functions;
-pub use vinesink::reference::real::Real;
+use vinesink::evidence::reference::real::Functions;
+pub use vinesink::evidence::reference::real::Real;
 use vinesink::system::System;
 
 /// Distance from a wall, over the clearance, that no motion here crosses and comes back within one

@@ -1,285 +1,63 @@
-//! The page of `vinesink optimize`: the best absorber in words, tables and two figures.
+//! The page of `vinesink optimize` as data, most of which is its JSON document. The sentences are in
+//! `templates/`.
 
 mod damper;
 mod figure;
-mod words;
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
 
 use serde::Serialize;
+use serde_json::{Value, json};
 
-use super::FigureRow;
-use super::figure::Figure;
-use super::numbers::{percent, significant};
-use super::tables::{Table, table};
-use crate::band::simulated::Place;
-use crate::case::{AbsorberDesign, Case, Uncertainty};
+use super::document::criteria::{CriteriaFacts, CriterionFacts};
+use super::document::{FigureRow, Scale};
+use super::html::{Page, page};
+use super::render::{RenderError, drawings, figure_files, without_repeated_blank_lines};
+use super::template::{aligned, render, worded};
+use crate::band::{Motions, Source};
+use crate::case::{AbsorberDesign, BandOver, Case, Objective, Uncertainty};
+use crate::method::Method;
+use crate::optimize::chart::Suited;
 use crate::optimize::claim::Claim;
-use crate::optimize::robust::{Robust, UnderDeviations};
-use crate::optimize::sensitivity::{Changed, Sensitivity};
-use crate::optimize::{Bounds, Design, Optimization, Variable, chart};
+use crate::optimize::robust::UnderDeviations;
+use crate::optimize::sensitivity::Sensitivity;
+use crate::optimize::task::value_of;
+use crate::optimize::{Bounds, Design, Judged, Optimization, Task, Variable};
+use crate::quantity::{Kind, Quantity, catalogue};
 use damper::DamperDocument;
-use words::Words;
 
 pub use figure::figures;
 
-/// The page as data.
-#[derive(Debug, Clone, Serialize)]
-pub struct OptimizePage {
-    /// The case's title.
-    pub title: String,
-    /// The answer in a sentence.
-    pub headline: String,
-    /// What follows from the rest, a sentence each.
-    pub sentences: Vec<String>,
-    /// The case's absorber, the best, the robust one.
-    pub absorbers: Table,
-    /// Whether there is an optimum: what follows about it has nothing to say where there is none.
-    pub reached: bool,
-    /// What was looked for and between which bounds.
-    pub looked_for: String,
-    /// What the survey finds with the best, place by place; empty where nothing was simulated.
-    pub surveyed: Table,
-    /// What a change of each parameter does.
-    pub sensitivities: Table,
-    /// How it was found, a sentence each.
-    pub method: Vec<String>,
-    /// The paper's claim on the case, a sentence each.
-    pub claim: Vec<String>,
-    /// The figures' words; the drawings are files of their own.
-    pub figures: Vec<FigureRow>,
-    /// Folder name of the case's report.
-    pub name: String,
-    /// Version of the program.
-    pub version: &'static str,
-    /// SHA-256 of the case file's text.
-    pub case_sha256: String,
-}
-
-impl OptimizePage {
-    /// Writes the page of a case.
-    pub fn new(name: &str, case: &Case, found: &Optimization, figures: &[Figure]) -> Self {
-        let words = Words::new(case, found);
-        Self {
-            title: case.title.clone(),
-            headline: words.headline(),
-            sentences: words.sentences(),
-            absorbers: absorbers(&words),
-            reached: found.reached(),
-            looked_for: looked_for(&words),
-            surveyed: surveyed(&words),
-            sensitivities: sensitivities(&words),
-            method: words.method(),
-            claim: words.claim(),
-            figures: figures.iter().map(FigureRow::of).collect(),
-            name: name.to_owned(),
-            version: env!("CARGO_PKG_VERSION"),
-            case_sha256: case.text_hash.clone(),
-        }
-    }
-}
-
-fn mass(choice: &AbsorberDesign) -> String {
-    choice.mass.map_or_else(dash, mass_text)
-}
-
-/// A mass in kilograms with the prefix that suits it.
-fn mass_text(kilograms: f64) -> String {
-    match kilograms {
-        some if some >= 1.0 => format!("{} kg", significant(some, 4)),
-        some => format!("{} g", significant(1e3 * some, 4)),
-    }
-}
-
-fn dash() -> String {
-    "–".to_owned()
-}
-
-fn absorbers(words: &Words) -> Table {
-    let found = words.found;
-    let dashed = |value: Option<f64>| value.map_or_else(dash, |value| words.value(value));
-    let row = |name: &str, one: &Design, under: Option<UnderDeviations>| {
-        let holding = one.criteria.iter().filter(|judged| judged.holds == Some(true)).count();
-        [
-            name.to_owned(),
-            words.length(one.choice.clearance),
-            significant(one.choice.restitution, 4),
-            mass(&one.choice),
-            words.of(one),
-            if one.criteria.is_empty() {
-                dash()
-            } else {
-                format!("{holding} of {}", one.criteria.len())
-            },
-            dashed(under.map(|under| under.expected)),
-        ]
-    };
-    let under = |k: usize| found.robust.as_ref().map(|robust| robust.under[k]);
-    let mut rows = vec![row("the case", &found.own, None)];
-    if found.improves() {
-        rows.push(row("optimum", &found.best, under(1)));
-        rows.extend(
-            found.robust.iter().map(|robust| row("robust optimum", &robust.design, under(0))),
-        );
-    }
-    let columns = [
-        ("Absorber", false),
-        ("Clearance", true),
-        ("Restitution", true),
-        ("Mass", true),
-        ("Objective", true),
-        ("Criteria that hold", true),
-        ("Expected", true),
-    ];
-    table(columns, rows)
-}
-
-fn looked_for(words: &Words) -> String {
-    let bounds = words.found.task.bounds.iter().map(|bounds| {
-        let Bounds { variable, from, to } = *bounds;
-        match variable {
-            Variable::Clearance => {
-                format!("clearance {} to {}", words.length(from), words.length(to))
-            }
-            Variable::Restitution => {
-                format!("restitution {} to {}", significant(from, 3), significant(to, 3))
-            }
-            Variable::Mass => {
-                format!("mass {} to {}", mass_text(from), mass_text(to))
-            }
-        }
-    });
-    let bounds: Vec<String> = bounds.collect();
-    let asked = format!("Objective: {}. Bounds: {}.", words.objective_words(), bounds.join(", "));
-    if words.uncertain.is_empty() {
-        return asked;
-    }
-    format!("{asked} Uncertain: {}.", words.uncertain.join("; "))
-}
-
+/// Relative distance from a bound within which a value lies on it: it may have been rounded.
+const ON_BOUND: f64 = 1e-3;
+/// Share of a band in strips from which on the reader is told.
+const STRIPS: f64 = 0.01;
 /// Places of the band that the table shows, the worst one included.
 const SHOWN: usize = 9;
 
-/// What the survey finds with the best absorber at some of its places.
-fn surveyed(words: &Words) -> Table {
-    let best = &words.found.best;
-    let places = &best.motions.places;
-    let worst = best.worst.map(|worst| worst.at);
-    let length = |over: f64| words.lengths.text(over * best.choice.clearance);
-    let every = places.len().div_ceil(SHOWN).max(1);
-    let shown = |k: usize, place: &Place| k.is_multiple_of(every) || Some(place.at) == worst;
-    let chosen = places.iter().enumerate().filter(|(k, place)| shown(*k, place));
-    let rows = chosen.map(|(_, place)| {
-        let largest = place.largest().map(|motion| {
-            let [peak, error] =
-                [motion.peak, motion.peak_error].map(|one| one * best.choice.clearance);
-            match words.is_amplitude() {
-                true => words.value_with_error(peak, error),
-                false => words.lengths.text(peak),
-            }
-        });
-        let inactive = place.inactive.map(|one| {
-            format!("{}, {} of resting places", length(one.amplitude), percent(one.share))
-        });
-        [
-            words.at(place.at),
-            place.orbit.map_or_else(dash, length),
-            place.motions.len().to_string(),
-            largest.unwrap_or_else(dash),
-            inactive.unwrap_or_else(dash),
-        ]
-    });
-    let at = if words.over_amplitude() { "Amplitude" } else { "Frequency" };
-    table(
-        [
-            (at, true),
-            ("Stable 1:1 orbit", true),
-            ("Motions with impacts", true),
-            ("Largest peak of these", true),
-            ("Absorber never wakes", true),
-        ],
-        rows.collect(),
-    )
-}
-
-fn sensitivities(words: &Words) -> Table {
-    let rows = words.found.sensitivities.iter().map(|one| {
-        let name = match one.of {
-            Changed::Clearance => "clearance",
-            Changed::Restitution => "restitution",
-            Changed::Mass => "mass",
-            Changed::Frequency => "frequency",
-            Changed::Amplitude => "amplitude",
-        };
-        let task = &words.found.task;
-        let value =
-            |score: Option<f64>| score.map_or_else(dash, |score| words.value(task.value(score)));
-        [
-            name.to_owned(),
-            percent(one.change),
-            value(one.smaller),
-            value(Some(words.found.best.score(task.objective))),
-            value(one.larger),
-        ]
-    });
-    table(
-        [
-            ("Parameter", false),
-            ("Change", true),
-            ("Smaller", true),
-            ("As it is", true),
-            ("Larger", true),
-        ],
-        rows.collect(),
-    )
-}
-
-/// What the terminal shows.
-pub fn summary(case: &Case, found: &Optimization) -> String {
-    use std::fmt::Write as _;
-    let words = Words::new(case, found);
-    let mut text = format!("{}\n\n{}\n", case.title, words.headline());
-    for sentence in words.sentences() {
-        let _ = writeln!(text, "{sentence}");
-    }
-    let _ = writeln!(text, "{}\n", looked_for(&words));
-    let absorbers = absorbers(&words);
-    let titles = absorbers.columns.iter().map(|column| column.title.to_owned()).collect();
-    let lines: Vec<Vec<String>> = std::iter::once(titles).chain(absorbers.rows).collect();
-    let width = |column: usize| lines.iter().map(|line| line[column].chars().count()).max();
-    let widths: Vec<usize> = (0..lines[0].len()).map(|k| width(k).unwrap_or(0)).collect();
-    for line in &lines {
-        let cells = line.iter().zip(&widths).enumerate();
-        let cells = cells.map(|(k, (cell, width))| match k {
-            0 => format!("{cell:width$}"),
-            _ => format!("  {cell:>width$}"),
-        });
-        let _ = writeln!(text, "{}", cells.collect::<String>());
-    }
-    let _ = writeln!(text);
-    for sentence in words.claim() {
-        let _ = writeln!(text, "{sentence}");
-    }
-    text
-}
-
-/// Which absorber is written: the best, or the best in expectation where `robust` and something is
-/// uncertain.
-pub fn written(case: &Case, found: &Optimization, robust: bool) -> String {
-    let words = Words::new(case, found);
-    match &found.robust {
-        Some(best) if robust => {
-            format!("the robust optimum, {}", words.absorber(&best.design.choice))
-        }
-        _ => format!("the optimum, {}", words.absorber(&found.best.choice)),
-    }
+/// What came of the search.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+enum Answer {
+    /// Better than the case's own, and all criteria hold.
+    Found,
+    /// No absorber meets all criteria.
+    NoneMeets,
+    /// Nothing is better than the case's own.
+    OwnIsBest,
+    /// The objective has no value above 0.
+    NotReached,
 }
 
 /// `vinesink/optimization@2`. Lengths in metres or the case's own unit.
 #[derive(Debug, Clone, Serialize)]
-pub struct OptimizationDocument {
+pub struct OptimizationDocument<'a> {
     format: &'static str,
-    title: String,
+    title: &'a str,
+    answer: Answer,
     objective: &'static str,
-    bounds: Vec<Bounds>,
+    bounds: &'a [Bounds],
     /// The frequency's as a frequency ratio, the amplitude's over the case's own.
     uncertainty: Uncertainty,
     /// Whether the objective has a value at all.
@@ -291,140 +69,292 @@ pub struct OptimizationDocument {
     /// The best absorber, rounded as it is written; none where nothing is reached.
     optimum: Option<AbsorberDesign>,
     /// The objective at the optimum as it is shown, and as a check of the written case gives it.
-    claimed: ValueDocument,
-    checked: ValueDocument,
-    own: DesignDocument,
+    claimed: Quantity,
+    checked: Quantity,
+    own: DesignRow,
     /// Where nothing meets all criteria, the absorber that misses them least.
-    closest: Option<DesignDocument>,
-    robust: Option<RobustDocument>,
+    closest: Option<DesignRow>,
+    robust: Option<RobustRow>,
     /// Clearances that are as good as the optimum's.
     plateau: [f64; 2],
-    bare: Option<f64>,
+    bare: f64,
     tuned_mass_damper: DamperDocument,
     /// Pairs of clearance and objective by the cheap layer.
-    landscape: Vec<(f64, Option<f64>)>,
+    landscape: &'a [(f64, f64)],
     /// Every absorber that was judged.
-    judged: Vec<JudgedDocument>,
-    sensitivities: Vec<Sensitivity>,
+    judged: &'a [Judged],
+    sensitivities: &'a [Sensitivity],
     /// Over the case's own clearance.
-    claim: Option<ClaimDocument>,
-    chart: Vec<chart::Suited>,
+    claim: Option<Claim>,
+    chart: &'a [Suited],
     /// SHA-256 of the case file's text.
-    case_sha256: String,
-}
-
-/// A value of the objective and how much worse it may be.
-#[derive(Debug, Clone, Serialize)]
-struct ValueDocument {
-    value: Option<f64>,
-    error: f64,
+    case_sha256: &'a str,
 }
 
 #[derive(Debug, Clone, Serialize)]
-struct DesignDocument {
+struct DesignRow {
     #[serde(flatten)]
     choice: AbsorberDesign,
     #[serde(flatten)]
-    objective: ValueDocument,
+    objective: Quantity,
     feasible: bool,
 }
 
 #[derive(Debug, Clone, Serialize)]
-struct RobustDocument {
+struct RobustRow {
     #[serde(flatten)]
-    design: DesignDocument,
-    expected: Option<f64>,
-    worst_corner: Option<f64>,
+    design: DesignRow,
+    expected: f64,
+    worst_corner: f64,
     /// The same for the optimum as written.
-    optimum_expected: Option<f64>,
-    optimum_worst_corner: Option<f64>,
+    optimum_expected: f64,
+    optimum_worst_corner: f64,
 }
 
-#[derive(Debug, Clone, Serialize)]
-struct JudgedDocument {
-    clearance: f64,
-    #[serde(flatten)]
-    objective: ValueDocument,
-    feasible: bool,
-}
-
-#[derive(Debug, Clone, Serialize)]
-struct ClaimDocument {
-    #[serde(flatten)]
-    claim: Claim,
-    distance: f64,
-    excess: f64,
-    holds: bool,
-}
-
-fn finite(value: f64) -> Option<f64> {
-    Some(value).filter(|value| value.is_finite())
-}
-
-impl DesignDocument {
-    fn new(design: &Design) -> Self {
-        let objective = ValueDocument { value: finite(design.value), error: design.error };
-        Self { choice: design.choice, objective, feasible: design.is_feasible() }
-    }
-}
-
-impl OptimizationDocument {
+impl<'a> OptimizationDocument<'a> {
     /// The document of a case.
-    pub fn new(case: &Case, found: &Optimization) -> Self {
+    pub fn new(case: &'a Case, found: &'a Optimization) -> Self {
         let (best, task) = (&found.best, &found.task);
-        let reached = found.reached();
-        let spoken = |one: &Sensitivity| Sensitivity {
-            smaller: one.smaller.and_then(|score| finite(task.value(score))),
-            larger: one.larger.and_then(|score| finite(task.value(score))),
-            ..*one
+        let row = |design: &Design| DesignRow {
+            choice: design.choice,
+            objective: objective(task, design.value, design.error),
+            feasible: design.is_feasible(),
         };
-        let robust = |one: &Robust| RobustDocument {
-            design: DesignDocument::new(&one.design),
-            expected: finite(one.under[0].expected),
-            worst_corner: finite(one.under[0].worst_corner),
-            optimum_expected: finite(one.under[1].expected),
-            optimum_worst_corner: finite(one.under[1].worst_corner),
-        };
-        let length = |over: f64| finite(over * best.choice.clearance);
+        let robust = found.robust.as_ref().map(|one| {
+            let [of_robust, of_best] = one.under;
+            RobustRow {
+                design: row(&one.design),
+                expected: of_robust.expected,
+                worst_corner: of_robust.worst_corner,
+                optimum_expected: of_best.expected,
+                optimum_worst_corner: of_best.worst_corner,
+            }
+        });
+        let length = |over: f64| over * best.choice.clearance;
         Self {
             format: "vinesink/optimization@2",
-            title: case.title.clone(),
+            title: &case.title,
+            answer: match (found.reached(), best.is_feasible(), found.improves()) {
+                (false, ..) => Answer::NotReached,
+                (true, false, _) => Answer::NoneMeets,
+                (true, true, false) => Answer::OwnIsBest,
+                (true, true, true) => Answer::Found,
+            },
             objective: task.objective.name(),
-            bounds: task.bounds.clone(),
+            bounds: &task.bounds,
             uncertainty: task.uncertainty,
-            reached,
+            reached: found.reached(),
             feasible: best.is_feasible(),
             improves: found.improves(),
-            optimum: reached.then_some(best.choice),
-            claimed: ValueDocument { value: finite(best.value), error: best.error },
-            checked: ValueDocument { value: finite(found.checked.0), error: found.checked.1 },
-            own: DesignDocument::new(&found.own),
-            closest: found.closest.as_ref().map(DesignDocument::new),
-            robust: found.robust.as_ref().map(robust),
+            optimum: found.reached().then_some(best.choice),
+            claimed: objective(task, best.value, best.error),
+            checked: objective(task, found.checked.0, found.checked.1),
+            own: row(&found.own),
+            closest: found.closest.as_ref().map(row),
+            robust,
             plateau: found.plateau,
             bare: length(best.rivals.bare.1),
-            tuned_mass_damper: DamperDocument::new(&best.rivals, |over| {
-                over * best.choice.clearance
-            }),
-            landscape: found.landscape.iter().map(|(at, value)| (*at, finite(*value))).collect(),
-            judged: found
-                .judged
-                .iter()
-                .map(|one| JudgedDocument {
-                    clearance: one.clearance,
-                    objective: ValueDocument { value: finite(one.value), error: one.error },
-                    feasible: one.feasible,
-                })
-                .collect(),
-            sensitivities: found.sensitivities.iter().map(spoken).collect(),
-            claim: found.claim.map(|claim| ClaimDocument {
-                claim,
-                distance: claim.distance(),
-                excess: claim.excess(),
-                holds: claim.holds(),
-            }),
-            chart: found.chart.clone(),
-            case_sha256: case.text_hash.clone(),
+            tuned_mass_damper: DamperDocument::new(&best.rivals, length),
+            landscape: &found.landscape,
+            judged: &found.judged,
+            sensitivities: &found.sensitivities,
+            claim: found.claim,
+            chart: &found.chart,
+            case_sha256: &case.text_hash,
         }
     }
+}
+
+/// The kind of an objective's value.
+fn kind(objective: Objective) -> &'static Kind {
+    match objective {
+        Objective::Z3Share => &catalogue::Z3_SHARE,
+        Objective::StableShare => &catalogue::STABLE_SHARE,
+        Objective::WorstAmplitude => &catalogue::PEAK,
+        Objective::Margin => &catalogue::SMALLEST_MARGIN,
+    }
+}
+
+fn objective(task: &Task, value: f64, error: f64) -> Quantity {
+    let method = match task.objective {
+        Objective::Z3Share => Method::Theory,
+        Objective::StableShare | Objective::Margin => Method::ExactOrbit,
+        Objective::WorstAmplitude => Method::Simulation,
+    };
+    Quantity::new(kind(task.objective), value, method).with_error(error)
+}
+
+/// The files of the page, by their path in the case's folder.
+///
+/// # Errors
+/// [`RenderError`] if template and page do not fit, or a figure cannot be drawn.
+pub fn files(case: &Case, found: &Optimization) -> Result<BTreeMap<PathBuf, Vec<u8>>, RenderError> {
+    let units = Scale::of(case).units();
+    let mut context = context(case, found);
+    let figures = worded(figures(case, found), &units)?;
+    context["figures"] = json!(figures.iter().map(FigureRow::of).collect::<Vec<_>>());
+    let markdown = without_repeated_blank_lines(&render("optimize.md", &units, &context)?);
+    let drawings = drawings(&figures)?;
+    let title = format!("{}: the best absorber", case.title);
+    let tone = if found.succeeds() { "good" } else { "bad" };
+    let html = page(&Page { title: &title, tone, markdown: &markdown, drawings: &drawings })?;
+    let mut files = figure_files(drawings);
+    files.insert("optimize.md".into(), markdown.into_bytes());
+    files.insert("optimize.html".into(), html.into_bytes());
+    Ok(files)
+}
+
+/// What the terminal shows.
+///
+/// # Errors
+/// [`RenderError::Template`] if template and page do not fit.
+pub fn summary(case: &Case, found: &Optimization) -> Result<String, RenderError> {
+    let text = render("optimize.txt", &Scale::of(case).units(), &context(case, found))?;
+    Ok(aligned(&without_repeated_blank_lines(&text)))
+}
+
+/// What became of the file that was asked for, in a line; `robust` if it holds the best in expectation.
+///
+/// # Errors
+/// [`RenderError::Template`] if template and page do not fit.
+pub fn written(
+    case: &Case,
+    found: &Optimization,
+    file: &str,
+    written: Option<&Design>,
+    robust: bool,
+) -> Result<String, RenderError> {
+    let context = json!({
+        "file": file,
+        "choice": written.map(|design| design.choice),
+        "robust": robust,
+        "reached": found.reached(),
+        "bounds": found.task.bounds,
+    });
+    Ok(render("optimize-written.txt", &Scale::of(case).units(), &context)?.trim().to_owned())
+}
+
+/// What the templates read.
+fn context(case: &Case, found: &Optimization) -> Value {
+    let (best, scale) = (&found.best, Scale::of(case));
+    let over = found.task.band.as_ref().map_or(BandOver::Frequency, |band| band.over);
+    let worst = best.worst.filter(|_| found.task.objective == Objective::WorstAmplitude);
+    let over_room = best.worst.map(|worst| {
+        json!({
+            "vibrates_less": best.rivals.damped.amplitude < worst.peak + worst.error,
+            "needs_more_room": best.rivals.damped.stroke > 1.0,
+        })
+    });
+    let given = case.inputs().iter().filter(|input| input.table == "uncertainty");
+    let uncertain = given.filter(|input| input.value > 0.0).map(|input| {
+        json!({
+            "name": input.name, "as_written": input.as_written, "largest": input.largest_error(),
+        })
+    });
+    json!({ "at": {
+        "page": OptimizationDocument::new(case, found),
+        "over": found.task.band.as_ref().map(|band| match band.over {
+            BandOver::Frequency => "frequency",
+            BandOver::Amplitude => "amplitude",
+        }),
+        "absorbers": absorbers(case, found),
+        "criteria": best.criteria.len(),
+        "best_missed": missed(case, best),
+        "closest": found.closest.as_ref().map(|one| {
+            json!({ "choice": one.choice, "missed": missed(case, one) })
+        }),
+        "uncertain": uncertain.collect::<Vec<_>>(),
+        "tuning": scale.frequency(best.rivals.damper.tuning, Method::ClosedForm),
+        "damper": over_room,
+        "worst": worst.map(|worst| json!({
+            "at": scale.place(over, worst.at),
+            "of": match worst.of {
+                Source::Orbit => json!({ "is": "orbit" }),
+                Source::Inactive(one) => json!({ "is": "inactive", "share": one.share }),
+                Source::Simulated(motion) => json!({
+                    "is": "simulated",
+                    "repeats": motion.repeats_after.is_some(),
+                    "impacts_per_period": motion.impacts_per_period,
+                }),
+            },
+        })),
+        "strips": found.strips.filter(|[a1, a2]| a1 + a2 > STRIPS),
+        "on_bounds": on_bounds(found),
+        "places": places(&scale, over, found),
+        "expectation": found.robust.as_ref().map(|one| [one.nodes, one.combinations]),
+        "chart_at": figure::nearest(found).map(|one| scale.frequency(one.frequency_ratio, Method::Given)),
+        "version": env!("CARGO_PKG_VERSION"),
+    } })
+}
+
+/// The criteria that an absorber misses, and by how much.
+fn missed(case: &Case, design: &Design) -> Vec<CriterionFacts> {
+    let all = CriteriaFacts::of(case, &design.criteria).map_or_else(Vec::new, |facts| facts.all);
+    all.into_iter().filter(|one| one.holds != Some(true)).collect()
+}
+
+/// The case's absorber, the best, the robust one, and where no criteria can be met the closest.
+fn absorbers(case: &Case, found: &Optimization) -> Vec<Value> {
+    let row = |is: &str, one: &Design, under: Option<UnderDeviations>| {
+        json!({
+            "is": is,
+            "choice": one.choice,
+            "objective": objective(&found.task, one.value, one.error),
+            "criteria": one.criteria.len(),
+            "missed": missed(case, one),
+            "expected": under.map(|under| objective(&found.task, under.expected, 0.0)),
+        })
+    };
+    let under = |k: usize| found.robust.as_ref().map(|robust| robust.under[k]);
+    let mut rows = vec![row("own", &found.own, None)];
+    if found.improves() {
+        rows.push(row("optimum", &found.best, under(1)));
+        rows.extend(found.robust.iter().map(|one| row("robust", &one.design, under(0))));
+    }
+    let others = found.closest.iter().filter(|one| {
+        found.reached() && one.choice != found.best.choice && one.choice != found.own.choice
+    });
+    rows.extend(others.map(|one| row("closest", one, None)));
+    rows
+}
+
+/// The bounds on which the best lies, but for those that no restitution can pass.
+fn on_bounds(found: &Optimization) -> Vec<Value> {
+    let ends = found.task.bounds.iter().filter_map(|bounds| {
+        let Bounds { variable, from, to } = *bounds;
+        let value = value_of(variable, &found.best.choice);
+        let passable = |end: &f64| variable != Variable::Restitution || (*end > 0.0 && *end < 1.0);
+        let near = |end: &f64| (value - end).abs() <= ON_BOUND * end;
+        let end = [from, to].into_iter().filter(passable).find(near)?;
+        Some(json!({ "variable": variable, "value": end }))
+    });
+    ends.collect()
+}
+
+/// What the survey finds with the best absorber at some of its places.
+fn places(scale: &Scale, over: BandOver, found: &Optimization) -> Vec<Value> {
+    let Design { motions: Motions { places, .. }, choice, worst, .. } = &found.best;
+    let every = places.len().div_ceil(SHOWN).max(1);
+    let amplitude = found.task.objective == Objective::WorstAmplitude;
+    let shown = places.iter().enumerate().filter(|(k, place)| {
+        k.is_multiple_of(every) || worst.is_some_and(|worst| worst.at == place.at)
+    });
+    let rows = shown.map(|(_, one)| {
+        let peak = |peak: f64| {
+            Quantity::new(&catalogue::PEAK, peak * choice.clearance, Method::Simulation)
+        };
+        let largest = one.largest().map(|motion| {
+            let error = if amplitude { motion.peak_error * choice.clearance } else { 0.0 };
+            peak(motion.peak).with_error(error)
+        });
+        json!({
+            "at": scale.place(over, one.at),
+            "orbit": one.orbit.map(peak),
+            "motions": one.motions.len(),
+            "largest": largest,
+            "inactive": one.inactive.map(|one| peak(one.amplitude)),
+            "inactive_share": one.inactive.map(|one| one.share),
+        })
+    });
+    rows.collect()
 }

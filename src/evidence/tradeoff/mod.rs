@@ -10,19 +10,23 @@
 //! clock runs [`Method::run`] again.
 
 pub mod by_hand;
+mod figure;
 pub mod method;
+pub mod page;
 
 use serde::Serialize;
 
-use super::{LongTermMotions, StudyEffort, StudyError, long_term_motions, main_attractor};
 use crate::analysis::Analysis;
 use crate::regimes::starts::StartBox;
 use crate::regimes::{FoundAttractor, Regime};
-use crate::simulation::{ContactTolerance, Simulation};
+use crate::simulation::Simulation;
+use crate::study::answer::{self, Answer, ORBIT_ROUNDING};
+use crate::study::{LongTermMotions, StudyEffort, StudyError, long_term_motions, main_attractor};
 use crate::system::{State, System};
 use by_hand::{ByHand, Flights, Locate};
 
-pub use method::{Answer, Layer, Method, Search};
+pub use figure::figure;
+pub use method::{Layer, Method, Search};
 
 /// What is tried.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -58,14 +62,10 @@ impl Default for TradeoffEffort {
     }
 }
 
-/// Excursions at which chattering sequences are ended, over the clearance, largest first; the last
-/// is the engine's own.
+/// Excursions at which chattering sequences are ended, over the clearance: larger than the engine's own.
 const EXCURSIONS: [f64; 3] = [1e-3, 1e-6, 1e-9];
 /// Periods simulated before Newton's method takes over.
 const BEFORE_NEWTON: u64 = 400;
-/// Relative error of averages along an exact orbit: closure and quadrature, both to rounding, with
-/// room for a few hundred operations.
-pub(super) const ORBIT_ROUNDING: f64 = 1e-12;
 
 /// What all answers are compared with.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -113,7 +113,7 @@ impl ErrorOf {
 }
 
 /// What is left of a transient in a simulated mean.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Transient {
     /// Excitation periods that were left out for it.
     pub left_out: u64,
@@ -129,17 +129,20 @@ const MUCH_LEFT: f64 = 0.1;
 const ALIKE: f64 = 10.0;
 
 /// One method on the case.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Trial {
     /// What was tried.
+    #[serde(flatten)]
     pub method: Method,
     /// What it answers.
+    #[serde(flatten)]
     pub answer: Answer,
     /// What it cost.
     pub operations: u64,
     /// Relative error of the root mean square displacement.
     pub rms_error: Option<ErrorOf>,
     /// Absolute error of the impacts per period.
+    #[serde(rename = "impacts_per_period_error")]
     pub impacts_error: Option<ErrorOf>,
     /// For the baseline: its flights, one by one.
     pub flights: Option<Flights>,
@@ -260,7 +263,7 @@ fn best(
             orbit: Some((cycle.impact_count(), cycle.periods())),
             rms: proof.measures.rms,
             rms_error: ORBIT_ROUNDING,
-            impacts_per_period: method::impacts_per_period(proof),
+            impacts_per_period: answer::impacts_per_period(proof),
             impacts_error: 0.0,
             regime,
             decay_periods: decay(-libm::log(proof.orbit.radius_per_period())),
@@ -268,7 +271,7 @@ fn best(
         });
     }
     let mut simulation = Simulation::new(system, main.attractor.state, 0.0)?;
-    let answer = method::measured(&mut simulation, effort.longest).ok_or(StudyError::NoMotion)?;
+    let answer = answer::measured(&mut simulation, effort.longest).ok_or(StudyError::NoMotion)?;
     Ok(Best {
         layer: Layer::Simulation,
         periods: Some(effort.longest),
@@ -289,7 +292,6 @@ fn decay(rate: f64) -> Option<f64> {
 }
 
 fn methods(best: &Best, rests: bool, effort: &TradeoffEffort) -> Vec<Method> {
-    let excursion = ContactTolerance::default().excursion;
     let mut all = vec![Method::FixedPoints];
     all.extend(effort.lengths.iter().map(|periods| Method::SlowFlow { periods: *periods }));
     all.push(Method::SymmetricOrbit);
@@ -297,12 +299,12 @@ fn methods(best: &Best, rests: bool, effort: &TradeoffEffort) -> Vec<Method> {
         all.push(Method::OrbitFromSimulation { periods: BEFORE_NEWTON });
     }
     let simulation = |periods, search, excursion| Method::Simulation { periods, search, excursion };
-    all.extend(effort.lengths.iter().map(|n| simulation(*n, Search::Panels, excursion)));
+    all.extend(effort.lengths.iter().map(|n| simulation(*n, Search::Panels, None)));
     if rests {
         let usual = effort.usual_length;
-        all.extend(EXCURSIONS.iter().map(|at| simulation(usual, Search::Panels, *at)));
+        all.extend(EXCURSIONS.iter().map(|at| simulation(usual, Search::Panels, Some(*at))));
     }
-    all.push(simulation(effort.usual_length, Search::StepByStep, excursion));
+    all.push(simulation(effort.usual_length, Search::StepByStep, None));
     for locate in [Locate::Bisection, Locate::Interpolation] {
         let periods = effort.usual_length;
         all.extend(effort.steps.iter().map(|n| Method::FixedStep { periods, steps: *n, locate }));

@@ -3,11 +3,12 @@
 
 use std::f64::consts::TAU;
 
-use crate::reference::{Event, NoMemory, Reference};
+use serde::Serialize;
+
+use crate::evidence::reference::{Event, NoMemory, Reference};
 use crate::simulation::trust::energy_residual;
 use crate::simulation::{
-    Absorber, ContactTolerance, Doubt, Impact, Observer, Segment, Simulation, StartError,
-    Statistics, Stop,
+    Absorber, Doubt, Impact, Observer, Segment, Simulation, StartError, Statistics, Stop,
 };
 use crate::system::{InvalidParameter, State, System};
 
@@ -16,23 +17,23 @@ const LOOKS: u32 = 8;
 /// Difference of times, in fast time, from which on two trajectories are two.
 const VISIBLE: f64 = 1e-6;
 /// Impacts of one chattering sequence that the reference follows at most.
-const LONGEST_SEQUENCE: u32 = 5_000;
+pub(super) const LONGEST_SEQUENCE: u32 = 5_000;
+/// Impacts and releases that the reference follows.
+pub const FOLLOWED: usize = 30;
 
 /// What is simulated, and how long.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Serialize)]
 pub struct Run {
     /// The system.
+    #[serde(skip)]
     pub system: System,
     /// Where it starts, at phase 0.
+    #[serde(skip)]
     pub start: State,
     /// Excitation periods.
     pub periods: u64,
     /// Impacts after which it is given up.
     pub impact_limit: u64,
-    /// Impacts and releases that the reference follows at most; 0 for none.
-    pub followed: usize,
-    /// When chattering sequences are ended.
-    pub tolerance: ContactTolerance,
 }
 
 /// Why a trajectory cannot be measured.
@@ -50,36 +51,29 @@ pub enum MeasureError {
 }
 
 /// What a trajectory came to.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize)]
 pub struct Measured {
-    /// Why it ended.
-    pub stop: Stop,
+    /// Whether it came to its end.
+    pub whole: bool,
     /// Whole periods done.
     pub periods: u64,
     /// Impacts.
     pub impacts: u64,
-    /// Sustained contacts.
-    pub contacts: u64,
     /// Evaluations of the closed form in search of events.
     pub evaluations: u64,
     /// Residual of the energy balance over the largest energy of the run.
     pub energy_residual: f64,
     /// Largest `abs(x - y) - 1`, at impacts and at points between.
     pub penetration: f64,
-    /// Largest displacement over the clearance.
-    pub peak: f64,
-    /// Root mean square displacement over the clearance.
-    pub rms: f64,
-    /// Energy lost in impacts, per unit of the oscillator's mass over the squared clearance.
-    pub impact_loss: f64,
     /// Why it should not be trusted.
+    #[serde(skip)]
     pub doubts: Vec<Doubt>,
     /// How it compares with the reference.
     pub comparison: Option<Comparison>,
 }
 
 /// A trajectory against the reference.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Comparison {
     /// Impacts and releases compared.
     pub events: usize,
@@ -98,27 +92,52 @@ pub struct Comparison {
 
 /// What the engine reports, in order.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Seen {
+pub(super) enum Seen {
     Impact { tau: f64, side: f64 },
     Stick,
-    Release { tau: f64 },
+    Release(Release),
+}
+
+/// The end of a sustained contact, and what led to it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Release {
+    pub tau: f64,
+    /// Displacement of the oscillator over the clearance.
+    pub x: f64,
+    /// Energy lost up to there.
+    pub loss: f64,
 }
 
 /// Keeps the first events and looks into the cavity.
-struct Witness {
-    wanted: usize,
-    seen: Vec<Seen>,
+#[derive(Default)]
+pub(super) struct Witness {
+    /// How many are kept.
+    pub wanted: usize,
+    pub seen: Vec<Seen>,
     carried: bool,
     penetration: f64,
+    loss: f64,
+}
+
+impl Witness {
+    pub(super) fn of(wanted: usize) -> Self {
+        Self { wanted, ..Self::default() }
+    }
+
+    fn keep(&mut self, event: Seen) {
+        if self.seen.len() < self.wanted {
+            self.seen.push(event);
+        }
+    }
 }
 
 impl Observer for Witness {
     fn segment(&mut self, segment: &Segment) {
         let carried = matches!(segment.absorber, Absorber::Carried(_));
-        if self.carried && !carried && self.seen.len() < self.wanted {
+        if self.carried && !carried {
             let omega = segment.motion.oscillator().frequency;
-            let turns = segment.turns as f64 * TAU;
-            self.seen.push(Seen::Release { tau: (turns + segment.phase) / omega });
+            let tau = (segment.turns as f64 * TAU + segment.phase) / omega;
+            self.keep(Seen::Release(Release { tau, x: segment.at(0.0).x, loss: self.loss }));
         }
         self.carried = carried;
         for k in 0..=LOOKS {
@@ -130,15 +149,13 @@ impl Observer for Witness {
 
     fn impact(&mut self, impact: &Impact) {
         self.penetration = self.penetration.max(impact.penetration);
-        if self.seen.len() < self.wanted {
-            self.seen.push(Seen::Impact { tau: impact.tau, side: impact.side.sign() });
-        }
+        self.loss += impact.loss;
+        self.keep(Seen::Impact { tau: impact.tau, side: impact.side.sign() });
     }
 
-    fn sticks(&mut self, _loss: f64) {
-        if self.seen.len() < self.wanted {
-            self.seen.push(Seen::Stick);
-        }
+    fn sticks(&mut self, loss: f64) {
+        self.loss += loss;
+        self.keep(Seen::Stick);
     }
 }
 
@@ -148,26 +165,20 @@ impl Run {
     /// # Errors
     /// [`MeasureError`].
     pub fn measure(&self) -> Result<Measured, MeasureError> {
-        let mut simulation =
-            Simulation::new(&self.system, self.start, 0.0)?.with_tolerance(self.tolerance);
+        let mut simulation = Simulation::new(&self.system, self.start, 0.0)?;
         let mut statistics = Statistics::begin(&self.system, self.start);
-        let mut witness =
-            Witness { wanted: self.followed, seen: Vec::new(), carried: false, penetration: 0.0 };
+        let mut witness = Witness::of(FOLLOWED);
         let observers = &mut (&mut statistics, &mut witness);
         let stop = simulation.run(self.periods, self.impact_limit, observers);
         let energy = statistics.energy();
         let peak = statistics.peak();
         Ok(Measured {
-            stop,
+            whole: stop == Stop::EndTime,
             periods: simulation.periods(),
             impacts: simulation.impacts(),
-            contacts: statistics.sustained_contact().intervals,
             evaluations: simulation.evaluations(),
             energy_residual: energy_residual(&energy, peak),
             penetration: witness.penetration,
-            peak,
-            rms: statistics.rms(),
-            impact_loss: energy.impact,
             doubts: statistics.doubts(stop),
             comparison: self.compare(&witness.seen, peak)?,
         })
@@ -189,7 +200,7 @@ impl Run {
             times.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
         };
         let engine = seen.iter().filter_map(|event| match event {
-            Seen::Impact { tau, .. } | Seen::Release { tau } => Some(*tau),
+            Seen::Impact { tau, .. } | Seen::Release(Release { tau, .. }) => Some(*tau),
             Seen::Stick => None,
         });
         let last = exact.last().copied().unwrap_or(0.0);
@@ -235,7 +246,7 @@ fn follow(mut reference: Reference, seen: &[Seen]) -> (bool, Vec<f64>) {
                     return (false, times);
                 }
             }
-            Seen::Release { tau } => match reference.next(2.0 * tau + 10.0) {
+            Seen::Release(Release { tau, .. }) => match reference.next(2.0 * tau + 10.0) {
                 Some(Event::Release { tau, .. }) => times.push(tau),
                 _ => return (false, times),
             },

@@ -3,7 +3,10 @@
 
 use std::f64::consts::TAU;
 
-use super::list::{FOLLOWED, IMPACT_LIMIT, START};
+use serde::Serialize;
+
+use super::list::{IMPACT_LIMIT, Start};
+use super::measure::FOLLOWED;
 use crate::case::{Case, CaseError};
 use crate::simulation::{ImpactLog, Simulation, StartError};
 use crate::system::{Parameters, System};
@@ -33,10 +36,10 @@ pub enum UnitError {
 }
 
 /// The design in one unit.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct UnitCheck {
     /// The clearance with its unit.
-    pub clearance: String,
+    pub clearance: &'static str,
     /// Largest relative difference of the dimensionless numbers from those in millimetres.
     pub difference: f64,
     /// Largest difference of impact times from those in millimetres, in fast time.
@@ -75,7 +78,7 @@ pub fn unit_checks() -> Result<Vec<UnitCheck>, UnitError> {
             let same = sample.times.len() == common.times.len();
             let small = difference <= rounding && scale <= rounding && times <= clock;
             Ok(UnitCheck {
-                clearance: clearance.to_owned(),
+                clearance,
                 difference,
                 times,
                 impacts: pairs.len(),
@@ -111,7 +114,7 @@ impl Sample {
         );
         let case = Case::parse(clearance, &text).map_err(Box::new)?;
         let system = case.system();
-        let mut simulation = Simulation::new(&system, START, 0.0)?;
+        let mut simulation = Simulation::new(&system, Start::Middle.state(), 0.0)?;
         let mut log = ImpactLog::default();
         let periods = (FOLLOWED as f64 * TAU / system.period()).ceil() as u64;
         simulation.run(periods, IMPACT_LIMIT, &mut log);

@@ -5,8 +5,10 @@
 //! of the cavity holds an impact; nothing is looked for between the ends of steps. It shares no code
 //! with the event engine, except for what it is compared with.
 
+use serde::Serialize;
+
 use crate::operation_count::{self, ELEMENTARY};
-use crate::simulation::{Impact, Observer, Side, Simulation, StartError, Stop};
+use crate::simulation::{Impact, ImpactLog, Side, Simulation, StartError, Stop};
 use crate::system::{State, System};
 
 /// Halvings of a step that locate an impact to rounding.
@@ -16,7 +18,8 @@ const HALVINGS: u32 = 50;
 const MOST_IN_STEP: u32 = 50;
 
 /// How an impact is located within the step that it was noticed in.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Locate {
     /// By bisection, repeating the step with half the length each time.
     Bisection,
@@ -153,7 +156,7 @@ impl ByHand {
 }
 
 /// Flights of an integrator against the exact next impact.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 pub struct Flights {
     /// Flights compared.
     pub compared: u64,
@@ -221,25 +224,16 @@ impl Listener for Log {
     }
 }
 
-#[derive(Default)]
-struct First(Option<(f64, Impact)>);
-
-impl Observer for First {
-    const SEGMENTS: bool = false;
-    fn impact(&mut self, impact: &Impact) {
-        self.0.get_or_insert((impact.tau, *impact));
-    }
-}
-
 /// The exact next impact, its `tau` counted from the state given.
 fn next(system: &System, state: State, phase: f64) -> Result<Option<Impact>, StartError> {
     let mut simulation = Simulation::new(system, state, phase)?;
     let turned = phase.rem_euclid(std::f64::consts::TAU) / system.frequency_ratio();
-    let mut seen = First::default();
+    let mut seen = ImpactLog::default();
     for _ in 0..PATIENCE {
-        if simulation.run(1, 1, &mut seen) == Stop::NotFinite || seen.0.is_some() {
+        if simulation.run(1, 1, &mut seen) == Stop::NotFinite || !seen.impacts.is_empty() {
             break;
         }
     }
-    Ok(seen.0.map(|(tau, impact)| Impact { tau: tau - turned, ..impact }))
+    let first = seen.impacts.first();
+    Ok(first.map(|impact| Impact { tau: impact.tau - turned, ..*impact }))
 }

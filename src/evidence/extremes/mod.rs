@@ -1,0 +1,162 @@
+//! The simulation at the ends of its range: what is simulated there, measured, and compared with the
+//! reference in multiple precision. A run that the simulation trusts must agree with the reference;
+//! one that it does not trust must say so.
+
+pub mod contact;
+pub mod list;
+pub mod measure;
+pub mod units;
+
+pub use contact::{ContactTable, contact_costs};
+pub use list::{Entry, Start, Varied, entries};
+pub use measure::{Comparison, MeasureError, Measured, Run};
+pub use units::{UnitCheck, UnitError, unit_checks};
+
+use serde::Serialize;
+use serde_json::json;
+
+use crate::quantity::Units;
+use crate::report::render::{RenderError, without_repeated_blank_lines};
+use crate::report::template;
+use crate::simulation::trust::{ENERGY_RESIDUAL, RESOLUTION};
+
+/// How much further than rounding once an event a sound run may be from the reference: an event is
+/// some dozen operations, each of which rounds, and so is the end of a period.
+const ROUNDINGS: f64 = 32.0;
+
+/// What became of a run.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(tag = "is", content = "why", rename_all = "kebab-case")]
+pub enum Verdict {
+    /// It is trusted, and agrees with the reference as far as rounding lets anyone see.
+    Holds,
+    /// The simulation says itself that it is not to be trusted, and why.
+    Flagged(Vec<String>),
+    /// It was not begun.
+    Refused(String),
+    /// It is trusted and should not be.
+    Wrong,
+}
+
+/// An entry of the list, measured.
+#[derive(Debug, Clone, Serialize)]
+pub struct Outcome {
+    /// The entry.
+    pub entry: Entry,
+    /// What was measured; `None` where the run was refused.
+    pub measured: Option<Measured>,
+    /// What it means.
+    pub verdict: Verdict,
+}
+
+impl Entry {
+    /// Runs it.
+    ///
+    /// # Errors
+    /// [`MeasureError::Memory`]; an impossible start is a verdict.
+    pub fn outcome(self) -> Result<Outcome, MeasureError> {
+        match self.run.measure() {
+            Ok(measured) => {
+                let verdict = Verdict::of(&measured);
+                Ok(Outcome { entry: self, measured: Some(measured), verdict })
+            }
+            Err(MeasureError::Start(refusal)) => {
+                let verdict = Verdict::Refused(refusal.to_string());
+                Ok(Outcome { entry: self, measured: None, verdict })
+            }
+            Err(error) => Err(error),
+        }
+    }
+}
+
+impl Verdict {
+    fn of(measured: &Measured) -> Self {
+        if !measured.doubts.is_empty() {
+            return Self::Flagged(measured.doubts.iter().map(|doubt| doubt.words()).collect());
+        }
+        match &measured.comparison {
+            Some(comparison) if !comparison.agrees(measured) => Self::Wrong,
+            _ => Self::Holds,
+        }
+    }
+}
+
+impl Comparison {
+    /// Whether the run is as close to the reference as rounding lets it be: once an event, or once a
+    /// period where periods are more.
+    fn agrees(&self, measured: &Measured) -> bool {
+        let periods = measured.periods as f64 * self.part;
+        let each = (periods / self.events.max(1) as f64).max(1.0);
+        let allowed = ROUNDINGS * each * (self.one_rounding + self.clock);
+        self.same_order && self.error <= allowed
+    }
+}
+
+/// Whether nothing that is trusted is wrong.
+pub fn holds(outcomes: &[Outcome], units: &[UnitCheck]) -> bool {
+    outcomes.iter().all(|outcome| outcome.verdict != Verdict::Wrong)
+        && units.iter().all(|check| check.holds)
+}
+
+/// The page as Markdown.
+///
+/// # Errors
+/// [`RenderError::Template`] if template and page do not fit.
+pub fn page(
+    outcomes: &[Outcome],
+    contact: &[ContactTable],
+    units: &[UnitCheck],
+) -> Result<String, RenderError> {
+    let count = |wanted: fn(&Verdict) -> bool| {
+        outcomes.iter().filter(|outcome| wanted(&outcome.verdict)).count()
+    };
+    let context = json!({
+        "outcomes": outcomes,
+        "contact": contact,
+        "units": units,
+        "held": count(|verdict| *verdict == Verdict::Holds),
+        "flagged": count(|verdict| matches!(verdict, Verdict::Flagged(_))),
+        "refused": count(|verdict| matches!(verdict, Verdict::Refused(_))),
+        "wrong": count(|verdict| *verdict == Verdict::Wrong),
+        "units_held": units.iter().filter(|check| check.holds).count(),
+        "table_1": list::table_1(&[]),
+        "limits": {
+            "energy": ENERGY_RESIDUAL,
+            "resolution": RESOLUTION,
+            "impacts": list::IMPACT_LIMIT,
+            "followed": measure::FOLLOWED,
+            "roundings": ROUNDINGS,
+        },
+    });
+    let text = template::render("extremes.md", &Units::reduced(), &context)?;
+    Ok(without_repeated_blank_lines(&text))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_page_tells_every_kind_of_run() {
+        let wanted = |entry: &Entry| {
+            entry.run.periods <= 200
+                && (entry.varied == [(Varied::Restitution, 0.6), (Varied::Clearance, 0.3)]
+                    || entry.varied.contains(&(Varied::Forcing, 1e307))
+                    || entry.varied.contains(&(Varied::Damping, 100.0))
+                    || entry.start == Start::Outside)
+        };
+        let chosen = entries().expect("valid").into_iter().filter(wanted);
+        let outcomes: Vec<Outcome> = chosen.map(|entry| entry.outcome().expect("memory")).collect();
+        let contact = ContactTable { varied: vec![(Varied::Clearance, 0.3)], costs: Vec::new() };
+        let text = page(&outcomes, &[contact], &[]).expect("a page");
+        for part in [
+            "| damping $\\lambda$ | $100$ | 200 | ",
+            "| several at once | $\\gamma = 10^{307}$, $\\varepsilon = 0.9$ | 0 of 200 | – | – | – | 0",
+            "- start, outside by $10^{-9}\\,b$: refused: the start has",
+            "Table 1 with $b = 0.3\\,\\mathrm{mm}$:",
+            "Above $10^{-9}\\,b$",
+        ] {
+            assert!(text.contains(part), "{part} in\n{text}");
+        }
+    }
+}

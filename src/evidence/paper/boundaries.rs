@@ -1,0 +1,170 @@
+//! Figs. 3 and 5 to 7: the manifold, its areas, the boundaries, and the responses; and the limits of steady
+//! 1:1 resonance, layer by layer.
+
+use serde_json::{Value, json};
+
+use super::{CaseReport, CaseSet, HYSTERESIS, PaperError, STEADY, Section, TRANSFER};
+use crate::analysis::{Branch, motion};
+use crate::orbits::Bifurcation;
+use crate::regimes::{FoundAttractor, Regime};
+use crate::study::StudyError;
+use crate::study::plots::responses::shares;
+use crate::study::scenes::{WalkPoint, walk};
+use crate::validation::tolerance::asymptotic_error;
+
+/// Clearances at which the end of steady 1:1 is compared with what lies before it, over that of the
+/// Hopf boundary.
+const BEFORE_HOPF: [f64; 12] = [0.4, 0.5, 0.6, 0.65, 0.7, 0.75, 0.8, 0.85, 0.9, 0.925, 0.95, 0.975];
+
+pub(super) fn figure_3(cases: &CaseSet) -> Result<Section, PaperError> {
+    let member = cases.case(STEADY[1])?;
+    let analysis = &member.study.analysis;
+    let (fold, breaking) = (analysis.manifold.fold, analysis.manifold.symmetry_breaking);
+    let predicted = member.needs(analysis.stable_points().last(), "stable fixed point")?;
+    let attractor = &member.main()?.attractor;
+    let (oscillator, absorber) = (attractor.oscillator_harmonic, attractor.absorber_harmonic);
+    let seen = motion::read_off(&analysis.system, oscillator, absorber);
+    let on = analysis.manifold.point(seen.absorber_amplitude - 1.0).oscillator_amplitude;
+    let away = (seen.oscillator_amplitude - on).abs() / on;
+    let allowed = asymptotic_error(&analysis.system);
+    let between = fold.absorber_amplitude..=breaking.absorber_amplitude;
+    let point = |b: f64, c: f64| json!({ "B": b, "C": c });
+    Ok(Section::new(
+        [
+            ("one_stable_branch", predicted.branch == Branch::Stable && !between.is_empty()),
+            ("on_the_branch", between.contains(&seen.absorber_amplitude) && away < allowed),
+        ],
+        json!({
+            "fold": point(fold.absorber_amplitude, fold.oscillator_amplitude),
+            "breaking": point(breaking.absorber_amplitude, breaking.oscillator_amplitude),
+            "away": away,
+            "allowed": allowed,
+        }),
+    ))
+}
+
+/// Clearances at which steady 1:1 resonance begins and ends by the theory, in metres.
+struct Route {
+    breaking: f64,
+    hopf: f64,
+    /// Where fixed points collide, and on which branch.
+    collision: f64,
+    branch: Branch,
+}
+
+impl Route {
+    fn of(member: &CaseReport) -> Result<Self, PaperError> {
+        let boundaries = &member.study.analysis.boundaries;
+        let node = member.needs(boundaries.saddle_node, "collision of fixed points")?;
+        let forcing = member.study.analysis.system.forcing_per_clearance();
+        let clearance = |boundary: f64| member.length(forcing / boundary);
+        Ok(Self {
+            breaking: clearance(boundaries.symmetry_breaking),
+            hopf: clearance(boundaries.hopf),
+            collision: clearance(node.forcing_over_clearance),
+            branch: node.branch,
+        })
+    }
+}
+
+/// A case in the middle of Z3: what it gains, and the limits of steady 1:1 resonance by each layer.
+pub(super) fn steady(cases: &CaseSet, name: &'static str) -> Result<Value, PaperError> {
+    let member = cases.case(name)?;
+    let route = Route::of(member)?;
+    let bare = member.study.analysis.system.linear_response();
+    let bare = member.needs(bare, "linear response")?.amplitude();
+    let peak = member.main()?.attractor.peak;
+    let simulated = member.study.confirmations.upper_limit;
+    let exact = member.study.exact.stretch();
+    Ok(json!({
+        "clearance": member.length(1.0),
+        "peak": member.length(peak),
+        "bare": member.length(bare),
+        "change_db": 20.0 * libm::log10(peak / bare),
+        "breaking": route.breaking,
+        "hopf": route.hopf,
+        "collision": route.collision,
+        "ends_by_collision": route.branch == Branch::Stable,
+        "exact": exact.map(|stretch| stretch.clearance.map(|end| member.length(end))),
+        "exact_end": exact.and_then(|stretch| stretch.ends[1]).map(Bifurcation::words),
+        "simulated": simulated.map(|limit| [limit.kept, limit.lost.factor].map(|at| member.length(at))),
+    }))
+}
+
+pub(super) fn figure_5(cases: &CaseSet) -> Result<Section, PaperError> {
+    let (beats, hysteresis) = (cases.case(TRANSFER)?, cases.case(HYSTERESIS)?);
+    let (high, low) = (Route::of(beats)?, Route::of(hysteresis)?);
+    let attractors = hysteresis.study.attractors.iter();
+    let regimes: Vec<Regime> = attractors.map(FoundAttractor::regime).collect();
+    let unsteady = |at: &Regime| matches!(at, Regime::StronglyModulated | Regime::BelowTwo);
+    Ok(Section::new(
+        [
+            ("hopf_first", high.branch == Branch::Left && high.hopf < high.collision),
+            ("modulated", beats.regime() == Some(Regime::StronglyModulated)),
+            ("collide", low.branch == Branch::Stable),
+            (
+                "side_by_side",
+                regimes.contains(&Regime::TwoSymmetric) && regimes.iter().any(unsteady),
+            ),
+        ],
+        json!({
+            "hopf": high.hopf,
+            "collision": high.collision,
+            "modulated": beats.length(1.0),
+            "slow_hopf": low.hopf,
+            "slow_collision": low.collision,
+            "hysteresis": hysteresis.length(1.0),
+        }),
+    ))
+}
+
+pub(super) fn figure_6(cases: &CaseSet) -> Result<Section, PaperError> {
+    let member = cases.case(TRANSFER)?;
+    let (high, low) = (Route::of(member)?, Route::of(cases.case(HYSTERESIS)?)?);
+    let analysis = &member.study.analysis;
+    let meeting = analysis.boundaries.codimension_two;
+    let ratio = 1.0 + analysis.system.mass_ratio() * meeting.detuning;
+    let hopf = high.hopf / member.length(1.0);
+    let found = walk(&analysis.system, &BEFORE_HOPF.map(|part| part * hopf))?;
+    let steady: Vec<&WalkPoint> =
+        found.iter().filter(|point| point.regime == Regime::TwoSymmetric).collect();
+    let least = steady.iter().min_by(|a, b| a.peak.total_cmp(&b.peak));
+    let (least, last) = member.needs(least.zip(steady.last()), "steady 1:1 before Hopf")?;
+    let place = |at: &WalkPoint| json!({ "clearance": member.length(at.clearance), "peak": member.length(at.peak) });
+    let forcing = analysis.system.forcing_per_clearance();
+    Ok(Section::new(
+        [
+            ("branches", low.branch == Branch::Stable && high.branch == Branch::Left),
+            ("one_meeting", meeting.forcing_over_clearance > 0.0),
+            ("least_at_the_end", least.clearance == last.clearance),
+        ],
+        json!({
+            "frequency": member.case.scales().frequency_hz(ratio).unwrap_or(ratio),
+            "detuning": meeting.detuning,
+            "forcing": meeting.forcing_over_clearance,
+            "clearance": member.length(forcing / meeting.forcing_over_clearance),
+            "least": place(least),
+            "last": place(last),
+            "before": 1.0 - least.clearance / last.clearance,
+            "lower": 1.0 - least.peak / last.peak,
+        }),
+    ))
+}
+
+pub(super) fn figure_7(cases: &CaseSet) -> Result<Section, PaperError> {
+    let member = cases.case(TRANSFER)?;
+    let shares = shares(&member.study.analysis.system).map_err(StudyError::from)?;
+    let [far, touching, inside, below] = shares.as_slice() else {
+        return member.needs(None, "four responses");
+    };
+    let told = [touching, far, inside, below].map(
+        |(clearance, share)| json!({ "clearance": member.length(*clearance), "share": share }),
+    );
+    Ok(Section::new(
+        [
+            ("widest", touching.1 > far.1.max(inside.1).max(below.1)),
+            ("none_whole", far.1 < 1.0 && below.1 == 0.0),
+        ],
+        json!({ "responses": told }),
+    ))
+}

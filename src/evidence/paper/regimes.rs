@@ -1,0 +1,133 @@
+//! Figs. 4 and 11: which regime comes at which clearance.
+
+use serde_json::{Value, json};
+
+use super::{CaseSet, PaperError, Section, TRANSFER};
+use crate::orbits::Bifurcation;
+use crate::regimes::Regime;
+use crate::study::exact_branches::ExactBranches;
+use crate::system::{Parameter, System};
+
+/// The cases of Fig. 4 with the regime that the paper shows.
+const FIGURE_4: [(&str, &str, Regime); 5] = [
+    ("a", "li2016-8p5hz-fig4a", Regime::AboveTwo),
+    ("b", "li2016-8p5hz-fig4b", Regime::TwoAsymmetric),
+    ("c", "li2016-8p5hz-fig4c", Regime::TwoSymmetric),
+    ("d", "li2016-8p5hz-fig4d", Regime::StronglyModulated),
+    ("e", "li2016-8p5hz-fig4e", Regime::BelowTwo),
+];
+
+/// The cases of Fig. 11 with the regime that the experiment shows.
+const FIGURE_11: [(&str, &str, Regime); 6] = [
+    ("a", "li2016-8hz-b0p3mm", Regime::AboveTwo),
+    ("b", "li2016-8hz-b2p5mm", Regime::AboveTwo),
+    ("c", "li2016-8hz-b4mm", Regime::TwoAsymmetric),
+    ("d", "li2016-8hz-b7p5mm", Regime::TwoSymmetric),
+    ("e", "li2016-8hz-b11p5mm", Regime::StronglyModulated),
+    ("f", "li2016-8hz-b20mm", Regime::BelowTwo),
+];
+
+/// A panel: whether its regime is the paper's, and what was found.
+type Panel = ((&'static str, bool), Value);
+
+fn compared(
+    cases: &CaseSet,
+    panels: &[(&'static str, &'static str, Regime)],
+) -> Result<Vec<Panel>, PaperError> {
+    let panel = |(letter, name, expected): &(&'static str, &'static str, Regime)| {
+        let member = cases.case(name)?;
+        let main = member.main()?;
+        let facts = json!({
+            "letter": letter,
+            "expected": expected.key(),
+            "found": main.regime().key(),
+            "clearance": member.length(1.0),
+            "impacts_per_period": member.impacts_per_period()?,
+            "rms": member.length(main.attractor.rms),
+        });
+        Ok(((*letter, main.regime() == *expected), facts))
+    };
+    panels.iter().map(panel).collect()
+}
+
+pub(super) fn figure_4(cases: &CaseSet) -> Result<Section, PaperError> {
+    let (mut checks, panels): (Vec<_>, Vec<Value>) =
+        compared(cases, &FIGURE_4)?.into_iter().unzip();
+    let (mut impacts, mut levels) = (Vec::new(), Vec::new());
+    for (_, name, _) in FIGURE_4 {
+        let member = cases.case(name)?;
+        impacts.push(member.impacts_per_period()?);
+        levels.push(member.length(member.main()?.attractor.rms));
+    }
+    let lowest = (0..levels.len()).min_by(|a, b| levels[*a].total_cmp(&levels[*b])).unwrap_or(0);
+    let valley = levels[..=lowest].windows(2).all(|pair| pair[1] < pair[0])
+        && levels[lowest..].windows(2).all(|pair| pair[1] > pair[0]);
+    checks.push(("impacts_fall", impacts.windows(2).all(|pair| pair[1] <= pair[0] + 1e-9)));
+    checks.push(("valley", valley && (1..levels.len() - 1).contains(&lowest)));
+    let member = cases.case(TRANSFER)?;
+    let exact = member.study.exact.boundaries.as_ref();
+    let asymmetric = exact
+        .and_then(|exact| exact.asymmetric.as_ref())
+        .and_then(|found| Some([found.symmetry_breaking, found.period_doubling?, found.grazing?]));
+    let [breaking, doubling, grazing] =
+        member.needs(asymmetric, "asymmetric orbits")?.map(|at| member.length(at));
+    Ok(Section::new(
+        checks,
+        json!({
+            "panels": panels, "breaking": breaking, "doubling": doubling, "grazing": grazing,
+        }),
+    ))
+}
+
+pub(super) fn figure_11(cases: &CaseSet) -> Result<Section, PaperError> {
+    let (mut checks, panels): (Vec<_>, Vec<Value>) =
+        compared(cases, &FIGURE_11)?.into_iter().unzip();
+    let smallest = cases.case("li2016-8hz-b0p3mm")?.main()?;
+    let three = cases.case("li2016-8hz-b2p5mm")?.impacts_per_period()?;
+    checks.push(("irregular", !smallest.attractor.repeats()));
+    checks.push(("three", (three - 3.0).abs() < 0.05));
+    Ok(Section::new(checks, json!({ "panels": panels, "forcing": forcing(cases)? })))
+}
+
+/// Why no forcing amplitude makes the experiment's order of regimes: the clearance of every boundary
+/// is proportional to `F`, since `F/b` alone decides at given parameters. Lengths in metres.
+fn forcing(cases: &CaseSet) -> Result<Value, PaperError> {
+    let clearance =
+        |name: &'static str| -> Result<f64, PaperError> { Ok(cases.case(name)?.length(1.0)) };
+    let asymmetric = clearance("li2016-8hz-b4mm")?;
+    let modulated = clearance("li2016-8hz-b11p5mm")?;
+    let member = cases.case("li2016-8hz-b7p5mm")?;
+    let system = &member.study.analysis.system;
+    let stretch = member.needs(member.study.exact.stretch(), "stable exact orbit")?;
+    let [breaking, last] = stretch.clearance.map(|end| member.length(end));
+    let lost = member.study.confirmations.upper_limit.map(|limit| member.length(limit.lost.factor));
+    // F = G eps in metres, and the F that moves a boundary of this case to a given clearance.
+    let amplitude = member.case.scales().forcing * system.mass_ratio();
+    let moved = |boundary: f64, to: f64| amplitude * to / boundary;
+    let least = moved(breaking, asymmetric);
+    let beside = moved(lost.unwrap_or(last), modulated);
+    let three = clearance("li2016-8hz-b2p5mm")?;
+    let enough = birth_of_three(system).map(|birth| moved(member.length(birth), three));
+    Ok(json!({
+        "amplitude": amplitude,
+        "steady_to": last,
+        "asymmetric": asymmetric,
+        "modulated": modulated,
+        // F for asymmetric impacts; for an unsteady response from all starts, and from some.
+        "least": least,
+        "alone": moved(last, modulated),
+        "beside": beside,
+        "missed_by": (least / beside - 1.0).abs(),
+        "for_three": enough,
+    }))
+}
+
+/// The largest clearance, over the system's own, with an orbit of more than two impacts that attracts
+/// or turns there: where the one with three is born.
+fn birth_of_three(system: &System) -> Option<f64> {
+    let exact = ExactBranches::over(system, Parameter::Clearance, [0.2, 1.0]);
+    let born = exact.marks.iter().filter(|mark| {
+        !mark.symmetric && mark.kind == Bifurcation::SaddleNode && mark.at.cycle.impact_count() == 3
+    });
+    born.map(|mark| mark.at.value).reduce(f64::max)
+}

@@ -1,0 +1,268 @@
+//! The layers that a question can be put to, and what each answers.
+
+use serde::Serialize;
+
+use super::by_hand::{ByHand, Listener, Locate};
+use crate::analysis::Manifold;
+use crate::analysis::motion::root_mean_square;
+use crate::analysis::slow_motion::{SlowEnd, SlowFlow};
+use crate::operation_count;
+use crate::regimes::{Attractor, Window};
+use crate::simulation::{ContactTolerance, Simulation, Stop};
+use crate::study::answer::{self, Answer, BLOCKS, IMPACT_LIMIT, measured, scatters};
+use crate::study::{Proof, StudyError};
+use crate::system::{State, System};
+
+/// Which search for impacts a simulation uses.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Search {
+    /// By phasors in panels of the period.
+    Panels,
+    /// By bounding parabolas, step by step.
+    StepByStep,
+}
+
+/// A way to an answer. Periods are excitation periods in all; a simulation leaves the first half to
+/// the transient and measures the second.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(tag = "method", rename_all = "kebab-case")]
+pub enum Method {
+    /// The manifold and the fixed points of the slow flow, in closed form.
+    FixedPoints,
+    /// The slow flow (18), integrated for so many excitation periods.
+    SlowFlow {
+        /// Excitation periods.
+        periods: u64,
+    },
+    /// The symmetric orbit of the full system, in closed form.
+    SymmetricOrbit,
+    /// Any other orbit: a simulation of so many periods gives its impacts, Newton's method the orbit.
+    OrbitFromSimulation {
+        /// Excitation periods.
+        periods: u64,
+    },
+    /// The event engine.
+    Simulation {
+        /// Excitation periods.
+        periods: u64,
+        /// How impacts are found.
+        search: Search,
+        /// Excursion at which a chattering sequence is ended, over the clearance, where that is not the
+        /// engine's own.
+        excursion: Option<f64>,
+    },
+    /// The Runge-Kutta method with a fixed step.
+    FixedStep {
+        /// Excitation periods.
+        periods: u64,
+        /// Steps in a period.
+        #[serde(rename = "steps_per_period")]
+        steps: u32,
+        /// How impacts are located in a step.
+        locate: Locate,
+    },
+}
+
+/// The group that a method belongs to, in order of effort.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Layer {
+    /// Manifold and fixed points.
+    ClosedForm,
+    /// Slow flow in time.
+    SlowFlow,
+    /// Exact periodic orbit.
+    ExactOrbit,
+    /// Event-driven simulation.
+    Simulation,
+    /// Fixed-step integration.
+    FixedStep,
+}
+
+impl Method {
+    /// The layer it belongs to.
+    pub fn layer(self) -> Layer {
+        match self {
+            Self::FixedPoints => Layer::ClosedForm,
+            Self::SlowFlow { .. } => Layer::SlowFlow,
+            Self::SymmetricOrbit | Self::OrbitFromSimulation { .. } => Layer::ExactOrbit,
+            Self::Simulation { .. } => Layer::Simulation,
+            Self::FixedStep { .. } => Layer::FixedStep,
+        }
+    }
+
+    /// Whether it is `other` with a longer run or smaller steps, all else being the same.
+    pub fn refines(self, other: Self) -> bool {
+        match (self, other) {
+            (Self::SlowFlow { periods: more }, Self::SlowFlow { periods }) => more > periods,
+            (
+                Self::Simulation { periods: more, search, excursion },
+                Self::Simulation { periods, search: same, excursion: equal },
+            ) => more > periods && search == same && excursion == equal,
+            (
+                Self::FixedStep { steps: more, periods, locate },
+                Self::FixedStep { steps, periods: equal, locate: same },
+            ) => more > steps && periods == equal && locate == same,
+            _ => false,
+        }
+    }
+
+    /// What it answers about `system`; simulations begin at `start`. The second value is what that
+    /// cost in operations.
+    ///
+    /// # Errors
+    /// [`StudyError`] where it cannot be carried out.
+    pub fn run(self, system: &System, start: State) -> Result<(Answer, u64), StudyError> {
+        let (answer, operations) = operation_count::counted(|| self.answer(system, start));
+        Ok((answer?, operations))
+    }
+
+    fn answer(self, system: &System, start: State) -> Result<Answer, StudyError> {
+        match self {
+            Self::FixedPoints => answer::closed_form(system),
+            Self::SlowFlow { periods } => slow_flow(system, periods),
+            Self::SymmetricOrbit => Ok(answer::symmetric_orbit(system)),
+            Self::OrbitFromSimulation { periods } => orbit_near(system, start, periods),
+            Self::Simulation { periods, search, excursion } => {
+                simulated(system, start, periods, search, excursion)
+            }
+            Self::FixedStep { periods, steps, locate } => {
+                Ok(fixed_step(&ByHand::new(system, steps, locate), start, periods))
+            }
+        }
+    }
+}
+
+/// The flow begins in the middle of the stable branch, in phase with the excitation.
+fn slow_flow(system: &System, periods: u64) -> Result<Answer, StudyError> {
+    let manifold = Manifold::of(system.restitution());
+    let flow = SlowFlow::of(system, &manifold);
+    let middle = 0.5
+        * (manifold.fold.oscillator_amplitude + manifold.symmetry_breaking.oscillator_amplitude);
+    let Some(start) = flow.point(middle, 0.0) else {
+        return Ok(Answer::none("the stable branch has no middle"));
+    };
+    Ok(match flow.follow(start, periods) {
+        SlowEnd::Settles(at) | SlowEnd::Moving(at)
+            if at.absorber_amplitude > manifold.symmetry_breaking.absorber_amplitude =>
+        {
+            Answer::none("beyond symmetry breaking, where the branch is unstable")
+        }
+        SlowEnd::Settles(at) | SlowEnd::Moving(at) => Answer::steady(root_mean_square(
+            system,
+            at.oscillator_amplitude,
+            at.absorber_amplitude,
+            at.absorber_phase,
+        )),
+        SlowEnd::LeavesAtFold { .. } => {
+            Answer::none("leaves the manifold at the fold: the theory gives no steady amplitude")
+        }
+    })
+}
+
+fn orbit_near(system: &System, start: State, periods: u64) -> Result<Answer, StudyError> {
+    let mut simulation = Simulation::new(system, start, 0.0)?;
+    let discard = periods / 2;
+    let window = Window { discard, periods: periods - discard, impact_limit: IMPACT_LIMIT };
+    let found = Attractor::measure(&mut simulation, &window);
+    Ok(match Proof::of(system, &found) {
+        Some(proof) => Answer {
+            rms: Some(proof.measures.rms),
+            impacts_per_period: Some(answer::impacts_per_period(&proof)),
+            regime: Some(found.classification.regime),
+            ..Answer::default()
+        },
+        None => Answer::none("the simulated motion does not repeat yet: no orbit to solve for"),
+    })
+}
+
+fn simulated(
+    system: &System,
+    start: State,
+    periods: u64,
+    search: Search,
+    excursion: Option<f64>,
+) -> Result<Answer, StudyError> {
+    let usual = ContactTolerance::default();
+    let tolerance = ContactTolerance { excursion: excursion.unwrap_or(usual.excursion), ..usual };
+    let mut simulation = Simulation::new(system, start, 0.0)?.with_tolerance(tolerance);
+    if search == Search::StepByStep {
+        simulation = simulation.step_by_step();
+    }
+    let discard = periods / 2;
+    let stop = simulation.run(discard, IMPACT_LIMIT, &mut ());
+    let answer = match stop {
+        Stop::EndTime => measured(&mut simulation, periods - discard),
+        other => Some(Answer::none(other.words())),
+    };
+    // The slow search notes every evaluation itself.
+    if search == Search::Panels {
+        operation_count::note(simulation.operations());
+    }
+    Ok(answer.unwrap_or_else(|| Answer::none("the run was ended by its limit on impacts")))
+}
+
+/// Impacts per period, over all periods so far and ten more, above which a fixed step is given up: it
+/// has one in nearly every step, and none of them is an impact.
+const MOST_IMPACTS: u64 = 400;
+
+/// Counts impacts and sums squares at the ends of steps.
+#[derive(Default)]
+struct Sums {
+    impacts: u64,
+    squares: f64,
+}
+
+impl Listener for Sums {
+    fn impact(&mut self, _: f64, _: &State) {
+        operation_count::note(12);
+        self.impacts += 1;
+    }
+    fn step(&mut self, state: &State) {
+        operation_count::note(2);
+        self.squares += state.x * state.x;
+    }
+}
+
+/// The first half of the periods is left out, the second measured in blocks.
+fn fixed_step(hand: &ByHand, start: State, periods: u64) -> Answer {
+    let discard = periods / 2;
+    let measured = periods - discard;
+    let blocks = BLOCKS.min(measured).max(1);
+    let ends = (0..=blocks).map(|block| discard + measured * block / blocks);
+    let (mut state, mut done, mut impacts) = (start, 0, 0);
+    // Of each block: its periods, the mean of x^2, impacts per period.
+    let mut means: Vec<(f64, [f64; 2])> = Vec::new();
+    for end in ends {
+        let (first, mut sums) = (done, Sums::default());
+        while done < end {
+            state = hand.run(state, 1, &mut sums);
+            if impacts + sums.impacts > MOST_IMPACTS * (done + 10) {
+                return Answer::none("impacts in nearly every step, so it was given up");
+            }
+            done += 1;
+        }
+        impacts += sums.impacts;
+        let length = (end - first) as f64;
+        let square = sums.squares / (length * hand.steps_per_period() as f64);
+        means.push((length, [square, sums.impacts as f64 / length]));
+    }
+    if !state.x.is_finite() {
+        return Answer::none("a number that overflowed");
+    }
+    let blocks = &means[1..];
+    let mean = |k: usize| {
+        blocks.iter().map(|(length, means)| length * means[k]).sum::<f64>() / measured as f64
+    };
+    let (rms, impacts_per_period) = (mean(0).sqrt(), mean(1));
+    let blocks: Vec<[f64; 2]> = blocks.iter().map(|(_, means)| *means).collect();
+    let [scatter, impacts_scatter] = scatters(&blocks, rms);
+    Answer {
+        rms: Some(rms),
+        scatter: Some(scatter),
+        impacts_per_period: Some(impacts_per_period),
+        impacts_scatter: Some(impacts_scatter),
+        ..Answer::default()
+    }
+}
