@@ -30,6 +30,9 @@ const TEMPLATES: &[(&str, &str)] = &[
     ("README.md", include_str!("../../templates/index.md.tera")),
     ("index.html", include_str!("../../templates/index.html.tera")),
     ("equations.md", include_str!("../../templates/equations.md.tera")),
+    ("sweep.md", include_str!("../../templates/sweep.md.tera")),
+    ("captions/sweep-line", include_str!("../../templates/captions/sweep-line.tera")),
+    ("captions/sweep-map", include_str!("../../templates/captions/sweep-map.tera")),
 ];
 
 /// Components that every template may use.

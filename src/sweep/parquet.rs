@@ -11,7 +11,9 @@ use parquet::errors::ParquetError;
 use parquet::file::metadata::{KeyValue, ParquetMetaData, ParquetMetaDataReader};
 use parquet::file::properties::{WriterProperties, WriterVersion};
 use parquet::file::reader::{ChunkReader, FileReader, RowGroupReader, SerializedFileReader};
-use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
+use parquet::file::writer::{
+    SerializedColumnWriter, SerializedFileWriter, SerializedRowGroupWriter,
+};
 use parquet::schema::types::{Type, TypePtr};
 
 use super::columns::{Column, Values, word};
@@ -77,29 +79,25 @@ fn write<W: Write + Send>(
     let missing = || ParquetError::General("more columns than the schema has".into());
     let mut writer = group.next_column()?.ok_or_else(missing)?;
     match &column.values {
-        Values::Number(values) => {
-            let there: Vec<f64> = values.iter().flatten().copied().collect();
-            writer.typed::<DoubleType>().write_batch(&there, Some(&levels(values)), None)?;
-        }
-        Values::Whole(values) => {
-            let there: Vec<i64> = values.iter().flatten().copied().collect();
-            writer.typed::<Int64Type>().write_batch(&there, Some(&levels(values)), None)?;
-        }
-        Values::Flag(values) => {
-            let there: Vec<bool> = values.iter().flatten().copied().collect();
-            writer.typed::<BoolType>().write_batch(&there, Some(&levels(values)), None)?;
-        }
+        Values::Number(values) => put::<DoubleType>(&mut writer, values)?,
+        Values::Whole(values) => put::<Int64Type>(&mut writer, values)?,
+        Values::Flag(values) => put::<BoolType>(&mut writer, values)?,
         Values::Text(values) => {
-            let there: Vec<ByteArray> =
-                values.iter().flatten().map(|text| ByteArray::from(*text)).collect();
-            writer.typed::<ByteArrayType>().write_batch(&there, Some(&levels(values)), None)?;
+            let values: Vec<_> = values.iter().map(|text| text.map(ByteArray::from)).collect();
+            put::<ByteArrayType>(&mut writer, &values)?;
         }
     }
     writer.close()
 }
 
-fn levels<T>(values: &[Option<T>]) -> Vec<i16> {
-    values.iter().map(|value| i16::from(value.is_some())).collect()
+fn put<T: DataType>(
+    writer: &mut SerializedColumnWriter<'_>,
+    values: &[Option<T::T>],
+) -> Result<(), ParquetError> {
+    let there: Vec<T::T> = values.iter().flatten().cloned().collect();
+    let levels: Vec<i16> = values.iter().map(|value| i16::from(value.is_some())).collect();
+    writer.typed::<T>().write_batch(&there, Some(&levels), None)?;
+    Ok(())
 }
 
 /// A file of results that is read a row group at a time.
@@ -155,12 +153,10 @@ fn read(
             all.extend(optional(reader, rows)?);
         }
         (ColumnReader::ByteArrayColumnReader(reader), Values::Text(all)) => {
+            let other = || ParquetError::General("the file has other words".into());
+            let known = |text: ByteArray| word(text.data()).ok_or_else(other);
             for text in optional(reader, rows)? {
-                let known = |text: &ByteArray| {
-                    let other = || ParquetError::General("the file has other words".into());
-                    word(text.data()).ok_or_else(other)
-                };
-                all.push(text.as_ref().map(known).transpose()?);
+                all.push(text.map(known).transpose()?);
             }
         }
         _ => return Err(ParquetError::General("a column is of another kind".into())),

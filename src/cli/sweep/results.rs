@@ -1,16 +1,15 @@
 //! What becomes of chunks that are all there: one file of results, on request as text, and a page.
 
-use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
+use ::csv::Writer;
 use clap::Args;
 use miette::{IntoDiagnostic, Result, WrapErr as _, miette};
-use vinesink::digest::Digest;
-use vinesink::report::render;
-use vinesink::report::sweep::{AxisShown, MOST_POINTS, SweepPage, Swept};
+use vinesink::digest::sha256;
+use vinesink::report::sweep::{AxisShown, MOST_POINTS, Swept};
 use vinesink::store::{self, Growing};
 use vinesink::sweep::columns::{self, Column};
-use vinesink::sweep::csv::Table;
+use vinesink::sweep::csv;
 use vinesink::sweep::parquet::{Merger, Results};
 
 use super::super::progress::Progress;
@@ -87,18 +86,17 @@ impl Sweep {
             results.add_to(&mut columns, group).into_diagnostic()?;
         }
         let settings = &self.plan.settings;
+        let bytes = std::fs::read(merged).into_diagnostic().wrap_err_with(|| shown(merged))?;
         let swept = Swept {
             case: &self.case,
             axes: settings.axes.iter().map(|axis| AxisShown::of(&self.case, axis)).collect(),
             columns: &columns,
             starts: settings.starts,
             periods: settings.periods,
-            results_sha256: checksum(merged)?,
+            results_sha256: sha256(&bytes),
         };
         let name = self.folder.file_name().unwrap_or_default();
-        let figures = swept.figures()?;
-        let page = SweepPage::new(&name.to_string_lossy(), &swept, &figures)?;
-        let files = render::sweep(&page, &figures).into_diagnostic()?;
+        let files = swept.files()?;
         let folder = reports.map_or_else(|| self.folder.clone(), |reports| reports.join(name));
         store::add_to_folder(&folder, &files)?;
         if let Some(reports) = reports {
@@ -111,28 +109,15 @@ impl Sweep {
 /// The merged results once more as text, a chunk at a time.
 fn written_as_text(merged: &Path, path: &Path, empty: &[Column]) -> Result<()> {
     let results = Results::open(store::open(merged)?).into_diagnostic()?;
-    let mut table = Table::new(Growing::begin(path)?, empty).into_diagnostic()?;
+    let mut writer = Writer::from_writer(Growing::begin(path)?);
+    csv::header(&mut writer, empty).into_diagnostic()?;
     for group in 0..results.groups() {
         let mut columns = empty.to_vec();
         results.add_to(&mut columns, group).into_diagnostic()?;
-        table.add(&columns).into_diagnostic()?;
+        csv::rows(&mut writer, &columns).into_diagnostic()?;
     }
-    Ok(table.finish().into_diagnostic()?.finish()?)
-}
-
-/// SHA-256 of a file, read piece by piece.
-fn checksum(path: &Path) -> Result<String> {
-    let mut file = store::open(path)?;
-    let mut digest = Digest::default();
-    let mut piece = vec![0; 1 << 20];
-    loop {
-        let read = file.read(&mut piece).into_diagnostic().wrap_err_with(|| shown(path))?;
-        if read == 0 {
-            break;
-        }
-        digest.add(&piece[..read]);
-    }
-    Ok(digest.finish())
+    let text = writer.into_inner().map_err(|error| error.into_error()).into_diagnostic()?;
+    Ok(text.finish()?)
 }
 
 fn unfinished(path: &Path) -> String {
