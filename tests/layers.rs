@@ -119,7 +119,10 @@ const ROOMS: &[(&str, &[&str])] = &[
     ),
     ("diff", &["regimes", "report"]),
     ("store", &["digest"]),
-    ("sweep", &["analysis", "case", "digest", "orbits", "regimes", "simulation", "system"]),
+    (
+        "sweep",
+        &["analysis", "case", "digest", "orbits", "regimes", "simulation", "system", "validation"],
+    ),
 ];
 
 /// Rooms in which there is physics and nothing else: no files, no clock, no printing, no threads, no

@@ -21,6 +21,7 @@ use vinesink::report::figure::{
 use vinesink::report::render;
 use vinesink::report::sweep::{AxisShown, Swept, SweptError, tint};
 use vinesink::sweep::columns::{Column, Values};
+use vinesink::sweep::limits::stability_limits;
 
 /// Table 1 of Li, Seguy, Berlioz (2016) at 8.35 Hz and 20 mm.
 fn case() -> Case {
@@ -50,7 +51,10 @@ fn counts(name: &'static str, values: &[i64]) -> Column {
 
 fn swept<'a>(case: &'a Case, axes: Vec<AxisShown>, columns: &'a [Column]) -> Swept<'a> {
     let results_sha256 = "f".repeat(64);
-    Swept { case, axes, columns, starts: 4, periods: 100, results_sha256 }
+    let frequency = axes.iter().find(|axis| axis.parameter == SweepParameter::Frequency);
+    let frequencies = frequency.filter(|_| axes.len() == 2).map_or(&[][..], |axis| &axis.values);
+    let limits = stability_limits(case, frequencies);
+    Swept { case, axes, columns, starts: 4, periods: 100, limits, results_sha256 }
 }
 
 /// All files of the page, as text.

@@ -5,11 +5,13 @@ use std::path::{Path, PathBuf};
 use ::csv::Writer;
 use clap::Args;
 use miette::{IntoDiagnostic, Result, WrapErr as _, miette};
+use vinesink::case::SweepParameter;
 use vinesink::digest::sha256;
 use vinesink::report::sweep::{AxisShown, MOST_POINTS, Swept};
 use vinesink::store::{self, Growing};
 use vinesink::sweep::columns::{self, Column};
 use vinesink::sweep::csv;
+use vinesink::sweep::limits::{StabilityLimit, stability_limits};
 use vinesink::sweep::parquet::{Merger, Results};
 
 use super::super::progress::Progress;
@@ -93,6 +95,7 @@ impl Sweep {
             columns: &columns,
             starts: settings.starts,
             periods: settings.periods,
+            limits: self.limits(),
             results_sha256: sha256(&bytes),
         };
         let name = self.folder.file_name().unwrap_or_default();
@@ -103,6 +106,16 @@ impl Sweep {
             index::refresh(reports)?;
         }
         output::print(format!("{}\n", shown(&folder.join("sweep.html"))))
+    }
+
+    /// Of the exact orbit, which a map over frequency and clearance shows.
+    fn limits(&self) -> Vec<StabilityLimit> {
+        let axes = &self.plan.settings.axes;
+        let of = |parameter| axes.iter().find(|axis| axis.parameter == parameter);
+        match (axes.len(), of(SweepParameter::Frequency), of(SweepParameter::Clearance)) {
+            (2, Some(frequency), Some(_)) => stability_limits(&self.case, &frequency.values),
+            _ => Vec::new(),
+        }
     }
 }
 

@@ -18,6 +18,7 @@ use super::render::{RenderError, drawings, figure_files, without_repeated_blank_
 use super::template::{render, worded};
 use crate::case::Case;
 use crate::sweep::columns::Column;
+use crate::sweep::limits::StabilityLimit;
 
 pub use axis::AxisShown;
 pub use kinds::tint;
@@ -39,6 +40,8 @@ pub struct Swept<'a> {
     pub starts: u32,
     /// Excitation periods measured where a motion is not seen to repeat.
     pub periods: u64,
+    /// Where the exact orbit begins and ceases to attract, over a frequency and the clearance.
+    pub limits: Vec<StabilityLimit>,
     /// SHA-256 of the file of results, in hexadecimal.
     pub results_sha256: String,
 }

@@ -8,15 +8,11 @@ use super::super::kinds::{AREAS, area_name};
 use super::contours;
 use crate::analysis::Manifold;
 use crate::case::{Recorded, SweepParameter};
-use crate::orbits::Limit;
-use crate::orbits::boundaries::over_frequency;
 use crate::quantity::catalogue::CLEARANCE;
 use crate::report::figure::{Color, Dash, Layer, MarkedPoint, Role, Style};
 use crate::report::figures::borders::Borders;
-use crate::validation::tolerance::has_resonance;
+use crate::sweep::limits::StabilityLimit;
 
-/// Frequencies at which the exact boundaries are marked.
-const EXACT: u32 = 32;
 /// About the width of a panel that has a figure to itself, and of a letter, pixels.
 const PANEL: f64 = 560.0;
 const LETTER: f64 = 10.0;
@@ -73,36 +69,23 @@ fn computed(swept: &Swept, plane: Plane) -> Option<Vec<Layer>> {
     };
     let mut layers: Vec<Layer> = borders.lines(&place).into_iter().flat_map(cased).collect();
     layers.extend(borders.meeting_point(&place));
-    layers.extend(exact(swept, [first, last], &shown));
+    layers.extend(exact(swept, &shown));
     Some(layers)
 }
 
-/// Where the stable exact orbit begins and ends.
-fn exact(
-    swept: &Swept,
-    [first, last]: [f64; 2],
-    shown: &dyn Fn(f64, f64) -> [f64; 2],
-) -> Option<Layer> {
-    let (system, units) = (swept.case.system(), swept.units());
-    if !has_resonance(&system) {
-        return None;
-    }
-    let ratio = |k: u32| first + (last - first) * (f64::from(k) + 0.5) / f64::from(EXACT);
-    let found = over_frequency(&system, &(0..EXACT).map(ratio).collect::<Vec<_>>());
-    let point = |ratio: f64, limit: &Limit| {
-        let clearance = swept.case.scales().length(limit.clearance);
-        let place = units.text(&CLEARANCE, clearance);
-        let [x, y] = shown(ratio, limit.clearance);
-        let words = format!("{} of the exact orbit at {place}", limit.kind.words());
+/// Where the stable exact orbit begins and ends, at some frequencies.
+fn exact(swept: &Swept, shown: &dyn Fn(f64, f64) -> [f64; 2]) -> Option<Layer> {
+    let point = |at: &StabilityLimit| {
+        let clearance = swept.case.scales().length(at.limit.clearance);
+        let place = swept.units().text(&CLEARANCE, clearance);
+        let [x, y] = shown(at.frequency_ratio, at.limit.clearance);
+        let words = format!("{} of the exact orbit at {place}", at.limit.kind.words());
         MarkedPoint::new(x, y).with_tooltip(words)
     };
-    let points = found.iter().flat_map(|at| {
-        let limits = at.symmetric.limits.iter().filter(|limit| limit.bounds_stability);
-        limits.map(|limit| point(at.frequency_ratio, limit))
-    });
-    let points: Vec<MarkedPoint> = points.collect();
+    let points: Vec<MarkedPoint> = swept.limits.iter().map(point).collect();
     let marker = Role::ExactOrbit.marker().sized(5.4);
-    Some(Layer::marked(marker, Role::ExactOrbit.color(), points).labelled("exact limits"))
+    let layer = || Layer::marked(marker, Role::ExactOrbit.color(), points.clone());
+    (!points.is_empty()).then(|| layer().labelled("exact limits"))
 }
 
 /// Those that the columns show: between cells whose area differs, and where the exact orbit begins and ends.
