@@ -4,9 +4,9 @@
 use std::cell::OnceCell;
 
 use super::Point;
-use crate::analysis::{Area, FixedPointCurve, Manifold, Zone, fixed_points};
+use crate::analysis::{FixedPointCurve, Manifold, Zone, fixed_points};
 use crate::orbits::{SymmetricOrbit, attracting_orbit};
-use crate::regimes::long_term::Motion;
+use crate::regimes::Motion;
 use crate::system::System;
 
 /// A point and what was found there.
@@ -45,14 +45,12 @@ impl<'a> Facts<'a> {
 
     fn theory(&self) -> Option<(&'a System, Manifold)> {
         let system = self.point.system.as_ref()?;
-        Some((system, Manifold::of(system.restitution()).ok()?))
+        Some((system, Manifold::of(system.restitution())))
     }
 
     /// The theory's area and strip; no area where closed form cannot tell Z1 from Z2.
     pub fn zone(&self) -> Option<Zone> {
-        let Some((system, manifold)) = self.theory() else {
-            return self.point.system.map(|_| Zone { area: Some(Area::Z4), strip: None });
-        };
+        let (system, manifold) = self.theory()?;
         Some(FixedPointCurve::of(system, &manifold).zone(system.forcing_per_clearance()))
     }
 

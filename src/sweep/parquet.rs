@@ -29,14 +29,52 @@ const UNIT: &str = "vinesink.unit.";
 /// # Errors
 /// [`ParquetError`] of the library.
 pub fn file(columns: &[Column], notes: &Notes) -> Result<Vec<u8>, ParquetError> {
-    let mut writer =
-        SerializedFileWriter::new(Vec::new(), schema(columns)?, properties(columns, notes)?)?;
+    let mut writer = begin(Vec::new(), columns, notes)?;
     let mut group = writer.next_row_group()?;
     for column in columns {
         write(&mut group, column)?;
     }
     group.close()?;
     writer.into_inner()
+}
+
+/// Begins a file; `columns` are those of any of its row groups, and may be empty.
+///
+/// # Errors
+/// [`ParquetError`] of the library.
+pub fn begin<W: Write + Send>(
+    sink: W,
+    columns: &[Column],
+    notes: &Notes,
+) -> Result<SerializedFileWriter<W>, ParquetError> {
+    SerializedFileWriter::new(sink, schema(columns)?, properties(columns, notes)?)
+}
+
+/// Adds the row groups of another file, a column at a time, so that memory holds one of them.
+///
+/// # Errors
+/// [`ParquetError`] of the library, and where the file has other columns.
+pub fn append<W: Write + Send, R: ChunkReader>(
+    writer: &mut SerializedFileWriter<W>,
+    file: &R,
+) -> Result<(), ParquetError> {
+    let metadata: ParquetMetaData = ParquetMetaDataReader::new().parse_and_finish(file)?;
+    for group in metadata.row_groups() {
+        let mut out = writer.next_row_group()?;
+        for column in group.columns() {
+            let closed = ColumnCloseResult {
+                bytes_written: column.compressed_size() as u64,
+                rows_written: group.num_rows() as u64,
+                metadata: column.clone(),
+                bloom_filter: None,
+                column_index: None,
+                offset_index: None,
+            };
+            out.append_column(file, closed)?;
+        }
+        out.close()?;
+    }
+    Ok(())
 }
 
 fn schema(columns: &[Column]) -> Result<TypePtr, ParquetError> {
@@ -173,52 +211,4 @@ fn optional<T: DataType>(
     reader.read_records(rows, Some(&mut levels), None, &mut there)?;
     let mut there = there.into_iter();
     Ok(levels.into_iter().map(|level| if level == 1 { there.next() } else { None }).collect())
-}
-
-/// Puts files of one row group after one another, a column at a time, so that memory holds one of them.
-pub struct Merger<W: Write + Send> {
-    writer: SerializedFileWriter<W>,
-}
-
-impl<W: Write + Send> Merger<W> {
-    /// Begins a file; `columns` are those of any of the files, and may be empty.
-    ///
-    /// # Errors
-    /// [`ParquetError`] of the library.
-    pub fn new(sink: W, columns: &[Column], notes: &Notes) -> Result<Self, ParquetError> {
-        let properties = properties(columns, notes)?;
-        Ok(Self { writer: SerializedFileWriter::new(sink, schema(columns)?, properties)? })
-    }
-
-    /// Adds the row groups of a file.
-    ///
-    /// # Errors
-    /// [`ParquetError`] of the library, and where the file has other columns.
-    pub fn add<R: ChunkReader>(&mut self, file: &R) -> Result<(), ParquetError> {
-        let metadata: ParquetMetaData = ParquetMetaDataReader::new().parse_and_finish(file)?;
-        for group in metadata.row_groups() {
-            let mut out = self.writer.next_row_group()?;
-            for column in group.columns() {
-                let closed = ColumnCloseResult {
-                    bytes_written: column.compressed_size() as u64,
-                    rows_written: group.num_rows() as u64,
-                    metadata: column.clone(),
-                    bloom_filter: None,
-                    column_index: None,
-                    offset_index: None,
-                };
-                out.append_column(file, closed)?;
-            }
-            out.close()?;
-        }
-        Ok(())
-    }
-
-    /// Ends the file.
-    ///
-    /// # Errors
-    /// [`ParquetError`] of the library.
-    pub fn finish(self) -> Result<W, ParquetError> {
-        self.writer.into_inner()
-    }
 }

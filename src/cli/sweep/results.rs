@@ -12,7 +12,7 @@ use vinesink::store::{self, Growing};
 use vinesink::sweep::columns::{self, Column};
 use vinesink::sweep::csv;
 use vinesink::sweep::limits::{StabilityLimit, stability_limits};
-use vinesink::sweep::parquet::{Merger, Results};
+use vinesink::sweep::parquet::{self, Results};
 
 use super::super::progress::Progress;
 use super::super::{Outcome, index, output};
@@ -65,15 +65,15 @@ impl Sweep {
             ("vinesink.version".to_owned(), env!("CARGO_PKG_VERSION").to_owned()),
             ("vinesink.case".to_owned(), self.case_text.clone()),
         ];
-        let mut merger = Merger::new(Growing::begin(path)?, empty, &notes).into_diagnostic()?;
+        let mut merged = parquet::begin(Growing::begin(path)?, empty, &notes).into_diagnostic()?;
         let progress = Progress::new("chunks", self.plan.chunks());
         for chunk in 0..self.plan.chunks() {
             let file = shards.read(chunk)?;
             let which = || shown(&shards.path(chunk));
-            merger.add(&file).into_diagnostic().wrap_err_with(which)?;
+            parquet::append(&mut merged, &file).into_diagnostic().wrap_err_with(which)?;
             progress.advance(1);
         }
-        Ok(merger.finish().into_diagnostic()?.finish()?)
+        Ok(merged.into_inner().into_diagnostic()?.finish()?)
     }
 
     /// Maps or diagrams with what they say in words.
