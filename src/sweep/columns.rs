@@ -104,9 +104,11 @@ pub fn empty(plan: &Plan) -> Vec<Column> {
         let unit = axis.parameter.unit(&plan.design);
         column(axis.parameter.key(), unit, Values::Number(Vec::new()))
     }));
+    let physical = matches!(plan.design, Design::Physical(_));
     for (recorded, direction) in recorded(plan) {
         let end = direction.map_or("", |direction| ["_up", "_down"][direction]);
-        let (unit, values) = (unit(recorded, &plan.design), values(recorded));
+        let unit = kind(recorded).map_or("", |kind| kind.dimension.symbol(physical));
+        let values = values(recorded);
         columns.extend(
             names(recorded)
                 .iter()
@@ -131,18 +133,6 @@ fn names(recorded: Recorded) -> Vec<String> {
         Recorded::Area => vec!["area".into(), "strip".into()],
         Recorded::Section => (1..=SECTION).map(|k| format!("section_{k:02}")).collect(),
         other => vec![other.key().into()],
-    }
-}
-
-/// The unit of what is recorded: SI, or 1 for a reduced design.
-fn unit(recorded: Recorded, design: &Design) -> &'static str {
-    let physical = matches!(design, Design::Physical(_));
-    match kind(recorded).map(|kind| kind.dimension) {
-        None => "",
-        Some(Dimension::Level) => "dB",
-        Some(Dimension::Length) if physical => "m",
-        Some(Dimension::Velocity) if physical => "m/s",
-        Some(_) => "1",
     }
 }
 

@@ -7,6 +7,7 @@ use crate::method::Method;
 use crate::quantity::catalogue as of;
 use crate::quantity::units::Unit;
 use crate::quantity::{Digits, Kind, Quantity, Units};
+use crate::report::document::Document;
 use crate::report::figure::{Axis, Scale, edges};
 
 /// An axis as it is shown.
@@ -42,7 +43,7 @@ impl AxisShown {
     /// An axis of a case's table `[sweep]`.
     pub fn of(case: &Case, axis: &SweepAxis) -> Self {
         let SweepAxis { parameter, ref values, logarithmic } = *axis;
-        let (kind, units) = (kind(parameter, &case.design), units(case));
+        let (kind, units) = (kind(parameter, &case.design), Document::units(case));
         let largest = values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
         let unit = units.axis_unit(kind, largest);
         Self {
@@ -99,14 +100,6 @@ impl AxisShown {
         let At { of, digits } = self.at(index);
         let number = self.units.with_digits(of.kind, of.value, Digits::Significant(digits));
         format!("{} {number}", of.kind.name)
-    }
-}
-
-/// The units of a case's pages.
-pub(super) fn units(case: &Case) -> Units {
-    match case.design {
-        Design::Physical(physical) => Units::physical(physical.clearance_m),
-        Design::Reduced(_) => Units::reduced(),
     }
 }
 

@@ -3,10 +3,11 @@
 use serde::Serialize;
 
 use super::Swept;
-use super::axis::{At, AxisShown, units};
+use super::axis::{At, AxisShown};
 use crate::case::{Recorded, SweepParameter};
 use crate::quantity::{Kind, Units};
 use crate::regimes::Regime;
+use crate::report::document::Document;
 use crate::sweep::columns::Values;
 
 /// How the motions of a column were come by.
@@ -79,7 +80,7 @@ impl Measure {
 
 impl Swept<'_> {
     pub(super) fn units(&self) -> Units {
-        units(self.case)
+        Document::units(self.case)
     }
 
     pub(super) fn points(&self) -> usize {
