@@ -121,7 +121,17 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("store", &["digest"]),
     (
         "sweep",
-        &["analysis", "case", "digest", "orbits", "regimes", "simulation", "system", "validation"],
+        &[
+            "analysis",
+            "case",
+            "digest",
+            "orbits",
+            "quantity",
+            "regimes",
+            "simulation",
+            "system",
+            "validation",
+        ],
     ),
 ];
 
