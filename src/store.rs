@@ -1,13 +1,14 @@
 //! The one place that touches the file system. Files and folders appear whole or not at all.
 
 use std::collections::BTreeMap;
-use std::io::{ErrorKind, Write as _};
+use std::io::ErrorKind;
 use std::path::{Component, Path, PathBuf};
 
-use tempfile::{Builder, NamedTempFile, TempDir};
+use tempfile::{Builder, TempDir};
 
 mod error;
 mod git;
+mod growing;
 mod reports;
 mod shards;
 
@@ -16,8 +17,9 @@ use reports::FIGURES;
 
 pub use error::StoreError;
 pub use git::{GitError, read_files_at, read_reports_at};
+pub use growing::Growing;
 pub use reports::{StoredReport, StoredReports, read_reports};
-pub use shards::{Growing, Shards};
+pub use shards::Shards;
 
 /// Reads a UTF-8 text file whole.
 ///
@@ -57,7 +59,7 @@ pub fn write_new(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
     if path.symlink_metadata().is_ok() {
         return Err(StoreError::Exists { path: path.to_owned() });
     }
-    let file = temporary_file(path, bytes)?;
+    let file = Growing::of(path, bytes)?.on_disk()?;
     file.persist_noclobber(path).map(drop).map_err(|error| match error.error.kind() {
         ErrorKind::AlreadyExists => StoreError::Exists { path: path.to_owned() },
         _ => refused("write", path, error.error),
@@ -69,8 +71,7 @@ pub fn write_new(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
 /// # Errors
 /// [`StoreError::Refused`]; an earlier file is then unchanged.
 pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
-    let file = temporary_file(path, bytes)?;
-    file.persist(path).map(drop).map_err(|error| refused("write", path, error.error))
+    Growing::of(path, bytes)?.finish()
 }
 
 /// As [`write_file`], into a folder that is made where there is none.
@@ -281,20 +282,6 @@ fn swap(path: &Path, new: TempDir) -> Result<(), StoreError> {
     }
     let _ = new.keep();
     aside.close().map_err(|cause| refused("remove the earlier", path, cause))
-}
-
-fn temporary_file(path: &Path, bytes: &[u8]) -> Result<NamedTempFile, StoreError> {
-    let file = unsynced_file(path, bytes)?;
-    file.as_file().sync_all().map_err(|cause| refused("write", path, cause))?;
-    Ok(file)
-}
-
-/// The same without waiting for the disk, for what carries a checksum: after a power cut it is found out.
-fn unsynced_file(path: &Path, bytes: &[u8]) -> Result<NamedTempFile, StoreError> {
-    let write = |cause| refused("write", path, cause);
-    let mut file = ordinary(0o666).tempfile_in(folder_of(path)?).map_err(write)?;
-    file.write_all(bytes).map_err(write)?;
-    Ok(file)
 }
 
 fn temporary_folder(path: &Path) -> Result<TempDir, StoreError> {

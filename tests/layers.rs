@@ -138,7 +138,20 @@ const ROOMS: &[(&str, &[&str])] = &[
     ),
     ("diff", &["regimes", "report"]),
     ("store", &["digest"]),
-    ("sweep", &["analysis", "case", "digest", "orbits", "regimes", "simulation", "system"]),
+    (
+        "sweep",
+        &[
+            "analysis",
+            "case",
+            "digest",
+            "orbits",
+            "quantity",
+            "regimes",
+            "simulation",
+            "system",
+            "validation",
+        ],
+    ),
 ];
 
 /// Rooms in which there is physics and nothing else: no files, no clock, no printing, no threads, no

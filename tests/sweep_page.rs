@@ -19,8 +19,9 @@ use vinesink::report::figure::{
     Axis, Cells, Figure, Image, Label, Layer, Panel, Ramp, Rule, Scale, Tint, draw, edges, render,
 };
 use vinesink::report::render;
-use vinesink::report::sweep::{AxisShown, SweepPage, Swept, SweptError, tint};
+use vinesink::report::sweep::{AxisShown, Swept, SweptError, tint};
 use vinesink::sweep::columns::{Column, Values};
+use vinesink::sweep::limits::stability_limits;
 
 /// Table 1 of Li, Seguy, Berlioz (2016) at 8.35 Hz and 20 mm.
 fn case() -> Case {
@@ -50,14 +51,15 @@ fn counts(name: &'static str, values: &[i64]) -> Column {
 
 fn swept<'a>(case: &'a Case, axes: Vec<AxisShown>, columns: &'a [Column]) -> Swept<'a> {
     let results_sha256 = "f".repeat(64);
-    Swept { case, axes, columns, starts: 4, periods: 100, results_sha256 }
+    let frequency = axes.iter().find(|axis| axis.parameter == SweepParameter::Frequency);
+    let frequencies = frequency.filter(|_| axes.len() == 2).map_or(&[][..], |axis| &axis.values);
+    let limits = stability_limits(case, frequencies);
+    Swept { case, axes, columns, starts: 4, periods: 100, limits, results_sha256 }
 }
 
 /// All files of the page, as text.
 fn files(swept: &Swept) -> BTreeMap<PathBuf, String> {
-    let figures = swept.figures().expect("figures");
-    let page = SweepPage::new("map", swept, &figures).expect("a page");
-    let files = render::sweep(&page, &figures).expect("rendered");
+    let files = swept.files().expect("rendered");
     files
         .into_iter()
         .map(|(path, bytes)| (path, String::from_utf8(bytes).expect("UTF-8")))
@@ -163,24 +165,24 @@ fn shares_and_places_are_those_counted_by_hand() {
     let text = markdown(&swept(&case, small_axes(&case), &columns));
     for line in [
         // 3 of 7 points with a motion; the best is the sixth point.
-        "> **Two symmetric impacts per period over 42.9 % of the map. Vibration falls by up to 6.25 dB, at clearance 20.0 mm, frequency 8.20 Hz.**",
+        "> **Two symmetric impacts per period over 42.9 % of the map. Vibration falls by up to 6.25 dB, at clearance 20 mm, excitation frequency 8.2 Hz.**",
         "> Beside it: strongly modulated response 28.6 %; two asymmetric impacts per period 14.3 %; fewer than two impacts per period 14.3 %.",
         // 4 of 7 are above 0.
-        "> The absorber reduces the peak at 57.1 % of the points; the peak grows most, by 3.50 dB, at clearance 20.0 mm, frequency 8.40 Hz.",
-        "> Several motions coexist at 42.9 % of the points (up to 3 at a point), within frequency from 8.00 Hz to 8.20 Hz.",
+        "> The absorber reduces the peak at 57.1 % of the points; the peak grows most, by 3.50 dB, at clearance 20 mm, excitation frequency 8.4 Hz.",
+        "> Several motions coexist at 42.9 % of the points (up to 3 at a point), within excitation frequency from 8 Hz to 8.2 Hz.",
         // 3 of 4 in Z3; none of the 3 others that have a motion.
         "> In area Z3, where the theory has steady 1:1 resonance, two symmetric impacts per period are the main motion at 75.0 % of the points, outside of it at 0 %.",
         // 5 of 7; 3 of these 5; the third point has one motion only, and another; of the fifth nothing is known.
         "> An exact 1:1 orbit attracts at 71.4 % of the points; two symmetric impacts per period are the main motion at 60.0 % of these; at 20.0 % no start led to it.",
-        "| two symmetric impacts per period | 42.9 % | 1.00 to 3.00 mm | 2.00 to 6.25 dB |",
-        "| strongly modulated response | 28.6 % | 4.00 to 8.00 mm | −3.50 to −1.00 dB |",
-        "| Where | Points | asymmetric | symmetric 1:1 | strongly modulated | z < 2 |",
-        "| area Z1 or Z2 | 1 | 100 % | 0 % | 0 % | 0 % |",
-        "| area Z3 | 4 | 0 % | 75.0 % | 25.0 % | 0 % |",
-        "| area Z4 | 2 | 0 % | 0 % | 50.0 % | 50.0 % |",
-        "| exact 1:1 orbit attracts | 5 | 20.0 % | 60.0 % | 20.0 % | 0 % |",
-        "| none attracts | 2 | 0 % | 0 % | 50.0 % | 50.0 % |",
-        "2 × 4 = 8 points: clearance from 10.0 mm to 20.0 mm (2 values, even); frequency from 8.00 Hz to 8.60 Hz (4 values, even).",
+        "| two symmetric impacts per period | 42.9 % | 1.00 mm to 3.00 mm | +2.0 dB to +6.2 dB |",
+        "| strongly modulated response | 28.6 % | 4.00 mm to 8.00 mm | −3.5 dB to −1.0 dB |",
+        "| Where (points) | symmetric 1:1 | strongly modulated | asymmetric | z < 2 |",
+        "| area Z1 or Z2 (1) | 0 % | 0 % | 100 % | 0 % |",
+        "| area Z3 (4) | 75.0 % | 25.0 % | 0 % | 0 % |",
+        "| area Z4 (2) | 0 % | 50.0 % | 0 % | 50.0 % |",
+        "| exact 1:1 orbit attracts (5) | 60.0 % | 20.0 % | 20.0 % | 0 % |",
+        "| no exact 1:1 orbit attracts (2) | 0 % | 50.0 % | 0 % | 50.0 % |",
+        "2 × 4 = 8 points: clearance from 10 mm to 20 mm (2 values, even); excitation frequency from 8 Hz to 8.6 Hz (4 values, even).",
         "1 of 8 points have no motion: their numbers leave no valid system, or nothing could be measured.",
     ] {
         assert!(text.lines().any(|one| one == line), "{line}\nis not in\n{text}");
@@ -194,14 +196,17 @@ fn numbers_behind_the_words_are_in_the_document() {
     let files = files(&swept(&case, small_axes(&case), &columns));
     let document: serde_json::Value =
         serde_json::from_str(&files[Path::new("sweep.json")]).expect("JSON");
-    assert_eq!(document["format"], "vinesink/sweep@1");
+    assert_eq!(document["format"], "vinesink/sweep@2");
     let motions = &document["motions"][0];
     assert_eq!(motions["worked_out"], 7);
-    assert_eq!(motions["best"]["value"], 6.25);
-    assert_eq!(motions["best"]["at"], serde_json::json!([20.0, 8.2]));
-    assert_eq!(motions["regimes"][1]["regime"], "two-symmetric");
-    assert_eq!(motions["regimes"][1]["points"], 3);
-    assert_eq!(motions["orbit_missed"], 1);
+    let best = &motions["reduction"]["best"];
+    assert_eq!((&best["of"]["id"], &best["of"]["value"]), (&"reduction_db".into(), &6.25.into()));
+    let at = [0, 1].map(|k| best["at"][k]["of"]["value"].as_f64().expect("a number"));
+    assert_eq!(at, [0.02, 8.2]);
+    assert_eq!(motions["regimes"][0]["regime"], "two-symmetric");
+    assert_eq!(motions["regimes"][0]["points"], 3);
+    assert_eq!(motions["orbit"]["missed"]["value"], 0.2);
+    assert_eq!(document["axes"][0]["key"], "clearance");
 }
 
 /// Name, symbol, unit, and the case's own value in that unit.
@@ -215,23 +220,23 @@ fn an_axis_is_shown_in_the_terms_of_its_design() {
                    restitution = 0.6\nforcing = 3.1\nclearance = 1.3\ndetuning = -1.5\n";
     let parse = |text: &str| Case::parse("map.toml", text).unwrap_or_else(|e| panic!("{e:?}"));
     let (base, forced, reduced) = (case(), parse(&forced), parse(reduced));
-    let damping_ratio = 302.0 / (2.0 * (11_470.0 * 4.168_f64).sqrt());
+    let damping_ratio = 3.02 / (2.0 * (11_470.0 * 4.168_f64).sqrt());
     for (case, parameter, value, label, own) in [
-        (&base, P::Clearance, 0.02, "clearance b (mm)", Some(20.0)),
-        (&base, P::Frequency, 8.0, "frequency f (Hz)", Some(8.35)),
-        (&base, P::Amplitude, 1e-3, "base displacement F (mm)", Some(0.25)),
-        (&forced, P::Amplitude, 1.0, "force P (N)", Some(2.9)),
+        (&base, P::Clearance, 0.02, "clearance b (mm)", Some(0.02)),
+        (&base, P::Frequency, 8.0, "excitation frequency f (Hz)", Some(8.35)),
+        (&base, P::Amplitude, 1e-3, "amplitude of the base F (mm)", Some(0.25e-3)),
+        (&forced, P::Amplitude, 1.0, "amplitude of the force P (N)", Some(2.9)),
         (&base, P::Restitution, 0.5, "restitution r (1)", Some(0.6)),
-        (&base, P::AbsorberMass, 0.05, "absorber mass m₂ (g)", Some(32.0)),
-        (&base, P::AbsorberMass, 1.5, "absorber mass m₂ (kg)", Some(0.032)),
-        (&base, P::MassRatio, 0.01, "mass ratio ε (%)", Some(3.2 / 4.168)),
-        (&base, P::Mass, 0.5, "oscillator mass m₁ (kg)", Some(4.168)),
-        (&base, P::Stiffness, 1e4, "stiffness k₁ (kN/m)", Some(11.47)),
+        (&base, P::AbsorberMass, 0.05, "mass of the absorber m₂ (g)", Some(0.032)),
+        (&base, P::AbsorberMass, 1.5, "mass of the absorber m₂ (kg)", Some(0.032)),
+        (&base, P::MassRatio, 0.01, "mass ratio ε (%)", Some(0.032 / 4.168)),
+        (&base, P::Mass, 1.5, "mass of the oscillator m₁ (kg)", Some(4.168)),
+        (&base, P::Stiffness, 1e4, "stiffness k₁ (kN/m)", Some(11_470.0)),
         (&base, P::Stiffness, 900.0, "stiffness k₁ (N/m)", Some(11_470.0)),
         (&base, P::Damping, 1.0, "damping c₁ (N s/m)", Some(3.02)),
         (&base, P::DampingRatio, 0.01, "damping ratio ζ (%)", Some(damping_ratio)),
         (&base, P::InitialDisplacement, -0.01, "initial displacement x (mm)", None),
-        (&base, P::InitialVelocity, 0.5, "initial velocity ẋ (m/s)", None),
+        (&base, P::InitialVelocity, 1.5, "initial velocity ẋ (m/s)", None),
         (
             &base,
             P::InitialAbsorberDisplacement,
@@ -239,23 +244,21 @@ fn an_axis_is_shown_in_the_terms_of_its_design() {
             "initial displacement of the absorber y (mm)",
             None,
         ),
-        (&base, P::InitialAbsorberVelocity, 0.5, "initial velocity of the absorber ẏ (m/s)", None),
+        (&base, P::InitialAbsorberVelocity, 0.5, "initial velocity of the absorber ẏ (mm/s)", None),
         (&reduced, P::Clearance, 1.0, "clearance b (units)", Some(1.3)),
         (&reduced, P::Frequency, 1.0, "frequency ratio Ω (1)", Some(1.0 - 1.5 * 0.0077)),
         (&reduced, P::Detuning, 1.0, "detuning σ (1)", Some(-1.5)),
         (&reduced, P::Amplitude, 2.0, "reduced forcing G (units)", Some(3.1)),
-        (&reduced, P::Damping, 1.0, "damping λ (1)", Some(1.8)),
+        (&reduced, P::Damping, 1.0, "reduced damping λ (1)", Some(1.8)),
         (&reduced, P::InitialDisplacement, 0.5, "initial displacement x (units)", None),
-        (&reduced, P::InitialVelocity, 0.5, "initial velocity ẋ (1)", None),
+        (&reduced, P::InitialVelocity, 0.5, "initial velocity ẋ (ω₀ units)", None),
     ] {
         let shown = axis(case, parameter, &[value]);
         assert_eq!(shown.label, label);
         // Rounded a few times on the way to the unit.
         let near = own.zip(shown.own).map(|(a, b): (f64, f64)| (a - b).abs() <= 1e-14 * a.abs());
         assert!(near.unwrap_or(own == shown.own), "{label}: {:?}", shown.own);
-        assert_eq!(shown.is_initial(), own.is_none(), "{label}");
-        let json = serde_json::to_value(&shown).expect("JSON");
-        assert_eq!(json["key"], parameter.key());
+        assert_eq!(shown.parameter.is_initial(), own.is_none(), "{label}");
     }
 }
 
@@ -322,10 +325,10 @@ fn one_axis_is_told_in_stretches() {
     let found = files(&swept(&case, axes, &columns));
     let text = &found[Path::new("sweep.md")];
     for line in [
-        "> **Two symmetric impacts per period over 50.0 % of the range. The smallest peak is 2.00 mm, at clearance 18.0 mm.**",
-        "| 10.0 mm | 12.0 mm | 2 | two asymmetric impacts per period | 5.00 to 6.00 mm |",
-        "| 14.0 mm | 18.0 mm | 3 | two symmetric impacts per period | 2.00 to 4.00 mm |",
-        "| 20.0 mm | 20.0 mm | 1 | strongly modulated response | 9.00 mm |",
+        "> **Two symmetric impacts per period over 50.0 % of the range. The smallest peak is 2.00 mm, at clearance 18 mm.**",
+        "| 10 mm | 12 mm | 2 | two asymmetric impacts per period | 5.00 mm to 6.00 mm |",
+        "| 14 mm | 18 mm | 3 | two symmetric impacts per period | 2.00 mm to 4.00 mm |",
+        "| 20 mm | 20 mm | 1 | strongly modulated response | 9.00 mm |",
     ] {
         assert!(text.lines().any(|one| one == line), "{line}\nis not in\n{text}");
     }
@@ -348,7 +351,7 @@ fn what_was_followed_up_and_down_shows_its_hysteresis() {
     let axes = vec![axis(&case, SweepParameter::Frequency, &values)];
     let found = files(&swept(&case, axes.clone(), &columns));
     let text = &found[Path::new("sweep.md")];
-    let line = "> Hysteresis: from 8.20 Hz to 8.30 Hz two symmetric impacts per period (peak 3.00 mm) up, strongly modulated response (peak 7.00 mm) down.";
+    let line = "> Hysteresis: from 8.2 Hz to 8.3 Hz two symmetric impacts per period (peak 3.00 mm) up, strongly modulated response (peak 7.00 mm) down.";
     assert!(text.lines().any(|one| one == line), "{text}");
     assert!(text.contains("over 66.7 % of the range on the way up."), "{text}");
     let strip = shown(&found[Path::new("figures/sweep-bifurcation.svg")]);
@@ -475,7 +478,7 @@ fn the_best_and_the_worst_are_told_by_their_signs() {
     for (reductions, sentence) in [
         (
             [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0],
-            "The absorber reduces the peak everywhere, least by 1.00 dB, at clearance 10.0 mm, frequency 8.00 Hz.",
+            "The absorber reduces the peak everywhere, least by 1.00 dB, at clearance 10 mm, excitation frequency 8 Hz.",
         ),
         (
             [0.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0],
@@ -483,11 +486,11 @@ fn the_best_and_the_worst_are_told_by_their_signs() {
         ),
         (
             [-4.0, -3.0, -2.0, -1.0, -1.0, -1.0, -1.0, -1.0],
-            "It grows most, by 4.00 dB, at clearance 10.0 mm, frequency 8.00 Hz.",
+            "It grows most, by 4.00 dB, at clearance 10 mm, excitation frequency 8 Hz.",
         ),
         (
             [-4.0, -3.0, -2.0, -1.5, -1.0, -1.5, -1.5, -1.5],
-            "Nowhere does the absorber reduce the vibration: at best it grows by 1.00 dB, at clearance 20.0 mm, frequency 8.00 Hz.",
+            "Nowhere does the absorber reduce the vibration: at best it grows by 1.00 dB, at clearance 20 mm, excitation frequency 8 Hz.",
         ),
     ] {
         let text = says(reductions);

@@ -5,7 +5,6 @@ mod submit;
 mod task;
 
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
 use std::time::Instant;
 
 use clap::{Args, Subcommand};
@@ -112,26 +111,7 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
         (Some(Verb::Run { sweep, chunk, every, threads }), _) => {
             task::keep_to_processors(threads)?;
             let sweep = Sweep::open(&sweep)?;
-            let wanted = match chunk.map_or_else(task::numbered, |chunk| Ok(Some(chunk)))? {
-                Some(chunk) if chunk < sweep.plan.chunks() => match every {
-                    Some(step) => task::share(chunk, step, sweep.plan.chunks()),
-                    None => vec![chunk],
-                },
-                Some(chunk) => {
-                    return Err(miette!(
-                        help = format!("the last chunk is {}", sweep.plan.chunks() - 1),
-                        "there is no chunk {chunk}"
-                    ));
-                }
-                None if every.is_some() => {
-                    return Err(miette!(
-                        help =
-                            "say which with `--chunk N`; an engine's tasks have a number already",
-                        "`--every` counts from a chunk, and there is none"
-                    ));
-                }
-                None => (0..sweep.plan.chunks()).collect(),
-            };
+            let wanted = task::chunks(chunk, every, sweep.plan.chunks())?;
             sweep.work(&wanted)?;
             Ok(Outcome::Done)
         }
@@ -193,27 +173,16 @@ impl Sweep {
         let shards = self.shards()?;
         let points = |chunk: &u64| self.plan.chunk(*chunk).count() as u64;
         let progress = Progress::new("points", chunks.iter().map(points).sum());
-        let failure: Mutex<Option<miette::Report>> = Mutex::new(None);
-        let stopped = || failure.lock().map_or(true, |failure| failure.is_some());
         // Each chunk on its own: in longer pieces a processor would be left with many at the end.
-        chunks.into_par_iter().with_max_len(1).for_each(|chunk| {
-            if stopped() {
-                return;
-            }
-            match self.work_out(&shards, *chunk) {
-                Ok(()) => progress.advance(points(chunk)),
-                Err(error) => {
-                    if let Ok(mut failure) = failure.lock() {
-                        failure.get_or_insert(error);
-                    }
-                }
-            }
+        let worked = chunks.into_par_iter().with_max_len(1).try_for_each(|chunk| {
+            self.work_out(&shards, *chunk)?;
+            progress.advance(points(chunk));
+            Ok(())
         });
-        let failure = failure.into_inner().unwrap_or(None);
-        failure.map_or(Ok(()), |error| {
-            Err(error.wrap_err(
+        worked.map_err(|error: miette::Report| {
+            error.wrap_err(
                 "the sweep stopped; what was worked out is kept, and the same command goes on",
-            ))
+            )
         })
     }
 

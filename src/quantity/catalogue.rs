@@ -178,6 +178,18 @@ catalogue! {
     WINDOW = "window", "", "window in excitation periods", Number, Significant(3), Interval;
     SMALLEST_MARGIN = "smallest_margin", "", "smallest margin in clearance", Share, Significant(3), Interval;
     REDUCTION_DB_TMD = "reduction_db_tmd", "", "reduction against a tuned mass damper", Level, Decimals(1), Interval;
+    POINT_SHARE = "point_share", "", "share of the points", Share, Significant(3), Interval;
+    THEORY_PEAK = "theory_peak", "", "smallest amplitude of a stable fixed point", Length, Significant(3), Interval;
+    BOUNDARY_DISTANCE = "boundary_distance", "", "change of the excitation that leads to the nearest boundary of the theory", Change, Significant(2), Interval;
+    ORBIT_PEAK = "orbit_peak", "", "peak displacement of the exact 1:1 orbit", Length, Significant(3), Interval;
+    LARGEST_PEAK = "largest_peak", "", "largest peak displacement of any motion", Length, Significant(3), Bound;
+    MOTIONS = "motions", "", "number of motions", Count, Significant(3), Interval;
+    REPEATS_AFTER = "repeats_after", "", "number of periods after which the motion repeats", Count, Significant(3), Interval;
+    SECTION = "section", "", "displacement once a period", Length, Significant(3), Interval;
+    INITIAL_DISPLACEMENT = "initial_displacement", "x", "initial displacement", Length, Significant(3), Interval;
+    INITIAL_VELOCITY = "initial_velocity", "ẋ", "initial velocity", Velocity, Significant(3), Interval;
+    INITIAL_ABSORBER_DISPLACEMENT = "initial_absorber_displacement", "y", "initial displacement of the absorber", Length, Significant(3), Interval;
+    INITIAL_ABSORBER_VELOCITY = "initial_absorber_velocity", "ẏ", "initial velocity of the absorber", Velocity, Significant(3), Interval;
 }
 
 /// The kind with an identifier.

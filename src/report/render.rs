@@ -10,13 +10,10 @@ use super::document::{Document, Tone};
 use super::equations::EquationGroup;
 use super::figure::{self, Figure, FigureError};
 use super::html;
-use super::sweep::SweepPage;
 use super::template;
 use crate::quantity::{Units, catalogue};
 use crate::symbolic::MathError;
 
-const SWEEP_MARKDOWN: &str = include_str!("../../templates/sweep.md.tera");
-const SWEEP_HTML: &str = include_str!("../../templates/sweep.html.tera");
 pub(super) const STYLE: &str = include_str!("../../templates/report.css");
 
 /// The drawings that belong to pages of other commands, in the folder of a report.
@@ -155,32 +152,6 @@ pub(crate) fn figure_files(drawings: BTreeMap<String, String>) -> BTreeMap<PathB
     let each = drawings.into_iter();
     each.map(|(name, drawing)| (format!("figures/{name}.svg").into(), drawing.into_bytes()))
         .collect()
-}
-
-/// The page of a sweep as Markdown and HTML, with its numbers and figures, by their path in the sweep's folder.
-///
-/// # Errors
-/// [`RenderError`] if template and page do not fit, or a figure cannot be drawn.
-pub fn sweep(
-    page: &SweepPage,
-    drawn: &[Figure],
-) -> Result<BTreeMap<PathBuf, Vec<u8>>, RenderError> {
-    let drawings = drawings(drawn)?;
-    let mut context = Context::new();
-    context.insert("page", page);
-    context.insert("style", STYLE);
-    context.insert("drawings", &drawings);
-    let text = engine("sweep.md", SWEEP_MARKDOWN)?.render("sweep.md", &context)?;
-    let html = engine("sweep.html", SWEEP_HTML)?.render("sweep.html", &context)?;
-    let json = serde_json::to_string_pretty(&page.document)? + "\n";
-    let pages = [
-        ("sweep.md", without_repeated_blank_lines(&text)),
-        ("sweep.html", html),
-        ("sweep.json", json),
-    ];
-    let mut files = figure_files(drawings);
-    files.extend(pages.map(|(name, text)| (PathBuf::from(name), text.into_bytes())));
-    Ok(files)
 }
 
 /// The formula in a cell that is nothing but one.

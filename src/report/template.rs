@@ -71,6 +71,9 @@ const TEMPLATES: &[(&str, &str)] = &[
     ("paper.md", include_str!("../../templates/paper.md.tera")),
     ("tradeoff.md", include_str!("../../templates/tradeoff.md.tera")),
     ("tradeoff.txt", include_str!("../../templates/tradeoff.txt.tera")),
+    ("sweep.md", include_str!("../../templates/sweep.md.tera")),
+    ("captions/sweep-line", include_str!("../../templates/captions/sweep-line.tera")),
+    ("captions/sweep-map", include_str!("../../templates/captions/sweep-map.tera")),
 ];
 
 /// Components that every template may use.

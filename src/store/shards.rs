@@ -2,14 +2,11 @@
 //! told from what was not, and from what is damaged or belongs to something else.
 
 use std::fs::File;
-use std::io::{self, BufWriter};
+use std::io;
 use std::path::{Path, PathBuf};
 
-use tempfile::NamedTempFile;
-
+use super::{Growing, StoreError, TEMPORARY, refused};
 use crate::digest::sha256;
-
-use super::{StoreError, TEMPORARY, folder_of, ordinary, refused, unsynced_file};
 
 /// The folder of a sweep's chunks.
 #[derive(Debug, Clone)]
@@ -35,7 +32,7 @@ impl Shards {
     }
 
     fn seal_path(&self, chunk: u64) -> PathBuf {
-        self.folder.join(format!("{chunk:09}.seal"))
+        self.path(chunk).with_extension("seal")
     }
 
     /// What the seal of a chunk must say.
@@ -48,8 +45,8 @@ impl Shards {
     /// # Errors
     /// [`StoreError::Refused`]; what was there before still is.
     pub fn keep(&self, chunk: u64, bytes: &[u8]) -> Result<(), StoreError> {
-        put(&self.path(chunk), bytes)?;
-        put(&self.seal_path(chunk), self.seal(chunk, bytes).as_bytes())
+        Growing::of(&self.path(chunk), bytes)?.finish_soon()?;
+        Growing::of(&self.seal_path(chunk), self.seal(chunk, bytes).as_bytes())?.finish_soon()
     }
 
     /// Whether the results of a chunk are there, undamaged, and of this sweep.
@@ -80,14 +77,8 @@ impl Shards {
             let cannot = |cause| refused("tidy", folder, cause);
             for entry in std::fs::read_dir(folder).map_err(cannot)? {
                 let entry = entry.map_err(cannot)?;
-                if !entry.file_name().to_string_lossy().starts_with(TEMPORARY) {
-                    continue;
-                }
-                match std::fs::remove_file(entry.path()) {
-                    Err(cause) if cause.kind() != io::ErrorKind::NotFound => {
-                        return Err(refused("remove", &entry.path(), cause));
-                    }
-                    _ => {}
+                if entry.file_name().to_string_lossy().starts_with(TEMPORARY) {
+                    remove(&entry.path())?;
                 }
             }
         }
@@ -103,47 +94,12 @@ impl Shards {
     }
 }
 
-fn put(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
-    let file = unsynced_file(path, bytes)?;
-    file.persist(path).map(drop).map_err(|error| refused("write", path, error.error))
-}
-
-/// A file that is written piece by piece and appears whole or not at all.
-pub struct Growing {
-    file: BufWriter<NamedTempFile>,
-    path: PathBuf,
-}
-
-impl Growing {
-    /// Begins a file; its folder must exist.
-    ///
-    /// # Errors
-    /// [`StoreError::Refused`].
-    pub fn begin(path: &Path) -> Result<Self, StoreError> {
-        let file = ordinary(0o666)
-            .tempfile_in(folder_of(path)?)
-            .map_err(|cause| refused("write", path, cause))?;
-        Ok(Self { file: BufWriter::new(file), path: path.to_owned() })
-    }
-
-    /// Ends the file and puts it in the place of an earlier one.
-    ///
-    /// # Errors
-    /// [`StoreError::Refused`]; an earlier file is then unchanged.
-    pub fn finish(self) -> Result<(), StoreError> {
-        let path = self.path;
-        let file =
-            self.file.into_inner().map_err(|error| refused("write", &path, error.into_error()))?;
-        file.as_file().sync_all().map_err(|cause| refused("write", &path, cause))?;
-        file.persist(&path).map(drop).map_err(|error| refused("write", &path, error.error))
-    }
-}
-
-impl io::Write for Growing {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.file.write(bytes)
-    }
-    fn flush(&mut self) -> io::Result<()> {
-        self.file.flush()
+/// Removes a file, which another process may have removed before.
+fn remove(path: &Path) -> Result<(), StoreError> {
+    match std::fs::remove_file(path) {
+        Err(cause) if cause.kind() != io::ErrorKind::NotFound => {
+            Err(refused("remove", path, cause))
+        }
+        _ => Ok(()),
     }
 }

@@ -4,6 +4,8 @@ use super::Plan;
 use super::facts::{Facts, Found};
 use crate::analysis::{Area, Strip, Zone};
 use crate::case::{Design, Layer, Recorded};
+use crate::quantity::catalogue as of;
+use crate::quantity::{Dimension, Kind};
 use crate::regimes::Regime;
 
 /// Values of a column; nothing where a point has none.
@@ -18,6 +20,29 @@ pub enum Values {
     /// Words.
     Text(Vec<Option<&'static str>>),
 }
+
+/// A column.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Column {
+    /// Its name.
+    pub name: String,
+    /// Its unit; `1` for a pure number, empty for words.
+    pub unit: &'static str,
+    /// Its values.
+    pub values: Values,
+}
+
+/// A value of a column.
+#[derive(Debug, Clone, Copy)]
+enum Cell {
+    Number(Option<f64>),
+    Whole(Option<i64>),
+    Flag(Option<bool>),
+    Text(Option<&'static str>),
+}
+
+/// Columns of a section: displacements at the end of so many excitation periods.
+pub const SECTION: usize = 16;
 
 impl Values {
     /// How many there are, those that are missing included.
@@ -34,159 +59,113 @@ impl Values {
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
-}
 
-/// A column.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Column {
-    /// Its name.
-    pub name: String,
-    /// Its unit; `1` for a pure number, empty for words.
-    pub unit: &'static str,
-    /// Its values.
-    pub values: Values,
-}
-
-/// Displacements of a section.
-pub(super) const SECTION: usize = 16;
-/// Ends of the names of what is found in either direction.
-const WAYS: [&str; 2] = ["_up", "_down"];
-
-/// A value of a column.
-#[derive(Debug, Clone, Copy)]
-enum Cell {
-    Number(Option<f64>),
-    Whole(Option<i64>),
-    Flag(Option<bool>),
-    Text(Option<&'static str>),
-}
-
-impl Column {
-    fn like(name: impl Into<String>, unit: &'static str, cell: Cell) -> Self {
-        let values = match cell {
-            Cell::Number(_) => Values::Number(Vec::new()),
-            Cell::Whole(_) => Values::Whole(Vec::new()),
-            Cell::Flag(_) => Values::Flag(Vec::new()),
-            Cell::Text(_) => Values::Text(Vec::new()),
-        };
-        Self { name: name.into(), unit, values }
-    }
-
-    /// Adds a value; of another kind than the others it would be one too many for the column's kind,
-    /// and is left out.
+    /// Adds a value, which is of the column's kind.
     fn push(&mut self, cell: Cell) {
-        match (&mut self.values, cell) {
-            (Values::Number(all), Cell::Number(one)) => all.push(one.filter(|one| one.is_finite())),
-            (Values::Whole(all), Cell::Whole(one)) => all.push(one),
-            (Values::Flag(all), Cell::Flag(one)) => all.push(one),
-            (Values::Text(all), Cell::Text(one)) => all.push(one),
-            (_, other) => debug_assert!(false, "{} holds no {other:?}", self.name),
+        match (self, cell) {
+            (Self::Number(all), Cell::Number(one)) => all.push(one.filter(|one| one.is_finite())),
+            (Self::Whole(all), Cell::Whole(one)) => all.push(one),
+            (Self::Flag(all), Cell::Flag(one)) => all.push(one),
+            (Self::Text(all), Cell::Text(one)) => all.push(one),
+            (_, other) => debug_assert!(false, "the column holds no {other:?}"),
         }
     }
+}
+
+/// What a column of numbers holds; `None` for words and flags.
+pub const fn kind(recorded: Recorded) -> Option<&'static Kind> {
+    Some(match recorded {
+        Recorded::TheoryPeak => &of::THEORY_PEAK,
+        Recorded::BoundaryDistance => &of::BOUNDARY_DISTANCE,
+        Recorded::BareAmplitude => &of::BARE_PEAK,
+        Recorded::OrbitPeak => &of::ORBIT_PEAK,
+        Recorded::OrbitMultiplier => &of::SPECTRAL_RADIUS,
+        Recorded::ImpactsPerPeriod => &of::IMPACTS_PER_PERIOD,
+        Recorded::Peak => &of::PEAK,
+        Recorded::Rms => &of::RMS,
+        Recorded::ReductionDb => &of::REDUCTION_DB,
+        Recorded::Efficiency => &of::EFFICIENCY,
+        Recorded::ImpactSpeed => &of::IMPACT_SPEED,
+        Recorded::RepeatsAfter => &of::REPEATS_AFTER,
+        Recorded::Lyapunov => &of::LYAPUNOV_EXPONENT,
+        Recorded::Section => &of::SECTION,
+        Recorded::ShareOfStarts => &of::START_SHARE,
+        Recorded::LargestPeak => &of::LARGEST_PEAK,
+        Recorded::Motions => &of::MOTIONS,
+        Recorded::Area | Recorded::Regime | Recorded::OrbitReached => return None,
+    })
 }
 
 /// The columns of a sweep, empty.
 pub fn empty(plan: &Plan) -> Vec<Column> {
-    let mut columns = vec![Column::like("point", "1", Cell::Whole(None))];
+    let column = |name: &str, unit, values| Column { name: name.to_owned(), unit, values };
+    let mut columns = vec![column("point", "1", Values::Whole(Vec::new()))];
     columns.extend(plan.settings.axes.iter().map(|axis| {
         let unit = axis.parameter.unit(&plan.design);
-        Column::like(axis.parameter.key(), unit, Cell::Number(None))
+        column(axis.parameter.key(), unit, Values::Number(Vec::new()))
     }));
-    let units = Units::of(&plan.design);
-    for (recorded, way) in recorded(plan) {
-        let end = way.map_or("", |way| WAYS[way]);
-        match recorded {
-            Recorded::Area => columns
-                .extend(["area", "strip"].map(|name| Column::like(name, "", Cell::Text(None)))),
-            Recorded::Section => columns.extend((1..=SECTION).map(|k| {
-                Column::like(format!("section_{k:02}{end}"), units.length, Cell::Number(None))
-            })),
-            other => {
-                let (unit, cell) = units.of_values(other);
-                columns.push(Column::like(format!("{}{end}", other.key()), unit, cell));
-            }
-        }
+    let physical = matches!(plan.design, Design::Physical(_));
+    for (recorded, direction) in recorded(plan) {
+        let end = direction.map_or("", |direction| ["_up", "_down"][direction]);
+        let unit = kind(recorded).map_or("", |kind| kind.dimension.symbol(physical));
+        let values = values(recorded);
+        columns.extend(
+            names(recorded)
+                .iter()
+                .map(|name| column(&format!("{name}{end}"), unit, values.clone())),
+        );
     }
     columns
 }
 
-/// What is recorded, and in which direction it is found.
+/// What is recorded, and in which direction it is found: 0 upwards, 1 downwards.
 fn recorded(plan: &Plan) -> impl Iterator<Item = (Recorded, Option<usize>)> {
     plan.settings.record.iter().flat_map(|recorded| {
         let both = plan.settings.follow && recorded.layer() == Layer::Simulation;
-        let ways = if both { vec![Some(0), Some(1)] } else { vec![None] };
-        ways.into_iter().map(|way| (*recorded, way))
+        let directions = if both { vec![Some(0), Some(1)] } else { vec![None] };
+        directions.into_iter().map(|direction| (*recorded, direction))
     })
 }
 
-/// Units of a design's results.
-struct Units {
-    length: &'static str,
-    velocity: &'static str,
+/// The columns of what is recorded; most have one.
+fn names(recorded: Recorded) -> Vec<String> {
+    match recorded {
+        Recorded::Area => vec!["area".into(), "strip".into()],
+        Recorded::Section => (1..=SECTION).map(|k| format!("section_{k:02}")).collect(),
+        other => vec![other.key().into()],
+    }
 }
 
-impl Units {
-    fn of(design: &Design) -> Self {
-        match design {
-            Design::Physical(_) => Self { length: "m", velocity: "m/s" },
-            Design::Reduced(_) => Self { length: "1", velocity: "1" },
-        }
-    }
-
-    /// Unit and kind of what fills one column.
-    fn of_values(&self, recorded: Recorded) -> (&'static str, Cell) {
-        let number = |unit| (unit, Cell::Number(None));
-        match recorded {
-            Recorded::TheoryPeak
-            | Recorded::BareAmplitude
-            | Recorded::OrbitPeak
-            | Recorded::Peak
-            | Recorded::Rms
-            | Recorded::LargestPeak
-            | Recorded::Section => number(self.length),
-            Recorded::ImpactSpeed => number(self.velocity),
-            Recorded::ReductionDb => number("dB"),
-            Recorded::BoundaryDistance
-            | Recorded::OrbitMultiplier
-            | Recorded::ImpactsPerPeriod
-            | Recorded::Efficiency
-            | Recorded::Lyapunov
-            | Recorded::ShareOfStarts => number("1"),
-            Recorded::RepeatsAfter | Recorded::Motions => ("1", Cell::Whole(None)),
-            Recorded::OrbitReached => ("", Cell::Flag(None)),
-            Recorded::Area | Recorded::Regime => ("", Cell::Text(None)),
-        }
+fn values(recorded: Recorded) -> Values {
+    match kind(recorded).map(|kind| kind.dimension) {
+        Some(Dimension::Count) => Values::Whole(Vec::new()),
+        Some(_) => Values::Number(Vec::new()),
+        None if recorded == Recorded::OrbitReached => Values::Flag(Vec::new()),
+        None => Values::Text(Vec::new()),
     }
 }
 
 /// Adds a point to the columns of its sweep.
 pub(super) fn push(plan: &Plan, columns: &mut [Column], facts: &Facts) {
-    let mut next = columns.iter_mut();
-    let mut put = |cell| {
-        if let Some(column) = next.next() {
-            column.push(cell);
-        }
-    };
-    put(Cell::Whole(Some(facts.point.number as i64)));
-    for value in &facts.point.coordinates {
-        put(Cell::Number(Some(*value)));
-    }
     let nothing = Found::default();
-    for (recorded, way) in recorded(plan) {
-        let found = facts.found.get(way.unwrap_or(0)).unwrap_or(&nothing);
+    let mut cells = vec![Cell::Whole(Some(facts.point.number as i64))];
+    cells.extend(facts.point.coordinates.iter().map(|value| Cell::Number(Some(*value))));
+    for (recorded, direction) in recorded(plan) {
+        let found = facts.found.get(direction.unwrap_or(0)).unwrap_or(&nothing);
         match recorded {
             Recorded::Area => {
-                put(Cell::Text(facts.zone.map(|zone| zone.area_key())));
-                put(Cell::Text(facts.zone.and_then(|zone| zone.strip).map(Strip::key)));
+                let zone = facts.zone();
+                cells.push(Cell::Text(zone.map(|zone| zone.area_key())));
+                cells.push(Cell::Text(zone.and_then(|zone| zone.strip).map(Strip::key)));
             }
-            Recorded::Section => {
-                for k in 0..SECTION {
-                    let one = found.section.get(k);
-                    put(Cell::Number(one.map(|x| facts.point.scales.length(*x))));
-                }
-            }
-            other => put(cell(other, facts, found)),
+            Recorded::Section => cells.extend((0..SECTION).map(|k| {
+                Cell::Number(found.section.get(k).map(|x| facts.point.scales.length(*x)))
+            })),
+            other => cells.push(cell(other, facts, found)),
         }
+    }
+    for (column, cell) in columns.iter_mut().zip(cells) {
+        column.values.push(cell);
     }
 }
 
@@ -195,49 +174,47 @@ fn cell(recorded: Recorded, facts: &Facts, found: &Found) -> Cell {
     let scales = &facts.point.scales;
     let length = |over_clearance: f64| scales.length(over_clearance);
     let main = found.main();
+    let number = Cell::Number;
     match recorded {
-        Recorded::TheoryPeak => Cell::Number(facts.theory_peak.map(length)),
-        Recorded::BoundaryDistance => Cell::Number(facts.boundary_distance),
-        Recorded::BareAmplitude => Cell::Number(facts.bare.map(length)),
-        Recorded::OrbitPeak => {
-            Cell::Number(facts.orbit.as_ref().map(|orbit| length(orbit.peaks.displacement)))
-        }
+        Recorded::TheoryPeak => number(facts.theory_peak().map(length)),
+        Recorded::BoundaryDistance => number(facts.boundary_distance()),
+        Recorded::BareAmplitude => number(facts.bare().map(length)),
+        Recorded::OrbitPeak => number(facts.orbit().map(|orbit| length(orbit.peaks.displacement))),
         Recorded::OrbitMultiplier => {
-            Cell::Number(facts.orbit.as_ref().map(|orbit| orbit.orbit.radius_per_period()))
+            number(facts.orbit().map(|orbit| orbit.orbit.radius_per_period()))
         }
         Recorded::Regime => Cell::Text(main.map(|motion| motion.regime.key())),
-        Recorded::ImpactsPerPeriod => Cell::Number(main.map(|motion| motion.impacts_per_period)),
-        Recorded::Peak => Cell::Number(main.map(|motion| length(motion.peak))),
-        Recorded::Rms => Cell::Number(main.map(|motion| length(motion.rms))),
+        Recorded::ImpactsPerPeriod => number(main.map(|motion| motion.impacts_per_period)),
+        Recorded::Peak => number(main.map(|motion| length(motion.peak))),
+        Recorded::Rms => number(main.map(|motion| length(motion.rms))),
         Recorded::ReductionDb => {
-            let both = main.zip(facts.bare);
-            Cell::Number(both.map(|(motion, bare)| 20.0 * libm::log10(bare / motion.peak)))
+            let both = main.zip(facts.bare());
+            number(both.map(|(motion, bare)| 20.0 * libm::log10(bare / motion.peak)))
         }
-        Recorded::Efficiency => Cell::Number(main.and_then(|motion| motion.efficiency)),
-        Recorded::ImpactSpeed => Cell::Number(main.map(|motion| {
+        Recorded::Efficiency => number(main.and_then(|motion| motion.efficiency)),
+        Recorded::ImpactSpeed => number(main.map(|motion| {
             let speed = scales.velocity_m_per_s(motion.impact_speed);
             speed.unwrap_or_else(|| length(motion.impact_speed))
         })),
         Recorded::RepeatsAfter => {
             Cell::Whole(main.and_then(|motion| motion.repeats_after).map(i64::from))
         }
-        Recorded::Lyapunov => Cell::Number(found.lyapunov),
-        Recorded::ShareOfStarts => Cell::Number(main.map(|motion| {
+        Recorded::Lyapunov => number(found.lyapunov),
+        Recorded::ShareOfStarts => number(main.map(|motion| {
             let all: u32 = found.motions.iter().map(|motion| motion.starts).sum();
             f64::from(motion.starts) / f64::from(all)
         })),
         Recorded::LargestPeak => {
             let peaks = found.motions.iter().map(|motion| motion.peak);
-            Cell::Number(peaks.max_by(f64::total_cmp).map(length))
+            number(peaks.max_by(f64::total_cmp).map(length))
         }
         Recorded::Motions => {
-            let count = found.motions.len() as i64;
-            Cell::Whole((count > 0).then_some(count))
+            Cell::Whole(Some(found.motions.len() as i64).filter(|count| *count > 0))
         }
-        Recorded::OrbitReached => Cell::Flag(facts.orbit.as_ref().map(|orbit| {
+        Recorded::OrbitReached => Cell::Flag(facts.orbit().map(|orbit| {
             found.motions.iter().any(|motion| motion.is_orbit_with_peak(orbit.peaks.displacement))
         })),
-        Recorded::Area | Recorded::Section => Cell::Number(None),
+        Recorded::Area | Recorded::Section => number(None),
     }
 }
 

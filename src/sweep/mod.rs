@@ -5,6 +5,7 @@ pub mod columns;
 pub mod csv;
 mod facts;
 mod follow;
+pub mod limits;
 pub mod parquet;
 pub mod work;
 

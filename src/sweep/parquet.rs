@@ -11,7 +11,9 @@ use parquet::errors::ParquetError;
 use parquet::file::metadata::{KeyValue, ParquetMetaData, ParquetMetaDataReader};
 use parquet::file::properties::{WriterProperties, WriterVersion};
 use parquet::file::reader::{ChunkReader, FileReader, RowGroupReader, SerializedFileReader};
-use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
+use parquet::file::writer::{
+    SerializedColumnWriter, SerializedFileWriter, SerializedRowGroupWriter,
+};
 use parquet::schema::types::{Type, TypePtr};
 
 use super::columns::{Column, Values, word};
@@ -27,14 +29,52 @@ const UNIT: &str = "vinesink.unit.";
 /// # Errors
 /// [`ParquetError`] of the library.
 pub fn file(columns: &[Column], notes: &Notes) -> Result<Vec<u8>, ParquetError> {
-    let mut writer =
-        SerializedFileWriter::new(Vec::new(), schema(columns)?, properties(columns, notes)?)?;
+    let mut writer = begin(Vec::new(), columns, notes)?;
     let mut group = writer.next_row_group()?;
     for column in columns {
         write(&mut group, column)?;
     }
     group.close()?;
     writer.into_inner()
+}
+
+/// Begins a file; `columns` are those of any of its row groups, and may be empty.
+///
+/// # Errors
+/// [`ParquetError`] of the library.
+pub fn begin<W: Write + Send>(
+    sink: W,
+    columns: &[Column],
+    notes: &Notes,
+) -> Result<SerializedFileWriter<W>, ParquetError> {
+    SerializedFileWriter::new(sink, schema(columns)?, properties(columns, notes)?)
+}
+
+/// Adds the row groups of another file, a column at a time, so that memory holds one of them.
+///
+/// # Errors
+/// [`ParquetError`] of the library, and where the file has other columns.
+pub fn append<W: Write + Send, R: ChunkReader>(
+    writer: &mut SerializedFileWriter<W>,
+    file: &R,
+) -> Result<(), ParquetError> {
+    let metadata: ParquetMetaData = ParquetMetaDataReader::new().parse_and_finish(file)?;
+    for group in metadata.row_groups() {
+        let mut out = writer.next_row_group()?;
+        for column in group.columns() {
+            let closed = ColumnCloseResult {
+                bytes_written: column.compressed_size() as u64,
+                rows_written: group.num_rows() as u64,
+                metadata: column.clone(),
+                bloom_filter: None,
+                column_index: None,
+                offset_index: None,
+            };
+            out.append_column(file, closed)?;
+        }
+        out.close()?;
+    }
+    Ok(())
 }
 
 fn schema(columns: &[Column]) -> Result<TypePtr, ParquetError> {
@@ -77,29 +117,25 @@ fn write<W: Write + Send>(
     let missing = || ParquetError::General("more columns than the schema has".into());
     let mut writer = group.next_column()?.ok_or_else(missing)?;
     match &column.values {
-        Values::Number(values) => {
-            let there: Vec<f64> = values.iter().flatten().copied().collect();
-            writer.typed::<DoubleType>().write_batch(&there, Some(&levels(values)), None)?;
-        }
-        Values::Whole(values) => {
-            let there: Vec<i64> = values.iter().flatten().copied().collect();
-            writer.typed::<Int64Type>().write_batch(&there, Some(&levels(values)), None)?;
-        }
-        Values::Flag(values) => {
-            let there: Vec<bool> = values.iter().flatten().copied().collect();
-            writer.typed::<BoolType>().write_batch(&there, Some(&levels(values)), None)?;
-        }
+        Values::Number(values) => put::<DoubleType>(&mut writer, values)?,
+        Values::Whole(values) => put::<Int64Type>(&mut writer, values)?,
+        Values::Flag(values) => put::<BoolType>(&mut writer, values)?,
         Values::Text(values) => {
-            let there: Vec<ByteArray> =
-                values.iter().flatten().map(|text| ByteArray::from(*text)).collect();
-            writer.typed::<ByteArrayType>().write_batch(&there, Some(&levels(values)), None)?;
+            let values: Vec<_> = values.iter().map(|text| text.map(ByteArray::from)).collect();
+            put::<ByteArrayType>(&mut writer, &values)?;
         }
     }
     writer.close()
 }
 
-fn levels<T>(values: &[Option<T>]) -> Vec<i16> {
-    values.iter().map(|value| i16::from(value.is_some())).collect()
+fn put<T: DataType>(
+    writer: &mut SerializedColumnWriter<'_>,
+    values: &[Option<T::T>],
+) -> Result<(), ParquetError> {
+    let there: Vec<T::T> = values.iter().flatten().cloned().collect();
+    let levels: Vec<i16> = values.iter().map(|value| i16::from(value.is_some())).collect();
+    writer.typed::<T>().write_batch(&there, Some(&levels), None)?;
+    Ok(())
 }
 
 /// A file of results that is read a row group at a time.
@@ -155,12 +191,10 @@ fn read(
             all.extend(optional(reader, rows)?);
         }
         (ColumnReader::ByteArrayColumnReader(reader), Values::Text(all)) => {
+            let other = || ParquetError::General("the file has other words".into());
+            let known = |text: ByteArray| word(text.data()).ok_or_else(other);
             for text in optional(reader, rows)? {
-                let known = |text: &ByteArray| {
-                    let other = || ParquetError::General("the file has other words".into());
-                    word(text.data()).ok_or_else(other)
-                };
-                all.push(text.as_ref().map(known).transpose()?);
+                all.push(text.map(known).transpose()?);
             }
         }
         _ => return Err(ParquetError::General("a column is of another kind".into())),
@@ -177,52 +211,4 @@ fn optional<T: DataType>(
     reader.read_records(rows, Some(&mut levels), None, &mut there)?;
     let mut there = there.into_iter();
     Ok(levels.into_iter().map(|level| if level == 1 { there.next() } else { None }).collect())
-}
-
-/// Puts files of one row group after one another, a column at a time, so that memory holds one of them.
-pub struct Merger<W: Write + Send> {
-    writer: SerializedFileWriter<W>,
-}
-
-impl<W: Write + Send> Merger<W> {
-    /// Begins a file; `columns` are those of any of the files, and may be empty.
-    ///
-    /// # Errors
-    /// [`ParquetError`] of the library.
-    pub fn new(sink: W, columns: &[Column], notes: &Notes) -> Result<Self, ParquetError> {
-        let properties = properties(columns, notes)?;
-        Ok(Self { writer: SerializedFileWriter::new(sink, schema(columns)?, properties)? })
-    }
-
-    /// Adds the row groups of a file.
-    ///
-    /// # Errors
-    /// [`ParquetError`] of the library, and where the file has other columns.
-    pub fn add<R: ChunkReader>(&mut self, file: &R) -> Result<(), ParquetError> {
-        let metadata: ParquetMetaData = ParquetMetaDataReader::new().parse_and_finish(file)?;
-        for group in metadata.row_groups() {
-            let mut out = self.writer.next_row_group()?;
-            for column in group.columns() {
-                let closed = ColumnCloseResult {
-                    bytes_written: column.compressed_size() as u64,
-                    rows_written: group.num_rows() as u64,
-                    metadata: column.clone(),
-                    bloom_filter: None,
-                    column_index: None,
-                    offset_index: None,
-                };
-                out.append_column(file, closed)?;
-            }
-            out.close()?;
-        }
-        Ok(())
-    }
-
-    /// Ends the file.
-    ///
-    /// # Errors
-    /// [`ParquetError`] of the library.
-    pub fn finish(self) -> Result<W, ParquetError> {
-        self.writer.into_inner()
-    }
 }

@@ -38,7 +38,7 @@ pub fn points(plan: &Plan, numbers: Range<u64>) -> Result<Vec<Column>, StartErro
             vec![Vec::new(); some.len()]
         };
         for (point, found) in some.iter().zip(found) {
-            columns::push(plan, &mut results, &Facts::of(plan, point, found));
+            columns::push(plan, &mut results, &Facts::of(point, found));
         }
         begin = end;
     }

@@ -27,7 +27,7 @@ fn a_map_of_lengths_is_in_the_unit_of_its_bar() {
     for (found, wanted) in cells.iter().zip(wanted) {
         assert!(found.zip(wanted).map_or(*found == wanted, |(a, b)| near(a, b)), "{cells:?}");
     }
-    assert_eq!(bar.y.label, "peak displacement (mm)");
+    assert_eq!(bar.y.label, "peak displacement x̂ (mm)");
     assert_eq!((bar.y.range, values(bar).0), (Some((low, high)), (low, high)));
     let rising = values(bar).1;
     assert!(rising.windows(2).all(|pair| pair[0] < pair[1]), "{rising:?}");
@@ -160,7 +160,7 @@ fn a_diagram_shows_each_point_once_in_its_regime() {
     let panel = &diagram.panels[0];
     assert_eq!(
         (panel.x.label.as_str(), panel.y.label.as_str()),
-        ("clearance b (mm)", "largest displacement (mm)")
+        ("clearance b (mm)", "peak displacement x̂ (mm)")
     );
     let near = |found: Vec<[f64; 2]>, wanted: &[[f64; 2]]| {
         let same = |a: &[f64; 2], b: &[f64; 2]| (0..2).all(|k| (a[k] - b[k]).abs() < 1e-12);

@@ -5,7 +5,7 @@ use serde_json::Value;
 use super::super::form::Form;
 use super::super::names::names;
 use super::super::physical::{Kind, PhysicalExcitation};
-use super::super::quantity::{Dimension, Force, Length, Measurand, Velocity};
+use super::super::quantity::{Dimension, Length, Measurand, Velocity};
 use super::super::reduced::Tuning;
 use super::super::schema::SCHEMA;
 use super::super::{Design, LengthUnit};
@@ -48,37 +48,6 @@ names! { key:
 }
 
 impl SweepParameter {
-    /// Its name and symbol in a text about a design.
-    pub fn words(self, design: &Design) -> [&'static str; 2] {
-        let excitation = match design {
-            Design::Physical(physical) => Some(physical.excitation),
-            Design::Reduced(_) => None,
-        };
-        match self {
-            Self::Clearance => ["clearance", "b"],
-            Self::Frequency if excitation.is_none() => ["frequency ratio", "Ω"],
-            Self::Frequency => ["frequency", "f"],
-            Self::Detuning => ["detuning", "σ"],
-            Self::Amplitude => match excitation {
-                Some(PhysicalExcitation::BaseDisplacement { .. }) => ["base displacement", "F"],
-                Some(PhysicalExcitation::Force { .. }) => ["force", "P"],
-                None => ["reduced forcing", "G"],
-            },
-            Self::Restitution => ["restitution", "r"],
-            Self::AbsorberMass => ["absorber mass", "m₂"],
-            Self::MassRatio => ["mass ratio", "ε"],
-            Self::Mass => ["oscillator mass", "m₁"],
-            Self::Stiffness => ["stiffness", "k₁"],
-            Self::Damping if excitation.is_none() => ["damping", "λ"],
-            Self::Damping => ["damping", "c₁"],
-            Self::DampingRatio => ["damping ratio", "ζ"],
-            Self::InitialDisplacement => ["initial displacement", "x"],
-            Self::InitialVelocity => ["initial velocity", "ẋ"],
-            Self::InitialAbsorberDisplacement => ["initial displacement of the absorber", "y"],
-            Self::InitialAbsorberVelocity => ["initial velocity of the absorber", "ẏ"],
-        }
-    }
-
     /// Whether it is a part of the start, not of the design.
     pub fn is_initial(self) -> bool {
         matches!(
@@ -93,15 +62,6 @@ impl SweepParameter {
     /// Whether it is a ratio to other numbers of a design, so that these have to be known first.
     pub fn is_ratio(self) -> bool {
         matches!(self, Self::MassRatio | Self::DampingRatio)
-    }
-
-    /// Whether its values are lengths beside a design: in metres, or in a reduced design's own unit.
-    pub fn is_length(self, design: &Design) -> bool {
-        match self {
-            Self::Clearance | Self::InitialDisplacement | Self::InitialAbsorberDisplacement => true,
-            Self::Amplitude => self.unit(design) != Force::OF.si,
-            _ => false,
-        }
     }
 
     /// Another parameter that says the same of a design.

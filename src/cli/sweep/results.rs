@@ -1,17 +1,18 @@
 //! What becomes of chunks that are all there: one file of results, on request as text, and a page.
 
-use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
+use ::csv::Writer;
 use clap::Args;
 use miette::{IntoDiagnostic, Result, WrapErr as _, miette};
-use vinesink::digest::Digest;
-use vinesink::report::render;
-use vinesink::report::sweep::{AxisShown, MOST_POINTS, SweepPage, Swept};
+use vinesink::case::SweepParameter;
+use vinesink::digest::sha256;
+use vinesink::report::sweep::{AxisShown, MOST_POINTS, Swept};
 use vinesink::store::{self, Growing};
 use vinesink::sweep::columns::{self, Column};
-use vinesink::sweep::csv::Table;
-use vinesink::sweep::parquet::{Merger, Results};
+use vinesink::sweep::csv;
+use vinesink::sweep::limits::{StabilityLimit, stability_limits};
+use vinesink::sweep::parquet::{self, Results};
 
 use super::super::progress::Progress;
 use super::super::{Outcome, index, output};
@@ -64,15 +65,15 @@ impl Sweep {
             ("vinesink.version".to_owned(), env!("CARGO_PKG_VERSION").to_owned()),
             ("vinesink.case".to_owned(), self.case_text.clone()),
         ];
-        let mut merger = Merger::new(Growing::begin(path)?, empty, &notes).into_diagnostic()?;
+        let mut merged = parquet::begin(Growing::begin(path)?, empty, &notes).into_diagnostic()?;
         let progress = Progress::new("chunks", self.plan.chunks());
         for chunk in 0..self.plan.chunks() {
             let file = shards.read(chunk)?;
             let which = || shown(&shards.path(chunk));
-            merger.add(&file).into_diagnostic().wrap_err_with(which)?;
+            parquet::append(&mut merged, &file).into_diagnostic().wrap_err_with(which)?;
             progress.advance(1);
         }
-        Ok(merger.finish().into_diagnostic()?.finish()?)
+        Ok(merged.into_inner().into_diagnostic()?.finish()?)
     }
 
     /// Maps or diagrams with what they say in words.
@@ -87,18 +88,18 @@ impl Sweep {
             results.add_to(&mut columns, group).into_diagnostic()?;
         }
         let settings = &self.plan.settings;
+        let bytes = std::fs::read(merged).into_diagnostic().wrap_err_with(|| shown(merged))?;
         let swept = Swept {
             case: &self.case,
             axes: settings.axes.iter().map(|axis| AxisShown::of(&self.case, axis)).collect(),
             columns: &columns,
             starts: settings.starts,
             periods: settings.periods,
-            results_sha256: checksum(merged)?,
+            limits: self.limits(),
+            results_sha256: sha256(&bytes),
         };
         let name = self.folder.file_name().unwrap_or_default();
-        let figures = swept.figures()?;
-        let page = SweepPage::new(&name.to_string_lossy(), &swept, &figures)?;
-        let files = render::sweep(&page, &figures).into_diagnostic()?;
+        let files = swept.files()?;
         let folder = reports.map_or_else(|| self.folder.clone(), |reports| reports.join(name));
         store::add_to_folder(&folder, &files)?;
         if let Some(reports) = reports {
@@ -106,33 +107,30 @@ impl Sweep {
         }
         output::print(format!("{}\n", shown(&folder.join("sweep.html"))))
     }
+
+    /// Of the exact orbit, which a map over frequency and clearance shows.
+    fn limits(&self) -> Vec<StabilityLimit> {
+        let axes = &self.plan.settings.axes;
+        let of = |parameter| axes.iter().find(|axis| axis.parameter == parameter);
+        match (axes.len(), of(SweepParameter::Frequency), of(SweepParameter::Clearance)) {
+            (2, Some(frequency), Some(_)) => stability_limits(&self.case, &frequency.values),
+            _ => Vec::new(),
+        }
+    }
 }
 
 /// The merged results once more as text, a chunk at a time.
 fn written_as_text(merged: &Path, path: &Path, empty: &[Column]) -> Result<()> {
     let results = Results::open(store::open(merged)?).into_diagnostic()?;
-    let mut table = Table::new(Growing::begin(path)?, empty).into_diagnostic()?;
+    let mut writer = Writer::from_writer(Growing::begin(path)?);
+    csv::header(&mut writer, empty).into_diagnostic()?;
     for group in 0..results.groups() {
         let mut columns = empty.to_vec();
         results.add_to(&mut columns, group).into_diagnostic()?;
-        table.add(&columns).into_diagnostic()?;
+        csv::rows(&mut writer, &columns).into_diagnostic()?;
     }
-    Ok(table.finish().into_diagnostic()?.finish()?)
-}
-
-/// SHA-256 of a file, read piece by piece.
-fn checksum(path: &Path) -> Result<String> {
-    let mut file = store::open(path)?;
-    let mut digest = Digest::default();
-    let mut piece = vec![0; 1 << 20];
-    loop {
-        let read = file.read(&mut piece).into_diagnostic().wrap_err_with(|| shown(path))?;
-        if read == 0 {
-            break;
-        }
-        digest.add(&piece[..read]);
-    }
-    Ok(digest.finish())
+    let text = writer.into_inner().map_err(|error| error.into_error()).into_diagnostic()?;
+    Ok(text.finish()?)
 }
 
 fn unfinished(path: &Path) -> String {

@@ -5,6 +5,7 @@
 
 mod job;
 
+use std::fmt;
 use std::str::FromStr;
 
 use clap::{Args, ValueEnum};
@@ -12,7 +13,7 @@ use miette::Result;
 use vinesink::store;
 
 use super::{Long, Outcome, Sweep, Where, output, shown};
-use job::{Job, Submitted};
+use job::{Job, word};
 
 /// Submit all chunks to the engine of a cluster, and the merge after them
 ///
@@ -94,6 +95,13 @@ impl FromStr for Time {
     }
 }
 
+impl fmt::Display for Time {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self(seconds) = self;
+        write!(f, "{:02}:{:02}:{:02}", seconds / 3600, seconds / 60 % 60, seconds % 60)
+    }
+}
+
 pub fn run(arguments: &Arguments) -> Result<Outcome> {
     let sweep = Sweep::open(&arguments.sweep)?;
     sweep.is_ordinary(&arguments.sweep.case, arguments.long)?;
@@ -102,7 +110,12 @@ pub fn run(arguments: &Arguments) -> Result<Outcome> {
         output::print(job.described())?;
         return Ok(Outcome::Done);
     }
-    let by_hand = |verb: &str| job.by_hand(verb, &arguments.sweep);
+    let at = &arguments.sweep;
+    let out = match shown(&at.out).as_str() {
+        "sweeps" => String::new(),
+        out => format!(" --out {}", word(out)),
+    };
+    let by_hand = |verb: &str| format!("vinesink sweep {verb} {}{out}", word(&shown(&at.case)));
     if sweep.missing()?.is_empty() {
         output::print(format!(
             "all {} chunks are there, and nothing is submitted\n  put together  {}\n",
@@ -111,11 +124,11 @@ pub fn run(arguments: &Arguments) -> Result<Outcome> {
         ))?;
         return Ok(Outcome::Done);
     }
-    store::write_file_and_folder(&job.case(), sweep.case_text.as_bytes())?;
-    for (file, text) in job.files() {
-        store::write_file(&file, text.as_bytes())?;
+    store::write_file_and_folder(&job.case, sweep.case_text.as_bytes())?;
+    for (file, text) in &job.files {
+        store::write_file(file, text.as_bytes())?;
     }
-    let Submitted { watch, cancel } = job.submit()?;
+    let [watch, cancel] = job.submit()?;
     output::print(format!(
         "submitted: {} chunks in {} tasks, and the merge after them\n  \
          watch         {watch}\n                {}\n  \

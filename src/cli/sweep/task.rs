@@ -3,23 +3,37 @@
 
 use miette::{IntoDiagnostic, Result, miette};
 
+/// The chunks to work out: a single one, with `every` also each so many after it, or all.
+pub fn chunks(first: Option<u64>, every: Option<u64>, all: u64) -> Result<Vec<u64>> {
+    match (first.map_or_else(numbered, |first| Ok(Some(first)))?, every) {
+        (Some(first), _) if first >= all => Err(miette!(
+            help = format!("the last chunk is {}", all - 1),
+            "there is no chunk {first}"
+        )),
+        (Some(first), Some(step)) => Ok(share(first, step, all)),
+        (Some(first), None) => Ok(vec![first]),
+        (None, Some(_)) => Err(miette!(
+            help = "say which with `--chunk N`; an engine's tasks have a number already",
+            "`--every` counts from a chunk, and there is none"
+        )),
+        (None, None) => Ok((0..all).collect()),
+    }
+}
+
 /// The chunk that the engine which started this process has given it. HyperQueue runs inside Slurm's jobs
 /// and not the other way around, so its word counts first.
-pub fn numbered() -> Result<Option<u64>> {
-    for name in ["HQ_TASK_ID", "SLURM_ARRAY_TASK_ID"] {
-        if let Ok(text) = std::env::var(name) {
-            let number = text.parse().map_err(|_| miette!("{name} is {text}, no number"))?;
-            return Ok(Some(number));
-        }
-    }
-    Ok(None)
+fn numbered() -> Result<Option<u64>> {
+    let told = |name: &str| Some((name.to_owned(), std::env::var(name).ok()?));
+    let Some((name, text)) = told("HQ_TASK_ID").or_else(|| told("SLURM_ARRAY_TASK_ID")) else {
+        return Ok(None);
+    };
+    text.parse().map(Some).map_err(|_| miette!("{name} is {text}, no number"))
 }
 
 /// The chunks of one of `step` tasks.
-pub fn share(first: u64, step: u64, chunks: u64) -> Vec<u64> {
-    std::iter::successors(Some(first), |chunk| chunk.checked_add(step))
-        .take_while(|chunk| *chunk < chunks)
-        .collect()
+fn share(first: u64, step: u64, chunks: u64) -> Vec<u64> {
+    let next = |chunk: &u64| chunk.checked_add(step).filter(|next| *next < chunks);
+    std::iter::successors(Some(first).filter(|first| *first < chunks), next).collect()
 }
 
 /// Uses as many processors as were asked for, or as the engine that started this process has given it.

@@ -1,108 +1,132 @@
-//! An axis of a sweep in the units that the case's reader uses.
+//! An axis of a sweep in the units that a page shows.
 
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 
-use crate::case::{Case, SweepAxis, SweepParameter};
+use crate::case::{Case, Design, PhysicalExcitation, SweepAxis, SweepParameter};
+use crate::method::Method;
+use crate::quantity::catalogue as of;
+use crate::quantity::units::Unit;
+use crate::quantity::{Digits, Kind, Quantity, Units};
+use crate::report::document::Document;
 use crate::report::figure::{Axis, Scale, edges};
-use crate::report::numbers::{LengthFormat, significant};
 
 /// An axis as it is shown.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct AxisShown {
     /// What is varied.
-    #[serde(rename = "key", serialize_with = "key")]
     pub parameter: SweepParameter,
-    /// What it is: `clearance`.
-    pub name: String,
+    /// The quantity that it is.
+    pub kind: &'static Kind,
     /// The name with symbol and unit: `clearance b (mm)`.
     pub label: String,
-    /// The shown unit; empty for a pure number.
-    pub unit: String,
-    /// Its values in the shown unit, ascending.
+    /// The unit in which it is drawn.
+    pub unit: Unit,
+    /// Its values in SI, or in a reduced case's units, ascending.
     pub values: Vec<f64>,
+    /// The same in [`Self::unit`].
+    pub shown: Vec<f64>,
     /// Whether each is so many times the one before.
     pub logarithmic: bool,
-    /// The case's own value in the shown unit, where the case has one.
+    /// The case's own value in SI, where the case has one.
     pub own: Option<f64>,
+    units: Units,
+}
+
+/// A value of an axis, with so many digits that its neighbours differ.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub(super) struct At {
+    pub of: Quantity,
+    pub digits: u8,
 }
 
 impl AxisShown {
     /// An axis of a case's table `[sweep]`.
     pub fn of(case: &Case, axis: &SweepAxis) -> Self {
         let SweepAxis { parameter, ref values, logarithmic } = *axis;
-        let (unit, size) = shown_unit(case, axis);
-        let [name, symbol] = parameter.words(&case.design);
+        let (kind, units) = (kind(parameter, &case.design), Document::units(case));
+        let largest = values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+        let unit = units.axis_unit(kind, largest);
         Self {
             parameter,
-            name: name.to_owned(),
-            label: format!("{name} {symbol} ({})", if unit.is_empty() { "1" } else { unit }),
-            unit: unit.to_owned(),
-            values: values.iter().map(|value| value / size).collect(),
+            kind,
+            label: units.axis_label(kind, largest),
+            unit,
+            values: values.clone(),
+            shown: values.iter().map(|value| value / unit.size).collect(),
             logarithmic,
-            own: parameter.of(&case.design).map(|own| own / size),
+            own: parameter.of(&case.design),
+            units,
         }
     }
 
-    /// Whether it varies where motions start, not the system.
-    pub fn is_initial(&self) -> bool {
-        self.parameter.is_initial()
-    }
-
-    /// The boundaries of the values' cells.
+    /// The boundaries of the values' cells, as drawn.
     pub(super) fn edges(&self) -> Vec<f64> {
-        edges(&self.values, self.scale())
+        edges(&self.shown, self.scale())
     }
 
     const fn scale(&self) -> Scale {
         if self.logarithmic { Scale::Log } else { Scale::Linear }
     }
 
-    /// The axis of a figure, from one value to another.
-    pub(super) fn drawn(&self, from: f64, to: f64) -> Axis {
-        let axis = Axis::linear(self.label.clone()).with_range(from, to);
+    /// The axis of a figure, with half a step to either side: single cells have their middle there.
+    pub(super) fn drawn(&self) -> Axis {
+        let edges = self.edges();
+        let axis = Axis::linear(self.label.clone()).with_range(edges[0], edges[edges.len() - 1]);
         Axis { scale: self.scale(), ..axis }
     }
 
-    /// A value with so many digits that neighbours differ, and its unit.
-    pub(super) fn number(&self, index: usize) -> String {
+    /// The case's own value as drawn, where it lies between the ends.
+    pub(super) fn own_within(&self) -> Option<f64> {
+        let (own, edges) = (self.own? / self.unit.size, self.edges());
+        (edges[0] <= own && own <= edges[edges.len() - 1]).then_some(own)
+    }
+
+    pub(super) fn at(&self, index: usize) -> At {
         let value = self.values[index];
-        let near = [index.checked_sub(1), Some(index + 1)];
-        let step = near
-            .into_iter()
-            .flatten()
-            .filter_map(|k| Some((self.values.get(k)? - value).abs()))
-            .fold(f64::INFINITY, f64::min);
-        let needed = libm::ceil(libm::log10(value.abs() / step));
-        let digits = if needed.is_finite() { needed.clamp(3.0, 6.0) as usize } else { 3 };
-        let number = significant(value, digits);
-        if self.unit.is_empty() { number } else { format!("{number} {}", self.unit) }
+        let near = [index.checked_sub(1), Some(index + 1)].into_iter().flatten();
+        let steps = near.filter_map(|k| Some((self.values.get(k)? - value).abs()));
+        let needed = libm::ceil(libm::log10(value.abs() / steps.fold(f64::INFINITY, f64::min)));
+        let digits = if needed.is_finite() { needed.clamp(3.0, 6.0) as u8 } else { 3 };
+        At { of: Quantity::new(self.kind, value, Method::Given), digits }
     }
 
-    /// The same with its name.
+    /// First and last value.
+    pub(super) fn ends(&self) -> [At; 2] {
+        [self.at(0), self.at(self.values.len() - 1)]
+    }
+
+    /// A value with its name, for a panel's heading.
     pub(super) fn text(&self, index: usize) -> String {
-        format!("{} {}", self.name, self.number(index))
+        let At { of, digits } = self.at(index);
+        let number = self.units.with_digits(of.kind, of.value, Digits::Significant(digits));
+        format!("{} {number}", of.kind.name)
     }
 }
 
-/// The unit that an axis is shown in, empty for a pure number, and how many of the units of
-/// [`SweepAxis::values`] make one of it.
-fn shown_unit(case: &Case, axis: &SweepAxis) -> (&'static str, f64) {
-    if axis.parameter.is_length(&case.design) {
-        let lengths = LengthFormat::of(&case.scales());
-        return (lengths.unit, 1.0 / lengths.number(1.0));
-    }
-    let largest = axis.values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
-    match axis.parameter {
-        ratio if ratio.is_ratio() => ("%", 0.01),
-        SweepParameter::AbsorberMass if largest < 1.0 => ("g", 1e-3),
-        SweepParameter::Stiffness if largest >= 1e3 => ("kN/m", 1e3),
-        other => match other.unit(&case.design) {
-            "1" => ("", 1.0),
-            unit => (unit, 1.0),
+/// The quantity that an axis varies.
+const fn kind(parameter: SweepParameter, design: &Design) -> &'static Kind {
+    use SweepParameter as P;
+    match (parameter, design) {
+        (P::Clearance, _) => &of::CLEARANCE,
+        (P::Frequency, Design::Physical(_)) => &of::EXCITATION_FREQUENCY,
+        (P::Frequency, Design::Reduced(_)) => &of::FREQUENCY_RATIO,
+        (P::Detuning, _) => &of::DETUNING,
+        (P::Amplitude, Design::Reduced(_)) => &of::REDUCED_FORCING,
+        (P::Amplitude, Design::Physical(physical)) => match physical.excitation {
+            PhysicalExcitation::BaseDisplacement { .. } => &of::BASE_AMPLITUDE,
+            PhysicalExcitation::Force { .. } => &of::FORCE_AMPLITUDE,
         },
+        (P::Restitution, _) => &of::RESTITUTION,
+        (P::AbsorberMass, _) => &of::ABSORBER_MASS,
+        (P::MassRatio, _) => &of::MASS_RATIO,
+        (P::Mass, _) => &of::OSCILLATOR_MASS,
+        (P::Stiffness, _) => &of::STIFFNESS,
+        (P::Damping, Design::Physical(_)) => &of::DAMPING,
+        (P::Damping, Design::Reduced(_)) => &of::REDUCED_DAMPING,
+        (P::DampingRatio, _) => &of::DAMPING_RATIO,
+        (P::InitialDisplacement, _) => &of::INITIAL_DISPLACEMENT,
+        (P::InitialVelocity, _) => &of::INITIAL_VELOCITY,
+        (P::InitialAbsorberDisplacement, _) => &of::INITIAL_ABSORBER_DISPLACEMENT,
+        (P::InitialAbsorberVelocity, _) => &of::INITIAL_ABSORBER_VELOCITY,
     }
-}
-
-fn key<S: Serializer>(parameter: &SweepParameter, to: S) -> Result<S::Ok, S::Error> {
-    to.serialize_str(parameter.key())
 }

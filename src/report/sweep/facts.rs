@@ -1,250 +1,379 @@
-//! What a sweep's table says, counted.
+//! What a sweep's table says, counted: `sweep.json`, and what the page's sentences are made from.
 
-use serde::Serialize;
+use serde_json::{Value, json};
 
-use super::grid::{Grid, SweepDirection};
+use super::Swept;
+use super::grid::{Numbers, SweepDirection};
 use super::kinds::AREAS;
+use crate::analysis::Area;
+use crate::case::Recorded;
+use crate::method::Method;
+use crate::quantity::Quantity;
+use crate::quantity::catalogue::POINT_SHARE;
 use crate::regimes::Regime;
+use crate::sweep::columns::kind;
 
 /// Peaks of one motion measured twice differ by less: where it repeats, by what is left of a transient; a
 /// motion that does not repeat is told by its regime alone.
 const SAME_PEAK: f64 = 0.02;
+/// A reduction that is smaller, in dB, is what a transient has left: none.
+const NO_REDUCTION: f64 = 0.005;
+/// Stretches of one axis that are listed, and those of hysteresis that are told.
+const MOST_STRETCHES: usize = 24;
+const MOST_TOLD: usize = 3;
+/// What is told of the motions of a regime.
+const RANGED: [Recorded; 3] = [Recorded::ImpactsPerPeriod, Recorded::Peak, Recorded::ReductionDb];
 
-/// What is known of all motions of a pass.
-#[derive(Debug, Clone, Serialize)]
-pub(super) struct Facts {
-    #[serde(skip)]
-    pub pass: SweepDirection,
-    /// `up`, `down`, or nothing where each point was looked at by itself.
-    pub direction: Option<&'static str>,
+/// `vinesink/sweep@2`: counts, and quantities in SI or in a reduced case's units. `at` and `ends` are places on
+/// the axes, each with the digits that tell it from its neighbours.
+pub(super) fn document(swept: &Swept) -> Value {
+    let directions = swept.directions();
+    let there = |of: &Recorded| {
+        let numbers = |way: &SweepDirection| swept.numbers(*of, *way).is_some();
+        directions.iter().any(numbers) || *of == Recorded::Area && swept.areas().is_some()
+    };
+    let recorded = Recorded::ALL.into_iter().filter(there).map(Recorded::key);
+    json!({
+        "format": "vinesink/sweep@2",
+        "title": swept.case.title,
+        "points": swept.points(),
+        "axes": axes(swept),
+        // Whether each point is a start of one system.
+        "basin": swept.is_basin(),
+        "starts": swept.starts,
+        "periods": swept.periods,
+        "recorded": recorded.collect::<Vec<_>>(),
+        "largest_area": largest_area(swept),
+        // One for each direction: a single one, or up and down.
+        "motions": directions.iter().map(|way| Counted::of(swept, *way).motions()).collect::<Vec<_>>(),
+        "hysteresis": hysteresis(swept),
+        "version": env!("CARGO_PKG_VERSION"),
+        "case_sha256": swept.case.text_hash,
+        "results_sha256": swept.results_sha256,
+    })
+}
+
+fn axes(swept: &Swept) -> Vec<Value> {
+    let facts = swept.axes.iter().map(|axis| {
+        let values = axis.values.as_slice();
+        let mean = (values[values.len() - 1] - values[0]) / (values.len().max(2) - 1) as f64;
+        // Written values have some four digits.
+        let same = |pair: &[f64]| (pair[1] - pair[0] - mean).abs() < 1e-3 * mean.abs();
+        json!({
+            "key": axis.parameter.key(),
+            "id": axis.kind.id,
+            "values": values,
+            "logarithmic": axis.logarithmic,
+            "even": values.windows(2).all(same),
+            "ends": axis.ends(),
+            "own": axis.own,
+        })
+    });
+    facts.collect()
+}
+
+/// The theory's area of the most points, and its share of those with an area.
+fn largest_area(swept: &Swept) -> Option<Value> {
+    let areas = swept.areas()?;
+    let count = |name: &str| areas.iter().filter(|area| **area == Some(name)).count();
+    let all = AREAS.map(|(name, _)| (name, count(name))).into_iter();
+    let (name, points) = all.reduce(|best, one| if one.1 > best.1 { one } else { best })?;
+    let share = share(points, areas.iter().flatten().count());
+    Some(json!({ "name": name, "share": Quantity { method: Method::Theory, ..share } }))
+}
+
+fn share(points: usize, of: usize) -> Quantity {
+    let share = points as f64 / of.max(1) as f64;
+    Quantity::new(&POINT_SHARE, share, Method::Simulation)
+}
+
+fn quantity(of: Recorded, value: f64) -> Option<Quantity> {
+    Some(Quantity::new(kind(of)?, value, Method::Simulation))
+}
+
+/// The columns of a direction.
+struct Counted<'a> {
+    swept: &'a Swept<'a>,
+    direction: SweepDirection,
+    regimes: Option<Vec<Option<Regime>>>,
+    /// Regimes that occur and their points, the most first.
+    present: Vec<(Regime, usize)>,
+    /// Those of [`RANGED`] that have values.
+    ranged: Vec<(Recorded, Numbers)>,
+    /// Peaks of the exact orbit where it attracts.
+    orbit: Option<Numbers>,
     /// Points with a motion.
-    pub worked_out: usize,
-    pub regimes: Vec<RegimeFacts>,
-    /// The largest reduction of the peak and the smallest, and where.
-    pub best: Option<Extreme>,
-    pub worst: Option<Extreme>,
-    /// The smallest peak and the largest.
-    pub smallest: Option<Extreme>,
-    pub largest: Option<Extreme>,
-    pub coexistence: Option<Coexistence>,
-    /// Regimes by the theory's area.
-    pub areas: Vec<Group>,
-    /// Regimes where an exact orbit attracts, and where none does.
-    pub orbits: Vec<Group>,
-    /// Points at which an exact orbit attracts and no start leads to it.
-    pub orbit_missed: Option<usize>,
+    worked_out: usize,
 }
 
-/// A regime's part of the points.
-#[derive(Debug, Clone, Serialize)]
-pub(super) struct RegimeFacts {
-    pub regime: Regime,
-    pub points: usize,
-    /// Of the points with a regime.
-    pub share: f64,
-    /// In the case's unit of length.
-    pub peak: Option<[f64; 2]>,
-    pub reduction_db: Option<[f64; 2]>,
-    pub impacts_per_period: Option<[f64; 2]>,
-}
-
-/// A value at a point.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub(super) struct Extreme {
-    pub value: f64,
-    pub point: usize,
-    /// Where the point lies on each axis.
-    pub at: Vec<f64>,
-}
-
-/// Where several motions exist.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub(super) struct Coexistence {
-    pub points: usize,
-    /// Of the points with a motion.
-    pub share: f64,
-    /// Most motions at a point.
-    pub most: usize,
-    /// First and last index on each axis at which there are several.
-    pub from_to: Vec<[usize; 2]>,
-}
-
-/// Regimes of the points that have something in common.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub(super) struct Group {
-    pub name: &'static str,
-    pub points: usize,
-    /// Points of each regime, in the order from many impacts to none.
-    pub regimes: [usize; Regime::ALL.len()],
-}
-
-impl Group {
-    pub(super) fn share(&self, regime: Regime) -> f64 {
-        self.regimes[regime.index()] as f64 / self.points.max(1) as f64
+impl<'a> Counted<'a> {
+    fn of(swept: &'a Swept, direction: SweepDirection) -> Self {
+        let column = |of: Recorded| {
+            let column = swept.numbers(of, direction)?;
+            column.iter().any(Option::is_some).then_some((of, column))
+        };
+        let mut counted = Self {
+            swept,
+            direction,
+            regimes: swept.regimes(direction),
+            present: Vec::new(),
+            ranged: RANGED.into_iter().filter_map(column).collect(),
+            orbit: swept.numbers(Recorded::OrbitPeak, SweepDirection::Single),
+            worked_out: 0,
+        };
+        let count = |regime| (regime, counted.count(regime, |_| true)[1]);
+        let mut present = Vec::from(Regime::ALL.map(count));
+        present.retain(|(_, points)| *points > 0);
+        present.sort_by_key(|(_, points)| std::cmp::Reverse(*points));
+        let rms = column(Recorded::Rms);
+        let there = |point: &usize| match &counted.regimes {
+            Some(regimes) => regimes[*point].is_some(),
+            None => counted.ranged.iter().chain(&rms).any(|(_, column)| column[*point].is_some()),
+        };
+        counted.worked_out = (0..swept.points()).filter(there).count();
+        counted.present = present;
+        counted
     }
-}
 
-/// Smallest and largest of the values that are there.
-fn range(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
-    values.fold(None, |range: Option<[f64; 2]>, value| {
-        Some(range.map_or([value; 2], |[low, high]| [low.min(value), high.max(value)]))
-    })
-}
+    fn motions(&self) -> Value {
+        let stretches = self.stretches();
+        let smallest = self.column(Recorded::Peak).and_then(|_| self.extreme(Recorded::Peak, -1.0));
+        json!({
+            "direction": self.direction,
+            "worked_out": self.worked_out,
+            // Quantities of which each regime and stretch has a smallest and a largest value.
+            "ranged": self.ranged.iter().filter_map(|(of, _)| Some(kind(*of)?.id)).collect::<Vec<_>>(),
+            "regimes": self.regime_facts(),
+            "smallest_peak": smallest.map(|(value, at)| json!({ "of": value, "at": at })),
+            "reduction": self.reduction(),
+            "coexistence": self.coexistence(),
+            "more_stretches": stretches.len().saturating_sub(MOST_STRETCHES),
+            "stretches": stretches.into_iter().take(MOST_STRETCHES).collect::<Vec<_>>(),
+            "groups": self.groups(),
+            "theory": self.theory(),
+            "orbit": self.orbit_facts(),
+        })
+    }
 
-/// The first point with the largest value, and the first with the smallest.
-fn extremes(grid: &Grid, values: Option<&[Option<f64>]>) -> [Option<Extreme>; 2] {
-    let values = values.unwrap_or_default();
-    let find = |sign: f64| {
-        let there = values.iter().enumerate();
-        let there = there.filter_map(|(point, value)| Some((point, (*value)?)));
-        let (point, value) = there.reduce(|best, one| match sign * one.1 > sign * best.1 {
-            true => one,
-            false => best,
-        })?;
-        let at = grid.indices(point).into_iter().zip(&grid.swept.axes);
-        Some(Extreme { value, point, at: at.map(|(k, axis)| axis.values[k]).collect() })
-    };
-    [find(1.0), find(-1.0)]
-}
+    fn column(&self, of: Recorded) -> Option<&Numbers> {
+        self.ranged.iter().find(|(one, _)| *one == of).map(|(_, column)| column)
+    }
 
-impl Facts {
-    pub(super) fn of(grid: &Grid, pass: SweepDirection) -> Self {
-        let points = grid.points();
-        let regimes = grid.regimes(pass);
-        let peak = grid.number("peak", pass);
-        let reduction = grid.number("reduction_db", pass);
-        let rate = grid.number("impacts_per_period", pass);
-        let any = [&peak, &reduction, &rate, &grid.number("rms", pass)];
-        let there = |point: usize| {
-            let simulated = regimes.as_ref().map(|regimes| regimes[point].is_some());
-            simulated.unwrap_or_else(|| any.into_iter().flatten().any(|of| of[point].is_some()))
+    /// Points with a regime within some, and those of one regime.
+    fn count(&self, of: Regime, within: impl Fn(usize) -> bool) -> [usize; 2] {
+        let regimes = self.regimes.iter().flatten().enumerate();
+        let there = regimes.filter_map(|(point, regime)| (*regime).filter(|_| within(point)));
+        there.fold([0, 0], |[all, same], regime| [all + 1, same + usize::from(regime == of)])
+    }
+
+    /// Smallest and largest value of each of `ranged` within some points.
+    fn ranges(&self, within: impl Fn(&usize) -> bool) -> Vec<Option<[Quantity; 2]>> {
+        let range = |(of, column): &(Recorded, Numbers)| {
+            let values = (0..column.len()).filter(&within).filter_map(|point| column[point]);
+            let [low, high] = values.fold(None, |range: Option<[f64; 2]>, value| {
+                Some(range.map_or([value; 2], |[low, high]| [low.min(value), high.max(value)]))
+            })?;
+            Some([quantity(*of, low)?, quantity(*of, high)?])
         };
-        let worked_out = (0..points).filter(|point| there(*point)).count();
-        let group = |name: &'static str, within: &dyn Fn(usize) -> bool| {
-            let mut group = Group { name, points: 0, regimes: [0; Regime::ALL.len()] };
-            for (point, regime) in regimes.iter().flatten().enumerate() {
-                let Some(regime) = regime.filter(|_| within(point)) else { continue };
-                group.points += 1;
-                group.regimes[regime.index()] += 1;
-            }
-            group
-        };
-        let all = group("", &|_| true);
-        let of_regime = |regime: Regime| {
-            let of = |values: &Option<Vec<Option<f64>>>| {
-                let values = values.as_ref()?;
-                let here = regimes.iter().flatten().enumerate();
-                range(here.filter_map(|(k, found)| values[k].filter(|_| *found == Some(regime))))
+        self.ranged.iter().map(range).collect()
+    }
+
+    fn regime_facts(&self) -> Vec<Value> {
+        let all: usize = self.present.iter().map(|(_, points)| points).sum();
+        let facts = |(regime, points): &(Regime, usize)| {
+            let here = |point: &usize| {
+                self.regimes.as_ref().is_some_and(|regimes| regimes[*point] == Some(*regime))
             };
-            RegimeFacts {
-                regime,
-                points: all.regimes[regime.index()],
-                share: all.share(regime),
-                peak: of(&peak),
-                reduction_db: of(&reduction),
-                impacts_per_period: of(&rate),
-            }
+            json!({
+                "regime": regime, "points": points, "share": share(*points, all), "ranges": self.ranges(here)
+            })
         };
-        let found = Regime::ALL.into_iter().map(of_regime);
-        let areas = grid.text("area", SweepDirection::Single);
-        let by_area = areas.iter().flat_map(|areas| {
-            AREAS.iter().map(|(area, _)| group(area, &|point| areas[point] == Some(*area)))
+        self.present.iter().map(facts).collect()
+    }
+
+    /// The largest value, or with a negative sign the smallest, and the first point that has it.
+    fn extreme(&self, of: Recorded, sign: f64) -> Option<(Quantity, Value)> {
+        let there = self.column(of)?.iter().enumerate();
+        let there = there.filter_map(|(point, value)| Some((point, (*value)?)));
+        let (point, value) =
+            there.reduce(|best, one| if sign * one.1 > sign * best.1 { one } else { best })?;
+        Some((quantity(of, value)?, json!(self.swept.place(point))))
+    }
+
+    /// Against the oscillator alone: where it is best and worst, whether the worst is an increase, and at how many
+    /// of the points at which it is known there is a reduction.
+    fn reduction(&self) -> Option<Value> {
+        let column = self.column(Recorded::ReductionDb)?;
+        let (best, best_at) = self.extreme(Recorded::ReductionDb, 1.0)?;
+        let (worst, worst_at) = self.extreme(Recorded::ReductionDb, -1.0)?;
+        let known = column.iter().flatten().count();
+        let reduced = column.iter().flatten().filter(|value| **value >= NO_REDUCTION).count();
+        Some(json!({
+            "best": { "of": best, "at": best_at },
+            "worst": { "of": worst, "at": worst_at },
+            "grows": worst.value <= -NO_REDUCTION,
+            "reduced": reduced, "known": known, "share": share(reduced, known),
+        }))
+    }
+
+    /// Where several motions exist: how many at most at a point, and the first and last value at which there are
+    /// several, on each axis that reaches further.
+    fn coexistence(&self) -> Option<Value> {
+        let motions = self.swept.numbers(Recorded::Motions, self.direction)?;
+        let several = |point: &usize| motions[*point].is_some_and(|count| count > 1.0);
+        let indices: Vec<Vec<usize>> =
+            (0..motions.len()).filter(several).map(|point| self.swept.indices(point)).collect();
+        let axes = self.swept.axes.iter().enumerate();
+        let within = axes.filter_map(|(k, axis)| {
+            let first = indices.iter().map(|of| of[k]).min()?;
+            let last = indices.iter().map(|of| of[k]).max()?;
+            let narrower = first > 0 || last + 1 < axis.values.len();
+            narrower.then(|| [axis.at(first), axis.at(last)])
         });
-        let orbit = grid.number("orbit_peak", SweepDirection::Single);
-        let by_orbit = orbit.iter().flat_map(|orbit| {
-            [
-                group("exact 1:1 orbit attracts", &|point| orbit[point].is_some()),
-                group("none attracts", &|point| orbit[point].is_none()),
-            ]
+        Some(json!({
+            "points": indices.len(),
+            "share": share(indices.len(), self.worked_out),
+            "most": motions.iter().flatten().fold(0.0, |most: f64, count| most.max(*count)) as usize,
+            "within": within.collect::<Vec<_>>(),
+        }))
+    }
+
+    /// Stretches of a single axis in which neighbours have the same regime.
+    fn stretches(&self) -> Vec<Value> {
+        let ([axis], Some(regimes)) = (self.swept.axes.as_slice(), &self.regimes) else {
+            return Vec::new();
+        };
+        let mut begin = 0;
+        let stretches = regimes.chunk_by(|a, b| a == b).map(|run| {
+            let within = begin..begin + run.len();
+            begin = within.end;
+            json!({
+                "ends": [axis.at(within.start), axis.at(within.end - 1)],
+                "points": run.len(), "regime": run[0], "ranges": self.ranges(|point| within.contains(point))
+            })
         });
-        let [best, worst] = extremes(grid, reduction.as_deref());
-        let [largest, smallest] = extremes(grid, peak.as_deref());
-        Self {
-            pass,
-            direction: match pass {
-                SweepDirection::Single => None,
-                SweepDirection::Up => Some("up"),
-                SweepDirection::Down => Some("down"),
-            },
-            worked_out,
-            regimes: found.filter(|one| one.points > 0).collect(),
-            best,
-            worst,
-            smallest,
-            largest,
-            coexistence: coexistence(grid, pass, worked_out),
-            areas: by_area.filter(|group| group.points > 0).collect(),
-            orbits: by_orbit.filter(|group| group.points > 0).collect(),
-            orbit_missed: orbit_missed(grid, pass),
+        stretches.collect()
+    }
+
+    /// Shares of the regimes, in their order, in each area of the theory, where an exact orbit attracts and where
+    /// none does.
+    fn groups(&self) -> Vec<Value> {
+        let group = |name: &str, within: &dyn Fn(usize) -> bool| {
+            let counts = self.present.iter().map(|(regime, _)| self.count(*regime, within));
+            let counts: Vec<[usize; 2]> = counts.collect();
+            let points = counts.first().map_or(0, |[points, _]| *points);
+            let shares: Vec<Quantity> =
+                counts.iter().map(|[all, same]| share(*same, *all)).collect();
+            (points > 0).then(|| json!({ "name": name, "points": points, "shares": shares }))
+        };
+        let mut all = Vec::new();
+        if self.swept.is_basin() {
+            return all;
         }
+        if let Some(areas) = self.swept.areas() {
+            let of = |(name, _)| group(name, &|point| areas[point] == Some(name));
+            all.extend(AREAS.map(of).into_iter().flatten());
+        }
+        if let Some(orbit) = &self.orbit {
+            all.extend(group("orbit", &|point| orbit[point].is_some()));
+            all.extend(group("no-orbit", &|point| orbit[point].is_none()));
+        }
+        all
     }
 
-    /// The regime of the most points.
-    pub(super) fn main(&self) -> Option<&RegimeFacts> {
-        self.regimes.iter().reduce(|best, one| if one.points > best.points { one } else { best })
+    /// Share of two symmetric impacts per period inside and outside of area Z3.
+    fn theory(&self) -> Option<[Option<Quantity>; 2]> {
+        let areas = self.swept.areas()?;
+        let shares = [true, false].map(|z3| {
+            let within =
+                |point: usize| areas[point].is_some_and(|area| (area == Area::Z3.key()) == z3);
+            let [all, same] = self.count(Regime::TwoSymmetric, within);
+            (all > 0).then(|| share(same, all))
+        });
+        shares.iter().any(Option::is_some).then_some(shares)
     }
-}
 
-fn coexistence(grid: &Grid, pass: SweepDirection, worked_out: usize) -> Option<Coexistence> {
-    let motions = grid.number("motions", pass)?;
-    let several: Vec<usize> = (0..motions.len())
-        .filter(|point| motions[*point].is_some_and(|count| count > 1.0))
-        .collect();
-    let indices: Vec<Vec<usize>> = several.iter().map(|point| grid.indices(*point)).collect();
-    let along = |axis: usize| {
-        let on = || indices.iter().map(|of| of[axis]);
-        [on().min().unwrap_or(0), on().max().unwrap_or(0)]
-    };
-    Some(Coexistence {
-        points: several.len(),
-        share: several.len() as f64 / worked_out.max(1) as f64,
-        most: motions.iter().flatten().fold(0.0, |most: f64, count| most.max(*count)) as usize,
-        from_to: (0..grid.swept.axes.len()).map(along).collect(),
-    })
-}
+    /// Where an exact orbit attracts: the share of the points; and of these, those with two symmetric impacts per
+    /// period, and those at which no start leads to the orbit.
+    fn orbit_facts(&self) -> Option<Value> {
+        let orbit = self.orbit.as_ref()?;
+        let [all, _] = self.count(Regime::TwoSymmetric, |_| true);
+        let [points, main] = self.count(Regime::TwoSymmetric, |point| orbit[point].is_some());
+        let missed = self.orbit_missed(orbit).map(|missed| share(missed, points));
+        let facts =
+            json!({ "share": share(points, all), "main": share(main, points), "missed": missed });
+        (points > 0).then_some(facts)
+    }
 
-/// Where it is not recorded whether a start leads to the orbit, only a single motion that is another one
-/// tells that none does.
-fn orbit_missed(grid: &Grid, pass: SweepDirection) -> Option<usize> {
-    let orbit = grid.number("orbit_peak", SweepDirection::Single)?;
-    if let Some(reached) = grid.number("orbit_reached", pass) {
-        let missed = |(orbit, reached): &(&Option<f64>, &Option<f64>)| {
-            orbit.is_some() && reached.is_some_and(|reached| reached == 0.0)
+    /// Points at which an exact orbit attracts and no start leads to it. Where it is not recorded whether one
+    /// does, only a single motion that is another one tells that none does.
+    fn orbit_missed(&self, orbit: &Numbers) -> Option<usize> {
+        let attracts = (0..orbit.len()).filter(|point| orbit[*point].is_some());
+        if let Some(reached) = self.swept.numbers(Recorded::OrbitReached, self.direction) {
+            return Some(attracts.filter(|point| reached[*point] == Some(0.0)).count());
+        }
+        let regimes = self.regimes.as_ref()?;
+        let motions = self.swept.numbers(Recorded::Motions, self.direction)?;
+        let another = |point: &usize| {
+            let other = regimes[*point].is_some_and(|regime| regime != Regime::TwoSymmetric);
+            other && motions[*point] == Some(1.0)
         };
-        return Some(orbit.iter().zip(&reached).filter(missed).count());
+        Some(attracts.filter(another).count())
     }
-    let (regimes, motions) = (grid.regimes(pass)?, grid.number("motions", pass)?);
-    let missed = |point: &usize| {
-        let other = regimes[*point].is_some_and(|regime| regime != Regime::TwoSymmetric);
-        orbit[*point].is_some() && other && motions[*point] == Some(1.0)
-    };
-    Some((0..orbit.len()).filter(missed).count())
 }
 
-/// Points at which what was followed up differs from what was followed down; `None` where a motion was not
-/// followed.
-pub(super) fn hysteresis(grid: &Grid) -> Option<Vec<bool>> {
-    let (up, down) = (grid.regimes(SweepDirection::Up), grid.regimes(SweepDirection::Down));
-    let peaks = [SweepDirection::Up, SweepDirection::Down].map(|pass| grid.number("peak", pass));
-    let regimes = up.zip(down);
-    if regimes.is_none() && peaks.iter().any(Option::is_none) {
+/// Where what was followed up differs from what was followed down; `None` where a motion was not followed.
+fn hysteresis(swept: &Swept) -> Option<Value> {
+    let directions = [SweepDirection::Up, SweepDirection::Down];
+    let regimes = directions.map(|way| swept.regimes(way));
+    let peaks = directions.map(|way| swept.numbers(Recorded::Peak, way));
+    let regimes_known = regimes.iter().all(Option::is_some);
+    if !regimes_known && peaks.iter().any(Option::is_none) {
         return None;
     }
-    let repeats = |regime: Option<Regime>| {
-        !matches!(regime, None | Some(Regime::StronglyModulated | Regime::BelowTwo))
-    };
+    let regime = |way: usize, point: usize| regimes[way].as_ref().and_then(|all| all[point]);
+    let peak = |way: usize, point: usize| peaks[way].as_ref().and_then(|all| all[point]);
     let differs = |point: usize| {
-        if let Some((up, down)) = &regimes {
-            let both = up[point].zip(down[point]);
-            if both.is_some_and(|(up, down)| up != down) {
-                return true;
-            }
-            if !repeats(up[point]) || both.is_none() {
-                return false;
-            }
+        match regime(0, point).zip(regime(1, point)) {
+            Some((up, down)) if up != down => return true,
+            // These do not repeat.
+            Some((Regime::StronglyModulated | Regime::BelowTwo, _)) => return false,
+            None if regimes_known => return false,
+            _ => {}
         }
-        let [up, down] = peaks.each_ref().map(|peaks| peaks.as_ref().and_then(|all| all[point]));
-        up.zip(down).is_some_and(|(up, down)| (up - down).abs() > SAME_PEAK * up.max(down))
+        let peaks = peak(0, point).zip(peak(1, point));
+        peaks.is_some_and(|(up, down)| (up - down).abs() > SAME_PEAK * up.max(down))
     };
-    Some((0..grid.points()).map(differs).collect())
+    let differing: Vec<bool> = (0..swept.points()).map(differs).collect();
+    let points = differing.iter().filter(|one| **one).count();
+    let mut stretches = Vec::new();
+    if let [axis] = swept.axes.as_slice() {
+        stretches.extend(runs(&differing).into_iter().map(|[from, to]| {
+            // What was found in the middle.
+            let [up, down] = [0, 1].map(|way| {
+                let middle = usize::midpoint(from, to);
+                let peak = peak(way, middle).and_then(|peak| quantity(Recorded::Peak, peak));
+                json!({ "regime": regime(way, middle), "peak": peak })
+            });
+            json!({ "ends": [axis.at(from), axis.at(to)], "up": up, "down": down })
+        }));
+    }
+    Some(json!({
+        "points": points,
+        "share": share(points, differing.len()),
+        "more_stretches": stretches.len().saturating_sub(MOST_TOLD),
+        "stretches": stretches.into_iter().take(MOST_TOLD).collect::<Vec<_>>(),
+    }))
+}
+
+/// First and last index of every run.
+fn runs(flags: &[bool]) -> Vec<[usize; 2]> {
+    let (mut begin, mut found) = (0, Vec::new());
+    for run in flags.chunk_by(|a, b| a == b) {
+        if run[0] {
+            found.push([begin, begin + run.len() - 1]);
+        }
+        begin += run.len();
+    }
+    found
 }

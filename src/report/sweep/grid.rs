@@ -1,13 +1,18 @@
-//! The table of a sweep, looked at by axes, slices and passes.
+//! The table of a sweep, looked at by axes, slices and directions.
 
-use super::{AxisShown, Swept};
-use crate::case::SweepParameter;
+use serde::Serialize;
+
+use super::Swept;
+use super::axis::{At, AxisShown};
+use crate::case::{Recorded, SweepParameter};
+use crate::quantity::{Kind, Units};
 use crate::regimes::Regime;
-use crate::report::numbers::LengthFormat;
+use crate::report::document::Document;
 use crate::sweep::columns::Values;
 
 /// How the motions of a column were come by.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub(super) enum SweepDirection {
     /// Looked for at each point by itself.
     Single,
@@ -18,7 +23,8 @@ pub(super) enum SweepDirection {
 }
 
 impl SweepDirection {
-    pub(super) const fn suffix(self) -> &'static str {
+    /// How the names of its columns end.
+    const fn suffix(self) -> &'static str {
         match self {
             Self::Single => "",
             Self::Up => "_up",
@@ -26,25 +32,18 @@ impl SweepDirection {
         }
     }
 
-    /// A heading, or the end of a title.
+    /// What a panel or a mark is called.
     pub(super) const fn words(self) -> &'static str {
         match self {
-            Self::Single => "",
-            Self::Up => "on the way up",
-            Self::Down => "on the way down",
+            Self::Single => "simulated",
+            Self::Up => "way up",
+            Self::Down => "way down",
         }
     }
 }
 
-/// Number columns that only simulation fills; any of them tells which passes there are.
-const SIMULATED: [&str; 6] =
-    ["regime", "peak", "rms", "reduction_db", "impacts_per_period", "efficiency"];
-
-/// The table of a sweep.
-pub(super) struct Grid<'a> {
-    pub swept: &'a Swept<'a>,
-    pub lengths: LengthFormat,
-}
+/// A number for each point, where it is known.
+pub(super) type Numbers = Vec<Option<f64>>;
 
 /// Two axes of a plane.
 #[derive(Debug, Clone, Copy)]
@@ -52,92 +51,103 @@ pub(super) struct Plane<'a> {
     pub x: &'a AxisShown,
     pub y: &'a AxisShown,
     /// Whether the horizontal axis is the last one, which varies fastest.
-    pub x_is_last: bool,
+    x_is_last: bool,
 }
 
-impl<'a> Grid<'a> {
-    pub(super) fn of(swept: &'a Swept<'a>) -> Self {
-        Self { swept, lengths: LengthFormat::of(&swept.case.scales()) }
+/// The axis and the unit in which columns of one dimension are drawn.
+pub(super) struct Measure {
+    pub label: String,
+    size: f64,
+}
+
+impl Measure {
+    /// That of columns of which none is larger than any of these.
+    pub(super) fn of<'b>(
+        units: &Units,
+        kind: &Kind,
+        columns: impl IntoIterator<Item = &'b Numbers>,
+    ) -> Self {
+        let all = columns.into_iter().flatten().flatten();
+        let largest = all.fold(0.0, |most: f64, value| most.max(value.abs()));
+        let size = units.axis_unit(kind, largest).size;
+        Self { label: units.axis_label(kind, largest), size }
+    }
+
+    pub(super) fn shown(&self, column: &Numbers) -> Numbers {
+        column.iter().map(|value| value.map(|value| value / self.size)).collect()
+    }
+}
+
+impl Swept<'_> {
+    pub(super) fn units(&self) -> Units {
+        Document::units(self.case)
     }
 
     pub(super) fn points(&self) -> usize {
-        self.swept.axes.iter().map(|axis| axis.values.len()).product()
+        self.axes.iter().map(|axis| axis.values.len()).fold(1, usize::saturating_mul)
     }
 
     /// Whether the axes are starts of one system.
     pub(super) fn is_basin(&self) -> bool {
-        self.swept.axes.iter().any(AxisShown::is_initial)
+        self.axes.iter().any(|axis| axis.parameter.is_initial())
     }
 
-    pub(super) fn passes(&self) -> Vec<SweepDirection> {
-        let any = |pass: SweepDirection| {
-            SIMULATED.iter().any(|name| self.values(name, pass).is_some())
-                || self.values("section_01", pass).is_some()
+    /// Up and down where a motion was followed.
+    pub(super) fn directions(&self) -> Vec<SweepDirection> {
+        let any = |direction: &SweepDirection| {
+            self.columns.iter().any(|column| column.name.ends_with(direction.suffix()))
         };
-        let found: Vec<SweepDirection> =
-            [SweepDirection::Single, SweepDirection::Up, SweepDirection::Down]
-                .into_iter()
-                .filter(|pass| any(*pass))
-                .collect();
+        let mut found = vec![SweepDirection::Up, SweepDirection::Down];
+        found.retain(any);
         if found.is_empty() { vec![SweepDirection::Single] } else { found }
     }
 
-    fn values(&self, name: &str, pass: SweepDirection) -> Option<&'a Values> {
-        let suffix = pass.suffix();
-        let same = |column: &str| column.strip_suffix(suffix) == Some(name);
-        let column = self.swept.columns.iter().find(|column| same(&column.name))?;
-        Some(&column.values)
+    fn values(&self, name: &str, direction: SweepDirection) -> Option<&Values> {
+        let same = |column: &str| column.strip_suffix(direction.suffix()) == Some(name);
+        self.columns.iter().find(|column| same(&column.name)).map(|column| &column.values)
     }
 
-    /// A column of numbers, or of whole numbers as such.
-    pub(super) fn number(&self, name: &str, pass: SweepDirection) -> Option<Vec<Option<f64>>> {
-        let finite = |value: &Option<f64>| value.filter(|value| value.is_finite());
-        match self.values(name, pass)? {
-            Values::Number(values) => Some(values.iter().map(finite).collect()),
-            Values::Whole(values) => {
-                Some(values.iter().map(|value| value.map(|value| value as f64)).collect())
-            }
-            Values::Flag(values) => Some(
-                values.iter().map(|value| value.map(|value| f64::from(u8::from(value)))).collect(),
-            ),
+    /// A column of numbers, whole numbers or flags, by its name.
+    pub(super) fn named(&self, name: &str, direction: SweepDirection) -> Option<Numbers> {
+        match self.values(name, direction)? {
+            Values::Number(all) => Some(all.clone()),
+            Values::Whole(all) => Some(all.iter().map(|one| one.map(|one| one as f64)).collect()),
+            Values::Flag(all) => Some(all.iter().map(|one| one.map(f64::from)).collect()),
             Values::Text(_) => None,
         }
     }
 
-    /// A column of lengths in displayed units.
-    pub(super) fn length(&self, name: &str, pass: SweepDirection) -> Option<Vec<Option<f64>>> {
-        let shown = |value: Option<f64>| value.map(|value| self.lengths.number(value));
-        Some(self.number(name, pass)?.into_iter().map(shown).collect())
+    /// The same by what it records.
+    pub(super) fn numbers(&self, of: Recorded, direction: SweepDirection) -> Option<Numbers> {
+        self.named(of.key(), direction)
     }
 
-    pub(super) fn text(
-        &self,
-        name: &str,
-        pass: SweepDirection,
-    ) -> Option<&'a [Option<&'static str>]> {
-        match self.values(name, pass)? {
-            Values::Text(values) => Some(values),
+    /// The theory's area at each point, which no direction changes.
+    pub(super) fn areas(&self) -> Option<&[Option<&'static str>]> {
+        match self.values(Recorded::Area.key(), SweepDirection::Single)? {
+            Values::Text(all) => Some(all),
             _ => None,
         }
     }
 
-    pub(super) fn regimes(&self, pass: SweepDirection) -> Option<Vec<Option<Regime>>> {
-        let regimes = self.text("regime", pass)?.iter();
-        Some(regimes.map(|name| name.and_then(Regime::of_key)).collect())
+    pub(super) fn regimes(&self, direction: SweepDirection) -> Option<Vec<Option<Regime>>> {
+        match self.values(Recorded::Regime.key(), direction)? {
+            Values::Text(all) => {
+                Some(all.iter().map(|name| name.and_then(Regime::of_key)).collect())
+            }
+            _ => None,
+        }
     }
 
     /// The last two axes; `None` where there is only one.
-    pub(super) fn plane(&self) -> Option<Plane<'a>> {
-        use SweepParameter::{
-            Clearance, Detuning, Frequency, InitialAbsorberDisplacement, InitialAbsorberVelocity,
-            InitialDisplacement, InitialVelocity,
-        };
-        let [.., first, last] = self.swept.axes.as_slice() else { return None };
+    pub(super) fn plane(&self) -> Option<Plane<'_>> {
+        use SweepParameter as P;
+        let [.., first, last] = self.axes.as_slice() else { return None };
         // A frequency lies along the page and a clearance up it, as in every other figure.
         let lies = |axis: &AxisShown| match axis.parameter {
-            Frequency | Detuning => 3,
-            InitialDisplacement | InitialAbsorberDisplacement => 2,
-            Clearance | InitialVelocity | InitialAbsorberVelocity => 0,
+            P::Frequency | P::Detuning => 3,
+            P::InitialDisplacement | P::InitialAbsorberDisplacement => 2,
+            P::Clearance | P::InitialVelocity | P::InitialAbsorberVelocity => 0,
             _ => 1,
         };
         let x_is_last = lies(last) > lies(first);
@@ -146,9 +156,8 @@ impl<'a> Grid<'a> {
     }
 
     /// The axes besides those of the plane.
-    fn others(&self) -> &'a [AxisShown] {
-        let axes = self.swept.axes.as_slice();
-        &axes[..axes.len().saturating_sub(2)]
+    pub(super) fn others(&self) -> &[AxisShown] {
+        &self.axes[..self.axes.len().saturating_sub(2)]
     }
 
     /// Number of planes, one for each combination of the other axes' values.
@@ -157,28 +166,21 @@ impl<'a> Grid<'a> {
     }
 
     /// The values of the other axes at a slice, in words.
-    pub(super) fn slice_words(&self, slice: usize) -> String {
-        let first = slice * (self.points() / self.slices());
-        self.words(self.others(), first)
+    pub(super) fn slice_words(&self, slice: usize) -> Vec<String> {
+        let indices = self.indices(slice * (self.points() / self.slices()));
+        self.others().iter().zip(indices).map(|(axis, k)| axis.text(k)).collect()
     }
 
-    /// Where a point lies, in words.
-    pub(super) fn place(&self, point: usize) -> String {
-        self.words(&self.swept.axes, point)
-    }
-
-    /// Where a point lies on the first axes.
-    fn words(&self, axes: &[AxisShown], point: usize) -> String {
-        let indices = self.indices(point);
-        let words: Vec<String> = axes.iter().zip(&indices).map(|(axis, k)| axis.text(*k)).collect();
-        words.join(", ")
+    /// Where a point lies on each axis.
+    pub(super) fn place(&self, point: usize) -> Vec<At> {
+        self.axes.iter().zip(self.indices(point)).map(|(axis, k)| axis.at(k)).collect()
     }
 
     /// A point's index on each axis; the last varies fastest.
     pub(super) fn indices(&self, point: usize) -> Vec<usize> {
         let mut rest = point;
         let mut found: Vec<usize> = Vec::new();
-        for axis in self.swept.axes.iter().rev() {
+        for axis in self.axes.iter().rev() {
             found.push(rest % axis.values.len());
             rest /= axis.values.len();
         }

@@ -1,4 +1,4 @@
-//! How regimes, areas and counts are named and coloured.
+//! How regimes, areas and counts are coloured.
 
 use crate::analysis::{Area, Zone};
 use crate::regimes::Regime;
@@ -38,16 +38,16 @@ pub(super) const AREAS: [(&str, Tint); 5] = [
     (Area::Z4.key(), tint(Regime::StronglyModulated)),
 ];
 
-/// An area as a sentence names it.
-pub(super) fn area_words(area: &str) -> &str {
+/// An area as a figure names it.
+pub(super) fn area_name(area: &str) -> &str {
     if area == Zone::UNSETTLED { Zone::UNSETTLED_WORDS } else { area }
 }
 
-/// Tints of the number of motions found: none, one, two, three, four and more.
-pub(super) const COUNTS: [Tint; 5] = [
-    Tint([0x60, 0x60, 0x60]),
-    Tint([0xF3, 0xF3, 0xF3]),
-    Tint([0xB4, 0xC9, 0xE8]),
-    Tint([0x4F, 0x8F, 0xC9]),
-    Tint([0x12, 0x42, 0x7E]),
+/// Tints of the number of motions found, and its name: the last stands for all larger ones.
+pub(super) const COUNTS: [(Tint, &str); 5] = [
+    (Tint([0x60, 0x60, 0x60]), "none measured"),
+    (Tint([0xF3, 0xF3, 0xF3]), "one motion"),
+    (Tint([0xB4, 0xC9, 0xE8]), "2"),
+    (Tint([0x4F, 0x8F, 0xC9]), "3"),
+    (Tint([0x12, 0x42, 0x7E]), "4 or more"),
 ];

@@ -1,26 +1,27 @@
-//! The page of `vinesink sweep`: what a grid of systems shows, in words, tables and figures.
+//! The page of `vinesink sweep`: what a grid of systems shows, as facts, figures, and the files of its folder.
 
 mod axis;
 mod facts;
 mod figures;
 mod grid;
 mod kinds;
-mod tables;
-mod words;
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
 
 use serde::Serialize;
 
 use super::FigureRow;
 use super::figure::Figure;
+use super::html::{Page, page};
+use super::render::{RenderError, drawings, figure_files, without_repeated_blank_lines};
+use super::template::{render, worded};
 use crate::case::Case;
 use crate::sweep::columns::Column;
-use facts::Facts;
-use grid::Grid;
-use words::Words;
+use crate::sweep::limits::StabilityLimit;
 
 pub use axis::AxisShown;
 pub use kinds::tint;
-pub use tables::TitledTable;
 
 /// A page shows at most so many points; of more, the table alone is the result.
 pub const MOST_POINTS: usize = 1_000_000;
@@ -39,6 +40,8 @@ pub struct Swept<'a> {
     pub starts: u32,
     /// Excitation periods measured where a motion is not seen to repeat.
     pub periods: u64,
+    /// Where the exact orbit begins and ceases to attract, over a frequency and the clearance.
+    pub limits: Vec<StabilityLimit>,
     /// SHA-256 of the file of results, in hexadecimal.
     pub results_sha256: String,
 }
@@ -68,23 +71,31 @@ pub enum SweptError {
         /// Points of the axes.
         points: usize,
     },
+    /// A template or a figure does not fit.
+    #[error(transparent)]
+    Render(#[from] RenderError),
+}
+
+/// What the template of the page gets.
+#[derive(Serialize)]
+struct Context<'a> {
+    page: &'a serde_json::Value,
+    figures: Vec<FigureRow>,
 }
 
 impl Swept<'_> {
     /// Proves that every column fits the axes.
     fn check(&self) -> Result<(), SweptError> {
-        let counts = self.axes.iter().map(|axis| axis.values.len());
-        let points = counts.fold(1_usize, usize::saturating_mul);
+        let points = self.points();
         if points == 0 || self.axes.is_empty() {
             return Err(SweptError::Empty);
         }
         if points > MOST_POINTS {
             return Err(SweptError::TooLarge { points });
         }
-        for column in self.columns {
-            let found = column.values.len();
-            if found != points {
-                let column = column.name.clone();
+        for Column { name, values, .. } in self.columns {
+            if values.len() != points {
+                let (column, found) = (name.clone(), values.len());
                 return Err(SweptError::Length { column, found, expected: points });
             }
         }
@@ -97,96 +108,27 @@ impl Swept<'_> {
     /// [`SweptError`] where the columns do not fit the axes.
     pub fn figures(&self) -> Result<Vec<Figure>, SweptError> {
         self.check()?;
-        Ok(figures::all(&Grid::of(self)))
+        Ok(worded(figures::all(self), &self.units())?)
     }
-}
 
-/// The page as data.
-#[derive(Debug, Clone, Serialize)]
-pub struct SweepPage {
-    /// The case's title.
-    pub title: String,
-    /// The answer in a sentence or two.
-    pub headline: String,
-    /// What else there is to know at once, a sentence each.
-    pub sentences: Vec<String>,
-    /// Everything in numbers.
-    pub tables: Vec<TitledTable>,
-    /// The figures' words; the drawings are files of their own.
-    pub figures: Vec<FigureRow>,
-    /// How it was computed, a sentence each.
-    pub method: Vec<String>,
-    /// Folder name of the case's pages.
-    pub name: String,
-    /// Version of the program.
-    pub version: &'static str,
-    /// SHA-256 of the case file's text.
-    pub case_sha256: String,
-    /// SHA-256 of the results.
-    pub results_sha256: String,
-    /// The numbers behind the words.
-    #[serde(skip)]
-    pub document: SweepDocument,
-}
-
-/// `vinesink/sweep@1`: the numbers behind a page. Lengths in metres or the case's own unit, coordinates in the
-/// axes' units.
-#[derive(Debug, Clone, Serialize)]
-pub struct SweepDocument {
-    format: &'static str,
-    title: String,
-    points: usize,
-    axes: Vec<AxisShown>,
-    starts: u32,
-    periods: u64,
-    /// One for each pass: a single one, or up and down.
-    motions: Vec<Facts>,
-    /// Points at which up and down differ; none where nothing was followed.
-    hysteresis_points: Option<usize>,
-    version: &'static str,
-    case_sha256: String,
-    results_sha256: String,
-}
-
-impl SweepPage {
-    /// Writes the page of a sweep; `figures` are those of [`Swept::figures`].
+    /// The page as Markdown and HTML, with its numbers and figures, by their path in the sweep's folder.
     ///
     /// # Errors
-    /// [`SweptError`] where the columns do not fit the axes.
-    pub fn new(name: &str, swept: &Swept, figures: &[Figure]) -> Result<Self, SweptError> {
-        swept.check()?;
-        let grid = Grid::of(swept);
-        let facts: Vec<Facts> =
-            grid.passes().into_iter().map(|pass| Facts::of(&grid, pass)).collect();
-        let hysteresis = facts::hysteresis(&grid);
-        let words = Words { grid: &grid, facts: &facts, hysteresis: hysteresis.as_deref() };
-        let (headline, sentences, method) = (words.headline(), words.sentences(), words.method());
-        let tables = tables::tables(&grid, &facts);
-        let differing = |all: &Vec<bool>| all.iter().filter(|one| **one).count();
-        Ok(Self {
-            title: swept.case.title.clone(),
-            headline,
-            sentences,
-            tables,
-            figures: figures.iter().map(FigureRow::of).collect(),
-            method,
-            name: name.to_owned(),
-            version: env!("CARGO_PKG_VERSION"),
-            case_sha256: swept.case.text_hash.clone(),
-            results_sha256: swept.results_sha256.clone(),
-            document: SweepDocument {
-                format: "vinesink/sweep@1",
-                title: swept.case.title.clone(),
-                points: grid.points(),
-                axes: swept.axes.clone(),
-                starts: swept.starts,
-                periods: swept.periods,
-                hysteresis_points: hysteresis.as_ref().map(differing),
-                motions: facts,
-                version: env!("CARGO_PKG_VERSION"),
-                case_sha256: swept.case.text_hash.clone(),
-                results_sha256: swept.results_sha256.clone(),
-            },
-        })
+    /// [`SweptError`] where the columns do not fit the axes, or a figure cannot be drawn.
+    pub fn files(&self) -> Result<BTreeMap<PathBuf, Vec<u8>>, SweptError> {
+        let drawn = self.figures()?;
+        let (document, drawings) = (facts::document(self), drawings(&drawn)?);
+        let figures = drawn.iter().map(FigureRow::of).collect();
+        let text = render("sweep.md", &self.units(), &Context { page: &document, figures })?;
+        let markdown = without_repeated_blank_lines(&text);
+        let title = format!("{}: a sweep", self.case.title);
+        let html =
+            page(&Page { title: &title, tone: "", markdown: &markdown, drawings: &drawings })?;
+        let json = serde_json::to_string_pretty(&document).map_err(RenderError::from)? + "\n";
+        let mut files = figure_files(drawings);
+        for (name, text) in [("sweep.md", markdown), ("sweep.html", html), ("sweep.json", json)] {
+            files.insert(name.into(), text.into_bytes());
+        }
+        Ok(files)
     }
 }

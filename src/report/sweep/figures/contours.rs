@@ -1,5 +1,12 @@
 //! Lines along the edges of cells: where neighbours differ, and nowhere else.
 
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A corner of cells: its column and its row.
+type Corner = [usize; 2];
+/// Edges between neighbouring corners that are still to be walked, by either end.
+type Edges = BTreeMap<Corner, BTreeSet<Corner>>;
+
 /// A line between the cells that differ, as one curve whose pieces are separated by NaN. Cells in which nothing
 /// is known have no line around them.
 ///
@@ -9,105 +16,65 @@ pub(super) fn between<T: PartialEq>(
     x_edges: &[f64],
     y_edges: &[f64],
 ) -> Vec<[f64; 2]> {
-    let (across, up) = (x_edges.len() - 1, y_edges.len() - 1);
-    let cell = |column: usize, row: usize| cells[row * across + column].as_ref();
-    let differ = |a: Option<&T>, b: Option<&T>| a.zip(b).is_some_and(|(a, b)| a != b);
-    let mut lattice = Lattice {
-        across: across + 1,
-        right: vec![false; (across + 1) * (up + 1)],
-        above: vec![false; (across + 1) * (up + 1)],
+    let across = x_edges.len() - 1;
+    let differ =
+        |a: usize, b: usize| cells[a].as_ref().zip(cells[b].as_ref()).is_some_and(|(a, b)| a != b);
+    let mut edges = Edges::new();
+    let mut join = |a: Corner, b: Corner| {
+        edges.entry(a).or_default().insert(b);
+        edges.entry(b).or_default().insert(a);
     };
-    for row in 0..up {
-        for column in 0..across {
-            let here = cell(column, row);
-            if row > 0 && differ(here, cell(column, row - 1)) {
-                lattice.right[row * (across + 1) + column] = true;
-            }
-            if column > 0 && differ(here, cell(column - 1, row)) {
-                lattice.above[row * (across + 1) + column] = true;
-            }
+    for cell in 0..cells.len() {
+        let (column, row) = (cell % across, cell / across);
+        if row > 0 && differ(cell, cell - across) {
+            join([column, row], [column + 1, row]);
+        }
+        if column > 0 && differ(cell, cell - 1) {
+            join([column, row], [column, row + 1]);
         }
     }
-    let mut curve = Vec::new();
-    for piece in lattice.pieces() {
-        if !curve.is_empty() {
-            curve.push([f64::NAN; 2]);
-        }
-        curve.extend(piece.iter().map(|[column, row]| [x_edges[*column], y_edges[*row]]));
-    }
-    curve
+    let pieces = pieces(edges);
+    let drawn = pieces.iter().map(|piece| {
+        piece.iter().map(|[column, row]| [x_edges[*column], y_edges[*row]]).collect::<Vec<_>>()
+    });
+    drawn.collect::<Vec<_>>().join(&[f64::NAN; 2])
 }
 
-/// Corners of cells and the edges between them that are still to be walked.
-struct Lattice {
-    /// Corners in a row.
-    across: usize,
-    /// From each corner to the next on its right.
-    right: Vec<bool>,
-    /// From each corner to the next above it.
-    above: Vec<bool>,
+/// Every edge once, in pieces that are as long as they can be; corners in a straight line are left out.
+fn pieces(mut edges: Edges) -> Vec<Vec<Corner>> {
+    let corners: Vec<Corner> = edges.keys().copied().collect();
+    let mut pieces = Vec::new();
+    // Where three or four lines meet, and where a line ends, a piece begins; what is left is closed.
+    for closed in [false, true] {
+        for corner in &corners {
+            while !edges[corner].is_empty() && (closed || edges[corner].len() != 2) {
+                pieces.push(walk(&mut edges, *corner));
+            }
+        }
+    }
+    pieces
 }
 
-impl Lattice {
-    /// Every edge once, in pieces that are as long as they can be; corners in a straight line are left out.
-    fn pieces(&mut self) -> Vec<Vec<[usize; 2]>> {
-        let mut pieces = Vec::new();
-        // Where three or four lines meet, and where a line ends, a piece begins; what is left is closed.
-        for closed in [false, true] {
-            for corner in 0..self.right.len() {
-                while self.degree(corner) > 0 && (closed || self.degree(corner) != 2) {
-                    let piece = self.walk(corner);
-                    pieces.push(piece);
-                }
-            }
+fn walk(edges: &mut Edges, start: Corner) -> Vec<Corner> {
+    let mut piece = vec![start];
+    let mut corner = start;
+    while let Some(next) = edges.get_mut(&corner).and_then(BTreeSet::pop_first) {
+        let back = edges.entry(next).or_default();
+        back.remove(&corner);
+        // Elsewhere than on a simple line another piece begins.
+        let ends = next == start || back.len() != 1;
+        if let [.., before, last] = piece.as_slice()
+            && (0..2).any(|k| before[k] == last[k] && last[k] == next[k])
+        {
+            piece.pop();
         }
-        pieces
-    }
-
-    /// The corners next to one, along edges that are left.
-    fn neighbours(&self, corner: usize) -> impl Iterator<Item = usize> + '_ {
-        let (column, row) = (corner % self.across, corner / self.across);
-        let rows = self.right.len() / self.across;
-        let right = (column + 1 < self.across && self.right[corner]).then(|| corner + 1);
-        let left = (column > 0 && self.right[corner.wrapping_sub(1)]).then(|| corner - 1);
-        let up = (row + 1 < rows && self.above[corner]).then(|| corner + self.across);
-        let down = (row > 0 && self.above[corner - self.across]).then(|| corner - self.across);
-        [right, up, left, down].into_iter().flatten()
-    }
-
-    fn degree(&self, corner: usize) -> usize {
-        self.neighbours(corner).count()
-    }
-
-    fn walk(&mut self, start: usize) -> Vec<[usize; 2]> {
-        let place = |corner: usize, across: usize| [corner % across, corner / across];
-        let mut piece = vec![place(start, self.across)];
-        let mut corner = start;
-        loop {
-            let Some(next) = self.neighbours(corner).next() else { break };
-            let low = corner.min(next);
-            if low + 1 == corner.max(next) {
-                self.right[low] = false;
-            } else {
-                self.above[low] = false;
-            }
-            corner = next;
-            let at = place(corner, self.across);
-            if let [.., before, last] = piece.as_slice() {
-                let straight = (before[0] == last[0] && last[0] == at[0])
-                    || (before[1] == last[1] && last[1] == at[1]);
-                if straight {
-                    piece.pop();
-                }
-            }
-            piece.push(at);
-            // Elsewhere than on a simple line another piece begins.
-            if corner == start || self.degree(corner) != 1 {
-                break;
-            }
+        piece.push(next);
+        corner = next;
+        if ends {
+            break;
         }
-        piece
     }
+    piece
 }
 
 #[cfg(test)]

@@ -1,13 +1,16 @@
 //! Maps over two axes; several side by side where there are more axes, or motions were followed up and down.
 
-use super::super::AxisShown;
-use super::super::grid::{Grid, Plane, SweepDirection};
-use super::super::kinds::{self, AREAS, COUNTS};
-use super::overlay::{self, Overlay};
+use serde_json::json;
+
+use super::super::Swept;
+use super::super::grid::{Measure, Numbers, Plane, SweepDirection};
+use super::super::kinds::{AREAS, COUNTS, area_name, tint};
+use super::QUANTITIES;
+use super::overlay::{self, Lines};
+use crate::case::Recorded;
 use crate::regimes::Regime;
-use crate::report::figure::{
-    Axis, Cell, Cells, Figure, Image, Layer, Layout, Panel, Ramp, Scale, Tint,
-};
+use crate::report::figure::{Axis, Cell, Cells, Figure, Image, Layer, Layout, Panel, Ramp, Tint};
+use crate::sweep::columns::kind;
 
 /// At most so many maps in a figure.
 const MOST_PANELS: usize = 6;
@@ -15,42 +18,37 @@ const MOST_PANELS: usize = 6;
 const OUTLYING: f64 = 0.005;
 /// Cells of the bar beside a map.
 const BAR: u32 = 128;
+/// The template of the figures' words.
+const WORDS: &str = "captions/sweep-map";
 
-/// Panels of a figure: slices of the other axes, or passes.
+/// A kind of map: its cells at all points, for each direction that has them.
+struct Map {
+    name: &'static str,
+    /// What the template calls it: `regimes`, `areas`, or the id of a quantity.
+    of: &'static str,
+    cells: Vec<(SweepDirection, Cells)>,
+    keys: Vec<(Tint, &'static str)>,
+    /// Label of the bar beside a map of values, and whether some lie beyond its range.
+    bar: Option<(String, bool)>,
+}
+
+/// Panels of a figure: slices of the other axes, or directions.
 struct Panels<'a> {
-    grid: &'a Grid<'a>,
+    swept: &'a Swept<'a>,
     plane: Plane<'a>,
     shown: Vec<(usize, SweepDirection)>,
 }
 
-/// What the cells of a panel hold.
-type Content<'a> = dyn Fn(usize, SweepDirection) -> Option<Cells> + 'a;
-
-/// What a kind of map is.
-struct Map<'a> {
-    name: &'static str,
-    title: String,
-    content: &'a Content<'a>,
-    keys: Vec<(Tint, String)>,
-    /// Ramp, range and label of the bar.
-    bar: Option<(Ramp, (f64, f64), String)>,
-    names: bool,
-    caption: String,
-}
-
-pub(super) fn all(grid: &Grid) -> Vec<Figure> {
-    let Some(plane) = grid.plane() else { return Vec::new() };
-    let panels = Panels::of(grid, plane);
-    let mut figures = Vec::new();
-    figures.extend(panels.regimes());
-    figures.extend(panels.areas());
-    let length = format!("({})", grid.lengths.unit);
-    figures.extend(panels.values("sweep-reduction", "reduction_db", Ramp::Diverging));
-    figures.extend(panels.values("sweep-amplitude", &format!("peak {length}"), Ramp::Sequential));
-    figures.extend(panels.motions());
-    figures.extend(panels.values("sweep-efficiency", "efficiency", Ramp::Sequential));
-    figures.extend(panels.values("sweep-lyapunov", "lyapunov", Ramp::Diverging));
-    figures
+pub(super) fn all(swept: &Swept) -> Vec<Figure> {
+    let Some(plane) = swept.plane() else { return Vec::new() };
+    let directions = swept.directions();
+    let slices = chosen(swept.slices(), MOST_PANELS / directions.len());
+    let both = |slice: &usize| directions.iter().map(|way| (*slice, *way)).collect::<Vec<_>>();
+    let panels = Panels { swept, plane, shown: slices.iter().flat_map(both).collect() };
+    let mut maps: Vec<Map> = regimes(swept).or_else(|| areas(swept)).into_iter().collect();
+    maps.extend(QUANTITIES.iter().filter_map(|(name, of, ramp)| panels.values(name, *of, *ramp)));
+    maps.extend(motions(swept));
+    maps.iter().filter_map(|map| panels.figure(map)).collect()
 }
 
 /// So many of `count` numbers, evenly spread, the first and the last among them.
@@ -65,276 +63,151 @@ fn chosen(count: usize, most: usize) -> Vec<usize> {
     (0..most).map(|k| (2 * k * (count - 1) + (most - 1)) / (2 * (most - 1))).collect()
 }
 
-impl<'a> Panels<'a> {
-    fn of(grid: &'a Grid<'a>, plane: Plane<'a>) -> Self {
-        let passes = grid.passes();
-        let slices = chosen(grid.slices(), MOST_PANELS / passes.len());
-        let shown =
-            slices.iter().flat_map(|slice| passes.iter().map(|pass| (*slice, *pass))).collect();
-        Self { grid, plane, shown }
-    }
+fn regimes(swept: &Swept) -> Option<Map> {
+    let of = |way: SweepDirection| Some((way, swept.regimes(way)?));
+    let all: Vec<_> = swept.directions().into_iter().filter_map(of).collect();
+    let has = |one: Option<Regime>| all.iter().any(|(_, regimes)| regimes.contains(&one));
+    let present = Regime::ALL.into_iter().filter(|regime| has(Some(*regime)));
+    let mut keys: Vec<_> = present.map(|regime| (tint(regime), regime.words())).collect();
+    keys.extend(has(None).then_some((Tint::UNKNOWN, "not worked out")));
+    let tints = Regime::ALL.map(tint).to_vec();
+    let cells = all.iter().map(|(way, regimes)| {
+        let indices = regimes.iter().map(|regime| regime.map(|one| one.index() as u8));
+        (*way, Cells::Kinds(tints.clone(), indices.collect()))
+    });
+    let cells: Vec<_> = cells.collect();
+    (!cells.is_empty()).then(|| Map {
+        name: "sweep-regimes",
+        of: "regimes",
+        cells,
+        keys,
+        bar: None,
+    })
+}
 
-    fn heading(&self, slice: usize, pass: SweepDirection) -> Option<String> {
-        let words = [self.grid.slice_words(slice), pass.words().to_owned()];
-        let words: Vec<String> = words.into_iter().filter(|words| !words.is_empty()).collect();
-        (!words.is_empty()).then(|| words.join(", "))
-    }
+/// The theory's areas, where nothing was simulated to set beside them.
+fn areas(swept: &Swept) -> Option<Map> {
+    let areas = swept.areas()?;
+    let index = |name: &str| AREAS.iter().position(|(area, _)| *area == name);
+    let indices = areas.iter().map(|area| Some(index((*area)?)? as u8)).collect();
+    let present = AREAS.iter().filter(|(area, _)| areas.contains(&Some(*area)));
+    Some(Map {
+        name: "sweep-areas",
+        of: "areas",
+        cells: vec![(
+            swept.directions()[0],
+            Cells::Kinds(AREAS.map(|(_, tint)| tint).to_vec(), indices),
+        )],
+        keys: present.map(|(area, tint)| (*tint, area_name(area))).collect(),
+        bar: None,
+    })
+}
 
-    /// What a map is over, for its title.
-    fn over(&self) -> String {
-        format!("over {} and {}", self.plane.x.name, self.plane.y.name)
+/// How many motions there are; nothing where one is all that could be found.
+fn motions(swept: &Swept) -> Option<Map> {
+    if swept.starts < 2 && !swept.is_basin() {
+        return None;
     }
-
-    /// What a reader must know of the choice of panels.
-    fn choice(&self) -> String {
-        let (slices, passes) = (self.grid.slices(), self.grid.passes().len());
-        let shown = self.shown.len() / passes;
-        let others = self.grid.swept.axes.len().saturating_sub(2);
-        let names: Vec<&str> =
-            self.grid.swept.axes[..others].iter().map(|axis| axis.name.as_str()).collect();
-        match names.is_empty() {
-            true => String::new(),
-            false if shown == slices => format!("One panel for each {}.", names.join(" and ")),
-            false => {
-                format!(
-                    "{shown} of {slices} values of {} are shown, evenly chosen.",
-                    names.join(" and ")
-                )
-            }
-        }
+    let motions = swept.numbers(Recorded::Motions, SweepDirection::Single)?;
+    let index = |count: f64| (count.max(0.0) as usize).min(COUNTS.len() - 1);
+    let indices: Vec<_> =
+        motions.iter().map(|count| count.map(|count| index(count) as u8)).collect();
+    let present = |k: &usize| indices.contains(&Some(*k as u8));
+    if !(2..COUNTS.len()).any(|k| present(&k)) {
+        return None;
     }
+    let keys = (0..COUNTS.len()).filter(present).map(|k| COUNTS[k]).collect();
+    let cells = Cells::Kinds(COUNTS.map(|(tint, _)| tint).to_vec(), indices);
+    let cells = vec![(SweepDirection::Single, cells)];
+    Some(Map { name: "sweep-motions", of: "motions", cells, keys, bar: None })
+}
 
-    fn figure(&self, map: &Map) -> Option<Figure> {
-        let mut panels = Vec::new();
-        let mut words = "";
-        let columns = columns(self.shown.len());
-        let (x_edges, y_edges) = (self.plane.x.edges(), self.plane.y.edges());
-        for (index, (slice, pass)) in self.shown.iter().enumerate() {
-            let cells = (map.content)(*slice, *pass)?;
-            let drawn =
-                |axis: &AxisShown, edges: &[f64]| axis.drawn(edges[0], edges[edges.len() - 1]);
-            let x = drawn(self.plane.x, &x_edges);
-            let mut y = drawn(self.plane.y, &y_edges);
-            if index % columns > 0 {
-                y.label.clear();
-            }
-            let image = Image { x_edges: x_edges.clone(), y_edges: y_edges.clone(), cells };
-            let mut panel = Panel::new(x, y).with(Layer::Image(image));
-            if !self.grid.is_basin() {
-                let Overlay { layers, words: said } =
-                    overlay::boundaries(self.grid, self.plane, *slice, self.shown.len() == 1);
-                panel.layers.extend(layers);
-                if !said.is_empty() {
-                    words = said;
-                }
-                if map.names {
-                    panel
-                        .layers
-                        .extend(overlay::area_names(self.grid, self.plane, *slice, columns));
-                }
-                if self.grid.slices() == 1 {
-                    panel.layers.extend(overlay::this_case(self.plane));
-                }
-            }
-            panel.heading = self.heading(*slice, *pass);
-            panels.push(panel);
-        }
-        let caption: Vec<&str> = [map.caption.as_str(), words].into_iter().collect();
-        let choice = self.choice();
-        let caption: Vec<&str> =
-            caption.into_iter().chain([choice.as_str()]).filter(|one| !one.is_empty()).collect();
-        let caption = caption.join(" ");
-        let alt = format!("{}. {caption}", map.title);
-        let rows = panels.len().div_ceil(columns);
-        let size = match (columns, rows) {
-            (1, _) => (720, 500),
-            (2, 1) => (880, 430),
-            (2, _) => (880, 760),
-            (_, rows) => (900, 120 + 260 * rows as u32),
-        };
-        let mut figure = Figure::new(map.name, map.title.clone())
-            .with_size(size.0, size.1)
-            .with_words(caption, alt);
-        for (tint, label) in &map.keys {
-            figure = figure.with_key(*tint, label.clone());
-        }
-        let mut cells: Vec<Cell> = (0..panels.len())
-            .map(|k| Cell { column: k % columns, row: k / columns, columns: 1, rows: 1 })
-            .collect();
-        figure.panels = panels;
-        let mut widths = vec![1.0; columns];
-        if let Some((ramp, range, label)) = &map.bar {
-            figure.panels.push(bar(*ramp, *range, label));
-            cells.push(Cell { column: columns, row: 0, columns: 1, rows });
-            widths.push(0.11 * columns as f64);
-        }
-        Some(figure.with_layout(Layout::Cells { widths, heights: vec![1.0; rows], cells }))
-    }
-
-    fn regimes(&self) -> Option<Figure> {
-        let of = |pass| self.grid.regimes(pass);
-        let all: Vec<(SweepDirection, Vec<Option<Regime>>)> =
-            self.grid.passes().into_iter().filter_map(|pass| Some((pass, of(pass)?))).collect();
-        let content = |slice: usize, pass: SweepDirection| {
-            let (_, regimes) = all.iter().find(|(of, _)| *of == pass)?;
-            let cells = self.plane.cells(regimes, slice);
-            let cells = cells.iter().map(|regime| Some((*regime)?.index() as u8)).collect();
-            Some(Cells::Kinds(Regime::ALL.map(kinds::tint).to_vec(), cells))
-        };
-        let present =
-            |regime: &Regime| all.iter().any(|(_, regimes)| regimes.contains(&Some(*regime)));
-        let mut keys: Vec<(Tint, String)> = Regime::ALL
-            .into_iter()
-            .filter(present)
-            .map(|regime| (kinds::tint(regime), regime.words().to_owned()))
-            .collect();
-        if all.iter().any(|(_, regimes)| regimes.contains(&None)) {
-            keys.push((Tint::UNKNOWN, "not worked out".to_owned()));
-        }
-        let (title, caption) = if self.grid.is_basin() {
-            (
-                format!("Basins of attraction {}", self.over()),
-                "Each point is a start; its colour is the regime that it leads to.".to_owned(),
-            )
-        } else {
-            (
-                format!("Regimes {}", self.over()),
-                "The colour is the regime of the main motion, as simulated; where it changes elsewhere than at the lines, simulation and \
-                 theory differ, or other motions exist beside it."
-                    .to_owned(),
-            )
-        };
-        self.figure(&Map {
-            name: "sweep-regimes",
-            title,
-            content: &content,
-            keys,
-            bar: None,
-            names: true,
-            caption,
-        })
-    }
-
-    /// The theory's areas, where nothing was simulated to set beside them.
-    fn areas(&self) -> Option<Figure> {
-        if self.grid.passes().iter().any(|pass| self.grid.regimes(*pass).is_some()) {
-            return None;
-        }
-        let areas = self.grid.text("area", SweepDirection::Single)?;
-        let content = |slice: usize, _: SweepDirection| {
-            let index = |name: &str| AREAS.iter().position(|(area, _)| *area == name);
-            let cells = self.plane.cells(areas, slice);
-            let cells = cells.iter().map(|area| Some(index((*area)?)? as u8)).collect();
-            Some(Cells::Kinds(AREAS.map(|(_, tint)| tint).to_vec(), cells))
-        };
-        let present = AREAS.iter().filter(|(area, _)| areas.contains(&Some(*area)));
-        self.figure(&Map {
-            name: "sweep-areas",
-            title: format!("Areas of the theory {}", self.over()),
-            content: &content,
-            keys: present
-                .map(|(area, tint)| (*tint, format!("area {}", kinds::area_words(area))))
-                .collect(),
-            bar: None,
-            names: false,
-            caption: "The colour is the theory's area, by closed form; nothing was simulated."
-                .to_owned(),
-        })
-    }
-
+impl Panels<'_> {
     /// A quantity on a ramp; nothing where it is not recorded.
-    fn values(&self, name: &'static str, column: &str, ramp: Ramp) -> Option<Figure> {
-        let of = |pass: SweepDirection| match column {
-            "reduction_db" | "efficiency" | "lyapunov" => self.grid.number(column, pass),
-            _ => self.grid.length("peak", pass),
-        };
-        let all: Vec<(SweepDirection, Vec<Option<f64>>)> =
-            self.grid.passes().into_iter().filter_map(|pass| Some((pass, of(pass)?))).collect();
-        let shown = self.shown.iter().flat_map(|(slice, pass)| {
-            let here = all.iter().find(|(of, _)| of == pass);
+    fn values(&self, name: &'static str, of: Recorded, ramp: Ramp) -> Option<Map> {
+        let known = |way: SweepDirection| Some((way, self.swept.numbers(of, way)?));
+        let all: Vec<_> = self.swept.directions().into_iter().filter_map(known).collect();
+        let measure = Measure::of(&self.swept.units(), kind(of)?, all.iter().map(|(_, one)| one));
+        let all: Vec<(SweepDirection, Numbers)> =
+            all.iter().map(|(way, values)| (*way, measure.shown(values))).collect();
+        let shown = self.shown.iter().flat_map(|(slice, way)| {
+            let here = all.iter().find(|(of, _)| of == way);
             here.map(|(_, values)| self.plane.cells(values, *slice)).unwrap_or_default()
         });
         let (range, cut) = range(shown.flatten().collect())?;
-        let content = |slice: usize, pass: SweepDirection| {
-            let (_, values) = all.iter().find(|(of, _)| *of == pass)?;
-            Some(Cells::Values(ramp, range, self.plane.cells(values, slice)))
-        };
-        let (what, label, caption) = match column {
-            "reduction_db" => (
-                "Reduction of the peak",
-                "reduction (dB)".to_owned(),
-                "Blue: the main motion vibrates less than the oscillator alone; orange: more.",
-            ),
-            "efficiency" => (
-                "Efficiency of the targeted energy transfer",
-                "efficiency (1)".to_owned(),
-                "The share of the excitation's work that impacts dissipate, in the main motion.",
-            ),
-            "lyapunov" => (
-                "Largest Lyapunov exponent",
-                "exponent per period (1)".to_owned(),
-                "Blue, above 0: neighbouring motions part, the main motion is chaotic; orange: they approach.",
-            ),
-            _ => (
-                "Peak displacement",
-                format!("peak displacement ({})", self.grid.lengths.unit),
-                "The largest displacement of the oscillator in the main motion: dark is large.",
-            ),
-        };
-        let mut caption = caption.to_owned();
-        if cut {
-            caption = format!(
-                "{caption} The most extreme values, at most 1 % of the points, have the colour of the bar's ends."
-            );
-        }
         let unknown = all.iter().any(|(_, values)| values.contains(&None));
-        self.figure(&Map {
+        let cells = all.into_iter().map(|(way, values)| (way, Cells::Values(ramp, range, values)));
+        Some(Map {
             name,
-            title: format!("{what} {}", self.over()),
-            content: &content,
-            keys: unknown.then(|| (Tint::UNKNOWN, "no value".to_owned())).into_iter().collect(),
-            bar: Some((ramp, range, label)),
-            names: false,
-            caption,
+            of: kind(of)?.id,
+            cells: cells.collect(),
+            keys: unknown.then_some((Tint::UNKNOWN, "no value")).into_iter().collect(),
+            bar: Some((measure.label, cut)),
         })
     }
 
-    /// How many motions there are; nothing where one is all that could be found.
-    fn motions(&self) -> Option<Figure> {
-        if self.grid.swept.starts < 2 && !self.grid.is_basin() {
-            return None;
+    fn figure(&self, map: &Map) -> Option<Figure> {
+        let columns = columns(self.shown.len());
+        let mut lines = Lines::None;
+        let mut figure = Figure::new(map.name, "");
+        for (index, (slice, way)) in self.shown.iter().enumerate() {
+            let (_, cells) = map.cells.iter().find(|(of, _)| of == way)?;
+            let (mut panel, drawn) = self.panel(cells, *slice, *way, map.of == "regimes", columns);
+            if index % columns > 0 {
+                panel.y.label.clear();
+            }
+            lines = drawn;
+            figure = figure.with_panel(panel);
         }
-        let motions = self.grid.number("motions", SweepDirection::Single)?;
-        let most = COUNTS.len() - 1;
-        let kind = |count: f64| (count.max(0.0) as usize).min(most);
-        let content = |slice: usize, _: SweepDirection| {
-            let cells = self.plane.cells(&motions, slice);
-            let cells = cells.iter().map(|count| Some(kind((*count)?) as u8)).collect();
-            Some(Cells::Kinds(COUNTS.to_vec(), cells))
-        };
-        let mut present = [false; COUNTS.len()];
-        motions.iter().flatten().for_each(|count| present[kind(*count)] = true);
-        if present.iter().skip(2).all(|one| !one) {
-            return None;
+        for (tint, label) in &map.keys {
+            figure = figure.with_key(*tint, *label);
         }
-        let words = |k: usize| match k {
-            0 => "none measured".to_owned(),
-            1 => "one motion".to_owned(),
-            k if k == most => format!("{k} or more"),
-            k => k.to_string(),
+        let slices = self.swept.slices();
+        let facts = json!({
+            "of": map.of, "basin": self.swept.is_basin(), "lines": lines,
+            "x": self.plane.x.kind.id, "y": self.plane.y.kind.id,
+            "x_ends": self.plane.x.ends(), "y_ends": self.plane.y.ends(),
+            "cut": map.bar.as_ref().is_some_and(|(_, cut)| *cut),
+            "others": self.swept.others().iter().map(|axis| axis.kind.id).collect::<Vec<_>>(),
+            "slices": slices, "shown": self.shown.len() / self.swept.directions().len(),
+        });
+        Some(with_bar(arranged(figure, columns), columns, map).with_facts(WORDS, facts))
+    }
+
+    /// One map with what lies over it.
+    fn panel(
+        &self,
+        cells: &Cells,
+        slice: usize,
+        way: SweepDirection,
+        named: bool,
+        columns: usize,
+    ) -> (Panel, Lines) {
+        let Plane { x, y, .. } = self.plane;
+        let cells = match cells {
+            Cells::Kinds(tints, all) => Cells::Kinds(tints.clone(), self.plane.cells(all, slice)),
+            Cells::Values(ramp, range, all) => {
+                Cells::Values(*ramp, *range, self.plane.cells(all, slice))
+            }
         };
-        self.figure(&Map {
-            name: "sweep-motions",
-            title: format!("Coexisting motions {}", self.over()),
-            content: &content,
-            keys: (0..COUNTS.len())
-                .filter(|k| present[*k])
-                .map(|k| (COUNTS[k], words(k)))
-                .collect(),
-            bar: None,
-            names: false,
-            caption: "Where starts lead to more than one motion it depends on the past which of them is there.".to_owned(),
-        })
+        let image = Image { x_edges: x.edges(), y_edges: y.edges(), cells };
+        let mut panel = Panel::new(x.drawn(), y.drawn()).with(Layer::Image(image));
+        let mut words = self.swept.slice_words(slice);
+        words.extend((way != SweepDirection::Single).then(|| way.words().to_owned()));
+        panel.heading = (!words.is_empty()).then(|| words.join(", "));
+        if self.swept.is_basin() {
+            return (panel, Lines::None);
+        }
+        let (layers, lines) =
+            overlay::boundaries(self.swept, self.plane, slice, self.shown.len() == 1);
+        panel.layers.extend(layers);
+        if named {
+            panel.layers.extend(overlay::area_names(self.swept, self.plane, slice, columns));
+        }
+        if let (1, Some(x), Some(y)) = (self.swept.slices(), x.own_within(), y.own_within()) {
+            panel.layers.push(Layer::this_case([x, y], Some("this case".to_owned())));
+        }
+        (panel, lines)
     }
 }
 
@@ -344,6 +217,42 @@ fn columns(panels: usize) -> usize {
         4 => 2,
         _ => 3,
     }
+}
+
+/// Panels row by row, in a size that they have room in.
+fn arranged(figure: Figure, columns: usize) -> Figure {
+    let rows = figure.panels.len().div_ceil(columns);
+    let cells = (0..figure.panels.len())
+        .map(|k| Cell { column: k % columns, row: k / columns, columns: 1, rows: 1 })
+        .collect();
+    let (width, height) = match (columns, rows) {
+        (1, _) => (720, 500),
+        (2, 1) => (880, 430),
+        (2, _) => (880, 760),
+        (_, rows) => (900, 120 + 260 * rows as u32),
+    };
+    let (widths, heights) = (vec![1.0; columns], vec![1.0; rows]);
+    figure.with_size(width, height).with_layout(Layout::Cells { widths, heights, cells })
+}
+
+/// Beside maps of values, the bar that says what the colours mean.
+fn with_bar(mut figure: Figure, columns: usize, map: &Map) -> Figure {
+    let Some((label, _)) = &map.bar else { return figure };
+    let Some((_, Cells::Values(ramp, (low, high), _))) = map.cells.first() else { return figure };
+    let part = |k: f64| low + (high - low) * k / f64::from(BAR);
+    let cells = (0..BAR).map(|k| Some(part(f64::from(k) + 0.5))).collect();
+    let image = Image {
+        x_edges: vec![0.0, 1.0],
+        y_edges: (0..=BAR).map(|k| part(f64::from(k))).collect(),
+        cells: Cells::Values(*ramp, (*low, *high), cells),
+    };
+    let x = Axis::linear("").with_range(0.0, 1.0).with_ticks(Vec::new());
+    let y = Axis::linear(label).with_range(*low, *high);
+    if let Layout::Cells { widths, heights, cells } = &mut figure.layout {
+        cells.push(Cell { column: columns, row: 0, columns: 1, rows: heights.len() });
+        widths.push(0.11 * columns as f64);
+    }
+    figure.with_panel(Panel::new(x, y).with(Layer::Image(image)))
 }
 
 /// The range of a ramp, and whether some values lie beyond it.
@@ -362,20 +271,6 @@ fn range(mut values: Vec<f64>) -> Option<((f64, f64), bool)> {
     }
     let half = if low == 0.0 { 1.0 } else { 0.05 * low.abs() };
     Some(((low - half, high + half), cut))
-}
-
-/// The bar that says what the colours of a ramp mean.
-fn bar(ramp: Ramp, (low, high): (f64, f64), label: &str) -> Panel {
-    let part = |k: f64| low + (high - low) * k / f64::from(BAR);
-    let cells = (0..BAR).map(|k| Some(part(f64::from(k) + 0.5))).collect();
-    let image = Image {
-        x_edges: vec![0.0, 1.0],
-        y_edges: (0..=BAR).map(|k| part(f64::from(k))).collect(),
-        cells: Cells::Values(ramp, (low, high), cells),
-    };
-    let x = Axis::linear("").with_range(0.0, 1.0).with_ticks(Vec::new());
-    let y = Axis { scale: Scale::Linear, ..Axis::linear(label).with_range(low, high) };
-    Panel::new(x, y).with(Layer::Image(image))
 }
 
 #[cfg(test)]

@@ -1,14 +1,26 @@
-//! The figures of a sweep.
+//! The figures of a sweep. Titles, captions and alternative texts are in `templates/captions/sweep-*.tera`.
 
 mod contours;
 mod lines;
 mod maps;
 mod overlay;
 
-use super::grid::Grid;
-use crate::report::figure::Figure;
+use super::Swept;
+use crate::case::Recorded;
+use crate::report::figure::{Figure, Ramp};
+
+/// What has a map, or a diagram over one axis, of its own: the figure's name, the quantity, the colours.
+const QUANTITIES: [(&str, Recorded, Ramp); 4] = [
+    ("sweep-reduction", Recorded::ReductionDb, Ramp::Diverging),
+    ("sweep-amplitude", Recorded::Peak, Ramp::Sequential),
+    ("sweep-efficiency", Recorded::Efficiency, Ramp::Sequential),
+    ("sweep-lyapunov", Recorded::Lyapunov, Ramp::Diverging),
+];
 
 /// All figures that the columns allow, the one for the first screen first.
-pub(super) fn all(grid: &Grid) -> Vec<Figure> {
-    if grid.swept.axes.len() == 1 { lines::all(grid) } else { maps::all(grid) }
+pub(super) fn all(swept: &Swept) -> Vec<Figure> {
+    match swept.axes.as_slice() {
+        [axis] => lines::all(swept, axis),
+        _ => maps::all(swept),
+    }
 }
