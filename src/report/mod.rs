@@ -18,7 +18,5 @@ pub mod sweep;
 pub mod template;
 
 pub mod equations;
-mod tables;
-mod units;
 
 pub use document::FigureRow;

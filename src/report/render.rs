@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
-use tera::{Context, Kwargs, State, Tera, Value};
 
 use super::document::{Document, Tone};
 use super::equations::EquationGroup;
@@ -154,33 +153,6 @@ pub(crate) fn figure_files(drawings: BTreeMap<String, String>) -> BTreeMap<PathB
         .collect()
 }
 
-/// The formula in a cell that is nothing but one.
-fn dollars(cell: &str) -> Option<&str> {
-    cell.strip_prefix('$')?.strip_suffix('$')
-}
-
-fn engine(name: &str, template: &str) -> Result<Tera, RenderError> {
-    let mut tera = Tera::new();
-    tera.register_filter("md_text", |text: &str, _: Kwargs, _: &State| markdown_text(text));
-    tera.register_filter("md_cell", |text: &str, _: Kwargs, _: &State| {
-        if dollars(text).is_some() { text.to_owned() } else { markdown_cell(text) }
-    });
-    tera.register_filter("md_attribute", |text: &str, _: Kwargs, _: &State| attribute(text));
-    tera.register_filter("latex_of", |text: &str, _: Kwargs, _: &State| {
-        dollars(text).unwrap_or_default().to_owned()
-    });
-    tera.register_filter("path", |text: &str, _: Kwargs, _: &State| url_path(text));
-    tera.register_filter("lower_first", |text: &str, _: Kwargs, _: &State| lower_first(text));
-    tera.register_filter("first_only", |list: Vec<Value>, _: Kwargs, _: &State| {
-        list.into_iter().take(1).collect::<Vec<Value>>()
-    });
-    tera.register_filter("rest_only", |list: Vec<Value>, _: Kwargs, _: &State| {
-        list.into_iter().skip(1).collect::<Vec<Value>>()
-    });
-    tera.add_raw_template(name, template)?;
-    Ok(tera)
-}
-
 /// Text whose characters mean nothing to Markdown; a line of its own stays one line.
 pub(super) fn markdown_text(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
@@ -200,14 +172,6 @@ pub(super) fn markdown_text(text: &str) -> String {
 /// The same inside a table.
 pub fn markdown_cell(text: &str) -> String {
     markdown_text(text).replace('|', "\\|")
-}
-
-/// A sentence that goes on after a colon.
-fn lower_first(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or_else(String::new, |first| {
-        first.to_lowercase().collect::<String>() + letters.as_str()
-    })
 }
 
 /// A path as a link writes it: everything that could mean something else is encoded.
