@@ -177,6 +177,7 @@ catalogue! {
     NEXT_INTERVAL = "next_impact_interval", "Δtₖ₊₁/T", "the next one", Number, Significant(3), Interval;
     WINDOW = "window", "", "window in excitation periods", Number, Significant(3), Interval;
     REDUCTION_DB_TMD = "reduction_db_tmd", "", "reduction against a tuned mass damper", Level, Decimals(1), Interval;
+    RELATIVE_CHANGE = "relative_change", "", "relative change", Change, Significant(2), Interval;
 }
 
 /// The kind with an identifier.

@@ -327,7 +327,7 @@ pub(super) fn attribute(text: &str) -> String {
         .replace(['\n', '\r'], " ")
 }
 
-pub(super) fn without_repeated_blank_lines(text: &str) -> String {
+pub(crate) fn without_repeated_blank_lines(text: &str) -> String {
     let mut result = String::with_capacity(text.len());
     let mut blank = true;
     for line in text.lines().map(str::trim_end) {
