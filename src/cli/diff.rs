@@ -1,7 +1,7 @@
 //! `vinesink diff OLD NEW`
 
 use clap::{Args, ValueEnum};
-use miette::{Result, miette};
+use miette::{IntoDiagnostic as _, Result, miette};
 use vinesink::diff::Difference;
 use vinesink::diff::markdown::{Addresses, markdown};
 
@@ -103,7 +103,7 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
                 old: arguments.old_url.or(old.address),
                 new: arguments.new_url.or(new.address),
             };
-            output::print(markdown(&difference, &addresses))?;
+            output::print(markdown(&difference, &addresses).into_diagnostic()?)?;
         }
     }
     Ok(if difference.is_significant() { Outcome::DoesNotHold } else { Outcome::Done })

@@ -2,8 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use serde_json::Value;
+use serde_json::{Value, json};
 
+use super::Summary;
+use crate::report::document::FORMAT;
 use crate::report::stored::{self, ReadError};
 
 /// A `report.json`, the drawings beside it, and the case that it is about.
@@ -39,17 +41,26 @@ pub struct Remedy {
     pub revision: Option<String>,
 }
 
+/// The format of version 0.1's first reports, whose numbers have neither identifiers nor errors.
+const OLD_FORMAT: &str = "vinesink/report@1";
+
 impl Document {
-    /// Reads the text of a `report.json`; `place` says where it came from.
+    /// Reads the text of a `report.json`; `place` says where it came from. One of [`OLD_FORMAT`] is kept to
+    /// be named as out of date.
     ///
     /// # Errors
-    /// [`ReadError`] where it is not JSON, or not a report of this format.
+    /// [`ReadError`] where it is not JSON, or not a report of this format or the one before.
     pub fn parse(
         place: &str,
         text: &str,
         figures: BTreeMap<String, Vec<u8>>,
     ) -> Result<Self, ReadError> {
-        let report = stored::read(place, text)?;
+        let report = match stored::read(place, text) {
+            Err(ReadError::OtherFormat { found, .. }) if found == OLD_FORMAT => {
+                serde_json::from_str(text).unwrap_or_default()
+            }
+            other => other?,
+        };
         Ok(Self { place: place.to_owned(), report, figures, case: None, remedy: Remedy::default() })
     }
 
@@ -58,55 +69,55 @@ impl Document {
         self.text("name")
     }
 
+    /// Whether it is of the format before this one, which is not compared.
+    pub fn has_old_format(&self) -> bool {
+        self.report["format"] != FORMAT
+    }
+
+    /// Its name and answer; the name of the report's own folder where it has none below another.
+    pub(super) fn summary(&self, folder: &str) -> Summary {
+        let count = |key: &str| self.report["criteria"][key].as_u64().unwrap_or(0);
+        Summary {
+            name: if folder.is_empty() { self.name() } else { folder }.to_owned(),
+            title: self.text("title").to_owned(),
+            verdict: match self.has_old_format() {
+                true => Value::Null,
+                false => self.report["verdict"].clone(),
+            },
+            criteria: [count("count"), count("failing")],
+        }
+    }
+
     /// A text of the document, empty where there is none.
     pub(super) fn text(&self, field: &str) -> &str {
         self.report[field].as_str().unwrap_or("")
     }
 
-    /// The answer in a line.
-    pub(super) fn headline(&self) -> &str {
-        self.report["verdict"]["headline"].as_str().unwrap_or("")
-    }
-
-    /// Something that the report says of its origin.
-    pub(super) fn provenance(&self, field: &str) -> Option<&str> {
-        self.report["provenance"][field].as_str()
-    }
-
-    /// The elements of a list of the document, none where there is none.
-    pub(super) fn list(&self, field: &str) -> &[Value] {
-        self.report[field].as_array().map_or(&[], Vec::as_slice)
+    /// The elements of a list, none where there is none.
+    pub(super) fn list(&self, pointer: &str) -> &[Value] {
+        let list = self.report.pointer(pointer).and_then(Value::as_array);
+        list.map_or(&[], Vec::as_slice)
     }
 
     /// What the case says, name and value as written, in its order; and how thoroughly it was simulated.
-    pub(super) fn inputs(&self) -> Vec<(String, String)> {
-        let mut found: Vec<(String, String)> = Vec::new();
-        let mut seen: BTreeMap<String, usize> = BTreeMap::new();
-        let mut add = |name: &str, value: String| {
-            let count = seen.entry(name.to_owned()).or_default();
-            *count += 1;
-            let name = if *count == 1 { name.to_owned() } else { format!("{name} {count}") };
-            found.push((name, value));
-        };
-        for field in ["title", "source"] {
-            add(field, self.text(field).to_owned());
+    pub(super) fn inputs(&self) -> Vec<(String, Value)> {
+        let mut found: Vec<(String, Value)> =
+            ["title", "source"].map(|field| (field.to_owned(), json!(self.text(field)))).into();
+        for input in self.list("/inputs") {
+            let word = |key: &str| input[key].as_str().unwrap_or("").replace('_', " ");
+            found
+                .push((format!("{} {}", word("table"), word("name")), input["as_written"].clone()));
         }
-        for row in self.report["tables"]["inputs"]["rows"].as_array().into_iter().flatten() {
-            let cell = |index: usize| row[index].as_str().unwrap_or("");
-            if cell(3) != DERIVED {
-                add(cell(0), cell(2).to_owned());
-            }
+        let band = ["from", "to"].map(|end| (end, &self.report["band"][end]));
+        for (end, place) in band.into_iter().filter(|(_, place)| place.is_object()) {
+            found.push((format!("band {end}"), place.clone()));
         }
-        let effort = &self.report["provenance"]["effort"];
-        let demand = &self.report["layers"]["data"]["demand"];
-        for (of, values) in [("simulation", effort), ("accuracy", demand)] {
-            for (name, value) in values.as_object().into_iter().flatten() {
-                add(&format!("{of}: {}", name.replace('_', " ")), value.to_string());
+        for (of, at) in [("simulation", "/provenance/effort"), ("accuracy", "/answers/demand")] {
+            let values = self.report.pointer(at).and_then(Value::as_object);
+            for (name, value) in values.into_iter().flatten() {
+                found.push((format!("{of}: {}", name.replace('_', " ")), json!(value.to_string())));
             }
         }
         found
     }
 }
-
-/// Rows of the table of inputs that follow from others, and say so.
-const DERIVED: &str = "derived";

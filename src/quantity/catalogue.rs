@@ -190,6 +190,7 @@ catalogue! {
     INITIAL_VELOCITY = "initial_velocity", "ẋ", "initial velocity", Velocity, Significant(3), Interval;
     INITIAL_ABSORBER_DISPLACEMENT = "initial_absorber_displacement", "y", "initial displacement of the absorber", Length, Significant(3), Interval;
     INITIAL_ABSORBER_VELOCITY = "initial_absorber_velocity", "ẏ", "initial velocity of the absorber", Velocity, Significant(3), Interval;
+    RELATIVE_CHANGE = "relative_change", "", "relative change", Change, Significant(2), Interval;
 }
 
 /// The kind with an identifier.

@@ -178,6 +178,27 @@ impl Units {
         }
     }
 
+    /// A number with as many digits as it takes to tell it from another one, at least four, in the unit of the
+    /// larger.
+    pub fn apart(&self, kind: &Kind, value: f64, other: f64) -> String {
+        let unit = self.unit(kind.dimension, value.abs().max(other.abs()));
+        let text = |value: f64, more: u8| match (kind.dimension, kind.digits) {
+            (Dimension::Share | Dimension::Change, _) => {
+                self.with_digits(kind, value, Digits::Decimals(1 + more))
+            }
+            (Dimension::Level, Digits::Decimals(own)) => {
+                self.with_digits(kind, value, Digits::Decimals(own + more))
+            }
+            (_, Digits::Decimals(own)) => {
+                joined(&fixed(value / unit.size, usize::from(own + more)), unit.symbol)
+            }
+            _ => joined(&significant(value / unit.size, usize::from(4 + more)), unit.symbol),
+        };
+        let differ = |more: &u8| text(value, *more) != text(other, *more);
+        // 17 digits tell any two numbers apart.
+        text(value, if value == other { 0 } else { (0..=13).find(differ).unwrap_or(0) })
+    }
+
     /// A number with its error: `0.68 ± 0.10`, or `3.56 mm (+0.12 mm)` for a largest value. An error that does
     /// not change a digit is left out.
     pub fn with_error(&self, kind: &Kind, value: f64, error: f64, digits: Digits) -> String {
@@ -274,6 +295,18 @@ mod tests {
         }
         assert_eq!(Units::reduced().text(&of::PEAK, 1.0342), "1.03 units");
         assert_eq!(units.axis_label(&of::CLEARANCE, 0.02), "clearance b (mm)");
+    }
+
+    #[test]
+    fn two_numbers_are_told_apart() {
+        let units = Units::physical(7.5e-3);
+        let apart = |kind, value, other| units.apart(kind, value, other);
+        assert_eq!(apart(&of::PEAK, 3.900e-3, 4.1e-3), "3.900 mm");
+        assert_eq!(apart(&of::PEAK, 3.900e-3, 3.9e-3), "3.900 mm");
+        assert_eq!(apart(&of::PEAK, 3.900_01e-3, 3.9e-3), "3.90001 mm");
+        assert_eq!(apart(&of::IMPACT_SPEED, 0.931_7, 1.068), "0.9317 m/s");
+        assert_eq!(apart(&of::STABLE_SHARE, 0.749_99, 0.750_01), "74.999 %");
+        assert_eq!(apart(&of::CHANGE_DB, -5.031, -5.032), "−5.031 dB");
     }
 
     #[test]

@@ -64,44 +64,6 @@ pub fn read(place: &str, text: &str) -> Result<Value, ReadError> {
     }
 }
 
-/// What `report.json` says of the largest peaks along a band, in metres or in the case's own unit: the one
-/// place that knows how they are written.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct BandPeaks {
-    /// With the absorber, of every motion that was found.
-    pub absorber: Option<WorstPeak>,
-    /// Without it; nothing where nothing limits it.
-    pub bare: Option<f64>,
-    /// With a tuned mass damper of the same mass instead.
-    pub damper: Option<f64>,
-}
-
-/// The largest peak along a band, and how far it may be off.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct WorstPeak {
-    /// The peak.
-    pub value: f64,
-    /// Its error.
-    pub error: f64,
-}
-
-impl BandPeaks {
-    /// The criterion that asks for the largest peak.
-    pub const CRITERION: &str = "peak_displacement";
-
-    /// Those of a report; nothing where its case has no band.
-    pub fn of(report: &Value) -> Option<Self> {
-        let band = report["data"].get("band").filter(|band| band.is_object())?;
-        let worst = &band["worst"];
-        let absorber = worst["peak"].as_f64().zip(worst["error"].as_f64());
-        Some(Self {
-            absorber: absorber.map(|(value, error)| WorstPeak { value, error }),
-            bare: band["bare"]["largest_peak"].as_f64(),
-            damper: band["tuned_mass_damper"]["largest_peak"].as_f64(),
-        })
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -5,6 +5,7 @@
 //! |---|---|---|
 //! | `q` | a quantity | the number with its unit and error; `digits=4`, `decimals=1`, `error=false`, `sign=true`, `reduced=true` (units) change it; `–` for none |
 //! | `q(of="clearance")` | a plain number in SI | the same, as a quantity of that kind |
+//! | `apart(from=other)` | a quantity | the number with as many digits as tell it from another one |
 //! | `label` | a quantity or its id | "clearance b" |
 //! | `name`, `symbol` | the same | its parts |
 //! | `num(digits=3)` | a number | significant digits |
@@ -34,6 +35,8 @@ const TEMPLATES: &[(&str, &str)] = &[
     ("criteria", include_str!("../../templates/criteria.tera")),
     ("README.md", include_str!("../../templates/index.md.tera")),
     ("index.html", include_str!("../../templates/index.html.tera")),
+    ("diff.md", include_str!("../../templates/diff.md.tera")),
+    ("diff_report.md", include_str!("../../templates/diff_report.md.tera")),
     ("equations.md", include_str!("../../templates/equations.md.tera")),
     ("captions/amplitude", include_str!("../../templates/captions/amplitude.tera")),
     ("captions/areas", include_str!("../../templates/captions/areas.tera")),
@@ -122,6 +125,14 @@ pub fn worded(mut figures: Vec<Figure>, units: &Units) -> Result<Vec<Figure>, Re
 fn register(tera: &mut Tera, units: Units) {
     tera.register_filter("q", move |value: &Value, options: Kwargs, _: &State| {
         quantity_text(&units, value, &options)
+    });
+    tera.register_filter("apart", move |value: &Value, options: Kwargs, _: &State| {
+        let number = |one: &Value| field(one.as_map()?, "value")?.as_f64();
+        let other = options.get::<Value>("from")?.as_ref().and_then(number);
+        Ok::<_, tera::Error>(match number(value) {
+            Some(number) => units.apart(kind_of(value)?, number, other.unwrap_or(number)),
+            None => quantity_text(&units, value, &options)?,
+        })
     });
     tera.register_filter("label", |value: &Value, _: Kwargs, _: &State| {
         let kind = kind_of(value)?;

@@ -2,7 +2,8 @@
 
 use serde::Serialize;
 
-use super::scale::Scale;
+use super::scale::{Scale, level_error};
+use super::theory::ROOT_OF_ROUNDING;
 use crate::analysis::{Area, Strip};
 use crate::band::rivals::{DETUNED, Damped};
 use crate::band::simulated::Place;
@@ -189,9 +190,10 @@ impl BandFacts {
         let (band, motions) = (survey.band(), &survey.motions);
         let place = |at: f64| scale.place(band.over, at);
         let (bare_at, bare) = survey.rivals.bare;
-        let change = |peak: f64| {
+        let change = |[peak, error]: [f64; 2], method: Method| {
             let value = 20.0 * libm::log10(peak / bare);
-            value.is_finite().then(|| Quantity::new(&of::CHANGE_DB, value, ClosedForm))
+            let change = Quantity::new(&of::CHANGE_DB, value, method);
+            value.is_finite().then(|| change.with_error(level_error(peak, error)))
         };
         let share = |kind, value, method| Quantity::new(kind, value, method);
         let (gap_at, gap) = survey.smallest_gap;
@@ -205,12 +207,12 @@ impl BandFacts {
             worst: motions.worst().map(|worst| PlacedPeak {
                 peak: peak(scale, &worst),
                 at: Some(place(worst.at)),
-                change: change(worst.peak),
+                change: change([worst.peak, worst.error], method(&worst)),
             }),
             orbit: motions.orbit.map(|orbit| PlacedPeak {
                 peak: scale.length(&of::PEAK, orbit.largest, ExactOrbit),
                 at: Some(place(orbit.at)),
-                change: change(orbit.largest),
+                change: change([orbit.largest, 0.0], ExactOrbit),
             }),
             inactive: motions.inactive.as_ref().map(|(at, inactive)| {
                 InactiveFacts::of(scale, inactive, Some(place(*at)), motions.count_inactive)
@@ -225,7 +227,7 @@ impl BandFacts {
             z3_share: share(&of::Z3_SHARE, survey.z3_share(), Theory),
             a1_share: share(&of::A1_SHARE, survey.strip_share(Strip::A1), Theory),
             a2_share: share(&of::A2_SHARE, survey.strip_share(Strip::A2), Theory),
-            gap: share(&of::GAP, gap, ExactOrbit),
+            gap: share(&of::GAP, gap, ExactOrbit).with_error(ROOT_OF_ROUNDING * gap),
             gap_at: place(gap_at),
             areas: survey
                 .zones

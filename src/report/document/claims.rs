@@ -32,13 +32,16 @@ struct FindingFacts {
 }
 
 impl FindingFacts {
-    fn of(scale: &Scale, finding: &Finding, method: Method) -> Self {
+    /// A simulation is as exact as the claim asks for: relative to lengths, in radians for angles.
+    fn of(scale: &Scale, finding: &Finding, method: Method, tolerance: f64) -> Self {
+        let tolerance = if method == Method::Simulation { tolerance } else { 0.0 };
         let number = match finding {
             Finding::Number(value, Measure::LengthOverClearance) => {
-                Some(scale.length(&of::CLAIMED_LENGTH, *value, method))
+                let errors = [*value, tolerance * value.abs()];
+                Some(scale.length_with(&of::CLAIMED_LENGTH, errors, method))
             }
             Finding::Number(value, Measure::Angle) => {
-                Some(Quantity::new(&of::CLAIMED_ANGLE, *value, method))
+                Some(Quantity::new(&of::CLAIMED_ANGLE, *value, method).with_error(tolerance))
             }
             Finding::Words(_) => None,
         };
@@ -61,9 +64,13 @@ impl ClaimFacts {
             statement: claim.statement.clone(),
             source: claim.source,
             checked_by: claim.checked_by,
-            predicted: FindingFacts::of(scale, &claim.predicted, Method::Theory),
-            observed: FindingFacts::of(scale, &claim.observed, observed_by),
-            difference: claim.difference.map(|value| Quantity::new(kind, value, Method::Theory)),
+            predicted: FindingFacts::of(scale, &claim.predicted, Method::Theory, 0.0),
+            observed: FindingFacts::of(scale, &claim.observed, observed_by, claim.tolerance.value),
+            difference: claim.difference.map(|value| {
+                let simulated = observed_by == Method::Simulation;
+                let error = if simulated { claim.tolerance.value } else { 0.0 };
+                Quantity::new(kind, value, Method::Theory).with_error(error)
+            }),
             tolerance: Quantity::new(
                 if angle { &of::ANGLE_ERROR } else { &of::TOLERANCE },
                 claim.tolerance.value,

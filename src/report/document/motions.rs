@@ -2,7 +2,8 @@
 
 use serde::Serialize;
 
-use super::scale::Scale;
+use super::scale::{Scale, level_error};
+use super::theory::ROOT_OF_ROUNDING;
 use crate::method::Method::Simulation;
 use crate::orbits::Origin;
 use crate::quantity::Quantity;
@@ -82,6 +83,24 @@ struct DoubtFacts {
     advice: &'static str,
 }
 
+/// Energy flows and captures ride on impacts and amplitude and scatter as they do, captures most: between
+/// runs of the shipped cases that differ in rounding only, some moved by twice as much.
+const RIDES: f64 = 3.0;
+/// Impacts may be locked to a whole number per period and then have no error; a motion that is modulated
+/// moves by as much all the same, up to this share.
+const WEAK_MODULATION: f64 = 0.01;
+/// Fewer captures than this say nothing of how long they are.
+const FEW_CAPTURES: usize = 10;
+
+/// The relative error of an average that has none of its own; NaN where nothing is known of it.
+fn error_of_averages(motion: &Attractor) -> f64 {
+    let Some([rms, impacts]) = motion.errors() else { return 0.0 };
+    let evidence = &motion.classification.evidence;
+    let scatter = RIDES * (rms / motion.rms + impacts / evidence.impacts_per_period);
+    let known = motion.rms > 0.0 && evidence.impacts_per_period > 0.0;
+    if known { scatter.max(evidence.modulation_depth.min(WEAK_MODULATION)) } else { f64::NAN }
+}
+
 /// The exact orbit that a motion is.
 #[derive(Debug, Clone, Serialize)]
 struct ProofFacts {
@@ -118,10 +137,11 @@ impl MotionFacts {
         proof: Option<&Proof>,
     ) -> Self {
         let share = |value: f64| Quantity::new(&of::START_SHARE, value, Simulation);
+        let reach = found.share_interval.map(|end| (end - found.share).abs());
         Self {
             starts: Some(StartFacts {
                 count: found.starts,
-                share: share(found.share),
+                share: share(found.share).with_error(reach[0].max(reach[1])),
                 interval: found.share_interval.map(share),
                 late: found.late_starts,
                 longest_transient: found.longest_transient,
@@ -141,11 +161,16 @@ impl MotionFacts {
         let evidence = &motion.classification.evidence;
         let [rms_error, impacts_error] = motion.errors().unwrap_or_default();
         let number = |kind, value: f64| Quantity::new(kind, value, Simulation);
-        let level = |kind, value: Option<f64>| value.map(|value| number(kind, value));
         let energetics = &motion.energetics;
-        let energy = |kind, value: f64| scale.energy(kind, value, Simulation);
-        let period = system.period();
-        let window = motion.periods.max(1) as f64 * period;
+        // Another run of a motion that does not repeat gives another extreme; nobody has measured by how much.
+        let extreme = |kind, value: f64| {
+            number(kind, value).with_error(if motion.repeats() { 0.0 } else { f64::NAN })
+        };
+        let level = |kind, value: Option<f64>, error: f64| {
+            value.map(|value| number(kind, value).with_error(error))
+        };
+        let peak_error = level_error(motion.peak, motion.peak_error);
+        let window = motion.periods.max(1) as f64 * system.period();
         Self {
             regime: motion.classification.regime,
             dynamics: motion.classification.dynamics,
@@ -158,14 +183,22 @@ impl MotionFacts {
                 [motion.impact_speed, motion.impact_speed_error],
                 Simulation,
             ),
-            modulation: number(&of::MODULATION, evidence.modulation_depth),
-            capture_share: number(&of::CAPTURE_SHARE, evidence.captures.share),
-            contact_share: number(
+            modulation: extreme(&of::MODULATION, evidence.modulation_depth),
+            capture_share: match evidence.captures.count {
+                FEW_CAPTURES.. => number(&of::CAPTURE_SHARE, evidence.captures.share)
+                    .with_error(error_of_averages(motion) * evidence.captures.share),
+                _ => extreme(&of::CAPTURE_SHARE, evidence.captures.share),
+            },
+            contact_share: extreme(
                 &of::CONTACT_SHARE,
                 motion.sustained_contact.duration_tau / window,
             ),
-            change: level(&of::CHANGE_DB, energetics.peak_change_db),
-            rms_change: level(&of::RMS_CHANGE_DB, energetics.rms_change_db),
+            change: level(&of::CHANGE_DB, energetics.peak_change_db, peak_error),
+            rms_change: level(
+                &of::RMS_CHANGE_DB,
+                energetics.rms_change_db,
+                level_error(motion.rms, rms_error),
+            ),
             exponent: evidence.exponent.as_ref().map(|exponent| {
                 number(&of::LYAPUNOV_EXPONENT, exponent.per_period)
                     .with_error(2.0 * exponent.standard_error)
@@ -175,26 +208,11 @@ impl MotionFacts {
                 mean: evidence.captures.mean,
                 longest: evidence.captures.longest,
             },
-            energy: EnergyFacts {
-                work: energy(&of::WORK, energetics.input_power * period),
-                damper: energy(&of::DAMPER_LOSS, energetics.damper_power * period),
-                impacts: energy(&of::IMPACT_LOSS, energetics.loss_per_period),
-                per_impact: energetics.loss_per_impact.map(|one| energy(&of::LOSS_PER_IMPACT, one)),
-                efficiency: level(&of::EFFICIENCY, energetics.transfer_efficiency),
-            },
+            energy: EnergyFacts::of(scale, motion, system.period()),
             keeps_its_start: motion.keeps_its_start(),
             settled: motion.settled,
             stationary: evidence.settled,
-            numerics: NumericsFacts {
-                periods: motion.periods,
-                impacts: motion.impact_count,
-                followed: motion.followed,
-                energy_residual: motion.energy.relative_residual,
-                penetration_over_clearance: motion.penetration,
-                contacts: motion.sustained_contact.intervals,
-                stop: motion.stop,
-                stopped_by: motion.stop.words(),
-            },
+            numerics: NumericsFacts::of(motion),
             doubts: motion.doubts().into_iter().map(DoubtFacts::of).collect(),
             proof: proof.map(ProofFacts::of),
             starts: None,
@@ -207,6 +225,42 @@ impl MotionFacts {
     pub fn headline(&self) -> impl Iterator<Item = Quantity> {
         let known = [self.peak, self.rms, self.impacts_per_period, self.impact_speed];
         known.into_iter().chain(self.change).chain(self.rms_change)
+    }
+}
+
+impl EnergyFacts {
+    /// Per period of the excitation.
+    fn of(scale: &Scale, motion: &Attractor, period: f64) -> Self {
+        let energetics = &motion.energetics;
+        let error = error_of_averages(motion);
+        let energy = |kind, value: f64| {
+            let energy = scale.energy(kind, value, Simulation);
+            energy.with_error(error * energy.value.abs())
+        };
+        Self {
+            work: energy(&of::WORK, energetics.input_power * period),
+            damper: energy(&of::DAMPER_LOSS, energetics.damper_power * period),
+            impacts: energy(&of::IMPACT_LOSS, energetics.loss_per_period),
+            per_impact: energetics.loss_per_impact.map(|one| energy(&of::LOSS_PER_IMPACT, one)),
+            efficiency: energetics
+                .transfer_efficiency
+                .map(|one| Quantity::new(&of::EFFICIENCY, one, Simulation).with_error(error * one)),
+        }
+    }
+}
+
+impl NumericsFacts {
+    fn of(motion: &Attractor) -> Self {
+        Self {
+            periods: motion.periods,
+            impacts: motion.impact_count,
+            followed: motion.followed,
+            energy_residual: motion.energy.relative_residual,
+            penetration_over_clearance: motion.penetration,
+            contacts: motion.sustained_contact.intervals,
+            stop: motion.stop,
+            stopped_by: motion.stop.words(),
+        }
     }
 }
 
@@ -227,7 +281,8 @@ impl ProofFacts {
                 &of::SPECTRAL_RADIUS,
                 orbit.radius_per_period(),
                 crate::method::Method::ExactOrbit,
-            ),
+            )
+            .with_error(ROOT_OF_ROUNDING * orbit.radius_per_period()),
             residual: orbit.convergence.residual,
             origin: orbit.origin,
             distance_from_simulation: proof.distance,

@@ -5,6 +5,11 @@ use crate::method::Method;
 use crate::quantity::catalogue as of;
 use crate::quantity::{Kind, Quantity, Units};
 
+/// The error in decibels of a level whose amplitude has an error.
+pub fn level_error(amplitude: f64, error: f64) -> f64 {
+    if amplitude > 0.0 { 20.0 * std::f64::consts::LOG10_E * error / amplitude } else { error }
+}
+
 /// Makes the quantities of one case.
 #[derive(Debug, Clone, Copy)]
 pub struct Scale {

@@ -6,10 +6,10 @@ use super::scale::Scale;
 use crate::analysis::{Analysis, Area, Branch, FixedPoint, Kind as PointKind, Strip};
 use crate::method::Method::{self, ExactOrbit, Simulation, Theory};
 use crate::orbits::{Bifurcation, FullSystem, Leading, StableStretch, SymmetricOrbit};
-use crate::quantity::Quantity;
 use crate::quantity::catalogue as of;
+use crate::quantity::{Dimension, Quantity};
 use crate::regimes::Regime;
-use crate::study::confirmations::Probe;
+use crate::study::confirmations::{Probe, SimulatedLimit};
 use crate::study::margins::{ExactMargin, ExactMargins};
 use crate::study::{CaseStudy, SettledArea};
 use crate::validation::AsymptoticError;
@@ -145,6 +145,12 @@ struct BestFacts {
 /// Share of a clearance within which the end of steady resonance is too near for a design.
 const TOO_NEAR: f64 = 0.1;
 
+/// Relative error of the place of a minimum, where the slope vanishes, and of multipliers where two of them
+/// meet: the root of that of rounding.
+pub(super) const ROOT_OF_ROUNDING: f64 = 1e-6;
+/// A limit that some starts find and some do not is no sharper than two of its brackets.
+const BRACKETS: f64 = 2.0;
+
 impl TheoryFacts {
     /// Without margins.
     pub fn of(scale: &Scale, analysis: &Analysis, exact: &FullSystem, area: SettledArea) -> Self {
@@ -180,8 +186,17 @@ impl TheoryFacts {
         let limit = study.confirmations.upper_limit.as_ref();
         Self {
             limits: study.margins.exact.map(|margins| facts.limits(&margins)),
-            kept: limit.map(|limit| facts.end(None, limit.kept)),
-            lost: limit.map(|limit| facts.probe(&limit.lost)),
+            kept: limit.map(|limit| {
+                let end = facts.end(None, limit.kept);
+                let [at, change] = [end.at, end.change].map(|one| bracketed(one, limit));
+                EndFacts { at, change, ..end }
+            }),
+            lost: limit.map(|limit| {
+                let lost = facts.probe(&limit.lost);
+                let [clearance, change] =
+                    [lost.clearance, lost.change].map(|one| bracketed(one, limit));
+                ProbeFacts { clearance, change, ..lost }
+            }),
             best: facts.best(study),
             amplitude_error: error.map(|error| Quantity::new(&of::THEORY_ERROR, error, Theory)),
             ..Self::of(scale, analysis, exact, study.area)
@@ -230,7 +245,7 @@ impl Facts<'_> {
                 ExactOrbit,
             ),
             phase: number(&of::IMPACT_PHASE, orbit.phase),
-            multiplier: number(&of::SPECTRAL_RADIUS, found.multipliers.spectral_radius()),
+            multiplier: rounded(number(&of::SPECTRAL_RADIUS, found.multipliers.spectral_radius())),
             leading: found.multipliers.leading(),
             admissible: found.admissibility.admissible,
             sticks: found.admissibility.sticks(),
@@ -332,7 +347,8 @@ impl Facts<'_> {
             starts: probe.starts,
             steady: probe.steady,
             other: probe.other,
-            other_peak: self.scale.length(&of::PEAK, probe.other_peak, Simulation),
+            // The largest of a few short runs: nothing is known of its error.
+            other_peak: self.scale.length_with(&of::PEAK, [probe.other_peak, f64::NAN], Simulation),
         }
     }
 
@@ -343,8 +359,8 @@ impl Facts<'_> {
         let ends = self.exact.stable_stretches().iter().flat_map(|one| one.clearance);
         let nearest = ends.map(|end| (end / best.factor - 1.0).abs()).min_by(f64::total_cmp);
         Some(BestFacts {
-            clearance: self.scale.length(&of::CLEARANCE, best.factor, ExactOrbit),
-            peak: self.scale.length(&of::PEAK, best.peak, ExactOrbit),
+            clearance: rounded(self.scale.length(&of::CLEARANCE, best.factor, ExactOrbit)),
+            peak: rounded(self.scale.length(&of::PEAK, best.peak, ExactOrbit)),
             change: Some(Quantity::new(
                 &of::CHANGE_DB,
                 20.0 * libm::log10(best.peak / bare),
@@ -353,9 +369,23 @@ impl Facts<'_> {
             reduces: best.peak <= bare * (1.0 - super::NOTICEABLE),
             too_near: nearest
                 .filter(|gap| *gap < TOO_NEAR)
-                .map(|gap| Quantity::new(&of::GAP, gap, ExactOrbit)),
+                .map(|gap| Quantity::new(&of::GAP, gap, ExactOrbit).with_error(ROOT_OF_ROUNDING)),
             found: study.confirmations.best.as_ref().map(|probe| self.probe(probe)),
         })
+    }
+}
+
+/// A number with the error of a minimum or a multiplier.
+fn rounded(of: Quantity) -> Quantity {
+    of.with_error(ROOT_OF_ROUNDING * of.value.abs())
+}
+
+/// A clearance, or its change, with the error of a limit that several starts find.
+fn bracketed(of: Quantity, limit: &SimulatedLimit) -> Quantity {
+    let width = BRACKETS * (limit.lost.factor - limit.kept).abs();
+    match of.kind.dimension {
+        Dimension::Length => of.with_error(width * of.value / limit.kept),
+        _ => of.with_error(width),
     }
 }
 
