@@ -19,7 +19,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("operation_count", &[]),
     ("digest", &[]),
     ("executor", &[]),
-    ("quantity", &["case", "method"]),
+    ("quantity", &["method"]),
     ("symbolic", &["operation_count"]),
     ("numerics", &["operation_count"]),
     ("system", &[]),

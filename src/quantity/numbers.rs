@@ -1,7 +1,5 @@
 //! Numbers as a reader sees them: few digits, a unit, a true minus sign.
 
-use crate::case::{LengthUnit, Scales};
-
 /// The sign that a minus is in text.
 pub const MINUS: char = '\u{2212}';
 
@@ -53,12 +51,6 @@ pub fn fixed(value: f64, decimals: usize) -> String {
     with_minus(if zero { text.trim_start_matches('-') } else { &text })
 }
 
-/// `value` as `fixed`, with its sign always shown.
-pub fn signed(value: f64, decimals: usize) -> String {
-    let text = fixed(value, decimals);
-    if text.starts_with(MINUS) || value == 0.0 { text } else { format!("+{text}") }
-}
-
 /// A value with its error, to the decimals that the error leaves: `0.68 ± 0.10`, `−0.0713 ± 0.0008`.
 /// An error that begins with 1 has two digits, since one digit would be off by up to a half.
 pub fn with_error(value: f64, error: f64) -> String {
@@ -68,13 +60,6 @@ pub fn with_error(value: f64, error: f64) -> String {
     let place = (-libm::log10(error).floor()) as usize;
     let decimals = place + usize::from(error < 1.95 * libm::pow(10.0, -(place as f64)));
     format!("{} ± {}", fixed(value, decimals), fixed(error, decimals))
-}
-
-/// What follows an average of a motion that does not repeat: ` ± 3 %`; nothing where the error is lost in
-/// its digits or has no meaning.
-pub fn known_to(relative: f64) -> String {
-    let told = (0.0005..1.0).contains(&relative);
-    if told { format!(" ± {}", percent(relative)) } else { String::new() }
 }
 
 /// A share as a percentage: `0.256` is `26 %`.
@@ -90,30 +75,10 @@ pub fn percent(share: f64) -> String {
     format!("{} %", fixed(percent, decimals))
 }
 
-/// A share with a decimal, where `percent` has none: limits are often whole percents.
-pub fn percent_sharply(share: f64) -> String {
-    if share == 0.0 || share == 1.0 || share.abs() < 0.01 {
-        percent(share)
-    } else {
-        format!("{} %", fixed(100.0 * share, 1))
-    }
-}
-
-/// A relative difference as a percentage with its sign.
-pub fn signed_percent(difference: f64) -> String {
-    let sign = if difference < 0.0 { MINUS } else { '+' };
-    format!("{sign}{}", percent(difference.abs()))
-}
-
 /// Words with a capital letter first.
 pub fn capitalised(words: &str) -> String {
     let mut letters = words.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
-}
-
-/// `20 log10(ratio)` in decibels, with its sign.
-pub fn decibels(ratio: f64) -> String {
-    format!("{} dB", signed(20.0 * libm::log10(ratio), 1))
 }
 
 /// Text with its leading hyphen replaced by a minus sign, in mantissa and exponent.
@@ -144,55 +109,6 @@ pub fn asked(share: f64) -> String {
     percent(share).replace(".0 %", " %")
 }
 
-/// Lengths of one case, all in the same unit: the prefix that suits its clearance.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LengthFormat {
-    /// Case units (metres, or the case's own) in one displayed unit.
-    per_unit: f64,
-    /// The displayed unit.
-    pub unit: &'static str,
-}
-
-impl LengthFormat {
-    /// The format for a case.
-    pub fn of(scales: &Scales) -> Self {
-        if scales.length_unit() == LengthUnit::Own {
-            return Self { per_unit: 1.0, unit: "units" };
-        }
-        Self::fitting(scales.length(1.0))
-    }
-
-    /// The prefix that suits a length in metres.
-    pub fn fitting(length: f64) -> Self {
-        let prefixes = [(1e3, "km"), (1.0, "m"), (1e-3, "mm"), (1e-6, "µm"), (1e-9, "nm")];
-        // 0.1 mm still reads better than 100 µm, and 300 mm better than 0.3 m.
-        let fitting = prefixes
-            .into_iter()
-            .find(|(size, _)| length >= 0.1 * size && *size != 1.0 || length >= *size);
-        let (per_unit, unit) = fitting.unwrap_or((1e-9, "nm"));
-        Self { per_unit, unit }
-    }
-
-    /// A length in case units as a number of displayed units.
-    pub fn number(&self, length: f64) -> f64 {
-        length / self.per_unit
-    }
-
-    /// A length with three significant digits and its unit.
-    pub fn text(&self, length: f64) -> String {
-        self.with_digits(length, 3)
-    }
-
-    /// A length with the given number of significant digits and its unit.
-    pub fn with_digits(&self, length: f64, digits: usize) -> String {
-        // A motion far larger than the clearance has a prefix of its own.
-        let far = self.unit != "units" && self.number(length).abs() >= 1000.0;
-        let format = if far { Self::fitting(length.abs()) } else { *self };
-        let number = significant(format.number(length), digits);
-        format!("{number} {}", format.unit)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -206,7 +122,6 @@ mod tests {
         assert_eq!(significant(1.2e-9, 2), "1.2e−9");
         assert_eq!(significant(0.0, 3), "0");
         assert_eq!(fixed(-0.04, 1), "0.0");
-        assert_eq!(signed(1.45, 1), "+1.4");
     }
 
     #[test]
@@ -225,8 +140,5 @@ mod tests {
         assert_eq!(percent(0.00012), "0.01 %");
         assert_eq!(percent(3e-16), "< 0.01 %");
         assert_eq!(percent(0.0), "0 %");
-        let sharply = [0.728_21, 0.9, 1.0, 0.0, 0.0034].map(percent_sharply);
-        assert_eq!(sharply, ["72.8 %", "90.0 %", "100 %", "0 %", "0.3 %"]);
-        assert_eq!(decibels(3.587 / 6.395), "−5.0 dB");
     }
 }

@@ -122,6 +122,11 @@ impl Units {
         self.length.symbol
     }
 
+    /// A length in the unit that lengths share.
+    pub fn length_number(&self, length: f64) -> f64 {
+        length / self.length.size
+    }
+
     /// The unit in which a number of a dimension is shown: lengths of a page share theirs, others have the
     /// prefix that keeps the number between 1 and 1000.
     pub fn unit(&self, dimension: Dimension, value: f64) -> Unit {

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::numbers::LengthFormat;
+use super::document::Document;
 use crate::case::Case;
 use crate::equations;
 use crate::orbits::flight::Flight;
@@ -62,11 +62,11 @@ fn with_numbers(group: &Group, values: &Values) -> EquationGroup {
 /// The case's numbers that belong to no motion: dimensionless ones, and lengths in the report's unit.
 fn case_values(case: &Case, study: &CaseStudy) -> Values {
     let (scales, system) = (case.scales(), &study.analysis.system);
-    let lengths = LengthFormat::of(&scales);
+    let lengths = Document::units(case);
     equations::values_of(system)
-        .with(Symbol::b, lengths.number(scales.length(1.0)))
-        .with(Symbol::G, lengths.number(scales.forcing))
-        .with(Symbol::F, lengths.number(scales.forcing) * system.mass_ratio())
+        .with(Symbol::b, lengths.length_number(scales.length(1.0)))
+        .with(Symbol::G, lengths.length_number(scales.forcing))
+        .with(Symbol::F, lengths.length_number(scales.forcing) * system.mass_ratio())
 }
 
 /// The case's numbers with those of the exact symmetric orbit: of the larger attracting one, else of
@@ -83,7 +83,8 @@ fn orbit_values(case: &Case, study: &CaseStudy) -> Values {
     let shown = orbits.iter().rfind(|orbit| orbit.orbit.attracts()).or_else(|| orbits.last());
     let Some(orbit) = shown else { return values };
     let scales = case.scales();
-    let length = |over_clearance| LengthFormat::of(&scales).number(scales.length(over_clearance));
+    let length =
+        |over_clearance| Document::units(case).length_number(scales.length(over_clearance));
     values
         .with(Symbol::beta, orbit.absorber_amplitude)
         .with(Symbol::B, length(orbit.absorber_amplitude))
@@ -98,7 +99,8 @@ fn fixed_point_values(case: &Case, study: &CaseStudy) -> Values {
         return values;
     };
     let scales = case.scales();
-    let length = |over_clearance| LengthFormat::of(&scales).number(scales.length(over_clearance));
+    let length =
+        |over_clearance| Document::units(case).length_number(scales.length(over_clearance));
     values
         .with(Symbol::beta, point.absorber_amplitude)
         .with(Symbol::u, point.shift)

@@ -3,14 +3,12 @@
 
 pub mod console;
 pub mod criteria;
-pub mod criteria_rows;
 pub mod document;
 pub mod documents;
 pub mod figure;
 pub mod figures;
 pub mod html;
 pub mod index;
-pub mod numbers;
 pub mod optimize;
 pub mod render;
 pub mod stored;

@@ -1,2 +1,0 @@
-//! Numbers as text; they live beside the catalogue.
-pub use crate::quantity::numbers::*;
