@@ -91,8 +91,8 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<BandSettings> {
         reader.report(table.span_of_value("to"), message, "expected `to` above `from`", help);
         return None;
     }
-    let again = ["amplitude", "spectrum"].into_iter().filter(|key| table.has(key));
-    if let Some(key) = again.skip(usize::from(over == BandOver::Frequency)).next() {
+    let mut again = ["amplitude", "spectrum"].into_iter().filter(|key| table.has(key));
+    if let Some(key) = again.nth(usize::from(over == BandOver::Frequency)) {
         let message = format!("`{key}` says again what the amplitude is");
         let help = "remove one of the lines";
         reader.report(table.span_of(key), message, "expected the amplitude in one way only", help);

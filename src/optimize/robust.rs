@@ -167,12 +167,15 @@ pub fn combinations(uncertainty: &Uncertainty, count: usize) -> Vec<(Deviation, 
     products(uncertainty, |one| nodes(one, count))
 }
 
+/// A part of a deviation.
+type PartOf = fn(&mut Deviation) -> &mut f64;
+
 fn products(
     uncertainty: &Uncertainty,
     values: impl Fn(Distribution) -> Vec<(f64, f64)>,
 ) -> Vec<(Deviation, f64)> {
     let Uncertainty { clearance, restitution, frequency_ratio, amplitude } = *uncertainty;
-    let each: [(Distribution, fn(&mut Deviation) -> &mut f64); 4] = [
+    let each: [(Distribution, PartOf); 4] = [
         (clearance, |off| &mut off.clearance),
         (restitution, |off| &mut off.restitution),
         (frequency_ratio, |off| &mut off.frequency_ratio),

@@ -133,12 +133,15 @@ fn manifolds(scene: &Scene, data: &Restitutions) -> Panel {
     panel
 }
 
+/// A value of a point of the manifold.
+type ValueOf = fn(&Taken) -> f64;
+
 fn over_restitution(scene: &Scene, data: &Restitutions) -> Panel {
     let highest = data.taken.iter().map(|at| at.harmonic.max(at.damping)).fold(0.0, f64::max);
     let kinds = [&of::RESTITUTION, &of::HARMONIC_AMPLITUDE_RATIO];
     let chart = Chart::new(scene, kinds, [[0.0, 1.0], [0.0, 1.12 * highest]]);
     let mut panel = chart.panel().with_heading("at this amplitude: stable part thick");
-    let values: [(&str, Color, fn(&Taken) -> f64); 2] = [
+    let values: [(&str, Color, ValueOf); 2] = [
         ("E/b", Color::SkyBlue, |at| at.harmonic),
         ("E sin Θ/b", Color::Vermillion, |at| at.damping),
     ];

@@ -76,7 +76,7 @@ fn regimes(swept: &Swept) -> Option<Map> {
         (*way, Cells::Kinds(tints.clone(), indices.collect()))
     });
     let cells: Vec<_> = cells.collect();
-    (!cells.is_empty()).then(|| Map {
+    (!cells.is_empty()).then_some(Map {
         name: "sweep-regimes",
         of: "regimes",
         cells,
