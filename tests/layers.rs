@@ -136,7 +136,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "validation",
         ],
     ),
-    ("diff", &["regimes", "report"]),
+    ("diff", &["quantity", "regimes", "report"]),
     ("store", &["digest"]),
     (
         "sweep",

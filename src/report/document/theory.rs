@@ -9,6 +9,7 @@ use crate::orbits::{Bifurcation, FullSystem, Leading, StableStretch, SymmetricOr
 use crate::quantity::catalogue as of;
 use crate::quantity::{Dimension, Quantity};
 use crate::regimes::Regime;
+use crate::regimes::share::wilson;
 use crate::study::confirmations::{Probe, SimulatedLimit};
 use crate::study::margins::{ExactMargin, ExactMargins};
 use crate::study::{CaseStudy, SettledArea};
@@ -100,6 +101,8 @@ pub struct ProbeFacts {
     starts: u32,
     /// How many end in steady 1:1 resonance.
     steady: u32,
+    /// Their share, with the reach of its 95 % interval.
+    steady_share: Quantity,
     other: Option<Regime>,
     other_peak: Quantity,
 }
@@ -341,11 +344,15 @@ impl Facts<'_> {
     }
 
     fn probe(&self, probe: &Probe) -> ProbeFacts {
+        let share = f64::from(probe.steady) / f64::from(probe.starts.max(1));
+        let reach = wilson(probe.steady, probe.starts).map(|end| (end - share).abs());
+        let share = Quantity::new(&of::START_SHARE, share, Simulation);
         ProbeFacts {
             clearance: self.scale.length(&of::CLEARANCE, probe.factor, Simulation),
             change: change(probe.factor),
             starts: probe.starts,
             steady: probe.steady,
+            steady_share: share.with_error(reach[0].max(reach[1])),
             other: probe.other,
             // The largest of a few short runs: nothing is known of its error.
             other_peak: self.scale.length_with(&of::PEAK, [probe.other_peak, f64::NAN], Simulation),
