@@ -117,7 +117,7 @@ fn point(
     manifold: &Manifold,
     Amplitude { ratio, half_slope }: Amplitude,
 ) -> FixedPoint {
-    operation_count::note(2 * operation_count::ELEMENTARY + 4);
+    operation_count::note(operation_count::ELEMENTARY + 4);
     let (lambda, sigma) = (system.damping(), system.detuning());
     let (rho, curvature) = (manifold.restitution_ratio, manifold.curvature);
     let shift = ratio - 1.0;
@@ -154,24 +154,20 @@ fn point(
     }
 }
 
-/// The rates of (18) at a point with `[C/b, B/b, Theta, eta]`, each over the sum of its terms' absolute
-/// values. These are on purpose the paper's equations and not the derived quadratic: they check it.
+/// The rates of (18) at a point with `[C/b, B/b, Theta, eta]`, each over the sum of what its terms can be at
+/// most. These are on purpose the paper's equations and not the derived quadratic: they check it.
 fn residual(system: &System, [oscillator, absorber, theta, eta]: [f64; 4]) -> f64 {
-    operation_count::note(4 * operation_count::ELEMENTARY + 16);
+    operation_count::note(16);
     let (lambda, sigma) = (system.damping(), system.detuning());
     let (gamma, harmonic) = (system.forcing_per_clearance(), FIRST_HARMONIC.at([absorber]));
     let rates = [
         2.0 * AMPLITUDE_RATE.at([lambda, gamma, oscillator, harmonic, theta, eta]),
         2.0 * oscillator * PHASE_RATE.at([sigma, gamma, oscillator, harmonic, theta, eta]),
     ];
-    let sides = |angle: f64, own: f64| {
-        let (sin, cos) = libm::sincos(angle);
-        [sin, cos].map(|part| (own * part).abs())
-    };
-    let (by_absorber, by_forcing) = (sides(theta, harmonic), sides(eta, gamma));
     let own = [lambda * oscillator, 2.0 * sigma.abs() * oscillator];
     let relative = |k: usize| {
-        rates[k].abs() / (own[k] + by_absorber[k] + by_forcing[k]).max(f64::MIN_POSITIVE)
+        let terms = own[k] + harmonic.abs() + gamma;
+        rates[k].abs() / terms.max(f64::MIN_POSITIVE)
     };
     relative(0).max(relative(1))
 }

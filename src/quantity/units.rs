@@ -211,6 +211,11 @@ impl Units {
         if error <= 1e-3 * value.abs() || !error.is_finite() {
             return text;
         }
+        if kind.dimension == Dimension::Level {
+            let error = fixed(error, 1);
+            let number = text.trim_end_matches(" dB");
+            return if error == "0.0" { text } else { format!("{number} ± {error} dB") };
+        }
         match kind.error {
             ErrorKind::Bound => {
                 let unit = self.unit(kind.dimension, value);
@@ -323,5 +328,7 @@ mod tests {
         let found = units.with_error(&of::IMPACTS_PER_PERIOD, 0.6834, 0.1021, digits);
         assert_eq!(found, "0.68 ± 0.10");
         assert_eq!(units.with_error(&of::PEAK, 0.1223, 1e-6, digits), "122 mm");
+        let level = |error: f64| units.with_error(&of::CHANGE_DB, 1.98, error, Digits::Decimals(1));
+        assert_eq!([0.002, 2.04].map(level), ["+2.0 dB", "+2.0 ± 2.0 dB"]);
     }
 }

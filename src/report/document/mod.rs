@@ -229,6 +229,11 @@ fn quantities(scale: &Scale, case: &Case, study: &CaseStudy) -> BTreeMap<&'stati
     if let Some(main) = study.main_attractor() {
         let motion = MotionFacts::measured(scale, system, &main.attractor, None);
         all.extend(motion.headline());
+    } else if let Some(orbit) = study.exact.attracting() {
+        let (peak, bare) = (orbit.peaks.displacement, study.rivals.bare.1);
+        let change = 20.0 * libm::log10(peak / bare);
+        all.push(scale.length(&of::PEAK, peak, Method::ExactOrbit));
+        all.push(Quantity::new(&of::CHANGE_DB, change, Method::ExactOrbit));
     }
     all.into_iter().map(|one| (one.kind.id, one)).collect()
 }
