@@ -33,6 +33,7 @@ pub fn page(page: &Page) -> Result<String, RenderError> {
         writer.take(event, &mut events)?;
     }
     writer.end_figure(&mut events);
+    writer.end_formulas(&mut events);
     let mut body = String::new();
     pulldown_cmark::html::push_html(&mut body, events.into_iter());
     Ok(format!(
@@ -65,6 +66,7 @@ struct Writer<'a> {
     quoted: bool,
     in_verdict: bool,
     tables: usize,
+    in_formulas: bool,
 }
 
 /// What follows a drawing is its caption.
@@ -87,6 +89,7 @@ impl<'a> Writer<'a> {
             quoted: false,
             in_verdict: false,
             tables: 0,
+            in_formulas: false,
         }
     }
 
@@ -94,6 +97,7 @@ impl<'a> Writer<'a> {
         match event {
             Event::Start(Tag::Heading { level, .. }) => {
                 self.end_figure(out);
+                self.end_formulas(out);
                 self.heading = Some((level, String::new()));
             }
             Event::End(TagEnd::Heading(_)) => self.end_heading(out),
@@ -104,6 +108,7 @@ impl<'a> Writer<'a> {
             }
             Event::InlineMath(latex) => out.push(html(inline_math(&latex)?)),
             Event::DisplayMath(latex) => {
+                self.begin_formulas(out);
                 out.push(html(format!("<span class=\"formula\">{}</span>", to_mathml(&latex)?)));
             }
             Event::Html(ref text) | Event::InlineHtml(ref text) if text.starts_with("<img ") => {
@@ -184,6 +189,25 @@ impl<'a> Writer<'a> {
             "<figure><div class=\"drawing\" style=\"--drawn: {width}px\" tabindex=\"0\">{drawing}</div>"
         )));
         self.figure = Caption::Expected;
+    }
+
+    /// The formulas of a section scroll together: one region that the keyboard reaches.
+    fn begin_formulas(&mut self, out: &mut Vec<Event<'a>>) {
+        if !self.in_formulas {
+            self.in_formulas = true;
+            let name = self.region();
+            let region = format!(
+                "<div class=\"formulas\" role=\"region\" aria-label=\"{name}\" tabindex=\"0\">\n"
+            );
+            // Before the paragraph that the formula stands in.
+            out.insert(out.len().saturating_sub(1), html(region));
+        }
+    }
+
+    fn end_formulas(&mut self, out: &mut Vec<Event<'a>>) {
+        if std::mem::take(&mut self.in_formulas) {
+            out.push(html("</div>\n"));
+        }
     }
 
     /// Ends a figure without caption.
