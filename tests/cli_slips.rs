@@ -287,7 +287,7 @@ fn long_work_says_how_far_it_is() {
     let commands: [(&[&str], &str); 4] = [
         (&["simulate"], "simulating: 4 of 4, ending"),
         (&["report", "--out", out], "case: 5 of 14, about"),
-        (&["tradeoff", "--format", "json"], "layers: 4 of"),
+        (&["tradeoff", "--format", "json"], "layers: 5 of"),
         (&["sweep", "--dry-run"], "sample: 8 of 8, ending"),
     ];
     for (command, line) in commands {

@@ -381,25 +381,21 @@ fn bad_input_is_refused_where_it_stands() {
     let wrong = [
         (
             physical("[optimize]\nclearance = [\"40 mm\", \"5 mm\"]"),
-            "the bounds of `clearance` do not rise",
+            "the values of `clearance` do not rise",
             "[\"40 mm\", \"5 mm\"]",
         ),
-        (
-            physical("[optimize]\nclearance = [5, 40]"),
-            "`clearance` holds a number without a unit",
-            "5",
-        ),
-        (
-            physical("[optimize]\nclearance = \"5 mm\""),
-            "`clearance` is not a pair of bounds",
-            "\"5 mm\"",
-        ),
+        (physical("[optimize]\nclearance = [5, 40]"), "a value of `clearance` has no unit", "5"),
+        (physical("[optimize]\nclearance = \"5 mm\""), "`clearance` is not a pair", "\"5 mm\""),
         (
             physical("[optimize]\nmass = [\"20 mm\", \"50 g\"]"),
-            "`mass` holds a value that",
-            "\"20 mm\"",
+            "a value of `mass` is a mass, but `mm` is the unit of a length",
+            "mm",
         ),
-        (physical("[optimize]\nrestitution = [0.4, 1.2]"), "`restitution` holds 1.2", "1.2"),
+        (
+            physical("[optimize]\nrestitution = [0.4, 1.2]"),
+            "a value of `restitution` is 1.2",
+            "1.2",
+        ),
         (
             physical("[optimize]\nobjective = \"z3share\""),
             "`objective` is \"z3share\"",
@@ -429,15 +425,15 @@ fn bad_input_is_refused_where_it_stands() {
             "a reduced case has no mass to choose",
             "mass",
         ),
-        (plain("spectrum = [[0.97, -4.0], [1.03, 5.0]]"), "`spectrum` holds -4.0", "-4.0"),
+        (plain("spectrum = [[0.97, -4.0], [1.03, 5.0]]"), "a value of `spectrum` is -4.0", "-4.0"),
         (
             plain("spectrum = [[\"8 Hz\", 4.0], [1.03, 5.0]]"),
-            "`spectrum` holds text, but its numbers are plain",
+            "a value of `spectrum` is text, but it is a plain number",
             "\"8 Hz\"",
         ),
         (
             plain("[optimize]\nclearance = [\"1 mm\", \"2 mm\"]"),
-            "`clearance` holds text",
+            "a value of `clearance` is text",
             "\"1 mm\"",
         ),
     ];

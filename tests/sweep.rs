@@ -242,7 +242,7 @@ fn what_cannot_be_swept_is_refused_with_what_to_write() {
         ("starts = 1", "start = 1", "unknown key `start`"),
         ("starts = 1", "follow = \"damping\"", "`follow` is \"damping\""),
         ("starts = 1", "starts = 1\nfollow = \"clearance\"", "`starts` has no meaning"),
-        ("starts = 1", "record = [\"peek\"]", "`record` holds peek"),
+        ("starts = 1", "record = [\"peek\"]", "a value of `record` is \"peek\""),
         ("starts = 1", "record = []", "`record` is empty"),
         (
             "starts = 1",
@@ -264,7 +264,7 @@ fn what_cannot_be_swept_is_refused_with_what_to_write() {
         (
             "{ from = \"8 Hz\", to = \"8.7 Hz\", count = 3 }",
             "{ values = [\"8 mm\"] }",
-            "`values` holds",
+            "a value of `values` is a frequency, but `mm` is the unit of a length",
         ),
     ] {
         let text = whole.replace(from, to);
