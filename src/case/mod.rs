@@ -5,6 +5,8 @@
 //! `[excitation]`) or dimensionless (`[reduced]`), and may carry settings in optional tables. To
 //! add an optional table: a file like `simulation.rs`, and a field in [`Case`] and in `CaseFile`. The struct
 //! of a table is what it is read into and what its schema is derived from.
+// Descriptions of keys go into the schema as they are: [reduced] is a table of the case file, not an item.
+#![allow(rustdoc::broken_intra_doc_links)]
 
 mod absorber_design;
 mod accuracy;

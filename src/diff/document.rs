@@ -45,7 +45,7 @@ pub struct Remedy {
 const OLD_FORMAT: &str = "vinesink/report@1";
 
 impl Document {
-    /// Reads the text of a `report.json`; `place` says where it came from. One of [`OLD_FORMAT`] is kept to
+    /// Reads the text of a `report.json`; `place` says where it came from. One of the format before this one is kept to
     /// be named as out of date.
     ///
     /// # Errors

@@ -1,6 +1,6 @@
 //! Equations that are written once: as code that is evaluated, and as the same text, typeset.
 //!
-//! [`equations!`](crate::symbolic::equations) takes an equation's right side as an ordinary Rust
+//! `equations!` takes an equation's right side as an ordinary Rust
 //! expression. The compiler makes a function of it; its text is read again ([`Expr`]) where it is
 //! printed, with symbols or with a case's numbers. So what is printed is what is evaluated, operation by
 //! operation, and evaluating costs what the expression costs. Nothing here rearranges an expression: what

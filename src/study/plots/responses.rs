@@ -24,7 +24,7 @@ const DISTINCT: f64 = 0.18;
 /// Responses of several clearances.
 #[derive(Debug, Clone)]
 pub struct Responses {
-    /// The clearances, from the smallest; for [`Self::around`] the case's own last.
+    /// The clearances, from the smallest; for `Self::around` the case's own last.
     pub members: Vec<Response>,
     /// Whether the case's is the last.
     pub own: bool,
