@@ -78,7 +78,7 @@ fn check(case: &Case) -> Vec<String> {
 }
 
 fn has_unit(words: &str) -> bool {
-    let units = ["mm", "µm", "nm", " m", "Hz", "units", "f₀", " T", "period"];
+    let units = ["mm", "µm", "nm", "Hz", "units", "f₀", " T", "period"];
     units.iter().any(|unit| words.contains(unit))
 }
 

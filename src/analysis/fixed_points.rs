@@ -4,6 +4,8 @@
 //! stability within the slow flow; a point is a stable motion when it also lies on the manifold's
 //! stable branch.
 
+use std::f64::consts::FRAC_2_PI;
+
 use serde::Serialize;
 
 use super::AnalysisError;
@@ -12,7 +14,7 @@ use super::manifold::{Branch, Manifold, ManifoldPoint};
 use crate::equations::fixed_points::{COSINE_SIDE, SINE_SIDE};
 use crate::equations::manifold::MANIFOLD_SQUARE;
 use crate::equations::slow_flow::{DETERMINANT, TRACE};
-use crate::equations::stated::{AMPLITUDE_RATE, FIRST_HARMONIC, PHASE_RATE};
+use crate::equations::stated::FIRST_HARMONIC;
 use crate::operation_count;
 use crate::system::System;
 
@@ -146,7 +148,7 @@ fn point(
         determinant,
         kind: Kind::of(trace, determinant),
         stable: attracts && branch == Branch::Stable,
-        residual: residual(system, [oscillator, ratio, absorber_phase, eta]),
+        residual: residual(system, manifold, [ratio, oscillator], sides),
         largest_relative_displacement: largest,
         admissible: largest <= 1.0 + CAVITY_ROUNDING,
         above_collision: None,
@@ -154,20 +156,27 @@ fn point(
     }
 }
 
-/// The rates of (18) at a point with `[C/b, B/b, Theta, eta]`, each over the sum of what its terms can be at
-/// most. These are on purpose the paper's equations and not the derived quadratic: they check it.
-fn residual(system: &System, [oscillator, absorber, theta, eta]: [f64; 4]) -> f64 {
-    operation_count::note(16);
-    let (lambda, sigma) = (system.damping(), system.detuning());
-    let (gamma, harmonic) = (system.forcing_per_clearance(), FIRST_HARMONIC.at([absorber]));
-    let rates = [
-        2.0 * AMPLITUDE_RATE.at([lambda, gamma, oscillator, harmonic, theta, eta]),
-        2.0 * oscillator * PHASE_RATE.at([sigma, gamma, oscillator, harmonic, theta, eta]),
+/// The rates of (18) at a point, written out term by term, over the sizes of their terms; the sine and cosine
+/// of `Theta` are those of (14) and (15), that of `eta` follows from its `sides`. This is on purpose not the
+/// derived quadratic: it checks it.
+fn residual(
+    system: &System,
+    manifold: &Manifold,
+    [ratio, oscillator]: [f64; 2],
+    [sine, cosine]: [f64; 2],
+) -> f64 {
+    operation_count::note(30);
+    let harmonic = FIRST_HARMONIC.at([ratio]) / oscillator;
+    let gamma = system.forcing_per_clearance() / libm::hypot(sine, cosine);
+    let amplitude = [
+        -system.damping() * oscillator,
+        -harmonic * FRAC_2_PI * manifold.restitution_ratio * ratio,
+        gamma * sine,
     ];
-    let own = [lambda * oscillator, 2.0 * sigma.abs() * oscillator];
-    let relative = |k: usize| {
-        let terms = own[k] + harmonic.abs() + gamma;
-        rates[k].abs() / terms.max(f64::MIN_POSITIVE)
+    let phase = [2.0 * system.detuning() * oscillator, gamma * cosine, -harmonic * (1.0 - ratio)];
+    let relative = |terms: [f64; 3]| {
+        let size: f64 = terms.iter().map(|term| term.abs()).sum();
+        terms.iter().sum::<f64>().abs() / size.max(f64::MIN_POSITIVE)
     };
-    relative(0).max(relative(1))
+    relative(amplitude).max(relative(phase))
 }

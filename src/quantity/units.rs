@@ -92,7 +92,7 @@ impl Dimension {
 }
 
 /// Smallest and largest number that is shown in a page's own unit of length before another prefix is taken.
-const PAGE_RANGE: [f64; 2] = [0.01, 1000.0];
+const PAGE_RANGE: [f64; 2] = [0.1, 1000.0];
 
 /// The units of one page.
 #[derive(Debug, Clone, Copy, PartialEq)]
