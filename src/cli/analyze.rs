@@ -5,8 +5,7 @@ use miette::{IntoDiagnostic, Result, WrapErr};
 use vinesink::analysis::Analysis;
 use vinesink::case::Case;
 use vinesink::orbits::FullSystem;
-use vinesink::report::console;
-use vinesink::report::documents::AnalysisDocument;
+use vinesink::report::console::Analysed;
 use vinesink::study::fidelity::{Answers, Plan};
 use vinesink::study::{StudyEffort, long_term_motions, settle_area};
 
@@ -63,16 +62,16 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
         Some(plan) => Some(answers(&case, &analysis, &plan)?),
         None => None,
     };
+    let found = Analysed {
+        case: &case,
+        analysis: &analysis,
+        exact: &exact,
+        area,
+        answers: answers.as_ref(),
+    };
     match arguments.format {
-        Format::Text => {
-            let text = console::analysis(&case, &analysis, &exact, area, answers.as_ref());
-            output::print(text.into_diagnostic()?)?;
-        }
-        Format::Json => {
-            let document = AnalysisDocument::new(&analysis, &exact, area, &case.scales());
-            let document = document.with_answers(answers.clone());
-            output::print_json(&document.with_warnings(case.warnings()))?;
-        }
+        Format::Text => output::print(found.text().into_diagnostic()?)?,
+        Format::Json => output::print_json(&found.document())?,
     }
     let enough = answers.is_none_or(|answers| answers.enough());
     Ok(if enough { Outcome::Done } else { Outcome::DoesNotHold })

@@ -8,8 +8,7 @@ use miette::{IntoDiagnostic, Result, miette};
 use vinesink::analysis::Analysis;
 use vinesink::case::Case;
 use vinesink::regimes::{Attractor, Window};
-use vinesink::report::console;
-use vinesink::report::documents::SimulationDocument;
+use vinesink::report::console::Simulated;
 use vinesink::simulation::{Impact, ImpactLog, Simulation};
 use vinesink::store;
 use vinesink::study::{self, LongTermMotions, StudyEffort};
@@ -85,15 +84,10 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
             (motion, Some(found))
         }
     };
+    let simulated = Simulated { case: &case, motion: &motion, found: found.as_ref() };
     match arguments.format {
-        Format::Text => {
-            let text = console::simulation(&case, &motion, found.as_ref());
-            output::print(text.into_diagnostic()?)?;
-        }
-        Format::Json => {
-            let document = SimulationDocument::new(&motion, found.as_ref(), &case.scales());
-            output::print_json(&document.with_warnings(case.warnings()))?;
-        }
+        Format::Text => output::print(simulated.text().into_diagnostic()?)?,
+        Format::Json => output::print_json(&simulated.document())?,
     }
     let doubts = motion.doubts();
     for doubt in &doubts {

@@ -25,6 +25,11 @@ pub fn significant(value: f64, digits: usize) -> String {
     with_minus(&format!("{value:.decimals$}"))
 }
 
+/// The number that `value` is with `digits` significant digits.
+pub fn rounded_to(value: f64, digits: usize) -> f64 {
+    format!("{value:.*e}", digits - 1).parse().unwrap_or(value)
+}
+
 /// A number inside a formula: `digits` significant digits or all that it has, with powers of ten from 1e4 on
 /// and below 1e-3, and a hyphen for a minus.
 pub fn tex(value: f64, digits: Option<u8>) -> String {

@@ -1,102 +1,231 @@
-//! What commands print on a terminal: templates over the same facts as a report.
+//! What `analyze` and `simulate` print: templates over the same facts as a report, and the documents that other
+//! programs read.
+//!
+//! `vinesink/analysis@2` and `vinesink/simulation@2` have what scripts rely on under its own name, and beside it
+//! the quantities of `report.json`. Lengths named `_over_clearance`, and `B` and `C`, are over the clearance;
+//! other lengths are in metres for a physical case and in the case's own unit for a reduced one. Energies are in
+//! joules, or per `m1 omega0^2` in the case's own unit of length squared. Angles are in radians.
 
-use serde::Serialize;
+use serde_json::{Value, json};
 
-use super::document::{MotionFacts, Scale, TheoryFacts, TheoryLimit};
+use super::document::place::Place;
+use super::document::{Scale, motions, theory, theory_limits};
 use super::render::RenderError;
 use super::template;
 use crate::analysis::{Analysis, ManifoldPoint};
 use crate::case::Case;
-use crate::method::Method::Theory;
-use crate::orbits::FullSystem;
+use crate::method::Method::{ExactOrbit, Simulation, Theory};
+use crate::orbits::{FullSystem, SymmetricOrbit};
 use crate::quantity::Quantity;
 use crate::quantity::catalogue as of;
 use crate::regimes::Attractor;
 use crate::study::fidelity::Answers;
 use crate::study::{LongTermMotions, Proof, SettledArea};
 
-#[derive(Serialize)]
-struct AnalysisPage<'a> {
-    title: &'a str,
-    limits: Vec<TheoryLimit>,
-    theory: TheoryFacts,
-    /// `B` and `C`.
-    fold: [Quantity; 2],
-    symmetry_breaking: [Quantity; 2],
-    p1: PointOne,
-    answers: Option<&'a Answers>,
+/// Theory and exact orbits of a case.
+#[derive(Debug, Clone, Copy)]
+pub struct Analysed<'a> {
+    /// The case.
+    pub case: &'a Case,
+    /// Its theory.
+    pub analysis: &'a Analysis,
+    /// Its exact orbits.
+    pub exact: &'a FullSystem,
+    /// Its area, settled by a layer that can tell it.
+    pub area: SettledArea,
+    /// Answers to what the case asks for, if anything was.
+    pub answers: Option<&'a Answers>,
 }
 
-/// Where saddle-node and Hopf meet.
-#[derive(Serialize)]
-struct PointOne {
-    detuning: Quantity,
-    forcing: Quantity,
-    frequency: Quantity,
+impl Analysed<'_> {
+    fn theory(&self) -> Value {
+        theory::theory(&Scale::of(self.case), self.analysis, self.exact, self.area)
+    }
+
+    /// For a person.
+    ///
+    /// # Errors
+    /// [`RenderError::Template`] if the template does not fit.
+    pub fn text(&self) -> Result<String, RenderError> {
+        let Self { case, analysis, answers, .. } = self;
+        let scale = Scale::of(case);
+        let point = |point: &ManifoldPoint| {
+            [
+                scale.length(&of::ABSORBER_AMPLITUDE, point.absorber_amplitude, Theory),
+                scale.length(&of::OSCILLATOR_AMPLITUDE, point.oscillator_amplitude, Theory),
+            ]
+        };
+        // Where saddle-node and Hopf meet.
+        let p1 = analysis.boundaries.codimension_two;
+        let frequency_ratio = 1.0 + analysis.system.mass_ratio() * p1.detuning;
+        let forcing = Quantity::new(&of::FORCING_PER_CLEARANCE, p1.forcing_over_clearance, Theory);
+        let page = json!({
+            "title": case.title,
+            "limits": theory_limits(&analysis.system),
+            "theory": self.theory(),
+            "fold": point(&analysis.manifold.fold),
+            "symmetry_breaking": point(&analysis.manifold.symmetry_breaking),
+            "p1": {
+                "detuning": Quantity::new(&of::DETUNING, p1.detuning, Theory),
+                "forcing": forcing,
+                "frequency": scale.frequency(frequency_ratio, Theory),
+            },
+            "answers": answers,
+        });
+        template::render("analyze.txt", &scale.units(), &page)
+    }
+
+    /// For programs: `vinesink/analysis@2`. `theory` is that of `report.json`; `exact` is all that the exact
+    /// layer found, over the clearance and with its evidence.
+    pub fn document(&self) -> Value {
+        let Self { case, analysis, exact, .. } = self;
+        let (scale, system) = (Scale::of(case), &analysis.system);
+        let forcing = case.scales().forcing;
+        let boundaries = &analysis.boundaries;
+        let nodes = boundaries.saddle_node.iter().map(|node| {
+            json!({
+                "clearance": forcing / node.forcing_over_clearance,
+                "B": node.absorber_amplitude,
+                "branch": node.branch,
+            })
+        });
+        let mut document = json!({
+            "format": "vinesink/analysis@2",
+            "reduced": {
+                "mass_ratio": system.mass_ratio(),
+                "damping": system.damping(),
+                "restitution": system.restitution(),
+                "frequency_ratio": system.frequency_ratio(),
+                "detuning": system.detuning(),
+                "forcing_over_clearance": system.forcing_per_clearance(),
+                "excitation": system.excitation(),
+            },
+            "manifold": {
+                "fold": analysis.manifold.fold,
+                "symmetry_breaking": analysis.manifold.symmetry_breaking,
+            },
+            "fixed_points": analysis.fixed_points,
+            "boundaries": {
+                "symmetry_breaking_clearance": forcing / boundaries.symmetry_breaking,
+                "hopf_clearance": forcing / boundaries.hopf,
+                "saddle_node": nodes.collect::<Vec<_>>(),
+                "codimension_two": boundaries.codimension_two,
+            },
+            "area": self.area.area,
+            "strip": analysis.zone.strip,
+            "orbits": exact.orbits.iter().map(|one| orbit(&scale, one)).collect::<Vec<_>>(),
+            "theory": self.theory(),
+            "exact": exact,
+        });
+        if let Some(answers) = self.answers {
+            document["answers"] = json!(answers);
+        }
+        warned(document, case)
+    }
 }
 
-/// What theory and exact orbits say of a case.
-///
-/// # Errors
-/// [`RenderError::Template`] if the template does not fit.
-pub fn analysis(
-    case: &Case,
-    analysis: &Analysis,
-    exact: &FullSystem,
-    area: SettledArea,
-    answers: Option<&Answers>,
-) -> Result<String, RenderError> {
-    let scale = Scale::of(case);
-    let point = |point: &ManifoldPoint| {
-        [
-            scale.length(&of::ABSORBER_AMPLITUDE, point.absorber_amplitude, Theory),
-            scale.length(&of::OSCILLATOR_AMPLITUDE, point.oscillator_amplitude, Theory),
-        ]
-    };
-    let p1 = analysis.boundaries.codimension_two;
-    let page = AnalysisPage {
-        title: &case.title,
-        limits: TheoryLimit::of(&analysis.system),
-        theory: TheoryFacts::of(&scale, analysis, exact, area),
-        fold: point(&analysis.manifold.fold),
-        symmetry_breaking: point(&analysis.manifold.symmetry_breaking),
-        p1: PointOne {
-            detuning: Quantity::new(&of::DETUNING, p1.detuning, Theory),
-            forcing: Quantity::new(&of::FORCING_PER_CLEARANCE, p1.forcing_over_clearance, Theory),
-            frequency: scale.frequency(1.0 + analysis.system.mass_ratio() * p1.detuning, Theory),
+/// An exact symmetric orbit.
+fn orbit(scale: &Scale, orbit: &SymmetricOrbit) -> Value {
+    let length = |value: f64| scale.length(&of::PEAK, value, ExactOrbit).value;
+    let found = &orbit.orbit;
+    json!({
+        "impact_displacement": length(orbit.impact_displacement),
+        "peak_displacement": length(orbit.peaks.displacement),
+        "phase": orbit.phase,
+        "multipliers": found.multipliers.values,
+        "spectral_radius": found.multipliers.spectral_radius(),
+        "admissible": found.admissibility.admissible,
+        "stable": found.attracts(),
+        "residual": found.convergence.residual,
+    })
+}
+
+/// A motion of a case, and those that it was chosen from where no initial state was given.
+#[derive(Debug, Clone, Copy)]
+pub struct Simulated<'a> {
+    /// The case.
+    pub case: &'a Case,
+    /// The motion.
+    pub motion: &'a Attractor,
+    /// Every long-term motion found.
+    pub found: Option<&'a LongTermMotions>,
+}
+
+impl Simulated<'_> {
+    /// The motion and those that were found, as in `report.json`.
+    fn told(&self) -> (Value, Option<Vec<Value>>) {
+        let (scale, system) = (Scale::of(self.case), self.case.system());
+        let proof = Proof::of(&system, self.motion);
+        let all = self.found.map(|found| {
+            let each = found.attractors.iter().zip(&found.proofs);
+            each.map(|(one, proof)| motions::found(&scale, &system, one, proof.as_ref())).collect()
+        });
+        (motions::measured(&scale, &system, self.motion, proof.as_ref()), all)
+    }
+
+    /// For a person.
+    ///
+    /// # Errors
+    /// [`RenderError::Template`] if the template does not fit.
+    pub fn text(&self) -> Result<String, RenderError> {
+        let (motion, motions) = self.told();
+        let page = json!({ "title": self.case.title, "motion": motion, "motions": motions });
+        template::render("simulate.txt", &Scale::of(self.case).units(), &page)
+    }
+
+    /// For programs: `vinesink/simulation@2`. `motion` is that of `report.json`; `classification`, `energetics` and
+    /// `proof` are the evidence: per m1, lengths over the clearance, fast time.
+    pub fn document(&self) -> Value {
+        let scale = Scale::of(self.case);
+        let (motion, motions) = self.told();
+        let mut document = measured(&scale, self.motion, motion);
+        document["format"] = json!("vinesink/simulation@2");
+        if let Some((found, motions)) = self.found.zip(motions) {
+            let each = found.attractors.iter().zip(motions).zip(&found.proofs);
+            let each = each.map(|((one, told), proof)| {
+                let mut attractor = measured(&scale, &one.attractor, told);
+                attractor["proof"] = json!(proof);
+                attractor
+            });
+            document["attractors"] = each.collect();
+        }
+        warned(document, self.case)
+    }
+}
+
+/// A measured motion.
+fn measured(scale: &Scale, motion: &Attractor, told: Value) -> Value {
+    let energy = |value: f64| scale.energy(&of::WORK, value, Simulation).value;
+    let balance = &motion.energy;
+    json!({
+        "periods": motion.periods,
+        "impacts": motion.impact_count,
+        "impacts_per_period": told["impacts_per_period"]["value"],
+        "regime": motion.classification.regime,
+        "displacement": { "peak": told["peak"]["value"], "rms": told["rms"]["value"] },
+        "impact_speed": told["impact_speed"]["value"],
+        "settled": motion.settled,
+        "energy": {
+            "input": energy(balance.input),
+            "damper": energy(balance.damper),
+            "impact": energy(balance.impact),
+            "stored": energy(balance.stored),
+            "relative_residual": balance.relative_residual,
         },
-        answers,
-    };
-    template::render("analyze.txt", &scale.units(), &page)
+        "sustained_contact": motion.sustained_contact,
+        "stop": motion.stop,
+        "trusted": motion.doubts().is_empty(),
+        "classification": motion.classification,
+        "energetics": motion.energetics,
+        "motion": told,
+    })
 }
 
-#[derive(Serialize)]
-struct SimulationPage<'a> {
-    title: &'a str,
-    motion: MotionFacts,
-    motions: Option<Vec<MotionFacts>>,
-}
-
-/// What simulation found.
-///
-/// # Errors
-/// As [`analysis`].
-pub fn simulation(
-    case: &Case,
-    motion: &Attractor,
-    found: Option<&LongTermMotions>,
-) -> Result<String, RenderError> {
-    let scale = Scale::of(case);
-    let system = case.system();
-    let all = found.map(|found| {
-        let each = found.attractors.iter().zip(&found.proofs);
-        each.map(|(one, proof)| MotionFacts::found(&scale, &system, one, proof.as_ref())).collect()
-    });
-    let proof = Proof::of(&system, motion);
-    let page = SimulationPage {
-        title: &case.title,
-        motion: MotionFacts::measured(&scale, &system, motion, proof.as_ref()),
-        motions: all,
-    };
-    template::render("simulate.txt", &scale.units(), &page)
+/// A document with what is probably a slip in the case; left out where nothing is.
+fn warned(mut document: Value, case: &Case) -> Value {
+    let warnings: Vec<Place> = case.warnings().iter().map(Place::from).collect();
+    if !warnings.is_empty() {
+        document["warnings"] = json!(warnings);
+    }
+    document
 }

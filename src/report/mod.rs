@@ -4,7 +4,6 @@
 pub mod console;
 pub mod criteria;
 pub mod document;
-pub mod documents;
 pub mod figure;
 pub mod figures;
 pub mod html;

@@ -1,83 +1,48 @@
 //! The layers against one another, claim by claim.
 
-use serde::Serialize;
+use serde_json::{Value, json};
 
 use super::scale::Scale;
-use crate::method::Method;
+use crate::method::Method::{self, Simulation, Theory};
 use crate::quantity::Quantity;
 use crate::quantity::catalogue as of;
-use crate::validation::{Claim, Finding, Measure, Verdict};
+use crate::validation::{Claim, Finding, Measure};
 
-/// A claim and what came of it.
-#[derive(Debug, Clone, Serialize)]
-pub struct ClaimFacts {
-    id: String,
-    statement: String,
-    source: &'static str,
-    checked_by: Method,
-    predicted: FindingFacts,
-    observed: FindingFacts,
-    /// Predicted minus observed: relative for lengths, in radians for angles.
-    difference: Option<Quantity>,
-    tolerance: Quantity,
-    reason: String,
-    verdict: Verdict,
+/// A claim and what came of it. The difference is predicted minus observed: relative for lengths, in radians
+/// for angles.
+pub fn claim(scale: &Scale, claim: &Claim) -> Value {
+    let angle = matches!(claim.predicted, Finding::Number(_, Measure::Angle));
+    let [kind, allowed] =
+        if angle { [&of::ANGLE_ERROR; 2] } else { [&of::THEORY_ERROR, &of::TOLERANCE] };
+    let (by, tolerance) = (claim.checked_by, claim.tolerance.value);
+    let error = if by == Simulation { tolerance } else { 0.0 };
+    let difference = claim.difference.map(|value| Quantity::new(kind, value, Theory));
+    json!({
+        "id": claim.id,
+        "statement": claim.statement,
+        "source": claim.source,
+        "checked_by": by,
+        "predicted": finding(scale, &claim.predicted, Theory, 0.0),
+        "observed": finding(scale, &claim.observed, by, error),
+        "difference": difference.map(|difference| difference.with_error(error)),
+        "tolerance": Quantity::new(allowed, tolerance, Theory),
+        "reason": claim.tolerance.reason,
+        "verdict": claim.verdict,
+    })
 }
 
-/// One side of a comparison: a number, or an outcome.
-#[derive(Debug, Clone, Serialize)]
-struct FindingFacts {
-    number: Option<Quantity>,
-    words: Option<String>,
-}
-
-impl FindingFacts {
-    /// A simulation is as exact as the claim asks for: relative to lengths, in radians for angles.
-    fn of(scale: &Scale, finding: &Finding, method: Method, tolerance: f64) -> Self {
-        let tolerance = if method == Method::Simulation { tolerance } else { 0.0 };
-        let number = match finding {
-            Finding::Number(value, Measure::LengthOverClearance) => {
-                let errors = [*value, tolerance * value.abs()];
-                Some(scale.length_with(&of::CLAIMED_LENGTH, errors, method))
-            }
-            Finding::Number(value, Measure::Angle) => {
-                Some(Quantity::new(&of::CLAIMED_ANGLE, *value, method).with_error(tolerance))
-            }
-            Finding::Words(_) => None,
-        };
-        let words = match finding {
-            Finding::Words(words) => Some(words.clone()),
-            Finding::Number(..) => None,
-        };
-        Self { number, words }
-    }
-}
-
-impl ClaimFacts {
-    /// Of a claim.
-    pub fn of(scale: &Scale, claim: &Claim) -> Self {
-        let angle = matches!(claim.predicted, Finding::Number(_, Measure::Angle));
-        let kind = if angle { &of::ANGLE_ERROR } else { &of::THEORY_ERROR };
-        let observed_by = claim.checked_by;
-        Self {
-            id: claim.id.clone(),
-            statement: claim.statement.clone(),
-            source: claim.source,
-            checked_by: claim.checked_by,
-            predicted: FindingFacts::of(scale, &claim.predicted, Method::Theory, 0.0),
-            observed: FindingFacts::of(scale, &claim.observed, observed_by, claim.tolerance.value),
-            difference: claim.difference.map(|value| {
-                let simulated = observed_by == Method::Simulation;
-                let error = if simulated { claim.tolerance.value } else { 0.0 };
-                Quantity::new(kind, value, Method::Theory).with_error(error)
-            }),
-            tolerance: Quantity::new(
-                if angle { &of::ANGLE_ERROR } else { &of::TOLERANCE },
-                claim.tolerance.value,
-                Method::Theory,
-            ),
-            reason: claim.tolerance.reason.clone(),
-            verdict: claim.verdict,
+/// One side of a comparison: a number, or an outcome. A simulation is as exact as the claim asks for: relative
+/// to lengths, in radians for angles.
+fn finding(scale: &Scale, finding: &Finding, method: Method, error: f64) -> Value {
+    match finding {
+        Finding::Number(value, Measure::LengthOverClearance) => {
+            let errors = [*value, error * value.abs()];
+            json!({ "number": scale.length_with(&of::CLAIMED_LENGTH, errors, method), "words": null })
         }
+        Finding::Number(value, Measure::Angle) => {
+            let angle = Quantity::new(&of::CLAIMED_ANGLE, *value, method).with_error(error);
+            json!({ "number": angle, "words": null })
+        }
+        Finding::Words(words) => json!({ "number": null, "words": words }),
     }
 }

@@ -1,19 +1,20 @@
 //! A case's report as data: quantities, enums and lists, which templates turn into pages and `report.json` keeps.
 
 pub mod criteria;
+pub mod motions;
 pub mod place;
+pub mod theory;
 
 mod band;
 mod claims;
-mod motions;
 mod notes;
 mod scale;
-mod theory;
 mod verdict;
 
 use std::collections::BTreeMap;
 
 use serde::Serialize;
+use serde_json::Value;
 
 use super::figure::Figure;
 use crate::case::{Case, Input};
@@ -23,14 +24,10 @@ use crate::quantity::catalogue as of;
 use crate::quantity::{Quantity, Units};
 use crate::study::fidelity::Answers;
 use crate::study::{CaseStudy, StudyEffort};
-use band::{BandFacts, DamperFacts, InactiveFacts};
-use claims::ClaimFacts;
 use criteria::CriteriaFacts;
 
-pub use motions::MotionFacts;
-pub use notes::{Note, TheoryLimit};
+pub use notes::theory_limits;
 pub use scale::Scale;
-pub use theory::TheoryFacts;
 pub use verdict::{Headline, Tone, Verdict, Word};
 
 /// Name and version of the format of `report.json`.
@@ -59,25 +56,25 @@ pub struct Document {
     /// What the case asks for, judged.
     pub criteria: Option<CriteriaFacts>,
     /// What limits these results.
-    pub notes: Vec<Note>,
+    pub notes: Vec<Value>,
     /// The long-term motions, by share of starts; empty where nothing was simulated.
-    pub motions: Vec<MotionFacts>,
+    pub motions: Vec<Value>,
     /// Index of the moving one that most starts lead to.
     pub main: Option<usize>,
     /// Whether anything was simulated.
     pub simulated: bool,
     /// What an inactive absorber leaves.
-    pub inactive: Option<InactiveFacts>,
+    pub inactive: Option<Value>,
     /// A tuned mass damper of the same mass at the case's own excitation.
-    pub damper: DamperFacts,
+    pub damper: Value,
     /// What theory and exact orbits say.
-    pub theory: TheoryFacts,
+    pub theory: Value,
     /// What is known along the band.
-    pub band: Option<BandFacts>,
+    pub band: Option<Value>,
     /// Which layer answered what.
     pub answers: Option<Answers>,
     /// The layers against one another.
-    pub claims: Vec<ClaimFacts>,
+    pub claims: Vec<Value>,
     /// The numbers of the case file.
     pub inputs: Vec<Input>,
     /// What follows from them.
@@ -157,11 +154,11 @@ impl Document {
         let scale = Scale::of(case);
         let system = &study.analysis.system;
         let criteria = CriteriaFacts::of(case, judged);
-        let motions: Vec<MotionFacts> = study
+        let motions: Vec<Value> = study
             .attractors
             .iter()
             .zip(&study.proofs)
-            .map(|(found, proof)| MotionFacts::found(&scale, system, found, proof.as_ref()))
+            .map(|(found, proof)| motions::found(&scale, system, found, proof.as_ref()))
             .collect();
         let counted = case.criteria.is_empty() || case.count_inactive;
         let wanted = case.report.figures.iter().map(|wanted| wanted.name());
@@ -182,12 +179,12 @@ impl Document {
             inactive: study
                 .inactive
                 .as_ref()
-                .map(|inactive| InactiveFacts::of(&scale, inactive, None, counted)),
-            damper: DamperFacts::at_point(&scale, &study.rivals),
-            theory: TheoryFacts::with_margins(&scale, study),
-            band: study.band.as_ref().map(|survey| BandFacts::of(&scale, survey)),
+                .map(|inactive| band::inactive(&scale, inactive, None, counted)),
+            damper: band::damper(&scale, &study.rivals, None),
+            theory: theory::with_margins(&scale, study),
+            band: study.band.as_ref().map(|survey| band::band(&scale, survey)),
             answers: source.answers.cloned(),
-            claims: study.claims.iter().map(|claim| ClaimFacts::of(&scale, claim)).collect(),
+            claims: study.claims.iter().map(|claim| claims::claim(&scale, claim)).collect(),
             inputs: case.inputs().to_vec(),
             derived: case.derived(),
             figures: source.figures.iter().map(FigureRow::of).collect(),
@@ -227,8 +224,7 @@ fn quantities(scale: &Scale, case: &Case, study: &CaseStudy) -> BTreeMap<&'stati
         all.push(given(&of::ABSORBER_MASS, physical.absorber_mass_kg));
     }
     if let Some(main) = study.main_attractor() {
-        let motion = MotionFacts::measured(scale, system, &main.attractor, None);
-        all.extend(motion.headline());
+        all.extend(motions::headline(scale, &main.attractor).into_iter().map(|(_, one)| one));
     } else if let Some(orbit) = study.exact.attracting() {
         let (peak, bare) = (orbit.peaks.displacement, study.rivals.bare.1);
         let change = 20.0 * libm::log10(peak / bare);
