@@ -4,14 +4,13 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use miette::{IntoDiagnostic, Report, Result};
-use serde::Serialize;
+use serde_json::json;
 use vinesink::band::Survey;
-use vinesink::case::CaseError;
-use vinesink::criteria;
-use vinesink::report::criteria::{
-    Checked, FailedCase, JudgedCase, annotations, junit, markdown, text,
-};
+use vinesink::case::{Case, CaseError};
+use vinesink::criteria::{self, Judged};
+use vinesink::report::criteria::{Checked, junit};
 use vinesink::report::document::place::Place;
+use vinesink::report::render::RenderError;
 
 use super::budget::{Long, Work};
 use super::parallel::Parallel;
@@ -62,30 +61,24 @@ enum Format {
     Junit,
 }
 
-#[derive(Serialize)]
-struct Document {
-    format: &'static str,
-    holds: bool,
-    cases: Vec<Checked>,
-}
-
 pub fn run(arguments: Arguments) -> Result<Outcome> {
     let mut failures = Vec::new();
     let cases: Vec<Checked> =
         arguments.cases.iter().map(|path| checked(path, arguments.long, &mut failures)).collect();
-    let holds = |one: &Checked| matches!(one, Checked::Judged(document) if document.holds);
-    let holds = cases.iter().all(holds);
+    let holds = cases.iter().all(Checked::holds);
+    let each = |format: fn(&Checked) -> Result<String, RenderError>, between: &str| {
+        let texts: Result<Vec<String>, _> = cases.iter().map(format).collect();
+        texts.map(|texts| texts.join(between)).into_diagnostic()
+    };
     match arguments.format {
-        Format::Text => output::print(separated(cases.iter().map(text)))?,
-        Format::Markdown => output::print(separated(cases.iter().map(markdown)))?,
-        Format::Github => {
-            let paths = arguments.cases.iter().map(|path| path.display().to_string());
-            let lines = paths.zip(&cases).map(|(path, one)| annotations(&path, one));
-            output::print(lines.collect::<String>())?;
-        }
-        Format::Junit => output::print(junit(&cases))?,
+        Format::Text => output::print(each(Checked::text, "\n")?)?,
+        Format::Markdown => output::print(each(Checked::markdown, "\n")?)?,
+        Format::Github => output::print(each(Checked::annotations, "")?)?,
+        Format::Junit => output::print(junit(&cases).into_diagnostic()?)?,
         Format::Json => {
-            output::print_json(&Document { format: "vinesink/check@1", holds, cases })?;
+            let cases: Vec<_> = cases.iter().map(|one| &one.document).collect();
+            let document = json!({ "format": "vinesink/check@1", "holds": holds, "cases": cases });
+            output::print_json(&document)?;
         }
     }
     // One bad case does not keep the others from being checked; each is said in full.
@@ -99,20 +92,21 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
 
 fn checked(path: &Path, long: Long, failures: &mut Vec<Report>) -> Checked {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-    match judged(path, &stem, long) {
-        Ok(document) => Checked::Judged(document),
+    let place = path.display().to_string();
+    match judged(path, long) {
+        Ok((case, judged)) => Checked::judged(&place, &stem, &case, &judged),
         Err(error) => {
             let problems =
                 error.downcast_ref::<CaseError>().into_iter().flat_map(CaseError::problems);
-            let problems = problems.map(Place::from).collect();
-            let failed = FailedCase { case: stem.into(), error: error.to_string(), problems };
+            let problems: Vec<Place> = problems.map(Place::from).collect();
+            let failed = Checked::failed(&place, &stem, &error.to_string(), &problems);
             failures.push(error);
-            Checked::Failed(failed)
+            failed
         }
     }
 }
 
-fn judged(path: &Path, stem: &str, long: Long) -> Result<JudgedCase> {
+fn judged(path: &Path, long: Long) -> Result<(Case, Vec<Judged>)> {
     let case = case_file::read(path)?;
     let work = match case.criteria.is_empty() {
         true => Work::default(),
@@ -124,9 +118,5 @@ fn judged(path: &Path, stem: &str, long: Long) -> Result<JudgedCase> {
     if case.criteria.is_empty() {
         output::complain(&format!("{}: there is no table [criteria]", path.display()));
     }
-    JudgedCase::new(stem, &case, &judged).into_diagnostic()
-}
-
-fn separated(parts: impl Iterator<Item = String>) -> String {
-    parts.collect::<Vec<_>>().join("\n")
+    Ok((case, judged))
 }

@@ -200,8 +200,8 @@ impl Index {
     pub fn files(&self) -> Result<BTreeMap<PathBuf, Vec<u8>>, RenderError> {
         let units = Units::physical(USUAL_CLEARANCE);
         let text = |name: &str| template::render(name, &units, self);
-        let markdown = render::without_repeated_blank_lines(&text(MARKDOWN)?);
-        let html = text(HTML)?;
+        let markdown = render::without_repeated_blank_lines(&text("index.md")?);
+        let html = text("index.html")?;
         Ok(BTreeMap::from([
             (PathBuf::from(HTML), html.into_bytes()),
             (PathBuf::from(MARKDOWN), markdown.into_bytes()),

@@ -16,6 +16,7 @@
 //! | `operations` | a count | two digits, in powers of ten from a thousand on |
 //! | `many(one="start", more="starts")` | a count | "1 start", "3 starts" |
 //! | `cap` | text | with a capital letter first |
+//! | `annotation`, `property` | text | safe in a message of a GitHub workflow, in a property of one |
 //! | `md`, `cell`, `attr`, `path` | text of a user | safe in Markdown, in a table's cell, in an attribute, in a link |
 
 use serde::Serialize;
@@ -26,65 +27,66 @@ use super::render::{RenderError, attribute, markdown_cell, markdown_text, url_pa
 use crate::quantity::catalogue::{self, Digits, Kind};
 use crate::quantity::{Units, numbers};
 
+/// Files of `templates/` by their names, of which each has `.tera` after it.
+macro_rules! templates {
+    ($($name:literal),* $(,)?) => {
+        &[$(($name, include_str!(concat!("../../templates/", $name, ".tera")))),*]
+    };
+}
+
 /// Every template: its name and its text.
-const TEMPLATES: &[(&str, &str)] = &[
-    ("report.md", include_str!("../../templates/report.md.tera")),
-    ("validation.md", include_str!("../../templates/validation.md.tera")),
-    ("analyze.txt", include_str!("../../templates/analyze.txt.tera")),
-    ("simulate.txt", include_str!("../../templates/simulate.txt.tera")),
-    ("criteria", include_str!("../../templates/criteria.tera")),
-    ("README.md", include_str!("../../templates/index.md.tera")),
-    ("index.html", include_str!("../../templates/index.html.tera")),
-    ("diff.md", include_str!("../../templates/diff.md.tera")),
-    ("diff_report.md", include_str!("../../templates/diff_report.md.tera")),
-    ("equations.md", include_str!("../../templates/equations.md.tera")),
-    ("captions/amplitude", include_str!("../../templates/captions/amplitude.tera")),
-    ("captions/areas", include_str!("../../templates/captions/areas.tera")),
-    ("captions/band", include_str!("../../templates/captions/band.tera")),
-    ("captions/basins", include_str!("../../templates/captions/basins.tera")),
-    ("captions/bifurcations", include_str!("../../templates/captions/bifurcations.tera")),
-    ("captions/captures", include_str!("../../templates/captions/captures.tera")),
-    ("captions/clearances", include_str!("../../templates/captions/clearances.tera")),
-    ("captions/diagram", include_str!("../../templates/captions/diagram.tera")),
-    ("captions/exponents", include_str!("../../templates/captions/exponents.tera")),
-    ("captions/forcing-responses", include_str!("../../templates/captions/forcing-responses.tera")),
-    ("captions/map", include_str!("../../templates/captions/map.tera")),
-    ("captions/modulation", include_str!("../../templates/captions/modulation.tera")),
-    ("captions/motion", include_str!("../../templates/captions/motion.tera")),
-    ("captions/plane", include_str!("../../templates/captions/plane.tera")),
-    ("captions/response", include_str!("../../templates/captions/response.tera")),
-    ("captions/restitutions", include_str!("../../templates/captions/restitutions.tera")),
-    ("captions/return-map", include_str!("../../templates/captions/return-map.tera")),
-    ("captions/sim", include_str!("../../templates/captions/sim.tera")),
-    ("captions/transfer", include_str!("../../templates/captions/transfer.tera")),
-    (
-        "captions/transfer-stretches",
-        include_str!("../../templates/captions/transfer-stretches.tera"),
-    ),
-    ("captions/optimize-chart", include_str!("../../templates/captions/optimize-chart.tera")),
-    (
-        "captions/optimize-landscape",
-        include_str!("../../templates/captions/optimize-landscape.tera"),
-    ),
-    ("optimize.md", include_str!("../../templates/optimize.md.tera")),
-    ("optimize.txt", include_str!("../../templates/optimize.txt.tera")),
-    ("optimize-written.txt", include_str!("../../templates/optimize-written.txt.tera")),
-    ("captions/tradeoff", include_str!("../../templates/captions/tradeoff.tera")),
-    ("extremes.md", include_str!("../../templates/extremes.md.tera")),
-    ("paper.md", include_str!("../../templates/paper.md.tera")),
-    ("tradeoff.md", include_str!("../../templates/tradeoff.md.tera")),
-    ("tradeoff.txt", include_str!("../../templates/tradeoff.txt.tera")),
-    ("sweep.md", include_str!("../../templates/sweep.md.tera")),
-    ("captions/sweep-line", include_str!("../../templates/captions/sweep-line.tera")),
-    ("captions/sweep-map", include_str!("../../templates/captions/sweep-map.tera")),
+const TEMPLATES: &[(&str, &str)] = templates![
+    "report.md",
+    "validation.md",
+    "equations.md",
+    "equations-all.md",
+    "analyze.txt",
+    "simulate.txt",
+    "check.txt",
+    "check.md",
+    "check.github",
+    "check.xml",
+    "index.md",
+    "index.html",
+    "diff.md",
+    "diff_report.md",
+    "captions/amplitude",
+    "captions/areas",
+    "captions/band",
+    "captions/basins",
+    "captions/bifurcations",
+    "captions/captures",
+    "captions/clearances",
+    "captions/diagram",
+    "captions/exponents",
+    "captions/forcing-responses",
+    "captions/map",
+    "captions/modulation",
+    "captions/motion",
+    "captions/plane",
+    "captions/response",
+    "captions/restitutions",
+    "captions/return-map",
+    "captions/sim",
+    "captions/transfer",
+    "captions/transfer-stretches",
+    "captions/optimize-chart",
+    "captions/optimize-landscape",
+    "captions/sweep-line",
+    "captions/sweep-map",
+    "captions/tradeoff",
+    "optimize.md",
+    "optimize.txt",
+    "optimize-written.txt",
+    "extremes.md",
+    "paper.md",
+    "tradeoff.md",
+    "tradeoff.txt",
+    "sweep.md",
 ];
 
 /// Components that every template may use.
-const COMPONENTS: [(&str, &str); 3] = [
-    ("components", include_str!("../../templates/components.tera")),
-    ("optimize", include_str!("../../templates/optimize.tera")),
-    ("evidence", include_str!("../../templates/evidence.tera")),
-];
+const COMPONENTS: &[(&str, &str)] = templates!["components", "optimize", "evidence"];
 
 /// What other templates include: styles and scripts.
 const INCLUDED: &[(&str, &str)] = &[
@@ -103,7 +105,7 @@ pub fn render(name: &str, units: &Units, context: &impl Serialize) -> Result<Str
     let mut tera = Tera::new();
     register(&mut tera, *units);
     let included = INCLUDED.iter().copied().filter(|(file, _)| text.contains(file));
-    tera.add_raw_templates(included.chain(COMPONENTS).chain([(*name, *text)]))?;
+    tera.add_raw_templates(included.chain(COMPONENTS.iter().copied()).chain([(*name, *text)]))?;
     Ok(tera.render(name, &Context::from_serialize(context)?)?)
 }
 
@@ -172,6 +174,10 @@ fn register(tera: &mut Tera, units: Units) {
     tera.register_filter("cell", |text: &str, _: Kwargs, _: &State| markdown_cell(text));
     tera.register_filter("path", |text: &str, _: Kwargs, _: &State| url_path(text));
     tera.register_filter("attr", |text: &str, _: Kwargs, _: &State| attribute(text));
+    tera.register_filter("annotation", |text: &str, _: Kwargs, _: &State| annotation(text));
+    tera.register_filter("property", |text: &str, _: Kwargs, _: &State| {
+        annotation(text).replace(':', "%3A").replace(',', "%2C")
+    });
 }
 
 /// The kind of a quantity, or of an id.
@@ -183,6 +189,11 @@ fn kind_of(value: &Value) -> TeraResult<&'static Kind> {
 
 fn field<'a>(map: &'a Map, key: &'static str) -> Option<&'a Value> {
     map.get(&tera::value::Key::Str(key))
+}
+
+/// The escapes of a GitHub workflow for what would end a message.
+fn annotation(text: &str) -> String {
+    text.replace('%', "%25").replace('\r', "%0D").replace('\n', "%0A")
 }
 
 /// A number as its author would write it: 8 Hz, not 8.000 Hz.

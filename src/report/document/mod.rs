@@ -24,7 +24,6 @@ use crate::quantity::catalogue as of;
 use crate::quantity::{Quantity, Units};
 use crate::study::fidelity::Answers;
 use crate::study::{CaseStudy, StudyEffort};
-use criteria::CriteriaFacts;
 
 pub use notes::theory_limits;
 pub use scale::Scale;
@@ -54,7 +53,7 @@ pub struct Document {
     /// Numbers of the case, and those that its first screen, the index and a comparison show, by their id.
     pub quantities: BTreeMap<&'static str, Quantity>,
     /// What the case asks for, judged.
-    pub criteria: Option<CriteriaFacts>,
+    pub criteria: Option<Value>,
     /// What limits these results.
     pub notes: Vec<Value>,
     /// The long-term motions, by share of starts; empty where nothing was simulated.
@@ -153,7 +152,6 @@ impl Document {
         let Source { case, study, judged, .. } = source;
         let scale = Scale::of(case);
         let system = &study.analysis.system;
-        let criteria = CriteriaFacts::of(case, judged);
         let motions: Vec<Value> = study
             .attractors
             .iter()
@@ -169,7 +167,7 @@ impl Document {
             title: case.title.clone(),
             source: case.source.clone(),
             units: if scale.units().physical { "si" } else { "reduced" },
-            verdict: Verdict::of(study, criteria.as_ref()),
+            verdict: Verdict::of(study, judged),
             quantities: quantities(&scale, case, study),
             notes: notes::notes(case, study),
             main: study.main_attractor().and_then(|main| {
@@ -195,7 +193,7 @@ impl Document {
                 case_sha256: case.text_hash.clone(),
                 effort: study.effort,
             },
-            criteria,
+            criteria: criteria::criteria(case, judged),
             motions,
         }
     }

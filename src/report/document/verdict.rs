@@ -3,7 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::NOTICEABLE;
-use super::criteria::{Badge, CriteriaFacts};
+use super::criteria::badge;
+use crate::criteria::Judged;
 use crate::regimes::{FoundAttractor, Regime};
 use crate::study::CaseStudy;
 
@@ -96,16 +97,12 @@ pub struct Verdict {
 
 impl Verdict {
     /// That of a study and its criteria.
-    pub fn of(study: &CaseStudy, criteria: Option<&CriteriaFacts>) -> Self {
+    pub fn of(study: &CaseStudy, judged: &[Judged]) -> Self {
         use crate::validation::Verdict::Confirmed;
         let headline = headline(study);
         let band = along_band(study);
-        let word = match criteria.map(|criteria| criteria.badge) {
-            Some(Badge::Holds) => Word::Holds,
-            Some(Badge::Fails) => Word::Fails,
-            Some(Badge::TooCloseToCall) => Word::TooCloseToCall,
-            None => band.map_or_else(|| word(study, headline), Headline::word),
-        };
+        let without = || band.map_or_else(|| word(study, headline), Headline::word);
+        let word = badge(judged).unwrap_or_else(without);
         let main = study.main_attractor();
         Self {
             tone: word.tone(),

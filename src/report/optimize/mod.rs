@@ -10,7 +10,7 @@ use std::path::PathBuf;
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::document::criteria::{CriteriaFacts, CriterionFacts};
+use super::document::criteria::criterion;
 use super::document::{FigureRow, Scale};
 use super::html::{Page, page};
 use super::render::{RenderError, drawings, figure_files, without_repeated_blank_lines};
@@ -288,9 +288,9 @@ fn context(case: &Case, found: &Optimization) -> Value {
 }
 
 /// The criteria that an absorber misses, and by how much.
-fn missed(case: &Case, design: &Design) -> Vec<CriterionFacts> {
-    let all = CriteriaFacts::of(case, &design.criteria).map_or_else(Vec::new, |facts| facts.all);
-    all.into_iter().filter(|one| one.holds != Some(true)).collect()
+fn missed(case: &Case, design: &Design) -> Vec<Value> {
+    let all = design.criteria.iter().filter(|one| one.holds != Some(true));
+    all.map(|one| criterion(case, one)).collect()
 }
 
 /// The case's absorber, the best, the robust one, and where no criteria can be met the closest.
