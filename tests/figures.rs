@@ -6,7 +6,7 @@ mod common;
 use std::fs;
 
 use vinesink::case::{Case, ExtraFigure, ReportSettings};
-use vinesink::report::document::{Document, Source};
+use vinesink::report::document::{self, Source};
 use vinesink::report::figure::{Color, Figure, Layer, Scale, Shape, draw};
 use vinesink::report::{figures as made, template};
 use vinesink::study::plots::Plot;
@@ -40,7 +40,7 @@ fn figures(case: &Case) -> Vec<Figure> {
 fn of_study(case: &Case, study: &CaseStudy) -> Vec<Figure> {
     let plots = Plot::all(case, study).expect("can be worked out");
     let figures = made::all(case, study, &plots);
-    template::worded(figures, &Document::units(case)).expect("have words")
+    template::worded(figures, &document::units(case)).expect("have words")
 }
 
 /// Everything that holds for every case; returns the figures' names.
@@ -310,7 +310,7 @@ fn a_figure_with_nothing_to_show_is_named() {
         answers: None,
         figures: &drawn,
     };
-    assert_eq!(Document::of(&source).left_out, ["captures"]);
+    assert_eq!(document::document(&source)["left_out"], serde_json::json!(["captures"]));
 }
 
 /// Without damping a free vibration never fades, so that no peak may be named for an absorber at rest;

@@ -6,7 +6,7 @@ use clap::Args;
 use miette::{IntoDiagnostic, Result};
 use vinesink::case::Case;
 use vinesink::evidence::paper::{CASES, CaseReport, TRANSFER, page};
-use vinesink::report::document::Document;
+use vinesink::report::document;
 use vinesink::report::{figures, template};
 use vinesink::store;
 use vinesink::study::plots::Plot;
@@ -48,7 +48,7 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
         let study = CaseStudy::of(&case.system(), effort, &mut advance).into_diagnostic()?;
         let plots = Plot::all(&case, &study).into_diagnostic()?;
         let drawn = figures::all(&case, &study, &plots);
-        let figures = template::worded(drawn, &Document::units(&case)).into_diagnostic()?;
+        let figures = template::worded(drawn, &document::units(&case)).into_diagnostic()?;
         members.push(CaseReport { name, case, study, figures });
     }
     let text = page(&members).into_diagnostic()?;

@@ -7,7 +7,7 @@ use clap::Args;
 use miette::{IntoDiagnostic, Result, miette};
 use vinesink::band::{Survey, SurveySettings};
 use vinesink::criteria;
-use vinesink::report::document::{Document, Source};
+use vinesink::report::document::{self, Source};
 use vinesink::report::{equations, figures, render, template};
 use vinesink::store::{self, Stale};
 use vinesink::study::fidelity::Plan;
@@ -182,12 +182,12 @@ fn rendered(path: &Path, name: &str, arguments: &Arguments) -> Result<(Files, Ou
         }
         _ => criteria::judge(&case, &survey(&criteria::settings(&case))?),
     };
-    let units = Document::units(&case);
+    let units = document::units(&case);
     let plots = Plot::all(&case, &study).into_diagnostic()?;
     let drawn = figures::all(&case, &study, &plots);
     let drawn = template::worded(drawn, &units).into_diagnostic()?;
     progress.advance(FURTHER_STEPS / 2);
-    let document = Document::of(&Source {
+    let document = document::document(&Source {
         name,
         case: &case,
         study: &study,

@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::document::criteria::{criteria, kind, place};
-use super::document::{Document, place::Place};
+use super::document::{self, place::Place};
 use super::render::{RenderError, without_repeated_blank_lines};
 use super::template::{aligned, render};
 use crate::case::Case;
@@ -23,7 +23,7 @@ pub struct Checked {
 impl Checked {
     /// A case, by its file's path and stem, whose criteria were judged.
     pub fn judged(path: &str, name: &str, case: &Case, judged: &[Judged]) -> Self {
-        let units = Document::units(case);
+        let units = document::units(case);
         let warnings: Vec<Place> = case.warnings().iter().map(Place::from).collect();
         let mut document = json!({
             "case": name,
@@ -58,7 +58,11 @@ impl Checked {
     /// Tests, failures and errors as JUnit counts them.
     fn counts(&self) -> [u64; 3] {
         let count = |key: &str| self.page["criteria"][key].as_u64().unwrap_or(0);
-        if self.page["error"].is_string() { [1, 0, 1] } else { [count("count"), count("failing"), 0] }
+        if self.page["error"].is_string() {
+            [1, 0, 1]
+        } else {
+            [count("count"), count("failing"), 0]
+        }
     }
 
     /// A table for a terminal.
@@ -93,9 +97,10 @@ impl Checked {
 /// # Errors
 /// As [`Checked::text`].
 pub fn junit(cases: &[Checked]) -> Result<String, RenderError> {
-    let all = cases.iter().map(Checked::counts).fold([0; 3], |[a, b, c], [d, e, f]| {
-        [a + d, b + e, c + f]
-    });
+    let all = cases
+        .iter()
+        .map(Checked::counts)
+        .fold([0; 3], |[a, b, c], [d, e, f]| [a + d, b + e, c + f]);
     let attributes = |[tests, failures, errors]: [u64; 3]| {
         format!("tests=\"{tests}\" failures=\"{failures}\" errors=\"{errors}\"")
     };

@@ -2,13 +2,13 @@
 
 use serde::Serialize;
 
-use super::document::Document;
+use super::document;
 use crate::case::Case;
 use crate::equations;
 use crate::orbits::flight::Flight;
 use crate::orbits::{self, symmetric_orbits};
 use crate::study::CaseStudy;
-use crate::symbolic::{Equation, Group, Symbol, Values};
+use crate::symbolic::{Equation, Group, Symbol, Values, format_number};
 
 /// Digits of the numbers that are put into formulas.
 const DIGITS: usize = 4;
@@ -26,13 +26,15 @@ pub struct EquationGroup {
     pub formulas: Vec<Formula>,
 }
 
-/// A formula in LaTeX, twice.
+/// A formula in LaTeX.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Formula {
     /// With symbols.
     pub general: String,
     /// With this case's numbers.
     pub numbers: String,
+    /// The value of its right side, where all of its symbols have numbers.
+    pub value: Option<String>,
 }
 
 /// All equations with the case's numbers.
@@ -47,9 +49,13 @@ pub fn groups(case: &Case, study: &CaseStudy) -> Vec<EquationGroup> {
 }
 
 fn with_numbers(group: &Group, values: &Values) -> EquationGroup {
-    let formula = |equation: &&Equation| Formula {
-        general: equation.to_latex(),
-        numbers: equation.to_latex_with(values, DIGITS),
+    let formula = |equation: &&Equation| {
+        let value = equation.right().evaluate(values).ok().filter(|value| !value.is_nan());
+        Formula {
+            general: equation.to_latex(),
+            numbers: equation.to_latex_with(values, DIGITS),
+            value: value.map(|value| format_number(value, DIGITS)),
+        }
     };
     EquationGroup {
         title: group.title,
@@ -62,7 +68,7 @@ fn with_numbers(group: &Group, values: &Values) -> EquationGroup {
 /// The case's numbers that belong to no motion: dimensionless ones, and lengths in the report's unit.
 fn case_values(case: &Case, study: &CaseStudy) -> Values {
     let (scales, system) = (case.scales(), &study.analysis.system);
-    let lengths = Document::units(case);
+    let lengths = document::units(case);
     equations::values_of(system)
         .with(Symbol::b, lengths.length_number(scales.length(1.0)))
         .with(Symbol::G, lengths.length_number(scales.forcing))
@@ -84,7 +90,7 @@ fn orbit_values(case: &Case, study: &CaseStudy) -> Values {
     let Some(orbit) = shown else { return values };
     let scales = case.scales();
     let length =
-        |over_clearance| Document::units(case).length_number(scales.length(over_clearance));
+        |over_clearance| document::units(case).length_number(scales.length(over_clearance));
     values
         .with(Symbol::beta, orbit.absorber_amplitude)
         .with(Symbol::B, length(orbit.absorber_amplitude))
@@ -100,7 +106,7 @@ fn fixed_point_values(case: &Case, study: &CaseStudy) -> Values {
     };
     let scales = case.scales();
     let length =
-        |over_clearance| Document::units(case).length_number(scales.length(over_clearance));
+        |over_clearance| document::units(case).length_number(scales.length(over_clearance));
     values
         .with(Symbol::beta, point.absorber_amplitude)
         .with(Symbol::u, point.shift)

@@ -3,14 +3,13 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use serde::Serialize;
+use serde_json::{Value, json};
 
-use super::document::{Document, Tone};
 use super::equations::EquationGroup;
 use super::figure::{self, Figure, FigureError};
 use super::html;
 use super::template;
-use crate::quantity::{Units, catalogue};
+use crate::quantity::Units;
 use crate::symbolic::MathError;
 
 pub(super) const STYLE: &str = include_str!("../../templates/report.css");
@@ -52,20 +51,12 @@ pub enum RenderError {
     Json(#[from] serde_json::Error),
 }
 
-/// What the equations of a case are printed from.
-#[derive(Serialize)]
-struct EquationsPage<'a> {
-    title: &'a str,
-    length_unit: &'static str,
-    equations: &'a [EquationGroup],
-}
-
 /// The files of a report's folder, by their path in it.
 ///
 /// # Errors
 /// [`RenderError`] says which part cannot be rendered.
 pub fn files(
-    document: &Document,
+    document: &Value,
     equations: &[EquationGroup],
     units: &Units,
     figures: &[Figure],
@@ -75,55 +66,52 @@ pub fn files(
         Ok(without_repeated_blank_lines(&template::render(name, units, document)?))
     };
     let (report, validation) = (page("report.md")?, page("validation.md")?);
-    let (title, length_unit) = (document.title.as_str(), units.length_symbol());
-    let equations = EquationsPage { title, length_unit, equations };
-    let equations =
-        without_repeated_blank_lines(&template::render("equations.md", units, &equations)?);
-    let whole =
-        [report.clone(), appendix("validation", &validation), appendix("equations", &equations)]
-            .join("\n");
-    let tone = match document.verdict.tone {
-        Tone::Good => "good",
-        Tone::Mixed => "mixed",
-        Tone::Bad => "bad",
+    let equations = json!({
+        "title": document["title"], "length_unit": units.length_symbol(), "equations": equations,
+    });
+    let equations = |name: &str| -> Result<String, RenderError> {
+        Ok(without_repeated_blank_lines(&template::render(name, units, &equations)?))
     };
+    // The page has everything; the file beside it, which is under review, what is short.
+    let whole = [
+        report.clone(),
+        appendix("validation", &validation),
+        appendix("equations", &equations("equations-all.md")?),
+    ];
+    let (whole, title) = (whole.join("\n"), document["title"].as_str().unwrap_or_default());
+    let tone = document["verdict"]["tone"].as_str().unwrap_or_default();
     let html = html::page(&html::Page { title, tone, markdown: &whole, drawings: &drawings })?;
     let mut files = figure_files(drawings);
     let pages = [
         ("report.md", report),
         ("validation.md", validation),
-        ("equations.md", equations),
+        ("equations.md", equations("equations.md")?),
         ("report.html", html),
-        ("report.json", with_quantities_in_lines(&serde_json::to_string_pretty(document)?)),
+        ("report.json", format!("{}\n", in_lines(document, 0))),
     ];
     files.extend(pages.map(|(name, text)| (PathBuf::from(name), text.into_bytes())));
     Ok(files)
 }
 
+/// Characters of JSON up to which what belongs together stands on a line.
+const LINE: usize = 120;
+
 /// JSON with each quantity on a line of its own: a number that changes is a line that changes.
-fn with_quantities_in_lines(json: &str) -> String {
-    let mut text = String::with_capacity(json.len());
-    let mut lines = json.lines().peekable();
-    while let Some(line) = lines.next() {
-        text.push_str(line);
-        let first = lines.peek().map_or("", |next| next.trim_start());
-        let id = first.strip_prefix("\"id\": \"").and_then(|rest| rest.strip_suffix("\","));
-        if line.ends_with('{') && id.and_then(catalogue::kind).is_some() {
-            for part in lines.by_ref() {
-                let part = part.trim_start();
-                let end = part.starts_with('}');
-                if !end && !text.ends_with('{') {
-                    text.push(' ');
-                }
-                text.push_str(part);
-                if end {
-                    break;
-                }
-            }
+fn in_lines(value: &Value, indent: usize) -> String {
+    let line = value.to_string();
+    let inner = indent + 2;
+    let (parts, [open, close]): (Vec<String>, _) = match value {
+        Value::Object(fields) if line.len() > LINE => {
+            let field = |(key, value)| format!("{}: {}", json!(key), in_lines(value, inner));
+            (fields.iter().map(field).collect(), ["{", "}"])
         }
-        text.push('\n');
-    }
-    text
+        Value::Array(items) if line.len() > LINE => {
+            (items.iter().map(|item| in_lines(item, inner)).collect(), ["[", "]"])
+        }
+        _ => return line,
+    };
+    let before = format!("\n{:inner$}", "");
+    format!("{open}{before}{}\n{:indent$}{close}", parts.join(&format!(",{before}")), "")
 }
 
 /// A page of its own as a part of another, where links to it lead: its headings one level deeper, without the

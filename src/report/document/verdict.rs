@@ -1,12 +1,14 @@
 //! The answer: what an engineer wants to know first, as data.
 
 use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
 
 use super::NOTICEABLE;
 use super::criteria::badge;
 use crate::criteria::Judged;
 use crate::regimes::{FoundAttractor, Regime};
 use crate::study::CaseStudy;
+use crate::validation::Verdict;
 
 /// Whether the news is good.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -78,43 +80,24 @@ pub enum Word {
     Fails,
 }
 
-/// The answer.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Verdict {
-    /// Good, mixed or bad.
-    pub tone: Tone,
-    /// What the criteria came to, or without any what the absorber does.
-    pub word: Word,
-    /// At the case's own excitation.
-    pub headline: Headline,
-    /// Along the band; none without one, or where nothing was found.
-    pub band: Option<Headline>,
-    /// Why it is worse.
-    pub reason: Option<Reason>,
-    /// Claims that were confirmed.
-    pub confirmed: usize,
-}
-
-impl Verdict {
-    /// That of a study and its criteria.
-    pub fn of(study: &CaseStudy, judged: &[Judged]) -> Self {
-        use crate::validation::Verdict::Confirmed;
-        let headline = headline(study);
-        let band = along_band(study);
-        let without = || band.map_or_else(|| word(study, headline), Headline::word);
-        let word = badge(judged).unwrap_or_else(without);
-        let main = study.main_attractor();
-        Self {
-            tone: word.tone(),
-            word,
-            headline,
-            band,
-            reason: main
-                .filter(|_| headline == Headline::Worse)
-                .and_then(|main| reason(study, main)),
-            confirmed: study.claims.iter().filter(|claim| claim.verdict == Confirmed).count(),
-        }
-    }
+/// The answer: good, mixed or bad; in a word, by the criteria or else by what the absorber does; at the case's
+/// own excitation; along the band, none without one or where nothing was found; and why it is worse.
+pub fn verdict(study: &CaseStudy, judged: &[Judged]) -> Value {
+    let headline = headline(study);
+    let band = along_band(study);
+    let without = || band.map_or_else(|| word(study, headline), Headline::word);
+    let word = badge(judged).unwrap_or_else(without);
+    let worse = study.main_attractor().filter(|_| headline == Headline::Worse);
+    let confirmed = study.claims.iter().filter(|claim| claim.verdict == Verdict::Confirmed);
+    json!({
+        "tone": word.tone(),
+        "word": word,
+        "headline": headline,
+        "band": band,
+        "reason": worse.and_then(|main| reason(study, main)),
+        // Claims that were confirmed.
+        "confirmed": confirmed.count(),
+    })
 }
 
 impl Word {

@@ -7,7 +7,7 @@ use crate::method::Method;
 use crate::quantity::catalogue as of;
 use crate::quantity::units::Unit;
 use crate::quantity::{Digits, Kind, Quantity, Units};
-use crate::report::document::Document;
+use crate::report::document;
 use crate::report::figure::{Axis, Scale, edges};
 
 /// An axis as it is shown.
@@ -43,7 +43,7 @@ impl AxisShown {
     /// An axis of a case's table `[sweep]`.
     pub fn of(case: &Case, axis: &SweepAxis) -> Self {
         let SweepAxis { parameter, ref values, logarithmic } = *axis;
-        let (kind, units) = (kind(parameter, &case.design), Document::units(case));
+        let (kind, units) = (kind(parameter, &case.design), document::units(case));
         let largest = values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
         let unit = units.axis_unit(kind, largest);
         Self {

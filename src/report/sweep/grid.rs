@@ -7,7 +7,7 @@ use super::axis::{At, AxisShown};
 use crate::case::{Recorded, SweepParameter};
 use crate::quantity::{Kind, Units};
 use crate::regimes::Regime;
-use crate::report::document::Document;
+use crate::report::document;
 use crate::sweep::columns::Values;
 
 /// How the motions of a column were come by.
@@ -80,7 +80,7 @@ impl Measure {
 
 impl Swept<'_> {
     pub(super) fn units(&self) -> Units {
-        Document::units(self.case)
+        document::units(self.case)
     }
 
     pub(super) fn points(&self) -> usize {
