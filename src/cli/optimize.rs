@@ -117,7 +117,7 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
             output::print(written.map_or(summary.clone(), |line| format!("{summary}\n{line}\n")))?;
         }
         Format::Json => {
-            output::print_json(&page::OptimizationDocument::new(&case, &found))?;
+            output::print_json(&page::document(&case, &found))?;
             written.into_iter().for_each(|line| output::complain(&line));
         }
     }

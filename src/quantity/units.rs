@@ -94,6 +94,9 @@ impl Dimension {
 /// Smallest and largest number that is shown in a page's own unit of length before another prefix is taken.
 const PAGE_RANGE: [f64; 2] = [0.1, 1000.0];
 
+/// Below 1 Hz a frequency stays in Hz down to this: of a tower people say 0.79 Hz, not 790 mHz.
+const LEAST_HERTZ: f64 = 0.1;
+
 /// The units of one page.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Units {
@@ -144,7 +147,8 @@ impl Units {
         }
         let units = dimension.units();
         let plain = units.iter().find(|one| one.size == 1.0).or(units.first());
-        let fitting = units.iter().find(|one| size >= one.size).or(units.last());
+        let least = |one: &Unit| if one.symbol == "Hz" { LEAST_HERTZ } else { one.size };
+        let fitting = units.iter().find(|one| size >= least(one)).or(units.last());
         let found = if size == 0.0 || !size.is_finite() { plain } else { fitting };
         found.copied().unwrap_or(unit("", 1.0))
     }
@@ -300,6 +304,9 @@ mod tests {
             (&of::MODULATION, 3e-16, "< 0.01 %"),
             (&of::BARE_PEAK, f64::INFINITY, "without limit"),
             (&of::ETA, 0.3271, "0.327 rad"),
+            (&of::EXCITATION_FREQUENCY, 0.788_1, "0.7881 Hz"),
+            (&of::EXCITATION_FREQUENCY, 0.05, "50.00 mHz"),
+            (&of::EXCITATION_FREQUENCY, 1500.0, "1.500 kHz"),
         ] {
             assert_eq!(units.text(kind, value), text, "{}", kind.id);
         }

@@ -1,13 +1,11 @@
 //! The page of `vinesink optimize` as data, most of which is its JSON document. The sentences are in
 //! `templates/`.
 
-mod damper;
 mod figure;
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use serde::Serialize;
 use serde_json::{Value, json};
 
 use super::document::criteria::criterion;
@@ -15,17 +13,14 @@ use super::document::{FigureRow, Scale};
 use super::html::{Page, page};
 use super::render::{RenderError, drawings, figure_files, without_repeated_blank_lines};
 use super::template::{aligned, render, worded};
-use crate::band::{Motions, Source};
-use crate::case::{AbsorberDesign, BandOver, Case, Objective, Uncertainty};
+use crate::band::rivals::DETUNED;
+use crate::band::{Motions, Rivals, Source};
+use crate::case::{AbsorberDesign, BandOver, Case, Objective};
 use crate::method::Method;
-use crate::optimize::chart::Suited;
-use crate::optimize::claim::Claim;
 use crate::optimize::robust::UnderDeviations;
-use crate::optimize::sensitivity::Sensitivity;
 use crate::optimize::task::value_of;
-use crate::optimize::{Bounds, Design, Judged, Optimization, Task, Variable};
+use crate::optimize::{Bounds, Design, Optimization, Task, Variable};
 use crate::quantity::{Kind, Quantity, catalogue};
-use damper::DamperDocument;
 
 pub use figure::figures;
 
@@ -36,133 +31,96 @@ const STRIPS: f64 = 0.01;
 /// Places of the band that the table shows, the worst one included.
 const SHOWN: usize = 9;
 
-/// What came of the search.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-enum Answer {
-    /// Better than the case's own, and all criteria hold.
-    Found,
-    /// No absorber meets all criteria.
-    NoneMeets,
-    /// Nothing is better than the case's own.
-    OwnIsBest,
-    /// The objective has no value above 0.
-    NotReached,
+/// What an optimisation found: `vinesink/optimization@2`. Lengths in metres or the case's own unit.
+pub fn document(case: &Case, found: &Optimization) -> Value {
+    let (best, task) = (&found.best, &found.task);
+    let row = |design: &Design| absorber(task, design);
+    let robust = found.robust.as_ref().map(|one| {
+        let [of_robust, of_best] = one.under;
+        let mut robust = row(&one.design);
+        robust["expected"] = json!(of_robust.expected);
+        robust["worst_corner"] = json!(of_robust.worst_corner);
+        // The same for the optimum as written.
+        robust["optimum_expected"] = json!(of_best.expected);
+        robust["optimum_worst_corner"] = json!(of_best.worst_corner);
+        robust
+    });
+    json!({
+        "format": "vinesink/optimization@2",
+        "title": case.title,
+        "answer": match (found.reached(), best.is_feasible(), found.improves()) {
+            // The objective has no value above 0.
+            (false, ..) => "not-reached",
+            (true, false, _) => "none-meets",
+            (true, true, false) => "own-is-best",
+            (true, true, true) => "found",
+        },
+        "objective": task.objective.name(),
+        "bounds": task.bounds,
+        // The frequency's as a frequency ratio, the amplitude's over the case's own.
+        "uncertainty": task.uncertainty,
+        // Whether the objective has a value at all.
+        "reached": found.reached(),
+        // Whether all criteria hold at the optimum; true without criteria.
+        "feasible": best.is_feasible(),
+        // Whether the optimum is another absorber than the case's own, and not worse.
+        "improves": found.improves(),
+        // Rounded as it is written; none where nothing is reached.
+        "optimum": found.reached().then_some(best.choice),
+        // The objective at the optimum as it is shown, and as a check of the written case gives it.
+        "claimed": objective(task, best.value, best.error),
+        "checked": objective(task, found.checked.0, found.checked.1),
+        "own": row(&found.own),
+        // Where nothing meets all criteria, the absorber that misses them least.
+        "closest": found.closest.as_ref().map(row),
+        "robust": robust,
+        // Clearances that are as good as the optimum's.
+        "plateau": found.plateau,
+        "bare": best.rivals.bare.1 * best.choice.clearance,
+        "tuned_mass_damper": damper(best),
+        // Pairs of clearance and objective by the cheap layer.
+        "landscape": found.landscape,
+        // Every absorber that was judged.
+        "judged": found.judged,
+        "sensitivities": found.sensitivities,
+        // Over the case's own clearance.
+        "claim": found.claim,
+        "chart": found.chart,
+        "case_sha256": case.text_hash,
+    })
 }
 
-/// `vinesink/optimization@2`. Lengths in metres or the case's own unit.
-#[derive(Debug, Clone, Serialize)]
-pub struct OptimizationDocument<'a> {
-    format: &'static str,
-    title: &'a str,
-    answer: Answer,
-    objective: &'static str,
-    bounds: &'a [Bounds],
-    /// The frequency's as a frequency ratio, the amplitude's over the case's own.
-    uncertainty: Uncertainty,
-    /// Whether the objective has a value at all.
-    reached: bool,
-    /// Whether all criteria hold at the optimum; true without criteria.
-    feasible: bool,
-    /// Whether the optimum is another absorber than the case's own, and not worse.
-    improves: bool,
-    /// The best absorber, rounded as it is written; none where nothing is reached.
-    optimum: Option<AbsorberDesign>,
-    /// The objective at the optimum as it is shown, and as a check of the written case gives it.
-    claimed: Quantity,
-    checked: Quantity,
-    own: DesignRow,
-    /// Where nothing meets all criteria, the absorber that misses them least.
-    closest: Option<DesignRow>,
-    robust: Option<RobustRow>,
-    /// Clearances that are as good as the optimum's.
-    plateau: [f64; 2],
-    bare: f64,
-    tuned_mass_damper: DamperDocument,
-    /// Pairs of clearance and objective by the cheap layer.
-    landscape: &'a [(f64, f64)],
-    /// Every absorber that was judged.
-    judged: &'a [Judged],
-    sensitivities: &'a [Sensitivity],
-    /// Over the case's own clearance.
-    claim: Option<Claim>,
-    chart: &'a [Suited],
-    /// SHA-256 of the case file's text.
-    case_sha256: &'a str,
+/// An absorber with its objective, as a quantity is written.
+fn absorber(task: &Task, design: &Design) -> Value {
+    let AbsorberDesign { clearance, restitution, mass } = design.choice;
+    let mut row = json!(objective(task, design.value, design.error));
+    row["clearance"] = json!(clearance);
+    row["restitution"] = json!(restitution);
+    row["mass"] = json!(mass);
+    row["feasible"] = json!(design.is_feasible());
+    row
 }
 
-#[derive(Debug, Clone, Serialize)]
-struct DesignRow {
-    #[serde(flatten)]
-    choice: AbsorberDesign,
-    #[serde(flatten)]
-    objective: Quantity,
-    feasible: bool,
-}
-
-#[derive(Debug, Clone, Serialize)]
-struct RobustRow {
-    #[serde(flatten)]
-    design: DesignRow,
-    expected: f64,
-    worst_corner: f64,
-    /// The same for the optimum as written.
-    optimum_expected: f64,
-    optimum_worst_corner: f64,
-}
-
-impl<'a> OptimizationDocument<'a> {
-    /// The document of a case.
-    pub fn new(case: &'a Case, found: &'a Optimization) -> Self {
-        let (best, task) = (&found.best, &found.task);
-        let row = |design: &Design| DesignRow {
-            choice: design.choice,
-            objective: objective(task, design.value, design.error),
-            feasible: design.is_feasible(),
-        };
-        let robust = found.robust.as_ref().map(|one| {
-            let [of_robust, of_best] = one.under;
-            RobustRow {
-                design: row(&one.design),
-                expected: of_robust.expected,
-                worst_corner: of_robust.worst_corner,
-                optimum_expected: of_best.expected,
-                optimum_worst_corner: of_best.worst_corner,
-            }
-        });
-        let length = |over: f64| over * best.choice.clearance;
-        Self {
-            format: "vinesink/optimization@2",
-            title: &case.title,
-            answer: match (found.reached(), best.is_feasible(), found.improves()) {
-                (false, ..) => Answer::NotReached,
-                (true, false, _) => Answer::NoneMeets,
-                (true, true, false) => Answer::OwnIsBest,
-                (true, true, true) => Answer::Found,
-            },
-            objective: task.objective.name(),
-            bounds: &task.bounds,
-            uncertainty: task.uncertainty,
-            reached: found.reached(),
-            feasible: best.is_feasible(),
-            improves: found.improves(),
-            optimum: found.reached().then_some(best.choice),
-            claimed: objective(task, best.value, best.error),
-            checked: objective(task, found.checked.0, found.checked.1),
-            own: row(&found.own),
-            closest: found.closest.as_ref().map(row),
-            robust,
-            plateau: found.plateau,
-            bare: length(best.rivals.bare.1),
-            tuned_mass_damper: DamperDocument::new(&best.rivals, length),
-            landscape: &found.landscape,
-            judged: &found.judged,
-            sensitivities: &found.sensitivities,
-            claim: found.claim,
-            chart: &found.chart,
-            case_sha256: &case.text_hash,
-        }
-    }
+/// The tuned mass damper of the absorber's mass that is best along the band: its natural frequency over the
+/// structure's, and what it does also where the structure's frequency is off by a factor.
+fn damper(best: &Design) -> Value {
+    let Rivals { damper, damped, detuned, .. } = &best.rivals;
+    let length = |over: f64| over * best.choice.clearance;
+    let off = DETUNED.iter().zip(detuned).map(|(factor, one)| {
+        json!({
+            "factor": factor,
+            "largest_peak": length(one.amplitude),
+            "stroke": length(one.stroke),
+        })
+    });
+    json!({
+        "tuning": damper.tuning,
+        "damping_ratio": damper.damping_ratio,
+        "largest_peak": length(damped.amplitude),
+        "at": damped.at,
+        "stroke": length(damped.stroke),
+        "detuned": off.collect::<Vec<_>>(),
+    })
 }
 
 /// The kind of an objective's value.
@@ -227,6 +185,8 @@ pub fn written(
     let context = json!({
         "file": file,
         "choice": written.map(|design| design.choice),
+        "feasible": written.is_some_and(Design::is_feasible),
+        "none_meets": !found.best.is_feasible(),
         "robust": robust,
         "reached": found.reached(),
         "bounds": found.task.bounds,
@@ -252,7 +212,7 @@ fn context(case: &Case, found: &Optimization) -> Value {
         })
     });
     json!({ "at": {
-        "page": OptimizationDocument::new(case, found),
+        "page": document(case, found),
         "over": found.task.band.as_ref().map(|band| match band.over {
             BandOver::Frequency => "frequency",
             BandOver::Amplitude => "amplitude",
