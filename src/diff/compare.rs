@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use super::moved::{Moved, is_quantity, kind, moved};
 use super::reader::{label, sorted, without_elements};
-use super::{Change, Document, FigureChange, Folded, ReportDifference, criteria};
+use super::{Change, Document, Folded, ReportDifference, criteria};
 use crate::regimes::share::wilson;
 
 /// What is compared value by value; inputs, criteria, verdict and figures have their own ways.
@@ -113,23 +113,19 @@ fn main_motion(old: &Document, new: &Document) -> Option<Change> {
 }
 
 /// Drawings that are not the same, in the order of the report.
-fn figures(old: &Document, new: &Document) -> Vec<FigureChange> {
+fn figures(old: &Document, new: &Document) -> Vec<Value> {
     let listed = || new.list("/figures").iter().chain(old.list("/figures"));
     let names: BTreeSet<&String> = old.figures.keys().chain(new.figures.keys()).collect();
     let differing =
         names.into_iter().filter(|name| old.figures.get(*name) != new.figures.get(*name));
+    let place = |name: &String| listed().position(|one| one["name"] == **name);
     let mut changed: Vec<&String> = differing.collect();
-    changed
-        .sort_by_key(|name| listed().position(|one| one["name"] == **name).unwrap_or(usize::MAX));
-    let change = |name: &String| FigureChange {
-        title: listed()
-            .find(|one| one["name"] == *name)
-            .and_then(|one| one["title"].as_str())
-            .unwrap_or(name)
-            .to_owned(),
-        in_old: old.figures.contains_key(name),
-        in_new: new.figures.contains_key(name),
-        name: name.clone(),
+    changed.sort_by_key(|name| place(name).unwrap_or(usize::MAX));
+    let change = |name: &String| {
+        let title = listed().find(|one| one["name"] == *name).map(|one| &one["title"]);
+        let title = title.and_then(Value::as_str).unwrap_or(name);
+        let [in_old, in_new] = [old, new].map(|side| side.figures.contains_key(name));
+        json!({ "name": name, "title": title, "in_old": in_old, "in_new": in_new })
     };
     changed.into_iter().map(change).collect()
 }

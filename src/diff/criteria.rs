@@ -1,31 +1,9 @@
 //! Criteria of a case: what was asked, what was found, whether it holds.
 
-use serde::Serialize;
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use super::Document;
 use super::moved::{Moved, moved};
-
-/// A criterion that flipped, moved, appeared or vanished.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct CriterionChange {
-    /// Its key in the case file.
-    pub name: String,
-    /// Whether it is on both sides and the answer is another one.
-    pub flipped: bool,
-    /// Before, as in `report.json`; null where there was none.
-    pub old: Value,
-    /// After.
-    pub new: Value,
-}
-
-impl CriterionChange {
-    fn of(old: &Value, new: &Value) -> Self {
-        let name = new["name"].as_str().or(old["name"].as_str()).unwrap_or("");
-        let flipped = !old.is_null() && !new.is_null() && old["holds"] != new["holds"];
-        Self { name: name.to_owned(), flipped, old: old.clone(), new: new.clone() }
-    }
-}
 
 /// Whether both sides say the same: asked alike, answered alike, and found within both errors.
 fn agree(old: &Value, new: &Value) -> bool {
@@ -34,21 +12,24 @@ fn agree(old: &Value, new: &Value) -> bool {
     found && ["asked", "holds", "found_flag"].into_iter().all(same)
 }
 
-/// Criteria that do not agree, flipped ones first; and how many do agree.
-pub(super) fn changes(old: &Document, new: &Document) -> (Vec<CriterionChange>, usize) {
+/// Criteria that do not agree, as they are on either side and null where there is none, flipped ones first; and
+/// how many do agree.
+pub(super) fn changes(old: &Document, new: &Document) -> (Vec<Value>, usize) {
     let [old, new] = [old, new].map(|document| document.list("/criteria/all"));
-    let (same, differing): (Vec<_>, Vec<_>) = new
-        .iter()
-        .map(|after| (find(old, after).unwrap_or(&Value::Null), after))
-        .partition(|(before, after)| !before.is_null() && agree(before, after));
-    let gone = old.iter().filter(|before| find(new, before).is_none());
-    let differing = differing.into_iter().chain(gone.map(|before| (before, &Value::Null)));
-    let mut changes: Vec<_> =
-        differing.map(|(before, after)| CriterionChange::of(before, after)).collect();
-    changes.sort_by_key(|change| !change.flipped);
-    (changes, same.len())
-}
-
-fn find<'a>(list: &'a [Value], wanted: &Value) -> Option<&'a Value> {
-    list.iter().find(|one| one["name"] == wanted["name"])
+    let same = |list: &[Value], wanted: &Value| {
+        list.iter().find(|one| one["name"] == wanted["name"]).cloned().unwrap_or_default()
+    };
+    let pairs = new.iter().map(|after| (same(old, after), after.clone()));
+    let gone = old.iter().filter(|before| same(new, before).is_null());
+    let gone = gone.map(|before| (before.clone(), Value::Null));
+    let (agreeing, differing): (Vec<_>, Vec<_>) =
+        pairs.chain(gone).partition(|(before, after)| !before.is_null() && agree(before, after));
+    let change = |(old, new): (Value, Value)| {
+        let flipped = !old.is_null() && !new.is_null() && old["holds"] != new["holds"];
+        let name = if new.is_null() { &old["name"] } else { &new["name"] };
+        json!({ "name": name, "flipped": flipped, "old": old, "new": new })
+    };
+    let mut changes: Vec<Value> = differing.into_iter().map(change).collect();
+    changes.sort_by_key(|change| change["flipped"] == false);
+    (changes, agreeing.len())
 }

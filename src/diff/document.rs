@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 
 use serde_json::{Value, json};
 
-use super::Summary;
 use crate::report::document::FORMAT;
 use crate::report::stored::{self, ReadError};
 
@@ -44,6 +43,14 @@ pub struct Remedy {
 /// The format of version 0.1's first reports, whose numbers have neither identifiers nor errors.
 const OLD_FORMAT: &str = "vinesink/report@1";
 
+/// Why a report is out of date, in the order in which reports are named.
+const REASONS: [&str; 3] = ["case-text", "program-version", "format"];
+
+/// The place of a stale report's reason among [`REASONS`].
+pub(super) fn reason(stale: &Value) -> Option<usize> {
+    REASONS.iter().position(|reason| stale["reason"] == *reason)
+}
+
 impl Document {
     /// Reads the text of a `report.json`; `place` says where it came from. One of the format before this one is kept to
     /// be named as out of date.
@@ -74,18 +81,44 @@ impl Document {
         self.report["format"] != FORMAT
     }
 
-    /// Its name and answer; the name of the report's own folder where it has none below another.
-    pub(super) fn summary(&self, folder: &str) -> Summary {
+    /// Its name and answer, null where it has none, with how many criteria it has and how many of them fail; the
+    /// name of the report's own folder where it has none below another.
+    pub(super) fn summary(&self, folder: &str) -> Value {
         let count = |key: &str| self.report["criteria"][key].as_u64().unwrap_or(0);
-        Summary {
-            name: if folder.is_empty() { self.name() } else { folder }.to_owned(),
-            title: self.text("title").to_owned(),
-            verdict: match self.has_old_format() {
-                true => Value::Null,
-                false => self.report["verdict"].clone(),
-            },
-            criteria: [count("count"), count("failing")],
-        }
+        let verdict = if self.has_old_format() { &Value::Null } else { &self.report["verdict"] };
+        json!({
+            "name": if folder.is_empty() { self.name() } else { folder },
+            "title": self.text("title"),
+            "verdict": verdict,
+            "criteria": [count("count"), count("failing")],
+        })
+    }
+
+    /// What is out of date about it: it was made from another text of its case, by another version of the program,
+    /// or has an old format and is not compared. `reported` is what it was made from, `current` the same now.
+    pub(super) fn stale(&self, side: &str) -> Vec<Value> {
+        let provenance = |field: &str| self.report["provenance"][field].as_str();
+        let case = self.case.as_ref();
+        let sides = [
+            (provenance("case_sha256"), case.map(|case| case.sha256.as_str())),
+            (provenance("version"), Some(env!("CARGO_PKG_VERSION"))),
+            (self.report["format"].as_str(), Some(FORMAT)),
+        ];
+        let differing = REASONS.iter().zip(sides).filter_map(|(reason, (reported, current))| {
+            let (reported, current) = reported.zip(current).filter(|(old, new)| old != new)?;
+            Some(json!({
+                "side": side,
+                "file": self.place,
+                "reason": reason,
+                // The case file that has another text.
+                "case": case.filter(|_| *reason == "case-text").map(|case| &case.place),
+                "reported": reported,
+                "current": current,
+                "command": self.remedy.command,
+                "revision": self.remedy.revision,
+            }))
+        });
+        differing.collect()
     }
 
     /// A text of the document, empty where there is none.

@@ -83,7 +83,8 @@ fn sections(
 fn head(difference: &Difference, changed: usize) -> Result<String, RenderError> {
     let reports = &difference.reports;
     let sum = |count: &dyn Fn(&ReportDifference) -> usize| reports.iter().map(count).sum::<usize>();
-    let flipped = |one: &ReportDifference| one.criteria.iter().filter(|one| one.flipped).count();
+    let flipped =
+        |one: &ReportDifference| one.criteria.iter().filter(|one| one["flipped"] == true).count();
     let facts = json!({
         "old": difference.old,
         "new": difference.new,

@@ -9,16 +9,13 @@ mod document;
 pub mod markdown;
 mod moved;
 mod reader;
-mod stale;
 
 use std::collections::BTreeMap;
 
 use serde::Serialize;
 use serde_json::Value;
 
-pub use criteria::CriterionChange;
 pub use document::{CaseFile, Document, Remedy};
-pub use stale::{Reason, StaleReport};
 
 /// Reports of one side, by the name of their folder.
 pub type Reports = BTreeMap<String, Document>;
@@ -32,38 +29,26 @@ pub struct Difference {
     pub old: String,
     /// The same of the new ones.
     pub new: String,
-    /// Reports that their case, or this version of the program, would not give now.
-    pub stale: Vec<StaleReport>,
+    /// Reports that their case, or this version of the program, would not give now: the side, the `report.json`,
+    /// the reason and what to do.
+    pub stale: Vec<Value>,
     /// How many reports are on both sides and could be compared.
     pub compared: usize,
     /// Those of them that are not the same, by name.
     pub reports: Vec<ReportDifference>,
-    /// Reports on the new side only.
-    pub added: Vec<Summary>,
+    /// Reports on the new side only: name and answer.
+    pub added: Vec<Value>,
     /// Reports on the old side only.
-    pub removed: Vec<Summary>,
-}
-
-/// A report's name and answer.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Summary {
-    /// Its folder's name, or its case's.
-    pub name: String,
-    /// Its title.
-    pub title: String,
-    /// Its answer, as in `report.json`; null where it has none.
-    pub verdict: Value,
-    /// How many criteria it has, and how many of them fail.
-    pub criteria: [u64; 2],
+    pub removed: Vec<Value>,
 }
 
 /// What changed in one report.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ReportDifference {
-    /// The new report.
-    pub new: Summary,
-    /// The old one.
-    pub old: Summary,
+    /// The new report's name and answer.
+    pub new: Value,
+    /// The old one's.
+    pub old: Value,
     /// Its folder below the one that was compared; empty where that is the report's own.
     pub folder: String,
     /// The clearance by which the units of lengths are chosen, in m; none for a case in reduced units.
@@ -72,16 +57,16 @@ pub struct ReportDifference {
     pub verdict: bool,
     /// What the case says.
     pub inputs: Vec<Change>,
-    /// Criteria that flipped, moved, appeared or vanished.
-    pub criteria: Vec<CriterionChange>,
+    /// Criteria that flipped, moved, appeared or vanished: as they are in `report.json` on either side.
+    pub criteria: Vec<Value>,
     /// Claims that were confirmed or refuted and no longer are.
     pub claims: Vec<Change>,
     /// Regimes, areas, stability and whatever else has a name and not a size, the most important first.
     pub states: Vec<Change>,
     /// Quantities beyond their errors, the most important first.
     pub numbers: Vec<Change>,
-    /// Figures whose drawing is not the same.
-    pub figures: Vec<FigureChange>,
+    /// Figures whose drawing is not the same: name, title, and on which sides they are.
+    pub figures: Vec<Value>,
     /// What moved and means nothing.
     pub folded: Folded,
 }
@@ -119,19 +104,6 @@ pub struct Change {
     pub allowed: Option<f64>,
 }
 
-/// A drawing.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct FigureChange {
-    /// File stem under `figures/`.
-    pub name: String,
-    /// The figure's title.
-    pub title: String,
-    /// Whether it is there on the old side.
-    pub in_old: bool,
-    /// Whether it is there on the new side.
-    pub in_new: bool,
-}
-
 impl Difference {
     /// Compares two sets of reports. One report on either side is compared whatever it is called.
     pub fn of(old: (&str, &Reports), new: (&str, &Reports)) -> Self {
@@ -153,16 +125,16 @@ impl Difference {
             }
         }
         for (name, document) in new.iter().filter(|(name, _)| !old.contains_key(*name)) {
-            difference.stale.extend(stale::reasons("new", document));
+            difference.stale.extend(document.stale("new"));
             difference.added.push(document.summary(name));
         }
-        difference.stale.sort_by_key(|stale| stale.reason);
+        difference.stale.sort_by_key(document::reason);
         difference
     }
 
     fn add(&mut self, old: &Document, new: &Document, folder: &str) {
-        self.stale.extend(stale::reasons("old", old));
-        self.stale.extend(stale::reasons("new", new));
+        self.stale.extend(old.stale("old"));
+        self.stale.extend(new.stale("new"));
         if old.has_old_format() || new.has_old_format() {
             return;
         }

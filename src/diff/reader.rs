@@ -70,7 +70,8 @@ pub(super) fn sorted(mut found: ReportDifference) -> ReportDifference {
     let numbers = |old: &Value, new: &Value| {
         [&new["id"], &old["value"], &new["value"]].map(ToString::to_string)
     };
-    let criteria = found.criteria.iter().map(|one| numbers(&one.old["found"], &one.new["found"]));
+    let criteria =
+        found.criteria.iter().map(|one| numbers(&one["old"]["found"], &one["new"]["found"]));
     let mut told: BTreeSet<[String; 3]> = criteria.collect();
     found.numbers.retain(|one| told.insert(numbers(&one.old, &one.new)));
     found

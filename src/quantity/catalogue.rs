@@ -100,7 +100,6 @@ catalogue! {
     STIFFNESS = "stiffness", "k₁", "stiffness", Stiffness, Significant(4), Interval;
     DAMPING = "damping", "c₁", "damping", Damping, Significant(4), Interval;
     DAMPING_RATIO = "damping_ratio", "ζ", "damping ratio", Share, Significant(3), Interval;
-    NATURAL_FREQUENCY = "natural_frequency", "f₀", "natural frequency", Frequency, Significant(4), Interval;
     ABSORBER_MASS = "absorber_mass", "m₂", "mass of the absorber", Mass, Significant(4), Interval;
     MASS_RATIO = "mass_ratio", "ε", "mass ratio", Share, Significant(3), Interval;
     CLEARANCE = "clearance", "b", "clearance", Length, Significant(4), Interval;
@@ -108,14 +107,12 @@ catalogue! {
     BASE_AMPLITUDE = "base_amplitude", "F", "amplitude of the base", Length, Significant(4), Interval;
     FORCE_AMPLITUDE = "force_amplitude", "P", "amplitude of the force", Force, Significant(4), Interval;
     EXCITATION_FREQUENCY = "excitation_frequency", "f", "excitation frequency", Frequency, Significant(4), Interval;
-    EXCITATION_FACTOR = "excitation_factor", "", "excitation amplitude over the case's", Number, Significant(4), Interval;
     FREQUENCY_RATIO = "frequency_ratio", "Ω", "frequency ratio", Number, Significant(4), Interval;
     DETUNING = "detuning", "σ", "detuning", Number, Significant(4), Interval;
     REDUCED_DAMPING = "reduced_damping", "λ", "reduced damping", Number, Significant(4), Interval;
     REDUCED_FORCING = "reduced_forcing", "G", "reduced forcing", Length, Significant(4), Interval;
     FORCING_PER_CLEARANCE = "forcing_per_clearance", "γ", "reduced forcing over the clearance", Number, Significant(4), Interval;
     PEAK = "peak_displacement", "x̂", "peak displacement", Length, Significant(3), Bound;
-    PEAK_VELOCITY = "peak_velocity", "", "peak velocity", Velocity, Significant(3), Bound;
     RMS = "rms_displacement", "", "rms displacement", Length, Significant(3), Interval;
     BARE_PEAK = "bare_peak", "", "peak displacement without absorber", Length, Significant(3), Interval;
     INACTIVE_PEAK = "inactive_peak", "", "peak displacement with an inactive absorber", Length, Significant(3), Interval;

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use super::document::{Tone, Word};
 use super::render::{self, RenderError};
@@ -49,45 +49,17 @@ pub struct Summary {
     /// `si` or `reduced`.
     units: String,
     verdict: Answer,
-    criteria: Option<Count>,
+    criteria: Value,
     quantities: BTreeMap<String, Value>,
-    notes: Vec<serde_json::Map<String, Value>>,
-    figures: Vec<Drawing>,
-    band: Option<Band>,
+    notes: Vec<Value>,
+    figures: Vec<Value>,
+    band: Value,
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct Answer {
     tone: Tone,
     word: Word,
-}
-
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-struct Count {
-    failing: usize,
-    count: usize,
-}
-
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-struct Drawing {
-    name: String,
-    alt: String,
-}
-
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-struct Band {
-    from: Value,
-    to: Value,
-    worst: Option<Peak>,
-    bare: Peak,
-    damper: Peak,
-}
-
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-struct Peak {
-    peak: Value,
-    #[serde(default)]
-    change: Option<Value>,
 }
 
 /// Another page in the folder.
@@ -119,14 +91,8 @@ struct Entry {
     reduced: bool,
     /// Place of the verdict in a sorted column.
     order: u8,
-    cells: [Cell; 6],
-}
-
-/// A number of the table; `to` for the other end of a range.
-#[derive(Debug, Clone, Serialize)]
-struct Cell {
-    from: Option<Value>,
-    to: Option<Value>,
+    /// Numbers of the table, each from one end of a range to the other or one.
+    cells: [Value; 6],
 }
 
 impl Summary {
@@ -142,28 +108,22 @@ impl Summary {
     }
 
     /// Clearance, excitation, vibration without and with absorber, change, tuned mass damper.
-    fn cells(&self) -> [Cell; 6] {
+    fn cells(&self) -> [Value; 6] {
         let of = |ids: &[&str]| ids.iter().find_map(|id| self.quantities.get(*id)).cloned();
-        let one = |from: Option<Value>| Cell { from, to: None };
+        let one = |from: Option<Value>| json!({ "from": from });
         let clearance = one(of(&["clearance"]));
-        match &self.band {
-            Some(band) => [
-                clearance,
-                Cell { from: Some(band.from.clone()), to: Some(band.to.clone()) },
-                one(Some(band.bare.peak.clone())),
-                one(band.worst.as_ref().map(|worst| worst.peak.clone())),
-                one(band.worst.as_ref().and_then(|worst| worst.change.clone())),
-                one(Some(band.damper.peak.clone())),
-            ],
-            None => [
-                clearance,
-                one(of(&["excitation_frequency", "frequency_ratio"])),
-                one(of(&["bare_peak"])),
-                one(of(&["peak_displacement"])),
-                one(of(&["change_db"])),
-                one(of(&["damper_peak"])),
-            ],
+        let band = &self.band;
+        if band.is_null() {
+            let frequency = of(&["excitation_frequency", "frequency_ratio"]);
+            let rest = ["bare_peak", "peak_displacement", "change_db", "damper_peak"];
+            let [bare, peak, change, damper] = rest.map(|id| one(of(&[id])));
+            return [clearance, one(frequency), bare, peak, change, damper];
         }
+        let along = |pointer: &str| one(band.pointer(pointer).cloned());
+        let rest = ["/bare/peak", "/worst/peak", "/worst/change", "/damper/peak"];
+        let [bare, peak, change, damper] = rest.map(along);
+        let range = json!({ "from": band["from"], "to": band["to"] });
+        [clearance, range, bare, peak, change, damper]
     }
 }
 
