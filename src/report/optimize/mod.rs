@@ -14,7 +14,7 @@ use super::html::{Page, page};
 use super::render::{RenderError, drawings, figure_files, without_repeated_blank_lines};
 use super::template::{aligned, render, worded};
 use crate::band::rivals::DETUNED;
-use crate::band::{Motions, Rivals, Source};
+use crate::band::{Motions, Rivals, Source, Worst};
 use crate::case::{AbsorberDesign, BandOver, Case, Objective};
 use crate::method::Method;
 use crate::optimize::robust::UnderDeviations;
@@ -34,7 +34,7 @@ const SHOWN: usize = 9;
 /// What an optimisation found: `vinesink/optimization@2`. Lengths in metres or the case's own unit.
 pub fn document(case: &Case, found: &Optimization) -> Value {
     let (best, task) = (&found.best, &found.task);
-    let row = |design: &Design| absorber(task, design);
+    let row = |design: &Design| absorber(case, task, design);
     let robust = found.robust.as_ref().map(|one| {
         let [of_robust, of_best] = one.under;
         let mut robust = row(&one.design);
@@ -70,6 +70,7 @@ pub fn document(case: &Case, found: &Optimization) -> Value {
         // The objective at the optimum as it is shown, and as a check of the written case gives it.
         "claimed": objective(task, best.value, best.error),
         "checked": objective(task, found.checked.0, found.checked.1),
+        "best": row(best),
         "own": row(&found.own),
         // Where nothing meets all criteria, the absorber that misses them least.
         "closest": found.closest.as_ref().map(row),
@@ -77,7 +78,7 @@ pub fn document(case: &Case, found: &Optimization) -> Value {
         // Clearances that are as good as the optimum's.
         "plateau": found.plateau,
         "bare": best.rivals.bare.1 * best.choice.clearance,
-        "tuned_mass_damper": damper(best),
+        "tuned_mass_damper": damper(&Scale::of(case), best),
         // Pairs of clearance and objective by the cheap layer.
         "landscape": found.landscape,
         // Every absorber that was judged.
@@ -90,21 +91,25 @@ pub fn document(case: &Case, found: &Optimization) -> Value {
     })
 }
 
-/// An absorber with its objective, as a quantity is written.
-fn absorber(task: &Task, design: &Design) -> Value {
+/// An absorber with its objective, as a quantity is written, and the criteria that it misses of all.
+fn absorber(case: &Case, task: &Task, design: &Design) -> Value {
     let AbsorberDesign { clearance, restitution, mass } = design.choice;
+    let missed = design.criteria.iter().filter(|one| one.holds != Some(true));
     let mut row = json!(objective(task, design.value, design.error));
     row["clearance"] = json!(clearance);
     row["restitution"] = json!(restitution);
     row["mass"] = json!(mass);
     row["feasible"] = json!(design.is_feasible());
+    row["criteria"] = json!(design.criteria.len());
+    row["missed"] = missed.map(|one| criterion(case, one)).collect();
     row
 }
 
 /// The tuned mass damper of the absorber's mass that is best along the band: its natural frequency over the
 /// structure's, and what it does also where the structure's frequency is off by a factor.
-fn damper(best: &Design) -> Value {
+fn damper(scale: &Scale, best: &Design) -> Value {
     let Rivals { damper, damped, detuned, .. } = &best.rivals;
+    let vibrates_less = |worst: Worst| damped.amplitude < worst.peak + worst.error;
     let length = |over: f64| over * best.choice.clearance;
     let off = DETUNED.iter().zip(detuned).map(|(factor, one)| {
         json!({
@@ -115,10 +120,14 @@ fn damper(best: &Design) -> Value {
     });
     json!({
         "tuning": damper.tuning,
+        "frequency": scale.frequency(damper.tuning, Method::ClosedForm),
         "damping_ratio": damper.damping_ratio,
         "largest_peak": length(damped.amplitude),
         "at": damped.at,
         "stroke": length(damped.stroke),
+        // Than the absorber, where its band was simulated.
+        "vibrates_less": best.worst.map(vibrates_less),
+        "needs_more_room": damped.stroke > 1.0,
         "detuned": off.collect::<Vec<_>>(),
     })
 }
@@ -199,12 +208,6 @@ fn context(case: &Case, found: &Optimization) -> Value {
     let (best, scale) = (&found.best, Scale::of(case));
     let over = found.task.band.as_ref().map_or(BandOver::Frequency, |band| band.over);
     let worst = best.worst.filter(|_| found.task.objective == Objective::WorstAmplitude);
-    let over_room = best.worst.map(|worst| {
-        json!({
-            "vibrates_less": best.rivals.damped.amplitude < worst.peak + worst.error,
-            "needs_more_room": best.rivals.damped.stroke > 1.0,
-        })
-    });
     let given = case.inputs().iter().filter(|input| input.table == "uncertainty");
     let uncertain = given.filter(|input| input.value > 0.0).map(|input| {
         json!({
@@ -218,14 +221,7 @@ fn context(case: &Case, found: &Optimization) -> Value {
             BandOver::Amplitude => "amplitude",
         }),
         "absorbers": absorbers(case, found),
-        "criteria": best.criteria.len(),
-        "best_missed": missed(case, best),
-        "closest": found.closest.as_ref().map(|one| {
-            json!({ "choice": one.choice, "missed": missed(case, one) })
-        }),
         "uncertain": uncertain.collect::<Vec<_>>(),
-        "tuning": scale.frequency(best.rivals.damper.tuning, Method::ClosedForm),
-        "damper": over_room,
         "worst": worst.map(|worst| json!({
             "at": scale.place(over, worst.at),
             "of": match worst.of {
@@ -247,23 +243,13 @@ fn context(case: &Case, found: &Optimization) -> Value {
     } })
 }
 
-/// The criteria that an absorber misses, and by how much.
-fn missed(case: &Case, design: &Design) -> Vec<Value> {
-    let all = design.criteria.iter().filter(|one| one.holds != Some(true));
-    all.map(|one| criterion(case, one)).collect()
-}
-
 /// The case's absorber, the best, the robust one, and where no criteria can be met the closest.
 fn absorbers(case: &Case, found: &Optimization) -> Vec<Value> {
     let row = |is: &str, one: &Design, under: Option<UnderDeviations>| {
-        json!({
-            "is": is,
-            "choice": one.choice,
-            "objective": objective(&found.task, one.value, one.error),
-            "criteria": one.criteria.len(),
-            "missed": missed(case, one),
-            "expected": under.map(|under| objective(&found.task, under.expected, 0.0)),
-        })
+        let mut row = absorber(case, &found.task, one);
+        row["is"] = json!(is);
+        row["expected"] = json!(under.map(|under| objective(&found.task, under.expected, 0.0)));
+        row
     };
     let under = |k: usize| found.robust.as_ref().map(|robust| robust.under[k]);
     let mut rows = vec![row("own", &found.own, None)];
