@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use miette::{IntoDiagnostic, Result, WrapErr, miette};
-use vinesink::report::index::{self, CaseReport, Index, OtherPage, Summary};
+use vinesink::report::index::{self, CaseReport, OtherPage, Summary};
 use vinesink::store::{self, Listing};
 
 use super::{Outcome, output};
@@ -77,7 +77,7 @@ fn write(folder: &Path) -> Result<()> {
             Ok(OtherPage::new(name, &text))
         })
         .collect();
-    let files = Index::new(members, others?).files().into_diagnostic()?;
+    let files = index::files(members, others?).into_diagnostic()?;
     Ok(store::add_to_folder(folder, &files)?)
 }
 

@@ -1,6 +1,6 @@
 //! The equations of a case, general and with its numbers put in.
 
-use serde::Serialize;
+use serde_json::{Value, json};
 
 use super::document;
 use crate::case::Case;
@@ -13,32 +13,8 @@ use crate::symbolic::{Equation, Group, Symbol, Values, format_number};
 /// Digits of the numbers that are put into formulas.
 const DIGITS: usize = 4;
 
-/// Equations under one title.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct EquationGroup {
-    /// The title.
-    pub title: &'static str,
-    /// What they are for.
-    pub gives: &'static str,
-    /// Where they come from, with the paper's number if they have one.
-    pub source: &'static str,
-    /// Each in general and with numbers, in LaTeX.
-    pub formulas: Vec<Formula>,
-}
-
-/// A formula in LaTeX.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Formula {
-    /// With symbols.
-    pub general: String,
-    /// With this case's numbers.
-    pub numbers: String,
-    /// The value of its right side, where all of its symbols have numbers.
-    pub value: Option<String>,
-}
-
-/// All equations with the case's numbers.
-pub fn groups(case: &Case, study: &CaseStudy) -> Vec<EquationGroup> {
+/// All equations with the case's numbers, in groups.
+pub fn groups(case: &Case, study: &CaseStudy) -> Vec<Value> {
     let excitation = study.analysis.system.excitation();
     let theory = equations::groups(excitation);
     let exact = orbits::equations::groups(excitation);
@@ -48,21 +24,23 @@ pub fn groups(case: &Case, study: &CaseStudy) -> Vec<EquationGroup> {
     theory.chain(exact.map(|group| with_numbers(group, &on_orbit))).collect()
 }
 
-fn with_numbers(group: &Group, values: &Values) -> EquationGroup {
+/// Equations under one title, each in LaTeX: in general, with numbers, and the value of its right side where all of
+/// its symbols have numbers.
+fn with_numbers(group: &Group, values: &Values) -> Value {
     let formula = |equation: &&Equation| {
         let value = equation.right().evaluate(values).ok().filter(|value| !value.is_nan());
-        Formula {
-            general: equation.to_latex(),
-            numbers: equation.to_latex_with(values, DIGITS),
-            value: value.map(|value| format_number(value, DIGITS)),
-        }
+        json!({
+            "general": equation.to_latex(),
+            "numbers": equation.to_latex_with(values, DIGITS),
+            "value": value.map(|value| format_number(value, DIGITS)),
+        })
     };
-    EquationGroup {
-        title: group.title,
-        gives: group.gives,
-        source: group.source,
-        formulas: group.equations.iter().map(formula).collect(),
-    }
+    json!({
+        "title": group.title,
+        "gives": group.gives,
+        "source": group.source,
+        "formulas": group.equations.iter().map(formula).collect::<Vec<_>>(),
+    })
 }
 
 /// The case's numbers that belong to no motion: dimensionless ones, and lengths in the report's unit.

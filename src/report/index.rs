@@ -71,30 +71,6 @@ pub struct OtherPage {
     pub title: String,
 }
 
-/// An index, ready to be printed.
-#[derive(Debug, Clone, Serialize)]
-pub struct Index {
-    cases: Vec<Entry>,
-    /// How many cases have each verdict, in the order of a sorted column.
-    words: Vec<(Word, usize)>,
-    /// Identifiers of the quantities that some case has, in the order of the catalogue.
-    ids: Vec<&'static str>,
-    /// Other pages by file name.
-    others: Vec<OtherPage>,
-    version: &'static str,
-}
-
-#[derive(Debug, Clone, Serialize)]
-struct Entry {
-    #[serde(flatten)]
-    case: CaseReport,
-    reduced: bool,
-    /// Place of the verdict in a sorted column.
-    order: u8,
-    /// Numbers of the table, each from one end of a range to the other or one.
-    cells: [Value; 6],
-}
-
 impl Summary {
     /// Reads the text of a `report.json`; `place` is where it lies, for messages.
     ///
@@ -107,7 +83,8 @@ impl Summary {
             .map_err(|cause| ReadError::Incomplete { place: place.to_owned(), cause })
     }
 
-    /// Clearance, excitation, vibration without and with absorber, change, tuned mass damper.
+    /// Numbers of the table, each from one end of a range to the other or one: clearance, excitation, vibration
+    /// without and with absorber, change, tuned mass damper.
     fn cells(&self) -> [Value; 6] {
         let of = |ids: &[&str]| ids.iter().find_map(|id| self.quantities.get(*id)).cloned();
         let one = |from: Option<Value>| json!({ "from": from });
@@ -127,46 +104,45 @@ impl Summary {
     }
 }
 
-impl Index {
-    /// The index of some reports, in the order of their names.
-    pub fn new(mut cases: Vec<CaseReport>, mut others: Vec<OtherPage>) -> Self {
-        cases.sort_by(|a, b| a.name.cmp(&b.name));
-        others.sort_by(|a, b| a.file.cmp(&b.file));
-        let mut words: BTreeMap<Word, usize> = BTreeMap::new();
-        for case in &cases {
-            *words.entry(case.summary.verdict.word).or_default() += 1;
-        }
-        let known = |id: &&str| cases.iter().any(|case| case.summary.quantities.contains_key(*id));
-        let ids = catalogue::ALL.iter().map(|kind| kind.id).filter(known).collect();
-        let entry = |case: CaseReport| Entry {
-            reduced: case.summary.units == "reduced",
-            order: case.summary.verdict.word as u8,
-            cells: case.summary.cells(),
-            case,
-        };
-        Self {
-            ids,
-            words: words.into_iter().collect(),
-            cases: cases.into_iter().map(entry).collect(),
-            others,
-            version: env!("CARGO_PKG_VERSION"),
-        }
+/// Both files of the index of some reports, by their names.
+///
+/// # Errors
+/// [`RenderError::Template`] if template and index do not fit.
+pub fn files(
+    mut cases: Vec<CaseReport>,
+    mut others: Vec<OtherPage>,
+) -> Result<BTreeMap<PathBuf, Vec<u8>>, RenderError> {
+    cases.sort_by(|a, b| a.name.cmp(&b.name));
+    others.sort_by(|a, b| a.file.cmp(&b.file));
+    let mut words: BTreeMap<Word, usize> = BTreeMap::new();
+    for case in &cases {
+        *words.entry(case.summary.verdict.word).or_default() += 1;
     }
-
-    /// Both files of the index, by their names.
-    ///
-    /// # Errors
-    /// [`RenderError::Template`] if template and index do not fit.
-    pub fn files(&self) -> Result<BTreeMap<PathBuf, Vec<u8>>, RenderError> {
-        let units = Units::physical(USUAL_CLEARANCE);
-        let text = |name: &str| template::render(name, &units, self);
-        let markdown = render::without_repeated_blank_lines(&text("index.md")?);
-        let html = text("index.html")?;
-        Ok(BTreeMap::from([
-            (PathBuf::from(HTML), html.into_bytes()),
-            (PathBuf::from(MARKDOWN), markdown.into_bytes()),
-        ]))
-    }
+    let known = |id: &&str| cases.iter().any(|case| case.summary.quantities.contains_key(*id));
+    let entries = cases.iter().map(|case| {
+        let mut entry = json!(case);
+        entry["reduced"] = json!(case.summary.units == "reduced");
+        // Place of the verdict in a sorted column.
+        entry["order"] = json!(case.summary.verdict.word as u8);
+        entry["cells"] = json!(case.summary.cells());
+        entry
+    });
+    let context = json!({
+        "cases": entries.collect::<Vec<_>>(),
+        // How many cases have each verdict, in the order of a sorted column.
+        "words": words.into_iter().collect::<Vec<_>>(),
+        // Identifiers of the quantities that some case has, in the order of the catalogue.
+        "ids": catalogue::ALL.iter().map(|kind| kind.id).filter(known).collect::<Vec<_>>(),
+        "others": others,
+        "version": env!("CARGO_PKG_VERSION"),
+    });
+    let units = Units::physical(USUAL_CLEARANCE);
+    let text = |name: &str| template::render(name, &units, &context);
+    let markdown = render::without_repeated_blank_lines(&text("index.md")?);
+    Ok(BTreeMap::from([
+        (PathBuf::from(HTML), text("index.html")?.into_bytes()),
+        (PathBuf::from(MARKDOWN), markdown.into_bytes()),
+    ]))
 }
 
 /// Whether the text of a file is an index that may be replaced by a newer one.
@@ -203,8 +179,7 @@ mod tests {
     fn cases_come_by_name_with_numbers_in_their_units() {
         let cases =
             vec![case("b", "does-nothing", "reduced", 1.5), case("a", "works", "si", 3.56e-3)];
-        let index = Index::new(cases, Vec::new());
-        let files = index.files().expect("rendered");
+        let files = files(cases, Vec::new()).expect("rendered");
         let text = String::from_utf8_lossy(&files[&PathBuf::from(MARKDOWN)]).into_owned();
         assert!(text.contains("2 cases: 1 works, 1 does nothing."), "{text}");
         let rows: Vec<&str> = text.lines().filter(|line| line.starts_with("| [")).collect();

@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 
-use super::equations::EquationGroup;
 use super::figure::{self, Figure, FigureError};
 use super::html;
 use super::template;
@@ -57,7 +56,7 @@ pub enum RenderError {
 /// [`RenderError`] says which part cannot be rendered.
 pub fn files(
     document: &Value,
-    equations: &[EquationGroup],
+    equations: &[Value],
     units: &Units,
     figures: &[Figure],
 ) -> Result<BTreeMap<PathBuf, Vec<u8>>, RenderError> {

@@ -46,18 +46,6 @@ pub enum Headline {
     Less,
 }
 
-/// Why an absorber that moves makes things worse.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Reason {
-    /// Below resonance the moving mass lowers the resonance towards the excitation.
-    LowersResonance,
-    /// Between captures the oscillator grows past its own steady vibration.
-    GrowsBetweenCaptures,
-    /// The oscillator alone vibrates little there.
-    LittleAlone,
-}
-
 /// The answer in a word. The order is that of a sorted column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -185,14 +173,18 @@ fn compared(ratio: f64) -> Headline {
     }
 }
 
-fn reason(study: &CaseStudy, main: &FoundAttractor) -> Option<Reason> {
+/// Why an absorber that moves makes things worse.
+fn reason(study: &CaseStudy, main: &FoundAttractor) -> Option<&'static str> {
     let below = study.analysis.system.frequency_ratio() < 1.0;
     match main.regime() {
+        // Below resonance the moving mass lowers the resonance towards the excitation.
         Regime::TwoSymmetric | Regime::TwoAsymmetric | Regime::AboveTwo if below => {
-            Some(Reason::LowersResonance)
+            Some("lowers-resonance")
         }
-        Regime::StronglyModulated => Some(Reason::GrowsBetweenCaptures),
+        // Between captures the oscillator grows past its own steady vibration.
+        Regime::StronglyModulated => Some("grows-between-captures"),
         Regime::BelowTwo => None,
-        _ => Some(Reason::LittleAlone),
+        // The oscillator alone vibrates little there.
+        _ => Some("little-alone"),
     }
 }
