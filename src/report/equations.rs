@@ -8,7 +8,7 @@ use crate::equations;
 use crate::orbits::flight::Flight;
 use crate::orbits::{self, symmetric_orbits};
 use crate::study::CaseStudy;
-use crate::symbolic::{Equation, Group, Symbol, Values, format_number};
+use crate::symbolic::{Equation, Expr, Group, Symbol, Values, format_number};
 
 /// Digits of the numbers that are put into formulas.
 const DIGITS: usize = 4;
@@ -24,11 +24,13 @@ pub fn groups(case: &Case, study: &CaseStudy) -> Vec<Value> {
     theory.chain(exact.map(|group| with_numbers(group, &on_orbit))).collect()
 }
 
-/// Equations under one title, each in LaTeX: in general, with numbers, and the value of its right side where all of
-/// its symbols have numbers.
+/// Equations under one title, each in LaTeX: in general, with numbers, and the value of its right side where that is
+/// no number already and all of its symbols have numbers.
 fn with_numbers(group: &Group, values: &Values) -> Value {
     let formula = |equation: &&Equation| {
-        let value = equation.right().evaluate(values).ok().filter(|value| !value.is_nan());
+        let right = equation.right();
+        let told = |value: &f64| !value.is_nan() && !matches!(right, Expr::Number(_));
+        let value = right.evaluate(values).ok().filter(told);
         json!({
             "general": equation.to_latex(),
             "numbers": equation.to_latex_with(values, DIGITS),

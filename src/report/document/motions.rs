@@ -68,12 +68,6 @@ pub fn measured(
         Quantity::new(&of::LYAPUNOV_EXPONENT, exponent.per_period, Simulation)
             .with_error(2.0 * exponent.standard_error)
     });
-    let doubts = motion.doubts().into_iter().map(|doubt| {
-        let mut told = json!(doubt);
-        told["words"] = json!(doubt.words());
-        told["advice"] = json!(doubt.advice());
-        told
-    });
     let mut told = json!({
         "regime": motion.classification.regime,
         "dynamics": motion.classification.dynamics,
@@ -91,18 +85,8 @@ pub fn measured(
         "settled": motion.settled,
         // Whether two halves of the window agree.
         "stationary": evidence.settled,
-        "numerics": {
-            "periods": motion.periods,
-            "impacts": motion.impact_count,
-            // Transient included.
-            "followed": motion.followed,
-            "energy_residual": motion.energy.relative_residual,
-            "penetration_over_clearance": motion.penetration,
-            "contacts": contacts.intervals,
-            "stop": motion.stop,
-            "stopped_by": motion.stop.words(),
-        },
-        "doubts": doubts.collect::<Vec<_>>(),
+        "numerics": numerics(motion),
+        "doubts": doubts(motion),
         "proof": proof.map(proven),
         "starts": null,
     });
@@ -110,6 +94,32 @@ pub fn measured(
         told[key] = json!(quantity);
     }
     told
+}
+
+/// Quality of the simulation.
+fn numerics(motion: &Attractor) -> Value {
+    json!({
+        "periods": motion.periods,
+        "impacts": motion.impact_count,
+        // Transient included.
+        "followed": motion.followed,
+        "energy_residual": motion.energy.relative_residual,
+        "penetration_over_clearance": motion.penetration,
+        "contacts": motion.sustained_contact.intervals,
+        "stop": motion.stop,
+        "stopped_by": motion.stop.words(),
+    })
+}
+
+/// Reasons not to trust a motion, in words with what to do.
+fn doubts(motion: &Attractor) -> Vec<Value> {
+    let doubts = motion.doubts().into_iter().map(|doubt| {
+        let mut told = json!(doubt);
+        told["words"] = json!(doubt.words());
+        told["advice"] = json!(doubt.advice());
+        told
+    });
+    doubts.collect()
 }
 
 /// The numbers that stand for a case, by their key in a motion.
