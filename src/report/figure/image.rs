@@ -3,6 +3,7 @@
 use super::colors::{Ramp, Tint};
 use super::data::Scale;
 use super::geometry::Rect;
+use super::layout::Frame;
 use super::limits::Span;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -76,9 +77,10 @@ pub(super) struct Placed {
 }
 
 /// Places an image in a plot; nothing where none of it is visible.
-pub(super) fn placed(image: &Image, plot: &Rect, spans: [&Span; 2]) -> Option<Placed> {
-    let (across, columns) = track(&image.x_edges, spans[0], plot.width())?;
-    let (up, mut rows) = track(&image.y_edges, spans[1], plot.height())?;
+pub(super) fn placed(image: &Image, frame: &Frame) -> Option<Placed> {
+    let plot = &frame.plot;
+    let (across, columns) = track(&image.x_edges, &frame.spans.x, plot.width())?;
+    let (up, mut rows) = track(&image.y_edges, &frame.spans.y, plot.height())?;
     rows.reverse();
     let place = Rect::new(
         plot.left + across.0 * plot.width(),

@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 
 use super::data::{Axis, Cell, Figure, Layout, Panel, Scale};
-use super::error::FigureError;
 use super::geometry::Rect;
 use super::layers::Layer;
 use super::limits::{Span, Spans, spans};
+use super::render::FigureError;
 use super::text::{self, LARGE, SMALL, width, wrap};
 use super::ticks::{Mark, ticks};
 
@@ -53,11 +53,19 @@ pub(super) struct Frame {
 }
 
 impl Frame {
-    /// From data to pixels; NaN where a value cannot be drawn.
+    /// From an abscissa to pixels; NaN where it cannot be drawn.
+    pub(super) fn across(&self, x: f64) -> f64 {
+        self.plot.left + self.spans.x.part(x) * self.plot.width()
+    }
+
+    /// From an ordinate to pixels; NaN where it cannot be drawn.
+    pub(super) fn up(&self, y: f64) -> f64 {
+        self.plot.bottom - self.spans.y.part(y) * self.plot.height()
+    }
+
+    /// From data to pixels.
     pub(super) fn map(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        let [px, py] = [self.spans.x.part(x), self.spans.y.part(y)];
-        let plot = &self.plot;
-        [plot.left + px * plot.width(), plot.bottom - py * plot.height()]
+        [self.across(x), self.up(y)]
     }
 }
 
@@ -78,7 +86,7 @@ fn grid(figure: &Figure) -> Result<Grid, FigureError> {
     let Layout::Cells { widths, heights, cells } = layout.clone() else {
         unreachable!("rows and columns are cells")
     };
-    let wrong = |reason: String| Err(FigureError::Layout { name: figure.name.clone(), reason });
+    let wrong = |reason: String| Err(FigureError::new(&figure.name, reason));
     if cells.len() != figure.panels.len() {
         let panels = figure.panels.len();
         return wrong(format!("{panels} panels, but {} cells for them", cells.len()));
@@ -117,7 +125,7 @@ fn shared(figure: &Figure, grid: &Grid) -> Vec<Vec<usize>> {
 /// Lays the panels out. `legends` lists, for each panel, the layers named above it.
 pub(super) fn lay_out(figure: &Figure, legends: &[Vec<usize>]) -> Result<Vec<Frame>, FigureError> {
     if figure.panels.is_empty() {
-        return Err(FigureError::NoPanels { name: figure.name.clone() });
+        return Err(FigureError::new(&figure.name, "has no panels; add one with `with_panel`"));
     }
     let grid = grid(figure)?;
     let groups = shared(figure, &grid);
@@ -144,8 +152,10 @@ pub(super) fn lay_out(figure: &Figure, legends: &[Vec<usize>]) -> Result<Vec<Fra
             (plot.top, plot.bottom) = (plot.top + above, plot.bottom + above);
             if !(plot.width() >= LEAST && plot.height() >= LEAST) {
                 let (width, height) = (plot.width(), plot.height());
-                let name = figure.name.clone();
-                return Err(FigureError::TooSmall { name, panel: i, width, height });
+                let reason = format!(
+                    "panel {i} is left with {width:.0} x {height:.0} pixels; enlarge the figure"
+                );
+                return Err(FigureError::new(&figure.name, reason));
             }
             let plot = if figure.panels[i].equal_aspect { equal(plot, &spans[i]) } else { plot };
             frames[i] = dress(&figure.panels[i], plot, spans[i], lowest(i), &legends[i]);
@@ -297,17 +307,6 @@ fn tracks(before: &[f64], weights: &[f64], after: &[f64], total: f64) -> Vec<(f6
     tracks
 }
 
-/// The words of a layer's label.
-pub(super) fn label_of(layer: &Layer) -> Option<&super::layers::Label> {
-    match layer {
-        Layer::Curve { label, .. }
-        | Layer::Points { label, .. }
-        | Layer::Band { label, .. }
-        | Layer::Rule { label, .. } => label.as_ref(),
-        Layer::Note { .. } | Layer::ThisCase { .. } | Layer::Image(_) => None,
-    }
-}
-
 /// Entries of these widths in rows of some room: where each begins, and in which row.
 fn in_rows(widths: impl IntoIterator<Item = f64>, room: f64) -> Vec<(f64, f64)> {
     let (mut x, mut row) = (0.0, 0.0);
@@ -326,7 +325,7 @@ fn in_rows(widths: impl IntoIterator<Item = f64>, room: f64) -> Vec<(f64, f64)> 
 fn legend_places(panel: &Panel, legend: &[usize], room: f64) -> Vec<(usize, [f64; 2])> {
     let entry = |&index: &usize| {
         let layer = &panel.layers[index];
-        Some((index, swatch(layer) + GAP + text::width(&label_of(layer)?.text, SMALL)))
+        Some((index, swatch(layer) + GAP + text::width(&layer.label()?.text, SMALL)))
     };
     let entries: Vec<(usize, f64)> = legend.iter().filter_map(entry).collect();
     let places = in_rows(entries.iter().map(|(_, width)| *width), room);

@@ -1,8 +1,8 @@
 //! Which part of each axis a panel shows.
 
 use super::data::{Axis, Figure, Panel, Scale};
-use super::error::FigureError;
 use super::layers::{Layer, Rule};
+use super::render::FigureError;
 use super::ticks::round_step;
 
 /// The margin beside the data, as a part of their span.
@@ -75,8 +75,8 @@ fn resolve(name: &str, panel: &Panel, axis: &Axis, index: usize) -> Result<Span,
         let positive = scale == Scale::Linear || first >= 1.0 / HUGE;
         let wide = (last - first) / first.abs().max(last.abs()) > 1e-12;
         if !(first < last && last - first < HUGE && positive && wide) {
-            let (name, axis) = (name.to_owned(), axis.label.clone());
-            return Err(FigureError::Range { name, axis, first, last });
+            let reason = format!("axis {:?} cannot run from {first} to {last}", axis.label);
+            return Err(FigureError::new(name, reason));
         }
         return Ok(Span { first, last, scale });
     }

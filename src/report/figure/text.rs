@@ -1,8 +1,8 @@
 //! How wide words are, without a font at hand, and how they are written into SVG.
 
-use std::fmt::Write;
+use std::collections::BTreeMap;
 
-use super::geometry::Rect;
+use super::geometry::{Point, Rect};
 
 /// The fonts asked for; all have close to Helvetica's widths but for the generic one at the end.
 pub(super) const FAMILY: &str = "Helvetica, Arial, Liberation Sans, sans-serif";
@@ -48,22 +48,12 @@ pub(super) enum Anchor {
     End,
 }
 
-impl Anchor {
-    pub(super) const fn name(self) -> &'static str {
-        match self {
-            Self::Start => "start",
-            Self::Middle => "middle",
-            Self::End => "end",
-        }
-    }
-}
-
 /// Words in their place.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Words {
     pub text: String,
     /// The reference point: horizontally by the anchor, vertically the middle of the digits.
-    pub at: [f64; 2],
+    pub at: Point,
     pub anchor: Anchor,
     pub size: f64,
     pub color: &'static str,
@@ -75,9 +65,15 @@ pub(super) struct Words {
 }
 
 impl Words {
-    pub(super) fn new(text: impl Into<String>, at: [f64; 2], anchor: Anchor, size: f64) -> Self {
+    pub(super) fn new(text: impl Into<String>, at: Point, anchor: Anchor, size: f64) -> Self {
         let (text, color) = (legal(&text.into()), "#333333");
         Self { text, at, anchor, size, color, bold: false, upright: false, halo: false }
+    }
+
+    /// Width and height, pixels.
+    pub(super) fn size(&self) -> Point {
+        let room = self.bounds();
+        [room.width(), room.height()]
     }
 
     /// The room that the words take.
@@ -96,36 +92,50 @@ impl Words {
         Rect::new(x + start, y - height / 2.0, x + start + width, y + height / 2.0)
     }
 
-    /// Writes the words; a halo is the same words below, drawn broad and white.
-    pub(super) fn write(&self, svg: &mut String) {
+    /// The attributes that words of one look share; a halo is the same words below, broad and white.
+    fn look(&self, halo: bool) -> String {
+        let mut look = if halo {
+            "fill=\"#FFFFFF\" stroke=\"#FFFFFF\" stroke-width=\"30\"".to_owned()
+        } else {
+            format!("fill=\"{}\"", self.color)
+        };
+        if self.size != SMALL {
+            look += &format!(" font-size=\"{}\"", tenths(self.size));
+        }
+        if self.bold {
+            look += " font-weight=\"bold\"";
+        }
+        look += match self.anchor {
+            Anchor::Start => "",
+            Anchor::Middle => " text-anchor=\"middle\"",
+            Anchor::End => " text-anchor=\"end\"",
+        };
+        look
+    }
+
+    fn element(&self) -> String {
         // From the middle of the digits to the baseline.
         let drop = 0.35 * self.size;
-        let [x, y] = if self.upright {
-            [self.at[0] + drop, self.at[1]].map(tenths)
-        } else {
-            [self.at[0], self.at[1] + drop].map(tenths)
-        };
-        let turn = if self.upright {
-            format!(" transform=\"rotate(-90 {x} {y})\"")
-        } else {
-            String::new()
-        };
-        let size = tenths(self.size);
-        let bold = if self.bold { " font-weight=\"bold\"" } else { "" };
-        let anchor = match self.anchor {
-            Anchor::Start => String::new(),
-            other => format!(" text-anchor=\"{}\"", other.name()),
-        };
         let text = escape(&self.text);
-        let place = format!("x=\"{x}\" y=\"{y}\" font-size=\"{size}\"{bold}{anchor}{turn}");
-        if self.halo {
-            let _ = writeln!(
-                svg,
-                "<text {place} fill=\"#FFFFFF\" stroke=\"#FFFFFF\" stroke-width=\"30\" \
-                 stroke-linejoin=\"round\">{text}</text>"
-            );
+        if self.upright {
+            let [x, y] = [self.at[0] + drop, self.at[1]].map(tenths);
+            return format!("<text transform=\"translate({x} {y})rotate(-90)\">{text}</text>\n");
         }
-        let _ = writeln!(svg, "<text {place} fill=\"{}\">{text}</text>", self.color);
+        let [x, y] = [self.at[0], self.at[1] + drop].map(tenths);
+        format!("<text x=\"{x}\" y=\"{y}\">{text}</text>\n")
+    }
+}
+
+/// Writes words, those of one look together, halos below all of them.
+pub(super) fn write(svg: &mut String, words: &[Words]) {
+    for halo in [true, false] {
+        let mut groups: BTreeMap<String, String> = BTreeMap::new();
+        for words in words.iter().filter(|words| words.halo || !halo) {
+            *groups.entry(words.look(halo)).or_default() += &words.element();
+        }
+        for (look, elements) in groups {
+            *svg += &format!("<g {look}>\n{elements}</g>\n");
+        }
     }
 }
 
