@@ -4,7 +4,7 @@ use plotters::element::PathElement;
 use plotters::prelude::{IntoDrawingArea, SVGBackend};
 use plotters::style::{Color, RGBColor, WHITE};
 
-use super::data::Figure;
+use super::data::{Figure, Tick};
 use super::layout::{Frame, LINE, TICK};
 use super::text::{Anchor, LARGE, SMALL, Words, tenths};
 
@@ -41,15 +41,15 @@ pub(super) fn draw(figure: &Figure, frames: &[Frame]) -> String {
 fn grid(frame: &Frame) -> Vec<(i32, i32)> {
     let plot = &frame.plot;
     let mut points: Vec<[f64; 2]> = Vec::new();
-    for mark in frame.x_ticks.iter().filter(|mark| !mark.words.is_empty()) {
-        let (x, from) = (frame.across(mark.value), points.last().map_or(plot.top, |last| last[1]));
+    for tick in frame.x_ticks.iter().filter(|tick| tick.label.is_some()) {
+        let (x, from) = (frame.across(tick.value), points.last().map_or(plot.top, |last| last[1]));
         points.extend([[x, from], [x, plot.top + plot.bottom - from]]);
     }
     if let Some([_, y]) = points.last().copied() {
         points.push([plot.right, y]);
     }
-    for mark in frame.y_ticks.iter().filter(|mark| !mark.words.is_empty()) {
-        let (y, from) = (frame.up(mark.value), points.last().map_or(plot.right, |last| last[0]));
+    for tick in frame.y_ticks.iter().filter(|tick| tick.label.is_some()) {
+        let (y, from) = (frame.up(tick.value), points.last().map_or(plot.right, |last| last[0]));
         points.extend([[from, y], [plot.left + plot.right - from, y]]);
     }
     points.iter().map(|[x, y]| (tenths(*x), tenths(*y))).collect()
@@ -59,16 +59,16 @@ fn grid(frame: &Frame) -> Vec<(i32, i32)> {
 fn edge(frame: &Frame) -> Vec<(i32, i32)> {
     let [left, top, right, bottom] =
         [frame.plot.left, frame.plot.top, frame.plot.right, frame.plot.bottom];
-    let length = |words: &str| if words.is_empty() { SHORT } else { LONG };
+    let length = |tick: &Tick| if tick.label.is_some() { LONG } else { SHORT };
     let mut points = vec![[left, top], [right, top], [right, bottom], [left, bottom], [left, top]];
-    for mark in &frame.y_ticks {
-        let y = frame.up(mark.value);
-        points.extend([[left, y], [left - length(&mark.words), y], [left, y]]);
+    for tick in &frame.y_ticks {
+        let y = frame.up(tick.value);
+        points.extend([[left, y], [left - length(tick), y], [left, y]]);
     }
     points.push([left, bottom]);
-    for mark in &frame.x_ticks {
-        let x = frame.across(mark.value);
-        points.extend([[x, bottom], [x, bottom + length(&mark.words)], [x, bottom]]);
+    for tick in &frame.x_ticks {
+        let x = frame.across(tick.value);
+        points.extend([[x, bottom], [x, bottom + length(tick)], [x, bottom]]);
     }
     points.iter().map(|[x, y]| (tenths(*x), tenths(*y))).collect()
 }
@@ -77,13 +77,13 @@ fn edge(frame: &Frame) -> Vec<(i32, i32)> {
 pub(super) fn words(frame: &Frame) -> Vec<Words> {
     let plot = &frame.plot;
     let mut all = Vec::new();
-    for mark in frame.x_ticks.iter().filter(|mark| frame.x_words && !mark.words.is_empty()) {
-        let at = [frame.across(mark.value), plot.bottom + TICK + SMALL / 2.0 + 0.5];
-        all.push(Words::new(mark.words.clone(), at, Anchor::Middle, SMALL));
+    for tick in frame.x_ticks.iter().filter(|tick| frame.x_words && tick.label.is_some()) {
+        let at = [frame.across(tick.value), plot.bottom + TICK + SMALL / 2.0 + 0.5];
+        all.push(Words::new(tick.words(), at, Anchor::Middle, SMALL));
     }
-    for mark in frame.y_ticks.iter().filter(|mark| !mark.words.is_empty()) {
-        let at = [plot.left - TICK, frame.up(mark.value)];
-        all.push(Words::new(mark.words.clone(), at, Anchor::End, SMALL));
+    for tick in frame.y_ticks.iter().filter(|tick| tick.label.is_some()) {
+        let at = [plot.left - TICK, frame.up(tick.value)];
+        all.push(Words::new(tick.words(), at, Anchor::End, SMALL));
     }
     let [cx, cy] = plot.center();
     let large =

@@ -5,6 +5,7 @@ use super::data::Scale;
 use super::geometry::Rect;
 use super::layout::Frame;
 use super::limits::Span;
+use super::text::tenths;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
@@ -124,78 +125,84 @@ fn thinned(cells: &[usize], one_in: usize) -> Vec<usize> {
     (0..count).map(|k| cells[(2 * k + 1) * cells.len() / (2 * count)]).collect()
 }
 
-/// What an image's cells hold as numbers of a palette, the last of which is for what is not known.
-struct Indexed<'a> {
-    palette: Vec<Tint>,
-    colour: Box<dyn Fn(usize) -> u8 + 'a>,
+/// What some columns and rows of cells hold, as numbers of a palette whose last tint is for what is not known;
+/// values take one of so many levels.
+fn indexed(
+    image: &Image,
+    columns: &[usize],
+    rows: &[usize],
+    levels: f64,
+) -> (Vec<Tint>, Vec<Vec<u8>>) {
+    let across = image.x_edges.len() - 1;
+    let (mut palette, number): (Vec<Tint>, Box<dyn Fn(usize) -> Option<u8>>) = match &image.cells {
+        Cells::Kinds(tints, cells) => {
+            (tints.clone(), Box::new(|cell| cells.get(cell).copied().flatten()))
+        }
+        Cells::Values(ramp, (low, high), cells) => {
+            let span = high - low;
+            let tint =
+                |k: u32| ramp.tint(low + span * (f64::from(k) + 0.5) / levels, (*low, low + span));
+            let level = move |value: f64| {
+                ((value - low) / span * levels).floor().clamp(0.0, levels - 1.0) as u8
+            };
+            let palette = (0..levels as u32).map(tint).collect();
+            (palette, Box::new(move |cell| cells.get(cell).copied().flatten().map(level)))
+        }
+    };
+    let unknown = palette.len() as u8;
+    palette.push(Tint::UNKNOWN);
+    let cell = |row: usize, column: usize| number(row * across + column).unwrap_or(unknown);
+    let row = |row: &usize| columns.iter().map(|column| cell(*row, *column)).collect();
+    (palette, rows.iter().map(row).collect())
 }
 
-impl<'a> Indexed<'a> {
-    /// Values take one of so many levels.
-    fn of(image: &'a Image, levels: f64) -> Self {
-        let (mut palette, colour): (Vec<Tint>, Box<dyn Fn(usize) -> u8 + 'a>) = match &image.cells {
-            Cells::Kinds(tints, cells) => {
-                let unknown = tints.len() as u8;
-                let of = move |cell: usize| cells.get(cell).copied().flatten().unwrap_or(unknown);
-                (tints.clone(), Box::new(of))
-            }
-            Cells::Values(ramp, (low, high), cells) => {
-                let (low, span) = (*low, high - low);
-                let tint = |k: u32| {
-                    let value = low + span * (f64::from(k) + 0.5) / levels;
-                    ramp.tint(value, (low, low + span))
-                };
-                let level = move |value: f64| {
-                    ((value - low) / span * levels).floor().clamp(0.0, levels - 1.0) as u8
-                };
-                let of = move |cell: usize| {
-                    cells.get(cell).copied().flatten().map_or(levels as u8, level)
-                };
-                ((0..levels as u32).map(tint).collect(), Box::new(of))
-            }
-        };
-        palette.push(Tint::UNKNOWN);
-        Self { palette, colour }
+/// Writes an image: each cell keeps its edges at any size. Below it are large blocks of the same colours, for
+/// viewers that refuse an image within an image: GitHub's pages in Firefox do.
+pub(super) fn write(svg: &mut String, image: &Image, placed: &Placed, coarseness: f64) {
+    for (tint, d) in blocks(image, placed) {
+        let fill = tint.hex();
+        *svg += &format!("<path d=\"{d}\" fill=\"{fill}\" shape-rendering=\"crispEdges\"/>\n");
     }
+    let place = &placed.place;
+    let [x, y, right, bottom] = [place.left, place.top, place.right, place.bottom].map(tenths);
+    let (width, height, url) = (right - x, bottom - y, url(image, placed, coarseness));
+    *svg += &format!(
+        "<image x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" \
+         preserveAspectRatio=\"none\" image-rendering=\"pixelated\" href=\"{url}\"/>\n"
+    );
 }
 
 /// The image as a URL that holds it; coarser where it would be too large: first fewer levels, then fewer
 /// pixels.
-pub(super) fn url(image: &Image, placed: &Placed, coarseness: f64) -> String {
+fn url(image: &Image, placed: &Placed, coarseness: f64) -> String {
     let kinds = matches!(image.cells, Cells::Kinds(..));
     let one_in = if kinds { coarseness } else { (coarseness / 4.0).max(1.0) } as usize;
-    let Indexed { palette, colour } = Indexed::of(image, (LEVELS / coarseness).max(FEWEST_LEVELS));
-    let across = image.x_edges.len() - 1;
-    let (columns, rows) = (thinned(&placed.columns, one_in), thinned(&placed.rows, one_in));
-    let row = |row: &usize| columns.iter().map(|column| colour(row * across + column)).collect();
-    let pixels: Vec<Vec<u8>> = rows.iter().map(row).collect();
+    let [columns, rows] = [&placed.columns, &placed.rows].map(|cells| thinned(cells, one_in));
+    let levels = (LEVELS / coarseness).max(FEWEST_LEVELS);
+    let (palette, pixels) = indexed(image, &columns, &rows, levels);
     format!("data:image/png;base64,{}", STANDARD.encode(png(&palette, &pixels)))
 }
 
-/// The image in a few large blocks: each tint with its rectangles.
-pub(super) fn blocks(image: &Image, placed: &Placed) -> Vec<(Tint, Vec<Rect>)> {
-    let across = image.x_edges.len() - 1;
-    let Indexed { palette, colour } = Indexed::of(image, BLOCK_LEVELS);
+/// The image in a few large blocks: each tint with the path data of its runs of neighbours.
+fn blocks(image: &Image, placed: &Placed) -> Vec<(Tint, String)> {
     let sampled = |cells: &[usize], most: usize| thinned(cells, cells.len().div_ceil(most));
     let (columns, rows) = (sampled(&placed.columns, BLOCKS[0]), sampled(&placed.rows, BLOCKS[1]));
+    let (palette, pixels) = indexed(image, &columns, &rows, BLOCK_LEVELS);
     let place = &placed.place;
-    let x = |k: usize| place.left + place.width() * k as f64 / columns.len() as f64;
-    let y = |k: usize| place.top + place.height() * k as f64 / rows.len() as f64;
-    let mut found: Vec<(Tint, Vec<Rect>)> = Vec::new();
-    for (row, cells) in rows.iter().enumerate() {
-        let tint = |column: &usize| palette[usize::from(colour(cells * across + column))];
-        let tints: Vec<Tint> = columns.iter().map(tint).collect();
+    let x = |k: usize| tenths(place.left + place.width() * k as f64 / columns.len() as f64);
+    let y = |k: usize| tenths(place.top + place.height() * k as f64 / rows.len() as f64);
+    let mut found = vec![String::new(); palette.len()];
+    for (row, pixels) in pixels.iter().enumerate() {
         let mut begin = 0;
-        for run in tints.chunk_by(|a, b| a == b) {
-            let rect = Rect::new(x(begin), y(row), x(begin + run.len()), y(row + 1));
-            match found.iter_mut().find(|(tint, _)| *tint == run[0]) {
-                Some((_, rects)) => rects.push(rect),
-                None => found.push((run[0], vec![rect])),
-            }
-            begin += run.len();
+        for run in pixels.chunk_by(|a, b| a == b) {
+            let end = begin + run.len();
+            let (left, top) = (x(begin), y(row));
+            let (width, height) = (x(end) - left, y(row + 1) - top);
+            found[usize::from(run[0])] += &format!("M{left} {top}h{width}v{height}H{left}z");
+            begin = end;
         }
     }
-    found
+    palette.into_iter().zip(found).filter(|(_, d)| !d.is_empty()).collect()
 }
 
 /// A file with a palette, as few bits to a pixel as it takes, and the better of two filters.

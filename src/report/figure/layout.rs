@@ -2,13 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use super::data::{Axis, Cell, Figure, Layout, Panel, Scale};
+use super::data::{Axis, Cell, Figure, Layout, Panel, Scale, Tick};
 use super::geometry::Rect;
 use super::layers::Layer;
 use super::limits::{Span, Spans, spans};
 use super::render::FigureError;
 use super::text::{self, LARGE, SMALL, width, wrap};
-use super::ticks::{Mark, ticks};
+use super::ticks::ticks;
 
 /// From the plot to the nearest tick label, pixels.
 pub(super) const TICK: f64 = 9.0;
@@ -37,8 +37,8 @@ pub(super) struct Frame {
     /// The rectangle of the data.
     pub plot: Rect,
     pub spans: Spans,
-    pub x_ticks: Vec<Mark>,
-    pub y_ticks: Vec<Mark>,
+    pub x_ticks: Vec<Tick>,
+    pub y_ticks: Vec<Tick>,
     /// Whether the horizontal axis has words, or leaves them to a panel below.
     pub x_words: bool,
     pub x_label: Vec<String>,
@@ -203,7 +203,7 @@ fn dress(panel: &Panel, plot: Rect, spans: Spans, x_words: bool, legend: &[usize
         x_label: lines(&panel.x.label, plot.width() + 40.0),
         y_label: lines(&panel.y.label, plot.height() + 8.0),
         heading: panel.heading.clone(),
-        tick_room: y_ticks.iter().map(|m| width(&m.words, SMALL)).fold(0.0, f64::max),
+        tick_room: y_ticks.iter().map(|tick| width(tick.words(), SMALL)).fold(0.0, f64::max),
         legend_room: legend_room(&places),
         legend: places,
         y_ticks,
@@ -219,43 +219,44 @@ fn lines(label: &str, limit: f64) -> Vec<String> {
 }
 
 /// As many ticks as the axis has room for.
-fn fitting(axis: &Axis, span: &Span, length: f64, most: f64, ordinate: bool) -> Vec<Mark> {
-    let extent = |m: &Mark| if ordinate { SMALL } else { width(&m.words, SMALL) };
+fn fitting(axis: &Axis, span: &Span, length: f64, most: f64, ordinate: bool) -> Vec<Tick> {
+    let extent = |tick: &Tick| if ordinate { SMALL } else { width(tick.words(), SMALL) };
     let gap = if ordinate { 4.0 } else { 9.0 };
-    let free = |a: &Mark, b: &Mark| {
+    let free = |a: &Tick, b: &Tick| {
         let distance = (span.part(b.value) - span.part(a.value)).abs() * length;
         distance >= f64::midpoint(extent(a), extent(b)) + gap
     };
     if let Some(given) = &axis.ticks {
-        let mut marks: Vec<Mark> = Vec::new();
+        let mut kept: Vec<Tick> = Vec::new();
         for tick in given.iter().filter(|t| (-1e-9..=1.0 + 1e-9).contains(&span.part(t.value))) {
-            let mark = Mark { value: tick.value, words: tick.label.clone().unwrap_or_default() };
-            let clear = marks.iter().filter(|m| !m.words.is_empty()).all(|m| free(m, &mark));
-            marks.push(if clear { mark } else { Mark { words: String::new(), ..mark } });
+            let clear = kept.iter().filter(|other| other.label.is_some()).all(|o| free(o, tick));
+            kept.push(Tick { value: tick.value, label: tick.label.clone().filter(|_| clear) });
         }
-        return marks;
+        return kept;
     }
     // Not so few that they say nothing, not so many that their words touch.
-    let named = |marks: &[Mark]| marks.iter().filter(|m| !m.words.is_empty()).count();
-    let apart = |marks: &[Mark]| {
-        let named: Vec<&Mark> = marks.iter().filter(|m| !m.words.is_empty()).collect();
-        named.windows(2).all(|pair| free(pair[0], pair[1]))
-    };
     let most = most.max(2.0).floor() as usize;
-    let tries = || (1..=most + 6).map(|n| ticks(span.scale, span.first, span.last, n as f64));
-    let fits: Vec<Vec<Mark>> = tries().filter(|marks| apart(marks)).collect();
-    let wanted = fits.iter().rev().find(|marks| (3..=most.max(3)).contains(&named(marks)));
-    let enough = || fits.iter().find(|marks| named(marks) >= 3);
-    wanted.or_else(enough).or(fits.last()).cloned().unwrap_or_default()
+    let tries = (1..=most + 6).map(|n| {
+        let ticks = ticks(span.scale, span.first, span.last, n as f64);
+        let named: Vec<&Tick> = ticks.iter().filter(|tick| tick.label.is_some()).collect();
+        let apart = named.windows(2).all(|pair| free(pair[0], pair[1]));
+        let named = named.len();
+        (ticks, named, apart)
+    });
+    let fits: Vec<(Vec<Tick>, usize)> =
+        tries.filter_map(|(ticks, named, apart)| apart.then_some((ticks, named))).collect();
+    let wanted = fits.iter().rev().find(|(_, named)| (3..=most.max(3)).contains(named));
+    let enough = || fits.iter().find(|(_, named)| *named >= 3);
+    wanted.or_else(enough).or(fits.last()).map_or_else(Vec::new, |(ticks, _)| ticks.clone())
 }
 
 /// Left, top, right and bottom margins of a panel.
 fn margins(frame: &Frame) -> [f64; 4] {
     let labels = frame.y_label.len() as f64 * LINE;
     let left = 6.0 + labels + 4.0 + frame.tick_room + TICK;
-    let overhang = |m: &Mark| {
-        let outside = (1.0 - frame.spans.x.part(m.value)) * frame.plot.width();
-        width(&m.words, SMALL) / 2.0 - outside
+    let overhang = |tick: &Tick| {
+        let outside = (1.0 - frame.spans.x.part(tick.value)) * frame.plot.width();
+        width(tick.words(), SMALL) / 2.0 - outside
     };
     let right = 4.0 + frame.x_ticks.iter().map(overhang).fold(10.0, f64::max);
     let heading = if frame.heading.is_some() { LINE + 4.0 } else { 0.0 };

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::colors::Tint;
 use super::geometry::{Point, lerp};
-use super::image::{self, Image, Placed};
+use super::image;
 use super::labels::STAR;
 use super::layers::{Fill, Hatch, Layer, MarkedPoint};
 use super::layout::{KEY, swatch};
@@ -20,7 +20,7 @@ pub(super) const USUAL: &str =
 /// Draws a layer.
 pub(super) fn layer(svg: &mut String, layer: &Layer, shape: &Shape, coarseness: f64) {
     match (layer, shape) {
-        (Layer::Image(image), Shape::Image(placed)) => image_of(svg, image, placed, coarseness),
+        (Layer::Image(image), Shape::Image(placed)) => image::write(svg, image, placed, coarseness),
         (Layer::Curve { style, .. } | Layer::Rule { style, .. }, Shape::Lines(lines)) => {
             stroke(svg, lines, *style);
         }
@@ -181,27 +181,4 @@ fn star(svg: &mut String, at: Point, tooltip: &str) {
     path(svg, &d, "stroke=\"#FFFFFF\" stroke-width=\"50\"");
     let title = escape(tooltip);
     let _ = writeln!(svg, "<path d=\"{d}\" fill=\"#000000\"><title>{title}</title></path>");
-}
-
-/// An image: each cell keeps its edges at any size. Below it are large blocks of the same colours, for viewers
-/// that refuse an image within an image: GitHub's pages in Firefox do.
-fn image_of(svg: &mut String, image: &Image, placed: &Placed, coarseness: f64) {
-    let place = &placed.place;
-    let [x, y, right, bottom] = [place.left, place.top, place.right, place.bottom].map(tenths);
-    let (width, height) = (right - x, bottom - y);
-    for (tint, rects) in image::blocks(image, placed) {
-        let mut d = String::new();
-        for rect in rects {
-            let [x, y, right, bottom] = [rect.left, rect.top, rect.right, rect.bottom].map(tenths);
-            let _ = write!(d, "M{x} {y}h{}v{}H{x}z", right - x, bottom - y);
-        }
-        let fill = tint.hex();
-        path(svg, &d, &format!("fill=\"{fill}\" shape-rendering=\"crispEdges\""));
-    }
-    let url = image::url(image, placed, coarseness);
-    let _ = writeln!(
-        svg,
-        "<image x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" \
-         preserveAspectRatio=\"none\" image-rendering=\"pixelated\" href=\"{url}\"/>"
-    );
 }
