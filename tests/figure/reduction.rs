@@ -53,7 +53,7 @@ fn simplified_curves_stay_within_a_fifth_of_a_pixel() {
         ];
         let nearest =
             line.windows(2).map(|s| xml::distance(at, s[0], s[1])).fold(f64::MAX, f64::min);
-        // Tolerance 1.5 tenths, rounding of the vertices and of the frame about half a tenth each.
+        // Tolerance 2 tenths, rounding of the vertices and of the frame about half a tenth each.
         assert!(nearest < 3.0, "{at:?} is {nearest} tenths of a pixel from the line");
     }
 }

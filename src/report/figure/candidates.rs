@@ -128,16 +128,9 @@ fn leader(at: Point, radius: f64, room: &Rect) -> Option<[Point; 2]> {
     (reach > radius + 2.0).then(|| [radius, reach].map(|way| lerp(at, end, way / length)))
 }
 
-/// At a place, or as near to it as possible.
+/// At a place, or beside it.
 pub(super) fn nearby(at: Point, size: Point) -> Vec<Candidate> {
     let mut all = vec![Candidate::at(at, size, Anchor::Middle, 0.0)];
-    for ring in 1..=14 {
-        let radius = 5.0 * f64::from(ring);
-        for k in 0..12 {
-            let (sin, cos) = libm::sincos(f64::from(k) * core::f64::consts::TAU / 12.0);
-            let center = [at[0] + radius * cos, at[1] + radius * sin];
-            all.push(Candidate::at(center, size, Anchor::Middle, radius));
-        }
-    }
+    all.extend(rings(at, 0.0, size));
     all
 }

@@ -5,8 +5,8 @@ use plotters::prelude::{IntoDrawingArea, SVGBackend};
 use plotters::style::{Color, RGBColor, WHITE};
 
 use super::data::{Figure, Tick};
-use super::layout::{Frame, LINE, TICK};
-use super::text::{Anchor, LARGE, SMALL, Words, tenths};
+use super::layout::Frame;
+use super::text::tenths;
 
 const GRID: RGBColor = RGBColor(0xE9, 0xE9, 0xE9);
 const EDGE: RGBColor = RGBColor(0x77, 0x77, 0x77);
@@ -71,35 +71,4 @@ fn edge(frame: &Frame) -> Vec<(i32, i32)> {
         points.extend([[x, bottom], [x, bottom + length(tick)], [x, bottom]]);
     }
     points.iter().map(|[x, y]| (tenths(*x), tenths(*y))).collect()
-}
-
-/// The words around a plot.
-pub(super) fn words(frame: &Frame) -> Vec<Words> {
-    let plot = &frame.plot;
-    let mut all = Vec::new();
-    for tick in frame.x_ticks.iter().filter(|tick| frame.x_words && tick.label.is_some()) {
-        let at = [frame.across(tick.value), plot.bottom + TICK + SMALL / 2.0 + 0.5];
-        all.push(Words::new(tick.words(), at, Anchor::Middle, SMALL));
-    }
-    for tick in frame.y_ticks.iter().filter(|tick| tick.label.is_some()) {
-        let at = [plot.left - TICK, frame.up(tick.value)];
-        all.push(Words::new(tick.words(), at, Anchor::End, SMALL));
-    }
-    let [cx, cy] = plot.center();
-    let large =
-        |text: &str, at, anchor| Words { color: "#000000", ..Words::new(text, at, anchor, LARGE) };
-    for (i, text) in frame.x_label.iter().enumerate().filter(|_| frame.x_words) {
-        let y = plot.bottom + TICK + SMALL + 6.0 + LINE * (i as f64 + 0.5);
-        all.push(large(text, [cx, y], Anchor::Middle));
-    }
-    let first = plot.left - TICK - frame.tick_room - 4.0;
-    for (i, text) in frame.y_label.iter().rev().enumerate() {
-        let x = first - LINE * (i as f64 + 0.5);
-        all.push(Words { upright: true, ..large(text, [x, cy], Anchor::Middle) });
-    }
-    if let Some(heading) = &frame.heading {
-        let y = plot.top - frame.legend_room - LINE / 2.0 - 4.0;
-        all.push(Words { bold: true, ..large(heading, [plot.left, y], Anchor::Start) });
-    }
-    all
 }

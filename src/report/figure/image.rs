@@ -180,7 +180,9 @@ fn url(image: &Image, placed: &Placed, coarseness: f64) -> String {
     let [columns, rows] = [&placed.columns, &placed.rows].map(|cells| thinned(cells, one_in));
     let levels = (LEVELS / coarseness).max(FEWEST_LEVELS);
     let (palette, pixels) = indexed(image, &columns, &rows, levels);
-    format!("data:image/png;base64,{}", STANDARD.encode(png(&palette, &pixels)))
+    // What repeats is shorter as it is, what changes slowly as differences.
+    let filter = if kinds { png::Filter::NoFilter } else { png::Filter::Adaptive };
+    format!("data:image/png;base64,{}", STANDARD.encode(png(&palette, &pixels, filter)))
 }
 
 /// The image in a few large blocks: each tint with the path data of its runs of neighbours.
@@ -205,40 +207,20 @@ fn blocks(image: &Image, placed: &Placed) -> Vec<(Tint, String)> {
     palette.into_iter().zip(found).filter(|(_, d)| !d.is_empty()).collect()
 }
 
-/// A file with a palette, as few bits to a pixel as it takes, and the better of two filters.
-fn png(palette: &[Tint], pixels: &[Vec<u8>]) -> Vec<u8> {
-    let (depth, bits) = match palette.len() {
-        0..=2 => (png::BitDepth::One, 1),
-        3..=4 => (png::BitDepth::Two, 2),
-        5..=16 => (png::BitDepth::Four, 4),
-        _ => (png::BitDepth::Eight, 8),
-    };
-    let per_byte = 8 / bits;
-    let pack = |row: &Vec<u8>| -> Vec<u8> {
-        let byte = |pixels: &[u8]| {
-            let shifted = pixels.iter().enumerate().map(|(k, one)| one << (8 - bits * (k + 1)));
-            shifted.fold(0, |byte, part| byte | part)
-        };
-        row.chunks(per_byte).map(byte).collect()
-    };
-    let data: Vec<u8> = pixels.iter().flat_map(pack).collect();
+/// A file with a palette.
+fn png(palette: &[Tint], pixels: &[Vec<u8>], filter: png::Filter) -> Vec<u8> {
     let (width, height) = (pixels.first().map_or(0, Vec::len) as u32, pixels.len() as u32);
-    let encode = |filter| {
-        let mut file = Vec::new();
-        let mut encoder = png::Encoder::new(&mut file, width, height);
-        encoder.set_color(png::ColorType::Indexed);
-        encoder.set_depth(depth);
-        encoder.set_palette(palette.iter().flat_map(|tint| tint.0).collect::<Vec<u8>>());
-        encoder.set_compression(png::Compression::High);
-        encoder.set_filter(filter);
-        let written = encoder.write_header().and_then(|mut writer| {
-            writer.write_image_data(&data)?;
-            writer.finish()
-        });
-        written.expect("memory takes all bytes, and there are as many as the header says");
-        file
-    };
-    // What repeats is shorter as it is, what changes slowly as differences.
-    let [plain, differences] = [png::Filter::NoFilter, png::Filter::Adaptive].map(encode);
-    if differences.len() < plain.len() { differences } else { plain }
+    let mut file = Vec::new();
+    let mut encoder = png::Encoder::new(&mut file, width, height);
+    encoder.set_color(png::ColorType::Indexed);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_palette(palette.iter().flat_map(|tint| tint.0).collect::<Vec<u8>>());
+    encoder.set_compression(png::Compression::High);
+    encoder.set_filter(filter);
+    let written = encoder.write_header().and_then(|mut writer| {
+        writer.write_image_data(&pixels.concat())?;
+        writer.finish()
+    });
+    written.expect("memory takes all bytes, and there are as many as the header says");
+    file
 }

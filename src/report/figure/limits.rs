@@ -51,19 +51,18 @@ pub(super) struct Spans {
     pub y: Span,
 }
 
-/// The spans of all panels; `shared` tells which panels show one x axis.
-pub(super) fn spans(figure: &Figure, shared: &[Vec<usize>]) -> Result<Vec<Spans>, FigureError> {
+/// The spans of all panels; those that are `sharing` the same one show one x axis.
+pub(super) fn spans(figure: &Figure, sharing: &[usize]) -> Result<Vec<Spans>, FigureError> {
     let span = |panel: &Panel, index| {
         resolve(panel, index).map_err(|reason| FigureError::new(&figure.name, reason))
     };
     let both = |panel| Ok(Spans { x: span(panel, 0)?, y: span(panel, 1)? });
-    let mut all = figure.panels.iter().map(both).collect::<Result<Vec<Spans>, FigureError>>()?;
-    for group in shared {
-        if let Some(joined) = group.iter().map(|&i| all[i].x).reduce(Span::joined) {
-            group.iter().for_each(|&i| all[i].x = joined);
-        }
-    }
-    Ok(all)
+    let own = figure.panels.iter().map(both).collect::<Result<Vec<Spans>, FigureError>>()?;
+    let joined = |(spans, first): (&Spans, &usize)| {
+        let with = own.iter().zip(sharing).filter(|(_, other)| *other == first);
+        Spans { x: with.fold(spans.x, |x, (other, _)| x.joined(other.x)), ..*spans }
+    };
+    Ok(own.iter().zip(sharing).map(joined).collect())
 }
 
 /// What an axis shows, or why it cannot.

@@ -4,7 +4,7 @@ use super::data::Figure;
 use super::frame;
 use super::geometry::Rect;
 use super::labels::{Labels, place};
-use super::layout::{Frame, GAP, KEY, KEYS_FROM, key_places, lay_out, swatch};
+use super::layout::{Frame, GAP, KEY, KEYS_FROM, key_places, lay_out};
 use super::paint;
 use super::shapes::shapes;
 use super::text::{self, Anchor, FAMILY, SMALL, Words, escape};
@@ -105,7 +105,7 @@ fn arrange(figure: &Figure) -> Result<(Vec<Frame>, Vec<Labels>), FigureError> {
 
 fn compose(figure: &Figure, frames: &[Frame], labels: &[Labels], coarseness: f64) -> Drawing {
     let mut svg = head(figure) + &frame::draw(figure, frames);
-    let mut words: Vec<Words> = frames.iter().flat_map(frame::words).collect();
+    let mut words: Vec<Words> = frames.iter().flat_map(|frame| frame.words.clone()).collect();
     for ((panel, frame), labels) in figure.panels.iter().zip(frames).zip(labels) {
         let shapes = shapes(panel, frame, coarseness);
         for (layer, shape) in panel.layers.iter().zip(&shapes) {
@@ -116,13 +116,7 @@ fn compose(figure: &Figure, frames: &[Frame], labels: &[Labels], coarseness: f64
         }
         words.extend(labels.words.iter().cloned());
         for (index, at) in &frame.legend {
-            let at = [frame.plot.left + at[0], frame.plot.top + at[1]];
-            let layer = &panel.layers[*index];
-            paint::sample(&mut svg, layer, at);
-            let name = layer.label().map_or("", |label| &label.text);
-            let at = [at[0] + swatch(layer) + GAP, at[1]];
-            let color = layer.text_color();
-            words.push(Words { color, ..Words::new(name, at, Anchor::Start, SMALL) });
+            paint::sample(&mut svg, &panel.layers[*index], *at);
         }
     }
     let most = KEYS_FROM * f64::from(figure.size.0);

@@ -8,6 +8,8 @@ use super::image::{Placed, placed};
 use super::layers::{Layer, MarkedPoint, Rule};
 use super::layout::Frame;
 
+/// How far a line may be from its points where no detail is left out, pixels.
+const TOLERANCE: f64 = 0.2;
 /// A curve is cut into pieces of this many points before it is simplified, so that the worst case
 /// (no point can go) costs a bounded time per point. It adds one point per thousand.
 const PIECE: usize = 1024;
@@ -42,7 +44,7 @@ pub(super) fn shapes(panel: &Panel, frame: &Frame, coarseness: f64) -> Vec<Shape
 }
 
 fn shape(layer: &Layer, frame: &Frame, coarseness: f64) -> Shape {
-    let tolerance = 0.15 * coarseness;
+    let tolerance = TOLERANCE * coarseness;
     let map = |points: &[Point]| points.iter().map(|p| frame.map(*p)).collect::<Vec<_>>();
     let lines = |points: &[Point]| {
         let pieces = clip_polyline(&frame.plot, &map(points));
@@ -52,7 +54,7 @@ fn shape(layer: &Layer, frame: &Frame, coarseness: f64) -> Shape {
         Layer::Curve { points, .. } => lines(points),
         Layer::Rule { rule, .. } => lines(&ends(*rule, frame)),
         Layer::Band { outline, .. } => {
-            Shape::Area(simplify_closed(clip_polygon(&frame.plot, &map(outline)), tolerance))
+            Shape::Area(simplify(&clip_polygon(&frame.plot, &map(outline)), tolerance))
         }
         Layer::Image(image) => {
             placed(image, frame).map_or_else(|| Shape::Lines(Vec::new()), Shape::Image)
@@ -103,26 +105,11 @@ fn dots(points: &[MarkedPoint], frame: &Frame, reach: f64) -> Vec<Dot> {
     kept
 }
 
-/// A closed line may be dense going either way, so each half is reduced by itself.
-fn simplify_closed(mut area: Vec<Point>, tolerance: f64) -> Vec<Point> {
-    area.extend(area.first().copied());
-    let middle = area.len() / 2;
-    let halves = [&area[..area.len().min(middle + 1)], &area[middle..]];
-    halves
-        .into_iter()
-        .flat_map(|half| {
-            let mut reduced = simplify(half, tolerance);
-            reduced.pop();
-            reduced
-        })
-        .collect()
-}
-
 /// Reduces a polyline in pixels. No point of the original is further than `tolerance` from the
 /// result, but for the columns of a dense series, which keep first, least, greatest and last point.
 fn simplify(points: &[Point], tolerance: f64) -> Vec<Point> {
     let (Some(first), Some(last)) = (points.first(), points.last()) else { return Vec::new() };
-    let column = (tolerance / 0.15).max(1.0);
+    let column = (tolerance / TOLERANCE).max(1.0);
     let monotone = points.windows(2).all(|pair| pair[0][0] <= pair[1][0]);
     let dense = points.len() as f64 > DENSE * (last[0] - first[0]).abs() / column;
     if monotone && dense && points.len() > 16 {

@@ -164,8 +164,11 @@ pub fn escape(text: &str) -> String {
 }
 
 /// Breaks words at spaces so that no line is wider than `limit` where that is possible; lines are
-/// about equally long.
+/// about equally long, none for no words.
 pub(super) fn wrap(text: &str, size: f64, limit: f64) -> Vec<String> {
+    if text.is_empty() {
+        return Vec::new();
+    }
     let total = width(text, size);
     if total <= limit || limit <= 0.0 {
         return vec![text.to_owned()];
