@@ -3,7 +3,7 @@
 use super::candidates::{Candidate, along, among, nearby, rings, within};
 use super::data::Panel;
 use super::geometry::{Point, Rect, distance, is_finite};
-use super::layers::Layer;
+use super::layers::{Hatch, Layer};
 use super::layout::Frame;
 use super::raster::{Raster, WORDS, bit};
 use super::shapes::Shape;
@@ -60,16 +60,20 @@ pub(super) fn place(panel: &Panel, frame: &Frame, shapes: &[Shape]) -> Labels {
             !raster.any(&place.room.grown(AIR), WORDS)
                 && !place.leader.is_some_and(|leader| raster.words_on(&leader))
         };
-        match found.iter().find(clear).or_else(|| least_bad(&request, frame, &raster)) {
-            Some(place) => settle(&request.words, place, &mut raster, &mut labels),
-            None => labels.homeless.push(request.layer),
-        }
+        let free = found.iter().find(clear);
+        let Some(place) = free.or_else(|| least_bad(&request, frame, &raster)) else {
+            labels.homeless.push(request.layer);
+            continue;
+        };
+        let halo = request.words.halo || free.is_none();
+        let words = Words { halo, ..request.words.clone() };
+        settle(words, place, &mut raster, &mut labels);
     }
     labels.homeless.sort_unstable();
     labels
 }
 
-fn settle(words: &Words, place: &Candidate, raster: &mut Raster, labels: &mut Labels) {
+fn settle(words: Words, place: &Candidate, raster: &mut Raster, labels: &mut Labels) {
     raster.take(&place.room.grown(AIR), WORDS);
     if let Some(leader) = place.leader {
         raster.trace(&leader, 1.0, WORDS);
@@ -81,7 +85,7 @@ fn settle(words: &Words, place: &Candidate, raster: &mut Raster, labels: &mut La
         Anchor::Middle => x,
         Anchor::End => place.room.right,
     };
-    labels.words.push(Words { at: [x, y], anchor: place.anchor, ..words.clone() });
+    labels.words.push(Words { at: [x, y], anchor: place.anchor, ..words });
 }
 
 /// The places on free ground, best first.
@@ -142,10 +146,14 @@ fn occupied(panel: &Panel, frame: &Frame, shapes: &[Shape]) -> Raster {
 /// All words of a panel with the places that they could take.
 fn requests(panel: &Panel, frame: &Frame, shapes: &[Shape]) -> Vec<Request> {
     let mut all = Vec::new();
+    // Words keep off all data but areas, so only the lines in these can run through them.
+    let hatched =
+        |layer: &Layer| matches!(layer, Layer::Band { fill, .. } if fill.hatch != Hatch::None);
+    let halo = panel.layers.iter().any(hatched);
     for (layer, (data, shape)) in panel.layers.iter().zip(shapes).enumerate() {
         let words = |text: &str| Words {
             color: data.text_color(),
-            halo: true,
+            halo,
             ..Words::new(text, [0.0; 2], Anchor::Middle, SMALL)
         };
         let mut fixed =

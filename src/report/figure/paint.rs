@@ -63,7 +63,7 @@ pub(super) fn key(svg: &mut String, at: Point, tint: Tint) {
 
 /// A thin grey line from words to what they name.
 pub(super) fn leader(svg: &mut String, ends: [Point; 2]) {
-    path(svg, &line(&ends), "stroke=\"#6E6E6E\" stroke-width=\"7\"");
+    path(svg, &path_data([&ends[..]]), "stroke=\"#6E6E6E\" stroke-width=\"7\"");
 }
 
 fn path(svg: &mut String, d: &str, attributes: &str) {
@@ -72,32 +72,33 @@ fn path(svg: &mut String, d: &str, attributes: &str) {
     }
 }
 
-/// A line as path data; steps are relative, hence short, and summed without rounding.
-fn line(points: &[Point]) -> String {
-    let mut points = points.iter().map(|p| p.map(tenths));
-    let Some(mut last) = points.next() else { return String::new() };
-    let mut d = format!("M{} {}", last[0], last[1]);
-    let mut command = "l";
-    for point in points {
-        let (dx, dy) = (point[0] - last[0], point[1] - last[1]);
-        if (dx, dy) == (0, 0) {
-            continue;
+/// Lines as path data; steps are relative, hence short, and summed without rounding.
+fn path_data<'a>(lines: impl IntoIterator<Item = &'a [Point]>) -> String {
+    let mut d = String::new();
+    let mut pen = [0, 0];
+    for line in lines {
+        let mut command = if d.is_empty() { "M" } else { "m" };
+        for point in line.iter().map(|p| p.map(tenths)) {
+            let [dx, dy] = [point[0] - pen[0], point[1] - pen[1]];
+            pen = point;
+            if (dx, dy) == (0, 0) && "l ".contains(command) {
+                continue;
+            }
+            let before = if command == " " && dx < 0 { "" } else { command };
+            let between = if dy < 0 { "" } else { " " };
+            let _ = write!(d, "{before}{dx}{between}{dy}");
+            command = if "Mm".contains(command) { "l" } else { " " };
         }
-        last = point;
-        let before = if command == " " && dx < 0 { "" } else { command };
-        let between = if dy < 0 { "" } else { " " };
-        let _ = write!(d, "{before}{dx}{between}{dy}");
-        command = " ";
-    }
-    if command == "l" {
-        d.push_str("h0");
+        if command == "l" {
+            d.push_str("h0");
+        }
     }
     d
 }
 
 /// Lines, as one path.
 fn stroke(svg: &mut String, lines: &[Vec<Point>], style: Style) {
-    let d: String = lines.iter().map(|one| line(one)).collect();
+    let d = path_data(lines.iter().map(Vec::as_slice));
     let (color, width) = (style.color.hex(), tenths(style.width));
     let mut attributes = format!("stroke=\"{color}\" stroke-width=\"{width}\"");
     if style.dash != Dash::Solid {
@@ -112,9 +113,9 @@ fn area_of(svg: &mut String, area: &[Point], fill: Fill) {
         return;
     }
     let (color, opacity) = (fill.color.hex(), fill.opacity.clamp(0.0, 1.0));
-    let d = format!("{}z", line(area));
+    let d = format!("{}z", path_data([area]));
     path(svg, &d, &format!("fill=\"{color}\" fill-opacity=\"{opacity:.2}\""));
-    let d: String = hatching(area, fill.hatch).iter().map(|piece| line(piece)).collect();
+    let d = path_data(hatching(area, fill.hatch).iter().map(Vec::as_slice));
     path(svg, &d, &format!("stroke=\"{color}\" stroke-width=\"8\" stroke-opacity=\"0.55\""));
 }
 
@@ -172,12 +173,12 @@ fn points_of(svg: &mut String, points: &[MarkedPoint], dots: &[Dot], marker: Mar
 
 /// The one mark for the case at hand: a black star with five points in a white one.
 fn star(svg: &mut String, at: Point, tooltip: &str) {
-    let corner = |k: i32| {
+    let corner = |k: usize| {
         let radius = if k % 2 == 0 { STAR } else { 0.42 * STAR };
-        let (sin, cos) = libm::sincos(f64::from(k) * core::f64::consts::PI / 5.0);
+        let (sin, cos) = libm::sincos(k as f64 * core::f64::consts::PI / 5.0);
         [at[0] + radius * sin, at[1] - radius * cos]
     };
-    let d = format!("{}z", line(&(0..10).map(corner).collect::<Vec<_>>()));
+    let d = format!("{}z", path_data([&core::array::from_fn::<_, 10, _>(corner)[..]]));
     path(svg, &d, "stroke=\"#FFFFFF\" stroke-width=\"50\"");
     let title = escape(tooltip);
     let _ = writeln!(svg, "<path d=\"{d}\" fill=\"#000000\"><title>{title}</title></path>");

@@ -54,7 +54,8 @@ fn shape(layer: &Layer, frame: &Frame, coarseness: f64) -> Shape {
         Layer::Curve { points, .. } => lines(points),
         Layer::Rule { rule, .. } => lines(&ends(*rule, frame)),
         Layer::Band { outline, .. } => {
-            Shape::Area(simplify(&clip_polygon(&frame.plot, &map(outline)), tolerance))
+            // Their edges are faint, or lie below the lines that bound them.
+            Shape::Area(simplify(&clip_polygon(&frame.plot, &map(outline)), 2.0 * tolerance))
         }
         Layer::Image(image) => {
             placed(image, frame).map_or_else(|| Shape::Lines(Vec::new()), Shape::Image)
