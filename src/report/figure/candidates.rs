@@ -3,16 +3,17 @@
 use super::geometry::{Point, Rect, depth, distance, lerp};
 use super::text::Anchor;
 
-/// The eight sides of a point, the liked ones first: `[right, down]`, and a small penalty.
-const SIDES: [(Point, f64); 8] = [
-    ([1.0, -1.0], 0.0),
-    ([-1.0, -1.0], 0.3),
-    ([0.0, -1.0], 0.4),
-    ([1.0, 0.0], 0.6),
-    ([-1.0, 0.0], 0.8),
-    ([1.0, 1.0], 1.0),
-    ([-1.0, 1.0], 1.2),
-    ([0.0, 1.0], 1.4),
+/// The eight sides of a point, the liked ones first: by what side the words are held, how far down they are,
+/// and a small penalty.
+const SIDES: [(Anchor, f64, f64); 8] = [
+    (Anchor::Start, -1.0, 0.0),
+    (Anchor::End, -1.0, 0.3),
+    (Anchor::Middle, -1.0, 0.4),
+    (Anchor::Start, 0.0, 0.6),
+    (Anchor::End, 0.0, 0.8),
+    (Anchor::Start, 1.0, 1.0),
+    (Anchor::End, 1.0, 1.2),
+    (Anchor::Middle, 1.0, 1.4),
 ];
 
 /// A place for words.
@@ -35,13 +36,9 @@ impl Candidate {
 
 /// Words of some size on the sides of a point.
 fn around(at: Point, gap: f64, size: Point) -> impl Iterator<Item = Candidate> {
-    SIDES.into_iter().map(move |([right, down], penalty)| {
+    SIDES.into_iter().map(move |(anchor, down, penalty)| {
+        let right = 1.0 - 2.0 * anchor.part();
         let center = [at[0] + right * (size[0] / 2.0 + gap), at[1] + down * (size[1] / 2.0 + gap)];
-        let anchor = match right {
-            1.0 => Anchor::Start,
-            0.0 => Anchor::Middle,
-            _ => Anchor::End,
-        };
         Candidate::at(center, size, anchor, penalty)
     })
 }

@@ -68,17 +68,16 @@ pub fn edges(values: &[f64], scale: Scale) -> Vec<f64> {
 }
 
 /// Where an image lies, and which cell each of its pixels shows.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Placed {
-    pub place: Rect,
+struct Placed {
+    place: Rect,
     /// The column of cells for each column of pixels, from the left.
-    pub columns: Vec<usize>,
+    columns: Vec<usize>,
     /// The row of cells for each row of pixels, from the top.
-    pub rows: Vec<usize>,
+    rows: Vec<usize>,
 }
 
 /// Places an image in a plot; nothing where none of it is visible.
-pub(super) fn placed(image: &Image, frame: &Frame) -> Option<Placed> {
+fn placed(image: &Image, frame: &Frame) -> Option<Placed> {
     let plot = &frame.plot;
     let (across, columns) = track(&image.x_edges, &frame.spans.x, plot.width())?;
     let (up, mut rows) = track(&image.y_edges, &frame.spans.y, plot.height())?;
@@ -92,7 +91,8 @@ pub(super) fn placed(image: &Image, frame: &Frame) -> Option<Placed> {
     Some(Placed { place, columns, rows })
 }
 
-/// The visible parts of an axis from a first to a last edge, and which cell each pixel between them shows.
+/// The visible parts of an axis from a first to a last edge, and which cell each pixel between them shows: one
+/// pixel a cell where all are equally wide.
 fn track(edges: &[f64], span: &Span, length: f64) -> Option<((f64, f64), Vec<usize>)> {
     let parts: Vec<f64> = edges.iter().map(|edge| span.part(*edge)).collect();
     let ascending = parts.windows(2).all(|pair| pair[0] < pair[1]);
@@ -101,27 +101,22 @@ fn track(edges: &[f64], span: &Span, length: f64) -> Option<((f64, f64), Vec<usi
         return None;
     }
     let count = parts.len() - 1;
-    let even = (last - first) / count as f64;
-    let inside = first >= -EVEN && last <= 1.0 + EVEN;
-    let apart = |k: usize| (parts[k] - first - even * k as f64).abs();
-    if inside && (0..=count).all(|k| apart(k) < EVEN) {
-        return Some((
-            (first.max(0.0), last.min(1.0)),
-            thinned(&(0..count).collect::<Vec<_>>(), 1),
-        ));
-    }
+    let even = |k: usize| first + (last - first) * k as f64 / count as f64;
+    let whole = first >= -EVEN && last <= 1.0 + EVEN;
+    let one_a_cell = whole && (0..=count).all(|k| (parts[k] - even(k)).abs() < EVEN);
     let (from, to) = (first.max(0.0), last.min(1.0));
-    let pixels = ((to - from) * length * FINE).ceil().max(1.0);
+    let fine = ((to - from) * length * FINE).ceil().max(1.0) as usize;
+    let pixels = MOST.min(if one_a_cell { count } else { fine });
     let cell = |k: usize| {
-        let at = from + (to - from) * (k as f64 + 0.5) / pixels;
+        let at = from + (to - from) * (k as f64 + 0.5) / pixels as f64;
         parts.partition_point(|part| *part <= at).clamp(1, count) - 1
     };
-    Some(((from, to), thinned(&(0..pixels as usize).map(cell).collect::<Vec<_>>(), 1)))
+    Some(((from, to), (0..pixels).map(cell).collect()))
 }
 
-/// One in so many pixels, and no more than a screen shows.
+/// One in so many pixels.
 fn thinned(cells: &[usize], one_in: usize) -> Vec<usize> {
-    let count = cells.len().div_ceil(one_in).clamp(1, MOST);
+    let count = cells.len().div_ceil(one_in).max(1);
     (0..count).map(|k| cells[(2 * k + 1) * cells.len() / (2 * count)]).collect()
 }
 
@@ -158,14 +153,15 @@ fn indexed(
 
 /// Writes an image: each cell keeps its edges at any size. Below it are large blocks of the same colours, for
 /// viewers that refuse an image within an image: GitHub's pages in Firefox do.
-pub(super) fn write(svg: &mut String, image: &Image, placed: &Placed, coarseness: f64) {
-    for (tint, d) in blocks(image, placed) {
+pub(super) fn write(svg: &mut String, image: &Image, frame: &Frame, coarseness: f64) {
+    let Some(placed) = placed(image, frame) else { return };
+    for (tint, d) in blocks(image, &placed) {
         let fill = tint.hex();
         *svg += &format!("<path d=\"{d}\" fill=\"{fill}\" shape-rendering=\"crispEdges\"/>\n");
     }
     let place = &placed.place;
     let [x, y, right, bottom] = [place.left, place.top, place.right, place.bottom].map(tenths);
-    let (width, height, url) = (right - x, bottom - y, url(image, placed, coarseness));
+    let (width, height, url) = (right - x, bottom - y, url(image, &placed, coarseness));
     *svg += &format!(
         "<image x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" \
          preserveAspectRatio=\"none\" image-rendering=\"pixelated\" href=\"{url}\"/>\n"

@@ -79,13 +79,8 @@ fn settle(words: Words, place: &Candidate, raster: &mut Raster, labels: &mut Lab
         raster.trace(&leader, 1.0, WORDS);
         labels.leaders.push(leader);
     }
-    let [x, y] = place.room.center();
-    let x = match place.anchor {
-        Anchor::Start => place.room.left,
-        Anchor::Middle => x,
-        Anchor::End => place.room.right,
-    };
-    labels.words.push(Words { at: [x, y], anchor: place.anchor, ..words });
+    let x = place.room.left + place.anchor.part() * place.room.width();
+    labels.words.push(Words { at: [x, place.room.center()[1]], anchor: place.anchor, ..words });
 }
 
 /// The places on free ground, best first.

@@ -4,7 +4,6 @@ use std::fmt::Write;
 
 use super::colors::Tint;
 use super::geometry::{Point, lerp};
-use super::image;
 use super::labels::STAR;
 use super::layers::{Fill, Hatch, Layer, MarkedPoint};
 use super::layout::{KEY, swatch};
@@ -18,9 +17,8 @@ pub(super) const USUAL: &str =
     "fill=\"none\" stroke-linejoin=\"round\" stroke-linecap=\"round\" font-size=\"140\"";
 
 /// Draws a layer.
-pub(super) fn layer(svg: &mut String, layer: &Layer, shape: &Shape, coarseness: f64) {
+pub(super) fn layer(svg: &mut String, layer: &Layer, shape: &Shape) {
     match (layer, shape) {
-        (Layer::Image(image), Shape::Image(placed)) => image::write(svg, image, placed, coarseness),
         (Layer::Curve { style, .. } | Layer::Rule { style, .. }, Shape::Lines(lines)) => {
             stroke(svg, lines, *style);
         }
@@ -50,7 +48,7 @@ pub(super) fn sample(svg: &mut String, of: &Layer, at: Point) {
         }
         _ => Shape::Lines(vec![vec![at, [at[0] + width, at[1]]]]),
     };
-    layer(svg, of, &shape, 1.0);
+    layer(svg, of, &shape);
 }
 
 /// A tint in a rectangle, with an edge where it is light.

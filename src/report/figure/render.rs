@@ -3,7 +3,9 @@
 use super::data::Figure;
 use super::frame;
 use super::geometry::Rect;
+use super::image;
 use super::labels::{Labels, place};
+use super::layers::Layer;
 use super::layout::{Frame, GAP, KEY, KEYS_FROM, key_places, lay_out};
 use super::paint;
 use super::shapes::shapes;
@@ -109,7 +111,10 @@ fn compose(figure: &Figure, frames: &[Frame], labels: &[Labels], coarseness: f64
     for ((panel, frame), labels) in figure.panels.iter().zip(frames).zip(labels) {
         let shapes = shapes(panel, frame, coarseness);
         for (layer, shape) in panel.layers.iter().zip(&shapes) {
-            paint::layer(&mut svg, layer, shape, coarseness);
+            match layer {
+                Layer::Image(image) => image::write(&mut svg, image, frame, coarseness),
+                _ => paint::layer(&mut svg, layer, shape),
+            }
         }
         for ends in &labels.leaders {
             paint::leader(&mut svg, *ends);

@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 
 use super::data::Panel;
 use super::geometry::{Point, clip_polygon, clip_polyline, distance, square_distance};
-use super::image::{Placed, placed};
 use super::layers::{Layer, MarkedPoint, Rule};
 use super::layout::Frame;
 
@@ -28,14 +27,13 @@ pub(super) struct Dot {
     pub count: usize,
 }
 
-/// What remains of a layer; no lines where nothing does.
+/// What remains of a layer; no lines where nothing does. An image has a way of its own.
 #[derive(Debug, Clone)]
 pub(super) enum Shape {
     Lines(Vec<Vec<Point>>),
     Dots(Vec<Dot>),
     Area(Vec<Point>),
     Place(Point),
-    Image(Placed),
 }
 
 /// How much detail is left out; 1 is invisible, more is for figures that would be too large.
@@ -57,9 +55,7 @@ fn shape(layer: &Layer, frame: &Frame, coarseness: f64) -> Shape {
             // Their edges are faint, or lie below the lines that bound them.
             Shape::Area(simplify(&clip_polygon(&frame.plot, &map(outline)), 2.0 * tolerance))
         }
-        Layer::Image(image) => {
-            placed(image, frame).map_or_else(|| Shape::Lines(Vec::new()), Shape::Image)
-        }
+        Layer::Image(_) => Shape::Lines(Vec::new()),
         Layer::Points { points, .. } => Shape::Dots(dots(points, frame, 0.5 * coarseness)),
         Layer::Note { at, .. } | Layer::ThisCase { at, .. } => {
             let at = frame.map(*at);

@@ -48,6 +48,13 @@ pub(super) enum Anchor {
     End,
 }
 
+impl Anchor {
+    /// The part of the words before their reference point.
+    pub(super) fn part(self) -> f64 {
+        f64::from(self as u8) / 2.0
+    }
+}
+
 /// Words in their place.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Words {
@@ -80,11 +87,7 @@ impl Words {
     pub(super) fn bounds(&self) -> Rect {
         let width = width(&self.text, self.size) * if self.bold { 1.06 } else { 1.0 };
         let height = self.size * 1.05;
-        let start = match self.anchor {
-            Anchor::Start => 0.0,
-            Anchor::Middle => -width / 2.0,
-            Anchor::End => -width,
-        };
+        let start = -self.anchor.part() * width;
         let [x, y] = self.at;
         if self.upright {
             return Rect::new(x - height / 2.0, y - start - width, x + height / 2.0, y - start);
