@@ -60,15 +60,16 @@ fn edge(frame: &Frame) -> Vec<(i32, i32)> {
     let [left, top, right, bottom] =
         [frame.plot.left, frame.plot.top, frame.plot.right, frame.plot.bottom];
     let length = |tick: &Tick| if tick.label.is_some() { LONG } else { SHORT };
-    let mut points = vec![[left, top], [right, top], [right, bottom], [left, bottom], [left, top]];
+    let mut points = vec![[left, top], [right, top], [right, bottom]];
+    for tick in frame.x_ticks.iter().rev() {
+        let x = frame.across(tick.value);
+        points.extend([[x, bottom], [x, bottom + length(tick)], [x, bottom]]);
+    }
+    points.push([left, bottom]);
     for tick in &frame.y_ticks {
         let y = frame.up(tick.value);
         points.extend([[left, y], [left - length(tick), y], [left, y]]);
     }
-    points.push([left, bottom]);
-    for tick in &frame.x_ticks {
-        let x = frame.across(tick.value);
-        points.extend([[x, bottom], [x, bottom + length(tick)], [x, bottom]]);
-    }
+    points.push([left, top]);
     points.iter().map(|[x, y]| (tenths(*x), tenths(*y))).collect()
 }

@@ -34,7 +34,7 @@ const LEVELS: f64 = 128.0;
 /// Fewer levels would show as bands.
 const FEWEST_LEVELS: f64 = 16.0;
 /// Columns and rows of an image in blocks, and levels of a ramp in it.
-const BLOCKS: [usize; 2] = [40, 30];
+const BLOCKS: [usize; 2] = [36, 27];
 const BLOCK_LEVELS: f64 = 12.0;
 /// Pixels of an image per pixel of the figure where cells are unevenly wide.
 const FINE: f64 = 2.0;
