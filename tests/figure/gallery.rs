@@ -75,10 +75,11 @@ fn manifold() -> Figure {
     .with(stable)
     .with(Layer::points(Role::Stable, special))
     .with(Layer::points(Role::ExactOrbit, fixed).labelled("fixed points at 8.5 Hz"));
-    Figure::new("manifold", "The slow invariant manifold").with_panel(panel).with_words(
-        "Only the part between fold and symmetry breaking is stable.",
-        "A curve that falls, turns at the fold, and rises.",
-    )
+    Figure {
+        caption: "Only the part between fold and symmetry breaking is stable.".into(),
+        alt: "A curve that falls, turns at the fold, and rises.".into(),
+        ..Figure::new("manifold", "The slow invariant manifold").with_panel(panel)
+    }
 }
 
 fn boundaries() -> Figure {

@@ -61,9 +61,11 @@ pub fn frame(svg: &str) -> [f64; 4] {
 
 /// The lines of curves and rules, in tenths of a pixel.
 pub fn lines(svg: &str) -> Vec<Vec<[f64; 2]>> {
-    let of_lines = |p: &&str| p.contains("fill=\"none\"") && p.contains("stroke-linejoin");
-    let tags = svg.split("<path d=\"").skip(1).filter(of_lines);
-    tags.flat_map(|tag| path(tag.split('"').next().unwrap())).collect()
+    let tags = svg.split("<path d=\"").skip(1).map(|rest| rest.split('>').next().unwrap());
+    let of_lines = |tag: &&str| {
+        tag.contains(" stroke=") && !tag.contains("fill=") && !tag.contains("stroke-opacity")
+    };
+    tags.filter(of_lines).flat_map(|tag| path(tag.split('"').next().unwrap())).collect()
 }
 
 /// All vertices of all paths.
@@ -80,8 +82,9 @@ fn path(d: &str) -> Vec<Vec<[f64; 2]>> {
         let end = commands.get(k + 1).copied().unwrap_or(d.len());
         let numbers = numbers(&d[start + 1..end]);
         match &d[start..=start] {
-            "M" => {
-                at = [numbers[0], numbers[1]];
+            "M" | "m" => {
+                let base = if &d[start..=start] == "m" { at } else { [0.0, 0.0] };
+                at = [base[0] + numbers[0], base[1] + numbers[1]];
                 all.push(vec![at]);
             }
             "L" | "l" => {
@@ -93,9 +96,8 @@ fn path(d: &str) -> Vec<Vec<[f64; 2]>> {
             }
             "h" => at[0] += numbers[0],
             "v" => at[1] += numbers[0],
-            "m" => at = [at[0] + numbers[0], at[1] + numbers[1]],
             "a" => at = [at[0] + numbers[5], at[1] + numbers[6]],
-            "z" => {}
+            "z" => at = all.last().unwrap()[0],
             other => panic!("command {other}"),
         }
         all.last_mut().unwrap().push(at);

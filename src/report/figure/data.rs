@@ -60,14 +60,6 @@ impl Figure {
         }
     }
 
-    /// Sets the caption and the alternative text.
-    #[must_use]
-    pub fn with_words(mut self, caption: impl Into<String>, alt: impl Into<String>) -> Self {
-        self.caption = caption.into();
-        self.alt = alt.into();
-        self
-    }
-
     /// Leaves title, caption and alternative text to a template, which gets the data.
     #[must_use]
     pub fn with_facts(mut self, template: &'static str, data: serde_json::Value) -> Self {
@@ -268,4 +260,11 @@ pub struct Tick {
     pub value: f64,
     /// What to write; nothing beside a minor tick.
     pub label: Option<String>,
+}
+
+impl Tick {
+    /// What is written beside it.
+    pub(super) fn words(&self) -> &str {
+        self.label.as_deref().unwrap_or_default()
+    }
 }

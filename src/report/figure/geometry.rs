@@ -1,4 +1,7 @@
-//! Rectangles in pixels, and cutting lines and areas at them.
+//! Points and rectangles in pixels, and cutting lines and areas at them.
+
+/// A point: abscissa and ordinate.
+pub(super) type Point = [f64; 2];
 
 /// A rectangle in pixels; `top` is above `bottom`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,7 +21,7 @@ impl Rect {
         Self { left, top, right, bottom }
     }
 
-    pub(super) fn around([x, y]: [f64; 2], width: f64, height: f64) -> Self {
+    pub(super) fn around([x, y]: Point, width: f64, height: f64) -> Self {
         Self::new(x - width / 2.0, y - height / 2.0, x + width / 2.0, y + height / 2.0)
     }
 
@@ -30,7 +33,7 @@ impl Rect {
         self.bottom - self.top
     }
 
-    pub(super) fn center(&self) -> [f64; 2] {
+    pub(super) fn center(&self) -> Point {
         [f64::midpoint(self.left, self.right), f64::midpoint(self.top, self.bottom)]
     }
 
@@ -38,8 +41,8 @@ impl Rect {
         Self::new(self.left - by, self.top - by, self.right + by, self.bottom + by)
     }
 
-    pub(super) fn has([x, y]: [f64; 2], rect: &Self) -> bool {
-        x >= rect.left && x <= rect.right && y >= rect.top && y <= rect.bottom
+    pub(super) fn has(&self, [x, y]: Point) -> bool {
+        self.contains(&Self::new(x, y, x, y))
     }
 
     /// Whether the other rectangle lies inside this one.
@@ -61,49 +64,48 @@ impl Rect {
     }
 }
 
+/// The point at a part of the way from one to another.
+pub(super) fn lerp(a: Point, b: Point, t: f64) -> Point {
+    [a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])]
+}
+
+pub(super) fn distance(a: Point, b: Point) -> f64 {
+    libm::hypot(b[0] - a[0], b[1] - a[1])
+}
+
+pub(super) fn is_finite(p: &Point) -> bool {
+    p[0].is_finite() && p[1].is_finite()
+}
+
 /// The part of a segment inside a rectangle (Liang and Barsky).
-pub(super) fn clip_segment(rect: &Rect, a: [f64; 2], b: [f64; 2]) -> Option<([f64; 2], [f64; 2])> {
+fn clip_segment(rect: &Rect, a: Point, b: Point) -> Option<[Point; 2]> {
     let (mut enter, mut leave) = (0.0_f64, 1.0_f64);
-    let delta = [b[0] - a[0], b[1] - a[1]];
-    let bounds = [(rect.left, rect.right), (rect.top, rect.bottom)];
-    for axis in 0..2 {
-        let (low, high) = bounds[axis];
-        if delta[axis] == 0.0 {
+    for (axis, low, high) in [(0, rect.left, rect.right), (1, rect.top, rect.bottom)] {
+        if a[axis] == b[axis] {
             if a[axis] < low || a[axis] > high {
                 return None;
             }
             continue;
         }
-        let to_low = (low - a[axis]) / delta[axis];
-        let to_high = (high - a[axis]) / delta[axis];
+        let [to_low, to_high] = [low, high].map(|bound| (bound - a[axis]) / (b[axis] - a[axis]));
         enter = enter.max(to_low.min(to_high));
         leave = leave.min(to_low.max(to_high));
     }
-    let at = |t: f64| {
-        // The ends stay as they are, bit for bit, so that neighbouring pieces join.
-        if t == 0.0 {
-            a
-        } else if t == 1.0 {
-            b
-        } else {
-            [
-                (a[0] + t * delta[0]).clamp(rect.left, rect.right),
-                (a[1] + t * delta[1]).clamp(rect.top, rect.bottom),
-            ]
-        }
+    let cut = |t: f64| {
+        let [x, y] = lerp(a, b, t);
+        [x.clamp(rect.left, rect.right), y.clamp(rect.top, rect.bottom)]
     };
-    (enter <= leave).then(|| (at(enter), at(leave)))
+    // The ends stay as they are, bit for bit, so that neighbouring pieces join.
+    let first = if enter == 0.0 { a } else { cut(enter) };
+    let last = if leave == 1.0 { b } else { cut(leave) };
+    (enter <= leave).then_some([first, last])
 }
 
 /// The parts of a polyline inside a rectangle; points that are not finite interrupt it.
-pub(super) fn clip_polyline(rect: &Rect, points: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
-    let mut pieces: Vec<Vec<[f64; 2]>> = Vec::new();
-    let finite = |p: &[f64; 2]| p[0].is_finite() && p[1].is_finite();
-    for pair in points.windows(2) {
-        if !(finite(&pair[0]) && finite(&pair[1])) {
-            continue;
-        }
-        let Some((a, b)) = clip_segment(rect, pair[0], pair[1]) else { continue };
+pub(super) fn clip_polyline(rect: &Rect, points: &[Point]) -> Vec<Vec<Point>> {
+    let mut pieces: Vec<Vec<Point>> = Vec::new();
+    for pair in points.windows(2).filter(|pair| pair.iter().all(is_finite)) {
+        let Some([a, b]) = clip_segment(rect, pair[0], pair[1]) else { continue };
         match pieces.last_mut() {
             Some(piece) if piece.last() == Some(&a) => piece.push(b),
             _ => pieces.push(vec![a, b]),
@@ -113,19 +115,17 @@ pub(super) fn clip_polyline(rect: &Rect, points: &[[f64; 2]]) -> Vec<Vec<[f64; 2
 }
 
 /// The part of a polygon inside a rectangle (Sutherland and Hodgman).
-pub(super) fn clip_polygon(rect: &Rect, corners: &[[f64; 2]]) -> Vec<[f64; 2]> {
-    let mut kept: Vec<[f64; 2]> =
-        corners.iter().filter(|p| p[0].is_finite() && p[1].is_finite()).copied().collect();
+pub(super) fn clip_polygon(rect: &Rect, corners: &[Point]) -> Vec<Point> {
+    let mut kept: Vec<Point> = corners.iter().filter(|p| is_finite(p)).copied().collect();
     let sides =
         [(0, rect.left, 1.0), (0, rect.right, -1.0), (1, rect.top, 1.0), (1, rect.bottom, -1.0)];
     for (axis, bound, sign) in sides {
-        let inside = |p: &[f64; 2]| sign * (p[axis] - bound) >= 0.0;
+        let inside = |p: &Point| sign * (p[axis] - bound) >= 0.0;
         let mut next = Vec::with_capacity(kept.len() + 4);
         for (i, &b) in kept.iter().enumerate() {
             let a = kept[(i + kept.len() - 1) % kept.len()];
             if inside(&a) != inside(&b) {
-                let t = (bound - a[axis]) / (b[axis] - a[axis]);
-                let mut cut = [a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])];
+                let mut cut = lerp(a, b, (bound - a[axis]) / (b[axis] - a[axis]));
                 cut[axis] = bound;
                 next.push(cut);
             }
@@ -138,24 +138,25 @@ pub(super) fn clip_polygon(rect: &Rect, corners: &[[f64; 2]]) -> Vec<[f64; 2]> {
     if kept.len() < 3 { Vec::new() } else { kept }
 }
 
-/// Whether a point lies in a polygon, by the even-odd rule.
-pub(super) fn in_polygon(corners: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
-    let mut inside = false;
-    for (i, b) in corners.iter().enumerate() {
+/// How far a point in a polygon is from its edges; less than 0 outside of it, by the even-odd rule.
+pub(super) fn depth(corners: &[Point], p: Point) -> f64 {
+    let [x, y] = p;
+    let (mut inside, mut nearest) = (false, f64::INFINITY);
+    for (i, &b) in corners.iter().enumerate() {
         let a = corners[(i + corners.len() - 1) % corners.len()];
         if (a[1] > y) != (b[1] > y) && x < a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0]) {
             inside = !inside;
         }
+        nearest = nearest.min(square_distance(p, a, b));
     }
-    inside
+    if inside { nearest.sqrt() } else { -nearest.sqrt() }
 }
 
 /// The squared distance of a point from a segment (not from the line through it: a curve may turn back).
-pub(super) fn square_distance(p: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
+pub(super) fn square_distance(p: Point, a: Point, b: Point) -> f64 {
     let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
     let square = dx * dx + dy * dy;
     let t = if square > 0.0 { ((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / square } else { 0.0 };
-    let t = t.clamp(0.0, 1.0);
-    let (ex, ey) = (p[0] - a[0] - t * dx, p[1] - a[1] - t * dy);
-    ex * ex + ey * ey
+    let [x, y] = lerp(a, b, t.clamp(0.0, 1.0));
+    (p[0] - x) * (p[0] - x) + (p[1] - y) * (p[1] - y)
 }

@@ -3,7 +3,9 @@
 use super::colors::{Ramp, Tint};
 use super::data::Scale;
 use super::geometry::Rect;
+use super::layout::Frame;
 use super::limits::Span;
+use super::text::tenths;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
@@ -32,7 +34,7 @@ const LEVELS: f64 = 128.0;
 /// Fewer levels would show as bands.
 const FEWEST_LEVELS: f64 = 16.0;
 /// Columns and rows of an image in blocks, and levels of a ramp in it.
-const BLOCKS: [usize; 2] = [40, 30];
+const BLOCKS: [usize; 2] = [36, 27];
 const BLOCK_LEVELS: f64 = 12.0;
 /// Pixels of an image per pixel of the figure where cells are unevenly wide.
 const FINE: f64 = 2.0;
@@ -66,19 +68,19 @@ pub fn edges(values: &[f64], scale: Scale) -> Vec<f64> {
 }
 
 /// Where an image lies, and which cell each of its pixels shows.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Placed {
-    pub place: Rect,
+struct Placed {
+    place: Rect,
     /// The column of cells for each column of pixels, from the left.
-    pub columns: Vec<usize>,
+    columns: Vec<usize>,
     /// The row of cells for each row of pixels, from the top.
-    pub rows: Vec<usize>,
+    rows: Vec<usize>,
 }
 
 /// Places an image in a plot; nothing where none of it is visible.
-pub(super) fn placed(image: &Image, plot: &Rect, spans: [&Span; 2]) -> Option<Placed> {
-    let (across, columns) = track(&image.x_edges, spans[0], plot.width())?;
-    let (up, mut rows) = track(&image.y_edges, spans[1], plot.height())?;
+fn placed(image: &Image, frame: &Frame) -> Option<Placed> {
+    let plot = &frame.plot;
+    let (across, columns) = track(&image.x_edges, &frame.spans.x, plot.width())?;
+    let (up, mut rows) = track(&image.y_edges, &frame.spans.y, plot.height())?;
     rows.reverse();
     let place = Rect::new(
         plot.left + across.0 * plot.width(),
@@ -89,7 +91,8 @@ pub(super) fn placed(image: &Image, plot: &Rect, spans: [&Span; 2]) -> Option<Pl
     Some(Placed { place, columns, rows })
 }
 
-/// The visible parts of an axis from a first to a last edge, and which cell each pixel between them shows.
+/// The visible parts of an axis from a first to a last edge, and which cell each pixel between them shows: one
+/// pixel a cell where all are equally wide.
 fn track(edges: &[f64], span: &Span, length: f64) -> Option<((f64, f64), Vec<usize>)> {
     let parts: Vec<f64> = edges.iter().map(|edge| span.part(*edge)).collect();
     let ascending = parts.windows(2).all(|pair| pair[0] < pair[1]);
@@ -98,138 +101,122 @@ fn track(edges: &[f64], span: &Span, length: f64) -> Option<((f64, f64), Vec<usi
         return None;
     }
     let count = parts.len() - 1;
-    let even = (last - first) / count as f64;
-    let inside = first >= -EVEN && last <= 1.0 + EVEN;
-    let apart = |k: usize| (parts[k] - first - even * k as f64).abs();
-    if inside && (0..=count).all(|k| apart(k) < EVEN) {
-        return Some((
-            (first.max(0.0), last.min(1.0)),
-            thinned(&(0..count).collect::<Vec<_>>(), 1),
-        ));
-    }
+    let even = |k: usize| first + (last - first) * k as f64 / count as f64;
+    let whole = first >= -EVEN && last <= 1.0 + EVEN;
+    let one_a_cell = whole && (0..=count).all(|k| (parts[k] - even(k)).abs() < EVEN);
     let (from, to) = (first.max(0.0), last.min(1.0));
-    let pixels = ((to - from) * length * FINE).ceil().max(1.0);
+    let fine = ((to - from) * length * FINE).ceil().max(1.0) as usize;
+    let pixels = MOST.min(if one_a_cell { count } else { fine });
     let cell = |k: usize| {
-        let at = from + (to - from) * (k as f64 + 0.5) / pixels;
+        let at = from + (to - from) * (k as f64 + 0.5) / pixels as f64;
         parts.partition_point(|part| *part <= at).clamp(1, count) - 1
     };
-    Some(((from, to), thinned(&(0..pixels as usize).map(cell).collect::<Vec<_>>(), 1)))
+    Some(((from, to), (0..pixels).map(cell).collect()))
 }
 
-/// One in so many pixels, and no more than a screen shows.
+/// One in so many pixels.
 fn thinned(cells: &[usize], one_in: usize) -> Vec<usize> {
-    let count = cells.len().div_ceil(one_in).clamp(1, MOST);
+    let count = cells.len().div_ceil(one_in).max(1);
     (0..count).map(|k| cells[(2 * k + 1) * cells.len() / (2 * count)]).collect()
 }
 
-/// What an image's cells hold as numbers of a palette, the last of which is for what is not known.
-struct Indexed<'a> {
-    palette: Vec<Tint>,
-    colour: Box<dyn Fn(usize) -> u8 + 'a>,
+/// What some columns and rows of cells hold, as numbers of a palette whose last tint is for what is not known;
+/// values take one of so many levels.
+fn indexed(
+    image: &Image,
+    columns: &[usize],
+    rows: &[usize],
+    levels: f64,
+) -> (Vec<Tint>, Vec<Vec<u8>>) {
+    let across = image.x_edges.len() - 1;
+    let (mut palette, number): (Vec<Tint>, Box<dyn Fn(usize) -> Option<u8>>) = match &image.cells {
+        Cells::Kinds(tints, cells) => {
+            (tints.clone(), Box::new(|cell| cells.get(cell).copied().flatten()))
+        }
+        Cells::Values(ramp, (low, high), cells) => {
+            let span = high - low;
+            let tint =
+                |k: u32| ramp.tint(low + span * (f64::from(k) + 0.5) / levels, (*low, low + span));
+            let level = move |value: f64| {
+                ((value - low) / span * levels).floor().clamp(0.0, levels - 1.0) as u8
+            };
+            let palette = (0..levels as u32).map(tint).collect();
+            (palette, Box::new(move |cell| cells.get(cell).copied().flatten().map(level)))
+        }
+    };
+    let unknown = palette.len() as u8;
+    palette.push(Tint::UNKNOWN);
+    let cell = |row: usize, column: usize| number(row * across + column).unwrap_or(unknown);
+    let row = |row: &usize| columns.iter().map(|column| cell(*row, *column)).collect();
+    (palette, rows.iter().map(row).collect())
 }
 
-impl<'a> Indexed<'a> {
-    /// Values take one of so many levels.
-    fn of(image: &'a Image, levels: f64) -> Self {
-        let (mut palette, colour): (Vec<Tint>, Box<dyn Fn(usize) -> u8 + 'a>) = match &image.cells {
-            Cells::Kinds(tints, cells) => {
-                let unknown = tints.len() as u8;
-                let of = move |cell: usize| cells.get(cell).copied().flatten().unwrap_or(unknown);
-                (tints.clone(), Box::new(of))
-            }
-            Cells::Values(ramp, (low, high), cells) => {
-                let (low, span) = (*low, high - low);
-                let tint = |k: u32| {
-                    let value = low + span * (f64::from(k) + 0.5) / levels;
-                    ramp.tint(value, (low, low + span))
-                };
-                let level = move |value: f64| {
-                    ((value - low) / span * levels).floor().clamp(0.0, levels - 1.0) as u8
-                };
-                let of = move |cell: usize| {
-                    cells.get(cell).copied().flatten().map_or(levels as u8, level)
-                };
-                ((0..levels as u32).map(tint).collect(), Box::new(of))
-            }
-        };
-        palette.push(Tint::UNKNOWN);
-        Self { palette, colour }
+/// Writes an image: each cell keeps its edges at any size. Below it are large blocks of the same colours, for
+/// viewers that refuse an image within an image: GitHub's pages in Firefox do.
+pub(super) fn write(svg: &mut String, image: &Image, frame: &Frame, coarseness: f64) {
+    let Some(placed) = placed(image, frame) else { return };
+    for (tint, d) in blocks(image, &placed) {
+        let fill = tint.hex();
+        *svg += &format!("<path d=\"{d}\" fill=\"{fill}\" shape-rendering=\"crispEdges\"/>\n");
     }
+    let place = &placed.place;
+    let [x, y, right, bottom] = [place.left, place.top, place.right, place.bottom].map(tenths);
+    let (width, height, url) = (right - x, bottom - y, url(image, &placed, coarseness));
+    *svg += &format!(
+        "<image x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" \
+         preserveAspectRatio=\"none\" image-rendering=\"pixelated\" href=\"{url}\"/>\n"
+    );
 }
 
 /// The image as a URL that holds it; coarser where it would be too large: first fewer levels, then fewer
 /// pixels.
-pub(super) fn url(image: &Image, placed: &Placed, coarseness: f64) -> String {
+fn url(image: &Image, placed: &Placed, coarseness: f64) -> String {
     let kinds = matches!(image.cells, Cells::Kinds(..));
     let one_in = if kinds { coarseness } else { (coarseness / 4.0).max(1.0) } as usize;
-    let Indexed { palette, colour } = Indexed::of(image, (LEVELS / coarseness).max(FEWEST_LEVELS));
-    let across = image.x_edges.len() - 1;
-    let (columns, rows) = (thinned(&placed.columns, one_in), thinned(&placed.rows, one_in));
-    let row = |row: &usize| columns.iter().map(|column| colour(row * across + column)).collect();
-    let pixels: Vec<Vec<u8>> = rows.iter().map(row).collect();
-    format!("data:image/png;base64,{}", STANDARD.encode(png(&palette, &pixels)))
+    let [columns, rows] = [&placed.columns, &placed.rows].map(|cells| thinned(cells, one_in));
+    let levels = (LEVELS / coarseness).max(FEWEST_LEVELS);
+    let (palette, pixels) = indexed(image, &columns, &rows, levels);
+    // What repeats is shorter as it is, what changes slowly as differences.
+    let filter = if kinds { png::Filter::NoFilter } else { png::Filter::Adaptive };
+    format!("data:image/png;base64,{}", STANDARD.encode(png(&palette, &pixels, filter)))
 }
 
-/// The image in a few large blocks: each tint with its rectangles.
-pub(super) fn blocks(image: &Image, placed: &Placed) -> Vec<(Tint, Vec<Rect>)> {
-    let across = image.x_edges.len() - 1;
-    let Indexed { palette, colour } = Indexed::of(image, BLOCK_LEVELS);
+/// The image in a few large blocks: each tint with the path data of its runs of neighbours.
+fn blocks(image: &Image, placed: &Placed) -> Vec<(Tint, String)> {
     let sampled = |cells: &[usize], most: usize| thinned(cells, cells.len().div_ceil(most));
     let (columns, rows) = (sampled(&placed.columns, BLOCKS[0]), sampled(&placed.rows, BLOCKS[1]));
+    let (palette, pixels) = indexed(image, &columns, &rows, BLOCK_LEVELS);
     let place = &placed.place;
-    let x = |k: usize| place.left + place.width() * k as f64 / columns.len() as f64;
-    let y = |k: usize| place.top + place.height() * k as f64 / rows.len() as f64;
-    let mut found: Vec<(Tint, Vec<Rect>)> = Vec::new();
-    for (row, cells) in rows.iter().enumerate() {
-        let tint = |column: &usize| palette[usize::from(colour(cells * across + column))];
-        let tints: Vec<Tint> = columns.iter().map(tint).collect();
+    let x = |k: usize| tenths(place.left + place.width() * k as f64 / columns.len() as f64);
+    let y = |k: usize| tenths(place.top + place.height() * k as f64 / rows.len() as f64);
+    let mut found = vec![String::new(); palette.len()];
+    for (row, pixels) in pixels.iter().enumerate() {
         let mut begin = 0;
-        for run in tints.chunk_by(|a, b| a == b) {
-            let rect = Rect::new(x(begin), y(row), x(begin + run.len()), y(row + 1));
-            match found.iter_mut().find(|(tint, _)| *tint == run[0]) {
-                Some((_, rects)) => rects.push(rect),
-                None => found.push((run[0], vec![rect])),
-            }
-            begin += run.len();
+        for run in pixels.chunk_by(|a, b| a == b) {
+            let end = begin + run.len();
+            let (left, top) = (x(begin), y(row));
+            let (width, height) = (x(end) - left, y(row + 1) - top);
+            found[usize::from(run[0])] += &format!("M{left} {top}h{width}v{height}H{left}z");
+            begin = end;
         }
     }
-    found
+    palette.into_iter().zip(found).filter(|(_, d)| !d.is_empty()).collect()
 }
 
-/// A file with a palette, as few bits to a pixel as it takes, and the better of two filters.
-fn png(palette: &[Tint], pixels: &[Vec<u8>]) -> Vec<u8> {
-    let (depth, bits) = match palette.len() {
-        0..=2 => (png::BitDepth::One, 1),
-        3..=4 => (png::BitDepth::Two, 2),
-        5..=16 => (png::BitDepth::Four, 4),
-        _ => (png::BitDepth::Eight, 8),
-    };
-    let per_byte = 8 / bits;
-    let pack = |row: &Vec<u8>| -> Vec<u8> {
-        let byte = |pixels: &[u8]| {
-            let shifted = pixels.iter().enumerate().map(|(k, one)| one << (8 - bits * (k + 1)));
-            shifted.fold(0, |byte, part| byte | part)
-        };
-        row.chunks(per_byte).map(byte).collect()
-    };
-    let data: Vec<u8> = pixels.iter().flat_map(pack).collect();
+/// A file with a palette.
+fn png(palette: &[Tint], pixels: &[Vec<u8>], filter: png::Filter) -> Vec<u8> {
     let (width, height) = (pixels.first().map_or(0, Vec::len) as u32, pixels.len() as u32);
-    let encode = |filter| {
-        let mut file = Vec::new();
-        let mut encoder = png::Encoder::new(&mut file, width, height);
-        encoder.set_color(png::ColorType::Indexed);
-        encoder.set_depth(depth);
-        encoder.set_palette(palette.iter().flat_map(|tint| tint.0).collect::<Vec<u8>>());
-        encoder.set_compression(png::Compression::High);
-        encoder.set_filter(filter);
-        let written = encoder.write_header().and_then(|mut writer| {
-            writer.write_image_data(&data)?;
-            writer.finish()
-        });
-        written.expect("memory takes all bytes, and there are as many as the header says");
-        file
-    };
-    // What repeats is shorter as it is, what changes slowly as differences.
-    let [plain, differences] = [png::Filter::NoFilter, png::Filter::Adaptive].map(encode);
-    if differences.len() < plain.len() { differences } else { plain }
+    let mut file = Vec::new();
+    let mut encoder = png::Encoder::new(&mut file, width, height);
+    encoder.set_color(png::ColorType::Indexed);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_palette(palette.iter().flat_map(|tint| tint.0).collect::<Vec<u8>>());
+    encoder.set_compression(png::Compression::High);
+    encoder.set_filter(filter);
+    let written = encoder.write_header().and_then(|mut writer| {
+        writer.write_image_data(&pixels.concat())?;
+        writer.finish()
+    });
+    written.expect("memory takes all bytes, and there are as many as the header says");
+    file
 }

@@ -130,6 +130,27 @@ impl Layer {
         }
         self
     }
+
+    /// What it is called.
+    pub(super) const fn label(&self) -> Option<&Label> {
+        match self {
+            Self::Curve { label, .. }
+            | Self::Points { label, .. }
+            | Self::Band { label, .. }
+            | Self::Rule { label, .. } => label.as_ref(),
+            Self::Note { .. } | Self::ThisCase { .. } | Self::Image(_) => None,
+        }
+    }
+
+    /// The colour of its words.
+    pub(super) const fn text_color(&self) -> &'static str {
+        match self {
+            Self::Curve { style, .. } | Self::Rule { style, .. } => style.color.text_hex(),
+            Self::Points { color, .. } | Self::Note { color, .. } => color.text_hex(),
+            Self::Band { fill, .. } => fill.color.text_hex(),
+            Self::ThisCase { .. } | Self::Image(_) => "#000000",
+        }
+    }
 }
 
 /// The name of a layer. It is written beside the data where that is possible without covering

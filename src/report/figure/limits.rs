@@ -1,8 +1,8 @@
 //! Which part of each axis a panel shows.
 
-use super::data::{Axis, Figure, Panel, Scale};
-use super::error::FigureError;
+use super::data::{Figure, Panel, Scale};
 use super::layers::{Layer, Rule};
+use super::render::FigureError;
 use super::ticks::round_step;
 
 /// The margin beside the data, as a part of their span.
@@ -51,99 +51,90 @@ pub(super) struct Spans {
     pub y: Span,
 }
 
-/// The spans of all panels; `shared` tells which panels show one x axis.
-pub(super) fn spans(figure: &Figure, shared: &[Vec<usize>]) -> Result<Vec<Spans>, FigureError> {
-    let mut all = Vec::new();
-    for panel in &figure.panels {
-        let span = |axis: &Axis, index| resolve(&figure.name, panel, axis, index);
-        all.push(Spans { x: span(&panel.x, 0)?, y: span(&panel.y, 1)? });
-    }
-    for group in shared {
-        let spans: Vec<Span> = group.iter().map(|&i| all[i].x).collect();
-        if let Some(joined) = spans.into_iter().reduce(Span::joined) {
-            for &i in group {
-                all[i].x = joined;
-            }
-        }
-    }
-    Ok(all)
+/// The spans of all panels; those that are `sharing` the same one show one x axis.
+pub(super) fn spans(figure: &Figure, sharing: &[usize]) -> Result<Vec<Spans>, FigureError> {
+    let span = |panel: &Panel, index| {
+        resolve(panel, index).map_err(|reason| FigureError::new(&figure.name, reason))
+    };
+    let both = |panel| Ok(Spans { x: span(panel, 0)?, y: span(panel, 1)? });
+    let own = figure.panels.iter().map(both).collect::<Result<Vec<Spans>, FigureError>>()?;
+    let joined = |(spans, first): (&Spans, &usize)| {
+        let with = own.iter().zip(sharing).filter(|(_, other)| *other == first);
+        Spans { x: with.fold(spans.x, |x, (other, _)| x.joined(other.x)), ..*spans }
+    };
+    Ok(own.iter().zip(sharing).map(joined).collect())
 }
 
-fn resolve(name: &str, panel: &Panel, axis: &Axis, index: usize) -> Result<Span, FigureError> {
+/// What an axis shows, or why it cannot.
+fn resolve(panel: &Panel, index: usize) -> Result<Span, String> {
+    let axis = [&panel.x, &panel.y][index];
     let scale = axis.scale;
     if let Some((first, last)) = axis.range {
         let positive = scale == Scale::Linear || first >= 1.0 / HUGE;
         let wide = (last - first) / first.abs().max(last.abs()) > 1e-12;
-        if !(first < last && last - first < HUGE && positive && wide) {
-            let (name, axis) = (name.to_owned(), axis.label.clone());
-            return Err(FigureError::Range { name, axis, first, last });
+        if first < last && last - first < HUGE && positive && wide {
+            return Ok(Span { first, last, scale });
         }
+        return Err(format!("axis {:?} cannot run from {first} to {last}", axis.label));
+    }
+    let mut values = coordinates(panel, index);
+    // Where nothing is below 0, a margin is not either.
+    let floor = scale == Scale::Linear && !values.iter().any(|(v, _)| *v < 0.0);
+    values.retain(|(v, _)| v.abs() <= HUGE && (scale == Scale::Linear || *v >= 1.0 / HUGE));
+    if scale == Scale::Log {
+        values.iter_mut().for_each(|(v, _)| *v = libm::log10(*v));
+        let [first, last] = extent(&values, index, floor).map(|end| libm::pow(10.0, end));
         return Ok(Span { first, last, scale });
     }
-    let data = collect(panel, index);
-    let usable = |v: &f64| v.abs() <= HUGE && (scale == Scale::Linear || *v >= 1.0 / HUGE);
-    let to_scale = |v: f64| if scale == Scale::Log { libm::log10(v) } else { v };
-    let keep = |values: &[f64]| values.iter().copied().filter(usable).map(to_scale).collect();
-    let (lines, marks, must): (Vec<f64>, Vec<f64>, Vec<f64>) =
-        (keep(&data.lines), keep(&data.marks), keep(&data.must));
-    let (low, high) = extent(&lines, &marks, &must, index == 1, data.floor);
-    if scale == Scale::Log {
-        return Ok(Span { first: libm::pow(10.0, low), last: libm::pow(10.0, high), scale });
-    }
-    Ok(rounded(low, high, index))
+    Ok(rounded(extent(&values, index, floor), index))
 }
 
-/// Coordinates of one axis, by what they ask for.
-#[derive(Default)]
-struct Coordinates {
-    /// Lines may touch the panel's sides.
-    lines: Vec<f64>,
-    /// Points want a margin.
-    marks: Vec<f64>,
-    /// These are shown even if they are outliers.
-    must: Vec<f64>,
-    /// All values are at least 0, and the axis is linear: a margin must not go below.
-    floor: bool,
+/// What a coordinate asks of its axis.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Wish {
+    /// May touch the panel's sides.
+    Line,
+    /// Wants a margin.
+    Mark,
+    /// Wants one, and is shown even if it is an outlier.
+    Must,
 }
 
-fn collect(panel: &Panel, index: usize) -> Coordinates {
-    let mut all = Coordinates::default();
+fn coordinates(panel: &Panel, index: usize) -> Vec<(f64, Wish)> {
+    let mut all = Vec::new();
     for layer in &panel.layers {
         match layer {
-            Layer::Curve { points, .. } => all.lines.extend(points.iter().map(|p| p[index])),
-            Layer::Band { outline, .. } => all.lines.extend(outline.iter().map(|p| p[index])),
-            Layer::Points { points, .. } => {
-                for point in points {
-                    let value = [point.x, point.y][index];
-                    let list = if point.label.is_some() { &mut all.must } else { &mut all.marks };
-                    list.push(value);
-                }
+            Layer::Curve { points, .. } | Layer::Band { outline: points, .. } => {
+                all.extend(points.iter().map(|p| (p[index], Wish::Line)));
             }
+            Layer::Points { points, .. } => all.extend(points.iter().map(|point| {
+                let wish = if point.label.is_some() { Wish::Must } else { Wish::Mark };
+                ([point.x, point.y][index], wish)
+            })),
             Layer::Image(image) => {
                 let edges = [&image.x_edges, &image.y_edges][index];
-                all.lines.extend(edges.first().into_iter().chain(edges.last()));
+                all.extend(edges.first().into_iter().chain(edges.last()).map(|v| (*v, Wish::Line)));
             }
-            Layer::ThisCase { at, .. } => all.must.push(at[index]),
-            Layer::Note { at, .. } => all.must.push(at[index]),
+            Layer::ThisCase { at, .. } | Layer::Note { at, .. } => {
+                all.push((at[index], Wish::Must))
+            }
             Layer::Rule { rule, .. } => match (rule, index) {
-                (Rule::Vertical(v), 0) | (Rule::Horizontal(v), 1) => all.marks.push(*v),
+                (Rule::Vertical(v), 0) | (Rule::Horizontal(v), 1) => all.push((*v, Wish::Mark)),
                 _ => {}
             },
         }
     }
-    let axis = if index == 0 { &panel.x } else { &panel.y };
-    let values = || all.lines.iter().chain(&all.marks).chain(&all.must);
-    let floor = axis.scale == Scale::Linear && !values().any(|v| *v < 0.0);
-    Coordinates { floor, ..all }
+    all
 }
 
 /// The interval to show, with its margin.
-fn extent(lines: &[f64], marks: &[f64], must: &[f64], ordinate: bool, floor: bool) -> (f64, f64) {
-    let mut sorted: Vec<f64> = lines.iter().chain(marks).copied().collect();
+fn extent(values: &[(f64, Wish)], index: usize, floor: bool) -> [f64; 2] {
+    let (must, others): (Vec<_>, Vec<_>) = values.iter().partition(|(_, w)| *w == Wish::Must);
+    let mut sorted: Vec<f64> = others.iter().map(|(v, _)| *v).collect();
     sorted.sort_by(f64::total_cmp);
     let (mut low, mut high) = inliers(&sorted);
-    for v in must {
-        (low, high) = (low.min(*v), high.max(*v));
+    for (v, _) in must {
+        (low, high) = (low.min(v), high.max(v));
     }
     if low > high {
         (low, high) = (0.0, 1.0);
@@ -152,16 +143,16 @@ fn extent(lines: &[f64], marks: &[f64], must: &[f64], ordinate: bool, floor: boo
     let span = high - low;
     if span <= 1e-9 * size || span == 0.0 {
         let half = if size > 0.0 { 0.1 * size } else { 1.0 };
-        return (low - half, high + half);
+        return [low - half, high + half];
     }
-    let nearly = |a: f64, b: f64| (a - b).abs() < 0.5 * MARGIN * span;
-    let wants = |end: f64| ordinate || marks.iter().chain(must).any(|v| nearly(*v, end));
-    let mut padded = (
-        if wants(low) { low - MARGIN * span } else { low },
-        if wants(high) { high + MARGIN * span } else { high },
-    );
-    if floor && (padded.0 < 0.0 || (ordinate && low < 0.35 * high)) {
-        padded.0 = 0.0;
+    let ordinate = index == 1;
+    let margin = |end: f64| {
+        let near = |(v, w): &(f64, Wish)| *w != Wish::Line && (v - end).abs() < 0.5 * MARGIN * span;
+        if ordinate || values.iter().any(near) { MARGIN * span } else { 0.0 }
+    };
+    let mut padded = [low - margin(low), high + margin(high)];
+    if floor && (padded[0] < 0.0 || (ordinate && low < 0.35 * high)) {
+        padded[0] = 0.0;
     }
     padded
 }
@@ -181,7 +172,7 @@ fn inliers(sorted: &[f64]) -> (f64, f64) {
 }
 
 /// Moves the ends outwards to round numbers.
-fn rounded(low: f64, high: f64, index: usize) -> Span {
+fn rounded([low, high]: [f64; 2], index: usize) -> Span {
     let quantum = round_step(high - low, 6.0) / if index == 0 { 5.0 } else { 2.0 };
     let first = libm::floor(low / quantum + 1e-6) * quantum;
     let last = libm::ceil(high / quantum - 1e-6) * quantum;

@@ -1,94 +1,74 @@
-//! Markers as SVG path data around a point, in tenths of a pixel.
+//! Markers as SVG: one outline for each shape, set down wherever there is a point.
 
 use std::fmt::Write;
 
 use super::palette::{Color, Marker, Shape};
 use super::text::tenths;
 
-/// Side of the square and legs of the others, as parts of the circle's diameter: equal weight to the eye.
+/// Half side or half leg of the others, as parts of the circle's radius: equal weight to the eye.
 const SQUARE: f64 = 0.88;
 const TRIANGLE: f64 = 1.16;
 const DIAMOND: f64 = 1.22;
 const CROSS: f64 = 0.8;
 
-/// Whether a marker is drawn as the round end of a line of no length, the shortest way.
-fn is_dot(marker: Marker) -> bool {
-    marker.filled && marker.shape == Shape::Circle
-}
-
-/// The attributes that all markers of a layer share.
-pub(super) fn paint(marker: Marker, color: Color) -> String {
+/// The attributes that all markers of a layer share, and those of what is drawn white below them, so that large
+/// dots stand out from the line they lie on.
+pub(super) fn paint(marker: Marker, color: Color) -> (String, Option<String>) {
     let hex = color.hex();
-    let strokes = matches!(marker.shape, Shape::Cross | Shape::Tick);
-    if is_dot(marker) {
-        let width = tenths(marker.diameter);
-        format!("fill=\"none\" stroke=\"{hex}\" stroke-width=\"{width}\" stroke-linecap=\"round\"")
-    } else if strokes {
-        format!("fill=\"none\" stroke=\"{hex}\" stroke-width=\"15\" stroke-linecap=\"round\"")
-    } else if marker.filled {
-        format!("fill=\"{hex}\" stroke=\"#FFFFFF\" stroke-width=\"6\"")
-    } else {
-        format!("fill=\"#FFFFFF\" stroke=\"{hex}\" stroke-width=\"13\"")
+    let dot = |hex: &str, diameter: f64| {
+        format!("stroke=\"{hex}\" stroke-width=\"{}\"", tenths(diameter))
+    };
+    match (marker.shape, marker.filled) {
+        // The round end of a line of no length, the shortest way to write a disc.
+        (Shape::Circle, true) => {
+            let below = (marker.diameter > 4.0).then(|| dot("#FFFFFF", marker.diameter + 1.2));
+            (dot(hex, marker.diameter), below)
+        }
+        (Shape::Cross, _) => (dot(hex, 1.5), None),
+        (_, true) => (format!("fill=\"{hex}\" stroke=\"#FFFFFF\" stroke-width=\"6\""), None),
+        (_, false) => (format!("fill=\"#FFFFFF\" stroke=\"{hex}\" stroke-width=\"13\""), None),
     }
 }
 
-/// White below all dots of a layer, so that they stand out from the line they lie on; clouds of
-/// small dots go without.
-pub(super) fn underlay(marker: Marker) -> Option<String> {
-    let white = Marker { diameter: marker.diameter + 1.2, ..marker };
-    (is_dot(marker) && marker.diameter > 4.0)
-        .then(|| paint(white, Color::Black).replace(Color::Black.hex(), "#FFFFFF"))
+/// Markers at some places as path data. Steps from one to the next are relative, hence short.
+pub(super) fn path(marker: Marker, places: impl IntoIterator<Item = [f64; 2]>) -> String {
+    let (begin, outline, end) = outline(marker);
+    let mut d = String::new();
+    let mut pen: Option<[i32; 2]> = None;
+    for at in places {
+        let [x, y] = at.map(tenths);
+        let [x, y] = [x + begin[0], y + begin[1]];
+        let (command, [dx, dy]) = pen.map_or(('M', [x, y]), |pen| ('m', [x - pen[0], y - pen[1]]));
+        let gap = if dy < 0 { "" } else { " " };
+        let _ = write!(d, "{command}{dx}{gap}{dy}{outline}");
+        pen = Some([x + end[0], y + end[1]]);
+    }
+    d
 }
 
-/// A marker as path data.
-pub(super) fn outline(marker: Marker, at: [f64; 2]) -> String {
-    let [x, y] = at.map(tenths);
+/// Where a marker's outline begins, as seen from its middle, its path data from there, and where they end.
+fn outline(marker: Marker) -> ([i32; 2], String, [i32; 2]) {
     let radius = tenths(marker.diameter / 2.0).max(1);
     let part = |factor: f64| (f64::from(radius) * factor).round() as i32;
-    let mut d = String::new();
-    let _ = match marker.shape {
-        Shape::Circle if marker.filled => write!(d, "M{x} {y}h0"),
-        Shape::Circle => {
-            let (start, across) = (x - radius, 2 * radius);
-            write!(
-                d,
-                "M{start} {y}a{radius} {radius} 0 1 0 {across} 0a{radius} {radius} 0 1 0-{across} 0z"
-            )
-        }
+    match marker.shape {
+        Shape::Circle if marker.filled => ([0, 0], "h0".to_owned(), [0, 0]),
+        // All around but for a tenth of a pixel.
+        Shape::Circle => ([0, -radius], format!("a{radius} {radius} 0 1 0 1 0z"), [0, 0]),
         Shape::Square => {
-            let half = part(SQUARE);
-            let side = 2 * half;
-            write!(d, "M{} {}h{side}v{side}h-{side}z", x - half, y - half)
+            let (half, side) = (part(SQUARE), 2 * part(SQUARE));
+            ([-half, -half], format!("h{side}v{side}h-{side}z"), [0, 0])
         }
         Shape::Triangle => {
-            let (half, up) = (part(TRIANGLE), part(TRIANGLE));
-            let height = part(1.7 * TRIANGLE);
-            write!(d, "M{x} {}l{half} {height}h-{}z", y - up, 2 * half)
+            let (half, height) = (part(TRIANGLE), part(1.7 * TRIANGLE));
+            ([0, -half], format!("l{half} {height}h-{}z", 2 * half), [0, 0])
         }
         Shape::Diamond => {
             let half = part(DIAMOND);
-            write!(d, "M{x} {}l{half} {half}l-{half} {half}l-{half}-{half}z", y - half)
+            ([0, -half], format!("l{half} {half}l-{half} {half}l-{half}-{half}z"), [0, 0])
         }
         Shape::Cross => {
-            let half = part(CROSS);
-            let side = 2 * half;
-            write!(d, "M{} {}l{side} {side}m0-{side}l-{side} {side}", x - half, y - half)
+            let (half, side) = (part(CROSS), 2 * part(CROSS));
+            ([-half, -half], format!("l{side} {side}m0-{side}l-{side} {side}"), [0, side])
         }
-        Shape::Tick => write!(d, "M{x} {}v{}", y - radius, 2 * radius),
-    };
-    d
-}
-
-/// A star with five points as path data.
-pub(super) fn star(at: [f64; 2], radius: f64) -> String {
-    let mut d = String::new();
-    for k in 0..10 {
-        let radius = if k % 2 == 0 { radius } else { 0.42 * radius };
-        let (sin, cos) = libm::sincos(f64::from(k) * core::f64::consts::PI / 5.0);
-        let (x, y) = (tenths(at[0] + radius * sin), tenths(at[1] - radius * cos));
-        let command = if k == 0 { 'M' } else { 'L' };
-        let _ = write!(d, "{command}{x} {y}");
     }
-    d.push('z');
-    d
 }

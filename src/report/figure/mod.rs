@@ -13,7 +13,6 @@
 mod candidates;
 mod colors;
 mod data;
-mod error;
 mod frame;
 mod geometry;
 mod image;
@@ -27,16 +26,14 @@ mod palette;
 mod raster;
 mod render;
 mod shapes;
-mod simplify;
 mod text;
 mod ticks;
 
 pub use colors::{Ramp, Tint};
 pub use data::{Axis, Cell, Figure, Key, Layout, Panel, Scale, Tick};
-pub use error::FigureError;
 pub use geometry::Rect;
 pub use image::{Cells, Image, edges};
 pub use layers::{Fill, Hatch, Label, Layer, MarkedPoint, Rule};
 pub use palette::{Color, Dash, Marker, Role, Shape, Style};
-pub use render::{Drawing, LIMIT, PlacedText, draw, render};
+pub use render::{Drawing, FigureError, LIMIT, PlacedText, draw, render};
 pub use text::escape;

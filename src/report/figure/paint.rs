@@ -3,19 +3,22 @@
 use std::fmt::Write;
 
 use super::colors::Tint;
-use super::geometry::in_polygon;
-use super::image::{self, Image, Placed};
+use super::geometry::{Point, lerp};
 use super::labels::STAR;
 use super::layers::{Fill, Hatch, Layer, MarkedPoint};
+use super::layout::{KEY, swatch};
 use super::markers;
-use super::palette::{Color, Marker, Style};
+use super::palette::{Color, Dash, Marker, Style};
 use super::shapes::{Dot, Shape};
 use super::text::{escape, tenths};
 
+/// What holds unless an element says otherwise.
+pub(super) const USUAL: &str =
+    "fill=\"none\" stroke-linejoin=\"round\" stroke-linecap=\"round\" font-size=\"140\"";
+
 /// Draws a layer.
-pub(super) fn layer(svg: &mut String, layer: &Layer, shape: &Shape, coarseness: f64) {
+pub(super) fn layer(svg: &mut String, layer: &Layer, shape: &Shape) {
     match (layer, shape) {
-        (Layer::Image(image), Shape::Image(placed)) => image_of(svg, image, placed, coarseness),
         (Layer::Curve { style, .. } | Layer::Rule { style, .. }, Shape::Lines(lines)) => {
             stroke(svg, lines, *style);
         }
@@ -30,110 +33,92 @@ pub(super) fn layer(svg: &mut String, layer: &Layer, shape: &Shape, coarseness: 
     }
 }
 
-/// An image: each cell keeps its edges at any size. Below it are large blocks of the same colours, for viewers
-/// that refuse an image within an image: GitHub's pages in Firefox do.
-fn image_of(svg: &mut String, image: &Image, placed: &Placed, coarseness: f64) {
-    let Placed { place, .. } = placed;
-    let [x, y, right, bottom] = [place.left, place.top, place.right, place.bottom].map(tenths);
-    let (width, height) = (right - x, bottom - y);
-    for (tint, rects) in image::blocks(image, placed) {
-        let mut d = String::new();
-        for rect in rects {
-            let [x, y, right, bottom] = [rect.left, rect.top, rect.right, rect.bottom].map(tenths);
-            let _ = write!(d, "M{x} {y}h{}v{}H{x}z", right - x, bottom - y);
+/// A sample of a layer, from the middle of its left edge.
+pub(super) fn sample(svg: &mut String, of: &Layer, at: Point) {
+    let width = swatch(of);
+    let shape = match of {
+        Layer::Points { marker, color, .. } => {
+            let d = markers::path(*marker, [[at[0] + width / 2.0, at[1]]]);
+            return path(svg, &d, &markers::paint(*marker, *color).0);
         }
-        let fill = tint.hex();
-        let _ = writeln!(svg, "<path d=\"{d}\" fill=\"{fill}\" shape-rendering=\"crispEdges\"/>");
-    }
-    let url = image::url(image, placed, coarseness);
-    let _ = writeln!(
-        svg,
-        "<image x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" \
-         preserveAspectRatio=\"none\" image-rendering=\"pixelated\" href=\"{url}\"/>"
-    );
+        Layer::Band { .. } => {
+            let [left, right] = [at[0] + 3.0, at[0] + width - 3.0];
+            let [top, bottom] = [at[1] - 6.0, at[1] + 6.0];
+            Shape::Area(vec![[left, top], [right, top], [right, bottom], [left, bottom]])
+        }
+        _ => Shape::Lines(vec![vec![at, [at[0] + width, at[1]]]]),
+    };
+    layer(svg, of, &shape);
 }
 
 /// A tint in a rectangle, with an edge where it is light.
-pub(super) fn key(svg: &mut String, at: [f64; 2], width: f64, tint: Tint) {
+pub(super) fn key(svg: &mut String, at: Point, tint: Tint) {
     let [x, y] = [at[0], at[1] - 6.0].map(tenths);
-    let _ = writeln!(
-        svg,
-        "<rect x=\"{x}\" y=\"{y}\" width=\"{}\" height=\"120\" fill=\"{}\" stroke=\"#777777\" \
-         stroke-width=\"6\"/>",
-        tenths(width),
-        tint.hex()
-    );
-}
-
-/// Lines, as one path.
-pub(super) fn stroke(svg: &mut String, lines: &[Vec<[f64; 2]>], style: Style) {
-    let d: String = lines.iter().map(|line| path(line)).collect();
-    if d.is_empty() {
-        return;
-    }
-    let dashes: Vec<String> = style.dash.lengths().iter().map(|l| tenths(*l).to_string()).collect();
-    let dashes = if dashes.is_empty() {
-        " stroke-linecap=\"round\"".to_owned()
-    } else {
-        format!(" stroke-dasharray=\"{}\"", dashes.join(" "))
-    };
-    let (color, width) = (style.color.hex(), tenths(style.width));
-    let _ = writeln!(
-        svg,
-        "<path d=\"{d}\" fill=\"none\" stroke=\"{color}\" stroke-width=\"{width}\" \
-         stroke-linejoin=\"round\"{dashes}/>"
-    );
+    let (width, fill) = (tenths(KEY), tint.hex());
+    let attributes = format!("fill=\"{fill}\" stroke=\"#777777\" stroke-width=\"6\"");
+    path(svg, &format!("M{x} {y}h{width}v120h-{width}z"), &attributes);
 }
 
 /// A thin grey line from words to what they name.
-pub(super) fn leader(svg: &mut String, ends: [[f64; 2]; 2]) {
-    let d = path(&ends);
-    let _ = writeln!(svg, "<path d=\"{d}\" fill=\"none\" stroke=\"#6E6E6E\" stroke-width=\"7\"/>");
+pub(super) fn leader(svg: &mut String, ends: [Point; 2]) {
+    path(svg, &path_data([&ends[..]]), "stroke=\"#6E6E6E\" stroke-width=\"7\"");
 }
 
-/// A line as path data; steps are relative, hence short, and summed without rounding.
-fn path(points: &[[f64; 2]]) -> String {
-    let mut d = String::new();
-    let mut points = points.iter().map(|p| p.map(tenths));
-    let Some(mut last) = points.next() else { return d };
-    let _ = write!(d, "M{} {}", last[0], last[1]);
-    let mut command = 'l';
-    for point in points {
-        let (dx, dy) = (point[0] - last[0], point[1] - last[1]);
-        if dx == 0 && dy == 0 {
-            continue;
-        }
-        last = point;
-        let gap = if command == ' ' && dx < 0 { String::new() } else { command.to_string() };
-        let between = if dy < 0 { "" } else { " " };
-        let _ = write!(d, "{gap}{dx}{between}{dy}");
-        command = ' ';
+fn path(svg: &mut String, d: &str, attributes: &str) {
+    if !d.is_empty() {
+        let _ = writeln!(svg, "<path d=\"{d}\" {attributes}/>");
     }
-    if command == 'l' {
-        d.push_str("h0");
+}
+
+/// Lines as path data; steps are relative, hence short, and summed without rounding.
+fn path_data<'a>(lines: impl IntoIterator<Item = &'a [Point]>) -> String {
+    let mut d = String::new();
+    let mut pen = [0, 0];
+    for line in lines {
+        let mut command = if d.is_empty() { "M" } else { "m" };
+        for point in line.iter().map(|p| p.map(tenths)) {
+            let [dx, dy] = [point[0] - pen[0], point[1] - pen[1]];
+            pen = point;
+            if (dx, dy) == (0, 0) && "l ".contains(command) {
+                continue;
+            }
+            let before = if command == " " && dx < 0 { "" } else { command };
+            let between = if dy < 0 { "" } else { " " };
+            let _ = write!(d, "{before}{dx}{between}{dy}");
+            command = if "Mm".contains(command) { "l" } else { " " };
+        }
+        if command == "l" {
+            d.push_str("h0");
+        }
     }
     d
 }
 
-fn area_of(svg: &mut String, area: &[[f64; 2]], fill: Fill) {
+/// Lines, as one path.
+fn stroke(svg: &mut String, lines: &[Vec<Point>], style: Style) {
+    let d = path_data(lines.iter().map(Vec::as_slice));
+    let (color, width) = (style.color.hex(), tenths(style.width));
+    let mut attributes = format!("stroke=\"{color}\" stroke-width=\"{width}\"");
+    if style.dash != Dash::Solid {
+        let dashes = style.dash.tenths();
+        let _ = write!(attributes, " stroke-dasharray=\"{dashes}\" stroke-linecap=\"butt\"");
+    }
+    path(svg, &d, &attributes);
+}
+
+fn area_of(svg: &mut String, area: &[Point], fill: Fill) {
     if area.is_empty() {
         return;
     }
     let (color, opacity) = (fill.color.hex(), fill.opacity.clamp(0.0, 1.0));
-    let d = path(area);
-    let _ = writeln!(svg, "<path d=\"{d}z\" fill=\"{color}\" fill-opacity=\"{opacity:.2}\"/>");
-    let d: String = hatching(area, fill.hatch).iter().map(|line| path(line)).collect();
-    if !d.is_empty() {
-        let _ = writeln!(
-            svg,
-            "<path d=\"{d}\" fill=\"none\" stroke=\"{color}\" stroke-width=\"8\" \
-             stroke-opacity=\"0.55\"/>"
-        );
-    }
+    let d = format!("{}z", path_data([area]));
+    path(svg, &d, &format!("fill=\"{color}\" fill-opacity=\"{opacity:.2}\""));
+    let d = path_data(hatching(area, fill.hatch).iter().map(Vec::as_slice));
+    path(svg, &d, &format!("stroke=\"{color}\" stroke-width=\"8\" stroke-opacity=\"0.55\""));
 }
 
-/// The parts of slanted lines inside an area.
-fn hatching(area: &[[f64; 2]], hatch: Hatch) -> Vec<Vec<[f64; 2]>> {
+/// The parts of slanted lines inside an area, by the even-odd rule.
+fn hatching(area: &[Point], hatch: Hatch) -> Vec<Vec<Point>> {
     const EVERY: f64 = 9.0;
     let slope = match hatch {
         Hatch::None => return Vec::new(),
@@ -141,71 +126,58 @@ fn hatching(area: &[[f64; 2]], hatch: Hatch) -> Vec<Vec<[f64; 2]>> {
         Hatch::Falling => -1.0,
     };
     // Along a line `key` is constant; lines are told apart by it.
-    let key = |p: [f64; 2]| p[1] + slope * p[0];
+    let key = |p: Point| p[1] + slope * p[0];
     let keys = || area.iter().map(|p| key(*p));
     let first = (keys().fold(f64::INFINITY, f64::min) / EVERY).ceil() as i32;
     let last = (keys().fold(f64::NEG_INFINITY, f64::max) / EVERY).floor() as i32;
-    let mut pieces = Vec::new();
-    for k in first..=last {
+    let across = |k: i32| {
         let level = EVERY * f64::from(k);
-        let mut cuts: Vec<[f64; 2]> = Vec::new();
-        for (i, &b) in area.iter().enumerate() {
+        let cut = |(i, &b): (usize, &Point)| {
             let a = area[(i + area.len() - 1) % area.len()];
             let (ka, kb) = (key(a), key(b));
-            if (ka > level) != (kb > level) {
-                let t = (level - ka) / (kb - ka);
-                cuts.push([a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])]);
-            }
-        }
+            ((ka > level) != (kb > level)).then(|| lerp(a, b, (level - ka) / (kb - ka)))
+        };
+        let mut cuts: Vec<Point> = area.iter().enumerate().filter_map(cut).collect();
         cuts.sort_by(|a, b| a[0].total_cmp(&b[0]));
-        for pair in cuts.windows(2) {
-            let middle = [0, 1].map(|i| f64::midpoint(pair[0][i], pair[1][i]));
-            if in_polygon(area, middle) {
-                pieces.push(pair.to_vec());
-            }
-        }
-    }
-    pieces
+        cuts.chunks_exact(2).map(<[Point]>::to_vec).collect::<Vec<_>>()
+    };
+    (first..=last).flat_map(across).collect()
 }
 
 /// Points: those that have nothing to say in one path, the others as elements with a tooltip.
 fn points_of(svg: &mut String, points: &[MarkedPoint], dots: &[Dot], marker: Marker, color: Color) {
-    let silent: String = dots
-        .iter()
-        .filter(|dot| points[dot.index].tooltip.is_none())
-        .map(|dot| markers::outline(marker, dot.at))
-        .collect();
-    let paint = markers::paint(marker, color);
-    if !silent.is_empty() {
-        if let Some(below) = markers::underlay(marker) {
-            let _ = writeln!(svg, "<path d=\"{silent}\" {below}/>");
-        }
-        let _ = writeln!(svg, "<path d=\"{silent}\" {paint}/>");
+    let (paint, below) = markers::paint(marker, color);
+    let (telling, silent): (Vec<&Dot>, Vec<&Dot>) =
+        dots.iter().partition(|dot| points[dot.index].tooltip.is_some());
+    let d = markers::path(marker, silent.iter().map(|dot| dot.at));
+    for attributes in below.iter().chain([&paint]) {
+        path(svg, &d, attributes);
     }
-    let telling = || dots.iter().filter(|dot| points[dot.index].tooltip.is_some());
-    if telling().next().is_none() {
+    if telling.is_empty() {
         return;
     }
     let _ = writeln!(svg, "<g {paint}>");
-    for dot in telling() {
-        let said = points[dot.index].tooltip.as_deref().unwrap_or_default();
+    for dot in telling {
+        let said = escape(points[dot.index].tooltip.as_deref().unwrap_or_default());
         let more = match dot.count {
-            0 | 1 => String::new(),
+            1 => String::new(),
             count => format!(" (and {} more here)", count - 1),
         };
-        let (d, said) = (markers::outline(marker, dot.at), escape(said));
+        let d = markers::path(marker, [dot.at]);
         let _ = writeln!(svg, "<path d=\"{d}\"><title>{said}{more}</title></path>");
     }
     svg.push_str("</g>\n");
 }
 
-/// The one mark for the case at hand: a black star in a white one.
-fn star(svg: &mut String, at: [f64; 2], tooltip: &str) {
-    let d = markers::star(at, STAR);
+/// The one mark for the case at hand: a black star with five points in a white one.
+fn star(svg: &mut String, at: Point, tooltip: &str) {
+    let corner = |k: usize| {
+        let radius = if k % 2 == 0 { STAR } else { 0.42 * STAR };
+        let (sin, cos) = libm::sincos(k as f64 * core::f64::consts::PI / 5.0);
+        [at[0] + radius * sin, at[1] - radius * cos]
+    };
+    let d = format!("{}z", path_data([&core::array::from_fn::<_, 10, _>(corner)[..]]));
+    path(svg, &d, "stroke=\"#FFFFFF\" stroke-width=\"50\"");
     let title = escape(tooltip);
-    let _ = writeln!(
-        svg,
-        "<path d=\"{d}\" fill=\"#FFFFFF\" stroke=\"#FFFFFF\" stroke-width=\"50\" \
-         stroke-linejoin=\"round\"/>\n<path d=\"{d}\" fill=\"#000000\"><title>{title}</title></path>"
-    );
+    let _ = writeln!(svg, "<path d=\"{d}\" fill=\"#000000\"><title>{title}</title></path>");
 }

@@ -76,15 +76,14 @@ pub enum Dash {
 }
 
 impl Dash {
-    /// Dash and gap lengths in pixels; none for a solid line.
-    #[must_use]
-    pub const fn lengths(self) -> &'static [f64] {
+    /// Dash and gap lengths in tenths of a pixel; none for a solid line.
+    pub(super) const fn tenths(self) -> &'static str {
         match self {
-            Self::Solid => &[],
-            Self::Dashed => &[5.0, 3.5],
-            Self::LongDashed => &[10.0, 4.0],
-            Self::Dotted => &[1.5, 3.0],
-            Self::DashDot => &[9.0, 3.0, 1.8, 3.0],
+            Self::Solid => "",
+            Self::Dashed => "50 35",
+            Self::LongDashed => "100 40",
+            Self::Dotted => "15 30",
+            Self::DashDot => "90 30 18 30",
         }
     }
 }
@@ -133,8 +132,6 @@ pub enum Shape {
     Diamond,
     /// A diagonal cross.
     Cross,
-    /// A short vertical stroke, for events on a time axis.
-    Tick,
 }
 
 /// How a point looks.
@@ -142,7 +139,7 @@ pub enum Shape {
 pub struct Marker {
     /// Its outline.
     pub shape: Shape,
-    /// Filled with its colour, or hollow (white inside). Crosses and ticks are strokes either way.
+    /// Filled with its colour, or hollow (white inside). A cross is two strokes either way.
     pub filled: bool,
     /// Its diameter in pixels.
     pub diameter: f64,

@@ -1,69 +1,65 @@
 //! Which parts of a panel are taken, on a coarse raster.
 
-use super::geometry::Rect;
+use core::ops::RangeInclusive;
+
+use super::geometry::{Point, Rect, distance, lerp};
 
 /// The raster's pitch, pixels.
 const PITCH: f64 = 2.0;
-/// The bit of words that have been placed; layers from this number on share one bit.
-const WORDS: u32 = 63;
+/// The bit of words that have been placed.
+pub(super) const WORDS: u64 = 1 << 63;
 
 /// One set of bits per square: one bit for each layer, one for words.
 pub(super) struct Raster {
     area: Rect,
     columns: usize,
-    rows: usize,
     taken: Vec<u64>,
 }
 
-/// The bit of a layer.
+/// The bit of a layer; those from the 63rd on share one.
 pub(super) fn bit(layer: usize) -> u64 {
-    1 << (layer as u32).min(WORDS - 1)
+    1 << layer.min(62)
 }
 
-/// The bit of words.
-pub(super) const fn words() -> u64 {
-    1 << WORDS
+/// Squares of some width along a line.
+fn along(line: &[Point], width: f64) -> impl Iterator<Item = Rect> {
+    line.windows(2).flat_map(move |pair| {
+        let steps = (distance(pair[0], pair[1]) / (0.75 * PITCH)).ceil().max(1.0);
+        (0..=steps as usize).map(move |step| {
+            Rect::around(lerp(pair[0], pair[1], step as f64 / steps), width, width)
+        })
+    })
 }
 
 impl Raster {
     pub(super) fn new(area: Rect) -> Self {
-        let columns = (area.width() / PITCH).ceil() as usize + 1;
-        let rows = (area.height() / PITCH).ceil() as usize + 1;
-        Self { area, columns, rows, taken: vec![0; columns * rows] }
+        let [columns, rows] =
+            [area.width(), area.height()].map(|length| (length / PITCH).ceil() as usize + 1);
+        Self { area, columns, taken: vec![0; columns * rows] }
     }
 
-    /// Columns and rows that a rectangle touches.
-    fn squares(&self, rect: &Rect) -> [usize; 4] {
+    /// Where the squares that a rectangle touches are, row by row.
+    fn rows(&self, rect: &Rect) -> impl Iterator<Item = RangeInclusive<usize>> + use<> {
+        let columns = self.columns;
         let index = |v: f64, origin: f64, count: usize| {
             ((v - origin) / PITCH).floor().clamp(0.0, count as f64 - 1.0) as usize
         };
-        [
-            index(rect.left, self.area.left, self.columns),
-            index(rect.right, self.area.left, self.columns),
-            index(rect.top, self.area.top, self.rows),
-            index(rect.bottom, self.area.top, self.rows),
-        ]
+        let [left, right] = [rect.left, rect.right].map(|x| index(x, self.area.left, columns));
+        let count = self.taken.len() / columns;
+        let [top, bottom] = [rect.top, rect.bottom].map(|y| index(y, self.area.top, count));
+        (top..=bottom).map(move |row| row * columns + left..=row * columns + right)
     }
 
     pub(super) fn take(&mut self, rect: &Rect, bit: u64) {
-        let [left, right, top, bottom] = self.squares(rect);
-        for row in top..=bottom {
-            for square in &mut self.taken[row * self.columns + left..=row * self.columns + right] {
-                *square |= bit;
-            }
+        for row in self.rows(rect) {
+            self.taken[row].iter_mut().for_each(|square| *square |= bit);
         }
     }
 
     /// Takes the squares along a line of some width.
-    pub(super) fn trace(&mut self, line: &[[f64; 2]], width: f64, bit: u64) {
-        for pair in line.windows(2) {
-            let (a, b) = (pair[0], pair[1]);
-            let steps = (libm::hypot(b[0] - a[0], b[1] - a[1]) / (0.75 * PITCH)).ceil().max(1.0);
-            for step in 0..=steps as usize {
-                let t = step as f64 / steps;
-                let at = [a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])];
-                self.take(&Rect::around(at, width, width), bit);
-            }
+    pub(super) fn trace(&mut self, line: &[Point], width: f64, bit: u64) {
+        for square in along(line, width) {
+            self.take(&square, bit);
         }
     }
 
@@ -72,14 +68,16 @@ impl Raster {
         self.count(rect, bits) > 0
     }
 
+    /// Whether words are on a thin line.
+    pub(super) fn words_on(&self, line: &[Point]) -> bool {
+        along(line, 1.0).any(|square| self.any(&square, WORDS))
+    }
+
     /// How many squares of a rectangle have any of some bits.
     pub(super) fn count(&self, rect: &Rect, bits: u64) -> usize {
-        let [left, right, top, bottom] = self.squares(rect);
-        (top..=bottom)
-            .map(|row| {
-                let row = &self.taken[row * self.columns..][left..=right];
-                row.iter().filter(|square| *square & bits != 0).count()
-            })
-            .sum()
+        let taken = |row: RangeInclusive<usize>| {
+            self.taken[row].iter().filter(|square| **square & bits != 0).count()
+        };
+        self.rows(rect).map(taken).sum()
     }
 }

@@ -1,8 +1,8 @@
 //! How wide words are, without a font at hand, and how they are written into SVG.
 
-use std::fmt::Write;
+use std::collections::BTreeMap;
 
-use super::geometry::Rect;
+use super::geometry::{Point, Rect};
 
 /// The fonts asked for; all have close to Helvetica's widths but for the generic one at the end.
 pub(super) const FAMILY: &str = "Helvetica, Arial, Liberation Sans, sans-serif";
@@ -49,12 +49,9 @@ pub(super) enum Anchor {
 }
 
 impl Anchor {
-    pub(super) const fn name(self) -> &'static str {
-        match self {
-            Self::Start => "start",
-            Self::Middle => "middle",
-            Self::End => "end",
-        }
+    /// The part of the words before their reference point.
+    pub(super) fn part(self) -> f64 {
+        f64::from(self as u8) / 2.0
     }
 }
 
@@ -63,7 +60,7 @@ impl Anchor {
 pub(super) struct Words {
     pub text: String,
     /// The reference point: horizontally by the anchor, vertically the middle of the digits.
-    pub at: [f64; 2],
+    pub at: Point,
     pub anchor: Anchor,
     pub size: f64,
     pub color: &'static str,
@@ -75,20 +72,22 @@ pub(super) struct Words {
 }
 
 impl Words {
-    pub(super) fn new(text: impl Into<String>, at: [f64; 2], anchor: Anchor, size: f64) -> Self {
+    pub(super) fn new(text: impl Into<String>, at: Point, anchor: Anchor, size: f64) -> Self {
         let (text, color) = (legal(&text.into()), "#333333");
         Self { text, at, anchor, size, color, bold: false, upright: false, halo: false }
+    }
+
+    /// Width and height, pixels.
+    pub(super) fn size(&self) -> Point {
+        let room = self.bounds();
+        [room.width(), room.height()]
     }
 
     /// The room that the words take.
     pub(super) fn bounds(&self) -> Rect {
         let width = width(&self.text, self.size) * if self.bold { 1.06 } else { 1.0 };
         let height = self.size * 1.05;
-        let start = match self.anchor {
-            Anchor::Start => 0.0,
-            Anchor::Middle => -width / 2.0,
-            Anchor::End => -width,
-        };
+        let start = -self.anchor.part() * width;
         let [x, y] = self.at;
         if self.upright {
             return Rect::new(x - height / 2.0, y - start - width, x + height / 2.0, y - start);
@@ -96,36 +95,83 @@ impl Words {
         Rect::new(x + start, y - height / 2.0, x + start + width, y + height / 2.0)
     }
 
-    /// Writes the words; a halo is the same words below, drawn broad and white.
-    pub(super) fn write(&self, svg: &mut String) {
+    /// The attributes that words of one look share; a halo is the same words below, broad and white.
+    fn look(&self, halo: bool) -> String {
+        let mut look = if halo {
+            "fill=\"#FFFFFF\" stroke=\"#FFFFFF\" stroke-width=\"30\"".to_owned()
+        } else {
+            format!("fill=\"{}\"", self.color)
+        };
+        if self.size != SMALL {
+            look += &format!(" font-size=\"{}\"", tenths(self.size));
+        }
+        if self.bold {
+            look += " font-weight=\"bold\"";
+        }
+        look += match self.anchor {
+            Anchor::Start => "",
+            Anchor::Middle => " text-anchor=\"middle\"",
+            Anchor::End => " text-anchor=\"end\"",
+        };
+        look
+    }
+
+    /// Where the baseline begins, ends or has its middle, in tenths of a pixel.
+    fn base(&self) -> [i32; 2] {
         // From the middle of the digits to the baseline.
         let drop = 0.35 * self.size;
-        let [x, y] = if self.upright {
-            [self.at[0] + drop, self.at[1]].map(tenths)
-        } else {
-            [self.at[0], self.at[1] + drop].map(tenths)
-        };
-        let turn = if self.upright {
-            format!(" transform=\"rotate(-90 {x} {y})\"")
-        } else {
-            String::new()
-        };
-        let size = tenths(self.size);
-        let bold = if self.bold { " font-weight=\"bold\"" } else { "" };
-        let anchor = match self.anchor {
-            Anchor::Start => String::new(),
-            other => format!(" text-anchor=\"{}\"", other.name()),
-        };
-        let text = escape(&self.text);
-        let place = format!("x=\"{x}\" y=\"{y}\" font-size=\"{size}\"{bold}{anchor}{turn}");
-        if self.halo {
-            let _ = writeln!(
-                svg,
-                "<text {place} fill=\"#FFFFFF\" stroke=\"#FFFFFF\" stroke-width=\"30\" \
-                 stroke-linejoin=\"round\">{text}</text>"
-            );
+        let [x, y] = self.at;
+        if self.upright { [x + drop, y].map(tenths) } else { [x, y + drop].map(tenths) }
+    }
+
+    /// What words of an axis have in common: their abscissa or their ordinate.
+    fn line(&self) -> [i32; 2] {
+        match self.anchor {
+            Anchor::Middle => [0, self.base()[1]],
+            Anchor::End => [self.base()[0], 0],
+            Anchor::Start => [0, 0],
         }
-        let _ = writeln!(svg, "<text {place} fill=\"{}\">{text}</text>", self.color);
+    }
+
+    fn element(&self, from: [i32; 2]) -> String {
+        let [x, y] = [0, 1].map(|i| self.base()[i] - from[i]);
+        let text = escape(&self.text);
+        let place = match [x, y] {
+            _ if self.upright => format!("transform=\"translate({x} {y})rotate(-90)\""),
+            [x, 0] => format!("x=\"{x}\""),
+            [0, y] => format!("y=\"{y}\""),
+            [x, y] => format!("x=\"{x}\" y=\"{y}\""),
+        };
+        format!("<text {place}>{text}</text>\n")
+    }
+}
+
+/// Writes words, those of one look together, those of one axis from its line on, halos below all of them.
+pub(super) fn write(svg: &mut String, words: &[Words]) {
+    /// From so many words on, a line of their own makes them shorter.
+    const FEW: usize = 4;
+    for halo in [true, false] {
+        let mut looks: BTreeMap<String, Vec<&Words>> = BTreeMap::new();
+        for words in words.iter().filter(|words| words.halo || !halo) {
+            looks.entry(words.look(halo)).or_default().push(words);
+        }
+        for (look, words) in looks {
+            let mut others = String::new();
+            for line in words.chunk_by(|a, b| a.line() == b.line()) {
+                let elements =
+                    |from| line.iter().map(|words| words.element(from)).collect::<String>();
+                let [x, y] = line[0].line();
+                if line.len() < FEW || line[0].upright {
+                    others += &elements([0, 0]);
+                    continue;
+                }
+                let elements = elements([x, y]);
+                *svg += &format!("<g {look} transform=\"translate({x} {y})\">\n{elements}</g>\n");
+            }
+            if !others.is_empty() {
+                *svg += &format!("<g {look}>\n{others}</g>\n");
+            }
+        }
     }
 }
 
@@ -154,8 +200,11 @@ pub fn escape(text: &str) -> String {
 }
 
 /// Breaks words at spaces so that no line is wider than `limit` where that is possible; lines are
-/// about equally long.
+/// about equally long, none for no words.
 pub(super) fn wrap(text: &str, size: f64, limit: f64) -> Vec<String> {
+    if text.is_empty() {
+        return Vec::new();
+    }
     let total = width(text, size);
     if total <= limit || limit <= 0.0 {
         return vec![text.to_owned()];

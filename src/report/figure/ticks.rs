@@ -1,13 +1,6 @@
 //! Round ticks with as few digits as tell them apart.
 
-use super::data::Scale;
-
-/// A tick; one without words is a minor one.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Mark {
-    pub value: f64,
-    pub words: String,
-}
+use super::data::{Scale, Tick};
 
 /// The smallest of 1, 2, 5 times a power of ten that divides a span into at most `most` parts.
 pub(super) fn round_step(span: f64, most: f64) -> f64 {
@@ -22,7 +15,7 @@ pub(super) fn round_step(span: f64, most: f64) -> f64 {
 }
 
 /// Ticks for a range, at most about `most` of them with words.
-pub(super) fn ticks(scale: Scale, first: f64, last: f64, most: f64) -> Vec<Mark> {
+pub(super) fn ticks(scale: Scale, first: f64, last: f64, most: f64) -> Vec<Tick> {
     match scale {
         Scale::Linear => linear(first, last, most),
         Scale::Log => {
@@ -32,17 +25,17 @@ pub(super) fn ticks(scale: Scale, first: f64, last: f64, most: f64) -> Vec<Mark>
     }
 }
 
-fn linear(first: f64, last: f64, most: f64) -> Vec<Mark> {
+fn linear(first: f64, last: f64, most: f64) -> Vec<Tick> {
     let step = round_step(last - first, most);
     let from = libm::ceil(first / step - 1e-9);
     let to = libm::floor(last / step + 1e-9);
     let count = (to - from).clamp(0.0, 100.0) as usize;
     let values: Vec<f64> = (0..=count).map(|i| (from + i as f64) * step).collect();
-    let words = labels(&values, step);
-    values.into_iter().zip(words).map(|(value, words)| Mark { value, words }).collect()
+    let labels = labels(&values, step).into_iter().map(Some);
+    values.into_iter().zip(labels).map(|(value, label)| Tick { value, label }).collect()
 }
 
-fn decadic(first: f64, last: f64, most: f64) -> Vec<Mark> {
+fn decadic(first: f64, last: f64, most: f64) -> Vec<Tick> {
     let from = libm::floor(libm::log10(first) + 1e-9) as i32;
     let to = libm::floor(libm::log10(last) + 1e-9) as i32;
     let whole = (libm::ceil(libm::log10(first) - 1e-9) as i32..=to).count();
@@ -53,20 +46,16 @@ fn decadic(first: f64, last: f64, most: f64) -> Vec<Mark> {
         _ => &[1],
     };
     let digits = from >= -3 && to <= 4;
-    let mut marks = Vec::new();
-    for exponent in from..=to {
-        for digit in 1..=9_u32 {
-            let value = f64::from(digit) * libm::pow(10.0, f64::from(exponent));
-            let inside = value >= first * (1.0 - 1e-9) && value <= last * (1.0 + 1e-9);
-            let words = named.contains(&digit) && exponent.rem_euclid(every) == 0;
-            let minor = digit == 1 || (every == 1 && to - from <= 6);
-            if inside && (words || minor) {
-                let words = if words { power(digit, exponent, digits) } else { String::new() };
-                marks.push(Mark { value, words });
-            }
-        }
-    }
-    marks
+    let tick = |(exponent, digit): (i32, u32)| {
+        let value = f64::from(digit) * libm::pow(10.0, f64::from(exponent));
+        let inside = value >= first * (1.0 - 1e-9) && value <= last * (1.0 + 1e-9);
+        let words = named.contains(&digit) && exponent.rem_euclid(every) == 0;
+        let minor = digit == 1 || (every == 1 && to - from <= 6);
+        let label = words.then(|| power(digit, exponent, digits));
+        (inside && (words || minor)).then_some(Tick { value, label })
+    };
+    let all = (from..=to).flat_map(|exponent| (1..=9).map(move |digit| (exponent, digit)));
+    all.filter_map(tick).collect()
 }
 
 /// A digit times a power of ten, in plain digits where all of an axis are short.
@@ -81,7 +70,7 @@ fn power(digit: u32, exponent: i32, digits: bool) -> String {
 
 /// The words for values that are multiples of a step: same number of decimals for all, as few as
 /// tell them apart; powers of ten where plain digits would be many.
-pub(super) fn labels(values: &[f64], step: f64) -> Vec<String> {
+fn labels(values: &[f64], step: f64) -> Vec<String> {
     let largest = values.iter().fold(step, |m, v| m.max(v.abs()));
     if !(1e-3..1e5).contains(&largest) {
         let exponent = libm::floor(libm::log10(largest) + 1e-12) as i32;
@@ -98,18 +87,15 @@ pub(super) fn labels(values: &[f64], step: f64) -> Vec<String> {
 
 /// How many decimals a step needs.
 fn decimals(step: f64) -> usize {
-    let mut scaled = step;
-    for places in 0..15 {
-        if (scaled - scaled.round()).abs() < 1e-6 * scaled.max(1e-300) {
-            return places;
-        }
-        scaled *= 10.0;
-    }
-    15
+    let whole = |places: &usize| {
+        let scaled = step * libm::pow(10.0, *places as f64);
+        (scaled - scaled.round()).abs() < 1e-6 * scaled.max(1e-300)
+    };
+    (0..15).find(whole).unwrap_or(15)
 }
 
 /// A number with a true minus sign, and no minus before zero.
-pub(super) fn plain(value: f64, places: usize) -> String {
+fn plain(value: f64, places: usize) -> String {
     let digits = format!("{:.places$}", value.abs());
     if value < 0.0 && digits.chars().any(|c| ('1'..='9').contains(&c)) {
         format!("\u{2212}{digits}")
@@ -120,15 +106,7 @@ pub(super) fn plain(value: f64, places: usize) -> String {
 
 /// An exponent, raised.
 fn raised(exponent: i32) -> String {
-    exponent
-        .to_string()
-        .chars()
-        .map(|c| match c {
-            '-' => '⁻',
-            '1' => '¹',
-            '2' => '²',
-            '3' => '³',
-            d => char::from_u32(0x2070 + d.to_digit(10).unwrap_or(0)).unwrap_or('⁰'),
-        })
-        .collect()
+    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let raise = |c: char| c.to_digit(10).map_or('⁻', |digit| DIGITS[digit as usize]);
+    exponent.to_string().chars().map(raise).collect()
 }

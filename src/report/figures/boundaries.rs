@@ -101,9 +101,10 @@ fn heights(scene: &Scene, borders: &Borders) -> ([f64; 2], bool) {
 /// Where the stable exact orbit begins and ends, and where more than two impacts per period begin.
 fn exact_boundaries(scene: &Scene, data: &Map, chart: &Chart, panel: &mut Panel) {
     let mark = |ratio: f64, clearance: f64, what: &str| scene.mark(chart, [ratio, clearance], what);
-    let grazing = data.exact.iter().filter_map(|at| {
-        Some(mark(at.frequency_ratio, at.grazing()?, "more than two impacts per period below"))
-    });
+    let grazing = data
+        .exact
+        .iter()
+        .filter_map(|at| Some(mark(at.frequency_ratio, at.grazing()?, "more impacts below")));
     let grazing: Vec<MarkedPoint> = grazing.collect();
     let limits = data.exact.iter().flat_map(|at| {
         let bounds = at.symmetric.limits.iter().filter(|limit| limit.bounds_stability);
@@ -149,7 +150,7 @@ fn errors(scene: &Scene, data: &Map, x: Axis) -> Option<Panel> {
         .with(chart.horizontal(0.0, Role::Guide));
     for (role, name, line) in &lines {
         let shown = line.iter().filter(|at| at[1].is_finite());
-        let marks = shown.map(|at| scene.mark(&chart, *at, name));
+        let marks = shown.map(|at| chart.at(*at));
         let marks = Layer::marked(role.marker().sized(4.0), role.color(), marks);
         panel = panel.with(chart.curve(*role, line).labelled(*name)).with(marks);
     }

@@ -88,7 +88,7 @@ pub(super) fn amplitude(scene: &Scene, data: &Amplitude) -> Figure {
         let marks: Vec<MarkedPoint> = chosen
             .map(|one| {
                 let radius = scene.text(&of::SPECTRAL_RADIUS, one.radius);
-                scene.mark(&chart, one.at, &format!("{name}, multiplier {radius} per period"))
+                scene.mark(&chart, one.at, &format!("multiplier {radius}"))
             })
             .collect();
         let marker = Marker { filled: attracts, ..Marker::hollow(Shape::Circle).sized(4.0) };
