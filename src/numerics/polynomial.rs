@@ -1,6 +1,19 @@
-//! Real roots of a polynomial, between those of its derivative.
+//! Polynomials: the one through some points, and real roots, between those of the derivative.
+
+use nalgebra::{DMatrix, DVector};
 
 use super::bracket::bisected;
+
+/// Coefficients, by ascending power, of the polynomial through points at different places; none where
+/// two of these are one, or a number is not finite.
+pub fn through(points: &[(f64, f64)]) -> Vec<f64> {
+    let count = points.len();
+    let power = |row: usize, column: usize| libm::pow(points[row].0, column as f64);
+    let values = DVector::from_iterator(count, points.iter().map(|point| point.1));
+    let found = DMatrix::from_fn(count, count, power).lu().solve(&values);
+    let finite = found.filter(|found| found.iter().all(|one| one.is_finite()));
+    finite.map_or_else(Vec::new, |found| found.iter().copied().collect())
+}
 
 /// All real roots, ascending; `coefficients` ascend by power. Between neighbouring roots of the
 /// derivative, and beyond them, a polynomial changes its sign at most once. Roots of even multiplicity
@@ -24,7 +37,7 @@ pub fn real_roots(coefficients: &[f64]) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::real_roots;
+    use super::{real_roots, through};
     use proptest::prelude::*;
 
     fn expand(roots: &[f64]) -> Vec<f64> {
@@ -60,6 +73,18 @@ mod tests {
         for (found, root) in found.iter().zip(roots) {
             assert!((found / root - 1.0).abs() < 1e-14, "{found} {root}");
         }
+    }
+
+    /// By hand: `1 - 2 x + 3 x^2`.
+    #[test]
+    fn the_polynomial_through_points_has_its_coefficients() {
+        let found = through(&[(-1.0, 6.0), (0.5, 0.75), (2.0, 9.0)]);
+        assert!(
+            found.iter().zip([1.0, -2.0, 3.0]).all(|(a, b)| (a - b).abs() < 1e-14),
+            "{found:?}"
+        );
+        assert!(through(&[(1.0, 2.0), (1.0, 3.0)]).is_empty());
+        assert!(through(&[(1.0, f64::NAN), (2.0, 3.0)]).is_empty());
     }
 
     proptest! {

@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use super::OrbitError;
 use super::admissibility::Admissibility;
-use super::impact_map::{AfterImpact, ImpactMap, Step, Wall};
+use super::impact_map::{AfterImpact, ImpactMap, Leg, Step, Wall};
 use super::multipliers::Multipliers;
 use super::newton::Convergence;
 use crate::numerics::cyclic_word::canonical;
@@ -155,10 +155,10 @@ impl Cycle {
             .collect()
     }
 
-    /// Its flights, as [`Admissibility::of`] reads them.
-    pub fn flights(&self) -> Vec<(AfterImpact, Wall, Wall, f64)> {
+    /// Its flights.
+    pub fn flights(&self, map: &ImpactMap) -> Vec<Leg> {
         (0..self.walls.len())
-            .map(|k| (self.impacts[k], self.walls[k], self.next_wall(k), self.durations[k]))
+            .map(|k| map.leg(&self.impacts[k], self.walls[k], self.next_wall(k), self.durations[k]))
             .collect()
     }
 
@@ -234,7 +234,7 @@ impl Orbit {
         origin: Origin,
     ) -> Result<Self, OrbitError> {
         let multipliers = Multipliers::of(&cycle.jacobian(map)).ok_or(OrbitError::Singular)?;
-        let admissibility = Admissibility::of(map, &cycle.flights());
+        let admissibility = Admissibility::of(map, &cycle);
         Ok(Self { cycle, convergence, multipliers, admissibility, origin })
     }
 

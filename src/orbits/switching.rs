@@ -154,9 +154,9 @@ fn inserted(tracer: &Tracer, scaled: f64, orbit: &Orbit) -> Option<Cycle> {
     let start = cycle.impacts[at.flight];
     let duration = cycle.durations[at.flight];
     let first = at.fraction * duration;
-    let there = map.oscillator_at(&start, first);
+    let there = cycle.flights(&map)[at.flight].oscillator(first);
     let contact = AfterImpact {
-        phase: start.phase + map.frequency() * first,
+        phase: start.phase + map.flight.frequency() * first,
         x: there.x,
         x_velocity: there.v,
         y_velocity: start.y_velocity,

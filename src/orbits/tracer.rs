@@ -131,7 +131,7 @@ impl<'a> Tracer<'a> {
         let mut unit = Vector5::zeros();
         unit[4] = 1.0;
         let tangent = bordered(&linear, along, &unit).ok_or(OrbitError::Singular)?;
-        let admissibility = Admissibility::of(&map, &cycle.flights());
+        let admissibility = Admissibility::of(&map, &cycle);
         Ok(Point {
             cycle,
             parameter,
