@@ -25,9 +25,9 @@ pub fn real_roots(coefficients: &[f64]) -> Vec<f64> {
     }
     let coefficients = &coefficients[..=degree];
     let slope: Vec<f64> = (1..=degree).map(|power| power as f64 * coefficients[power]).collect();
-    // Cauchy's bound.
+    // Twice Cauchy's bound: a root may lie so close to it that the value there is rounding.
     let largest = coefficients[..degree].iter().fold(0.0_f64, |most, c| most.max(c.abs()));
-    let bound = 1.0 + largest / coefficients[degree].abs();
+    let bound = 2.0 + 2.0 * largest / coefficients[degree].abs();
     let mut places = vec![-bound];
     places.extend(real_roots(&slope));
     places.push(bound);
@@ -85,6 +85,14 @@ mod tests {
         );
         assert!(through(&[(1.0, 2.0), (1.0, 3.0)]).is_empty());
         assert!(through(&[(1.0, f64::NAN), (2.0, 3.0)]).is_empty());
+    }
+
+    /// A leading coefficient that is all but zero puts the slope's root next to Cauchy's bound.
+    #[test]
+    fn a_root_is_found_beside_one_that_rounding_has_put_far_away() {
+        let found = real_roots(&[26.714064776353187, -16.20566834238112, -1.2789769243681799e-15]);
+        assert_eq!(found.len(), 2, "{found:?}");
+        assert!((found[1] - 1.648_439_4).abs() < 1e-6, "{found:?}");
     }
 
     proptest! {

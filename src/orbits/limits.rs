@@ -73,11 +73,17 @@ pub struct SymmetricFamily {
     pub stable: Vec<StableStretch>,
 }
 
+fn looked_at(beta: f64) -> bool {
+    RANGE[0] < beta && beta < RANGE[1]
+}
+
 /// The family while it is looked at: a unit of forcing, scaled to each `beta`.
 struct Family {
     map: ImpactMap,
     curve: SymmetricCurve,
     forcing: f64,
+    /// Neither damper nor impacts take energy.
+    lossless: bool,
 }
 
 impl Family {
@@ -87,7 +93,8 @@ impl Family {
         let unit = System::new(unit).map_err(|_| OrbitError::NoSteadyMotion)?;
         let map = ImpactMap::of(&unit)?;
         let curve = SymmetricCurve::with(&unit, &map.flight);
-        Ok(Self { map, curve, forcing: system.forcing_per_clearance() })
+        let lossless = system.damping() == 0.0 && system.restitution() == 1.0;
+        Ok(Self { map, curve, forcing: system.forcing_per_clearance(), lossless })
     }
 
     fn clearance(&self, beta: f64) -> f64 {
@@ -129,7 +136,9 @@ impl Family {
             Multipliers::of(&cycle.jacobian(&map)).is_some_and(|found| found.has_pair_on_circle())
         };
         let breaking = self.roots(Bifurcation::SymmetryBreaking, 1);
-        let mut modulated = self.roots(Bifurcation::NeimarkSacker, 2);
+        // Without any loss the product of all multipliers is 1, and the test function vanishes everywhere.
+        let mut modulated =
+            if self.lossless { Vec::new() } else { self.roots(Bifurcation::NeimarkSacker, 2) };
         modulated.retain(pair);
         let all = [
             (Bifurcation::SaddleNode, vec![self.curve.turning()]),
@@ -138,11 +147,9 @@ impl Family {
             (Bifurcation::NeimarkSacker, modulated),
             (Bifurcation::Grazing, grazing.into_iter().collect()),
         ];
-        let [low, high] = RANGE;
         let all =
             all.into_iter().flat_map(|(kind, places)| places.into_iter().map(move |at| (kind, at)));
-        let mut all: Vec<(Bifurcation, f64)> =
-            all.filter(|(_, beta)| low < *beta && *beta < high).collect();
+        let mut all: Vec<(Bifurcation, f64)> = all.filter(|(_, beta)| looked_at(*beta)).collect();
         all.sort_by(|a, b| a.1.total_cmp(&b.1));
         all
     }
@@ -170,7 +177,8 @@ impl Family {
                 Some(brent(root - reach, root + reach, WIDTH, test)?.at)
             })
         };
-        real_roots(&polynomial).iter().filter(|root| **root > 0.0).filter_map(proven).collect()
+        let roots = real_roots(&polynomial);
+        roots.iter().filter(|root| looked_at(**root)).filter_map(proven).collect()
     }
 }
 
