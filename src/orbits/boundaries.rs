@@ -7,9 +7,8 @@
 use serde::Serialize;
 
 use super::OrbitError;
-use super::branch::{Branch, BranchEnd, Settings};
+use super::branch::{Branch, BranchEnd, Settings, SpecialPoint};
 use super::limits::{Limit, SymmetricFamily};
-use super::special::SpecialPoint;
 use super::switching::leave;
 use crate::bifurcation::Bifurcation;
 use crate::system::{Parameter, System};

@@ -4,9 +4,8 @@
 use serde::Serialize;
 
 use super::boundaries::Boundaries;
-use super::branch::{Direction, Settings, follow};
+use super::branch::{Direction, Settings, SpecialPoint, follow};
 use super::limits::{Limit, StableStretch};
-use super::special::SpecialPoint;
 use super::symmetric::{SymmetricOrbit, attracting_orbit, symmetric_orbits};
 use crate::bifurcation::Bifurcation;
 use crate::numerics::scan::largest;

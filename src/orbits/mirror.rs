@@ -6,10 +6,10 @@
 
 use std::f64::consts::PI;
 
+use super::branch::SpecialPoint;
 use super::impact_map::AfterImpact;
 use super::multipliers::minus_one;
 use super::orbit::{Closure, Cycle, Orbit};
-use super::special::SpecialPoint;
 use super::tracer::{Point, Tracer};
 use crate::bifurcation::Bifurcation;
 use crate::numerics::bracket::brent;
@@ -23,12 +23,12 @@ const DOUBLINGS: u32 = 12;
 /// The place between two neighbouring points at which the branch is its own mirror image, as a part
 /// of the way, and the symmetry breaking there; `None` if the asymmetry does not change its sign.
 pub(super) fn met(tracer: &Tracer, here: &Point, there: &Point) -> Option<(f64, SpecialPoint)> {
-    let (before, after) = (asymmetry(&here.cycle)?, asymmetry(&there.cycle)?);
+    let (before, after) = (asymmetry(&here.orbit.cycle)?, asymmetry(&there.orbit.cycle)?);
     if before * after >= 0.0 {
         return None;
     }
     let share = before / (before - after);
-    let half = symmetrised(&between(&here.cycle, &there.cycle, share));
+    let half = symmetrised(&between(&here.orbit.cycle, &there.orbit.cycle, share));
     let guess = here.parameter + share * (there.parameter - here.parameter);
     let test = |scaled: f64| {
         let found = tracer.at(&half, scaled);

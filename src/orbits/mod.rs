@@ -23,7 +23,6 @@ mod mirror;
 pub mod multipliers;
 pub mod newton;
 pub mod orbit;
-pub mod special;
 pub mod switching;
 pub mod symmetric;
 mod tracer;
@@ -31,7 +30,7 @@ mod tracer;
 pub use crate::bifurcation::Bifurcation;
 pub use admissibility::Admissibility;
 pub use boundaries::{AsymmetricOrbits, Boundaries};
-pub use branch::{Branch, BranchEnd, BranchPoint};
+pub use branch::{Branch, BranchEnd, BranchPoint, SpecialPoint};
 pub use full_system::{BestClearance, FullSystem};
 pub use impact_map::{AfterImpact, ImpactMap, Wall};
 pub use limits::{Limit, StableStretch, SymmetricFamily};
@@ -39,7 +38,6 @@ pub use measures::{EnergyPerPeriod, Measures, Peaks};
 pub use multipliers::{Leading, Multipliers};
 pub use newton::Convergence;
 pub use orbit::{Closure, Cycle, Orbit, Origin};
-pub use special::SpecialPoint;
 pub use symmetric::{SymmetricOrbit, attracting_orbit, symmetric_orbits};
 
 /// Why an orbit is not returned.

@@ -223,17 +223,18 @@ pub struct Orbit {
 }
 
 impl Orbit {
-    /// Measures a converged cycle.
+    /// Measures a converged cycle, whose map has this Jacobian.
     ///
     /// # Errors
     /// [`OrbitError::Singular`] where its multipliers do not exist: at a grazing impact.
-    pub fn measured(
+    pub(super) fn measured(
         map: &ImpactMap,
         cycle: Cycle,
+        jacobian: &Matrix4<f64>,
         convergence: Convergence,
         origin: Origin,
     ) -> Result<Self, OrbitError> {
-        let multipliers = Multipliers::of(&cycle.jacobian(map)).ok_or(OrbitError::Singular)?;
+        let multipliers = Multipliers::of(jacobian).ok_or(OrbitError::Singular)?;
         let admissibility = Admissibility::of(map, &cycle);
         Ok(Self { cycle, convergence, multipliers, admissibility, origin })
     }

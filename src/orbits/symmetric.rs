@@ -16,7 +16,7 @@ use super::equations as formulas;
 use super::flight::Flight;
 use super::impact_map::{AfterImpact, ImpactMap, Wall};
 use super::measures::Peaks;
-use super::newton::Convergence;
+use super::newton::{Convergence, Linearised, size};
 use super::orbit::{Closure, Cycle, Orbit, Origin};
 use crate::numerics::scan::sign_changes;
 use crate::system::{Excitation, System};
@@ -224,7 +224,7 @@ pub fn attracting_orbit(system: &System) -> Option<SymmetricOrbit> {
 }
 
 /// The orbit with `beta`; `None` where its Jacobian does not exist.
-pub(super) fn symmetric_orbit(
+fn symmetric_orbit(
     system: &System,
     map: &ImpactMap,
     curve: &SymmetricCurve,
@@ -232,10 +232,11 @@ pub(super) fn symmetric_orbit(
 ) -> Option<SymmetricOrbit> {
     let cycle = curve.cycle(&map.flight, beta);
     let after = cycle.impacts[0];
-    let residual = closure_defect(map, &cycle);
-    let convergence = Convergence { residual, iterations: 0 };
+    let linear = Linearised::of(map, &cycle, [0.0; 3]);
+    let convergence = Convergence { residual: linear.residual / size(&cycle), iterations: 0 };
     let peaks = Peaks::of(map, &cycle);
-    let orbit = Orbit::measured(map, cycle, convergence, Origin::ClosedForm).ok()?;
+    let origin = Origin::ClosedForm;
+    let orbit = Orbit::measured(map, cycle, &linear.jacobian, convergence, origin).ok()?;
     let (eps, r) = (system.mass_ratio(), system.restitution());
     Some(SymmetricOrbit {
         absorber_amplitude: beta,
@@ -246,9 +247,4 @@ pub(super) fn symmetric_orbit(
         impact_speed: formulas::IMPACT_SPEED.at([eps, r, after.y_velocity]),
         orbit,
     })
-}
-
-/// How far the half-period map misses the mirror image, over the size of the orbit.
-fn closure_defect(map: &ImpactMap, cycle: &Cycle) -> f64 {
-    super::newton::Linearised::of(map, cycle, [0.0; 3]).residual / super::newton::size(cycle)
 }
