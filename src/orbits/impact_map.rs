@@ -73,10 +73,11 @@ impl AfterImpact {
         Self { phase: vector[0], x: vector[1], x_velocity: vector[2], y_velocity: vector[3] }
     }
 
-    /// The mirror image: the same motion half an excitation period later with opposite sign.
-    pub fn mirrored(&self) -> Self {
+    /// The mirror image, which has the opposite sign everywhere, so many half periods of the excitation
+    /// later; the image of a motion is a motion after an odd number of them.
+    pub fn mirrored(&self, later: f64) -> Self {
         Self {
-            phase: self.phase - std::f64::consts::PI,
+            phase: self.phase + later * std::f64::consts::PI,
             x: -self.x,
             x_velocity: -self.x_velocity,
             y_velocity: -self.y_velocity,

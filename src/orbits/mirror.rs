@@ -4,8 +4,6 @@
 //! orbits alone are not: the crossing is where their half-period map has the multiplier -1, a simple
 //! root in the parameter, looked for near the place where the asymmetry changes its sign.
 
-use std::f64::consts::PI;
-
 use super::branch::SpecialPoint;
 use super::impact_map::AfterImpact;
 use super::multipliers::minus_one;
@@ -93,12 +91,8 @@ fn between(from: &Cycle, to: &Cycle, share: f64) -> Cycle {
 fn symmetrised(cycle: &Cycle) -> Cycle {
     let half = cycle.walls.len() / 2;
     let periods = cycle.periods();
-    // An image is half a period back; the second half lasts as many half periods as there are periods.
-    let back = PI * f64::from(periods - 1);
-    let image = |after: &AfterImpact| {
-        let mirror = after.mirrored();
-        AfterImpact { phase: mirror.phase - back, ..mirror }
-    };
+    // The second half lasts as many half periods as there are periods.
+    let image = |after: &AfterImpact| after.mirrored(-f64::from(periods));
     let pairs = cycle.impacts[..half].iter().zip(&cycle.impacts[half..]);
     let durations = cycle.durations[..half].iter().zip(&cycle.durations[half..]);
     Cycle {

@@ -14,7 +14,6 @@ pub mod branch;
 pub mod equations;
 pub mod flight;
 pub mod full_system;
-mod identity;
 pub mod impact_map;
 pub mod limits;
 mod locate;

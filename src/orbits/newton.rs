@@ -141,13 +141,6 @@ fn parameter_influence(step: &Step, weights: [f64; 3]) -> Vector4<f64> {
     next - step.next_by_duration * (weighted(step.gap_by_parameter, weights) / step.approach)
 }
 
-/// Size of an orbit, against which defects are measured.
-pub(super) fn size(cycle: &Cycle) -> f64 {
-    let largest =
-        |after: &AfterImpact| after.x.abs().max(after.x_velocity.abs()).max(after.y_velocity.abs());
-    cycle.impacts.iter().map(largest).fold(1.0, f64::max)
-}
-
 /// Solves for the cycle near `start`.
 ///
 /// # Errors
@@ -204,8 +197,8 @@ pub(super) fn corrected(
         let (map, weights) = map_at(parameter).ok_or(OrbitError::Singular)?;
         let linear = Linearised::of(&map, &cycle, weights);
         let update = linear.solve(normal, linear.carried, 0.0)?;
-        residual = linear.residual / size(&cycle);
-        let change = update.amax() / size(&cycle);
+        residual = linear.residual / cycle.size();
+        let change = update.amax() / cycle.size();
         if !(residual.is_finite() && change.is_finite()) {
             return Err(OrbitError::NotConverged { iterations, residual });
         }

@@ -106,18 +106,12 @@ impl Cycle {
     pub fn unfolded(&self) -> Self {
         let Closure::Mirrors { periods } = self.closure else { return self.clone() };
         // The second half begins where the mirror image of the first begins, half a turn later.
-        let later = |after: &AfterImpact| {
-            let mirror = after.mirrored();
-            AfterImpact { phase: mirror.phase + PI * f64::from(periods + 1), ..mirror }
-        };
-        let whole = |half: &[AfterImpact]| {
-            half.iter().copied().chain(half.iter().map(later)).collect::<Vec<_>>()
-        };
+        let later = self.impacts.iter().map(|after| after.mirrored(f64::from(periods)));
         let opposite = self.walls.iter().map(|wall| wall.opposite());
         Self {
             closure: Closure::Repeats { periods },
             walls: self.walls.iter().copied().chain(opposite).collect(),
-            impacts: whole(&self.impacts),
+            impacts: self.impacts.iter().copied().chain(later).collect(),
             durations: self.durations.repeat(2),
         }
     }
@@ -131,10 +125,8 @@ impl Cycle {
             return None;
         }
         let half = count / 2;
-        let turn = PI * f64::from(periods + 1);
         let mirrors = (0..half).all(|k| {
-            let mirror = self.impacts[k].mirrored();
-            let mirror = AfterImpact { phase: mirror.phase + turn, ..mirror };
+            let mirror = self.impacts[k].mirrored(f64::from(periods));
             let distance = (mirror.vector() - self.impacts[k + half].vector()).amax();
             self.walls[k + half] == self.walls[k].opposite() && distance <= tolerance
         });
@@ -144,6 +136,55 @@ impl Cycle {
             impacts: self.impacts[..half].to_vec(),
             durations: self.durations[..half].to_vec(),
         })
+    }
+
+    /// A cycle that goes round more than once to within `tolerance` over its size, cut to once;
+    /// `None` if it is none. A motion that comes to its orbit from alternate sides repeats after
+    /// twice its periods long before it does after once.
+    pub fn once(&self, tolerance: f64) -> Option<Self> {
+        let cycle = self.unfolded();
+        let (count, periods) = (cycle.impacts.len(), cycle.periods() as usize);
+        let repeats = |rounds: &usize| {
+            let length = count / rounds;
+            count % rounds == 0
+                && periods % rounds == 0
+                && (length..count).all(|k| {
+                    let (here, before) = (&cycle.impacts[k], &cycle.impacts[k - length]);
+                    cycle.walls[k] == cycle.walls[k - length]
+                        && apart(here, before) < tolerance * cycle.size()
+                })
+        };
+        let rounds = (2..=periods).rev().find(repeats)?;
+        let length = count / rounds;
+        Some(Self {
+            closure: Closure::Repeats { periods: cycle.periods() / rounds as u32 },
+            walls: cycle.walls[..length].to_vec(),
+            impacts: cycle.impacts[..length].to_vec(),
+            durations: cycle.durations[..length].to_vec(),
+        })
+    }
+
+    /// Whether another cycle is the same motion or its mirror image, to within `tolerance` over its
+    /// size: some impact of the one begins the other.
+    pub fn is_one_with(&self, other: &Self, tolerance: f64) -> bool {
+        let same_kind = self.periods() == other.periods() && self.sequence() == other.sequence();
+        let (a, b) = (self.unfolded(), other.unfolded());
+        let mirrored = b.impacts.iter().map(|after| after.mirrored(-1.0)).collect();
+        let limit = tolerance * a.size();
+        same_kind
+            && [b.impacts.clone(), mirrored].iter().any(|image| {
+                (0..a.impacts.len()).any(|shift| {
+                    let pairs = a.impacts.iter().zip(image.iter().cycle().skip(shift));
+                    pairs.map(|(a, b)| apart(a, b)).fold(0.0, f64::max) < limit
+                })
+            })
+    }
+
+    /// Its size, against which defects and distances are measured: the largest displacement or velocity
+    /// after an impact, at least 1.
+    pub(super) fn size(&self) -> f64 {
+        let largest = |after: &AfterImpact| after.vector().rows(1, 3).amax();
+        self.impacts.iter().map(largest).fold(1.0, f64::max)
     }
 
     /// The steps of the impact map along the cycle.
@@ -190,6 +231,13 @@ impl Cycle {
         }
         Ok(())
     }
+}
+
+/// Largest difference of two states after impact; phases differ by whole turns.
+fn apart(a: &AfterImpact, b: &AfterImpact) -> f64 {
+    let difference = a.vector() - b.vector();
+    let turns = (difference[0] / TAU).round();
+    difference.rows(1, 3).amax().max((difference[0] - turns * TAU).abs())
 }
 
 /// How an orbit was found.

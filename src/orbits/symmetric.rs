@@ -16,7 +16,7 @@ use super::equations as formulas;
 use super::flight::Flight;
 use super::impact_map::{AfterImpact, ImpactMap, Wall};
 use super::measures::Peaks;
-use super::newton::{Convergence, Linearised, size};
+use super::newton::{Convergence, Linearised};
 use super::orbit::{Closure, Cycle, Orbit, Origin};
 use crate::numerics::scan::sign_changes;
 use crate::system::{Excitation, System};
@@ -233,7 +233,7 @@ fn symmetric_orbit(
     let cycle = curve.cycle(&map.flight, beta);
     let after = cycle.impacts[0];
     let linear = Linearised::of(map, &cycle, [0.0; 3]);
-    let convergence = Convergence { residual: linear.residual / size(&cycle), iterations: 0 };
+    let convergence = Convergence { residual: linear.residual / cycle.size(), iterations: 0 };
     let peaks = Peaks::of(map, &cycle);
     let origin = Origin::ClosedForm;
     let orbit = Orbit::measured(map, cycle, &linear.jacobian, convergence, origin).ok()?;
