@@ -10,8 +10,15 @@ use vinesink::orbits::equations as formulas;
 use vinesink::orbits::flight::Flight;
 use vinesink::orbits::symmetric::SymmetricCurve;
 use vinesink::orbits::{ImpactMap, SymmetricOrbit, Wall, symmetric_orbits};
-use vinesink::symbolic::{Expr, Formula, Symbol, Values, to_mathml};
+use vinesink::symbolic::{Equation, Expr, Formula, Symbol, Values, to_mathml};
 use vinesink::system::{Excitation, Parameters, System};
+
+/// Left less right: what vanishes where the equation holds.
+fn residual(equation: &Equation, values: &Values) -> f64 {
+    let [left, right] = [equation.left(), equation.right()]
+        .map(|side| side.evaluate(values).expect("all symbols have values"));
+    left - right
+}
 
 fn number<const N: usize>(formula: &Formula<N>, values: &Values) -> f64 {
     formula.of(values).expect("all symbols have values")
@@ -102,7 +109,7 @@ proptest! {
         let values = curve_of(&system);
         let size = of(&values, Symbol::q_1).abs().max(of(&values, Symbol::q_2).abs());
         for condition in [formulas::REPEATED_FIRST.equation, formulas::REPEATED_SECOND.equation] {
-            let residual = condition.residual(&values).expect("set");
+            let residual = residual(&condition, &values);
             assert_near(residual, 0.0, 1e-15 * (1.0 + 8.0 * size), &condition.to_latex());
         }
     }
@@ -194,7 +201,7 @@ proptest! {
                     continue;
                 }
                 let size = tolerance * size * (1.0 + linear) * (1.0 + of(&at, Symbol::y_dot_after));
-                let residual = equation.residual(&at).expect("set");
+                let residual = residual(equation, &at);
                 assert_near(residual, 0.0, size, &equation.to_latex());
             }
         }

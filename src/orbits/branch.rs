@@ -165,7 +165,7 @@ pub fn follow(
         Direction::Up => Vector5::from(PARAMETER),
         Direction::Down => -Vector5::from(PARAMETER),
     };
-    let scaled = parameter.of(base) / tracer.scale();
+    let scaled = parameter.of(base) / tracer.scale;
     let mut first = tracer.correct(start.cycle.clone(), scaled, &along, &along)?;
     first.orbit.origin = start.origin;
     Ok(trace(&tracer, first, settings))
@@ -175,7 +175,7 @@ pub fn follow(
 pub(super) fn trace(tracer: &Tracer, first: Point, settings: &Settings) -> Branch {
     let begin = tracer.value(&first);
     let mut branch = Branch {
-        parameter: tracer.parameter(),
+        parameter: tracer.parameter,
         points: vec![BranchPoint { value: begin, orbit: first.orbit.clone() }],
         specials: Vec::new(),
         end: BranchEnd::PointLimit { value: begin },

@@ -39,14 +39,6 @@ impl Wall {
             Self::Minus => Self::Plus,
         }
     }
-
-    /// `+` or `-`.
-    pub fn symbol(self) -> char {
-        match self {
-            Self::Plus => '+',
-            Self::Minus => '-',
-        }
-    }
 }
 
 /// The state right after an impact; lengths over the clearance, fast time.

@@ -78,6 +78,7 @@ fn looked_at(beta: f64) -> bool {
 }
 
 /// The family while it is looked at: a unit of forcing, scaled to each `beta`.
+#[derive(Debug)]
 struct Family {
     map: ImpactMap,
     curve: SymmetricCurve,
@@ -135,21 +136,18 @@ impl Family {
             let (map, cycle) = self.orbit(*beta);
             Multipliers::of(&cycle.jacobian(&map)).is_some_and(|found| found.has_pair_on_circle())
         };
+        let mut all: Vec<(Bifurcation, f64)> =
+            vec![(Bifurcation::SaddleNode, self.curve.turning())];
+        all.extend(sticking.map(|beta| (Bifurcation::Sticking, beta)));
+        all.extend(grazing.map(|beta| (Bifurcation::Grazing, beta)));
         let breaking = self.roots(Bifurcation::SymmetryBreaking, 1);
+        all.extend(breaking.into_iter().map(|beta| (Bifurcation::SymmetryBreaking, beta)));
         // Without any loss the product of all multipliers is 1, and the test function vanishes everywhere.
-        let mut modulated =
-            if self.lossless { Vec::new() } else { self.roots(Bifurcation::NeimarkSacker, 2) };
-        modulated.retain(pair);
-        let all = [
-            (Bifurcation::SaddleNode, vec![self.curve.turning()]),
-            (Bifurcation::Sticking, sticking.into_iter().collect()),
-            (Bifurcation::SymmetryBreaking, breaking),
-            (Bifurcation::NeimarkSacker, modulated),
-            (Bifurcation::Grazing, grazing.into_iter().collect()),
-        ];
-        let all =
-            all.into_iter().flat_map(|(kind, places)| places.into_iter().map(move |at| (kind, at)));
-        let mut all: Vec<(Bifurcation, f64)> = all.filter(|(_, beta)| looked_at(*beta)).collect();
+        if !self.lossless {
+            let modulated = self.roots(Bifurcation::NeimarkSacker, 2).into_iter().filter(pair);
+            all.extend(modulated.map(|beta| (Bifurcation::NeimarkSacker, beta)));
+        }
+        all.retain(|(_, beta)| looked_at(*beta));
         all.sort_by(|a, b| a.1.total_cmp(&b.1));
         all
     }
@@ -161,15 +159,20 @@ impl Family {
         Departure::of(&cycle.flights(&map)[0]).is_still().then_some(beta)
     }
 
-    /// Roots of a test function, which times `beta` to this power is a polynomial of twice that degree.
-    /// Each is proven by a change of sign of the test function.
-    fn roots(&self, kind: Bifurcation, power: u32) -> Vec<f64> {
+    /// A test function times a power of `beta`: a polynomial in `beta` of twice that degree.
+    fn scaled_test(&self, kind: Bifurcation, power: u32, beta: f64) -> f64 {
+        self.test(kind, beta) * libm::pow(beta, f64::from(power))
+    }
+
+    fn polynomial(&self, kind: Bifurcation, power: u32) -> Vec<f64> {
         let nodes = 2 * power + 1;
-        let points = (1..=nodes).map(|k| {
-            let beta = RANGE[1] * f64::from(k) / f64::from(nodes);
-            (beta, self.test(kind, beta) * libm::pow(beta, f64::from(power)))
-        });
-        let polynomial = through(&points.collect::<Vec<_>>());
+        let places = (1..=nodes).map(|k| RANGE[1] * f64::from(k) / f64::from(nodes));
+        let points = places.map(|beta| (beta, self.scaled_test(kind, power, beta)));
+        through(&points.collect::<Vec<_>>())
+    }
+
+    /// Roots of a test function, each proven by a change of its sign.
+    fn roots(&self, kind: Bifurcation, power: u32) -> Vec<f64> {
         let test = |beta: f64| self.test(kind, beta);
         let proven = |root: &f64| {
             NEARBY.iter().find_map(|share| {
@@ -177,7 +180,7 @@ impl Family {
                 Some(brent(root - reach, root + reach, WIDTH, test)?.at)
             })
         };
-        let roots = real_roots(&polynomial);
+        let roots = real_roots(&self.polynomial(kind, power));
         roots.iter().filter(|root| looked_at(**root)).filter_map(proven).collect()
     }
 }
@@ -256,6 +259,68 @@ impl Family {
         StableStretch {
             clearance: edges.map(|(_, beta)| self.clearance(beta)),
             ends: edges.map(|(kind, _)| kind),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::system::Excitation;
+    use proptest::prelude::*;
+
+    fn families() -> impl Strategy<Value = Family> {
+        (1e-3..0.3f64, 0.0..6.0f64, 0.0..=1.0f64, prop_oneof![0.6..0.99, 1.01..1.6]).prop_map(
+            |(mass_ratio, damping, restitution, frequency_ratio)| {
+                let parameters = Parameters {
+                    mass_ratio,
+                    damping,
+                    restitution,
+                    frequency_ratio,
+                    forcing_per_clearance: 1.0,
+                    excitation: Excitation::BaseDisplacement,
+                };
+                Family::of(&System::new(parameters).expect("valid")).expect("steady")
+            },
+        )
+    }
+
+    proptest! {
+        /// The test functions are the polynomials that are solved, at amplitudes that were not asked for.
+        #[test]
+        fn test_functions_are_polynomials_over_a_power(family in families(), part in 0.05..0.95f64) {
+            for (kind, power) in [(Bifurcation::SymmetryBreaking, 1), (Bifurcation::NeimarkSacker, 2)] {
+                let polynomial = family.polynomial(kind, power);
+                let beta = part * RANGE[1];
+                let found = polynomial.iter().rev().fold(0.0, |sum, c| sum * beta + c);
+                let exact = family.scaled_test(kind, power, beta);
+                let size: f64 =
+                    polynomial.iter().rev().fold(0.0, |sum, c| sum * RANGE[1] + c.abs());
+                prop_assert!((found - exact).abs() < 1e-11 * size, "{kind:?} {found} {exact} {size}");
+            }
+        }
+
+        /// The relative displacement is linear in the amplitude, and beyond the grazing a wall is passed.
+        #[test]
+        fn the_relative_displacement_is_linear_in_the_amplitude(
+            family in families(),
+            beta in 0.05..4.0f64,
+            part in 0.0..1.0f64,
+        ) {
+            let (map, cycle) = family.orbit(beta);
+            let leg = cycle.flights(&map)[0];
+            let s = part * leg.duration;
+            let [k, rate] = family.curve.sway(&map.flight, s);
+            let angle = map.flight.frequency() * s;
+            let at = leg.relative(s);
+            let size = 1e-12 * (1.0 + beta * (k.abs() + rate.abs() + 10.0));
+            prop_assert!((at.x - libm::cos(angle) - beta * k).abs() < size, "{at:?} {k}");
+            let slope = beta * rate - map.flight.frequency() * libm::sin(angle);
+            prop_assert!((at.v - slope).abs() < size, "{at:?} {rate}");
+            if let Some(grazing) = family.curve.grazing(&map.flight) {
+                let distance = family.test(Bifurcation::Grazing, beta);
+                prop_assert!((beta > grazing) == (distance < 0.0), "{beta} {grazing} {distance}");
+            }
         }
     }
 }

@@ -40,7 +40,7 @@ pub(super) fn met(tracer: &Tracer, here: &Point, there: &Point) -> Option<(f64, 
     })?;
     let root = brent(low, high, LOCATED * guess.abs(), test)?;
     let orbit = tracer.at(&half, root.at)?;
-    let scale = tracer.scale();
+    let scale = tracer.scale;
     let value = root.at * scale;
     let width = LOCATED * value.abs();
     Some((

@@ -83,8 +83,7 @@ impl Cycle {
             walls.extend(self.walls.iter().map(|wall| wall.opposite()));
         }
         let minus: Vec<bool> = walls.iter().map(|wall| *wall == Wall::Minus).collect();
-        let symbol = |minus: bool| if minus { Wall::Minus.symbol() } else { Wall::Plus.symbol() };
-        canonical(&minus).into_iter().map(symbol).collect()
+        canonical(&minus).into_iter().map(|minus| if minus { '-' } else { '+' }).collect()
     }
 
     /// `p`, impacts of the whole orbit.

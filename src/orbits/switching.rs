@@ -63,7 +63,7 @@ pub(super) fn leave(
         Closure::Mirrors { .. } => cycle.unfolded(),
         Closure::Repeats { .. } => twice(cycle),
     };
-    let scaled = value / tracer.scale();
+    let scaled = value / tracer.scale;
     let map = tracer.map_at(scaled).ok_or(OrbitError::Singular)?;
     let direction =
         kernel(&(cycle.jacobian(&map) + Matrix4::identity())).ok_or(OrbitError::Singular)?;
@@ -110,7 +110,7 @@ pub fn continue_beyond(
         return Err(OrbitError::NotACycle { reason: "no branch goes on there" });
     }
     let tracer = Tracer::new(base, parameter);
-    let scaled = special.value / tracer.scale();
+    let scaled = special.value / tracer.scale;
     let found = across(&tracer, scaled, &special.orbit).ok_or(OrbitError::Singular)?;
     let (orbit, there) = found;
     let along = Vector5::from(PARAMETER) * (there - scaled).signum();

@@ -45,8 +45,10 @@ impl Point {
 /// What a continuation works on.
 pub(super) struct Tracer<'a> {
     base: &'a System,
-    parameter: Parameter,
-    scale: f64,
+    /// What varies.
+    pub parameter: Parameter,
+    /// The parameter's unit in a [`Point`].
+    pub scale: f64,
 }
 
 impl<'a> Tracer<'a> {
@@ -54,16 +56,6 @@ impl<'a> Tracer<'a> {
     pub fn new(base: &'a System, parameter: Parameter) -> Self {
         let scale = parameter.of(base).abs().max(SMALLEST_SCALE);
         Self { base, parameter, scale }
-    }
-
-    /// What varies.
-    pub fn parameter(&self) -> Parameter {
-        self.parameter
-    }
-
-    /// The parameter's unit in a [`Point`].
-    pub fn scale(&self) -> f64 {
-        self.scale
     }
 
     /// The parameter at a point.
