@@ -10,8 +10,15 @@ use vinesink::orbits::equations as formulas;
 use vinesink::orbits::flight::Flight;
 use vinesink::orbits::symmetric::SymmetricCurve;
 use vinesink::orbits::{ImpactMap, SymmetricOrbit, Wall, symmetric_orbits};
-use vinesink::symbolic::{Expr, Formula, Symbol, Values, to_mathml};
+use vinesink::symbolic::{Equation, Expr, Formula, Symbol, Values, to_mathml};
 use vinesink::system::{Excitation, Parameters, System};
+
+/// Left less right: what vanishes where the equation holds.
+fn residual(equation: &Equation, values: &Values) -> f64 {
+    let [left, right] = [equation.left(), equation.right()]
+        .map(|side| side.evaluate(values).expect("all symbols have values"));
+    left - right
+}
 
 fn number<const N: usize>(formula: &Formula<N>, values: &Values) -> f64 {
     formula.of(values).expect("all symbols have values")
@@ -97,12 +104,12 @@ proptest! {
         let flight = Flight::of(&system).expect("steady");
         let free = flight.free(0.5 * system.period());
         let [g, h] = flight.half_period_response();
-        assert_near(g, free.impulse, 1e-14, "g");
-        assert_near(h, 1.0 + free.impulse_rate, 1e-14, "1 + g'");
+        assert_near(g, free[(0, 1)], 1e-14, "g");
+        assert_near(h, 1.0 + free[(1, 1)], 1e-14, "1 + g'");
         let values = curve_of(&system);
         let size = of(&values, Symbol::q_1).abs().max(of(&values, Symbol::q_2).abs());
         for condition in [formulas::REPEATED_FIRST.equation, formulas::REPEATED_SECOND.equation] {
-            let residual = condition.residual(&values).expect("set");
+            let residual = residual(&condition, &values);
             assert_near(residual, 0.0, 1e-15 * (1.0 + 8.0 * size), &condition.to_latex());
         }
     }
@@ -185,7 +192,7 @@ proptest! {
             // The phase is as good as the steady motion at the impact over its amplitude.
             let steady = map.flight.steady_at(after.phase);
             assert_near(of(&at, Symbol::X), steady.x, 4.0 * tolerance * size, "X");
-            let expected = steady.v / system.frequency_ratio();
+            let expected = steady.y / system.frequency_ratio();
             assert_near(of(&at, Symbol::V), expected, 4.0 * tolerance * size, "V");
             let stated = [formulas::CONDITIONS, formulas::CURVE, formulas::ORBITS];
             for equation in stated.into_iter().flatten().flat_map(|group| group.equations) {
@@ -194,7 +201,7 @@ proptest! {
                     continue;
                 }
                 let size = tolerance * size * (1.0 + linear) * (1.0 + of(&at, Symbol::y_dot_after));
-                let residual = equation.residual(&at).expect("set");
+                let residual = residual(equation, &at);
                 assert_near(residual, 0.0, size, &equation.to_latex());
             }
         }

@@ -221,7 +221,7 @@ proptest! {
             prop_assume!(orbit.impact_speed * system.restitution() > 1e-6);
             let linear = system.linear_response().expect("exists").amplitude();
             let impacts = simulated_impacts(&system, &orbit, 1);
-            let expected = orbit.orbit.cycle.impacts[0].mirrored();
+            let expected = orbit.orbit.cycle.impacts[0].mirrored(-1.0);
             let tolerance = 1e-11 * (1.0 + linear) * radius.max(1.0);
             let meets = impacts.first().is_some_and(|impact| {
                 (impact.x - expected.x).abs() < tolerance

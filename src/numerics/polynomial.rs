@@ -1,6 +1,19 @@
-//! Real roots of a polynomial, between those of its derivative.
+//! Polynomials: the one through some points, and real roots, between those of the derivative.
+
+use nalgebra::{DMatrix, DVector};
 
 use super::bracket::bisected;
+
+/// Coefficients, by ascending power, of the polynomial through points at different places; none where
+/// two of these are one, or a number is not finite.
+pub fn through(points: &[(f64, f64)]) -> Vec<f64> {
+    let count = points.len();
+    let power = |row: usize, column: usize| libm::pow(points[row].0, column as f64);
+    let values = DVector::from_iterator(count, points.iter().map(|point| point.1));
+    let found = DMatrix::from_fn(count, count, power).lu().solve(&values);
+    let finite = found.filter(|found| found.iter().all(|one| one.is_finite()));
+    finite.map_or_else(Vec::new, |found| found.iter().copied().collect())
+}
 
 /// All real roots, ascending; `coefficients` ascend by power. Between neighbouring roots of the
 /// derivative, and beyond them, a polynomial changes its sign at most once. Roots of even multiplicity
@@ -12,9 +25,9 @@ pub fn real_roots(coefficients: &[f64]) -> Vec<f64> {
     }
     let coefficients = &coefficients[..=degree];
     let slope: Vec<f64> = (1..=degree).map(|power| power as f64 * coefficients[power]).collect();
-    // Cauchy's bound.
+    // Twice Cauchy's bound: a root may lie so close to it that the value there is rounding.
     let largest = coefficients[..degree].iter().fold(0.0_f64, |most, c| most.max(c.abs()));
-    let bound = 1.0 + largest / coefficients[degree].abs();
+    let bound = 2.0 + 2.0 * largest / coefficients[degree].abs();
     let mut places = vec![-bound];
     places.extend(real_roots(&slope));
     places.push(bound);
@@ -24,7 +37,7 @@ pub fn real_roots(coefficients: &[f64]) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::real_roots;
+    use super::{real_roots, through};
     use proptest::prelude::*;
 
     fn expand(roots: &[f64]) -> Vec<f64> {
@@ -60,6 +73,26 @@ mod tests {
         for (found, root) in found.iter().zip(roots) {
             assert!((found / root - 1.0).abs() < 1e-14, "{found} {root}");
         }
+    }
+
+    /// By hand: `1 - 2 x + 3 x^2`.
+    #[test]
+    fn the_polynomial_through_points_has_its_coefficients() {
+        let found = through(&[(-1.0, 6.0), (0.5, 0.75), (2.0, 9.0)]);
+        assert!(
+            found.iter().zip([1.0, -2.0, 3.0]).all(|(a, b)| (a - b).abs() < 1e-14),
+            "{found:?}"
+        );
+        assert!(through(&[(1.0, 2.0), (1.0, 3.0)]).is_empty());
+        assert!(through(&[(1.0, f64::NAN), (2.0, 3.0)]).is_empty());
+    }
+
+    /// A leading coefficient that is all but zero puts the slope's root next to Cauchy's bound.
+    #[test]
+    fn a_root_is_found_beside_one_that_rounding_has_put_far_away() {
+        let found = real_roots(&[26.714064776353187, -16.20566834238112, -1.2789769243681799e-15]);
+        assert_eq!(found.len(), 2, "{found:?}");
+        assert!((found[1] - 1.648_439_4).abs() < 1e-6, "{found:?}");
     }
 
     proptest! {

@@ -10,8 +10,8 @@
 
 use serde::Serialize;
 
-use super::flight::Kinematics;
-use super::impact_map::{AfterImpact, ImpactMap, Wall};
+use super::impact_map::{ImpactMap, Leg, Wall};
+use super::orbit::Cycle;
 use crate::numerics::bracket::brent;
 use crate::numerics::crossing::{Band, Curve, Edge, Sample, Search, first_crossing};
 
@@ -68,8 +68,8 @@ impl Admissibility {
         self.slowest_departure.is_some_and(|departure| departure <= 0.0)
     }
 
-    /// Of a sequence of flights: state after the impact, wall left, wall met, duration.
-    pub fn of(map: &ImpactMap, flights: &[(AfterImpact, Wall, Wall, f64)]) -> Self {
+    /// Of the flights of a cycle.
+    pub fn of(map: &ImpactMap, cycle: &Cycle) -> Self {
         let mut found = Self {
             admissible: true,
             min_wall_distance: FULL_WIDTH,
@@ -77,22 +77,22 @@ impl Admissibility {
             slowest_impact: f64::INFINITY,
             slowest_departure: None,
         };
-        for (index, (start, from, to, duration)) in flights.iter().enumerate() {
-            let approach = to.sign() * map.gap_at(start, *from, *duration).v;
-            let departure = Departure::of(map, start, *from);
+        for (flight, leg) in cycle.flights(map).iter().enumerate() {
+            let approach = leg.to.sign() * leg.relative(leg.duration).v;
+            let departure = Departure::of(leg);
             if departure.is_still() {
                 let slowest = found.slowest_departure.unwrap_or(f64::INFINITY);
                 found.slowest_departure = Some(slowest.min(departure.acceleration));
             }
             found.slowest_impact = found.slowest_impact.min(approach);
-            found.admissible &=
-                approach > 0.0 && free_of_contact(map, start, *from, *to, *duration);
-            for (at, value) in turning_points(map, start, *from, *duration, &departure) {
+            found.admissible &= approach > 0.0 && free_of_contact(map, leg, &departure);
+            for at in turning_points(map, leg, &departure) {
+                let value = leg.relative(at).x;
                 let wall = if value > 0.0 { Wall::Plus } else { Wall::Minus };
                 if 1.0 - value.abs() < found.min_wall_distance {
                     found.min_wall_distance = 1.0 - value.abs();
-                    let fraction = at / duration;
-                    found.narrowest = Some(Narrowest { flight: index, fraction, wall });
+                    let fraction = at / leg.duration;
+                    found.narrowest = Some(Narrowest { flight, fraction, wall });
                 }
             }
         }
@@ -112,13 +112,13 @@ pub(super) struct Departure {
 }
 
 impl Departure {
-    /// Of the flight that begins with `start` on the wall `from`.
-    pub fn of(map: &ImpactMap, start: &AfterImpact, from: Wall) -> Self {
-        let at = Kinematics { x: start.x, v: start.x_velocity };
-        let scale = 1.0 + at.x.abs() + at.v.abs() + start.y_velocity.abs();
+    /// At the beginning of a flight.
+    pub fn of(leg: &Leg) -> Self {
+        let (inwards, at) = (-leg.from.sign(), leg.oscillator(0.0));
+        let scale = 1.0 + at.x.abs() + at.v.abs() + leg.start.y_velocity.abs();
         Self {
-            speed: -from.sign() * (start.x_velocity - start.y_velocity),
-            acceleration: -from.sign() * map.flight.acceleration(start.phase, at),
+            speed: inwards * (leg.start.x_velocity - leg.start.y_velocity),
+            acceleration: inwards * at.a,
             touch: TOUCH_ULPS * f64::EPSILON * scale,
         }
     }
@@ -130,17 +130,20 @@ impl Departure {
 }
 
 struct Gap<'a> {
-    map: &'a ImpactMap,
-    start: &'a AfterImpact,
-    from: Wall,
+    leg: &'a Leg,
+    /// `2 d`, and the largest force.
+    damping: f64,
+    force: f64,
 }
 
 impl Curve for Gap<'_> {
     fn sample(&self, s: f64) -> Sample {
-        let oscillator = self.map.oscillator_at(self.start, s);
-        let Kinematics { x, v } = self.map.gap_at(self.start, self.from, s);
-        let curvature_bound = self.map.flight.acceleration_bound(oscillator, HORIZON);
-        Sample { value: x, slope: v, curvature_bound }
+        let oscillator = self.leg.oscillator(s);
+        let relative = self.leg.relative_of(oscillator, s);
+        // The root of v^2 + x^2 grows no faster than the largest force.
+        let size = libm::hypot(oscillator.x, oscillator.v) + self.force * HORIZON;
+        let curvature_bound = self.force + (1.0 + self.damping) * size;
+        Sample { value: relative.x, slope: relative.v, curvature_bound }
     }
     fn horizon(&self) -> f64 {
         HORIZON
@@ -148,32 +151,22 @@ impl Curve for Gap<'_> {
 }
 
 /// Whether the flight's first contact is its end, on the wall where it is said to end.
-fn free_of_contact(
-    map: &ImpactMap,
-    start: &AfterImpact,
-    from: Wall,
-    to: Wall,
-    duration: f64,
-) -> bool {
+fn free_of_contact(map: &ImpactMap, leg: &Leg, departure: &Departure) -> bool {
+    let Leg { to, duration, .. } = *leg;
     let positive = duration.is_finite() && duration > 0.0;
-    if !positive {
-        return false;
-    }
-    let departure = Departure::of(map, start, from);
-    let touch = departure.touch;
     // An absorber that leaves without relative velocity must be left behind by the wall.
-    if departure.is_still() && departure.acceleration <= 0.0 {
+    if !positive || departure.is_still() && departure.acceleration <= 0.0 {
         return false;
     }
+    let touch = departure.touch;
     let begin = if departure.is_still() {
         (touch / departure.acceleration).sqrt().min(EARLY * duration)
     } else {
         0.0
     };
-    let curve = Gap { map, start, from };
+    let curve = Gap { leg, damping: map.flight.damping(), force: map.flight.force() };
     let band = Band { lower: -1.0, upper: 1.0, touch };
-    let until = duration * (1.0 + EARLY);
-    match first_crossing(&curve, begin, until, band) {
+    match first_crossing(&curve, begin, duration * (1.0 + EARLY), band) {
         Search::Crossed(contact) => {
             let wall = if contact.edge == Edge::Upper { Wall::Plus } else { Wall::Minus };
             wall == to && contact.time >= duration * (1.0 - EARLY)
@@ -182,46 +175,44 @@ fn free_of_contact(
     }
 }
 
-/// Times and values at which the relative displacement turns within a flight.
-fn turning_points(
-    map: &ImpactMap,
-    start: &AfterImpact,
-    from: Wall,
-    duration: f64,
-    departure: &Departure,
-) -> Vec<(f64, f64)> {
-    let slope = |s: f64| {
+/// Times at which the relative displacement turns within a flight.
+fn turning_points(map: &ImpactMap, leg: &Leg, departure: &Departure) -> Vec<f64> {
+    zeros(leg.duration, map.flight.frequency(), |s| {
+        let at = leg.relative(s);
         // Where nothing but the acceleration parts the two, the velocity at the very beginning is
         // rounding.
         if s == 0.0 && departure.is_still() {
-            -from.sign() * departure.acceleration.signum() * f64::MIN_POSITIVE
+            let rate = -leg.from.sign() * departure.acceleration;
+            [rate.signum() * f64::MIN_POSITIVE, rate]
         } else {
-            map.gap_at(start, from, s).v
+            [at.v, at.a]
         }
-    };
-    let curvature = |s: f64| {
-        let phase = start.phase + map.frequency() * s;
-        map.flight.acceleration(phase, map.oscillator_at(start, s))
-    };
+    })
+}
+
+/// Places within `(0, duration)` at which a rate of the motion vanishes, by its value and slope: every
+/// change of sign between neighbouring pieces, and every pair of changes around a flattest place.
+pub(super) fn zeros(duration: f64, frequency: f64, rate: impl Fn(f64) -> [f64; 2]) -> Vec<f64> {
+    let pieces =
+        (duration * frequency.max(1.0) * PIECES_PER_RADIAN).ceil().clamp(PIECES[0], PIECES[1]);
+    let step = duration / pieces;
+    let width = TURNED * duration;
+    let value = |s: f64| rate(s)[0];
     let mut found = Vec::new();
-    let mut note = |at: f64| found.push((at, map.gap_at(start, from, at).x));
     let mut between = |low: f64, high: f64| {
-        if let Some(root) = brent(low, high, TURNED * duration, slope)
-            && root.at > 0.0
-            && root.at < duration
-        {
-            note(root.at);
-        }
+        let root = brent(low, high, width, value).map(|root| root.at);
+        found.extend(root.filter(|at| 0.0 < *at && *at < duration));
     };
-    let mut before = (slope(0.0), curvature(0.0));
-    for [low, high] in pieces(duration, map.frequency()) {
-        let after = (slope(high), curvature(high));
-        if (before.0 > 0.0) != (after.0 > 0.0) {
+    let mut before = rate(0.0);
+    for k in 0..pieces as u32 {
+        let (low, high) = (f64::from(k) * step, f64::from(k + 1) * step);
+        let after = rate(high);
+        if (before[0] > 0.0) != (after[0] > 0.0) {
             between(low, high);
-        } else if before.0 * before.1 < 0.0
-            && after.0 * after.1 > 0.0
-            && let Some(flattest) = brent(low, high, TURNED * duration, curvature)
-            && (slope(flattest.at) > 0.0) != (before.0 > 0.0)
+        } else if before[0] * before[1] < 0.0
+            && after[0] * after[1] > 0.0
+            && let Some(flattest) = brent(low, high, width, |s| rate(s)[1])
+            && (value(flattest.at) > 0.0) != (before[0] > 0.0)
         {
             // It turns and turns back within one piece, as it does after a weak rebound.
             between(low, flattest.at);
@@ -230,33 +221,4 @@ fn turning_points(
         before = after;
     }
     found
-}
-
-/// The pieces of a flight in which sign changes are looked for, in order.
-fn pieces(duration: f64, frequency: f64) -> impl Iterator<Item = [f64; 2]> {
-    let pieces =
-        (duration * frequency.max(1.0) * PIECES_PER_RADIAN).ceil().clamp(PIECES[0], PIECES[1]);
-    let step = duration / pieces;
-    (0..pieces as u32).map(move |k| [f64::from(k) * step, f64::from(k + 1) * step])
-}
-
-/// Calls `found` at each sign change of `function` within `(0, duration)`.
-pub(super) fn sign_changes(
-    duration: f64,
-    frequency: f64,
-    function: impl Fn(f64) -> f64,
-    mut found: impl FnMut(f64),
-) {
-    let mut before = function(0.0);
-    for [from, to] in pieces(duration, frequency) {
-        let after = function(to);
-        if (before > 0.0) != (after > 0.0)
-            && let Some(root) = brent(from, to, TURNED * duration, &function)
-            && root.at > 0.0
-            && root.at < duration
-        {
-            found(root.at);
-        }
-        before = after;
-    }
 }

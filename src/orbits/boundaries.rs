@@ -7,9 +7,8 @@
 use serde::Serialize;
 
 use super::OrbitError;
-use super::branch::{Branch, BranchEnd, Settings};
+use super::branch::{BranchEnd, Settings, SpecialPoint};
 use super::limits::{Limit, SymmetricFamily};
-use super::special::SpecialPoint;
 use super::switching::leave;
 use crate::bifurcation::Bifurcation;
 use crate::system::{Parameter, System};
@@ -82,19 +81,14 @@ pub fn over_frequency(system: &System, frequency_ratios: &[f64]) -> Vec<Boundari
     there.filter_map(|system| Boundaries::of(&system).ok()).collect()
 }
 
-/// The branch of asymmetric orbits of `system` over the clearance, from the symmetry breaking at
-/// `limit`.
+/// The asymmetric orbits of `system` over the clearance, followed from the symmetry breaking at `limit`.
 ///
 /// # Errors
-/// [`OrbitError`] where the branch cannot be entered.
-pub fn asymmetric_branch(system: &System, limit: &Limit) -> Result<Branch, OrbitError> {
-    let cycle = limit.cycle(system)?;
-    let settings = Settings::within(RANGE.map(|factor| factor * limit.clearance));
-    leave(system, Parameter::Clearance, limit.clearance, &cycle, &settings)
-}
-
+/// [`OrbitError`] where their branch cannot be entered.
 fn asymmetric(system: &System, limit: &Limit) -> Result<AsymmetricOrbits, OrbitError> {
-    let branch = asymmetric_branch(system, limit)?;
+    let settings = Settings::within(RANGE.map(|factor| factor * limit.clearance));
+    let cycle = limit.cycle(system)?;
+    let branch = leave(system, Parameter::Clearance, limit.clearance, &cycle, &settings)?;
     let first = |kind| branch.specials.iter().find(|special| special.kind == kind);
     let value = |special: &SpecialPoint| special.value;
     let grazing = first(Bifurcation::Grazing);

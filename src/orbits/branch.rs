@@ -8,9 +8,10 @@ use serde::Serialize;
 
 use super::OrbitError;
 use super::locate::located;
-use super::orbit::{Orbit, Origin};
-use super::special::SpecialPoint;
+use super::newton::PARAMETER;
+use super::orbit::Orbit;
 use super::tracer::{Point, Tracer};
+use crate::bifurcation::Bifurcation;
 use crate::system::{Parameter, System};
 
 /// How a branch is followed.
@@ -25,23 +26,12 @@ pub struct Settings {
     pub first_step: f64,
     /// Largest step: distance between points of a figure that still looks smooth.
     pub largest_step: f64,
-    /// Smallest step before the branch is given up.
-    pub smallest_step: f64,
-    /// Go on where the orbit is no longer a motion.
-    pub beyond_grazing: bool,
 }
 
 impl Settings {
     /// The defaults, for a range of the parameter.
     pub fn within(range: [f64; 2]) -> Self {
-        Self {
-            range,
-            most_points: MOST_POINTS,
-            first_step: FIRST_STEP,
-            largest_step: LARGEST_STEP,
-            smallest_step: SMALLEST_STEP,
-            beyond_grazing: false,
-        }
+        Self { range, most_points: MOST_POINTS, first_step: FIRST_STEP, largest_step: LARGEST_STEP }
     }
 }
 
@@ -61,6 +51,28 @@ pub struct BranchPoint {
     /// Value of the parameter.
     pub value: f64,
     /// The orbit.
+    pub orbit: Orbit,
+}
+
+/// A located bifurcation on a branch.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SpecialPoint {
+    /// Which.
+    pub kind: Bifurcation,
+    /// Value of the branch's parameter.
+    pub value: f64,
+    /// Values of the parameter between which it was located.
+    pub bracket: [f64; 2],
+    /// Width, over the parameter, to which it was located.
+    pub precision: f64,
+    /// The test function before, at and after it.
+    pub test: [f64; 3],
+    /// Whether the test function really vanishes there, rather than jump.
+    pub converged: bool,
+    /// The sequence of walls beyond, where an impact appears or disappears and Newton's method found
+    /// the orbit that goes on.
+    pub sequence_beyond: Option<String>,
+    /// The orbit there.
     pub orbit: Orbit,
 }
 
@@ -123,8 +135,6 @@ const FIRST_STEP: f64 = 0.01;
 /// A twentieth of a clearance or radian: what a figure still shows as smooth, and short enough for
 /// two bifurcations of one kind seldom to share a step.
 const LARGEST_STEP: f64 = 0.05;
-/// The root of the precision of a point: over less the tangent is rounding.
-const SMALLEST_STEP: f64 = 1e-7;
 /// Corrector steps with which the branch is as good as straight: the next step may be longer.
 const EASY: u32 = 3;
 /// Growth of the step after an easy point, and its shrinking after another: slow enough for one
@@ -151,45 +161,40 @@ pub fn follow(
     settings: &Settings,
 ) -> Result<Branch, OrbitError> {
     let tracer = Tracer::new(base, parameter);
-    let mut upwards = Vector5::zeros();
-    upwards[4] = match direction {
-        Direction::Up => 1.0,
-        Direction::Down => -1.0,
+    let along = match direction {
+        Direction::Up => Vector5::from(PARAMETER),
+        Direction::Down => -Vector5::from(PARAMETER),
     };
-    let scaled = parameter.of(base) / tracer.scale();
-    let first = tracer.correct(start.cycle.clone(), scaled, &upwards, &upwards)?;
-    Ok(trace(&tracer, first, start.origin, settings))
+    let scaled = parameter.of(base) / tracer.scale;
+    let mut first = tracer.correct(start.cycle.clone(), scaled, &along, &along)?;
+    first.orbit.origin = start.origin;
+    Ok(trace(&tracer, first, settings))
 }
 
 /// Follows a branch from a point on it, along its tangent.
-pub(super) fn trace(tracer: &Tracer, first: Point, origin: Origin, settings: &Settings) -> Branch {
+pub(super) fn trace(tracer: &Tracer, first: Point, settings: &Settings) -> Branch {
     let begin = tracer.value(&first);
     let mut branch = Branch {
-        parameter: tracer.parameter(),
-        points: Vec::new(),
+        parameter: tracer.parameter,
+        points: vec![BranchPoint { value: begin, orbit: first.orbit.clone() }],
         specials: Vec::new(),
         end: BranchEnd::PointLimit { value: begin },
     };
-    let orbit = tracer.orbit(&first, origin);
-    branch.points.extend(orbit.map(|orbit| BranchPoint { value: begin, orbit }));
     let mut here = first.clone();
     let mut step = settings.first_step;
     let mut radians = 0.0;
     while branch.points.len() < settings.most_points && radians < MOST_RADIANS {
         radians += tracer.radians(&here);
-        let stepped = match tracer.at_edge(&here, step, settings.range) {
-            Some((there, edge)) => Ok((there, step, Some(BranchEnd::Range { value: edge }))),
-            None => tracer
-                .next(&here, step, settings.smallest_step)
-                .map(|(there, taken)| (there, taken, None)),
-        };
-        let (there, taken, last) = match stepped {
-            Ok(found) => found,
-            Err(reason) => {
-                let value = tracer.value(&here);
-                branch.end = BranchEnd::NotConverged { value, reason: reason.to_string() };
-                return branch;
-            }
+        let (there, taken, last) = match tracer.at_edge(&here, step, settings.range) {
+            Some((there, edge)) => (there, step, Some(BranchEnd::Range { value: edge })),
+            None => match tracer.next(&here, step) {
+                Ok((there, taken)) => (there, taken, None),
+                Err(reason) => {
+                    let value = tracer.value(&here);
+                    branch.end = BranchEnd::NotConverged { value, reason: reason.to_string() };
+                    return branch;
+                }
+            },
         };
         let met = returns(&first, &here, &there, branch.points.len());
         let last = last.or(met.then_some(BranchEnd::Closed { value: begin }));
@@ -197,7 +202,7 @@ pub(super) fn trace(tracer: &Tracer, first: Point, origin: Origin, settings: &Se
             branch.end = end;
             return branch;
         }
-        let factor = if there.convergence.iterations <= EASY { LONGER } else { SHORTER };
+        let factor = if there.orbit.convergence.iterations <= EASY { LONGER } else { SHORTER };
         step = (taken * factor).min(settings.largest_step);
         here = there;
     }
@@ -227,18 +232,14 @@ fn record(
     let mut found = located(tracer, here, there, step);
     let [low, high] = settings.range;
     found.retain(|special| (low..=high).contains(&special.value));
-    let leaves = |special: &SpecialPoint| special.kind.ends_motion();
-    let end = found.iter().position(leaves).filter(|_| !settings.beyond_grazing);
-    if let Some(index) = end {
-        found.truncate(index + 1);
-    }
+    let end = found.iter().position(|special| special.kind.ends_motion());
+    found.truncate(end.map_or(found.len(), |index| index + 1));
     let stops = end.map(|index| found[index].value);
     branch.specials.extend(found);
     if let Some(value) = stops {
         return Some(BranchEnd::Grazing { value });
     }
     let value = tracer.value(there);
-    let orbit = tracer.orbit(there, Origin::Continuation);
-    branch.points.extend(orbit.map(|orbit| BranchPoint { value, orbit }));
+    branch.points.push(BranchPoint { value, orbit: there.orbit.clone() });
     None
 }

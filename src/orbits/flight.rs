@@ -8,12 +8,15 @@
 //! `a = g' + 2 d g`. Valid wherever a steady motion exists: everywhere but for an undamped oscillator
 //! driven exactly at its natural frequency.
 
+use nalgebra::{Matrix2, Vector2};
+
 use super::OrbitError;
 use super::equations::{REPEATED_DISPLACEMENT, REPEATED_VELOCITY};
 use crate::operation_count::{self, ELEMENTARY};
 use crate::system::System;
 
-/// The oscillator of a system, ready to be propagated.
+/// The oscillator of a system, ready to be propagated. Pairs are displacement and velocity, over the
+/// clearance, in fast time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Flight {
     /// Half the damping coefficient, `d = eps lambda / 2`.
@@ -28,41 +31,41 @@ pub struct Flight {
     forcing: f64,
 }
 
-/// Displacement and velocity, over the clearance, fast time.
+/// A displacement with its derivatives by fast time, over the clearance.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Kinematics {
+pub struct Motion {
     /// Displacement.
     pub x: f64,
     /// Velocity.
     pub v: f64,
+    /// Acceleration.
+    pub a: f64,
+    /// Its rate.
+    pub jerk: f64,
 }
 
-/// Free motion of the oscillator over a time: `(x, v) -> (a x + g v, -g x + g' v)`.
+/// The oscillator from a moment on: its steady motion, and the free motion beside it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Free {
-    /// `a = g' + 2 d g`.
-    pub keep: f64,
-    /// `g`, the impulse response.
-    pub impulse: f64,
-    /// `g'`.
-    pub impulse_rate: f64,
+pub struct Course {
+    flight: Flight,
+    phase: f64,
+    /// Deviation from the steady motion at the beginning.
+    deviation: Vector2<f64>,
 }
 
-/// Where a flight ends, and how that depends on where it began.
+/// Where a course leads, and how that depends on where it began.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Arrival {
-    /// Displacement and velocity at the end.
-    pub at: Kinematics,
-    /// Acceleration at the end.
-    pub acceleration: f64,
-    /// Derivatives of the displacement by phase, displacement and velocity at the beginning.
-    pub x_by_start: [f64; 3],
-    /// The same for the velocity.
-    pub v_by_start: [f64; 3],
-    /// Derivatives of both by the forcing `gamma`.
-    pub by_forcing: Kinematics,
-    /// Derivatives of both by `Omega`, the duration and the phase at the beginning being fixed.
-    pub by_frequency: Kinematics,
+    /// The motion at the end.
+    pub at: Motion,
+    /// Derivative of the end by the phase at the beginning.
+    pub by_phase: Vector2<f64>,
+    /// Derivatives by displacement and velocity at the beginning.
+    pub by_start: Matrix2<f64>,
+    /// Derivative by the forcing `gamma`.
+    pub by_forcing: Vector2<f64>,
+    /// Derivative by `Omega`, the duration and the phase at the beginning being fixed.
+    pub by_frequency: Vector2<f64>,
 }
 
 impl Flight {
@@ -103,16 +106,21 @@ impl Flight {
         self.steady
     }
 
+    /// `Omega`.
+    pub fn frequency(&self) -> f64 {
+        self.frequency
+    }
+
     /// The steady motion at a phase.
-    pub fn steady_at(&self, phase: f64) -> Kinematics {
+    pub fn steady_at(&self, phase: f64) -> Vector2<f64> {
         operation_count::note(2 * ELEMENTARY + 7);
         let (sin, cos) = libm::sincos(phase);
         let [s, c] = self.steady;
-        Kinematics { x: s * sin + c * cos, v: self.frequency * (s * cos - c * sin) }
+        Vector2::new(s * sin + c * cos, self.frequency * (s * cos - c * sin))
     }
 
-    /// Free motion over `s`, whatever the damping.
-    pub fn free(&self, s: f64) -> Free {
+    /// Free motion over `s`, whatever the damping: `(x, v) -> (a x + g v, -g x + g' v)`.
+    pub fn free(&self, s: f64) -> Matrix2<f64> {
         operation_count::note(3 * ELEMENTARY + 14);
         let d = self.decay;
         let discriminant = (1.0 - d) * (1.0 + d);
@@ -132,7 +140,7 @@ impl Flight {
             };
             (impulse, envelope - (d + spread) * impulse)
         };
-        Free { keep: impulse_rate + 2.0 * d * impulse, impulse, impulse_rate }
+        Matrix2::new(impulse_rate + 2.0 * d * impulse, impulse, -impulse, impulse_rate)
     }
 
     /// `g` and `1 + g'` after half an excitation period. Near resonance both are small, and are formed
@@ -152,7 +160,7 @@ impl Flight {
             (impulse, one_minus - d * impulse)
         } else {
             let free = self.free(s);
-            (free.impulse, free.impulse_rate + 1.0)
+            (free[(0, 1)], free[(1, 1)] + 1.0)
         };
         [impulse, rate_plus_one]
     }
@@ -165,87 +173,78 @@ impl Flight {
         [REPEATED_DISPLACEMENT.at(parameters), REPEATED_VELOCITY.at(parameters)]
     }
 
-    /// Displacement and velocity a time `s` after `start` at `phase`.
-    pub fn at(&self, phase: f64, start: Kinematics, s: f64) -> Kinematics {
-        operation_count::note(12);
-        let free = self.free(s);
-        let before = self.steady_at(phase);
-        let after = self.steady_at(phase + self.frequency * s);
-        let (x, v) = (start.x - before.x, start.v - before.v);
-        Kinematics {
-            x: after.x + free.keep * x + free.impulse * v,
-            v: after.v - free.impulse * x + free.impulse_rate * v,
-        }
+    /// The course from a displacement and velocity at `phase` on.
+    pub fn course(&self, phase: f64, start: Vector2<f64>) -> Course {
+        Course { flight: *self, phase, deviation: start - self.steady_at(phase) }
     }
 
-    /// Acceleration at a phase, by equation (1).
-    pub fn acceleration(&self, phase: f64, at: Kinematics) -> f64 {
-        operation_count::note(8);
-        let steady = self.steady_at(phase);
-        let omega = self.frequency;
-        -omega * omega * steady.x - 2.0 * self.decay * (at.v - steady.v) - (at.x - steady.x)
-    }
-
-    /// Bound on the acceleration's size for `horizon` of time after passing through `at`: the root
-    /// of `v^2 + x^2` grows no faster than the largest force.
-    pub fn acceleration_bound(&self, at: Kinematics, horizon: f64) -> f64 {
-        operation_count::note(25);
+    /// Largest force of the excitation, per unit of mass.
+    pub fn force(&self) -> f64 {
         let [s, c] = self.steady;
         let omega = self.frequency;
         let stiffness = (1.0 - omega) * (1.0 + omega);
-        let force = libm::hypot(s, c) * libm::hypot(stiffness, 2.0 * self.decay * omega);
-        let size = libm::hypot(at.x, at.v) + force * horizon;
-        force + (1.0 + 2.0 * self.decay) * size
-    }
-
-    /// Where a flight of length `s` ends, with all derivatives.
-    pub fn arrival(&self, phase: f64, start: Kinematics, s: f64) -> Arrival {
-        operation_count::note(60);
-        let omega = self.frequency;
-        let free = self.free(s);
-        let before = self.steady_at(phase);
-        let end = phase + omega * s;
-        let after = self.steady_at(end);
-        let (x, v) = (start.x - before.x, start.v - before.v);
-        let at = Kinematics {
-            x: after.x + free.keep * x + free.impulse * v,
-            v: after.v - free.impulse * x + free.impulse_rate * v,
-        };
-        // d(X, V)/d(phase) = (V / Omega, -Omega X).
-        let turn = |at: Kinematics| Kinematics { x: at.v / omega, v: -omega * at.x };
-        let carried = |by: Kinematics| Kinematics {
-            x: free.keep * by.x + free.impulse * by.v,
-            v: -free.impulse * by.x + free.impulse_rate * by.v,
-        };
-        let less = |a: Kinematics, b: Kinematics| Kinematics { x: a.x - b.x, v: a.v - b.v };
-        let by_phase = less(turn(after), carried(turn(before)));
-        let forced = less(after, carried(before));
-        let by_forcing = if self.forcing > 0.0 {
-            Kinematics { x: forced.x / self.forcing, v: forced.v / self.forcing }
-        } else {
-            Kinematics { x: 0.0, v: 0.0 }
-        };
-        let (moved, turned) = (self.shifted(end), turn(after));
-        let later = Kinematics { x: moved.x + s * turned.x, v: moved.v + s * turned.v };
-        Arrival {
-            at,
-            acceleration: self.acceleration(end, at),
-            x_by_start: [by_phase.x, free.keep, free.impulse],
-            v_by_start: [by_phase.v, -free.impulse, free.impulse_rate],
-            by_forcing,
-            by_frequency: less(later, carried(self.shifted(phase))),
-        }
+        libm::hypot(s, c) * libm::hypot(stiffness, 2.0 * self.decay * omega)
     }
 
     /// Derivative of the steady motion by `Omega` at a fixed phase.
-    fn shifted(&self, phase: f64) -> Kinematics {
+    fn shifted(&self, phase: f64) -> Vector2<f64> {
         operation_count::note(2 * ELEMENTARY + 12);
         let (sin, cos) = libm::sincos(phase);
         let [s, c] = self.steady;
         let [ds, dc] = self.steady_by_frequency;
-        Kinematics {
-            x: ds * sin + dc * cos,
-            v: (s * cos - c * sin) + self.frequency * (ds * cos - dc * sin),
+        Vector2::new(
+            ds * sin + dc * cos,
+            (s * cos - c * sin) + self.frequency * (ds * cos - dc * sin),
+        )
+    }
+
+    /// `d(X, V)/d(phase) = (V / Omega, -Omega X)` of the steady motion.
+    fn turned(&self, steady: Vector2<f64>) -> Vector2<f64> {
+        Vector2::new(steady.y / self.frequency, -self.frequency * steady.x)
+    }
+}
+
+impl Course {
+    /// The motion after a time `s`, by equation (1).
+    pub fn at(&self, s: f64) -> Motion {
+        self.motion(
+            self.flight.steady_at(self.phase + self.flight.frequency * s),
+            self.flight.free(s),
+        )
+    }
+
+    fn motion(&self, steady: Vector2<f64>, propagator: Matrix2<f64>) -> Motion {
+        operation_count::note(22);
+        let free = propagator * self.deviation;
+        let (omega, damping) = (self.flight.frequency, self.flight.damping());
+        let free_a = -damping * free.y - free.x;
+        Motion {
+            x: steady.x + free.x,
+            v: steady.y + free.y,
+            a: free_a - omega * omega * steady.x,
+            jerk: -damping * free_a - free.y - omega * omega * steady.y,
+        }
+    }
+
+    /// Where the course leads in a time `s`, with all derivatives.
+    pub fn arrival(&self, s: f64) -> Arrival {
+        operation_count::note(48);
+        let Self { flight, phase, .. } = self;
+        let end = phase + flight.frequency * s;
+        let by_start = flight.free(s);
+        let [before, after] = [*phase, end].map(|phase| flight.steady_at(phase));
+        let forced = after - by_start * before;
+        Arrival {
+            at: self.motion(after, by_start),
+            by_phase: flight.turned(after) - by_start * flight.turned(before),
+            by_start,
+            by_forcing: if flight.forcing > 0.0 {
+                forced / flight.forcing
+            } else {
+                Vector2::zeros()
+            },
+            by_frequency: flight.shifted(end) + flight.turned(after) * s
+                - by_start * flight.shifted(*phase),
         }
     }
 }

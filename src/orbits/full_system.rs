@@ -4,9 +4,8 @@
 use serde::Serialize;
 
 use super::boundaries::Boundaries;
-use super::branch::{Direction, Settings, follow};
+use super::branch::{Direction, Settings, SpecialPoint, follow};
 use super::limits::{Limit, StableStretch};
-use super::special::SpecialPoint;
 use super::symmetric::{SymmetricOrbit, attracting_orbit, symmetric_orbits};
 use crate::bifurcation::Bifurcation;
 use crate::numerics::scan::largest;
@@ -21,8 +20,6 @@ const CLEARANCES_PER_E_FOLD: f64 = 100.0;
 /// Distance from the ends of a stretch, over the clearance there, at which the orbit is still asked
 /// for: far outside of their rounding.
 const INSIDE: f64 = 1e-6;
-/// Pieces of the neighbourhood of the best clearance.
-const PIECES: u32 = 16;
 /// Fewest and most steps over one stretch of clearances: one clearance in its middle, and no more
 /// than twenty e-folds, of which the outer ones are no design.
 const STEPS: [f64; 2] = [2.0, 2000.0];
@@ -102,30 +99,17 @@ impl FullSystem {
 
     /// The clearance at which the attracting symmetric orbit vibrates least, to rounding.
     pub fn best_clearance(&self) -> Option<BestClearance> {
-        let candidates = self.stable_stretches().iter().flat_map(|stretch| {
-            let [from, to] = stretch.clearance;
-            let steps =
-                (libm::log(to / from) * CLEARANCES_PER_E_FOLD).ceil().clamp(STEPS[0], STEPS[1]);
-            // Its ends are where it stops attracting.
-            (1..steps as u32)
-                .map(move |k| from * libm::exp(libm::log(to / from) * f64::from(k) / steps))
-        });
-        let tried = candidates
-            .filter_map(|factor| Some(BestClearance { factor, peak: self.steady_peak(factor)? }));
-        let best = tried.min_by(|a, b| a.peak.total_cmp(&b.peak))?;
-        let stretch = self.stable_stretches().iter().find(|stretch| {
-            stretch.clearance[0] <= best.factor && best.factor <= stretch.clearance[1]
-        })?;
-        // Next to a saddle-node the amplitude falls ever more steeply: a step of the scan is not enough.
-        let [from, to] = stretch.clearance;
-        let step = 2.0 / CLEARANCES_PER_E_FOLD;
-        let around = [
-            (best.factor * (1.0 - step)).max(from * (1.0 + INSIDE)),
-            (best.factor * (1.0 + step)).min(to * (1.0 - INSIDE)),
-        ];
-        let narrowed = largest(around, PIECES, |factor| Some(-self.steady_peak(factor)?))
-            .map(|(factor, peak)| BestClearance { factor, peak: -peak });
-        [Some(best), narrowed].into_iter().flatten().min_by(|a, b| a.peak.total_cmp(&b.peak))
+        let of_stretch = |stretch: &StableStretch| {
+            // At its very ends it stops attracting.
+            let ends = [1.0 + INSIDE, 1.0 - INSIDE];
+            let [from, to] = [0, 1].map(|k| libm::log(stretch.clearance[k] * ends[k]));
+            let steps = ((to - from) * CLEARANCES_PER_E_FOLD).ceil().clamp(STEPS[0], STEPS[1]);
+            let (at, peak) =
+                largest([from, to], steps as u32, |at| Some(-self.steady_peak(libm::exp(at))?))?;
+            Some(BestClearance { factor: libm::exp(at), peak: -peak })
+        };
+        let found = self.stable_stretches().iter().filter_map(of_stretch);
+        found.min_by(|a, b| a.peak.total_cmp(&b.peak))
     }
 
     /// Peak displacement of the attracting symmetric orbit at a clearance, both over the system's own;

@@ -7,9 +7,9 @@
 //! `dD = -dw / w'` enters every derivative: the saltation of a discontinuous system. Written with `D`
 //! as an unknown of its own, the map has no event to search for, and Newton's method sees it whole.
 
-use nalgebra::{Matrix4, Vector4};
+use nalgebra::{Matrix4, Vector2, Vector4};
 
-use super::flight::{Flight, Kinematics};
+use super::flight::{Arrival, Course, Flight, Motion};
 use crate::system::{State, System};
 
 /// A wall of the cavity: where `x - y = +b` or `x - y = -b`.
@@ -39,14 +39,6 @@ impl Wall {
             Self::Minus => Self::Plus,
         }
     }
-
-    /// `+` or `-`.
-    pub fn symbol(self) -> char {
-        match self {
-            Self::Plus => '+',
-            Self::Minus => '-',
-        }
-    }
 }
 
 /// The state right after an impact; lengths over the clearance, fast time.
@@ -73,10 +65,11 @@ impl AfterImpact {
         Self { phase: vector[0], x: vector[1], x_velocity: vector[2], y_velocity: vector[3] }
     }
 
-    /// The mirror image: the same motion half an excitation period later with opposite sign.
-    pub fn mirrored(&self) -> Self {
+    /// The mirror image, which has the opposite sign everywhere, so many half periods of the excitation
+    /// later; the image of a motion is a motion after an odd number of them.
+    pub fn mirrored(&self, later: f64) -> Self {
         Self {
-            phase: self.phase - std::f64::consts::PI,
+            phase: self.phase + later * std::f64::consts::PI,
             x: -self.x,
             x_velocity: -self.x_velocity,
             y_velocity: -self.y_velocity,
@@ -93,8 +86,41 @@ impl AfterImpact {
         }
     }
 
-    fn kinematics(&self) -> Kinematics {
-        Kinematics { x: self.x, v: self.x_velocity }
+    /// The oscillator from here on.
+    fn course(&self, flight: &Flight) -> Course {
+        flight.course(self.phase, Vector2::new(self.x, self.x_velocity))
+    }
+}
+
+/// A flight of the absorber from one impact to the next.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Leg {
+    /// The state after the first impact.
+    pub start: AfterImpact,
+    /// The wall of the first impact.
+    pub from: Wall,
+    /// The wall of the next.
+    pub to: Wall,
+    /// Fast time between them.
+    pub duration: f64,
+    course: Course,
+}
+
+impl Leg {
+    /// The oscillator a time `s` after the first impact.
+    pub fn oscillator(&self, s: f64) -> Motion {
+        self.course.at(s)
+    }
+
+    /// The relative displacement `w` a time `s` after the first impact.
+    pub fn relative(&self, s: f64) -> Motion {
+        self.relative_of(self.oscillator(s), s)
+    }
+
+    /// The same, the oscillator's motion being known.
+    pub fn relative_of(&self, at: Motion, s: f64) -> Motion {
+        let x = at.x - self.start.x + self.from.sign() - self.start.y_velocity * s;
+        Motion { x, v: at.v - self.start.y_velocity, ..at }
     }
 }
 
@@ -133,7 +159,6 @@ pub struct ImpactMap {
     pub flight: Flight,
     mass_ratio: f64,
     restitution: f64,
-    frequency: f64,
 }
 
 impl ImpactMap {
@@ -147,7 +172,6 @@ impl ImpactMap {
             flight: Flight::of(system)?,
             mass_ratio: system.mass_ratio(),
             restitution: system.restitution(),
-            frequency: system.frequency_ratio(),
         })
     }
 
@@ -156,65 +180,56 @@ impl ImpactMap {
         Self { flight: self.flight.with_forcing(forcing), ..*self }
     }
 
+    /// The flight for `duration` from the wall `from` to the wall `to`.
+    pub fn leg(&self, start: &AfterImpact, from: Wall, to: Wall, duration: f64) -> Leg {
+        Leg { start: *start, from, to, duration, course: start.course(&self.flight) }
+    }
+
     /// Flies for `duration` from the wall `from` and collides with the wall `to`.
     pub fn step(&self, start: &AfterImpact, from: Wall, to: Wall, duration: f64) -> Step {
-        let arrival = self.flight.arrival(start.phase, start.kinematics(), duration);
-        let [x_phase, x_x, x_v] = arrival.x_by_start;
-        let [v_phase, v_x, v_v] = arrival.v_by_start;
-        let (v, yv) = (arrival.at.v, start.y_velocity);
-        let approach = v - yv;
+        let Arrival { at, by_phase, by_start, by_forcing, by_frequency } =
+            start.course(&self.flight).arrival(duration);
+        let yv = start.y_velocity;
+        let approach = at.v - yv;
         // Equation (2): the absorber gains `gain` times the approach, the oscillator loses eps of it.
         let eps = self.mass_ratio;
         let gain = (1.0 + self.restitution) / (1.0 + eps);
         let rebound = |dv: f64, dyv: f64| (dv - eps * gain * (dv - dyv), dyv + gain * (dv - dyv));
-        let (after_v, after_yv) = rebound(v, yv);
+        let (after_v, after_yv) = rebound(at.v, yv);
         let column = |phase: f64, x: f64, dv: f64, dyv: f64| {
             let (dv, dyv) = rebound(dv, dyv);
             Vector4::new(phase, x, dv, dyv)
         };
         let restitution_share = approach / (1.0 + eps);
+        let frequency = self.flight.frequency();
         Step {
             next: AfterImpact {
-                phase: start.phase + self.frequency * duration,
-                x: arrival.at.x,
+                phase: start.phase + frequency * duration,
+                x: at.x,
                 x_velocity: after_v,
                 y_velocity: after_yv,
             },
-            gap: arrival.at.x - start.x + from.sign() - yv * duration - to.sign(),
+            gap: at.x - start.x + from.sign() - yv * duration - to.sign(),
             approach,
             next_by_state: Matrix4::from_columns(&[
-                column(1.0, x_phase, v_phase, 0.0),
-                column(0.0, x_x, v_x, 0.0),
-                column(0.0, x_v, v_v, 0.0),
+                column(1.0, by_phase.x, by_phase.y, 0.0),
+                column(0.0, by_start[(0, 0)], by_start[(1, 0)], 0.0),
+                column(0.0, by_start[(0, 1)], by_start[(1, 1)], 0.0),
                 column(0.0, 0.0, 0.0, 1.0),
             ]),
-            next_by_duration: column(self.frequency, v, arrival.acceleration, 0.0),
-            gap_by_state: Vector4::new(x_phase, x_x - 1.0, x_v, -duration),
+            next_by_duration: column(frequency, at.v, at.a, 0.0),
+            gap_by_state: Vector4::new(
+                by_phase.x,
+                by_start[(0, 0)] - 1.0,
+                by_start[(0, 1)],
+                -duration,
+            ),
             next_by_parameter: [
-                column(0.0, arrival.by_forcing.x, arrival.by_forcing.v, 0.0),
-                column(duration, arrival.by_frequency.x, arrival.by_frequency.v, 0.0),
+                column(0.0, by_forcing.x, by_forcing.y, 0.0),
+                column(duration, by_frequency.x, by_frequency.y, 0.0),
                 Vector4::new(0.0, 0.0, -eps * restitution_share, restitution_share),
             ],
-            gap_by_parameter: [arrival.by_forcing.x, arrival.by_frequency.x, 0.0],
+            gap_by_parameter: [by_forcing.x, by_frequency.x, 0.0],
         }
-    }
-
-    /// `Omega`.
-    pub fn frequency(&self) -> f64 {
-        self.frequency
-    }
-
-    /// Relative displacement and its rate a time `s` after `start`.
-    pub fn gap_at(&self, start: &AfterImpact, from: Wall, s: f64) -> Kinematics {
-        let at = self.flight.at(start.phase, start.kinematics(), s);
-        Kinematics {
-            x: at.x - start.x + from.sign() - start.y_velocity * s,
-            v: at.v - start.y_velocity,
-        }
-    }
-
-    /// The oscillator a time `s` after `start`.
-    pub fn oscillator_at(&self, start: &AfterImpact, s: f64) -> Kinematics {
-        self.flight.at(start.phase, start.kinematics(), s)
     }
 }

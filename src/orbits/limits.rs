@@ -2,47 +2,39 @@
 //! frequency, over all clearances and forcings at once.
 //!
 //! Each value of `beta` belongs to one forcing per clearance ([`super::symmetric`]), so that the whole
-//! family is a curve over `beta` and its bifurcations are roots of functions of one variable; the
-//! saddle-node is explicit.
+//! family is a curve over `beta`. Its bifurcations need no scan:
+//!
+//! * The saddle-node is explicit, and so is the place from which the absorber stays on the wall.
+//! * The Jacobian of the half-period map is `J = M(beta) - u(beta) v(beta)^T / a(beta)`. Of `M` one column
+//!   and of the other three every component is linear in `beta`, and the approach `a` is proportional to it.
+//!   So `beta det(J - mu I)` is a quadratic in `beta` for any `mu`: `beta det(J + I)` for the symmetry
+//!   breaking; and with all coefficients of the characteristic polynomial quadratics over `beta`, whose last
+//!   one is constant, `beta^2 det(J^(2) - I)` is a quartic for the Neimark-Sacker bifurcation.
+//! * The relative displacement between two impacts is linear in `beta`, `w = cos(Omega s) + beta k(s)`
+//!   ([`SymmetricCurve::sway`]). So the orbit is a motion up to one `beta`, and the grazing there is where
+//!   the larger of `k/(1 - cos(Omega s))` and `-k/(1 + cos(Omega s))` has its largest value, `1/beta`.
 
 use serde::Serialize;
 
 use super::OrbitError;
 use super::admissibility::{Admissibility, Departure};
-use super::impact_map::{ImpactMap, Wall};
+use super::impact_map::ImpactMap;
 use super::multipliers::{Multipliers, minus_one, unit_product};
 use super::orbit::Cycle;
-use super::symmetric::{SymmetricCurve, SymmetricOrbit, symmetric_orbit};
+use super::symmetric::SymmetricCurve;
 use crate::bifurcation::Bifurcation;
 use crate::numerics::bracket::brent;
-use crate::numerics::scan::below;
+use crate::numerics::polynomial::{real_roots, through};
 use crate::system::{Parameters, System};
 
-/// Largest amplitude of the absorber that is looked at, over the clearance: far beyond symmetry
+/// Amplitudes of the absorber that are looked at, over the clearance: up to far beyond symmetry
 /// breaking, which the leading-order theory puts at 1.68.
-const LARGEST: f64 = 5.0;
-/// Pieces of that range in which sign changes are looked for. Two roots of a multiplier within one
-/// are found by the dip between them; two grazings within a fiftieth of a clearance would be missed.
-const PIECES: u32 = 250;
-/// How often the distance to the saddle-node is halved: next to it, on either orbit, may lie others.
-const HALVINGS: i32 = 24;
-/// Share of a stretch over which the slope at its ends is asked for.
-const SLOPE: f64 = 1e-3;
+const RANGE: [f64; 2] = [0.01, 5.0];
 /// Width to which a root in `beta` is bracketed: its rounding.
 const WIDTH: f64 = 1e-14;
-
-/// Change of `beta`, over itself, at which stability beside a limit is asked for: close to the limit,
-/// and far outside of its rounding, which the multipliers show to the square root of 1e-14 where two
-/// of them meet.
-const ASIDE: f64 = 1e-5;
-
-/// Value of a test function at its root, over its values on either side, above which it jumps there
-/// instead of vanishing: roots of closed forms leave 1e-12.
-const VANISHES: f64 = 1e-6;
-
-/// Distance in `beta` from a root at which the test function is asked for once more: a hundred
-/// times the width to which it was bracketed.
-const ROUNDING: f64 = 1e-12;
+/// Distances from a polynomial's root, over the root, at which the test function itself is asked for a
+/// change of sign: from its rounding to that of the lightest absorbers, whose multipliers are close to 1.
+const NEARBY: [f64; 6] = [1e-13, 1e-11, 1e-9, 1e-7, 1e-5, 1e-3];
 
 /// A limit of the family.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -81,12 +73,18 @@ pub struct SymmetricFamily {
     pub stable: Vec<StableStretch>,
 }
 
+fn looked_at(beta: f64) -> bool {
+    RANGE[0] < beta && beta < RANGE[1]
+}
+
 /// The family while it is looked at: a unit of forcing, scaled to each `beta`.
+#[derive(Debug)]
 struct Family {
-    system: System,
     map: ImpactMap,
     curve: SymmetricCurve,
     forcing: f64,
+    /// Neither damper nor impacts take energy.
+    lossless: bool,
 }
 
 impl Family {
@@ -96,47 +94,94 @@ impl Family {
         let unit = System::new(unit).map_err(|_| OrbitError::NoSteadyMotion)?;
         let map = ImpactMap::of(&unit)?;
         let curve = SymmetricCurve::with(&unit, &map.flight);
-        Ok(Self { system: unit, map, curve, forcing: system.forcing_per_clearance() })
+        let lossless = system.damping() == 0.0 && system.restitution() == 1.0;
+        Ok(Self { map, curve, forcing: system.forcing_per_clearance(), lossless })
     }
 
-    fn map_at(&self, beta: f64) -> ImpactMap {
-        self.map.with_forcing(self.curve.forcing(beta))
+    fn clearance(&self, beta: f64) -> f64 {
+        self.forcing / self.curve.forcing(beta)
     }
 
-    fn orbit(&self, beta: f64) -> Option<SymmetricOrbit> {
-        symmetric_orbit(&self.system, &self.map_at(beta), &self.curve, beta)
+    fn orbit(&self, beta: f64) -> (ImpactMap, Cycle) {
+        let map = self.map.with_forcing(self.curve.forcing(beta));
+        let cycle = self.curve.cycle(&map.flight, beta);
+        (map, cycle)
     }
 
     fn test(&self, kind: Bifurcation, beta: f64) -> f64 {
-        let map = self.map_at(beta);
-        let cycle = self.curve.cycle(&map.flight, beta);
+        let (map, cycle) = self.orbit(beta);
         match kind {
             Bifurcation::SymmetryBreaking => minus_one(&cycle.jacobian(&map)),
             Bifurcation::NeimarkSacker => unit_product(&cycle.jacobian(&map)),
-            Bifurcation::Grazing => Admissibility::of(&map, &cycle.flights()).min_wall_distance,
+            Bifurcation::Grazing => Admissibility::of(&map, &cycle).min_wall_distance,
             Bifurcation::Sticking => self.curve.departure(&map.flight, beta),
             _ => beta - self.curve.turning(),
         }
     }
 
     fn attracts(&self, beta: f64) -> bool {
-        beta > 0.0 && self.orbit(beta).is_some_and(|orbit| orbit.orbit.attracts())
+        let (map, cycle) = self.orbit(beta);
+        let multipliers = Multipliers::of(&cycle.jacobian(&map));
+        multipliers.is_some_and(|found| found.stable())
+            && Admissibility::of(&map, &cycle).admissible
     }
 
-    fn limit(&self, kind: Bifurcation, beta: f64, bracket: [f64; 2]) -> Limit {
-        let forcing = self.curve.forcing(beta);
-        let clearance = |beta: f64| self.forcing / self.curve.forcing(beta);
-        let [a, b] = bracket.map(clearance);
-        let aside = ASIDE * beta;
-        Limit {
-            kind,
-            absorber_amplitude: beta,
-            forcing_over_clearance: forcing,
-            clearance: clearance(beta),
-            bracket: [a.min(b), a.max(b)],
-            test: self.test(kind, beta),
-            bounds_stability: self.attracts(beta - aside) != self.attracts(beta + aside),
+    /// All bifurcations, by `beta`.
+    fn bifurcations(&self) -> Vec<(Bifurcation, f64)> {
+        let sticking = self.sticking();
+        // A motion that has ended does not graze.
+        let grazing = self.curve.grazing(&self.map.flight);
+        let grazing = grazing.filter(|beta| sticking.is_none_or(|end| *beta < end));
+        let pair = |beta: &f64| {
+            let (map, cycle) = self.orbit(*beta);
+            Multipliers::of(&cycle.jacobian(&map)).is_some_and(|found| found.has_pair_on_circle())
+        };
+        let mut all: Vec<(Bifurcation, f64)> =
+            vec![(Bifurcation::SaddleNode, self.curve.turning())];
+        all.extend(sticking.map(|beta| (Bifurcation::Sticking, beta)));
+        all.extend(grazing.map(|beta| (Bifurcation::Grazing, beta)));
+        let breaking = self.roots(Bifurcation::SymmetryBreaking, 1);
+        all.extend(breaking.into_iter().map(|beta| (Bifurcation::SymmetryBreaking, beta)));
+        // Without any loss the product of all multipliers is 1, and the test function vanishes everywhere.
+        if !self.lossless {
+            let modulated = self.roots(Bifurcation::NeimarkSacker, 2).into_iter().filter(pair);
+            all.extend(modulated.map(|beta| (Bifurcation::NeimarkSacker, beta)));
         }
+        all.retain(|(_, beta)| looked_at(*beta));
+        all.sort_by(|a, b| a.1.total_cmp(&b.1));
+        all
+    }
+
+    /// Where the absorber begins to stay on the wall; only an impact without rebound lets it.
+    fn sticking(&self) -> Option<f64> {
+        let beta = self.curve.sticking(&self.map.flight)?;
+        let (map, cycle) = self.orbit(beta);
+        Departure::of(&cycle.flights(&map)[0]).is_still().then_some(beta)
+    }
+
+    /// A test function times a power of `beta`: a polynomial in `beta` of twice that degree.
+    fn scaled_test(&self, kind: Bifurcation, power: u32, beta: f64) -> f64 {
+        self.test(kind, beta) * libm::pow(beta, f64::from(power))
+    }
+
+    fn polynomial(&self, kind: Bifurcation, power: u32) -> Vec<f64> {
+        let nodes = 2 * power + 1;
+        let places = (1..=nodes).map(|k| RANGE[1] * f64::from(k) / f64::from(nodes));
+        let points = places.map(|beta| (beta, self.scaled_test(kind, power, beta)));
+        through(&points.collect::<Vec<_>>())
+    }
+
+    /// Roots of a test function, each proven by a change of its sign.
+    fn roots(&self, kind: Bifurcation, power: u32) -> Vec<f64> {
+        let test = |beta: f64| self.test(kind, beta);
+        let proven = |root: &f64| {
+            NEARBY.iter().find_map(|share| {
+                let reach = share * root;
+                Some(brent(root - reach, root + reach, WIDTH, test)?.at)
+            })
+        };
+        let roots = real_roots(&self.polynomial(kind, power));
+        roots.iter().filter(|root| looked_at(**root)).filter_map(proven).collect()
     }
 }
 
@@ -146,10 +191,7 @@ impl Limit {
     /// # Errors
     /// As [`SymmetricFamily::of`].
     pub fn cycle(&self, system: &System) -> Result<Cycle, OrbitError> {
-        let family = Family::of(system)?;
-        Ok(family
-            .curve
-            .cycle(&family.map_at(self.absorber_amplitude).flight, self.absorber_amplitude))
+        Ok(Family::of(system)?.orbit(self.absorber_amplitude).1)
     }
 }
 
@@ -160,24 +202,27 @@ impl SymmetricFamily {
     /// [`OrbitError::NoSteadyMotion`] for an undamped oscillator driven at its natural frequency.
     pub fn of(system: &System) -> Result<Self, OrbitError> {
         let family = Family::of(system)?;
-        let turning = family.curve.turning();
-        let mut limits = Vec::new();
-        if turning > 0.0 && turning < LARGEST {
-            let width = WIDTH * turning;
-            limits.push(family.limit(
-                Bifurcation::SaddleNode,
-                turning,
-                [turning - width, turning + width],
-            ));
+        let found = family.bifurcations();
+        let inner = found.iter().map(|(kind, beta)| (Some(*kind), *beta));
+        let edges: Vec<(Option<Bifurcation>, f64)> =
+            [(None, RANGE[0])].into_iter().chain(inner).chain([(None, RANGE[1])]).collect();
+        // Between neighbouring limits stability is one and the same.
+        let attracts: Vec<bool> =
+            edges.windows(2).map(|pair| family.attracts(0.5 * (pair[0].1 + pair[1].1))).collect();
+        let limits = found.iter().zip(attracts.windows(2)).map(|((kind, beta), sides)| Limit {
+            bounds_stability: sides[0] != sides[1],
+            ..family.limit(*kind, *beta)
+        });
+        let limits = limits.collect();
+        let mut stable = Vec::new();
+        let mut first = 0;
+        for run in attracts.chunk_by(|a, b| a == b) {
+            let last = first + run.len();
+            if run[0] {
+                stable.push(family.stretch([edges[first], edges[last]]));
+            }
+            first = last;
         }
-        limits.extend(family.sticking());
-        for kind in
-            [Bifurcation::SymmetryBreaking, Bifurcation::NeimarkSacker, Bifurcation::Grazing]
-        {
-            limits.extend(family.roots(kind));
-        }
-        limits.sort_by(|a, b| a.absorber_amplitude.total_cmp(&b.absorber_amplitude));
-        let stable = family.stable_stretches(&limits);
         Ok(Self { limits, stable })
     }
 
@@ -191,132 +236,91 @@ impl SymmetricFamily {
 }
 
 impl Family {
-    /// Where the absorber begins to stay on the wall; only an impact without rebound lets it.
-    fn sticking(&self) -> Option<Limit> {
-        let beta = self.curve.sticking(&self.map.flight).filter(|beta| *beta < LARGEST)?;
-        let map = self.map_at(beta);
-        let after = self.curve.after_impact(&map.flight, beta);
-        let width = WIDTH * beta;
-        Departure::of(&map, &after, Wall::Plus)
-            .is_still()
-            .then(|| self.limit(Bifurcation::Sticking, beta, [beta - width, beta + width]))
+    fn limit(&self, kind: Bifurcation, beta: f64) -> Limit {
+        // The explicit ones are known to their own rounding.
+        let width = match kind {
+            Bifurcation::SaddleNode | Bifurcation::Sticking => WIDTH * beta,
+            _ => WIDTH,
+        };
+        let [a, b] = [beta - width, beta + width].map(|beta| self.clearance(beta));
+        Limit {
+            kind,
+            absorber_amplitude: beta,
+            forcing_over_clearance: self.curve.forcing(beta),
+            clearance: self.clearance(beta),
+            bracket: [a.min(b), a.max(b)],
+            test: self.test(kind, beta),
+            bounds_stability: false,
+        }
     }
 
-    fn roots(&self, kind: Bifurcation) -> Vec<Limit> {
-        let step = LARGEST / f64::from(PIECES);
-        let mut found = Vec::new();
-        let mut before = self.test(kind, 0.5 * step);
-        for k in 1..PIECES {
-            let (from, to) = ((f64::from(k) - 0.5) * step, (f64::from(k) + 0.5) * step);
-            let after = self.test(kind, to);
-            let scale = before.abs().max(after.abs());
-            for bracket in self.brackets(kind, [from, to], [before, after]) {
-                found.extend(self.root(kind, bracket, scale));
-            }
-            before = after;
+    fn stretch(&self, mut edges: [(Option<Bifurcation>, f64); 2]) -> StableStretch {
+        edges.sort_by(|a, b| self.clearance(a.1).total_cmp(&self.clearance(b.1)));
+        StableStretch {
+            clearance: edges.map(|(_, beta)| self.clearance(beta)),
+            ends: edges.map(|(kind, _)| kind),
         }
-        found
-    }
-
-    /// Every stretch within a piece at whose ends the test function differs in sign.
-    fn brackets(
-        &self,
-        kind: Bifurcation,
-        [from, to]: [f64; 2],
-        [before, after]: [f64; 2],
-    ) -> Vec<[f64; 2]> {
-        let mut points = vec![(from, before), (to, after)];
-        if kind != Bifurcation::Grazing {
-            let turning = self.curve.turning();
-            let offsets = (0..HALVINGS).map(|k| libm::ldexp(to - from, -k));
-            let beside = offsets.flat_map(|offset| [turning - offset, turning + offset]);
-            let inside = beside.chain([turning]).filter(|beta| from < *beta && *beta < to);
-            points.extend(inside.map(|beta| (beta, self.test(kind, beta))));
-            points.sort_by(|a, b| a.0.total_cmp(&b.0));
-            let dips: Vec<_> =
-                points.windows(2).filter_map(|pair| self.dip(kind, pair[0], pair[1])).collect();
-            points.extend(dips);
-            points.sort_by(|a, b| a.0.total_cmp(&b.0));
-        }
-        let changes = points.windows(2).filter(|pair| pair[0].1 * pair[1].1 < 0.0);
-        let found: Vec<[f64; 2]> = changes.map(|pair| [pair[0].0, pair[1].0]).collect();
-        if found.len() == 1 { vec![[from, to]] } else { found }
-    }
-
-    /// A place between two points at which the test function has the other sign than at both.
-    fn dip(&self, kind: Bifurcation, a: (f64, f64), b: (f64, f64)) -> Option<(f64, f64)> {
-        let height = |beta: f64| a.1.signum() * self.test(kind, beta);
-        let (low, high) = (a.0, b.0);
-        let step = SLOPE * (high - low);
-        let sinks = |from: f64, by: f64, there: f64| height(from + by) < there.abs();
-        if a.1 * b.1 <= 0.0 || !sinks(low, step, a.1) || !sinks(high, -step, b.1) {
-            return None;
-        }
-        let (at, height) = below(low, high, height)?;
-        Some((at, a.1.signum() * height))
-    }
-
-    fn root(&self, kind: Bifurcation, [from, to]: [f64; 2], scale: f64) -> Option<Limit> {
-        let root = brent(from, to, WIDTH, |beta| self.test(kind, beta))?;
-        self.is_real(kind, root.at, scale)
-            .then(|| self.limit(kind, root.at, [root.at - WIDTH, root.at + WIDTH]))
-    }
-
-    /// Not a jump of the test function, and not two real reciprocal multipliers.
-    fn is_real(&self, kind: Bifurcation, beta: f64, scale: f64) -> bool {
-        if self.test(kind, beta).abs() > VANISHES * scale {
-            return false;
-        }
-        if kind == Bifurcation::Grazing {
-            // Where the absorber begins to stay on the wall the room jumps, from nothing.
-            let beside = [beta - ROUNDING, beta + ROUNDING].map(|beta| self.test(kind, beta));
-            return beside.iter().all(|room| room.abs() <= VANISHES * scale);
-        }
-        if kind != Bifurcation::NeimarkSacker {
-            return true;
-        }
-        let map = self.map_at(beta);
-        let jacobian = self.curve.cycle(&map.flight, beta).jacobian(&map);
-        Multipliers::of(&jacobian).is_some_and(|found| found.has_pair_on_circle())
-    }
-
-    /// Between neighbouring limits stability is one and the same.
-    fn stable_stretches(&self, limits: &[Limit]) -> Vec<StableStretch> {
-        let mut edges: Vec<(f64, Option<Bifurcation>)> =
-            vec![(0.5 * LARGEST / f64::from(PIECES), None)];
-        edges.extend(limits.iter().map(|limit| (limit.absorber_amplitude, Some(limit.kind))));
-        edges.push((LARGEST, None));
-        let mut found: Vec<StableStretch> = Vec::new();
-        let clearance = |beta: f64| self.forcing / self.curve.forcing(beta);
-        let mut open: Option<(f64, Option<Bifurcation>)> = None;
-        for pair in edges.windows(2) {
-            let middle = 0.5 * (pair[0].0 + pair[1].0);
-            let attracts = self.attracts(middle);
-            if attracts && open.is_none() {
-                open = Some(pair[0]);
-            }
-            let last = pair[1].0 == LARGEST;
-            if let Some(begin) = open
-                && (!attracts || last)
-            {
-                let end = if attracts { pair[1] } else { pair[0] };
-                found.push(stretch(begin, end, &clearance));
-                open = None;
-            }
-        }
-        found
     }
 }
 
-fn stretch(
-    begin: (f64, Option<Bifurcation>),
-    end: (f64, Option<Bifurcation>),
-    clearance: &impl Fn(f64) -> f64,
-) -> StableStretch {
-    let (a, b) = (clearance(begin.0), clearance(end.0));
-    if a <= b {
-        StableStretch { clearance: [a, b], ends: [begin.1, end.1] }
-    } else {
-        StableStretch { clearance: [b, a], ends: [end.1, begin.1] }
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::system::Excitation;
+    use proptest::prelude::*;
+
+    fn families() -> impl Strategy<Value = Family> {
+        (1e-3..0.3f64, 0.0..6.0f64, 0.0..=1.0f64, prop_oneof![0.6..0.99, 1.01..1.6]).prop_map(
+            |(mass_ratio, damping, restitution, frequency_ratio)| {
+                let parameters = Parameters {
+                    mass_ratio,
+                    damping,
+                    restitution,
+                    frequency_ratio,
+                    forcing_per_clearance: 1.0,
+                    excitation: Excitation::BaseDisplacement,
+                };
+                Family::of(&System::new(parameters).expect("valid")).expect("steady")
+            },
+        )
+    }
+
+    proptest! {
+        /// The test functions are the polynomials that are solved, at amplitudes that were not asked for.
+        #[test]
+        fn test_functions_are_polynomials_over_a_power(family in families(), part in 0.05..0.95f64) {
+            for (kind, power) in [(Bifurcation::SymmetryBreaking, 1), (Bifurcation::NeimarkSacker, 2)] {
+                let polynomial = family.polynomial(kind, power);
+                let beta = part * RANGE[1];
+                let found = polynomial.iter().rev().fold(0.0, |sum, c| sum * beta + c);
+                let exact = family.scaled_test(kind, power, beta);
+                let size: f64 =
+                    polynomial.iter().rev().fold(0.0, |sum, c| sum * RANGE[1] + c.abs());
+                prop_assert!((found - exact).abs() < 1e-11 * size, "{kind:?} {found} {exact} {size}");
+            }
+        }
+
+        /// The relative displacement is linear in the amplitude, and beyond the grazing a wall is passed.
+        #[test]
+        fn the_relative_displacement_is_linear_in_the_amplitude(
+            family in families(),
+            beta in 0.05..4.0f64,
+            part in 0.0..1.0f64,
+        ) {
+            let (map, cycle) = family.orbit(beta);
+            let leg = cycle.flights(&map)[0];
+            let s = part * leg.duration;
+            let [k, rate] = family.curve.sway(&map.flight, s);
+            let angle = map.flight.frequency() * s;
+            let at = leg.relative(s);
+            let size = 1e-12 * (1.0 + beta * (k.abs() + rate.abs() + 10.0));
+            prop_assert!((at.x - libm::cos(angle) - beta * k).abs() < size, "{at:?} {k}");
+            let slope = beta * rate - map.flight.frequency() * libm::sin(angle);
+            prop_assert!((at.v - slope).abs() < size, "{at:?} {rate}");
+            if let Some(grazing) = family.curve.grazing(&map.flight) {
+                let distance = family.test(Bifurcation::Grazing, beta);
+                prop_assert!((beta > grazing) == (distance < 0.0), "{beta} {grazing} {distance}");
+            }
+        }
     }
 }

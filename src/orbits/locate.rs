@@ -1,10 +1,10 @@
 //! Where on a branch a bifurcation lies: test functions that vanish there, and the root of each
 //! between two neighbouring points.
 
+use super::branch::SpecialPoint;
 use super::mirror;
 use super::multipliers::{minus_one, plus_one, unit_product};
-use super::orbit::{Closure, Orbit, Origin};
-use super::special::SpecialPoint;
+use super::orbit::Closure;
 use super::switching;
 use super::tracer::{Point, Tracer};
 use crate::bifurcation::Bifurcation;
@@ -36,14 +36,17 @@ fn tests(closure: Closure) -> [Test; 7] {
         Test { kind: Bifurcation::BranchPoint, value: |point| plus_one(&point.jacobian) },
         Test { kind: minus, value: |point| minus_one(&point.jacobian) },
         Test { kind: Bifurcation::NeimarkSacker, value: |point| unit_product(&point.jacobian) },
-        Test { kind: Bifurcation::Grazing, value: |point| point.admissibility.min_wall_distance },
+        Test {
+            kind: Bifurcation::Grazing,
+            value: |point| point.orbit.admissibility.min_wall_distance,
+        },
         Test {
             kind: Bifurcation::Sticking,
-            value: |point| point.admissibility.slowest_departure.unwrap_or(f64::NAN),
+            value: |point| point.orbit.admissibility.slowest_departure.unwrap_or(f64::NAN),
         },
         Test {
             kind: Bifurcation::VanishingImpact,
-            value: |point| point.admissibility.slowest_impact,
+            value: |point| point.orbit.admissibility.slowest_impact,
         },
     ]
 }
@@ -56,7 +59,7 @@ pub(super) fn located(
     step: f64,
 ) -> Vec<SpecialPoint> {
     let mut found: Vec<(f64, SpecialPoint)> = Vec::new();
-    for test in tests(here.cycle.closure) {
+    for test in tests(here.orbit.cycle.closure) {
         let (before, after) = ((test.value)(here), (test.value)(there));
         let changes = before.is_finite() && after.is_finite() && before * after < 0.0;
         if !changes {
@@ -107,12 +110,16 @@ fn locate(
     let value = |s: f64| at(s).map_or(f64::NAN, |point| (test.value)(&point));
     let root = brent(0.0, step, LOCATED * step, value)?;
     let point = at(root.at).ok()?;
-    let orbit = tracer.orbit(&point, Origin::Continuation)?;
-    let kind = renamed(test.kind, &orbit)?;
+    let value = tracer.value(&point);
+    let orbit = point.orbit;
+    // Two real reciprocal multipliers are no bifurcation.
+    let kind = test.kind;
+    if kind == Bifurcation::NeimarkSacker && !orbit.multipliers.has_pair_on_circle() {
+        return None;
+    }
     let width = LOCATED * step;
     let near = |s: f64| at(s).map_or(f64::NAN, |point| tracer.value(&point));
     let (left, right) = (near((root.at - width).max(0.0)), near((root.at + width).min(step)));
-    let value = tracer.value(&point);
     let grazes = kind == Bifurcation::Grazing && orbit.admissibility.narrowest.is_some();
     let sequence_beyond =
         if grazes { switching::beyond_grazing(tracer, point.parameter, &orbit) } else { None };
@@ -130,13 +137,4 @@ fn locate(
             orbit,
         },
     ))
-}
-
-/// What a vanishing test function means at this orbit; `None` for two real reciprocal multipliers,
-/// which are no bifurcation.
-fn renamed(kind: Bifurcation, orbit: &Orbit) -> Option<Bifurcation> {
-    match kind {
-        Bifurcation::NeimarkSacker => orbit.multipliers.has_pair_on_circle().then_some(kind),
-        _ => Some(kind),
-    }
 }

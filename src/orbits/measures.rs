@@ -8,7 +8,8 @@ use std::f64::consts::{FRAC_PI_4, PI, TAU};
 use serde::Serialize;
 
 use super::OrbitError;
-use super::admissibility::sign_changes;
+use super::admissibility::zeros;
+use super::flight::Motion;
 use super::impact_map::ImpactMap;
 use super::orbit::Cycle;
 use crate::numerics::quadrature;
@@ -32,20 +33,16 @@ impl Peaks {
     /// Along a cycle: at impacts and where displacement or velocity turns between them.
     pub fn of(map: &ImpactMap, cycle: &Cycle) -> Self {
         let mut peaks = Self { displacement: 0.0, velocity: 0.0 };
-        for (start, _, _, duration) in cycle.flights() {
-            let mut note = |s: f64| {
-                let at = map.oscillator_at(&start, s);
+        for leg in cycle.flights(map) {
+            let frequency = map.flight.frequency();
+            let zeros = |rates: fn(Motion) -> [f64; 2]| {
+                zeros(leg.duration, frequency, |s| rates(leg.oscillator(s)))
+            };
+            let turns = zeros(|at| [at.v, at.a]).into_iter().chain(zeros(|at| [at.a, at.jerk]));
+            for at in [0.0, leg.duration].into_iter().chain(turns).map(|s| leg.oscillator(s)) {
                 peaks.displacement = peaks.displacement.max(at.x.abs());
                 peaks.velocity = peaks.velocity.max(at.v.abs());
-            };
-            note(0.0);
-            note(duration);
-            let frequency = map.frequency();
-            sign_changes(duration, frequency, |s| map.oscillator_at(&start, s).v, &mut note);
-            let acceleration = |s: f64| {
-                map.flight.acceleration(start.phase + frequency * s, map.oscillator_at(&start, s))
-            };
-            sign_changes(duration, frequency, acceleration, &mut note);
+            }
         }
         peaks
     }
@@ -87,7 +84,7 @@ impl Measures {
     pub fn of(system: &System, cycle: &Cycle) -> Result<Self, OrbitError> {
         let map = ImpactMap::of(system)?;
         let sums = integrals(system, &map, cycle);
-        let omega = map.frequency();
+        let omega = map.flight.frequency();
         let turn = cycle.closure.turn();
         let periods = turn / TAU;
         // Of half an orbit that equals its mirror image: quadratic terms and products with the
@@ -114,19 +111,19 @@ impl Measures {
 /// Over the computed part of the cycle: `x^2`, power of the excitation, power of the damper, `x` and
 /// `y` times `sin` and `cos` of the phase.
 fn integrals(system: &System, map: &ImpactMap, cycle: &Cycle) -> [f64; 7] {
-    let omega = map.frequency();
+    let omega = map.flight.frequency();
     let damping = map.flight.damping();
     let (sine, cosine) = system.excitation_amplitudes();
     let oscillating = 1.0_f64.max(omega);
     let panels = [PANEL / oscillating.max(damping), PANEL / oscillating];
     let mut sums = [0.0; 7];
-    for (start, from, _, duration) in cycle.flights() {
-        let place = start.x - from.sign();
-        quadrature::graded_nodes(duration, panels[0], panels[1], |s, weight| {
+    for leg in cycle.flights(map) {
+        let place = leg.start.x - leg.from.sign();
+        quadrature::graded_nodes(leg.duration, panels[0], panels[1], |s, weight| {
             operation_count::note(2 * operation_count::ELEMENTARY + 30);
-            let at = map.oscillator_at(&start, s);
-            let y = place + start.y_velocity * s;
-            let (sin, cos) = libm::sincos(start.phase + omega * s);
+            let at = leg.oscillator(s);
+            let y = place + leg.start.y_velocity * s;
+            let (sin, cos) = libm::sincos(leg.start.phase + omega * s);
             let force = sine * sin + cosine * cos;
             let terms = [
                 at.x * at.x,

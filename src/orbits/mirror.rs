@@ -4,12 +4,10 @@
 //! orbits alone are not: the crossing is where their half-period map has the multiplier -1, a simple
 //! root in the parameter, looked for near the place where the asymmetry changes its sign.
 
-use std::f64::consts::PI;
-
+use super::branch::SpecialPoint;
 use super::impact_map::AfterImpact;
 use super::multipliers::minus_one;
 use super::orbit::{Closure, Cycle, Orbit};
-use super::special::SpecialPoint;
 use super::tracer::{Point, Tracer};
 use crate::bifurcation::Bifurcation;
 use crate::numerics::bracket::brent;
@@ -23,12 +21,12 @@ const DOUBLINGS: u32 = 12;
 /// The place between two neighbouring points at which the branch is its own mirror image, as a part
 /// of the way, and the symmetry breaking there; `None` if the asymmetry does not change its sign.
 pub(super) fn met(tracer: &Tracer, here: &Point, there: &Point) -> Option<(f64, SpecialPoint)> {
-    let (before, after) = (asymmetry(&here.cycle)?, asymmetry(&there.cycle)?);
+    let (before, after) = (asymmetry(&here.orbit.cycle)?, asymmetry(&there.orbit.cycle)?);
     if before * after >= 0.0 {
         return None;
     }
     let share = before / (before - after);
-    let half = symmetrised(&between(&here.cycle, &there.cycle, share));
+    let half = symmetrised(&between(&here.orbit.cycle, &there.orbit.cycle, share));
     let guess = here.parameter + share * (there.parameter - here.parameter);
     let test = |scaled: f64| {
         let found = tracer.at(&half, scaled);
@@ -42,7 +40,7 @@ pub(super) fn met(tracer: &Tracer, here: &Point, there: &Point) -> Option<(f64, 
     })?;
     let root = brent(low, high, LOCATED * guess.abs(), test)?;
     let orbit = tracer.at(&half, root.at)?;
-    let scale = tracer.scale();
+    let scale = tracer.scale;
     let value = root.at * scale;
     let width = LOCATED * value.abs();
     Some((
@@ -93,12 +91,8 @@ fn between(from: &Cycle, to: &Cycle, share: f64) -> Cycle {
 fn symmetrised(cycle: &Cycle) -> Cycle {
     let half = cycle.walls.len() / 2;
     let periods = cycle.periods();
-    // An image is half a period back; the second half lasts as many half periods as there are periods.
-    let back = PI * f64::from(periods - 1);
-    let image = |after: &AfterImpact| {
-        let mirror = after.mirrored();
-        AfterImpact { phase: mirror.phase - back, ..mirror }
-    };
+    // The second half lasts as many half periods as there are periods.
+    let image = |after: &AfterImpact| after.mirrored(-f64::from(periods));
     let pairs = cycle.impacts[..half].iter().zip(&cycle.impacts[half..]);
     let durations = cycle.durations[..half].iter().zip(&cycle.durations[half..]);
     Cycle {

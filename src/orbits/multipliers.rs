@@ -27,8 +27,6 @@ const ON_CIRCLE: f64 = 1e-6;
 pub struct Multipliers {
     /// `[re, im]`, dimensionless.
     pub values: [[f64; 2]; 4],
-    /// `abs(sum - trace)`, over the size of the matrix: rounding.
-    pub trace_residual: f64,
 }
 
 impl Multipliers {
@@ -45,9 +43,7 @@ impl Multipliers {
             // Conjugates have equal moduli to the last bit; the positive imaginary part comes first.
             key(b).total_cmp(&key(a)).then(b.re.total_cmp(&a.re)).then(b.im.total_cmp(&a.im))
         });
-        let sum: f64 = values.iter().map(|value| value.re).sum();
-        let trace_residual = (sum - jacobian.trace()).abs() / size.max(f64::MIN_POSITIVE);
-        Some(Self { values: values.map(|value| [value.re, value.im]), trace_residual })
+        Some(Self { values: values.map(|value| [value.re, value.im]) })
     }
 
     /// Largest modulus.

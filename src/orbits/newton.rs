@@ -49,7 +49,9 @@ pub(super) struct Linearised {
     /// The defects carried to the cycle's end, times `C`.
     pub carried: Vector4<f64>,
     /// The same for a parameter's influence.
-    pub by_parameter: Vector4<f64>,
+    by_parameter: Vector4<f64>,
+    /// Derivatives of forcing, frequency and restitution by the parameter.
+    weights: [f64; 3],
 }
 
 impl Linearised {
@@ -79,29 +81,42 @@ impl Linearised {
             jacobian: close * product,
             carried: close * carried,
             by_parameter: close * by_parameter,
+            weights,
         }
     }
 
-    /// The cycle moved by `first` in its first state and by `parameter`, everything else following.
-    pub fn moved(
-        &self,
-        cycle: &Cycle,
-        first: Vector4<f64>,
-        parameter: f64,
-        weights: [f64; 3],
-    ) -> Cycle {
+    /// The cycle moved by `change` in its first state and the parameter, everything else following.
+    pub fn moved(&self, cycle: &Cycle, change: &Vector5<f64>) -> Cycle {
         let mut moved = cycle.clone();
-        let mut change = first;
+        let parameter = change[4];
+        let mut change: Vector4<f64> = change.fixed_rows::<4>(0).into();
         for (k, step) in self.steps.iter().enumerate() {
             moved.impacts[k] = AfterImpact::from_vector(&(cycle.impacts[k].vector() + change));
-            let gap_by_parameter = weighted(step.gap_by_parameter, weights);
+            let gap_by_parameter = weighted(step.gap_by_parameter, self.weights);
             let gap = step.gap + step.gap_by_state.dot(&change) + gap_by_parameter * parameter;
             moved.durations[k] -= gap / step.approach;
             change = step.jacobian() * change + self.defects[k]
                 - step.next_by_duration * (step.gap / step.approach)
-                + parameter_influence(step, weights) * parameter;
+                + parameter_influence(step, self.weights) * parameter;
         }
         moved
+    }
+
+    /// The bordered system of pseudo-arclength continuation: `(I - J) dz - q dp = right`,
+    /// `normal . (dz, dp) = along`.
+    pub fn solve(
+        &self,
+        normal: &Vector5<f64>,
+        right: Vector4<f64>,
+        along: f64,
+    ) -> Result<Vector5<f64>, OrbitError> {
+        let mut matrix = Matrix5::zeros();
+        matrix.fixed_view_mut::<4, 4>(0, 0).copy_from(&(Matrix4::identity() - self.jacobian));
+        matrix.fixed_view_mut::<4, 1>(0, 4).copy_from(&(-self.by_parameter));
+        matrix.fixed_view_mut::<1, 5>(4, 0).copy_from(&normal.transpose());
+        let solution = matrix.lu().solve(&right.push(along)).ok_or(OrbitError::Singular)?;
+        let finite = solution.iter().all(|value| value.is_finite());
+        if finite { Ok(solution) } else { Err(OrbitError::Singular) }
     }
 }
 
@@ -126,97 +141,75 @@ fn parameter_influence(step: &Step, weights: [f64; 3]) -> Vector4<f64> {
     next - step.next_by_duration * (weighted(step.gap_by_parameter, weights) / step.approach)
 }
 
-/// Size of an orbit, against which defects are measured.
-pub(super) fn size(cycle: &Cycle) -> f64 {
-    let largest =
-        |after: &AfterImpact| after.x.abs().max(after.x_velocity.abs()).max(after.y_velocity.abs());
-    cycle.impacts.iter().map(largest).fold(1.0, f64::max)
-}
-
 /// Solves for the cycle near `start`.
 ///
 /// # Errors
 /// [`OrbitError`] when `start` is no cycle, or Newton's method does not converge.
 pub fn solve(system: &System, start: &Cycle, origin: Origin) -> Result<Orbit, OrbitError> {
-    let map = ImpactMap::of(system)?;
-    let (cycle, convergence) = converge(&map, start)?;
-    Orbit::measured(&map, cycle, convergence, origin)
+    converge(&ImpactMap::of(system)?, start)?.orbit(origin)
 }
 
 /// Newton's iteration at fixed parameters.
-pub(super) fn converge(map: &ImpactMap, start: &Cycle) -> Result<(Cycle, Convergence), OrbitError> {
-    let still = [0.0; 3];
-    let (cycle, _, convergence) = iterate(start.clone(), |cycle| {
-        cycle.check()?;
-        let linear = Linearised::of(map, cycle, still);
-        let matrix = Matrix4::identity() - linear.jacobian;
-        let first = matrix.lu().solve(&linear.carried).ok_or(OrbitError::Singular)?;
-        let next = linear.moved(cycle, first, 0.0, still);
-        let (residual, change) = (linear.residual, first.amax());
-        Ok(Update { next, residual, change, size: size(cycle), linear })
-    })?;
-    Ok((cycle, convergence))
+pub(super) fn converge(map: &ImpactMap, start: &Cycle) -> Result<Converged, OrbitError> {
+    corrected(|_| Some((*map, [0.0; 3])), start.clone(), 0.0, &PARAMETER.into())
 }
 
-/// One step of Newton's method.
-pub(super) struct Update<S, L> {
-    /// The state after it.
-    pub next: S,
-    /// Largest defect of the state before it.
-    pub residual: f64,
-    /// Largest change of an unknown.
-    pub change: f64,
-    /// Size of the orbit before it, over which both are measured.
-    pub size: f64,
-    /// What the state before it was linearised to.
-    pub linear: L,
+/// The direction of the parameter, beside the four of the first state.
+pub(super) const PARAMETER: [f64; 5] = [0.0, 0.0, 0.0, 0.0, 1.0];
+
+/// A cycle that closes, with what it was last linearised to.
+pub(super) struct Converged {
+    pub cycle: Cycle,
+    pub parameter: f64,
+    pub map: ImpactMap,
+    pub linear: Linearised,
+    pub convergence: Convergence,
 }
 
-/// Repeats `step` until the change is rounding, or no longer shrinks with a residual that is.
-/// Returns the last state that was linearised and that linearisation.
+impl Converged {
+    /// The orbit with its evidence.
+    ///
+    /// # Errors
+    /// As [`Orbit::measured`].
+    pub fn orbit(self, origin: Origin) -> Result<Orbit, OrbitError> {
+        Orbit::measured(&self.map, self.cycle, &self.linear.jacobian, self.convergence, origin)
+    }
+}
+
+/// Newton's iteration from `cycle` at `parameter` on the plane `normal . (dz, dp) = 0` through them, until
+/// the change is rounding, or no longer shrinks with a residual that is. `map_at` is the map at a value of
+/// the parameter, with the derivatives of forcing, frequency and restitution by it.
 ///
 /// # Errors
-/// What `step` returns; [`OrbitError::NotConverged`] after [`LARGEST_STEPS`], where numbers are no
-/// longer finite, and where a state other than `start` is no cycle.
-pub(super) fn iterate<S, L>(
-    start: S,
-    mut step: impl FnMut(&S) -> Result<Update<S, L>, OrbitError>,
-) -> Result<(S, L, Convergence), OrbitError> {
-    let mut state = start;
+/// [`OrbitError::NotACycle`] if `cycle` is none, [`OrbitError::Singular`] where the equations or the system
+/// do not exist, [`OrbitError::NotConverged`] after [`LARGEST_STEPS`], where numbers are no longer finite,
+/// and where a later cycle is none.
+pub(super) fn corrected(
+    map_at: impl Fn(f64) -> Option<(ImpactMap, [f64; 3])>,
+    mut cycle: Cycle,
+    mut parameter: f64,
+    normal: &Vector5<f64>,
+) -> Result<Converged, OrbitError> {
     let (mut residual, mut last) = (f64::INFINITY, f64::INFINITY);
     for iterations in 0..LARGEST_STEPS {
-        let failed = OrbitError::NotConverged { iterations, residual };
-        let update = match step(&state) {
-            // Newton's method has left what it was given.
-            Err(OrbitError::NotACycle { .. }) if iterations > 0 => return Err(failed),
-            other => other?,
-        };
-        residual = update.residual / update.size;
-        let change = update.change / update.size;
+        let left = OrbitError::NotConverged { iterations, residual };
+        cycle.check().map_err(|none| if iterations == 0 { none } else { left })?;
+        let (map, weights) = map_at(parameter).ok_or(OrbitError::Singular)?;
+        let linear = Linearised::of(&map, &cycle, weights);
+        let update = linear.solve(normal, linear.carried, 0.0)?;
+        residual = linear.residual / cycle.size();
+        let change = update.amax() / cycle.size();
         if !(residual.is_finite() && change.is_finite()) {
             return Err(OrbitError::NotConverged { iterations, residual });
         }
         let stalled = change >= STALLED * last && residual < ACCEPTED && change < ROUNDING;
         if change < CONVERGED || stalled {
-            return Ok((state, update.linear, Convergence { residual, iterations }));
+            let convergence = Convergence { residual, iterations };
+            return Ok(Converged { cycle, parameter, map, linear, convergence });
         }
         last = change;
-        state = update.next;
+        cycle = linear.moved(&cycle, &update);
+        parameter += update[4];
     }
     Err(OrbitError::NotConverged { iterations: LARGEST_STEPS, residual })
-}
-
-/// The bordered system of pseudo-arclength continuation: `(I - J) dz - q dp = rhs`,
-/// `tangent . (dz, dp) = along`.
-pub(super) fn bordered(
-    linear: &Linearised,
-    tangent: &Vector5<f64>,
-    right: &Vector5<f64>,
-) -> Option<Vector5<f64>> {
-    let mut matrix = Matrix5::zeros();
-    matrix.fixed_view_mut::<4, 4>(0, 0).copy_from(&(Matrix4::identity() - linear.jacobian));
-    matrix.fixed_view_mut::<4, 1>(0, 4).copy_from(&(-linear.by_parameter));
-    matrix.fixed_view_mut::<1, 5>(4, 0).copy_from(&tangent.transpose());
-    let solution = matrix.lu().solve(right)?;
-    solution.iter().all(|value| value.is_finite()).then_some(solution)
 }

@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use super::OrbitError;
 use super::admissibility::Admissibility;
-use super::impact_map::{AfterImpact, ImpactMap, Step, Wall};
+use super::impact_map::{AfterImpact, ImpactMap, Leg, Step, Wall};
 use super::multipliers::Multipliers;
 use super::newton::Convergence;
 use crate::numerics::cyclic_word::canonical;
@@ -83,8 +83,7 @@ impl Cycle {
             walls.extend(self.walls.iter().map(|wall| wall.opposite()));
         }
         let minus: Vec<bool> = walls.iter().map(|wall| *wall == Wall::Minus).collect();
-        let symbol = |minus: bool| if minus { Wall::Minus.symbol() } else { Wall::Plus.symbol() };
-        canonical(&minus).into_iter().map(symbol).collect()
+        canonical(&minus).into_iter().map(|minus| if minus { '-' } else { '+' }).collect()
     }
 
     /// `p`, impacts of the whole orbit.
@@ -106,18 +105,12 @@ impl Cycle {
     pub fn unfolded(&self) -> Self {
         let Closure::Mirrors { periods } = self.closure else { return self.clone() };
         // The second half begins where the mirror image of the first begins, half a turn later.
-        let later = |after: &AfterImpact| {
-            let mirror = after.mirrored();
-            AfterImpact { phase: mirror.phase + PI * f64::from(periods + 1), ..mirror }
-        };
-        let whole = |half: &[AfterImpact]| {
-            half.iter().copied().chain(half.iter().map(later)).collect::<Vec<_>>()
-        };
+        let later = self.impacts.iter().map(|after| after.mirrored(f64::from(periods)));
         let opposite = self.walls.iter().map(|wall| wall.opposite());
         Self {
             closure: Closure::Repeats { periods },
             walls: self.walls.iter().copied().chain(opposite).collect(),
-            impacts: whole(&self.impacts),
+            impacts: self.impacts.iter().copied().chain(later).collect(),
             durations: self.durations.repeat(2),
         }
     }
@@ -131,10 +124,8 @@ impl Cycle {
             return None;
         }
         let half = count / 2;
-        let turn = PI * f64::from(periods + 1);
         let mirrors = (0..half).all(|k| {
-            let mirror = self.impacts[k].mirrored();
-            let mirror = AfterImpact { phase: mirror.phase + turn, ..mirror };
+            let mirror = self.impacts[k].mirrored(f64::from(periods));
             let distance = (mirror.vector() - self.impacts[k + half].vector()).amax();
             self.walls[k + half] == self.walls[k].opposite() && distance <= tolerance
         });
@@ -146,6 +137,55 @@ impl Cycle {
         })
     }
 
+    /// A cycle that goes round more than once to within `tolerance` over its size, cut to once;
+    /// `None` if it is none. A motion that comes to its orbit from alternate sides repeats after
+    /// twice its periods long before it does after once.
+    pub fn once(&self, tolerance: f64) -> Option<Self> {
+        let cycle = self.unfolded();
+        let (count, periods) = (cycle.impacts.len(), cycle.periods() as usize);
+        let repeats = |rounds: &usize| {
+            let length = count / rounds;
+            count % rounds == 0
+                && periods % rounds == 0
+                && (length..count).all(|k| {
+                    let (here, before) = (&cycle.impacts[k], &cycle.impacts[k - length]);
+                    cycle.walls[k] == cycle.walls[k - length]
+                        && apart(here, before) < tolerance * cycle.size()
+                })
+        };
+        let rounds = (2..=periods).rev().find(repeats)?;
+        let length = count / rounds;
+        Some(Self {
+            closure: Closure::Repeats { periods: cycle.periods() / rounds as u32 },
+            walls: cycle.walls[..length].to_vec(),
+            impacts: cycle.impacts[..length].to_vec(),
+            durations: cycle.durations[..length].to_vec(),
+        })
+    }
+
+    /// Whether another cycle is the same motion or its mirror image, to within `tolerance` over its
+    /// size: some impact of the one begins the other.
+    pub fn is_one_with(&self, other: &Self, tolerance: f64) -> bool {
+        let same_kind = self.periods() == other.periods() && self.sequence() == other.sequence();
+        let (a, b) = (self.unfolded(), other.unfolded());
+        let mirrored = b.impacts.iter().map(|after| after.mirrored(-1.0)).collect();
+        let limit = tolerance * a.size();
+        same_kind
+            && [b.impacts.clone(), mirrored].iter().any(|image| {
+                (0..a.impacts.len()).any(|shift| {
+                    let pairs = a.impacts.iter().zip(image.iter().cycle().skip(shift));
+                    pairs.map(|(a, b)| apart(a, b)).fold(0.0, f64::max) < limit
+                })
+            })
+    }
+
+    /// Its size, against which defects and distances are measured: the largest displacement or velocity
+    /// after an impact, at least 1.
+    pub(super) fn size(&self) -> f64 {
+        let largest = |after: &AfterImpact| after.vector().rows(1, 3).amax();
+        self.impacts.iter().map(largest).fold(1.0, f64::max)
+    }
+
     /// The steps of the impact map along the cycle.
     pub fn steps(&self, map: &ImpactMap) -> Vec<Step> {
         (0..self.walls.len())
@@ -155,10 +195,10 @@ impl Cycle {
             .collect()
     }
 
-    /// Its flights, as [`Admissibility::of`] reads them.
-    pub fn flights(&self) -> Vec<(AfterImpact, Wall, Wall, f64)> {
+    /// Its flights.
+    pub fn flights(&self, map: &ImpactMap) -> Vec<Leg> {
         (0..self.walls.len())
-            .map(|k| (self.impacts[k], self.walls[k], self.next_wall(k), self.durations[k]))
+            .map(|k| map.leg(&self.impacts[k], self.walls[k], self.next_wall(k), self.durations[k]))
             .collect()
     }
 
@@ -192,6 +232,13 @@ impl Cycle {
     }
 }
 
+/// Largest difference of two states after impact; phases differ by whole turns.
+fn apart(a: &AfterImpact, b: &AfterImpact) -> f64 {
+    let difference = a.vector() - b.vector();
+    let turns = (difference[0] / TAU).round();
+    difference.rows(1, 3).amax().max((difference[0] - turns * TAU).abs())
+}
+
 /// How an orbit was found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
@@ -223,18 +270,19 @@ pub struct Orbit {
 }
 
 impl Orbit {
-    /// Measures a converged cycle.
+    /// Measures a converged cycle, whose map has this Jacobian.
     ///
     /// # Errors
     /// [`OrbitError::Singular`] where its multipliers do not exist: at a grazing impact.
-    pub fn measured(
+    pub(super) fn measured(
         map: &ImpactMap,
         cycle: Cycle,
+        jacobian: &Matrix4<f64>,
         convergence: Convergence,
         origin: Origin,
     ) -> Result<Self, OrbitError> {
-        let multipliers = Multipliers::of(&cycle.jacobian(map)).ok_or(OrbitError::Singular)?;
-        let admissibility = Admissibility::of(map, &cycle.flights());
+        let multipliers = Multipliers::of(jacobian).ok_or(OrbitError::Singular)?;
+        let admissibility = Admissibility::of(map, &cycle);
         Ok(Self { cycle, convergence, multipliers, admissibility, origin })
     }
 

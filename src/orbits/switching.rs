@@ -4,11 +4,11 @@ use nalgebra::linalg::SVD;
 use nalgebra::{Matrix4, Vector4, Vector5};
 
 use super::OrbitError;
-use super::branch::{Branch, Settings, trace};
+use super::branch::{Branch, Settings, SpecialPoint, trace};
 use super::impact_map::AfterImpact;
 use super::multipliers::LARGEST_SWEEPS;
+use super::newton::{Linearised, PARAMETER};
 use super::orbit::{Closure, Cycle, Orbit, Origin};
-use super::special::SpecialPoint;
 use super::tracer::Tracer;
 use crate::bifurcation::Bifurcation;
 use crate::system::{Parameter, System};
@@ -63,17 +63,13 @@ pub(super) fn leave(
         Closure::Mirrors { .. } => cycle.unfolded(),
         Closure::Repeats { .. } => twice(cycle),
     };
-    let scaled = value / tracer.scale();
+    let scaled = value / tracer.scale;
     let map = tracer.map_at(scaled).ok_or(OrbitError::Singular)?;
     let direction =
         kernel(&(cycle.jacobian(&map) + Matrix4::identity())).ok_or(OrbitError::Singular)?;
-    let mut along = Vector5::zeros();
-    along.fixed_rows_mut::<4>(0).copy_from(&direction);
-    let still = [0.0; 3];
-    let linear = super::newton::Linearised::of(&map, &doubled, still);
-    let start = linear.moved(&doubled, direction * ENTRY, 0.0, still);
-    let point = tracer.correct(start, scaled, &along, &along)?;
-    Ok(trace(&tracer, point, Origin::Switching, settings))
+    let along = direction.push(0.0);
+    let start = Linearised::of(&map, &doubled, [0.0; 3]).moved(&doubled, &(along * ENTRY));
+    enter(&tracer, start, scaled, &along, settings)
 }
 
 /// The cycle traversed twice.
@@ -114,13 +110,24 @@ pub fn continue_beyond(
         return Err(OrbitError::NotACycle { reason: "no branch goes on there" });
     }
     let tracer = Tracer::new(base, parameter);
-    let scaled = special.value / tracer.scale();
+    let scaled = special.value / tracer.scale;
     let found = across(&tracer, scaled, &special.orbit).ok_or(OrbitError::Singular)?;
     let (orbit, there) = found;
-    let mut along = Vector5::zeros();
-    along[4] = (there - scaled).signum();
-    let point = tracer.correct(orbit.cycle, there, &along, &along)?;
-    Ok(trace(&tracer, point, Origin::Switching, settings))
+    let along = Vector5::from(PARAMETER) * (there - scaled).signum();
+    enter(&tracer, orbit.cycle, there, &along, settings)
+}
+
+/// The branch through the orbit near `start`, which sets out along a direction.
+fn enter(
+    tracer: &Tracer,
+    start: Cycle,
+    scaled: f64,
+    along: &Vector5<f64>,
+    settings: &Settings,
+) -> Result<Branch, OrbitError> {
+    let mut first = tracer.correct(start, scaled, along, along)?;
+    first.orbit.origin = Origin::Switching;
+    Ok(trace(tracer, first, settings))
 }
 
 /// The sequence of walls of the orbit that goes on beyond a grazing, if Newton's method finds it.
@@ -154,9 +161,9 @@ fn inserted(tracer: &Tracer, scaled: f64, orbit: &Orbit) -> Option<Cycle> {
     let start = cycle.impacts[at.flight];
     let duration = cycle.durations[at.flight];
     let first = at.fraction * duration;
-    let there = map.oscillator_at(&start, first);
+    let there = cycle.flights(&map)[at.flight].oscillator(first);
     let contact = AfterImpact {
-        phase: start.phase + map.frequency() * first,
+        phase: start.phase + map.flight.frequency() * first,
         x: there.x,
         x_velocity: there.v,
         y_velocity: start.y_velocity,

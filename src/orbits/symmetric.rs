@@ -8,6 +8,7 @@
 //! is the slow invariant manifold (16) and its fixed points in one, at any mass ratio. Each `beta` belongs
 //! to one forcing; each forcing to at most two orbits.
 
+use nalgebra::Vector2;
 use serde::Serialize;
 
 use super::OrbitError;
@@ -15,9 +16,17 @@ use super::equations as formulas;
 use super::flight::Flight;
 use super::impact_map::{AfterImpact, ImpactMap, Wall};
 use super::measures::Peaks;
-use super::newton::Convergence;
+use super::newton::{Convergence, Linearised};
 use super::orbit::{Closure, Cycle, Orbit, Origin};
+use crate::numerics::scan::sign_changes;
 use crate::system::{Excitation, System};
+
+/// Share of a flight next to either impact that is not searched for a grazing: there `k` is a difference of
+/// numbers near 1, and an orbit that grazes so soon rebounds with less than 1e-8 of its speed.
+const NEXT_TO_IMPACT: f64 = 1e-4;
+/// Pieces per radian of the faster of oscillator and excitation in which a grazing is looked for: too
+/// short for more than two turning points, and two are found.
+const PIECES_PER_RADIAN: f64 = 8.0;
 
 /// The coefficients that all symmetric orbits of a system share; the forcing enters nowhere.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -96,22 +105,61 @@ impl SymmetricCurve {
     /// Acceleration with which the wall leaves the absorber behind after an impact, at `beta`: linear
     /// in it, as the motion at impact and the steady motion both are.
     pub fn departure(&self, flight: &Flight, beta: f64) -> f64 {
-        let omega = std::f64::consts::PI / self.half_period;
+        let omega = flight.frequency();
         omega * omega - self.departure_slope(flight) * beta
     }
 
     /// `beta` beyond which the wall does not leave the absorber behind after an impact; of
     /// consequence where the impact leaves them no relative velocity.
     pub fn sticking(&self, flight: &Flight) -> Option<f64> {
-        let omega = std::f64::consts::PI / self.half_period;
+        let omega = flight.frequency();
         let beta = omega * omega / self.departure_slope(flight);
         (beta > 0.0 && beta.is_finite()).then_some(beta)
     }
 
     fn departure_slope(&self, flight: &Flight) -> f64 {
-        let omega = std::f64::consts::PI / self.half_period;
+        let omega = flight.frequency();
+        let [x, v] = self.deviation(omega);
+        omega * omega * self.displacement - flight.damping() * v - x
+    }
+
+    /// Deviation from the steady motion after the impact on the `+b` wall, displacement and velocity, per
+    /// `beta`.
+    fn deviation(&self, omega: f64) -> [f64; 2] {
         let velocity = 2.0 * self.rebound / self.half_period + omega * self.velocity;
-        omega * omega * self.displacement - flight.damping() * velocity + (1.0 - self.displacement)
+        [self.displacement - 1.0, velocity]
+    }
+
+    /// `k` and its rate a time `s` after the impact on the `+b` wall: the relative displacement of the
+    /// orbit with `beta` is `w = cos(Omega s) + beta k(s)`. Both vanish with the impacts' own wall
+    /// distance: `k = 0` at either end of the flight.
+    pub fn sway(&self, flight: &Flight, s: f64) -> [f64; 2] {
+        let omega = flight.frequency();
+        let (sin, cos) = libm::sincos(omega * s);
+        let free = flight.free(s) * Vector2::from(self.deviation(omega));
+        let (a, d) = (self.displacement, self.velocity);
+        let speed = 2.0 / self.half_period;
+        [
+            free.x - a * cos - d * sin + (1.0 - speed * s),
+            free.y + omega * (a * sin - d * cos) - speed,
+        ]
+    }
+
+    /// `beta` above which the absorber passes a wall between impacts: the smallest at which
+    /// `w = cos(Omega s) + beta k(s)` is 1 or -1 at some `s`, so that it turns there.
+    pub fn grazing(&self, flight: &Flight) -> Option<f64> {
+        let omega = flight.frequency();
+        // Of `w = 1` where `k` is above 0, of `w = -1` where it is below: `1/beta` and the sign of its rate.
+        let inverse = |s: f64| {
+            let ([k, rate], (sin, cos)) = (self.sway(flight, s), libm::sincos(omega * s));
+            let side = if k > 0.0 { 1.0 - cos } else { -1.0 - cos };
+            (k / side, rate * side - k * omega * sin)
+        };
+        let range = [NEXT_TO_IMPACT, 1.0 - NEXT_TO_IMPACT].map(|part| part * self.half_period);
+        let pieces = (self.half_period * omega.max(1.0) * PIECES_PER_RADIAN).ceil();
+        let turns = sign_changes(range, pieces as u32, |s| inverse(s).1);
+        let largest = turns.iter().map(|s| inverse(*s).0).fold(0.0, f64::max);
+        (largest > 0.0).then(|| 1.0 / largest)
     }
 
     /// `beta` of the orbits at the squared linear amplitude `squared`, ascending, positive ones only.
@@ -176,7 +224,7 @@ pub fn attracting_orbit(system: &System) -> Option<SymmetricOrbit> {
 }
 
 /// The orbit with `beta`; `None` where its Jacobian does not exist.
-pub(super) fn symmetric_orbit(
+fn symmetric_orbit(
     system: &System,
     map: &ImpactMap,
     curve: &SymmetricCurve,
@@ -184,10 +232,11 @@ pub(super) fn symmetric_orbit(
 ) -> Option<SymmetricOrbit> {
     let cycle = curve.cycle(&map.flight, beta);
     let after = cycle.impacts[0];
-    let residual = closure_defect(map, &cycle);
-    let convergence = Convergence { residual, iterations: 0 };
+    let linear = Linearised::of(map, &cycle, [0.0; 3]);
+    let convergence = Convergence { residual: linear.residual / cycle.size(), iterations: 0 };
     let peaks = Peaks::of(map, &cycle);
-    let orbit = Orbit::measured(map, cycle, convergence, Origin::ClosedForm).ok()?;
+    let origin = Origin::ClosedForm;
+    let orbit = Orbit::measured(map, cycle, &linear.jacobian, convergence, origin).ok()?;
     let (eps, r) = (system.mass_ratio(), system.restitution());
     Some(SymmetricOrbit {
         absorber_amplitude: beta,
@@ -198,9 +247,4 @@ pub(super) fn symmetric_orbit(
         impact_speed: formulas::IMPACT_SPEED.at([eps, r, after.y_velocity]),
         orbit,
     })
-}
-
-/// How far the half-period map misses the mirror image, over the size of the orbit.
-fn closure_defect(map: &ImpactMap, cycle: &Cycle) -> f64 {
-    super::newton::Linearised::of(map, cycle, [0.0; 3]).residual / super::newton::size(cycle)
 }

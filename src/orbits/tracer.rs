@@ -4,13 +4,14 @@
 use nalgebra::{Matrix4, Vector4, Vector5};
 
 use super::OrbitError;
-use super::admissibility::Admissibility;
 use super::impact_map::ImpactMap;
-use super::multipliers::Multipliers;
-use super::newton::{Convergence, Linearised, Update, bordered, converge, iterate, size};
+use super::newton::{Linearised, PARAMETER, converge, corrected};
 use super::orbit::{Cycle, Orbit, Origin};
 use crate::system::{Parameter, System};
 
+/// Smallest step before a branch is given up: the root of the precision of a point, over less the tangent
+/// is rounding.
+const SMALLEST_STEP: f64 = 1e-7;
 /// Scale of a parameter whose first value is smaller: a restitution of 0 is no measure of its own
 /// changes.
 const SMALLEST_SCALE: f64 = 0.1;
@@ -24,35 +25,30 @@ const SAME_BRANCH: f64 = 2.0;
 /// A point while a branch is followed.
 #[derive(Debug, Clone)]
 pub(super) struct Point {
-    /// The orbit's cycle.
-    pub cycle: Cycle,
+    /// The orbit.
+    pub orbit: Orbit,
     /// The parameter over its scale.
     pub parameter: f64,
     /// Unit tangent of the branch in first state and scaled parameter.
     pub tangent: Vector5<f64>,
     /// Jacobian of the map around the cycle.
     pub jacobian: Matrix4<f64>,
-    /// Whether the orbit is a motion.
-    pub admissibility: Admissibility,
-    /// How well the cycle closes.
-    pub convergence: Convergence,
 }
 
 impl Point {
     /// First state and scaled parameter, as the arclength measures them.
     pub fn place(&self) -> Vector5<f64> {
-        let mut place = Vector5::zeros();
-        place.fixed_rows_mut::<4>(0).copy_from(&self.cycle.impacts[0].vector());
-        place[4] = self.parameter;
-        place
+        self.orbit.cycle.impacts[0].vector().push(self.parameter)
     }
 }
 
 /// What a continuation works on.
 pub(super) struct Tracer<'a> {
     base: &'a System,
-    parameter: Parameter,
-    scale: f64,
+    /// What varies.
+    pub parameter: Parameter,
+    /// The parameter's unit in a [`Point`].
+    pub scale: f64,
 }
 
 impl<'a> Tracer<'a> {
@@ -60,16 +56,6 @@ impl<'a> Tracer<'a> {
     pub fn new(base: &'a System, parameter: Parameter) -> Self {
         let scale = parameter.of(base).abs().max(SMALLEST_SCALE);
         Self { base, parameter, scale }
-    }
-
-    /// What varies.
-    pub fn parameter(&self) -> Parameter {
-        self.parameter
-    }
-
-    /// The parameter's unit in a [`Point`].
-    pub fn scale(&self) -> f64 {
-        self.scale
     }
 
     /// The parameter at a point.
@@ -80,7 +66,7 @@ impl<'a> Tracer<'a> {
     /// How long a point's flights take, in radians of the faster of structure and excitation.
     pub fn radians(&self, point: &Point) -> f64 {
         let frequency = self.base.frequency_ratio().max(1.0);
-        frequency * point.cycle.durations.iter().sum::<f64>()
+        frequency * point.orbit.cycle.durations.iter().sum::<f64>()
     }
 
     /// The impact map at a scaled parameter, and the derivatives of `gamma`, `Omega` and `r` by it.
@@ -98,9 +84,7 @@ impl<'a> Tracer<'a> {
 
     /// The orbit near `cycle` at a scaled parameter, if Newton's method finds it.
     pub fn at(&self, cycle: &Cycle, scaled: f64) -> Option<Orbit> {
-        let map = self.map_at(scaled)?;
-        let (cycle, convergence) = converge(&map, cycle).ok()?;
-        Orbit::measured(&map, cycle, convergence, Origin::Switching).ok()
+        converge(&self.map_at(scaled)?, cycle).ok()?.orbit(Origin::Switching).ok()
     }
 
     /// Corrects `cycle` at `scaled` onto the plane `normal . (dz, dp) = 0` through it, and finds the
@@ -115,40 +99,21 @@ impl<'a> Tracer<'a> {
         normal: &Vector5<f64>,
         along: &Vector5<f64>,
     ) -> Result<Point, OrbitError> {
-        let ((cycle, parameter), (map, linear), convergence) =
-            iterate((cycle, scaled), |(cycle, scaled)| {
-                cycle.check()?;
-                let (map, weights) = self.map(*scaled).ok_or(OrbitError::Singular)?;
-                let linear = Linearised::of(&map, cycle, weights);
-                let mut right = Vector5::zeros();
-                right.fixed_rows_mut::<4>(0).copy_from(&linear.carried);
-                let change = bordered(&linear, normal, &right).ok_or(OrbitError::Singular)?;
-                let first: Vector4<f64> = change.fixed_rows::<4>(0).into();
-                let next = (linear.moved(cycle, first, change[4], weights), scaled + change[4]);
-                let (residual, change) = (linear.residual, change.amax());
-                Ok(Update { next, residual, change, size: size(cycle), linear: (map, linear) })
-            })?;
-        let mut unit = Vector5::zeros();
-        unit[4] = 1.0;
-        let tangent = bordered(&linear, along, &unit).ok_or(OrbitError::Singular)?;
-        let admissibility = Admissibility::of(&map, &cycle.flights());
+        let found = corrected(|scaled| self.map(scaled), cycle, scaled, normal)?;
+        let tangent = found.linear.solve(along, Vector4::zeros(), 1.0)?;
         Ok(Point {
-            cycle,
-            parameter,
+            parameter: found.parameter,
             tangent: tangent / tangent.norm(),
-            jacobian: linear.jacobian,
-            admissibility,
-            convergence,
+            jacobian: found.linear.jacobian,
+            orbit: found.orbit(Origin::Continuation)?,
         })
     }
 
-    /// `point`'s cycle moved along the branch's tangent by `step`, and its scaled parameter by
-    /// `ahead`.
-    fn predicted(&self, point: &Point, step: f64, ahead: f64) -> Option<Cycle> {
+    /// `point`'s cycle moved along the branch's tangent by `step`.
+    fn predicted(&self, point: &Point, step: f64) -> Option<Cycle> {
         let (map, weights) = self.map(point.parameter)?;
-        let linear = Linearised::of(&map, &point.cycle, weights);
-        let first: Vector4<f64> = point.tangent.fixed_rows::<4>(0).into();
-        Some(linear.moved(&point.cycle, first * step, ahead, weights))
+        let linear = Linearised::of(&map, &point.orbit.cycle, weights);
+        Some(linear.moved(&point.orbit.cycle, &(point.tangent * step)))
     }
 
     /// The point an arclength `step` along the branch from `point`.
@@ -157,7 +122,7 @@ impl<'a> Tracer<'a> {
     /// As [`Tracer::correct`].
     pub fn advance(&self, point: &Point, step: f64) -> Result<Point, OrbitError> {
         let ahead = step * point.tangent[4];
-        let cycle = self.predicted(point, step, ahead).ok_or(OrbitError::Singular)?;
+        let cycle = self.predicted(point, step).ok_or(OrbitError::Singular)?;
         self.correct(cycle, point.parameter + ahead, &point.tangent, &point.tangent)
     }
 
@@ -165,13 +130,8 @@ impl<'a> Tracer<'a> {
     /// branch turns little.
     ///
     /// # Errors
-    /// Why no step down to `smallest` reached one.
-    pub fn next(
-        &self,
-        here: &Point,
-        mut step: f64,
-        smallest: f64,
-    ) -> Result<(Point, f64), OrbitError> {
+    /// Why no step down to [`SMALLEST_STEP`] reached one.
+    pub fn next(&self, here: &Point, mut step: f64) -> Result<(Point, f64), OrbitError> {
         loop {
             let failure = match self.advance(here, step) {
                 Ok(there) if there.tangent.dot(&here.tangent) >= LARGEST_TURN => {
@@ -181,7 +141,7 @@ impl<'a> Tracer<'a> {
                 Err(failure) => failure,
             };
             step *= 0.5;
-            if step < smallest {
+            if step < SMALLEST_STEP {
                 return Err(failure);
             }
         }
@@ -201,26 +161,13 @@ impl<'a> Tracer<'a> {
         };
         let change = edge - here.parameter;
         let share = change / here.tangent[4];
-        let cycle = self.predicted(here, share, change)?;
-        let mut upright = Vector5::zeros();
-        upright[4] = 1.0;
-        let there = self.correct(cycle, edge, &upright, &here.tangent).ok()?;
+        let cycle = self.predicted(here, share)?;
+        let there = self.correct(cycle, edge, &PARAMETER.into(), &here.tangent).ok()?;
         // A branch that turns back before the edge must not be left for another one.
         let distance = (there.place() - here.place()).norm();
         let same = distance <= SAME_BRANCH * step.max(share.abs())
             && there.tangent.dot(&here.tangent) >= LARGEST_TURN;
         same.then_some((there, edge * self.scale))
-    }
-
-    /// The orbit at a point; `None` where its multipliers do not exist.
-    pub fn orbit(&self, point: &Point, origin: Origin) -> Option<Orbit> {
-        Some(Orbit {
-            cycle: point.cycle.clone(),
-            convergence: point.convergence,
-            multipliers: Multipliers::of(&point.jacobian)?,
-            admissibility: point.admissibility,
-            origin,
-        })
     }
 }
 

@@ -3,7 +3,7 @@
 
 use serde::Serialize;
 
-use crate::analysis::{Analysis, AnalysisError, Branch, boundaries};
+use crate::analysis::{Analysis, Branch, boundaries};
 use crate::orbits::{BestClearance, Bifurcation, FullSystem};
 use crate::system::System;
 use crate::validation::boundaries::{EITHER_SIDE, clearances, ends_steady_resonance};
@@ -46,10 +46,7 @@ pub struct Neighbours {
 
 impl Margins {
     /// Margins of an analysed system.
-    ///
-    /// # Errors
-    /// As [`Analysis::of`].
-    pub fn of(analysis: &Analysis, exact: &FullSystem) -> Result<Self, AnalysisError> {
+    pub fn of(analysis: &Analysis, exact: &FullSystem) -> Self {
         let clearance: Vec<Margin> = clearances(analysis)
             .iter()
             .map(|at| Margin {
@@ -59,12 +56,12 @@ impl Margins {
                 factor: at.clearance,
             })
             .collect();
-        Ok(Self {
+        Self {
             clearance,
-            frequency: in_frequency(analysis)?,
+            frequency: in_frequency(analysis),
             exact: ExactMargins::of(exact),
             best_clearance: exact.best_clearance(),
-        })
+        }
     }
 
     /// Nearest in clearance.
@@ -87,7 +84,7 @@ fn changes_area(system: &System) -> bool {
 const FAR: f64 = 2.0;
 
 /// Frequencies at which a boundary passes through the case's clearance and forcing.
-fn in_frequency(analysis: &Analysis) -> Result<Neighbours, AnalysisError> {
+fn in_frequency(analysis: &Analysis) -> Neighbours {
     let system = &analysis.system;
     let mut all = Vec::new();
     for kind in [Bifurcation::SymmetryBreaking, Bifurcation::NeimarkSacker, Bifurcation::SaddleNode]
@@ -114,10 +111,10 @@ fn in_frequency(analysis: &Analysis) -> Result<Neighbours, AnalysisError> {
     }
     all.sort_by(|a, b| a.factor.total_cmp(&b.factor));
     let near = |margin: &&Margin| (1.0 / FAR..FAR).contains(&margin.factor);
-    Ok(Neighbours {
+    Neighbours {
         below: all.iter().rfind(|margin| margin.factor < 1.0).filter(near).copied(),
         above: all.iter().find(|margin| margin.factor > 1.0).filter(near).copied(),
-    })
+    }
 }
 
 /// A limit of the attracting exact orbit and where it is met when one parameter alone is changed.

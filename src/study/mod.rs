@@ -177,7 +177,7 @@ impl CaseStudy {
             proofs: Vec::new(),
             claims: validation::confront_theory(&analysis, &exact),
             asymptotic_errors: asymptotic_errors(&analysis, &exact),
-            margins: Margins::of(&analysis, &exact)?,
+            margins: Margins::of(&analysis, &exact),
             confirmations: Confirmations::none(),
             effort,
             motions_cost: 0,

@@ -23,14 +23,6 @@ impl Equation {
         Expr::parse(self.right_text)
     }
 
-    /// Left less right: what vanishes where the equation holds.
-    ///
-    /// # Errors
-    /// If a symbol has no value.
-    pub fn residual(&self, values: &Values) -> Result<f64, MissingValue> {
-        Ok(self.left().evaluate(values)? - self.right().evaluate(values)?)
-    }
-
     /// Both sides in LaTeX.
     pub fn to_latex(&self) -> String {
         format!("{} = {}", self.left().to_latex(), self.right().to_latex())

@@ -2,22 +2,15 @@
 
 use super::{MissingValue, Symbol, Values};
 
-/// A function of one or two arguments.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Function {
-    /// Square root, of arguments that are not negative.
-    Sqrt,
-    /// Sine of an angle in radians.
-    Sin,
-    /// Cosine of an angle in radians.
-    Cos,
-    /// The second power.
-    Square,
-    /// The third power.
-    Cube,
-    /// The angle from -pi to pi whose sine and cosine are as the two arguments.
-    Atan2,
-}
+/// The functions of expressions by their names; each reads its arguments in order.
+const FUNCTIONS: [(&str, fn(&[f64]) -> f64); 6] = [
+    ("sqrt", |x| sqrt(x[0])),
+    ("sin", |x| sin(x[0])),
+    ("cos", |x| cos(x[0])),
+    ("square", |x| square(x[0])),
+    ("cube", |x| cube(x[0])),
+    ("atan2", |x| atan2(x[0], x[1])),
+];
 
 /// Square root.
 pub fn sqrt(x: f64) -> f64 {
@@ -60,8 +53,8 @@ pub enum Expr {
     Negative(Box<Expr>),
     /// One of `+ - * /` between two expressions.
     Binary(char, Box<[Expr; 2]>),
-    /// A function of its arguments.
-    Function(Function, Vec<Expr>),
+    /// A function of expressions, by its name in Rust, and its arguments.
+    Function(&'static str, Vec<Expr>),
 }
 
 impl Expr {
@@ -95,16 +88,13 @@ impl Expr {
                     _ => left / right,
                 }
             }
-            Self::Function(function, arguments) => {
-                let first = arguments[0].evaluate(values)?;
-                match function {
-                    Function::Sqrt => sqrt(first),
-                    Function::Sin => sin(first),
-                    Function::Cos => cos(first),
-                    Function::Square => square(first),
-                    Function::Cube => cube(first),
-                    Function::Atan2 => atan2(first, arguments[1].evaluate(values)?),
-                }
+            Self::Function(name, arguments) => {
+                let arguments: Vec<f64> = arguments
+                    .iter()
+                    .map(|argument| argument.evaluate(values))
+                    .collect::<Result<_, _>>()?;
+                let known = FUNCTIONS.iter().find(|(known, _)| known == name);
+                known.map_or(f64::NAN, |(_, function)| function(&arguments))
             }
         })
     }
@@ -162,19 +152,11 @@ impl Reader<'_> {
         if let Ok(number) = word.parse() {
             return Expr::Number(number);
         }
-        let function = match word {
-            "sqrt" => Function::Sqrt,
-            "sin" => Function::Sin,
-            "cos" => Function::Cos,
-            "square" => Function::Square,
-            "cube" => Function::Cube,
-            "atan2" => Function::Atan2,
-            _ => {
-                let known = Symbol::ALL.iter().find(|symbol| symbol.entry().name == word);
-                return known.map_or_else(|| self.fail("a symbol"), |symbol| Expr::Symbol(*symbol));
-            }
-        };
-        Expr::Function(function, self.arguments())
+        if let Some((name, _)) = FUNCTIONS.iter().find(|(name, _)| *name == word) {
+            return Expr::Function(name, self.arguments());
+        }
+        let known = Symbol::ALL.iter().find(|symbol| symbol.entry().name == word);
+        known.map_or_else(|| self.fail("a symbol"), |symbol| Expr::Symbol(*symbol))
     }
 
     fn arguments(&mut self) -> Vec<Expr> {

@@ -4,7 +4,7 @@
 //! `\cos`, `\mathrm`, `\left( \right)`, `\cdot`, `\times`, and the symbols of the table. Hosts of Markdown
 //! forbid some macros, `\operatorname` among them: none is used.
 
-use super::{Expr, Function, Symbol, Values};
+use super::{Expr, Symbol, Values};
 
 impl Expr {
     /// The expression in LaTeX.
@@ -106,7 +106,7 @@ impl Writer<'_> {
             }
             Expr::Binary('*', sides) => self.product(&sides[0], &sides[1]),
             Expr::Binary(sign, sides) => self.sum(*sign, &sides[0], &sides[1]),
-            Expr::Function(function, arguments) => self.function(*function, arguments),
+            Expr::Function(function, arguments) => self.function(function, arguments),
         }
     }
 
@@ -148,19 +148,18 @@ impl Writer<'_> {
         Piece::new(format!("{} {dot}{right}", left.parenthesised_if(needed)), Kind::Product)
     }
 
-    fn function(&self, function: Function, arguments: &[Expr]) -> Piece {
-        match function {
-            Function::Square => self.power(&arguments[0], 2),
-            Function::Cube => self.power(&arguments[0], 3),
-            Function::Sin => self.angle_function(r"\sin", &arguments[0]),
-            Function::Cos => self.angle_function(r"\cos", &arguments[0]),
-            Function::Sqrt => {
+    fn function(&self, name: &str, arguments: &[Expr]) -> Piece {
+        match name {
+            "square" => self.power(&arguments[0], 2),
+            "cube" => self.power(&arguments[0], 3),
+            "sin" | "cos" => self.angle_function(&format!(r"\{name}"), &arguments[0]),
+            "sqrt" => {
                 let text = format!(r"\sqrt{{{}}}", self.piece(&arguments[0]).text);
                 Piece::new(text, Kind::Closed)
             }
-            Function::Atan2 => {
-                let [y, x] = [0, 1].map(|which| self.piece(&arguments[which]).text);
-                let text = format!(r"\mathrm{{atan2}}{}", parenthesised(&format!("{y}, {x}")));
+            _ => {
+                let all: Vec<String> = arguments.iter().map(|one| self.piece(one).text).collect();
+                let text = format!(r"\mathrm{{{name}}}{}", parenthesised(&all.join(", ")));
                 Piece::new(text, Kind::Closed)
             }
         }
@@ -174,11 +173,8 @@ impl Writer<'_> {
 
     fn power(&self, base: &Expr, exponent: u32) -> Piece {
         match base {
-            Expr::Function(Function::Sin, angle) => {
-                self.angle_function(&format!(r"\sin^{{{exponent}}}"), &angle[0])
-            }
-            Expr::Function(Function::Cos, angle) => {
-                self.angle_function(&format!(r"\cos^{{{exponent}}}"), &angle[0])
+            Expr::Function(name @ ("sin" | "cos"), angle) => {
+                self.angle_function(&format!(r"\{name}^{{{exponent}}}"), &angle[0])
             }
             _ => {
                 let base = self.piece(base);

@@ -15,7 +15,7 @@ mod values;
 
 pub(crate) use equation::equations;
 pub use equation::{Equation, Formula, Group, operations};
-pub use expr::{Expr, Function, atan2, cos, cube, sin, sqrt, square};
+pub use expr::{Expr, atan2, cos, cube, sin, sqrt, square};
 pub use latex::format_number;
 pub use mathml::{MathError, to_mathml};
 pub use symbol::{Symbol, SymbolEntry};

@@ -23,13 +23,8 @@ impl Default for Values {
 impl Values {
     /// The same values with one more, or another one.
     pub fn with(mut self, symbol: Symbol, number: f64) -> Self {
-        self.set(symbol, number);
-        self
-    }
-
-    /// Gives a symbol a number.
-    pub fn set(&mut self, symbol: Symbol, number: f64) {
         self.0[symbol as usize] = Some(number);
+        self
     }
 
     /// The number of a symbol, if it has one.
@@ -56,7 +51,7 @@ impl Values {
                 let Expr::Symbol(symbol) = *left else { return false };
                 match right.evaluate(&self) {
                     Ok(value) if self.get(symbol).is_none() && value.is_finite() => {
-                        self.set(symbol, value);
+                        self.0[symbol as usize] = Some(value);
                         false
                     }
                     Ok(_) => false,

@@ -79,7 +79,7 @@ impl Amplitude {
             let ratio = 1.0 + system.mass_ratio() * point.detuning;
             [ratio, peak(system.mass_ratio(), manifold, point)]
         };
-        let theory = responses::lines(system, manifold, 2.0 + top, &place)?;
+        let theory = responses::lines(system, manifold, 2.0 + top, &place);
         let exact = over(EXACT).flat_map(|ratio| exact(system, ratio)).collect();
         Ok(Some(Self { window, bare, theory, exact, simulated, here, alone, top }))
     }

@@ -3,8 +3,8 @@
 //! At each detuning the collision of fixed points that counts is the one at the smallest forcing (the largest
 //! clearance), beyond which no fixed point is left. Other collisions bound no area.
 
-use crate::analysis::{AnalysisError, Boundaries, Branch, FixedPointCurve, Manifold, Strip};
-use crate::study::{CaseStudy, StudyError};
+use crate::analysis::{Boundaries, Branch, FixedPointCurve, Manifold, Strip};
+use crate::study::CaseStudy;
 use crate::system::System;
 
 use super::{Line, even};
@@ -43,14 +43,7 @@ pub struct Borders {
 
 impl Borders {
     /// Samples the boundaries from the detuning `first` to `last`.
-    ///
-    /// # Errors
-    /// As [`Boundaries::of`].
-    pub fn over(
-        system: &System,
-        manifold: &Manifold,
-        (first, last): (f64, f64),
-    ) -> Result<Self, AnalysisError> {
+    pub fn over(system: &System, manifold: &Manifold, (first, last): (f64, f64)) -> Self {
         let of = |detuning: f64| -> Option<Boundaries> {
             let there = system.with_detuning(detuning).ok();
             there.map(|there| Boundaries::of(&there, manifold))
@@ -69,11 +62,11 @@ impl Borders {
         for detuning in detunings {
             samples.extend(of(detuning).map(|at| Border::of(system, detuning, &at)));
         }
-        Ok(Self { samples, meeting })
+        Self { samples, meeting }
     }
 
     /// Around a case's detuning and P1: at least six to either side of resonance.
-    pub(super) fn around(study: &CaseStudy) -> Result<Self, AnalysisError> {
+    pub(super) fn around(study: &CaseStudy) -> Self {
         let system = &study.analysis.system;
         let half = (1.35 * system.detuning().abs()).max(6.0);
         // A lower frequency than none is not possible.
@@ -136,32 +129,30 @@ impl Bifurcations {
     /// Amplitudes `B/b` that are shown: both boundaries lie far inside.
     pub const AMPLITUDES: [f64; 2] = [0.5, 1.75];
 
-    pub(super) fn of(study: &CaseStudy) -> Result<Option<Self>, StudyError> {
+    pub(super) fn of(study: &CaseStudy) -> Option<Self> {
         let (system, manifold) = (&study.analysis.system, &study.analysis.manifold);
         let meeting = study.analysis.boundaries.codimension_two;
         let known = meeting.forcing_over_clearance > 0.0 && meeting.detuning.is_finite();
         let folds = manifold.fold.oscillator_amplitude > 0.0;
         if system.forcing_per_clearance() == 0.0 || !known || !folds {
-            return Ok(None);
+            return None;
         }
         let away = system.detuning() - meeting.detuning;
         let away = away.abs().max(0.8).copysign(away);
         let mut conditions = Vec::new();
         for part in [-1.0, 0.0, 1.0] {
-            let Ok(there) = system.with_detuning(meeting.detuning + part * away) else {
-                return Ok(None);
-            };
-            conditions.push(Condition::of(&there, manifold)?);
+            let there = system.with_detuning(meeting.detuning + part * away).ok()?;
+            conditions.push(Condition::of(&there, manifold));
         }
         let middle = meeting.detuning;
         let first = (middle - 1.5 * away.abs()).max(-0.95 / system.mass_ratio());
-        let borders = Borders::over(system, manifold, (first, middle + 1.5 * away.abs()))?;
-        Ok(Some(Self { conditions, borders }))
+        let borders = Borders::over(system, manifold, (first, middle + 1.5 * away.abs()));
+        Some(Self { conditions, borders })
     }
 }
 
 impl Condition {
-    fn of(there: &System, manifold: &Manifold) -> Result<Self, AnalysisError> {
+    fn of(there: &System, manifold: &Manifold) -> Self {
         let curve = FixedPointCurve::of(there, manifold);
         let gamma = there.forcing_per_clearance();
         let [first, last] = Bifurcations::AMPLITUDES;
@@ -171,6 +162,6 @@ impl Condition {
             (node.absorber_amplitude, gamma / node.forcing_over_clearance, node.branch)
         });
         let line = even(first, last, SAMPLES).map(at).collect();
-        Ok(Self { detuning: there.detuning(), line, hopf: gamma / boundaries.hopf, collision })
+        Self { detuning: there.detuning(), line, hopf: gamma / boundaries.hopf, collision }
     }
 }

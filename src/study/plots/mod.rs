@@ -93,10 +93,10 @@ impl Plot {
     pub fn all(case: &Case, study: &CaseStudy) -> Result<Vec<Self>, StudyError> {
         let mut plots = Vec::new();
         plots.extend(BandCurves::of(study).map(Self::Band));
-        plots.extend(Map::of(study)?.map(Self::Map));
-        plots.push(Self::Plane(Borders::around(study)?));
+        plots.extend(Map::of(study).map(Self::Map));
+        plots.push(Self::Plane(Borders::around(study)));
         plots.push(Self::Manifold);
-        plots.extend(Responses::around(study)?.map(Self::Responses));
+        plots.extend(Responses::around(study).map(Self::Responses));
         if !study.simulated {
             return Ok(plots);
         }
@@ -119,10 +119,10 @@ impl Plot {
     ) -> Result<Option<Self>, StudyError> {
         Ok(match wanted {
             ExtraFigure::Areas => Areas::of(study)?.map(Self::Areas),
-            ExtraFigure::Bifurcations => Bifurcations::of(study)?.map(Self::Bifurcations),
-            ExtraFigure::ForcingResponses => Responses::across(study)?.map(Self::Responses),
+            ExtraFigure::Bifurcations => Bifurcations::of(study).map(Self::Bifurcations),
+            ExtraFigure::ForcingResponses => Responses::across(study).map(Self::Responses),
             ExtraFigure::Modulation => Modulation::of(study)?.map(Self::Modulation),
-            ExtraFigure::Restitutions => Restitutions::of(study)?.map(Self::Restitutions),
+            ExtraFigure::Restitutions => Restitutions::of(study).map(Self::Restitutions),
             ExtraFigure::Basins => Some(Self::Basins(StartPlane::of(study)?)),
             ExtraFigure::Captures => Some(Self::Captures),
             ExtraFigure::Exponents => Some(Self::Exponents(MotionExponents::of(study)?)),
@@ -192,20 +192,20 @@ impl Map {
     /// Frequencies, less one, at which the exact boundaries are marked.
     const EXACT: u32 = 40;
 
-    fn of(study: &CaseStudy) -> Result<Option<Self>, StudyError> {
+    fn of(study: &CaseStudy) -> Option<Self> {
         let (system, manifold) = (&study.analysis.system, &study.analysis.manifold);
         if system.forcing_per_clearance() == 0.0 {
             // Without forcing every boundary is at no clearance at all.
-            return Ok(None);
+            return None;
         }
         let window = window(system);
         let detunings = window.map(|ratio| (ratio - 1.0) / system.mass_ratio());
-        let borders = Borders::over(system, manifold, (detunings[0], detunings[1]))?;
+        let borders = Borders::over(system, manifold, (detunings[0], detunings[1]));
         let ratios: Vec<f64> = even(window[0], window[1], Self::EXACT).collect();
         let inner = &ratios[1..Self::EXACT as usize];
         let exact = if has_resonance(system) { over_frequency(system, inner) } else { Vec::new() };
-        let errors = errors_over_frequency(system, manifold, &exact)?;
-        Ok(Some(Self { window, borders, exact, errors }))
+        let errors = errors_over_frequency(system, manifold, &exact);
+        Some(Self { window, borders, exact, errors })
     }
 }
 

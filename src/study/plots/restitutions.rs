@@ -3,10 +3,10 @@
 use std::f64::consts::{FRAC_2_PI, PI};
 
 use crate::analysis::motion::read_off;
-use crate::analysis::{AnalysisError, Branch, Manifold};
+use crate::analysis::{Branch, Manifold};
 use crate::orbits::symmetric_orbits;
 use crate::regimes::FoundAttractor;
-use crate::study::{CaseStudy, StudyError};
+use crate::study::CaseStudy;
 use crate::system::{Parameters, System};
 
 use super::first_drawn;
@@ -60,22 +60,16 @@ pub struct Restitutions {
 
 impl Restitutions {
     /// Of a case's own amplitude; none where nothing is steady at it.
-    ///
-    /// # Errors
-    /// As the manifold.
-    pub fn of(study: &CaseStudy) -> Result<Option<Self>, StudyError> {
+    pub fn of(study: &CaseStudy) -> Option<Self> {
         let stable = study.analysis.stable_points().last().map(|point| point.oscillator_amplitude);
         let seen = || Some(observed(study, first_drawn(study)?)?[1]);
-        let Some(level) = stable.or_else(seen) else { return Ok(None) };
-        let mut all = Vec::new();
-        for k in 0..=STEPS {
-            all.extend(taken(f64::from(k) / f64::from(STEPS), level)?);
-        }
-        let Some(strongest) = strongest(&all) else { return Ok(None) };
-        let of = |r| Ok::<_, AnalysisError>((r, Manifold::of(r)));
-        let manifolds = [1.0, 0.8, 0.6, 0.4, 0.2].map(of).into_iter().collect::<Result<_, _>>()?;
+        let level = stable.or_else(seen)?;
+        let taken: Vec<Taken> =
+            (0..=STEPS).filter_map(|k| taken(f64::from(k) / f64::from(STEPS), level)).collect();
+        let strongest = strongest(&taken)?;
+        let manifolds = [1.0, 0.8, 0.6, 0.4, 0.2].map(|r| (r, Manifold::of(r))).into();
         let best = best(&study.analysis.system);
-        Ok(Some(Self { level, taken: all, strongest, manifolds, best }))
+        Some(Self { level, taken, strongest, manifolds, best })
     }
 }
 
@@ -90,7 +84,7 @@ pub fn observed(study: &CaseStudy, found: &FoundAttractor) -> Option<[f64; 2]> {
 
 /// The right one of the two points of the manifold at a given `C/b`, from (16) as a quadratic in `B/b`; none
 /// below the fold.
-fn taken(restitution: f64, level: f64) -> Result<Option<Taken>, AnalysisError> {
+fn taken(restitution: f64, level: f64) -> Option<Taken> {
     let manifold = Manifold::of(restitution);
     let r = manifold.curvature;
     let root = level * level * (1.0 + r) - r;
@@ -99,7 +93,7 @@ fn taken(restitution: f64, level: f64) -> Result<Option<Taken>, AnalysisError> {
     let sine = FRAC_2_PI * manifold.restitution_ratio * absorber / level;
     let branch = manifold.branch(absorber - 1.0);
     let found = Taken { restitution, absorber, harmonic, damping: harmonic * sine, branch };
-    Ok((root >= 0.0).then_some(found))
+    (root >= 0.0).then_some(found)
 }
 
 /// Where 1:1 resonance is not steady the manifold takes nothing.
