@@ -51,9 +51,9 @@ fn side_by_side<S: Simd>(simd: S, rates: &Rates<f64>, flights: &[Flight]) -> [f6
                 end.set(lane, &flight.end);
                 duration[lane] = flight.duration;
             }
-            let rates = rates.map(
+            let rates = Rates::gathered(
                 #[inline(always)]
-                |rate| Wide::splat(simd, rate),
+                |rate| Wide::splat(simd, rate(rates)),
             );
             let highest = highest(simd, &rates, &begin, duration, Some(&end));
             std::array::from_fn(|lane| highest[lane])

@@ -7,7 +7,7 @@ use super::{Lanes, tightened};
 use crate::numerics::lanes::{LANES, Mask, Real, Wide, WideMask};
 use crate::simulation::certificate::{Hull, Slack};
 use crate::simulation::contact::{Rebound, rebound};
-use crate::simulation::events::{Impact, Observer, Side};
+use crate::simulation::events::{Observer, Side};
 use crate::simulation::panels::CORRECTIONS;
 use crate::simulation::phasor::{At, Line, Rates, Steady};
 use crate::simulation::walls;
@@ -63,8 +63,7 @@ impl<S: Simd> Lanes<S> {
         let (impact, over) = (good & !end.over, good & end.over);
         let phase = Wide::choose(over, zero, self.phase + rates.frequency * flight);
         let after = rebound(self.mass_ratio, self.restitution, v, velocity);
-        let approach = velocity;
-        self.tell(good, impact, &Event { flight, x, v, y, approach, phase, wall, after }, queue);
+        self.tell(good, impact, &Event { flight, x, v, y, phase, wall, after }, queue);
         // Where they stand now.
         let follows =
             Wide::choose(self.restitution.at_most(zero), after.x_velocity, after.y_velocity);
@@ -179,39 +178,30 @@ impl<S: Simd> Lanes<S> {
         queue: &mut Queue<'_, O>,
     ) {
         let (good, impact) = (good.bits(), impact.bits());
-        for lane in 0..LANES {
+        for lane in (0..LANES).filter(|lane| good >> lane & 1 == 1) {
             let Some(index) = self.task[lane] else { continue };
-            if good >> lane & 1 == 0 {
-                continue;
-            }
             let Task { simulation, observer, .. } = &mut queue.tasks[index];
             let flight = event.flight[lane];
-            if O::SEGMENTS && flight > 0.0 && observer.flights() {
+            if flight > 0.0 && observer.flights() {
                 observer.segment(&simulation.flown(&self.moment(lane), flight));
             }
-            if impact >> lane & 1 == 1 {
-                let (x, y) = (event.x[lane], event.y[lane]);
-                let phase = event.phase[lane];
-                observer.impact(&Impact {
-                    tau: simulation.tau(self.turns[lane] as u64, phase),
-                    phase,
-                    side: side(event.wall[lane]),
-                    x,
-                    x_velocity_before: event.v[lane],
-                    x_velocity_after: event.after.x_velocity[lane],
-                    y_velocity_before: event.approach[lane],
-                    y_velocity_after: event.after.y_velocity[lane],
-                    loss: event.after.loss[lane],
-                    penetration: ((x - y).abs() - 1.0).max(0.0),
-                });
-            } else {
-                observer.period(&State {
-                    x: event.x[lane],
-                    x_velocity: event.v[lane],
-                    y: event.y[lane],
-                    y_velocity: event.approach[lane],
-                });
+            let at = State {
+                x: event.x[lane],
+                x_velocity: event.v[lane],
+                y: event.y[lane],
+                y_velocity: self.line.velocity[lane],
+            };
+            if impact >> lane & 1 == 0 {
+                observer.period(&at);
+                continue;
             }
+            let after = Rebound {
+                x_velocity: event.after.x_velocity[lane],
+                y_velocity: event.after.y_velocity[lane],
+                loss: event.after.loss[lane],
+            };
+            let (side, turns) = (side(event.wall[lane]), self.turns[lane] as u64);
+            observer.impact(&simulation.impact(&at, side, &after, turns, event.phase[lane]));
         }
     }
 }
@@ -222,8 +212,6 @@ struct Event<S: Simd> {
     x: Wide<S>,
     v: Wide<S>,
     y: Wide<S>,
-    /// Velocity of the absorber until then.
-    approach: Wide<S>,
     phase: Wide<S>,
     wall: Wide<S>,
     after: Rebound<Wide<S>>,

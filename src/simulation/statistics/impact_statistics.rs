@@ -282,7 +282,7 @@ impl Observer for ImpactStatistics {
             telescope.contact = 0.0;
             let statistics = &mut self.statistics;
             statistics.squared += squared;
-            statistics.current.squared += squared;
+            statistics.current.mean_square += squared;
             let damping = statistics.system.mass_ratio() * statistics.system.damping();
             statistics.damper += damping * velocity_squared;
         }
