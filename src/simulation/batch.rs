@@ -17,7 +17,7 @@ use super::events::Observer;
 use super::panels::Limits;
 use super::phasor::{At, Line, Rates, Steady};
 use super::run::{Moment, Simulation, Stop};
-use super::walls::{self, inverse_loss};
+use super::walls::{self, Sticking};
 use crate::numerics::lanes::{LANES, Real, Wide, WideMask};
 use crate::system::State;
 
@@ -94,10 +94,7 @@ struct Lanes<S: Simd> {
     rates: Rates<Wide<S>>,
     mass_ratio: Wide<S>,
     restitution: Wide<S>,
-    /// `1/(1 - r^2)`, and what else tells whether an impact could be the end of a chattering sequence.
-    inverse_loss: Wide<S>,
-    excursion: Wide<S>,
-    largest_force: Wide<S>,
+    sticking: Sticking<Wide<S>>,
     /// State and phase where the flight began.
     x: Wide<S>,
     v: Wide<S>,
@@ -131,9 +128,13 @@ impl<S: Simd> Lanes<S> {
             rates: Rates::gathered(|_| one),
             mass_ratio: zero,
             restitution: zero,
-            inverse_loss: one,
-            excursion: zero,
-            largest_force: zero,
+            sticking: Sticking {
+                decay: zero,
+                stiffness: one,
+                largest_force: zero,
+                excursion: zero,
+                inverse_loss: one,
+            },
             x: zero,
             v: zero,
             line: Line { y: zero, velocity: zero },
@@ -309,12 +310,14 @@ impl<S: Simd> Lanes<S> {
         else {
             return;
         };
-        let r = simulation.system.restitution();
         self.mass_ratio[lane] = simulation.system.mass_ratio();
-        self.restitution[lane] = r;
-        self.inverse_loss[lane] = inverse_loss(r);
-        self.excursion[lane] = simulation.tolerance.excursion;
-        self.largest_force[lane] = simulation.alone.largest_force();
+        self.restitution[lane] = simulation.system.restitution();
+        let sticking = Sticking::of(simulation);
+        self.sticking.decay[lane] = sticking.decay;
+        self.sticking.stiffness[lane] = sticking.stiffness;
+        self.sticking.largest_force[lane] = sticking.largest_force;
+        self.sticking.excursion[lane] = sticking.excursion;
+        self.sticking.inverse_loss[lane] = sticking.inverse_loss;
         self.last_turn[lane] = limits.turns as f64;
         self.last_impact[lane] = limits.impacts as f64;
     }

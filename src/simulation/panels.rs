@@ -8,7 +8,7 @@ use super::contact::rebound;
 use super::events::{Observer, Side};
 use super::phasor::{At, Corrected, Line, Rates, Steady};
 use super::run::{Moment, Simulation, Stop};
-use super::walls::{self, Sticking, inverse_loss};
+use super::walls::{self, Sticking};
 use crate::numerics::lanes::Real;
 use crate::system::State;
 
@@ -85,12 +85,7 @@ impl Simulation {
         observer: &mut O,
     ) -> (Moment, FlightEnd) {
         let (eps, r) = (self.system.mass_ratio(), self.system.restitution());
-        let sticking = Sticking {
-            rates,
-            largest_force: self.alone.largest_force(),
-            excursion: self.tolerance.excursion,
-            inverse_loss: inverse_loss(r),
-        };
+        let sticking = Sticking::of(self);
         let mut at = self.at;
         // What has just been thrown back leaves its wall.
         let mut leaves = false;
@@ -127,7 +122,7 @@ impl Simulation {
                 at.state = self.rebounded(&before, side, &after);
                 let State { x, x_velocity: v, y, y_velocity } = at.state;
                 let line = Line { y, velocity: y_velocity };
-                if walls::may_stick(x, v, line, side.sign(), &sticking) {
+                if sticking.possible(x, v, line, side.sign()) {
                     return (at, FlightEnd::MayStick(side));
                 }
             } else {

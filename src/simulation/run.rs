@@ -12,8 +12,8 @@ use super::contact::{AtWall, ContactTolerance, Rebound};
 use super::events::{Absorber, Impact, Observer, Segment, Side, StartError};
 use super::flow::{Kinematics, Oscillator};
 use super::panels::{FlightEnd, Limits};
-use super::phasor::{Rates, Steady};
-use super::walls::{TOUCH_ULPS, inverse_loss};
+use super::phasor::{Line, Rates, Steady};
+use super::walls::{Sticking, TOUCH_ULPS};
 use crate::system::{State, System};
 
 /// Operations of one panel of the fast search: two complex products, the motion at its end, and the
@@ -271,22 +271,15 @@ impl Simulation {
     }
 
     pub(super) fn perhaps_stick(&mut self, side: Side, observer: &mut impl Observer) {
-        let State { x, x_velocity, y_velocity, .. } = self.at.state;
-        let opening = -side.sign() * (x_velocity - y_velocity);
-        // Rounding adds up to a touch to each excursion, an impact takes the share 1 - r^2 of it:
-        // where the two balance a sequence would never end.
-        let r = self.system.restitution();
-        let floor = self.touch() * inverse_loss(r);
-        let excursion = self.tolerance.excursion.max(floor);
-        let tolerance = ContactTolerance { excursion, ..self.tolerance };
-        let alone = &self.alone;
-        let largest = alone.largest_force()
-            + 2.0 * alone.decay * x_velocity.abs()
-            + alone.stiffness * x.abs();
-        if opening * opening > 2.0 * excursion * largest {
-            // Whatever the acceleration is, the gap opens further than that.
+        let State { x, x_velocity, y, y_velocity } = self.at.state;
+        let (r, line) = (self.system.restitution(), Line { y, velocity: y_velocity });
+        let sticking = Sticking::of(self);
+        if !sticking.possible(x, x_velocity, line, side.sign()) {
             return;
         }
+        let excursion = sticking.tolerated(x, x_velocity, line);
+        let tolerance = ContactTolerance { excursion, ..self.tolerance };
+        let (alone, opening) = (&self.alone, -side.sign() * (x_velocity - y_velocity));
         let at = Kinematics { x, v: x_velocity };
         let wall = AtWall {
             separation_speed: opening.max(0.0),

@@ -10,7 +10,6 @@ use crate::simulation::contact::{Rebound, rebound};
 use crate::simulation::events::{Observer, Side};
 use crate::simulation::panels::CORRECTIONS;
 use crate::simulation::phasor::{At, Line, Rates, Steady};
-use crate::simulation::walls;
 use crate::system::State;
 
 /// Halvings of panels side by side; what needs more goes on alone.
@@ -82,19 +81,7 @@ impl<S: Simd> Lanes<S> {
         self.evaluations = Wide::choose(good, evaluations, self.evaluations);
         self.turns = Wide::choose(over, self.turns + 1.0, self.turns);
         self.impacts = Wide::choose(impact, self.impacts + 1.0, self.impacts);
-        let stuck = impact
-            & walls::may_stick(
-                self.x,
-                self.v,
-                self.line,
-                wall,
-                &walls::Sticking {
-                    rates: &self.rates,
-                    largest_force: self.largest_force,
-                    excursion: self.excursion,
-                    inverse_loss: self.inverse_loss,
-                },
-            );
+        let stuck = impact & self.sticking.possible(self.x, self.v, self.line, wall);
         let through = self.last_turn.at_most(self.turns) | self.last_impact.at_most(self.impacts);
         if on.any() {
             self.here = At::choose(on, &there, &self.here);
