@@ -37,14 +37,10 @@ pub struct Oscillator {
     /// Forcing in `cos(phase)`.
     pub cosine: f64,
     /// Largest absolute forcing.
-    largest: f64,
-    form: ForcedForm,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum ForcedForm {
-    Steady { sine: f64, cosine: f64 },
-    FromRest,
+    pub largest_force: f64,
+    /// Steady motion: coefficients of `sin` and `cos` of the phase; `None` where it would dwarf the
+    /// real one, and the response from rest takes its place.
+    pub steady: Option<(f64, f64)>,
 }
 
 impl Oscillator {
@@ -69,39 +65,22 @@ impl Oscillator {
             frequency,
             sine: sine / mass,
             cosine: cosine / mass,
-            largest: libm::hypot(sine, cosine) / mass,
-            form: ForcedForm::FromRest,
+            largest_force: libm::hypot(sine, cosine) / mass,
+            steady: None,
         };
-        oscillator.form = oscillator.choose_form();
+        oscillator.steady = oscillator.steady_motion();
         oscillator
     }
 
-    fn choose_form(&self) -> ForcedForm {
+    fn steady_motion(&self) -> Option<(f64, f64)> {
         let root = self.stiffness.sqrt();
         let reactance = (root - self.frequency) * (root + self.frequency);
         let loss = 2.0 * self.decay * self.frequency;
         let scale = reactance * reactance + loss * loss;
-        if scale * LARGEST_STEADY_GAIN * LARGEST_STEADY_GAIN < 1.0 {
-            return ForcedForm::FromRest;
-        }
-        ForcedForm::Steady {
-            sine: (self.sine * reactance + self.cosine * loss) / scale,
-            cosine: (self.cosine * reactance - self.sine * loss) / scale,
-        }
-    }
-
-    /// Steady motion: coefficients of `sin` and `cos` of the phase; `None` where it would dwarf the
-    /// real one.
-    pub(super) fn steady(&self) -> Option<(f64, f64)> {
-        match self.form {
-            ForcedForm::Steady { sine, cosine } => Some((sine, cosine)),
-            ForcedForm::FromRest => None,
-        }
-    }
-
-    /// Largest absolute forcing.
-    pub fn largest_force(&self) -> f64 {
-        self.largest
+        let dwarfs = scale * LARGEST_STEADY_GAIN * LARGEST_STEADY_GAIN < 1.0;
+        let sine = (self.sine * reactance + self.cosine * loss) / scale;
+        let cosine = (self.cosine * reactance - self.sine * loss) / scale;
+        (!dwarfs).then_some((sine, cosine))
     }
 
     /// Forcing at a phase.
@@ -129,16 +108,11 @@ impl Oscillator {
     }
 
     fn forced(&self, phase: f64, s: f64, propagator: &Propagator) -> Kinematics {
-        match self.form {
-            ForcedForm::Steady { sine, cosine } => {
-                let (sin, cos) = libm::sincos(phase + self.frequency * s);
-                Kinematics {
-                    x: sine * sin + cosine * cos,
-                    v: self.frequency * (sine * cos - cosine * sin),
-                }
-            }
-            ForcedForm::FromRest => self.response_from_rest(phase, s, propagator),
-        }
+        let Some((sine, cosine)) = self.steady else {
+            return self.response_from_rest(phase, s, propagator);
+        };
+        let (sin, cos) = libm::sincos(phase + self.frequency * s);
+        Kinematics { x: sine * sin + cosine * cos, v: self.frequency * (sine * cos - cosine * sin) }
     }
 
     /// Response from rest by convolution with the propagator; underdamped, close to resonance.
@@ -289,13 +263,13 @@ impl Motion {
     /// sinusoid.
     fn slow_bounds(&self, s: f64) -> Option<DerivativeBounds> {
         let o = &self.oscillator;
-        let (sine, cosine) = o.steady()?;
+        let (sine, cosine) = o.steady?;
         if o.frequency > SLOW * o.stiffness.sqrt() {
             return None;
         }
         let steady = libm::hypot(sine, cosine) * o.frequency * o.frequency;
         let free = o.free(self.free_x, self.free_v, s);
-        let unforced = Oscillator { largest: 0.0, ..*o };
+        let unforced = Oscillator { largest_force: 0.0, ..*o };
         let DerivativeBounds { acceleration, jerk, snap } = derivative_bounds(&unforced, free, 0.0);
         Some(DerivativeBounds {
             acceleration: acceleration + steady,
@@ -307,7 +281,7 @@ impl Motion {
     /// Each exponential of an overdamped motion only falls, and so do its derivatives.
     fn creeping_bounds(&self, s: f64) -> Option<DerivativeBounds> {
         let o = &self.oscillator;
-        let (sine, cosine) = o.steady()?;
+        let (sine, cosine) = o.steady?;
         let root = o.stiffness.sqrt();
         let spread = ((o.decay - root) * (o.decay + root)).max(0.0).sqrt();
         if spread == 0.0 {
@@ -347,7 +321,7 @@ pub struct DerivativeBounds {
 
 /// Bounds for the motion of `oscillator` that passes through `at`, valid for `horizon`.
 pub fn derivative_bounds(o: &Oscillator, at: Kinematics, horizon: f64) -> DerivativeBounds {
-    let force = o.largest_force();
+    let force = o.largest_force;
     let speed = (at.v * at.v + o.stiffness * at.x * at.x).sqrt() + force * horizon;
     let acceleration = force + (2.0 * o.decay + o.stiffness.sqrt()) * speed;
     let jerk = o.frequency * force + 2.0 * o.decay * acceleration + o.stiffness * speed;

@@ -63,7 +63,7 @@ pub(super) struct Integrator {
 
 impl Ringing {
     fn of(oscillator: &Oscillator) -> Option<Self> {
-        let (sine, cosine) = oscillator.steady()?;
+        let (sine, cosine) = oscillator.steady?;
         let root = oscillator.stiffness.sqrt();
         let ringing = ((root - oscillator.decay) * (root + oscillator.decay)).max(0.0).sqrt();
         // Slower ones are not told from decay.

@@ -21,6 +21,8 @@ pub(super) struct Moment<R> {
 /// What the oscillator does between two events.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Flight {
+    /// Whole periods before it.
+    pub period: u64,
     pub begin: Moment<f64>,
     pub duration: f64,
     pub end: Moment<f64>,

@@ -113,7 +113,7 @@ impl Rates<f64> {
     /// Those of an oscillator; `None` where it does not ring, has no steady motion that could be
     /// subtracted, or would need too many panels.
     pub(super) fn of(oscillator: &Oscillator) -> Option<Self> {
-        let (sine, cosine) = oscillator.steady()?;
+        let (sine, cosine) = oscillator.steady?;
         let frequency = oscillator.frequency;
         let root = oscillator.stiffness.sqrt();
         let discriminant = (root - oscillator.decay) * (root + oscillator.decay);

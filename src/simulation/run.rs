@@ -228,11 +228,6 @@ impl Simulation {
         }
     }
 
-    /// Fast time since the start of the run at phase `phase` after `turns` whole periods.
-    pub(super) fn tau(&self, turns: u64, phase: f64) -> f64 {
-        (turns as f64 * TAU + phase) / self.system.frequency_ratio()
-    }
-
     /// An impact as observers are told of it.
     #[inline(always)]
     pub(super) fn impact(
@@ -244,7 +239,7 @@ impl Simulation {
         phase: f64,
     ) -> Impact {
         Impact {
-            tau: self.tau(turns, phase),
+            tau: (turns as f64 * TAU + phase) / self.system.frequency_ratio(),
             phase,
             side,
             x: before.x,
@@ -285,7 +280,7 @@ impl Simulation {
             separation_speed: opening.max(0.0),
             closing_acceleration: side.sign() * alone.acceleration(self.at.phase, at),
             speed: x_velocity.abs(),
-            force_rate: alone.frequency * alone.largest_force(),
+            force_rate: alone.frequency * alone.largest_force,
             damping: 2.0 * alone.decay,
             stiffness: alone.stiffness,
         };

@@ -43,7 +43,7 @@ impl Simulation {
         self.resolves_walls()?;
         let State { x, x_velocity, .. } = self.at.state;
         let motion = self.carrying.motion(x, x_velocity, self.at.phase);
-        let scale = self.alone.largest_force() + x.abs() + x_velocity.abs();
+        let scale = self.alone.largest_force + x.abs() + x_velocity.abs();
         let band =
             Band { lower: 0.0, upper: f64::INFINITY, touch: TOUCH_ULPS * f64::EPSILON * scale };
         let found = first_crossing(&ContactForce { motion, side }, 0.0, self.remaining(), band);
@@ -111,7 +111,7 @@ impl Simulation {
     /// A search among walls that rounding moves about would not end.
     fn resolves_walls(&self) -> Result<(), Stop> {
         // The steady part may dwarf the motion that it is a part of.
-        let (sine, cosine) = self.alone.steady().unwrap_or_default();
+        let (sine, cosine) = self.alone.steady.unwrap_or_default();
         let steady = TOUCH_ULPS * f64::EPSILON * libm::hypot(sine, cosine);
         // What is not a number resolves nothing.
         if self.touch() + steady <= LARGEST_TOUCH { Ok(()) } else { Err(Stop::WallsUnresolved) }

@@ -44,7 +44,7 @@ impl Sticking<f64> {
         Self {
             decay: alone.decay,
             stiffness: alone.stiffness,
-            largest_force: alone.largest_force(),
+            largest_force: alone.largest_force,
             excursion: simulation.tolerance.excursion,
             inverse_loss: 1.0 / ((1.0 - r) * (1.0 + r)),
         }
