@@ -102,16 +102,6 @@ impl Place {
     }
 }
 
-/// The places of a band, in order, and by how much the largest peak between them may exceed the largest at
-/// them, over the clearance.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Sampled {
-    /// In ascending order.
-    pub places: Vec<Place>,
-    /// 0 where every gap between places is resolved.
-    pub unresolved: f64,
-}
-
 /// Distance of places that is never halved, over the width of the resonance and of the slow flow: what
 /// scatters on a finer scale is chaos, whose peaks have an error of their own.
 const FINEST: f64 = 0.1;
@@ -133,7 +123,8 @@ const SIDE_BY_SIDE: usize = 64;
 /// A system and the starts that are to be followed in it.
 type Task = (System, Vec<State>);
 
-/// Samples a band.
+/// The places of a band, in order, and by how much the largest peak between them may exceed the largest at
+/// them, over the clearance: 0 where every gap between places is resolved.
 ///
 /// # Errors
 /// [`StartError`] where a start is not finite.
@@ -142,11 +133,11 @@ pub fn along(
     stability: &[Stretch<bool>],
     sampling: &Sampling,
     executor: &dyn Executor,
-) -> Result<Sampled, StartError> {
+) -> Result<(Vec<Place>, f64), StartError> {
     let sampler = Sampler { band, sampling, executor, finest: finest(band) };
     let mut places = sampler.at(first_places(band, stability, sampling), &[])?;
     if band.is_point() {
-        return Ok(Sampled { places, unresolved: 0.0 });
+        return Ok((places, 0.0));
     }
     loop {
         let room = sampling.most.saturating_sub(places.len());
@@ -162,7 +153,7 @@ pub fn along(
     }
     let largest = largest(&places);
     let highest = sampler.gaps(&places).first().map_or(largest, |gap| gap.1);
-    Ok(Sampled { places, unresolved: highest - largest })
+    Ok((places, highest - largest))
 }
 
 fn largest(places: &[Place]) -> f64 {
@@ -187,7 +178,8 @@ fn first_places(band: &Band, stability: &[Stretch<bool>], sampling: &Sampling) -
         return vec![0.5 * (from + to)];
     }
     let mut places: Vec<f64> = band.places(sampling.even).collect();
-    places.extend(exact::unstable_middles(stability));
+    let unstable = stability.iter().filter(|one| !one.of);
+    places.extend(unstable.map(|one| 0.5 * (one.from + one.to)));
     let beside = BESIDE * band.width();
     places.extend(stability.windows(2).flat_map(|pair| [pair[0].to - beside, pair[0].to + beside]));
     match band.over {

@@ -154,17 +154,19 @@ impl Statistics {
         self.impact_speed
     }
 
+    /// What successive blocks of the kept periods have, about so many of them.
+    fn of_blocks(&self, blocks: usize, of: impl Fn(&[PeriodRecord]) -> f64) -> Vec<f64> {
+        self.records.chunks_exact((self.records.len() / blocks).max(1)).map(of).collect()
+    }
+
     /// By how much another run, ten times as long, may exceed [`Self::peak`] and [`Self::impact_speed`] of a
     /// motion that does not repeat, at odds of 19 to 1, from their scatter between blocks of the kept periods.
     pub fn errors_of_largest(&self) -> [f64; 2] {
-        let length = (self.records.len() / BLOCKS_OF_LARGEST).max(1);
-        let error = |value: &dyn Fn(&PeriodRecord) -> f64| {
-            let blocks = self.records.chunks_exact(length);
-            let largest: Vec<f64> =
-                blocks.map(|block| block.iter().map(value).fold(0.0, f64::max)).collect();
-            error_of_largest(&largest)
-        };
-        [error(&|record| record.peak), error(&|record| record.impact_speed)]
+        let values: [fn(&PeriodRecord) -> f64; 2] = [|one| one.peak, |one| one.impact_speed];
+        values.map(|value| {
+            let largest = |block: &[PeriodRecord]| block.iter().map(value).fold(0.0, f64::max);
+            error_of_largest(&self.of_blocks(BLOCKS_OF_LARGEST, largest))
+        })
     }
 
     /// Root mean square of the oscillator's displacement, over the clearance.
@@ -176,18 +178,15 @@ impl Statistics {
     /// Two standard errors of [`Self::rms`] and of [`Self::impacts_per_period`], from their scatter
     /// between ten blocks of the kept periods: how well a motion that does not repeat is known.
     pub fn errors(&self) -> [f64; 2] {
-        let blocks: Vec<&[PeriodRecord]> =
-            self.records.chunks_exact((self.records.len() / BLOCKS).max(1)).collect();
-        let error = |value: &dyn Fn(&PeriodRecord) -> f64| {
+        let values: [fn(&PeriodRecord) -> f64; 2] =
+            [|one| one.mean_square, |one| f64::from(one.impacts[0] + one.impacts[1])];
+        let [mean_square, impacts] = values.map(|value| {
             let mean =
                 |block: &[PeriodRecord]| block.iter().map(value).sum::<f64>() / block.len() as f64;
-            let means: Vec<f64> = blocks.iter().map(|block| mean(block)).collect();
-            twice_standard_error(&means)
-        };
-        let impacts = |record: &PeriodRecord| f64::from(record.impacts[0] + record.impacts[1]);
+            twice_standard_error(&self.of_blocks(BLOCKS, mean))
+        });
         // The square varies twice as much as its root.
-        let rms = error(&|record| record.mean_square) / (2.0 * self.rms()).max(f64::MIN_POSITIVE);
-        [rms, error(&impacts)]
+        [mean_square / (2.0 * self.rms()).max(f64::MIN_POSITIVE), impacts]
     }
 
     /// Largest penetration of a wall, over the clearance: rounding.
