@@ -194,7 +194,7 @@ impl System {
 }
 
 /// Displacements and velocities of oscillator and absorber, over the clearance, in fast time.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct State {
     /// Oscillator displacement.
     pub x: f64,

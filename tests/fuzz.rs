@@ -251,7 +251,9 @@ fn bounded(what: &str, simulation: &Simulation, sticks: u64) {
 struct Next(Option<Impact>);
 
 impl Observer for Next {
-    const SEGMENTS: bool = false;
+    fn flights(&self) -> bool {
+        false
+    }
     fn impact(&mut self, impact: &Impact) {
         self.0.get_or_insert(*impact);
     }

@@ -353,7 +353,7 @@ fn the_imports_of_the_program_are_seen() {
         rooms.dedup();
         rooms
     };
-    assert_eq!(of("simulation/run.rs"), ["numerics", "system"]);
+    assert_eq!(of("simulation/steps.rs"), ["numerics", "system"]);
     assert_eq!(of("simulation/flow.rs"), ["operation_count", "system"]);
     assert_eq!(of("analysis/mod.rs"), ["system"]);
     let study = of("study/mod.rs");

@@ -23,7 +23,9 @@ const PATIENCE: u64 = 50;
 struct Next(Option<Impact>);
 
 impl Observer for Next {
-    const SEGMENTS: bool = false;
+    fn flights(&self) -> bool {
+        false
+    }
     fn impact(&mut self, impact: &Impact) {
         self.0.get_or_insert(*impact);
     }

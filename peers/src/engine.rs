@@ -79,7 +79,9 @@ fn together(system: &System) -> Vec<Simulation> {
 struct Hits(Vec<Hit>);
 
 impl Observer for Hits {
-    const SEGMENTS: bool = false;
+    fn flights(&self) -> bool {
+        false
+    }
     fn impact(&mut self, impact: &Impact) {
         self.0.push(Hit {
             time: impact.tau,

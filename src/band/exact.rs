@@ -50,11 +50,6 @@ fn strength(band: &Band, at: f64) -> f64 {
     each.max_by(f64::total_cmp).unwrap_or(-f64::MIN_POSITIVE)
 }
 
-/// The middle of each stretch without an attracting orbit.
-pub fn unstable_middles(stability: &[Stretch<bool>]) -> impl Iterator<Item = f64> {
-    stability.iter().filter(|one| !one.of).map(|one| 0.5 * (one.from + one.to))
-}
-
 /// A value of the attracting orbit over the places where there is one.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Extreme {

@@ -38,6 +38,9 @@ impl Inactive {
             [0.5 * system.mass_ratio() * system.damping(), system.frequency_ratio()];
         let start = steady.state(system);
         let forced = Complex::new(start.x, -start.x_velocity / omega);
+        if forced.norm() >= 1.0 {
+            return None;
+        }
         // An overdamped structure has no free oscillation; its free motion is never larger than this.
         let natural = (1.0 - zeta * zeta).max(0.0).sqrt();
         let free = match natural {

@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::Band;
 use crate::case::BandOver;
-use crate::numerics::scan::largest;
+use crate::numerics::scan::{largest_of, places};
 use crate::system::System;
 
 /// A tuned mass damper: a mass on a spring and a viscous damper.
@@ -39,9 +39,9 @@ impl TunedMassDamper {
     /// The one of the absorber's mass whose largest amplitude along a band is smallest, with the damping of
     /// the structure and the kind of its excitation. For a single excitation that of Den Hartog: the best
     /// for one frequency alone would be undamped and of no use beside it.
-    pub fn designed(band: &Band) -> Self {
-        let start = Self::den_hartog(band.base.mass_ratio());
-        if band.is_point() {
+    fn designed(along: &Along) -> Self {
+        let start = Self::den_hartog(along.band.base.mass_ratio());
+        if along.band.is_point() {
             return start;
         }
         let mut best = start.logarithms();
@@ -50,7 +50,7 @@ impl TunedMassDamper {
             simplex[1][0] += SIMPLEX[0];
             simplex[2][1] += SIMPLEX[1];
             let solver = NelderMead::new(simplex);
-            let run = Executor::new(Design(band), solver)
+            let run = Executor::new(along, solver)
                 .configure(|state| state.max_iters(STEPS))
                 .timer(false)
                 .run();
@@ -73,34 +73,45 @@ impl TunedMassDamper {
         Self { tuning: self.tuning / factor, ..*self }
     }
 
-    /// Amplitudes of the oscillator that carries it instead of the absorber, and of its own motion against
-    /// the oscillator, the stroke; over the system's clearance, infinite where nothing limits them.
-    pub fn amplitudes(&self, system: &System) -> [f64; 2] {
+    /// Amplitude of the oscillator that carries it instead of the absorber, over the system's clearance;
+    /// infinite where nothing limits it.
+    pub fn amplitude(&self, system: &System) -> f64 {
         let omega = system.frequency_ratio();
         let mu = system.mass_ratio();
         let (sine, cosine) = system.excitation_amplitudes();
-        // What the damper's mass does to the oscillator, as a dynamic mass.
-        let spring = self.tuning * self.tuning;
-        let coupling = Complex::new(spring, 2.0 * self.damping_ratio * self.tuning * omega);
-        let against = coupling - omega * omega;
+        let (coupling, against) = self.coupling(omega);
         let loss = mu * system.damping() * omega;
         let stiffness =
             Complex::new(1.0 - omega * omega, loss) - omega * omega * mu * coupling / against;
-        let amplitude = libm::hypot(sine, cosine) / libm::hypot(stiffness.re, stiffness.im);
+        limited(libm::hypot(sine, cosine) / libm::hypot(stiffness.re, stiffness.im))
+    }
+
+    /// Amplitude of its own motion against the oscillator, over the same.
+    pub fn stroke(&self, system: &System) -> f64 {
+        let omega = system.frequency_ratio();
+        let (_, against) = self.coupling(omega);
         let relative = omega * omega / libm::hypot(against.re, against.im);
-        [amplitude, amplitude * relative].map(|one| if one.is_nan() { f64::INFINITY } else { one })
+        limited(self.amplitude(system) * relative)
+    }
+
+    /// What the damper's spring and damping do, over its mass, and what is left of it against its inertia.
+    fn coupling(&self, omega: f64) -> (Complex<f64>, Complex<f64>) {
+        let spring = self.tuning * self.tuning;
+        let coupling = Complex::new(spring, 2.0 * self.damping_ratio * self.tuning * omega);
+        (coupling, coupling - omega * omega)
     }
 }
 
-/// The largest amplitude along a band as a function of the damper's logarithms.
-struct Design<'a>(&'a Band);
+fn limited(amplitude: f64) -> f64 {
+    if amplitude.is_nan() { f64::INFINITY } else { amplitude }
+}
 
-impl CostFunction for Design<'_> {
+impl CostFunction for &Along<'_> {
     type Param = Vec<f64>;
     type Output = f64;
     fn cost(&self, logarithms: &Vec<f64>) -> Result<f64, Error> {
         let damper = TunedMassDamper::of_logarithms(logarithms);
-        Ok(largest_along(self.0, |system| damper.amplitudes(system)[0]).1)
+        Ok(self.largest(|system| damper.amplitude(system)).1)
     }
 }
 
@@ -144,34 +155,50 @@ pub struct Damped {
 impl Rivals {
     /// Those along a band.
     pub fn along(band: &Band) -> Self {
-        let damper = TunedMassDamper::designed(band);
-        let damped = |band: &Band, damper: TunedMassDamper| {
-            let (at, amplitude) = largest_along(band, |system| damper.amplitudes(system)[0]);
-            let (_, stroke) = largest_along(band, |system| damper.amplitudes(system)[1]);
-            Damped { amplitude, at, stroke }
-        };
+        let along = Along::of(band);
+        let damper = TunedMassDamper::designed(&along);
         Self {
-            bare: largest_along(band, bare_amplitude),
+            bare: along.largest(bare_amplitude),
             damper,
-            damped: damped(band, damper),
+            damped: along.damped(damper),
             detuned: DETUNED.map(|factor| match band.with_structure_detuned(factor) {
-                Some(band) => damped(&band, damper.on_detuned(factor)),
+                Some(band) => Along::of(&band).damped(damper.on_detuned(factor)),
                 None => Damped { amplitude: f64::NAN, at: f64::NAN, stroke: f64::NAN },
             }),
         }
     }
 }
 
-/// Where along a band an amplitude is largest, and that amplitude.
-fn largest_along(band: &Band, amplitude: impl Fn(&System) -> f64) -> (f64, f64) {
-    let there = |at: f64| band.system(at).ok().map(|system| amplitude(&system));
-    let found = largest(band.range, PIECES, there).unwrap_or((band.range[0], f64::INFINITY));
-    // The peak of a hardly damped oscillator is narrower than a piece.
-    let [from, to] = band.range;
-    let resonates = band.over == BandOver::Frequency && from <= 1.0 && 1.0 <= to;
-    match there(1.0).filter(|resonant| resonates && *resonant > found.1) {
-        Some(resonant) => (1.0, resonant),
-        None => found,
+/// A band with its systems at even places, at which many amplitudes are asked for.
+struct Along<'a> {
+    band: &'a Band,
+    systems: Vec<(f64, System)>,
+}
+
+impl<'a> Along<'a> {
+    fn of(band: &'a Band) -> Self {
+        let system = |at: f64| Some((at, band.system(at).ok()?));
+        Self { band, systems: places(band.range, PIECES).filter_map(system).collect() }
+    }
+
+    /// Where an amplitude is largest, and that amplitude.
+    fn largest(&self, amplitude: impl Fn(&System) -> f64) -> (f64, f64) {
+        let there = |at: f64| self.band.system(at).ok().map(|system| amplitude(&system));
+        let [from, to] = self.band.range;
+        let tried = self.systems.iter().map(|(at, system)| (*at, amplitude(system)));
+        let found = largest_of(tried, [from, to], PIECES, there).unwrap_or((from, f64::INFINITY));
+        // The peak of a hardly damped oscillator is narrower than a piece.
+        let resonates = self.band.over == BandOver::Frequency && from <= 1.0 && 1.0 <= to;
+        match there(1.0).filter(|resonant| resonates && *resonant > found.1) {
+            Some(resonant) => (1.0, resonant),
+            None => found,
+        }
+    }
+
+    fn damped(&self, damper: TunedMassDamper) -> Damped {
+        let (at, amplitude) = self.largest(|system| damper.amplitude(system));
+        let (_, stroke) = self.largest(|system| damper.stroke(system));
+        Damped { amplitude, at, stroke }
     }
 }
 
@@ -217,7 +244,7 @@ mod tests {
                 for factor in [0.3, 1.0, 4.0] {
                     let other =
                         TunedMassDamper { damping_ratio: factor * damper.damping_ratio, ..damper };
-                    let [amplitude, _] = other.amplitudes(&there);
+                    let amplitude = other.amplitude(&there);
                     assert!((amplitude / height - 1.0).abs() < 1e-12, "{mu} {sign} {factor}");
                 }
             }
@@ -257,13 +284,13 @@ mod tests {
                     tuning: tuning * damper.tuning,
                     damping_ratio: damping * damper.damping_ratio,
                 };
-                let (_, height) = largest_along(&band, |system| other.amplitudes(system)[0]);
+                let (_, height) = Along::of(&band).largest(|system| other.amplitude(system));
                 assert!(height > damped.amplitude, "{mu} {tuning} {damping}");
             }
             // A damper off by 3 % on the same structure, in the structure's own units.
             for (factor, off) in DETUNED.into_iter().zip(detuned) {
                 let other = TunedMassDamper { tuning: damper.tuning / factor, ..damper };
-                let (_, height) = largest_along(&band, |system| other.amplitudes(system)[0]);
+                let (_, height) = Along::of(&band).largest(|system| other.amplitude(system));
                 let scale = if excitation == Excitation::Force { factor * factor } else { 1.0 };
                 // The damping ratio of the structure changes with its frequency, by 3 %.
                 assert!((off.amplitude * scale / height - 1.0).abs() < 0.03, "{mu} {factor}");

@@ -102,16 +102,6 @@ impl Place {
     }
 }
 
-/// The places of a band, in order, and by how much the largest peak between them may exceed the largest at
-/// them, over the clearance.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Sampled {
-    /// In ascending order.
-    pub places: Vec<Place>,
-    /// 0 where every gap between places is resolved.
-    pub unresolved: f64,
-}
-
 /// Distance of places that is never halved, over the width of the resonance and of the slow flow: what
 /// scatters on a finer scale is chaos, whose peaks have an error of their own.
 const FINEST: f64 = 0.1;
@@ -130,13 +120,11 @@ const BESIDE: f64 = 1e-3;
 /// Trajectories that fly side by side: a few times the lanes of the batch engine.
 const SIDE_BY_SIDE: usize = 64;
 
-/// Starts that are to be followed at a place.
-struct Task {
-    at: f64,
-    of: (System, Vec<State>),
-}
+/// A system and the starts that are to be followed in it.
+type Task = (System, Vec<State>);
 
-/// Samples a band.
+/// The places of a band, in order, and by how much the largest peak between them may exceed the largest at
+/// them, over the clearance: 0 where every gap between places is resolved.
 ///
 /// # Errors
 /// [`StartError`] where a start is not finite.
@@ -145,11 +133,11 @@ pub fn along(
     stability: &[Stretch<bool>],
     sampling: &Sampling,
     executor: &dyn Executor,
-) -> Result<Sampled, StartError> {
+) -> Result<(Vec<Place>, f64), StartError> {
     let sampler = Sampler { band, sampling, executor, finest: finest(band) };
     let mut places = sampler.at(first_places(band, stability, sampling), &[])?;
     if band.is_point() {
-        return Ok(Sampled { places, unresolved: 0.0 });
+        return Ok((places, 0.0));
     }
     loop {
         let room = sampling.most.saturating_sub(places.len());
@@ -165,7 +153,7 @@ pub fn along(
     }
     let largest = largest(&places);
     let highest = sampler.gaps(&places).first().map_or(largest, |gap| gap.1);
-    Ok(Sampled { places, unresolved: highest - largest })
+    Ok((places, highest - largest))
 }
 
 fn largest(places: &[Place]) -> f64 {
@@ -190,7 +178,8 @@ fn first_places(band: &Band, stability: &[Stretch<bool>], sampling: &Sampling) -
         return vec![0.5 * (from + to)];
     }
     let mut places: Vec<f64> = band.places(sampling.even).collect();
-    places.extend(exact::unstable_middles(stability));
+    let unstable = stability.iter().filter(|one| !one.of);
+    places.extend(unstable.map(|one| 0.5 * (one.from + one.to)));
     let beside = BESIDE * band.width();
     places.extend(stability.windows(2).flat_map(|pair| [pair[0].to - beside, pair[0].to + beside]));
     match band.over {
@@ -231,18 +220,18 @@ impl Sampler<'_> {
             let right = known.partition_point(|place| place.at < at);
             let beside = known[right.saturating_sub(1)..known.len().min(right + 1)].iter();
             let beside = beside.flat_map(|place| followed(place, 0.0));
-            Some(Task { at, of: (system, starts::of(&system, starts).chain(beside).collect()) })
+            Some((at, (system, starts::of(&system, starts).chain(beside).collect())))
         };
-        let tasks: Vec<Task> = places.into_iter().filter_map(task).collect();
+        let (places, tasks): (Vec<f64>, Vec<Task>) = places.into_iter().filter_map(task).unzip();
         let found = self.simulated(&tasks)?;
-        let place = |(task, motions): (&Task, Vec<Motion>)| Place {
-            at: task.at,
+        let place = |((at, motions), (system, _)): ((f64, Vec<Motion>), &Task)| Place {
+            at,
             motions,
-            orbit: exact::attracting(self.band, task.at).map(|orbit| orbit.peaks.displacement),
-            inactive: Inactive::of(&task.of.0),
+            orbit: exact::attracting(self.band, at).map(|orbit| orbit.peaks.displacement),
+            inactive: Inactive::of(system),
             followed: 0.0,
         };
-        Ok(tasks.iter().zip(found).map(place).collect())
+        Ok(places.into_iter().zip(found).zip(&tasks).map(place).collect())
     }
 
     /// Follows larger motions to the places beside them; whether there were any.
@@ -255,10 +244,9 @@ impl Sampler<'_> {
             let beside = beside.into_iter().flatten().filter_map(|beside| places.get(beside));
             let starts: Vec<State> =
                 beside.clone().flat_map(|place| followed(place, known)).collect();
-            let at = places[k].at;
-            if let (false, Ok(system)) = (starts.is_empty(), self.band.system(at)) {
+            if let (false, Ok(system)) = (starts.is_empty(), self.band.system(places[k].at)) {
                 chosen.push((k, beside.map(Place::peak).fold(0.0, f64::max)));
-                tasks.push(Task { at, of: (system, starts) });
+                tasks.push((system, starts));
             }
         }
         let found = self.simulated(&tasks)?;
@@ -273,24 +261,17 @@ impl Sampler<'_> {
 
     /// The motions with impacts that each task's starts lead to.
     fn simulated(&self, tasks: &[Task]) -> Result<Vec<Vec<Motion>>, StartError> {
-        let mut groups: Vec<&[Task]> = Vec::new();
-        let each = tasks.iter().map(|task| task.of.1.len()).max().unwrap_or(1).max(1);
-        groups.extend(tasks.chunks((SIDE_BY_SIDE / each).max(1)));
-        let found = map(self.executor, "surveying the band", groups.len(), |k| {
-            self.side_by_side(groups[k])
-        });
-        let mut motions = Vec::with_capacity(tasks.len());
+        let each = tasks.iter().map(|task| task.1.len()).max().unwrap_or(1).max(1);
+        let groups: Vec<&[Task]> = tasks.chunks((SIDE_BY_SIDE / each).max(1)).collect();
+        let effort = Effort::over(self.sampling.periods);
+        let found =
+            map(self.executor, "surveying the band", groups.len(), |k| motions(groups[k], &effort));
+        let mut all = Vec::with_capacity(tasks.len());
         for group in found {
-            motions.extend(group?);
+            all.extend(group?);
         }
-        Ok(motions)
-    }
-
-    fn side_by_side(&self, tasks: &[Task]) -> Result<Vec<Vec<Motion>>, StartError> {
-        let places: Vec<_> = tasks.iter().map(|task| task.of.clone()).collect();
-        let mut found = motions(&places, &Effort::over(self.sampling.periods))?;
-        found.iter_mut().for_each(|all| all.retain(|motion| !motion.is_inactive()));
-        Ok(found)
+        all.iter_mut().for_each(|found| found.retain(|motion| !motion.is_inactive()));
+        Ok(all)
     }
 
     /// The middles of gaps in which the largest peak may exceed the largest that is known by more than the

@@ -148,8 +148,7 @@ impl Motions {
             .sampling
             .map(|sampling| simulated::along(band, &stability, &sampling, executor))
             .transpose()?;
-        let (places, unresolved) =
-            sampled.map_or((Vec::new(), 0.0), |sampled| (sampled.places, sampled.unresolved));
+        let (places, unresolved) = sampled.unwrap_or_default();
         Ok(Self {
             orbit: exact::extreme(band, &stability, |_, orbit| orbit.peaks.displacement),
             places,

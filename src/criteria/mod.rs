@@ -36,6 +36,13 @@ struct Value {
     by: Method,
 }
 
+impl Value {
+    /// One that is known of the whole range, or of a motion that has settled.
+    fn known(found: f64, error: f64, by: Method) -> Self {
+        Self { found, error, at: None, inactive: None, settled: true, by }
+    }
+}
+
 /// A criterion and what was found.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Judged {
@@ -147,38 +154,31 @@ impl Criterion {
         within && (room >= 0.0 || !(of_largest || of_least))
     }
 
+    /// Whether it is the harder to meet, the further the oscillator moves.
+    fn is_against_displacement(&self) -> bool {
+        match self.relation {
+            Relation::AtMost => self.subject == Subject::PeakDisplacement,
+            Relation::AtLeast => self.subject.is_reduction(),
+            Relation::Equal => false,
+        }
+    }
+
     fn judged(&self, value: Option<Value>, otherwise: Method) -> Judged {
-        let Some(value) = value else {
-            return Judged {
-                criterion: self.clone(),
-                found: None,
-                error: 0.0,
-                margin: None,
-                holds: None,
-                near_limit: false,
-                at: None,
-                inactive: None,
-                settled: true,
-                decided_by: otherwise,
-            };
-        };
-        let room = self.room(value.found);
         // What is about motions holds if it does so with its error.
-        let needed = match self.relation {
-            Relation::AtLeast | Relation::AtMost if self.subject.is_of_motions() => value.error,
-            _ => 0.0,
-        };
+        let counts = self.subject.is_of_motions() && self.relation != Relation::Equal;
+        let room = value.map(|value| self.room(value.found));
+        let error = value.map_or(0.0, |value| value.error);
         Judged {
             criterion: self.clone(),
-            found: Some(value.found),
-            error: value.error,
-            margin: Some(room),
-            holds: Some(room >= needed),
-            near_limit: self.is_open(room, value.error),
-            at: value.at,
-            inactive: value.inactive,
-            settled: value.settled,
-            decided_by: value.by,
+            found: value.map(|value| value.found),
+            error,
+            margin: room,
+            holds: room.map(|room| room >= if counts { error } else { 0.0 }),
+            near_limit: room.is_some_and(|room| self.is_open(room, error)),
+            at: value.and_then(|value| value.at),
+            inactive: value.and_then(|value| value.inactive),
+            settled: value.is_none_or(|value| value.settled),
+            decided_by: value.map_or(otherwise, |value| value.by),
         }
     }
 }

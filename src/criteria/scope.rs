@@ -2,7 +2,7 @@
 
 use super::{Judged, ROUNDING, Seen, Value, of_motion};
 use crate::band::exact::{self, attracting};
-use crate::band::{Survey, inactive, theory};
+use crate::band::{Inactive, Motions, Survey, inactive, theory};
 use crate::case::{Criterion, Scales, Subject};
 use crate::method::Method;
 use crate::orbits::{Measures, SymmetricOrbit};
@@ -55,26 +55,18 @@ impl Scope<'_> {
         let shifted = [1.0 - error.min(0.9), 1.0 + error].map(share);
         let off =
             shifted.map(|other| (other - found).abs()).into_iter().fold(SHARE_ROUNDING, f64::max);
-        Value { found, error: off, at: None, inactive: None, settled: true, by: Method::Theory }
+        Value::known(found, off, Method::Theory)
     }
 
     fn stable_share(&self) -> Value {
         // All and nothing have no end that could be off.
         let error = if self.survey.motions.stability.len() > 1 { SHARE_ROUNDING } else { 0.0 };
-        let found = self.survey.motions.stable_share();
-        Value { found, error, at: None, inactive: None, settled: true, by: Method::ExactOrbit }
+        Value::known(self.survey.motions.stable_share(), error, Method::ExactOrbit)
     }
 
     fn margin(&self) -> Value {
         let (at, found) = self.survey.smallest_gap;
-        Value {
-            found,
-            error: ROUNDING,
-            at: self.place(at),
-            inactive: None,
-            settled: true,
-            by: Method::ExactOrbit,
-        }
+        Value { at: self.place(at), ..Value::known(found, ROUNDING, Method::ExactOrbit) }
     }
 
     /// 1 where every place has one motion, 0 where one has several; `None` where nothing was simulated.
@@ -82,15 +74,11 @@ impl Scope<'_> {
         let motions = &self.survey.motions;
         motions.places.first()?;
         let several = motions.places.iter().find(|place| place.count(motions.count_inactive) > 1);
+        let inactive = several.filter(|_| motions.count_inactive);
         Some(Value {
-            found: f64::from(u8::from(several.is_none())),
-            error: 0.0,
             at: several.and_then(|place| self.place(place.at)),
-            inactive: several
-                .filter(|_| motions.count_inactive)
-                .and_then(|place| Some(place.inactive?.share)),
-            settled: true,
-            by: Method::Simulation,
+            inactive: inactive.and_then(|place| Some(place.inactive?.share)),
+            ..Value::known(f64::from(u8::from(several.is_none())), 0.0, Method::Simulation)
         })
     }
 
@@ -112,46 +100,42 @@ impl Scope<'_> {
 
     /// The worst of the attracting orbit, wherever there is one.
     fn worst_orbit(&self, criterion: &Criterion) -> Option<Value> {
-        let band = self.survey.band();
+        let Motions { band, stability, orbit, .. } = &self.survey.motions;
         let value = |at: f64, orbit: &SymmetricOrbit| {
             let system = band.system(at).ok()?;
             self.of_motion(criterion, &seen(&system, orbit, criterion.subject)?)
         };
-        let loss = |at: f64, orbit: &SymmetricOrbit| {
-            value(at, orbit).map_or(f64::NEG_INFINITY, |[found, _]| -criterion.room(found))
+        let at = if criterion.is_against_displacement() {
+            orbit.as_ref()?.at
+        } else {
+            let loss = |at: f64, orbit: &SymmetricOrbit| {
+                value(at, orbit).map_or(f64::NEG_INFINITY, |[found, _]| -criterion.room(found))
+            };
+            exact::largest_value(band, stability, loss)?.0
         };
-        let (at, _) = exact::largest_value(band, &self.survey.motions.stability, loss)?;
         let [found, error] = value(at, &attracting(band, at)?)?;
-        Some(Value {
-            found,
-            error,
-            at: self.place(at),
-            inactive: None,
-            settled: true,
-            by: Method::ExactOrbit,
-        })
+        Some(Value { at: self.place(at), ..Value::known(found, error, Method::ExactOrbit) })
     }
 
     /// The worst of an absorber that never wakes, in closed form, wherever it can rest.
     fn worst_inactive(&self, criterion: &Criterion) -> Option<Value> {
-        let band = self.survey.band();
-        if !self.survey.motions.count_inactive {
+        let Motions { band, inactive, count_inactive: true, .. } = &self.survey.motions else {
             return None;
-        }
+        };
         let value = |at: f64| {
-            let inactive = inactive::Inactive::of(&band.system(at).ok()?)?;
+            let inactive = Inactive::of(&band.system(at).ok()?)?;
             let [found, error] = self.of_motion(criterion, &Seen::inactive(&inactive))?;
             Some(Value {
-                found,
-                error,
                 at: self.place(at),
                 inactive: Some(inactive.share),
-                settled: true,
-                by: Method::ClosedForm,
+                ..Value::known(found, error, Method::ClosedForm)
             })
         };
-        let (at, _) =
-            inactive::largest_by(band, |at| value(at).map(|one| -criterion.room(one.found)))?;
+        let at = if criterion.is_against_displacement() {
+            inactive.as_ref()?.0
+        } else {
+            inactive::largest_by(band, |at| value(at).map(|one| -criterion.room(one.found)))?.0
+        };
         value(at)
     }
 
@@ -162,9 +146,11 @@ impl Scope<'_> {
             place.beside_orbit().filter_map(move |motion| {
                 let seen = Seen::simulated(motion, motions.unresolved);
                 let [found, error] = self.of_motion(criterion, &seen)?;
-                let at = self.place(place.at);
-                let (settled, by) = (motion.settled, Method::Simulation);
-                Some(Value { found, error, at, inactive: None, settled, by })
+                Some(Value {
+                    at: self.place(place.at),
+                    settled: motion.settled,
+                    ..Value::known(found, error, Method::Simulation)
+                })
             })
         })
     }

@@ -9,7 +9,7 @@ const GOLDEN: f64 = 0.618_033_988_749_894_9;
 const NARROWINGS: u32 = 40;
 
 /// Ends of `pieces` even pieces.
-fn places([from, to]: [f64; 2], pieces: u32) -> impl Iterator<Item = f64> {
+pub fn places([from, to]: [f64; 2], pieces: u32) -> impl Iterator<Item = f64> {
     let part = move |k: u32| f64::from(k) / f64::from(pieces);
     (0..=pieces).map(move |k| from * (1.0 - part(k)) + to * part(k))
 }
@@ -86,9 +86,19 @@ pub fn largest(
     pieces: u32,
     mut f: impl FnMut(f64) -> Option<f64>,
 ) -> Option<(f64, f64)> {
-    let tried = places(range, pieces).filter_map(|at| Some((at, f(at)?)));
-    let mut best = tried.max_by(|a, b| a.1.total_cmp(&b.1))?;
-    let [from, to] = range;
+    let tried: Vec<(f64, f64)> =
+        places(range, pieces).filter_map(|at| Some((at, f(at)?))).collect();
+    largest_of(tried, range, pieces, f)
+}
+
+/// The same where the values at the [`places`] are known.
+pub fn largest_of(
+    tried: impl IntoIterator<Item = (f64, f64)>,
+    [from, to]: [f64; 2],
+    pieces: u32,
+    mut f: impl FnMut(f64) -> Option<f64>,
+) -> Option<(f64, f64)> {
+    let mut best = tried.into_iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
     let step = (to - from) / f64::from(pieces);
     narrow([(best.0 - step).max(from), (best.0 + step).min(to)], |at| {
         let value = f(at).unwrap_or(f64::NEG_INFINITY);

@@ -3,7 +3,8 @@
 use super::OptimizeError;
 use super::design::{Design, Judge};
 use super::search::{self, Effort, Found, Seen, distance, shortlist};
-use super::task::Task;
+use super::task::{Deviation, Task};
+use crate::band::simulated::Sampling;
 use crate::case::{AbsorberDesign, Objective};
 use crate::executor::{Executor, Serial, map};
 
@@ -32,7 +33,12 @@ pub struct Proposed {
 pub fn propose(task: &Task, executor: &dyn Executor) -> Result<Proposed, OptimizeError> {
     let exact = task.objective != Objective::WorstAmplitude;
     let effort = if exact { EXACT } else { SCREENED };
-    let score = |parts: &[f64]| task.cheap_score(&task.choice(parts)).unwrap_or(f64::NEG_INFINITY);
+    // A coarse survey, which only ranks.
+    let cheap = Task { sampling: Sampling::SCREENING, ..task.clone() };
+    let score = |parts: &[f64]| {
+        let found = cheap.score(&task.choice(parts), &Deviation::default(), &Serial);
+        found.unwrap_or(f64::NEG_INFINITY)
+    };
     let own = task.parts(&AbsorberDesign::of(&task.design));
     let what = "looking between the bounds";
     let Found { line, seen, best } = search::everywhere(what, &own, &effort, executor, &score);

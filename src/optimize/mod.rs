@@ -17,7 +17,7 @@ pub mod task;
 mod choose;
 
 pub use design::Design;
-pub use task::{Bounds, Deviation, Task, TaskError, Variable};
+pub use task::{Bounds, Deviation, Task, Variable};
 
 use serde::Serialize;
 
@@ -31,9 +31,9 @@ use design::Judge;
 /// Why a case cannot be optimised.
 #[derive(Debug, thiserror::Error)]
 pub enum OptimizeError {
-    /// There is nothing to choose.
-    #[error(transparent)]
-    Task(#[from] TaskError),
+    /// Nothing drives the oscillator: every absorber is as good as any other.
+    #[error("the case is not driven: its excitation has the amplitude 0")]
+    NotDriven,
     /// The chosen absorber cannot be written into the case.
     #[error(transparent)]
     Rewrite(#[from] RewriteError),

@@ -3,12 +3,13 @@
 
 use serde::Serialize;
 
+use super::OptimizeError;
 use crate::band::exact::stability;
 use crate::band::simulated::Sampling;
 use crate::band::{Band, Motions, SurveySettings, margin, theory};
 use crate::case::{AbsorberDesign, BandOver, BandSettings, Case, Design, Objective, Uncertainty};
 use crate::criteria;
-use crate::executor::{Executor, Serial};
+use crate::executor::Executor;
 use crate::system::{Parameter, System};
 
 /// Clearances looked at where the case gives no bounds, over its own.
@@ -71,14 +72,6 @@ pub struct Deviation {
     pub amplitude: f64,
 }
 
-/// Why there is nothing to optimise.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-pub enum TaskError {
-    /// Nothing drives the oscillator.
-    #[error("the case is not driven: its excitation has the amplitude 0")]
-    NotDriven,
-}
-
 /// What is optimised.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Task {
@@ -102,12 +95,12 @@ impl Task {
     /// That of a case; `objective` overrides the case's own.
     ///
     /// # Errors
-    /// [`TaskError`] where every absorber is as good as any other.
-    pub fn of(case: &Case, objective: Option<Objective>) -> Result<Self, TaskError> {
+    /// [`OptimizeError::NotDriven`] where every absorber is as good as any other.
+    pub fn of(case: &Case, objective: Option<Objective>) -> Result<Self, OptimizeError> {
         let settings = &case.optimize;
         let own = AbsorberDesign::of(&case.design);
         if case.system().forcing_per_clearance() == 0.0 {
-            return Err(TaskError::NotDriven);
+            return Err(OptimizeError::NotDriven);
         }
         let usual = CLEARANCES.map(|factor| factor * own.clearance);
         let given = [
@@ -204,27 +197,12 @@ impl Task {
         off: &Deviation,
         executor: &dyn Executor,
     ) -> Option<f64> {
-        self.sampled_score(choice, off, self.sampling, executor)
-    }
-
-    /// The same by a coarse survey, which only ranks.
-    pub fn cheap_score(&self, choice: &AbsorberDesign) -> Option<f64> {
-        self.sampled_score(choice, &Deviation::default(), Sampling::SCREENING, &Serial)
-    }
-
-    fn sampled_score(
-        &self,
-        choice: &AbsorberDesign,
-        off: &Deviation,
-        sampling: Sampling,
-        executor: &dyn Executor,
-    ) -> Option<f64> {
         let (band, clearance) = self.band_of(choice, off)?;
         if self.objective != Objective::WorstAmplitude {
             return self.exact_score(&band);
         }
         let settings =
-            SurveySettings { sampling: Some(sampling), count_inactive: self.count_inactive };
+            SurveySettings { sampling: Some(self.sampling), count_inactive: self.count_inactive };
         let worst = Motions::of(&band, &settings, executor).ok()?.worst()?;
         Some(-clearance * (worst.peak + worst.error))
     }

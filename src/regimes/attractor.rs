@@ -137,7 +137,7 @@ impl Attractor {
         let (oscillator_harmonic, absorber_harmonic) = statistics.harmonics();
         let classification =
             classify(&statistics, &log.impacts, lyapunov.exponent(), system.period());
-        let mut motion = Motion::of(&statistics, &classification, simulation, stop);
+        let mut motion = Motion::of(&statistics, &classification.evidence, simulation, stop);
         motion.settled &= classification.dynamics != DynamicsKind::TransientNotOver;
         Self {
             motion,

@@ -105,7 +105,7 @@ pub fn long_term(
     for round in 1..=ROUNDS {
         let mut again = Group::default();
         let effort = Effort { periods: effort.periods * round, ..*effort };
-        for (one, motion) in (Round { effort, transients: &transients }).measured(all) {
+        for (one, motion) in measured(all, &transients, &effort) {
             let settling = |motion: Motion| one.stop == Stop::EndTime && motion.is_settling();
             motions[one.index] = motion;
             if round < ROUNDS && motion.is_some_and(settling) {
@@ -162,58 +162,42 @@ impl Group {
     }
 }
 
-/// A transient left out and a window measured.
-struct Round<'a> {
-    effort: Effort,
-    /// Periods left out for each start.
-    transients: &'a [u64],
-}
-
-impl Round<'_> {
-    /// Leaves out a transient, watches its last periods, and measures what has not repeated by then over a
-    /// window.
-    fn measured(&self, mut all: Group) -> Vec<(Ended, Option<Motion>)> {
-        let last = |system: &System| transient::window(system, WATCHED);
-        let watched = all.extents(&self.effort, |_, system| last(system));
-        let faded = all.extents(&self.effort, |index, system| {
-            self.transients[index].saturating_sub(last(system))
-        });
-        let mut nobody: Vec<()> = vec![(); all.simulations.len()];
-        all.run(&faded, &mut nobody);
-        let mut done = Vec::with_capacity(all.indices.len());
-        let (mut going, mut windows) = (Group::default(), Vec::new());
-        for (one, mut watch) in all.measured(&watched) {
-            let simulation = &one.simulation;
-            if let Some(state) = transient::inactive(simulation.system(), &simulation.state()) {
-                let followed = simulation.periods();
-                let motion = Motion::inactive(simulation.system(), state, followed);
-                done.push((one, Some(motion)));
-            } else if one.stop != Stop::EndTime
-                || periodicity::find(watch.statistics().records()).is_some()
-            {
-                let motion = watch.motion(simulation, one.stop);
-                done.push((one, motion));
-            } else {
-                let flights = watch.statistics().impacts() == 0;
-                windows.push(self.window(one.index, simulation, flights));
-                going.add(one.index, one.simulation);
-            }
+/// Leaves out a transient of so many periods for each start, watches its last periods, and measures what has
+/// not repeated by then over a window.
+fn measured(mut all: Group, transients: &[u64], effort: &Effort) -> Vec<(Ended, Option<Motion>)> {
+    let last = |system: &System| transient::window(system, WATCHED);
+    let watched = all.extents(effort, |_, system| last(system));
+    let faded = all.extents(effort, |index, system| transients[index].saturating_sub(last(system)));
+    let mut nobody: Vec<()> = vec![(); all.simulations.len()];
+    all.run(&faded, &mut nobody);
+    let mut done = Vec::with_capacity(all.indices.len());
+    let (mut going, mut windows) = (Group::default(), Vec::new());
+    for (one, mut watch) in all.measured(&watched) {
+        let simulation = &one.simulation;
+        if let Some(state) = transient::inactive(simulation.system(), &simulation.state()) {
+            let followed = simulation.periods();
+            let motion = Motion::inactive(simulation.system(), state, followed);
+            done.push((one, Some(motion)));
+        } else if one.stop != Stop::EndTime
+            || periodicity::find(watch.statistics().records()).is_some()
+        {
+            let motion = watch.motion(simulation, one.stop);
+            done.push((one, motion));
+        } else {
+            // Without an impact yet a window holds some flights, but is no longer than the transient.
+            let silent = watch.statistics().impacts() == 0;
+            let flown = if silent { periods_of_flights(simulation) } else { 0 };
+            let periods = effort.periods.max(flown.min(transients[one.index]));
+            let system = simulation.system();
+            windows.push(effort.extent(system, transient::window(system, periods)));
+            going.add(one.index, one.simulation);
         }
-        done.extend(going.measured(&windows).into_iter().map(|(one, mut watch)| {
-            let motion = watch.motion(&one.simulation, one.stop);
-            (one, motion)
-        }));
-        done
     }
-
-    /// The window of a motion that was not seen to repeat; without an impact yet it holds some `flights` of the
-    /// absorber, but is no longer than the transient.
-    fn window(&self, index: usize, simulation: &Simulation, flights: bool) -> Extent {
-        let flown = if flights { periods_of_flights(simulation) } else { 0 };
-        let longer = flown.min(self.transients[index]);
-        let system = simulation.system();
-        self.effort.extent(system, transient::window(system, self.effort.periods.max(longer)))
-    }
+    done.extend(going.measured(&windows).into_iter().map(|(one, mut watch)| {
+        let motion = watch.motion(&one.simulation, one.stop);
+        (one, motion)
+    }));
+    done
 }
 
 /// Excitation periods of [`FLIGHTS`] flights of an absorber from wall to wall.

@@ -65,16 +65,27 @@ impl Regime {
         Self::AtRest,
     ];
 
+    /// Its name in results and documents, in a few words, and in as few as a table has room for.
+    const fn names(self) -> [&'static str; 3] {
+        match self {
+            Self::AtRest => ["at-rest", "absorber at rest, no impacts", "rest"],
+            Self::AboveTwo => ["above-two", "more than two impacts per period", "z > 2"],
+            Self::TwoAsymmetric => {
+                ["two-asymmetric", "two asymmetric impacts per period", "asymmetric"]
+            }
+            Self::TwoSymmetric => {
+                ["two-symmetric", "two symmetric impacts per period", "symmetric 1:1"]
+            }
+            Self::StronglyModulated => {
+                ["strongly-modulated", "strongly modulated response", "strongly modulated"]
+            }
+            Self::BelowTwo => ["below-two", "fewer than two impacts per period", "z < 2"],
+        }
+    }
+
     /// The regime's name in results and documents.
     pub const fn key(self) -> &'static str {
-        match self {
-            Self::AtRest => "at-rest",
-            Self::AboveTwo => "above-two",
-            Self::TwoAsymmetric => "two-asymmetric",
-            Self::TwoSymmetric => "two-symmetric",
-            Self::StronglyModulated => "strongly-modulated",
-            Self::BelowTwo => "below-two",
-        }
+        self.names()[0]
     }
 
     /// The regime that results name so.
@@ -88,27 +99,13 @@ impl Regime {
     }
 
     /// The regime in a few words.
-    pub fn words(self) -> &'static str {
-        match self {
-            Self::AtRest => "absorber at rest, no impacts",
-            Self::AboveTwo => "more than two impacts per period",
-            Self::TwoAsymmetric => "two asymmetric impacts per period",
-            Self::TwoSymmetric => "two symmetric impacts per period",
-            Self::StronglyModulated => "strongly modulated response",
-            Self::BelowTwo => "fewer than two impacts per period",
-        }
+    pub const fn words(self) -> &'static str {
+        self.names()[1]
     }
 
     /// The regime in as few words as a table has room for.
-    pub fn short(self) -> &'static str {
-        match self {
-            Self::AtRest => "rest",
-            Self::AboveTwo => "z > 2",
-            Self::TwoAsymmetric => "asymmetric",
-            Self::TwoSymmetric => "symmetric 1:1",
-            Self::StronglyModulated => "strongly modulated",
-            Self::BelowTwo => "z < 2",
-        }
+    pub const fn short(self) -> &'static str {
+        self.names()[2]
     }
 
     /// Whether two impacts happen in every period.
@@ -184,34 +181,55 @@ pub fn classify(
     period: f64,
 ) -> Classification {
     let records = statistics.records();
-    let periodicity = periodicity::find(records);
-    let repetition = periodicity.and_then(|found| periodicity::last_repetition(found, impacts));
+    let of_impacts = Evidence::of_impacts(statistics, impacts, period);
+    let repetition =
+        of_impacts.periodicity.and_then(|found| periodicity::last_repetition(found, impacts));
     let amplitudes = modulation::amplitudes(records, thresholds::SHORTEST_CAPTURE);
-    let (per_period, last) = match periodicity {
-        Some(found) => {
-            let per = |count: u32| f64::from(count) / f64::from(found.periods);
-            let visits = found.last(records).iter().flat_map(|record| record.visits).sum();
-            // Two impacts more make as many intervals follow each other as there are impacts.
-            let from = impacts.len().saturating_sub(found.impacts as usize + 2);
-            ([per(found.impacts), per(visits)], &impacts[from..])
-        }
-        None => ([statistics.impacts_per_period(), statistics.visits_per_period()], impacts),
-    };
     let evidence = Evidence {
-        impacts_per_period: per_period[0],
-        visits_per_period: per_period[1],
-        periodicity,
         sequence: repetition.and_then(ImpactSequence::of),
-        asymmetry: periodicity::asymmetry(last, period),
-        modulation_depth: modulation::depth(records),
         modulation_growth: modulation::growth(records),
-        captures: modulation::captures(&amplitudes),
         absorber_amplitude: modulation::absorber_amplitude(&amplitudes),
         exponent,
         settled: modulation::settled(records),
+        ..of_impacts
     };
     let (regime, dynamics) = (Regime::of(&evidence), DynamicsKind::of(&evidence));
     Classification { regime, dynamics, evidence }
+}
+
+impl Evidence {
+    /// What a regime is decided by, from a window in which only impacts and peaks were measured; the rest is
+    /// left open.
+    fn of_impacts(statistics: &Statistics, impacts: &[Impact], period: f64) -> Self {
+        let records = statistics.records();
+        let periodicity = periodicity::find(records);
+        let (per_period, last) = match periodicity {
+            Some(found) => {
+                let per = |count: u32| f64::from(count) / f64::from(found.periods);
+                let visits = found.last(records).iter().flat_map(|record| record.visits).sum();
+                // Two impacts more make as many intervals follow each other as there are impacts.
+                let from = impacts.len().saturating_sub(found.impacts as usize + 2);
+                ([per(found.impacts), per(visits)], &impacts[from..])
+            }
+            None => ([statistics.impacts_per_period(), statistics.visits_per_period()], impacts),
+        };
+        Self {
+            impacts_per_period: per_period[0],
+            visits_per_period: per_period[1],
+            periodicity,
+            sequence: None,
+            asymmetry: periodicity::asymmetry(last, period),
+            modulation_depth: modulation::depth(records),
+            modulation_growth: 1.0,
+            captures: modulation::captures(&modulation::captured(
+                records,
+                thresholds::SHORTEST_CAPTURE,
+            )),
+            absorber_amplitude: AbsorberAmplitude::default(),
+            exponent: None,
+            settled: true,
+        }
+    }
 }
 
 impl Regime {

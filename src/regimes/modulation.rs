@@ -76,35 +76,43 @@ pub fn growth(records: &[PeriodRecord]) -> f64 {
     if first > 0.0 { second / first } else { 1.0 }
 }
 
-/// The captures in a series of periods.
-pub fn captures(series: &[Amplitudes]) -> Captures {
-    let runs = series.chunk_by(|a, b| a.captured == b.captured).filter(|run| run[0].captured);
-    let mut lengths: Vec<usize> = runs.map(<[Amplitudes]>::len).collect();
+/// The captures in a series of periods, of each of which is given whether it belongs to one.
+pub fn captures(captured: &[bool]) -> Captures {
+    let runs = captured.chunk_by(|a, b| a == b).filter(|run| run[0]);
+    let mut lengths: Vec<usize> = runs.map(<[bool]>::len).collect();
     lengths.sort_unstable();
-    let (count, captured) = (lengths.len(), lengths.iter().sum::<usize>());
+    let (count, total) = (lengths.len(), lengths.iter().sum::<usize>());
     let middle = |k: usize| lengths.get(k).copied().unwrap_or(0) as f64;
     Captures {
         count,
-        share: captured as f64 / series.len().max(1) as f64,
+        share: total as f64 / captured.len().max(1) as f64,
         longest: lengths.last().copied().unwrap_or(0),
-        mean: captured as f64 / count.max(1) as f64,
+        mean: total as f64 / count.max(1) as f64,
         median: 0.5 * (middle(count.saturating_sub(1) / 2) + middle(count / 2)),
     }
 }
 
+/// Whether each period belongs to a capture of at least `shortest` periods.
+pub fn captured(records: &[PeriodRecord], shortest: usize) -> Vec<bool> {
+    let alternates = |record: &PeriodRecord| record.impacts == [1, 1];
+    let stretches = records.chunk_by(|a, b| alternates(a) == alternates(b));
+    let held = |stretch: &[PeriodRecord]| {
+        let long = alternates(&stretch[0]) && stretch.len() >= shortest;
+        std::iter::repeat_n(long, stretch.len())
+    };
+    stretches.flat_map(held).collect()
+}
+
 /// `C` and `E` of every period, with the captures of at least `shortest` periods.
 pub fn amplitudes(records: &[PeriodRecord], shortest: usize) -> Vec<Amplitudes> {
-    let mut all = Vec::with_capacity(records.len());
-    for stretch in records.split_inclusive(|record| record.impacts != [1, 1]) {
-        let alternating = stretch.iter().filter(|record| record.impacts == [1, 1]).count();
-        all.extend(stretch.iter().map(|record| Amplitudes {
-            oscillator_amplitude: size(record.oscillator_harmonic),
-            absorber_amplitude: size(record.absorber_harmonic),
-            peak: record.peak,
-            captured: record.impacts == [1, 1] && alternating >= shortest.max(1),
-        }));
-    }
-    all
+    let each = records.iter().zip(captured(records, shortest));
+    each.map(|(record, captured)| Amplitudes {
+        oscillator_amplitude: size(record.oscillator_harmonic),
+        absorber_amplitude: size(record.absorber_harmonic),
+        peak: record.peak,
+        captured,
+    })
+    .collect()
 }
 
 fn size([sine, cosine]: [f64; 2]) -> f64 {
@@ -202,14 +210,14 @@ mod tests {
     #[test]
     fn captures_are_counted_and_measured() {
         // Lengths 3, 5, 1 (too short), 4: mean 4, median 4, 12 of 17 periods.
-        let found = captures(&amplitudes(&series("ccc.ccccc.c..cccc"), 3));
+        let found = captures(&captured(&series("ccc.ccccc.c..cccc"), 3));
         assert_eq!((found.count, found.longest, found.mean, found.median), (3, 5, 4.0, 4.0));
         assert!((found.share - 12.0 / 17.0).abs() < 1e-15);
-        let even = captures(&amplitudes(&series("ccc.cccccccc"), 3));
+        let even = captures(&captured(&series("ccc.cccccccc"), 3));
         assert_eq!((even.mean, even.median), (5.5, 5.5));
-        let uneven = captures(&amplitudes(&series("ccc.ccc.cccccccccc.cccc"), 3));
+        let uneven = captures(&captured(&series("ccc.ccc.cccccccccc.cccc"), 3));
         assert_eq!((uneven.mean, uneven.median), (5.0, 3.5));
-        assert_eq!(captures(&amplitudes(&series("cc.cc"), 3)), Captures::default());
+        assert_eq!(captures(&captured(&series("cc.cc"), 3)), Captures::default());
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{Classification, Periodicity, Regime, modulation};
+use super::{Evidence, Periodicity, Regime, modulation};
 use crate::numerics::scatter::error_of_largest_of;
 use crate::simulation::{PeriodRecord, Simulation, Statistics, Stop};
 use crate::system::{State, System};
@@ -63,30 +63,23 @@ impl Motion {
     /// motion repeats.
     pub(super) fn of(
         statistics: &Statistics,
-        classification: &Classification,
+        evidence: &Evidence,
         simulation: &Simulation,
         stop: Stop,
     ) -> Self {
         let records = statistics.records();
         let motion = Self {
             peak: statistics.peak(),
-            peak_error: 0.0,
             rms: statistics.rms(),
-            rms_error: 0.0,
-            impacts_per_period: classification.evidence.impacts_per_period,
-            impacts_error: 0.0,
+            impacts_per_period: evidence.impacts_per_period,
             impact_speed: statistics.impact_speed(),
-            impact_speed_error: 0.0,
-            settled: true,
-            regime: classification.regime,
-            starts: 1,
+            regime: Regime::of(evidence),
             efficiency: statistics.efficiency(),
             repeats_after: None,
-            state: simulation.state(),
-            followed: simulation.periods(),
             stop,
+            ..Self::inactive(simulation.system(), simulation.state(), simulation.periods())
         };
-        if let Some(found) = classification.evidence.periodicity {
+        if let Some(found) = evidence.periodicity {
             return motion.repeating(found, records);
         }
         let [rms_error, impacts_error] = statistics.errors();

@@ -1,6 +1,6 @@
 //! What watches a trajectory side by side with others.
 
-use super::{Motion, classify};
+use super::{Evidence, Motion};
 use crate::simulation::{
     Impact, ImpactLog, ImpactStatistics, Observer, Segment, Simulation, Statistics, Stop,
 };
@@ -54,7 +54,7 @@ impl Watch {
         }
         let statistics = self.statistics.statistics();
         let period = simulation.system().period();
-        let classification = classify(statistics, &self.log.impacts, None, period);
-        Some(Motion::of(statistics, &classification, simulation, stop))
+        let evidence = Evidence::of_impacts(statistics, &self.log.impacts, period);
+        Some(Motion::of(statistics, &evidence, simulation, stop))
     }
 }

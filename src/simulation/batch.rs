@@ -17,7 +17,7 @@ use super::events::Observer;
 use super::panels::Limits;
 use super::phasor::{At, Line, Rates, Steady};
 use super::run::{Moment, Simulation, Stop};
-use super::walls::{self, inverse_loss};
+use super::walls::{self, Sticking};
 use crate::numerics::lanes::{LANES, Real, Wide, WideMask};
 use crate::system::State;
 
@@ -94,10 +94,7 @@ struct Lanes<S: Simd> {
     rates: Rates<Wide<S>>,
     mass_ratio: Wide<S>,
     restitution: Wide<S>,
-    /// `1/(1 - r^2)`, and what else tells whether an impact could be the end of a chattering sequence.
-    inverse_loss: Wide<S>,
-    excursion: Wide<S>,
-    largest_force: Wide<S>,
+    sticking: Sticking<Wide<S>>,
     /// State and phase where the flight began.
     x: Wide<S>,
     v: Wide<S>,
@@ -128,29 +125,16 @@ impl<S: Simd> Lanes<S> {
         Self {
             simd,
             task: [None; LANES],
-            rates: Rates {
-                fastest: one,
-                step: one,
-                frequency: one,
-                inverse_frequency: one,
-                squared: one,
-                decay: zero,
-                twice_decay: zero,
-                ringing: one,
-                inverse_ringing: one,
-                stiffness: one,
-                sixth_free: zero,
-                sixth_steady: zero,
-                second_steady: zero,
-                turn: [one, zero],
-                swing: [one, zero, zero],
-                origin: steady,
-            },
+            rates: Rates::gathered(|_| one),
             mass_ratio: zero,
             restitution: zero,
-            inverse_loss: one,
-            excursion: zero,
-            largest_force: zero,
+            sticking: Sticking {
+                decay: zero,
+                stiffness: one,
+                largest_force: zero,
+                excursion: zero,
+                inverse_loss: one,
+            },
             x: zero,
             v: zero,
             line: Line { y: zero, velocity: zero },
@@ -300,7 +284,7 @@ impl<S: Simd> Lanes<S> {
             queue.next += 1;
             if let Some(departure) = queue.tasks[index].alone(false) {
                 self.task[lane] = Some(index);
-                self.settle(lane, &queue.tasks[index]);
+                self.settle(lane, &queue.tasks);
                 self.depart(lane, &departure);
                 return true;
             }
@@ -308,40 +292,34 @@ impl<S: Simd> Lanes<S> {
         false
     }
 
-    /// Sets what stays the same along a trajectory.
-    fn settle<O: Observer>(&mut self, lane: usize, task: &Task<'_, O>) {
-        let Some(of) = task.simulation.rates() else { return };
-        let rates = &mut self.rates;
-        rates.fastest[lane] = of.fastest;
-        rates.step[lane] = of.step;
-        rates.frequency[lane] = of.frequency;
-        rates.inverse_frequency[lane] = of.inverse_frequency;
-        rates.squared[lane] = of.squared;
-        rates.decay[lane] = of.decay;
-        rates.twice_decay[lane] = of.twice_decay;
-        rates.ringing[lane] = of.ringing;
-        rates.inverse_ringing[lane] = of.inverse_ringing;
-        rates.stiffness[lane] = of.stiffness;
-        rates.sixth_free[lane] = of.sixth_free;
-        rates.sixth_steady[lane] = of.sixth_steady;
-        rates.second_steady[lane] = of.second_steady;
-        for k in 0..2 {
-            rates.turn[k][lane] = of.turn[k];
-        }
-        for k in 0..3 {
-            rates.swing[k][lane] = of.swing[k];
-        }
-        rates.origin.x[lane] = of.origin.x;
-        rates.origin.v[lane] = of.origin.v;
-        let system = task.simulation.system();
-        let r = system.restitution();
-        self.mass_ratio[lane] = system.mass_ratio();
-        self.restitution[lane] = r;
-        self.inverse_loss[lane] = inverse_loss(r);
-        self.excursion[lane] = task.simulation.tolerance().excursion;
-        self.largest_force[lane] = task.simulation.largest_force();
-        self.last_turn[lane] = task.limits.turns as f64;
-        self.last_impact[lane] = task.limits.impacts as f64;
+    /// Sets what stays the same along the trajectory that a lane has taken.
+    fn settle<O: Observer>(&mut self, lane: usize, tasks: &[Task<'_, O>]) {
+        let one = self.mass_ratio.like(1.0);
+        let each = self.task.map(|task| tasks[task?].simulation.rates.as_ref());
+        self.rates = Rates::gathered(
+            #[inline(always)]
+            |rate| {
+                let mut all = one;
+                for (lane, rates) in each.iter().enumerate() {
+                    all[lane] = rates.map_or(1.0, rate);
+                }
+                all
+            },
+        );
+        let Some(Task { simulation, limits, .. }) = self.task[lane].map(|index| &tasks[index])
+        else {
+            return;
+        };
+        self.mass_ratio[lane] = simulation.system.mass_ratio();
+        self.restitution[lane] = simulation.system.restitution();
+        let sticking = Sticking::of(simulation);
+        self.sticking.decay[lane] = sticking.decay;
+        self.sticking.stiffness[lane] = sticking.stiffness;
+        self.sticking.largest_force[lane] = sticking.largest_force;
+        self.sticking.excursion[lane] = sticking.excursion;
+        self.sticking.inverse_loss[lane] = sticking.inverse_loss;
+        self.last_turn[lane] = limits.turns as f64;
+        self.last_impact[lane] = limits.impacts as f64;
     }
 
     /// Sets where a trajectory stands.
@@ -374,54 +352,4 @@ fn tightened<S: Simd>(
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::simulation::{Impact, ImpactLog};
-    use crate::system::{Excitation, Parameters, System};
-
-    fn simulations() -> Vec<Simulation> {
-        (0..40)
-            .map(|k| {
-                let part = f64::from(k) / 40.0;
-                let system = System::new(Parameters {
-                    mass_ratio: 0.01 + 0.2 * part,
-                    damping: 3.0 * part,
-                    restitution: 0.3 + 0.6 * part,
-                    frequency_ratio: 0.7 + part,
-                    forcing_per_clearance: 20.0,
-                    excitation: Excitation::BaseDisplacement,
-                })
-                .expect("valid");
-                let start = State { x: part, x_velocity: 0.3, y: 0.2, y_velocity: -0.5 * part };
-                Simulation::new(&system, start, 0.0).expect("inside the cavity")
-            })
-            .collect()
-    }
-
-    /// No instruction that another processor lacks, or rounds otherwise, has a say in a result.
-    #[test]
-    fn every_set_of_instructions_gives_the_same_bits() {
-        let by = |level: Level| {
-            let (mut together, mut alone) = (simulations(), simulations());
-            let mut logs: Vec<ImpactLog> = together.iter().map(|_| ImpactLog::default()).collect();
-            run_at(
-                level,
-                &mut together,
-                &[Extent { periods: 60, impacts: u64::MAX }; 40],
-                &mut logs,
-            );
-            for simulation in &mut alone {
-                *simulation = simulation.clone().at_level(level);
-                simulation.run(60, u64::MAX, &mut ());
-            }
-            let states = |all: Vec<Simulation>| all.iter().map(Simulation::state).collect();
-            let impacts: Vec<Vec<Impact>> = logs.into_iter().map(|log| log.impacts).collect();
-            let states: [Vec<State>; 2] = [states(together), states(alone)];
-            (impacts, states)
-        };
-        let (impacts, states) = by(Level::new());
-        assert!(impacts.iter().map(Vec::len).sum::<usize>() > 1000);
-        assert_eq!(states[0], states[1]);
-        assert_eq!((impacts, states), by(Level::baseline()));
-    }
-}
+mod tests;

@@ -116,11 +116,10 @@ impl Segment {
 
 /// Receives what happens, in order.
 pub trait Observer {
-    /// Whether it looks at smooth stretches, which cost more to describe than to fly.
-    const SEGMENTS: bool = true;
-    /// Whether it looks at flights too; if not, it may still be told of some.
+    /// Whether it looks at flights, which cost more to describe than to fly; if not, it may still be told of
+    /// some.
     fn flights(&self) -> bool {
-        Self::SEGMENTS
+        true
     }
     /// A stretch of smooth motion was completed.
     fn segment(&mut self, _segment: &Segment) {}
@@ -135,11 +134,12 @@ pub trait Observer {
 
 /// An observer that ignores everything: for transients.
 impl Observer for () {
-    const SEGMENTS: bool = false;
+    fn flights(&self) -> bool {
+        false
+    }
 }
 
 impl<A: Observer, B: Observer> Observer for (&mut A, &mut B) {
-    const SEGMENTS: bool = A::SEGMENTS || B::SEGMENTS;
     fn flights(&self) -> bool {
         self.0.flights() || self.1.flights()
     }

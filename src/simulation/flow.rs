@@ -8,8 +8,12 @@
 //! steady motion would dwarf the real one; then it is the response from rest, whose formula has no
 //! small denominator. Valid for every finite parameter set.
 
+use nalgebra::Complex;
+
 use crate::operation_count;
 use crate::system::System;
+
+type Phasor = Complex<f64>;
 
 /// Gain of the steady motion over the excitation above which the response from rest replaces it:
 /// four digits are the most that the subtraction of the two large parts may cost.
@@ -33,14 +37,10 @@ pub struct Oscillator {
     /// Forcing in `cos(phase)`.
     pub cosine: f64,
     /// Largest absolute forcing.
-    largest: f64,
-    form: ForcedForm,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum ForcedForm {
-    Steady { sine: f64, cosine: f64 },
-    FromRest,
+    pub largest_force: f64,
+    /// Steady motion: coefficients of `sin` and `cos` of the phase; `None` where it would dwarf the
+    /// real one, and the response from rest takes its place.
+    pub steady: Option<(f64, f64)>,
 }
 
 impl Oscillator {
@@ -65,39 +65,22 @@ impl Oscillator {
             frequency,
             sine: sine / mass,
             cosine: cosine / mass,
-            largest: libm::hypot(sine, cosine) / mass,
-            form: ForcedForm::FromRest,
+            largest_force: libm::hypot(sine, cosine) / mass,
+            steady: None,
         };
-        oscillator.form = oscillator.choose_form();
+        oscillator.steady = oscillator.steady_motion();
         oscillator
     }
 
-    fn choose_form(&self) -> ForcedForm {
+    fn steady_motion(&self) -> Option<(f64, f64)> {
         let root = self.stiffness.sqrt();
         let reactance = (root - self.frequency) * (root + self.frequency);
         let loss = 2.0 * self.decay * self.frequency;
         let scale = reactance * reactance + loss * loss;
-        if scale * LARGEST_STEADY_GAIN * LARGEST_STEADY_GAIN < 1.0 {
-            return ForcedForm::FromRest;
-        }
-        ForcedForm::Steady {
-            sine: (self.sine * reactance + self.cosine * loss) / scale,
-            cosine: (self.cosine * reactance - self.sine * loss) / scale,
-        }
-    }
-
-    /// Steady motion: coefficients of `sin` and `cos` of the phase; `None` where it would dwarf the
-    /// real one.
-    pub(super) fn steady(&self) -> Option<(f64, f64)> {
-        match self.form {
-            ForcedForm::Steady { sine, cosine } => Some((sine, cosine)),
-            ForcedForm::FromRest => None,
-        }
-    }
-
-    /// Largest absolute forcing.
-    pub fn largest_force(&self) -> f64 {
-        self.largest
+        let dwarfs = scale * LARGEST_STEADY_GAIN * LARGEST_STEADY_GAIN < 1.0;
+        let sine = (self.sine * reactance + self.cosine * loss) / scale;
+        let cosine = (self.cosine * reactance - self.sine * loss) / scale;
+        (!dwarfs).then_some((sine, cosine))
     }
 
     /// Forcing at a phase.
@@ -125,16 +108,11 @@ impl Oscillator {
     }
 
     fn forced(&self, phase: f64, s: f64, propagator: &Propagator) -> Kinematics {
-        match self.form {
-            ForcedForm::Steady { sine, cosine } => {
-                let (sin, cos) = libm::sincos(phase + self.frequency * s);
-                Kinematics {
-                    x: sine * sin + cosine * cos,
-                    v: self.frequency * (sine * cos - cosine * sin),
-                }
-            }
-            ForcedForm::FromRest => self.response_from_rest(phase, s, propagator),
-        }
+        let Some((sine, cosine)) = self.steady else {
+            return self.response_from_rest(phase, s, propagator);
+        };
+        let (sin, cos) = libm::sincos(phase + self.frequency * s);
+        Kinematics { x: sine * sin + cosine * cos, v: self.frequency * (sine * cos - cosine * sin) }
     }
 
     /// Response from rest by convolution with the propagator; underdamped, close to resonance.
@@ -146,18 +124,16 @@ impl Oscillator {
             return Kinematics { x: 0.0, v: 0.0 };
         }
         let w = propagator.ringing;
-        let pole = [-self.decay, w];
+        let pole = Phasor::new(-self.decay, w);
         let near = exponential_difference(self.frequency, pole, s);
-        let far = exponential_difference(self.frequency, [-self.decay, -w], s);
-        let difference = [near[0] - far[0], near[1] - far[1]];
-        let weighted = subtract(multiply(pole, near), multiply([-self.decay, -w], far));
+        let far = exponential_difference(self.frequency, pole.conj(), s);
         // Division by p - conj p = 2 i w.
-        let displacement = [difference[1] / (2.0 * w), -difference[0] / (2.0 * w)];
-        let velocity = [weighted[1] / (2.0 * w), -weighted[0] / (2.0 * w)];
+        let over = |one: Phasor| Phasor::new(one.im / (2.0 * w), -one.re / (2.0 * w));
+        let (displacement, velocity) = (over(near - far), over(pole * near - pole.conj() * far));
         let (sin, cos) = libm::sincos(phase);
         // The forcing is the imaginary part of (sine + i cosine) e^{i (phase + Omega s)}.
-        let amplitude = multiply([self.sine, self.cosine], [cos, sin]);
-        Kinematics { x: multiply(amplitude, displacement)[1], v: multiply(amplitude, velocity)[1] }
+        let amplitude = Phasor::new(self.sine, self.cosine) * Phasor::new(cos, sin);
+        Kinematics { x: (amplitude * displacement).im, v: (amplitude * velocity).im }
     }
 
     fn propagator(&self, s: f64) -> Propagator {
@@ -287,13 +263,13 @@ impl Motion {
     /// sinusoid.
     fn slow_bounds(&self, s: f64) -> Option<DerivativeBounds> {
         let o = &self.oscillator;
-        let (sine, cosine) = o.steady()?;
+        let (sine, cosine) = o.steady?;
         if o.frequency > SLOW * o.stiffness.sqrt() {
             return None;
         }
         let steady = libm::hypot(sine, cosine) * o.frequency * o.frequency;
         let free = o.free(self.free_x, self.free_v, s);
-        let unforced = Oscillator { largest: 0.0, ..*o };
+        let unforced = Oscillator { largest_force: 0.0, ..*o };
         let DerivativeBounds { acceleration, jerk, snap } = derivative_bounds(&unforced, free, 0.0);
         Some(DerivativeBounds {
             acceleration: acceleration + steady,
@@ -305,7 +281,7 @@ impl Motion {
     /// Each exponential of an overdamped motion only falls, and so do its derivatives.
     fn creeping_bounds(&self, s: f64) -> Option<DerivativeBounds> {
         let o = &self.oscillator;
-        let (sine, cosine) = o.steady()?;
+        let (sine, cosine) = o.steady?;
         let root = o.stiffness.sqrt();
         let spread = ((o.decay - root) * (o.decay + root)).max(0.0).sqrt();
         if spread == 0.0 {
@@ -345,7 +321,7 @@ pub struct DerivativeBounds {
 
 /// Bounds for the motion of `oscillator` that passes through `at`, valid for `horizon`.
 pub fn derivative_bounds(o: &Oscillator, at: Kinematics, horizon: f64) -> DerivativeBounds {
-    let force = o.largest_force();
+    let force = o.largest_force;
     let speed = (at.v * at.v + o.stiffness * at.x * at.x).sqrt() + force * horizon;
     let acceleration = force + (2.0 * o.decay + o.stiffness.sqrt()) * speed;
     let jerk = o.frequency * force + 2.0 * o.decay * acceleration + o.stiffness * speed;
@@ -354,13 +330,12 @@ pub fn derivative_bounds(o: &Oscillator, at: Kinematics, horizon: f64) -> Deriva
     DerivativeBounds { acceleration, jerk, snap }
 }
 
-/// `(e^{i Omega s} - e^{p s}) / (i Omega - p)` as `[re, im]`, exact also where `i Omega = p`.
-fn exponential_difference(frequency: f64, pole: [f64; 2], s: f64) -> [f64; 2] {
-    let exponent = [-pole[0] * s, (frequency - pole[1]) * s];
-    let envelope = libm::exp(pole[0] * s);
-    let (sin, cos) = libm::sincos(pole[1] * s);
-    let mean = mean_of_exponential(exponent);
-    multiply([s * envelope * cos, s * envelope * sin], mean)
+/// `(e^{i Omega s} - e^{p s}) / (i Omega - p)`, exact also where `i Omega = p`.
+fn exponential_difference(frequency: f64, pole: Phasor, s: f64) -> Phasor {
+    let envelope = libm::exp(pole.re * s);
+    let (sin, cos) = libm::sincos(pole.im * s);
+    let mean = mean_of_exponential(Phasor::new(-pole.re * s, (frequency - pole.im) * s));
+    Phasor::new(s * envelope * cos, s * envelope * sin) * mean
 }
 
 /// Powers of `z` that `(e^z - 1)/z` takes below a size: the next is below 2e-18 of the sum.
@@ -377,154 +352,22 @@ const INVERSES: [f64; 15] = {
 };
 
 /// `(e^z - 1) / z`, by its series for small `z`.
-pub(super) fn mean_of_exponential(z: [f64; 2]) -> [f64; 2] {
-    let size = libm::hypot(z[0], z[1]);
+pub(super) fn mean_of_exponential(z: Phasor) -> Phasor {
+    let size = libm::hypot(z.re, z.im);
     if let Some((_, last)) = TERMS.iter().find(|(below, _)| size < *below) {
-        let mut sum = [1.0, 0.0];
+        let mut sum = Phasor::new(1.0, 0.0);
         for inverse in INVERSES[..*last].iter().rev() {
-            let product = multiply(sum, z);
-            sum = [1.0 + product[0] * inverse, product[1] * inverse];
+            let product = sum * z;
+            sum = Phasor::new(1.0 + product.re * inverse, product.im * inverse);
         }
         return sum;
     }
-    let (sin, cos) = libm::sincos(z[1]);
-    let half = libm::sin(0.5 * z[1]);
-    let numerator = [libm::expm1(z[0]) * cos - 2.0 * half * half, libm::exp(z[0]) * sin];
+    let (sin, cos) = libm::sincos(z.im);
+    let half = libm::sin(0.5 * z.im);
+    let (re, im) = (libm::expm1(z.re) * cos - 2.0 * half * half, libm::exp(z.re) * sin);
     let scale = size * size;
-    [
-        (numerator[0] * z[0] + numerator[1] * z[1]) / scale,
-        (numerator[1] * z[0] - numerator[0] * z[1]) / scale,
-    ]
-}
-
-fn multiply(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
-    [a[0] * b[0] - a[1] * b[1], a[0] * b[1] + a[1] * b[0]]
-}
-
-fn subtract(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
-    [a[0] - b[0], a[1] - b[1]]
+    Phasor::new((re * z.re + im * z.im) / scale, (im * z.re - re * z.im) / scale)
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::system::{Excitation, Parameters};
-
-    fn oscillator(eps: f64, lambda: f64, frequency_ratio: f64) -> Oscillator {
-        let parameters = Parameters {
-            mass_ratio: eps,
-            damping: lambda,
-            restitution: 0.6,
-            frequency_ratio,
-            forcing_per_clearance: 2.0,
-            excitation: Excitation::BaseDisplacement,
-        };
-        Oscillator::alone(&System::new(parameters).expect("valid"))
-    }
-
-    /// Equation (1) by central differences of the closed form, in every damping regime and at
-    /// resonance. The differences are good to `h^2` relative to the fastest time scale.
-    #[test]
-    fn the_motion_satisfies_the_equation_of_motion() {
-        let cases = [
-            (0.0077, 1.8, 0.96),
-            (0.0077, 0.0, 1.0),
-            (0.0077, 1e-5, 1.0 + 1e-9),
-            (0.5, 4.0, 1.3),
-            (0.5, 4.000_000_1, 1.3),
-            (0.9, 30.0, 0.4),
-        ];
-        for (eps, lambda, ratio) in cases {
-            let o = oscillator(eps, lambda, ratio);
-            let motion = o.motion(0.3, -0.7, 1.1);
-            let start = motion.at(0.0);
-            assert!((start.x - 0.3).abs() < 1e-15 && (start.v + 0.7).abs() < 1e-15);
-            let h = 1e-4;
-            for s in [0.2, 1.0, 3.0, 6.0] {
-                let (before, here, after) = (motion.at(s - h), motion.at(s), motion.at(s + h));
-                let velocity = (after.x - before.x) / (2.0 * h);
-                let acceleration = (after.v - before.v) / (2.0 * h);
-                let scale = 1.0 + 30.0 * o.decay;
-                assert!((velocity - here.v).abs() < 1e-7 * scale, "{eps} {lambda} {ratio} {s}");
-                let expected = motion.acceleration(s, here);
-                assert!((acceleration - expected).abs() < 1e-6 * scale * scale, "{lambda} {s}");
-            }
-        }
-    }
-
-    /// The bounds hold for all later times, or for the horizon, and for an overdamped or slowly driven
-    /// oscillator they fall to what is left of the motion.
-    #[test]
-    fn derivatives_stay_within_their_bounds() {
-        let cases = [(0.9, 1e3, 0.958), (0.9, 4.0, 2.0), (0.0077, 1.8, 1e-3), (0.0077, 1.8, 0.05)];
-        for (eps, lambda, ratio) in cases {
-            let o = oscillator(eps, lambda, ratio);
-            let motion = o.motion(0.3, -0.7, 1.1);
-            for k in 0..60 {
-                let s = 0.05 * f64::from(k);
-                let bounds = motion.bounds(s, motion.at(s), 1.0);
-                for l in 0..40 {
-                    let later = s + f64::from(l) / 40.0;
-                    let at = motion.at(later);
-                    let (a, jerk) = (motion.acceleration(later, at), motion.jerk(later, at));
-                    let slack = 1.0 + 1e-12;
-                    assert!(a.abs() <= bounds.acceleration * slack, "{lambda} {ratio} {s} {later}");
-                    assert!(jerk.abs() <= bounds.jerk * slack, "{lambda} {ratio} {s} {later}");
-                }
-            }
-            let general = derivative_bounds(&o, motion.at(3.0), 1.0);
-            let better = motion.bounds(3.0, motion.at(3.0), 1.0);
-            assert!(better.snap <= general.snap);
-            if lambda == 1e3 {
-                assert!(better.snap < 1e-6 * general.snap, "{better:?} {general:?}");
-            }
-        }
-    }
-
-    #[test]
-    fn both_forced_forms_agree_where_both_are_accurate() {
-        let mut o = oscillator(0.01, 0.05, 1.002);
-        let steady = o.motion(0.1, 0.2, 0.4);
-        assert!(matches!(o.form, ForcedForm::Steady { .. }));
-        o.form = ForcedForm::FromRest;
-        let from_rest = o.motion(0.1, 0.2, 0.4);
-        for s in [0.0, 0.01, 0.3, 2.0, 6.2] {
-            let (a, b) = (steady.at(s), from_rest.at(s));
-            // The steady motion is about 400 times the excitation: 1e-14 of it may cancel.
-            assert!((a.x - b.x).abs() < 1e-13 && (a.v - b.v).abs() < 1e-13, "{s}: {a:?} {b:?}");
-        }
-    }
-
-    #[test]
-    fn the_bounds_hold_along_the_motion() {
-        let o = oscillator(0.3, 2.0, 1.7);
-        let motion = o.motion(0.8, 0.4, 0.3);
-        let bounds = derivative_bounds(&o, motion.at(0.0), 2.0);
-        for k in 0..=200 {
-            let s = f64::from(k) * 0.01;
-            let at = motion.at(s);
-            assert!(motion.acceleration(s, at).abs() <= bounds.acceleration);
-            assert!(motion.jerk(s, at).abs() <= bounds.jerk);
-        }
-    }
-
-    /// Without damping, a displacement against the largest force reaches the bound on the
-    /// acceleration, and a velocity against the fastest change of the force that on the jerk: smaller
-    /// ones would not hold.
-    #[test]
-    fn the_bounds_are_reached() {
-        let o = oscillator(0.3, 0.0, 1.7);
-        let quarter = 0.5 * std::f64::consts::PI;
-        for (x, v, phase) in [(-1.0, 0.0, quarter), (0.0, -1.0, 0.0)] {
-            let motion = o.motion(x, v, phase);
-            let at = motion.at(0.0);
-            let bounds = derivative_bounds(&o, at, 0.0);
-            let (reached, bound) = if v == 0.0 {
-                (motion.acceleration(0.0, at), bounds.acceleration)
-            } else {
-                (motion.jerk(0.0, at), bounds.jerk)
-            };
-            assert!((reached / bound - 1.0).abs() < 1e-12, "{reached} {bound}");
-        }
-    }
-}
+mod tests;

@@ -1,9 +1,12 @@
-//! Integrals along a stretch of smooth motion, in closed form.
+//! Integrals along a stretch of smooth motion, and its largest displacement: in closed form where the
+//! oscillator rings, else by quadrature and bracketed roots, exact to rounding.
 //!
 //! Free motion and excitation are phasors, `Re Z e^{p s}` and `Re E e^{i Omega s}`, and the steady
 //! motion is `Re a E e^{i Omega s}`: every quadratic integral is a sum of five, of `Z^2`, `|Z|^2`, `Z E`,
 //! `Z conj E` and `E^2`. The second and the fourth have exponents that may vanish, and are taken from
 //! `(e^q - 1)/q`, which is exact there.
+
+use std::f64::consts::FRAC_PI_4;
 
 use nalgebra::Complex;
 
@@ -11,8 +14,10 @@ use super::events::{Absorber, Segment};
 use super::flow::{Oscillator, mean_of_exponential};
 use super::peaks::{self, Moment};
 use super::phasor::{Rates, Steady};
+use crate::numerics::bracket::brent;
+use crate::numerics::quadrature;
 use crate::operation_count;
-use crate::system::System;
+use crate::system::{State, System};
 
 type Phasor = Complex<f64>;
 
@@ -46,6 +51,9 @@ pub(super) struct Integrator {
     frequency: f64,
     /// The excitation's force is `Re f E`.
     force: Phasor,
+    /// Longest panels of a quadrature, the second where fast decay has not ended.
+    panel: f64,
+    first_panel: f64,
     alone: Option<Ringing>,
     carrying: Option<Ringing>,
     rates: Option<Rates<f64>>,
@@ -55,7 +63,7 @@ pub(super) struct Integrator {
 
 impl Ringing {
     fn of(oscillator: &Oscillator) -> Option<Self> {
-        let (sine, cosine) = oscillator.steady()?;
+        let (sine, cosine) = oscillator.steady?;
         let root = oscillator.stiffness.sqrt();
         let ringing = ((root - oscillator.decay) * (root + oscillator.decay)).max(0.0).sqrt();
         // Slower ones are not told from decay.
@@ -69,8 +77,12 @@ impl Ringing {
 impl Integrator {
     pub(super) fn of(system: &System) -> Self {
         let (sine, cosine) = system.excitation_amplitudes();
+        let oscillating = 1.0_f64.max(system.frequency_ratio());
+        let decaying = oscillating.max(system.mass_ratio() * system.damping());
         Self {
             frequency: system.frequency_ratio(),
+            panel: FRAC_PI_4 / oscillating,
+            first_panel: FRAC_PI_4 / decaying,
             force: Phasor::new(cosine, -sine),
             alone: Ringing::of(&Oscillator::alone(system)),
             carrying: Ringing::of(&Oscillator::carrying_absorber(system)),
@@ -88,9 +100,13 @@ impl Integrator {
         self.last.1
     }
 
-    /// The largest absolute displacement of the oscillator in a flight, at its ends included; `None`
-    /// as for [`Self::over`], and in sustained contact.
-    pub(super) fn peak(&mut self, segment: &Segment) -> Option<f64> {
+    /// The largest absolute displacement of the oscillator in a stretch, at its ends included.
+    pub(super) fn peak(&mut self, segment: &Segment) -> f64 {
+        self.peak_by_quintics(segment).unwrap_or_else(|| self.peak_by_roots(segment))
+    }
+
+    /// As [`Self::peak`]; `None` as for [`Self::closed`], and in sustained contact.
+    pub(super) fn peak_by_quintics(&mut self, segment: &Segment) -> Option<f64> {
         let Absorber::Flying { .. } = segment.absorber else { return None };
         let Ringing { steady, .. } = self.alone?;
         let rates = self.rates?;
@@ -99,6 +115,26 @@ impl Integrator {
         let (free, velocity) = segment.motion.free();
         let begin = Moment { x: free + steady.x, v: velocity + steady.v, steady };
         Some(peaks::alone(&rates, &begin, segment.duration))
+    }
+
+    /// As [`Self::peak`]: where the velocity changes sign between two points a panel apart.
+    fn peak_by_roots(&self, segment: &Segment) -> f64 {
+        let panels = (segment.duration / self.panel).ceil().max(1.0);
+        let step = segment.duration / panels;
+        let mut before = segment.motion.at(0.0);
+        let mut peak = before.x.abs();
+        for k in 0..panels as u64 {
+            let from = k as f64 * step;
+            let after = segment.motion.at(from + step);
+            peak = peak.max(after.x.abs());
+            if (before.v > 0.0) != (after.v > 0.0)
+                && let Some(root) = brent(from, from + step, 1e-12, |s| segment.motion.at(s).v)
+            {
+                peak = peak.max(segment.motion.at(root.at).x.abs());
+            }
+            before = after;
+        }
+        peak
     }
 
     /// What flights have in common, of an oscillator that rings and is driven to a steady motion.
@@ -111,9 +147,46 @@ impl Integrator {
         self.rates
     }
 
-    /// The integrals over a stretch; `None` where the oscillator does not ring, or has no steady motion
+    /// The integrals over a stretch.
+    pub(super) fn over(&mut self, segment: &Segment) -> Integrals {
+        self.closed(segment).unwrap_or_else(|| self.by_quadrature(segment))
+    }
+
+    /// As [`Self::over`], for any oscillator.
+    pub(super) fn by_quadrature(&self, segment: &Segment) -> Integrals {
+        let omega = self.frequency;
+        let mut sums = [0.0; 7];
+        quadrature::graded_nodes(segment.duration, self.first_panel, self.panel, |s, weight| {
+            let State { x, x_velocity, y, .. } = segment.at(s);
+            operation_count::note(2 * operation_count::ELEMENTARY + 30);
+            let (sin, cos) = libm::sincos(segment.phase + omega * s);
+            let force = -self.force.im * sin + self.force.re * cos;
+            let terms = [
+                x * x,
+                x_velocity * x_velocity,
+                force * x_velocity,
+                x * sin,
+                x * cos,
+                y * sin,
+                y * cos,
+            ];
+            for (sum, term) in sums.iter_mut().zip(terms) {
+                *sum += weight * term;
+            }
+        });
+        let [displacement_squared, velocity_squared, work, x_sin, x_cos, y_sin, y_cos] = sums;
+        Integrals {
+            displacement_squared,
+            velocity_squared,
+            work,
+            oscillator: [x_sin, x_cos],
+            absorber: [y_sin, y_cos],
+        }
+    }
+
+    /// As [`Self::over`], in closed form; `None` where the oscillator does not ring, or has no steady motion
     /// to be told from its free one.
-    pub(super) fn over(&mut self, segment: &Segment) -> Option<Integrals> {
+    pub(super) fn closed(&mut self, segment: &Segment) -> Option<Integrals> {
         let Ringing { pole, steady } = match segment.absorber {
             Absorber::Flying { .. } => self.alone?,
             Absorber::Carried(_) => self.carrying?,
@@ -129,8 +202,7 @@ impl Integrator {
         let z_end = z * Phasor::new(cos, sin) * libm::exp(pole.re * duration);
         let turn = Phasor::new(0.0, frequency);
         let mean = |re: f64, im: f64| {
-            let [re, im] = mean_of_exponential([re * duration, im * duration]);
-            Phasor::new(re, im) * duration
+            mean_of_exponential(Phasor::new(re * duration, im * duration)) * duration
         };
         // The five.
         let zz = (z_end * z_end - z * z) / (pole * 2.0);

@@ -18,6 +18,7 @@ mod phasor;
 pub mod run;
 mod small;
 pub mod statistics;
+mod steps;
 pub mod tangent;
 pub mod trust;
 mod walls;

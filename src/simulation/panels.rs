@@ -8,7 +8,7 @@ use super::contact::rebound;
 use super::events::{Observer, Side};
 use super::phasor::{At, Corrected, Line, Rates, Steady};
 use super::run::{Moment, Simulation, Stop};
-use super::walls::{self, Sticking, inverse_loss};
+use super::walls::{self, Sticking};
 use crate::numerics::lanes::Real;
 use crate::system::State;
 
@@ -62,56 +62,31 @@ pub(super) enum FlightEnd {
 }
 
 impl Simulation {
-    /// Flies from event to event by the instructions of `level`, from where the trajectory stands.
+    /// Flies from event to event by the instructions of `level`.
     pub(super) fn fly_in_panels<O: Observer>(
-        &self,
+        &mut self,
         level: Level,
-        from: Moment,
         limits: Limits,
         observer: &mut O,
-    ) -> (Moment, FlightEnd) {
-        let Some(rates) = self.rates() else { return (from, FlightEnd::Doubt) };
-        let system = self.system();
-        let r = system.restitution();
-        let sticking = Sticking {
-            rates,
-            largest_force: self.largest_force(),
-            excursion: self.tolerance().excursion,
-            inverse_loss: inverse_loss(r),
-        };
-        let flights = Flights {
-            simulation: self,
-            rates,
-            mass_ratio: system.mass_ratio(),
-            restitution: r,
-            sticking,
-            limits,
-        };
-        dispatch!(level, simd => flights.fly_by(simd, from, observer))
+    ) -> FlightEnd {
+        let Some(rates) = self.rates else { return FlightEnd::Doubt };
+        let (moment, end) = dispatch!(level, simd => self.fly_by(simd, &rates, limits, observer));
+        self.at = moment;
+        end
     }
-}
 
-/// What stays the same along a trajectory.
-struct Flights<'a> {
-    simulation: &'a Simulation,
-    rates: &'a Rates<f64>,
-    mass_ratio: f64,
-    restitution: f64,
-    sticking: Sticking<'a, f64>,
-    limits: Limits,
-}
-
-impl Flights<'_> {
     /// By the instructions that `simd` stands for.
     #[inline(always)]
     fn fly_by<S: Simd, O: Observer>(
         &self,
         simd: S,
-        from: Moment,
+        rates: &Rates<f64>,
+        limits: Limits,
         observer: &mut O,
     ) -> (Moment, FlightEnd) {
-        let rates = self.rates;
-        let mut at = from;
+        let (eps, r) = (self.system.mass_ratio(), self.system.restitution());
+        let sticking = Sticking::of(self);
+        let mut at = self.at;
         // What has just been thrown back leaves its wall.
         let mut leaves = false;
         loop {
@@ -134,32 +109,28 @@ impl Flights<'_> {
             if !(x.abs() <= f64::MAX && y.abs() <= f64::MAX) {
                 return (at, FlightEnd::Doubt);
             }
-            if O::SEGMENTS && time > 0.0 && observer.flights() {
-                observer.segment(&self.simulation.flown(&at, time));
+            if time > 0.0 && observer.flights() {
+                observer.segment(&self.flown(&at, time));
             }
             let before = State { x, x_velocity: v, y, y_velocity };
             at.steady = steady;
-            let Some(side) = wall else {
+            if let Some(side) = wall {
+                at.phase += rates.frequency * time;
+                at.impacts += 1;
+                let after = rebound(eps, r, v, y_velocity);
+                observer.impact(&self.impact(&before, side, &after, at.turns, at.phase));
+                at.state = self.rebounded(&before, side, &after);
+                let State { x, x_velocity: v, y, y_velocity } = at.state;
+                let line = Line { y, velocity: y_velocity };
+                if sticking.possible(x, v, line, side.sign()) {
+                    return (at, FlightEnd::MayStick(side));
+                }
+            } else {
                 (at.state, at.phase, at.turns) = (before, 0.0, at.turns + 1);
                 observer.period(&before);
-                leaves = false;
-                if self.limits.reached(&at) {
-                    return (at, FlightEnd::Limit);
-                }
-                continue;
-            };
-            at.phase += rates.frequency * time;
-            at.impacts += 1;
-            let after = rebound(self.mass_ratio, self.restitution, v, y_velocity);
-            observer.impact(&self.simulation.impact(&before, side, &after, at.turns, at.phase));
-            at.state = self.simulation.rebounded(&before, side, &after);
-            let State { x, x_velocity: v, y, y_velocity } = at.state;
-            let line = Line { y, velocity: y_velocity };
-            if walls::may_stick(x, v, line, side.sign(), &self.sticking) {
-                return (at, FlightEnd::MayStick(side));
             }
-            leaves = true;
-            if self.limits.reached(&at) {
+            leaves = wall.is_some();
+            if limits.reached(&at) {
                 return (at, FlightEnd::Limit);
             }
         }

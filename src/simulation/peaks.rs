@@ -21,6 +21,8 @@ pub(super) struct Moment<R> {
 /// What the oscillator does between two events.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Flight {
+    /// Whole periods before it.
+    pub period: u64,
     pub begin: Moment<f64>,
     pub duration: f64,
     pub end: Moment<f64>,
@@ -51,9 +53,9 @@ fn side_by_side<S: Simd>(simd: S, rates: &Rates<f64>, flights: &[Flight]) -> [f6
                 end.set(lane, &flight.end);
                 duration[lane] = flight.duration;
             }
-            let rates = rates.map(
+            let rates = Rates::gathered(
                 #[inline(always)]
-                |rate| Wide::splat(simd, rate),
+                |rate| Wide::splat(simd, rate(rates)),
             );
             let highest = highest(simd, &rates, &begin, duration, Some(&end));
             std::array::from_fn(|lane| highest[lane])

@@ -113,7 +113,7 @@ impl Rates<f64> {
     /// Those of an oscillator; `None` where it does not ring, has no steady motion that could be
     /// subtracted, or would need too many panels.
     pub(super) fn of(oscillator: &Oscillator) -> Option<Self> {
-        let (sine, cosine) = oscillator.steady()?;
+        let (sine, cosine) = oscillator.steady?;
         let frequency = oscillator.frequency;
         let root = oscillator.stiffness.sqrt();
         let discriminant = (root - oscillator.decay) * (root + oscillator.decay);
@@ -149,34 +149,36 @@ impl Rates<f64> {
         })
     }
 
-    /// The same for several numbers.
-    #[inline(always)]
-    pub(super) fn map<R: Copy>(&self, spread: impl Fn(f64) -> R) -> Rates<R> {
-        Rates {
-            fastest: spread(self.fastest),
-            step: spread(self.step),
-            frequency: spread(self.frequency),
-            inverse_frequency: spread(self.inverse_frequency),
-            squared: spread(self.squared),
-            decay: spread(self.decay),
-            twice_decay: spread(self.twice_decay),
-            ringing: spread(self.ringing),
-            inverse_ringing: spread(self.inverse_ringing),
-            stiffness: spread(self.stiffness),
-            sixth_free: spread(self.sixth_free),
-            sixth_steady: spread(self.sixth_steady),
-            second_steady: spread(self.second_steady),
-            turn: self.turn.map(&spread),
-            swing: self.swing.map(&spread),
-            origin: Steady { x: spread(self.origin.x), v: spread(self.origin.v) },
-        }
-    }
-
     /// The steady motion at a phase.
     pub(super) fn steady(&self, phase: f64) -> Steady<f64> {
         let (sin, cos) = libm::sincos(phase);
         let Steady { x, v } = self.origin;
         Steady { x: x * cos + v / self.frequency * sin, v: v * cos - self.frequency * x * sin }
+    }
+}
+
+impl<R> Rates<R> {
+    /// Those of several oscillators: `of` puts together what a function takes from each.
+    #[inline(always)]
+    pub(super) fn gathered(of: impl Fn(fn(&Rates<f64>) -> f64) -> R) -> Self {
+        Self {
+            fastest: of(|one| one.fastest),
+            step: of(|one| one.step),
+            frequency: of(|one| one.frequency),
+            inverse_frequency: of(|one| one.inverse_frequency),
+            squared: of(|one| one.squared),
+            decay: of(|one| one.decay),
+            twice_decay: of(|one| one.twice_decay),
+            ringing: of(|one| one.ringing),
+            inverse_ringing: of(|one| one.inverse_ringing),
+            stiffness: of(|one| one.stiffness),
+            sixth_free: of(|one| one.sixth_free),
+            sixth_steady: of(|one| one.sixth_steady),
+            second_steady: of(|one| one.second_steady),
+            turn: [of(|one| one.turn[0]), of(|one| one.turn[1])],
+            swing: [of(|one| one.swing[0]), of(|one| one.swing[1]), of(|one| one.swing[2])],
+            origin: Steady { x: of(|one| one.origin.x), v: of(|one| one.origin.v) },
+        }
     }
 }
 

@@ -1,21 +1,15 @@
 //! What is measured along a trajectory: impacts, amplitudes, first harmonics, energy balance.
 //!
 //! Work of the excitation and loss in the damper are integrated independently of the change of
-//! stored energy, in closed form where the oscillator rings and else by quadrature that is exact to
-//! rounding, so that the balance is a check and not an identity.
+//! stored energy, so that the balance is a check and not an identity.
 
 mod impact_statistics;
-
-use std::f64::consts::FRAC_PI_4;
 
 use serde::Serialize;
 
 use super::events::{Absorber, Impact, Observer, Segment, Side};
-use super::integrals::{Integrals, Integrator};
-use crate::numerics::bracket::brent;
-use crate::numerics::quadrature;
+use super::integrals::Integrator;
 use crate::numerics::scatter::{error_of_largest, twice_standard_error};
-use crate::operation_count;
 use crate::system::{State, System};
 
 pub use impact_statistics::ImpactStatistics;
@@ -45,7 +39,7 @@ pub struct SustainedContact {
 }
 
 /// What one excitation period looked like.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct PeriodRecord {
     /// Impacts on the `+b` and on the `-b` side.
     pub impacts: [u32; 2],
@@ -73,8 +67,6 @@ pub struct PeriodRecord {
 pub struct Statistics {
     system: System,
     integrator: Integrator,
-    panel: f64,
-    first_panel: f64,
     start: State,
     end: State,
     impacts: u64,
@@ -90,7 +82,8 @@ pub struct Statistics {
     contact: SustainedContact,
     penetration: f64,
     largest_energy: f64,
-    current: Current,
+    /// The period under way, with the integral of the squared displacement instead of its mean.
+    current: PeriodRecord,
     periods: u64,
     records: Vec<PeriodRecord>,
 }
@@ -104,28 +97,12 @@ const BLOCKS_OF_LARGEST: usize = 16;
 /// the memory of a run of any length, and no regime needs longer to show.
 const KEPT: usize = 20_000;
 
-/// Sums of the period under way.
-#[derive(Debug, Clone, Copy, Default)]
-struct Current {
-    impacts: [u32; 2],
-    visits: [u32; 2],
-    peak: f64,
-    impact_speed: f64,
-    squared: f64,
-    x_harmonic: [f64; 2],
-    y_harmonic: [f64; 2],
-}
-
 impl Statistics {
     /// Begins to measure at `start`, at the beginning of an excitation period.
     pub fn begin(system: &System, start: State) -> Self {
-        let oscillating = 1.0_f64.max(system.frequency_ratio());
-        let decaying = oscillating.max(system.mass_ratio() * system.damping());
         Self {
             system: *system,
             integrator: Integrator::of(system),
-            panel: FRAC_PI_4 / oscillating,
-            first_panel: FRAC_PI_4 / decaying,
             start,
             end: start,
             impacts: 0,
@@ -140,7 +117,7 @@ impl Statistics {
             contact: SustainedContact::default(),
             penetration: 0.0,
             largest_energy: start.energy(system.mass_ratio()),
-            current: Current::default(),
+            current: PeriodRecord::default(),
             periods: 0,
             records: Vec::new(),
         }
@@ -177,17 +154,19 @@ impl Statistics {
         self.impact_speed
     }
 
+    /// What successive blocks of the kept periods have, about so many of them.
+    fn of_blocks(&self, blocks: usize, of: impl Fn(&[PeriodRecord]) -> f64) -> Vec<f64> {
+        self.records.chunks_exact((self.records.len() / blocks).max(1)).map(of).collect()
+    }
+
     /// By how much another run, ten times as long, may exceed [`Self::peak`] and [`Self::impact_speed`] of a
     /// motion that does not repeat, at odds of 19 to 1, from their scatter between blocks of the kept periods.
     pub fn errors_of_largest(&self) -> [f64; 2] {
-        let length = (self.records.len() / BLOCKS_OF_LARGEST).max(1);
-        let error = |value: &dyn Fn(&PeriodRecord) -> f64| {
-            let blocks = self.records.chunks_exact(length);
-            let largest: Vec<f64> =
-                blocks.map(|block| block.iter().map(value).fold(0.0, f64::max)).collect();
-            error_of_largest(&largest)
-        };
-        [error(&|record| record.peak), error(&|record| record.impact_speed)]
+        let values: [fn(&PeriodRecord) -> f64; 2] = [|one| one.peak, |one| one.impact_speed];
+        values.map(|value| {
+            let largest = |block: &[PeriodRecord]| block.iter().map(value).fold(0.0, f64::max);
+            error_of_largest(&self.of_blocks(BLOCKS_OF_LARGEST, largest))
+        })
     }
 
     /// Root mean square of the oscillator's displacement, over the clearance.
@@ -199,18 +178,15 @@ impl Statistics {
     /// Two standard errors of [`Self::rms`] and of [`Self::impacts_per_period`], from their scatter
     /// between ten blocks of the kept periods: how well a motion that does not repeat is known.
     pub fn errors(&self) -> [f64; 2] {
-        let blocks: Vec<&[PeriodRecord]> =
-            self.records.chunks_exact((self.records.len() / BLOCKS).max(1)).collect();
-        let error = |value: &dyn Fn(&PeriodRecord) -> f64| {
+        let values: [fn(&PeriodRecord) -> f64; 2] =
+            [|one| one.mean_square, |one| f64::from(one.impacts[0] + one.impacts[1])];
+        let [mean_square, impacts] = values.map(|value| {
             let mean =
                 |block: &[PeriodRecord]| block.iter().map(value).sum::<f64>() / block.len() as f64;
-            let means: Vec<f64> = blocks.iter().map(|block| mean(block)).collect();
-            twice_standard_error(&means)
-        };
-        let impacts = |record: &PeriodRecord| f64::from(record.impacts[0] + record.impacts[1]);
+            twice_standard_error(&self.of_blocks(BLOCKS, mean))
+        });
         // The square varies twice as much as its root.
-        let rms = error(&|record| record.mean_square) / (2.0 * self.rms()).max(f64::MIN_POSITIVE);
-        [rms, error(&impacts)]
+        [mean_square / (2.0 * self.rms()).max(f64::MIN_POSITIVE), impacts]
     }
 
     /// Largest penetration of a wall, over the clearance: rounding.
@@ -296,78 +272,6 @@ impl Statistics {
             further -= here;
         }
     }
-
-    fn integrate(&mut self, segment: &Segment) {
-        let sums = match self.integrator.over(segment) {
-            Some(sums) => sums,
-            None => self.by_quadrature(segment),
-        };
-        self.squared += sums.displacement_squared;
-        self.current.squared += sums.displacement_squared;
-        self.input += sums.work;
-        self.damper += self.system.mass_ratio() * self.system.damping() * sums.velocity_squared;
-        let scale = self.system.frequency_ratio() / std::f64::consts::PI;
-        for k in 0..2 {
-            self.current.x_harmonic[k] += scale * sums.oscillator[k];
-            self.current.y_harmonic[k] += scale * sums.absorber[k];
-        }
-    }
-
-    fn by_quadrature(&self, segment: &Segment) -> Integrals {
-        let omega = self.system.frequency_ratio();
-        let (sine, cosine) = self.system.excitation_amplitudes();
-        let mut sums = [0.0; 7];
-        quadrature::graded_nodes(segment.duration, self.first_panel, self.panel, |s, weight| {
-            let State { x, x_velocity, y, .. } = segment.at(s);
-            operation_count::note(2 * operation_count::ELEMENTARY + 30);
-            let (sin, cos) = libm::sincos(segment.phase + omega * s);
-            let force = sine * sin + cosine * cos;
-            let terms = [
-                x * x,
-                x_velocity * x_velocity,
-                force * x_velocity,
-                x * sin,
-                x * cos,
-                y * sin,
-                y * cos,
-            ];
-            for (sum, term) in sums.iter_mut().zip(terms) {
-                *sum += weight * term;
-            }
-        });
-        let [displacement_squared, velocity_squared, work, x_sin, x_cos, y_sin, y_cos] = sums;
-        Integrals {
-            displacement_squared,
-            velocity_squared,
-            work,
-            oscillator: [x_sin, x_cos],
-            absorber: [y_sin, y_cos],
-        }
-    }
-
-    /// Largest absolute displacement within a segment: at its ends, or where the velocity changes
-    /// sign between two points a panel apart.
-    fn find_peak(&mut self, segment: &Segment) {
-        if let Some(peak) = self.integrator.peak(segment) {
-            self.current.peak = self.current.peak.max(peak);
-            return;
-        }
-        let panels = (segment.duration / self.panel).ceil().max(1.0);
-        let step = segment.duration / panels;
-        let mut before = segment.motion.at(0.0);
-        for k in 0..panels as u64 {
-            let from = k as f64 * step;
-            let after = segment.motion.at(from + step);
-            let mut peak = before.x.abs().max(after.x.abs());
-            if (before.v > 0.0) != (after.v > 0.0)
-                && let Some(root) = brent(from, from + step, 1e-12, |s| segment.motion.at(s).v)
-            {
-                peak = peak.max(segment.motion.at(root.at).x.abs());
-            }
-            self.current.peak = self.current.peak.max(peak);
-            before = after;
-        }
-    }
 }
 
 /// Place of a wall in a pair.
@@ -377,8 +281,17 @@ fn index(side: Side) -> usize {
 
 impl Observer for Statistics {
     fn segment(&mut self, segment: &Segment) {
-        self.integrate(segment);
-        self.find_peak(segment);
+        let sums = self.integrator.over(segment);
+        self.squared += sums.displacement_squared;
+        self.current.mean_square += sums.displacement_squared;
+        self.input += sums.work;
+        self.damper += self.system.mass_ratio() * self.system.damping() * sums.velocity_squared;
+        let scale = self.system.frequency_ratio() / std::f64::consts::PI;
+        for k in 0..2 {
+            self.current.oscillator_harmonic[k] += scale * sums.oscillator[k];
+            self.current.absorber_harmonic[k] += scale * sums.absorber[k];
+        }
+        self.current.peak = self.integrator.peak(segment).max(self.current.peak);
         if matches!(segment.absorber, Absorber::Carried(_)) {
             self.contact.duration_tau += segment.duration;
         }
@@ -417,115 +330,13 @@ impl Observer for Statistics {
             self.records.drain(..KEPT);
         }
         self.records.push(PeriodRecord {
-            impacts: current.impacts,
-            visits: current.visits,
-            peak: current.peak,
-            impact_speed: current.impact_speed,
-            mean_square: current.squared / self.system.period(),
+            mean_square: current.mean_square / self.system.period(),
             lost: [self.damper, self.impact_loss],
             end: *state,
-            absorber_harmonic: current.y_harmonic,
-            oscillator_harmonic: current.x_harmonic,
+            ..current
         });
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::simulation::{Simulation, Stop};
-    use crate::system::{Excitation, Parameters};
-
-    /// Compares closed forms with quadrature and, for peaks, with samples, stretch by stretch.
-    struct Comparison {
-        statistics: Statistics,
-        integrator: Integrator,
-        compared: u32,
-    }
-
-    impl Observer for Comparison {
-        fn segment(&mut self, segment: &Segment) {
-            let Some(closed) = self.integrator.over(segment) else { return };
-            let sampled = self.statistics.by_quadrature(segment);
-            self.compared += 1;
-            // Either is rounded some fifty times at the size of the motion, or of its free and steady
-            // parts, squared, times the duration.
-            let (free, velocity) = segment.motion.free();
-            let whole = segment.at(0.0);
-            let parts = [free, velocity, whole.x, whole.x_velocity, whole.y, whole.y_velocity, 1.0];
-            let size = parts.iter().map(|part| part * part).sum::<f64>();
-            let (sine, cosine) = self.statistics.system.excitation_amplitudes();
-            let slow = 1.0 / self.statistics.system.frequency_ratio().min(1.0);
-            let scale = (size + sine * sine + cosine * cosine) * (segment.duration + slow * slow);
-            let pairs = [
-                (closed.displacement_squared, sampled.displacement_squared),
-                (closed.velocity_squared, sampled.velocity_squared),
-                (closed.work, sampled.work),
-                (closed.oscillator[0], sampled.oscillator[0]),
-                (closed.oscillator[1], sampled.oscillator[1]),
-                (closed.absorber[0], sampled.absorber[0]),
-                (closed.absorber[1], sampled.absorber[1]),
-            ];
-            for (one, other) in pairs {
-                assert!((one - other).abs() < 1e-14 * scale, "{closed:?} {sampled:?} {scale}");
-            }
-            let Some(peak) = self.integrator.peak(segment) else { return };
-            let mut largest = 0.0_f64;
-            for k in 0..=400 {
-                let at = segment.at(segment.duration * f64::from(k) / 400.0);
-                largest = largest.max(at.x.abs());
-            }
-            // Samples miss a turning point by an eighth of the square of their distance.
-            let apart = segment.duration / 400.0;
-            let missed = 0.125 * apart * apart * (size.sqrt() * 30.0);
-            let noise = 1e-14 * size.sqrt();
-            assert!(
-                peak >= largest - noise && peak <= largest + missed + noise,
-                "{peak} {largest}"
-            );
-        }
-    }
-
-    pub(super) const START: State = State { x: 0.1, x_velocity: 0.4, y: -0.3, y_velocity: 0.2 };
-
-    /// With few and many impacts, chattering, lasting contact, resonance, and hardly any damping or none.
-    pub(super) fn systems() -> impl Iterator<Item = System> {
-        let all = [
-            (0.0077, 1.8, 1.0, 0.6, 2.8),
-            (0.0077, 1.8, 0.96, 0.0, 300.0),
-            (0.0077, 1.8, 1.01, 0.6, 30.0),
-            (0.0077, 0.03, 1.0, 0.8, 3.0),
-            (0.0077, 0.0, 1.01, 1.0, 30.0),
-            (0.3, 4.0, 0.2, 0.5, 10.0),
-            (0.5, 3.0, 4.0, 0.3, 5.0),
-            (1e-3, 900.0, 1.3, 0.8, 400.0),
-        ];
-        let system = |(eps, lambda, omega, r, gamma)| {
-            System::new(Parameters {
-                mass_ratio: eps,
-                damping: lambda,
-                restitution: r,
-                frequency_ratio: omega,
-                forcing_per_clearance: gamma,
-                excitation: Excitation::BaseDisplacement,
-            })
-        };
-        all.map(|one| system(one).expect("valid")).into_iter()
-    }
-
-    #[test]
-    fn closed_forms_agree_with_quadrature_and_samples() {
-        let mut compared = 0;
-        for system in systems() {
-            let mut comparison = Comparison {
-                statistics: Statistics::begin(&system, START),
-                integrator: Integrator::of(&system),
-                compared: 0,
-            };
-            let mut simulation = Simulation::new(&system, START, 0.0).expect("inside");
-            assert_eq!(simulation.run(30, u64::MAX, &mut comparison), Stop::EndTime);
-            compared += comparison.compared;
-        }
-        assert!(compared > 600, "{compared}");
-    }
-}
+mod tests;

@@ -1,6 +1,7 @@
 //! What rounding makes of the walls: touching them, and chattering down to sustained contact.
 
-use super::phasor::{Line, Rates};
+use super::phasor::Line;
+use super::run::Simulation;
 use crate::numerics::lanes::Real;
 
 /// Units in the last place of the largest length involved that count as touching a wall.
@@ -24,32 +25,47 @@ pub(super) fn blocked<R: Real>(x: R, v: R, line: Line<R>) -> R::Mask {
 }
 
 /// What tells whether an impact may be the end of a chattering sequence.
-pub(super) struct Sticking<'a, R> {
-    pub rates: &'a Rates<R>,
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Sticking<R> {
+    pub decay: R,
+    pub stiffness: R,
+    /// Largest force on the oscillator without absorber.
     pub largest_force: R,
     /// Tolerated opening of the gap.
     pub excursion: R,
-    /// `1/(1 - r^2)`.
+    /// `1/(1 - r^2)`: an impact takes the share `1 - r^2` of an excursion's energy.
     pub inverse_loss: R,
 }
 
-/// Where the gap need not open further than tolerated after an impact on `wall`, whatever the
-/// acceleration is.
-#[inline(always)]
-pub(super) fn may_stick<R: Real>(
-    x: R,
-    v: R,
-    line: Line<R>,
-    wall: R,
-    by: &Sticking<'_, R>,
-) -> R::Mask {
-    let opening = -wall * (v - line.velocity);
-    let excursion = by.excursion.larger(touch(x, v, line) * by.inverse_loss);
-    let largest = by.largest_force + by.rates.decay * 2.0 * v.abs() + by.rates.stiffness * x.abs();
-    (opening * opening).at_most(excursion * 2.0 * largest)
+impl Sticking<f64> {
+    /// That of a trajectory.
+    pub(super) fn of(simulation: &Simulation) -> Self {
+        let (alone, r) = (&simulation.alone, simulation.system.restitution());
+        Self {
+            decay: alone.decay,
+            stiffness: alone.stiffness,
+            largest_force: alone.largest_force,
+            excursion: simulation.tolerance.excursion,
+            inverse_loss: 1.0 / ((1.0 - r) * (1.0 + r)),
+        }
+    }
 }
 
-/// `1/(1 - r^2)`: an impact takes the share `1 - r^2` of an excursion's energy.
-pub(super) fn inverse_loss(restitution: f64) -> f64 {
-    1.0 / ((1.0 - restitution) * (1.0 + restitution))
+impl<R: Real> Sticking<R> {
+    /// Tolerated opening of the gap. Rounding adds up to a touch to each, of which an impact takes a share:
+    /// where the two balance a sequence would never end.
+    #[inline(always)]
+    pub(super) fn tolerated(&self, x: R, v: R, line: Line<R>) -> R {
+        self.excursion.larger(touch(x, v, line) * self.inverse_loss)
+    }
+
+    /// Where the gap need not open further than tolerated after an impact on `wall`, whatever the
+    /// acceleration is.
+    #[inline(always)]
+    pub(super) fn possible(&self, x: R, v: R, line: Line<R>, wall: R) -> R::Mask {
+        let opening = -wall * (v - line.velocity);
+        let excursion = self.tolerated(x, v, line);
+        let largest = self.largest_force + self.decay * 2.0 * v.abs() + self.stiffness * x.abs();
+        (opening * opening).at_most(excursion * 2.0 * largest)
+    }
 }

@@ -119,7 +119,9 @@ struct Section {
 }
 
 impl Observer for Section {
-    const SEGMENTS: bool = false;
+    fn flights(&self) -> bool {
+        false
+    }
     fn period(&mut self, state: &State) {
         self.displacements.push(state.x);
     }

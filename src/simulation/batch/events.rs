@@ -7,10 +7,9 @@ use super::{Lanes, tightened};
 use crate::numerics::lanes::{LANES, Mask, Real, Wide, WideMask};
 use crate::simulation::certificate::{Hull, Slack};
 use crate::simulation::contact::{Rebound, rebound};
-use crate::simulation::events::{Impact, Observer, Side};
+use crate::simulation::events::{Observer, Side};
 use crate::simulation::panels::CORRECTIONS;
 use crate::simulation::phasor::{At, Line, Rates, Steady};
-use crate::simulation::walls;
 use crate::system::State;
 
 /// Halvings of panels side by side; what needs more goes on alone.
@@ -26,8 +25,42 @@ impl<S: Simd> Lanes<S> {
         clear: u64,
         queue: &mut Queue<'_, O>,
     ) -> (u64, u64) {
+        let panel = self.narrowed(events, clear);
+        let end = self.end(&panel);
+        let event = self.event(&panel, &end);
+        self.tell(&event, queue);
+        self.stand(&event, &end);
+        let stuck = event.impact & self.sticking.possible(self.x, self.v, self.line, panel.wall);
+        let through = self.last_turn.at_most(self.turns) | self.last_impact.at_most(self.impacts);
+        let on = panel.on;
+        if on.any() {
+            self.here = At::choose(on, &panel.there, &self.here);
+            self.time = Wide::choose(on, self.time + panel.length, self.time);
+            self.panels = Wide::choose(on, self.panels + 1.0, self.panels);
+        }
+        let (good, stuck, resumed) = (event.good, stuck.bits(), on.bits());
+        let doubt = events & !good.bits() & !resumed;
+        let special = (stuck | (good & through).bits()) & events;
+        let mut again = events & !doubt & !special & !resumed;
+        again |= self.alone(doubt, queue);
+        for lane in (0..LANES).filter(|lane| special >> lane & 1 == 1) {
+            let Some(index) = self.task[lane] else { continue };
+            let task = &mut queue.tasks[index];
+            task.simulation.resume(&self.moment(lane));
+            if stuck >> lane & 1 == 1 {
+                task.simulation.perhaps_stick(side(panel.wall[lane]), task.observer);
+            }
+            if self.step(lane, false, queue) {
+                again |= 1 << lane;
+            }
+        }
+        (again, resumed)
+    }
+
+    /// The panels of the waiting lanes, halved where nothing is proven about them and they are not `clear`.
+    #[inline(always)]
+    fn narrowed(&mut self, events: u64, clear: u64) -> Panel<S> {
         let (simd, rates) = (self.simd, self.rates);
-        let zero = self.x.like(0.0);
         let waiting = WideMask::from_bits(simd, events);
         let mut clear = WideMask::from_bits(simd, clear);
         let mut length = rates.step;
@@ -52,83 +85,62 @@ impl<S: Simd> Lanes<S> {
             crossing = crossing | (open & hull.meets(wall));
         }
         let on = waiting & clear & !self.left.at_most(self.time + length);
-        let guess = Rates::guess(&self.here, &there, length, wall, crossing);
-        let guess = guess.larger(zero).smaller(length);
-        let panel = Panel { guess, length, slack, wall };
-        let end = self.end(&panel, crossing, clear & !on);
-        let flight = Wide::choose(end.over, self.left, self.time + end.time);
+        Panel { there, length, slack, wall, crossing, over: clear & !on, on }
+    }
+
+    /// What the flights end with.
+    #[inline(always)]
+    fn event(&self, panel: &Panel<S>, end: &End<S>) -> Event<S> {
         let Line { y, velocity } = self.line;
+        let flight = Wide::choose(end.over, self.left, self.time + end.time);
         let (x, v, y) = (end.x, end.v, y + velocity * flight);
         let good = end.exact & x.is_finite() & y.is_finite();
-        let (impact, over) = (good & !end.over, good & end.over);
-        let phase = Wide::choose(over, zero, self.phase + rates.frequency * flight);
-        let after = rebound(self.mass_ratio, self.restitution, v, velocity);
-        let approach = velocity;
-        self.tell(good, impact, &Event { flight, x, v, y, approach, phase, wall, after }, queue);
-        // Where they stand now.
-        let follows =
-            Wide::choose(self.restitution.at_most(zero), after.x_velocity, after.y_velocity);
-        self.x = Wide::choose(good, x, self.x);
-        self.v = Wide::choose(good, Wide::choose(impact, after.x_velocity, v), self.v);
-        self.line.y = Wide::choose(good, Wide::choose(impact, x - wall, y), self.line.y);
-        self.line.velocity = Wide::choose(impact, follows, velocity);
-        self.phase = Wide::choose(good, phase, self.phase);
-        for (mine, (ended, crossed)) in [
-            (&mut self.steady.x, (rates.origin.x, end.steady.x)),
-            (&mut self.steady.v, (rates.origin.v, end.steady.v)),
-        ] {
-            *mine = Wide::choose(good, Wide::choose(over, ended, crossed), *mine);
+        let phase = self.phase + self.rates.frequency * flight;
+        Event {
+            good,
+            impact: good & !end.over,
+            flight,
+            x,
+            v,
+            y,
+            phase: Wide::choose(good & end.over, x.like(0.0), phase),
+            wall: panel.wall,
+            after: rebound(self.mass_ratio, self.restitution, v, velocity),
         }
+    }
+
+    /// Lets the lanes stand where their flights have ended.
+    #[inline(always)]
+    fn stand(&mut self, event: &Event<S>, end: &End<S>) {
+        let Event { good, impact, x, v, y, wall, after, .. } = event;
+        let (good, impact, over) = (*good, *impact, *good & end.over);
+        let follows = self.restitution.at_most(x.like(0.0));
+        let follows = Wide::choose(follows, after.x_velocity, after.y_velocity);
+        self.x = Wide::choose(good, *x, self.x);
+        self.v = Wide::choose(good, Wide::choose(impact, after.x_velocity, *v), self.v);
+        self.line.y = Wide::choose(good, Wide::choose(impact, *x - *wall, *y), self.line.y);
+        self.line.velocity = Wide::choose(impact, follows, self.line.velocity);
+        self.phase = Wide::choose(good, event.phase, self.phase);
+        let Steady { x: ended_x, v: ended_v } = self.rates.origin;
+        let (steady_x, steady_v) =
+            (Wide::choose(over, ended_x, end.steady.x), Wide::choose(over, ended_v, end.steady.v));
+        self.steady.x = Wide::choose(good, steady_x, self.steady.x);
+        self.steady.v = Wide::choose(good, steady_v, self.steady.v);
         let evaluations = self.evaluations + self.panels + end.evaluations + 1.0;
         self.evaluations = Wide::choose(good, evaluations, self.evaluations);
         self.turns = Wide::choose(over, self.turns + 1.0, self.turns);
         self.impacts = Wide::choose(impact, self.impacts + 1.0, self.impacts);
-        let stuck = impact
-            & walls::may_stick(
-                self.x,
-                self.v,
-                self.line,
-                wall,
-                &walls::Sticking {
-                    rates: &self.rates,
-                    largest_force: self.largest_force,
-                    excursion: self.excursion,
-                    inverse_loss: self.inverse_loss,
-                },
-            );
-        let through = self.last_turn.at_most(self.turns) | self.last_impact.at_most(self.impacts);
-        if on.any() {
-            self.here = At::choose(on, &there, &self.here);
-            self.time = Wide::choose(on, self.time + length, self.time);
-            self.panels = Wide::choose(on, self.panels + 1.0, self.panels);
-        }
-        let resumed = on.bits();
-        let doubt = events & !good.bits() & !resumed;
-        let stuck = stuck.bits();
-        let special = (stuck | (good & through).bits()) & events;
-        let mut again = events & !doubt & !special & !resumed;
-        again |= self.alone(doubt, queue);
-        for lane in (0..LANES).filter(|lane| special >> lane & 1 == 1) {
-            let Some(index) = self.task[lane] else { continue };
-            let task = &mut queue.tasks[index];
-            task.simulation.resume(&self.moment(lane));
-            if stuck >> lane & 1 == 1 {
-                task.simulation.perhaps_stick(side(wall[lane]), task.observer);
-            }
-            if self.step(lane, false, queue) {
-                again |= 1 << lane;
-            }
-        }
-        (again, resumed)
     }
 
     /// Where the flights end within their panels: at a wall, or with the period in lanes that are
-    /// `clear` until then or cross later.
+    /// clear until then or cross later.
     #[inline(always)]
-    fn end(&self, panel: &Panel<S>, crossing: WideMask<S>, clear: WideMask<S>) -> End<S> {
-        let Panel { guess, length, slack, wall } = *panel;
+    fn end(&self, panel: &Panel<S>) -> End<S> {
+        let Panel { there, length, slack, wall, crossing, over: clear, .. } = *panel;
         let line = self.line.from(self.time);
         let (zero, none) = (self.x.like(0.0), WideMask::from_bits(self.simd, 0));
+        let guess = Rates::guess(&self.here, &there, length, wall, crossing);
+        let guess = guess.larger(zero).smaller(length);
         let rest = self.left - self.time;
         let mut time = guess;
         let mut end = End {
@@ -171,59 +183,46 @@ impl<S: Simd> Lanes<S> {
 
     /// Tells observers of what has happened to their lanes.
     #[inline(always)]
-    fn tell<O: Observer>(
-        &self,
-        good: WideMask<S>,
-        impact: WideMask<S>,
-        event: &Event<S>,
-        queue: &mut Queue<'_, O>,
-    ) {
-        let (good, impact) = (good.bits(), impact.bits());
-        for lane in 0..LANES {
+    fn tell<O: Observer>(&self, event: &Event<S>, queue: &mut Queue<'_, O>) {
+        let (good, impact) = (event.good.bits(), event.impact.bits());
+        for lane in (0..LANES).filter(|lane| good >> lane & 1 == 1) {
             let Some(index) = self.task[lane] else { continue };
-            if good >> lane & 1 == 0 {
-                continue;
-            }
             let Task { simulation, observer, .. } = &mut queue.tasks[index];
             let flight = event.flight[lane];
-            if O::SEGMENTS && flight > 0.0 && observer.flights() {
+            if flight > 0.0 && observer.flights() {
                 observer.segment(&simulation.flown(&self.moment(lane), flight));
             }
-            if impact >> lane & 1 == 1 {
-                let (x, y) = (event.x[lane], event.y[lane]);
-                let phase = event.phase[lane];
-                observer.impact(&Impact {
-                    tau: simulation.tau(self.turns[lane] as u64, phase),
-                    phase,
-                    side: side(event.wall[lane]),
-                    x,
-                    x_velocity_before: event.v[lane],
-                    x_velocity_after: event.after.x_velocity[lane],
-                    y_velocity_before: event.approach[lane],
-                    y_velocity_after: event.after.y_velocity[lane],
-                    loss: event.after.loss[lane],
-                    penetration: ((x - y).abs() - 1.0).max(0.0),
-                });
-            } else {
-                observer.period(&State {
-                    x: event.x[lane],
-                    x_velocity: event.v[lane],
-                    y: event.y[lane],
-                    y_velocity: event.approach[lane],
-                });
+            let at = State {
+                x: event.x[lane],
+                x_velocity: event.v[lane],
+                y: event.y[lane],
+                y_velocity: self.line.velocity[lane],
+            };
+            if impact >> lane & 1 == 0 {
+                observer.period(&at);
+                continue;
             }
+            let after = Rebound {
+                x_velocity: event.after.x_velocity[lane],
+                y_velocity: event.after.y_velocity[lane],
+                loss: event.after.loss[lane],
+            };
+            let (side, turns) = (side(event.wall[lane]), self.turns[lane] as u64);
+            observer.impact(&simulation.impact(&at, side, &after, turns, event.phase[lane]));
         }
     }
 }
 
 /// What flights ended with.
 struct Event<S: Simd> {
+    /// Where that is known to rounding.
+    good: WideMask<S>,
+    /// Where it is at a wall.
+    impact: WideMask<S>,
     flight: Wide<S>,
     x: Wide<S>,
     v: Wide<S>,
     y: Wide<S>,
-    /// Velocity of the absorber until then.
-    approach: Wide<S>,
     phase: Wide<S>,
     wall: Wide<S>,
     after: Rebound<Wide<S>>,
@@ -231,11 +230,16 @@ struct Event<S: Simd> {
 
 /// Where flights may end.
 struct Panel<S: Simd> {
-    /// When, nearly.
-    guess: Wide<S>,
+    there: At<Wide<S>>,
     length: Wide<S>,
     slack: Slack<Wide<S>>,
     wall: Wide<S>,
+    /// Where a wall is met.
+    crossing: WideMask<S>,
+    /// Where it is clear until the period is over.
+    over: WideMask<S>,
+    /// Where it is clear, and the flight goes on.
+    on: WideMask<S>,
 }
 
 /// Where flights end within their panels, times from the panel's beginning.

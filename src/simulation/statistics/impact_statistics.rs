@@ -32,15 +32,8 @@ const LEAST_DAMPING: f64 = 1e-4;
 pub struct ImpactStatistics {
     statistics: Statistics,
     telescope: Option<Telescope>,
-    open: Open,
-}
-
-/// Flights that are yet to be searched for their peaks, several at a time.
-#[derive(Debug, Clone)]
-struct Open {
-    flights: Vec<Flight>,
-    /// Whole periods before each.
-    periods: Vec<u64>,
+    /// Flights that are yet to be searched for their peaks, several at a time.
+    open: Vec<Flight>,
 }
 
 /// What turns impacts into integrals.
@@ -163,7 +156,7 @@ impl Telescope {
     }
 
     /// The flight that ends at a place, if it may reach beyond a displacement that is known.
-    fn flight(&self, end: &Place, known: f64) -> Option<Flight> {
+    fn flight(&self, end: &Place, known: f64, period: u64) -> Option<Flight> {
         let begin = &self.begin;
         let duration = (end.phase - begin.phase) / self.frequency;
         let eighth = 0.125 * duration * duration;
@@ -182,6 +175,7 @@ impl Telescope {
             steady: Steady { x: place.u.re, v: -self.frequency * place.u.im },
         };
         (by_bend > known && by_circle > known).then(|| Flight {
+            period,
             begin: moment(begin),
             duration,
             end: moment(end),
@@ -194,8 +188,7 @@ impl ImpactStatistics {
     pub fn begin(system: &System, start: State) -> Self {
         let statistics = Statistics::begin(system, start);
         let telescope = Telescope::begin(&statistics);
-        let open = Open { flights: Vec::with_capacity(LANES), periods: Vec::with_capacity(LANES) };
-        Self { statistics, telescope, open }
+        Self { statistics, telescope, open: Vec::with_capacity(LANES) }
     }
 
     /// What has been measured so far. Harmonics and the work of the excitation may be missing and are then 0.
@@ -204,17 +197,17 @@ impl ImpactStatistics {
         &self.statistics
     }
 
-    /// A flight ends at a place. It is kept to be searched for its peak, if that may matter.
-    fn end_flight(&mut self, end: Place) {
+    /// A flight ends at a place, from which the oscillator goes on with the velocity `after`. It is kept to be
+    /// searched for its peak, if that may matter.
+    fn end_flight(&mut self, end: Place, after: f64) {
         let Some(telescope) = &mut self.telescope else { return };
         let peak = &mut self.statistics.current.peak;
         *peak = peak.max(telescope.begin.x.abs()).max(end.x.abs());
-        if let Some(flight) = telescope.flight(&end, *peak) {
-            self.open.flights.push(flight);
-            self.open.periods.push(self.statistics.periods);
-        }
+        let flight = telescope.flight(&end, *peak, self.statistics.periods);
         telescope.end(end);
-        if self.open.flights.len() == LANES {
+        telescope.jump(after);
+        self.open.extend(flight);
+        if self.open.len() == LANES {
             self.search();
         }
     }
@@ -222,14 +215,13 @@ impl ImpactStatistics {
     /// Searches the flights that are kept.
     fn search(&mut self) {
         let Some(telescope) = &self.telescope else { return };
-        let Open { flights, periods } = &mut self.open;
-        if flights.is_empty() {
+        if self.open.is_empty() {
             return;
         }
-        for (period, peak) in periods.drain(..).zip(peaks::together(&telescope.rates, flights)) {
-            self.statistics.raise(period, peak);
+        let peaks = peaks::together(&telescope.rates, &self.open);
+        for (flight, peak) in self.open.drain(..).zip(peaks) {
+            self.statistics.raise(flight.period, peak);
         }
-        flights.clear();
     }
 }
 
@@ -255,10 +247,7 @@ impl Observer for ImpactStatistics {
     fn impact(&mut self, impact: &Impact) {
         if let Some(telescope) = &self.telescope {
             let end = telescope.place(impact.phase, impact.x, impact.x_velocity_before);
-            self.end_flight(end);
-        }
-        if let Some(telescope) = &mut self.telescope {
-            telescope.jump(impact.x_velocity_after);
+            self.end_flight(end, impact.x_velocity_after);
         }
         self.statistics.impact(impact);
     }
@@ -270,7 +259,7 @@ impl Observer for ImpactStatistics {
     fn period(&mut self, state: &State) {
         if let Some(telescope) = &self.telescope {
             let end = telescope.place(0.0, state.x, state.x_velocity);
-            self.end_flight(Place { phase: std::f64::consts::TAU, ..end });
+            self.end_flight(Place { phase: std::f64::consts::TAU, ..end }, state.x_velocity);
         }
         if let Some(telescope) = &mut self.telescope {
             telescope.begin.phase = 0.0;
@@ -282,7 +271,7 @@ impl Observer for ImpactStatistics {
             telescope.contact = 0.0;
             let statistics = &mut self.statistics;
             statistics.squared += squared;
-            statistics.current.squared += squared;
+            statistics.current.mean_square += squared;
             let damping = statistics.system.mass_ratio() * statistics.system.damping();
             statistics.damper += damping * velocity_squared;
         }

@@ -233,7 +233,7 @@ impl BandCurves {
         };
         Some(Self {
             bare: curve(&bare_amplitude),
-            damper: curve(&|system| damper.amplitudes(system)[0]),
+            damper: curve(&|system| damper.amplitude(system)),
             orbits: Self::orbits(band),
         })
     }
