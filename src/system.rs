@@ -7,12 +7,13 @@
 
 mod parameter;
 
-use serde::Serialize;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 pub use parameter::Parameter;
 
 /// How the linear oscillator is driven.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Excitation {
     /// The base moves by `F sin(omega t)`; spring and damper both transmit it, equation (1).

@@ -35,7 +35,7 @@ impl Design {
     /// The amplitude of its excitation, in m, in N, or in its own unit.
     pub(super) fn amplitude(&self) -> f64 {
         match self {
-            Self::Physical(physical) => physical.excitation.amplitude(),
+            Self::Physical(physical) => physical.amplitude,
             Self::Reduced(reduced) => reduced.forcing,
         }
     }
@@ -43,21 +43,15 @@ impl Design {
     /// The same oscillator and excitation with another absorber. Mass ratio, damping `lambda` and
     /// forcing `G` of its system follow from the mass.
     #[must_use]
-    pub fn with(&self, choice: &AbsorberDesign) -> Self {
-        match *self {
+    pub fn with(mut self, choice: &AbsorberDesign) -> Self {
+        let (clearance, restitution) = match &mut self {
             Self::Physical(physical) => {
-                let mut changed = physical;
-                changed.clearance_m = choice.clearance;
-                changed.restitution = choice.restitution;
-                changed.absorber_mass_kg = choice.mass.unwrap_or(physical.absorber_mass_kg);
-                Self::Physical(changed)
+                physical.absorber_mass_kg = choice.mass.unwrap_or(physical.absorber_mass_kg);
+                (&mut physical.clearance_m, &mut physical.restitution)
             }
-            Self::Reduced(reduced) => {
-                let mut changed = reduced;
-                changed.clearance = choice.clearance;
-                changed.restitution = choice.restitution;
-                Self::Reduced(changed)
-            }
-        }
+            Self::Reduced(reduced) => (&mut reduced.clearance, &mut reduced.restitution),
+        };
+        (*clearance, *restitution) = (choice.clearance, choice.restitution);
+        self
     }
 }

@@ -3,8 +3,6 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::quantity::{Quantity, Share};
-
 /// How exact the answers must be. Without this table every layer is computed and simulation decides;
 /// with it the cheapest layer whose error is known to be small enough answers, and the report says
 /// which. Each key may be left out.
@@ -13,10 +11,8 @@ use super::quantity::{Quantity, Share};
 pub struct AccuracySettings {
     /// Largest relative error of the oscillator's amplitude (its root mean square), above 0; 1 %
     /// unless given.
-    #[schemars(
-        with = "Option<Quantity<Share>>",
-        extend("exclusiveMinimum" = 0, "x-symbol" = r"\Delta_\mathrm{amplitude}")
-    )]
+    #[schemars(extend("x-measurand" = "a share", "exclusiveMinimum" = 0))]
+    #[schemars(extend("x-symbol" = r"\Delta_\mathrm{amplitude}"))]
     pub amplitude: Option<f64>,
     /// Largest error of the impacts per excitation period, above 0; 0.01 unless given.
     #[schemars(extend("exclusiveMinimum" = 0, "x-symbol" = r"\Delta z"), example = 0.01)]

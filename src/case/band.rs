@@ -99,16 +99,18 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<BandSettings> {
         return None;
     }
     if let (Some(value), Some(corners)) = (table.value("spectrum"), &band.spectrum) {
-        let as_written = reader.as_written(value.span());
+        let span = value.span();
+        let as_written = reader.as_written(span.clone());
         let as_written =
             as_written.split_whitespace().collect::<Vec<_>>().join(" ").replace('"', "");
         let (table, symbol) = ("band".to_owned(), "F(f)".to_owned());
         let value = corners.len() as f64;
-        reader.inputs.push(Input { table, name: "spectrum", symbol, value, unit: "1", as_written });
+        let (name, unit, span) = ("spectrum", "1", span);
+        reader.inputs.push(Input { table, name, symbol, value, unit, as_written, span });
     }
     let mut over_own =
         |key: &str, amplitude: f64| over_own(reader, &table, &design, key, amplitude);
-    let omega = |frequency: f64| design.scales().frequency_ratio(frequency).unwrap_or(frequency);
+    let omega = |frequency: f64| design.scales().frequency_ratio(frequency);
     let range = match over {
         BandOver::Frequency => [omega(band.from), omega(band.to)],
         BandOver::Amplitude => [over_own("from", band.from)?, over_own("to", band.to)?],

@@ -6,14 +6,14 @@ use serde_json::{Value, json};
 use toml::de::DeValue;
 
 use super::Design;
-use super::form::{Bound, Form};
 use super::names::names;
-use super::quantity::{Decibel, Dimension, Share};
+use super::number::{Bound, Form};
 use super::reader::Reader;
 use super::schema::add_names;
 use super::sweep::SweepParameter;
 use super::table::{Table, kind};
 use super::value::Place;
+use crate::quantity::Dimension;
 
 names! { key:
     /// What a criterion is about. Over a band the worst place of it counts.
@@ -199,8 +199,8 @@ fn criterion(
 fn form(measure: Measure, design: &Design) -> Option<Form> {
     let or_plain = |of| Form { plain: true, ..Form::free(Some(of), "", "") };
     match measure {
-        Measure::Share => Some(or_plain(Share::OF)),
-        Measure::Decibel => Some(or_plain(Decibel::OF)),
+        Measure::Share => Some(or_plain(Dimension::Share)),
+        Measure::Decibel => Some(or_plain(Dimension::Level)),
         Measure::Length => SweepParameter::InitialDisplacement.form(design),
         Measure::Velocity => SweepParameter::InitialVelocity.form(design),
         Measure::Count | Measure::Flag => {

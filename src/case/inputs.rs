@@ -1,9 +1,10 @@
 //! The numbers of a case for display: as its author wrote them, and what follows from them.
 
+use std::ops::Range;
+
 use serde::Serialize;
 
 use super::Case;
-use std::f64::consts::TAU;
 
 /// One number of a case, given or derived.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -20,6 +21,9 @@ pub struct Input {
     pub unit: &'static str,
     /// The text in the case file, with its own unit and without quotes; empty when derived.
     pub as_written: String,
+    /// Where its value stands in the text.
+    #[serde(skip)]
+    pub(super) span: Range<usize>,
 }
 
 impl Case {
@@ -32,10 +36,10 @@ impl Case {
     /// among them.
     pub fn derived(&self) -> Vec<Input> {
         let (system, scales) = (&self.system, &self.scales);
-        let unit = scales.length_unit().symbol();
+        let unit = scales.length_unit();
         let damping_ratio = system.mass_ratio() * system.damping() / 2.0;
-        let natural = scales.natural_frequency_rad_per_s.map(|omega0| omega0 / TAU);
-        let natural = natural.map(|f0| derived("natural_frequency", "f_0", f0, "Hz"));
+        let natural = derived("natural_frequency", "f_0", scales.frequency(1.0), "Hz");
+        let natural = Some(natural).filter(|_| scales.physical);
         let numbers = [
             derived("mass_ratio", r"\varepsilon", system.mass_ratio(), "1"),
             derived("damping", r"\lambda", system.damping(), "1"),
@@ -57,5 +61,6 @@ fn derived(name: &'static str, symbol: &'static str, value: f64, unit: &'static 
         value,
         unit,
         as_written: String::new(),
+        span: 0..0,
     }
 }

@@ -14,7 +14,6 @@ mod band;
 mod criteria;
 mod document;
 mod error;
-mod form;
 mod inputs;
 mod names;
 mod number;
@@ -47,15 +46,12 @@ pub use criteria::{Criterion, Measure, Relation, Subject};
 pub use error::{CaseError, Problem};
 pub use inputs::Input;
 pub use optimize::{Objective, OptimizeSettings};
-pub use physical::{Physical, PhysicalExcitation};
-pub use quantity::{
-    Damping, Dimension, Force, Frequency, Length, Mass, Measurand, Quantity, QuantityError, Share,
-    Stiffness, Unit, Velocity,
-};
+pub use physical::Physical;
+pub use quantity::QuantityError;
 pub use reduced::{Reduced, Tuning};
 pub use report::{ExtraFigure, ReportSettings};
 pub use rewrite::{RewriteError, Rewritten, Rounding};
-pub use scales::{LengthUnit, Scales};
+pub use scales::Scales;
 pub use schema::{FILE_NAME as SCHEMA_FILE_NAME, schema};
 pub use simulation::SimulationSettings;
 pub use sweep::{Layer, Recorded, SweepAxis, SweepParameter, SweepSettings};

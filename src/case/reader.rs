@@ -151,14 +151,7 @@ impl<'t> Reader<'t> {
                 None => {}
             }
         }
-        let read = serde_json::from_value(Value::Object(found));
-        if let (Err(error), true, true) =
-            (&read, self.problems.is_empty(), self.design.is_some() || table.path.is_empty())
-        {
-            let message = format!("the table cannot be read: {error}");
-            self.report(table.span.clone(), message, "expected a table", "check its keys");
-        }
-        read.ok()
+        serde_json::from_value(Value::Object(found)).ok()
     }
 
     /// Reports both, and neither, of two alternative keys.

@@ -3,7 +3,6 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::physical::Kind;
 use super::reader::Reader;
 use super::schema::one_of;
 use super::table::Table;
@@ -35,7 +34,7 @@ pub(super) struct ReducedTable {
     #[schemars(extend("x-symbol" = r"\sigma"), example = -5.446)]
     detuning: Option<f64>,
     /// Where the excitation enters; base-displacement unless given.
-    kind: Option<Kind>,
+    kind: Option<Excitation>,
 }
 
 /// A dimensionless design. [`Case::parse`](super::Case::parse) proves every value finite and in
@@ -94,7 +93,7 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Reduced> {
         restitution: read.restitution,
         clearance: read.clearance,
         forcing: read.forcing,
-        excitation: read.kind.unwrap_or(Kind::BaseDisplacement).into(),
+        excitation: read.kind.unwrap_or(Excitation::BaseDisplacement),
         tuning,
     })
 }

@@ -2,8 +2,8 @@
 
 use toml_edit::{DocumentMut, TableLike, Value};
 
-use super::quantity::{Dimension, Length, Mass, Quantity, Share};
 use super::{AbsorberDesign, Case, CaseError, Design};
+use crate::quantity::Dimension;
 
 /// Why a case file cannot be rewritten.
 #[derive(Debug, thiserror::Error)]
@@ -71,11 +71,11 @@ fn rounded(value: f64, step: Rounding) -> f64 {
 }
 
 /// A number in the unit in which `as_written` gives its own.
-fn written<D: Dimension>(si: f64, as_written: &str, step: Rounding) -> String {
+fn written(of: Dimension, si: f64, as_written: &str, step: Rounding) -> String {
     let begins = |c: char| c == '%' || c.is_alphabetic() && !matches!(c, 'e' | 'E');
     let number = as_written.trim().find(begins);
-    let unit = number.map_or(D::OF.si, |at| as_written.trim()[at..].trim());
-    let one = Quantity::<D>::parse(&format!("1 {unit}")).map_or(1.0, Quantity::si);
+    let unit = number.map_or(of.symbol(true), |at| as_written.trim()[at..].trim());
+    let one = of.parse(&format!("1 {unit}")).unwrap_or(1.0);
     format!("{} {unit}", rounded(si / one, step))
 }
 
@@ -105,7 +105,8 @@ impl Case {
         if choice.clearance != own.clearance {
             let value = match physical {
                 true => {
-                    written::<Length>(choice.clearance, as_written("clearance"), clearance).into()
+                    written(Dimension::Length, choice.clearance, as_written("clearance"), clearance)
+                        .into()
                 }
                 false => rounded(choice.clearance, clearance).into(),
             };
@@ -120,9 +121,9 @@ impl Case {
         {
             let ratio = mass / physical.mass_kg;
             let (key, value) = match as_written("mass_ratio") {
-                "" => ("mass", written::<Mass>(mass, as_written("mass"), step).into()),
+                "" => ("mass", written(Dimension::Mass, mass, as_written("mass"), step).into()),
                 share if share.ends_with('%') => {
-                    ("mass_ratio", written::<Share>(ratio, share, step).into())
+                    ("mass_ratio", written(Dimension::Share, ratio, share, step).into())
                 }
                 _ => ("mass_ratio", rounded(ratio, step).into()),
             };

@@ -37,7 +37,7 @@ impl<'t> Table<'t> {
 
     /// Where a key's value stands, or else the table's name.
     pub fn span_of_value(&self, key: &str) -> Range<usize> {
-        self.entries.get(key).map_or(self.span.clone(), Spanned::span)
+        self.value(key).map_or(self.span.clone(), Spanned::span)
     }
 
     /// " in [band]"; nothing for the top level.
@@ -48,38 +48,39 @@ impl<'t> Table<'t> {
     /// What the schema says about a key, which may depend on what another one holds: the amplitude on the
     /// kind of excitation.
     pub fn schema_of(&self, key: &str) -> &'static Value {
-        let chosen = |branch: &&'static Map<String, Value>| {
-            branch.iter().any(|(key, schema)| {
-                let written = self.value(key).and_then(|value| value.get_ref().as_str());
-                schema["const"].is_string() && schema["const"].as_str() == written
-            })
+        let says = |(key, schema): (&String, &Value)| {
+            let written = self.value(key).and_then(|value| value.get_ref().as_str());
+            schema["const"].as_str().is_some_and(|name| Some(name) == written)
         };
-        let branches = self.schema["oneOf"].as_array().into_iter().flatten();
-        let mut branches = branches.filter_map(|one| one["properties"].as_object());
-        let own = branches.find(chosen).and_then(|branch| branch.get(key));
-        let own = own.filter(|schema| schema["const"].is_null());
+        let mut branches = list(&self.schema["oneOf"]).map(|branch| &branch["properties"]);
+        let chosen = branches.find(|keys| keys.as_object().into_iter().flatten().any(says));
+        let own = chosen.and_then(|keys| keys.get(key)).filter(|own| own["const"].is_null());
         own.unwrap_or(&self.schema["properties"][key])
     }
 
     /// Whether the schema requires a key.
     pub fn requires(&self, key: &str) -> bool {
-        let required = self.schema["required"].as_array();
-        required.is_some_and(|required| required.iter().any(|one| one == key))
+        list(&self.schema["required"]).any(|one| one == key)
     }
 
     /// Pairs of keys of which exactly one must be there.
     pub fn alternatives(&self) -> impl Iterator<Item = [&'static str; 2]> + use<> {
-        let groups = self.schema["allOf"].as_array().into_iter().flatten();
-        let groups = groups.chain([self.schema]).filter_map(|group| group["oneOf"].as_array());
+        let groups = list(&self.schema["allOf"]).chain([self.schema]);
         groups.filter_map(|group| {
-            let [first, second] = group.as_slice() else { return None };
-            let key = |one: &'static Value| match one["required"].as_array()?.as_slice() {
-                [only] => only.as_str(),
-                _ => None,
+            // Nothing but the one key.
+            let key = |k: usize| {
+                let branch = &group["oneOf"][k];
+                branch["required"][0]
+                    .as_str()
+                    .filter(|_| branch.as_object().map(Map::len) == Some(1))
             };
-            Some([key(first)?, key(second)?])
+            Some([key(0)?, key(1)?])
         })
     }
+}
+
+fn list(value: &'static Value) -> impl Iterator<Item = &'static Value> {
+    value.as_array().into_iter().flatten()
 }
 
 /// What a TOML value is, with its article.

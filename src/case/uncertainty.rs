@@ -1,14 +1,12 @@
 //! The optional table `[uncertainty]`: by how much a built design, and what drives it, may differ from
 //! the case.
 
-use std::f64::consts::TAU;
-
 use schemars::{JsonSchema, Schema};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
-use super::form::Form;
 use super::inputs::Input;
+use super::number::Form;
 use super::reader::Reader;
 use super::schema::NUMBER;
 use super::table::Table;
@@ -150,6 +148,6 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Uncertainty {
         );
         return Uncertainty::default();
     }
-    let natural_hz = design.scales().natural_frequency_rad_per_s.map_or(1.0, |omega| omega / TAU);
+    let natural_hz = design.scales().frequency(1.0);
     Uncertainty { frequency_ratio: read.frequency_ratio.over(natural_hz), amplitude, ..read }
 }

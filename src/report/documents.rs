@@ -190,8 +190,7 @@ impl AnalysisDocument {
 impl OrbitDocument {
     fn new(orbit: &SymmetricOrbit, scales: &Scales) -> Self {
         let SymmetricOrbit { orbit: found, .. } = orbit;
-        let velocity =
-            |value: f64| scales.velocity_m_per_s(value).unwrap_or_else(|| scales.length(value));
+        let velocity = |value: f64| scales.velocity(value);
         Self {
             impact_displacement: scales.length(orbit.impact_displacement),
             peak_displacement: scales.length(orbit.peaks.displacement),
@@ -434,11 +433,8 @@ impl AttractorDocument {
 impl MotionDocument {
     /// The document of a motion.
     pub fn new(motion: &Attractor, scales: &Scales) -> Self {
-        let energy = |value: f64| {
-            scales.energy_j(value).unwrap_or(value * scales.clearance * scales.clearance)
-        };
-        let velocity =
-            |value: f64| scales.velocity_m_per_s(value).unwrap_or_else(|| scales.length(value));
+        let energy = |value: f64| scales.energy(value);
+        let velocity = |value: f64| scales.velocity(value);
         let balance = &motion.energy;
         let doubts = motion.doubts();
         Self {
