@@ -7,7 +7,7 @@ use toml::de::DeValue;
 
 use super::Design;
 use super::names::names;
-use super::number::{Bound, Form};
+use super::number::{Bound, Form, sign_of};
 use super::reader::Reader;
 use super::schema::add_names;
 use super::sweep::SweepParameter;
@@ -149,8 +149,8 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> (Vec<Criterion>, bool) 
     let (Some((table, read)), Some(design)) = (read, reader.design) else {
         return (Vec::new(), true);
     };
-    let there = Subject::ALL.into_iter().filter(|subject| table.has(subject.key()));
-    let found = there.filter_map(|subject| criterion(reader, &table, subject, &design)).collect();
+    let read_one = |subject| criterion(reader, &table, subject, &design);
+    let found = Subject::ALL.into_iter().filter_map(read_one).collect();
     (found, read.count_inactive.unwrap_or(true))
 }
 
@@ -163,28 +163,26 @@ fn criterion(
     let (key, measure, value) = (subject.key(), subject.measure(), table.value(subject.key())?);
     let as_written = reader.as_written(value.span());
     let place = Place { alone: false, ..reader.place(table, key, value) };
-    let form = form(measure, design)?;
+    let is_number = matches!(value.get_ref(), DeValue::Integer(_) | DeValue::Float(_));
     let found = match (value.get_ref(), measure) {
         (DeValue::Boolean(flag), Measure::Flag) => {
-            let limit = f64::from(u8::from(*flag));
-            return Some(Criterion { subject, relation: Relation::Equal, limit, as_written });
+            Ok((Relation::Equal, f64::from(u8::from(*flag))))
         }
-        (DeValue::Integer(_) | DeValue::Float(_), Measure::Count) => Ok((Relation::Equal, 0)),
-        (other, Measure::Flag) => Err(format!("is {}", kind(other))),
-        (DeValue::String(text), _) => {
-            relation_of(text).ok_or_else(|| format!("is \"{text}\", which says neither >= nor <="))
+        (DeValue::String(text), _) if measure != Measure::Flag => match relation_of(text) {
+            Some((relation, sign)) => {
+                let place = Place { sign, ..place.clone() };
+                let limit = reader.number(&place, &form(measure, design)?)?;
+                possible(limit, &as_written, measure).map(|()| (relation, limit))
+            }
+            None => Err(format!("is \"{text}\", which says neither >= nor <=")),
+        },
+        (_, Measure::Count) if is_number => {
+            Ok((Relation::Equal, reader.number(&place, &form(measure, design)?)?))
         }
-        (DeValue::Integer(_) | DeValue::Float(_), _) => {
+        (_, of) if is_number && of != Measure::Flag => {
             Err(format!("does not say whether {as_written} is the least or the most"))
         }
         (other, _) => Err(format!("is {}", kind(other))),
-    };
-    let found = match found {
-        Ok((relation, sign)) => {
-            let limit = reader.number(&Place { sign, ..place.clone() }, &form)?;
-            impossible(limit, &as_written, measure).map_or(Ok((relation, limit)), Err)
-        }
-        Err(problem) => Err(problem),
     };
     match found {
         Ok((relation, limit)) => Some(Criterion { subject, relation, limit, as_written }),
@@ -210,22 +208,23 @@ fn form(measure: Measure, design: &Design) -> Option<Form> {
     }
 }
 
+/// Signs of a limit, and what they say.
+const RELATIONS: [(&str, Relation); 5] = [
+    (">=", Relation::AtLeast),
+    ("≥", Relation::AtLeast),
+    ("<=", Relation::AtMost),
+    ("≤", Relation::AtMost),
+    ("==", Relation::Equal),
+];
+
 /// The relation that a text begins with, and the bytes that its sign takes up.
 fn relation_of(text: &str) -> Option<(Relation, usize)> {
-    let begun = text.trim_start();
-    let relations = [
-        (">=", Relation::AtLeast),
-        ("≥", Relation::AtLeast),
-        ("<=", Relation::AtMost),
-        ("≤", Relation::AtMost),
-        ("==", Relation::Equal),
-    ];
-    let (sign, relation) = relations.into_iter().find(|(sign, _)| begun.starts_with(sign))?;
-    Some((relation, text.len() - begun.len() + sign.len()))
+    let found = |(sign, relation)| Some((relation, sign_of(text, &[sign])?));
+    RELATIONS.into_iter().find_map(found)
 }
 
 /// What is wrong with a limit that no value of its kind can have.
-fn impossible(limit: f64, written: &str, measure: Measure) -> Option<String> {
+fn possible(limit: f64, written: &str, measure: Measure) -> Result<(), String> {
     let number = written.trim_start_matches(['>', '<', '=', '≥', '≤', ' ']);
     let why = match measure {
         Measure::Share if limit > 1.0 && limit <= 100.0 && !written.ends_with('%') => {
@@ -234,25 +233,21 @@ fn impossible(limit: f64, written: &str, measure: Measure) -> Option<String> {
         Measure::Share if !(0.0..=1.0).contains(&limit) => {
             "a share lies between 0 and 100 %".to_owned()
         }
-        Measure::Length | Measure::Velocity | Measure::Count if limit < 0.0 => {
-            "it is never below 0".to_owned()
-        }
-        _ => return None,
+        Measure::Length | Measure::Velocity if limit < 0.0 => "it is never below 0".to_owned(),
+        _ => return Ok(()),
     };
-    Some(format!("asks for {number}, and {why}"))
+    Err(format!("asks for {number}, and {why}"))
 }
 
 fn refuse(reader: &mut Reader, place: &Place, measure: Measure, problem: &str) {
+    let mut help = format!("write for example {}", place.line);
     let expected = match measure {
         Measure::Flag => "expected true or false",
         Measure::Count => {
+            help += &format!(", or {} = \">= 2\"", place.key);
             "expected a number without quotes, or \">=\" or \"<=\" and a number, in quotes"
         }
         _ => "expected \">=\" or \"<=\", and a value with its unit, in quotes",
     };
-    let mut help = format!("write for example {}", place.line);
-    if measure == Measure::Count {
-        help += &format!(", or {} = \">= 2\"", place.key);
-    }
     reader.refuse(place, problem, expected.to_owned(), help);
 }

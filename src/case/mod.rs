@@ -218,7 +218,9 @@ fn read(reader: &mut Reader, document: &DeTable) -> Option<Case> {
     let sweep = sweep::read(reader, &root);
     let (file, design) = (file?, design?);
     let system = system_of(reader, &root, &design)?;
-    let warnings = warnings::of(reader.text, document, &design, &system, band.as_ref());
+    let (text, inputs, band_of) = (reader.text, reader.inputs.as_slice(), band.as_ref());
+    let read = warnings::Read { text, inputs, design: &design, system: &system, band: band_of };
+    let warnings = read.warnings();
     Some(Case {
         title: file.title,
         source: file.source,

@@ -106,6 +106,13 @@ impl Bound {
     }
 }
 
+/// The bytes that one of some signs takes up at the beginning of a text.
+pub(super) fn sign_of(text: &str, signs: &[&str]) -> Option<usize> {
+    let begun = text.trim_start();
+    let sign = signs.iter().find(|sign| begun.starts_with(**sign))?;
+    Some(text.len() - begun.len() + sign.len())
+}
+
 /// A value as it is written in a case.
 pub(super) fn toml(value: &Value) -> String {
     match value {

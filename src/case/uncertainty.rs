@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
 use super::inputs::Input;
-use super::number::Form;
+use super::number::{Form, sign_of};
 use super::reader::Reader;
 use super::schema::NUMBER;
 use super::table::Table;
@@ -98,30 +98,21 @@ impl Uncertainty {
 /// Signs of a largest error.
 const SIGNS: [&str; 3] = ["±", "+-", "+/-"];
 
-/// The bytes that the sign of a largest error takes up at the beginning of a text.
-fn sign_of(text: &str) -> usize {
-    let begun = text.trim_start();
-    let sign = SIGNS.into_iter().find(|sign| begun.starts_with(sign));
-    sign.map_or(0, |sign| text.len() - begun.len() + sign.len())
-}
-
 impl Input {
     /// What stands behind the sign of a largest error; `None` where there is no such sign.
     pub fn largest_error(&self) -> Option<&str> {
-        let sign = sign_of(&self.as_written);
-        (sign > 0).then(|| self.as_written[sign..].trim())
+        Some(self.as_written[sign_of(&self.as_written, &SIGNS)?..].trim())
     }
 }
 
 /// Reads one error, whose size is written as `form` says.
 pub(super) fn read_error(reader: &mut Reader, place: Place, form: Form) -> Option<Value> {
-    let sign = place.value.get_ref().as_str().map_or(0, sign_of);
-    let symbol = form.symbol;
-    let symbol = match symbol.starts_with('\\') || sign == 0 {
-        true => symbol,
-        false => format!(" {symbol}"),
+    let sign = place.value.get_ref().as_str().and_then(|text| sign_of(text, &SIGNS)).unwrap_or(0);
+    let symbol = match form.symbol.as_str() {
+        symbol if sign == 0 => format!("s_{symbol}"),
+        symbol if symbol.starts_with('\\') => format!(r"\Delta{symbol}"),
+        symbol => format!(r"\Delta {symbol}"),
     };
-    let symbol = if sign > 0 { format!(r"\Delta{symbol}") } else { format!("s_{symbol}") };
     let size = reader.number(&Place { sign, ..place }, &Form { symbol, ..form })?;
     serde_json::to_value(match size {
         0.0 => Distribution::Certain,
