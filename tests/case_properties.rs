@@ -1,7 +1,7 @@
 //! Properties of every case: text and numbers, physical and reduced, are the same thing.
 
 use proptest::prelude::*;
-use vinesink::case::{Case, Design, Physical, Reduced, Scales, Tuning};
+use vinesink::case::{Case, Design, Physical, Reduced, Scales};
 use vinesink::quantity::Dimension;
 use vinesink::system::{Excitation, System};
 
@@ -42,14 +42,14 @@ prop_compose! {
         restitution in 0.0..=1.0,
         clearance in scale(-6, 3),
         forcing in zero_or(scale(-6, 6)),
-        tuning in prop_oneof![
-            scale(-3, 2).prop_map(Tuning::FrequencyRatio),
-            (-0.009..10.0).prop_map(Tuning::Detuning),
+        (frequency_ratio, detuning) in prop_oneof![
+            scale(-3, 2).prop_map(|ratio| (Some(ratio), None)),
+            (-0.009..10.0).prop_map(|detuning| (None, Some(detuning))),
         ],
         force in any::<bool>(),
     ) -> Reduced {
         let excitation = if force { Excitation::Force } else { Excitation::BaseDisplacement };
-        Reduced { mass_ratio, damping, restitution, clearance, forcing, excitation, tuning }
+        Reduced { mass_ratio, damping, restitution, clearance, forcing, excitation, frequency_ratio, detuning }
     }
 }
 
@@ -83,9 +83,9 @@ fn reduced_text(r: &Reduced) -> String {
         Excitation::Force => "force",
         Excitation::BaseDisplacement => "base-displacement",
     };
-    let tuning = match r.tuning {
-        Tuning::FrequencyRatio(ratio) => format!("frequency_ratio = {ratio:?}"),
-        Tuning::Detuning(detuning) => format!("detuning = {detuning:?}"),
+    let tuning = match (r.frequency_ratio, r.detuning) {
+        (Some(ratio), _) => format!("frequency_ratio = {ratio:?}"),
+        (None, detuning) => format!("detuning = {:?}", detuning.expect("one of the two")),
     };
     format!(
         "title = 't'\nsource = 's'\n[reduced]\nmass_ratio = {:?}\ndamping = {:?}\n\
@@ -116,9 +116,9 @@ fn numbers(design: &Design) -> ([f64; 8], Excitation) {
             (all, p.excitation)
         }
         Design::Reduced(r) => {
-            let detuning = match r.tuning {
-                Tuning::FrequencyRatio(ratio) => (ratio - 1.0) / r.mass_ratio,
-                Tuning::Detuning(detuning) => detuning,
+            let detuning = match (r.frequency_ratio, r.detuning) {
+                (Some(ratio), _) => (ratio - 1.0) / r.mass_ratio,
+                (None, detuning) => detuning.expect("one of the two"),
             };
             let all = [r.mass_ratio, r.damping, r.restitution, r.clearance, r.forcing, detuning];
             let [mass_ratio, damping, restitution, clearance, forcing, detuning] = all;
@@ -134,15 +134,16 @@ fn restored(scales: &Scales, system: &System) -> Design {
     let (clearance, restitution) = (scales.clearance, system.restitution());
     let (mass_ratio, excitation) = (system.mass_ratio(), system.excitation());
     if !scales.physical {
-        let (damping, tuning) = (system.damping(), Tuning::Detuning(system.detuning()));
+        let (frequency_ratio, detuning) = (None, Some(system.detuning()));
         return Design::Reduced(Reduced {
             mass_ratio,
-            damping,
+            damping: system.damping(),
             restitution,
             clearance,
             forcing,
             excitation,
-            tuning,
+            frequency_ratio,
+            detuning,
         });
     }
     let (mass_kg, omega0) = (scales.oscillator_mass, scales.natural_frequency);

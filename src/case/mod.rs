@@ -42,13 +42,13 @@ use toml::de::DeTable;
 pub use absorber_design::AbsorberDesign;
 pub use accuracy::AccuracySettings;
 pub use band::{BandOver, BandSettings};
-pub use criteria::{Criterion, Measure, Relation, Subject};
+pub use criteria::{Criterion, Relation, Subject};
 pub use error::{CaseError, Problem};
 pub use inputs::Input;
 pub use optimize::{Objective, OptimizeSettings};
 pub use physical::Physical;
 pub use quantity::QuantityError;
-pub use reduced::{Reduced, Tuning};
+pub use reduced::Reduced;
 pub use report::{ExtraFigure, ReportSettings};
 pub use rewrite::{RewriteError, Rewritten, Rounding};
 pub use scales::Scales;
@@ -125,7 +125,7 @@ struct CaseFile {
     oscillator: Option<physical::OscillatorTable>,
     absorber: Option<physical::AbsorberTable>,
     excitation: Option<physical::ExcitationTable>,
-    reduced: Option<reduced::ReducedTable>,
+    reduced: Option<Reduced>,
     simulation: Option<SimulationSettings>,
     report: Option<ReportSettings>,
     accuracy: Option<AccuracySettings>,

@@ -9,8 +9,6 @@
 use std::f64::consts::TAU;
 
 use super::Design;
-use super::physical::Physical;
-use super::reduced::{Reduced, Tuning};
 use crate::quantity::Dimension;
 use crate::system::{Excitation, InvalidParameter, Parameters, System};
 
@@ -92,22 +90,49 @@ impl Design {
     /// [`InvalidParameter`] when values, each valid by itself, combine to a number that a double
     /// cannot hold, or when the design did not come from [`Case::parse`](super::Case::parse).
     pub fn system(&self) -> Result<System, InvalidParameter> {
+        let scales = self.scales();
+        let forcing_per_clearance = scales.forcing / scales.clearance;
+        let omega0 = scales.natural_frequency;
         match self {
-            Self::Physical(physical) => physical_system(physical),
-            Self::Reduced(reduced) => reduced_system(reduced),
+            Self::Physical(p) => System::new(Parameters {
+                mass_ratio: p.absorber_mass_kg / p.mass_kg,
+                damping: p.damping_n_s_per_m / (p.absorber_mass_kg * omega0),
+                restitution: p.restitution,
+                frequency_ratio: scales.frequency_ratio(p.frequency_hz),
+                forcing_per_clearance,
+                excitation: p.excitation,
+            }),
+            Self::Reduced(r) => {
+                let system = System::new(Parameters {
+                    mass_ratio: r.mass_ratio,
+                    damping: r.damping,
+                    restitution: r.restitution,
+                    frequency_ratio: r.frequency_ratio.unwrap_or(1.0),
+                    forcing_per_clearance,
+                    excitation: r.excitation,
+                })?;
+                // A small detuning would be lost in a ratio near 1.
+                r.detuning.map_or(Ok(system), |detuning| system.with_detuning(detuning))
+            }
         }
     }
 
     /// What turns the system's results back into this design's units.
     pub fn scales(&self) -> Scales {
         match self {
-            Self::Physical(p) => Scales {
-                physical: true,
-                clearance: p.clearance_m,
-                natural_frequency: p.natural_frequency_rad_per_s(),
-                oscillator_mass: p.mass_kg,
-                forcing: physical_forcing(p),
-            },
+            Self::Physical(p) => {
+                let displacement = match p.excitation {
+                    Excitation::BaseDisplacement => p.amplitude,
+                    Excitation::Force => p.amplitude / p.stiffness_n_per_m,
+                };
+                Scales {
+                    physical: true,
+                    clearance: p.clearance_m,
+                    natural_frequency: p.natural_frequency_rad_per_s(),
+                    oscillator_mass: p.mass_kg,
+                    forcing: displacement / (p.absorber_mass_kg / p.mass_kg),
+                }
+            }
             Self::Reduced(r) => Scales {
                 physical: false,
                 clearance: r.clearance,
@@ -116,45 +141,5 @@ impl Design {
                 forcing: r.forcing,
             },
         }
-    }
-}
-
-/// `G` in metres.
-fn physical_forcing(p: &Physical) -> f64 {
-    let displacement = match p.excitation {
-        Excitation::BaseDisplacement => p.amplitude,
-        Excitation::Force => p.amplitude / p.stiffness_n_per_m,
-    };
-    displacement / (p.absorber_mass_kg / p.mass_kg)
-}
-
-fn physical_system(p: &Physical) -> Result<System, InvalidParameter> {
-    let omega0 = p.natural_frequency_rad_per_s();
-    System::new(Parameters {
-        mass_ratio: p.absorber_mass_kg / p.mass_kg,
-        damping: p.damping_n_s_per_m / (p.absorber_mass_kg * omega0),
-        restitution: p.restitution,
-        frequency_ratio: TAU * p.frequency_hz / omega0,
-        forcing_per_clearance: physical_forcing(p) / p.clearance_m,
-        excitation: p.excitation,
-    })
-}
-
-fn reduced_system(r: &Reduced) -> Result<System, InvalidParameter> {
-    let frequency_ratio = match r.tuning {
-        Tuning::FrequencyRatio(frequency_ratio) => frequency_ratio,
-        Tuning::Detuning(_) => 1.0,
-    };
-    let system = System::new(Parameters {
-        mass_ratio: r.mass_ratio,
-        damping: r.damping,
-        restitution: r.restitution,
-        frequency_ratio,
-        forcing_per_clearance: r.forcing / r.clearance,
-        excitation: r.excitation,
-    })?;
-    match r.tuning {
-        Tuning::FrequencyRatio(_) => Ok(system),
-        Tuning::Detuning(detuning) => system.with_detuning(detuning),
     }
 }

@@ -5,7 +5,6 @@ use serde_json::Value;
 use super::super::Design;
 use super::super::names::names;
 use super::super::number::Form;
-use super::super::reduced::Tuning;
 use super::super::schema::SCHEMA;
 use crate::quantity::Dimension;
 use crate::system::Excitation;
@@ -141,14 +140,10 @@ impl SweepParameter {
             (Self::DampingRatio, Design::Physical(p)) => {
                 Some(p.damping_n_s_per_m / p.critical_damping_n_s_per_m())
             }
-            (Self::Frequency, Design::Reduced(r)) => Some(match r.tuning {
-                Tuning::FrequencyRatio(ratio) => ratio,
-                Tuning::Detuning(detuning) => libm::fma(r.mass_ratio, detuning, 1.0),
-            }),
-            (Self::Detuning, Design::Reduced(r)) => Some(match r.tuning {
-                Tuning::FrequencyRatio(ratio) => (ratio - 1.0) / r.mass_ratio,
-                Tuning::Detuning(detuning) => detuning,
-            }),
+            (Self::Frequency, Design::Reduced(r)) => Some(r.frequency_ratio()),
+            (Self::Detuning, Design::Reduced(r)) => {
+                Some(r.detuning.unwrap_or_else(|| (r.frequency_ratio() - 1.0) / r.mass_ratio))
+            }
             _ => self.number(&mut design.clone()).copied(),
         }
     }
@@ -163,8 +158,12 @@ impl SweepParameter {
             (Self::DampingRatio, Design::Physical(p)) => {
                 p.damping_n_s_per_m = value * p.critical_damping_n_s_per_m();
             }
-            (Self::Frequency, Design::Reduced(r)) => r.tuning = Tuning::FrequencyRatio(value),
-            (Self::Detuning, Design::Reduced(r)) => r.tuning = Tuning::Detuning(value),
+            (Self::Frequency, Design::Reduced(r)) => {
+                (r.frequency_ratio, r.detuning) = (Some(value), None);
+            }
+            (Self::Detuning, Design::Reduced(r)) => {
+                (r.frequency_ratio, r.detuning) = (None, Some(value));
+            }
             (_, changed) => {
                 if let Some(number) = self.number(changed) {
                     *number = value;

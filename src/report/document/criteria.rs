@@ -3,11 +3,11 @@
 use serde::Serialize;
 
 use super::scale::Scale;
-use crate::case::{Case, Criterion, Measure, Relation, Subject};
+use crate::case::{Case, Criterion, Relation, Subject};
 use crate::criteria::Judged;
 use crate::method::Method;
+use crate::quantity::Quantity;
 use crate::quantity::catalogue as of;
-use crate::quantity::{Kind, Quantity};
 
 /// What all criteria together came to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -112,27 +112,11 @@ impl CriteriaFacts {
     }
 }
 
-/// The kind of a criterion's value; none where it is yes or no.
-fn kind(subject: Subject) -> Option<&'static Kind> {
-    Some(match subject {
-        Subject::Z3Share => &of::Z3_SHARE,
-        Subject::StableShare => &of::STABLE_SHARE,
-        Subject::PeakDisplacement => &of::PEAK,
-        Subject::RmsDisplacement => &of::RMS,
-        Subject::ReductionDb => &of::REDUCTION_DB,
-        Subject::ReductionDbTmd => &of::REDUCTION_DB_TMD,
-        Subject::MarginClearance => &of::GAP,
-        Subject::ImpactVelocity => &of::IMPACT_SPEED,
-        Subject::ImpactsPerPeriod => &of::IMPACTS_PER_PERIOD,
-        Subject::NoCoexistence => return None,
-    })
-}
-
 impl CriterionFacts {
     fn of(case: &Case, scale: &Scale, judged: &Judged) -> Self {
         let Criterion { subject, relation, limit, as_written } = &judged.criterion;
         let method = judged.decided_by;
-        let kind = kind(*subject);
+        let kind = subject.kind();
         let quantity = |value: f64| kind.map(|kind| Quantity::new(kind, value, method));
         // The errors of shares and margins are rounding, or theory's own.
         let error = if subject.is_of_motions() { judged.error } else { 0.0 };
@@ -150,7 +134,7 @@ impl CriterionFacts {
             found_flag: judged.found.filter(|_| kind.is_none()).map(|found| found > 0.5),
             margin: judged
                 .margin
-                .filter(|_| subject.measure() != Measure::Count)
+                .filter(|_| *subject != Subject::ImpactsPerPeriod)
                 .and_then(quantity),
             outcome: match (judged.holds, judged.near_limit) {
                 (None, _) => Outcome::NotMeasured,
