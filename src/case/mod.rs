@@ -94,7 +94,6 @@ pub struct Case {
     inputs: Vec<Input>,
     warnings: Vec<Problem>,
     system: System,
-    scales: Scales,
 }
 
 /// A design in the units its author chose.
@@ -155,17 +154,16 @@ impl Case {
     pub fn parse(name: &str, text: &str) -> Result<Self, CaseError> {
         // A byte order mark is no part of the text that errors count columns in.
         let visible = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let document = match document::parse(visible) {
-            Ok(document) => document,
-            Err(problems) => return Err(CaseError::new(name, visible, problems)),
-        };
+        let refused = |problems| CaseError::new(name, visible, problems);
+        let document = document::parse(visible).map_err(refused)?;
         let mut reader =
             Reader { text: visible, problems: Vec::new(), inputs: Vec::new(), design: None };
-        match read(&mut reader, &document) {
-            Some(case) if reader.problems.is_empty() => {
-                Ok(Self { text_hash: sha256(text.as_bytes()), inputs: reader.inputs, ..case })
+        match read(&mut reader, &document, sha256(text.as_bytes())) {
+            Some(mut case) if reader.problems.is_empty() => {
+                case.warnings = warnings::of(visible, &case);
+                Ok(case)
             }
-            _ => Err(CaseError::new(name, visible, reader.problems)),
+            _ => Err(refused(reader.problems)),
         }
     }
 
@@ -182,7 +180,7 @@ impl Case {
 
     /// What turns the system's results back into the case's units.
     pub fn scales(&self) -> Scales {
-        self.scales
+        self.design.scales()
     }
 
     /// The text of a commented case to start from, with the given title.
@@ -192,7 +190,7 @@ impl Case {
     }
 }
 
-fn read(reader: &mut Reader, document: &DeTable) -> Option<Case> {
+fn read(reader: &mut Reader, document: &DeTable, text_hash: String) -> Option<Case> {
     if document.is_empty() {
         let help =
             "write a title, a source and a design; `vinesink new NAME` writes a case to start from";
@@ -218,13 +216,10 @@ fn read(reader: &mut Reader, document: &DeTable) -> Option<Case> {
     let sweep = sweep::read(reader, &root);
     let (file, design) = (file?, design?);
     let system = system_of(reader, &root, &design)?;
-    let (text, inputs, band_of) = (reader.text, reader.inputs.as_slice(), band.as_ref());
-    let read = warnings::Read { text, inputs, design: &design, system: &system, band: band_of };
-    let warnings = read.warnings();
     Some(Case {
         title: file.title,
         source: file.source,
-        text_hash: String::new(),
+        text_hash,
         design,
         simulation: simulation.unwrap_or_default(),
         report: report.unwrap_or_default(),
@@ -235,10 +230,9 @@ fn read(reader: &mut Reader, document: &DeTable) -> Option<Case> {
         optimize,
         uncertainty,
         sweep,
-        inputs: Vec::new(),
-        warnings,
+        inputs: std::mem::take(&mut reader.inputs),
+        warnings: Vec::new(),
         system,
-        scales: design.scales(),
     })
 }
 

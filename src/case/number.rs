@@ -174,22 +174,19 @@ impl Reader<'_> {
 
     /// Reports what is not written as its form says.
     fn no_number(&mut self, place: &Place, form: &Form) -> Option<f64> {
-        let Place { line, key, .. } = place;
         let written = self.as_written(place.value.span());
         let kind = kind(place.value.get_ref());
-        let (problem, help) = match form.dimension {
-            _ if form.whole => (format!("is {written}"), format!("write for example {line}")),
-            None => (format!("is {kind}, but it is a plain number"), format!("write {line}")),
-            Some(_) if form.plain => {
-                (format!("is {kind}"), format!("write {line}, or {key} = {}", form.share))
-            }
+        let mut help = format!("write for example {}", place.line);
+        let problem = match form.dimension {
+            None if form.whole => format!("is {written}"),
+            None => format!("is {kind}, but it is a plain number"),
             Some(dimension) if kind == "a number" => {
                 let unit = dimension.words().1.split_once(' ').map_or("", |(_, unit)| unit);
-                let line = if place.alone { format!("{key} = ") } else { String::new() };
-                let help = format!("if {unit} is meant, write {line}\"{written} {unit}\"");
-                ("has no unit".to_owned(), help)
+                let key = if place.alone { format!("{} = ", place.key) } else { String::new() };
+                help = format!("if {unit} is meant, write {key}\"{written} {unit}\"");
+                "has no unit".to_owned()
             }
-            Some(_) => (format!("is {kind}"), format!("write {line}")),
+            Some(_) => format!("is {kind}"),
         };
         self.refuse(place, &problem, form.expected(), help);
         None

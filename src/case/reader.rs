@@ -134,55 +134,36 @@ impl<'t> Reader<'t> {
     /// Reads the values of a table, but for those that are tables themselves; quantities become numbers
     /// in SI units. `None` where something that must be there is not, or not as it should be.
     pub fn read<T: DeserializeOwned>(&mut self, table: &Table) -> Option<T> {
-        for pair in table.alternatives() {
-            self.exactly_one(table, pair);
+        for group in table.groups() {
+            self.exactly_one(table, &group);
         }
         let mut found = Map::new();
         for key in table.keys.iter().copied() {
-            match table.value(key) {
-                Some(value) => {
-                    let read = self.value(table, key, value);
-                    found.extend(read.map(|read| (key.to_owned(), read)));
-                }
-                None if table.requires(key) && !table.misspelled.contains(&key) => {
-                    let help = format!("add the line {}", self.line(table, key));
-                    self.missing(table, &format!("`{key}`"), help);
-                }
-                None => {}
-            }
+            let Some(value) = table.value(key) else { continue };
+            let read = self.item(self.place(table, key, value), table.schema_of(key));
+            found.extend(read.map(|read| (key.to_owned(), read)));
         }
         serde_json::from_value(Value::Object(found)).ok()
     }
 
-    /// Reports both, and neither, of two alternative keys.
-    fn exactly_one(&mut self, table: &Table, [first, second]: [&'static str; 2]) {
-        match (table.has(first), table.has(second)) {
-            (true, true) => {
-                let spans = [first, second].map(|key| table.span_of(key));
-                let later = spans.into_iter().max_by_key(|span| span.start).unwrap_or_default();
-                let message = format!("`{first}` and `{second}` say the same thing twice");
-                let expected = "expected only one of the two";
-                self.report(later, message, expected, "remove one of the two lines");
-            }
-            (false, false) => {
-                let help = format!(
-                    "add the line {}  or  {}",
-                    self.line(table, first),
-                    self.line(table, second)
-                );
-                self.missing(table, &format!("`{first}` or `{second}`"), help);
-            }
-            _ => {}
+    /// Reports that there is none of some keys, or more than one.
+    fn exactly_one(&mut self, table: &Table, group: &[&str]) {
+        let there = || group.iter().filter(|key| table.has(key));
+        let what: Vec<String> = group.iter().map(|key| format!("`{key}`")).collect();
+        if there().count() == 0 {
+            let (what, place) = (what.join(" or "), table.place());
+            let within = if place.is_empty() { "before the first table" } else { "in this table" };
+            let lines: Vec<String> = group.iter().map(|key| self.line(table, key)).collect();
+            let help = format!("add the line {}", lines.join("  or  "));
+            let message = format!("{what} is missing{place}");
+            self.report(table.span.clone(), message, format!("expected {what} {within}"), help);
+        } else if there().count() > 1 {
+            let later = there().map(|key| table.span_of(key)).max_by_key(|span| span.start);
+            let message = format!("{} say the same thing twice", what.join(" and "));
+            let expected = "expected only one of the two";
+            let help = "remove one of the two lines";
+            self.report(later.unwrap_or_default(), message, expected, help);
         }
-    }
-
-    fn missing(&mut self, table: &Table, what: &str, help: String) {
-        let expected = match table.path.as_str() {
-            "" => format!("expected {what} before the first table"),
-            _ => format!("expected {what} in this table"),
-        };
-        let message = format!("{what} is missing{}", table.place());
-        self.report(table.span.clone(), message, expected, help);
     }
 }
 

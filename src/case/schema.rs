@@ -10,7 +10,7 @@ use std::sync::LazyLock;
 use schemars::generate::SchemaSettings;
 use schemars::transform::RecursiveTransform;
 use schemars::{JsonSchema, Schema};
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
 use crate::quantity::Dimension;
 
@@ -121,15 +121,13 @@ fn with_unit(schema: &mut Schema) {
     let object = schema.ensure_object();
     object.remove("format");
     object.entry("examples").or_insert_with(|| json!([dimension.words().1]));
-    let text = json!({ "type": "string", "pattern": pattern(dimension) });
-    match object["examples"][0].is_number() {
-        true => {
-            object.remove("type");
-            object.insert("anyOf".to_owned(), json!([{ "type": "number" }, text]));
-        }
-        false => {
-            object.insert("type".to_owned(), text["type"].clone());
-            object.insert("pattern".to_owned(), text["pattern"].clone());
-        }
+    let mut text = Map::new();
+    text.insert("type".to_owned(), json!("string"));
+    text.insert("pattern".to_owned(), json!(pattern(dimension)));
+    if object["examples"][0].is_number() {
+        object.remove("type");
+        object.insert("anyOf".to_owned(), json!([{ "type": "number" }, text]));
+    } else {
+        object.append(&mut text);
     }
 }

@@ -58,24 +58,20 @@ impl<'t> Table<'t> {
         own.unwrap_or(&self.schema["properties"][key])
     }
 
-    /// Whether the schema requires a key.
-    pub fn requires(&self, key: &str) -> bool {
-        list(&self.schema["required"]).any(|one| one == key)
-    }
-
-    /// Pairs of keys of which exactly one must be there.
-    pub fn alternatives(&self) -> impl Iterator<Item = [&'static str; 2]> + use<> {
-        let groups = list(&self.schema["allOf"]).chain([self.schema]);
-        groups.filter_map(|group| {
+    /// Keys of which exactly one must be there: those that are required, and pairs of alternatives.
+    pub fn groups(&self) -> impl Iterator<Item = Vec<&'static str>> + use<> {
+        let required =
+            list(&self.schema["required"]).filter_map(Value::as_str).map(|one| vec![one]);
+        let pairs = list(&self.schema["allOf"]).chain([self.schema]).filter_map(|group| {
             // Nothing but the one key.
-            let key = |k: usize| {
-                let branch = &group["oneOf"][k];
+            let key = |branch: &'static Value| {
                 branch["required"][0]
                     .as_str()
                     .filter(|_| branch.as_object().map(Map::len) == Some(1))
             };
-            Some([key(0)?, key(1)?])
-        })
+            list(&group["oneOf"]).map(key).collect::<Option<Vec<_>>>()
+        });
+        required.chain(pairs.filter(|pair| pair.len() == 2))
     }
 }
 

@@ -30,17 +30,6 @@ pub(super) struct Place<'a> {
 }
 
 impl Reader<'_> {
-    /// The value of a key, quantities in SI units; `None` for a table, and for what was reported.
-    pub fn value(
-        &mut self,
-        table: &Table,
-        key: &'static str,
-        value: &Spanned<DeValue>,
-    ) -> Option<Value> {
-        let place = self.place(table, key, value);
-        self.item(place, table.schema_of(key))
-    }
-
     /// A key's own value.
     pub fn place<'a>(
         &self,
@@ -53,7 +42,8 @@ impl Reader<'_> {
         Place { table: name, key, subject, line, value, sign: 0, alone: true }
     }
 
-    fn item(&mut self, place: Place, schema: &'static Value) -> Option<Value> {
+    /// A value that its schema allows, quantities in SI units; `None` for a table, and for what was reported.
+    pub fn item(&mut self, place: Place, schema: &'static Value) -> Option<Value> {
         if let Some(form) = self.form(schema) {
             if schema["x-signed"].is_string() {
                 return super::uncertainty::read_error(self, place, form);

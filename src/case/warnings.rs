@@ -4,8 +4,7 @@
 
 use super::error::Problem;
 use super::inputs::Input;
-use super::{BandOver, BandSettings, Design, physical, reduced};
-use crate::system::System;
+use super::{BandOver, BandSettings, Case, Design, physical, reduced};
 
 /// Ratio of the frequencies of drive and structure from which on they have nothing to do with one another.
 const FAR_APART: f64 = 30.0;
@@ -20,33 +19,30 @@ const ROUNDING: f64 = 1e-12;
 /// Mass ratios between which an absorber is a small mass, and a mass at all.
 const MASS_RATIOS: [f64; 2] = [1e-6, 0.5];
 
-/// A case that was read: its text, its numbers as they were written, and what follows from them.
-pub(super) struct Read<'t> {
-    pub text: &'t str,
-    pub inputs: &'t [Input],
-    pub design: &'t Design,
-    pub system: &'t System,
-    pub band: Option<&'t BandSettings>,
+/// Everything that a case with this text is warned of, in the order of the file's lines.
+pub(super) fn of(text: &str, case: &Case) -> Vec<Problem> {
+    let read = Read { text, case };
+    let mut found = read.frequencies();
+    found.extend(read.damping());
+    found.extend(read.mass_ratio());
+    found.sort_by_key(|warning| warning.span.start);
+    found
+}
+
+struct Read<'t> {
+    text: &'t str,
+    case: &'t Case,
 }
 
 impl Read<'_> {
-    /// Everything that the case is warned of, in the order of the file's lines.
-    pub fn warnings(&self) -> Vec<Problem> {
-        let mut found = self.frequencies();
-        found.extend(self.damping());
-        found.extend(self.mass_ratio());
-        found.sort_by_key(|warning| warning.span.start);
-        found
-    }
-
     /// The number that stands under one of some keys, in the one of `[oscillator]`, `[absorber]` and
     /// `[excitation]` of that index, or in `[reduced]`.
     fn input(&self, table: usize, keys: &[&str]) -> Option<&Input> {
-        let table = match self.design {
+        let table = match &self.case.design {
             Design::Physical(_) => physical::TABLES[table],
             Design::Reduced(_) => reduced::TABLE,
         };
-        self.inputs.iter().find(|input| input.table == table && keys.contains(&input.name))
+        self.case.inputs.iter().find(|input| input.table == table && keys.contains(&input.name))
     }
 
     fn warning(&self, at: &Input, message: String, label: &str, meant: String) -> Problem {
@@ -56,10 +52,10 @@ impl Read<'_> {
     /// Frequencies of the drive, its own and the band's, that are far from the structure's.
     fn frequencies(&self) -> Vec<Problem> {
         let own = self.input(2, &["frequency", "frequency_ratio", "detuning"]);
-        let mut drives = vec![(own, self.system.frequency_ratio())];
-        if let Some(BandSettings { over: BandOver::Frequency, range, .. }) = self.band {
+        let mut drives = vec![(own, self.case.system.frequency_ratio())];
+        if let Some(BandSettings { over: BandOver::Frequency, range, .. }) = &self.case.band {
             let ends = ["from", "to"].map(|key| {
-                self.inputs.iter().find(|input| input.table == "band" && input.name == key)
+                self.case.inputs.iter().find(|input| input.table == "band" && input.name == key)
             });
             drives.extend(ends.into_iter().zip(*range));
         }
@@ -73,10 +69,10 @@ impl Read<'_> {
 
     /// That the structure's frequency is far from all of the drive's.
     fn structure(&self) -> Option<Problem> {
-        let Design::Physical(physical) = self.design else { return None };
+        let Design::Physical(physical) = &self.case.design else { return None };
         let at = self.input(0, &["frequency", "stiffness"])?;
         let (natural, ratio) =
-            (self.design.scales().frequency(1.0), 1.0 / self.system.frequency_ratio());
+            (self.case.scales().frequency(1.0), 1.0 / self.case.system.frequency_ratio());
         let message = format!(
             "the structure's natural frequency, {}, is {}",
             hertz(natural),
@@ -93,9 +89,9 @@ impl Read<'_> {
 
     /// That a frequency of the drive is far from the structure's.
     fn drive(&self, at: &Input, ratio: f64) -> Problem {
-        let natural = self.design.scales().frequency(1.0);
+        let natural = self.case.scales().frequency(1.0);
         let than = "the structure's natural frequency";
-        let (than, meant) = match self.design {
+        let (than, meant) = match &self.case.design {
             Design::Physical(_) => (
                 format!("{than}, {}", hertz(natural)),
                 meant(&at.as_written, ratio * natural, ratio, true),
@@ -110,7 +106,7 @@ impl Read<'_> {
     }
 
     fn damping(&self) -> Option<Problem> {
-        let ratio = 0.5 * self.system.mass_ratio() * self.system.damping();
+        let ratio = 0.5 * self.case.system.mass_ratio() * self.case.system.damping();
         if ratio <= HEAVY_DAMPING * (1.0 + ROUNDING) {
             return None;
         }
@@ -119,11 +115,11 @@ impl Read<'_> {
         let means = if is_ratio { "means" } else { "is a damping ratio of" };
         let message = format!("`{}` = {} {means} {}", at.name, at.as_written, percent(ratio));
         let as_percent = |part: f64| format!("{} ({})", percent(part), short(part));
-        let meant = match self.design {
+        let meant = match &self.case.design {
             Design::Reduced(_) => format!(
                 "it is c1/(m2 omega0), and half of mass_ratio * damping is the damping ratio: 1 % is \
                  damping = {}",
-                short(0.02 / self.system.mass_ratio())
+                short(0.02 / self.case.system.mass_ratio())
             ),
             Design::Physical(physical) if !is_ratio => format!(
                 "critical damping is {} N s/m; check the units of damping, mass and stiffness",
@@ -139,10 +135,10 @@ impl Read<'_> {
     }
 
     fn mass_ratio(&self) -> Option<Problem> {
-        let ratio = self.system.mass_ratio();
+        let ratio = self.case.system.mass_ratio();
         let [least, most] = MASS_RATIOS;
         // Without units a small one is no slip of one.
-        let too_small = ratio < least && matches!(self.design, Design::Physical(_));
+        let too_small = ratio < least && matches!(self.case.design, Design::Physical(_));
         if !too_small && ratio <= most {
             return None;
         }
