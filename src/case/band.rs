@@ -6,9 +6,8 @@ use serde_json::{Value, json};
 
 use super::inputs::Input;
 use super::names::names;
-use super::reader::Reader;
+use super::reader::{Reader, Table};
 use super::schema::in_design;
-use super::table::Table;
 
 names! { name:
     /// What is varied along a band.

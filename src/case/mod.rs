@@ -3,13 +3,12 @@
 //!
 //! A case is TOML. It gives a design either in physical units (`[oscillator]`, `[absorber]`,
 //! `[excitation]`) or dimensionless (`[reduced]`), and may carry settings in optional tables. To
-//! add an optional table: a file like `simulation.rs`, and a field in [`Case`] and in `CaseFile`. The struct
+//! add an optional table: a struct as in `settings.rs`, and a field in [`Case`] and in `CaseFile`. The struct
 //! of a table is what it is read into and what its schema is derived from.
 // Descriptions of keys go into the schema as they are: [reduced] is a table of the case file, not an item.
 #![allow(rustdoc::broken_intra_doc_links)]
 
 mod absorber_design;
-mod accuracy;
 mod band;
 mod criteria;
 mod document;
@@ -22,14 +21,10 @@ mod physical;
 mod quantity;
 mod reader;
 mod reduced;
-mod report;
-mod rewrite;
 mod scales;
 mod schema;
-mod simulation;
-mod suggest;
+mod settings;
 mod sweep;
-mod table;
 mod uncertainty;
 mod value;
 mod warnings;
@@ -39,8 +34,7 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 use toml::de::DeTable;
 
-pub use absorber_design::AbsorberDesign;
-pub use accuracy::AccuracySettings;
+pub use absorber_design::{AbsorberDesign, RewriteError, Rewritten, Rounding};
 pub use band::{BandOver, BandSettings};
 pub use criteria::{Criterion, Relation, Subject};
 pub use error::{CaseError, Problem};
@@ -49,18 +43,15 @@ pub use optimize::{Objective, OptimizeSettings};
 pub use physical::Physical;
 pub use quantity::QuantityError;
 pub use reduced::Reduced;
-pub use report::{ExtraFigure, ReportSettings};
-pub use rewrite::{RewriteError, Rewritten, Rounding};
 pub use scales::Scales;
 pub use schema::{FILE_NAME as SCHEMA_FILE_NAME, schema};
-pub use simulation::SimulationSettings;
+pub use settings::{AccuracySettings, ExtraFigure, ReportSettings, SimulationSettings};
 pub use sweep::{Layer, Recorded, SweepAxis, SweepParameter, SweepSettings};
 pub use uncertainty::{Distribution, Uncertainty};
 
 use crate::digest::sha256;
 use crate::system::System;
-use reader::Reader;
-use table::Table;
+use reader::{Reader, Table};
 
 /// A design case: what its file says, and the system that follows from it.
 #[derive(Debug, Clone, PartialEq)]

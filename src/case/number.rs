@@ -7,8 +7,7 @@ use toml::de::DeValue;
 
 use super::error::Problem;
 use super::inputs::Input;
-use super::reader::Reader;
-use super::table::kind;
+use super::reader::{Reader, kind};
 use super::value::Place;
 use crate::quantity::Dimension;
 

@@ -6,9 +6,8 @@ use serde_json::Value;
 
 use super::Design;
 use super::names::names;
-use super::reader::Reader;
+use super::reader::{Reader, Table};
 use super::schema::in_design;
-use super::table::Table;
 
 names! { name:
     /// What a design is chosen for, over the case's band if it has one.

@@ -7,9 +7,8 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-use super::reader::Reader;
+use super::reader::{Reader, Table};
 use super::schema::one_of;
-use super::table::Table;
 use crate::quantity::Dimension;
 use crate::system::Excitation;
 

@@ -6,7 +6,7 @@
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-use super::suggest::nearest;
+use super::value::nearest;
 use crate::quantity::Dimension;
 use crate::quantity::units::Unit;
 

@@ -3,9 +3,8 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::reader::Reader;
+use super::reader::{Reader, Table};
 use super::schema::one_of;
-use super::table::Table;
 use crate::system::Excitation;
 
 // `Case::parse` proves every value finite and in its range, and one of the two frequencies given.

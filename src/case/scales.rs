@@ -112,7 +112,10 @@ impl Design {
                     excitation: r.excitation,
                 })?;
                 // A small detuning would be lost in a ratio near 1.
-                r.detuning.map_or(Ok(system), |detuning| system.with_detuning(detuning))
+                match (r.frequency_ratio, r.detuning) {
+                    (None, Some(detuning)) => system.with_detuning(detuning),
+                    _ => Ok(system),
+                }
             }
         }
     }

@@ -7,9 +7,8 @@ use serde_json::{Map, Value, json};
 
 use super::inputs::Input;
 use super::number::{Form, sign_of};
-use super::reader::Reader;
+use super::reader::{Reader, Table};
 use super::schema::NUMBER;
-use super::table::Table;
 use super::value::Place;
 
 /// How the error of one parameter is distributed around what is written.

@@ -6,10 +6,8 @@ use toml::de::{DeArray, DeValue};
 
 use super::Design;
 use super::number::{Bound, Form, toml};
-use super::reader::Reader;
-use super::suggest::nearest;
+use super::reader::{Reader, Table, kind};
 use super::sweep::SweepParameter;
-use super::table::{Table, kind};
 use crate::quantity::Dimension;
 
 /// A value, and what to call it.
@@ -214,4 +212,17 @@ pub(super) fn or(names: &[String]) -> String {
         Some((last, rest)) if !rest.is_empty() => format!("{} or {last}", rest.join(", ")),
         _ => names.concat(),
     }
+}
+
+/// The candidate closest to `written`; `None` when nothing is close.
+///
+/// Another capitalisation counts as closest; otherwise at most a third of the letters, and at
+/// most three, may differ.
+pub(super) fn nearest<'a>(written: &str, candidates: &[&'a str]) -> Option<&'a str> {
+    let lower = written.to_lowercase();
+    let distance =
+        |candidate: &&str| strsim::damerau_levenshtein(&lower, &candidate.to_lowercase());
+    let closest = candidates.iter().copied().min_by_key(distance)?;
+    let letters = written.chars().count().max(closest.chars().count());
+    (distance(&closest) <= (letters / 3).min(3)).then_some(closest)
 }
