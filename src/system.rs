@@ -7,14 +7,16 @@
 
 mod parameter;
 
-use serde::Serialize;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 pub use parameter::Parameter;
 
 /// How the linear oscillator is driven.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Excitation {
+    #[default]
     /// The base moves by `F sin(omega t)`; spring and damper both transmit it, equation (1).
     BaseDisplacement,
     /// A force acts on the oscillator's mass; there is no damper term in the excitation.

@@ -94,7 +94,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "validation",
         ],
     ),
-    ("case", &["digest", "numerics", "system"]),
+    ("case", &["digest", "numerics", "quantity", "system"]),
     (
         "optimize",
         &[

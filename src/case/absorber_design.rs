@@ -1,8 +1,12 @@
-//! What of a design is chosen: its absorber.
+//! What of a design is chosen, its absorber; a case file with another one, everything else as its author
+//! wrote it.
 
 use serde::Serialize;
 
-use super::Design;
+use super::inputs::Input;
+use super::{Case, CaseError, Design};
+use crate::digest::sha256;
+use crate::quantity::Dimension;
 
 /// The absorber of a design.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -35,7 +39,7 @@ impl Design {
     /// The amplitude of its excitation, in m, in N, or in its own unit.
     pub(super) fn amplitude(&self) -> f64 {
         match self {
-            Self::Physical(physical) => physical.excitation.amplitude(),
+            Self::Physical(physical) => physical.amplitude,
             Self::Reduced(reduced) => reduced.forcing,
         }
     }
@@ -43,21 +47,131 @@ impl Design {
     /// The same oscillator and excitation with another absorber. Mass ratio, damping `lambda` and
     /// forcing `G` of its system follow from the mass.
     #[must_use]
-    pub fn with(&self, choice: &AbsorberDesign) -> Self {
-        match *self {
+    pub fn with(mut self, choice: &AbsorberDesign) -> Self {
+        let (clearance, restitution) = match &mut self {
             Self::Physical(physical) => {
-                let mut changed = physical;
-                changed.clearance_m = choice.clearance;
-                changed.restitution = choice.restitution;
-                changed.absorber_mass_kg = choice.mass.unwrap_or(physical.absorber_mass_kg);
-                Self::Physical(changed)
+                physical.absorber_mass_kg = choice.mass.unwrap_or(physical.absorber_mass_kg);
+                (&mut physical.clearance_m, &mut physical.restitution)
             }
-            Self::Reduced(reduced) => {
-                let mut changed = reduced;
-                changed.clearance = choice.clearance;
-                changed.restitution = choice.restitution;
-                Self::Reduced(changed)
+            Self::Reduced(reduced) => (&mut reduced.clearance, &mut reduced.restitution),
+        };
+        (*clearance, *restitution) = (choice.clearance, choice.restitution);
+        self
+    }
+}
+
+/// Why a case file cannot be rewritten.
+#[derive(Debug, thiserror::Error)]
+pub enum RewriteError {
+    /// The text is not that of the case.
+    #[error("the case file cannot be changed: its text is not the one that was read")]
+    OtherText,
+    /// The changed text is no valid case.
+    #[error("the changed case is not valid: {0}")]
+    Invalid(#[from] Box<CaseError>),
+}
+
+/// A changed case file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rewritten {
+    /// Its text.
+    pub text: String,
+    /// The case that it describes.
+    pub case: Case,
+}
+
+/// How a value is rounded when it is written, to four significant digits.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Rounding {
+    /// To the nearest number.
+    Nearest,
+    /// To the one below.
+    Down,
+    /// To the one above.
+    Up,
+    /// Not at all.
+    Exact,
+}
+
+impl Rounding {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Nearest, Self::Down, Self::Up, Self::Exact];
+
+    /// A value above 0 with [`DIGITS`] significant digits, rounded or moved on by one in the last of them.
+    fn of(self, value: f64) -> f64 {
+        let round = match self {
+            Self::Nearest => libm::rint,
+            Self::Down => libm::floor,
+            Self::Up => libm::ceil,
+            Self::Exact => return value,
+        };
+        if value == 0.0 {
+            return value;
+        }
+        let place = libm::floor(libm::log10(value)) as i32 - (DIGITS - 1);
+        let units = round(value / libm::pow(10.0, f64::from(place)));
+        // Read back from decimal digits, so that it is the double that a person would write.
+        format!("{units}e{place}").parse().unwrap_or(value)
+    }
+}
+
+/// Significant digits of a written value.
+const DIGITS: i32 = 4;
+
+/// A value as TOML, in the unit in which an input's own is written.
+fn written(input: &Input, si: f64, step: Rounding) -> String {
+    let begins = |c: char| c == '%' || c.is_alphabetic() && !matches!(c, 'e' | 'E');
+    let Some(unit) = input.as_written.find(begins) else { return format!("{:?}", step.of(si)) };
+    let unit = &input.as_written[unit..];
+    let one = format!("1 {unit}");
+    let dimension = Dimension::of(&one).unwrap_or(Dimension::Share);
+    let one = dimension.parse(&one).unwrap_or(1.0);
+    format!("\"{} {}\"", step.of(si / one), unit.trim())
+}
+
+impl Case {
+    /// The text of this case, which `text` must be, with another absorber: values rounded to four
+    /// significant digits (the clearance as asked) in the unit their author used, comments and order kept.
+    ///
+    /// # Errors
+    /// [`RewriteError`] where `text` is not this case's, or the choice makes no case.
+    pub fn rewritten(
+        &self,
+        name: &str,
+        text: &str,
+        choice: &AbsorberDesign,
+        clearance: Rounding,
+    ) -> Result<Rewritten, RewriteError> {
+        if sha256(text.as_bytes()) != self.text_hash {
+            return Err(RewriteError::OtherText);
+        }
+        let own = AbsorberDesign::of(&self.design);
+        let step = if clearance == Rounding::Exact { Rounding::Exact } else { Rounding::Nearest };
+        let mass = choice.mass.filter(|_| choice.mass != own.mass);
+        let changed = |input: &Input| match (input.name, &self.design) {
+            ("clearance", _) if choice.clearance != own.clearance => {
+                Some(written(input, choice.clearance, clearance))
+            }
+            ("restitution", _) if choice.restitution != own.restitution => {
+                Some(written(input, choice.restitution, step))
+            }
+            ("mass", _) => Some(written(input, mass?, step)),
+            ("mass_ratio", Design::Physical(physical)) => {
+                Some(written(input, mass? / physical.mass_kg, step))
+            }
+            _ => None,
+        };
+        let mut text = text.strip_prefix('\u{feff}').unwrap_or(text).to_owned();
+        let of_absorber = |input: &&Input| ["absorber", "reduced"].contains(&&*input.table);
+        let mut inputs: Vec<&Input> = self.inputs.iter().filter(of_absorber).collect();
+        // From the end of the text, so that what is before stays in its place.
+        inputs.sort_by_key(|input| std::cmp::Reverse(input.span.start));
+        for input in inputs {
+            if let Some(value) = changed(input) {
+                text.replace_range(input.span.clone(), &value);
             }
         }
+        let case = Self::parse(name, &text).map_err(Box::new)?;
+        Ok(Rewritten { text, case })
     }
 }

@@ -4,12 +4,10 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-use super::Design;
 use super::inputs::Input;
 use super::names::names;
-use super::reader::Reader;
+use super::reader::{Reader, Table};
 use super::schema::in_design;
-use super::table::Table;
 
 names! { name:
     /// What is varied along a band.
@@ -61,23 +59,27 @@ pub(super) struct BandTable {
     spectrum: Option<Vec<[f64; 2]>>,
 }
 
+fn positive(parameter: &str) -> Value {
+    let mut number = in_design(parameter);
+    number["exclusiveMinimum"] = json!(0);
+    number
+}
+
 fn corner() -> Value {
-    let mut amplitude = in_design("amplitude");
-    amplitude["exclusiveMinimum"] = json!(0);
-    let parts = [in_design("frequency"), amplitude];
+    let parts = [in_design("frequency"), positive("amplitude")];
     json!({ "type": "array", "prefixItems": parts, "minItems": 2, "maxItems": 2 })
 }
 
 /// How the ends are written for each kind of band.
 fn ends() -> Value {
-    let end = |parameter: &str, symbol: &str| json!({ "x-parameter": parameter, "x-symbol": symbol, "exclusiveMinimum": 0 });
-    let branch = |over: BandOver| {
-        let (from, to) = (end(over.name(), r"\min"), end(over.name(), r"\max"));
-        json!({ "properties": { "of": { "const": over.name() }, "from": from, "to": to } })
+    let branch = |over: BandOver, required: &[&str]| {
+        let [mut from, mut to] = [positive(over.name()), positive(over.name())];
+        from["x-symbol"] = json!(r"\min");
+        to["x-symbol"] = json!(r"\max");
+        let properties = json!({ "of": { "const": over.name() }, "from": from, "to": to });
+        json!({ "properties": properties, "required": required })
     };
-    let mut amplitude = branch(BandOver::Amplitude);
-    amplitude["required"] = json!(["of"]);
-    json!([branch(BandOver::Frequency), amplitude])
+    json!([branch(BandOver::Frequency, &[]), branch(BandOver::Amplitude, &["of"])])
 }
 
 /// Reads the table, which may be missing; without a design its units are not known.
@@ -91,54 +93,46 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<BandSettings> {
         reader.report(table.span_of_value("to"), message, "expected `to` above `from`", help);
         return None;
     }
-    let mut again = ["amplitude", "spectrum"].into_iter().filter(|key| table.has(key));
-    if let Some(key) = again.nth(usize::from(over == BandOver::Frequency)) {
+    let amplitudes = match over {
+        BandOver::Frequency => ["amplitude", "spectrum"].as_slice(),
+        BandOver::Amplitude => &["from", "amplitude", "spectrum"],
+    };
+    let mut amplitudes = amplitudes.iter().filter(|key| table.has(key));
+    let said = amplitudes.next();
+    if let Some(key) = amplitudes.next() {
         let message = format!("`{key}` says again what the amplitude is");
         let help = "remove one of the lines";
         reader.report(table.span_of(key), message, "expected the amplitude in one way only", help);
         return None;
     }
     if let (Some(value), Some(corners)) = (table.value("spectrum"), &band.spectrum) {
-        let as_written = reader.as_written(value.span());
-        let as_written =
-            as_written.split_whitespace().collect::<Vec<_>>().join(" ").replace('"', "");
-        let (table, symbol) = ("band".to_owned(), "F(f)".to_owned());
-        let value = corners.len() as f64;
-        reader.inputs.push(Input { table, name: "spectrum", symbol, value, unit: "1", as_written });
+        let (span, value) = (value.span(), corners.len() as f64);
+        let written = reader.as_written(span.clone()).replace('"', "");
+        let as_written = written.split_whitespace().collect::<Vec<_>>().join(" ");
+        let (table, name, symbol) = ("band".to_owned(), "spectrum", "F(f)".to_owned());
+        reader.inputs.push(Input { table, name, symbol, value, unit: "1", as_written, span });
     }
-    let mut over_own =
-        |key: &str, amplitude: f64| over_own(reader, &table, &design, key, amplitude);
-    let omega = |frequency: f64| design.scales().frequency_ratio(frequency).unwrap_or(frequency);
-    let range = match over {
-        BandOver::Frequency => [omega(band.from), omega(band.to)],
-        BandOver::Amplitude => [over_own("from", band.from)?, over_own("to", band.to)?],
+    let own = design.amplitude();
+    let omega = |frequency: f64| design.scales().frequency_ratio(frequency);
+    let range = [band.from, band.to].map(|end| match over {
+        BandOver::Frequency => omega(end),
+        BandOver::Amplitude => end / own,
+    });
+    let spectrum: Vec<_> = match (band.amplitude, band.spectrum) {
+        (Some(amplitude), _) => vec![[range[0], amplitude / own]],
+        (None, corners) => corners
+            .unwrap_or_default()
+            .into_iter()
+            .map(|[at, height]| [omega(at), height / own])
+            .collect(),
     };
-    let spectrum = match (band.amplitude, band.spectrum) {
-        (Some(amplitude), _) => vec![[range[0], over_own("amplitude", amplitude)?]],
-        (None, corners) => {
-            let corners = corners.unwrap_or_default().into_iter();
-            let corners =
-                corners.map(|[at, height]| Some([omega(at), over_own("spectrum", height)?]));
-            corners.collect::<Option<_>>()?
-        }
-    };
+    let known = range.iter().chain(spectrum.iter().flatten()).all(|one| one.is_finite());
+    if let (Some(key), false) = (said, known) {
+        let message =
+            "an amplitude of the band is given as a multiple of the case's own, which is 0";
+        let help = "give the case's own excitation an amplitude above 0";
+        reader.report(table.span_of_value(key), message, "expected a case that is driven", help);
+        return None;
+    }
     Some(BandSettings { over, range, spectrum })
-}
-
-/// An amplitude over the case's own.
-fn over_own(
-    reader: &mut Reader,
-    table: &Table,
-    design: &Design,
-    key: &str,
-    amplitude: f64,
-) -> Option<f64> {
-    let ratio = amplitude / design.amplitude();
-    if ratio.is_finite() {
-        return Some(ratio);
-    }
-    let message = "an amplitude of the band is given as a multiple of the case's own, which is 0";
-    let help = "give the case's own excitation an amplitude above 0";
-    reader.report(table.span_of_value(key), message, "expected a case that is driven", help);
-    None
 }

@@ -6,14 +6,13 @@ use serde_json::{Value, json};
 use toml::de::DeValue;
 
 use super::Design;
-use super::form::{Bound, Form};
 use super::names::names;
-use super::quantity::{Decibel, Dimension, Share};
-use super::reader::Reader;
+use super::number::{Bound, Form, sign_of};
+use super::reader::{Reader, Table, kind};
 use super::schema::add_names;
-use super::sweep::SweepParameter;
-use super::table::{Table, kind};
 use super::value::Place;
+use crate::quantity::catalogue as of;
+use crate::quantity::{Dimension, Kind};
 
 names! { key:
     /// What a criterion is about. Over a band the worst place of it counts.
@@ -53,23 +52,6 @@ pub enum Relation {
     Equal,
 }
 
-/// What a criterion's value is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Measure {
-    /// A share of one.
-    Share,
-    /// A length, in the case's unit.
-    Length,
-    /// Decibels.
-    Decibel,
-    /// A velocity, in m/s or the case's own unit in fast time.
-    Velocity,
-    /// A count.
-    Count,
-    /// True or false.
-    Flag,
-}
-
 /// One line of the table.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Criterion {
@@ -77,7 +59,7 @@ pub struct Criterion {
     pub subject: Subject,
     /// How it is measured.
     pub relation: Relation,
-    /// Against what, in the unit of [`Subject::measure`]; 1 for true.
+    /// Against what, in the unit of [`Subject::kind`]; 1 for true.
     pub limit: f64,
     /// As its author wrote it, without quotes.
     pub as_written: String,
@@ -99,16 +81,20 @@ impl Subject {
         matches!(self, Self::ReductionDb | Self::ReductionDbTmd)
     }
 
-    /// What its value is.
-    pub fn measure(self) -> Measure {
-        match self {
-            Self::Z3Share | Self::StableShare | Self::MarginClearance => Measure::Share,
-            Self::PeakDisplacement | Self::RmsDisplacement => Measure::Length,
-            Self::ReductionDb | Self::ReductionDbTmd => Measure::Decibel,
-            Self::ImpactVelocity => Measure::Velocity,
-            Self::ImpactsPerPeriod => Measure::Count,
-            Self::NoCoexistence => Measure::Flag,
-        }
+    /// The kind of its value; none where it is yes or no.
+    pub fn kind(self) -> Option<&'static Kind> {
+        Some(match self {
+            Self::Z3Share => &of::Z3_SHARE,
+            Self::StableShare => &of::STABLE_SHARE,
+            Self::PeakDisplacement => &of::PEAK,
+            Self::RmsDisplacement => &of::RMS,
+            Self::ReductionDb => &of::REDUCTION_DB,
+            Self::ReductionDbTmd => &of::REDUCTION_DB_TMD,
+            Self::MarginClearance => &of::GAP,
+            Self::ImpactVelocity => &of::IMPACT_SPEED,
+            Self::ImpactsPerPeriod => &of::IMPACTS_PER_PERIOD,
+            Self::NoCoexistence => return None,
+        })
     }
 }
 
@@ -124,14 +110,15 @@ pub(super) struct CriteriaTable {
 
 fn with_subjects(schema: &mut Schema) {
     add_names::<Subject>(schema, |key| {
-        let (example, plain) = match Subject::of_name(key).map(Subject::measure) {
-            _ if key == "margin_clearance" => (json!(">= 10 %"), Value::Null),
-            Some(Measure::Length) => (json!("<= 3 mm"), json!("<= 0.3")),
-            Some(Measure::Velocity) => (json!("<= 0.5 m/s"), json!("<= 1.5")),
-            Some(Measure::Decibel) => (json!(">= 12"), Value::Null),
-            Some(Measure::Count) => (json!(2), Value::Null),
-            Some(Measure::Flag) => (json!(true), Value::Null),
-            Some(Measure::Share) | None => (json!(">= 80 %"), Value::Null),
+        let subject = Subject::of_name(key).unwrap_or(Subject::NoCoexistence);
+        let (example, plain) = match subject.kind().map(|kind| kind.dimension) {
+            _ if subject == Subject::MarginClearance => (json!(">= 10 %"), Value::Null),
+            Some(Dimension::Length) => (json!("<= 3 mm"), json!("<= 0.3")),
+            Some(Dimension::Velocity) => (json!("<= 0.5 m/s"), json!("<= 1.5")),
+            Some(Dimension::Level) => (json!(">= 12"), Value::Null),
+            Some(Dimension::Number) => (json!(2), Value::Null),
+            Some(_) => (json!(">= 80 %"), Value::Null),
+            None => (json!(true), Value::Null),
         };
         let types = match &example {
             Value::Bool(_) => json!([{ "type": "boolean" }]),
@@ -149,8 +136,8 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> (Vec<Criterion>, bool) 
     let (Some((table, read)), Some(design)) = (read, reader.design) else {
         return (Vec::new(), true);
     };
-    let there = Subject::ALL.into_iter().filter(|subject| table.has(subject.key()));
-    let found = there.filter_map(|subject| criterion(reader, &table, subject, &design)).collect();
+    let read_one = |subject| criterion(reader, &table, subject, &design);
+    let found = Subject::ALL.into_iter().filter_map(read_one).collect();
     (found, read.count_inactive.unwrap_or(true))
 }
 
@@ -160,99 +147,85 @@ fn criterion(
     subject: Subject,
     design: &Design,
 ) -> Option<Criterion> {
-    let (key, measure, value) = (subject.key(), subject.measure(), table.value(subject.key())?);
+    let (key, value) = (subject.key(), table.value(subject.key())?);
     let as_written = reader.as_written(value.span());
     let place = Place { alone: false, ..reader.place(table, key, value) };
-    let form = form(measure, design)?;
-    let found = match (value.get_ref(), measure) {
-        (DeValue::Boolean(flag), Measure::Flag) => {
-            let limit = f64::from(u8::from(*flag));
-            return Some(Criterion { subject, relation: Relation::Equal, limit, as_written });
-        }
-        (DeValue::Integer(_) | DeValue::Float(_), Measure::Count) => Ok((Relation::Equal, 0)),
-        (other, Measure::Flag) => Err(format!("is {}", kind(other))),
-        (DeValue::String(text), _) => {
-            relation_of(text).ok_or_else(|| format!("is \"{text}\", which says neither >= nor <="))
-        }
-        (DeValue::Integer(_) | DeValue::Float(_), _) => {
-            Err(format!("does not say whether {as_written} is the least or the most"))
-        }
+    let found = match (value.get_ref(), subject.kind().map(|kind| kind.dimension)) {
+        (DeValue::Boolean(flag), None) => Ok((Relation::Equal, f64::from(u8::from(*flag)))),
+        (DeValue::String(text), Some(of)) => match relation_of(text) {
+            Some((relation, sign)) => {
+                let limit = reader.number(&Place { sign, ..place.clone() }, &form(of, design))?;
+                possible(limit, &as_written, of).map(|()| (relation, limit))
+            }
+            None => Err(format!("is \"{text}\", which says neither >= nor <=")),
+        },
+        (DeValue::Integer(_) | DeValue::Float(_), Some(of)) => match of {
+            Dimension::Number => Ok((Relation::Equal, reader.number(&place, &form(of, design))?)),
+            _ => Err(format!("does not say whether {as_written} is the least or the most")),
+        },
         (other, _) => Err(format!("is {}", kind(other))),
-    };
-    let found = match found {
-        Ok((relation, sign)) => {
-            let limit = reader.number(&Place { sign, ..place.clone() }, &form)?;
-            impossible(limit, &as_written, measure).map_or(Ok((relation, limit)), Err)
-        }
-        Err(problem) => Err(problem),
     };
     match found {
         Ok((relation, limit)) => Some(Criterion { subject, relation, limit, as_written }),
         Err(problem) => {
-            refuse(reader, &place, measure, &problem);
+            refuse(reader, &place, subject, &problem);
             None
         }
     }
 }
 
-/// How a limit is written.
-fn form(measure: Measure, design: &Design) -> Option<Form> {
-    let or_plain = |of| Form { plain: true, ..Form::free(Some(of), "", "") };
-    match measure {
-        Measure::Share => Some(or_plain(Share::OF)),
-        Measure::Decibel => Some(or_plain(Decibel::OF)),
-        Measure::Length => SweepParameter::InitialDisplacement.form(design),
-        Measure::Velocity => SweepParameter::InitialVelocity.form(design),
-        Measure::Count | Measure::Flag => {
-            let bound = Bound::of(&json!({ "minimum": 0 }));
-            Some(Form { bound, ..Form::free(None, "2", "") })
-        }
-    }
+/// How a limit is written: a length or a velocity of a reduced design without unit, a share also without %.
+fn form(of: Dimension, design: &Design) -> Form {
+    let measured = match (of, design) {
+        (Dimension::Number, _) => None,
+        (Dimension::Length | Dimension::Velocity, Design::Reduced(_)) => None,
+        _ => Some(of),
+    };
+    let plain = measured.is_none() || matches!(of, Dimension::Share | Dimension::Level);
+    let least = if of == Dimension::Number { json!({ "minimum": 0 }) } else { Value::Null };
+    Form { plain, bound: Bound::of(&least), ..Form::free(measured, "2", "") }
 }
+
+/// Signs of a limit, and what they say.
+const RELATIONS: [(&str, Relation); 5] = [
+    (">=", Relation::AtLeast),
+    ("≥", Relation::AtLeast),
+    ("<=", Relation::AtMost),
+    ("≤", Relation::AtMost),
+    ("==", Relation::Equal),
+];
 
 /// The relation that a text begins with, and the bytes that its sign takes up.
 fn relation_of(text: &str) -> Option<(Relation, usize)> {
-    let begun = text.trim_start();
-    let relations = [
-        (">=", Relation::AtLeast),
-        ("≥", Relation::AtLeast),
-        ("<=", Relation::AtMost),
-        ("≤", Relation::AtMost),
-        ("==", Relation::Equal),
-    ];
-    let (sign, relation) = relations.into_iter().find(|(sign, _)| begun.starts_with(sign))?;
-    Some((relation, text.len() - begun.len() + sign.len()))
+    let found = |(sign, relation)| Some((relation, sign_of(text, &[sign])?));
+    RELATIONS.into_iter().find_map(found)
 }
 
 /// What is wrong with a limit that no value of its kind can have.
-fn impossible(limit: f64, written: &str, measure: Measure) -> Option<String> {
+fn possible(limit: f64, written: &str, of: Dimension) -> Result<(), String> {
     let number = written.trim_start_matches(['>', '<', '=', '≥', '≤', ' ']);
-    let why = match measure {
-        Measure::Share if limit > 1.0 && limit <= 100.0 && !written.ends_with('%') => {
+    let why = match of {
+        Dimension::Share if limit > 1.0 && limit <= 100.0 && !written.ends_with('%') => {
             format!("a share is at most 1; if {number} % is meant, write the % sign")
         }
-        Measure::Share if !(0.0..=1.0).contains(&limit) => {
+        Dimension::Share if !(0.0..=1.0).contains(&limit) => {
             "a share lies between 0 and 100 %".to_owned()
         }
-        Measure::Length | Measure::Velocity | Measure::Count if limit < 0.0 => {
-            "it is never below 0".to_owned()
-        }
-        _ => return None,
+        Dimension::Length | Dimension::Velocity if limit < 0.0 => "it is never below 0".to_owned(),
+        _ => return Ok(()),
     };
-    Some(format!("asks for {number}, and {why}"))
+    Err(format!("asks for {number}, and {why}"))
 }
 
-fn refuse(reader: &mut Reader, place: &Place, measure: Measure, problem: &str) {
-    let expected = match measure {
-        Measure::Flag => "expected true or false",
-        Measure::Count => {
+fn refuse(reader: &mut Reader, place: &Place, subject: Subject, problem: &str) {
+    let mut help = format!("write for example {}", place.line);
+    let expected = match subject {
+        Subject::NoCoexistence => "expected true or false",
+        Subject::ImpactsPerPeriod => {
+            help += &format!(", or {} = \">= 2\"", place.key);
             "expected a number without quotes, or \">=\" or \"<=\" and a number, in quotes"
         }
         _ => "expected \">=\" or \"<=\", and a value with its unit, in quotes",
     };
-    let mut help = format!("write for example {}", place.line);
-    if measure == Measure::Count {
-        help += &format!(", or {} = \">= 2\"", place.key);
-    }
     reader.refuse(place, problem, expected.to_owned(), help);
 }

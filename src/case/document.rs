@@ -4,7 +4,7 @@ use toml::Spanned;
 use toml::de::DeTable;
 
 use super::error::Problem;
-use super::quantity::Measurand;
+use crate::quantity::Dimension;
 
 /// Parses TOML; on a syntax error, what is wrong with the text, one problem a line.
 pub(super) fn parse(text: &str) -> Result<DeTable<'_>, Vec<Problem>> {
@@ -48,6 +48,6 @@ fn line_around(text: &str, at: usize) -> &str {
 fn unquoted_quantity(line: &str) -> Option<String> {
     let (key, rest) = line.split_once('=')?;
     let value = rest.split('#').next()?.trim();
-    Measurand::of(value)?;
+    Dimension::of(value)?;
     Some(format!("{} = \"{value}\"", key.trim()))
 }

@@ -88,19 +88,21 @@ impl Diagnostic for Problem {
 #[derive(Debug)]
 pub struct CaseError {
     source: Box<NamedSource<String>>,
-    first: Box<Problem>,
-    more: Vec<Problem>,
+    problems: Vec<Problem>,
 }
 
 impl CaseError {
     pub(super) fn new(name: &str, text: &str, mut problems: Vec<Problem>) -> Self {
+        if problems.is_empty() {
+            problems.push(Problem::new(
+                text,
+                0..0,
+                "the case could not be read",
+                "expected a case",
+            ));
+        }
         problems.sort_by_key(|problem| problem.span.start);
-        let mut problems = problems.into_iter();
-        let first = problems.next().unwrap_or_else(|| {
-            Problem::new(text, 0..0, "the case could not be read", "expected a case")
-        });
-        let source = Box::new(NamedSource::new(name, text.to_owned()));
-        Self { source, first: Box::new(first), more: problems.collect() }
+        Self { source: Box::new(NamedSource::new(name, text.to_owned())), problems }
     }
 
     /// The name under which the text was parsed, usually the file's path.
@@ -110,7 +112,12 @@ impl CaseError {
 
     /// The problems, in the order of the file's lines.
     pub fn problems(&self) -> impl Iterator<Item = &Problem> {
-        std::iter::once(self.first.as_ref()).chain(&self.more)
+        self.problems.iter()
+    }
+
+    /// The problem, if it is only one: it is then shown without a line about them all.
+    fn only(&self) -> Option<&Problem> {
+        if let [only] = self.problems.as_slice() { Some(only) } else { None }
     }
 }
 
@@ -118,16 +125,16 @@ impl std::error::Error for CaseError {}
 
 impl fmt::Display for CaseError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.more.is_empty() {
-            return self.first.fmt(f);
+        match self.only() {
+            Some(only) => only.fmt(f),
+            None => write!(f, "{} has {} errors", self.name(), self.problems.len()),
         }
-        write!(f, "{} has {} errors", self.name(), 1 + self.more.len())
     }
 }
 
 impl Diagnostic for CaseError {
     fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
-        self.more.is_empty().then(|| Diagnostic::help(self.first.as_ref())).flatten()
+        self.only()?.help()
     }
 
     fn source_code(&self) -> Option<&dyn SourceCode> {
@@ -135,13 +142,11 @@ impl Diagnostic for CaseError {
     }
 
     fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
-        self.more.is_empty().then(|| self.first.labels()).flatten()
+        self.only()?.labels()
     }
 
     fn related<'a>(&'a self) -> Option<Box<dyn Iterator<Item = &'a dyn Diagnostic> + 'a>> {
-        if self.more.is_empty() {
-            return None;
-        }
-        Some(Box::new(self.problems().map(|problem| problem as &dyn Diagnostic)))
+        let related = self.problems.iter().map(|problem| problem as &dyn Diagnostic);
+        self.only().is_none().then_some(Box::new(related))
     }
 }

@@ -1,9 +1,10 @@
 //! The numbers of a case for display: as its author wrote them, and what follows from them.
 
+use std::ops::Range;
+
 use serde::Serialize;
 
 use super::Case;
-use std::f64::consts::TAU;
 
 /// One number of a case, given or derived.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -20,6 +21,9 @@ pub struct Input {
     pub unit: &'static str,
     /// The text in the case file, with its own unit and without quotes; empty when derived.
     pub as_written: String,
+    /// Where its value stands in the text.
+    #[serde(skip)]
+    pub(super) span: Range<usize>,
 }
 
 impl Case {
@@ -31,31 +35,30 @@ impl Case {
     /// The numbers that follow from the inputs, the dimensionless ones that decide the dynamics
     /// among them.
     pub fn derived(&self) -> Vec<Input> {
-        let (system, scales) = (&self.system, &self.scales);
-        let unit = scales.length_unit().symbol();
+        let (system, scales) = (self.system(), self.scales());
+        let unit = scales.length_unit();
         let damping_ratio = system.mass_ratio() * system.damping() / 2.0;
-        let natural = scales.natural_frequency_rad_per_s.map(|omega0| omega0 / TAU);
-        let natural = natural.map(|f0| derived("natural_frequency", "f_0", f0, "Hz"));
         let numbers = [
-            derived("mass_ratio", r"\varepsilon", system.mass_ratio(), "1"),
-            derived("damping", r"\lambda", system.damping(), "1"),
-            derived("damping_ratio", r"\zeta_1", damping_ratio, "1"),
-            derived("frequency_ratio", r"\Omega", system.frequency_ratio(), "1"),
-            derived("detuning", r"\sigma", system.detuning(), "1"),
-            derived("forcing", "G", scales.forcing, unit),
-            derived("forcing_per_clearance", r"\gamma", system.forcing_per_clearance(), "1"),
+            ("natural_frequency", "f_0", scales.frequency(1.0), "Hz"),
+            ("mass_ratio", r"\varepsilon", system.mass_ratio(), "1"),
+            ("damping", r"\lambda", system.damping(), "1"),
+            ("damping_ratio", r"\zeta_1", damping_ratio, "1"),
+            ("frequency_ratio", r"\Omega", system.frequency_ratio(), "1"),
+            ("detuning", r"\sigma", system.detuning(), "1"),
+            ("forcing", "G", scales.forcing, unit),
+            ("forcing_per_clearance", r"\gamma", system.forcing_per_clearance(), "1"),
         ];
-        natural.into_iter().chain(numbers).collect()
-    }
-}
-
-fn derived(name: &'static str, symbol: &'static str, value: f64, unit: &'static str) -> Input {
-    Input {
-        table: String::new(),
-        name,
-        symbol: symbol.to_owned(),
-        value,
-        unit,
-        as_written: String::new(),
+        let derived =
+            |(name, symbol, value, unit): (&'static str, &str, f64, &'static str)| Input {
+                table: String::new(),
+                name,
+                symbol: symbol.to_owned(),
+                value,
+                unit,
+                as_written: String::new(),
+                span: 0..0,
+            };
+        // A reduced design has no frequency but ratios.
+        numbers.into_iter().skip(usize::from(!scales.physical)).map(derived).collect()
     }
 }

@@ -3,18 +3,16 @@
 //!
 //! A case is TOML. It gives a design either in physical units (`[oscillator]`, `[absorber]`,
 //! `[excitation]`) or dimensionless (`[reduced]`), and may carry settings in optional tables. To
-//! add an optional table: a file like `simulation.rs`, and a field in [`Case`] and in `CaseFile`. The struct
+//! add an optional table: a struct as in `settings.rs`, and a field in [`Case`] and in `CaseFile`. The struct
 //! of a table is what it is read into and what its schema is derived from.
 // Descriptions of keys go into the schema as they are: [reduced] is a table of the case file, not an item.
 #![allow(rustdoc::broken_intra_doc_links)]
 
 mod absorber_design;
-mod accuracy;
 mod band;
 mod criteria;
 mod document;
 mod error;
-mod form;
 mod inputs;
 mod names;
 mod number;
@@ -23,14 +21,10 @@ mod physical;
 mod quantity;
 mod reader;
 mod reduced;
-mod report;
-mod rewrite;
 mod scales;
 mod schema;
-mod simulation;
-mod suggest;
+mod settings;
 mod sweep;
-mod table;
 mod uncertainty;
 mod value;
 mod warnings;
@@ -40,31 +34,24 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 use toml::de::DeTable;
 
-pub use absorber_design::AbsorberDesign;
-pub use accuracy::AccuracySettings;
+pub use absorber_design::{AbsorberDesign, RewriteError, Rewritten, Rounding};
 pub use band::{BandOver, BandSettings};
-pub use criteria::{Criterion, Measure, Relation, Subject};
+pub use criteria::{Criterion, Relation, Subject};
 pub use error::{CaseError, Problem};
 pub use inputs::Input;
 pub use optimize::{Objective, OptimizeSettings};
-pub use physical::{Physical, PhysicalExcitation};
-pub use quantity::{
-    Damping, Dimension, Force, Frequency, Length, Mass, Measurand, Quantity, QuantityError, Share,
-    Stiffness, Unit, Velocity,
-};
-pub use reduced::{Reduced, Tuning};
-pub use report::{ExtraFigure, ReportSettings};
-pub use rewrite::{RewriteError, Rewritten, Rounding};
-pub use scales::{LengthUnit, Scales};
+pub use physical::Physical;
+pub use quantity::QuantityError;
+pub use reduced::Reduced;
+pub use scales::Scales;
 pub use schema::{FILE_NAME as SCHEMA_FILE_NAME, schema};
-pub use simulation::SimulationSettings;
+pub use settings::{AccuracySettings, ExtraFigure, ReportSettings, SimulationSettings};
 pub use sweep::{Layer, Recorded, SweepAxis, SweepParameter, SweepSettings};
 pub use uncertainty::{Distribution, Uncertainty};
 
 use crate::digest::sha256;
 use crate::system::System;
-use reader::Reader;
-use table::Table;
+use reader::{Reader, Table};
 
 /// A design case: what its file says, and the system that follows from it.
 #[derive(Debug, Clone, PartialEq)]
@@ -98,7 +85,6 @@ pub struct Case {
     inputs: Vec<Input>,
     warnings: Vec<Problem>,
     system: System,
-    scales: Scales,
 }
 
 /// A design in the units its author chose.
@@ -129,7 +115,7 @@ struct CaseFile {
     oscillator: Option<physical::OscillatorTable>,
     absorber: Option<physical::AbsorberTable>,
     excitation: Option<physical::ExcitationTable>,
-    reduced: Option<reduced::ReducedTable>,
+    reduced: Option<Reduced>,
     simulation: Option<SimulationSettings>,
     report: Option<ReportSettings>,
     accuracy: Option<AccuracySettings>,
@@ -159,17 +145,16 @@ impl Case {
     pub fn parse(name: &str, text: &str) -> Result<Self, CaseError> {
         // A byte order mark is no part of the text that errors count columns in.
         let visible = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let document = match document::parse(visible) {
-            Ok(document) => document,
-            Err(problems) => return Err(CaseError::new(name, visible, problems)),
-        };
+        let refused = |problems| CaseError::new(name, visible, problems);
+        let document = document::parse(visible).map_err(refused)?;
         let mut reader =
             Reader { text: visible, problems: Vec::new(), inputs: Vec::new(), design: None };
-        match read(&mut reader, &document) {
-            Some(case) if reader.problems.is_empty() => {
-                Ok(Self { text_hash: sha256(text.as_bytes()), inputs: reader.inputs, ..case })
+        match read(&mut reader, &document, sha256(text.as_bytes())) {
+            Some(mut case) if reader.problems.is_empty() => {
+                case.warnings = warnings::of(visible, &case);
+                Ok(case)
             }
-            _ => Err(CaseError::new(name, visible, reader.problems)),
+            _ => Err(refused(reader.problems)),
         }
     }
 
@@ -186,7 +171,7 @@ impl Case {
 
     /// What turns the system's results back into the case's units.
     pub fn scales(&self) -> Scales {
-        self.scales
+        self.design.scales()
     }
 
     /// The text of a commented case to start from, with the given title.
@@ -196,7 +181,7 @@ impl Case {
     }
 }
 
-fn read(reader: &mut Reader, document: &DeTable) -> Option<Case> {
+fn read(reader: &mut Reader, document: &DeTable, text_hash: String) -> Option<Case> {
     if document.is_empty() {
         let help =
             "write a title, a source and a design; `vinesink new NAME` writes a case to start from";
@@ -222,11 +207,10 @@ fn read(reader: &mut Reader, document: &DeTable) -> Option<Case> {
     let sweep = sweep::read(reader, &root);
     let (file, design) = (file?, design?);
     let system = system_of(reader, &root, &design)?;
-    let warnings = warnings::of(reader.text, document, &design, &system, band.as_ref());
     Some(Case {
         title: file.title,
         source: file.source,
-        text_hash: String::new(),
+        text_hash,
         design,
         simulation: simulation.unwrap_or_default(),
         report: report.unwrap_or_default(),
@@ -237,10 +221,9 @@ fn read(reader: &mut Reader, document: &DeTable) -> Option<Case> {
         optimize,
         uncertainty,
         sweep,
-        inputs: Vec::new(),
-        warnings,
+        inputs: std::mem::take(&mut reader.inputs),
+        warnings: Vec::new(),
         system,
-        scales: design.scales(),
     })
 }
 

@@ -1,128 +1,215 @@
-//! Reads a number, with the unit that its form asks for.
+//! How a number is written, and what it may be; reading one, with the unit that its form asks for.
 
 use std::ops::Range;
 
-use toml::de::{DeString, DeValue};
+use serde_json::Value;
+use toml::de::DeValue;
 
 use super::error::Problem;
-use super::form::Form;
 use super::inputs::Input;
-use super::quantity::QuantityError;
-use super::reader::Reader;
-use super::table::kind;
+use super::reader::{Reader, kind};
 use super::value::Place;
+use crate::quantity::Dimension;
+
+/// How a number is written, and what it may be.
+#[derive(Debug, Clone)]
+pub(super) struct Form {
+    /// What it measures; a plain number where there is none.
+    pub dimension: Option<Dimension>,
+    /// Whether it may also be a plain number.
+    pub plain: bool,
+    /// Whether it is a whole number.
+    pub whole: bool,
+    pub bound: Bound,
+    /// A value as a person might write it, quotes included.
+    pub example: String,
+    /// The same as a share, where it may be either.
+    pub share: String,
+    /// The symbol in LaTeX.
+    pub symbol: String,
+}
+
+impl Form {
+    /// That of a schema; `None` for what is no number.
+    pub fn of(schema: &Value) -> Option<Self> {
+        let dimension = schema["x-measurand"].as_str().and_then(Dimension::named);
+        let whole = schema["type"] == "integer";
+        if dimension.is_none() && !whole && schema["type"] != "number" {
+            return None;
+        }
+        Some(Self {
+            dimension,
+            plain: dimension.is_none() || schema["anyOf"].is_array(),
+            whole,
+            bound: Bound::of(schema),
+            example: toml(&schema["examples"][0]),
+            share: toml(&schema["examples"][1]),
+            symbol: schema["x-symbol"].as_str().unwrap_or_default().to_owned(),
+        })
+    }
+
+    /// A number of any size, such as `example`.
+    pub fn free(dimension: Option<Dimension>, example: &str, symbol: &str) -> Self {
+        let [example, symbol] = [example, symbol].map(str::to_owned);
+        let (plain, bound, share) = (dimension.is_none(), Bound::default(), String::new());
+        Self { dimension, plain, whole: false, bound, example, share, symbol }
+    }
+
+    /// The unit that values are held in; "1" for a plain number.
+    pub fn unit(&self) -> &'static str {
+        self.dimension.map_or("1", |dimension| dimension.symbol(true))
+    }
+
+    fn expected(&self) -> String {
+        let (words, Self { example, share, .. }) = (self.bound.words(), self);
+        match self.dimension {
+            None if self.whole => format!("expected a whole number {words}, without quotes"),
+            None => format!("expected a number {words}, without quotes or unit"),
+            Some(_) if self.plain => {
+                format!("expected a number {words} without quotes, or a share such as {share}")
+            }
+            Some(dimension) => format!("expected {} such as {example}", dimension.words().0),
+        }
+    }
+}
+
+/// The values that a number may have, besides being finite.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct Bound {
+    /// The least, itself excepted.
+    above: Option<f64>,
+    least: Option<f64>,
+    most: Option<f64>,
+}
+
+impl Bound {
+    pub fn of(schema: &Value) -> Self {
+        let [above, least, most] =
+            ["exclusiveMinimum", "minimum", "maximum"].map(|word| schema[word].as_f64());
+        Self { above, least, most }
+    }
+
+    fn holds(self, value: f64) -> bool {
+        self.above.is_none_or(|above| value > above)
+            && self.least.is_none_or(|least| value >= least)
+            && self.most.is_none_or(|most| value <= most)
+    }
+
+    fn words(self) -> String {
+        match (self.above, self.least, self.most) {
+            (Some(above), ..) => format!("above {above}"),
+            (None, Some(least), Some(most)) => format!("from {least} to {most}"),
+            (None, Some(least), None) => format!("{least} or more"),
+            _ => "of any size".to_owned(),
+        }
+    }
+}
+
+/// The bytes that one of some signs takes up at the beginning of a text.
+pub(super) fn sign_of(text: &str, signs: &[&str]) -> Option<usize> {
+    let begun = text.trim_start();
+    let sign = signs.iter().find(|sign| begun.starts_with(**sign))?;
+    Some(text.len() - begun.len() + sign.len())
+}
+
+/// A value as it is written in a case.
+pub(super) fn toml(value: &Value) -> String {
+    match value {
+        Value::Array(items) => {
+            format!("[{}]", items.iter().map(toml).collect::<Vec<_>>().join(", "))
+        }
+        other => other.to_string(),
+    }
+}
 
 impl Reader<'_> {
-    /// A number, in SI units.
+    /// A number, in SI units, which is kept as an input of the case.
     pub fn number(&mut self, place: &Place, form: &Form) -> Option<f64> {
-        let behind_sign = |text: &DeString| text[place.sign..].trim().parse::<f64>().ok();
-        let number = match (place.value.get_ref(), form.measurand) {
-            (DeValue::String(text), _)
-                if form.plain && place.sign > 0 && behind_sign(text).is_some() =>
-            {
-                behind_sign(text)
-            }
-            (DeValue::String(text), None) if place.sign > 0 => {
-                self.no_number_behind_sign(place, form, text)
-            }
-            (DeValue::String(text), Some(_))
-                if form.plain && behind_sign(text).is_some_and(f64::is_finite) =>
-            {
-                self.no_per_cent(place, form, text.trim())
-            }
-            (DeValue::String(text), Some(measurand)) => {
-                match measurand.parse(&text[place.sign..]) {
-                    Ok(number) => Some(number),
-                    Err(error) => self.no_quantity(place, text, error),
-                }
-            }
-            (other, _) => match plain_number(other).filter(|_| form.plain) {
-                Some(number) => Some(number),
-                None => self.no_number(place, form, other),
-            },
+        let number = match place.value.get_ref() {
+            DeValue::Integer(_) if form.plain => plain_number(place.value.get_ref()),
+            DeValue::Float(_) if form.plain && !form.whole => plain_number(place.value.get_ref()),
+            DeValue::String(text) if !form.whole => self.quoted(place, form, text),
+            _ => self.no_number(place, form),
         };
         self.bounded(place, form, number?)
     }
 
-    fn no_per_cent(&mut self, place: &Place, form: &Form, number: &str) -> Option<f64> {
-        let key = place.key;
-        let help =
-            format!("write {key} = {number}, or, if per cent is meant, {key} = \"{number} %\"");
-        self.refuse(place, "is a number in quotes without %", plain_or_share(form), help);
-        None
-    }
-
-    fn no_number_behind_sign(&mut self, place: &Place, form: &Form, text: &str) -> Option<f64> {
-        let sign = text[..place.sign].trim();
-        let problem = format!("is \"{text}\", which is no number behind its sign");
-        let expected = format!("expected a plain number {}", form.bound.words());
-        let Place { line, key, .. } = place;
-        let help = format!("write {line}, or {key} = \"{sign} {}\"", form.example);
-        self.refuse(place, &problem, expected, help);
-        None
-    }
-
-    /// Reports a text that is no quantity; what is to be written instead keeps its sign.
-    fn no_quantity(&mut self, place: &Place, text: &DeString, error: QuantityError) -> Option<f64> {
-        let range = place.sign + error.range.start..place.sign + error.range.end;
-        let span = inside_quotes(self.text, place.value.span(), text, range);
-        let corrected = |help: String| match help.strip_prefix("write \"") {
-            Some(rest) => format!("write \"{}{rest}", &text[..place.sign]),
-            None => help,
-        };
-        let message = format!("{} {}", place.subject, error.message);
-        let problem = Problem::new(self.text, span, message, error.expected);
-        self.problems.push(Problem { help: error.help.map(corrected), ..problem });
-        None
-    }
-
-    /// Reports what is neither text nor a number where one of these belongs.
-    fn no_number(&mut self, place: &Place, form: &Form, found: &DeValue) -> Option<f64> {
-        let write = format!("write {}", place.line);
-        let words = form.bound.words();
-        let (problem, expected, help) = match (form.measurand, found) {
-            (None, _) => (
-                format!("is {}, but it is a plain number", kind(found)),
-                format!("expected a number {words}, without quotes or unit"),
-                write,
-            ),
-            (Some(_), _) if form.plain => {
-                let help = format!("{write}, or {} = {}", place.key, form.share);
-                (format!("is {}", kind(found)), plain_or_share(form), help)
+    /// A quantity, or a plain number behind a sign.
+    fn quoted(&mut self, place: &Place, form: &Form, text: &str) -> Option<f64> {
+        let Place { line, key, sign, .. } = place;
+        let behind = text[*sign..].trim();
+        let plain = behind.parse::<f64>().ok().filter(|_| form.plain);
+        match (plain, form.dimension) {
+            (Some(number), _) if *sign > 0 => return Some(number),
+            (Some(number), Some(_)) if number.is_finite() => {
+                let problem = "is a number in quotes without %";
+                let help = format!(
+                    "write {key} = {behind}, or, if per cent is meant, {key} = \"{behind} %\""
+                );
+                self.refuse(place, problem, form.expected(), help);
             }
-            (Some(measurand), DeValue::Integer(_) | DeValue::Float(_)) => {
-                let unit = measurand.example.split_once(' ').map_or(measurand.si, |(_, unit)| unit);
-                let written = self.as_written(place.value.span());
-                let help = match place.alone {
-                    true => {
-                        format!("if {unit} is meant, write {} = \"{written} {unit}\"", place.key)
-                    }
-                    false => format!("if {unit} is meant, write \"{written} {unit}\""),
-                };
-                ("has no unit".to_owned(), expected_quantity(form), help)
+            (_, Some(dimension)) => match dimension.parse_behind(text, *sign) {
+                Ok(number) => return Some(number),
+                Err(error) => {
+                    let span = inside_quotes(self.text, place.value.span(), text, error.range);
+                    let message = format!("{} {}", place.subject, error.message);
+                    let (name, example) = dimension.words();
+                    let expected = format!("expected {name} such as \"{example}\"");
+                    let problem = Problem::new(self.text, span, message, expected);
+                    self.problems.push(Problem { help: error.help, ..problem });
+                }
+            },
+            (_, None) if *sign > 0 => {
+                let problem = format!("is \"{text}\", which is no number behind its sign");
+                let expected = format!("expected a plain number {}", form.bound.words());
+                let sign = text[..*sign].trim();
+                let help = format!("write {line}, or {key} = \"{sign} {}\"", form.example);
+                self.refuse(place, &problem, expected, help);
             }
-            (Some(_), _) => (format!("is {}", kind(found)), expected_quantity(form), write),
-        };
-        self.refuse(place, &problem, expected, help);
-        None
-    }
-
-    /// A number within its bounds, which is kept as an input of the case.
-    pub fn bounded(&mut self, place: &Place, form: &Form, number: f64) -> Option<f64> {
-        let as_written = self.as_written(place.value.span());
-        if number.is_finite() && form.bound.holds(number) {
-            if place.alone {
-                let (table, name, symbol) =
-                    (place.table.to_owned(), place.key, form.symbol.clone());
-                let unit = form.unit();
-                self.inputs.push(Input { table, name, symbol, value: number, unit, as_written });
-            }
-            return Some(number);
+            (_, None) => return self.no_number(place, form),
         }
-        let value = if number.is_finite() { "a value" } else { "a finite value" };
-        let expected = format!("expected {value} {}", form.bound.words());
+        None
+    }
+
+    /// Reports what is not written as its form says.
+    fn no_number(&mut self, place: &Place, form: &Form) -> Option<f64> {
+        let written = self.as_written(place.value.span());
+        let kind = kind(place.value.get_ref());
+        let mut help = format!("write for example {}", place.line);
+        let problem = match form.dimension {
+            None if form.whole => format!("is {written}"),
+            None => format!("is {kind}, but it is a plain number"),
+            Some(dimension) if kind == "a number" => {
+                let unit = dimension.words().1.split_once(' ').map_or("", |(_, unit)| unit);
+                let key = if place.alone { format!("{} = ", place.key) } else { String::new() };
+                help = format!("if {unit} is meant, write {key}\"{written} {unit}\"");
+                "has no unit".to_owned()
+            }
+            Some(_) => format!("is {kind}"),
+        };
+        self.refuse(place, &problem, form.expected(), help);
+        None
+    }
+
+    fn bounded(&mut self, place: &Place, form: &Form, value: f64) -> Option<f64> {
+        let as_written = self.as_written(place.value.span());
+        if value.is_finite() && form.bound.holds(value) {
+            if place.alone {
+                let (table, name) = (place.table.to_owned(), place.key);
+                let (symbol, unit) = (form.symbol.clone(), form.unit());
+                let span = place.value.span();
+                self.inputs.push(Input { table, name, symbol, value, unit, as_written, span });
+            }
+            return Some(value);
+        }
+        let (shown, what) = match form.whole {
+            true => (as_written.replace('_', ""), "whole number"),
+            false if value.is_finite() => (as_written, "value"),
+            false => (as_written, "finite value"),
+        };
+        let expected = format!("expected a {what} {}", form.bound.words());
         let help = format!("write for example {}", place.line);
-        self.refuse(place, &format!("is {as_written}"), expected, help);
+        self.refuse(place, &format!("is {shown}"), expected, help);
         None
     }
 }
@@ -130,28 +217,14 @@ impl Reader<'_> {
 /// A number without a unit, whole or not.
 fn plain_number(value: &DeValue) -> Option<f64> {
     let number = match value {
-        DeValue::Float(float) => float.as_str().parse::<f64>().ok()?,
         // A whole number too long for an integer is still a number.
-        DeValue::Integer(integer) => {
-            match i128::from_str_radix(integer.as_str(), integer.radix()) {
-                Ok(whole) => whole as f64,
-                Err(_) => integer.as_str().parse::<f64>().ok()?,
-            }
-        }
-        _ => return None,
+        DeValue::Integer(integer) => i128::from_str_radix(integer.as_str(), integer.radix())
+            .map_or_else(|_| integer.as_str().parse::<f64>().ok(), |whole| Some(whole as f64)),
+        DeValue::Float(float) => float.as_str().parse::<f64>().ok(),
+        _ => None,
     };
     // Adding 0 makes -0 an ordinary 0.
-    Some(number + 0.0)
-}
-
-fn expected_quantity(form: &Form) -> String {
-    let name = form.measurand.map_or("a number", |measurand| measurand.name);
-    format!("expected {name} such as {}", form.example)
-}
-
-fn plain_or_share(form: &Form) -> String {
-    let Form { bound, share, .. } = form;
-    format!("expected a number {} without quotes, or a share such as {share}", bound.words())
+    number.map(|number| number + 0.0)
 }
 
 /// Where `range` of a string's content stands in the file; the whole value when escapes hide it.

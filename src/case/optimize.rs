@@ -6,10 +6,8 @@ use serde_json::Value;
 
 use super::Design;
 use super::names::names;
-use super::quantity::Mass;
-use super::reader::Reader;
-use super::schema::{in_design, positive};
-use super::table::Table;
+use super::reader::{Reader, Table};
+use super::schema::in_design;
 
 names! { name:
     /// What a design is chosen for, over the case's band if it has one.
@@ -44,7 +42,8 @@ pub struct OptimizeSettings {
     pub restitution: Option<[f64; 2]>,
     /// Bounds of the absorber's mass; the case's own unless given. Not beside [reduced].
     #[schemars(with = "Option<[Value; 2]>", extend("x-ascending" = true))]
-    #[schemars(extend("items" = positive::<Mass>()), example = ["20 g", "50 g"])]
+    #[schemars(extend("items" = { "type": "number", "x-measurand": "a mass", "exclusiveMinimum": 0 }))]
+    #[schemars(example = ["20 g", "50 g"])]
     pub mass: Option<[f64; 2]>,
 }
 

@@ -7,13 +7,9 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-use super::names::names;
-use super::quantity::{
-    Damping, Dimension, Force, Frequency, Length, Mass, Measurand, Quantity, Stiffness,
-};
-use super::reader::Reader;
-use super::schema::{Ratio, one_of, pattern};
-use super::table::Table;
+use super::reader::{Reader, Table};
+use super::schema::one_of;
+use crate::quantity::Dimension;
 use crate::system::Excitation;
 
 /// The linear oscillator whose vibration is to be reduced.
@@ -24,20 +20,20 @@ use crate::system::Excitation;
 ]))]
 pub(super) struct OscillatorTable {
     /// m1, the oscillator's mass, above 0.
-    #[schemars(extend("exclusiveMinimum" = 0, "x-symbol" = "m_1"), example = "4.168 kg")]
-    mass: Quantity<Mass>,
+    #[schemars(extend("x-measurand" = "a mass", "exclusiveMinimum" = 0, "x-symbol" = "m_1"), example = "4.168 kg")]
+    mass: f64,
     /// k1, the stiffness between base and oscillator, above 0; or give frequency.
-    #[schemars(extend("exclusiveMinimum" = 0, "x-symbol" = "k_1"))]
-    stiffness: Option<Quantity<Stiffness>>,
+    #[schemars(extend("x-measurand" = "a stiffness", "exclusiveMinimum" = 0, "x-symbol" = "k_1"))]
+    stiffness: Option<f64>,
     /// f0 = sqrt(k1 / m1) / (2 pi), the natural frequency, above 0; or give stiffness.
-    #[schemars(extend("exclusiveMinimum" = 0, "x-symbol" = "f_0"), example = "8.35 Hz")]
-    frequency: Option<Quantity<Frequency>>,
+    #[schemars(extend("x-measurand" = "a frequency", "exclusiveMinimum" = 0, "x-symbol" = "f_0"), example = "8.35 Hz")]
+    frequency: Option<f64>,
     /// c1, the viscous damping between base and oscillator, 0 or more; or give damping_ratio.
-    #[schemars(extend("minimum" = 0, "x-symbol" = "c_1"))]
-    damping: Option<Quantity<Damping>>,
+    #[schemars(extend("x-measurand" = "a damping", "minimum" = 0, "x-symbol" = "c_1"))]
+    damping: Option<f64>,
     /// c1 / (2 sqrt(k1 m1)), 0 or more; or give damping.
-    #[schemars(extend("minimum" = 0, "x-symbol" = r"\zeta_1"), example = 0.0069, example = "0.69 %")]
-    damping_ratio: Option<Ratio>,
+    #[schemars(extend("x-measurand" = "a share", "minimum" = 0, "x-symbol" = r"\zeta_1"), example = 0.0069, example = "0.69 %")]
+    damping_ratio: Option<f64>,
 }
 
 /// The small mass that moves freely between two walls of the oscillator.
@@ -45,16 +41,16 @@ pub(super) struct OscillatorTable {
 #[schemars(deny_unknown_fields, extend("oneOf" = one_of("mass", "mass_ratio")))]
 pub(super) struct AbsorberTable {
     /// m2, the absorber's mass, above 0; or give mass_ratio.
-    #[schemars(extend("exclusiveMinimum" = 0, "x-symbol" = "m_2"))]
-    mass: Option<Quantity<Mass>>,
+    #[schemars(extend("x-measurand" = "a mass", "exclusiveMinimum" = 0, "x-symbol" = "m_2"))]
+    mass: Option<f64>,
     /// m2 / m1, above 0; or give mass.
     #[schemars(
-        extend("exclusiveMinimum" = 0, "x-symbol" = r"\varepsilon"), example = 0.0077, example = "0.77 %"
+        extend("x-measurand" = "a share", "exclusiveMinimum" = 0, "x-symbol" = r"\varepsilon"), example = 0.0077, example = "0.77 %"
     )]
-    mass_ratio: Option<Ratio>,
+    mass_ratio: Option<f64>,
     /// b, the free distance from the middle to either wall, above 0.
-    #[schemars(extend("exclusiveMinimum" = 0, "x-symbol" = "b"))]
-    clearance: Quantity<Length>,
+    #[schemars(extend("x-measurand" = "a length", "exclusiveMinimum" = 0, "x-symbol" = "b"))]
+    clearance: f64,
     /// r, the coefficient of restitution: 1 loses no energy at an impact, 0 does not rebound.
     #[schemars(range(min = 0.0, max = 1.0), extend("x-symbol" = "r"), example = 0.6)]
     restitution: f64,
@@ -64,46 +60,28 @@ pub(super) struct AbsorberTable {
 #[derive(Deserialize, JsonSchema)]
 #[schemars(deny_unknown_fields, extend("oneOf" = amplitude_by_kind()))]
 pub(super) struct ExcitationTable {
-    kind: Kind,
+    /// "base-displacement" shakes the base, "force" pushes the oscillator.
+    kind: Excitation,
     /// F, the displacement amplitude of the base, or P, the amplitude of the force; 0 or more.
     #[schemars(with = "String", example = "0.25 mm")]
     amplitude: f64,
     /// f, the excitation frequency, above 0.
-    #[schemars(extend("exclusiveMinimum" = 0, "x-symbol" = "f"))]
-    frequency: Quantity<Frequency>,
-}
-
-names! { name:
-    /// "base-displacement" shakes the base, "force" pushes the oscillator.
-    pub(super) enum Kind {
-        /// The base moves.
-        BaseDisplacement = "base-displacement",
-        /// A force acts on the oscillator's mass.
-        Force = "force",
-    }
-}
-
-impl From<Kind> for Excitation {
-    fn from(kind: Kind) -> Self {
-        match kind {
-            Kind::BaseDisplacement => Self::BaseDisplacement,
-            Kind::Force => Self::Force,
-        }
-    }
+    #[schemars(extend("x-measurand" = "a frequency", "exclusiveMinimum" = 0, "x-symbol" = "f"))]
+    frequency: f64,
 }
 
 /// For each kind of excitation how its amplitude is written.
 fn amplitude_by_kind() -> Value {
-    let case = |kind: Kind, pattern: String, example: &str, measures: &str, symbol: &str| {
+    let case = |kind: Excitation, example: &str, measures: &str, symbol: &str| {
         let amplitude = json!({
-            "pattern": pattern, "examples": [example], "minimum": 0,
+            "type": "number", "examples": [example], "minimum": 0,
             "x-measurand": measures, "x-symbol": symbol,
         });
-        json!({ "properties": { "kind": { "const": kind.name() }, "amplitude": amplitude } })
+        json!({ "properties": { "kind": { "const": kind }, "amplitude": amplitude } })
     };
     json!([
-        case(Kind::BaseDisplacement, pattern::<Length>(), "0.25 mm", Length::NAME, "F"),
-        case(Kind::Force, pattern::<Force>(), "2.9 N", Force::NAME, "P"),
+        case(Excitation::BaseDisplacement, "0.25 mm", "a length", "F"),
+        case(Excitation::Force, "2.9 N", "a force", "P"),
     ])
 }
 
@@ -123,47 +101,12 @@ pub struct Physical {
     pub clearance_m: f64,
     /// `r`, the coefficient of restitution, from 0 to 1.
     pub restitution: f64,
-    /// What drives the oscillator, and how much.
-    pub excitation: PhysicalExcitation,
+    /// What drives the oscillator.
+    pub excitation: Excitation,
+    /// `F` in m, the base's displacement, or `P` in N, the force on the oscillator's mass.
+    pub amplitude: f64,
     /// `f`, the excitation frequency.
     pub frequency_hz: f64,
-}
-
-/// What drives the oscillator.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum PhysicalExcitation {
-    /// The base moves by `F sin(omega t)`.
-    BaseDisplacement {
-        /// `F`.
-        amplitude_m: f64,
-    },
-    /// The force `P sin(omega t)` acts on the oscillator's mass.
-    Force {
-        /// `P`.
-        amplitude_n: f64,
-    },
-}
-
-impl PhysicalExcitation {
-    /// Where the excitation enters, without its amplitude.
-    pub fn kind(self) -> Excitation {
-        match self {
-            Self::BaseDisplacement { .. } => Excitation::BaseDisplacement,
-            Self::Force { .. } => Excitation::Force,
-        }
-    }
-
-    /// `F` in m, or `P` in N.
-    pub fn amplitude(mut self) -> f64 {
-        *self.amplitude_mut()
-    }
-
-    pub(super) fn amplitude_mut(&mut self) -> &mut f64 {
-        match self {
-            Self::BaseDisplacement { amplitude_m: amplitude }
-            | Self::Force { amplitude_n: amplitude } => amplitude,
-        }
-    }
 }
 
 impl Physical {
@@ -174,13 +117,8 @@ impl Physical {
 
     /// `2 sqrt(k1 m1)`, the damping at which the oscillator alone ceases to ring, in N s/m.
     pub fn critical_damping_n_s_per_m(&self) -> f64 {
-        critical_damping(self.stiffness_n_per_m, self.mass_kg)
+        2.0 * sqrt(self.stiffness_n_per_m) * sqrt(self.mass_kg)
     }
-}
-
-/// `2 sqrt(k1 m1)` in N s/m.
-fn critical_damping(stiffness: f64, mass: f64) -> f64 {
-    2.0 * sqrt(stiffness) * sqrt(mass)
 }
 
 pub(super) const TABLES: [&str; 3] = ["oscillator", "absorber", "excitation"];
@@ -193,34 +131,30 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Physical> {
     let excitation = reader.optional::<ExcitationTable>(root, TABLES[2]);
     hint_other_kind(reader, root);
     let (table, oscillator) = oscillator?;
-    let mass_kg = oscillator.mass.si();
     let stiffness_n_per_m = match (oscillator.stiffness, oscillator.frequency) {
-        (Some(stiffness), _) => stiffness.si(),
-        (None, frequency) => stiffness_of(reader, &table, frequency?.si(), mass_kg)?,
-    };
-    let damping_n_s_per_m = match (oscillator.damping, oscillator.damping_ratio) {
-        (Some(damping), _) => damping.si(),
-        (None, ratio) => ratio?.0 * critical_damping(stiffness_n_per_m, mass_kg),
+        (Some(stiffness), _) => stiffness,
+        (None, frequency) => stiffness_of(reader, &table, frequency?, oscillator.mass)?,
     };
     let ((_, absorber), (_, excitation)) = (absorber?, excitation?);
-    Some(Physical {
-        mass_kg,
+    let mut physical = Physical {
+        mass_kg: oscillator.mass,
         stiffness_n_per_m,
-        damping_n_s_per_m,
+        damping_n_s_per_m: 0.0,
         absorber_mass_kg: match (absorber.mass, absorber.mass_ratio) {
-            (Some(mass), _) => mass.si(),
-            (None, ratio) => ratio?.0 * mass_kg,
+            (Some(mass), _) => mass,
+            (None, ratio) => ratio? * oscillator.mass,
         },
-        clearance_m: absorber.clearance.si(),
+        clearance_m: absorber.clearance,
         restitution: absorber.restitution,
-        excitation: match excitation.kind {
-            Kind::BaseDisplacement => {
-                PhysicalExcitation::BaseDisplacement { amplitude_m: excitation.amplitude }
-            }
-            Kind::Force => PhysicalExcitation::Force { amplitude_n: excitation.amplitude },
-        },
-        frequency_hz: excitation.frequency.si(),
-    })
+        excitation: excitation.kind,
+        amplitude: excitation.amplitude,
+        frequency_hz: excitation.frequency,
+    };
+    physical.damping_n_s_per_m = match (oscillator.damping, oscillator.damping_ratio) {
+        (Some(damping), _) => damping,
+        (None, ratio) => ratio? * physical.critical_damping_n_s_per_m(),
+    };
+    Some(physical)
 }
 
 fn report_missing(reader: &mut Reader, root: &Table) {
@@ -253,10 +187,10 @@ fn stiffness_of(reader: &mut Reader, table: &Table, frequency: f64, mass: f64) -
 /// Adds the way out when the amplitude suits the other kind of excitation.
 fn hint_other_kind(reader: &mut Reader, root: &Table) -> Option<()> {
     let amplitude = root.value(TABLES[2])?.get_ref().get("amplitude")?;
-    let measured = Measurand::of(amplitude.get_ref().as_str()?)?;
+    let measured = Dimension::of(amplitude.get_ref().as_str()?)?;
     let kind = match measured {
-        force if force == Force::OF => Kind::Force,
-        length if length == Length::OF => Kind::BaseDisplacement,
+        Dimension::Force => json!(Excitation::Force),
+        Dimension::Length => json!(Excitation::BaseDisplacement),
         _ => return None,
     };
     let of_other_unit = |problem: &&mut super::Problem| {
@@ -264,7 +198,7 @@ fn hint_other_kind(reader: &mut Reader, root: &Table) -> Option<()> {
     };
     let problem = reader.problems.iter_mut().find(of_other_unit)?;
     let help = problem.help.take().unwrap_or_default();
-    let (measures, kind) = (measured.name, kind.name());
-    problem.help = Some(format!("{help}; if {measures} is meant, write kind = \"{kind}\""));
+    let measures = measured.words().0;
+    problem.help = Some(format!("{help}; if {measures} is meant, write kind = {kind}"));
     Some(())
 }

@@ -12,8 +12,7 @@ use toml::de::{DeTable, DeValue};
 use super::Design;
 use super::error::Problem;
 use super::inputs::Input;
-use super::suggest::nearest;
-use super::table::{Table, kind};
+use super::value::nearest;
 
 /// The text being read, with what was found wrong and what was read so far.
 pub(super) struct Reader<'t> {
@@ -134,62 +133,121 @@ impl<'t> Reader<'t> {
     /// Reads the values of a table, but for those that are tables themselves; quantities become numbers
     /// in SI units. `None` where something that must be there is not, or not as it should be.
     pub fn read<T: DeserializeOwned>(&mut self, table: &Table) -> Option<T> {
-        for pair in table.alternatives() {
-            self.exactly_one(table, pair);
+        for group in table.groups() {
+            self.exactly_one(table, &group);
         }
         let mut found = Map::new();
         for key in table.keys.iter().copied() {
-            match table.value(key) {
-                Some(value) => {
-                    let read = self.value(table, key, value);
-                    found.extend(read.map(|read| (key.to_owned(), read)));
-                }
-                None if table.requires(key) && !table.misspelled.contains(&key) => {
-                    let help = format!("add the line {}", self.line(table, key));
-                    self.missing(table, &format!("`{key}`"), help);
-                }
-                None => {}
-            }
+            let Some(value) = table.value(key) else { continue };
+            let read = self.item(self.place(table, key, value), table.schema_of(key));
+            found.extend(read.map(|read| (key.to_owned(), read)));
         }
-        let read = serde_json::from_value(Value::Object(found));
-        if let (Err(error), true, true) =
-            (&read, self.problems.is_empty(), self.design.is_some() || table.path.is_empty())
-        {
-            let message = format!("the table cannot be read: {error}");
-            self.report(table.span.clone(), message, "expected a table", "check its keys");
-        }
-        read.ok()
+        serde_json::from_value(Value::Object(found)).ok()
     }
 
-    /// Reports both, and neither, of two alternative keys.
-    fn exactly_one(&mut self, table: &Table, [first, second]: [&'static str; 2]) {
-        match (table.has(first), table.has(second)) {
-            (true, true) => {
-                let spans = [first, second].map(|key| table.span_of(key));
-                let later = spans.into_iter().max_by_key(|span| span.start).unwrap_or_default();
-                let message = format!("`{first}` and `{second}` say the same thing twice");
-                let expected = "expected only one of the two";
-                self.report(later, message, expected, "remove one of the two lines");
-            }
-            (false, false) => {
-                let help = format!(
-                    "add the line {}  or  {}",
-                    self.line(table, first),
-                    self.line(table, second)
-                );
-                self.missing(table, &format!("`{first}` or `{second}`"), help);
-            }
-            _ => {}
+    /// Reports that there is none of some keys, or more than one.
+    fn exactly_one(&mut self, table: &Table, group: &[&str]) {
+        let there = || group.iter().filter(|key| table.has(key));
+        let what: Vec<String> = group.iter().map(|key| format!("`{key}`")).collect();
+        if there().count() == 0 {
+            let (what, place) = (what.join(" or "), table.place());
+            let within = if place.is_empty() { "before the first table" } else { "in this table" };
+            let lines: Vec<String> = group.iter().map(|key| self.line(table, key)).collect();
+            let help = format!("add the line {}", lines.join("  or  "));
+            let message = format!("{what} is missing{place}");
+            self.report(table.span.clone(), message, format!("expected {what} {within}"), help);
+        } else if there().count() > 1 {
+            let later = there().map(|key| table.span_of(key)).max_by_key(|span| span.start);
+            let message = format!("{} say the same thing twice", what.join(" and "));
+            let expected = "expected only one of the two";
+            let help = "remove one of the two lines";
+            self.report(later.unwrap_or_default(), message, expected, help);
         }
     }
+}
 
-    fn missing(&mut self, table: &Table, what: &str, help: String) {
-        let expected = match table.path.as_str() {
-            "" => format!("expected {what} before the first table"),
-            _ => format!("expected {what} in this table"),
+/// One table of the file.
+pub(super) struct Table<'t> {
+    /// As its author has to write it, `band` or `sweep.clearance`; empty for the top level.
+    pub path: String,
+    pub schema: &'static Value,
+    /// Every key that it may have, in the order in which they are documented.
+    pub keys: Vec<&'static str>,
+    pub entries: &'t DeTable<'t>,
+    pub span: Range<usize>,
+    /// Keys whose misspelling was reported, and which are therefore not reported missing.
+    pub misspelled: Vec<&'static str>,
+}
+
+impl<'t> Table<'t> {
+    /// The value of a key.
+    pub fn value(&self, key: &str) -> Option<&'t Spanned<DeValue<'t>>> {
+        self.entries.get(key)
+    }
+
+    /// Whether the key is there, or a misspelling of it.
+    pub fn has(&self, key: &str) -> bool {
+        self.entries.contains_key(key) || self.misspelled.contains(&key)
+    }
+
+    /// Where a key stands, or else the table's name.
+    pub fn span_of(&self, key: &str) -> Range<usize> {
+        self.entries.get_key_value(key).map_or(self.span.clone(), |(key, _)| key.span())
+    }
+
+    /// Where a key's value stands, or else the table's name.
+    pub fn span_of_value(&self, key: &str) -> Range<usize> {
+        self.value(key).map_or(self.span.clone(), Spanned::span)
+    }
+
+    /// " in [band]"; nothing for the top level.
+    pub fn place(&self) -> String {
+        if self.path.is_empty() { String::new() } else { format!(" in [{}]", self.path) }
+    }
+
+    /// What the schema says about a key, which may depend on what another one holds: the amplitude on the
+    /// kind of excitation.
+    pub fn schema_of(&self, key: &str) -> &'static Value {
+        let says = |(key, schema): (&String, &Value)| {
+            let written = self.value(key).and_then(|value| value.get_ref().as_str());
+            schema["const"].as_str().is_some_and(|name| Some(name) == written)
         };
-        let message = format!("{what} is missing{}", table.place());
-        self.report(table.span.clone(), message, expected, help);
+        let mut branches = list(&self.schema["oneOf"]).map(|branch| &branch["properties"]);
+        let chosen = branches.find(|keys| keys.as_object().into_iter().flatten().any(says));
+        let own = chosen.and_then(|keys| keys.get(key)).filter(|own| own["const"].is_null());
+        own.unwrap_or(&self.schema["properties"][key])
+    }
+
+    /// Keys of which exactly one must be there: those that are required, and pairs of alternatives.
+    pub fn groups(&self) -> impl Iterator<Item = Vec<&'static str>> + use<> {
+        let required =
+            list(&self.schema["required"]).filter_map(Value::as_str).map(|one| vec![one]);
+        let pairs = list(&self.schema["allOf"]).chain([self.schema]).filter_map(|group| {
+            // Nothing but the one key.
+            let key = |branch: &'static Value| {
+                branch["required"][0]
+                    .as_str()
+                    .filter(|_| branch.as_object().map(Map::len) == Some(1))
+            };
+            list(&group["oneOf"]).map(key).collect::<Option<Vec<_>>>()
+        });
+        required.chain(pairs.filter(|pair| pair.len() == 2))
+    }
+}
+
+fn list(value: &'static Value) -> impl Iterator<Item = &'static Value> {
+    value.as_array().into_iter().flatten()
+}
+
+/// What a TOML value is, with its article.
+pub(super) fn kind(value: &DeValue) -> &'static str {
+    match value {
+        DeValue::String(_) => "text",
+        DeValue::Integer(_) | DeValue::Float(_) => "a number",
+        DeValue::Boolean(_) => "true or false",
+        DeValue::Datetime(_) => "a date or time",
+        DeValue::Array(_) => "a list",
+        DeValue::Table(_) => "a table",
     }
 }
 

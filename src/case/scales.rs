@@ -9,139 +9,77 @@
 use std::f64::consts::TAU;
 
 use super::Design;
-use super::physical::{Physical, PhysicalExcitation};
-use super::reduced::{Reduced, Tuning};
+use crate::quantity::Dimension;
 use crate::system::{Excitation, InvalidParameter, Parameters, System};
 
-/// What turns dimensionless results back into the design's units.
+/// What turns dimensionless results back into the design's units: SI, or for a reduced design those of an
+/// oscillator with m1 = k1 = 1, lengths in the unit of its own clearance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Scales {
-    /// `b`, in metres for a physical design, in its own unit for a reduced one.
+    /// Whether the units are those of SI.
+    pub physical: bool,
+    /// `b`.
     pub clearance: f64,
-    /// `omega0 = sqrt(k1/m1)`; `None` for a reduced design.
-    pub natural_frequency_rad_per_s: Option<f64>,
-    /// `m1`; `None` for a reduced design.
-    pub oscillator_mass_kg: Option<f64>,
+    /// `omega0 = sqrt(k1/m1)` in rad/s; 1 for a reduced design.
+    pub natural_frequency: f64,
+    /// `m1` in kg; 1 for a reduced design.
+    pub oscillator_mass: f64,
     /// `G`, the reduced forcing, in the unit of [`Scales::clearance`].
     pub forcing: f64,
 }
 
-/// The unit a design's lengths are in.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum LengthUnit {
-    /// Metres, for a physical design.
-    Metre,
-    /// The unit in which a reduced design gives its clearance, whatever it is.
-    Own,
-}
-
-impl LengthUnit {
-    /// "m", or "1" for a reduced design's own unit.
-    pub fn symbol(self) -> &'static str {
-        match self {
-            Self::Metre => "m",
-            Self::Own => "1",
-        }
-    }
-}
-
 impl Scales {
-    /// The unit of [`Scales::clearance`], [`Scales::forcing`] and [`Scales::length`].
-    pub fn length_unit(&self) -> LengthUnit {
-        match self.natural_frequency_rad_per_s {
-            Some(_) => LengthUnit::Metre,
-            None => LengthUnit::Own,
-        }
+    /// The unit of [`Scales::clearance`], [`Scales::forcing`] and [`Scales::length`]: "m", or "1" for a
+    /// reduced design's own.
+    pub fn length_unit(&self) -> &'static str {
+        Dimension::Length.symbol(self.physical)
     }
 
-    /// A length given over the clearance, in [`Scales::length_unit`].
+    /// A length given over the clearance.
     pub fn length(&self, over_clearance: f64) -> f64 {
         over_clearance * self.clearance
     }
 
-    /// A length in [`Scales::length_unit`], over the clearance.
+    /// A length, over the clearance.
     pub fn over_clearance(&self, length: f64) -> f64 {
         length / self.clearance
     }
 
-    /// The frequency in Hz of a frequency ratio `Omega`; `None` for a reduced design.
-    pub fn frequency_hz(&self, frequency_ratio: f64) -> Option<f64> {
-        Some(frequency_ratio * self.natural_frequency_rad_per_s? / TAU)
+    /// The frequency of a frequency ratio `Omega`: in Hz, or the ratio itself for a reduced design.
+    pub fn frequency(&self, ratio: f64) -> f64 {
+        ratio * self.natural_frequency / self.turn()
     }
 
-    /// The frequency ratio `Omega` of a frequency in Hz; `None` for a reduced design.
-    pub fn frequency_ratio(&self, frequency_hz: f64) -> Option<f64> {
-        Some(TAU * frequency_hz / self.natural_frequency_rad_per_s?)
+    /// The frequency ratio `Omega` of a frequency.
+    pub fn frequency_ratio(&self, frequency: f64) -> f64 {
+        self.turn() * frequency / self.natural_frequency
     }
 
-    /// The time in seconds of a fast time `tau`; `None` for a reduced design.
-    pub fn time_s(&self, tau: f64) -> Option<f64> {
-        Some(tau / self.natural_frequency_rad_per_s?)
+    /// What frequencies are counted in, rad: turns, or those of the natural frequency.
+    fn turn(&self) -> f64 {
+        if self.physical { TAU } else { 1.0 }
     }
 
-    /// The velocity in m/s of one in clearances per fast time; `None` for a reduced design.
-    pub fn velocity_m_per_s(&self, dimensionless: f64) -> Option<f64> {
-        Some(dimensionless * self.clearance * self.natural_frequency_rad_per_s?)
+    /// The time of a fast time `tau`.
+    pub fn time(&self, tau: f64) -> f64 {
+        tau / self.natural_frequency
     }
 
-    /// The acceleration in m/s^2 of one in clearances per fast time squared; `None` for a reduced
-    /// design.
-    pub fn acceleration_m_per_s2(&self, dimensionless: f64) -> Option<f64> {
-        Some(self.velocity_m_per_s(dimensionless)? * self.natural_frequency_rad_per_s?)
+    /// The velocity of one in clearances per fast time.
+    pub fn velocity(&self, dimensionless: f64) -> f64 {
+        dimensionless * self.clearance * self.natural_frequency
     }
 
-    /// The energy in joules of one per unit `m1` with lengths over the clearance and fast time,
-    /// so the factor is `m1 omega0^2 b^2`; `None` for a reduced design.
-    pub fn energy_j(&self, dimensionless: f64) -> Option<f64> {
-        let speed = self.clearance * self.natural_frequency_rad_per_s?;
-        Some(dimensionless * self.oscillator_mass_kg? * speed * speed)
+    /// The acceleration of one in clearances per fast time squared.
+    pub fn acceleration(&self, dimensionless: f64) -> f64 {
+        self.velocity(dimensionless) * self.natural_frequency
     }
 
-    /// The design of a system at these scales of mass, time and length: the inverse of
-    /// [`Design::system`]. The forcing is the system's, not [`Scales::forcing`].
-    pub fn restore(&self, system: &System) -> Design {
-        match (self.oscillator_mass_kg, self.natural_frequency_rad_per_s) {
-            (Some(mass), Some(omega0)) => {
-                Design::Physical(self.restore_physical(system, mass, omega0))
-            }
-            _ => Design::Reduced(self.restore_reduced(system)),
-        }
-    }
-
-    fn restore_physical(&self, system: &System, mass_kg: f64, omega0: f64) -> Physical {
-        let stiffness_n_per_m = mass_kg * omega0 * omega0;
-        let absorber_mass_kg = system.mass_ratio() * mass_kg;
-        let displacement = self.length(system.forcing_per_clearance()) * system.mass_ratio();
-        let excitation = match system.excitation() {
-            Excitation::BaseDisplacement => {
-                PhysicalExcitation::BaseDisplacement { amplitude_m: displacement }
-            }
-            Excitation::Force => {
-                PhysicalExcitation::Force { amplitude_n: displacement * stiffness_n_per_m }
-            }
-        };
-        Physical {
-            mass_kg,
-            stiffness_n_per_m,
-            damping_n_s_per_m: system.damping() * absorber_mass_kg * omega0,
-            absorber_mass_kg,
-            clearance_m: self.clearance,
-            restitution: system.restitution(),
-            excitation,
-            frequency_hz: system.frequency_ratio() * omega0 / TAU,
-        }
-    }
-
-    fn restore_reduced(&self, system: &System) -> Reduced {
-        Reduced {
-            mass_ratio: system.mass_ratio(),
-            damping: system.damping(),
-            restitution: system.restitution(),
-            clearance: self.clearance,
-            forcing: self.length(system.forcing_per_clearance()),
-            excitation: system.excitation(),
-            tuning: Tuning::Detuning(system.detuning()),
-        }
+    /// The energy of one per unit `m1` with lengths over the clearance and fast time, so the factor is
+    /// `m1 omega0^2 b^2`.
+    pub fn energy(&self, dimensionless: f64) -> f64 {
+        let speed = self.clearance * self.natural_frequency;
+        dimensionless * self.oscillator_mass * speed * speed
     }
 }
 
@@ -152,67 +90,59 @@ impl Design {
     /// [`InvalidParameter`] when values, each valid by itself, combine to a number that a double
     /// cannot hold, or when the design did not come from [`Case::parse`](super::Case::parse).
     pub fn system(&self) -> Result<System, InvalidParameter> {
+        let scales = self.scales();
+        let forcing_per_clearance = scales.forcing / scales.clearance;
+        let omega0 = scales.natural_frequency;
         match self {
-            Self::Physical(physical) => physical_system(physical),
-            Self::Reduced(reduced) => reduced_system(reduced),
+            Self::Physical(p) => System::new(Parameters {
+                mass_ratio: p.absorber_mass_kg / p.mass_kg,
+                damping: p.damping_n_s_per_m / (p.absorber_mass_kg * omega0),
+                restitution: p.restitution,
+                frequency_ratio: scales.frequency_ratio(p.frequency_hz),
+                forcing_per_clearance,
+                excitation: p.excitation,
+            }),
+            Self::Reduced(r) => {
+                let system = System::new(Parameters {
+                    mass_ratio: r.mass_ratio,
+                    damping: r.damping,
+                    restitution: r.restitution,
+                    frequency_ratio: r.frequency_ratio.unwrap_or(1.0),
+                    forcing_per_clearance,
+                    excitation: r.excitation,
+                })?;
+                // A small detuning would be lost in a ratio near 1.
+                match (r.frequency_ratio, r.detuning) {
+                    (None, Some(detuning)) => system.with_detuning(detuning),
+                    _ => Ok(system),
+                }
+            }
         }
     }
 
     /// What turns the system's results back into this design's units.
     pub fn scales(&self) -> Scales {
         match self {
-            Self::Physical(p) => Scales {
-                clearance: p.clearance_m,
-                natural_frequency_rad_per_s: Some(p.natural_frequency_rad_per_s()),
-                oscillator_mass_kg: Some(p.mass_kg),
-                forcing: physical_forcing(p),
-            },
+            Self::Physical(p) => {
+                let displacement = match p.excitation {
+                    Excitation::BaseDisplacement => p.amplitude,
+                    Excitation::Force => p.amplitude / p.stiffness_n_per_m,
+                };
+                Scales {
+                    physical: true,
+                    clearance: p.clearance_m,
+                    natural_frequency: p.natural_frequency_rad_per_s(),
+                    oscillator_mass: p.mass_kg,
+                    forcing: displacement / (p.absorber_mass_kg / p.mass_kg),
+                }
+            }
             Self::Reduced(r) => Scales {
+                physical: false,
                 clearance: r.clearance,
-                natural_frequency_rad_per_s: None,
-                oscillator_mass_kg: None,
+                natural_frequency: 1.0,
+                oscillator_mass: 1.0,
                 forcing: r.forcing,
             },
         }
-    }
-}
-
-/// `G` in metres.
-fn physical_forcing(p: &Physical) -> f64 {
-    let displacement = match p.excitation {
-        PhysicalExcitation::BaseDisplacement { amplitude_m } => amplitude_m,
-        PhysicalExcitation::Force { amplitude_n } => amplitude_n / p.stiffness_n_per_m,
-    };
-    displacement / (p.absorber_mass_kg / p.mass_kg)
-}
-
-fn physical_system(p: &Physical) -> Result<System, InvalidParameter> {
-    let omega0 = p.natural_frequency_rad_per_s();
-    System::new(Parameters {
-        mass_ratio: p.absorber_mass_kg / p.mass_kg,
-        damping: p.damping_n_s_per_m / (p.absorber_mass_kg * omega0),
-        restitution: p.restitution,
-        frequency_ratio: TAU * p.frequency_hz / omega0,
-        forcing_per_clearance: physical_forcing(p) / p.clearance_m,
-        excitation: p.excitation.kind(),
-    })
-}
-
-fn reduced_system(r: &Reduced) -> Result<System, InvalidParameter> {
-    let frequency_ratio = match r.tuning {
-        Tuning::FrequencyRatio(frequency_ratio) => frequency_ratio,
-        Tuning::Detuning(_) => 1.0,
-    };
-    let system = System::new(Parameters {
-        mass_ratio: r.mass_ratio,
-        damping: r.damping,
-        restitution: r.restitution,
-        frequency_ratio,
-        forcing_per_clearance: r.forcing / r.clearance,
-        excitation: r.excitation,
-    })?;
-    match r.tuning {
-        Tuning::FrequencyRatio(_) => Ok(system),
-        Tuning::Detuning(detuning) => system.with_detuning(detuning),
     }
 }

@@ -5,16 +5,14 @@
 //! `x-measurand` what a text with a unit measures, `x-parameter` whose units the case's design decides,
 //! `x-symbol` the symbol in LaTeX, `x-plain` an example beside `[reduced]`, `x-keys` the order of keys.
 
-use std::borrow::Cow;
 use std::sync::LazyLock;
 
 use schemars::generate::SchemaSettings;
-use schemars::transform::{Transform, transform_subschemas};
-use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::Deserialize;
-use serde_json::{Value, json};
+use schemars::transform::RecursiveTransform;
+use schemars::{JsonSchema, Schema};
+use serde_json::{Map, Value, json};
 
-use super::quantity::{Dimension, Quantity, Share};
+use crate::quantity::Dimension;
 
 /// The name under which a case's first line refers to its schema.
 pub const FILE_NAME: &str = "vinesink.schema.json";
@@ -24,9 +22,13 @@ pub(super) static SCHEMA: LazyLock<Value> = LazyLock::new(schema_of::<super::Cas
 
 /// The schema that is derived from a type.
 pub(super) fn schema_of<T: JsonSchema>() -> Value {
+    let as_written = RecursiveTransform(|schema: &mut Schema| {
+        without_null(schema);
+        with_unit(schema);
+    });
     let settings = SchemaSettings::draft2020_12()
         .with(|settings| settings.inline_subschemas = true)
-        .with_transform(WithoutNull);
+        .with_transform(as_written);
     settings.into_generator().into_root_schema_for::<T>().to_value()
 }
 
@@ -52,22 +54,6 @@ pub(super) fn one_of(first: &str, second: &str) -> Value {
     json!([{ "required": [first] }, { "required": [second] }])
 }
 
-/// A plain number, or a share with its sign: `0.0077` or `"0.77 %"`.
-#[derive(Debug, Clone, Copy, Deserialize)]
-#[serde(transparent)]
-pub(super) struct Ratio(pub f64);
-
-impl JsonSchema for Ratio {
-    fn schema_name() -> Cow<'static, str> {
-        "Ratio".into()
-    }
-
-    fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        let share = json!({ "type": "string", "pattern": pattern::<Share>() });
-        json_schema!({ "anyOf": [{ "type": "number" }, share], "x-measurand": Share::NAME })
-    }
-}
-
 /// Gives a table a key for each name of an enum, with the name's own description.
 pub(super) fn add_names<T: JsonSchema>(schema: &mut Schema, of: impl Fn(&str) -> Value) {
     let names = schema_of::<T>();
@@ -89,76 +75,59 @@ pub(super) fn in_design(parameter: &str) -> Value {
     json!({ "anyOf": [{ "type": "number" }, { "type": "string" }], "x-parameter": parameter })
 }
 
-/// A quantity above 0.
-pub(super) fn positive<D: Dimension>() -> Value {
-    let pattern = pattern::<D>();
-    json!({ "type": "string", "pattern": pattern, "x-measurand": D::NAME, "exclusiveMinimum": 0 })
-}
-
-impl<D: Dimension> JsonSchema for Quantity<D> {
-    fn schema_name() -> Cow<'static, str> {
-        D::NAME.into()
-    }
-
-    fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        json_schema!({
-            "type": "string",
-            "pattern": pattern::<D>(),
-            "examples": [D::OF.example],
-            "x-measurand": D::NAME,
-        })
-    }
-}
-
 /// A decimal number as a regular expression, without a sign: no quantity of a case may be negative.
 pub(super) const NUMBER: &str = r"\+?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?";
 
-/// A regular expression for what [`Quantity::parse`] accepts, if it is not negative.
-pub(super) fn pattern<D: Dimension>() -> String {
-    let units: Vec<String> = D::UNITS.iter().map(|unit| unit_pattern(unit.symbol)).collect();
+/// A regular expression for what [`Dimension::parse`] accepts, if it is not negative.
+fn pattern(dimension: Dimension) -> String {
+    let units: Vec<String> =
+        dimension.accepted_units().map(|unit| unit_pattern(unit.symbol)).collect();
     format!(r"^\s*{NUMBER}\s*({})\s*$", units.join("|"))
 }
 
 fn unit_pattern(symbol: &str) -> String {
     let product = symbol.replace(' ', r"(\s+|\s*[*·⋅]\s*)").replace('/', r"\s*/\s*");
-    match product.strip_prefix('u') {
-        Some(rest) => format!("[uµμ]{rest}"),
-        None => product.replace("/\\s*um", r"/\s*[uµμ]m"),
+    product.replace(['u', 'µ'], "[uµμ]")
+}
+
+/// Removes `null`: TOML has none, a key that is not given is left out.
+fn without_null(schema: &mut Schema) {
+    if let Some(Value::Array(types)) = schema.get_mut("type") {
+        types.retain(|name| name != "null");
+        let first = types[0].clone();
+        schema.insert("type".to_owned(), first);
+    }
+    // `anyOf: [X, null]` becomes `X`.
+    let alternatives = schema.get("anyOf").and_then(Value::as_array).cloned().unwrap_or_default();
+    if let [Value::Object(only), null] = alternatives.as_slice()
+        && null["type"] == "null"
+    {
+        let object = schema.ensure_object();
+        object.remove("anyOf");
+        for (key, value) in only {
+            object.entry(key).or_insert_with(|| value.clone());
+        }
     }
 }
 
-/// Removes `null` from types: TOML has none, a key that is not given is left out.
-#[derive(Debug, Clone)]
-struct WithoutNull;
-
-impl Transform for WithoutNull {
-    fn transform(&mut self, schema: &mut Schema) {
-        if let Some(Value::Array(types)) = schema.get_mut("type") {
-            types.retain(|name| name != "null");
-            if let [only] = types.as_slice() {
-                let only = only.clone();
-                schema.insert("type".to_owned(), only);
-            }
-        }
-        unwrap_alternative_to_null(schema);
-        transform_subschemas(self, schema);
-    }
-}
-
-/// `anyOf: [X, null]` becomes `X`.
-fn unwrap_alternative_to_null(schema: &mut Schema) {
-    let Some(Value::Array(mut alternatives)) = schema.remove("anyOf") else { return };
-    let before = alternatives.len();
-    alternatives.retain(|alternative| alternative["type"] != "null");
-    match alternatives.as_slice() {
-        [Value::Object(only)] if before == 2 => {
-            let object = schema.ensure_object();
-            only.iter().for_each(|(key, value)| {
-                object.entry(key.clone()).or_insert_with(|| value.clone());
-            });
-        }
-        _ => {
-            schema.insert("anyOf".to_owned(), alternatives.into());
-        }
+/// A number that measures something is written as text with a unit; a share, where its example is a plain
+/// number, either way.
+fn with_unit(schema: &mut Schema) {
+    let measured = schema.get("x-measurand").and_then(Value::as_str).and_then(Dimension::named);
+    let (Some(dimension), Some("number")) = (measured, schema.get("type").and_then(Value::as_str))
+    else {
+        return;
+    };
+    let object = schema.ensure_object();
+    object.remove("format");
+    object.entry("examples").or_insert_with(|| json!([dimension.words().1]));
+    let mut text = Map::new();
+    text.insert("type".to_owned(), json!("string"));
+    text.insert("pattern".to_owned(), json!(pattern(dimension)));
+    if object["examples"][0].is_number() {
+        object.remove("type");
+        object.insert("anyOf".to_owned(), json!([{ "type": "number" }, text]));
+    } else {
+        object.append(&mut text);
     }
 }

@@ -8,9 +8,8 @@ mod recorded;
 use schemars::{JsonSchema, Schema};
 use serde::Deserialize;
 
-use super::reader::Reader;
+use super::reader::{Reader, Table};
 use super::schema::{add_names, in_design, schema_of};
-use super::table::Table;
 use super::value::or;
 
 pub use axis::SweepAxis;

@@ -1,17 +1,14 @@
 //! The optional table `[uncertainty]`: by how much a built design, and what drives it, may differ from
 //! the case.
 
-use std::f64::consts::TAU;
-
 use schemars::{JsonSchema, Schema};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
-use super::form::Form;
 use super::inputs::Input;
-use super::reader::Reader;
+use super::number::{Form, sign_of};
+use super::reader::{Reader, Table};
 use super::schema::NUMBER;
-use super::table::Table;
 use super::value::Place;
 
 /// How the error of one parameter is distributed around what is written.
@@ -100,30 +97,21 @@ impl Uncertainty {
 /// Signs of a largest error.
 const SIGNS: [&str; 3] = ["±", "+-", "+/-"];
 
-/// The bytes that the sign of a largest error takes up at the beginning of a text.
-fn sign_of(text: &str) -> usize {
-    let begun = text.trim_start();
-    let sign = SIGNS.into_iter().find(|sign| begun.starts_with(sign));
-    sign.map_or(0, |sign| text.len() - begun.len() + sign.len())
-}
-
 impl Input {
     /// What stands behind the sign of a largest error; `None` where there is no such sign.
     pub fn largest_error(&self) -> Option<&str> {
-        let sign = sign_of(&self.as_written);
-        (sign > 0).then(|| self.as_written[sign..].trim())
+        Some(self.as_written[sign_of(&self.as_written, &SIGNS)?..].trim())
     }
 }
 
 /// Reads one error, whose size is written as `form` says.
 pub(super) fn read_error(reader: &mut Reader, place: Place, form: Form) -> Option<Value> {
-    let sign = place.value.get_ref().as_str().map_or(0, sign_of);
-    let symbol = form.symbol;
-    let symbol = match symbol.starts_with('\\') || sign == 0 {
-        true => symbol,
-        false => format!(" {symbol}"),
+    let sign = place.value.get_ref().as_str().and_then(|text| sign_of(text, &SIGNS)).unwrap_or(0);
+    let symbol = match form.symbol.as_str() {
+        symbol if sign == 0 => format!("s_{symbol}"),
+        symbol if symbol.starts_with('\\') => format!(r"\Delta{symbol}"),
+        symbol => format!(r"\Delta {symbol}"),
     };
-    let symbol = if sign > 0 { format!(r"\Delta{symbol}") } else { format!("s_{symbol}") };
     let size = reader.number(&Place { sign, ..place }, &Form { symbol, ..form })?;
     serde_json::to_value(match size {
         0.0 => Distribution::Certain,
@@ -150,6 +138,6 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Uncertainty {
         );
         return Uncertainty::default();
     }
-    let natural_hz = design.scales().natural_frequency_rad_per_s.map_or(1.0, |omega| omega / TAU);
+    let natural_hz = design.scales().frequency(1.0);
     Uncertainty { frequency_ratio: read.frequency_ratio.over(natural_hz), amplitude, ..read }
 }

@@ -2,16 +2,9 @@
 //!
 //! A rule stands here only if a design that trips it on purpose is very rare: no shipped case does.
 
-use std::ops::Range;
-
-use toml::de::{DeTable, DeValue};
-
 use super::error::Problem;
-use super::physical::TABLES;
-use super::reduced;
-use super::{BandOver, BandSettings, Design, Physical};
-use crate::system::System;
-use std::f64::consts::TAU;
+use super::inputs::Input;
+use super::{BandOver, BandSettings, Case, Design, physical, reduced};
 
 /// Ratio of the frequencies of drive and structure from which on they have nothing to do with one another.
 const FAR_APART: f64 = 30.0;
@@ -26,179 +19,145 @@ const ROUNDING: f64 = 1e-12;
 /// Mass ratios between which an absorber is a small mass, and a mass at all.
 const MASS_RATIOS: [f64; 2] = [1e-6, 0.5];
 
-/// Everything that a valid case is warned of, in the order of the file's lines.
-pub(super) fn of(
-    text: &str,
-    document: &DeTable,
-    design: &Design,
-    system: &System,
-    band: Option<&BandSettings>,
-) -> Vec<Problem> {
-    let file = File { text, document };
-    let mut found = file.frequencies(design, system, band);
-    found.extend(file.damping(design, system));
-    found.extend(file.mass_ratio(design, system));
+/// Everything that a case with this text is warned of, in the order of the file's lines.
+pub(super) fn of(text: &str, case: &Case) -> Vec<Problem> {
+    let read = Read { text, case };
+    let mut found = read.frequencies();
+    found.extend(read.damping());
+    found.extend(read.mass_ratio());
     found.sort_by_key(|warning| warning.span.start);
     found
 }
 
-struct File<'t> {
+struct Read<'t> {
     text: &'t str,
-    document: &'t DeTable<'t>,
+    case: &'t Case,
 }
 
-/// The value of a key of the file.
-struct Value<'t> {
-    key: &'static str,
-    span: Range<usize>,
-    /// Without quotes.
-    written: &'t str,
-}
-
-impl<'t> File<'t> {
-    /// The first of `keys` that stands in `table`.
-    fn value(&self, table: &str, keys: &[&'static str]) -> Option<Value<'t>> {
-        let DeValue::Table(entries) = self.document.get(table)?.get_ref() else { return None };
-        let (key, value) = keys.iter().find_map(|key| Some((key, entries.get(*key)?)))?;
-        let span = value.span();
-        let written = self.text[span.clone()].trim_matches(['"', '\'']);
-        Some(Value { key, span, written })
+impl Read<'_> {
+    /// The number that stands under one of some keys, in the one of `[oscillator]`, `[absorber]` and
+    /// `[excitation]` of that index, or in `[reduced]`.
+    fn input(&self, table: usize, keys: &[&str]) -> Option<&Input> {
+        let table = match &self.case.design {
+            Design::Physical(_) => physical::TABLES[table],
+            Design::Reduced(_) => reduced::TABLE,
+        };
+        self.case.inputs.iter().find(|input| input.table == table && keys.contains(&input.name))
     }
 
-    fn warning(&self, at: &Value, message: String, label: &str, meant: String) -> Problem {
+    fn warning(&self, at: &Input, message: String, label: &str, meant: String) -> Problem {
         Problem::new(self.text, at.span.clone(), message, label).help(meant).into_warning()
     }
 
     /// Frequencies of the drive, its own and the band's, that are far from the structure's.
-    fn frequencies(
-        &self,
-        design: &Design,
-        system: &System,
-        band: Option<&BandSettings>,
-    ) -> Vec<Problem> {
-        let own = match design {
-            Design::Physical(_) => self.value(TABLES[2], &["frequency"]),
-            Design::Reduced(_) => self.value(reduced::TABLE, &["frequency_ratio", "detuning"]),
-        };
-        let mut drives = vec![(own, system.frequency_ratio())];
-        if let Some(BandSettings { over: BandOver::Frequency, range: [from, to], .. }) = band {
-            drives.push((self.value("band", &["from"]), *from));
-            drives.push((self.value("band", &["to"]), *to));
+    fn frequencies(&self) -> Vec<Problem> {
+        let own = self.input(2, &["frequency", "frequency_ratio", "detuning"]);
+        let mut drives = vec![(own, self.case.system.frequency_ratio())];
+        if let Some(BandSettings { over: BandOver::Frequency, range, .. }) = &self.case.band {
+            let ends = ["from", "to"].map(|key| {
+                self.case.inputs.iter().find(|input| input.table == "band" && input.name == key)
+            });
+            drives.extend(ends.into_iter().zip(*range));
         }
-        let far = |ratio: f64| ratio.max(1.0 / ratio) > FAR_APART;
-        let distant = drives.iter().filter(|(_, ratio)| far(*ratio)).count();
+        let all = drives.len();
+        drives.retain(|(_, ratio)| ratio.max(1.0 / ratio) > FAR_APART);
         // Where every frequency of the drive is off and there are several, the structure's is the odd one.
-        let structure = match design {
-            Design::Physical(physical) if distant == drives.len() && distant > 1 => {
-                self.structure(physical, system.frequency_ratio())
-            }
-            _ => None,
-        };
-        structure.map_or_else(
-            || {
-                let distant = drives.into_iter().filter(|(_, ratio)| far(*ratio));
-                distant.filter_map(|(at, ratio)| Some(self.drive(&at?, ratio, design))).collect()
-            },
-            |warning| vec![warning],
-        )
+        let structure = if all > 1 && drives.len() == all { self.structure() } else { None };
+        let of_drive = || drives.iter().filter_map(|(at, ratio)| Some(self.drive((*at)?, *ratio)));
+        structure.map_or_else(|| of_drive().collect(), |warning| vec![warning])
     }
 
     /// That the structure's frequency is far from all of the drive's.
-    fn structure(&self, physical: &Physical, ratio: f64) -> Option<Problem> {
-        let at = self.value(TABLES[0], &["frequency", "stiffness"])?;
-        let natural = physical.natural_frequency_rad_per_s() / TAU;
+    fn structure(&self) -> Option<Problem> {
+        let Design::Physical(physical) = &self.case.design else { return None };
+        let at = self.input(0, &["frequency", "stiffness"])?;
+        let (natural, ratio) =
+            (self.case.scales().frequency(1.0), 1.0 / self.case.system.frequency_ratio());
         let message = format!(
             "the structure's natural frequency, {}, is {}",
             hertz(natural),
-            times(1.0 / ratio, &format!("that of the drive, {}", hertz(physical.frequency_hz)))
+            times(ratio, &format!("that of the drive, {}", hertz(physical.frequency_hz)))
         );
-        let meant = match at.key {
-            "frequency" => meant(at.written, natural, 1.0 / ratio, false),
+        let meant = match at.name {
+            "frequency" => meant(&at.as_written, natural, ratio, false),
             _ => "check the units of `stiffness` and `mass`: a factor of a thousand in one of them is 32 in \
                   the frequency"
                 .to_owned(),
         };
-        Some(self.warning(&at, message, "far from the drive", meant))
+        Some(self.warning(at, message, "far from the drive", meant))
     }
 
     /// That a frequency of the drive is far from the structure's.
-    fn drive(&self, at: &Value, ratio: f64, design: &Design) -> Problem {
+    fn drive(&self, at: &Input, ratio: f64) -> Problem {
+        let natural = self.case.scales().frequency(1.0);
         let than = "the structure's natural frequency";
-        let (than, meant) = match design {
-            Design::Physical(physical) => {
-                let natural = physical.natural_frequency_rad_per_s() / TAU;
-                let meant = meant(at.written, ratio * natural, ratio, true);
-                (format!("{than}, {}", hertz(natural)), meant)
-            }
-            Design::Reduced(_) => {
-                let meant = "frequencies of [reduced] are over the natural one, and 1 is resonance";
-                (than.to_owned(), meant.to_owned())
-            }
+        let (than, meant) = match &self.case.design {
+            Design::Physical(_) => (
+                format!("{than}, {}", hertz(natural)),
+                meant(&at.as_written, ratio * natural, ratio, true),
+            ),
+            Design::Reduced(_) => (
+                than.to_owned(),
+                "frequencies of [reduced] are over the natural one, and 1 is resonance".to_owned(),
+            ),
         };
-        let message = format!("`{}` = {} is {}", at.key, at.written, times(ratio, &than));
+        let message = format!("`{}` = {} is {}", at.name, at.as_written, times(ratio, &than));
         self.warning(at, message, "far from the structure's", meant)
     }
 
-    fn damping(&self, design: &Design, system: &System) -> Option<Problem> {
-        let ratio = 0.5 * system.mass_ratio() * system.damping();
+    fn damping(&self) -> Option<Problem> {
+        let ratio = 0.5 * self.case.system.mass_ratio() * self.case.system.damping();
         if ratio <= HEAVY_DAMPING * (1.0 + ROUNDING) {
             return None;
         }
-        let at = match design {
-            Design::Physical(_) => self.value(TABLES[0], &["damping_ratio", "damping"])?,
-            Design::Reduced(_) => self.value(reduced::TABLE, &["damping"])?,
-        };
-        let means = match at.key {
-            "damping_ratio" => "means",
-            _ => "is a damping ratio of",
-        };
-        let message = format!("`{}` = {} {means} {}", at.key, at.written, percent(ratio));
+        let at = self.input(0, &["damping_ratio", "damping"])?;
+        let is_ratio = at.name == "damping_ratio";
+        let means = if is_ratio { "means" } else { "is a damping ratio of" };
+        let message = format!("`{}` = {} {means} {}", at.name, at.as_written, percent(ratio));
         let as_percent = |part: f64| format!("{} ({})", percent(part), short(part));
-        let meant = match design {
+        let meant = match &self.case.design {
             Design::Reduced(_) => format!(
                 "it is c1/(m2 omega0), and half of mass_ratio * damping is the damping ratio: 1 % is \
                  damping = {}",
-                short(0.02 / system.mass_ratio())
+                short(0.02 / self.case.system.mass_ratio())
             ),
-            Design::Physical(physical) if at.key == "damping" => format!(
+            Design::Physical(physical) if !is_ratio => format!(
                 "critical damping is {} N s/m; check the units of damping, mass and stiffness",
                 short(physical.critical_damping_n_s_per_m())
             ),
             // A ratio of 0.4 was meant as 0.4 %, one of 40 as 40 % or as 0.40 %.
-            _ if ratio > 20.0 && !at.written.contains('%') => {
+            _ if ratio > 20.0 && !at.as_written.contains('%') => {
                 format!("was {} or {} meant?", as_percent(ratio / 1e4), percent(ratio / 100.0))
             }
             _ => format!("was {} meant?", as_percent(ratio / 100.0)),
         };
-        Some(self.warning(&at, message, "most structures have less than 5 %", meant))
+        Some(self.warning(at, message, "most structures have less than 5 %", meant))
     }
 
-    fn mass_ratio(&self, design: &Design, system: &System) -> Option<Problem> {
-        let ratio = system.mass_ratio();
+    fn mass_ratio(&self) -> Option<Problem> {
+        let ratio = self.case.system.mass_ratio();
         let [least, most] = MASS_RATIOS;
-        let (at, too_small) = match design {
-            Design::Physical(_) => (self.value(TABLES[1], &["mass_ratio", "mass"])?, ratio < least),
-            // Without units a small one is no slip of one.
-            Design::Reduced(_) => (self.value(reduced::TABLE, &["mass_ratio"])?, false),
-        };
+        // Without units a small one is no slip of one.
+        let too_small = ratio < least && matches!(self.case.design, Design::Physical(_));
         if !too_small && ratio <= most {
             return None;
         }
+        let at = self.input(1, &["mass_ratio", "mass"])?;
         let message = format!(
             "`{}` = {}: the absorber has {} times the structure's mass",
-            at.key,
-            at.written,
+            at.name,
+            at.as_written,
             short(ratio)
         );
-        let meant = match at.key {
-            "mass_ratio" if ratio > most && !at.written.contains('%') => {
+        let meant = match at.name {
+            "mass_ratio" if ratio > most && !at.as_written.contains('%') => {
                 format!("was {} ({}) meant?", percent(ratio / 100.0), short(ratio / 100.0))
             }
             "mass_ratio" => "an absorber usually has about 1 % of the structure's mass".to_owned(),
             _ => "check the units of both masses: an absorber usually has about 1 % of the structure's"
                 .to_owned(),
         };
-        Some(self.warning(&at, message, "no small mass beside a structure", meant))
+        Some(self.warning(at, message, "no small mass beside a structure", meant))
     }
 }
 

@@ -205,9 +205,7 @@ fn of_motion(subject: Subject, seen: &Seen, rivals: &Rivals, scales: &Scales) ->
         Subject::RmsDisplacement => length(seen.rms),
         Subject::ReductionDb => decibels(rivals.bare.1)?,
         Subject::ReductionDbTmd => decibels(rivals.damped.amplitude)?,
-        Subject::ImpactVelocity => seen
-            .impact_speed
-            .map(|speed| scales.velocity_m_per_s(speed).unwrap_or_else(|| scales.length(speed))),
+        Subject::ImpactVelocity => seen.impact_speed.map(|speed| scales.velocity(speed)),
         Subject::ImpactsPerPeriod => seen.impacts_per_period,
         Subject::Z3Share
         | Subject::StableShare

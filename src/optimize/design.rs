@@ -5,7 +5,7 @@ use super::OptimizeError;
 use super::task::Task;
 use crate::band::rivals::Rivals;
 use crate::band::{Motions, Source, Survey, Worst};
-use crate::case::{AbsorberDesign, Case, Measure, Objective, Relation, Rewritten, Rounding};
+use crate::case::{AbsorberDesign, Case, Objective, Relation, Rewritten, Rounding, Subject};
 use crate::criteria::{self, Judged};
 use crate::executor::Executor;
 
@@ -77,9 +77,9 @@ fn violation(judged: &Judged) -> f64 {
         Relation::Equal => margin.abs(),
         _ => judged.error - margin,
     };
-    match judged.criterion.subject.measure() {
-        Measure::Decibel => missed / DOUBLE_DB,
-        Measure::Flag => 1.0,
+    match judged.criterion.subject {
+        Subject::ReductionDb | Subject::ReductionDbTmd => missed / DOUBLE_DB,
+        Subject::NoCoexistence => 1.0,
         _ => missed / judged.criterion.limit.max(f64::MIN_POSITIVE),
     }
 }

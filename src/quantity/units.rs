@@ -1,41 +1,62 @@
 //! Units and prefixes: from a number in SI to what a reader sees.
 
+use std::f64::consts::TAU;
+
 use super::catalogue::{Digits, Dimension, ErrorKind, Kind};
 use super::numbers::{fixed, significant, with_minus};
 
 /// A unit with a prefix.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Unit {
-    /// Its symbol; empty for a pure number.
+    /// Its symbol; empty for a pure number. A space stands for a product.
     pub symbol: &'static str,
     /// Its size in the unit without prefix.
     pub size: f64,
+    /// The size as a power of ten, with which a number is read without a second rounding.
+    pub exponent: i32,
 }
 
-const fn unit(symbol: &'static str, size: f64) -> Unit {
-    Unit { symbol, size }
+const fn unit(symbol: &'static str, exponent: i32) -> Unit {
+    // Exact, and so is the rounding of the one quotient.
+    let (mut power, mut k) = (1.0, 0);
+    while k < exponent.abs() {
+        power *= 10.0;
+        k += 1;
+    }
+    Unit { symbol, size: if exponent < 0 { 1.0 / power } else { power }, exponent }
 }
 
-/// Units of each dimension from the largest to the smallest.
+/// Units of each dimension that a page shows, from the largest to the smallest.
 const LENGTHS: &[Unit] =
-    &[unit("km", 1e3), unit("m", 1.0), unit("mm", 1e-3), unit("µm", 1e-6), unit("nm", 1e-9)];
-const TIMES: &[Unit] = &[unit("s", 1.0), unit("ms", 1e-3), unit("µs", 1e-6)];
-const FREQUENCIES: &[Unit] = &[unit("kHz", 1e3), unit("Hz", 1.0), unit("mHz", 1e-3)];
-const VELOCITIES: &[Unit] =
-    &[unit("km/s", 1e3), unit("m/s", 1.0), unit("mm/s", 1e-3), unit("µm/s", 1e-6)];
-const ACCELERATIONS: &[Unit] = &[unit("m/s²", 1.0), unit("mm/s²", 1e-3)];
-const MASSES: &[Unit] = &[unit("t", 1e3), unit("kg", 1.0), unit("g", 1e-3), unit("mg", 1e-6)];
-const STIFFNESSES: &[Unit] = &[unit("MN/m", 1e6), unit("kN/m", 1e3), unit("N/m", 1.0)];
-const DAMPINGS: &[Unit] = &[unit("kN s/m", 1e3), unit("N s/m", 1.0), unit("mN s/m", 1e-3)];
-const FORCES: &[Unit] = &[unit("MN", 1e6), unit("kN", 1e3), unit("N", 1.0), unit("mN", 1e-3)];
+    &[unit("km", 3), unit("m", 0), unit("mm", -3), unit("µm", -6), unit("nm", -9)];
+const TIMES: &[Unit] = &[unit("s", 0), unit("ms", -3), unit("µs", -6)];
+const FREQUENCIES: &[Unit] = &[unit("kHz", 3), unit("Hz", 0), unit("mHz", -3)];
+const VELOCITIES: &[Unit] = &[unit("km/s", 3), unit("m/s", 0), unit("mm/s", -3), unit("µm/s", -6)];
+const ACCELERATIONS: &[Unit] = &[unit("m/s²", 0), unit("mm/s²", -3)];
+const MASSES: &[Unit] = &[unit("t", 3), unit("kg", 0), unit("g", -3), unit("mg", -6)];
+const STIFFNESSES: &[Unit] = &[unit("MN/m", 6), unit("kN/m", 3), unit("N/m", 0)];
+const DAMPINGS: &[Unit] = &[unit("kN s/m", 3), unit("N s/m", 0), unit("mN s/m", -3)];
+const FORCES: &[Unit] = &[unit("MN", 6), unit("kN", 3), unit("N", 0), unit("mN", -3)];
 const ENERGIES: &[Unit] =
-    &[unit("kJ", 1e3), unit("J", 1.0), unit("mJ", 1e-3), unit("µJ", 1e-6), unit("nJ", 1e-9)];
-const POWERS: &[Unit] = &[unit("kW", 1e3), unit("W", 1.0), unit("mW", 1e-3), unit("µW", 1e-6)];
-const IMPULSES: &[Unit] = &[unit("kN s", 1e3), unit("N s", 1.0), unit("mN s", 1e-3)];
-const ANGLES: &[Unit] = &[unit("rad", 1.0)];
-const SHARES: &[Unit] = &[unit("%", 0.01)];
-const LEVELS: &[Unit] = &[unit("dB", 1.0)];
-const NUMBERS: &[Unit] = &[unit("", 1.0)];
+    &[unit("kJ", 3), unit("J", 0), unit("mJ", -3), unit("µJ", -6), unit("nJ", -9)];
+const POWERS: &[Unit] = &[unit("kW", 3), unit("W", 0), unit("mW", -3), unit("µW", -6)];
+const IMPULSES: &[Unit] = &[unit("kN s", 3), unit("N s", 0), unit("mN s", -3)];
+const ANGLES: &[Unit] = &[unit("rad", 0)];
+const SHARES: &[Unit] = &[unit("%", -2)];
+const LEVELS: &[Unit] = &[unit("dB", 0)];
+const NUMBERS: &[Unit] = &[unit("", 0)];
+const RADIANS_PER_SECOND: Unit = Unit { symbol: "rad/s", size: 1.0 / TAU, exponent: 0 };
+const FURTHER_STIFFNESSES: &[Unit] =
+    &[unit("mN/m", -3), unit("N/mm", 3), unit("kN/mm", 6), unit("N/cm", 2), unit("N/um", 6)];
+const FURTHER_DAMPINGS: &[Unit] = &[
+    unit("Ns/m", 0),
+    unit("kNs/m", 3),
+    unit("mNs/m", -3),
+    unit("N s/mm", 3),
+    unit("Ns/mm", 3),
+    unit("kg/s", 0),
+    unit("g/s", -3),
+];
 
 impl Dimension {
     /// Its units in SI, from the largest to the smallest.
@@ -60,6 +81,25 @@ impl Dimension {
         }
     }
 
+    /// Units that a case may be written in beside those of a page.
+    fn further_units(self) -> &'static [Unit] {
+        match self {
+            Self::Length => const { &[unit("cm", -2)] },
+            Self::Mass => const { &[unit("ug", -9)] },
+            Self::Frequency => const { &[unit("MHz", 6), RADIANS_PER_SECOND] },
+            Self::Velocity => const { &[unit("cm/s", -2)] },
+            Self::Stiffness => FURTHER_STIFFNESSES,
+            Self::Damping => FURTHER_DAMPINGS,
+            Self::Force => const { &[unit("uN", -6), unit("nN", -9)] },
+            _ => &[],
+        }
+    }
+
+    /// Every unit that it is read in.
+    pub fn accepted_units(self) -> impl Iterator<Item = &'static Unit> {
+        self.units().iter().chain(self.further_units())
+    }
+
     /// The symbol of its unit without prefix: that of SI, or `1` for a pure number and for a case in reduced
     /// units.
     pub fn symbol(self, physical: bool) -> &'static str {
@@ -73,19 +113,19 @@ impl Dimension {
     /// of the case's own clearance.
     fn own_unit(self) -> Option<Unit> {
         match self {
-            Self::Length => Some(unit("units", 1.0)),
-            Self::Time => Some(unit("/ω₀", 1.0)),
+            Self::Length => Some(unit("units", 0)),
+            Self::Time => Some(unit("/ω₀", 0)),
             // A frequency is a ratio to the natural one.
-            Self::Frequency => Some(unit("f₀", 1.0)),
-            Self::Velocity => Some(unit("ω₀ units", 1.0)),
-            Self::Acceleration => Some(unit("ω₀² units", 1.0)),
-            Self::Energy => Some(unit("m₁ω₀² units²", 1.0)),
-            Self::Power => Some(unit("m₁ω₀³ units²", 1.0)),
-            Self::Impulse => Some(unit("m₁ω₀ units", 1.0)),
-            Self::Mass => Some(unit("m₁", 1.0)),
-            Self::Stiffness => Some(unit("k₁", 1.0)),
-            Self::Force => Some(unit("k₁ units", 1.0)),
-            Self::Damping => Some(unit("m₁ω₀", 1.0)),
+            Self::Frequency => Some(unit("f₀", 0)),
+            Self::Velocity => Some(unit("ω₀ units", 0)),
+            Self::Acceleration => Some(unit("ω₀² units", 0)),
+            Self::Energy => Some(unit("m₁ω₀² units²", 0)),
+            Self::Power => Some(unit("m₁ω₀³ units²", 0)),
+            Self::Impulse => Some(unit("m₁ω₀ units", 0)),
+            Self::Mass => Some(unit("m₁", 0)),
+            Self::Stiffness => Some(unit("k₁", 0)),
+            Self::Force => Some(unit("k₁ units", 0)),
+            Self::Damping => Some(unit("m₁ω₀", 0)),
             _ => None,
         }
     }
@@ -112,12 +152,12 @@ impl Units {
         // 0.1 mm reads better than 100 µm, and 300 mm better than 0.3 m.
         let fits = |one: &&Unit| clearance_m >= one.size * if one.size == 1.0 { 1.0 } else { 0.1 };
         let length = LENGTHS.iter().find(fits).copied();
-        Self { physical: true, length: length.unwrap_or(unit("nm", 1e-9)) }
+        Self { physical: true, length: length.unwrap_or(unit("nm", -9)) }
     }
 
     /// Those of a case in reduced units.
     pub const fn reduced() -> Self {
-        Self { physical: false, length: unit("units", 1.0) }
+        Self { physical: false, length: unit("units", 0) }
     }
 
     /// The symbol of the unit that lengths share.
@@ -150,7 +190,7 @@ impl Units {
         let least = |one: &Unit| if one.symbol == "Hz" { LEAST_HERTZ } else { one.size };
         let fitting = units.iter().find(|one| size >= least(one)).or(units.last());
         let found = if size == 0.0 || !size.is_finite() { plain } else { fitting };
-        found.copied().unwrap_or(unit("", 1.0))
+        found.copied().unwrap_or(unit("", 0))
     }
 
     /// The unit of an axis or a table's column that reaches up to a value.

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::document::criteria::{criteria, kind, place};
+use super::document::criteria::{criteria, place};
 use super::document::{self, place::Place};
 use super::render::{RenderError, without_repeated_blank_lines};
 use super::template::{aligned, render};
@@ -119,7 +119,7 @@ pub fn junit(cases: &[Checked]) -> Result<String, RenderError> {
 /// A criterion in SI, or in the units of a reduced case: 1 and 0 for true and false, null where nothing could be
 /// measured; where in the band it is worst with its unit, empty where that says nothing.
 fn row(case: &Case, units: &Units, judged: &Judged) -> Value {
-    let kind = kind(judged.criterion.subject);
+    let kind = judged.criterion.subject.kind();
     let at = place(case, judged).map(|at| units.text(at.kind, at.value));
     let mut row = json!({
         "name": judged.criterion.subject.key(),

@@ -192,10 +192,7 @@ fn cell(recorded: Recorded, facts: &Facts, found: &Found) -> Cell {
             number(both.map(|(motion, bare)| 20.0 * libm::log10(bare / motion.peak)))
         }
         Recorded::Efficiency => number(main.and_then(|motion| motion.efficiency)),
-        Recorded::ImpactSpeed => number(main.map(|motion| {
-            let speed = scales.velocity_m_per_s(motion.impact_speed);
-            speed.unwrap_or_else(|| length(motion.impact_speed))
-        })),
+        Recorded::ImpactSpeed => number(main.map(|motion| scales.velocity(motion.impact_speed))),
         Recorded::RepeatsAfter => {
             Cell::Whole(main.and_then(|motion| motion.repeats_after).map(i64::from))
         }

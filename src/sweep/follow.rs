@@ -16,7 +16,7 @@ pub(super) fn start(
     axes: impl Iterator<Item = (SweepParameter, f64)>,
     scales: &Scales,
 ) -> Option<State> {
-    let speed = scales.natural_frequency_rad_per_s.unwrap_or(1.0);
+    let speed = scales.natural_frequency;
     let length = |value: f64| scales.over_clearance(value);
     let velocity = |value: f64| scales.over_clearance(value) / speed;
     let (mut start, mut absorber, mut said) = (State::AT_REST, None, false);
@@ -75,7 +75,7 @@ struct Stand {
 
 impl Stand {
     fn of(state: State, scales: &Scales) -> Self {
-        let natural_frequency = scales.natural_frequency_rad_per_s.unwrap_or(1.0);
+        let natural_frequency = scales.natural_frequency;
         Self { state, clearance: scales.clearance, natural_frequency }
     }
 
@@ -93,9 +93,10 @@ mod tests {
 
     fn scales(clearance: f64) -> Scales {
         Scales {
+            physical: true,
             clearance,
-            natural_frequency_rad_per_s: Some(50.0),
-            oscillator_mass_kg: Some(1.0),
+            natural_frequency: 50.0,
+            oscillator_mass: 1.0,
             forcing: 1.0,
         }
     }
@@ -125,7 +126,7 @@ mod tests {
         let wanted = State { x: 0.25, x_velocity: -0.5, y: 0.25 - 0.4, y_velocity: 1.0 };
         assert!(wider.distance(&wanted) < 1e-15, "{wider:?}");
         // Half as many radians a second as before: twice as far in one of them.
-        let softer = Scales { natural_frequency_rad_per_s: Some(25.0), ..scales(0.02) };
+        let softer = Scales { natural_frequency: 25.0, ..scales(0.02) };
         let softer = Stand::of(state, &scales(0.02)).at(&softer);
         let wanted = State { x_velocity: -2.0, y_velocity: 4.0, ..state };
         assert!(softer.distance(&wanted) < 1e-15, "{softer:?}");

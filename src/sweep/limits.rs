@@ -26,7 +26,7 @@ pub fn stability_limits(case: &Case, frequencies: &[f64]) -> Vec<StabilityLimit>
     };
     let ratio = |k: u32| {
         let frequency = first + (last - first) * (f64::from(k) + 0.5) / f64::from(FREQUENCIES);
-        scales.frequency_ratio(frequency).unwrap_or(frequency)
+        scales.frequency_ratio(frequency)
     };
     let found = over_frequency(&system, &(0..FREQUENCIES).map(ratio).collect::<Vec<_>>());
     let limits = found.into_iter().flat_map(|at| {

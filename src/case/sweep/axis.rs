@@ -6,8 +6,7 @@ use serde_json::Value;
 
 use super::super::Design;
 use super::super::names::names;
-use super::super::reader::Reader;
-use super::super::table::Table;
+use super::super::reader::{Reader, Table};
 use super::parameter::SweepParameter;
 
 /// A parameter and its values, ascending, in SI units or as plain numbers.

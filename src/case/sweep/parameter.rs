@@ -2,13 +2,12 @@
 
 use serde_json::Value;
 
-use super::super::form::Form;
+use super::super::Design;
 use super::super::names::names;
-use super::super::physical::{Kind, PhysicalExcitation};
-use super::super::quantity::{Dimension, Length, Measurand, Velocity};
-use super::super::reduced::Tuning;
+use super::super::number::Form;
 use super::super::schema::SCHEMA;
-use super::super::{Design, LengthUnit};
+use crate::quantity::Dimension;
+use crate::system::Excitation;
 
 names! { key:
     /// A number of a case, or of a start, that an axis varies; every other number of the case stays. A
@@ -101,16 +100,18 @@ impl SweepParameter {
 
     /// How its values are written beside a design: as the design's own; `None` where it has no such number.
     pub(in super::super) fn form(self, design: &Design) -> Option<Form> {
-        let of_start = |measurand: &'static Measurand, example: &str, symbol: &str| {
+        let of_start = |measurand: Dimension, example: &str, symbol: &str| {
             let physical = matches!(design, Design::Physical(_));
             let example = if physical { example } else { "0.5" };
             Some(Form::free(physical.then_some(measurand), example, symbol))
         };
         match self {
-            Self::InitialDisplacement => of_start(Length::OF, "\"5 mm\"", "x_0"),
-            Self::InitialVelocity => of_start(Velocity::OF, "\"0.2 m/s\"", r"\dot{x}_0"),
-            Self::InitialAbsorberDisplacement => of_start(Length::OF, "\"5 mm\"", "y_0"),
-            Self::InitialAbsorberVelocity => of_start(Velocity::OF, "\"0.2 m/s\"", r"\dot{y}_0"),
+            Self::InitialDisplacement => of_start(Dimension::Length, "\"5 mm\"", "x_0"),
+            Self::InitialVelocity => of_start(Dimension::Velocity, "\"0.2 m/s\"", r"\dot{x}_0"),
+            Self::InitialAbsorberDisplacement => of_start(Dimension::Length, "\"5 mm\"", "y_0"),
+            Self::InitialAbsorberVelocity => {
+                of_start(Dimension::Velocity, "\"0.2 m/s\"", r"\dot{y}_0")
+            }
             _ => Form::of(self.schema(design)?),
         }
     }
@@ -122,16 +123,14 @@ impl SweepParameter {
             Design::Physical(physical) if self == Self::Amplitude => physical.excitation,
             _ => return Some(&schema["properties"][key]),
         };
-        let force = matches!(kind, PhysicalExcitation::Force { .. });
-        let kind = if force { Kind::Force } else { Kind::BaseDisplacement };
-        let branch = Kind::ALL.iter().position(|one| *one == kind)?;
+        let branch = usize::from(kind == Excitation::Force);
         Some(&schema["oneOf"][branch]["properties"][key])
     }
 
     /// The unit of its values beside a design: an SI unit, or "1".
     pub fn unit(self, design: &Design) -> &'static str {
         // Lengths of a reduced design are in a unit of its own.
-        self.form(design).map_or(LengthUnit::Own.symbol(), |form| form.unit())
+        self.form(design).map_or("1", |form| form.unit())
     }
 
     /// Its value in a design; `None` for a part of the start, or what the design has not.
@@ -141,14 +140,10 @@ impl SweepParameter {
             (Self::DampingRatio, Design::Physical(p)) => {
                 Some(p.damping_n_s_per_m / p.critical_damping_n_s_per_m())
             }
-            (Self::Frequency, Design::Reduced(r)) => Some(match r.tuning {
-                Tuning::FrequencyRatio(ratio) => ratio,
-                Tuning::Detuning(detuning) => libm::fma(r.mass_ratio, detuning, 1.0),
-            }),
-            (Self::Detuning, Design::Reduced(r)) => Some(match r.tuning {
-                Tuning::FrequencyRatio(ratio) => (ratio - 1.0) / r.mass_ratio,
-                Tuning::Detuning(detuning) => detuning,
-            }),
+            (Self::Frequency, Design::Reduced(r)) => Some(r.frequency_ratio()),
+            (Self::Detuning, Design::Reduced(r)) => {
+                Some(r.detuning.unwrap_or_else(|| (r.frequency_ratio() - 1.0) / r.mass_ratio))
+            }
             _ => self.number(&mut design.clone()).copied(),
         }
     }
@@ -163,8 +158,12 @@ impl SweepParameter {
             (Self::DampingRatio, Design::Physical(p)) => {
                 p.damping_n_s_per_m = value * p.critical_damping_n_s_per_m();
             }
-            (Self::Frequency, Design::Reduced(r)) => r.tuning = Tuning::FrequencyRatio(value),
-            (Self::Detuning, Design::Reduced(r)) => r.tuning = Tuning::Detuning(value),
+            (Self::Frequency, Design::Reduced(r)) => {
+                (r.frequency_ratio, r.detuning) = (Some(value), None);
+            }
+            (Self::Detuning, Design::Reduced(r)) => {
+                (r.frequency_ratio, r.detuning) = (None, Some(value));
+            }
             (_, changed) => {
                 if let Some(number) = self.number(changed) {
                     *number = value;
@@ -179,7 +178,7 @@ impl SweepParameter {
         Some(match (self, design) {
             (Self::Clearance, Design::Physical(p)) => &mut p.clearance_m,
             (Self::Frequency, Design::Physical(p)) => &mut p.frequency_hz,
-            (Self::Amplitude, Design::Physical(p)) => p.excitation.amplitude_mut(),
+            (Self::Amplitude, Design::Physical(p)) => &mut p.amplitude,
             (Self::Restitution, Design::Physical(p)) => &mut p.restitution,
             (Self::AbsorberMass, Design::Physical(p)) => &mut p.absorber_mass_kg,
             (Self::Mass, Design::Physical(p)) => &mut p.mass_kg,

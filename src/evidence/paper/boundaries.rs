@@ -138,7 +138,7 @@ pub(super) fn figure_6(cases: &CaseSet) -> Result<Section, PaperError> {
             ("least_at_the_end", least.clearance == last.clearance),
         ],
         json!({
-            "frequency": member.case.scales().frequency_hz(ratio).unwrap_or(ratio),
+            "frequency": member.case.scales().frequency(ratio),
             "detuning": meeting.detuning,
             "forcing": meeting.forcing_over_clearance,
             "clearance": member.length(forcing / meeting.forcing_over_clearance),

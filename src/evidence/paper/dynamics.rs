@@ -54,10 +54,8 @@ pub(super) fn figure_12(cases: &CaseSet) -> Result<Section, PaperError> {
     let transfer = member.needs(Transfer::of(&member.case, &member.study)?, "stretches")?;
     let ([weak, falls, sparse], searched) = (transfer.parts, Transfer::PERIODS);
     let scales = member.case.scales();
-    let millinewton_seconds = |impulse: f64| {
-        let velocity = scales.velocity_m_per_s(impulse).unwrap_or(f64::NAN);
-        1e3 * scales.oscillator_mass_kg.unwrap_or(f64::NAN) * velocity
-    };
+    let millinewton_seconds =
+        |impulse: f64| 1e3 * scales.oscillator_mass * scales.velocity(impulse);
     let main = member.main()?;
     let evidence = &main.attractor.classification.evidence;
     let correlation = evidence.absorber_amplitude.correlation_with_growth.unwrap_or(0.0);

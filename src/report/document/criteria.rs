@@ -4,11 +4,11 @@ use serde_json::{Value, json};
 
 use super::scale::Scale;
 use super::verdict::Word;
-use crate::case::{Case, Criterion, Measure, Relation, Subject};
+use crate::case::{Case, Criterion, Relation, Subject};
 use crate::criteria::Judged;
 use crate::method::Method;
+use crate::quantity::Quantity;
 use crate::quantity::catalogue as of;
-use crate::quantity::{Kind, Quantity};
 
 /// What all criteria together came to; none where the case asks for nothing.
 pub fn badge(judged: &[Judged]) -> Option<Word> {
@@ -47,22 +47,6 @@ pub fn criteria(case: &Case, judged: &[Judged]) -> Option<Value> {
     })
 }
 
-/// The kind of a criterion's value; none where it is yes or no.
-pub fn kind(subject: Subject) -> Option<&'static Kind> {
-    Some(match subject {
-        Subject::Z3Share => &of::Z3_SHARE,
-        Subject::StableShare => &of::STABLE_SHARE,
-        Subject::PeakDisplacement => &of::PEAK,
-        Subject::RmsDisplacement => &of::RMS,
-        Subject::ReductionDb => &of::REDUCTION_DB,
-        Subject::ReductionDbTmd => &of::REDUCTION_DB_TMD,
-        Subject::MarginClearance => &of::GAP,
-        Subject::ImpactVelocity => &of::IMPACT_SPEED,
-        Subject::ImpactsPerPeriod => &of::IMPACTS_PER_PERIOD,
-        Subject::NoCoexistence => return None,
-    })
-}
-
 /// Where along the band a criterion is worst, if that says anything.
 pub fn place(case: &Case, judged: &Judged) -> Option<Quantity> {
     let (at, band) = judged.at.zip(case.band.as_ref())?;
@@ -72,11 +56,11 @@ pub fn place(case: &Case, judged: &Judged) -> Option<Quantity> {
 /// A judged criterion.
 pub fn criterion(case: &Case, judged: &Judged) -> Value {
     let Criterion { subject, relation, limit, as_written } = &judged.criterion;
-    let kind = kind(*subject);
+    let kind = subject.kind();
     let quantity = |value: f64| kind.map(|kind| Quantity::new(kind, value, judged.decided_by));
     // The errors of shares and margins are rounding, or theory's own.
     let error = if subject.is_of_motions() { judged.error } else { 0.0 };
-    let counted = subject.measure() == Measure::Count;
+    let counted = *subject == Subject::ImpactsPerPeriod;
     let share = |share| Quantity::new(&of::INACTIVE_SHARE, share, Method::ClosedForm);
     json!({
         "name": subject.key(),

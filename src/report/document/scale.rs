@@ -1,9 +1,10 @@
 //! From dimensionless results to quantities in SI, or in the units of a reduced case.
 
-use crate::case::{BandOver, Case, Design, PhysicalExcitation, Scales};
+use crate::case::{BandOver, Case, Design, Scales};
 use crate::method::Method;
 use crate::quantity::catalogue as of;
 use crate::quantity::{Kind, Quantity, Units};
+use crate::system::Excitation;
 
 /// The error in decibels of a level whose amplitude has an error.
 pub fn level_error(amplitude: f64, error: f64) -> f64 {
@@ -24,10 +25,8 @@ impl Scale {
         let scales = case.scales();
         let excitation = match &case.design {
             Design::Physical(physical) => match physical.excitation {
-                PhysicalExcitation::BaseDisplacement { amplitude_m } => {
-                    (&of::BASE_AMPLITUDE, amplitude_m)
-                }
-                PhysicalExcitation::Force { amplitude_n } => (&of::FORCE_AMPLITUDE, amplitude_n),
+                Excitation::BaseDisplacement => (&of::BASE_AMPLITUDE, physical.amplitude),
+                Excitation::Force => (&of::FORCE_AMPLITUDE, physical.amplitude),
             },
             Design::Reduced(_) => (&of::REDUCED_FORCING, scales.forcing),
         };
@@ -36,9 +35,9 @@ impl Scale {
 
     /// The units of the case's pages.
     pub fn units(&self) -> Units {
-        match self.scales.natural_frequency_rad_per_s {
-            Some(_) => Units::physical(self.scales.clearance),
-            None => Units::reduced(),
+        match self.scales.physical {
+            true => Units::physical(self.scales.clearance),
+            false => Units::reduced(),
         }
     }
 
@@ -64,22 +63,20 @@ impl Scale {
         [value, error]: [f64; 2],
         method: Method,
     ) -> Quantity {
-        let factor = self.scales.velocity_m_per_s(1.0).unwrap_or_else(|| self.scales.length(1.0));
+        let factor = self.scales.velocity(1.0);
         Quantity::new(kind, factor * value, method).with_error(factor * error)
     }
 
     /// An energy per unit of the oscillator's mass, over the squared clearance, in fast time.
     pub fn energy(&self, kind: &'static Kind, value: f64, method: Method) -> Quantity {
-        let own = self.scales.clearance * self.scales.clearance;
-        Quantity::new(kind, self.scales.energy_j(value).unwrap_or(own * value), method)
+        Quantity::new(kind, self.scales.energy(value), method)
     }
 
     /// An excitation frequency: in Hz, or over the natural one for a reduced case.
     pub fn frequency(&self, ratio: f64, method: Method) -> Quantity {
-        match self.scales.frequency_hz(ratio) {
-            Some(hertz) => Quantity::new(&of::EXCITATION_FREQUENCY, hertz, method),
-            None => Quantity::new(&of::FREQUENCY_RATIO, ratio, method),
-        }
+        let physical = self.scales.physical;
+        let kind = if physical { &of::EXCITATION_FREQUENCY } else { &of::FREQUENCY_RATIO };
+        Quantity::new(kind, self.scales.frequency(ratio), method)
     }
 
     /// An excitation amplitude over the case's.

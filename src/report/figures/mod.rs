@@ -106,14 +106,14 @@ impl<'a> Scene<'a> {
             return value * self.forcing.1;
         }
         let (scales, tau) = (&self.scales, value * self.system().period());
-        let velocity = scales.velocity_m_per_s(value).unwrap_or_else(|| scales.length(value));
+        let velocity = scales.velocity(value);
         match kind.dimension {
             Dimension::Length => scales.length(value),
-            Dimension::Frequency => scales.frequency_hz(value).unwrap_or(value),
-            Dimension::Time => scales.time_s(tau).unwrap_or(tau),
+            Dimension::Frequency => scales.frequency(value),
+            Dimension::Time => scales.time(tau),
             Dimension::Velocity => velocity,
-            Dimension::Acceleration => scales.acceleration_m_per_s2(value).unwrap_or(velocity),
-            Dimension::Impulse => scales.oscillator_mass_kg.unwrap_or(1.0) * velocity,
+            Dimension::Acceleration => scales.acceleration(value),
+            Dimension::Impulse => scales.oscillator_mass * velocity,
             _ => value,
         }
     }

@@ -124,7 +124,7 @@ impl Drawing<'_> {
     fn chart(&self) -> Option<Figure> {
         let found = self.found;
         let scales = self.case.scales();
-        let frequency = |omega: f64| scales.frequency_hz(omega).unwrap_or(omega);
+        let frequency = |omega: f64| scales.frequency(omega);
         let suited = |of: &dyn Fn(&Suited) -> Option<f64>| -> Vec<[f64; 2]> {
             let placed = found
                 .chart

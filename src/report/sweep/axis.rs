@@ -2,13 +2,14 @@
 
 use serde::Serialize;
 
-use crate::case::{Case, Design, PhysicalExcitation, SweepAxis, SweepParameter};
+use crate::case::{Case, Design, SweepAxis, SweepParameter};
 use crate::method::Method;
 use crate::quantity::catalogue as of;
 use crate::quantity::units::Unit;
 use crate::quantity::{Digits, Kind, Quantity, Units};
 use crate::report::document;
 use crate::report::figure::{Axis, Scale, edges};
+use crate::system::Excitation;
 
 /// An axis as it is shown.
 #[derive(Debug, Clone, PartialEq)]
@@ -113,8 +114,8 @@ const fn kind(parameter: SweepParameter, design: &Design) -> &'static Kind {
         (P::Detuning, _) => &of::DETUNING,
         (P::Amplitude, Design::Reduced(_)) => &of::REDUCED_FORCING,
         (P::Amplitude, Design::Physical(physical)) => match physical.excitation {
-            PhysicalExcitation::BaseDisplacement { .. } => &of::BASE_AMPLITUDE,
-            PhysicalExcitation::Force { .. } => &of::FORCE_AMPLITUDE,
+            Excitation::BaseDisplacement => &of::BASE_AMPLITUDE,
+            Excitation::Force => &of::FORCE_AMPLITUDE,
         },
         (P::Restitution, _) => &of::RESTITUTION,
         (P::AbsorberMass, _) => &of::ABSORBER_MASS,

@@ -203,9 +203,12 @@ impl Transfer {
             return Ok(None);
         }
         let periods = Periods::of(&trace);
-        let period_s = case.scales().time_s(system.period());
-        let length = period_s.map(|period| ((Self::SECONDS / period) as usize).clamp(1, 200));
-        let window = periods.typical(length.unwrap_or(Self::REDUCED));
+        let scales = case.scales();
+        let length = match scales.physical {
+            true => ((Self::SECONDS / scales.time(system.period())) as usize).clamp(1, 200),
+            false => Self::REDUCED,
+        };
+        let window = periods.typical(length);
         let mut transfer = Self { trace, periods, window, parts: [None; 3] };
         transfer.parts = transfer.parts(system.mass_ratio());
         Ok(Some(transfer))

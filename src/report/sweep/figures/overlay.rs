@@ -53,7 +53,7 @@ fn computed(swept: &Swept, plane: Plane) -> Option<Vec<Layer>> {
         return None;
     }
     // A reduced case's frequencies are ratios to its own.
-    let natural = scales.frequency_hz(1.0).unwrap_or(1.0) / plane.x.unit.size;
+    let natural = scales.frequency(1.0) / plane.x.unit.size;
     let (edges, top) = (plane.x.edges(), *plane.y.edges().last()?);
     let [first, last] = [edges[0], edges[edges.len() - 1]].map(|edge| edge / natural);
     let detuning = |ratio: f64| (ratio - 1.0) / system.mass_ratio();

@@ -1,9 +1,26 @@
-//! The optional table `[report]`.
+//! Optional tables that are read as they stand: `[simulation]`, `[report]`, `[accuracy]`.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::names::names;
+
+/// How the case is simulated. Each key may be left out.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub struct SimulationSettings {
+    /// Excitation periods that are measured.
+    #[schemars(range(min = 1, max = 100_000_000), extend("x-symbol" = "N"), example = 2000)]
+    pub periods: Option<u64>,
+    /// Excitation periods simulated first, so that transients die out, and not measured.
+    #[schemars(
+        range(min = 0, max = 100_000_000), extend("x-symbol" = r"N_\mathrm{discard}"), example = 500
+    )]
+    pub discard: Option<u64>,
+    /// Number of initial conditions tried: one start can miss a coexisting motion.
+    #[schemars(range(min = 1, max = 10_000), extend("x-symbol" = r"N_\mathrm{starts}"), example = 64)]
+    pub starts: Option<u64>,
+}
 
 /// What the report holds beside the usual. The table may be left out.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Deserialize, JsonSchema)]
@@ -49,4 +66,25 @@ names! { name:
         /// The same for the excitation amplitude.
         DiagramForcing = "diagram-forcing",
     }
+}
+
+/// How exact the answers must be. Without this table every layer is computed and simulation decides;
+/// with it the cheapest layer whose error is known to be small enough answers, and the report says
+/// which. Each key may be left out.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub struct AccuracySettings {
+    /// Largest relative error of the oscillator's amplitude (its root mean square), above 0; 1 %
+    /// unless given.
+    #[schemars(extend("x-measurand" = "a share", "exclusiveMinimum" = 0))]
+    #[schemars(extend("x-symbol" = r"\Delta_\mathrm{amplitude}"))]
+    pub amplitude: Option<f64>,
+    /// Largest error of the impacts per excitation period, above 0; 0.01 unless given.
+    #[schemars(extend("exclusiveMinimum" = 0, "x-symbol" = r"\Delta z"), example = 0.01)]
+    pub impacts_per_period: Option<f64>,
+    /// Whether other long-term motions are looked for, which only simulation from many starts does;
+    /// false unless given.
+    #[serde(default)]
+    #[schemars(example = true)]
+    pub coexistence: bool,
 }
