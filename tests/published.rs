@@ -120,7 +120,7 @@ fn all_starts_keep_resonance_only_below_the_exact_stability_limit() {
     use vinesink::study::{Confirmations, Margins};
     let analysis = Analysis::of(&common::table_1(8.5, 20.0)).expect("analysable");
     let exact = vinesink::orbits::FullSystem::of(&analysis.system);
-    let margins = Margins::of(&analysis, &exact).expect("analysable");
+    let margins = Margins::of(&analysis, &exact);
     let confirmations = Confirmations::of(&exact, &margins).expect("inside the cavity");
     let limit = confirmations.upper_limit.expect("1:1 resonance is lost somewhere");
     assert!(limit.kept >= 1.0 && limit.kept < limit.lost.factor, "{limit:?}");

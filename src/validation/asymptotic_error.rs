@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::boundaries::{BoundaryAt, clearances, clearances_of};
-use crate::analysis::{self, Analysis, AnalysisError, Manifold};
+use crate::analysis::{self, Analysis, Manifold};
 use crate::orbits::{self, Bifurcation, FullSystem, Limit};
 use crate::system::System;
 
@@ -30,22 +30,18 @@ pub fn asymptotic_errors(analysis: &Analysis, exact: &FullSystem) -> Vec<Asympto
 
 /// The same at each frequency at which the exact boundaries are known, with its `Omega`; the forcing
 /// is that of `system`.
-///
-/// # Errors
-/// [`AnalysisError`] where the theory cannot be evaluated.
 pub fn errors_over_frequency(
     system: &System,
     manifold: &Manifold,
     exact: &[orbits::Boundaries],
-) -> Result<Vec<(f64, Vec<AsymptoticError>)>, AnalysisError> {
-    let mut errors = Vec::new();
-    for at in exact {
-        let Ok(there) = system.with_frequency_ratio(at.frequency_ratio) else { continue };
+) -> Vec<(f64, Vec<AsymptoticError>)> {
+    let at_frequency = |at: &orbits::Boundaries| {
+        let there = system.with_frequency_ratio(at.frequency_ratio).ok()?;
         let theory = analysis::Boundaries::of(&there, manifold);
         let theory = clearances_of(&theory, there.forcing_per_clearance());
-        errors.push((at.frequency_ratio, between(&theory, &at.symmetric.limits)));
-    }
-    Ok(errors)
+        Some((at.frequency_ratio, between(&theory, &at.symmetric.limits)))
+    };
+    exact.iter().filter_map(at_frequency).collect()
 }
 
 fn between(theory: &[BoundaryAt], limits: &[Limit]) -> Vec<AsymptoticError> {

@@ -6,21 +6,20 @@ use super::scale::Scale;
 use crate::method::Method;
 use crate::quantity::Quantity;
 use crate::quantity::catalogue as of;
-use crate::validation::{Claim, Finding, Measure, Verdict};
+use crate::validation::{Claim, Finding, Measure, Outcome, Reason, Statement, Verdict};
 
 /// A claim and what came of it.
 #[derive(Debug, Clone, Serialize)]
 pub struct ClaimFacts {
     id: String,
-    statement: String,
-    source: &'static str,
+    statement: Statement,
     checked_by: Method,
     predicted: FindingFacts,
     observed: FindingFacts,
     /// Predicted minus observed: relative for lengths, in radians for angles.
     difference: Option<Quantity>,
     tolerance: Quantity,
-    reason: String,
+    reason: Reason,
     verdict: Verdict,
 }
 
@@ -28,7 +27,7 @@ pub struct ClaimFacts {
 #[derive(Debug, Clone, Serialize)]
 struct FindingFacts {
     number: Option<Quantity>,
-    words: Option<String>,
+    outcome: Option<Outcome>,
 }
 
 impl FindingFacts {
@@ -43,13 +42,13 @@ impl FindingFacts {
             Finding::Number(value, Measure::Angle) => {
                 Some(Quantity::new(&of::CLAIMED_ANGLE, *value, method).with_error(tolerance))
             }
-            Finding::Words(_) => None,
+            Finding::Outcome(_) => None,
         };
-        let words = match finding {
-            Finding::Words(words) => Some(words.clone()),
+        let outcome = match finding {
+            Finding::Outcome(outcome) => Some(outcome.clone()),
             Finding::Number(..) => None,
         };
-        Self { number, words }
+        Self { number, outcome }
     }
 }
 
@@ -61,22 +60,21 @@ impl ClaimFacts {
         let observed_by = claim.checked_by;
         Self {
             id: claim.id.clone(),
-            statement: claim.statement.clone(),
-            source: claim.source,
+            statement: claim.statement,
             checked_by: claim.checked_by,
             predicted: FindingFacts::of(scale, &claim.predicted, Method::Theory, 0.0),
-            observed: FindingFacts::of(scale, &claim.observed, observed_by, claim.tolerance.value),
+            observed: FindingFacts::of(scale, &claim.observed, observed_by, claim.tolerance),
             difference: claim.difference.map(|value| {
                 let simulated = observed_by == Method::Simulation;
-                let error = if simulated { claim.tolerance.value } else { 0.0 };
+                let error = if simulated { claim.tolerance } else { 0.0 };
                 Quantity::new(kind, value, Method::Theory).with_error(error)
             }),
             tolerance: Quantity::new(
                 if angle { &of::ANGLE_ERROR } else { &of::TOLERANCE },
-                claim.tolerance.value,
+                claim.tolerance,
                 Method::Theory,
             ),
-            reason: claim.tolerance.reason.clone(),
+            reason: claim.reason,
             verdict: claim.verdict,
         }
     }

@@ -204,7 +204,7 @@ impl Map {
         let ratios: Vec<f64> = even(window[0], window[1], Self::EXACT).collect();
         let inner = &ratios[1..Self::EXACT as usize];
         let exact = if has_resonance(system) { over_frequency(system, inner) } else { Vec::new() };
-        let errors = errors_over_frequency(system, manifold, &exact)?;
+        let errors = errors_over_frequency(system, manifold, &exact);
         Ok(Some(Self { window, borders, exact, errors }))
     }
 }
@@ -341,7 +341,7 @@ fn clearances(study: &CaseStudy) -> Result<Option<Vec<WalkPoint>>, StudyError> {
         return Ok(None);
     }
     let hopf = gamma / boundaries.hopf;
-    let last = study.margins.clearance.iter().map(|at| at.factor).fold(hopf, f64::max);
+    let last = study.margins.clearance.iter().map(|at| at.clearance).fold(hopf, f64::max);
     let ends = [0.1 * gamma / boundaries.symmetry_breaking, 1.35 * last].map(libm::log);
     let mut values: Vec<f64> = even(ends[0], ends[1], 35).map(libm::exp).chain([1.0]).collect();
     values.sort_by(f64::total_cmp);
