@@ -278,7 +278,7 @@ fn every_claim_is_told() {
                 "the case lies in area Z3 |",
                 "fixed points and boundaries",
                 "steady 1:1 resonance only | symmetric 1:1 75 %, rest 25 %",
-                "the Hopf boundary is 2 % away, within the theory's error of 3 %",
+                "the Hopf boundary is 2.0 % away, within the theory's error of 3.0 %",
             ],
         ),
         (
