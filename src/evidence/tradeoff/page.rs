@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use serde::Serialize;
 use serde_json::json;
 
-use super::{Best, Layer, Method, Search, Tradeoff, Transient, Trial};
+use super::{Best, Layer, Method, Search, Tradeoff, Trial};
 use crate::case::Case;
 use crate::method::Method as KnownBy;
 use crate::quantity::{Quantity, catalogue};
@@ -15,6 +15,7 @@ use crate::report::FigureRow;
 use crate::report::document::Scale;
 use crate::report::render::{RenderError, drawings, figure_files, without_repeated_blank_lines};
 use crate::report::template::{aligned, render, worded};
+use crate::study::answer::WhyNot;
 use crate::system::State;
 
 /// Relative error of the amplitude that the page speaks of where the case asks for none.
@@ -24,7 +25,7 @@ pub const USUAL: f64 = 0.01;
 const COMPETING: [Layer; 4] =
     [Layer::ClosedForm, Layer::SlowFlow, Layer::ExactOrbit, Layer::Simulation];
 
-/// `vinesink/tradeoff@2`. What refers to a method is its place in `methods`.
+/// `vinesink/tradeoff@3`. What refers to a method is its place in `methods`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TradeoffDocument {
     format: &'static str,
@@ -80,10 +81,10 @@ struct LayerRow {
     enough: Option<usize>,
     /// Where none is, the method that comes closest.
     closest: Option<usize>,
-    /// What is left of a transient in that.
-    transient: Option<Transient>,
+    /// Excitation periods that this left out for a transient that is not over.
+    transient: Option<u64>,
     /// Why it gives no answer.
-    why_not: Option<&'static str>,
+    why_not: Option<WhyNot>,
 }
 
 /// What a longer simulation would take.
@@ -125,7 +126,7 @@ impl TradeoffDocument {
         let others =
             others.filter(|layer| enough.is_none_or(|k| found.trials[k].method.layer() != *layer));
         Self {
-            format: "vinesink/tradeoff@2",
+            format: "vinesink/tradeoff@3",
             title: case.title.clone(),
             allowed,
             start: found.start,
@@ -191,15 +192,12 @@ fn impacts(best: &Best) -> Quantity {
 
 impl LayerRow {
     fn of(found: &Tradeoff, layer: Layer, allowed: f64) -> Self {
-        let trials = || {
-            let all = found.trials.iter().enumerate();
-            all.filter(|(_, trial)| trial.method.layer() == layer)
-        };
+        let trials = || found.of_layer(layer);
         let errors = trials().filter_map(|(k, trial)| Some((k, trial.rms_error?.value)));
         let closest = errors.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(k, _)| k);
         Self {
             layer,
-            enough: found.cheapest(layer, allowed).and_then(|trial| place(found, trial)),
+            enough: found.cheapest(layer, allowed),
             closest,
             transient: closest.and_then(|k| found.transient(&found.trials[k])),
             why_not: trials().find_map(|(_, trial)| trial.answer.why_not),
@@ -207,15 +205,10 @@ impl LayerRow {
     }
 }
 
-/// The place of a trial among all.
-fn place(found: &Tradeoff, trial: &Trial) -> Option<usize> {
-    found.trials.iter().position(|one| std::ptr::eq(one, trial))
-}
-
 /// The cheapest method of the competing layers that is enough.
 fn winner(found: &Tradeoff, allowed: f64) -> Option<usize> {
     let within = COMPETING.iter().filter_map(|layer| found.cheapest(*layer, allowed));
-    place(found, within.min_by_key(|trial| trial.operations)?)
+    within.min_by_key(|place| found.trials[*place].operations)
 }
 
 /// The length that a simulation of a motion without repetition would take: its scatter falls with
@@ -244,8 +237,7 @@ const WRONG_COUNT: f64 = 0.5;
 
 fn wrong_count(found: &Tradeoff) -> Option<usize> {
     let exact = found.best.impacts_per_period;
-    let hand = found.trials.iter().enumerate();
-    let hand = hand.filter(|(_, trial)| trial.method.layer() == Layer::FixedStep);
+    let hand = found.of_layer(Layer::FixedStep);
     let off = hand.filter_map(|(k, trial)| {
         let difference = (trial.answer.impacts_per_period? - exact).abs();
         Some((k, difference / exact.max(f64::MIN_POSITIVE)))
@@ -255,17 +247,16 @@ fn wrong_count(found: &Tradeoff) -> Option<usize> {
 }
 
 fn flights(found: &Tradeoff) -> Option<FlightsRow> {
-    let trials = found.trials.iter().enumerate();
-    let flown: Vec<(usize, u64, f64)> = trials
-        .filter_map(|(k, trial)| {
+    let flown = || {
+        found.trials.iter().enumerate().filter_map(|(k, trial)| {
             let flights = trial.flights?;
             let wrong = flights.missed + flights.invented;
-            Some((k, wrong, wrong as f64 / flights.compared.max(1) as f64))
+            Some((k, wrong as f64 / flights.compared.max(1) as f64))
         })
-        .collect();
-    let worst = flown.iter().max_by(|a, b| a.2.total_cmp(&b.2))?.0;
-    let wrong = flown.iter().filter(|(_, wrong, _)| *wrong > 0).count();
-    Some(FlightsRow { variants: flown.len(), wrong, worst })
+    };
+    let (worst, _) = flown().max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let wrong = flown().filter(|(_, wrong)| *wrong > 0.0).count();
+    Some(FlightsRow { variants: flown().count(), wrong, worst })
 }
 
 #[cfg(test)]
