@@ -9,7 +9,7 @@ use vinesink::orbits::FullSystem;
 use vinesink::regimes::{DynamicsKind, FoundAttractor, Regime};
 use vinesink::study::{CaseStudy, StudyEffort, long_term_motions};
 use vinesink::system::{Excitation, Parameters, System};
-use vinesink::validation::{Finding, Outcome, Reached, Reason, Verdict, motions, orbits};
+use vinesink::validation::{Finding, Reached, Reason, Verdict, motions, orbits};
 
 #[test]
 fn in_strip_a1_answers_coexist_and_close_fixed_points_are_told_apart() {
@@ -27,7 +27,7 @@ fn in_strip_a1_answers_coexist_and_close_fixed_points_are_told_apart() {
     // The two fixed points are 6 % apart in B, less than the theory's own error: each must still be
     // held against its own exact orbit.
     let [unstable, stable] = ["fixed-point-1-stability", "fixed-point-2-stability"].map(claim);
-    let predicted = |stable| Finding::Outcome(Outcome::Stability { stable, multiplier: None });
+    let predicted = |stable| Finding::Stability { stable, multiplier: None };
     assert_eq!(unstable.predicted, predicted(false));
     assert_eq!(unstable.verdict, Verdict::Confirmed, "{unstable:?}");
     assert_eq!(stable.predicted, predicted(true));
@@ -107,8 +107,9 @@ fn a_theory_that_may_be_off_by_half_of_itself_gets_no_verdict() {
     let analysis = Analysis::of(&heavy).expect("analysable");
     let exact = FullSystem::of(&heavy);
     let all = motions::fixed_points(&analysis, &exact).into_iter();
-    let numbers: Vec<_> =
-        all.filter(|claim| matches!(claim.predicted, Finding::Number(..))).collect();
+    let numbers: Vec<_> = all
+        .filter(|claim| matches!(claim.predicted, Finding::Length(_) | Finding::Angle(_)))
+        .collect();
     assert!(!numbers.is_empty());
     for claim in numbers {
         assert!(claim.tolerance > 0.5);
@@ -134,10 +135,10 @@ fn a_small_torus_beyond_a_limit_is_no_steady_motion() {
     let claims = orbits::limits(&exact).expect("simulated");
     let [limit] = claims.as_slice() else { panic!("{claims:?}") };
     assert_eq!(limit.id, "limit-Neimark-Sacker");
-    let predicted = Outcome::Steady { below: true, above: false, rests: false };
-    assert_eq!(limit.predicted, Finding::Outcome(predicted));
+    let predicted = Finding::Steady { below: true, above: false, rests: false };
+    assert_eq!(limit.predicted, predicted);
     let reached =
         |repeats_after| Reached { regime: Regime::TwoSymmetric, repeats_after, rests: false };
-    let seen = Outcome::Reached { below: reached(Some(1)), above: reached(None) };
-    assert_eq!((&limit.observed, limit.verdict), (&Finding::Outcome(seen), Verdict::Confirmed));
+    let seen = Finding::Reached { below: reached(Some(1)), above: reached(None) };
+    assert_eq!((&limit.observed, limit.verdict), (&seen, Verdict::Confirmed));
 }

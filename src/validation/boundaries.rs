@@ -2,7 +2,7 @@
 
 use super::asymptotic_error::{AsymptoticError, asymptotic_errors};
 use super::tolerance::{SAYS_NOTHING, asymptotic_error};
-use super::{Claim, Measure, Reason, Statement};
+use super::{Claim, Reason, Statement};
 use crate::analysis::{Analysis, Boundaries, Branch};
 use crate::orbits::{Bifurcation, FullSystem};
 
@@ -58,8 +58,7 @@ pub fn positions(analysis: &Analysis, exact: &FullSystem) -> Vec<Claim> {
         .filter_map(|boundary| {
             let statement = Statement::Boundary { bifurcation: boundary.kind };
             let places = [boundary.theory?, boundary.exact?];
-            let length = Measure::LengthOverClearance;
-            Some(Claim::of_number(statement, length, places, tolerance, reason))
+            Some(Claim::of_number(statement, places, tolerance, reason))
         })
         .collect()
 }

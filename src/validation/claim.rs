@@ -79,20 +79,17 @@ impl Statement {
     }
 }
 
-/// What a number in a claim measures; decides its unit.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Measure {
-    /// A length over the clearance.
-    LengthOverClearance,
-    /// An angle in radians.
-    Angle,
-}
-
-/// What happens, predicted or observed, that has no size of its own.
+/// One side of a comparison: a number, or what happens.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(tag = "is", rename_all = "kebab-case")]
 #[allow(missing_docs, reason = "each variant says what its fields are")]
-pub enum Outcome {
+pub enum Finding {
+    /// A length over the clearance.
+    #[serde(skip)]
+    Length(f64),
+    /// An angle in radians.
+    #[serde(skip)]
+    Angle(f64),
     /// A fixed point or the exact orbit beside it; of the latter the largest multiplier.
     Stability { stable: bool, multiplier: Option<f64> },
     /// There is no exact orbit near a fixed point.
@@ -121,15 +118,6 @@ pub enum Outcome {
     NotSteady,
     /// Regimes with the share of starts that lead to each.
     Regimes { shares: Vec<(Regime, f64)> },
-}
-
-/// One side of a comparison.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Finding {
-    /// A number.
-    Number(f64, Measure),
-    /// An outcome.
-    Outcome(Outcome),
 }
 
 /// Why a claim is judged as it is: how large an error may be, or what is looked at.
@@ -201,15 +189,15 @@ impl Claim {
     /// About an outcome that either happens or does not.
     pub(super) fn of_outcome(
         statement: Statement,
-        [predicted, observed]: [Outcome; 2],
+        [predicted, observed]: [Finding; 2],
         reason: Reason,
         verdict: Verdict,
     ) -> Self {
         Self {
             id: statement.id(),
             statement,
-            predicted: Finding::Outcome(predicted),
-            observed: Finding::Outcome(observed),
+            predicted,
+            observed,
             checked_by: statement.checked_by(),
             difference: None,
             tolerance: 0.0,
@@ -221,20 +209,20 @@ impl Claim {
     /// About a number; without a verdict where the tolerance is so wide that agreement would mean nothing.
     pub(super) fn of_number(
         statement: Statement,
-        measure: Measure,
         [predicted, observed]: [f64; 2],
         tolerance: f64,
         reason: Reason,
     ) -> Self {
-        let difference = match measure {
-            Measure::Angle => wrapped(predicted - observed),
-            Measure::LengthOverClearance => predicted / observed - 1.0,
+        let angle = matches!(statement, Statement::FixedPoint { symbol: "eta" | "Theta", .. });
+        let (finding, difference): (fn(f64) -> Finding, _) = match angle {
+            true => (Finding::Angle, wrapped(predicted - observed)),
+            false => (Finding::Length, predicted / observed - 1.0),
         };
         Self {
             id: statement.id(),
             statement,
-            predicted: Finding::Number(predicted, measure),
-            observed: Finding::Number(observed, measure),
+            predicted: finding(predicted),
+            observed: finding(observed),
             checked_by: statement.checked_by(),
             difference: Some(difference),
             tolerance,

@@ -15,7 +15,7 @@ pub mod orbits;
 pub mod tolerance;
 
 pub use asymptotic_error::AsymptoticError;
-pub use claim::{Claim, Finding, Measure, Outcome, Reason, Statement, Verdict};
+pub use claim::{Claim, Finding, Reason, Statement, Verdict};
 pub use orbits::Reached;
 
 use crate::analysis::Analysis;

@@ -3,7 +3,7 @@
 use super::boundaries::clearances;
 use super::claim::NearBoundary;
 use super::tolerance::{SAYS_NOTHING, asymptotic_error};
-use super::{Claim, Measure, Outcome, Reason, Statement, Verdict};
+use super::{Claim, Finding, Reason, Statement, Verdict};
 use crate::analysis::motion::read_off;
 use crate::analysis::{Analysis, Area, FixedPoint, Strip};
 use crate::orbits::{FullSystem, Measures, SymmetricOrbit};
@@ -20,17 +20,17 @@ pub fn fixed_points(analysis: &Analysis, exact: &FullSystem) -> Vec<Claim> {
         let number = index + 1;
         let orbit = counterpart(analysis, exact, point);
         let observed = match orbit {
-            Some(SymmetricOrbit { orbit, .. }) => Outcome::Stability {
+            Some(SymmetricOrbit { orbit, .. }) => Finding::Stability {
                 stable: orbit.attracts(),
                 multiplier: Some(orbit.multipliers.spectral_radius()),
             },
-            None if unsolved => Outcome::Unsolved,
-            None => Outcome::NoOrbit,
+            None if unsolved => Finding::Unsolved,
+            None => Finding::NoOrbit,
         };
         let agrees = orbit.is_some_and(|orbit| orbit.orbit.attracts() == stable);
         claims.push(Claim::of_outcome(
             Statement::Stability { point: number, absorber_amplitude, stable },
-            [Outcome::Stability { stable, multiplier: None }, observed],
+            [Finding::Stability { stable, multiplier: None }, observed],
             Reason::NearestOrbit,
             if unsolved { Verdict::Undecided } else { Verdict::of(agrees) },
         ));
@@ -72,16 +72,15 @@ fn amplitudes(
     let seen = read_off(&analysis.system, measures.oscillator_harmonic, measures.absorber_harmonic);
     let tolerance = asymptotic_error(&analysis.system);
     let reason = Reason::NeglectedTerms { says_nothing: tolerance > SAYS_NOTHING };
-    let length = Measure::LengthOverClearance;
     [
-        ("C", length, [point.oscillator_amplitude, seen.oscillator_amplitude]),
-        ("B", length, [point.absorber_amplitude, seen.absorber_amplitude]),
-        ("eta", Measure::Angle, [point.eta, seen.eta]),
-        ("Theta", Measure::Angle, [point.absorber_phase, seen.absorber_phase]),
+        ("C", [point.oscillator_amplitude, seen.oscillator_amplitude]),
+        ("B", [point.absorber_amplitude, seen.absorber_amplitude]),
+        ("eta", [point.eta, seen.eta]),
+        ("Theta", [point.absorber_phase, seen.absorber_phase]),
     ]
-    .map(|(symbol, measure, values)| {
+    .map(|(symbol, values)| {
         let statement = Statement::FixedPoint { point: number, symbol };
-        Claim::of_number(statement, measure, values, tolerance, reason)
+        Claim::of_number(statement, values, tolerance, reason)
     })
     .to_vec()
 }
@@ -105,7 +104,6 @@ pub fn rest(analysis: &Analysis, window: &Window) -> Result<Option<Claim>, Start
     let rests = reached.classification.regime == Regime::AtRest;
     let claim = Claim::of_number(
         Statement::Rest,
-        Measure::LengthOverClearance,
         [linear.amplitude(), reached.peak],
         ROUNDING,
         Reason::Rounding,
@@ -134,20 +132,20 @@ pub fn area(analysis: &Analysis, attractors: &[FoundAttractor]) -> Option<Claim>
     let (area, strip) = (analysis.zone.area?, analysis.zone.strip);
     let (predicted, holds, by_chance) = match (area, strip) {
         (Area::Z3, None) => {
-            (Outcome::OnlySteady, steady && !beside, steady && (may_end || ended && !beside))
+            (Finding::OnlySteady, steady && !beside, steady && (may_end || ended && !beside))
         }
         (Area::Z3, Some(Strip::A1)) => {
-            (Outcome::SteadyBesideModulated, steady && beside, ended && !beside)
+            (Finding::SteadyBesideModulated, steady && beside, ended && !beside)
         }
-        (Area::Z3, Some(Strip::A2)) => (Outcome::StronglyModulated, modulated && !steady, false),
-        (Area::Z4, _) => (Outcome::NotSteady, !steady && beside, false),
+        (Area::Z3, Some(Strip::A2)) => (Finding::StronglyModulated, modulated && !steady, false),
+        (Area::Z4, _) => (Finding::NotSteady, !steady && beside, false),
         _ => return None,
     };
     let shares = attractors.iter().map(|found| (found.regime(), found.share)).collect();
     let open = by_chance || !steady && !beside;
     Some(Claim::of_outcome(
         Statement::Area { area, strip },
-        [predicted, Outcome::Regimes { shares }],
+        [predicted, Finding::Regimes { shares }],
         Reason::Starts { near: near_boundary(analysis), by_chance },
         if open { Verdict::Undecided } else { Verdict::of(holds) },
     ))

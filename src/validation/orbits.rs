@@ -6,7 +6,7 @@
 
 use serde::Serialize;
 
-use super::{Claim, Outcome, Reason, Statement, Verdict};
+use super::{Claim, Finding, Reason, Statement, Verdict};
 use crate::orbits::{AfterImpact, Bifurcation, FullSystem, Limit, SymmetricOrbit, Wall};
 use crate::regimes::{AbsorberAmplitude, Attractor, Regime, Window};
 use crate::simulation::{Simulation, StartError};
@@ -60,7 +60,7 @@ fn repeats(system: &System, orbit: &SymmetricOrbit, number: usize) -> Result<Cla
     let tolerance = CLOSES * orbit.orbit.radius_per_period().max(1.0);
     let claim = Claim::of_outcome(
         Statement::Repeats { orbit: number },
-        [Outcome::Repeats, Outcome::Misses { by: missed }],
+        [Finding::Repeats, Finding::Misses { by: missed }],
         Reason::Growth,
         Verdict::of(missed <= tolerance),
     );
@@ -94,7 +94,7 @@ fn shrinks(
     let share = reference.state().distance(&simulation.state()) / first;
     Ok(Some(Claim::of_outcome(
         Statement::Disturbance { orbit: number, multiplier },
-        [Outcome::Disturbance { dies_out }, Outcome::Left { share, periods }],
+        [Finding::Disturbance { dies_out }, Finding::Left { share, periods }],
         Reason::Followed,
         Verdict::of((share < 1.0) == dies_out),
     )))
@@ -127,8 +127,8 @@ pub fn limits(exact: &FullSystem) -> Result<Vec<Claim>, StartError> {
         claims.push(Claim::of_outcome(
             Statement::Limit { bifurcation: limit.kind },
             [
-                Outcome::Steady { below: below.0, above: above.0, rests },
-                Outcome::Reached { below: below.1, above: above.1 },
+                Finding::Steady { below: below.0, above: above.0, rests },
+                Finding::Reached { below: below.1, above: above.1 },
             ],
             Reason::EitherSide,
             Verdict::of(agrees(below) && agrees(above)),

@@ -94,18 +94,20 @@ impl Method {
 
     /// Whether it is `other` with a longer run or smaller steps, all else being the same.
     pub fn refines(self, other: Self) -> bool {
-        match (self, other) {
-            (Self::SlowFlow { periods: more }, Self::SlowFlow { periods }) => more > periods,
-            (
-                Self::Simulation { periods: more, search, excursion },
-                Self::Simulation { periods, search: same, excursion: equal },
-            ) => more > periods && search == same && excursion == equal,
-            (
-                Self::FixedStep { steps: more, periods, locate },
-                Self::FixedStep { steps, periods: equal, locate: same },
-            ) => more > steps && periods == equal && locate == same,
-            _ => false,
-        }
+        let ((one, size), (same, less)) = (self.refined(), other.refined());
+        one == same && size > less
+    }
+
+    /// The method without what refines it, and that: its length, or of a fixed step the steps in a period.
+    fn refined(mut self) -> (Self, u64) {
+        let size = match &mut self {
+            Self::SlowFlow { periods } | Self::Simulation { periods, .. } => {
+                std::mem::take(periods)
+            }
+            Self::FixedStep { steps, .. } => u64::from(std::mem::take(steps)),
+            _ => 0,
+        };
+        (self, size)
     }
 
     /// What it answers about `system`; simulations begin at `start`. The second value is what that

@@ -6,7 +6,7 @@ use super::scale::Scale;
 use crate::method::Method;
 use crate::quantity::Quantity;
 use crate::quantity::catalogue as of;
-use crate::validation::{Claim, Finding, Measure, Outcome, Reason, Statement, Verdict};
+use crate::validation::{Claim, Finding, Reason, Statement, Verdict};
 
 /// A claim and what came of it.
 #[derive(Debug, Clone, Serialize)]
@@ -27,7 +27,7 @@ pub struct ClaimFacts {
 #[derive(Debug, Clone, Serialize)]
 struct FindingFacts {
     number: Option<Quantity>,
-    outcome: Option<Outcome>,
+    outcome: Option<Finding>,
 }
 
 impl FindingFacts {
@@ -35,19 +35,16 @@ impl FindingFacts {
     fn of(scale: &Scale, finding: &Finding, method: Method, tolerance: f64) -> Self {
         let tolerance = if method == Method::Simulation { tolerance } else { 0.0 };
         let number = match finding {
-            Finding::Number(value, Measure::LengthOverClearance) => {
+            Finding::Length(value) => {
                 let errors = [*value, tolerance * value.abs()];
                 Some(scale.length_with(&of::CLAIMED_LENGTH, errors, method))
             }
-            Finding::Number(value, Measure::Angle) => {
+            Finding::Angle(value) => {
                 Some(Quantity::new(&of::CLAIMED_ANGLE, *value, method).with_error(tolerance))
             }
-            Finding::Outcome(_) => None,
+            _ => None,
         };
-        let outcome = match finding {
-            Finding::Outcome(outcome) => Some(outcome.clone()),
-            Finding::Number(..) => None,
-        };
+        let outcome = number.is_none().then(|| finding.clone());
         Self { number, outcome }
     }
 }
@@ -55,7 +52,7 @@ impl FindingFacts {
 impl ClaimFacts {
     /// Of a claim.
     pub fn of(scale: &Scale, claim: &Claim) -> Self {
-        let angle = matches!(claim.predicted, Finding::Number(_, Measure::Angle));
+        let angle = matches!(claim.predicted, Finding::Angle(_));
         let kind = if angle { &of::ANGLE_ERROR } else { &of::THEORY_ERROR };
         let observed_by = claim.checked_by;
         Self {
