@@ -89,7 +89,9 @@ impl ExactBranches {
         let seeds = (low..=high).contains(&own).then_some(own);
         for value in seeds.into_iter().chain((0..SEEDS).map(spread)) {
             let Ok(there) = parameter.applied(base, value) else { continue };
-            let trunk = Trunk::at(there, parameter, value, range);
+            let factor = value / parameter.of(&there);
+            let settings = Settings::within(range.map(|edge| edge / factor));
+            let trunk = Trunk { system: there, parameter, factor, settings };
             for found in symmetric_orbits(&there).unwrap_or_default() {
                 let known = all.passes(value, found.impact_displacement);
                 if found.orbit.admissibility.admissible && !known {
@@ -124,12 +126,11 @@ impl ExactBranches {
     #[must_use]
     pub fn attracting_stretches(&self) -> Vec<Stretch> {
         let attracting = self.pieces.iter().filter(|piece| piece.symmetric && piece.stable);
-        let mut ranges: Vec<[f64; 2]> = attracting
-            .map(|piece| {
-                let values = || piece.points.iter().map(|point| point.value);
-                [values().fold(f64::INFINITY, f64::min), values().fold(0.0, f64::max)]
-            })
-            .collect();
+        // A branch turns back only where its stability changes.
+        let ends =
+            attracting.filter_map(|piece| Some([piece.points.first()?, piece.points.last()?]));
+        let mut ranges: Vec<[f64; 2]> =
+            ends.map(|[a, b]| [a.value.min(b.value), a.value.max(b.value)]).collect();
         ranges.sort_by(|a, b| a[0].total_cmp(&b[0]));
         let mut joined: Vec<[f64; 2]> = Vec::new();
         for [low, high] in ranges {
@@ -180,12 +181,6 @@ struct Trunk {
 }
 
 impl Trunk {
-    fn at(system: System, parameter: Parameter, value: f64, range: [f64; 2]) -> Self {
-        let factor = value / parameter.of(&system);
-        let settings = Settings::within(range.map(|edge| edge / factor));
-        Self { system, parameter, factor, settings }
-    }
-
     /// Follows a symmetric orbit both ways, and what leaves it.
     fn grow(&self, orbit: &Orbit, all: &mut ExactBranches) {
         for direction in [Direction::Down, Direction::Up] {

@@ -167,7 +167,7 @@ impl CaseStudy {
             claims: validation::confront_theory(&analysis, &exact),
             asymptotic_errors: asymptotic_errors(&analysis, &exact),
             margins: Margins::of(&analysis, &exact),
-            confirmations: Confirmations::none(),
+            confirmations: Confirmations::default(),
             effort,
             motions_cost: 0,
             band: None,

@@ -3,7 +3,7 @@
 use super::asymptotic_error::{AsymptoticError, asymptotic_errors};
 use super::tolerance::{SAYS_NOTHING, asymptotic_error};
 use super::{Claim, Reason, Statement};
-use crate::analysis::{Analysis, Boundaries, Branch};
+use crate::analysis::{Analysis, Boundaries};
 use crate::orbits::{Bifurcation, FullSystem};
 
 /// Boundaries further than this factor in clearance are not this case's business.
@@ -14,8 +14,6 @@ const FAR: f64 = 3.0;
 pub struct BoundaryAt {
     /// Which one.
     pub kind: Bifurcation,
-    /// For a saddle-node: the branch on which two fixed points collide.
-    pub branch: Branch,
     /// Its clearance over the case's.
     pub clearance: f64,
 }
@@ -27,20 +25,9 @@ pub fn clearances(analysis: &Analysis) -> Vec<BoundaryAt> {
 
 /// The same of boundaries at any frequency, for the forcing per clearance `gamma`.
 pub fn clearances_of(boundaries: &Boundaries, gamma: f64) -> Vec<BoundaryAt> {
-    let explicit = [
-        (Bifurcation::SymmetryBreaking, boundaries.symmetry_breaking),
-        (Bifurcation::NeimarkSacker, boundaries.hopf),
-    ];
-    let explicit = explicit.map(|(kind, at)| (kind, Branch::Stable, at));
-    let nodes = boundaries.saddle_node.iter();
-    let nodes =
-        nodes.map(|node| (Bifurcation::SaddleNode, node.branch, node.forcing_over_clearance));
-    let mut all: Vec<BoundaryAt> = explicit
-        .into_iter()
-        .chain(nodes)
-        .map(|(kind, branch, at)| BoundaryAt { kind, branch, clearance: gamma / at })
-        .filter(|boundary| boundary.clearance.is_finite() && boundary.clearance > 0.0)
-        .collect();
+    let all = boundaries.all().map(|(kind, at)| BoundaryAt { kind, clearance: gamma / at });
+    let mut all: Vec<BoundaryAt> =
+        all.filter(|at| at.clearance.is_finite() && at.clearance > 0.0).collect();
     all.sort_by(|a, b| a.clearance.total_cmp(&b.clearance));
     all
 }

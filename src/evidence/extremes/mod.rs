@@ -118,18 +118,10 @@ pub fn page(
     contact: &[ContactTable],
     units: &[UnitCheck],
 ) -> Result<String, RenderError> {
-    let count = |wanted: fn(&Verdict) -> bool| {
-        outcomes.iter().filter(|outcome| wanted(&outcome.verdict)).count()
-    };
     let context = json!({
         "outcomes": outcomes,
         "contact": contact,
         "units": units,
-        "held": count(|verdict| *verdict == Verdict::Holds),
-        "flagged": count(|verdict| matches!(verdict, Verdict::Flagged(_))),
-        "refused": count(|verdict| matches!(verdict, Verdict::Refused(_))),
-        "wrong": count(|verdict| *verdict == Verdict::Wrong),
-        "units_held": units.iter().filter(|check| check.holds).count(),
         "table_1": list::table_1(&[]),
         "limits": {
             "energy": ENERGY_RESIDUAL,

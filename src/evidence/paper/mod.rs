@@ -138,6 +138,20 @@ impl CaseReport {
         self.needs(self.study.main_attractor(), "motion")
     }
 
+    /// A figure of its report.
+    fn image(&self, name: &'static str, width: u32) -> Result<Value, PaperError> {
+        let figure = self.figures.iter().find(|figure| figure.name == name);
+        let figure = figure.ok_or(PaperError::NoFigure { case: self.name, figure: name })?;
+        Ok(json!({
+            "case": self.name,
+            "title": self.case.title,
+            "name": name,
+            "caption": figure.caption,
+            "alt": figure.alt,
+            "width": width.min(figure.size.0),
+        }))
+    }
+
     fn regime(&self) -> Option<Regime> {
         self.study.main_attractor().map(FoundAttractor::regime)
     }
@@ -153,25 +167,6 @@ struct CaseSet<'a>(&'a [CaseReport]);
 impl<'a> CaseSet<'a> {
     fn case(&self, name: &'static str) -> Result<&'a CaseReport, PaperError> {
         self.0.iter().find(|member| member.name == name).ok_or(PaperError::NoCase(name))
-    }
-
-    fn image(
-        &self,
-        case: &'static str,
-        name: &'static str,
-        width: u32,
-    ) -> Result<Value, PaperError> {
-        let member = self.case(case)?;
-        let figure = member.figures.iter().find(|figure| figure.name == name);
-        let figure = figure.ok_or(PaperError::NoFigure { case, figure: name })?;
-        Ok(json!({
-            "case": case,
-            "title": member.case.title,
-            "name": name,
-            "caption": figure.caption,
-            "alt": figure.alt,
-            "width": width.min(figure.size.0),
-        }))
     }
 }
 
@@ -228,7 +223,7 @@ pub fn page(members: &[CaseReport]) -> Result<String, PaperError> {
         ("12", dynamics::figure_12(&cases)?),
     ]);
     for (number, case, name, width) in IMAGES {
-        let image = cases.image(case, name, width)?;
+        let image = cases.case(case)?.image(name, width)?;
         sections.entry(number).and_modify(|section| section.images.push(image));
     }
     let [steady_8, steady_85] = STEADY.map(|name| boundaries::steady(&cases, name));

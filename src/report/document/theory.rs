@@ -15,7 +15,6 @@ use crate::study::margins::{ExactMargin, ExactMargins};
 use crate::study::{CaseStudy, SettledArea};
 use crate::validation::AsymptoticError;
 use crate::validation::asymptotic_error::asymptotic_errors;
-use crate::validation::boundaries::clearances;
 
 /// A fixed point of the slow flow.
 #[derive(Debug, Clone, Serialize)]
@@ -260,15 +259,13 @@ impl Facts<'_> {
     fn boundaries(&self) -> Vec<BoundaryFacts> {
         let length = |factor, method| self.scale.length(&of::BOUNDARY, factor, method);
         let mut found: Vec<BoundaryFacts> = Vec::new();
-        let known = clearances(self.analysis);
+        let node = self.analysis.boundaries.saddle_node.map(|node| node.branch);
         for one in self.errors {
-            let theory = known.iter().find(|known| Some(known.clearance) == one.theory);
             let place = one.exact.or(one.theory).unwrap_or(0.0);
             found.push(BoundaryFacts {
                 kind: one.kind,
-                branch: theory
-                    .filter(|known| known.kind == Bifurcation::SaddleNode)
-                    .map(|known| known.branch),
+                branch: node
+                    .filter(|_| one.kind == Bifurcation::SaddleNode && one.theory.is_some()),
                 of_asymmetric: false,
                 theory: one.theory.map(|at| length(at, Theory)),
                 exact: one.exact.map(|at| length(at, ExactOrbit)),
