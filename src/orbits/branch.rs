@@ -62,6 +62,8 @@ pub struct BranchPoint {
     pub value: f64,
     /// The orbit.
     pub orbit: Orbit,
+    /// How many of the branch's bifurcations lie before it.
+    pub passed: usize,
 }
 
 /// Why a branch ends, and where.
@@ -171,7 +173,7 @@ pub(super) fn trace(tracer: &Tracer, first: Point, origin: Origin, settings: &Se
         end: BranchEnd::PointLimit { value: begin },
     };
     let orbit = tracer.orbit(&first, origin);
-    branch.points.extend(orbit.map(|orbit| BranchPoint { value: begin, orbit }));
+    branch.points.extend(orbit.map(|orbit| BranchPoint { value: begin, orbit, passed: 0 }));
     let mut here = first.clone();
     let mut step = settings.first_step;
     let mut radians = 0.0;
@@ -237,8 +239,8 @@ fn record(
     if let Some(value) = stops {
         return Some(BranchEnd::Grazing { value });
     }
-    let value = tracer.value(there);
+    let (value, passed) = (tracer.value(there), branch.specials.len());
     let orbit = tracer.orbit(there, Origin::Continuation);
-    branch.points.extend(orbit.map(|orbit| BranchPoint { value, orbit }));
+    branch.points.extend(orbit.map(|orbit| BranchPoint { value, orbit, passed }));
     None
 }

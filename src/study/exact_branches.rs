@@ -271,38 +271,19 @@ struct Entry<'a> {
     special: Option<Bifurcation>,
 }
 
-impl Entry<'_> {
-    /// Distance in first state and parameter, as the arclength measures it.
-    fn distance(&self, other: &Self) -> f64 {
-        let [a, b] = [self, other].map(|entry| entry.orbit.cycle.impacts[0].vector());
-        libm::hypot((a - b).norm(), self.value - other.value)
-    }
-}
-
-/// Points and bifurcations in order: each bifurcation lies where it is the least detour, and one that
-/// ends the branch at its end.
+/// Points and bifurcations in order along a branch.
 fn in_order(branch: &Branch) -> Vec<Entry<'_>> {
-    let points = branch.points.iter();
-    let mut entries: Vec<Entry> = points
-        .map(|point| Entry { value: point.value, orbit: &point.orbit, special: None })
-        .collect();
-    let ends = matches!(branch.end, BranchEnd::Grazing { .. });
-    for (k, special) in branch.specials.iter().enumerate() {
-        let (value, orbit) = (special.value, &special.orbit);
-        let entry = Entry { value, orbit, special: Some(special.kind) };
-        let last = ends && k + 1 == branch.specials.len();
-        let detour = |pair: &[Entry]| {
-            pair[0].distance(&entry) + entry.distance(&pair[1]) - pair[0].distance(&pair[1])
-        };
-        let place = entries
-            .windows(2)
-            .map(detour)
-            .enumerate()
-            .min_by(|a, b| a.1.total_cmp(&b.1))
-            .map_or(entries.len(), |(before, _)| before + 1);
-        let place = if last { entries.len() } else { place };
-        entries.insert(place, entry);
+    let bifurcation = |special| {
+        let SpecialPoint { kind, value, orbit, .. } = special;
+        Entry { value: *value, orbit, special: Some(*kind) }
+    };
+    let (mut entries, mut passed) = (Vec::new(), 0);
+    for point in &branch.points {
+        entries.extend(branch.specials[passed..point.passed].iter().map(bifurcation));
+        entries.push(Entry { value: point.value, orbit: &point.orbit, special: None });
+        passed = point.passed;
     }
+    entries.extend(branch.specials[passed..].iter().map(bifurcation));
     entries
 }
 

@@ -13,13 +13,16 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 use serde_json::{Value, json};
 
+use crate::analysis::Branch;
 use crate::case::Case;
+use crate::orbits::Bifurcation;
 use crate::quantity::Units;
 use crate::regimes::{FoundAttractor, Regime};
 use crate::report::figure::Figure;
 use crate::report::render::{RenderError, without_repeated_blank_lines};
 use crate::report::template;
 use crate::study::{CaseStudy, StudyError};
+use crate::validation::boundaries::clearances;
 
 /// The cases that the page is made from, as their files are called.
 pub const CASES: [&str; 12] = [
@@ -126,6 +129,18 @@ impl CaseReport {
     /// A length over the clearance in metres.
     fn length(&self, over_clearance: f64) -> f64 {
         self.case.scales().length(over_clearance)
+    }
+
+    /// The clearance at which the theory has a boundary, in metres.
+    fn boundary(&self, kind: Bifurcation) -> Result<f64, PaperError> {
+        let known = clearances(&self.study.analysis);
+        let found = known.iter().find(|at| at.kind == kind).map(|at| self.length(at.clearance));
+        self.needs(found, kind.words())
+    }
+
+    /// Whether fixed points collide on a branch.
+    fn collides_on(&self, branch: Branch) -> bool {
+        self.study.analysis.boundaries.saddle_node.is_some_and(|node| node.branch == branch)
     }
 
     /// What the case should give.
