@@ -4,7 +4,7 @@ use serde_json::json;
 
 use super::by_hand::Locate;
 use super::page::TradeoffDocument;
-use super::{Layer, Method, Search, Tradeoff};
+use super::{Layer, Method, Search};
 use crate::quantity::numbers::{asked, operations, relative_error};
 use crate::report::figure::{
     Axis, Color, Dash, Figure, Layer as Drawn, MarkedPoint, Marker, Panel, Role, Rule, Shape, Style,
@@ -52,7 +52,8 @@ fn is_usual(one: &Method) -> bool {
 const ROOM: f64 = 2.0;
 
 /// The diagram.
-pub fn figure(tradeoff: &Tradeoff, document: &TradeoffDocument) -> Figure {
+pub fn figure(document: &TradeoffDocument) -> Figure {
+    let tradeoff = document.found;
     let placed: Vec<(Method, MarkedPoint)> = tradeoff
         .trials
         .iter()

@@ -133,9 +133,10 @@ pub struct Trial {
 }
 
 /// Accuracy and cost of every layer on one case.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Tradeoff {
     /// The system.
+    #[serde(skip)]
     pub system: System,
     /// Where simulations begin.
     pub start: State,
@@ -146,10 +147,13 @@ pub struct Tradeoff {
     /// Share of starts that lead to the motion in question.
     pub share: f64,
     /// How many other long-term motions there are.
+    #[serde(rename = "other_motions")]
     pub others: usize,
     /// Whether the absorber rests on a wall at times.
+    #[serde(rename = "sustained_contact")]
     pub rests: bool,
     /// Every method.
+    #[serde(skip)]
     pub trials: Vec<Trial>,
 }
 

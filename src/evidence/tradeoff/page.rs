@@ -16,7 +16,6 @@ use crate::report::document::Scale;
 use crate::report::render::{RenderError, drawings, figure_files, without_repeated_blank_lines};
 use crate::report::template::{aligned, render, worded};
 use crate::study::answer::WhyNot;
-use crate::system::State;
 
 /// Relative error of the amplitude that the page speaks of where the case asks for none.
 pub const USUAL: f64 = 0.01;
@@ -27,19 +26,18 @@ const COMPETING: [Layer; 4] =
 
 /// `vinesink/tradeoff@3`. What refers to a method is its place in `methods`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct TradeoffDocument {
+pub struct TradeoffDocument<'a> {
     format: &'static str,
-    title: String,
+    title: &'a str,
     /// Relative error of the amplitude that is asked for.
     pub(super) allowed: f64,
-    /// Over the clearance, in fast time.
-    start: State,
-    start_number: Option<u32>,
-    share: f64,
-    other_motions: usize,
-    sustained_contact: bool,
-    best: BestRow,
-    methods: Vec<MethodRow>,
+    #[serde(flatten)]
+    pub(super) found: &'a Tradeoff,
+    /// Of the best answer: in metres, or in the case's own unit of length.
+    rms_displacement: f64,
+    /// Of the best answer: impacts per period with their error.
+    impacts: Quantity,
+    methods: Vec<MethodRow<'a>>,
     /// The cheapest that is enough; `None` where none is.
     enough: Option<usize>,
     /// The other layers.
@@ -48,23 +46,13 @@ pub struct TradeoffDocument {
     /// A baseline whose amplitude is right and whose impacts are not.
     wrong_count: Option<usize>,
     flights: Option<FlightsRow>,
-    case_sha256: String,
+    case_sha256: &'a str,
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize)]
-struct BestRow {
+struct MethodRow<'a> {
     #[serde(flatten)]
-    best: Best,
-    /// In metres, or in the case's own unit of length.
-    rms_displacement: f64,
-    /// Impacts per period with their error.
-    impacts: Quantity,
-}
-
-#[derive(Debug, Clone, PartialEq, Serialize)]
-struct MethodRow {
-    #[serde(flatten)]
-    trial: Trial,
+    trial: &'a Trial,
     layer: Layer,
     rms_displacement: Option<f64>,
     /// Operations over those of the cheapest that is enough, or of the cheapest.
@@ -106,18 +94,18 @@ struct FlightsRow {
     worst: usize,
 }
 
-impl TradeoffDocument {
+impl<'a> TradeoffDocument<'a> {
     /// The document of a case, `allowed` being the relative error of the amplitude that it speaks of. With
     /// `seconds`, in the order of the trials, it is not the same twice.
-    pub fn new(case: &Case, found: &Tradeoff, allowed: f64, seconds: Option<&[f64]>) -> Self {
+    pub fn new(case: &'a Case, found: &'a Tradeoff, allowed: f64, seconds: Option<&[f64]>) -> Self {
         let scales = case.scales();
         let enough = winner(found, allowed);
         let answering = found.trials.iter().filter(|trial| trial.answer.rms.is_some());
         let cheapest = enough.map(|k| found.trials[k].operations);
         let cheapest = cheapest.or(answering.map(|trial| trial.operations).min()).unwrap_or(1);
-        let row = |(k, trial): (usize, &Trial)| MethodRow {
+        let row = |(k, trial): (usize, &'a Trial)| MethodRow {
             layer: trial.method.layer(),
-            trial: trial.clone(),
+            trial,
             times: trial.answer.rms.map(|_| trial.operations as f64 / cheapest.max(1) as f64),
             rms_displacement: trial.answer.rms.map(|rms| scales.length(rms)),
             seconds: seconds.and_then(|seconds| seconds.get(k).copied()),
@@ -127,25 +115,18 @@ impl TradeoffDocument {
             others.filter(|layer| enough.is_none_or(|k| found.trials[k].method.layer() != *layer));
         Self {
             format: "vinesink/tradeoff@3",
-            title: case.title.clone(),
+            title: &case.title,
             allowed,
-            start: found.start,
-            start_number: found.start_number,
-            share: found.share,
-            other_motions: found.others,
-            sustained_contact: found.rests,
-            best: BestRow {
-                rms_displacement: scales.length(found.best.rms),
-                impacts: impacts(&found.best),
-                best: found.best.clone(),
-            },
+            found,
+            rms_displacement: scales.length(found.best.rms),
+            impacts: impacts(&found.best),
             methods: found.trials.iter().enumerate().map(row).collect(),
             enough,
             layers: others.map(|layer| LayerRow::of(found, layer, allowed)).collect(),
             longer: longer(found, allowed),
             wrong_count: wrong_count(found),
             flights: flights(found),
-            case_sha256: case.text_hash.clone(),
+            case_sha256: &case.text_hash,
         }
     }
 
@@ -153,13 +134,9 @@ impl TradeoffDocument {
     ///
     /// # Errors
     /// [`RenderError`] if template and page do not fit, or the figure cannot be drawn.
-    pub fn files(
-        &self,
-        case: &Case,
-        found: &Tradeoff,
-    ) -> Result<BTreeMap<PathBuf, Vec<u8>>, RenderError> {
+    pub fn files(&self, case: &Case) -> Result<BTreeMap<PathBuf, Vec<u8>>, RenderError> {
         let units = Scale::of(case).units();
-        let figures = worded(vec![super::figure(found, self)], &units)?;
+        let figures = worded(vec![super::figure(self)], &units)?;
         let context = json!({
             "page": self,
             "figure": FigureRow::of(&figures[0]),
@@ -282,7 +259,7 @@ mod tests {
         let timed = TradeoffDocument::new(&case, &found, 0.01, Some(&seconds));
         let terminal = timed.text(&case).expect("a text");
         let document = TradeoffDocument::new(&case, &found, 0.01, None);
-        let files = document.files(&case, &found).expect("files");
+        let files = document.files(&case).expect("files");
         let page = String::from_utf8_lossy(&files[std::path::Path::new("tradeoff.md")]);
         let answer =
             "For 1 % in amplitude the exact orbit is enough: symmetric orbit, closed form, ";
