@@ -271,19 +271,21 @@ struct Entry<'a> {
     special: Option<Bifurcation>,
 }
 
+impl<'a> Entry<'a> {
+    fn of_bifurcation(special: &'a SpecialPoint) -> Self {
+        Self { value: special.value, orbit: &special.orbit, special: Some(special.kind) }
+    }
+}
+
 /// Points and bifurcations in order along a branch.
 fn in_order(branch: &Branch) -> Vec<Entry<'_>> {
-    let bifurcation = |special| {
-        let SpecialPoint { kind, value, orbit, .. } = special;
-        Entry { value: *value, orbit, special: Some(*kind) }
-    };
     let (mut entries, mut passed) = (Vec::new(), 0);
     for point in &branch.points {
-        entries.extend(branch.specials[passed..point.passed].iter().map(bifurcation));
+        entries.extend(branch.specials[passed..point.passed].iter().map(Entry::of_bifurcation));
         entries.push(Entry { value: point.value, orbit: &point.orbit, special: None });
         passed = point.passed;
     }
-    entries.extend(branch.specials[passed..].iter().map(bifurcation));
+    entries.extend(branch.specials[passed..].iter().map(Entry::of_bifurcation));
     entries
 }
 
