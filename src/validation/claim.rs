@@ -2,7 +2,6 @@
 
 use serde::Serialize;
 
-use super::orbits::Reached;
 use super::tolerance::SAYS_NOTHING;
 use crate::analysis::motion::wrapped;
 use crate::analysis::{Area, Strip};
@@ -76,6 +75,24 @@ impl Statement {
             }
             _ => Method::Simulation,
         }
+    }
+}
+
+/// Where a motion led.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct Reached {
+    /// Its regime.
+    pub regime: Regime,
+    /// Excitation periods after which it repeats; none on a torus, as next to a Neimark–Sacker limit.
+    pub repeats_after: Option<u32>,
+    /// Whether the absorber rests on a wall in every repetition of it.
+    pub rests: bool,
+}
+
+impl Reached {
+    /// A regime is named by its impacts alone, which a small torus shares with the orbit inside of it.
+    pub(super) fn is_steady_flight(self) -> bool {
+        self.regime == Regime::TwoSymmetric && self.repeats_after == Some(1) && !self.rests
     }
 }
 

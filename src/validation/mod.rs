@@ -15,8 +15,7 @@ pub mod orbits;
 pub mod tolerance;
 
 pub use asymptotic_error::AsymptoticError;
-pub use claim::{Claim, Finding, Reason, Statement, Verdict};
-pub use orbits::Reached;
+pub use claim::{Claim, Finding, Reached, Reason, Statement, Verdict};
 
 use crate::analysis::Analysis;
 use crate::orbits::FullSystem;

@@ -4,9 +4,7 @@
 //! event. A motion near an orbit that attracts is never simulated for longer than it takes to see
 //! its disturbance shrink.
 
-use serde::Serialize;
-
-use super::{Claim, Finding, Reason, Statement, Verdict};
+use super::{Claim, Finding, Reached, Reason, Statement, Verdict};
 use crate::orbits::{AfterImpact, Bifurcation, FullSystem, Limit, SymmetricOrbit, Wall};
 use crate::regimes::{AbsorberAmplitude, Attractor, Regime, Window};
 use crate::simulation::{Simulation, StartError};
@@ -135,24 +133,6 @@ pub fn limits(exact: &FullSystem) -> Result<Vec<Claim>, StartError> {
         ));
     }
     Ok(claims)
-}
-
-/// Where a motion led.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-pub struct Reached {
-    /// Its regime.
-    pub regime: Regime,
-    /// Excitation periods after which it repeats; none on a torus, as next to a Neimark–Sacker limit.
-    pub repeats_after: Option<u32>,
-    /// Whether the absorber rests on a wall in every repetition of it.
-    pub rests: bool,
-}
-
-impl Reached {
-    /// A regime is named by its impacts alone, which a small torus shares with the orbit inside of it.
-    fn is_steady_flight(self) -> bool {
-        self.regime == Regime::TwoSymmetric && self.repeats_after == Some(1) && !self.rests
-    }
 }
 
 fn stays(system: &System, after: &AfterImpact) -> Result<Reached, StartError> {
