@@ -6,7 +6,7 @@
 
 use super::{Claim, Finding, Reached, Reason, Statement, Verdict};
 use crate::orbits::{AfterImpact, Bifurcation, FullSystem, Limit, SymmetricOrbit, Wall};
-use crate::regimes::{AbsorberAmplitude, Attractor, Regime, Window};
+use crate::regimes::{AbsorberAmplitude, Attractor, Window};
 use crate::simulation::{Simulation, StartError};
 use crate::system::System;
 
