@@ -5,9 +5,8 @@
 
 use std::cell::RefCell;
 
-use astro_float::Consts;
 pub use vinesink::evidence::reference::real::Real;
-use vinesink::evidence::reference::real::{BITS, ROUND};
+use vinesink::evidence::reference::real::{BITS, Consts, ROUND};
 use vinesink::system::System;
 
 /// Distance from a wall, over the clearance, that no motion here crosses and comes back within one

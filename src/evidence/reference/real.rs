@@ -2,6 +2,8 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
+/// Constants of elementary functions, for those who go on from here with closed forms.
+pub use astro_float::Consts;
 use astro_float::{BigFloat, RoundingMode};
 
 /// Precision of every operation.
