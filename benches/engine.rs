@@ -13,7 +13,7 @@ use std::time::{Duration, Instant};
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use vinesink::analysis::Analysis;
-use vinesink::evidence::tradeoff::by_hand::{ByHand, Listener, Locate};
+use vinesink::evidence::tradeoff::by_hand::{ByHand, Locate};
 use vinesink::simulation::{Simulation, Statistics, Stop, batch};
 use vinesink::system::{State, System};
 
@@ -75,20 +75,10 @@ fn step_by_step(system: &System, periods: u64) -> u64 {
 
 /// Steps of the hand-written integrator in a period.
 const STEPS: u32 = 200;
-#[derive(Default)]
-struct Counted(u64);
-
-impl Listener for Counted {
-    fn impact(&mut self, _: f64, _: &State) {
-        self.0 += 1;
-    }
-}
 
 /// Impacts that the hand-written integrator sees in so many periods.
 fn by_hand(system: &System, periods: u64) -> u64 {
-    let mut impacts = Counted::default();
-    ByHand::new(system, STEPS, Locate::Bisection).run(START, periods, &mut impacts);
-    impacts.0
+    ByHand::new(system, STEPS, Locate::Bisection).run(START, periods).impacts.len() as u64
 }
 
 fn timed(work: &mut impl FnMut() -> u64) -> (Duration, u64) {

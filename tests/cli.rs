@@ -546,7 +546,7 @@ fn tradeoff_prints_the_same_bytes_and_leaves_seconds_out_unless_asked() {
     let first = done(&["tradeoff", &case, "--format", "json", "--out", out]);
     assert_eq!(first, done(&["tradeoff", &case, "--format", "json"]));
     let document: Value = serde_json::from_str(&first).expect("one JSON document");
-    assert_eq!(document["format"], "vinesink/tradeoff@2");
+    assert_eq!(document["format"], "vinesink/tradeoff@3");
     assert_eq!(document["best"]["layer"], "exact-orbit");
     let methods = document["methods"].as_array().expect("a list");
     let layers = ["closed-form", "slow-flow", "exact-orbit", "simulation", "fixed-step"];

@@ -166,6 +166,32 @@ fn every_note_is_a_sentence() {
     assert_eq!(notes, 10, "{text}");
 }
 
+/// Every kind of claim, outcome and reason.
+#[test]
+fn every_claim_is_told() {
+    let text = fs::read_to_string("tests/claims.json").expect("claims");
+    let claims: Vec<Value> = serde_json::from_str(&text).expect("JSON");
+    let tolerance = json!({"id": "tolerance", "value": 0.1, "error": 0.0, "method": "theory"});
+    for mut claim in claims {
+        let told = claim["told"].take();
+        claim["id"] = json!("claim");
+        claim["checked_by"] = json!("simulation");
+        claim["difference"] = json!(null);
+        claim["tolerance"] = tolerance.clone();
+        claim["verdict"] = json!("refuted");
+        let mut facts = shipped("li2016-8hz-b7p5mm");
+        facts["claims"] = json!([claim]);
+        facts["notes"] = json!([{"kind": "refuted", "claim": 0}]);
+        let text = page("validation.md", &facts);
+        for part in told.as_array().expect("parts") {
+            let part = part.as_str().expect("text");
+            assert!(text.contains(part), "{part} in\n{text}");
+        }
+        let note = page("report.md", &facts);
+        assert!(note.contains("- **Refuted**: ") && note.contains(". Judged by: "), "{note}");
+    }
+}
+
 #[test]
 fn markdown_becomes_a_page() {
     let facts = shipped("li2016-band");

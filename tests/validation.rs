@@ -9,7 +9,7 @@ use vinesink::orbits::FullSystem;
 use vinesink::regimes::{DynamicsKind, FoundAttractor, Regime};
 use vinesink::study::{CaseStudy, StudyEffort, long_term_motions};
 use vinesink::system::{Excitation, Parameters, System};
-use vinesink::validation::{Finding, Verdict, motions, orbits};
+use vinesink::validation::{Finding, Reached, Reason, Verdict, motions, orbits};
 
 #[test]
 fn in_strip_a1_answers_coexist_and_close_fixed_points_are_told_apart() {
@@ -27,9 +27,10 @@ fn in_strip_a1_answers_coexist_and_close_fixed_points_are_told_apart() {
     // The two fixed points are 6 % apart in B, less than the theory's own error: each must still be
     // held against its own exact orbit.
     let [unstable, stable] = ["fixed-point-1-stability", "fixed-point-2-stability"].map(claim);
-    assert_eq!(unstable.predicted, Finding::Words("unstable".into()));
+    let predicted = |stable| Finding::Stability { stable, multiplier: None };
+    assert_eq!(unstable.predicted, predicted(false));
     assert_eq!(unstable.verdict, Verdict::Confirmed, "{unstable:?}");
-    assert_eq!(stable.predicted, Finding::Words("stable".into()));
+    assert_eq!(stable.predicted, predicted(true));
     assert_eq!(stable.verdict, Verdict::Confirmed, "{stable:?}");
     assert!([unstable, stable].iter().all(|claim| claim.checked_by == Method::ExactOrbit));
     // Simulation, in turn, confirms both orbits: one repeats and holds, one repeats and is left.
@@ -54,7 +55,7 @@ fn an_area_that_rounding_decides_is_undecided() {
     };
     let verdict = |analysis: &Analysis, motions: &[FoundAttractor]| {
         let claim = motions::area(analysis, motions).expect("a claim");
-        let told = claim.tolerance.reason.contains("depends on rounding");
+        let told = matches!(claim.reason, Reason::Starts { by_chance: true, .. });
         assert_eq!(told, claim.verdict == Verdict::Undecided, "{claim:?}");
         claim.verdict
     };
@@ -106,11 +107,13 @@ fn a_theory_that_may_be_off_by_half_of_itself_gets_no_verdict() {
     let analysis = Analysis::of(&heavy).expect("analysable");
     let exact = FullSystem::of(&heavy);
     let all = motions::fixed_points(&analysis, &exact).into_iter();
-    let numbers: Vec<_> =
-        all.filter(|claim| matches!(claim.predicted, Finding::Number(..))).collect();
+    let numbers: Vec<_> = all
+        .filter(|claim| matches!(claim.predicted, Finding::Length(_) | Finding::Angle(_)))
+        .collect();
     assert!(!numbers.is_empty());
     for claim in numbers {
-        assert!(claim.tolerance.value > 0.5 && claim.tolerance.reason.contains("says nothing"));
+        assert!(claim.tolerance > 0.5);
+        assert_eq!(claim.reason, Reason::NeglectedTerms { says_nothing: true });
         assert_eq!(claim.verdict, Verdict::Undecided, "{claim:?}");
     }
 }
@@ -132,10 +135,10 @@ fn a_small_torus_beyond_a_limit_is_no_steady_motion() {
     let claims = orbits::limits(&exact).expect("simulated");
     let [limit] = claims.as_slice() else { panic!("{claims:?}") };
     assert_eq!(limit.id, "limit-Neimark-Sacker");
-    assert_eq!(limit.predicted, Finding::Words("steady 1:1 below, not steady 1:1 above".into()));
-    let seen = "symmetric 1:1 below, modulated symmetric 1:1 above";
-    assert_eq!(
-        (&limit.observed, limit.verdict),
-        (&Finding::Words(seen.into()), Verdict::Confirmed)
-    );
+    let predicted = Finding::Steady { below: true, above: false, rests: false };
+    assert_eq!(limit.predicted, predicted);
+    let reached =
+        |repeats_after| Reached { regime: Regime::TwoSymmetric, repeats_after, rests: false };
+    let seen = Finding::Reached { below: reached(Some(1)), above: reached(None) };
+    assert_eq!((&limit.observed, limit.verdict), (&seen, Verdict::Confirmed));
 }

@@ -34,7 +34,7 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
     let progress = Progress::new("extremes", entries.len() as u64 + 2);
     let mut outcomes = Vec::new();
     for entry in entries {
-        outcomes.push(entry.outcome().into_diagnostic()?);
+        outcomes.push(entry.outcome());
         progress.advance(1);
     }
     let units = unit_checks().into_diagnostic()?;

@@ -75,7 +75,7 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
         let stem = arguments.case.path.file_stem();
         let stem = stem.ok_or_else(|| miette!("{} is no file", arguments.case.path.display()))?;
         let page = TradeoffDocument::new(&case, &found, allowed, None);
-        store::add_to_folder(&out.join(stem), &page.files(&case, &found).into_diagnostic()?)?;
+        store::add_to_folder(&out.join(stem), &page.files(&case).into_diagnostic()?)?;
         index::refresh(out)?;
     }
     let document = |seconds| TradeoffDocument::new(&case, &found, allowed, seconds);

@@ -28,6 +28,11 @@ const COMPARED: [&str; 11] = [
 const NOT_JUDGED: [&str; 8] =
     ["attracting", "captures", "found", "lost", "numerics", "operations", "several", "starts"];
 
+/// Whether this says what a claim is about, and why it is judged so: its numbers and verdict are told.
+fn explains(path: &str, key: &str) -> bool {
+    path.starts_with("claims") && ["statement", "outcome", "reason"].contains(&key)
+}
+
 /// What names an element of a list, by the list's key; elements of others are numbered.
 const NATURAL_KEYS: [(&str, &[&str]); 6] = [
     ("answers", &["question"]),
@@ -82,6 +87,7 @@ fn change(path: &str, old: &Value, new: &Value) -> Change {
         new,
         change: None,
         allowed: None,
+        statement: None,
     }
 }
 
@@ -145,6 +151,10 @@ impl Comparison<'_> {
                 let keys: BTreeSet<&String> = before.keys().chain(after.keys()).collect();
                 for key in keys {
                     match (before.get(key), after.get(key)) {
+                        (Some(a), Some(b)) if explains(path, key) => {
+                            let folded = &mut self.found.folded;
+                            *(if a == b { &mut folded.same } else { &mut folded.wording }) += 1;
+                        }
                         (Some(a), Some(b)) => self.values(&format!("{path}/{key}"), new, a, b),
                         _ => self.found.folded.unknown += 1,
                     }
@@ -232,8 +242,8 @@ impl Comparison<'_> {
         if either(&unknown) || either(&Value::is_number) && !judged {
             self.found.folded.unjudged += 1;
         } else if without_elements(path) == "claims/verdict" {
-            let what = within["statement"].as_str().unwrap_or(&found.what).to_owned();
-            self.found.claims.push(Change { what, ..found });
+            let statement = Some(within["statement"].clone());
+            self.found.claims.push(Change { statement, ..found });
         } else if either(&sentence) {
             self.found.folded.wording += 1;
         } else {

@@ -102,6 +102,9 @@ pub struct Change {
     pub change: Option<Value>,
     /// Of two quantities: the largest change that means nothing, in their unit.
     pub allowed: Option<f64>,
+    /// Of a claim: what it says, which is told instead of its name.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub statement: Option<Value>,
 }
 
 impl Difference {

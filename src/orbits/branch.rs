@@ -52,6 +52,8 @@ pub struct BranchPoint {
     pub value: f64,
     /// The orbit.
     pub orbit: Orbit,
+    /// How many of the branch's bifurcations lie before it.
+    pub passed: usize,
 }
 
 /// A located bifurcation on a branch.
@@ -176,7 +178,7 @@ pub(super) fn trace(tracer: &Tracer, first: Point, settings: &Settings) -> Branc
     let begin = tracer.value(&first);
     let mut branch = Branch {
         parameter: tracer.parameter,
-        points: vec![BranchPoint { value: begin, orbit: first.orbit.clone() }],
+        points: vec![BranchPoint { value: begin, orbit: first.orbit.clone(), passed: 0 }],
         specials: Vec::new(),
         end: BranchEnd::PointLimit { value: begin },
     };
@@ -239,7 +241,7 @@ fn record(
     if let Some(value) = stops {
         return Some(BranchEnd::Grazing { value });
     }
-    let value = tracer.value(there);
-    branch.points.push(BranchPoint { value, orbit: there.orbit.clone() });
+    let (value, passed) = (tracer.value(there), branch.specials.len());
+    branch.points.push(BranchPoint { value, orbit: there.orbit.clone(), passed });
     None
 }

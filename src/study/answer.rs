@@ -7,7 +7,7 @@ use super::{Proof, StudyError};
 use crate::analysis::motion::root_mean_square;
 use crate::analysis::{FixedPoint, Manifold, fixed_points};
 use crate::numerics::scatter::twice_standard_error;
-use crate::orbits::{Measures, symmetric_orbits};
+use crate::orbits::{Measures, attracting_orbit};
 use crate::regimes::{Regime, classify};
 use crate::simulation::{ImpactLog, Simulation, Statistics, Stop};
 use crate::system::System;
@@ -32,12 +32,38 @@ pub struct Answer {
     /// The regime.
     pub regime: Option<Regime>,
     /// Why something is missing.
-    pub why_not: Option<&'static str>,
+    pub why_not: Option<WhyNot>,
+}
+
+/// Why a layer has no answer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum WhyNot {
+    /// The theory has no stable fixed point, so no steady amplitude.
+    NoStablePoint,
+    /// No symmetric orbit is stable and admissible.
+    NoStableOrbit,
+    /// The slow flow has no stable branch to begin on.
+    NoMiddle,
+    /// The slow flow settles beyond symmetry breaking, where the branch is unstable.
+    BeyondSymmetryBreaking,
+    /// The slow flow leaves the manifold at the fold.
+    LeavesAtFold,
+    /// The simulated motion does not repeat yet, so there is no orbit to solve for.
+    NotRepeating,
+    /// The run was ended by its limit on impacts.
+    ImpactLimit,
+    /// A number overflowed.
+    Overflow,
+    /// The motion is so large that rounding hides the walls.
+    WallsUnresolved,
+    /// A fixed step has impacts in nearly every step.
+    ImpactsInEveryStep,
 }
 
 impl Answer {
     /// None, and why.
-    pub fn none(why: &'static str) -> Self {
+    pub fn none(why: WhyNot) -> Self {
         Self { why_not: Some(why), ..Self::default() }
     }
 
@@ -47,6 +73,34 @@ impl Answer {
             rms: Some(rms),
             impacts_per_period: Some(2.0),
             regime: Some(Regime::TwoSymmetric),
+            ..Self::default()
+        }
+    }
+
+    /// A proven orbit.
+    pub fn of_proof(proof: &Proof) -> Self {
+        let cycle = &proof.orbit.cycle;
+        Self {
+            rms: Some(proof.measures.rms),
+            scatter: Some(ORBIT_ROUNDING),
+            impacts_per_period: Some(cycle.impact_count() as f64 / f64::from(cycle.periods())),
+            impacts_scatter: Some(0.0),
+            ..Self::default()
+        }
+    }
+
+    /// Averages over a window, with their scatter from the means of `x^2` and impacts in its blocks.
+    pub fn averaged(rms: f64, impacts_per_period: f64, blocks: &[[f64; 2]]) -> Self {
+        let [squares, impacts] =
+            [0, 1].map(|k| blocks.iter().map(|block| block[k]).collect::<Vec<_>>());
+        // The square varies twice as much as its root.
+        let square = (2.0 * rms * rms).max(f64::MIN_POSITIVE);
+        Self {
+            rms: Some(rms),
+            scatter: Some(twice_standard_error(&squares) / square),
+            settles: settles(&squares),
+            impacts_per_period: Some(impacts_per_period),
+            impacts_scatter: Some(twice_standard_error(&impacts)),
             ..Self::default()
         }
     }
@@ -62,16 +116,6 @@ pub const BLOCKS: u64 = 10;
 /// Impacts after which a stretch is given up.
 pub const IMPACT_LIMIT: u64 = 10_000_000;
 
-/// The answer that a stable fixed point is.
-pub fn of_fixed_point(system: &System, point: &FixedPoint) -> Answer {
-    Answer::steady(root_mean_square(
-        system,
-        point.oscillator_amplitude,
-        point.absorber_amplitude,
-        point.absorber_phase,
-    ))
-}
-
 /// That of the stable fixed point of the slow flow, at leading order in the mass ratio.
 ///
 /// # Errors
@@ -80,27 +124,19 @@ pub fn closed_form(system: &System) -> Result<Answer, StudyError> {
     let manifold = Manifold::of(system.restitution());
     let points = fixed_points::solve(system, &manifold)?;
     let stable = points.iter().rfind(|point| point.stable && point.admissible);
-    Ok(match stable {
-        Some(point) => of_fixed_point(system, point),
-        None => Answer::none("no stable fixed point: the theory has no steady amplitude"),
-    })
+    let rms = |point: &FixedPoint| {
+        let [c, b] = [point.oscillator_amplitude, point.absorber_amplitude];
+        root_mean_square(system, c, b, point.absorber_phase)
+    };
+    Ok(stable
+        .map_or_else(|| Answer::none(WhyNot::NoStablePoint), |point| Answer::steady(rms(point))))
 }
 
 /// That of the exact symmetric orbit that attracts, to [`ORBIT_ROUNDING`].
 pub fn symmetric_orbit(system: &System) -> Answer {
-    let orbits = symmetric_orbits(system).unwrap_or_default();
-    let Some(orbit) = orbits.iter().find(|orbit| orbit.orbit.attracts()) else {
-        return Answer::none("no symmetric orbit is stable and admissible");
-    };
-    match Measures::of(system, &orbit.orbit.cycle) {
-        Ok(measures) => Answer::steady(measures.rms),
-        Err(_) => Answer::none("no steady motion between impacts"),
-    }
-}
-
-/// Impacts per period of a proven orbit.
-pub fn impacts_per_period(proof: &Proof) -> f64 {
-    proof.orbit.cycle.impact_count() as f64 / f64::from(proof.orbit.cycle.periods())
+    let measures =
+        attracting_orbit(system).and_then(|found| Measures::of(system, &found.orbit.cycle).ok());
+    measures.map_or_else(|| Answer::none(WhyNot::NoStableOrbit), |found| Answer::steady(found.rms))
 }
 
 /// The averages of so many periods from here, with their scatter between blocks.
@@ -109,49 +145,25 @@ pub fn measured(simulation: &mut Simulation, periods: u64) -> Option<Answer> {
     let mut statistics = Statistics::begin(&system, simulation.state());
     let mut log = ImpactLog::of_the_last(LAST_IMPACTS);
     let blocks = BLOCKS.min(periods).max(1);
-    let mut sums = vec![[0.0; 2]];
-    for block in 0..blocks {
-        let until = periods * (block + 1) / blocks;
-        let length = until - statistics.periods();
+    let (mut means, mut before) = (Vec::new(), [0.0; 2]);
+    for block in 1..=blocks {
+        let length = periods * block / blocks - statistics.periods();
         let observer = &mut (&mut statistics, &mut log);
         if simulation.run(length, IMPACT_LIMIT, observer) != Stop::EndTime {
             return None;
         }
         let so_far = statistics.periods() as f64;
-        sums.push([statistics.rms() * statistics.rms() * so_far, statistics.impacts() as f64]);
+        let sums = [statistics.rms() * statistics.rms() * so_far, statistics.impacts() as f64];
+        means.push([0, 1].map(|k| (sums[k] - before[k]) / length as f64));
+        before = sums;
     }
-    let lengths = (0..blocks).map(|k| (periods * (k + 1) / blocks - periods * k / blocks) as f64);
-    let means: Vec<[f64; 2]> = sums
-        .windows(2)
-        .zip(lengths)
-        .map(|(pair, length)| [0, 1].map(|k| (pair[1][k] - pair[0][k]) / length))
-        .collect();
-    let rms = statistics.rms();
-    let [scatter, impacts_scatter] = scatters(&means, rms);
-    let classified = classify(&statistics, &log.impacts, None, system.period());
-    Some(Answer {
-        rms: Some(rms),
-        scatter: Some(scatter),
-        settles: settles(&means.iter().map(|block| block[0]).collect::<Vec<_>>()),
-        impacts_per_period: Some(statistics.impacts_per_period()),
-        impacts_scatter: Some(impacts_scatter),
-        regime: Some(classified.regime),
-        why_not: None,
-    })
+    let regime = classify(&statistics, &log.impacts, None, system.period()).regime;
+    let averages = Answer::averaged(statistics.rms(), statistics.impacts_per_period(), &means);
+    Some(Answer { regime: Some(regime), ..averages })
 }
 
 /// Impacts that are kept of a run: enough to name its regime.
 const LAST_IMPACTS: usize = 20_000;
-
-/// Two standard errors of the root mean square, relative, and of the impacts per period, from means
-/// of `x^2` and impacts in blocks.
-pub fn scatters(means: &[[f64; 2]], rms: f64) -> [f64; 2] {
-    // The square varies twice as much as its root.
-    let square = (2.0 * rms * rms).max(f64::MIN_POSITIVE);
-    let error =
-        |k: usize| twice_standard_error(&means.iter().map(|block| block[k]).collect::<Vec<_>>());
-    [error(0) / square, error(1)]
-}
 
 /// Share of the variance between blocks that an exponential must explain to be taken for one: a
 /// modulation, regular or not, comes and goes and leaves it far below.

@@ -7,7 +7,7 @@ use super::margins::Margins;
 use crate::orbits::FullSystem;
 use crate::regimes::search::RECOGNITION;
 use crate::regimes::starts::StartBox;
-use crate::regimes::{Effort, Regime, long_term};
+use crate::regimes::{Effort, Motion, Regime, long_term};
 use crate::simulation::StartError;
 use crate::system::System;
 
@@ -45,25 +45,24 @@ impl Probe {
         let Ok(there) = system.with_clearance_scaled(factor) else { return Ok(None) };
         let sample = StartBox::around(&there);
         let starts: Vec<_> = (0..STARTS).map(|index| (there, sample.start(index))).collect();
-        let mut probe = Self {
+        let reached = long_term(&starts, &EACH)?.into_iter().flatten();
+        let (steady, others): (Vec<_>, Vec<_>) =
+            reached.partition(|motion| motion.regime == Regime::TwoSymmetric);
+        let highest = |motions: &[Motion]| {
+            motions
+                .iter()
+                .max_by(|a, b| a.peak.total_cmp(&b.peak))
+                .map(|one| (one.regime, one.peak))
+        };
+        let peak = |motions| highest(motions).map_or(0.0, |(_, peak)| factor * peak);
+        Ok(Some(Self {
             factor,
             starts: STARTS,
-            steady: 0,
-            steady_peak: 0.0,
-            other: None,
-            other_peak: 0.0,
-        };
-        for reached in long_term(&starts, &EACH)?.into_iter().flatten() {
-            let peak = reached.peak * factor;
-            if reached.regime == Regime::TwoSymmetric {
-                probe.steady += 1;
-                probe.steady_peak = probe.steady_peak.max(peak);
-            } else if peak > probe.other_peak {
-                probe.other = Some(reached.regime);
-                probe.other_peak = peak;
-            }
-        }
-        Ok(Some(probe))
+            steady: steady.len() as u32,
+            steady_peak: peak(&steady),
+            other: highest(&others).map(|(regime, _)| regime),
+            other_peak: peak(&others),
+        }))
     }
 
     /// Whether every start ended in steady 1:1 resonance.
@@ -81,8 +80,8 @@ pub struct SimulatedLimit {
     pub lost: Probe,
 }
 
-/// What simulation adds to the margins of theory.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+/// What simulation adds to the margins of theory; nothing of a study that simulates nothing.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Confirmations {
     /// Upwards in clearance; `None` where the case itself is not steady from all starts, or stays so
     /// up to where its orbit ends.
@@ -92,20 +91,13 @@ pub struct Confirmations {
 }
 
 impl Confirmations {
-    /// Those of a study that simulates nothing.
-    pub fn none() -> Self {
-        Self { upper_limit: None, best: None }
-    }
-
     /// Simulates what the margins of a case speak of.
     ///
     /// # Errors
     /// [`StartError`] never, for starts inside the cavity.
     pub fn of(exact: &FullSystem, margins: &Margins) -> Result<Self, StartError> {
-        let best = match margins.best_clearance {
-            Some(best) => Probe::at(&exact.system, best.factor)?,
-            None => None,
-        };
+        let best = margins.best_clearance.map(|best| Probe::at(&exact.system, best.factor));
+        let best = best.transpose()?.flatten();
         Ok(Self { upper_limit: upper_limit(&exact.system, margins)?, best })
     }
 }

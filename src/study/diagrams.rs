@@ -89,39 +89,52 @@ pub struct Hysteresis {
 }
 
 impl Diagram {
-    /// Of `parameter` around the system that `exact` knows; `None` where no symmetric orbit attracts,
-    /// so that there is nothing to lose and to find again.
+    /// Of `parameter` around the system that `full` knows, in [`STEPS`] values; `None` where no symmetric
+    /// orbit attracts, so that there is nothing to lose and to find again.
     ///
     /// # Errors
     /// [`StudyError`] where the range has values without a system.
-    pub fn around(exact: &FullSystem, parameter: Parameter) -> Result<Option<Self>, StudyError> {
-        let Some(range) = range(exact, parameter) else { return Ok(None) };
-        let branches = ExactBranches::over(&exact.system, parameter, range);
-        if branches.attracting_stretches().is_empty() {
+    pub fn around(full: &FullSystem, parameter: Parameter) -> Result<Option<Self>, StudyError> {
+        let Some(range) = range(full, parameter) else { return Ok(None) };
+        let base = &full.system;
+        let exact = ExactBranches::over(base, parameter, range);
+        if exact.attracting_stretches().is_empty() {
             return Ok(None);
         }
-        Self::over(&exact.system, parameter, range, branches).map(Some)
-    }
-
-    /// Sweeps `parameter` over `range` in [`STEPS`] values.
-    fn over(
-        base: &System,
-        parameter: Parameter,
-        range: [f64; 2],
-        exact: ExactBranches,
-    ) -> Result<Self, StudyError> {
         let values: Vec<f64> = (0..STEPS)
             .map(|k| parameter.between(range, f64::from(k) / f64::from(STEPS - 1)))
             .collect();
         let points = sweep(base, parameter, &values, START, &EFFORT, &mut |_| {})?;
         let agreement = agreement(base, parameter, &points, &exact);
-        let hysteresis = hysteresis(&points);
-        Ok(Self { parameter, range, points, exact, agreement, hysteresis })
+        let mut diagram =
+            Self { parameter, range, points, exact, agreement, hysteresis: Vec::new() };
+        diagram.hysteresis = diagram.hysteresis();
+        Ok(Some(diagram))
     }
 
     /// The points of one way, by ascending value.
     pub fn way(&self, way: SweepDirection) -> Vec<&DiagramPoint> {
-        one_way(&self.points, way)
+        let of_way = self.points.iter().filter(|point| point.way == way);
+        let mut chosen: Vec<&DiagramPoint> = of_way.collect();
+        chosen.sort_by(|a, b| a.value.total_cmp(&b.value));
+        chosen
+    }
+
+    fn hysteresis(&self) -> Vec<Hysteresis> {
+        let [up, down] = [SweepDirection::Up, SweepDirection::Down].map(|way| self.way(way));
+        let pairs: Vec<[&DiagramPoint; 2]> =
+            up.into_iter().zip(down).map(|(a, b)| [a, b]).collect();
+        let runs = pairs.chunk_by(|a, b| differ(*a) == differ(*b));
+        let runs = runs.filter(|run| differ(run[0]) && run.len() >= SHORTEST);
+        let told = runs.map(|run| {
+            let middle = run[run.len() / 2];
+            Hysteresis {
+                values: [run[0][0].value, run[run.len() - 1][0].value],
+                regimes: middle.map(|point| point.motion.regime),
+                peaks: middle.map(|point| point.peak),
+            }
+        });
+        told.collect()
     }
 }
 
@@ -222,28 +235,6 @@ fn agreement(
         }
     }
     (found.compared > 0).then_some(found)
-}
-
-fn one_way(points: &[DiagramPoint], way: SweepDirection) -> Vec<&DiagramPoint> {
-    let mut chosen: Vec<&DiagramPoint> = points.iter().filter(|point| point.way == way).collect();
-    chosen.sort_by(|a, b| a.value.total_cmp(&b.value));
-    chosen
-}
-
-fn hysteresis(points: &[DiagramPoint]) -> Vec<Hysteresis> {
-    let (up, down) = (one_way(points, SweepDirection::Up), one_way(points, SweepDirection::Down));
-    let pairs: Vec<[&DiagramPoint; 2]> = up.into_iter().zip(down).map(|(a, b)| [a, b]).collect();
-    let runs = pairs.chunk_by(|a, b| differ(*a) == differ(*b));
-    let runs = runs.filter(|run| differ(run[0]) && run.len() >= SHORTEST);
-    let told = runs.map(|run| {
-        let middle = run[run.len() / 2];
-        Hysteresis {
-            values: [run[0][0].value, run[run.len() - 1][0].value],
-            regimes: middle.map(|point| point.motion.regime),
-            peaks: middle.map(|point| point.peak),
-        }
-    });
-    told.collect()
 }
 
 /// Whether two motions at one value are not the same.

@@ -89,7 +89,9 @@ impl ExactBranches {
         let seeds = (low..=high).contains(&own).then_some(own);
         for value in seeds.into_iter().chain((0..SEEDS).map(spread)) {
             let Ok(there) = parameter.applied(base, value) else { continue };
-            let trunk = Trunk::at(there, parameter, value, range);
+            let factor = value / parameter.of(&there);
+            let settings = Settings::within(range.map(|edge| edge / factor));
+            let trunk = Trunk { system: there, parameter, factor, settings };
             for found in symmetric_orbits(&there).unwrap_or_default() {
                 let known = all.passes(value, found.impact_displacement);
                 if found.orbit.admissibility.admissible && !known {
@@ -124,12 +126,11 @@ impl ExactBranches {
     #[must_use]
     pub fn attracting_stretches(&self) -> Vec<Stretch> {
         let attracting = self.pieces.iter().filter(|piece| piece.symmetric && piece.stable);
-        let mut ranges: Vec<[f64; 2]> = attracting
-            .map(|piece| {
-                let values = || piece.points.iter().map(|point| point.value);
-                [values().fold(f64::INFINITY, f64::min), values().fold(0.0, f64::max)]
-            })
-            .collect();
+        // A branch turns back only where its stability changes.
+        let ends =
+            attracting.filter_map(|piece| Some([piece.points.first()?, piece.points.last()?]));
+        let mut ranges: Vec<[f64; 2]> =
+            ends.map(|[a, b]| [a.value.min(b.value), a.value.max(b.value)]).collect();
         ranges.sort_by(|a, b| a[0].total_cmp(&b[0]));
         let mut joined: Vec<[f64; 2]> = Vec::new();
         for [low, high] in ranges {
@@ -180,12 +181,6 @@ struct Trunk {
 }
 
 impl Trunk {
-    fn at(system: System, parameter: Parameter, value: f64, range: [f64; 2]) -> Self {
-        let factor = value / parameter.of(&system);
-        let settings = Settings::within(range.map(|edge| edge / factor));
-        Self { system, parameter, factor, settings }
-    }
-
     /// Follows a symmetric orbit both ways, and what leaves it.
     fn grow(&self, orbit: &Orbit, all: &mut ExactBranches) {
         for direction in [Direction::Down, Direction::Up] {
@@ -276,38 +271,21 @@ struct Entry<'a> {
     special: Option<Bifurcation>,
 }
 
-impl Entry<'_> {
-    /// Distance in first state and parameter, as the arclength measures it.
-    fn distance(&self, other: &Self) -> f64 {
-        let [a, b] = [self, other].map(|entry| entry.orbit.cycle.impacts[0].vector());
-        libm::hypot((a - b).norm(), self.value - other.value)
+impl<'a> Entry<'a> {
+    fn of_bifurcation(special: &'a SpecialPoint) -> Self {
+        Self { value: special.value, orbit: &special.orbit, special: Some(special.kind) }
     }
 }
 
-/// Points and bifurcations in order: each bifurcation lies where it is the least detour, and one that
-/// ends the branch at its end.
+/// Points and bifurcations in order along a branch.
 fn in_order(branch: &Branch) -> Vec<Entry<'_>> {
-    let points = branch.points.iter();
-    let mut entries: Vec<Entry> = points
-        .map(|point| Entry { value: point.value, orbit: &point.orbit, special: None })
-        .collect();
-    let ends = matches!(branch.end, BranchEnd::Grazing { .. });
-    for (k, special) in branch.specials.iter().enumerate() {
-        let (value, orbit) = (special.value, &special.orbit);
-        let entry = Entry { value, orbit, special: Some(special.kind) };
-        let last = ends && k + 1 == branch.specials.len();
-        let detour = |pair: &[Entry]| {
-            pair[0].distance(&entry) + entry.distance(&pair[1]) - pair[0].distance(&pair[1])
-        };
-        let place = entries
-            .windows(2)
-            .map(detour)
-            .enumerate()
-            .min_by(|a, b| a.1.total_cmp(&b.1))
-            .map_or(entries.len(), |(before, _)| before + 1);
-        let place = if last { entries.len() } else { place };
-        entries.insert(place, entry);
+    let (mut entries, mut passed) = (Vec::new(), 0);
+    for point in &branch.points {
+        entries.extend(branch.specials[passed..point.passed].iter().map(Entry::of_bifurcation));
+        entries.push(Entry { value: point.value, orbit: &point.orbit, special: None });
+        passed = point.passed;
     }
+    entries.extend(branch.specials[passed..].iter().map(Entry::of_bifurcation));
     entries
 }
 

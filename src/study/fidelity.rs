@@ -4,9 +4,11 @@
 //! exact orbit answers where there is one; simulation answers where there is none, and wherever it is
 //! asked which other motions coexist, which no single orbit knows. A layer may also be insisted on.
 
-use serde::{Serialize, Serializer};
+use std::collections::BTreeMap;
 
-use super::answer::{self, Answer, ORBIT_ROUNDING, impacts_per_period, measured};
+use serde::Serialize;
+
+use super::answer::{self, Answer, ORBIT_ROUNDING, measured};
 use super::{LongTermMotions, StudyError, main_attractor, main_index};
 use crate::case::AccuracySettings;
 use crate::method::Method;
@@ -130,21 +132,11 @@ pub struct Answers {
     /// Relative error of the closed form, where the exact orbit measures it.
     pub error_of_closed_form: Option<f64>,
     /// Operations of closed form, exact orbit and simulation; `None` for what was not done.
-    #[serde(serialize_with = "by_layer")]
-    pub operations: [Option<u64>; 3],
+    pub operations: BTreeMap<Method, Option<u64>>,
     /// Whether other motions were looked for.
     pub coexistence_looked_for: bool,
     /// Why the simulation that answers is not to be trusted; nothing of it is enough then.
     pub doubts: Vec<Doubt>,
-}
-
-/// Operations under the names of the layers.
-fn by_layer<S: Serializer>(
-    operations: &[Option<u64>; 3],
-    serializer: S,
-) -> Result<S::Ok, S::Error> {
-    let layers = [Method::Theory, Method::ExactOrbit, Method::Simulation];
-    serializer.collect_map(layers.iter().zip(operations))
 }
 
 impl Answers {
@@ -201,16 +193,21 @@ impl Plan {
     }
 
     fn check(&self) -> Result<(), StudyError> {
-        let (answer, instead) = match self.layer {
-            Method::Theory => (&self.closed_form.0, "the exact orbit or simulation may have one"),
-            Method::ExactOrbit => (&self.orbit.0, "simulation has one"),
+        let (answer, why, instead) = match self.layer {
+            Method::Theory => (
+                &self.closed_form.0,
+                "no stable fixed point: the theory has no steady amplitude",
+                "the exact orbit or simulation may have one",
+            ),
+            Method::ExactOrbit => {
+                let why = "no symmetric orbit is stable and admissible";
+                (&self.orbit.0, why, "simulation has one")
+            }
             _ => return Ok(()),
         };
-        match (answer.rms, answer.why_not) {
-            (None, Some(why)) => {
-                Err(StudyError::NoAnswer { layer: self.layer.words(), why, instead })
-            }
-            _ => Ok(()),
+        match answer.rms {
+            Some(_) => Ok(()),
+            None => Err(StudyError::NoAnswer { layer: self.layer.words(), why, instead }),
         }
     }
 
@@ -242,14 +239,18 @@ impl Plan {
             (layer, _) => self.by_closed_form_or_orbit(layer),
         };
         if self.demand.coexistence {
-            answers.push(coexistence(self.layer, simulated.map(|simulated| simulated.attractors)));
+            let others = simulated.map(|found| found.attractors.len().saturating_sub(1));
+            let layer = if others.is_some() { Method::Simulation } else { self.layer };
+            answers.push(Answered {
+                others,
+                enough: others.is_some(),
+                ..Answered::new(Question::Coexistence, layer, KnownBy::Outcome)
+            });
         }
         let compared = self.layer != Method::Simulation;
         let main = simulated.and_then(|simulated| main_attractor(simulated.attractors));
-        let doubts = match main {
-            Some(main) if !compared => main.attractor.doubts(),
-            _ => Vec::new(),
-        };
+        let main = main.filter(|_| !compared);
+        let doubts = main.map(|main| main.attractor.doubts()).unwrap_or_default();
         if !doubts.is_empty() {
             answers.iter_mut().for_each(|answer| answer.enough = false);
         }
@@ -259,11 +260,11 @@ impl Plan {
             forced: self.forced,
             answers,
             error_of_closed_form: self.error_of_closed_form(),
-            operations: [
-                compared.then_some(self.closed_form.1),
-                compared.then_some(self.orbit.1),
-                cost,
-            ],
+            operations: BTreeMap::from([
+                (Method::Theory, compared.then_some(self.closed_form.1)),
+                (Method::ExactOrbit, compared.then_some(self.orbit.1)),
+                (Method::Simulation, cost),
+            ]),
             coexistence_looked_for: simulated.is_some(),
         })
     }
@@ -286,7 +287,7 @@ impl Plan {
         let main = main_index(simulated.attractors);
         let found = simulated.attractors.get(main).ok_or(StudyError::NoMotion)?;
         let (answer, known_by) = match simulated.proofs.get(main).and_then(Option::as_ref) {
-            Some(proof) => (of_proof(proof), KnownBy::Closure),
+            Some(proof) => (Answer::of_proof(proof), KnownBy::Closure),
             None => (self.long_enough(found)?, KnownBy::Scatter),
         };
         let answer = Answer { regime: Some(found.regime()), ..answer };
@@ -348,16 +349,6 @@ impl Plan {
 const SHORTEST: u64 = 2000;
 const LONGEST: u64 = 512_000;
 
-fn of_proof(proof: &Proof) -> Answer {
-    Answer {
-        rms: Some(proof.measures.rms),
-        scatter: Some(ORBIT_ROUNDING),
-        impacts_per_period: Some(impacts_per_period(proof)),
-        impacts_scatter: Some(0.0),
-        ..Answer::default()
-    }
-}
-
 impl Answered {
     fn new(question: Question, layer: Method, known_by: KnownBy) -> Self {
         Self {
@@ -371,15 +362,5 @@ impl Answered {
             allowed: None,
             enough: false,
         }
-    }
-}
-
-fn coexistence(layer: Method, found: Option<&[FoundAttractor]>) -> Answered {
-    let others = found.map(|found| found.len().saturating_sub(1));
-    let layer = if others.is_some() { Method::Simulation } else { layer };
-    Answered {
-        others,
-        enough: others.is_some(),
-        ..Answered::new(Question::Coexistence, layer, KnownBy::Outcome)
     }
 }

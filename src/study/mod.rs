@@ -121,17 +121,6 @@ pub struct SettledArea {
     pub by: Method,
 }
 
-impl SettledArea {
-    /// What told it, as a report says.
-    pub fn told_by(&self) -> &'static str {
-        match self.by {
-            Method::Theory => "theory",
-            Method::ExactOrbit => "theory and exact orbits",
-            _ => "theory and simulation",
-        }
-    }
-}
-
 impl CaseStudy {
     /// Studies a system; `progress` is told how much of [`CaseStudy::steps`] was done.
     ///
@@ -178,7 +167,7 @@ impl CaseStudy {
             claims: validation::confront_theory(&analysis, &exact),
             asymptotic_errors: asymptotic_errors(&analysis, &exact),
             margins: Margins::of(&analysis, &exact),
-            confirmations: Confirmations::none(),
+            confirmations: Confirmations::default(),
             effort,
             motions_cost: 0,
             band: None,

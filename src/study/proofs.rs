@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 
 use serde::Serialize;
 
+use super::main_index;
 use crate::orbits::newton::solve;
 use crate::orbits::{AfterImpact, Closure, Cycle, Measures, Orbit, Origin, Wall};
 use crate::regimes::{Attractor, DynamicsKind, FoundAttractor};
@@ -95,6 +96,14 @@ impl LongTermMotions {
             }
         }
         motions
+    }
+}
+
+impl LongTermMotions {
+    /// The moving one that most starts lead to, or rest if there is no other, with its proof.
+    pub fn main(&self) -> Option<(&FoundAttractor, Option<&Proof>)> {
+        let main = main_index(&self.attractors);
+        Some((self.attractors.get(main)?, self.proofs.get(main)?.as_ref()))
     }
 }
 

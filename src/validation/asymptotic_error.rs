@@ -35,13 +35,13 @@ pub fn errors_over_frequency(
     manifold: &Manifold,
     exact: &[orbits::Boundaries],
 ) -> Vec<(f64, Vec<AsymptoticError>)> {
-    let at = |exact: &orbits::Boundaries| {
-        let there = system.with_frequency_ratio(exact.frequency_ratio).ok()?;
+    let at_frequency = |at: &orbits::Boundaries| {
+        let there = system.with_frequency_ratio(at.frequency_ratio).ok()?;
         let theory = analysis::Boundaries::of(&there, manifold);
         let theory = clearances_of(&theory, there.forcing_per_clearance());
-        Some((exact.frequency_ratio, between(&theory, &exact.symmetric.limits)))
+        Some((at.frequency_ratio, between(&theory, &at.symmetric.limits)))
     };
-    exact.iter().filter_map(at).collect()
+    exact.iter().filter_map(at_frequency).collect()
 }
 
 fn between(theory: &[BoundaryAt], limits: &[Limit]) -> Vec<AsymptoticError> {
@@ -51,22 +51,21 @@ fn between(theory: &[BoundaryAt], limits: &[Limit]) -> Vec<AsymptoticError> {
         .iter()
         .filter(compared)
         .map(|limit| {
-            let near = nearest(theory, limit);
+            let theory = nearest(theory, limit);
             AsymptoticError {
                 kind: limit.kind,
-                theory: near.map(|at| at.clearance),
+                theory,
                 exact: Some(limit.clearance),
-                difference: near.map(|at| at.clearance / limit.clearance - 1.0),
+                difference: theory.map(|at| at / limit.clearance - 1.0),
                 bounds_stability: limit.bounds_stability,
             }
         })
         .collect();
-    for at in theory {
-        let taken = errors.iter().any(|error| error.theory == Some(at.clearance));
-        if !taken {
+    for BoundaryAt { kind, clearance } in theory {
+        if errors.iter().all(|error| error.theory != Some(*clearance)) {
             errors.push(AsymptoticError {
-                kind: at.kind,
-                theory: Some(at.clearance),
+                kind: *kind,
+                theory: Some(*clearance),
                 exact: None,
                 difference: None,
                 bounds_stability: false,
@@ -81,12 +80,9 @@ fn between(theory: &[BoundaryAt], limits: &[Limit]) -> Vec<AsymptoticError> {
 /// Relative distance in clearance beyond which two boundaries of one kind are not counterparts.
 const LARGEST_DISTANCE: f64 = 0.5;
 
-fn nearest(theory: &[BoundaryAt], limit: &Limit) -> Option<BoundaryAt> {
-    let distance = |at: &BoundaryAt| libm::log(at.clearance / limit.clearance).abs();
-    theory
-        .iter()
-        .filter(|at| at.kind == limit.kind)
-        .filter(|at| distance(at) < LARGEST_DISTANCE)
-        .min_by(|a, b| distance(a).total_cmp(&distance(b)))
-        .copied()
+fn nearest(theory: &[BoundaryAt], limit: &Limit) -> Option<f64> {
+    let distance = |clearance: f64| libm::log(clearance / limit.clearance).abs();
+    let same = theory.iter().filter(|at| at.kind == limit.kind).map(|at| at.clearance);
+    let near = same.filter(|at| distance(*at) < LARGEST_DISTANCE);
+    near.min_by(|a, b| distance(*a).total_cmp(&distance(*b)))
 }

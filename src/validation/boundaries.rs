@@ -1,12 +1,10 @@
 //! Claims about the boundaries around the case: where they lie.
 
 use super::asymptotic_error::{AsymptoticError, asymptotic_errors};
-use super::tolerance::{Tolerance, asymptotic_error, beyond};
-use super::{Claim, Measure};
-use crate::analysis::{Analysis, Boundaries, Branch};
-use crate::method::Method;
+use super::tolerance::{SAYS_NOTHING, asymptotic_error};
+use super::{Claim, Reason, Statement};
+use crate::analysis::{Analysis, Boundaries};
 use crate::orbits::{Bifurcation, FullSystem};
-use crate::system::System;
 
 /// Boundaries further than this factor in clearance are not this case's business.
 const FAR: f64 = 3.0;
@@ -16,8 +14,6 @@ const FAR: f64 = 3.0;
 pub struct BoundaryAt {
     /// Which one.
     pub kind: Bifurcation,
-    /// For a saddle-node: the branch on which two fixed points collide.
-    pub branch: Branch,
     /// Its clearance over the case's.
     pub clearance: f64,
 }
@@ -29,34 +25,17 @@ pub fn clearances(analysis: &Analysis) -> Vec<BoundaryAt> {
 
 /// The same of boundaries at any frequency, for the forcing per clearance `gamma`.
 pub fn clearances_of(boundaries: &Boundaries, gamma: f64) -> Vec<BoundaryAt> {
-    let explicit = [
-        (Bifurcation::SymmetryBreaking, boundaries.symmetry_breaking),
-        (Bifurcation::NeimarkSacker, boundaries.hopf),
-    ];
-    let explicit = explicit.map(|(kind, at)| (kind, Branch::Stable, at));
-    let nodes = boundaries.saddle_node.iter();
-    let nodes =
-        nodes.map(|node| (Bifurcation::SaddleNode, node.branch, node.forcing_over_clearance));
-    let mut all: Vec<BoundaryAt> = explicit
-        .into_iter()
-        .chain(nodes)
-        .map(|(kind, branch, at)| BoundaryAt { kind, branch, clearance: gamma / at })
-        .filter(|boundary| boundary.clearance.is_finite() && boundary.clearance > 0.0)
-        .collect();
+    let all = boundaries.all().map(|(kind, at)| BoundaryAt { kind, clearance: gamma / at });
+    let mut all: Vec<BoundaryAt> =
+        all.filter(|at| at.clearance.is_finite() && at.clearance > 0.0).collect();
     all.sort_by(|a, b| a.clearance.total_cmp(&b.clearance));
     all
 }
 
 /// Where each boundary of steady 1:1 resonance lies, against the exact one.
 pub fn positions(analysis: &Analysis, exact: &FullSystem) -> Vec<Claim> {
-    let error = asymptotic_error(&analysis.system);
-    let tolerance = Tolerance {
-        value: 2.0 * error,
-        reason: format!(
-            "twice ε (2 + |σ| + λ): at a boundary two conditions meet, each with that error{}",
-            beyond(2.0 * error)
-        ),
-    };
+    let tolerance = 2.0 * asymptotic_error(&analysis.system);
+    let reason = Reason::TwoConditions { says_nothing: tolerance > SAYS_NOTHING };
     let near = |boundary: &AsymptoticError| {
         boundary.exact.or(boundary.theory).is_some_and(|at| (1.0 / FAR..FAR).contains(&at))
     };
@@ -64,36 +43,9 @@ pub fn positions(analysis: &Analysis, exact: &FullSystem) -> Vec<Claim> {
         .into_iter()
         .filter(|boundary| boundary.bounds_stability && near(boundary))
         .filter_map(|boundary| {
-            let id = format!("boundary-{}", boundary.kind.words().replace([' ', '–'], "-"));
-            Some(Claim::of_number(
-                [id, format!("clearance of the {} boundary", name(boundary.kind))],
-                "boundaries of the slow flow",
-                [boundary.theory?, boundary.exact?],
-                Measure::LengthOverClearance,
-                Method::ExactOrbit,
-                tolerance.clone(),
-            ))
+            let statement = Statement::Boundary { bifurcation: boundary.kind };
+            let places = [boundary.theory?, boundary.exact?];
+            Some(Claim::of_number(statement, places, tolerance, reason))
         })
         .collect()
-}
-
-/// Both names where theory and full system differ in theirs.
-fn name(kind: Bifurcation) -> &'static str {
-    match kind {
-        Bifurcation::NeimarkSacker => "Hopf (Neimark–Sacker)",
-        other => other.words(),
-    }
-}
-
-/// Relative distance to either side of a boundary at which the theory is asked what it separates:
-/// close enough that no other boundary lies between, except exactly at P1.
-pub const EITHER_SIDE: f64 = 1e-4;
-
-/// Whether theory has a stable 1:1 motion on exactly one side of a clearance.
-pub fn ends_steady_resonance(system: &System, clearance: f64) -> bool {
-    let steady = |factor: f64| {
-        let there = system.with_clearance_scaled(clearance * factor).ok()?;
-        Some(Analysis::of(&there).ok()?.stable_points().next().is_some())
-    };
-    steady(1.0 - EITHER_SIDE) != steady(1.0 + EITHER_SIDE)
 }

@@ -1,11 +1,11 @@
 //! Claims about the motions of the case itself.
 
-use super::boundaries::{BoundaryAt, clearances};
-use super::tolerance::{asymptotic, exact};
-use super::{Claim, Measure, Verdict};
+use super::boundaries::clearances;
+use super::claim::NearBoundary;
+use super::tolerance::{SAYS_NOTHING, asymptotic_error};
+use super::{Claim, Finding, Reason, Statement, Verdict};
 use crate::analysis::motion::read_off;
 use crate::analysis::{Analysis, Area, FixedPoint, Strip};
-use crate::method::Method;
 use crate::orbits::{FullSystem, Measures, SymmetricOrbit};
 use crate::regimes::{Attractor, DynamicsKind, FoundAttractor, Regime, Window};
 use crate::simulation::StartError;
@@ -16,38 +16,24 @@ pub fn fixed_points(analysis: &Analysis, exact: &FullSystem) -> Vec<Claim> {
     // The exact orbits are written with the steady motion between impacts.
     let unsolved = analysis.system.linear_response().is_none();
     for (index, point) in analysis.fixed_points.iter().enumerate() {
+        let FixedPoint { absorber_amplitude, stable, .. } = *point;
         let number = index + 1;
         let orbit = counterpart(analysis, exact, point);
         let observed = match orbit {
-            Some(orbit) => {
-                let radius = orbit.orbit.multipliers.spectral_radius();
-                let stable = if orbit.orbit.attracts() { "stable" } else { "unstable" };
-                format!("{stable}, largest multiplier {radius:.3}")
-            }
-            None if unsolved => "an undamped resonance has no exact orbit to compare".into(),
-            None => "no orbit near it".into(),
+            Some(SymmetricOrbit { orbit, .. }) => Finding::Stability {
+                stable: orbit.attracts(),
+                multiplier: Some(orbit.multipliers.spectral_radius()),
+            },
+            None if unsolved => Finding::Unsolved,
+            None => Finding::NoOrbit,
         };
-        let attracts = orbit.is_some_and(|orbit| orbit.orbit.attracts());
-        let predicted = if point.stable { "stable" } else { "unstable" };
-        let mut claim = Claim::of_outcome(
-            [
-                format!("fixed-point-{number}-stability"),
-                format!(
-                    "fixed point {number} (B/b = {:.3}) is {predicted}",
-                    point.absorber_amplitude
-                ),
-            ],
-            "manifold and slow flow (18)",
-            [predicted.into(), observed],
-            Method::ExactOrbit,
-            "multipliers of the exact orbit nearest to the point, within twice ε (2 + |σ| + λ) or, next to a \
-             saddle-node, its root",
-            orbit.is_some() && attracts == point.stable,
-        );
-        if unsolved {
-            claim.verdict = Verdict::Undecided;
-        }
-        claims.push(claim);
+        let agrees = orbit.is_some_and(|orbit| orbit.orbit.attracts() == stable);
+        claims.push(Claim::of_outcome(
+            Statement::Stability { point: number, absorber_amplitude, stable },
+            [Finding::Stability { stable, multiplier: None }, observed],
+            Reason::NearestOrbit,
+            if unsolved { Verdict::Undecided } else { Verdict::of(agrees) },
+        ));
         claims
             .extend(orbit.into_iter().flat_map(|orbit| amplitudes(analysis, point, orbit, number)));
     }
@@ -68,7 +54,7 @@ fn counterpart<'a>(
     let nearest =
         exact.orbits.iter().min_by(|a, b| distance(a, point).total_cmp(&distance(b, point)))?;
     let mine = distance(nearest, point);
-    let error = asymptotic(&analysis.system).value;
+    let error = asymptotic_error(&analysis.system);
     let others = analysis.fixed_points.iter();
     let nearer = others.filter(|other| distance(nearest, other) < mine).count();
     (nearer == 0 && mine < (2.0 * error).max(error.sqrt())).then_some(nearest)
@@ -83,36 +69,24 @@ fn amplitudes(
     let Ok(measures) = Measures::of(&analysis.system, &orbit.orbit.cycle) else {
         return Vec::new();
     };
-    let observed =
-        read_off(&analysis.system, measures.oscillator_harmonic, measures.absorber_harmonic);
-    let tolerance = asymptotic(&analysis.system);
-    let compare = |id: &str, statement: &str, source, predicted: f64, observed: f64, measure| {
-        Claim::of_number(
-            [format!("fixed-point-{number}-{id}"), format!("{statement} at fixed point {number}")],
-            source,
-            [predicted, observed],
-            measure,
-            Method::ExactOrbit,
-            tolerance.clone(),
-        )
-    };
-    let length = Measure::LengthOverClearance;
-    let (c, b) = (point.oscillator_amplitude, point.absorber_amplitude);
-    let angle = Measure::Angle;
-    vec![
-        compare("C", "amplitude C", "slow flow (18)", c, observed.oscillator_amplitude, length),
-        compare("B", "amplitude B", "manifold (16)", b, observed.absorber_amplitude, length),
-        compare("eta", "phase η", "slow flow (18)", point.eta, observed.eta, angle),
-        compare(
-            "Theta",
-            "phase Θ",
-            "manifold (14), (15)",
-            point.absorber_phase,
-            observed.absorber_phase,
-            angle,
-        ),
+    let seen = read_off(&analysis.system, measures.oscillator_harmonic, measures.absorber_harmonic);
+    let tolerance = asymptotic_error(&analysis.system);
+    let reason = Reason::NeglectedTerms { says_nothing: tolerance > SAYS_NOTHING };
+    [
+        ("C", [point.oscillator_amplitude, seen.oscillator_amplitude]),
+        ("B", [point.absorber_amplitude, seen.absorber_amplitude]),
+        ("eta", [point.eta, seen.eta]),
+        ("Theta", [point.absorber_phase, seen.absorber_phase]),
     ]
+    .map(|(symbol, values)| {
+        let statement = Statement::FixedPoint { point: number, symbol };
+        Claim::of_number(statement, values, tolerance, reason)
+    })
+    .to_vec()
 }
+
+/// Relative error of a closed form of the full system, which only rounding separates from simulation.
+const ROUNDING: f64 = 1e-9;
 
 /// Rest is a motion of the full system exactly where the bare oscillator's amplitude is below the
 /// clearance.
@@ -129,12 +103,10 @@ pub fn rest(analysis: &Analysis, window: &Window) -> Result<Option<Claim>, Start
     let reached = Attractor::reach(system, linear.state(system), window)?;
     let rests = reached.classification.regime == Regime::AtRest;
     let claim = Claim::of_number(
-        ["rest".into(), "absorber at rest, oscillator vibrates as if alone".into()],
-        "equation of motion (1)",
+        Statement::Rest,
         [linear.amplitude(), reached.peak],
-        Measure::LengthOverClearance,
-        Method::Simulation,
-        exact(),
+        ROUNDING,
+        Reason::Rounding,
     );
     let verdict = if rests { claim.verdict } else { Verdict::Refuted };
     Ok(Some(Claim { verdict, ..claim }))
@@ -157,60 +129,38 @@ pub fn area(analysis: &Analysis, attractors: &[FoundAttractor]) -> Option<Claim>
     let ended = steady.iter().any(|found| found.late_starts > 0);
     let steady = !steady.is_empty();
     // What holds, and whether chance could have it otherwise.
-    let (area, predicted, holds, by_chance) = match (analysis.zone.area?, analysis.zone.strip) {
+    let (area, strip) = (analysis.zone.area?, analysis.zone.strip);
+    let (predicted, holds, by_chance) = match (area, strip) {
         (Area::Z3, None) => {
-            let by_chance = steady && (may_end || ended && !beside);
-            ("Z3", "steady 1:1 resonance only", steady && !beside, by_chance)
+            (Finding::OnlySteady, steady && !beside, steady && (may_end || ended && !beside))
         }
         (Area::Z3, Some(Strip::A1)) => {
-            let predicted = "steady 1:1 beside a modulated response";
-            ("Z3, strip A1", predicted, steady && beside, ended && !beside)
+            (Finding::SteadyBesideModulated, steady && beside, ended && !beside)
         }
-        (Area::Z3, Some(Strip::A2)) => {
-            ("Z3, strip A2", "strongly modulated response", modulated && !steady, false)
-        }
-        (Area::Z4, _) => ("Z4", "no steady 1:1 resonance", !steady && beside, false),
+        (Area::Z3, Some(Strip::A2)) => (Finding::StronglyModulated, modulated && !steady, false),
+        (Area::Z4, _) => (Finding::NotSteady, !steady && beside, false),
         _ => return None,
     };
-    let mut reason = near_boundary(analysis);
-    if by_chance {
-        reason += "; a chaotic motion beside a steady one may be a transient, and how many starts are \
-                   still on it when watching ends depends on rounding";
-    }
-    let claim = Claim::of_outcome(
-        ["area".into(), format!("the case lies in area {area}")],
-        "fixed points and boundaries",
-        [predicted.into(), listed(attractors)],
-        Method::Simulation,
-        reason,
-        holds,
-    );
+    let shares = attractors.iter().map(|found| (found.regime(), found.share)).collect();
     let open = by_chance || !steady && !beside;
-    let verdict = if open { Verdict::Undecided } else { claim.verdict };
-    Some(Claim { verdict, ..claim })
+    Some(Claim::of_outcome(
+        Statement::Area { area, strip },
+        [predicted, Finding::Regimes { shares }],
+        Reason::Starts { near: near_boundary(analysis), by_chance },
+        if open { Verdict::Undecided } else { Verdict::of(holds) },
+    ))
 }
 
-/// An area is only as certain as the boundary next to it.
-fn near_boundary(analysis: &Analysis) -> String {
-    let error = asymptotic(&analysis.system).value;
-    let distance = |at: &BoundaryAt| (at.clearance - 1.0).abs();
-    let nearest =
-        clearances(analysis).into_iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
-    match nearest {
-        Some(at) if distance(&at) < error => format!(
-            "share of all starts; the {} boundary is {:.1} % away, within the theory's error of {:.1} %",
-            at.kind.words_in_slow_flow(),
-            100.0 * distance(&at),
-            100.0 * error
-        ),
-        _ => "share of all starts".into(),
-    }
-}
-
-fn listed(attractors: &[FoundAttractor]) -> String {
-    let words: Vec<String> = attractors
-        .iter()
-        .map(|found| format!("{} {:.0} %", found.regime().short(), 100.0 * found.share))
-        .collect();
-    words.join(", ")
+/// The nearest boundary, where it is within the theory's error: an area is only as certain as that.
+fn near_boundary(analysis: &Analysis) -> Option<NearBoundary> {
+    let error = asymptotic_error(&analysis.system);
+    clearances(analysis)
+        .into_iter()
+        .map(|at| NearBoundary {
+            bifurcation: at.kind,
+            distance: (at.clearance - 1.0).abs(),
+            error,
+        })
+        .min_by(|a, b| a.distance.total_cmp(&b.distance))
+        .filter(|near| near.distance < error)
 }

@@ -4,10 +4,9 @@
 //! event. A motion near an orbit that attracts is never simulated for longer than it takes to see
 //! its disturbance shrink.
 
-use super::{Claim, Finding, Tolerance, Verdict};
-use crate::method::Method;
+use super::{Claim, Finding, Reached, Reason, Statement, Verdict};
 use crate::orbits::{AfterImpact, Bifurcation, FullSystem, Limit, SymmetricOrbit, Wall};
-use crate::regimes::{AbsorberAmplitude, Attractor, Regime, Window};
+use crate::regimes::{AbsorberAmplitude, Attractor, Window};
 use crate::simulation::{Simulation, StartError};
 use crate::system::System;
 
@@ -56,22 +55,14 @@ fn repeats(system: &System, orbit: &SymmetricOrbit, number: usize) -> Result<Cla
     simulation.run(1, u64::MAX, &mut ());
     let size = 1.0 + orbit.peaks.displacement + orbit.peaks.velocity;
     let missed = before.distance(&simulation.state()) / size;
-    let growth = orbit.orbit.radius_per_period().max(1.0);
-    let tolerance = Tolerance {
-        value: CLOSES * growth,
-        reason: "1e−10 of the motion's size, times the growth of a disturbance in a period".into(),
-    };
-    Ok(Claim {
-        id: format!("orbit-{number}-repeats"),
-        statement: format!("exact orbit {number} repeats after one period"),
-        source: "exact orbit",
-        predicted: Finding::Words("repeats".into()),
-        observed: Finding::Words(format!("misses itself by {missed:.0e}")),
-        checked_by: Method::Simulation,
-        difference: Some(missed),
-        verdict: Verdict::of(missed <= tolerance.value),
-        tolerance,
-    })
+    let tolerance = CLOSES * orbit.orbit.radius_per_period().max(1.0);
+    let claim = Claim::of_outcome(
+        Statement::Repeats { orbit: number },
+        [Finding::Repeats, Finding::Misses { by: missed }],
+        Reason::Growth,
+        Verdict::of(missed <= tolerance),
+    );
+    Ok(Claim { difference: Some(missed), tolerance, ..claim })
 }
 
 fn shrinks(
@@ -79,13 +70,13 @@ fn shrinks(
     orbit: &SymmetricOrbit,
     number: usize,
 ) -> Result<Option<Claim>, StartError> {
-    let radius = orbit.orbit.radius_per_period();
-    let needed = (libm::log(SEEN) / libm::log(radius).abs()).ceil();
+    let multiplier = orbit.orbit.radius_per_period();
+    let needed = (libm::log(SEEN) / libm::log(multiplier).abs()).ceil();
     // Too close to a bifurcation to be seen, or too fast to be followed.
     if !(1.0..=LONGEST).contains(&needed) {
         return Ok(None);
     }
-    let stable = radius < 1.0;
+    let dies_out = multiplier < 1.0;
     let cycle = &orbit.orbit.cycle;
     let after = cycle.impacts[0];
     let disturbed = AfterImpact { y_velocity: after.y_velocity * (1.0 + DISTURBANCE), ..after };
@@ -98,21 +89,12 @@ fn shrinks(
         reference.run(1, u64::MAX, &mut ());
         simulation.run(1, u64::MAX, &mut ());
     }
-    let ratio = reference.state().distance(&simulation.state()) / first;
-    let word = |stable: bool| if stable { "dies out" } else { "grows" };
+    let share = reference.state().distance(&simulation.state()) / first;
     Ok(Some(Claim::of_outcome(
-        [
-            format!("orbit-{number}-stability"),
-            format!(
-                "a small disturbance of exact orbit {number} {} (multiplier {radius:.3} per period)",
-                word(stable)
-            ),
-        ],
-        "exact orbit",
-        [word(stable).into(), format!("{ratio:.1e} of it after {periods} periods")],
-        Method::Simulation,
-        "a disturbance of 1e−6 is followed until it should change a hundredfold",
-        (ratio < 1.0) == stable,
+        Statement::Disturbance { orbit: number, multiplier },
+        [Finding::Disturbance { dies_out }, Finding::Left { share, periods }],
+        Reason::Followed,
+        Verdict::of((share < 1.0) == dies_out),
     )))
 }
 
@@ -138,59 +120,19 @@ pub fn limits(exact: &FullSystem) -> Result<Vec<Claim>, StartError> {
         let (Some(below), Some(above)) = (side(1.0 - ASIDE)?, side(1.0 + ASIDE)?) else {
             continue;
         };
-        // Where the absorber begins to stay on the wall 1:1 resonance may go on, with rests.
-        let name = |steady: bool| match (steady, limit.kind) {
-            (true, _) => "steady 1:1",
-            (false, Bifurcation::Sticking) => "rests on a wall",
-            (false, _) => "not steady 1:1",
-        };
         let agrees = |(attracts, reached): (bool, Reached)| attracts == reached.is_steady_flight();
+        let rests = limit.kind == Bifurcation::Sticking;
         claims.push(Claim::of_outcome(
+            Statement::Limit { bifurcation: limit.kind },
             [
-                format!("limit-{}", limit.kind.words().replace([' ', '–'], "-")),
-                format!("{}: what the motion becomes on either side", limit.kind.words()),
+                Finding::Steady { below: below.0, above: above.0, rests },
+                Finding::Reached { below: below.1, above: above.1 },
             ],
-            "exact limit",
-            [
-                format!("{} below, {} above", name(below.0), name(above.0)),
-                format!("{} below, {} above", below.1.words(), above.1.words()),
-            ],
-            Method::Simulation,
-            "started on the orbit, disturbed by 1e−3, 1 % to either side of the limit",
-            agrees(below) && agrees(above),
+            Reason::EitherSide,
+            Verdict::of(agrees(below) && agrees(above)),
         ));
     }
     Ok(claims)
-}
-
-/// Where a motion led.
-#[derive(Clone, Copy)]
-struct Reached {
-    regime: Regime,
-    /// Excitation periods after which it repeats; none on a torus, as next to a Neimark–Sacker limit.
-    repeats_after: Option<u32>,
-    /// Whether the absorber rests on a wall in every repetition of it.
-    rests: bool,
-}
-
-impl Reached {
-    /// A regime is named by its impacts alone, which a small torus shares with the orbit inside of it.
-    fn is_steady_flight(self) -> bool {
-        self.regime == Regime::TwoSymmetric && self.repeats_after == Some(1) && !self.rests
-    }
-
-    fn words(self) -> String {
-        let regime = self.regime.short();
-        if !self.regime.is_two_per_period() {
-            return regime.to_owned();
-        }
-        let rests = if self.rests { " with rests" } else { "" };
-        match self.repeats_after {
-            Some(1) => format!("{regime}{rests}"),
-            Some(periods) => format!("{regime}{rests} that repeats in {periods} periods"),
-            None => format!("modulated {regime}{rests}"),
-        }
-    }
 }
 
 fn stays(system: &System, after: &AfterImpact) -> Result<Reached, StartError> {

@@ -3,8 +3,10 @@
 //! oscillators under base displacement; no sustained contact.
 #![allow(dead_code)]
 
-use vinesink::evidence::reference::real::Functions;
+use std::cell::RefCell;
+
 pub use vinesink::evidence::reference::real::Real;
+use vinesink::evidence::reference::real::{BITS, Consts, ROUND};
 use vinesink::system::System;
 
 /// Distance from a wall, over the clearance, that no motion here crosses and comes back within one
@@ -12,15 +14,29 @@ use vinesink::system::System;
 const NEAR: f64 = 0.01;
 
 thread_local! {
-    static FUNCTIONS: Functions = Functions::new().expect("constants");
+    static CONSTANTS: RefCell<Consts> = RefCell::new(Consts::new().expect("constants"));
 }
 
 fn sincos(angle: &Real) -> (Real, Real) {
-    FUNCTIONS.with(|functions| functions.sincos(angle))
+    CONSTANTS.with_borrow_mut(|constants| {
+        (Real(angle.0.sin(BITS, ROUND, constants)), Real(angle.0.cos(BITS, ROUND, constants)))
+    })
 }
 
 fn exp(number: &Real) -> Real {
-    FUNCTIONS.with(|functions| functions.exp(number))
+    CONSTANTS.with_borrow_mut(|constants| Real(number.0.exp(BITS, ROUND, constants)))
+}
+
+#[test]
+fn functions_have_seventy_digits() {
+    let angle = &Real::of(1e3) / &Real::of(3.0);
+    let (sin, cos) = sincos(&angle);
+    let one = &(&sin * &sin) + &(&cos * &cos);
+    assert!((&one - &Real::of(1.0)).to_f64().abs() < 1e-75);
+    let (up, down) = (exp(&angle), exp(&-&angle));
+    assert!((&(&up * &down) - &Real::of(1.0)).to_f64().abs() < 1e-70);
+    // Abramowitz and Stegun, table 4.6: sin 1.
+    assert!((sincos(&Real::of(1.0)).0.to_f64() - 0.841_470_984_807_896_5).abs() < 1e-15);
 }
 
 /// One flight: absolute time of its start, state there.
@@ -51,7 +67,7 @@ impl Reference {
         let (one, two) = (Real::of(1.0), Real::of(2.0));
         let damping = &eps * &lambda;
         let decay = &damping / &two;
-        let ringing = (&one - &(&decay * &decay)).sqrt();
+        let ringing = Real((&one - &(&decay * &decay)).0.sqrt(BITS, ROUND));
         let sine = &eps * &Real::of(p.forcing_per_clearance);
         let cosine = &(&damping * &omega) * &sine;
         let reactance = &one - &(&omega * &omega);

@@ -3,10 +3,11 @@
 
 use serde::Serialize;
 
+use super::ExtremesError;
 use super::list::{IMPACT_LIMIT, Varied, table_1};
-use super::measure::{LONGEST_SEQUENCE, MeasureError, Release, Seen, Witness};
+use super::measure::{LONGEST_SEQUENCE, Release, Seen, Witness};
 use crate::evidence::reference::{Event, Reference};
-use crate::simulation::{ContactTolerance, Simulation, Statistics};
+use crate::simulation::{ContactTolerance, Simulation, StartError, Statistics};
 use crate::system::{State, System};
 
 /// One setting of the tolerance, measured.
@@ -71,9 +72,9 @@ const SYSTEMS: [&[(Varied, f64)]; 3] = [
 /// The releases of a trajectory in multiple precision, and then what each tolerance makes of it.
 ///
 /// # Errors
-/// [`MeasureError`].
-pub fn contact_costs(system: &System, periods: u64) -> Result<Vec<ContactCost>, MeasureError> {
-    let exact = exact_releases(Reference::new(system, START, 0.0)?);
+/// [`StartError`] where the system does not let the absorber start as it does.
+pub fn contact_costs(system: &System, periods: u64) -> Result<Vec<ContactCost>, StartError> {
+    let exact = exact_releases(Reference::new(system, START, 0.0));
     let measured = TOLERANCES.into_iter().map(|[excursion, drift]| {
         let tolerance = ContactTolerance { excursion, drift };
         let mut simulation = Simulation::new(system, START, 0.0)?.with_tolerance(tolerance);
@@ -106,16 +107,12 @@ pub fn contact_costs(system: &System, periods: u64) -> Result<Vec<ContactCost>, 
 
 /// The first releases by the reference.
 fn exact_releases(mut reference: Reference) -> Vec<Release> {
-    let mut found = Vec::new();
-    let (mut loss, mut time) = (0.0, 0.0);
+    let (mut found, mut lost, mut time) = (Vec::new(), 0.0, 0.0);
     for _ in 0..LONGEST_SEQUENCE {
         match reference.next(time + 100.0) {
-            Some(Event::Impact { tau, loss: more, .. }) => {
-                loss += more;
-                time = tau;
-            }
+            Some(Event::Impact { tau, loss, .. }) => (lost, time) = (lost + loss, tau),
             Some(Event::Release { tau, x }) => {
-                found.push(Release { tau, x, loss });
+                found.push(Release { tau, x, loss: lost });
                 time = tau;
             }
             None => break,
@@ -130,8 +127,8 @@ fn exact_releases(mut reference: Reference) -> Vec<Release> {
 /// Every tolerance on systems with complete chattering.
 ///
 /// # Errors
-/// [`MeasureError`].
-pub fn tables() -> Result<Vec<ContactTable>, MeasureError> {
+/// [`ExtremesError`] if the list itself were wrong.
+pub fn tables() -> Result<Vec<ContactTable>, ExtremesError> {
     let tables = SYSTEMS.into_iter().map(|varied| {
         let costs = contact_costs(&System::new(table_1(varied))?, PERIODS)?;
         Ok(ContactTable { varied: varied.to_vec(), costs })

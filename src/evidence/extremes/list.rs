@@ -5,7 +5,6 @@ use std::f64::consts::TAU;
 
 use serde::Serialize;
 
-use super::measure::Run;
 use crate::system::{Excitation, InvalidParameter, Parameters, State, System};
 
 /// Excitation periods of a run, unless it says otherwise.
@@ -69,8 +68,14 @@ pub struct Entry {
     pub varied: Vec<(Varied, f64)>,
     /// Where it starts.
     pub start: Start,
-    /// The run.
-    pub run: Run,
+    /// The system.
+    #[serde(skip)]
+    pub system: System,
+    /// Excitation periods.
+    pub periods: u64,
+    /// Impacts after which it is given up.
+    #[serde(skip)]
+    pub impact_limit: u64,
 }
 
 const ONE: [(Varied, &[f64]); 5] = [
@@ -156,11 +161,8 @@ impl Entry {
         let [shortest, longest] =
             [SHORTEST, LONGEST].map(|time| (time / system.period()).ceil() as u64);
         let periods = periods.unwrap_or(PERIODS.max(shortest).min(longest));
-        let impact_limit = match varied.is_empty() {
-            true => IMPACT_LIMIT.max(10 * periods),
-            false => IMPACT_LIMIT,
-        };
-        let run = Run { system, start: start.state(), periods, impact_limit };
-        Ok(Self { varied: varied.to_vec(), start, run })
+        let more = if varied.is_empty() { 10 * periods } else { 0 };
+        let impact_limit = IMPACT_LIMIT.max(more);
+        Ok(Self { varied: varied.to_vec(), start, system, periods, impact_limit })
     }
 }

@@ -5,12 +5,12 @@ use std::f64::consts::TAU;
 
 use serde::Serialize;
 
-use crate::evidence::reference::{Event, NoMemory, Reference};
+use super::Entry;
+use crate::evidence::reference::{Event, Reference};
 use crate::simulation::trust::energy_residual;
 use crate::simulation::{
     Absorber, Doubt, Impact, Observer, Segment, Simulation, StartError, Statistics, Stop,
 };
-use crate::system::{InvalidParameter, State, System};
 
 /// Points of each stretch of motion at which the cavity is looked into.
 const LOOKS: u32 = 8;
@@ -20,35 +20,6 @@ const VISIBLE: f64 = 1e-6;
 pub(super) const LONGEST_SEQUENCE: u32 = 5_000;
 /// Impacts and releases that the reference follows.
 pub const FOLLOWED: usize = 30;
-
-/// What is simulated, and how long.
-#[derive(Debug, Clone, Copy, Serialize)]
-pub struct Run {
-    /// The system.
-    #[serde(skip)]
-    pub system: System,
-    /// Where it starts, at phase 0.
-    #[serde(skip)]
-    pub start: State,
-    /// Excitation periods.
-    pub periods: u64,
-    /// Impacts after which it is given up.
-    pub impact_limit: u64,
-}
-
-/// Why a trajectory cannot be measured.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum MeasureError {
-    /// The start is impossible.
-    #[error(transparent)]
-    Start(#[from] StartError),
-    /// The system is none.
-    #[error(transparent)]
-    System(#[from] InvalidParameter),
-    /// The reference cannot be had.
-    #[error(transparent)]
-    Memory(#[from] NoMemory),
-}
 
 /// What a trajectory came to.
 #[derive(Debug, Clone, Serialize)]
@@ -96,6 +67,16 @@ pub(super) enum Seen {
     Impact { tau: f64, side: f64 },
     Stick,
     Release(Release),
+}
+
+impl Seen {
+    /// When it happened; contact is part of the impact before.
+    fn tau(&self) -> Option<f64> {
+        match self {
+            Self::Impact { tau, .. } | Self::Release(Release { tau, .. }) => Some(*tau),
+            Self::Stick => None,
+        }
+    }
 }
 
 /// The end of a sustained contact, and what led to it.
@@ -159,61 +140,58 @@ impl Observer for Witness {
     }
 }
 
-impl Run {
+impl Entry {
     /// Simulates and compares.
     ///
     /// # Errors
-    /// [`MeasureError`].
-    pub fn measure(&self) -> Result<Measured, MeasureError> {
-        let mut simulation = Simulation::new(&self.system, self.start, 0.0)?;
-        let mut statistics = Statistics::begin(&self.system, self.start);
+    /// [`StartError`] where the start is impossible.
+    pub fn measure(&self) -> Result<Measured, StartError> {
+        let start = self.start.state();
+        let mut simulation = Simulation::new(&self.system, start, 0.0)?;
+        let mut statistics = Statistics::begin(&self.system, start);
         let mut witness = Witness::of(FOLLOWED);
         let observers = &mut (&mut statistics, &mut witness);
         let stop = simulation.run(self.periods, self.impact_limit, observers);
-        let energy = statistics.energy();
         let peak = statistics.peak();
+        let compared = !witness.seen.is_empty();
         Ok(Measured {
             whole: stop == Stop::EndTime,
             periods: simulation.periods(),
             impacts: simulation.impacts(),
             evaluations: simulation.evaluations(),
-            energy_residual: energy_residual(&energy, peak),
+            energy_residual: energy_residual(&statistics.energy(), peak),
             penetration: witness.penetration,
             doubts: statistics.doubts(stop),
-            comparison: self.compare(&witness.seen, peak)?,
+            comparison: compared.then(|| self.compare(&witness.seen, peak)),
         })
     }
 
-    fn compare(&self, seen: &[Seen], peak: f64) -> Result<Option<Comparison>, MeasureError> {
-        if seen.is_empty() {
-            return Ok(None);
-        }
+    fn compare(&self, seen: &[Seen], peak: f64) -> Comparison {
         let rounding = f64::EPSILON * (1.0 + peak);
-        let (complete, mut exact) = follow(Reference::new(&self.system, self.start, 0.0)?, seen);
-        let (_, moved) = follow(Reference::new(&self.system, self.start, rounding)?, seen);
+        let reference =
+            |rounding| follow(Reference::new(&self.system, self.start.state(), rounding), seen);
+        let ((complete, mut exact), (_, moved)) = (reference(0.0), reference(rounding));
         // Beyond the first event that rounding moves visibly nothing can be compared.
         let pairs = exact.iter().zip(&moved);
         let known = pairs.take_while(|(a, b)| (*a - *b).abs() <= VISIBLE).count();
         let same_order = complete || known < exact.len();
         exact.truncate(known);
-        let largest = |times: &mut dyn Iterator<Item = (f64, f64)>| {
-            times.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+        let largest = |times: &[f64]| {
+            let pairs = times.iter().zip(&exact);
+            pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
         };
-        let engine = seen.iter().filter_map(|event| match event {
-            Seen::Impact { tau, .. } | Seen::Release(Release { tau, .. }) => Some(*tau),
-            Seen::Stick => None,
-        });
+        let engine: Vec<f64> = seen.iter().filter_map(Seen::tau).collect();
         let last = exact.last().copied().unwrap_or(0.0);
         let period = self.system.period();
-        Ok(Some(Comparison {
+        Comparison {
             events: exact.len(),
             same_order,
-            error: largest(&mut engine.zip(exact.iter().copied())),
-            one_rounding: largest(&mut moved.iter().copied().zip(exact.iter().copied())),
+            error: largest(&engine),
+            one_rounding: largest(&moved),
             // The phase is kept to a spacing of numbers below 2 pi.
             clock: f64::EPSILON * (last + period),
             part: last / (self.periods as f64 * period),
-        }))
+        }
     }
 }
 

@@ -9,20 +9,37 @@ pub mod units;
 
 pub use contact::{ContactTable, contact_costs};
 pub use list::{Entry, Start, Varied, entries};
-pub use measure::{Comparison, MeasureError, Measured, Run};
-pub use units::{UnitCheck, UnitError, unit_checks};
+pub use measure::{Comparison, Measured};
+pub use units::{UnitCheck, unit_checks};
 
 use serde::Serialize;
 use serde_json::json;
 
+use crate::case::CaseError;
 use crate::quantity::Units;
 use crate::report::render::{RenderError, without_repeated_blank_lines};
 use crate::report::template;
+use crate::simulation::StartError;
 use crate::simulation::trust::{ENERGY_RESIDUAL, RESOLUTION};
+use crate::system::InvalidParameter;
 
 /// How much further than rounding once an event a sound run may be from the reference: an event is
 /// some dozen operations, each of which rounds, and so is the end of a period.
 const ROUNDINGS: f64 = 32.0;
+
+/// Why the page cannot be made: one of its lists is wrong.
+#[derive(Debug, thiserror::Error)]
+pub enum ExtremesError {
+    /// A case is none.
+    #[error(transparent)]
+    Case(#[from] Box<CaseError>),
+    /// A system is none.
+    #[error(transparent)]
+    System(#[from] InvalidParameter),
+    /// A start is impossible.
+    #[error(transparent)]
+    Start(#[from] StartError),
+}
 
 /// What became of a run.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -51,21 +68,15 @@ pub struct Outcome {
 
 impl Entry {
     /// Runs it.
-    ///
-    /// # Errors
-    /// [`MeasureError::Memory`]; an impossible start is a verdict.
-    pub fn outcome(self) -> Result<Outcome, MeasureError> {
-        match self.run.measure() {
+    pub fn outcome(self) -> Outcome {
+        let (measured, verdict) = match self.measure() {
             Ok(measured) => {
                 let verdict = Verdict::of(&measured);
-                Ok(Outcome { entry: self, measured: Some(measured), verdict })
+                (Some(measured), verdict)
             }
-            Err(MeasureError::Start(refusal)) => {
-                let verdict = Verdict::Refused(refusal.to_string());
-                Ok(Outcome { entry: self, measured: None, verdict })
-            }
-            Err(error) => Err(error),
-        }
+            Err(refusal) => (None, Verdict::Refused(refusal.to_string())),
+        };
+        Outcome { entry: self, measured, verdict }
     }
 }
 
@@ -107,18 +118,10 @@ pub fn page(
     contact: &[ContactTable],
     units: &[UnitCheck],
 ) -> Result<String, RenderError> {
-    let count = |wanted: fn(&Verdict) -> bool| {
-        outcomes.iter().filter(|outcome| wanted(&outcome.verdict)).count()
-    };
     let context = json!({
         "outcomes": outcomes,
         "contact": contact,
         "units": units,
-        "held": count(|verdict| *verdict == Verdict::Holds),
-        "flagged": count(|verdict| matches!(verdict, Verdict::Flagged(_))),
-        "refused": count(|verdict| matches!(verdict, Verdict::Refused(_))),
-        "wrong": count(|verdict| *verdict == Verdict::Wrong),
-        "units_held": units.iter().filter(|check| check.holds).count(),
         "table_1": list::table_1(&[]),
         "limits": {
             "energy": ENERGY_RESIDUAL,
@@ -139,14 +142,14 @@ mod tests {
     #[test]
     fn the_page_tells_every_kind_of_run() {
         let wanted = |entry: &Entry| {
-            entry.run.periods <= 200
+            entry.periods <= 200
                 && (entry.varied == [(Varied::Restitution, 0.6), (Varied::Clearance, 0.3)]
                     || entry.varied.contains(&(Varied::Forcing, 1e307))
                     || entry.varied.contains(&(Varied::Damping, 100.0))
                     || entry.start == Start::Outside)
         };
         let chosen = entries().expect("valid").into_iter().filter(wanted);
-        let outcomes: Vec<Outcome> = chosen.map(|entry| entry.outcome().expect("memory")).collect();
+        let outcomes: Vec<Outcome> = chosen.map(Entry::outcome).collect();
         let contact = ContactTable { varied: vec![(Varied::Clearance, 0.3)], costs: Vec::new() };
         let text = page(&outcomes, &[contact], &[]).expect("a page");
         for part in [

@@ -5,35 +5,24 @@ use std::f64::consts::TAU;
 
 use serde::Serialize;
 
+use super::ExtremesError;
 use super::list::{IMPACT_LIMIT, Start};
 use super::measure::FOLLOWED;
-use crate::case::{Case, CaseError};
-use crate::simulation::{ImpactLog, Simulation, StartError};
-use crate::system::{Parameters, System};
+use crate::case::Case;
+use crate::simulation::{ImpactLog, Simulation};
 
 /// Clearance and amplitude as a case says them, and the clearance in metres.
 const LENGTHS: [(&str, &str, f64); 5] = [
     ("1e-6 mm", "3.33e-8 mm", 1e-9),
     ("1 um", "0.0333 um", 1e-6),
-    COMMON,
+    ("1 mm", "0.0333 mm", 1e-3),
     ("1 m", "0.0333 m", 1.0),
     ("1000 m", "33.3 m", 1e3),
 ];
-/// What the others are compared with.
-const COMMON: (&str, &str, f64) = ("1 mm", "0.0333 mm", 1e-3);
+/// The place of what the others are compared with.
+const COMMON: usize = 2;
 /// Roundings in the way from a length with its unit to a dimensionless number.
 const ROUNDINGS: f64 = 8.0;
-
-/// Why the units cannot be compared.
-#[derive(Debug, thiserror::Error)]
-pub enum UnitError {
-    /// The case is not one.
-    #[error(transparent)]
-    Case(#[from] Box<CaseError>),
-    /// The start is impossible.
-    #[error(transparent)]
-    Start(#[from] StartError),
-}
 
 /// The design in one unit.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -56,55 +45,50 @@ pub struct UnitCheck {
 /// Table 1 at 8 Hz with F = b/30, in every unit.
 ///
 /// # Errors
-/// [`UnitError`].
-pub fn unit_checks() -> Result<Vec<UnitCheck>, UnitError> {
-    let common = Sample::of(COMMON.0, COMMON.1)?;
-    LENGTHS
-        .into_iter()
-        .map(|(clearance, amplitude, size)| {
-            let sample = Sample::of(clearance, amplitude)?;
-            let difference = numbers(&sample.system)
-                .into_iter()
-                .zip(numbers(&common.system))
-                .map(|(a, b)| (a / b - 1.0).abs())
-                .fold(0.0, f64::max);
-            let pairs = sample.times.iter().zip(&common.times);
-            let times = pairs.clone().map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-            let scale = (sample.largest / common.largest / (size / COMMON.2) - 1.0).abs();
-            let rounding = ROUNDINGS * f64::EPSILON;
-            // The motion is a stable one: it does not amplify what the numbers differ by, but its
-            // clock rounds as well.
-            let clock = rounding * common.times.last().copied().unwrap_or(0.0);
-            let same = sample.times.len() == common.times.len();
-            let small = difference <= rounding && scale <= rounding && times <= clock;
-            Ok(UnitCheck {
-                clearance,
-                difference,
-                times,
-                impacts: pairs.len(),
-                scale,
-                holds: same && small,
-            })
-        })
-        .collect()
+/// [`ExtremesError`] if the list itself were wrong.
+pub fn unit_checks() -> Result<Vec<UnitCheck>, ExtremesError> {
+    let samples: Vec<Sample> = LENGTHS
+        .iter()
+        .map(|(b, amplitude, _)| Sample::of(b, amplitude))
+        .collect::<Result<_, _>>()?;
+    let common = &samples[COMMON];
+    let largest = |a: &[f64], b: &[f64], difference: fn(f64, f64) -> f64| {
+        a.iter().zip(b).map(|(a, b)| difference(*a, *b).abs()).fold(0.0, f64::max)
+    };
+    let rounding = ROUNDINGS * f64::EPSILON;
+    // The motion is a stable one: it does not amplify what the numbers differ by, but its clock rounds
+    // as well.
+    let clock = rounding * common.times.last().copied().unwrap_or(0.0);
+    let check = |((clearance, _, size), sample): (&(&'static str, _, f64), &Sample)| {
+        let difference = largest(&sample.numbers, &common.numbers, |a, b| a / b - 1.0);
+        let times = largest(&sample.times, &common.times, |a, b| a - b);
+        let units = size / LENGTHS[COMMON].2;
+        let scale = (sample.largest / common.largest / units - 1.0).abs();
+        let small = difference <= rounding && scale <= rounding && times <= clock;
+        UnitCheck {
+            clearance,
+            difference,
+            times,
+            impacts: sample.times.len().min(common.times.len()),
+            scale,
+            holds: small && sample.times.len() == common.times.len(),
+        }
+    };
+    Ok(LENGTHS.iter().zip(&samples).map(check).collect())
 }
 
-fn numbers(system: &System) -> [f64; 5] {
-    let Parameters {
-        mass_ratio, damping, restitution, frequency_ratio, forcing_per_clearance, ..
-    } = system.parameters();
-    [mass_ratio, damping, restitution, frequency_ratio, forcing_per_clearance]
-}
-
+/// The design in one unit, simulated.
 struct Sample {
-    system: System,
+    /// Its dimensionless numbers.
+    numbers: [f64; 5],
+    /// Of impacts.
     times: Vec<f64>,
     /// Largest displacement at an impact, in metres.
     largest: f64,
 }
 
 impl Sample {
-    fn of(clearance: &str, amplitude: &str) -> Result<Self, UnitError> {
+    fn of(clearance: &str, amplitude: &str) -> Result<Self, ExtremesError> {
         let text = format!(
             "title = \"one design\"\nsource = \"Table 1\"\n\
              [oscillator]\nmass = \"4.168 kg\"\nstiffness = \"11.47 kN/m\"\ndamping = \"3.02 N s/m\"\n\
@@ -119,8 +103,15 @@ impl Sample {
         let periods = (FOLLOWED as f64 * TAU / system.period()).ceil() as u64;
         simulation.run(periods, IMPACT_LIMIT, &mut log);
         let largest = log.impacts.iter().map(|impact| impact.x.abs()).fold(0.0, f64::max);
+        let p = system.parameters();
         Ok(Self {
-            system,
+            numbers: [
+                p.mass_ratio,
+                p.damping,
+                p.restitution,
+                p.frequency_ratio,
+                p.forcing_per_clearance,
+            ],
             times: log.impacts.iter().map(|impact| impact.tau).collect(),
             largest: case.scales().length(largest),
         })

@@ -42,34 +42,9 @@ pub(super) fn figure_3(cases: &CaseSet) -> Result<Section, PaperError> {
     ))
 }
 
-/// Clearances at which steady 1:1 resonance begins and ends by the theory, in metres.
-struct Route {
-    breaking: f64,
-    hopf: f64,
-    /// Where fixed points collide, and on which branch.
-    collision: f64,
-    branch: Branch,
-}
-
-impl Route {
-    fn of(member: &CaseReport) -> Result<Self, PaperError> {
-        let boundaries = &member.study.analysis.boundaries;
-        let node = member.needs(boundaries.saddle_node, "collision of fixed points")?;
-        let forcing = member.study.analysis.system.forcing_per_clearance();
-        let clearance = |boundary: f64| member.length(forcing / boundary);
-        Ok(Self {
-            breaking: clearance(boundaries.symmetry_breaking),
-            hopf: clearance(boundaries.hopf),
-            collision: clearance(node.forcing_over_clearance),
-            branch: node.branch,
-        })
-    }
-}
-
 /// A case in the middle of Z3: what it gains, and the limits of steady 1:1 resonance by each layer.
 pub(super) fn steady(cases: &CaseSet, name: &'static str) -> Result<Value, PaperError> {
     let member = cases.case(name)?;
-    let route = Route::of(member)?;
     let bare = member.study.analysis.system.linear_response();
     let bare = member.needs(bare, "linear response")?.amplitude();
     let peak = member.main()?.attractor.peak;
@@ -80,10 +55,10 @@ pub(super) fn steady(cases: &CaseSet, name: &'static str) -> Result<Value, Paper
         "peak": member.length(peak),
         "bare": member.length(bare),
         "change_db": 20.0 * libm::log10(peak / bare),
-        "breaking": route.breaking,
-        "hopf": route.hopf,
-        "collision": route.collision,
-        "ends_by_collision": route.branch == Branch::Stable,
+        "breaking": member.boundary(Bifurcation::SymmetryBreaking)?,
+        "hopf": member.boundary(Bifurcation::NeimarkSacker)?,
+        "collision": member.boundary(Bifurcation::SaddleNode)?,
+        "ends_by_collision": member.collides_on(Branch::Stable),
         "exact": exact.map(|stretch| stretch.clearance.map(|end| member.length(end))),
         "exact_end": exact.and_then(|stretch| stretch.ends[1]).map(Bifurcation::words),
         "simulated": simulated.map(|limit| [limit.kept, limit.lost.factor].map(|at| member.length(at))),
@@ -92,38 +67,44 @@ pub(super) fn steady(cases: &CaseSet, name: &'static str) -> Result<Value, Paper
 
 pub(super) fn figure_5(cases: &CaseSet) -> Result<Section, PaperError> {
     let (beats, hysteresis) = (cases.case(TRANSFER)?, cases.case(HYSTERESIS)?);
-    let (high, low) = (Route::of(beats)?, Route::of(hysteresis)?);
+    let ways_out = |member: &CaseReport| -> Result<[f64; 2], PaperError> {
+        Ok([
+            member.boundary(Bifurcation::NeimarkSacker)?,
+            member.boundary(Bifurcation::SaddleNode)?,
+        ])
+    };
+    let ([hopf, collision], [slow_hopf, slow_collision]) =
+        (ways_out(beats)?, ways_out(hysteresis)?);
     let attractors = hysteresis.study.attractors.iter();
     let regimes: Vec<Regime> = attractors.map(FoundAttractor::regime).collect();
     let unsteady = |at: &Regime| matches!(at, Regime::StronglyModulated | Regime::BelowTwo);
     Ok(Section::new(
         [
-            ("hopf_first", high.branch == Branch::Left && high.hopf < high.collision),
+            ("hopf_first", beats.collides_on(Branch::Left) && hopf < collision),
             ("modulated", beats.regime() == Some(Regime::StronglyModulated)),
-            ("collide", low.branch == Branch::Stable),
+            ("collide", hysteresis.collides_on(Branch::Stable)),
             (
                 "side_by_side",
                 regimes.contains(&Regime::TwoSymmetric) && regimes.iter().any(unsteady),
             ),
         ],
         json!({
-            "hopf": high.hopf,
-            "collision": high.collision,
+            "hopf": hopf,
+            "collision": collision,
             "modulated": beats.length(1.0),
-            "slow_hopf": low.hopf,
-            "slow_collision": low.collision,
+            "slow_hopf": slow_hopf,
+            "slow_collision": slow_collision,
             "hysteresis": hysteresis.length(1.0),
         }),
     ))
 }
 
 pub(super) fn figure_6(cases: &CaseSet) -> Result<Section, PaperError> {
-    let member = cases.case(TRANSFER)?;
-    let (high, low) = (Route::of(member)?, Route::of(cases.case(HYSTERESIS)?)?);
+    let (member, hysteresis) = (cases.case(TRANSFER)?, cases.case(HYSTERESIS)?);
     let analysis = &member.study.analysis;
     let meeting = analysis.boundaries.codimension_two;
     let ratio = 1.0 + analysis.system.mass_ratio() * meeting.detuning;
-    let hopf = high.hopf / member.length(1.0);
+    let hopf = member.boundary(Bifurcation::NeimarkSacker)? / member.length(1.0);
     let found = walk(&analysis.system, &BEFORE_HOPF.map(|part| part * hopf))?;
     let steady: Vec<&WalkPoint> =
         found.iter().filter(|point| point.regime == Regime::TwoSymmetric).collect();
@@ -133,7 +114,10 @@ pub(super) fn figure_6(cases: &CaseSet) -> Result<Section, PaperError> {
     let forcing = analysis.system.forcing_per_clearance();
     Ok(Section::new(
         [
-            ("branches", low.branch == Branch::Stable && high.branch == Branch::Left),
+            (
+                "branches",
+                hysteresis.collides_on(Branch::Stable) && member.collides_on(Branch::Left),
+            ),
             ("one_meeting", meeting.forcing_over_clearance > 0.0),
             ("least_at_the_end", least.clearance == last.clearance),
         ],

@@ -13,13 +13,16 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 use serde_json::{Value, json};
 
+use crate::analysis::Branch;
 use crate::case::Case;
+use crate::orbits::Bifurcation;
 use crate::quantity::Units;
 use crate::regimes::{FoundAttractor, Regime};
 use crate::report::figure::Figure;
 use crate::report::render::{RenderError, without_repeated_blank_lines};
 use crate::report::template;
 use crate::study::{CaseStudy, StudyError};
+use crate::validation::boundaries::clearances;
 
 /// The cases that the page is made from, as their files are called.
 pub const CASES: [&str; 12] = [
@@ -128,6 +131,18 @@ impl CaseReport {
         self.case.scales().length(over_clearance)
     }
 
+    /// The clearance at which the theory has a boundary, in metres.
+    fn boundary(&self, kind: Bifurcation) -> Result<f64, PaperError> {
+        let known = clearances(&self.study.analysis);
+        let found = known.iter().find(|at| at.kind == kind).map(|at| self.length(at.clearance));
+        self.needs(found, kind.words())
+    }
+
+    /// Whether fixed points collide on a branch.
+    fn collides_on(&self, branch: Branch) -> bool {
+        self.study.analysis.boundaries.saddle_node.is_some_and(|node| node.branch == branch)
+    }
+
     /// What the case should give.
     fn needs<T>(&self, found: Option<T>, what: &'static str) -> Result<T, PaperError> {
         found.ok_or(PaperError::NoResult { case: self.name, what })
@@ -136,6 +151,20 @@ impl CaseReport {
     /// The moving attractor that most starts lead to.
     fn main(&self) -> Result<&FoundAttractor, PaperError> {
         self.needs(self.study.main_attractor(), "motion")
+    }
+
+    /// A figure of its report.
+    fn image(&self, name: &'static str, width: u32) -> Result<Value, PaperError> {
+        let figure = self.figures.iter().find(|figure| figure.name == name);
+        let figure = figure.ok_or(PaperError::NoFigure { case: self.name, figure: name })?;
+        Ok(json!({
+            "case": self.name,
+            "title": self.case.title,
+            "name": name,
+            "caption": figure.caption,
+            "alt": figure.alt,
+            "width": width.min(figure.size.0),
+        }))
     }
 
     fn regime(&self) -> Option<Regime> {
@@ -153,25 +182,6 @@ struct CaseSet<'a>(&'a [CaseReport]);
 impl<'a> CaseSet<'a> {
     fn case(&self, name: &'static str) -> Result<&'a CaseReport, PaperError> {
         self.0.iter().find(|member| member.name == name).ok_or(PaperError::NoCase(name))
-    }
-
-    fn image(
-        &self,
-        case: &'static str,
-        name: &'static str,
-        width: u32,
-    ) -> Result<Value, PaperError> {
-        let member = self.case(case)?;
-        let figure = member.figures.iter().find(|figure| figure.name == name);
-        let figure = figure.ok_or(PaperError::NoFigure { case, figure: name })?;
-        Ok(json!({
-            "case": case,
-            "title": member.case.title,
-            "name": name,
-            "caption": figure.caption,
-            "alt": figure.alt,
-            "width": width.min(figure.size.0),
-        }))
     }
 }
 
@@ -228,7 +238,7 @@ pub fn page(members: &[CaseReport]) -> Result<String, PaperError> {
         ("12", dynamics::figure_12(&cases)?),
     ]);
     for (number, case, name, width) in IMAGES {
-        let image = cases.image(case, name, width)?;
+        let image = cases.case(case)?.image(name, width)?;
         sections.entry(number).and_modify(|section| section.images.push(image));
     }
     let [steady_8, steady_85] = STEADY.map(|name| boundaries::steady(&cases, name));

@@ -27,61 +27,53 @@ const FIGURE_11: [(&str, &str, Regime); 6] = [
     ("f", "li2016-8hz-b20mm", Regime::BelowTwo),
 ];
 
-/// A panel: whether its regime is the paper's, and what was found.
-type Panel = ((&'static str, bool), Value);
+/// The panels of a figure: whether each regime is the paper's, and what was found.
+type Panels = (Vec<(&'static str, bool)>, Vec<Value>);
 
 fn compared(
     cases: &CaseSet,
     panels: &[(&'static str, &'static str, Regime)],
-) -> Result<Vec<Panel>, PaperError> {
-    let panel = |(letter, name, expected): &(&'static str, &'static str, Regime)| {
+) -> Result<Panels, PaperError> {
+    let (mut checks, mut told) = (Vec::new(), Vec::new());
+    for (letter, name, expected) in panels {
         let member = cases.case(name)?;
         let main = member.main()?;
-        let facts = json!({
+        checks.push((*letter, main.regime() == *expected));
+        told.push(json!({
             "letter": letter,
             "expected": expected.key(),
             "found": main.regime().key(),
             "clearance": member.length(1.0),
             "impacts_per_period": member.impacts_per_period()?,
             "rms": member.length(main.attractor.rms),
-        });
-        Ok(((*letter, main.regime() == *expected), facts))
-    };
-    panels.iter().map(panel).collect()
+        }));
+    }
+    Ok((checks, told))
 }
 
 pub(super) fn figure_4(cases: &CaseSet) -> Result<Section, PaperError> {
-    let (mut checks, panels): (Vec<_>, Vec<Value>) =
-        compared(cases, &FIGURE_4)?.into_iter().unzip();
-    let (mut impacts, mut levels) = (Vec::new(), Vec::new());
-    for (_, name, _) in FIGURE_4 {
-        let member = cases.case(name)?;
-        impacts.push(member.impacts_per_period()?);
-        levels.push(member.length(member.main()?.attractor.rms));
-    }
+    let (mut checks, panels) = compared(cases, &FIGURE_4)?;
+    let [impacts, levels] = ["impacts_per_period", "rms"]
+        .map(|key| panels.iter().filter_map(|one| one[key].as_f64()).collect::<Vec<f64>>());
     let lowest = (0..levels.len()).min_by(|a, b| levels[*a].total_cmp(&levels[*b])).unwrap_or(0);
     let valley = levels[..=lowest].windows(2).all(|pair| pair[1] < pair[0])
         && levels[lowest..].windows(2).all(|pair| pair[1] > pair[0]);
     checks.push(("impacts_fall", impacts.windows(2).all(|pair| pair[1] <= pair[0] + 1e-9)));
     checks.push(("valley", valley && (1..levels.len() - 1).contains(&lowest)));
     let member = cases.case(TRANSFER)?;
-    let exact = member.study.exact.boundaries.as_ref();
-    let asymmetric = exact
-        .and_then(|exact| exact.asymmetric.as_ref())
-        .and_then(|found| Some([found.symmetry_breaking, found.period_doubling?, found.grazing?]));
+    let exact = member.study.exact.boundaries.as_ref().and_then(|found| found.asymmetric.as_ref());
+    let places =
+        exact.and_then(|at| Some([at.symmetry_breaking, at.period_doubling?, at.grazing?]));
     let [breaking, doubling, grazing] =
-        member.needs(asymmetric, "asymmetric orbits")?.map(|at| member.length(at));
-    Ok(Section::new(
-        checks,
-        json!({
-            "panels": panels, "breaking": breaking, "doubling": doubling, "grazing": grazing,
-        }),
-    ))
+        member.needs(places, "asymmetric orbits")?.map(|at| member.length(at));
+    let facts = json!({
+        "panels": panels, "breaking": breaking, "doubling": doubling, "grazing": grazing,
+    });
+    Ok(Section::new(checks, facts))
 }
 
 pub(super) fn figure_11(cases: &CaseSet) -> Result<Section, PaperError> {
-    let (mut checks, panels): (Vec<_>, Vec<Value>) =
-        compared(cases, &FIGURE_11)?.into_iter().unzip();
+    let (mut checks, panels) = compared(cases, &FIGURE_11)?;
     let smallest = cases.case("li2016-8hz-b0p3mm")?.main()?;
     let three = cases.case("li2016-8hz-b2p5mm")?.impacts_per_period()?;
     checks.push(("irregular", !smallest.attractor.repeats()));

@@ -1,7 +1,7 @@
 //! A second opinion in 77 decimal digits: equations (1) and (2) once more, for a few dozen impacts.
 //!
-//! It shares no code with [`crate::simulation`] and none of its ideas: the oscillator is the
-//! textbook's, walls are looked for by a fine scan in multiple precision whose first steps are a
+//! It shares no code with [`crate::simulation`] and none of its ideas: the motion is a Taylor series of
+//! its own equation, walls are looked for by a fine scan in multiple precision whose first steps are a
 //! thousand thousand million times shorter, a crossing is halved and polished by Newton's method, and
 //! chattering is followed until the gap opens by 1e-40 clearances. It costs a thousand times as much
 //! and proves nothing, but no rounding of the engine can hide behind its own.
@@ -9,8 +9,8 @@
 mod oscillator;
 pub mod real;
 
-use oscillator::{LEVELS, Motion, Oscillator, Point};
-use real::{Functions, Real};
+use oscillator::{LEVELS, Oscillator, Point, Vector};
+use real::Real;
 
 use crate::system::{State, System};
 
@@ -26,11 +26,6 @@ const GOLDEN: f64 = 0.618_033_988_749_894_9;
 const CORRECTIONS: u32 = 12;
 /// Relative correction that ends them: from there the next would be below 77 digits.
 const CORRECTED: f64 = 1e-45;
-
-/// The library for multiple precision could not allocate its constants.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("no memory for the constants of the multiple-precision reference")]
-pub struct NoMemory;
 
 /// What happens next on a trajectory; times are fast time since the start.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -59,14 +54,15 @@ pub enum Event {
 
 /// A trajectory in multiple precision.
 pub struct Reference {
-    functions: Functions,
     eps: Real,
     restitution: Real,
     alone: Oscillator,
     carrying: Oscillator,
     time: Real,
-    /// `x`, `x'`, `y`, `y'`.
-    state: [Real; 4],
+    /// The oscillator with its excitation.
+    z: Vector,
+    y: Real,
+    y_velocity: Real,
     /// The wall that the absorber rests on.
     rests: Option<f64>,
     rounding: f64,
@@ -80,14 +76,10 @@ impl Reference {
     /// and so does the absorber from the walls, from every second one in an order that never repeats
     /// and has no symmetry: how far this moves later impacts is what rounding once an event may cost,
     /// whoever computes.
-    ///
-    /// # Errors
-    /// [`NoMemory`].
-    pub fn new(system: &System, start: State, rounding: f64) -> Result<Self, NoMemory> {
-        let functions = Functions::new().ok_or(NoMemory)?;
+    pub fn new(system: &System, start: State, rounding: f64) -> Self {
         let eps = Real::of(system.mass_ratio());
-        let alone = Oscillator::new(system, &Real::of(0.0), &functions);
-        let carrying = Oscillator::new(system, &eps, &functions);
+        let alone = Oscillator::new(system, &Real::of(0.0));
+        let carrying = Oscillator::new(system, &eps);
         let [x, v, y, u] = [start.x, start.x_velocity, start.y, start.y_velocity].map(Real::of);
         let gap = &x - &y;
         let side = if gap.is_negative() { -1.0 } else { 1.0 };
@@ -95,22 +87,22 @@ impl Reference {
         let moved = Real::of(rounding);
         // What touches is moved together.
         let y = if touches { &y + &moved } else { y };
-        let x = &x + &moved;
-        let motion = alone.motion(&functions, &Real::of(0.0), &x, &v);
-        let closing = &motion.at(motion.start()).a * &Real::of(side);
+        let z = [&x + &moved, v, Real::of(0.0), Real::of(1.0)];
+        let closing = &alone.rate(&z)[1] * &Real::of(side);
         let rests = (touches && closing.is_positive()).then_some(side);
-        Ok(Self {
-            functions,
+        Self {
             eps,
             restitution: Real::of(system.restitution()),
             alone,
             carrying,
             time: Real::of(0.0),
-            state: [x, v, y, u],
+            z,
+            y,
+            y_velocity: u,
             rests,
             rounding,
             impacts: 0,
-        })
+        }
     }
 
     /// The next event; `None` if there is none up to `latest`, and then the trajectory stands where
@@ -122,65 +114,65 @@ impl Reference {
         }
     }
 
+    fn start(&self) -> Point {
+        Point { s: Real::of(0.0), z: self.z.clone() }
+    }
+
     fn release(&mut self, side: f64, latest: f64) -> Option<Event> {
-        let [x, v, ..] = &self.state;
-        let motion = self.carrying.motion(&self.functions, &self.time, x, v);
-        let sign = Real::of(side);
-        let pulls = |point: &Point| {
-            let at = motion.at(point);
-            Look { happened: (&sign * &at.a).is_negative(), rises: at.jerk.is_positive() }
+        let carrying = &self.carrying;
+        // The wall's pull, and its rate.
+        let pull = |point: &Point| {
+            let rate = carrying.rate(&point.z);
+            [&rate[1], &carrying.rate(&rate)[1]].map(|one| &Real::of(-side) * one)
         };
-        let span = latest - self.time.to_f64();
-        let before = scan(&motion, span, self.carrying.scan_step(), pulls)?;
-        let s = polish(before.s, |s| {
-            let at = motion.at(&motion.point(s));
-            (at.a, at.jerk)
-        });
-        let at = motion.at(&motion.point(&s));
+        let before = scan(carrying, self.start(), latest - self.time.to_f64(), &pull)?;
+        let Point { s, z } = polished(carrying, before, &pull);
         self.time = &self.time + &s;
-        let y = &at.x - &sign;
-        let event = Event::Release { tau: self.time.to_f64(), x: at.x.to_f64() };
-        self.state = [at.x, at.v.clone(), y, at.v];
+        self.y = &z[0] - &Real::of(side);
+        self.y_velocity = z[1].clone();
+        let event = Event::Release { tau: self.time.to_f64(), x: z[0].to_f64() };
+        self.z = z;
         self.rests = None;
         Some(event)
     }
 
     fn impact(&mut self, latest: f64) -> Option<Event> {
-        let [x, v, y, u] = &self.state;
-        let motion = self.alone.motion(&self.functions, &self.time, x, v);
+        let (alone, y, u) = (&self.alone, &self.y, &self.y_velocity);
         let one = Real::of(1.0);
-        let gap = |point: &Point| &motion.at(point).x - &(y + &(u * &point.s));
-        let outside = |point: &Point| {
-            let at = motion.at(point);
-            let gap = &at.x - &(y + &(u * &point.s));
-            let happened = (&gap.abs() - &one).is_positive();
-            Look { happened, rises: (&at.v - u).is_positive() }
+        let gap = |point: &Point| &point.z[0] - &(y + &(u * &point.s));
+        // How far outside the absorber is, and its rate.
+        let excess = |point: &Point| {
+            let (gap, opening) = (gap(point), &point.z[1] - u);
+            let rate = if gap.is_negative() { -&opening } else { opening };
+            [&gap.abs() - &one, rate]
         };
         let span = latest - self.time.to_f64();
-        let near = match self.short_flight(&motion) {
-            Some(s) => s,
-            None => scan(&motion, span, self.alone.scan_step(), outside)?.s,
+        let near = match self.short_flight() {
+            Some(s) => alone.later(&self.start(), &s),
+            None => scan(alone, self.start(), span, &excess)?,
         };
-        let side = if gap(&motion.point(&near)).is_negative() { -1.0 } else { 1.0 };
-        let sign = Real::of(side);
-        let s = polish(near, |s| {
-            let at = motion.at(&motion.point(s));
-            (&(&at.x - &(y + &(u * s))) - &sign, &at.v - u)
-        });
-        if s.to_f64() > span {
+        let side = if gap(&near).is_negative() { -1.0 } else { 1.0 };
+        let at = polished(alone, near, &excess);
+        if at.s.to_f64() > span {
             return None;
         }
-        let at = motion.at(&motion.point(&s));
-        self.time = &self.time + &s;
-        let approach = &at.v - u;
+        self.time = &self.time + &at.s;
+        Some(self.struck(&at.z, side))
+    }
+
+    /// Equation (2), and whether the absorber stays on the wall.
+    fn struck(&mut self, z: &Vector, side: f64) -> Event {
+        let (one, sign) = (Real::of(1.0), Real::of(side));
+        let [x, v, sin, cos] = z.clone();
+        let approach = &v - &self.y_velocity;
         let r = &self.restitution;
         let total = &one + &self.eps;
         let exchanged = &(&(&one + r) * &approach) / &total;
-        let after = [&at.v - &(&self.eps * &exchanged), u + &exchanged];
+        let after = [&v - &(&self.eps * &exchanged), &self.y_velocity + &exchanged];
         let kept = &one - &(r * r);
         let loss = &(&(&self.eps * &kept) * &(&approach * &approach)) / &(&Real::of(2.0) * &total);
         let opening = &(&approach * r) * &sign;
-        let closing = &sign * &at.a;
+        let closing = &sign * &self.alone.rate(z)[1];
         // The gap opens by u^2 / (2 a).
         let limit = &closing * &Real::of(2.0 * EXCURSION);
         let sticks = closing.is_positive() && !limit.is_below(&(&opening * &opening));
@@ -189,36 +181,31 @@ impl Reference {
         self.impacts += 1;
         let rounded = (GOLDEN * f64::from(self.impacts)).fract() < 0.5 && room.is_negative();
         let rounding = if rounded { self.rounding } else { 0.0 };
-        let place = &at.x - &(&sign * &(&one - &Real::of(rounding)));
-        let event = Event::Impact {
-            tau: self.time.to_f64(),
-            side,
-            x: at.x.to_f64(),
-            loss: loss.to_f64(),
-            sticks,
-        };
-        let [x_velocity, y_velocity] = after;
-        self.state = if sticks || r.is_zero() {
-            let common = &(&x_velocity + &(&self.eps * &y_velocity)) / &total;
-            [at.x, common.clone(), place, common]
+        self.y = &x - &(&sign * &(&one - &Real::of(rounding)));
+        let [x_velocity, y_velocity] = if sticks || r.is_zero() {
+            let common = &(&after[0] + &(&self.eps * &after[1])) / &total;
+            [common.clone(), common]
         } else {
-            [at.x, x_velocity, place, y_velocity]
+            after
         };
+        let (tau, loss) = (self.time.to_f64(), loss.to_f64());
+        let event = Event::Impact { tau, side, x: x.to_f64(), loss, sticks };
+        self.z = [x, x_velocity, sin, cos];
+        self.y_velocity = y_velocity;
         self.rests = sticks.then_some(side);
-        Some(event)
+        event
     }
 
     /// The duration of a flight so short that it is a parabola, `2 u / a`, to nine digits.
-    fn short_flight(&self, motion: &Motion) -> Option<Real> {
-        let [x, v, y, u] = &self.state;
-        let gap = x - y;
+    fn short_flight(&self) -> Option<Real> {
+        let gap = &self.z[0] - &self.y;
         let touching = &gap.abs() - &Real::of(1.0);
         if !touching.abs().is_below(&Real::of(1e-60)) {
             return None;
         }
         let sign = Real::of(if gap.is_negative() { -1.0 } else { 1.0 });
-        let opening = -&(&sign * &(v - u));
-        let closing = &sign * &motion.at(motion.start()).a;
+        let opening = -&(&sign * &(&self.z[1] - &self.y_velocity));
+        let closing = &sign * &self.alone.rate(&self.z)[1];
         if !(opening.is_positive() && closing.is_positive()) {
             return None;
         }
@@ -228,36 +215,35 @@ impl Reference {
     }
 }
 
-/// What a scan sees at a point.
-#[derive(Clone, Copy)]
-struct Look {
-    happened: bool,
-    /// Whether the curve that is watched rises there.
-    rises: bool,
-}
-
-/// The last point before it happened, to a scan step halved [`LEVELS`] times; `None` if it has not
-/// happened within `span`. Steps grow from that smallest one, doubling the way each time. Between two
-/// points with opposite slopes the extremum is looked at as well: a touch may be far shorter than a
+/// The last point before what is `watched`, a value with its rate, exceeds 0, to a scan step halved
+/// [`LEVELS`] times; `None` if it does not within `span`. Steps grow from that smallest one, doubling the
+/// way each time. Between two points a maximum is looked at as well: a touch may be far shorter than a
 /// step.
-fn scan(motion: &Motion, span: f64, step: f64, look: impl Fn(&Point) -> Look) -> Option<Point> {
-    let mut here = motion.start().clone();
-    let mut rises = look(&here).rises;
+fn scan(
+    oscillator: &Oscillator,
+    start: Point,
+    span: f64,
+    watched: &impl Fn(&Point) -> [Real; 2],
+) -> Option<Point> {
+    let step = oscillator.scan_step();
+    let mut rises = watched(&start)[1].is_positive();
+    let mut here = start;
     let mut level = LEVELS;
     let mut walked = 0.0;
     loop {
-        let there = motion.step(&here, level);
-        let seen = look(&there);
-        if seen.happened {
+        let there = oscillator.step(&here, level);
+        let [value, rate] = watched(&there);
+        if value.is_positive() {
             break;
         }
-        if seen.rises != rises
-            && let Some((before, finer)) = at_extremum(motion, &here, level, rises, &look)
+        if rises
+            && !rate.is_positive()
+            && let Some(before) = at_maximum(oscillator, &here, level, watched)
         {
-            (here, level) = (before, finer);
+            (here, level) = before;
             break;
         }
-        (here, rises) = (there, seen.rises);
+        (here, rises) = (there, rate.is_positive());
         walked += libm::scalbn(step, -(level as i32));
         if walked > span {
             return None;
@@ -268,50 +254,49 @@ fn scan(motion: &Motion, span: f64, step: f64, look: impl Fn(&Point) -> Look) ->
         }
     }
     for finer in level + 1..=LEVELS {
-        let there = motion.step(&here, finer);
-        if !look(&there).happened {
+        let there = oscillator.step(&here, finer);
+        if !watched(&there)[0].is_positive() {
             here = there;
         }
     }
     Some(here)
 }
 
-/// Halves a step towards the extremum in it; where it has happened on the way, the point before and
+/// Halves a step towards the maximum in it; where the value exceeds 0 on the way, the point before and
 /// the halvings of the step from there.
-fn at_extremum(
-    motion: &Motion,
+fn at_maximum(
+    oscillator: &Oscillator,
     from: &Point,
     level: usize,
-    rises: bool,
-    look: &impl Fn(&Point) -> Look,
+    watched: &impl Fn(&Point) -> [Real; 2],
 ) -> Option<(Point, usize)> {
     let mut here = from.clone();
     for finer in level + 1..=LEVELS {
-        let there = motion.step(&here, finer);
-        let seen = look(&there);
-        if seen.happened {
+        let there = oscillator.step(&here, finer);
+        let [value, rate] = watched(&there);
+        if value.is_positive() {
             return Some((here, finer));
         }
-        if seen.rises == rises {
+        if rate.is_positive() {
             here = there;
         }
     }
     None
 }
 
-/// Newton's method.
-fn polish(mut s: Real, curve: impl Fn(&Real) -> (Real, Real)) -> Real {
+/// The zero of what is `watched` next to a point, by Newton's method.
+fn polished(oscillator: &Oscillator, near: Point, watched: &impl Fn(&Point) -> [Real; 2]) -> Point {
+    let mut at = near.clone();
     for _ in 0..CORRECTIONS {
-        let (value, slope) = curve(&s);
-        if value.is_zero() || slope.is_zero() {
+        let [value, rate] = watched(&at);
+        if value.is_zero() || rate.is_zero() {
             break;
         }
-        let correction = &value / &slope;
-        let size = correction.abs().to_f64();
-        s = &s - &correction;
-        if size <= CORRECTED * s.abs().to_f64() {
+        let correction = &value / &rate;
+        at = oscillator.later(&near, &(&(&at.s - &near.s) - &correction));
+        if correction.abs().to_f64() <= CORRECTED * at.s.abs().to_f64() {
             break;
         }
     }
-    s
+    at
 }

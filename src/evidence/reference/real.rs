@@ -1,26 +1,24 @@
 //! Real numbers of 256 bits, 77 decimal digits, with the operators that formulas are written in.
 
-use std::cell::RefCell;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use astro_float::{BigFloat, Consts, RoundingMode};
+/// Constants of elementary functions, for those who go on from here with closed forms.
+pub use astro_float::Consts;
+use astro_float::{BigFloat, RoundingMode};
 
-const BITS: usize = 256;
-const ROUND: RoundingMode = RoundingMode::ToEven;
+/// Precision of every operation.
+pub const BITS: usize = 256;
+/// How each is rounded.
+pub const ROUND: RoundingMode = RoundingMode::ToEven;
 
 /// A number of 77 decimal digits.
 #[derive(Clone, Debug)]
-pub struct Real(BigFloat);
+pub struct Real(pub BigFloat);
 
 impl Real {
     /// The number that a floating-point number stands for, exactly.
     pub fn of(number: f64) -> Self {
         Self(BigFloat::from_f64(number, BITS))
-    }
-
-    /// Square root; not a number for a negative one.
-    pub fn sqrt(&self) -> Self {
-        Self(self.0.sqrt(BITS, ROUND))
     }
 
     /// Absolute value.
@@ -81,27 +79,6 @@ impl Neg for &Real {
     }
 }
 
-/// Elementary functions, with the constants that they have computed so far.
-pub struct Functions(RefCell<Consts>);
-
-impl Functions {
-    /// `None` when memory for the constants is refused.
-    pub fn new() -> Option<Self> {
-        Consts::new().ok().map(|consts| Self(RefCell::new(consts)))
-    }
-
-    /// Sine and cosine.
-    pub fn sincos(&self, angle: &Real) -> (Real, Real) {
-        let consts = &mut self.0.borrow_mut();
-        (Real(angle.0.sin(BITS, ROUND, consts)), Real(angle.0.cos(BITS, ROUND, consts)))
-    }
-
-    /// Exponential.
-    pub fn exp(&self, number: &Real) -> Real {
-        Real(number.0.exp(BITS, ROUND, &mut self.0.borrow_mut()))
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -116,20 +93,5 @@ mod tests {
         assert_eq!(third.to_f64(), 1.0 / 3.0);
         let rest = &(&third * &Real::of(3.0)) - &Real::of(1.0);
         assert!(rest.to_f64().abs() < 1e-76, "{}", rest.to_f64());
-    }
-
-    #[test]
-    fn functions_have_seventy_digits() {
-        let functions = Functions::new().expect("memory");
-        let angle = &Real::of(1e3) / &Real::of(3.0);
-        let (sin, cos) = functions.sincos(&angle);
-        let one = &(&sin * &sin) + &(&cos * &cos);
-        assert!((&one - &Real::of(1.0)).to_f64().abs() < 1e-75);
-        let (up, down) = (functions.exp(&angle), functions.exp(&-&angle));
-        assert!((&(&up * &down) - &Real::of(1.0)).to_f64().abs() < 1e-70);
-        // Abramowitz and Stegun, table 4.6: sin 1.
-        assert!(
-            (functions.sincos(&Real::of(1.0)).0.to_f64() - 0.841_470_984_807_896_5).abs() < 1e-15
-        );
     }
 }

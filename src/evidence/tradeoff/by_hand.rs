@@ -37,12 +37,15 @@ pub struct ByHand {
     locate: Locate,
 }
 
-/// What the integrator tells of.
-pub trait Listener {
-    /// An impact took place at this time; the state is the one after it.
-    fn impact(&mut self, _time: f64, _state: &State) {}
-    /// A step is over.
-    fn step(&mut self, _state: &State) {}
+/// What an integrator makes of some periods.
+#[derive(Debug, Clone)]
+pub struct Run {
+    /// Where it ends.
+    pub end: State,
+    /// When each impact took place, and the state after it.
+    pub impacts: Vec<(f64, State)>,
+    /// Sum of the squared displacement at the ends of steps.
+    pub squares: f64,
 }
 
 impl ByHand {
@@ -116,42 +119,36 @@ impl ByHand {
         at
     }
 
-    /// Integrates so many excitation periods from `start` at phase 0; returns where it ends.
-    pub fn run(&self, start: State, periods: u64, listener: &mut impl Listener) -> State {
+    /// Integrates so many excitation periods from `start` at phase 0.
+    pub fn run(&self, start: State, periods: u64) -> Run {
         let h = self.system.period() / f64::from(self.steps);
-        let mut state = start;
+        let mut run = Run { end: start, impacts: Vec::new(), squares: 0.0 };
         for step in 0..periods * u64::from(self.steps) {
             // The phase starts afresh in every period, as careful people do.
             let in_period = (step % u64::from(self.steps)) as f64 * h;
             let period = (step / u64::from(self.steps)) as f64 * self.system.period();
-            state = self.whole_step(state, in_period, period, h, listener);
-            listener.step(&state);
+            self.step(&mut run, in_period, period, h);
+            run.squares += run.end.x * run.end.x;
         }
-        state
+        run
     }
 
-    fn whole_step(
-        &self,
-        start: State,
-        from: f64,
-        period: f64,
-        h: f64,
-        listener: &mut impl Listener,
-    ) -> State {
-        let (mut state, mut time, mut left) = (start, from, h);
+    fn step(&self, run: &mut Run, mut time: f64, period: f64, mut left: f64) {
         for _ in 0..MOST_IN_STEP {
+            let state = run.end;
             let next = self.advanced(time, &state, left);
             let outwards = next.relative_displacement() * (next.x_velocity - next.y_velocity) > 0.0;
             if next.relative_displacement().abs() <= 1.0 || !outwards {
-                return next;
+                run.end = next;
+                return;
             }
             let passed = self.located(time, &state, &next, left);
-            state = self.collided(self.advanced(time, &state, passed));
+            run.end = self.collided(self.advanced(time, &state, passed));
             time += passed;
             left -= passed;
-            listener.impact(period + time, &state);
+            run.impacts.push((period + time, run.end));
         }
-        self.advanced(time, &state, left)
+        run.end = self.advanced(time, &run.end, left);
     }
 }
 
@@ -181,20 +178,20 @@ impl Flights {
     /// # Errors
     /// [`StartError`] if the integrator's state is not finite.
     pub fn of(hand: &ByHand, start: State, periods: u64) -> Result<Self, StartError> {
-        let mut log = Log::default();
-        let mut state = start;
-        for _ in 0..periods {
+        let (mut impacts, mut state) = (Vec::new(), start);
+        for period in 0..periods {
             // A scheme without sustained contact may hit a wall in every step.
-            if log.impacts.len() > MOST_FLIGHTS {
+            if impacts.len() > MOST_FLIGHTS {
                 break;
             }
-            log.period = log.periods * hand.system.period();
-            state = hand.run(state, 1, &mut log);
-            log.periods += 1.0;
+            let run = hand.run(state, 1);
+            let begin = period as f64 * hand.system.period();
+            impacts.extend(run.impacts.iter().map(|(time, state)| (begin + time, *state)));
+            state = run.end;
         }
         let width = SAME_IMPACT * hand.system.period() / f64::from(hand.steps);
         let mut found = Self::default();
-        for pair in log.impacts.windows(2) {
+        for pair in impacts.windows(2) {
             let [(before, state), (after, end)] = [pair[0], pair[1]];
             let phase = before * hand.system.frequency_ratio();
             let exact = next(&hand.system, state, phase)?;
@@ -208,19 +205,6 @@ impl Flights {
             }
         }
         Ok(found)
-    }
-}
-
-#[derive(Default)]
-struct Log {
-    impacts: Vec<(f64, State)>,
-    periods: f64,
-    period: f64,
-}
-
-impl Listener for Log {
-    fn impact(&mut self, time: f64, state: &State) {
-        self.impacts.push((self.period + time, *state));
     }
 }
 

@@ -4,80 +4,56 @@ use serde_json::json;
 
 use super::by_hand::Locate;
 use super::page::TradeoffDocument;
-use super::{Method, Search, Tradeoff};
+use super::{Layer, Method, Search};
 use crate::quantity::numbers::{asked, operations, relative_error};
 use crate::report::figure::{
     Axis, Color, Dash, Figure, Layer as Drawn, MarkedPoint, Marker, Panel, Role, Rule, Shape, Style,
 };
 
-/// A group of trials that is drawn alike.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Series {
-    Interpolation,
-    Bisection,
-    Simulation,
-    OtherSimulation,
-    SlowFlow,
-    ClosedForm,
-    ExactOrbit,
-}
+/// A group of trials that is drawn alike: name, mark, color, the line that joins what gets better step by
+/// step, and which methods it has.
+type Series = (&'static str, Marker, Color, Option<Dash>, fn(&Method) -> bool);
 
 /// From the back to the front.
-const SERIES: [Series; 7] = [
-    Series::Interpolation,
-    Series::Bisection,
-    Series::Simulation,
-    Series::OtherSimulation,
-    Series::SlowFlow,
-    Series::ClosedForm,
-    Series::ExactOrbit,
-];
+fn series() -> [Series; 7] {
+    use Color::{Black, Blue, BluishGreen, Orange, ReddishPurple, Vermillion};
+    let (hollow, filled) = (Marker::hollow, Marker::filled);
+    [
+        ("fixed step, interpolation", hollow(Shape::Square), Orange, Some(Dash::Dotted), |one| {
+            matches!(one, Method::FixedStep { locate: Locate::Interpolation, .. })
+        }),
+        ("fixed step, bisection", filled(Shape::Cross), Vermillion, Some(Dash::Dashed), |one| {
+            matches!(one, Method::FixedStep { locate: Locate::Bisection, .. })
+        }),
+        ("simulation", filled(Shape::Circle), ReddishPurple, Some(Dash::Solid), is_usual),
+        (
+            "simulation, other tolerance or search",
+            hollow(Shape::Diamond),
+            ReddishPurple,
+            None,
+            |one| one.layer() == Layer::Simulation && !is_usual(one),
+        ),
+        ("slow flow", hollow(Shape::Triangle), BluishGreen, None, |one| {
+            one.layer() == Layer::SlowFlow
+        }),
+        ("closed form", filled(Shape::Square), Blue, None, |one| one.layer() == Layer::ClosedForm),
+        ("exact orbit", hollow(Shape::Circle).sized(10.0), Black, None, |one| {
+            one.layer() == Layer::ExactOrbit
+        }),
+    ]
+}
 
-impl Series {
-    const fn of(method: Method) -> Self {
-        match method {
-            Method::FixedStep { locate: Locate::Interpolation, .. } => Self::Interpolation,
-            Method::FixedStep { locate: Locate::Bisection, .. } => Self::Bisection,
-            Method::Simulation { search: Search::Panels, excursion: None, .. } => Self::Simulation,
-            Method::Simulation { .. } => Self::OtherSimulation,
-            Method::SlowFlow { .. } => Self::SlowFlow,
-            Method::FixedPoints => Self::ClosedForm,
-            Method::SymmetricOrbit | Method::OrbitFromSimulation { .. } => Self::ExactOrbit,
-        }
-    }
-
-    /// Name, mark, color, and the line that joins what gets better step by step.
-    fn looks(self) -> (&'static str, Marker, Color, Option<Dash>) {
-        use Color::{Black, Blue, BluishGreen, Orange, ReddishPurple, Vermillion};
-        let (hollow, filled) = (Marker::hollow, Marker::filled);
-        match self {
-            Self::Interpolation => {
-                ("fixed step, interpolation", hollow(Shape::Square), Orange, Some(Dash::Dotted))
-            }
-            Self::Bisection => {
-                ("fixed step, bisection", filled(Shape::Cross), Vermillion, Some(Dash::Dashed))
-            }
-            Self::Simulation => {
-                ("simulation", filled(Shape::Circle), ReddishPurple, Some(Dash::Solid))
-            }
-            Self::OtherSimulation => (
-                "simulation, other tolerance or search",
-                hollow(Shape::Diamond),
-                ReddishPurple,
-                None,
-            ),
-            Self::SlowFlow => ("slow flow", hollow(Shape::Triangle), BluishGreen, None),
-            Self::ClosedForm => ("closed form", filled(Shape::Square), Blue, None),
-            Self::ExactOrbit => ("exact orbit", hollow(Shape::Circle).sized(10.0), Black, None),
-        }
-    }
+/// Whether it is the event engine as everybody uses it.
+fn is_usual(one: &Method) -> bool {
+    matches!(one, Method::Simulation { search: Search::Panels, excursion: None, .. })
 }
 
 /// Room beside the outermost points, as a factor.
 const ROOM: f64 = 2.0;
 
 /// The diagram.
-pub fn figure(tradeoff: &Tradeoff, document: &TradeoffDocument) -> Figure {
+pub fn figure(document: &TradeoffDocument) -> Figure {
+    let tradeoff = document.found;
     let placed: Vec<(Method, MarkedPoint)> = tradeoff
         .trials
         .iter()
@@ -109,9 +85,8 @@ pub fn figure(tradeoff: &Tradeoff, document: &TradeoffDocument) -> Figure {
             Drawn::rule(Rule::Horizontal(allowed), Role::Guide.style())
                 .labelled(format!("{} asked for", asked(allowed))),
         );
-    for series in SERIES {
-        let (name, marker, color, dash) = series.looks();
-        let of_series = placed.iter().filter(|(method, _)| Series::of(*method) == series);
+    for (name, marker, color, dash, has) in series() {
+        let of_series = placed.iter().filter(|(method, _)| has(method));
         let points: Vec<MarkedPoint> = of_series.map(|(_, point)| point.clone()).collect();
         if let Some(dash) = dash.filter(|_| !points.is_empty()) {
             let line = points.iter().map(|point| [point.x, point.y]).collect();

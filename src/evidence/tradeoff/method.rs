@@ -2,14 +2,14 @@
 
 use serde::Serialize;
 
-use super::by_hand::{ByHand, Listener, Locate};
+use super::by_hand::{ByHand, Locate};
 use crate::analysis::Manifold;
 use crate::analysis::motion::root_mean_square;
 use crate::analysis::slow_motion::{SlowEnd, SlowFlow};
 use crate::operation_count;
 use crate::regimes::{Attractor, Window};
 use crate::simulation::{ContactTolerance, Simulation, Stop};
-use crate::study::answer::{self, Answer, BLOCKS, IMPACT_LIMIT, measured, scatters};
+use crate::study::answer::{self, Answer, BLOCKS, IMPACT_LIMIT, WhyNot, measured};
 use crate::study::{Proof, StudyError};
 use crate::system::{State, System};
 
@@ -94,18 +94,20 @@ impl Method {
 
     /// Whether it is `other` with a longer run or smaller steps, all else being the same.
     pub fn refines(self, other: Self) -> bool {
-        match (self, other) {
-            (Self::SlowFlow { periods: more }, Self::SlowFlow { periods }) => more > periods,
-            (
-                Self::Simulation { periods: more, search, excursion },
-                Self::Simulation { periods, search: same, excursion: equal },
-            ) => more > periods && search == same && excursion == equal,
-            (
-                Self::FixedStep { steps: more, periods, locate },
-                Self::FixedStep { steps, periods: equal, locate: same },
-            ) => more > steps && periods == equal && locate == same,
-            _ => false,
-        }
+        let ((one, size), (same, less)) = (self.refined(), other.refined());
+        one == same && size > less
+    }
+
+    /// The method without what refines it, and that: its length, or of a fixed step the steps in a period.
+    fn refined(mut self) -> (Self, u64) {
+        let size = match &mut self {
+            Self::SlowFlow { periods } | Self::Simulation { periods, .. } => {
+                std::mem::take(periods)
+            }
+            Self::FixedStep { steps, .. } => u64::from(std::mem::take(steps)),
+            _ => 0,
+        };
+        (self, size)
     }
 
     /// What it answers about `system`; simulations begin at `start`. The second value is what that
@@ -141,13 +143,13 @@ fn slow_flow(system: &System, periods: u64) -> Result<Answer, StudyError> {
     let middle = 0.5
         * (manifold.fold.oscillator_amplitude + manifold.symmetry_breaking.oscillator_amplitude);
     let Some(start) = flow.point(middle, 0.0) else {
-        return Ok(Answer::none("the stable branch has no middle"));
+        return Ok(Answer::none(WhyNot::NoMiddle));
     };
     Ok(match flow.follow(start, periods) {
         SlowEnd::Settles(at) | SlowEnd::Moving(at)
             if at.absorber_amplitude > manifold.symmetry_breaking.absorber_amplitude =>
         {
-            Answer::none("beyond symmetry breaking, where the branch is unstable")
+            Answer::none(WhyNot::BeyondSymmetryBreaking)
         }
         SlowEnd::Settles(at) | SlowEnd::Moving(at) => Answer::steady(root_mean_square(
             system,
@@ -155,9 +157,7 @@ fn slow_flow(system: &System, periods: u64) -> Result<Answer, StudyError> {
             at.absorber_amplitude,
             at.absorber_phase,
         )),
-        SlowEnd::LeavesAtFold { .. } => {
-            Answer::none("leaves the manifold at the fold: the theory gives no steady amplitude")
-        }
+        SlowEnd::LeavesAtFold { .. } => Answer::none(WhyNot::LeavesAtFold),
     })
 }
 
@@ -167,13 +167,14 @@ fn orbit_near(system: &System, start: State, periods: u64) -> Result<Answer, Stu
     let window = Window { discard, periods: periods - discard, impact_limit: IMPACT_LIMIT };
     let found = Attractor::measure(&mut simulation, &window);
     Ok(match Proof::of(system, &found) {
+        // Errors are differences from the best answer, which is this orbit.
         Some(proof) => Answer {
-            rms: Some(proof.measures.rms),
-            impacts_per_period: Some(answer::impacts_per_period(&proof)),
+            scatter: None,
+            impacts_scatter: None,
             regime: Some(found.classification.regime),
-            ..Answer::default()
+            ..Answer::of_proof(&proof)
         },
-        None => Answer::none("the simulated motion does not repeat yet: no orbit to solve for"),
+        None => Answer::none(WhyNot::NotRepeating),
     })
 }
 
@@ -194,36 +195,20 @@ fn simulated(
     let stop = simulation.run(discard, IMPACT_LIMIT, &mut ());
     let answer = match stop {
         Stop::EndTime => measured(&mut simulation, periods - discard),
-        other => Some(Answer::none(other.words())),
+        Stop::NotFinite => Some(Answer::none(WhyNot::Overflow)),
+        Stop::WallsUnresolved => Some(Answer::none(WhyNot::WallsUnresolved)),
+        Stop::ImpactLimit => None,
     };
     // The slow search notes every evaluation itself.
     if search == Search::Panels {
         operation_count::note(simulation.operations());
     }
-    Ok(answer.unwrap_or_else(|| Answer::none("the run was ended by its limit on impacts")))
+    Ok(answer.unwrap_or_else(|| Answer::none(WhyNot::ImpactLimit)))
 }
 
 /// Impacts per period, over all periods so far and ten more, above which a fixed step is given up: it
 /// has one in nearly every step, and none of them is an impact.
 const MOST_IMPACTS: u64 = 400;
-
-/// Counts impacts and sums squares at the ends of steps.
-#[derive(Default)]
-struct Sums {
-    impacts: u64,
-    squares: f64,
-}
-
-impl Listener for Sums {
-    fn impact(&mut self, _: f64, _: &State) {
-        operation_count::note(12);
-        self.impacts += 1;
-    }
-    fn step(&mut self, state: &State) {
-        operation_count::note(2);
-        self.squares += state.x * state.x;
-    }
-}
 
 /// The first half of the periods is left out, the second measured in blocks.
 fn fixed_step(hand: &ByHand, start: State, periods: u64) -> Answer {
@@ -231,38 +216,31 @@ fn fixed_step(hand: &ByHand, start: State, periods: u64) -> Answer {
     let measured = periods - discard;
     let blocks = BLOCKS.min(measured).max(1);
     let ends = (0..=blocks).map(|block| discard + measured * block / blocks);
-    let (mut state, mut done, mut impacts) = (start, 0, 0);
-    // Of each block: its periods, the mean of x^2, impacts per period.
-    let mut means: Vec<(f64, [f64; 2])> = Vec::new();
-    for end in ends {
-        let (first, mut sums) = (done, Sums::default());
+    let (mut state, mut done, mut all_impacts) = (start, 0, 0);
+    // Of each block: the sum of x^2 over the steps in a period, and of impacts; then the mean of both.
+    let (mut total, mut means) = ([0.0; 2], Vec::new());
+    for (block, end) in ends.enumerate() {
+        let (first, mut sums) = (done, [0.0; 2]);
         while done < end {
-            state = hand.run(state, 1, &mut sums);
-            if impacts + sums.impacts > MOST_IMPACTS * (done + 10) {
-                return Answer::none("impacts in nearly every step, so it was given up");
+            let run = hand.run(state, 1);
+            let impacts = run.impacts.len() as u64;
+            operation_count::note(12 * impacts + 2 * hand.steps_per_period());
+            all_impacts += impacts;
+            if all_impacts > MOST_IMPACTS * (done + 10) {
+                return Answer::none(WhyNot::ImpactsInEveryStep);
             }
-            done += 1;
+            sums[0] += run.squares / hand.steps_per_period() as f64;
+            sums[1] += impacts as f64;
+            (state, done) = (run.end, done + 1);
         }
-        impacts += sums.impacts;
-        let length = (end - first) as f64;
-        let square = sums.squares / (length * hand.steps_per_period() as f64);
-        means.push((length, [square, sums.impacts as f64 / length]));
+        if block > 0 {
+            total = [0, 1].map(|k| total[k] + sums[k]);
+            means.push(sums.map(|sum| sum / (end - first) as f64));
+        }
     }
     if !state.x.is_finite() {
-        return Answer::none("a number that overflowed");
+        return Answer::none(WhyNot::Overflow);
     }
-    let blocks = &means[1..];
-    let mean = |k: usize| {
-        blocks.iter().map(|(length, means)| length * means[k]).sum::<f64>() / measured as f64
-    };
-    let (rms, impacts_per_period) = (mean(0).sqrt(), mean(1));
-    let blocks: Vec<[f64; 2]> = blocks.iter().map(|(_, means)| *means).collect();
-    let [scatter, impacts_scatter] = scatters(&blocks, rms);
-    Answer {
-        rms: Some(rms),
-        scatter: Some(scatter),
-        impacts_per_period: Some(impacts_per_period),
-        impacts_scatter: Some(impacts_scatter),
-        ..Answer::default()
-    }
+    let [square, impacts] = total.map(|sum| sum / measured as f64);
+    Answer { settles: false, ..Answer::averaged(square.sqrt(), impacts, &means) }
 }

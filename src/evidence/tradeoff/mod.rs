@@ -21,7 +21,7 @@ use crate::regimes::starts::StartBox;
 use crate::regimes::{FoundAttractor, Regime};
 use crate::simulation::Simulation;
 use crate::study::answer::{self, Answer, ORBIT_ROUNDING};
-use crate::study::{LongTermMotions, StudyEffort, StudyError, long_term_motions, main_attractor};
+use crate::study::{Proof, StudyEffort, StudyError, long_term_motions};
 use crate::system::{State, System};
 use by_hand::{ByHand, Flights, Locate};
 
@@ -105,22 +105,6 @@ pub struct ErrorOf {
     pub below: bool,
 }
 
-impl ErrorOf {
-    fn new(difference: f64, own: Option<f64>, best: f64) -> Self {
-        let value = difference.abs().max(own.unwrap_or(0.0));
-        Self { value: value.max(best), below: value < best }
-    }
-}
-
-/// What is left of a transient in a simulated mean.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Transient {
-    /// Excitation periods that were left out for it.
-    pub left_out: u64,
-    /// As [`Best::decay_periods`].
-    pub decay_periods: Option<f64>,
-}
-
 /// Share of a transient from which on it may be any error: a start may be many times larger than the
 /// motion that it leads to.
 const MUCH_LEFT: f64 = 0.1;
@@ -149,9 +133,10 @@ pub struct Trial {
 }
 
 /// Accuracy and cost of every layer on one case.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Tradeoff {
     /// The system.
+    #[serde(skip)]
     pub system: System,
     /// Where simulations begin.
     pub start: State,
@@ -162,10 +147,13 @@ pub struct Tradeoff {
     /// Share of starts that lead to the motion in question.
     pub share: f64,
     /// How many other long-term motions there are.
+    #[serde(rename = "other_motions")]
     pub others: usize,
     /// Whether the absorber rests on a wall at times.
+    #[serde(rename = "sustained_contact")]
     pub rests: bool,
     /// Every method.
+    #[serde(skip)]
     pub trials: Vec<Trial>,
 }
 
@@ -182,8 +170,8 @@ impl Tradeoff {
     ) -> Result<Self, StudyError> {
         let analysis = Analysis::of(system)?;
         let motions = long_term_motions(&analysis, &effort.study, progress)?;
-        let main = main_attractor(&motions.attractors).ok_or(StudyError::NoMotion)?;
-        let best = best(system, &motions, main, effort)?;
+        let (main, proof) = motions.main().ok_or(StudyError::NoMotion)?;
+        let best = best(system, main, proof.filter(|proof| proof.orbit.attracts()), effort)?;
         progress(1);
         // The first start that leads there, so that transients are those of the case.
         let start_number = main.first_start;
@@ -214,81 +202,74 @@ impl Tradeoff {
             + (2 * effort.lengths.len() + 2 * effort.steps.len()) as u64
     }
 
-    /// What is left of the transient, if that and not scatter makes the error of a simulation: its decay
-    /// leaves enough of it, and the motion repeats, so that it has no scatter, or its averages settle, or
-    /// those of the best answer do, which is longer, and it is not much further off than that.
-    pub fn transient(&self, trial: &Trial) -> Option<Transient> {
+    /// Excitation periods that a simulation left out for its transient, if what is left of that and not
+    /// scatter makes its error: its decay leaves enough of it, and the motion repeats, so that it has no
+    /// scatter, or its averages settle, or those of the best answer do, which is longer, and it is not much
+    /// further off than that.
+    pub fn transient(&self, trial: &Trial) -> Option<u64> {
         let Method::Simulation { periods, .. } = trial.method else { return None };
         let error = trial.rms_error.filter(|error| !error.below)?.value;
-        let (left_out, decay_periods) = (periods / 2, self.best.decay_periods);
-        let left = decay_periods.map_or(1.0, |decay| libm::exp(-(left_out as f64) / decay));
-        let best = &self.best;
+        let (best, left_out) = (&self.best, periods / 2);
+        let left = best.decay_periods.map_or(1.0, |decay| libm::exp(-(left_out as f64) / decay));
         let with_best = best.in_transient && error < ALIKE * best.rms_error;
         let seen = best.layer == Layer::ExactOrbit || with_best || trial.answer.settles;
-        (seen && left > error.min(MUCH_LEFT)).then_some(Transient { left_out, decay_periods })
+        (seen && left > error.min(MUCH_LEFT)).then_some(left_out)
     }
 
-    /// The cheapest trial of a layer whose error of the root mean square is within `allowed`: with the
-    /// right regime, where it tells one, and not by chance, which means that every longer run and every
-    /// smaller step of the same kind is within it too.
-    pub fn cheapest(&self, layer: Layer, allowed: f64) -> Option<&Trial> {
+    /// The place of the cheapest trial of a layer whose error of the root mean square is within `allowed`:
+    /// with the right regime, where it tells one, and not by chance, which means that every longer run and
+    /// every smaller step of the same kind is within it too.
+    pub fn cheapest(&self, layer: Layer, allowed: f64) -> Option<usize> {
         let within = |trial: &Trial| trial.rms_error.is_some_and(|error| error.value <= allowed);
-        let lasts = |trial: &&Trial| {
+        let lasts = |(_, trial): &(usize, &Trial)| {
             let named = trial.answer.regime.is_none_or(|regime| regime == self.best.regime);
-            let refined = self.trials.iter().filter(|other| other.method.refines(trial.method));
-            named && within(trial) && refined.into_iter().all(within)
+            let mut refined = self.trials.iter().filter(|other| other.method.refines(trial.method));
+            named && within(trial) && refined.all(within)
         };
-        let of_layer = self.trials.iter().filter(|trial| trial.method.layer() == layer);
-        of_layer.filter(lasts).min_by_key(|trial| trial.operations)
+        let enough = self.of_layer(layer).filter(lasts);
+        enough.min_by_key(|(_, trial)| trial.operations).map(|(place, _)| place)
+    }
+
+    /// The trials of a layer, with their places.
+    fn of_layer(&self, layer: Layer) -> impl Iterator<Item = (usize, &Trial)> {
+        let all = self.trials.iter().enumerate();
+        all.filter(move |(_, trial)| trial.method.layer() == layer)
     }
 }
 
 fn best(
     system: &System,
-    motions: &LongTermMotions,
     main: &FoundAttractor,
+    proof: Option<&Proof>,
     effort: &TradeoffEffort,
 ) -> Result<Best, StudyError> {
-    let pairs = motions.attractors.iter().zip(&motions.proofs);
-    let proof = pairs
-        .filter(|(found, _)| std::ptr::eq(*found, main))
-        .find_map(|(_, proof)| proof.as_ref())
-        .filter(|proof| proof.orbit.attracts());
-    let regime = main.regime();
-    if let Some(proof) = proof {
-        let cycle = &proof.orbit.cycle;
-        return Ok(Best {
-            layer: Layer::ExactOrbit,
-            periods: None,
-            orbit: Some((cycle.impact_count(), cycle.periods())),
-            rms: proof.measures.rms,
-            rms_error: ORBIT_ROUNDING,
-            impacts_per_period: answer::impacts_per_period(proof),
-            impacts_error: 0.0,
-            regime,
-            decay_periods: decay(-libm::log(proof.orbit.radius_per_period())),
-            in_transient: false,
-        });
-    }
-    let mut simulation = Simulation::new(system, main.attractor.state, 0.0)?;
-    let answer = answer::measured(&mut simulation, effort.longest).ok_or(StudyError::NoMotion)?;
+    let (layer, periods, orbit, decay_rate, answer) = match proof {
+        Some(proof) => {
+            let cycle = &proof.orbit.cycle;
+            let orbit = Some((cycle.impact_count(), cycle.periods()));
+            let rate = -libm::log(proof.orbit.radius_per_period());
+            (Layer::ExactOrbit, None, orbit, rate, Answer::of_proof(proof))
+        }
+        None => {
+            let mut simulation = Simulation::new(system, main.attractor.state, 0.0)?;
+            let answer =
+                answer::measured(&mut simulation, effort.longest).ok_or(StudyError::NoMotion)?;
+            let rate = 0.5 * system.mass_ratio() * system.damping() * system.period();
+            (Layer::Simulation, Some(effort.longest), None, rate, answer)
+        }
+    };
     Ok(Best {
-        layer: Layer::Simulation,
-        periods: Some(effort.longest),
-        orbit: None,
+        layer,
+        periods,
+        orbit,
         rms: answer.rms.unwrap_or(0.0),
         rms_error: answer.scatter.unwrap_or(0.0).max(ORBIT_ROUNDING),
         impacts_per_period: answer.impacts_per_period.unwrap_or(0.0),
         impacts_error: answer.impacts_scatter.unwrap_or(0.0),
-        regime,
+        regime: main.regime(),
         in_transient: answer.settles,
-        decay_periods: decay(0.5 * system.mass_ratio() * system.damping() * system.period()),
+        decay_periods: (decay_rate > 0.0).then(|| 1.0 / decay_rate),
     })
-}
-
-/// Periods in which something shrinks to `1/e` that does so at a rate per period.
-fn decay(rate: f64) -> Option<f64> {
-    (rate > 0.0).then(|| 1.0 / rate)
 }
 
 fn methods(best: &Best, rests: bool, effort: &TradeoffEffort) -> Vec<Method> {
@@ -329,15 +310,18 @@ fn trial(
         }
         _ => None,
     };
+    let error = |value: f64, scatter: Option<f64>, best: f64| {
+        let value = value.abs().max(own(scatter).unwrap_or(0.0));
+        ErrorOf { value: value.max(best), below: value < best }
+    };
     Ok(Trial {
         method,
         operations,
         rms_error: answer
             .rms
-            .map(|rms| ErrorOf::new(rms / best.rms - 1.0, own(answer.scatter), best.rms_error)),
+            .map(|rms| error(rms / best.rms - 1.0, answer.scatter, best.rms_error)),
         impacts_error: answer.impacts_per_period.map(|z| {
-            let difference = z - best.impacts_per_period;
-            ErrorOf::new(difference, own(answer.impacts_scatter), best.impacts_error)
+            error(z - best.impacts_per_period, answer.impacts_scatter, best.impacts_error)
         }),
         flights,
         answer,

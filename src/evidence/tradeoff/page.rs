@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use serde::Serialize;
 use serde_json::json;
 
-use super::{Best, Layer, Method, Search, Tradeoff, Transient, Trial};
+use super::{Best, Layer, Method, Search, Tradeoff, Trial};
 use crate::case::Case;
 use crate::method::Method as KnownBy;
 use crate::quantity::{Quantity, catalogue};
@@ -15,7 +15,7 @@ use crate::report::FigureRow;
 use crate::report::document::Scale;
 use crate::report::render::{RenderError, drawings, figure_files, without_repeated_blank_lines};
 use crate::report::template::{aligned, render, worded};
-use crate::system::State;
+use crate::study::answer::WhyNot;
 
 /// Relative error of the amplitude that the page speaks of where the case asks for none.
 pub const USUAL: f64 = 0.01;
@@ -24,21 +24,20 @@ pub const USUAL: f64 = 0.01;
 const COMPETING: [Layer; 4] =
     [Layer::ClosedForm, Layer::SlowFlow, Layer::ExactOrbit, Layer::Simulation];
 
-/// `vinesink/tradeoff@2`. What refers to a method is its place in `methods`.
+/// `vinesink/tradeoff@3`. What refers to a method is its place in `methods`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct TradeoffDocument {
+pub struct TradeoffDocument<'a> {
     format: &'static str,
-    title: String,
+    title: &'a str,
     /// Relative error of the amplitude that is asked for.
     pub(super) allowed: f64,
-    /// Over the clearance, in fast time.
-    start: State,
-    start_number: Option<u32>,
-    share: f64,
-    other_motions: usize,
-    sustained_contact: bool,
-    best: BestRow,
-    methods: Vec<MethodRow>,
+    #[serde(flatten)]
+    pub(super) found: &'a Tradeoff,
+    /// Of the best answer: in metres, or in the case's own unit of length.
+    rms_displacement: f64,
+    /// Of the best answer: impacts per period with their error.
+    impacts: Quantity,
+    methods: Vec<MethodRow<'a>>,
     /// The cheapest that is enough; `None` where none is.
     enough: Option<usize>,
     /// The other layers.
@@ -47,23 +46,13 @@ pub struct TradeoffDocument {
     /// A baseline whose amplitude is right and whose impacts are not.
     wrong_count: Option<usize>,
     flights: Option<FlightsRow>,
-    case_sha256: String,
+    case_sha256: &'a str,
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize)]
-struct BestRow {
+struct MethodRow<'a> {
     #[serde(flatten)]
-    best: Best,
-    /// In metres, or in the case's own unit of length.
-    rms_displacement: f64,
-    /// Impacts per period with their error.
-    impacts: Quantity,
-}
-
-#[derive(Debug, Clone, PartialEq, Serialize)]
-struct MethodRow {
-    #[serde(flatten)]
-    trial: Trial,
+    trial: &'a Trial,
     layer: Layer,
     rms_displacement: Option<f64>,
     /// Operations over those of the cheapest that is enough, or of the cheapest.
@@ -80,10 +69,10 @@ struct LayerRow {
     enough: Option<usize>,
     /// Where none is, the method that comes closest.
     closest: Option<usize>,
-    /// What is left of a transient in that.
-    transient: Option<Transient>,
+    /// Excitation periods that this left out for a transient that is not over.
+    transient: Option<u64>,
     /// Why it gives no answer.
-    why_not: Option<&'static str>,
+    why_not: Option<WhyNot>,
 }
 
 /// What a longer simulation would take.
@@ -105,18 +94,18 @@ struct FlightsRow {
     worst: usize,
 }
 
-impl TradeoffDocument {
+impl<'a> TradeoffDocument<'a> {
     /// The document of a case, `allowed` being the relative error of the amplitude that it speaks of. With
     /// `seconds`, in the order of the trials, it is not the same twice.
-    pub fn new(case: &Case, found: &Tradeoff, allowed: f64, seconds: Option<&[f64]>) -> Self {
+    pub fn new(case: &'a Case, found: &'a Tradeoff, allowed: f64, seconds: Option<&[f64]>) -> Self {
         let scales = case.scales();
         let enough = winner(found, allowed);
         let answering = found.trials.iter().filter(|trial| trial.answer.rms.is_some());
         let cheapest = enough.map(|k| found.trials[k].operations);
         let cheapest = cheapest.or(answering.map(|trial| trial.operations).min()).unwrap_or(1);
-        let row = |(k, trial): (usize, &Trial)| MethodRow {
+        let row = |(k, trial): (usize, &'a Trial)| MethodRow {
             layer: trial.method.layer(),
-            trial: trial.clone(),
+            trial,
             times: trial.answer.rms.map(|_| trial.operations as f64 / cheapest.max(1) as f64),
             rms_displacement: trial.answer.rms.map(|rms| scales.length(rms)),
             seconds: seconds.and_then(|seconds| seconds.get(k).copied()),
@@ -125,26 +114,19 @@ impl TradeoffDocument {
         let others =
             others.filter(|layer| enough.is_none_or(|k| found.trials[k].method.layer() != *layer));
         Self {
-            format: "vinesink/tradeoff@2",
-            title: case.title.clone(),
+            format: "vinesink/tradeoff@3",
+            title: &case.title,
             allowed,
-            start: found.start,
-            start_number: found.start_number,
-            share: found.share,
-            other_motions: found.others,
-            sustained_contact: found.rests,
-            best: BestRow {
-                rms_displacement: scales.length(found.best.rms),
-                impacts: impacts(&found.best),
-                best: found.best.clone(),
-            },
+            found,
+            rms_displacement: scales.length(found.best.rms),
+            impacts: impacts(&found.best),
             methods: found.trials.iter().enumerate().map(row).collect(),
             enough,
             layers: others.map(|layer| LayerRow::of(found, layer, allowed)).collect(),
             longer: longer(found, allowed),
             wrong_count: wrong_count(found),
             flights: flights(found),
-            case_sha256: case.text_hash.clone(),
+            case_sha256: &case.text_hash,
         }
     }
 
@@ -152,13 +134,9 @@ impl TradeoffDocument {
     ///
     /// # Errors
     /// [`RenderError`] if template and page do not fit, or the figure cannot be drawn.
-    pub fn files(
-        &self,
-        case: &Case,
-        found: &Tradeoff,
-    ) -> Result<BTreeMap<PathBuf, Vec<u8>>, RenderError> {
+    pub fn files(&self, case: &Case) -> Result<BTreeMap<PathBuf, Vec<u8>>, RenderError> {
         let units = Scale::of(case).units();
-        let figures = worded(vec![super::figure(found, self)], &units)?;
+        let figures = worded(vec![super::figure(self)], &units)?;
         let context = json!({
             "page": self,
             "figure": FigureRow::of(&figures[0]),
@@ -191,15 +169,12 @@ fn impacts(best: &Best) -> Quantity {
 
 impl LayerRow {
     fn of(found: &Tradeoff, layer: Layer, allowed: f64) -> Self {
-        let trials = || {
-            let all = found.trials.iter().enumerate();
-            all.filter(|(_, trial)| trial.method.layer() == layer)
-        };
+        let trials = || found.of_layer(layer);
         let errors = trials().filter_map(|(k, trial)| Some((k, trial.rms_error?.value)));
         let closest = errors.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(k, _)| k);
         Self {
             layer,
-            enough: found.cheapest(layer, allowed).and_then(|trial| place(found, trial)),
+            enough: found.cheapest(layer, allowed),
             closest,
             transient: closest.and_then(|k| found.transient(&found.trials[k])),
             why_not: trials().find_map(|(_, trial)| trial.answer.why_not),
@@ -207,15 +182,10 @@ impl LayerRow {
     }
 }
 
-/// The place of a trial among all.
-fn place(found: &Tradeoff, trial: &Trial) -> Option<usize> {
-    found.trials.iter().position(|one| std::ptr::eq(one, trial))
-}
-
 /// The cheapest method of the competing layers that is enough.
 fn winner(found: &Tradeoff, allowed: f64) -> Option<usize> {
     let within = COMPETING.iter().filter_map(|layer| found.cheapest(*layer, allowed));
-    place(found, within.min_by_key(|trial| trial.operations)?)
+    within.min_by_key(|place| found.trials[*place].operations)
 }
 
 /// The length that a simulation of a motion without repetition would take: its scatter falls with
@@ -244,8 +214,7 @@ const WRONG_COUNT: f64 = 0.5;
 
 fn wrong_count(found: &Tradeoff) -> Option<usize> {
     let exact = found.best.impacts_per_period;
-    let hand = found.trials.iter().enumerate();
-    let hand = hand.filter(|(_, trial)| trial.method.layer() == Layer::FixedStep);
+    let hand = found.of_layer(Layer::FixedStep);
     let off = hand.filter_map(|(k, trial)| {
         let difference = (trial.answer.impacts_per_period? - exact).abs();
         Some((k, difference / exact.max(f64::MIN_POSITIVE)))
@@ -255,17 +224,16 @@ fn wrong_count(found: &Tradeoff) -> Option<usize> {
 }
 
 fn flights(found: &Tradeoff) -> Option<FlightsRow> {
-    let trials = found.trials.iter().enumerate();
-    let flown: Vec<(usize, u64, f64)> = trials
-        .filter_map(|(k, trial)| {
+    let flown = || {
+        found.trials.iter().enumerate().filter_map(|(k, trial)| {
             let flights = trial.flights?;
             let wrong = flights.missed + flights.invented;
-            Some((k, wrong, wrong as f64 / flights.compared.max(1) as f64))
+            Some((k, wrong as f64 / flights.compared.max(1) as f64))
         })
-        .collect();
-    let worst = flown.iter().max_by(|a, b| a.2.total_cmp(&b.2))?.0;
-    let wrong = flown.iter().filter(|(_, wrong, _)| *wrong > 0).count();
-    Some(FlightsRow { variants: flown.len(), wrong, worst })
+    };
+    let (worst, _) = flown().max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let wrong = flown().filter(|(_, wrong)| *wrong > 0.0).count();
+    Some(FlightsRow { variants: flown().count(), wrong, worst })
 }
 
 #[cfg(test)]
@@ -291,7 +259,7 @@ mod tests {
         let timed = TradeoffDocument::new(&case, &found, 0.01, Some(&seconds));
         let terminal = timed.text(&case).expect("a text");
         let document = TradeoffDocument::new(&case, &found, 0.01, None);
-        let files = document.files(&case, &found).expect("files");
+        let files = document.files(&case).expect("files");
         let page = String::from_utf8_lossy(&files[std::path::Path::new("tradeoff.md")]);
         let answer =
             "For 1 % in amplitude the exact orbit is enough: symmetric orbit, closed form, ";

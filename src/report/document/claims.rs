@@ -6,27 +6,26 @@ use super::scale::Scale;
 use crate::method::Method::{self, Simulation, Theory};
 use crate::quantity::Quantity;
 use crate::quantity::catalogue as of;
-use crate::validation::{Claim, Finding, Measure};
+use crate::validation::{Claim, Finding};
 
 /// A claim and what came of it. The difference is predicted minus observed: relative for lengths, in radians
 /// for angles.
 pub fn claim(scale: &Scale, claim: &Claim) -> Value {
-    let angle = matches!(claim.predicted, Finding::Number(_, Measure::Angle));
+    let angle = matches!(claim.predicted, Finding::Angle(_));
     let [kind, allowed] =
         if angle { [&of::ANGLE_ERROR; 2] } else { [&of::THEORY_ERROR, &of::TOLERANCE] };
-    let (by, tolerance) = (claim.checked_by, claim.tolerance.value);
+    let (by, tolerance) = (claim.checked_by, claim.tolerance);
     let error = if by == Simulation { tolerance } else { 0.0 };
     let difference = claim.difference.map(|value| Quantity::new(kind, value, Theory));
     json!({
         "id": claim.id,
         "statement": claim.statement,
-        "source": claim.source,
         "checked_by": by,
         "predicted": finding(scale, &claim.predicted, Theory, 0.0),
         "observed": finding(scale, &claim.observed, by, error),
         "difference": difference.map(|difference| difference.with_error(error)),
         "tolerance": Quantity::new(allowed, tolerance, Theory),
-        "reason": claim.tolerance.reason,
+        "reason": claim.reason,
         "verdict": claim.verdict,
     })
 }
@@ -35,14 +34,14 @@ pub fn claim(scale: &Scale, claim: &Claim) -> Value {
 /// to lengths, in radians for angles.
 fn finding(scale: &Scale, finding: &Finding, method: Method, error: f64) -> Value {
     match finding {
-        Finding::Number(value, Measure::LengthOverClearance) => {
+        Finding::Length(value) => {
             let errors = [*value, error * value.abs()];
-            json!({ "number": scale.length_with(&of::CLAIMED_LENGTH, errors, method), "words": null })
+            json!({ "number": scale.length_with(&of::CLAIMED_LENGTH, errors, method), "outcome": null })
         }
-        Finding::Number(value, Measure::Angle) => {
+        Finding::Angle(value) => {
             let angle = Quantity::new(&of::CLAIMED_ANGLE, *value, method).with_error(error);
-            json!({ "number": angle, "words": null })
+            json!({ "number": angle, "outcome": null })
         }
-        Finding::Words(words) => json!({ "number": null, "words": words }),
+        outcome => json!({ "number": null, "outcome": outcome }),
     }
 }

@@ -15,7 +15,6 @@ use crate::study::margins::{ExactMargin, ExactMargins};
 use crate::study::{CaseStudy, SettledArea};
 use crate::validation::AsymptoticError;
 use crate::validation::asymptotic_error::asymptotic_errors;
-use crate::validation::boundaries::clearances;
 
 /// Share of a clearance within which the end of steady resonance is too near for a design.
 const TOO_NEAR: f64 = 0.1;
@@ -137,15 +136,14 @@ impl Facts<'_> {
     /// with two asymmetric impacts take their places.
     fn boundaries(&self) -> Vec<Value> {
         let length = |factor, method| self.scale.length(&of::BOUNDARY, factor, method);
-        let known = clearances(self.analysis);
+        let node = self.analysis.boundaries.saddle_node.map(|node| node.branch);
         let symmetric = self.errors.iter().map(|one| {
-            let theory = known.iter().find(|known| Some(known.clearance) == one.theory);
-            let theory = theory.filter(|known| known.kind == Bifurcation::SaddleNode);
+            let of_theory = one.kind == Bifurcation::SaddleNode && one.theory.is_some();
             let place = one.exact.or(one.theory).unwrap_or(0.0);
             let told = json!({
                 "kind": one.kind,
                 // The branch on which two fixed points of the theory meet.
-                "branch": theory.map(|known| known.branch),
+                "branch": node.filter(|_| of_theory),
                 "of_asymmetric": false,
                 "theory": one.theory.map(|at| length(at, Theory)),
                 "exact": one.exact.map(|at| length(at, ExactOrbit)),

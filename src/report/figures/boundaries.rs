@@ -8,10 +8,10 @@ use crate::quantity::catalogue as of;
 use crate::report::figure::{
     Axis, Color, Dash, Figure, Layer, Layout, MarkedPoint, Marker, Panel, Role, Shape, Style,
 };
-use crate::study::margins::Margin;
 use crate::study::plots::borders::{Bifurcations, Border, Condition};
 use crate::study::plots::{Borders, Map};
 use crate::validation::AsymptoticError;
+use crate::validation::boundaries::BoundaryAt;
 
 use super::Scene;
 use super::chart::Chart;
@@ -53,11 +53,11 @@ pub(super) fn map(scene: &Scene, data: &Map) -> Figure {
 
 fn map_facts(scene: &Scene, compared: bool) -> serde_json::Value {
     let study = scene.study;
-    let neighbours = study.margins.clearance_neighbours();
-    let margin = |at: Option<Margin>| {
+    let [below, above] = study.margins.clearance_neighbours();
+    let margin = |at: Option<BoundaryAt>| {
         at.map(|at| {
-            json!({"kind": at.kind, "at": scene.theory(&of::BOUNDARY, at.factor),
-                   "change": scene.theory(&of::MARGIN, at.factor - 1.0)})
+            json!({"kind": at.kind, "at": scene.theory(&of::BOUNDARY, at.clearance),
+                   "change": scene.theory(&of::MARGIN, at.clearance - 1.0)})
         })
     };
     let error = |kind: Bifurcation, name: &str| {
@@ -70,8 +70,8 @@ fn map_facts(scene: &Scene, compared: bool) -> serde_json::Value {
     json!({
         "area": study.area.area,
         "strip": study.analysis.zone.strip,
-        "below": margin(neighbours.below),
-        "above": margin(neighbours.above),
+        "below": margin(below),
+        "above": margin(above),
         "errors": errors.collect::<Vec<_>>(),
     })
 }

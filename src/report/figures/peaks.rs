@@ -197,7 +197,7 @@ fn over_clearance(scene: &Scene, found: &[WalkPoint], bare: Option<f64>) -> Pane
         .with_heading("peak displacement")
         .with(chart.vertical(breaking, Role::SymmetryBreaking).labelled("breaking"))
         .with(chart.vertical(hopf, Role::Hopf).labelled("Hopf"));
-    let last = scene.study.margins.clearance.iter().map(|at| at.factor).fold(hopf, f64::max);
+    let last = scene.study.margins.clearance.iter().map(|at| at.clearance).fold(hopf, f64::max);
     if last > 1.02 * hopf {
         panel = panel.with(chart.vertical(last, Role::SaddleNode).labelled("collision"));
     }

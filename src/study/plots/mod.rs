@@ -341,7 +341,7 @@ fn clearances(study: &CaseStudy) -> Result<Option<Vec<WalkPoint>>, StudyError> {
         return Ok(None);
     }
     let hopf = gamma / boundaries.hopf;
-    let last = study.margins.clearance.iter().map(|at| at.factor).fold(hopf, f64::max);
+    let last = study.margins.clearance.iter().map(|at| at.clearance).fold(hopf, f64::max);
     let ends = [0.1 * gamma / boundaries.symmetry_breaking, 1.35 * last].map(libm::log);
     let mut values: Vec<f64> = even(ends[0], ends[1], 35).map(libm::exp).chain([1.0]).collect();
     values.sort_by(f64::total_cmp);
