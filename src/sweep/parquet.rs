@@ -10,13 +10,13 @@ use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DataType, DoubleTyp
 use parquet::errors::ParquetError;
 use parquet::file::metadata::{KeyValue, ParquetMetaData, ParquetMetaDataReader};
 use parquet::file::properties::{WriterProperties, WriterVersion};
-use parquet::file::reader::{ChunkReader, FileReader, RowGroupReader, SerializedFileReader};
+use parquet::file::reader::{ChunkReader, FileReader, SerializedFileReader};
 use parquet::file::writer::{
     SerializedColumnWriter, SerializedFileWriter, SerializedRowGroupWriter,
 };
 use parquet::schema::types::{Type, TypePtr};
 
-use super::columns::{Column, Values, word};
+use super::columns::{Cell, Column, Storage, word};
 
 /// What a file says about itself besides its columns.
 pub type Notes = Vec<(String, String)>;
@@ -79,11 +79,11 @@ pub fn append<W: Write + Send, R: ChunkReader>(
 
 fn schema(columns: &[Column]) -> Result<TypePtr, ParquetError> {
     let fields = columns.iter().map(|column| {
-        let (physical, logical) = match column.values {
-            Values::Number(_) => (Physical::DOUBLE, None),
-            Values::Whole(_) => (Physical::INT64, None),
-            Values::Flag(_) => (Physical::BOOLEAN, None),
-            Values::Text(_) => (Physical::BYTE_ARRAY, Some(LogicalType::String)),
+        let (physical, logical) = match column.storage {
+            Storage::Number => (Physical::DOUBLE, None),
+            Storage::Whole => (Physical::INT64, None),
+            Storage::Flag => (Physical::BOOLEAN, None),
+            Storage::Text => (Physical::BYTE_ARRAY, Some(LogicalType::String)),
         };
         Type::primitive_type_builder(&column.name, physical)
             .with_logical_type(logical)
@@ -112,28 +112,27 @@ fn properties(columns: &[Column], notes: &Notes) -> Result<Arc<WriterProperties>
 
 fn write<W: Write + Send>(
     group: &mut SerializedRowGroupWriter<'_, W>,
-    column: &Column,
+    Column { storage, cells, .. }: &Column,
 ) -> Result<(), ParquetError> {
     let missing = || ParquetError::General("more columns than the schema has".into());
     let mut writer = group.next_column()?.ok_or_else(missing)?;
-    match &column.values {
-        Values::Number(values) => put::<DoubleType>(&mut writer, values)?,
-        Values::Whole(values) => put::<Int64Type>(&mut writer, values)?,
-        Values::Flag(values) => put::<BoolType>(&mut writer, values)?,
-        Values::Text(values) => {
-            let values: Vec<_> = values.iter().map(|text| text.map(ByteArray::from)).collect();
-            put::<ByteArrayType>(&mut writer, &values)?;
-        }
-    }
+    let to = &mut writer;
+    match storage {
+        Storage::Number => put::<DoubleType>(to, cells, Cell::number),
+        Storage::Whole => put::<Int64Type>(to, cells, |cell| Some(cell.number()? as i64)),
+        Storage::Flag => put::<BoolType>(to, cells, |cell| Some(cell.number()? != 0.0)),
+        Storage::Text => put::<ByteArrayType>(to, cells, |cell| cell.text().map(ByteArray::from)),
+    }?;
     writer.close()
 }
 
 fn put<T: DataType>(
     writer: &mut SerializedColumnWriter<'_>,
-    values: &[Option<T::T>],
+    cells: &[Option<Cell>],
+    value: impl Fn(Cell) -> Option<T::T>,
 ) -> Result<(), ParquetError> {
-    let there: Vec<T::T> = values.iter().flatten().cloned().collect();
-    let levels: Vec<i16> = values.iter().map(|value| i16::from(value.is_some())).collect();
+    let there: Vec<T::T> = cells.iter().flatten().filter_map(|cell| value(*cell)).collect();
+    let levels: Vec<i16> = cells.iter().map(|cell| i16::from(cell.is_some())).collect();
     writer.typed::<T>().write_batch(&there, Some(&levels), None)?;
     Ok(())
 }
@@ -168,47 +167,46 @@ impl<R: ChunkReader + 'static> Results<R> {
             return Err(ParquetError::General("the file has other columns".into()));
         }
         for (index, column) in columns.iter_mut().enumerate() {
-            read(group.as_ref(), index, rows, &mut column.values)?;
+            let cells = read(group.get_column_reader(index)?, column.storage, rows);
+            column.cells.extend(cells?);
         }
         Ok(())
     }
 }
 
 fn read(
-    group: &dyn RowGroupReader,
-    index: usize,
+    reader: ColumnReader,
+    storage: Storage,
     rows: usize,
-    values: &mut Values,
-) -> Result<(), ParquetError> {
-    match (group.get_column_reader(index)?, values) {
-        (ColumnReader::DoubleColumnReader(reader), Values::Number(all)) => {
-            all.extend(optional(reader, rows)?);
+) -> Result<Vec<Option<Cell>>, ParquetError> {
+    let other = |what: &str| ParquetError::General(format!("the file has {what}"));
+    match (reader, storage) {
+        (ColumnReader::DoubleColumnReader(reader), Storage::Number) => {
+            take(reader, rows, |number| Ok(Cell::Number(number)))
         }
-        (ColumnReader::Int64ColumnReader(reader), Values::Whole(all)) => {
-            all.extend(optional(reader, rows)?);
+        (ColumnReader::Int64ColumnReader(reader), Storage::Whole) => {
+            take(reader, rows, |number| Ok(Cell::Number(number as f64)))
         }
-        (ColumnReader::BoolColumnReader(reader), Values::Flag(all)) => {
-            all.extend(optional(reader, rows)?);
+        (ColumnReader::BoolColumnReader(reader), Storage::Flag) => {
+            take(reader, rows, |flag| Ok(Cell::Number(f64::from(flag))))
         }
-        (ColumnReader::ByteArrayColumnReader(reader), Values::Text(all)) => {
-            let other = || ParquetError::General("the file has other words".into());
-            let known = |text: ByteArray| word(text.data()).ok_or_else(other);
-            for text in optional(reader, rows)? {
-                all.push(text.map(known).transpose()?);
-            }
+        (ColumnReader::ByteArrayColumnReader(reader), Storage::Text) => {
+            let known = |text: ByteArray| word(text.data()).map(Cell::Text);
+            take(reader, rows, |text| known(text).ok_or_else(|| other("other words")))
         }
-        _ => return Err(ParquetError::General("a column is of another kind".into())),
+        _ => Err(other("a column of another kind")),
     }
-    Ok(())
 }
 
-/// The values of a column of a row group, nothing where one is missing.
-fn optional<T: DataType>(
+/// The cells of a column of a row group, nothing where a value is missing.
+fn take<T: DataType>(
     mut reader: ColumnReaderImpl<T>,
     rows: usize,
-) -> Result<Vec<Option<T::T>>, ParquetError> {
+    cell: impl Fn(T::T) -> Result<Cell, ParquetError>,
+) -> Result<Vec<Option<Cell>>, ParquetError> {
     let (mut there, mut levels) = (Vec::with_capacity(rows), Vec::with_capacity(rows));
     reader.read_records(rows, Some(&mut levels), None, &mut there)?;
     let mut there = there.into_iter();
-    Ok(levels.into_iter().map(|level| if level == 1 { there.next() } else { None }).collect())
+    let next = |level| if level == 1 { there.next().map(&cell).transpose() } else { Ok(None) };
+    levels.into_iter().map(next).collect()
 }

@@ -93,9 +93,9 @@ impl Swept<'_> {
         if points > MOST_POINTS {
             return Err(SweptError::TooLarge { points });
         }
-        for Column { name, values, .. } in self.columns {
-            if values.len() != points {
-                let (column, found) = (name.clone(), values.len());
+        for Column { name, cells, .. } in self.columns {
+            if cells.len() != points {
+                let (column, found) = (name.clone(), cells.len());
                 return Err(SweptError::Length { column, found, expected: points });
             }
         }

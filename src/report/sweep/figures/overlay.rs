@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::super::Swept;
-use super::super::grid::{Plane, SweepDirection};
+use super::super::grid::Plane;
 use super::super::kinds::{AREAS, area_name};
 use super::contours;
 use crate::analysis::Manifold;
@@ -11,6 +11,7 @@ use crate::case::{Recorded, SweepParameter};
 use crate::quantity::catalogue::CLEARANCE;
 use crate::report::figure::{Color, Dash, Layer, MarkedPoint, Role, Style};
 use crate::report::figures::borders::Borders;
+use crate::sweep::columns::Direction;
 use crate::sweep::limits::StabilityLimit;
 
 /// About the width of a panel that has a figure to itself, and of a letter, pixels.
@@ -97,9 +98,9 @@ fn traced(swept: &Swept, plane: Plane, slice: usize, named: bool) -> (Vec<Layer>
         cased(if named { layer.labelled(name) } else { layer })
     };
     let areas = swept.areas().map_or_else(Vec::new, |areas| {
-        contours::between(&plane.cells(areas, slice), &x_edges, &y_edges)
+        contours::between(&plane.cells(&areas, slice), &x_edges, &y_edges)
     });
-    let peaks = swept.numbers(Recorded::OrbitPeak, SweepDirection::Single);
+    let peaks = swept.numbers(Recorded::OrbitPeak, Direction::Single);
     let orbit = peaks.map_or_else(Vec::new, |peaks| {
         let cells = plane.cells(&peaks, slice);
         let attracts: Vec<_> = cells.iter().map(|peak| Some(peak.is_some())).collect();
@@ -132,7 +133,7 @@ fn cased(layer: Layer) -> [Layer; 2] {
 /// columns.
 pub(super) fn area_names(swept: &Swept, plane: Plane, slice: usize, columns: usize) -> Vec<Layer> {
     let Some(areas) = swept.areas() else { return Vec::new() };
-    let cells = plane.cells(areas, slice);
+    let cells = plane.cells(&areas, slice);
     let (across, up) = (plane.x.values.len(), plane.y.values.len());
     let inside = depths(&cells, across, up);
     let size = PANEL / columns as f64;
