@@ -16,7 +16,7 @@ use error::refused;
 use reports::FIGURES;
 
 pub use error::StoreError;
-pub use git::{GitError, read_files_at, read_reports_at};
+pub use git::{read_files_at, read_reports_at};
 pub use growing::Growing;
 pub use reports::{StoredReport, StoredReports, read_reports};
 pub use shards::Shards;
@@ -24,7 +24,7 @@ pub use shards::Shards;
 /// Reads a UTF-8 text file whole.
 ///
 /// # Errors
-/// [`StoreError::Refused`] when it cannot be read, [`StoreError::NotUtf8`] when it is not text.
+/// [`StoreError`] when it cannot be read or is not text.
 pub fn read_text(path: &Path) -> Result<String, StoreError> {
     text_of(path, std::fs::read(path).map_err(|cause| refused("read", path, cause))?)
 }
@@ -32,7 +32,7 @@ pub fn read_text(path: &Path) -> Result<String, StoreError> {
 /// Opens a file for reading.
 ///
 /// # Errors
-/// [`StoreError::Refused`] when it cannot be read.
+/// [`StoreError`] when it cannot be read.
 pub fn open(path: &Path) -> Result<std::fs::File, StoreError> {
     std::fs::File::open(path).map_err(|cause| refused("read", path, cause))
 }
@@ -45,23 +45,38 @@ fn text_of(path: &Path, bytes: Vec<u8>) -> Result<String, StoreError> {
         let byte = error.as_bytes()[at];
         let line = 1 + before.matches('\n').count();
         let column = 1 + before.chars().rev().take_while(|c| *c != '\n').count();
-        StoreError::NotUtf8 { path: path.to_owned(), line, column, byte }
+        let message = format!(
+            "{} is not UTF-8 text: line {line} holds the byte 0x{byte:02X} at column {column}",
+            path.display()
+        );
+        StoreError::new(message, Some("save the file with the encoding UTF-8"))
     })
+}
+
+/// Refuses a path at which something is.
+///
+/// # Errors
+/// [`StoreError`] where something is.
+pub fn must_be_new(path: &Path) -> Result<(), StoreError> {
+    if path.symlink_metadata().is_ok() { Err(exists(path)) } else { Ok(()) }
+}
+
+fn exists(path: &Path) -> StoreError {
+    let message = format!("{} exists already and is left as it is", path.display());
+    StoreError::new(message, Some("choose another name, or remove the file first"))
 }
 
 /// Writes a file that must not exist yet, whole or not at all. Its folder must exist.
 ///
 /// # Errors
-/// [`StoreError::Exists`] leaves the existing file alone; [`StoreError::Refused`] otherwise.
+/// [`StoreError`]; an existing file is left alone.
 pub fn write_new(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
     // The rename below refuses as well; asking first spares a folder that cannot be written to
     // from hiding the better reason.
-    if path.symlink_metadata().is_ok() {
-        return Err(StoreError::Exists { path: path.to_owned() });
-    }
+    must_be_new(path)?;
     let file = Growing::of(path, bytes)?.on_disk()?;
     file.persist_noclobber(path).map(drop).map_err(|error| match error.error.kind() {
-        ErrorKind::AlreadyExists => StoreError::Exists { path: path.to_owned() },
+        ErrorKind::AlreadyExists => exists(path),
         _ => refused("write", path, error.error),
     })
 }
@@ -69,7 +84,7 @@ pub fn write_new(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
 /// Writes a file whole or not at all, in place of an earlier one. Its folder must exist.
 ///
 /// # Errors
-/// [`StoreError::Refused`]; an earlier file is then unchanged.
+/// [`StoreError`]; an earlier file is then unchanged.
 pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
     Growing::of(path, bytes)?.finish()
 }
@@ -77,7 +92,7 @@ pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
 /// As [`write_file`], into a folder that is made where there is none.
 ///
 /// # Errors
-/// [`StoreError::Refused`]; an earlier file is then unchanged.
+/// [`StoreError`]; an earlier file is then unchanged.
 pub fn write_file_and_folder(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
     make_folder_of(path)?;
     write_file(path, bytes)
@@ -101,14 +116,17 @@ pub struct Listing {
 /// Lists a folder.
 ///
 /// # Errors
-/// [`StoreError::Refused`] when it cannot be read, [`StoreError::Name`] for a name that is not UTF-8.
+/// [`StoreError`] when it cannot be read, or a name is not UTF-8.
 pub fn list(path: &Path) -> Result<Listing, StoreError> {
     let read = |cause| refused("read", path, cause);
     let mut listing = Listing::default();
     for entry in std::fs::read_dir(path).map_err(read)? {
         let entry = entry.map_err(read)?;
         let name = entry.file_name().into_string();
-        let name = name.map_err(|_| StoreError::Name { path: entry.path() })?;
+        let name = name.map_err(|_| {
+            let message = format!("the name of {} is not UTF-8", entry.path().display());
+            StoreError::new(message, Some("rename it"))
+        })?;
         if name.starts_with('.') {
             continue;
         }
@@ -125,14 +143,10 @@ pub fn list(path: &Path) -> Result<Listing, StoreError> {
 /// # Errors
 /// As [`read_text`], except that a missing file is no error.
 pub fn read_text_if_there(path: &Path) -> Result<Option<String>, StoreError> {
+    let missing = [Some(ErrorKind::NotFound), Some(ErrorKind::NotADirectory)];
     match read_text(path) {
-        Ok(text) => Ok(Some(text)),
-        Err(StoreError::Refused { cause, .. })
-            if matches!(cause.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) =>
-        {
-            Ok(None)
-        }
-        Err(error) => Err(error),
+        Err(error) if missing.contains(&error.refusal) => Ok(None),
+        read => read.map(Some),
     }
 }
 
@@ -148,16 +162,14 @@ pub fn is_same_file(a: &Path, b: &Path) -> bool {
 /// as it was, and no file of ours outlives the ones it belonged to.
 ///
 /// # Errors
-/// [`StoreError::Unusable`] for a path that leads out of the folder, [`StoreError::Refused`] when
-/// something cannot be written, moved or removed.
+/// [`StoreError`] for a path that leads out of the folder, or when something cannot be written, moved or
+/// removed.
 pub fn replace_folder(
     path: &Path,
     files: &BTreeMap<PathBuf, Vec<u8>>,
     ours: fn(&Path) -> bool,
 ) -> Result<(), StoreError> {
-    if let Some(outside) = files.keys().find(|file| !stays_inside(file)) {
-        return Err(StoreError::Unusable { path: outside.clone() });
-    }
+    stay_inside(files)?;
     if path.exists() && !path.is_dir() {
         return Err(refused("replace", path, ErrorKind::NotADirectory.into()));
     }
@@ -209,7 +221,7 @@ fn take_along(
 /// or, among the drawings that are `ours`, superfluous. Writes nothing.
 ///
 /// # Errors
-/// [`StoreError::Refused`] when something is there and cannot be read.
+/// [`StoreError`] when something is there and cannot be read.
 pub fn differing_files(
     path: &Path,
     files: &BTreeMap<PathBuf, Vec<u8>>,
@@ -251,12 +263,9 @@ pub enum Stale {
 /// files of the same name are replaced, all others stay.
 ///
 /// # Errors
-/// [`StoreError::Unusable`] for a path that leads out of the folder, [`StoreError::Refused`] when
-/// something cannot be written.
+/// [`StoreError`] for a path that leads out of the folder, or when something cannot be written.
 pub fn add_to_folder(path: &Path, files: &BTreeMap<PathBuf, Vec<u8>>) -> Result<(), StoreError> {
-    if let Some(outside) = files.keys().find(|file| !stays_inside(file)) {
-        return Err(StoreError::Unusable { path: outside.clone() });
-    }
+    stay_inside(files)?;
     for (file, bytes) in files {
         write_file_and_folder(&path.join(file), bytes)?;
     }
@@ -308,13 +317,22 @@ fn folder_of(path: &Path) -> Result<&Path, StoreError> {
     match (path.file_name(), path.parent()) {
         (Some(_), Some(folder)) if folder == Path::new("") => Ok(Path::new(".")),
         (Some(_), Some(folder)) => Ok(folder),
-        _ => Err(StoreError::Unusable { path: path.to_owned() }),
+        _ => Err(unusable(path)),
     }
 }
 
-fn stays_inside(file: &Path) -> bool {
-    let mut components = file.components().peekable();
-    components.peek().is_some() && components.all(|part| matches!(part, Component::Normal(_)))
+fn unusable(path: &Path) -> StoreError {
+    let message = format!("{} does not name a file inside a folder", path.display());
+    StoreError::new(message, None)
+}
+
+/// Refuses paths that lead out of the folder that they are relative to.
+fn stay_inside(files: &BTreeMap<PathBuf, Vec<u8>>) -> Result<(), StoreError> {
+    let stays = |file: &Path| {
+        let mut components = file.components().peekable();
+        components.peek().is_some() && components.all(|part| matches!(part, Component::Normal(_)))
+    };
+    files.keys().find(|file| !stays(file)).map_or(Ok(()), |outside| Err(unusable(outside)))
 }
 
 #[cfg(test)]
@@ -336,6 +354,10 @@ mod tests {
             .collect();
         names.sort();
         names
+    }
+
+    fn is_refused<T>(result: &Result<T, StoreError>) -> bool {
+        result.as_ref().is_err_and(|error| error.refusal.is_some())
     }
 
     fn is_txt(file: &Path) -> bool {
@@ -378,18 +400,19 @@ mod tests {
         replace_folder(&target, &files(&[("a/b", "1")]), |_| true).expect("written");
         // A file cannot also be a folder.
         let error = replace_folder(&target, &files(&[("x", "1"), ("x/y", "2")]), |_| true);
-        assert!(matches!(error, Err(StoreError::Refused { .. })), "{error:?}");
+        assert!(is_refused(&error), "{error:?}");
         for outside in ["../b", "/b", "", "a/../../b"] {
             let error = replace_folder(&target, &files(&[(outside, "1")]), |_| true);
-            assert!(matches!(error, Err(StoreError::Unusable { .. })), "{outside:?}: {error:?}");
+            let message = error.expect_err(outside).message;
+            assert!(message.contains("does not name a file inside a folder"), "{message}");
         }
         // What is to be kept would stand where something else is to be.
         for new in ["a", "a/b/c"] {
             let error = replace_folder(&target, &files(&[(new, "2"), ("z", "3")]), |_| false);
-            assert!(matches!(error, Err(StoreError::Refused { .. })), "{new}: {error:?}");
+            assert!(is_refused(&error), "{new}: {error:?}");
         }
         let error = replace_folder(&target.join("a/b"), &files(&[("b", "1")]), |_| true);
-        assert!(matches!(error, Err(StoreError::Refused { .. })), "a file is no folder: {error:?}");
+        assert!(is_refused(&error), "a file is no folder: {error:?}");
         assert_eq!(names(folder.path()), ["case"]);
         assert_eq!(names(&target), ["a"]);
         assert_eq!(read_text(&target.join("a/b")).expect("text"), "1");
@@ -400,7 +423,8 @@ mod tests {
         let folder = folder();
         let path = folder.path().join("file");
         write_new(&path, b"1").expect("new");
-        assert!(matches!(write_new(&path, b"2"), Err(StoreError::Exists { .. })));
+        let message = write_new(&path, b"2").expect_err("it is there").message;
+        assert!(message.ends_with("exists already and is left as it is"), "{message}");
         assert_eq!(read_text(&path).expect("text"), "1");
         write_file(&path, b"3").expect("replaced");
         assert_eq!(read_text(&path).expect("text"), "3");
@@ -417,7 +441,7 @@ mod tests {
         assert_eq!(listing.files, ["c.md", "z.md"]);
         let read = |name| read_text_if_there(&folder.path().join(name)).expect("text or nothing");
         assert_eq!((read("z.md"), read("none")), (Some("1".into()), None));
-        assert!(matches!(list(&folder.path().join("z.md")), Err(StoreError::Refused { .. })));
+        assert!(is_refused(&list(&folder.path().join("z.md"))));
     }
 
     #[test]

@@ -87,8 +87,8 @@ impl From<Objective> for case::Objective {
 pub fn run(arguments: Arguments) -> Result<Outcome> {
     let path = &arguments.case.path;
     let (case, text) = case_file::read_with_text(path)?;
-    if let Some(new) = arguments.write.as_ref().filter(|new| new.exists()) {
-        return Err(store::StoreError::Exists { path: new.clone() }.into());
+    if let Some(new) = &arguments.write {
+        store::must_be_new(new)?;
     }
     if arguments.robust && !case.uncertainty.is_any() {
         return Err(miette!(

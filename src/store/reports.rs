@@ -10,7 +10,7 @@ pub(super) const REPORT: &str = "report.json";
 /// The folder of its drawings, and how their names end.
 pub(super) const FIGURES: &str = "figures";
 /// See [`FIGURES`].
-const DRAWING: &str = ".svg";
+pub(super) const DRAWING: &str = ".svg";
 
 /// The files of a report, as they were read.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -92,7 +92,7 @@ pub(super) fn drawings(folder: &Path) -> Result<Vec<String>, StoreError> {
 /// are passed over.
 ///
 /// # Errors
-/// [`StoreError::NotUtf8`] for a `report.json` that is not text.
+/// [`StoreError`] for a `report.json` that is not text.
 pub(super) fn group(
     root: &str,
     files: &BTreeMap<String, Vec<u8>>,
