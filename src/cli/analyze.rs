@@ -10,10 +10,10 @@ use vinesink::report::documents::AnalysisDocument;
 use vinesink::study::fidelity::{Answers, Plan};
 use vinesink::study::{StudyEffort, long_term_motions, settle_area};
 
-use super::budget::{Long, Work};
-use super::case_file::{self, CaseArgument, Fidelity, Format};
+use super::Outcome;
+use super::budget::{ANALYSIS, Work};
+use super::case_file::{self, Fidelity, OneCase};
 use super::progress::Progress;
-use super::{Outcome, output};
 
 /// Print what the theory and the exact orbits say of a case
 ///
@@ -25,16 +25,11 @@ use super::{Outcome, output};
 #[command(after_long_help = EXAMPLES)]
 pub struct Arguments {
     #[command(flatten)]
-    case: CaseArgument,
-    /// Text for people or JSON for programs
-    #[arg(long, value_enum, default_value = "text")]
-    format: Format,
+    one: OneCase,
     /// Also answer by this layer [default: with [accuracy] in the case by the cheapest that is exact
     /// enough, else by none]
     #[arg(long, value_enum, value_name = "LAYER")]
     fidelity: Option<Fidelity>,
-    #[command(flatten)]
-    long: Long,
 }
 
 const EXAMPLES: &str = "\
@@ -44,18 +39,19 @@ Examples:
   vinesink analyze damper.toml --format json | jq .boundaries";
 
 pub fn run(arguments: Arguments) -> Result<Outcome> {
-    let case = arguments.case.read()?;
+    let OneCase { path, long, .. } = &arguments.one;
+    let case = case_file::read(path)?;
     let plan = case_file::plan(&case, arguments.fidelity)?;
-    let work = match plan.as_ref().is_some_and(Plan::needs_simulation) {
-        true => Work::motions(&case, &StudyEffort::of(&case.simulation)),
-        false => Work::default(),
-    };
-    let theory = Work::analysis(&case);
+    let theory = Work::trajectory(&case, ANALYSIS);
     let progress = Progress::estimated("analysis", theory.seconds());
-    arguments.long.allows(&arguments.case.path, &case, &work.and(theory))?;
+    let mut work = vec![theory];
+    if plan.as_ref().is_some_and(Plan::needs_simulation) {
+        work.extend(Work::motions(&case, &StudyEffort::of(&case.simulation)));
+    }
+    long.allows(path, &case, &work)?;
     let analysis = Analysis::of(&case.system())
         .into_diagnostic()
-        .wrap_err_with(|| format!("{} cannot be analysed", arguments.case.path.display()))?;
+        .wrap_err_with(|| format!("{} cannot be analysed", path.display()))?;
     let exact = FullSystem::of(&case.system());
     let area = settle_area(&analysis, &exact).into_diagnostic()?;
     drop(progress);
@@ -63,19 +59,14 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
         Some(plan) => Some(answers(&case, &analysis, &plan)?),
         None => None,
     };
-    match arguments.format {
-        Format::Text => {
-            let text = console::analysis(&case, &analysis, &exact, area, answers.as_ref());
-            output::print(text.into_diagnostic()?)?;
-        }
-        Format::Json => {
+    arguments.one.print(
+        || console::analysis(&case, &analysis, &exact, area, answers.as_ref()),
+        || {
             let document = AnalysisDocument::new(&analysis, &exact, area, &case.scales());
-            let document = document.with_answers(answers.clone());
-            output::print_json(&document.with_warnings(case.warnings()))?;
-        }
-    }
-    let enough = answers.is_none_or(|answers| answers.enough());
-    Ok(if enough { Outcome::Done } else { Outcome::DoesNotHold })
+            document.with_answers(answers.clone()).with_warnings(case.warnings())
+        },
+    )?;
+    Ok(answers.is_none_or(|answers| answers.enough()).into())
 }
 
 /// What was asked for, simulated only where no cheaper layer answers.

@@ -37,7 +37,7 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
     })?;
     let text = Case::starting_text(&title.to_string_lossy());
     store::write_new(&path, text.as_bytes())?;
-    output::print(format!("{}\n", path.display()))?;
+    output::print_path(&path)?;
     Ok(Outcome::Done)
 }
 

@@ -8,12 +8,11 @@ use vinesink::case::Case;
 use vinesink::evidence::paper::{CASES, CaseReport, TRANSFER, page};
 use vinesink::report::document::Document;
 use vinesink::report::{figures, template};
-use vinesink::store;
 use vinesink::study::plots::Plot;
 use vinesink::study::{CaseStudy, StudyEffort};
 
 use super::progress::Progress;
-use super::{Outcome, case_file, index, output};
+use super::{Outcome, case_file, index};
 
 /// Compare every figure of the paper with what the program finds
 ///
@@ -52,9 +51,6 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
         members.push(CaseReport { name, case, study, figures });
     }
     let text = page(&members).into_diagnostic()?;
-    let path = arguments.out.join("paper.md");
-    store::write_file(&path, text.as_bytes())?;
-    output::print(format!("{}\n", path.display()))?;
-    index::refresh(&arguments.out)?;
+    index::write_page(&arguments.out, "paper.md", &text)?;
     Ok(Outcome::Done)
 }

@@ -83,19 +83,15 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
         index::refresh(&arguments.out).unwrap_or_else(|error| failures.push(error));
     }
     // One bad case does not keep the others from being written; each is named.
-    let last = failures.pop();
-    for error in failures {
-        output::complain(&format!("{error:?}"));
-    }
-    last.map_or(Ok(outcome), Err)
+    output::last_of(failures)?;
+    Ok(outcome)
 }
 
 /// The folder's name for each case; two cases must not share one.
 fn names(cases: &[PathBuf]) -> Result<Vec<String>> {
     let mut names: Vec<String> = Vec::new();
     for path in cases {
-        let stem = path.file_stem().ok_or_else(|| miette!("{} is not a file", path.display()))?;
-        let name = stem.to_string_lossy().into_owned();
+        let name = case_file::name(path)?;
         if names.contains(&name) {
             return Err(miette!(
                 help = "rename one, or write them to different folders with --out",
@@ -112,7 +108,7 @@ fn names(cases: &[PathBuf]) -> Result<Vec<String>> {
 fn write(path: &Path, name: &str, folder: &Path, arguments: &Arguments) -> Result<Outcome> {
     let (files, outcome) = rendered(path, name, arguments)?;
     store::replace_folder(folder, &files, render::is_of_report)?;
-    output::print(format!("{}\n", folder.join("report.md").display()))?;
+    output::print_path(&folder.join("report.md"))?;
     Ok(outcome)
 }
 
@@ -145,13 +141,15 @@ fn rendered(path: &Path, name: &str, arguments: &Arguments) -> Result<(Files, Ou
     let effort = StudyEffort::of(&case.simulation);
     let plan = case_file::plan(&case, arguments.fidelity)?;
     let simulates = plan.as_ref().is_none_or(Plan::needs_simulation);
-    let work = match simulates {
-        true => Work::motions(&case, &effort).and(Work::figures(&case)),
-        false => Work::default(),
-    };
-    let judges = !case.criteria.is_empty() || (simulates && case.band.is_some());
-    let along = if judges { Work::criteria(&case) } else { Work::default() };
-    arguments.long.allows(path, &case, &work.and(along))?;
+    let mut work = Vec::new();
+    if simulates {
+        work.extend(Work::motions(&case, &effort));
+        work.push(Work::figures(&case));
+    }
+    if !case.criteria.is_empty() || (simulates && case.band.is_some()) {
+        work.push(Work::criteria(&case));
+    }
+    arguments.long.allows(path, &case, &work)?;
     let progress = Progress::new(name, CaseStudy::steps(&effort) + FURTHER_STEPS);
     let study = if simulates {
         CaseStudy::of(&case.system(), effort, &mut |done| progress.advance(done))

@@ -15,8 +15,8 @@ use vinesink::store;
 use vinesink::study::{self, LongTermMotions, StudyEffort};
 use vinesink::system::State;
 
-use super::budget::{Long, Work};
-use super::case_file::{CaseArgument, Format};
+use super::budget::Work;
+use super::case_file::{self, OneCase};
 use super::progress::Progress;
 use super::{Outcome, output};
 
@@ -30,7 +30,7 @@ use super::{Outcome, output};
 #[command(after_long_help = EXAMPLES)]
 pub struct Arguments {
     #[command(flatten)]
-    case: CaseArgument,
+    one: OneCase,
     /// Excitation periods to measure [default: the case's, or 1000]
     #[arg(long, value_name = "N", value_parser = positive_number)]
     periods: Option<u64>,
@@ -45,11 +45,6 @@ pub struct Arguments {
     /// Write every impact of the measured window to this file
     #[arg(long, value_name = "FILE.csv")]
     impacts: Option<PathBuf>,
-    #[command(flatten)]
-    long: Long,
-    /// Text for people or JSON for programs
-    #[arg(long, value_enum, default_value = "text")]
-    format: Format,
 }
 
 const EXAMPLES: &str = "\
@@ -64,13 +59,14 @@ lengths over the clearance, tau counted from the start of the run, side +1 where
 const IMPACT_LIMIT: u64 = 200_000_000;
 
 pub fn run(arguments: Arguments) -> Result<Outcome> {
-    let case = arguments.case.read()?;
+    let OneCase { path, long, .. } = &arguments.one;
+    let case = case_file::read(path)?;
     let effort = arguments.effort(&case);
-    let work = match arguments.initial {
-        Some(_) => Work::trajectory(&case, &effort),
-        None => Work::motions(&case, &effort).and(Work::trajectory(&case, &effort)),
-    };
-    arguments.long.allows(&arguments.case.path, &case, &work)?;
+    let mut work = vec![trajectory(&case, &effort)];
+    if arguments.initial.is_none() {
+        work.extend(Work::motions(&case, &effort));
+    }
+    long.allows(path, &case, &work)?;
     let (motion, found) = match arguments.initial {
         Some(start) => (follow(&case, start, &effort, &arguments)?, None),
         None => {
@@ -85,21 +81,18 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
             (motion, Some(found))
         }
     };
-    match arguments.format {
-        Format::Text => {
-            let text = console::simulation(&case, &motion, found.as_ref());
-            output::print(text.into_diagnostic()?)?;
-        }
-        Format::Json => {
+    arguments.one.print(
+        || console::simulation(&case, &motion, found.as_ref()),
+        || {
             let document = SimulationDocument::new(&motion, found.as_ref(), &case.scales());
-            output::print_json(&document.with_warnings(case.warnings()))?;
-        }
-    }
+            document.with_warnings(case.warnings())
+        },
+    )?;
     let doubts = motion.doubts();
     for doubt in &doubts {
         output::complain(&format!("not to be trusted: {}; {}", doubt.words(), doubt.advice()));
     }
-    Ok(if doubts.is_empty() { Outcome::Done } else { Outcome::DoesNotHold })
+    Ok(doubts.is_empty().into())
 }
 
 impl Arguments {
@@ -113,6 +106,11 @@ impl Arguments {
     }
 }
 
+fn trajectory(case: &Case, effort: &StudyEffort) -> Work {
+    let left_out = effort.left_out(&case.system());
+    Work::trajectory(case, left_out.saturating_add(effort.periods))
+}
+
 /// Follows one trajectory and writes its impacts if asked to.
 fn follow(
     case: &Case,
@@ -121,7 +119,7 @@ fn follow(
     arguments: &Arguments,
 ) -> Result<Attractor> {
     let mut simulation = Simulation::new(&case.system(), start, 0.0).into_diagnostic()?;
-    let _progress = Progress::estimated("measuring", Work::trajectory(case, effort).seconds());
+    let _progress = Progress::estimated("measuring", trajectory(case, effort).seconds());
     let window = Window {
         discard: effort.left_out(&case.system()),
         periods: effort.periods,

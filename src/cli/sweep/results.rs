@@ -42,11 +42,11 @@ impl Sweep {
         let empty = columns::empty(&self.plan);
         self.put_together(&path, &empty).wrap_err_with(|| unfinished(&path))?;
         self.shards()?.sweep_up()?;
-        output::print(format!("{}\n", shown(&path)))?;
+        output::print_path(&path)?;
         if wanted.csv {
             let text = self.folder.join("sweep.csv");
             written_as_text(&path, &text, &empty).wrap_err_with(|| unfinished(&text))?;
-            output::print(format!("{}\n", shown(&text)))?;
+            output::print_path(&text)?;
         }
         if self.plan.points() > MOST_POINTS as u64 {
             output::complain(&format!(
@@ -105,7 +105,7 @@ impl Sweep {
         if let Some(reports) = reports {
             index::refresh(reports)?;
         }
-        output::print(format!("{}\n", shown(&folder.join("sweep.html"))))
+        output::print_path(&folder.join("sweep.html"))
     }
 
     /// Of the exact orbit, which a map over frequency and clearance shows.
