@@ -5,11 +5,10 @@ use std::sync::Arc;
 
 use parquet::basic::{Compression, LogicalType, Repetition, Type as Physical, ZstdLevel};
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
-use parquet::column::writer::ColumnCloseResult;
 use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
 use parquet::errors::ParquetError;
-use parquet::file::metadata::{KeyValue, ParquetMetaData, ParquetMetaDataReader};
-use parquet::file::properties::{WriterProperties, WriterVersion};
+use parquet::file::metadata::KeyValue;
+use parquet::file::properties::{EnabledStatistics, WriterProperties, WriterVersion};
 use parquet::file::reader::{ChunkReader, FileReader, SerializedFileReader};
 use parquet::file::writer::{
     SerializedColumnWriter, SerializedFileWriter, SerializedRowGroupWriter,
@@ -30,11 +29,7 @@ const UNIT: &str = "vinesink.unit.";
 /// [`ParquetError`] of the library.
 pub fn file(columns: &[Column], notes: &Notes) -> Result<Vec<u8>, ParquetError> {
     let mut writer = begin(Vec::new(), columns, notes)?;
-    let mut group = writer.next_row_group()?;
-    for column in columns {
-        write(&mut group, column)?;
-    }
-    group.close()?;
+    append(&mut writer, columns)?;
     writer.into_inner()
 }
 
@@ -50,31 +45,19 @@ pub fn begin<W: Write + Send>(
     SerializedFileWriter::new(sink, schema(columns)?, properties(columns, notes)?)
 }
 
-/// Adds the row groups of another file, a column at a time, so that memory holds one of them.
+/// Adds a row group.
 ///
 /// # Errors
-/// [`ParquetError`] of the library, and where the file has other columns.
-pub fn append<W: Write + Send, R: ChunkReader>(
+/// [`ParquetError`] of the library, and where the columns are not those of the file.
+pub fn append<W: Write + Send>(
     writer: &mut SerializedFileWriter<W>,
-    file: &R,
+    columns: &[Column],
 ) -> Result<(), ParquetError> {
-    let metadata: ParquetMetaData = ParquetMetaDataReader::new().parse_and_finish(file)?;
-    for group in metadata.row_groups() {
-        let mut out = writer.next_row_group()?;
-        for column in group.columns() {
-            let closed = ColumnCloseResult {
-                bytes_written: column.compressed_size() as u64,
-                rows_written: group.num_rows() as u64,
-                metadata: column.clone(),
-                bloom_filter: None,
-                column_index: None,
-                offset_index: None,
-            };
-            out.append_column(file, closed)?;
-        }
-        out.close()?;
+    let mut group = writer.next_row_group()?;
+    for column in columns {
+        write(&mut group, column)?;
     }
-    Ok(())
+    group.close().map(drop)
 }
 
 fn schema(columns: &[Column]) -> Result<TypePtr, ParquetError> {
@@ -104,6 +87,8 @@ fn properties(columns: &[Column], notes: &Notes) -> Result<Arc<WriterProperties>
         WriterProperties::builder()
             .set_compression(Compression::ZSTD(ZstdLevel::try_new(3)?))
             .set_writer_version(WriterVersion::PARQUET_1_0)
+            .set_statistics_enabled(EnabledStatistics::Chunk)
+            .set_offset_index_disabled(true)
             .set_created_by(concat!("vinesink version ", env!("CARGO_PKG_VERSION")).to_owned())
             .set_key_value_metadata(Some(notes.chain(units).collect()))
             .build(),
@@ -137,44 +122,25 @@ fn put<T: DataType>(
     Ok(())
 }
 
-/// A file of results that is read a row group at a time.
-pub struct Results<R: ChunkReader + 'static> {
-    reader: SerializedFileReader<R>,
+/// Adds what is in a file with one row group to columns, which are those of its sweep.
+///
+/// # Errors
+/// [`ParquetError`] of the library, if it is no such file or has other columns.
+pub fn read<R: ChunkReader + 'static>(file: R, columns: &mut [Column]) -> Result<(), ParquetError> {
+    let file = SerializedFileReader::new(file)?;
+    let group = file.get_row_group(0)?;
+    let rows = usize::try_from(group.metadata().num_rows()).unwrap_or(0);
+    if group.num_columns() != columns.len() {
+        return Err(ParquetError::General("the file has other columns".into()));
+    }
+    for (index, column) in columns.iter_mut().enumerate() {
+        let cells = cells(group.get_column_reader(index)?, column.storage, rows);
+        column.cells.extend(cells?);
+    }
+    Ok(())
 }
 
-impl<R: ChunkReader + 'static> Results<R> {
-    /// Opens a file that was written here.
-    ///
-    /// # Errors
-    /// [`ParquetError`] of the library, if it is no such file.
-    pub fn open(file: R) -> Result<Self, ParquetError> {
-        Ok(Self { reader: SerializedFileReader::new(file)? })
-    }
-
-    /// Number of row groups.
-    pub fn groups(&self) -> usize {
-        self.reader.num_row_groups()
-    }
-
-    /// Adds the values of a row group to columns, which are those of its sweep.
-    ///
-    /// # Errors
-    /// [`ParquetError`] of the library, and where the file has other columns.
-    pub fn add_to(&self, columns: &mut [Column], group: usize) -> Result<(), ParquetError> {
-        let group = self.reader.get_row_group(group)?;
-        let rows = usize::try_from(group.metadata().num_rows()).unwrap_or(0);
-        if group.num_columns() != columns.len() {
-            return Err(ParquetError::General("the file has other columns".into()));
-        }
-        for (index, column) in columns.iter_mut().enumerate() {
-            let cells = read(group.get_column_reader(index)?, column.storage, rows);
-            column.cells.extend(cells?);
-        }
-        Ok(())
-    }
-}
-
-fn read(
+fn cells(
     reader: ColumnReader,
     storage: Storage,
     rows: usize,
