@@ -13,7 +13,6 @@ mod reports;
 mod shards;
 
 use error::refused;
-use reports::FIGURES;
 
 pub use error::StoreError;
 pub use git::{read_files_at, read_reports_at};
@@ -180,83 +179,56 @@ pub fn replace_folder(
         make_folder_of(&file)?;
         std::fs::write(&file, bytes).map_err(|cause| refused("write", &file, cause))?;
     }
-    if path.is_dir() {
-        take_along(path, Path::new(""), new.path(), ours)?;
+    for file in files_below(path)?.into_iter().filter(|file| !ours(file)) {
+        take_along(&path.join(&file), &new.path().join(file))?;
     }
     swap(path, new)
 }
 
-/// Puts the files of `old` below `inside` that are not `ours` into `new` as well, unless it has a file of
-/// that name.
-fn take_along(
-    old: &Path,
-    inside: &Path,
-    new: &Path,
-    ours: fn(&Path) -> bool,
-) -> Result<(), StoreError> {
-    let folder = old.join(inside);
-    let read = |cause| refused("read", &folder, cause);
-    for entry in std::fs::read_dir(&folder).map_err(read)? {
-        let entry = entry.map_err(read)?;
-        let inside = inside.join(entry.file_name());
-        // A link to a folder is taken along as the link that it is.
-        if entry.file_type().map_err(read)?.is_dir() {
-            take_along(old, &inside, new, ours)?;
-            continue;
-        }
-        let to = new.join(&inside);
-        if ours(&inside) || to.is_file() {
-            continue;
-        }
-        make_folder_of(&to)?;
-        // The same file under a second name, until the first one is removed; not every file system can.
-        let from = entry.path();
-        let taken = std::fs::hard_link(&from, &to).or_else(|_| std::fs::copy(&from, &to).map(drop));
-        taken.map_err(|cause| refused("keep", &from, cause))?;
+/// Puts a file also where another one is to be, unless there is one.
+fn take_along(from: &Path, to: &Path) -> Result<(), StoreError> {
+    if to.is_file() {
+        return Ok(());
     }
-    Ok(())
+    make_folder_of(to)?;
+    // The same file under a second name, until the first one is removed; not every file system can.
+    let taken = std::fs::hard_link(from, to).or_else(|_| std::fs::copy(from, to).map(drop));
+    taken.map_err(|cause| refused("keep", from, cause))
 }
 
-/// Which files of a folder are not as [`replace_folder`] would leave them: others in their place, missing,
-/// or, among the drawings that are `ours`, superfluous. Writes nothing.
+/// The files of a folder and of those in it, relative to it; none where there is no such folder.
+fn files_below(path: &Path) -> Result<Vec<PathBuf>, StoreError> {
+    let (mut files, mut folders) = (Vec::new(), vec![PathBuf::new()]);
+    while let Some(inside) = folders.pop() {
+        let folder = path.join(&inside);
+        if !folder.is_dir() {
+            continue;
+        }
+        let read = |cause| refused("read", &folder, cause);
+        for entry in std::fs::read_dir(&folder).map_err(read)? {
+            let entry = entry.map_err(read)?;
+            // A link to a folder is the link that it is.
+            let is_folder = entry.file_type().map_err(read)?.is_dir();
+            if is_folder { &mut folders } else { &mut files }.push(inside.join(entry.file_name()));
+        }
+    }
+    Ok(files)
+}
+
+/// Reads what is `ours` in a folder, by its path in it; nothing where there is no such folder.
 ///
 /// # Errors
 /// [`StoreError`] when something is there and cannot be read.
-pub fn differing_files(
+pub fn read_folder(
     path: &Path,
-    files: &BTreeMap<PathBuf, Vec<u8>>,
     ours: fn(&Path) -> bool,
-) -> Result<Vec<(PathBuf, Stale)>, StoreError> {
-    let mut found = Vec::new();
-    for (file, bytes) in files {
-        match std::fs::read(path.join(file)) {
-            Ok(there) if there == *bytes => {}
-            Ok(_) => found.push((file.clone(), Stale::Differs)),
-            Err(cause) if cause.kind() == ErrorKind::NotFound => {
-                found.push((file.clone(), Stale::Missing));
-            }
-            Err(cause) => return Err(refused("read", &path.join(file), cause)),
-        }
-    }
-    for name in reports::drawings(path)? {
-        let file = Path::new(FIGURES).join(name);
-        if ours(&file) && !files.contains_key(&file) {
-            found.push((file, Stale::Superfluous));
-        }
-    }
-    found.sort();
-    Ok(found)
-}
-
-/// What is wrong with a file that should be as the program writes it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Stale {
-    /// Its content is another.
-    Differs,
-    /// It is not there.
-    Missing,
-    /// The program no longer writes it.
-    Superfluous,
+) -> Result<BTreeMap<PathBuf, Vec<u8>>, StoreError> {
+    let files = files_below(path)?.into_iter().filter(|file| ours(file));
+    let read = |file: PathBuf| {
+        let bytes = std::fs::read(path.join(&file));
+        Ok((file.clone(), bytes.map_err(|cause| refused("read", &path.join(file), cause))?))
+    };
+    files.map(read).collect()
 }
 
 /// Adds `files` (paths relative to it) to a folder, which may be missing, each whole or not at all;

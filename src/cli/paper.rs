@@ -6,13 +6,10 @@ use clap::Args;
 use miette::{IntoDiagnostic, Result};
 use vinesink::case::Case;
 use vinesink::evidence::paper::{CASES, CaseReport, TRANSFER, page};
-use vinesink::report::document::Document;
-use vinesink::report::{figures, template};
-use vinesink::study::plots::Plot;
 use vinesink::study::{CaseStudy, StudyEffort};
 
 use super::progress::Progress;
-use super::{Outcome, case_file, index};
+use super::{Outcome, case_file, index, report};
 
 /// Compare every figure of the paper with what the program finds
 ///
@@ -45,9 +42,7 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
         let effort = StudyEffort::of(&case.simulation);
         let mut advance = |done| progress.advance(done);
         let study = CaseStudy::of(&case.system(), effort, &mut advance).into_diagnostic()?;
-        let plots = Plot::all(&case, &study).into_diagnostic()?;
-        let drawn = figures::all(&case, &study, &plots);
-        let figures = template::worded(drawn, &Document::units(&case)).into_diagnostic()?;
+        let figures = report::drawn(&case, &study)?;
         members.push(CaseReport { name, case, study, figures });
     }
     let text = page(&members).into_diagnostic()?;

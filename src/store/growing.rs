@@ -31,11 +31,12 @@ impl Growing {
         Ok(file)
     }
 
+    /// The file under its other name.
     fn written(self) -> Result<NamedTempFile, StoreError> {
         self.file.into_inner().map_err(|error| refused("write", &self.path, error.into_error()))
     }
 
-    /// The file under its other name, once the disk has it.
+    /// The same once the disk has it.
     pub(super) fn on_disk(self) -> Result<NamedTempFile, StoreError> {
         let path = self.path.clone();
         let file = self.written()?;

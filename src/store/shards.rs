@@ -1,7 +1,6 @@
 //! The results of a sweep, a file for each chunk, each with its checksum beside it: what was worked out is
 //! told from what was not, and from what is damaged or belongs to something else.
 
-use std::fs::File;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -83,14 +82,6 @@ impl Shards {
             }
         }
         Ok(())
-    }
-
-    /// Opens the results of a chunk.
-    ///
-    /// # Errors
-    /// [`StoreError`] where they cannot be read.
-    pub fn read(&self, chunk: u64) -> Result<File, StoreError> {
-        super::open(&self.path(chunk))
     }
 }
 

@@ -62,9 +62,10 @@ impl Sweep {
         let shards = self.shards()?;
         let progress = Progress::new("chunks", self.plan.chunks());
         for chunk in 0..self.plan.chunks() {
+            let path = shards.path(chunk);
             let mut columns = columns::empty(&self.plan);
-            let read = parquet::read(shards.read(chunk)?, &mut columns);
-            read.into_diagnostic().wrap_err_with(|| shown(&shards.path(chunk)))?;
+            let read = parquet::read(store::open(&path)?, &mut columns);
+            read.into_diagnostic().wrap_err_with(|| shown(&path))?;
             of(columns)?;
             progress.advance(1);
         }

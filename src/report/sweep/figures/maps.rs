@@ -155,7 +155,7 @@ impl Panels<'_> {
         };
         let mut figure = Figure::new(map.name, "").with_size(width, height);
         let (mut cells, mut widths) = (Vec::new(), vec![1.0; columns]);
-        let mut lines = Lines::None;
+        let mut lines = Lines::default();
         for (index, (slice, way)) in self.shown.iter().enumerate() {
             let (_, of_way) = map.cells.iter().find(|(of, _)| of == way)?;
             let (mut panel, drawn) = self.panel(of_way, *slice, *way, map.of == "regimes", columns);
@@ -209,7 +209,7 @@ impl Panels<'_> {
         words.extend((way != Direction::Single).then(|| grid::words(way).to_owned()));
         panel.heading = (!words.is_empty()).then(|| words.join(", "));
         if self.swept.is_basin() {
-            return (panel, Lines::None);
+            return (panel, Lines::default());
         }
         let (layers, lines) =
             overlay::boundaries(self.swept, self.plane, slice, self.shown.len() == 1);

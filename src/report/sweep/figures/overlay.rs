@@ -19,17 +19,14 @@ const PANEL: f64 = 560.0;
 const LETTER: f64 = 10.0;
 
 /// The lines over a map.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub(super) enum Lines {
-    None,
+#[derive(Debug, Clone, Copy, Default, Serialize)]
+pub(super) struct Lines {
     /// Those of closed form and of exact orbits themselves.
-    Computed,
-    /// Traced between points of the grid: where the theory's area changes, where an exact orbit begins or ceases
-    /// to attract, or both.
-    Areas,
-    Orbit,
-    AreasAndOrbit,
+    computed: bool,
+    /// Traced between points of the grid: where the theory's area changes,
+    areas: bool,
+    /// and where an exact orbit begins or ceases to attract.
+    orbit: bool,
 }
 
 /// The boundaries of a slice; traced ones have names where `named`.
@@ -40,7 +37,7 @@ pub(super) fn boundaries(
     named: bool,
 ) -> (Vec<Layer>, Lines) {
     match computed(swept, plane).filter(|_| swept.slices() == 1) {
-        Some(layers) => (layers, Lines::Computed),
+        Some(layers) => (layers, Lines { computed: true, ..Lines::default() }),
         None => traced(swept, plane, slice, named),
     }
 }
@@ -106,12 +103,7 @@ fn traced(swept: &Swept, plane: Plane, slice: usize, named: bool) -> (Vec<Layer>
         let attracts: Vec<_> = cells.iter().map(|peak| Some(peak.is_some())).collect();
         contours::between(&attracts, &x_edges, &y_edges)
     });
-    let lines = match [areas.is_empty(), orbit.is_empty()] {
-        [false, false] => Lines::AreasAndOrbit,
-        [false, true] => Lines::Areas,
-        [true, false] => Lines::Orbit,
-        [true, true] => Lines::None,
-    };
+    let lines = Lines { computed: false, areas: !areas.is_empty(), orbit: !orbit.is_empty() };
     let solid = Style::new(Color::Vermillion, 1.7, Dash::Solid);
     let dashed = Style::new(Color::Black, 1.3, Dash::Dashed);
     let mut layers = Vec::from(line(areas, solid, "areas of the theory"));
