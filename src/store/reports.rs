@@ -8,7 +8,7 @@ use super::{StoreError, refused, text_of};
 /// The file that makes a folder a report.
 pub(super) const REPORT: &str = "report.json";
 /// The folder of its drawings, and how their names end.
-pub(super) const FIGURES: &str = "figures";
+const FIGURES: &str = "figures";
 /// See [`FIGURES`].
 pub(super) const DRAWING: &str = ".svg";
 
@@ -78,7 +78,7 @@ fn read_report(file: &Path, folder: &Path) -> Result<StoredReport, StoreError> {
 }
 
 /// The file names of the drawings in a report's folder, sorted; none where there are none.
-pub(super) fn drawings(folder: &Path) -> Result<Vec<String>, StoreError> {
+fn drawings(folder: &Path) -> Result<Vec<String>, StoreError> {
     let folder = folder.join(FIGURES);
     if !folder.is_dir() {
         return Ok(Vec::new());

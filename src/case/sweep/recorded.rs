@@ -60,7 +60,7 @@ names! { key:
 }
 
 impl Recorded {
-    /// The layer that knows it; the order is theirs.
+    /// The layer that knows it: what is recorded stands in the order of layers.
     pub fn layer(self) -> Layer {
         match self {
             closed if closed <= Self::BareAmplitude => Layer::ClosedForm,

@@ -48,7 +48,7 @@ impl Diagram<'_> {
         let facts = json!({
             "of": of, "x": self.axis.kind.id, "x_ends": self.axis.ends(),
             "followed": self.directions.len() > 1,
-            "simulated": self.directions.iter().any(|way| self.swept.numbers(Recorded::Peak, *way).is_some())
+            "simulated": self.directions.iter().any(|way| self.swept.cells(Recorded::Peak.key(), *way).is_some())
         });
         Some(Figure::new(name, "").with_panel(panel).with_facts(WORDS, facts))
     }
