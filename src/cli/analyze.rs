@@ -3,17 +3,16 @@
 use clap::Args;
 use miette::{IntoDiagnostic, Result, WrapErr};
 use vinesink::analysis::Analysis;
-use vinesink::case::Case;
 use vinesink::orbits::FullSystem;
 use vinesink::report::console;
 use vinesink::report::documents::AnalysisDocument;
-use vinesink::study::fidelity::{Answers, Plan};
-use vinesink::study::{StudyEffort, long_term_motions, settle_area};
+use vinesink::study::fidelity::Plan;
+use vinesink::study::{StudyEffort, settle_area};
 
-use super::Outcome;
 use super::budget::{ANALYSIS, Work};
 use super::case_file::{self, Fidelity, OneCase};
 use super::progress::Progress;
+use super::{Outcome, simulate};
 
 /// Print what the theory and the exact orbits say of a case
 ///
@@ -56,7 +55,11 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
     let area = settle_area(&analysis, &exact).into_diagnostic()?;
     drop(progress);
     let answers = match plan {
-        Some(plan) => Some(answers(&case, &analysis, &plan)?),
+        Some(plan) if plan.needs_simulation() => {
+            let found = simulate::search(&analysis, &StudyEffort::of(&case.simulation))?;
+            Some(plan.answers(Some((&found).into())).into_diagnostic()?)
+        }
+        Some(plan) => Some(plan.answers(None).into_diagnostic()?),
         None => None,
     };
     arguments.one.print(
@@ -67,16 +70,4 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
         },
     )?;
     Ok(answers.is_none_or(|answers| answers.enough()).into())
-}
-
-/// What was asked for, simulated only where no cheaper layer answers.
-fn answers(case: &Case, analysis: &Analysis, plan: &Plan) -> Result<Answers> {
-    if !plan.needs_simulation() {
-        return plan.answers(None).into_diagnostic();
-    }
-    let effort = StudyEffort::of(&case.simulation);
-    let progress = Progress::new("simulating", u64::from(effort.starts));
-    let mut advance = |done| progress.advance(done);
-    let found = long_term_motions(analysis, &effort, &mut advance).into_diagnostic()?;
-    plan.answers(Some((&found).into())).into_diagnostic()
 }

@@ -70,7 +70,8 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
     let (motion, found) = match arguments.initial {
         Some(start) => (follow(&case, start, &effort, &arguments)?, None),
         None => {
-            let mut found = search(&case, &effort)?;
+            let analysis = Analysis::of(&case.system()).into_diagnostic()?;
+            let mut found = search(&analysis, &effort)?;
             let main = study::main_attractor_mut(&mut found.attractors)
                 .ok_or_else(|| miette!("no start led anywhere; ask for more than 0 starts"))?;
             let continued = StudyEffort { discard: Some(0), ..effort };
@@ -134,11 +135,11 @@ fn follow(
     Ok(motion)
 }
 
-fn search(case: &Case, effort: &StudyEffort) -> Result<LongTermMotions> {
-    let analysis = Analysis::of(&case.system()).into_diagnostic()?;
+/// Looks for all long-term motions of a case.
+pub fn search(analysis: &Analysis, effort: &StudyEffort) -> Result<LongTermMotions> {
     let progress = Progress::new("simulating", u64::from(effort.starts));
     let mut advance = |done| progress.advance(done);
-    study::long_term_motions(&analysis, effort, &mut advance).into_diagnostic()
+    study::long_term_motions(analysis, effort, &mut advance).into_diagnostic()
 }
 
 fn csv(impacts: &[Impact]) -> String {

@@ -199,10 +199,10 @@ impl Sweep {
     /// The chunks that are not there.
     fn missing(&self) -> Result<Vec<u64>> {
         let shards = self.shards()?;
-        let all: Vec<u64> = (0..self.plan.chunks()).collect();
-        let missing = all.into_par_iter().map(|chunk| Ok((chunk, shards.holds(chunk)?)));
-        let found: Vec<(u64, bool)> = missing.collect::<Result<_>>()?;
-        Ok(found.into_iter().filter(|(_, there)| !there).map(|(chunk, _)| chunk).collect())
+        let missing = |chunk| Ok((!shards.holds(chunk)?).then_some(chunk));
+        let all: Result<Vec<Option<u64>>> =
+            (0..self.plan.chunks()).into_par_iter().map(missing).collect();
+        Ok(all?.into_iter().flatten().collect())
     }
 }
 
