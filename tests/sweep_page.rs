@@ -20,7 +20,7 @@ use vinesink::report::figure::{
 };
 use vinesink::report::render;
 use vinesink::report::sweep::{AxisShown, Swept, SweptError, tint};
-use vinesink::sweep::columns::{Column, Values};
+use vinesink::sweep::columns::{Cell, Column, Storage};
 use vinesink::sweep::limits::stability_limits;
 
 /// Table 1 of Li, Seguy, Berlioz (2016) at 8.35 Hz and 20 mm.
@@ -28,25 +28,31 @@ fn case() -> Case {
     Case::parse("map.toml", common::table_1_case()).unwrap_or_else(|error| panic!("{error:?}"))
 }
 
+fn column<T: Copy>(
+    name: &'static str,
+    storage: Storage,
+    values: &[T],
+    cell: impl Fn(T) -> Option<Cell>,
+) -> Column {
+    let unit = if storage == Storage::Text { "" } else { "1" };
+    let cells = values.iter().map(|value| cell(*value)).collect();
+    Column { name: name.to_owned(), unit, storage, cells }
+}
+
 fn numbers(name: &'static str, values: &[Option<f64>]) -> Column {
-    Column { name: name.to_owned(), unit: "1", values: Values::Number(values.to_vec()) }
+    column(name, Storage::Number, values, |value| value.map(Cell::Number))
 }
 
 fn all(name: &'static str, values: &[f64]) -> Column {
-    numbers(name, &values.iter().map(|value| Some(*value)).collect::<Vec<_>>())
+    column(name, Storage::Number, values, |value| Some(Cell::Number(value)))
 }
 
 fn texts(name: &'static str, values: &[&'static str]) -> Column {
-    let values = values.iter().map(|value| (!value.is_empty()).then_some(*value)).collect();
-    Column { name: name.to_owned(), unit: "", values: Values::Text(values) }
+    column(name, Storage::Text, values, |value| (!value.is_empty()).then_some(Cell::Text(value)))
 }
 
 fn counts(name: &'static str, values: &[i64]) -> Column {
-    Column {
-        name: name.to_owned(),
-        unit: "1",
-        values: Values::Whole(values.iter().map(|value| Some(*value)).collect()),
-    }
+    column(name, Storage::Whole, values, |value| Some(Cell::Number(value as f64)))
 }
 
 fn swept<'a>(case: &'a Case, axes: Vec<AxisShown>, columns: &'a [Column]) -> Swept<'a> {
@@ -458,11 +464,8 @@ fn what_starts_reach_counts_where_it_is_recorded() {
     let case = case();
     let mut columns = small_columns();
     let reached = [Some(true), Some(false), Some(true), None, Some(false), Some(true), None, None];
-    columns.push(Column {
-        name: "orbit_reached".to_owned(),
-        unit: "",
-        values: Values::Flag(reached.to_vec()),
-    });
+    let flag = |reached: Option<bool>| reached.map(|reached| Cell::Number(f64::from(reached)));
+    columns.push(column("orbit_reached", Storage::Flag, &reached, flag));
     let text = markdown(&swept(&case, small_axes(&case), &columns));
     assert!(text.contains("of these; at 40.0 % no start led to it."), "{text}");
 }

@@ -33,6 +33,13 @@ pub struct SweepSettings {
     pub record: Vec<Recorded>,
 }
 
+impl SweepSettings {
+    /// Number of points: every combination of the axes' values.
+    pub fn points(&self) -> u64 {
+        self.axes.iter().map(|axis| axis.values.len() as u64).product()
+    }
+}
+
 /// Which parameters `vinesink sweep` varies, how each point is worked out, and what is recorded. The table may
 /// be left out. Whatever is not an axis keeps the case's own number.
 #[derive(Deserialize, JsonSchema)]

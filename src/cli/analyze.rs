@@ -3,16 +3,15 @@
 use clap::Args;
 use miette::{IntoDiagnostic, Result, WrapErr};
 use vinesink::analysis::Analysis;
-use vinesink::case::Case;
 use vinesink::orbits::FullSystem;
 use vinesink::report::console::Analysed;
-use vinesink::study::fidelity::{Answers, Plan};
-use vinesink::study::{StudyEffort, long_term_motions, settle_area};
+use vinesink::study::fidelity::Plan;
+use vinesink::study::{StudyEffort, settle_area};
 
-use super::budget::{Long, Work};
-use super::case_file::{self, CaseArgument, Fidelity, Format};
+use super::budget::{ANALYSIS, Work};
+use super::case_file::{self, Fidelity, OneCase};
 use super::progress::Progress;
-use super::{Outcome, output};
+use super::{Outcome, simulate};
 
 /// Print what the theory and the exact orbits say of a case
 ///
@@ -24,16 +23,11 @@ use super::{Outcome, output};
 #[command(after_long_help = EXAMPLES)]
 pub struct Arguments {
     #[command(flatten)]
-    case: CaseArgument,
-    /// Text for people or JSON for programs
-    #[arg(long, value_enum, default_value = "text")]
-    format: Format,
+    one: OneCase,
     /// Also answer by this layer [default: with [accuracy] in the case by the cheapest that is exact
     /// enough, else by none]
     #[arg(long, value_enum, value_name = "LAYER")]
     fidelity: Option<Fidelity>,
-    #[command(flatten)]
-    long: Long,
 }
 
 const EXAMPLES: &str = "\
@@ -43,23 +37,28 @@ Examples:
   vinesink analyze damper.toml --format json | jq .boundaries";
 
 pub fn run(arguments: Arguments) -> Result<Outcome> {
-    let case = arguments.case.read()?;
+    let OneCase { path, long, .. } = &arguments.one;
+    let case = case_file::read(path)?;
     let plan = case_file::plan(&case, arguments.fidelity)?;
-    let work = match plan.as_ref().is_some_and(Plan::needs_simulation) {
-        true => Work::motions(&case, &StudyEffort::of(&case.simulation)),
-        false => Work::default(),
-    };
-    let theory = Work::analysis(&case);
+    let theory = Work::trajectory(&case, ANALYSIS);
     let progress = Progress::estimated("analysis", theory.seconds());
-    arguments.long.allows(&arguments.case.path, &case, &work.and(theory))?;
+    let mut work = vec![theory];
+    if plan.as_ref().is_some_and(Plan::needs_simulation) {
+        work.extend(Work::motions(&case, &StudyEffort::of(&case.simulation)));
+    }
+    long.allows(path, &case, &work)?;
     let analysis = Analysis::of(&case.system())
         .into_diagnostic()
-        .wrap_err_with(|| format!("{} cannot be analysed", arguments.case.path.display()))?;
+        .wrap_err_with(|| format!("{} cannot be analysed", path.display()))?;
     let exact = FullSystem::of(&case.system());
     let area = settle_area(&analysis, &exact).into_diagnostic()?;
     drop(progress);
     let answers = match plan {
-        Some(plan) => Some(answers(&case, &analysis, &plan)?),
+        Some(plan) if plan.needs_simulation() => {
+            let found = simulate::search(&analysis, &StudyEffort::of(&case.simulation))?;
+            Some(plan.answers(Some((&found).into())).into_diagnostic()?)
+        }
+        Some(plan) => Some(plan.answers(None).into_diagnostic()?),
         None => None,
     };
     let found = Analysed {
@@ -69,22 +68,6 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
         area,
         answers: answers.as_ref(),
     };
-    match arguments.format {
-        Format::Text => output::print(found.text().into_diagnostic()?)?,
-        Format::Json => output::print_json(&found.document())?,
-    }
-    let enough = answers.is_none_or(|answers| answers.enough());
-    Ok(if enough { Outcome::Done } else { Outcome::DoesNotHold })
-}
-
-/// What was asked for, simulated only where no cheaper layer answers.
-fn answers(case: &Case, analysis: &Analysis, plan: &Plan) -> Result<Answers> {
-    if !plan.needs_simulation() {
-        return plan.answers(None).into_diagnostic();
-    }
-    let effort = StudyEffort::of(&case.simulation);
-    let progress = Progress::new("simulating", u64::from(effort.starts));
-    let mut advance = |done| progress.advance(done);
-    let found = long_term_motions(analysis, &effort, &mut advance).into_diagnostic()?;
-    plan.answers(Some((&found).into())).into_diagnostic()
+    arguments.one.print(|| found.text(), || found.document())?;
+    Ok(answers.is_none_or(|answers| answers.enough()).into())
 }

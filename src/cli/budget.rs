@@ -36,11 +36,11 @@ const NEVER_REPEATS: u64 = 51;
 const RECOGNITION: u64 = 200;
 /// Periods of an analysis: 350 tell area Z1 from Z2 where closed form cannot, and the exact orbits with their
 /// boundaries take as long as 450, 7 s at a frequency ratio of 1e-4.
-const ANALYSIS: u64 = 800;
+pub const ANALYSIS: u64 = 800;
 /// Trajectories and periods of a figure that the case asks for: a diagram has 120 values, up and down.
 const FIGURE: [u64; 2] = [240, 350];
 /// Periods of the best answer of a trade-off.
-const BEST_ANSWER: u64 = 100_000;
+pub const BEST_ANSWER: u64 = 100_000;
 /// Points of a sweep that may take as long as other commands: how many there are is what the case asks for, and
 /// what `--dry-run` says.
 const POINTS: u64 = 60;
@@ -55,31 +55,33 @@ pub struct Long {
 
 impl Long {
     /// Lets ordinary work pass, and any that is asked for.
-    pub fn allows(self, path: &Path, case: &Case, work: &Work) -> Result<()> {
-        let seconds = work.seconds();
+    pub fn allows(self, path: &Path, case: &Case, work: &[Work]) -> Result<()> {
+        let seconds = seconds(work);
         if self.long || seconds <= ORDINARY {
             return Ok(());
         }
         let slips = case.warnings().iter().filter_map(|warning| {
             Some(format!("line {}: {}; ", warning.line, warning.help.as_ref()?))
         });
+        let longest = work.iter().max_by(|a, b| a.seconds().total_cmp(&b.seconds()));
         Err(miette!(
             help = format!("{}to do it all the same, add --long", slips.collect::<String>()),
-            "{} would take about {}{}",
+            "{} would take about {}: {}",
             path.display(),
             duration(seconds),
-            work
+            longest.map(Work::to_string).unwrap_or_default()
         ))
     }
 }
 
-/// What a command simulates, as far as it is known before.
-#[derive(Debug, Default)]
-pub struct Work(Vec<Part>);
+/// About how many seconds work takes.
+pub fn seconds(work: &[Work]) -> f64 {
+    work.iter().map(Work::seconds).sum()
+}
 
-/// Trajectories of one kind.
+/// Trajectories of one kind that a command simulates, as far as they are known before.
 #[derive(Debug)]
-struct Part {
+pub struct Work {
     /// How many, as factors with their names.
     trajectories: Vec<(u64, &'static str)>,
     periods: f64,
@@ -91,47 +93,35 @@ struct Part {
 
 impl Work {
     /// Looking for all long-term motions of a case.
-    pub fn motions(case: &Case, effort: &StudyEffort) -> Self {
+    pub fn motions(case: &Case, effort: &StudyEffort) -> [Self; 2] {
         let each_start = effort.left_out(&case.system()) + effort.periods.min(RECOGNITION);
         let longest = effort.periods.saturating_mul(NEVER_REPEATS);
-        let system = case.system();
-        Self(vec![
-            Part::alone(&system, vec![(effort.starts.into(), "starts")], each_start),
-            Part::alone(&system, vec![(1, "motion that may not repeat")], longest),
-        ])
+        [
+            Self::alone(case, vec![(effort.starts.into(), "starts")], each_start),
+            Self::alone(case, vec![(1, "motion that may not repeat")], longest),
+        ]
     }
 
     /// One trajectory.
-    pub fn trajectory(case: &Case, effort: &StudyEffort) -> Self {
-        let periods = effort.left_out(&case.system()).saturating_add(effort.periods);
-        Self(vec![Part::alone(&case.system(), vec![(1, "trajectory")], periods)])
-    }
-
-    /// Theory and exact orbits.
-    pub fn analysis(case: &Case) -> Self {
-        Self(vec![Part::alone(&case.system(), vec![(1, "trajectory")], ANALYSIS)])
+    pub fn trajectory(case: &Case, periods: u64) -> Self {
+        Self::alone(case, vec![(1, "trajectory")], periods)
     }
 
     /// A case's criteria, over its band if it has one.
     pub fn criteria(case: &Case) -> Self {
-        Self(vec![Part::band(case, Vec::new())])
+        Self::band(case, Vec::new())
     }
 
     /// The search for the best design.
     pub fn designs(case: &Case) -> Self {
-        Self(vec![Part::band(case, vec![(DESIGNS, "designs")])])
+        Self::band(case, vec![(DESIGNS, "designs")])
     }
 
     /// The figures that a case asks for.
     pub fn figures(case: &Case) -> Self {
         let [trajectories, periods] = FIGURE;
-        let counts = vec![(case.report.figures.len() as u64, "figures"), (trajectories, "values")];
-        Self(vec![Part::alone(&case.system(), counts, periods)])
-    }
-
-    /// The longest simulation of a trade-off.
-    pub fn best_answer(case: &Case) -> Self {
-        Self(vec![Part::alone(&case.system(), vec![(1, "trajectory")], BEST_ANSWER)])
+        let figures = case.report.figures.len() as u64;
+        Self::alone(case, vec![(figures, "figures"), (trajectories, "values")], periods)
     }
 
     /// Some points of a sweep.
@@ -141,24 +131,11 @@ impl Work {
         let systems: Vec<System> = numbers.filter_map(|number| plan.point(number).system).collect();
         let counts =
             vec![(count, "points (of each sixty)"), (plan.settings.starts.into(), "starts")];
-        Self(vec![Part::side_by_side(&systems, counts, plan.settings.periods)])
+        Self::side_by_side(&systems, counts, plan.settings.periods)
     }
 
-    /// Both.
-    pub fn and(mut self, other: Self) -> Self {
-        self.0.extend(other.0);
-        self
-    }
-
-    /// About how many seconds it takes.
-    pub fn seconds(&self) -> f64 {
-        self.0.iter().map(Part::seconds).sum()
-    }
-}
-
-impl Part {
-    fn alone(system: &System, trajectories: Vec<(u64, &'static str)>, periods: u64) -> Self {
-        let oscillations = oscillations(system);
+    fn alone(case: &Case, trajectories: Vec<(u64, &'static str)>, periods: u64) -> Self {
+        let oscillations = oscillations(&case.system());
         Self { trajectories, periods: periods as f64, oscillations, each: ALONE }
     }
 
@@ -191,7 +168,8 @@ impl Part {
         Self { trajectories, periods, oscillations: total / periods, each: SIDE_BY_SIDE }
     }
 
-    fn seconds(&self) -> f64 {
+    /// About how many seconds it takes.
+    pub fn seconds(&self) -> f64 {
         let trajectories = self.trajectories.iter().map(|(count, _)| *count as f64);
         trajectories.product::<f64>() * self.periods * self.oscillations * self.each
     }
@@ -206,14 +184,11 @@ fn two_digits(value: f64) -> f64 {
     format!("{value:.1e}").parse().unwrap_or(value)
 }
 
-/// ": ", and the part that takes longest.
 impl fmt::Display for Work {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let longest = self.0.iter().max_by(|a, b| a.seconds().total_cmp(&b.seconds()));
-        let Some(part) = longest else { return Ok(()) };
-        let counts = part.trajectories.iter().map(|(count, of)| format!("{count} {of} x "));
-        write!(f, ": {}{:.0} periods", counts.collect::<String>(), part.periods)?;
-        match part.oscillations {
+        let counts = self.trajectories.iter().map(|(count, of)| format!("{count} {of} x "));
+        write!(f, "{}{:.0} periods", counts.collect::<String>(), self.periods)?;
+        match self.oscillations {
             few if few < 1.5 => Ok(()),
             many => write!(f, " of about {} oscillations each", two_digits(many)),
         }
@@ -230,11 +205,11 @@ mod tests {
     }
 
     fn all(case: &Case) -> [f64; 4] {
-        let motions = || Work::motions(case, &StudyEffort::of(&case.simulation));
-        let report = motions().and(Work::criteria(case)).and(Work::figures(case));
-        let tradeoff = motions().and(Work::best_answer(case));
+        let motions = seconds(&Work::motions(case, &StudyEffort::of(&case.simulation)));
+        let report = motions + seconds(&[Work::criteria(case), Work::figures(case)]);
+        let tradeoff = motions + Work::trajectory(case, BEST_ANSWER).seconds();
         let sweep = Plan::of(case).map_or(0.0, |plan| Work::points(&plan).seconds());
-        [report.seconds(), tradeoff.seconds(), Work::designs(case).seconds(), sweep]
+        [report, tradeoff, Work::designs(case).seconds(), sweep]
     }
 
     /// Nothing that is shipped comes within a factor of three.
@@ -266,13 +241,15 @@ mod tests {
         let case = case(&format!("{REDUCED}{settings}"));
         let work = Work::motions(&case, &StudyEffort::of(&case.simulation));
         let oscillations = (8.0 * 203.0 + 51_000.0) * 1000.0;
-        assert!((work.seconds() / (oscillations * ALONE) - 1.0).abs() < 1e-12);
+        assert!((seconds(&work) / (oscillations * ALONE) - 1.0).abs() < 1e-12);
         assert_eq!(
-            work.to_string(),
-            ": 1 motion that may not repeat x 51000 periods of about 1000 oscillations each"
+            work[1].to_string(),
+            "1 motion that may not repeat x 51000 periods of about 1000 oscillations each"
         );
         // Above resonance it is the excitation that has to be followed.
         let fast = self::case(&format!("{REDUCED}frequency_ratio = 1000.0\n"));
-        assert!((Work::analysis(&fast).seconds() / (800.0 * ALONE) - 1.0).abs() < 1e-12);
+        assert!(
+            (Work::trajectory(&fast, ANALYSIS).seconds() / (800.0 * ALONE) - 1.0).abs() < 1e-12
+        );
     }
 }

@@ -1,29 +1,50 @@
 //! Reading the case that a command is given.
 
+use std::error::Error;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
-use miette::{IntoDiagnostic, NamedSource, Report, Result};
+use miette::{IntoDiagnostic, NamedSource, Report, Result, miette};
+use serde::Serialize;
 use vinesink::case::Case;
 use vinesink::method::Method;
 use vinesink::store;
 use vinesink::study::fidelity::{AccuracyTarget, Plan};
 
+use super::budget::Long;
 use super::output;
 
-/// The case that a command works on.
+/// What commands on one case have in common.
 #[derive(Debug, Args)]
-pub struct CaseArgument {
+pub struct OneCase {
     /// The case file
     #[arg(value_name = "CASE")]
     pub path: PathBuf,
+    /// Text for people or JSON for programs
+    #[arg(long, value_enum, default_value = "text")]
+    pub format: Format,
+    #[command(flatten)]
+    pub long: Long,
 }
 
-impl CaseArgument {
-    /// Reads it.
-    pub fn read(&self) -> Result<Case> {
-        read(&self.path)
+impl OneCase {
+    /// Prints a result, only that document made which is asked for.
+    pub fn print<E: Error + Send + Sync + 'static, J: Serialize>(
+        &self,
+        text: impl FnOnce() -> Result<String, E>,
+        json: impl FnOnce() -> J,
+    ) -> Result<()> {
+        match self.format {
+            Format::Text => output::print(text().into_diagnostic()?),
+            Format::Json => output::print_json(&json()),
+        }
     }
+}
+
+/// The name of a case: that of its file, without what stands behind the last point.
+pub fn name(path: &Path) -> Result<String> {
+    let stem = path.file_stem().ok_or_else(|| miette!("{} is no file", path.display()))?;
+    Ok(stem.to_string_lossy().into_owned())
 }
 
 /// Reads a case file.

@@ -82,12 +82,8 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
         }
     }
     // One bad case does not keep the others from being checked; each is said in full.
-    let last = failures.pop();
-    for error in failures {
-        output::complain(&format!("{error:?}"));
-    }
-    let outcome = if holds { Outcome::Done } else { Outcome::DoesNotHold };
-    last.map_or(Ok(outcome), Err)
+    output::last_of(failures)?;
+    Ok(holds.into())
 }
 
 fn checked(path: &Path, long: Long, failures: &mut Vec<Report>) -> Checked {
@@ -108,11 +104,9 @@ fn checked(path: &Path, long: Long, failures: &mut Vec<Report>) -> Checked {
 
 fn judged(path: &Path, long: Long) -> Result<(Case, Vec<Judged>)> {
     let case = case_file::read(path)?;
-    let work = match case.criteria.is_empty() {
-        true => Work::default(),
-        false => Work::criteria(&case),
-    };
-    long.allows(path, &case, &work)?;
+    if !case.criteria.is_empty() {
+        long.allows(path, &case, &[Work::criteria(&case)])?;
+    }
     let survey = Survey::of(&criteria::range(&case), &criteria::settings(&case), &Parallel);
     let judged = criteria::judge(&case, &survey.into_diagnostic()?);
     if case.criteria.is_empty() {

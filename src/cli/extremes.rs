@@ -6,10 +6,9 @@ use clap::Args;
 use miette::{IntoDiagnostic, Result};
 use vinesink::evidence::extremes::contact::tables;
 use vinesink::evidence::extremes::{entries, holds, page, unit_checks};
-use vinesink::store;
 
 use super::progress::Progress;
-use super::{Outcome, index, output};
+use super::{Outcome, index};
 
 /// Simulate at the ends of every parameter's range and compare with 77 decimal digits
 ///
@@ -42,9 +41,6 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
     let contact = tables().into_diagnostic()?;
     progress.advance(1);
     let text = page(&outcomes, &contact, &units).into_diagnostic()?;
-    let path = arguments.out.join("extremes.md");
-    store::write_file(&path, text.as_bytes())?;
-    output::print(format!("{}\n", path.display()))?;
-    index::refresh(&arguments.out)?;
-    Ok(if holds(&outcomes, &units) { Outcome::Done } else { Outcome::DoesNotHold })
+    index::write_page(&arguments.out, "extremes.md", &text)?;
+    Ok(holds(&outcomes, &units).into())
 }

@@ -1,5 +1,6 @@
 //! `vinesink index [FOLDER]`
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -7,7 +8,7 @@ use miette::{IntoDiagnostic, Result, WrapErr, miette};
 use vinesink::report::index::{self, CaseReport, OtherPage, Summary};
 use vinesink::store::{self, Listing};
 
-use super::{Outcome, output};
+use super::{Outcome, case_file, output};
 
 /// List the reports of a folder, with verdicts and key numbers, to sort and to compare
 ///
@@ -39,7 +40,7 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
     }
     write(folder)?;
     for name in [index::HTML, index::MARKDOWN] {
-        output::print(format!("{}\n", folder.join(name).display()))?;
+        output::print_path(&folder.join(name))?;
     }
     Ok(Outcome::Done)
 }
@@ -52,6 +53,24 @@ pub fn refresh(folder: &Path) -> Result<()> {
         return Ok(());
     }
     write(folder).wrap_err("the index beside the reports is not up to date")
+}
+
+/// Adds files to the folder of a case's report in a folder of reports.
+pub fn add_to_report(
+    reports: &Path,
+    case: &Path,
+    files: &BTreeMap<PathBuf, Vec<u8>>,
+) -> Result<()> {
+    store::add_to_folder(&reports.join(case_file::name(case)?), files)?;
+    refresh(reports)
+}
+
+/// Writes a page beside the reports of a folder.
+pub fn write_page(reports: &Path, name: &str, text: &str) -> Result<()> {
+    let path = reports.join(name);
+    store::write_file(&path, text.as_bytes())?;
+    output::print_path(&path)?;
+    refresh(reports)
 }
 
 /// Whether a file is there, and if so, whether it is an index.

@@ -82,6 +82,12 @@ pub enum Outcome {
     DoesNotHold,
 }
 
+impl From<bool> for Outcome {
+    fn from(holds: bool) -> Self {
+        if holds { Self::Done } else { Self::DoesNotHold }
+    }
+}
+
 impl From<Outcome> for ExitCode {
     fn from(outcome: Outcome) -> Self {
         match outcome {

@@ -1,6 +1,6 @@
 //! `vinesink new NAME`
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use miette::{Result, miette};
@@ -27,7 +27,11 @@ Examples:
   vinesink new cases/footbridge      write cases/footbridge.toml; the folder must exist";
 
 pub fn run(arguments: Arguments) -> Result<Outcome> {
-    let path = with_extension(&arguments.path);
+    // Also behind a dot that is part of the name, as in `8.5hz`.
+    let path = match arguments.path.extension() {
+        Some(extension) if extension == "toml" => arguments.path.clone(),
+        _ => arguments.path.with_added_extension("toml"),
+    };
     let title = path.file_stem().ok_or_else(|| {
         miette!(
             help = "write for example `vinesink new damper`",
@@ -37,18 +41,6 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
     })?;
     let text = Case::starting_text(&title.to_string_lossy());
     store::write_new(&path, text.as_bytes())?;
-    output::print(format!("{}\n", path.display()))?;
+    output::print_path(&path)?;
     Ok(Outcome::Done)
-}
-
-/// Adds `.toml`, also behind a dot that is part of the name, as in `8.5hz`.
-fn with_extension(path: &Path) -> PathBuf {
-    match path.file_name() {
-        Some(name) if path.extension().is_none_or(|extension| extension != "toml") => {
-            let mut name = name.to_owned();
-            name.push(".toml");
-            path.with_file_name(name)
-        }
-        _ => path.to_owned(),
-    }
 }

@@ -9,8 +9,8 @@ use vinesink::optimize::{Optimization, Task};
 use vinesink::report::optimize as page;
 use vinesink::store;
 
-use super::budget::{Long, Work};
-use super::case_file::{self, CaseArgument, Format};
+use super::budget::Work;
+use super::case_file::{self, Format, OneCase};
 use super::parallel::Parallel;
 use super::{Outcome, index, output};
 
@@ -25,7 +25,7 @@ use super::{Outcome, index, output};
 #[command(after_long_help = EXAMPLES)]
 pub struct Arguments {
     #[command(flatten)]
-    case: CaseArgument,
+    one: OneCase,
     /// What to look for, instead of what the case says
     #[arg(long, value_enum)]
     objective: Option<Objective>,
@@ -38,11 +38,6 @@ pub struct Arguments {
     /// Write the robust optimum, the best in expectation, instead
     #[arg(long, requires = "write")]
     robust: bool,
-    #[command(flatten)]
-    long: Long,
-    /// Text for people or JSON for programs
-    #[arg(long, value_enum, default_value = "text")]
-    format: Format,
 }
 
 const EXAMPLES: &str = "\
@@ -85,10 +80,10 @@ impl From<Objective> for case::Objective {
 }
 
 pub fn run(arguments: Arguments) -> Result<Outcome> {
-    let path = &arguments.case.path;
+    let OneCase { path, format, long } = &arguments.one;
     let (case, text) = case_file::read_with_text(path)?;
-    if let Some(new) = arguments.write.as_ref().filter(|new| new.exists()) {
-        return Err(store::StoreError::Exists { path: new.clone() }.into());
+    if let Some(new) = &arguments.write {
+        store::must_be_new(new)?;
     }
     if arguments.robust && !case.uncertainty.is_any() {
         return Err(miette!(
@@ -100,28 +95,22 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
     let task = Task::of(&case, arguments.objective.map(Into::into)).map_err(|error| {
         miette!(help = "give the excitation an amplitude above 0", "{}: {error}", path.display())
     })?;
-    arguments.long.allows(path, &case, &Work::designs(&case))?;
+    long.allows(path, &case, &[Work::designs(&case)])?;
     let found = Optimization::of(&case, &text, &task, &Parallel).into_diagnostic()?;
-    let stem = path.file_stem().ok_or_else(|| miette!("{} is no file", path.display()))?;
     if let Some(out) = &arguments.out {
-        store::add_to_folder(&out.join(stem), &page::files(&case, &found).into_diagnostic()?)?;
-        index::refresh(out)?;
+        index::add_to_report(out, path, &page::files(&case, &found).into_diagnostic()?)?;
     }
     let written = match &arguments.write {
         Some(new) => Some(written(new, &case, &found, arguments.robust)?),
         None => None,
     };
-    match arguments.format {
-        Format::Text => {
-            let summary = page::summary(&case, &found).into_diagnostic()?;
-            output::print(written.map_or(summary.clone(), |line| format!("{summary}\n{line}\n")))?;
-        }
-        Format::Json => {
-            output::print_json(&page::document(&case, &found))?;
-            written.into_iter().for_each(|line| output::complain(&line));
-        }
+    arguments.one.print(|| page::summary(&case, &found), || page::document(&case, &found))?;
+    match (written, format) {
+        (Some(line), Format::Text) => output::print(format!("\n{line}\n"))?,
+        (Some(line), Format::Json) => output::complain(&line),
+        (None, _) => {}
     }
-    Ok(if found.succeeds() { Outcome::Done } else { Outcome::DoesNotHold })
+    Ok(found.succeeds().into())
 }
 
 /// Writes the absorber that was asked for, if it is better than the case's own, and says what became of the

@@ -6,14 +6,10 @@ use clap::Args;
 use miette::{IntoDiagnostic, Result};
 use vinesink::case::Case;
 use vinesink::evidence::paper::{CASES, CaseReport, TRANSFER, page};
-use vinesink::report::document;
-use vinesink::report::{figures, template};
-use vinesink::store;
-use vinesink::study::plots::Plot;
 use vinesink::study::{CaseStudy, StudyEffort};
 
 use super::progress::Progress;
-use super::{Outcome, case_file, index, output};
+use super::{Outcome, case_file, index, report};
 
 /// Compare every figure of the paper with what the program finds
 ///
@@ -46,15 +42,10 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
         let effort = StudyEffort::of(&case.simulation);
         let mut advance = |done| progress.advance(done);
         let study = CaseStudy::of(&case.system(), effort, &mut advance).into_diagnostic()?;
-        let plots = Plot::all(&case, &study).into_diagnostic()?;
-        let drawn = figures::all(&case, &study, &plots);
-        let figures = template::worded(drawn, &document::units(&case)).into_diagnostic()?;
+        let figures = report::drawn(&case, &study)?;
         members.push(CaseReport { name, case, study, figures });
     }
     let text = page(&members).into_diagnostic()?;
-    let path = arguments.out.join("paper.md");
-    store::write_file(&path, text.as_bytes())?;
-    output::print(format!("{}\n", path.display()))?;
-    index::refresh(&arguments.out)?;
+    index::write_page(&arguments.out, "paper.md", &text)?;
     Ok(Outcome::Done)
 }

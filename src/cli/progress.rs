@@ -4,7 +4,7 @@
 use std::io::{self, IsTerminal as _};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
-use std::sync::{Arc, Mutex, OnceLock};
+use std::sync::{Arc, LazyLock, Mutex};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
@@ -21,8 +21,10 @@ const FRAME: Duration = Duration::from_millis(200);
 const BETWEEN_LINES: f64 = 10.0;
 const INTERVAL: &str = "VINESINK_PROGRESS_SECONDS";
 
-/// When this process began its first long work and told of any: several short ones in a row are one long wait.
-static PACE: OnceLock<(Instant, Mutex<Pace>)> = OnceLock::new();
+/// When this process began its first long work, and when it is to tell of any: several short ones in a row are
+/// one long wait.
+static PACE: LazyLock<(Instant, Mutex<Pace>)> =
+    LazyLock::new(|| (Instant::now(), Mutex::new(Pace::every(interval()))));
 
 /// Progress of one piece of work, which may be done by many threads. It ends when it is dropped.
 pub struct Progress {
@@ -62,21 +64,18 @@ impl Progress {
     }
 
     fn begin(work: Work) -> Self {
-        let (start, pace) =
-            PACE.get_or_init(|| (Instant::now(), Mutex::new(Pace::every(interval()))));
         let bar = io::stderr().is_terminal().then(|| hidden_bar(&work));
-        let shown = Arc::new(Shown { work, done: AtomicU64::new(0), begin: Instant::now(), bar });
-        let between = match &shown.bar {
-            Some(_) => FRAME,
-            None => pace.lock().map_or(Duration::MAX, |pace| pace.interval),
+        let mut wait = match (&bar, PACE.1.lock()) {
+            (Some(_), _) => FRAME,
+            (None, pace) => pace.map_or(Duration::MAX, |pace| pace.interval),
         };
-        let ticking = (!between.is_zero()).then(|| {
+        let shown = Arc::new(Shown { work, done: AtomicU64::new(0), begin: Instant::now(), bar });
+        let ticking = (!wait.is_zero()).then(|| {
             let (stop, stopped) = channel();
             let shown = Arc::clone(&shown);
-            let mut wait = between;
             let ticker = thread::spawn(move || {
                 while stopped.recv_timeout(wait) == Err(RecvTimeoutError::Timeout) {
-                    wait = shown.look(start.elapsed(), pace);
+                    wait = shown.look();
                 }
             });
             (stop, ticker)
@@ -87,10 +86,8 @@ impl Progress {
     /// Some steps more are done.
     pub fn advance(&self, steps: u64) {
         self.shown.done.fetch_add(steps, Ordering::Relaxed);
-        if self.ticking.is_none()
-            && let Some((start, pace)) = PACE.get()
-        {
-            self.shown.look(start.elapsed(), pace);
+        if self.ticking.is_none() {
+            self.shown.look();
         }
     }
 }
@@ -110,7 +107,9 @@ impl Drop for Progress {
 
 impl Shown {
     /// Shows the state if it is time to; says after how long to look again.
-    fn look(&self, now: Duration, pace: &Mutex<Pace>) -> Duration {
+    fn look(&self) -> Duration {
+        let (start, pace) = &*PACE;
+        let now = start.elapsed();
         let done = self.done.load(Ordering::Relaxed);
         let elapsed = self.begin.elapsed().as_secs_f64();
         if let Some(bar) = &self.bar {

@@ -1,15 +1,17 @@
 //! `vinesink report CASE...`
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 use miette::{IntoDiagnostic, Result, miette};
 use vinesink::band::{Survey, SurveySettings};
+use vinesink::case::Case;
 use vinesink::criteria;
 use vinesink::report::document::{self, Source};
+use vinesink::report::figure::Figure;
 use vinesink::report::{equations, figures, render, template};
-use vinesink::store::{self, Stale};
+use vinesink::store;
 use vinesink::study::fidelity::Plan;
 use vinesink::study::plots::Plot;
 use vinesink::study::{CaseStudy, StudyEffort};
@@ -83,19 +85,15 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
         index::refresh(&arguments.out).unwrap_or_else(|error| failures.push(error));
     }
     // One bad case does not keep the others from being written; each is named.
-    let last = failures.pop();
-    for error in failures {
-        output::complain(&format!("{error:?}"));
-    }
-    last.map_or(Ok(outcome), Err)
+    output::last_of(failures)?;
+    Ok(outcome)
 }
 
 /// The folder's name for each case; two cases must not share one.
 fn names(cases: &[PathBuf]) -> Result<Vec<String>> {
     let mut names: Vec<String> = Vec::new();
     for path in cases {
-        let stem = path.file_stem().ok_or_else(|| miette!("{} is not a file", path.display()))?;
-        let name = stem.to_string_lossy().into_owned();
+        let name = case_file::name(path)?;
         if names.contains(&name) {
             return Err(miette!(
                 help = "rename one, or write them to different folders with --out",
@@ -112,31 +110,33 @@ fn names(cases: &[PathBuf]) -> Result<Vec<String>> {
 fn write(path: &Path, name: &str, folder: &Path, arguments: &Arguments) -> Result<Outcome> {
     let (files, outcome) = rendered(path, name, arguments)?;
     store::replace_folder(folder, &files, render::is_of_report)?;
-    output::print(format!("{}\n", folder.join("report.md").display()))?;
+    output::print_path(&folder.join("report.md"))?;
     Ok(outcome)
 }
 
 /// Says which files of a report are not as [`write()`] would leave them.
 fn check(path: &Path, name: &str, folder: &Path, arguments: &Arguments) -> Result<Outcome> {
+    let is_checked = |file: &Path| render::is_of_report(file) && file != Path::new("report.html");
     let (mut files, _) = rendered(path, name, arguments)?;
-    files.remove(Path::new("report.html"));
-    let stale = store::differing_files(folder, &files, render::is_of_report)?;
-    if stale.is_empty() {
-        return Ok(Outcome::Done);
-    }
-    if stale.iter().all(|(_, why)| *why == Stale::Missing) {
+    files.retain(|file, _| is_checked(file));
+    let there = store::read_folder(folder, is_checked)?;
+    if there.is_empty() {
         output::print(format!("{}: there is no report\n", folder.display()))?;
         return Ok(Outcome::DoesNotHold);
     }
-    for (file, why) in stale {
-        let why = match why {
-            Stale::Differs => "is not up to date",
-            Stale::Missing => "is missing",
-            Stale::Superfluous => "is no longer part of the report",
+    let all: BTreeSet<&PathBuf> = files.keys().chain(there.keys()).collect();
+    let mut outcome = Outcome::Done;
+    for file in all {
+        let why = match (files.get(file), there.get(file)) {
+            (new, old) if new == old => continue,
+            (Some(_), Some(_)) => "is not up to date",
+            (Some(_), None) => "is missing",
+            (None, _) => "is no longer part of the report",
         };
         output::print(format!("{}: {why}\n", folder.join(file).display()))?;
+        outcome = Outcome::DoesNotHold;
     }
-    Ok(Outcome::DoesNotHold)
+    Ok(outcome)
 }
 
 /// The files of a report, and whether it is exact enough and to be trusted.
@@ -145,47 +145,38 @@ fn rendered(path: &Path, name: &str, arguments: &Arguments) -> Result<(Files, Ou
     let effort = StudyEffort::of(&case.simulation);
     let plan = case_file::plan(&case, arguments.fidelity)?;
     let simulates = plan.as_ref().is_none_or(Plan::needs_simulation);
-    let work = match simulates {
-        true => Work::motions(&case, &effort).and(Work::figures(&case)),
-        false => Work::default(),
-    };
-    let judges = !case.criteria.is_empty() || (simulates && case.band.is_some());
-    let along = if judges { Work::criteria(&case) } else { Work::default() };
-    arguments.long.allows(path, &case, &work.and(along))?;
+    let mut work = Vec::new();
+    if simulates {
+        work.extend(Work::motions(&case, &effort));
+        work.push(Work::figures(&case));
+    }
+    if !case.criteria.is_empty() || (simulates && case.band.is_some()) {
+        work.push(Work::criteria(&case));
+    }
+    arguments.long.allows(path, &case, &work)?;
     let progress = Progress::new(name, CaseStudy::steps(&effort) + FURTHER_STEPS);
-    let study = if simulates {
-        CaseStudy::of(&case.system(), effort, &mut |done| progress.advance(done))
-    } else {
-        CaseStudy::without_simulation(&case.system(), effort)
+    let study = match simulates {
+        true => CaseStudy::of(&case.system(), effort, &mut |done| progress.advance(done)),
+        false => CaseStudy::without_simulation(&case.system(), effort),
     };
     let mut study = study.into_diagnostic()?;
-    // The same survey as `check`, simulated if the study is, and also with the structure detuned.
-    let survey = |settings: &SurveySettings| {
-        Survey::of(&criteria::range(&case), settings, &Parallel).into_diagnostic()
-    };
-    let mut settings = criteria::settings(&case);
     if case.band.is_some() {
+        // Simulated if the study is, and also with the structure detuned.
+        let mut settings = criteria::settings(&case);
         settings.sampling = simulates.then(|| criteria::sampling(&case));
-        let detuned = survey(&settings)?.with_detuned(&settings, &Parallel);
-        study = study.along(detuned.into_diagnostic()?);
+        let survey = survey(&case, &settings)?;
+        study = study.along(survey.with_detuned(&settings, &Parallel).into_diagnostic()?);
     }
-    let mut outcome = Outcome::Done;
     let answers = plan.map(|plan| plan.answers(study.simulated_motions())).transpose();
     let answers = answers.into_diagnostic()?;
-    if answers.as_ref().is_some_and(|answers| !answers.enough()) {
-        outcome = Outcome::DoesNotHold;
-    }
     let judged = match &study.band {
         _ if case.criteria.is_empty() => Vec::new(),
         Some(survey) if simulates || !criteria::needs_simulation(&case.criteria) => {
             criteria::judge(&case, survey)
         }
-        _ => criteria::judge(&case, &survey(&criteria::settings(&case))?),
+        _ => criteria::judge(&case, &survey(&case, &criteria::settings(&case))?),
     };
-    let units = document::units(&case);
-    let plots = Plot::all(&case, &study).into_diagnostic()?;
-    let drawn = figures::all(&case, &study, &plots);
-    let drawn = template::worded(drawn, &units).into_diagnostic()?;
+    let drawn = drawn(&case, &study)?;
     progress.advance(FURTHER_STEPS / 2);
     let document = document::document(&Source {
         name,
@@ -196,17 +187,27 @@ fn rendered(path: &Path, name: &str, arguments: &Arguments) -> Result<(Files, Ou
         figures: &drawn,
     });
     // As `simulate`: what is not to be trusted is written down, and does not pass for an answer.
-    let motions = study.simulated_motions();
-    let trusted = motions.is_none_or(|motions| {
+    let trusted = study.simulated_motions().is_none_or(|motions| {
         motions.attractors.iter().all(|found| found.attractor.doubts().is_empty())
     });
     if !trusted {
         output::complain(&format!(
             "{name}: a simulation is not to be trusted; its report says why"
         ));
-        outcome = Outcome::DoesNotHold;
     }
     let equations = equations::groups(&case, &study);
-    let files = render::files(&document, &equations, &units, &drawn).into_diagnostic()?;
-    Ok((files, outcome))
+    let files = render::files(&document, &equations, &document::units(&case), &drawn);
+    let enough = answers.is_none_or(|answers| answers.enough());
+    Ok((files.into_diagnostic()?, (trusted && enough).into()))
+}
+
+/// The same survey as that of `check`.
+fn survey(case: &Case, settings: &SurveySettings) -> Result<Survey> {
+    Survey::of(&criteria::range(case), settings, &Parallel).into_diagnostic()
+}
+
+/// All figures of a report, with their words.
+pub fn drawn(case: &Case, study: &CaseStudy) -> Result<Vec<Figure>> {
+    let plots = Plot::all(case, study).into_diagnostic()?;
+    template::worded(figures::all(case, study, &plots), &document::units(case)).into_diagnostic()
 }

@@ -1,7 +1,7 @@
 //! `vinesink schema`
 
 use clap::Args;
-use miette::{IntoDiagnostic, Result};
+use miette::Result;
 use vinesink::case;
 
 use super::{Outcome, output};
@@ -19,7 +19,6 @@ Examples:
   vinesink schema > vinesink.schema.json        beside the cases that refer to it";
 
 pub fn run(_: Arguments) -> Result<Outcome> {
-    let text = serde_json::to_string_pretty(&case::schema()).into_diagnostic()?;
-    output::print(format!("{text}\n"))?;
+    output::print_json(&case::schema())?;
     Ok(Outcome::Done)
 }

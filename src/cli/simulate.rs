@@ -14,8 +14,8 @@ use vinesink::store;
 use vinesink::study::{self, LongTermMotions, StudyEffort};
 use vinesink::system::State;
 
-use super::budget::{Long, Work};
-use super::case_file::{CaseArgument, Format};
+use super::budget::Work;
+use super::case_file::{self, OneCase};
 use super::progress::Progress;
 use super::{Outcome, output};
 
@@ -29,7 +29,7 @@ use super::{Outcome, output};
 #[command(after_long_help = EXAMPLES)]
 pub struct Arguments {
     #[command(flatten)]
-    case: CaseArgument,
+    one: OneCase,
     /// Excitation periods to measure [default: the case's, or 1000]
     #[arg(long, value_name = "N", value_parser = positive_number)]
     periods: Option<u64>,
@@ -44,11 +44,6 @@ pub struct Arguments {
     /// Write every impact of the measured window to this file
     #[arg(long, value_name = "FILE.csv")]
     impacts: Option<PathBuf>,
-    #[command(flatten)]
-    long: Long,
-    /// Text for people or JSON for programs
-    #[arg(long, value_enum, default_value = "text")]
-    format: Format,
 }
 
 const EXAMPLES: &str = "\
@@ -63,17 +58,19 @@ lengths over the clearance, tau counted from the start of the run, side +1 where
 const IMPACT_LIMIT: u64 = 200_000_000;
 
 pub fn run(arguments: Arguments) -> Result<Outcome> {
-    let case = arguments.case.read()?;
+    let OneCase { path, long, .. } = &arguments.one;
+    let case = case_file::read(path)?;
     let effort = arguments.effort(&case);
-    let work = match arguments.initial {
-        Some(_) => Work::trajectory(&case, &effort),
-        None => Work::motions(&case, &effort).and(Work::trajectory(&case, &effort)),
-    };
-    arguments.long.allows(&arguments.case.path, &case, &work)?;
+    let mut work = vec![trajectory(&case, &effort)];
+    if arguments.initial.is_none() {
+        work.extend(Work::motions(&case, &effort));
+    }
+    long.allows(path, &case, &work)?;
     let (motion, found) = match arguments.initial {
         Some(start) => (follow(&case, start, &effort, &arguments)?, None),
         None => {
-            let mut found = search(&case, &effort)?;
+            let analysis = Analysis::of(&case.system()).into_diagnostic()?;
+            let mut found = search(&analysis, &effort)?;
             let main = study::main_attractor_mut(&mut found.attractors)
                 .ok_or_else(|| miette!("no start led anywhere; ask for more than 0 starts"))?;
             let continued = StudyEffort { discard: Some(0), ..effort };
@@ -85,15 +82,12 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
         }
     };
     let simulated = Simulated { case: &case, motion: &motion, found: found.as_ref() };
-    match arguments.format {
-        Format::Text => output::print(simulated.text().into_diagnostic()?)?,
-        Format::Json => output::print_json(&simulated.document())?,
-    }
+    arguments.one.print(|| simulated.text(), || simulated.document())?;
     let doubts = motion.doubts();
     for doubt in &doubts {
         output::complain(&format!("not to be trusted: {}; {}", doubt.words(), doubt.advice()));
     }
-    Ok(if doubts.is_empty() { Outcome::Done } else { Outcome::DoesNotHold })
+    Ok(doubts.is_empty().into())
 }
 
 impl Arguments {
@@ -107,6 +101,11 @@ impl Arguments {
     }
 }
 
+fn trajectory(case: &Case, effort: &StudyEffort) -> Work {
+    let left_out = effort.left_out(&case.system());
+    Work::trajectory(case, left_out.saturating_add(effort.periods))
+}
+
 /// Follows one trajectory and writes its impacts if asked to.
 fn follow(
     case: &Case,
@@ -115,7 +114,7 @@ fn follow(
     arguments: &Arguments,
 ) -> Result<Attractor> {
     let mut simulation = Simulation::new(&case.system(), start, 0.0).into_diagnostic()?;
-    let _progress = Progress::estimated("measuring", Work::trajectory(case, effort).seconds());
+    let _progress = Progress::estimated("measuring", trajectory(case, effort).seconds());
     let window = Window {
         discard: effort.left_out(&case.system()),
         periods: effort.periods,
@@ -130,11 +129,11 @@ fn follow(
     Ok(motion)
 }
 
-fn search(case: &Case, effort: &StudyEffort) -> Result<LongTermMotions> {
-    let analysis = Analysis::of(&case.system()).into_diagnostic()?;
+/// Looks for all long-term motions of a case.
+pub fn search(analysis: &Analysis, effort: &StudyEffort) -> Result<LongTermMotions> {
     let progress = Progress::new("simulating", u64::from(effort.starts));
     let mut advance = |done| progress.advance(done);
-    study::long_term_motions(&analysis, effort, &mut advance).into_diagnostic()
+    study::long_term_motions(analysis, effort, &mut advance).into_diagnostic()
 }
 
 fn csv(impacts: &[Impact]) -> String {

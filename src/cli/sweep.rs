@@ -145,8 +145,7 @@ struct Sweep {
 impl Sweep {
     fn open(at: &Where) -> Result<Self> {
         let (case, text) = case_file::read_with_text(&at.case)?;
-        let stem =
-            at.case.file_stem().ok_or_else(|| miette!("{} is no file", at.case.display()))?;
+        let name = case_file::name(&at.case)?;
         let plan = Plan::of(&case).ok_or_else(|| {
             miette!(
                 help = "add a table [sweep]; `vinesink sweep --help` shows one",
@@ -154,14 +153,15 @@ impl Sweep {
                 at.case.display()
             )
         })?;
-        Ok(Self { plan, case, case_text: text, folder: at.out.join(stem) })
+        Ok(Self { plan, case, case_text: text, folder: at.out.join(name) })
     }
 
     /// Whether each point takes as long as is ordinary, or more is asked for.
     fn is_ordinary(&self, path: &Path, long: Long) -> Result<()> {
-        let simulates = self.plan.needs(Layer::Simulation);
-        let work = if simulates { Work::points(&self.plan) } else { Work::default() };
-        long.allows(path, &self.case, &work)
+        match self.plan.needs(Layer::Simulation) {
+            true => long.allows(path, &self.case, &[Work::points(&self.plan)]),
+            false => Ok(()),
+        }
     }
 
     fn shards(&self) -> Result<Shards> {
@@ -199,10 +199,10 @@ impl Sweep {
     /// The chunks that are not there.
     fn missing(&self) -> Result<Vec<u64>> {
         let shards = self.shards()?;
-        let all: Vec<u64> = (0..self.plan.chunks()).collect();
-        let missing = all.into_par_iter().map(|chunk| Ok((chunk, shards.holds(chunk)?)));
-        let found: Vec<(u64, bool)> = missing.collect::<Result<_>>()?;
-        Ok(found.into_iter().filter(|(_, there)| !there).map(|(chunk, _)| chunk).collect())
+        let missing = |chunk| Ok((!shards.holds(chunk)?).then_some(chunk));
+        let all: Result<Vec<Option<u64>>> =
+            (0..self.plan.chunks()).into_par_iter().map(missing).collect();
+        Ok(all?.into_iter().flatten().collect())
     }
 }
 
@@ -237,7 +237,7 @@ fn status(sweep: &Sweep) -> Result<Outcome> {
     let missing = sweep.missing()?;
     let chunks = sweep.plan.chunks();
     output::print(format!("{} of {chunks} chunks are there\n", chunks - missing.len() as u64))?;
-    Ok(if missing.is_empty() { Outcome::Done } else { Outcome::DoesNotHold })
+    Ok(missing.is_empty().into())
 }
 
 /// Works out some points spread over the sweep, and says how long all would take.

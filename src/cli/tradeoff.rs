@@ -5,17 +5,16 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use clap::Args;
-use miette::{IntoDiagnostic, Result, miette};
+use miette::{IntoDiagnostic, Result};
 use vinesink::evidence::tradeoff::page::{TradeoffDocument, USUAL};
 use vinesink::evidence::tradeoff::{Tradeoff, TradeoffEffort, Trial};
-use vinesink::store;
 use vinesink::study::{StudyEffort, StudyError};
 use vinesink::system::{State, System};
 
-use super::budget::{Long, Work};
-use super::case_file::{CaseArgument, Format};
+use super::budget::{BEST_ANSWER, Work};
+use super::case_file::{self, Format, OneCase};
 use super::progress::Progress;
-use super::{Outcome, index, output};
+use super::{Outcome, index};
 
 /// Measure how much accuracy each layer gives for how much work
 ///
@@ -27,19 +26,14 @@ use super::{Outcome, index, output};
 #[command(after_long_help = EXAMPLES)]
 pub struct Arguments {
     #[command(flatten)]
-    case: CaseArgument,
+    one: OneCase,
     /// Also write tradeoff.md and figures/tradeoff.svg into OUT/<name of the case file>, without
     /// seconds
     #[arg(long, value_name = "OUT")]
     out: Option<PathBuf>,
-    /// Text for people or JSON for programs
-    #[arg(long, value_enum, default_value = "text")]
-    format: Format,
     /// Put seconds into the JSON document, which is then not the same twice
     #[arg(long)]
     seconds: bool,
-    #[command(flatten)]
-    long: Long,
 }
 
 const EXAMPLES: &str = "\
@@ -53,13 +47,14 @@ const RUNS: u32 = 5;
 const LONG_ENOUGH: f64 = 0.2;
 
 pub fn run(arguments: Arguments) -> Result<Outcome> {
-    let case = arguments.case.read()?;
+    let OneCase { path, format, long } = &arguments.one;
+    let case = case_file::read(path)?;
     let system = case.system();
     let effort =
         TradeoffEffort { study: StudyEffort::of(&case.simulation), ..TradeoffEffort::default() };
-    let work = Work::motions(&case, &effort.study).and(Work::best_answer(&case));
-    arguments.long.allows(&arguments.case.path, &case, &work)?;
-    let timed = matches!(arguments.format, Format::Text) || arguments.seconds;
+    let [starts, motion] = Work::motions(&case, &effort.study);
+    long.allows(path, &case, &[starts, motion, Work::trajectory(&case, BEST_ANSWER)])?;
+    let timed = *format == Format::Text || arguments.seconds;
     let steps = Tradeoff::steps(&effort);
     // Each method once more on the clock; the starts are not.
     let again = if timed { steps - u64::from(effort.study.starts) } else { 0 };
@@ -72,19 +67,14 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
         if timed { seconds(&system, &found, &progress).into_diagnostic()? } else { Vec::new() };
     drop(progress);
     if let Some(out) = &arguments.out {
-        let stem = arguments.case.path.file_stem();
-        let stem = stem.ok_or_else(|| miette!("{} is no file", arguments.case.path.display()))?;
         let page = TradeoffDocument::new(&case, &found, allowed, None);
-        store::add_to_folder(&out.join(stem), &page.files(&case).into_diagnostic()?)?;
-        index::refresh(out)?;
+        index::add_to_report(out, path, &page.files(&case).into_diagnostic()?)?;
     }
     let document = |seconds| TradeoffDocument::new(&case, &found, allowed, seconds);
-    match arguments.format {
-        Format::Text => output::print(document(Some(&seconds)).text(&case).into_diagnostic()?)?,
-        Format::Json => {
-            output::print_json(&document(arguments.seconds.then_some(seconds.as_slice())))?;
-        }
-    }
+    arguments.one.print(
+        || document(Some(&seconds)).text(&case),
+        || document(arguments.seconds.then_some(seconds.as_slice())),
+    )?;
     Ok(Outcome::Done)
 }
 

@@ -4,93 +4,55 @@ use std::collections::BTreeMap;
 use std::io::{self, Seek as _, Write as _};
 use std::process::{Command, Output, Stdio};
 
-use super::StoreError;
-use super::reports::{REPORT, StoredReports, group};
-
-/// Why nothing can be read out of a revision.
-#[derive(Debug, thiserror::Error, miette::Diagnostic)]
-pub enum GitError {
-    /// There is no `git`.
-    #[error(
-        "`{revision}` is no file or folder, and the program git that could know it as a revision cannot be run: {cause}"
-    )]
-    #[diagnostic(help("check the path, or install git"))]
-    Missing {
-        /// What was asked for.
-        revision: String,
-        /// The operating system's reason.
-        cause: io::Error,
-    },
-    /// This is no repository, or git refuses to work in it.
-    #[error("`{revision}` is no file or folder, and git knows no revisions here: {message}")]
-    #[diagnostic(help("check the path, or run this inside of the repository"))]
-    NoRepository {
-        /// What was asked for.
-        revision: String,
-        /// What git says.
-        message: String,
-    },
-    /// No such commit.
-    #[error("`{revision}` is neither a file or folder nor a revision that git knows")]
-    #[diagnostic(help(
-        "check the spelling; a shallow clone lacks older revisions (`git fetch --unshallow`), and a branch of the server is called origin/NAME"
-    ))]
-    Unknown {
-        /// What was asked for.
-        revision: String,
-    },
-    /// Git failed half way.
-    #[error("git cannot read `{path}` at `{revision}`: {message}")]
-    Failed {
-        /// The revision.
-        revision: String,
-        /// The folder.
-        path: String,
-        /// What git says.
-        message: String,
-    },
-    /// What git returned is not usable.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Content(#[from] StoreError),
-}
+use super::error::StoreError;
+use super::reports::{DRAWING, REPORT, StoredReports, group};
 
 /// The reports below `path`, relative to the working folder, at a revision; none where the folder is
 /// not there. A revision `REVISION:FOLDER` brings its own folder, relative to the repository's root.
 ///
 /// # Errors
-/// [`GitError`] says whether git, the repository or the revision is missing.
-pub fn read_reports_at(revision: &str, path: &str) -> Result<StoredReports, GitError> {
-    let inside = run(&["rev-parse", "--git-dir"], None)
-        .map_err(|cause| GitError::Missing { revision: revision.to_owned(), cause })?;
-    if !inside.status.success() {
-        let message = message(&inside);
-        return Err(GitError::NoRepository { revision: revision.to_owned(), message });
-    }
+/// [`StoreError`] says whether git, the repository or the revision is missing.
+pub fn read_reports_at(revision: &str, path: &str) -> Result<StoredReports, StoreError> {
     let (commit, tree) = match revision.split_once(':') {
         Some((commit, folder)) => (commit, format!("{commit}:{folder}")),
         None => (revision, format!("{revision}:./{path}")),
     };
-    let failed = |message: String| GitError::Failed {
-        revision: commit.to_owned(),
-        path: path.to_owned(),
-        message,
-    };
-    if commit.is_empty() || resolve(&format!("{commit}^{{commit}}")).map_err(failed)?.is_none() {
-        return Err(GitError::Unknown { revision: revision.to_owned() });
-    }
+    is_known(revision, commit)?;
     let tree = tree.strip_suffix(REPORT).unwrap_or(&tree).trim_end_matches('/');
     // `REV:.` is no name; the root's is empty.
     let tree = tree.strip_suffix("./.").map_or(tree.to_owned(), |root| format!("{root}./"));
-    // What stands there may be a file; that is no folder of reports.
-    let tree_of = |found: String| resolve(&format!("{found}^{{tree}}"));
-    let found = match resolve(&tree).map_err(failed)? {
-        Some(found) => tree_of(found).map_err(failed)?,
-        None => None,
-    };
-    let Some(oid) = found else { return Ok(StoredReports::new()) };
-    let files = files(&oid).map_err(failed)?;
-    Ok(group(&tree, &files)?)
+    let files = files(&tree).map_err(|message| failed(path, commit, &message))?;
+    group(&tree, &files)
+}
+
+fn failed(path: &str, revision: &str, message: &str) -> StoreError {
+    StoreError::new(format!("git cannot read `{path}` at `{revision}`: {message}"), None)
+}
+
+/// Whether there is a git, a repository, and a commit of that name in it.
+fn is_known(revision: &str, commit: &str) -> Result<(), StoreError> {
+    let no_file = format!("`{revision}` is no file or folder, and");
+    let inside = run(&["rev-parse", "--git-dir"], None).map_err(|cause| {
+        let message = format!(
+            "{no_file} the program git that could know it as a revision cannot be run: {cause}"
+        );
+        StoreError::new(message, Some("check the path, or install git"))
+    })?;
+    if !inside.status.success() {
+        let message = format!("{no_file} git knows no revisions here: {}", message(&inside));
+        let advice = "check the path, or run this inside of the repository";
+        return Err(StoreError::new(message, Some(advice)));
+    }
+    let found = resolve(&format!("{commit}^{{commit}}"));
+    let found = found.map_err(|message| failed(revision, commit, &message))?;
+    if commit.is_empty() || found.is_none() {
+        let message =
+            format!("`{revision}` is neither a file or folder nor a revision that git knows");
+        let advice = "check the spelling; a shallow clone lacks older revisions (`git fetch --unshallow`), and a \
+                      branch of the server is called origin/NAME";
+        return Err(StoreError::new(message, Some(advice)));
+    }
+    Ok(())
 }
 
 /// The name of an object, if there is one.
@@ -101,45 +63,41 @@ fn resolve(name: &str) -> Result<Option<String>, String> {
     Ok((output.status.success() && !found.is_empty()).then_some(found))
 }
 
-/// The files of reports in a tree, by path: every `report.json` and every drawing.
+/// The files of reports in a tree, by path: every `report.json` and every drawing; none where there is no such
+/// tree.
 fn files(tree: &str) -> Result<BTreeMap<String, Vec<u8>>, String> {
-    let list = stdout(&["ls-tree", "-r", "-z", "--full-tree", tree], None)?;
-    let mut wanted: Vec<(String, String)> = Vec::new();
-    for line in list.split(|byte| *byte == 0).filter(|line| !line.is_empty()) {
-        // mode, type, object, tab, path
-        let line = String::from_utf8_lossy(line).into_owned();
-        let (head, path) = line.split_once('\t').ok_or_else(|| format!("it lists `{line}`"))?;
-        let mut head = head.split(' ').skip(1);
-        let drawing = path.ends_with(".svg");
-        let report = path == REPORT || path.ends_with(&format!("/{REPORT}"));
-        if head.next() == Some("blob") && (drawing || report) {
-            wanted.push((path.to_owned(), head.next().unwrap_or("").to_owned()));
-        }
-    }
-    let names: Vec<&str> = wanted.iter().map(|(_, oid)| oid.as_str()).collect();
-    let contents = contents(&names)?;
-    let file = |((path, _), content): ((String, String), Option<Vec<u8>>)| {
+    // What stands there may be a file; that is no folder of reports.
+    let tree = match resolve(tree)? {
+        Some(found) => resolve(&format!("{found}^{{tree}}"))?,
+        None => None,
+    };
+    let Some(tree) = tree else { return Ok(BTreeMap::new()) };
+    let list = stdout(&["ls-tree", "-r", "-z", "--name-only", "--full-tree", &tree], None)?;
+    let paths =
+        list.split(|byte| *byte == 0).map(|path| String::from_utf8_lossy(path).into_owned());
+    let is_report = |path: &str| path.rsplit('/').next() == Some(REPORT);
+    let wanted: Vec<String> =
+        paths.filter(|path| path.ends_with(DRAWING) || is_report(path)).collect();
+    let names: Vec<String> = wanted.iter().map(|path| format!("{tree}:{path}")).collect();
+    let file = |(path, content): (String, Option<Vec<u8>>)| {
         let content = content.ok_or_else(|| format!("it does not return `{path}`"))?;
         Ok((path, content))
     };
-    wanted.into_iter().zip(contents).map(file).collect()
+    wanted.into_iter().zip(contents(&names)?).map(file).collect()
 }
 
 /// The contents of objects by their names, such as `main:./cases/a.toml`; nothing where there is none of
 /// that name.
 ///
 /// # Errors
-/// [`GitError::Failed`] where git does not answer.
-pub fn read_files_at(names: &[String]) -> Result<Vec<Option<Vec<u8>>>, GitError> {
-    let names: Vec<&str> = names.iter().map(String::as_str).collect();
-    contents(&names).map_err(|message| {
-        let path = names.first().copied().unwrap_or_default().to_owned();
-        GitError::Failed { revision: "HEAD".into(), path, message }
-    })
+/// [`StoreError`] where git does not answer.
+pub fn read_files_at(names: &[String]) -> Result<Vec<Option<Vec<u8>>>, StoreError> {
+    let first = names.first().map_or("", String::as_str);
+    contents(names).map_err(|message| failed(first, "HEAD", &message))
 }
 
 /// The same in one process, whose input is a file: two pipes to one process can block each other.
-fn contents(names: &[&str]) -> Result<Vec<Option<Vec<u8>>>, String> {
+fn contents(names: &[String]) -> Result<Vec<Option<Vec<u8>>>, String> {
     let mut input = tempfile::tempfile().map_err(|cause| cause.to_string())?;
     let lines: String = names.iter().map(|name| format!("{name}\n")).collect();
     let written = input.write_all(lines.as_bytes()).and_then(|()| input.rewind());

@@ -17,7 +17,7 @@ impl Growing {
     /// Begins a file; its folder must exist.
     ///
     /// # Errors
-    /// [`StoreError::Refused`].
+    /// [`StoreError`].
     pub fn begin(path: &Path) -> Result<Self, StoreError> {
         let file = ordinary(0o666).tempfile_in(folder_of(path)?);
         let file = file.map_err(|cause| refused("write", path, cause))?;
@@ -31,11 +31,12 @@ impl Growing {
         Ok(file)
     }
 
+    /// The file under its other name.
     fn written(self) -> Result<NamedTempFile, StoreError> {
         self.file.into_inner().map_err(|error| refused("write", &self.path, error.into_error()))
     }
 
-    /// The file under its other name, once the disk has it.
+    /// The same once the disk has it.
     pub(super) fn on_disk(self) -> Result<NamedTempFile, StoreError> {
         let path = self.path.clone();
         let file = self.written()?;
@@ -46,7 +47,7 @@ impl Growing {
     /// Ends the file and puts it in the place of an earlier one.
     ///
     /// # Errors
-    /// [`StoreError::Refused`]; an earlier file is then unchanged.
+    /// [`StoreError`]; an earlier file is then unchanged.
     pub fn finish(self) -> Result<(), StoreError> {
         let path = self.path.clone();
         put(self.on_disk()?, &path)

@@ -8,9 +8,9 @@ use super::{StoreError, refused, text_of};
 /// The file that makes a folder a report.
 pub(super) const REPORT: &str = "report.json";
 /// The folder of its drawings, and how their names end.
-pub(super) const FIGURES: &str = "figures";
+const FIGURES: &str = "figures";
 /// See [`FIGURES`].
-const DRAWING: &str = ".svg";
+pub(super) const DRAWING: &str = ".svg";
 
 /// The files of a report, as they were read.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -78,7 +78,7 @@ fn read_report(file: &Path, folder: &Path) -> Result<StoredReport, StoreError> {
 }
 
 /// The file names of the drawings in a report's folder, sorted; none where there are none.
-pub(super) fn drawings(folder: &Path) -> Result<Vec<String>, StoreError> {
+fn drawings(folder: &Path) -> Result<Vec<String>, StoreError> {
     let folder = folder.join(FIGURES);
     if !folder.is_dir() {
         return Ok(Vec::new());
@@ -92,7 +92,7 @@ pub(super) fn drawings(folder: &Path) -> Result<Vec<String>, StoreError> {
 /// are passed over.
 ///
 /// # Errors
-/// [`StoreError::NotUtf8`] for a `report.json` that is not text.
+/// [`StoreError`] for a `report.json` that is not text.
 pub(super) fn group(
     root: &str,
     files: &BTreeMap<String, Vec<u8>>,

@@ -1,7 +1,6 @@
 //! The results of a sweep, a file for each chunk, each with its checksum beside it: what was worked out is
 //! told from what was not, and from what is damaged or belongs to something else.
 
-use std::fs::File;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -20,7 +19,7 @@ impl Shards {
     /// Those of a sweep in a folder, which is made where there is none.
     ///
     /// # Errors
-    /// [`StoreError::Refused`] where it cannot be made.
+    /// [`StoreError`] where it cannot be made.
     pub fn open(folder: &Path, identity: &str) -> Result<Self, StoreError> {
         std::fs::create_dir_all(folder).map_err(|cause| refused("create", folder, cause))?;
         Ok(Self { folder: folder.to_owned(), identity: identity.to_owned() })
@@ -43,7 +42,7 @@ impl Shards {
     /// Keeps the results of a chunk: first the file, then its seal, each whole or not at all.
     ///
     /// # Errors
-    /// [`StoreError::Refused`]; what was there before still is.
+    /// [`StoreError`]; what was there before still is.
     pub fn keep(&self, chunk: u64, bytes: &[u8]) -> Result<(), StoreError> {
         Growing::of(&self.path(chunk), bytes)?.finish_soon()?;
         Growing::of(&self.seal_path(chunk), self.seal(chunk, bytes).as_bytes())?.finish_soon()
@@ -52,7 +51,7 @@ impl Shards {
     /// Whether the results of a chunk are there, undamaged, and of this sweep.
     ///
     /// # Errors
-    /// [`StoreError::Refused`] where a file is there and cannot be read.
+    /// [`StoreError`] where a file is there and cannot be read.
     pub fn holds(&self, chunk: u64) -> Result<bool, StoreError> {
         let read = |path: &Path| match std::fs::read(path) {
             Ok(bytes) => Ok(Some(bytes)),
@@ -70,7 +69,7 @@ impl Shards {
     /// whoever still writes one then writes it for the second time, and does not need it.
     ///
     /// # Errors
-    /// [`StoreError::Refused`] where a file cannot be removed.
+    /// [`StoreError`] where a file cannot be removed.
     pub fn sweep_up(&self) -> Result<(), StoreError> {
         // That of the merged results is beside the folder of the chunks.
         for folder in [Some(self.folder.as_path()), self.folder.parent()].into_iter().flatten() {
@@ -83,14 +82,6 @@ impl Shards {
             }
         }
         Ok(())
-    }
-
-    /// Opens the results of a chunk.
-    ///
-    /// # Errors
-    /// [`StoreError::Refused`] where they cannot be read.
-    pub fn read(&self, chunk: u64) -> Result<File, StoreError> {
-        super::open(&self.path(chunk))
     }
 }
 

@@ -8,17 +8,44 @@ use crate::quantity::catalogue as of;
 use crate::quantity::{Dimension, Kind};
 use crate::regimes::Regime;
 
-/// Values of a column; nothing where a point has none.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Values {
-    /// Numbers, all finite.
-    Number(Vec<Option<f64>>),
+/// A value of a column.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Cell {
+    /// A finite number; a whole one where the column has these, and 1 or 0 where it says yes or no.
+    Number(f64),
+    /// A word.
+    Text(&'static str),
+}
+
+impl Cell {
+    /// The number, if it is one.
+    pub const fn number(self) -> Option<f64> {
+        match self {
+            Self::Number(number) => Some(number),
+            Self::Text(_) => None,
+        }
+    }
+
+    /// The word, if it is one.
+    pub const fn text(self) -> Option<&'static str> {
+        match self {
+            Self::Number(_) => None,
+            Self::Text(text) => Some(text),
+        }
+    }
+}
+
+/// What the cells of a column are, and are stored as.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Storage {
+    /// Numbers.
+    Number,
     /// Whole numbers.
-    Whole(Vec<Option<i64>>),
-    /// True or false.
-    Flag(Vec<Option<bool>>),
+    Whole,
+    /// Yes or no.
+    Flag,
     /// Words.
-    Text(Vec<Option<&'static str>>),
+    Text,
 }
 
 /// A column.
@@ -28,49 +55,43 @@ pub struct Column {
     pub name: String,
     /// Its unit; `1` for a pure number, empty for words.
     pub unit: &'static str,
-    /// Its values.
-    pub values: Values,
+    /// What its cells are.
+    pub storage: Storage,
+    /// Its cells; nothing where a point has no value.
+    pub cells: Vec<Option<Cell>>,
 }
 
-/// A value of a column.
-#[derive(Debug, Clone, Copy)]
-enum Cell {
-    Number(Option<f64>),
-    Whole(Option<i64>),
-    Flag(Option<bool>),
-    Text(Option<&'static str>),
+impl Column {
+    fn empty(name: String, unit: &'static str, storage: Storage) -> Self {
+        Self { name, unit, storage, cells: Vec::new() }
+    }
+}
+
+/// How the motions of a column were come by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Direction {
+    /// Looked for at each point by itself.
+    Single,
+    /// Followed with the axis ascending.
+    Up,
+    /// Followed with the axis descending.
+    Down,
+}
+
+impl Direction {
+    /// How the names of its columns end.
+    pub const fn suffix(self) -> &'static str {
+        match self {
+            Self::Single => "",
+            Self::Up => "_up",
+            Self::Down => "_down",
+        }
+    }
 }
 
 /// Columns of a section: displacements at the end of so many excitation periods.
 pub const SECTION: usize = 16;
-
-impl Values {
-    /// How many there are, those that are missing included.
-    pub fn len(&self) -> usize {
-        match self {
-            Self::Number(all) => all.len(),
-            Self::Whole(all) => all.len(),
-            Self::Flag(all) => all.len(),
-            Self::Text(all) => all.len(),
-        }
-    }
-
-    /// Whether there are none.
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-
-    /// Adds a value, which is of the column's kind.
-    fn push(&mut self, cell: Cell) {
-        match (self, cell) {
-            (Self::Number(all), Cell::Number(one)) => all.push(one.filter(|one| one.is_finite())),
-            (Self::Whole(all), Cell::Whole(one)) => all.push(one),
-            (Self::Flag(all), Cell::Flag(one)) => all.push(one),
-            (Self::Text(all), Cell::Text(one)) => all.push(one),
-            (_, other) => debug_assert!(false, "the column holds no {other:?}"),
-        }
-    }
-}
 
 /// What a column of numbers holds; `None` for words and flags.
 pub const fn kind(recorded: Recorded) -> Option<&'static Kind> {
@@ -98,37 +119,38 @@ pub const fn kind(recorded: Recorded) -> Option<&'static Kind> {
 
 /// The columns of a sweep, empty.
 pub fn empty(plan: &Plan) -> Vec<Column> {
-    let column = |name: &str, unit, values| Column { name: name.to_owned(), unit, values };
-    let mut columns = vec![column("point", "1", Values::Whole(Vec::new()))];
+    let mut columns = vec![Column::empty("point".to_owned(), "1", Storage::Whole)];
     columns.extend(plan.settings.axes.iter().map(|axis| {
         let unit = axis.parameter.unit(&plan.design);
-        column(axis.parameter.key(), unit, Values::Number(Vec::new()))
+        Column::empty(axis.parameter.key().to_owned(), unit, Storage::Number)
     }));
     let physical = matches!(plan.design, Design::Physical(_));
     for (recorded, direction) in recorded(plan) {
-        let end = direction.map_or("", |direction| ["_up", "_down"][direction]);
         let unit = kind(recorded).map_or("", |kind| kind.dimension.symbol(physical));
-        let values = values(recorded);
-        columns.extend(
-            names(recorded)
-                .iter()
-                .map(|name| column(&format!("{name}{end}"), unit, values.clone())),
-        );
+        let storage = match kind(recorded).map(|kind| kind.dimension) {
+            Some(Dimension::Count) => Storage::Whole,
+            Some(_) => Storage::Number,
+            None if recorded == Recorded::OrbitReached => Storage::Flag,
+            None => Storage::Text,
+        };
+        let column = |name| Column::empty(format!("{name}{}", direction.suffix()), unit, storage);
+        columns.extend(names(recorded).into_iter().map(column));
     }
     columns
 }
 
-/// What is recorded, and in which direction it is found: 0 upwards, 1 downwards.
-fn recorded(plan: &Plan) -> impl Iterator<Item = (Recorded, Option<usize>)> {
+/// What is recorded, in each direction in which it is found.
+fn recorded(plan: &Plan) -> impl Iterator<Item = (Recorded, Direction)> {
     plan.settings.record.iter().flat_map(|recorded| {
         let both = plan.settings.follow && recorded.layer() == Layer::Simulation;
-        let directions = if both { vec![Some(0), Some(1)] } else { vec![None] };
-        directions.into_iter().map(|direction| (*recorded, direction))
+        let directions: &[_] =
+            if both { &[Direction::Up, Direction::Down] } else { &[Direction::Single] };
+        directions.iter().map(|direction| (*recorded, *direction))
     })
 }
 
 /// The columns of what is recorded; most have one.
-fn names(recorded: Recorded) -> Vec<String> {
+pub fn names(recorded: Recorded) -> Vec<String> {
     match recorded {
         Recorded::Area => vec!["area".into(), "strip".into()],
         Recorded::Section => (1..=SECTION).map(|k| format!("section_{k:02}")).collect(),
@@ -136,82 +158,69 @@ fn names(recorded: Recorded) -> Vec<String> {
     }
 }
 
-fn values(recorded: Recorded) -> Values {
-    match kind(recorded).map(|kind| kind.dimension) {
-        Some(Dimension::Count) => Values::Whole(Vec::new()),
-        Some(_) => Values::Number(Vec::new()),
-        None if recorded == Recorded::OrbitReached => Values::Flag(Vec::new()),
-        None => Values::Text(Vec::new()),
-    }
-}
-
 /// Adds a point to the columns of its sweep.
 pub(super) fn push(plan: &Plan, columns: &mut [Column], facts: &Facts) {
     let nothing = Found::default();
-    let mut cells = vec![Cell::Whole(Some(facts.point.number as i64))];
-    cells.extend(facts.point.coordinates.iter().map(|value| Cell::Number(Some(*value))));
+    let point = facts.point;
+    let mut cells = vec![Some(Cell::Number(point.number as f64))];
+    cells.extend(point.coordinates.iter().map(|value| Some(Cell::Number(*value))));
     for (recorded, direction) in recorded(plan) {
-        let found = facts.found.get(direction.unwrap_or(0)).unwrap_or(&nothing);
+        let found = facts.found.get(usize::from(direction == Direction::Down)).unwrap_or(&nothing);
         match recorded {
             Recorded::Area => {
                 let zone = facts.zone();
-                cells.push(Cell::Text(zone.map(|zone| zone.area_key())));
-                cells.push(Cell::Text(zone.and_then(|zone| zone.strip).map(Strip::key)));
+                cells.push(zone.map(|zone| Cell::Text(zone.area_key())));
+                cells.push(zone.and_then(|zone| zone.strip).map(Strip::key).map(Cell::Text));
             }
-            Recorded::Section => cells.extend((0..SECTION).map(|k| {
-                Cell::Number(found.section.get(k).map(|x| facts.point.scales.length(*x)))
-            })),
-            other => cells.push(cell(other, facts, found)),
+            Recorded::Regime => {
+                cells.push(found.main().map(|motion| Cell::Text(motion.regime.key())));
+            }
+            Recorded::Section => cells.extend(
+                (0..SECTION)
+                    .map(|k| found.section.get(k).map(|x| Cell::Number(point.scales.length(*x)))),
+            ),
+            other => cells.push(number(other, facts, found).map(Cell::Number)),
         }
     }
+    let known = |cell: &Cell| cell.number().is_none_or(f64::is_finite);
     for (column, cell) in columns.iter_mut().zip(cells) {
-        column.values.push(cell);
+        column.cells.push(cell.filter(known));
     }
 }
 
-/// The value of what fills one column.
-fn cell(recorded: Recorded, facts: &Facts, found: &Found) -> Cell {
+/// The value of what fills one column of numbers, whole numbers or flags.
+fn number(recorded: Recorded, facts: &Facts, found: &Found) -> Option<f64> {
     let scales = &facts.point.scales;
     let length = |over_clearance: f64| scales.length(over_clearance);
-    let main = found.main();
-    let number = Cell::Number;
+    let main = || found.main();
+    let motions = &found.motions;
     match recorded {
-        Recorded::TheoryPeak => number(facts.theory_peak().map(length)),
-        Recorded::BoundaryDistance => number(facts.boundary_distance()),
-        Recorded::BareAmplitude => number(facts.bare().map(length)),
-        Recorded::OrbitPeak => number(facts.orbit().map(|orbit| length(orbit.peaks.displacement))),
-        Recorded::OrbitMultiplier => {
-            number(facts.orbit().map(|orbit| orbit.orbit.radius_per_period()))
+        Recorded::TheoryPeak => facts.theory_peak().map(length),
+        Recorded::BoundaryDistance => facts.boundary_distance(),
+        Recorded::BareAmplitude => facts.bare().map(length),
+        Recorded::OrbitPeak => Some(length(facts.orbit()?.peaks.displacement)),
+        Recorded::OrbitMultiplier => Some(facts.orbit()?.orbit.radius_per_period()),
+        Recorded::OrbitReached => {
+            let peak = facts.orbit()?.peaks.displacement;
+            Some(f64::from(motions.iter().any(|motion| motion.is_orbit_with_peak(peak))))
         }
-        Recorded::Regime => Cell::Text(main.map(|motion| motion.regime.key())),
-        Recorded::ImpactsPerPeriod => number(main.map(|motion| motion.impacts_per_period)),
-        Recorded::Peak => number(main.map(|motion| length(motion.peak))),
-        Recorded::Rms => number(main.map(|motion| length(motion.rms))),
-        Recorded::ReductionDb => {
-            let both = main.zip(facts.bare());
-            number(both.map(|(motion, bare)| 20.0 * libm::log10(bare / motion.peak)))
+        Recorded::ImpactsPerPeriod => Some(main()?.impacts_per_period),
+        Recorded::Peak => Some(length(main()?.peak)),
+        Recorded::Rms => Some(length(main()?.rms)),
+        Recorded::ReductionDb => Some(20.0 * libm::log10(facts.bare()? / main()?.peak)),
+        Recorded::Efficiency => main()?.efficiency,
+        Recorded::ImpactSpeed => Some(scales.velocity(main()?.impact_speed)),
+        Recorded::RepeatsAfter => main()?.repeats_after.map(f64::from),
+        Recorded::Lyapunov => found.lyapunov,
+        Recorded::ShareOfStarts => {
+            let all: u32 = motions.iter().map(|motion| motion.starts).sum();
+            Some(f64::from(main()?.starts) / f64::from(all))
         }
-        Recorded::Efficiency => number(main.and_then(|motion| motion.efficiency)),
-        Recorded::ImpactSpeed => number(main.map(|motion| scales.velocity(motion.impact_speed))),
-        Recorded::RepeatsAfter => {
-            Cell::Whole(main.and_then(|motion| motion.repeats_after).map(i64::from))
-        }
-        Recorded::Lyapunov => number(found.lyapunov),
-        Recorded::ShareOfStarts => number(main.map(|motion| {
-            let all: u32 = found.motions.iter().map(|motion| motion.starts).sum();
-            f64::from(motion.starts) / f64::from(all)
-        })),
         Recorded::LargestPeak => {
-            let peaks = found.motions.iter().map(|motion| motion.peak);
-            number(peaks.max_by(f64::total_cmp).map(length))
+            motions.iter().map(|motion| motion.peak).max_by(f64::total_cmp).map(length)
         }
-        Recorded::Motions => {
-            Cell::Whole(Some(found.motions.len() as i64).filter(|count| *count > 0))
-        }
-        Recorded::OrbitReached => Cell::Flag(facts.orbit().map(|orbit| {
-            found.motions.iter().any(|motion| motion.is_orbit_with_peak(orbit.peaks.displacement))
-        })),
-        Recorded::Area | Recorded::Section => number(None),
+        Recorded::Motions => Some(motions.len() as f64).filter(|count| *count > 0.0),
+        Recorded::Area | Recorded::Regime | Recorded::Section => None,
     }
 }
 

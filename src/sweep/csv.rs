@@ -4,7 +4,7 @@ use std::io::Write;
 
 use csv::Writer;
 
-use super::columns::{Column, Values};
+use super::columns::{Cell, Column, Storage};
 
 /// Writes the header: `peak [m]`; pure numbers and words have no unit.
 ///
@@ -23,15 +23,14 @@ pub fn header<W: Write>(writer: &mut Writer<W>, columns: &[Column]) -> Result<()
 /// # Errors
 /// [`csv::Error`] where they cannot be written.
 pub fn rows<W: Write>(writer: &mut Writer<W>, columns: &[Column]) -> Result<(), csv::Error> {
-    fn shown<T: ToString>(all: &[Option<T>], row: usize) -> String {
-        all.get(row).and_then(Option::as_ref).map_or_else(String::new, T::to_string)
-    }
-    for row in 0..columns.first().map_or(0, |column| column.values.len()) {
-        writer.write_record(columns.iter().map(|column| match &column.values {
-            Values::Number(all) => shown(all, row),
-            Values::Whole(all) => shown(all, row),
-            Values::Flag(all) => shown(all, row),
-            Values::Text(all) => shown(all, row),
+    for row in 0..columns.first().map_or(0, |column| column.cells.len()) {
+        writer.write_record(columns.iter().map(|column| match column.cells[row] {
+            None => String::new(),
+            Some(Cell::Text(text)) => text.to_owned(),
+            Some(Cell::Number(flag)) if column.storage == Storage::Flag => {
+                (flag != 0.0).to_string()
+            }
+            Some(Cell::Number(number)) => number.to_string(),
         }))?;
     }
     Ok(())

@@ -8,7 +8,7 @@ use crate::regimes::diagram::carried_over;
 use crate::regimes::starts::FROM_REST;
 use crate::regimes::{Effort, long_term};
 use crate::simulation::StartError;
-use crate::system::{State, System};
+use crate::system::State;
 
 /// The start that axes say, over the clearance; none where they say nothing. What no axis says is at
 /// rest, the absorber halfway between the middle of its cavity and a wall.
@@ -39,26 +39,21 @@ pub(super) fn start(
 /// [`StartError`] where a start is not finite.
 pub(super) fn along(plan: &Plan, points: &[Point]) -> Result<Vec<Vec<Found>>, StartError> {
     let length = plan.settings.axes.last().map_or(1, |axis| axis.values.len());
+    let effort = Effort::over(plan.settings.periods);
     let mut found: Vec<Vec<Found>> = points.iter().map(|_| Vec::with_capacity(2)).collect();
-    let mut stands: Vec<Option<Stand>> = points.chunks(length).map(|_| None).collect();
-    let up = 0..length;
-    for k in up.clone().chain(up.rev()) {
+    // Where the motion of each line stands, and at which point.
+    let mut stands: Vec<Option<(State, &Scales)>> = vec![None; points.len().div_ceil(length)];
+    for k in (0..length).chain((0..length).rev()) {
         // All lines side by side.
-        let places: Vec<(usize, &Point, System)> = (k..points.len())
-            .step_by(length)
-            .enumerate()
-            .filter_map(|(line, index)| Some((line, &points[index], points[index].system?)))
-            .collect();
-        let start = |(line, point, system): &(usize, &Point, System)| {
-            let from = stands[*line].as_ref().map(|stand| stand.at(&point.scales));
-            (*system, from.unwrap_or(FROM_REST))
-        };
-        let starts: Vec<(System, State)> = places.iter().map(start).collect();
-        let motions = long_term(&starts, &Effort::over(plan.settings.periods))?;
-        for line in 0..stands.len() {
-            let motion = places.iter().position(|(of, ..)| *of == line).and_then(|k| motions[k]);
-            let point = &points[line * length + k];
-            stands[line] = motion.map(|motion| Stand::of(motion.state, &point.scales));
+        let here = || points[k..].iter().step_by(length);
+        let starts = here().zip(&stands).filter_map(|(point, stand)| {
+            let carried = |(state, from)| carried(state, from, &point.scales);
+            Some((point.system?, stand.map_or(FROM_REST, carried)))
+        });
+        let mut motions = long_term(&starts.collect::<Vec<_>>(), &effort)?.into_iter();
+        for (line, point) in here().enumerate() {
+            let motion = point.system.and_then(|_| motions.next().flatten());
+            stands[line] = motion.map(|motion| (motion.state, &point.scales));
             let motions = motion.into_iter().collect();
             found[line * length + k].push(Found { motions, ..Found::default() });
         }
@@ -66,25 +61,10 @@ pub(super) fn along(plan: &Plan, points: &[Point]) -> Result<Vec<Vec<Found>>, St
     Ok(found)
 }
 
-/// Where a motion stands, and what its lengths and velocities are over.
-struct Stand {
-    state: State,
-    clearance: f64,
-    natural_frequency: f64,
-}
-
-impl Stand {
-    fn of(state: State, scales: &Scales) -> Self {
-        let natural_frequency = scales.natural_frequency;
-        Self { state, clearance: scales.clearance, natural_frequency }
-    }
-
-    /// The same place at another point.
-    fn at(&self, scales: &Scales) -> State {
-        let there = Self::of(self.state, scales);
-        let clearance = self.clearance / there.clearance;
-        carried_over(self.state, clearance, self.natural_frequency / there.natural_frequency)
-    }
+/// The same physical state at another point.
+fn carried(state: State, from: &Scales, to: &Scales) -> State {
+    let frequency = from.natural_frequency / to.natural_frequency;
+    carried_over(state, from.clearance / to.clearance, frequency)
 }
 
 #[cfg(test)]
@@ -122,12 +102,12 @@ mod tests {
     #[test]
     fn a_motion_goes_on_from_the_same_place_over_another_clearance() {
         let state = State { x: 0.5, x_velocity: -1.0, y: -0.3, y_velocity: 2.0 };
-        let wider = Stand::of(state, &scales(0.02)).at(&scales(0.04));
+        let wider = carried(state, &scales(0.02), &scales(0.04));
         let wanted = State { x: 0.25, x_velocity: -0.5, y: 0.25 - 0.4, y_velocity: 1.0 };
         assert!(wider.distance(&wanted) < 1e-15, "{wider:?}");
         // Half as many radians a second as before: twice as far in one of them.
         let softer = Scales { natural_frequency: 25.0, ..scales(0.02) };
-        let softer = Stand::of(state, &scales(0.02)).at(&softer);
+        let softer = carried(state, &scales(0.02), &softer);
         let wanted = State { x_velocity: -2.0, y_velocity: 4.0, ..state };
         assert!(softer.distance(&wanted) < 1e-15, "{softer:?}");
     }

@@ -11,7 +11,7 @@ pub mod work;
 
 use std::ops::Range;
 
-use crate::case::{Case, Design, Layer, Scales, SweepAxis, SweepSettings};
+use crate::case::{Case, Design, Layer, Scales, SweepParameter, SweepSettings};
 use crate::digest::sha256;
 use crate::system::{State, System};
 
@@ -44,7 +44,7 @@ pub struct Plan {
 pub struct Point {
     /// Its number.
     pub number: u64,
-    /// Its place on each axis, in the units of [`SweepAxis::values`].
+    /// Its place on each axis, in the units of [`SweepAxis::values`](crate::case::SweepAxis::values).
     pub coordinates: Vec<f64>,
     /// Its system; `None` where the values together leave none.
     pub system: Option<System>,
@@ -58,8 +58,7 @@ impl Plan {
     /// That of a case; `None` where it has no table `[sweep]`.
     pub fn of(case: &Case) -> Option<Self> {
         let settings = case.sweep.clone()?;
-        let points = settings.axes.iter().map(|axis| axis.values.len() as u64).product::<u64>();
-        let size = points.div_ceil(MANY_CHUNKS).next_power_of_two();
+        let size = settings.points().div_ceil(MANY_CHUNKS).next_power_of_two();
         let size = size.clamp(FEWEST_POINTS, MOST_POINTS);
         // A motion is followed along whole lines, as many of them side by side as a batch has lanes.
         let points_per_chunk = match settings.axes.last() {
@@ -69,12 +68,8 @@ impl Plan {
             }
             _ => size,
         };
-        let named = format!(
-            "{} {} {points_per_chunk} {}",
-            env!("CARGO_PKG_NAME"),
-            env!("CARGO_PKG_VERSION"),
-            case.text_hash
-        );
+        let [name, version] = [env!("CARGO_PKG_NAME"), env!("CARGO_PKG_VERSION")];
+        let named = format!("{name} {version} {points_per_chunk} {}", case.text_hash);
         let identity = sha256(named.as_bytes());
         Some(Self { design: case.design, settings, identity, points_per_chunk })
     }
@@ -87,7 +82,7 @@ impl Plan {
 
     /// Number of points: every combination of the axes' values.
     pub fn points(&self) -> u64 {
-        self.settings.axes.iter().map(|axis| axis.values.len() as u64).product()
+        self.settings.points()
     }
 
     /// Number of chunks.
@@ -108,30 +103,20 @@ impl Plan {
 
     /// The point of a number; the last axis varies fastest.
     pub fn point(&self, number: u64) -> Point {
-        let mut rest = number;
-        let mut coordinates: Vec<f64> = self
-            .settings
-            .axes
-            .iter()
-            .rev()
-            .map(|SweepAxis { values, .. }| {
-                let count = values.len() as u64;
-                let value = values[(rest % count) as usize];
-                rest /= count;
-                value
-            })
-            .collect();
-        coordinates.reverse();
-        let axes = || self.settings.axes.iter().zip(&coordinates);
+        let axes = &self.settings.axes;
+        let indices = indices(number, axes.iter().map(|axis| axis.values.len()));
+        let coordinates: Vec<f64> =
+            axes.iter().zip(indices).map(|(axis, index)| axis.values[index]).collect();
+        let parameters = axes.iter().map(|axis| axis.parameter);
+        let mut values: Vec<(SweepParameter, f64)> =
+            parameters.zip(coordinates.iter().copied()).collect();
         // Ratios are of what the others make the design.
-        let (ratios, others): (Vec<_>, Vec<_>) =
-            axes().partition(|(axis, _)| axis.parameter.is_ratio());
-        let applied = |design: Design, (axis, value): &(&SweepAxis, &f64)| {
-            axis.parameter.applied(&design, **value)
-        };
-        let design = others.iter().chain(&ratios).fold(self.design, applied);
+        values.sort_by_key(|(parameter, _)| parameter.is_ratio());
+        let applied =
+            |design, (parameter, value): &(SweepParameter, f64)| parameter.applied(&design, *value);
+        let design = values.iter().fold(self.design, applied);
         let scales = design.scales();
-        let start = follow::start(axes().map(|(axis, value)| (axis.parameter, *value)), &scales);
+        let start = follow::start(values.into_iter(), &scales);
         Point { number, system: design.system().ok(), scales, start, coordinates }
     }
 
@@ -139,4 +124,16 @@ impl Plan {
     pub fn needs(&self, layer: Layer) -> bool {
         self.settings.record.iter().any(|recorded| recorded.layer() == layer)
     }
+}
+
+/// The place of a point on each axis, given how many values these have; the last varies fastest.
+pub fn indices(number: u64, counts: impl DoubleEndedIterator<Item = usize>) -> Vec<usize> {
+    let mut rest = number;
+    let mut indices: Vec<usize> = Vec::new();
+    for count in counts.rev() {
+        indices.push((rest % count as u64) as usize);
+        rest /= count as u64;
+    }
+    indices.reverse();
+    indices
 }

@@ -5,18 +5,17 @@ use std::sync::Arc;
 
 use parquet::basic::{Compression, LogicalType, Repetition, Type as Physical, ZstdLevel};
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
-use parquet::column::writer::ColumnCloseResult;
 use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
 use parquet::errors::ParquetError;
-use parquet::file::metadata::{KeyValue, ParquetMetaData, ParquetMetaDataReader};
-use parquet::file::properties::{WriterProperties, WriterVersion};
-use parquet::file::reader::{ChunkReader, FileReader, RowGroupReader, SerializedFileReader};
+use parquet::file::metadata::KeyValue;
+use parquet::file::properties::{EnabledStatistics, WriterProperties, WriterVersion};
+use parquet::file::reader::{ChunkReader, FileReader, SerializedFileReader};
 use parquet::file::writer::{
     SerializedColumnWriter, SerializedFileWriter, SerializedRowGroupWriter,
 };
 use parquet::schema::types::{Type, TypePtr};
 
-use super::columns::{Column, Values, word};
+use super::columns::{Cell, Column, Storage, word};
 
 /// What a file says about itself besides its columns.
 pub type Notes = Vec<(String, String)>;
@@ -30,11 +29,7 @@ const UNIT: &str = "vinesink.unit.";
 /// [`ParquetError`] of the library.
 pub fn file(columns: &[Column], notes: &Notes) -> Result<Vec<u8>, ParquetError> {
     let mut writer = begin(Vec::new(), columns, notes)?;
-    let mut group = writer.next_row_group()?;
-    for column in columns {
-        write(&mut group, column)?;
-    }
-    group.close()?;
+    append(&mut writer, columns)?;
     writer.into_inner()
 }
 
@@ -50,40 +45,28 @@ pub fn begin<W: Write + Send>(
     SerializedFileWriter::new(sink, schema(columns)?, properties(columns, notes)?)
 }
 
-/// Adds the row groups of another file, a column at a time, so that memory holds one of them.
+/// Adds a row group.
 ///
 /// # Errors
-/// [`ParquetError`] of the library, and where the file has other columns.
-pub fn append<W: Write + Send, R: ChunkReader>(
+/// [`ParquetError`] of the library, and where the columns are not those of the file.
+pub fn append<W: Write + Send>(
     writer: &mut SerializedFileWriter<W>,
-    file: &R,
+    columns: &[Column],
 ) -> Result<(), ParquetError> {
-    let metadata: ParquetMetaData = ParquetMetaDataReader::new().parse_and_finish(file)?;
-    for group in metadata.row_groups() {
-        let mut out = writer.next_row_group()?;
-        for column in group.columns() {
-            let closed = ColumnCloseResult {
-                bytes_written: column.compressed_size() as u64,
-                rows_written: group.num_rows() as u64,
-                metadata: column.clone(),
-                bloom_filter: None,
-                column_index: None,
-                offset_index: None,
-            };
-            out.append_column(file, closed)?;
-        }
-        out.close()?;
+    let mut group = writer.next_row_group()?;
+    for column in columns {
+        write(&mut group, column)?;
     }
-    Ok(())
+    group.close().map(drop)
 }
 
 fn schema(columns: &[Column]) -> Result<TypePtr, ParquetError> {
     let fields = columns.iter().map(|column| {
-        let (physical, logical) = match column.values {
-            Values::Number(_) => (Physical::DOUBLE, None),
-            Values::Whole(_) => (Physical::INT64, None),
-            Values::Flag(_) => (Physical::BOOLEAN, None),
-            Values::Text(_) => (Physical::BYTE_ARRAY, Some(LogicalType::String)),
+        let (physical, logical) = match column.storage {
+            Storage::Number => (Physical::DOUBLE, None),
+            Storage::Whole => (Physical::INT64, None),
+            Storage::Flag => (Physical::BOOLEAN, None),
+            Storage::Text => (Physical::BYTE_ARRAY, Some(LogicalType::String)),
         };
         Type::primitive_type_builder(&column.name, physical)
             .with_logical_type(logical)
@@ -104,6 +87,8 @@ fn properties(columns: &[Column], notes: &Notes) -> Result<Arc<WriterProperties>
         WriterProperties::builder()
             .set_compression(Compression::ZSTD(ZstdLevel::try_new(3)?))
             .set_writer_version(WriterVersion::PARQUET_1_0)
+            .set_statistics_enabled(EnabledStatistics::Chunk)
+            .set_offset_index_disabled(true)
             .set_created_by(concat!("vinesink version ", env!("CARGO_PKG_VERSION")).to_owned())
             .set_key_value_metadata(Some(notes.chain(units).collect()))
             .build(),
@@ -112,103 +97,82 @@ fn properties(columns: &[Column], notes: &Notes) -> Result<Arc<WriterProperties>
 
 fn write<W: Write + Send>(
     group: &mut SerializedRowGroupWriter<'_, W>,
-    column: &Column,
+    Column { storage, cells, .. }: &Column,
 ) -> Result<(), ParquetError> {
     let missing = || ParquetError::General("more columns than the schema has".into());
     let mut writer = group.next_column()?.ok_or_else(missing)?;
-    match &column.values {
-        Values::Number(values) => put::<DoubleType>(&mut writer, values)?,
-        Values::Whole(values) => put::<Int64Type>(&mut writer, values)?,
-        Values::Flag(values) => put::<BoolType>(&mut writer, values)?,
-        Values::Text(values) => {
-            let values: Vec<_> = values.iter().map(|text| text.map(ByteArray::from)).collect();
-            put::<ByteArrayType>(&mut writer, &values)?;
-        }
-    }
+    let to = &mut writer;
+    match storage {
+        Storage::Number => put::<DoubleType>(to, cells, Cell::number),
+        Storage::Whole => put::<Int64Type>(to, cells, |cell| Some(cell.number()? as i64)),
+        Storage::Flag => put::<BoolType>(to, cells, |cell| Some(cell.number()? != 0.0)),
+        Storage::Text => put::<ByteArrayType>(to, cells, |cell| cell.text().map(ByteArray::from)),
+    }?;
     writer.close()
 }
 
 fn put<T: DataType>(
     writer: &mut SerializedColumnWriter<'_>,
-    values: &[Option<T::T>],
+    cells: &[Option<Cell>],
+    value: impl Fn(Cell) -> Option<T::T>,
 ) -> Result<(), ParquetError> {
-    let there: Vec<T::T> = values.iter().flatten().cloned().collect();
-    let levels: Vec<i16> = values.iter().map(|value| i16::from(value.is_some())).collect();
+    let there: Vec<T::T> = cells.iter().flatten().filter_map(|cell| value(*cell)).collect();
+    let levels: Vec<i16> = cells.iter().map(|cell| i16::from(cell.is_some())).collect();
     writer.typed::<T>().write_batch(&there, Some(&levels), None)?;
     Ok(())
 }
 
-/// A file of results that is read a row group at a time.
-pub struct Results<R: ChunkReader + 'static> {
-    reader: SerializedFileReader<R>,
-}
-
-impl<R: ChunkReader + 'static> Results<R> {
-    /// Opens a file that was written here.
-    ///
-    /// # Errors
-    /// [`ParquetError`] of the library, if it is no such file.
-    pub fn open(file: R) -> Result<Self, ParquetError> {
-        Ok(Self { reader: SerializedFileReader::new(file)? })
+/// Adds what is in a file with one row group to columns, which are those of its sweep.
+///
+/// # Errors
+/// [`ParquetError`] of the library, if it is no such file or has other columns.
+pub fn read<R: ChunkReader + 'static>(file: R, columns: &mut [Column]) -> Result<(), ParquetError> {
+    let file = SerializedFileReader::new(file)?;
+    let group = file.get_row_group(0)?;
+    let rows = usize::try_from(group.metadata().num_rows()).unwrap_or(0);
+    if group.num_columns() != columns.len() {
+        return Err(ParquetError::General("the file has other columns".into()));
     }
-
-    /// Number of row groups.
-    pub fn groups(&self) -> usize {
-        self.reader.num_row_groups()
-    }
-
-    /// Adds the values of a row group to columns, which are those of its sweep.
-    ///
-    /// # Errors
-    /// [`ParquetError`] of the library, and where the file has other columns.
-    pub fn add_to(&self, columns: &mut [Column], group: usize) -> Result<(), ParquetError> {
-        let group = self.reader.get_row_group(group)?;
-        let rows = usize::try_from(group.metadata().num_rows()).unwrap_or(0);
-        if group.num_columns() != columns.len() {
-            return Err(ParquetError::General("the file has other columns".into()));
-        }
-        for (index, column) in columns.iter_mut().enumerate() {
-            read(group.as_ref(), index, rows, &mut column.values)?;
-        }
-        Ok(())
-    }
-}
-
-fn read(
-    group: &dyn RowGroupReader,
-    index: usize,
-    rows: usize,
-    values: &mut Values,
-) -> Result<(), ParquetError> {
-    match (group.get_column_reader(index)?, values) {
-        (ColumnReader::DoubleColumnReader(reader), Values::Number(all)) => {
-            all.extend(optional(reader, rows)?);
-        }
-        (ColumnReader::Int64ColumnReader(reader), Values::Whole(all)) => {
-            all.extend(optional(reader, rows)?);
-        }
-        (ColumnReader::BoolColumnReader(reader), Values::Flag(all)) => {
-            all.extend(optional(reader, rows)?);
-        }
-        (ColumnReader::ByteArrayColumnReader(reader), Values::Text(all)) => {
-            let other = || ParquetError::General("the file has other words".into());
-            let known = |text: ByteArray| word(text.data()).ok_or_else(other);
-            for text in optional(reader, rows)? {
-                all.push(text.map(known).transpose()?);
-            }
-        }
-        _ => return Err(ParquetError::General("a column is of another kind".into())),
+    for (index, column) in columns.iter_mut().enumerate() {
+        let cells = cells(group.get_column_reader(index)?, column.storage, rows);
+        column.cells.extend(cells?);
     }
     Ok(())
 }
 
-/// The values of a column of a row group, nothing where one is missing.
-fn optional<T: DataType>(
+fn cells(
+    reader: ColumnReader,
+    storage: Storage,
+    rows: usize,
+) -> Result<Vec<Option<Cell>>, ParquetError> {
+    let other = |what: &str| ParquetError::General(format!("the file has {what}"));
+    match (reader, storage) {
+        (ColumnReader::DoubleColumnReader(reader), Storage::Number) => {
+            take(reader, rows, |number| Ok(Cell::Number(number)))
+        }
+        (ColumnReader::Int64ColumnReader(reader), Storage::Whole) => {
+            take(reader, rows, |number| Ok(Cell::Number(number as f64)))
+        }
+        (ColumnReader::BoolColumnReader(reader), Storage::Flag) => {
+            take(reader, rows, |flag| Ok(Cell::Number(f64::from(flag))))
+        }
+        (ColumnReader::ByteArrayColumnReader(reader), Storage::Text) => {
+            let known = |text: ByteArray| word(text.data()).map(Cell::Text);
+            take(reader, rows, |text| known(text).ok_or_else(|| other("other words")))
+        }
+        _ => Err(other("a column of another kind")),
+    }
+}
+
+/// The cells of a column of a row group, nothing where a value is missing.
+fn take<T: DataType>(
     mut reader: ColumnReaderImpl<T>,
     rows: usize,
-) -> Result<Vec<Option<T::T>>, ParquetError> {
+    cell: impl Fn(T::T) -> Result<Cell, ParquetError>,
+) -> Result<Vec<Option<Cell>>, ParquetError> {
     let (mut there, mut levels) = (Vec::with_capacity(rows), Vec::with_capacity(rows));
     reader.read_records(rows, Some(&mut levels), None, &mut there)?;
     let mut there = there.into_iter();
-    Ok(levels.into_iter().map(|level| if level == 1 { there.next() } else { None }).collect())
+    let next = |level| if level == 1 { there.next().map(&cell).transpose() } else { Ok(None) };
+    levels.into_iter().map(next).collect()
 }

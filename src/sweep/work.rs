@@ -32,10 +32,9 @@ pub fn points(plan: &Plan, numbers: Range<u64>) -> Result<Vec<Column>, StartErro
     while begin < numbers.end {
         let end = numbers.end.min(begin + at_once);
         let some: Vec<Point> = (begin..end).map(|number| plan.point(number)).collect();
-        let found = if plan.needs(Layer::Simulation) {
-            simulated(plan, &some)?
-        } else {
-            vec![Vec::new(); some.len()]
+        let found = match plan.needs(Layer::Simulation) {
+            true => simulated(plan, &some)?,
+            false => vec![Vec::new(); some.len()],
         };
         for (point, found) in some.iter().zip(found) {
             columns::push(plan, &mut results, &Facts::of(point, found));
@@ -47,24 +46,26 @@ pub fn points(plan: &Plan, numbers: Range<u64>) -> Result<Vec<Column>, StartErro
 
 /// What simulation finds at points, for each from several starts or in two directions.
 fn simulated(plan: &Plan, points: &[Point]) -> Result<Vec<Vec<Found>>, StartError> {
-    let mut found = if plan.settings.follow {
-        follow::along(plan, points)?
-    } else {
-        let mut found: Vec<Vec<Found>> = points.iter().map(|_| vec![Found::default()]).collect();
-        let places = points.iter().enumerate();
-        let places = places.filter_map(|(index, point)| Some((index, startable(plan, point)?)));
-        let (there, places): (Vec<usize>, Vec<(System, Vec<State>)>) = places.unzip();
-        let all = motions(&places, &Effort::over(plan.settings.periods))?;
-        for (index, motions) in there.into_iter().zip(all) {
-            found[index][0].motions = motions;
-        }
-        found
+    let mut found = match plan.settings.follow {
+        true => follow::along(plan, points)?,
+        false => from_starts(plan, points)?,
     };
     let wants = |recorded| plan.settings.record.contains(&recorded);
     if wants(Recorded::Lyapunov) || wants(Recorded::Section) {
-        looked_closer(plan, points, &mut found)?;
+        look_closer(plan, points, &mut found)?;
     }
     Ok(found)
+}
+
+fn from_starts(plan: &Plan, points: &[Point]) -> Result<Vec<Vec<Found>>, StartError> {
+    let places: Vec<Option<_>> = points.iter().map(|point| startable(plan, point)).collect();
+    let there: Vec<(System, Vec<State>)> = places.iter().flatten().cloned().collect();
+    let mut all = motions(&there, &Effort::over(plan.settings.periods))?.into_iter();
+    let found = places.iter().map(|place| {
+        let motions = place.as_ref().and_then(|_| all.next()).unwrap_or_default();
+        vec![Found { motions, ..Found::default() }]
+    });
+    Ok(found.collect())
 }
 
 /// The system of a point and its starts: the one that axes say, if it is possible, or the usual ones.
@@ -79,11 +80,7 @@ fn startable(plan: &Plan, point: &Point) -> Option<(System, Vec<State>)> {
 }
 
 /// Adds what only a second look at the main motions tells: exponents and sections.
-fn looked_closer(
-    plan: &Plan,
-    points: &[Point],
-    found: &mut [Vec<Found>],
-) -> Result<(), StartError> {
+fn look_closer(plan: &Plan, points: &[Point], found: &mut [Vec<Found>]) -> Result<(), StartError> {
     let mut all: Vec<(&mut Found, Simulation)> = Vec::new();
     for (point, ways) in points.iter().zip(found) {
         for one in ways {

@@ -47,15 +47,9 @@ names! { key:
 }
 
 impl SweepParameter {
-    /// Whether it is a part of the start, not of the design.
+    /// Whether it is a part of the start, not of the design: these are the last.
     pub fn is_initial(self) -> bool {
-        matches!(
-            self,
-            Self::InitialDisplacement
-                | Self::InitialVelocity
-                | Self::InitialAbsorberDisplacement
-                | Self::InitialAbsorberVelocity
-        )
+        self >= Self::InitialDisplacement
     }
 
     /// Whether it is a ratio to other numbers of a design, so that these have to be known first.
@@ -71,31 +65,6 @@ impl SweepParameter {
             Self::Frequency => Some(Self::Detuning),
             _ => None,
         }
-    }
-
-    /// The table and the key in which a design has it; `None` where it has no such number.
-    fn place(self, design: &Design) -> Option<[&'static str; 2]> {
-        Some(match design {
-            Design::Physical(_) => match self {
-                Self::Clearance | Self::Restitution | Self::MassRatio => ["absorber", self.key()],
-                Self::AbsorberMass => ["absorber", "mass"],
-                Self::Mass | Self::Stiffness | Self::Damping | Self::DampingRatio => {
-                    ["oscillator", self.key()]
-                }
-                Self::Frequency | Self::Amplitude => ["excitation", self.key()],
-                _ => return None,
-            },
-            Design::Reduced(_) => match self {
-                Self::Clearance
-                | Self::Restitution
-                | Self::MassRatio
-                | Self::Damping
-                | Self::Detuning => ["reduced", self.key()],
-                Self::Frequency => ["reduced", "frequency_ratio"],
-                Self::Amplitude => ["reduced", "forcing"],
-                _ => return None,
-            },
-        })
     }
 
     /// How its values are written beside a design: as the design's own; `None` where it has no such number.
@@ -116,36 +85,43 @@ impl SweepParameter {
         }
     }
 
+    /// The key in which a design has it; `None` where it has no such number.
     fn schema(self, design: &Design) -> Option<&'static Value> {
-        let [table, key] = self.place(design)?;
-        let schema = &SCHEMA["properties"][table];
-        let kind = match design {
-            Design::Physical(physical) if self == Self::Amplitude => physical.excitation,
-            _ => return Some(&schema["properties"][key]),
-        };
-        let branch = usize::from(kind == Excitation::Force);
-        Some(&schema["oneOf"][branch]["properties"][key])
+        let properties = |table: &str| &SCHEMA["properties"][table]["properties"];
+        match (self, design) {
+            (Self::AbsorberMass, Design::Physical(_)) => properties("absorber").get("mass"),
+            (Self::Amplitude, Design::Physical(physical)) => {
+                let branch = usize::from(physical.excitation == Excitation::Force);
+                let branch = &SCHEMA["properties"]["excitation"]["oneOf"][branch];
+                branch["properties"].get(self.key())
+            }
+            (Self::Frequency, Design::Reduced(_)) => properties("reduced").get("frequency_ratio"),
+            (Self::Amplitude, Design::Reduced(_)) => properties("reduced").get("forcing"),
+            (_, Design::Reduced(_)) => properties("reduced").get(self.key()),
+            (_, Design::Physical(_)) => {
+                let mut tables =
+                    ["oscillator", "absorber", "excitation"].map(properties).into_iter();
+                tables.find_map(|table| table.get(self.key()))
+            }
+        }
     }
 
     /// The unit of its values beside a design: an SI unit, or "1".
     pub fn unit(self, design: &Design) -> &'static str {
-        // Lengths of a reduced design are in a unit of its own.
         self.form(design).map_or("1", |form| form.unit())
     }
 
     /// Its value in a design; `None` for a part of the start, or what the design has not.
     pub fn of(self, design: &Design) -> Option<f64> {
         match (self, design) {
-            (Self::MassRatio, Design::Physical(p)) => Some(p.absorber_mass_kg / p.mass_kg),
-            (Self::DampingRatio, Design::Physical(p)) => {
-                Some(p.damping_n_s_per_m / p.critical_damping_n_s_per_m())
-            }
-            (Self::Frequency, Design::Reduced(r)) => Some(r.frequency_ratio()),
+            (Self::Frequency, Design::Reduced(r)) => return Some(r.frequency_ratio()),
             (Self::Detuning, Design::Reduced(r)) => {
-                Some(r.detuning.unwrap_or_else(|| (r.frequency_ratio() - 1.0) / r.mass_ratio))
+                let of_ratio = || (r.frequency_ratio() - 1.0) / r.mass_ratio;
+                return Some(r.detuning.unwrap_or_else(of_ratio));
             }
-            _ => self.number(&mut design.clone()).copied(),
+            _ => {}
         }
+        self.number(&mut design.clone()).map(|(number, over)| *number / over)
     }
 
     /// The design with another value; unchanged by what is a part of the start, or what it has not. A
@@ -154,10 +130,6 @@ impl SweepParameter {
     pub fn applied(self, design: &Design, value: f64) -> Design {
         let mut changed = *design;
         match (self, &mut changed) {
-            (Self::MassRatio, Design::Physical(p)) => p.absorber_mass_kg = value * p.mass_kg,
-            (Self::DampingRatio, Design::Physical(p)) => {
-                p.damping_n_s_per_m = value * p.critical_damping_n_s_per_m();
-            }
             (Self::Frequency, Design::Reduced(r)) => {
                 (r.frequency_ratio, r.detuning) = (Some(value), None);
             }
@@ -165,17 +137,25 @@ impl SweepParameter {
                 (r.frequency_ratio, r.detuning) = (None, Some(value));
             }
             (_, changed) => {
-                if let Some(number) = self.number(changed) {
-                    *number = value;
+                if let Some((number, over)) = self.number(changed) {
+                    *number = value * over;
                 }
             }
         }
         changed
     }
 
-    /// The number of a design that is the parameter itself, neither a ratio nor a detuning.
-    fn number(self, design: &mut Design) -> Option<&mut f64> {
-        Some(match (self, design) {
+    /// The number of a design that says it, and what it is over where it is a ratio; none for a detuning or the
+    /// frequency of a reduced design.
+    fn number(self, design: &mut Design) -> Option<(&mut f64, f64)> {
+        let number = match (self, design) {
+            (Self::MassRatio, Design::Physical(p)) => {
+                return Some((&mut p.absorber_mass_kg, p.mass_kg));
+            }
+            (Self::DampingRatio, Design::Physical(p)) => {
+                let critical = p.critical_damping_n_s_per_m();
+                return Some((&mut p.damping_n_s_per_m, critical));
+            }
             (Self::Clearance, Design::Physical(p)) => &mut p.clearance_m,
             (Self::Frequency, Design::Physical(p)) => &mut p.frequency_hz,
             (Self::Amplitude, Design::Physical(p)) => &mut p.amplitude,
@@ -190,6 +170,7 @@ impl SweepParameter {
             (Self::MassRatio, Design::Reduced(r)) => &mut r.mass_ratio,
             (Self::Damping, Design::Reduced(r)) => &mut r.damping,
             _ => return None,
-        })
+        };
+        Some((number, 1.0))
     }
 }

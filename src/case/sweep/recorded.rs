@@ -60,13 +60,11 @@ names! { key:
 }
 
 impl Recorded {
-    /// The layer that knows it.
-    pub const fn layer(self) -> Layer {
+    /// The layer that knows it: what is recorded stands in the order of layers.
+    pub fn layer(self) -> Layer {
         match self {
-            Self::Area | Self::TheoryPeak | Self::BoundaryDistance | Self::BareAmplitude => {
-                Layer::ClosedForm
-            }
-            Self::OrbitPeak | Self::OrbitMultiplier => Layer::Orbit,
+            closed if closed <= Self::BareAmplitude => Layer::ClosedForm,
+            orbit if orbit <= Self::OrbitMultiplier => Layer::Orbit,
             _ => Layer::Simulation,
         }
     }

@@ -12,7 +12,7 @@ use vinesink::store::{self, Growing};
 use vinesink::sweep::columns::{self, Column};
 use vinesink::sweep::csv;
 use vinesink::sweep::limits::{StabilityLimit, stability_limits};
-use vinesink::sweep::parquet::{self, Results};
+use vinesink::sweep::parquet;
 
 use super::super::progress::Progress;
 use super::super::{Outcome, index, output};
@@ -39,14 +39,13 @@ impl Sweep {
             ));
         }
         let path = self.folder.join("sweep.parquet");
-        let empty = columns::empty(&self.plan);
-        self.put_together(&path, &empty).wrap_err_with(|| unfinished(&path))?;
+        self.put_together(&path).wrap_err_with(|| unfinished(&path))?;
         self.shards()?.sweep_up()?;
-        output::print(format!("{}\n", shown(&path)))?;
+        output::print_path(&path)?;
         if wanted.csv {
             let text = self.folder.join("sweep.csv");
-            written_as_text(&path, &text, &empty).wrap_err_with(|| unfinished(&text))?;
-            output::print(format!("{}\n", shown(&text)))?;
+            self.write_as_text(&text).wrap_err_with(|| unfinished(&text))?;
+            output::print_path(&text)?;
         }
         if self.plan.points() > MOST_POINTS as u64 {
             output::complain(&format!(
@@ -54,39 +53,54 @@ impl Sweep {
             ));
             return Ok(Outcome::Done);
         }
-        self.write_page(&path, empty, wanted.report.as_deref())?;
+        self.write_page(&path, wanted.report.as_deref())?;
         Ok(Outcome::Done)
     }
 
-    fn put_together(&self, path: &Path, empty: &[Column]) -> Result<()> {
+    /// Reads the chunks in their order, one at a time, so that memory holds no more.
+    fn each_chunk(&self, mut of: impl FnMut(Vec<Column>) -> Result<()>) -> Result<()> {
         let shards = self.shards()?;
+        let progress = Progress::new("chunks", self.plan.chunks());
+        for chunk in 0..self.plan.chunks() {
+            let path = shards.path(chunk);
+            let mut columns = columns::empty(&self.plan);
+            let read = parquet::read(store::open(&path)?, &mut columns);
+            read.into_diagnostic().wrap_err_with(|| shown(&path))?;
+            of(columns)?;
+            progress.advance(1);
+        }
+        Ok(())
+    }
+
+    fn put_together(&self, path: &Path) -> Result<()> {
         let notes = vec![
             ("vinesink.sweep".to_owned(), self.plan.identity.clone()),
             ("vinesink.version".to_owned(), env!("CARGO_PKG_VERSION").to_owned()),
             ("vinesink.case".to_owned(), self.case_text.clone()),
         ];
-        let mut merged = parquet::begin(Growing::begin(path)?, empty, &notes).into_diagnostic()?;
-        let progress = Progress::new("chunks", self.plan.chunks());
-        for chunk in 0..self.plan.chunks() {
-            let file = shards.read(chunk)?;
-            let which = || shown(&shards.path(chunk));
-            parquet::append(&mut merged, &file).into_diagnostic().wrap_err_with(which)?;
-            progress.advance(1);
-        }
+        let merged = parquet::begin(Growing::begin(path)?, &columns::empty(&self.plan), &notes);
+        let mut merged = merged.into_diagnostic()?;
+        self.each_chunk(|columns| parquet::append(&mut merged, &columns).into_diagnostic())?;
         Ok(merged.into_inner().into_diagnostic()?.finish()?)
     }
 
+    fn write_as_text(&self, path: &Path) -> Result<()> {
+        let mut writer = Writer::from_writer(Growing::begin(path)?);
+        csv::header(&mut writer, &columns::empty(&self.plan)).into_diagnostic()?;
+        self.each_chunk(|columns| csv::rows(&mut writer, &columns).into_diagnostic())?;
+        let text = writer.into_inner().map_err(|error| error.into_error()).into_diagnostic()?;
+        Ok(text.finish()?)
+    }
+
     /// Maps or diagrams with what they say in words.
-    fn write_page(
-        &self,
-        merged: &Path,
-        mut columns: Vec<Column>,
-        reports: Option<&Path>,
-    ) -> Result<()> {
-        let results = Results::open(store::open(merged)?).into_diagnostic()?;
-        for group in 0..results.groups() {
-            results.add_to(&mut columns, group).into_diagnostic()?;
-        }
+    fn write_page(&self, merged: &Path, reports: Option<&Path>) -> Result<()> {
+        let mut columns = columns::empty(&self.plan);
+        self.each_chunk(|chunk| {
+            for (column, more) in columns.iter_mut().zip(chunk) {
+                column.cells.extend(more.cells);
+            }
+            Ok(())
+        })?;
         let settings = &self.plan.settings;
         let bytes = std::fs::read(merged).into_diagnostic().wrap_err_with(|| shown(merged))?;
         let swept = Swept {
@@ -98,14 +112,12 @@ impl Sweep {
             limits: self.limits(),
             results_sha256: sha256(&bytes),
         };
-        let name = self.folder.file_name().unwrap_or_default();
         let files = swept.files()?;
+        let name = self.folder.file_name().unwrap_or_default();
         let folder = reports.map_or_else(|| self.folder.clone(), |reports| reports.join(name));
         store::add_to_folder(&folder, &files)?;
-        if let Some(reports) = reports {
-            index::refresh(reports)?;
-        }
-        output::print(format!("{}\n", shown(&folder.join("sweep.html"))))
+        reports.map_or(Ok(()), index::refresh)?;
+        output::print_path(&folder.join("sweep.html"))
     }
 
     /// Of the exact orbit, which a map over frequency and clearance shows.
@@ -117,20 +129,6 @@ impl Sweep {
             _ => Vec::new(),
         }
     }
-}
-
-/// The merged results once more as text, a chunk at a time.
-fn written_as_text(merged: &Path, path: &Path, empty: &[Column]) -> Result<()> {
-    let results = Results::open(store::open(merged)?).into_diagnostic()?;
-    let mut writer = Writer::from_writer(Growing::begin(path)?);
-    csv::header(&mut writer, empty).into_diagnostic()?;
-    for group in 0..results.groups() {
-        let mut columns = empty.to_vec();
-        results.add_to(&mut columns, group).into_diagnostic()?;
-        csv::rows(&mut writer, &columns).into_diagnostic()?;
-    }
-    let text = writer.into_inner().map_err(|error| error.into_error()).into_diagnostic()?;
-    Ok(text.finish()?)
 }
 
 fn unfinished(path: &Path) -> String {

@@ -5,9 +5,6 @@
 
 mod job;
 
-use std::fmt;
-use std::str::FromStr;
-
 use clap::{Args, ValueEnum};
 use miette::Result;
 use vinesink::store;
@@ -37,8 +34,8 @@ pub struct Arguments {
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..))]
     cpus_per_task: u16,
     /// Longest time a task may take [default: the engine's]
-    #[arg(long, value_name = "HH:MM:SS")]
-    time: Option<Time>,
+    #[arg(long, value_name = "HH:MM:SS", value_parser = seconds)]
+    time: Option<u64>,
     /// How often a task that fails begins again; with HyperQueue also how many of its workers may be lost
     /// under it
     #[arg(long, value_name = "N", default_value_t = 3)]
@@ -71,34 +68,19 @@ enum Engine {
     Hyperqueue,
 }
 
-/// A duration in seconds.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Time(u64);
-
-impl FromStr for Time {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let refused = || "write hours, minutes and seconds, such as 02:30:00".to_owned();
-        let parts: Vec<&str> = text.split(':').collect();
-        let [hours, minutes, seconds] = parts.as_slice() else { return Err(refused()) };
-        let digits = |part: &&str| match part.bytes().all(|byte| byte.is_ascii_digit()) {
-            true => part.parse::<u32>().map(u64::from).map_err(|_| refused()),
-            false => Err(refused()),
-        };
-        let (hours, minutes, seconds) = (digits(hours)?, digits(minutes)?, digits(seconds)?);
-        match hours * 3600 + minutes * 60 + seconds {
-            0 => Err(refused()),
-            _ if minutes > 59 || seconds > 59 => Err(refused()),
-            total => Ok(Self(total)),
+/// The seconds of a time in hours, minutes and seconds.
+fn seconds(text: &str) -> Result<u64, String> {
+    let refused = || "write hours, minutes and seconds, such as 02:30:00".to_owned();
+    let number = |part: &str| match part.bytes().all(|byte| byte.is_ascii_digit()) {
+        true => part.parse::<u32>().map(u64::from).map_err(|_| refused()),
+        false => Err(refused()),
+    };
+    let numbers: Vec<u64> = text.split(':').map(number).collect::<Result<_, _>>()?;
+    match numbers.as_slice() {
+        &[hours, minutes @ 0..60, seconds @ 0..60] if hours + minutes + seconds > 0 => {
+            Ok(hours * 3600 + minutes * 60 + seconds)
         }
-    }
-}
-
-impl fmt::Display for Time {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self(seconds) = self;
-        write!(f, "{:02}:{:02}:{:02}", seconds / 3600, seconds / 60 % 60, seconds % 60)
+        _ => Err(refused()),
     }
 }
 
@@ -151,12 +133,12 @@ mod tests {
     #[test]
     fn a_time_is_hours_minutes_and_seconds() {
         for (text, seconds) in [("02:30:00", 9000), ("0:00:01", 1), ("100:59:59", 363_599)] {
-            assert_eq!(text.parse(), Ok(Time(seconds)));
+            assert_eq!(self::seconds(text), Ok(seconds));
         }
         for wrong in
             ["", "30", "2:30", "00:00:00", "1:60:00", "1:00:60", "+1:00:00", "a:b:c", "1:2:3:4"]
         {
-            assert!(wrong.parse::<Time>().is_err(), "{wrong}");
+            assert!(seconds(wrong).is_err(), "{wrong}");
         }
     }
 }

@@ -1,9 +1,11 @@
 //! What a sweep's table says, counted: `sweep.json`, and what the page's sentences are made from.
 
+use std::ops::Range;
+
 use serde_json::{Value, json};
 
 use super::Swept;
-use super::grid::{Numbers, SweepDirection};
+use super::grid::Numbers;
 use super::kinds::AREAS;
 use crate::analysis::Area;
 use crate::case::Recorded;
@@ -11,7 +13,7 @@ use crate::method::Method;
 use crate::quantity::Quantity;
 use crate::quantity::catalogue::POINT_SHARE;
 use crate::regimes::Regime;
-use crate::sweep::columns::kind;
+use crate::sweep::columns::{Direction, kind, names};
 
 /// Peaks of one motion measured twice differ by less: where it repeats, by what is left of a transient; a
 /// motion that does not repeat is told by its regime alone.
@@ -28,11 +30,12 @@ const RANGED: [Recorded; 3] = [Recorded::ImpactsPerPeriod, Recorded::Peak, Recor
 /// the axes, each with the digits that tell it from its neighbours.
 pub(super) fn document(swept: &Swept) -> Value {
     let directions = swept.directions();
-    let there = |of: &Recorded| {
-        let numbers = |way: &SweepDirection| swept.numbers(*of, *way).is_some();
-        directions.iter().any(numbers) || *of == Recorded::Area && swept.areas().is_some()
+    let is_there = |of: &Recorded| {
+        let single = [Direction::Single];
+        directions.iter().chain(&single).any(|way| swept.cells(&names(*of)[0], *way).is_some())
     };
-    let recorded = Recorded::ALL.into_iter().filter(there).map(Recorded::key);
+    let recorded = Recorded::ALL.into_iter().filter(is_there).map(Recorded::key);
+    let counted: Vec<Counted> = directions.iter().map(|way| Counted::of(swept, *way)).collect();
     json!({
         "format": "vinesink/sweep@2",
         "title": swept.case.title,
@@ -45,8 +48,8 @@ pub(super) fn document(swept: &Swept) -> Value {
         "recorded": recorded.collect::<Vec<_>>(),
         "largest_area": largest_area(swept),
         // One for each direction: a single one, or up and down.
-        "motions": directions.iter().map(|way| Counted::of(swept, *way).motions()).collect::<Vec<_>>(),
-        "hysteresis": hysteresis(swept),
+        "motions": counted.iter().map(Counted::motions).collect::<Vec<_>>(),
+        "hysteresis": hysteresis(&counted),
         "version": env!("CARGO_PKG_VERSION"),
         "case_sha256": swept.case.text_hash,
         "results_sha256": swept.results_sha256,
@@ -94,65 +97,58 @@ fn quantity(of: Recorded, value: f64) -> Option<Quantity> {
 /// The columns of a direction.
 struct Counted<'a> {
     swept: &'a Swept<'a>,
-    direction: SweepDirection,
-    regimes: Option<Vec<Option<Regime>>>,
+    direction: Direction,
+    /// The regime of each point; of none where regimes are not recorded.
+    regimes: Vec<Option<Regime>>,
     /// Regimes that occur and their points, the most first.
     present: Vec<(Regime, usize)>,
     /// Those of [`RANGED`] that have values.
     ranged: Vec<(Recorded, Numbers)>,
     /// Peaks of the exact orbit where it attracts.
     orbit: Option<Numbers>,
-    /// Points with a motion.
-    worked_out: usize,
 }
 
 impl<'a> Counted<'a> {
-    fn of(swept: &'a Swept, direction: SweepDirection) -> Self {
-        let column = |of: Recorded| {
-            let column = swept.numbers(of, direction)?;
-            column.iter().any(Option::is_some).then_some((of, column))
-        };
-        let mut counted = Self {
-            swept,
-            direction,
-            regimes: swept.regimes(direction),
-            present: Vec::new(),
-            ranged: RANGED.into_iter().filter_map(column).collect(),
-            orbit: swept.numbers(Recorded::OrbitPeak, SweepDirection::Single),
-            worked_out: 0,
-        };
-        let count = |regime| (regime, counted.count(regime, |_| true)[1]);
+    fn of(swept: &'a Swept, direction: Direction) -> Self {
+        let regimes = swept.regimes(direction).unwrap_or_else(|| vec![None; swept.points()]);
+        let count = |regime| (regime, regimes.iter().filter(|one| **one == Some(regime)).count());
         let mut present = Vec::from(Regime::ALL.map(count));
         present.retain(|(_, points)| *points > 0);
         present.sort_by_key(|(_, points)| std::cmp::Reverse(*points));
-        let rms = column(Recorded::Rms);
-        let there = |point: &usize| match &counted.regimes {
-            Some(regimes) => regimes[*point].is_some(),
-            None => counted.ranged.iter().chain(&rms).any(|(_, column)| column[*point].is_some()),
-        };
-        counted.worked_out = (0..swept.points()).filter(there).count();
-        counted.present = present;
-        counted
+        let mut ranged: Vec<(Recorded, Numbers)> =
+            RANGED.into_iter().filter_map(|of| Some((of, swept.numbers(of, direction)?))).collect();
+        ranged.retain(|(_, column)| column.iter().any(Option::is_some));
+        let orbit = swept.numbers(Recorded::OrbitPeak, Direction::Single);
+        Self { swept, direction, regimes, present, ranged, orbit }
     }
 
     fn motions(&self) -> Value {
         let stretches = self.stretches();
-        let smallest = self.column(Recorded::Peak).and_then(|_| self.extreme(Recorded::Peak, -1.0));
         json!({
             "direction": self.direction,
-            "worked_out": self.worked_out,
+            "worked_out": self.worked_out(),
             // Quantities of which each regime and stretch has a smallest and a largest value.
             "ranged": self.ranged.iter().filter_map(|(of, _)| Some(kind(*of)?.id)).collect::<Vec<_>>(),
-            "regimes": self.regime_facts(),
-            "smallest_peak": smallest.map(|(value, at)| json!({ "of": value, "at": at })),
+            "regimes": self.regimes(),
+            "smallest_peak": self.extreme(Recorded::Peak, -1.0),
             "reduction": self.reduction(),
             "coexistence": self.coexistence(),
             "more_stretches": stretches.len().saturating_sub(MOST_STRETCHES),
             "stretches": stretches.into_iter().take(MOST_STRETCHES).collect::<Vec<_>>(),
             "groups": self.groups(),
             "theory": self.theory(),
-            "orbit": self.orbit_facts(),
+            "orbit": self.orbit(),
         })
+    }
+
+    /// Points with a motion.
+    fn worked_out(&self) -> usize {
+        let rms = self.swept.numbers(Recorded::Rms, self.direction);
+        let columns = || self.ranged.iter().map(|(_, column)| column).chain(&rms);
+        let is_there = |point: &usize| {
+            self.regimes[*point].is_some() || columns().any(|column| column[*point].is_some())
+        };
+        (0..self.swept.points()).filter(is_there).count()
     }
 
     fn column(&self, of: Recorded) -> Option<&Numbers> {
@@ -161,7 +157,7 @@ impl<'a> Counted<'a> {
 
     /// Points with a regime within some, and those of one regime.
     fn count(&self, of: Regime, within: impl Fn(usize) -> bool) -> [usize; 2] {
-        let regimes = self.regimes.iter().flatten().enumerate();
+        let regimes = self.regimes.iter().enumerate();
         let there = regimes.filter_map(|(point, regime)| (*regime).filter(|_| within(point)));
         there.fold([0, 0], |[all, same], regime| [all + 1, same + usize::from(regime == of)])
     }
@@ -169,50 +165,43 @@ impl<'a> Counted<'a> {
     /// Smallest and largest value of each of `ranged` within some points.
     fn ranges(&self, within: impl Fn(&usize) -> bool) -> Vec<Option<[Quantity; 2]>> {
         let range = |(of, column): &(Recorded, Numbers)| {
-            let values = (0..column.len()).filter(&within).filter_map(|point| column[point]);
-            let [low, high] = values.fold(None, |range: Option<[f64; 2]>, value| {
-                Some(range.map_or([value; 2], |[low, high]| [low.min(value), high.max(value)]))
-            })?;
+            let values = || (0..column.len()).filter(&within).filter_map(|point| column[point]);
+            let (low, high) = (values().reduce(f64::min)?, values().reduce(f64::max)?);
             Some([quantity(*of, low)?, quantity(*of, high)?])
         };
         self.ranged.iter().map(range).collect()
     }
 
-    fn regime_facts(&self) -> Vec<Value> {
+    fn regimes(&self) -> Vec<Value> {
         let all: usize = self.present.iter().map(|(_, points)| points).sum();
         let facts = |(regime, points): &(Regime, usize)| {
-            let here = |point: &usize| {
-                self.regimes.as_ref().is_some_and(|regimes| regimes[*point] == Some(*regime))
-            };
-            json!({
-                "regime": regime, "points": points, "share": share(*points, all), "ranges": self.ranges(here)
-            })
+            let ranges = self.ranges(|point| self.regimes[*point] == Some(*regime));
+            let share = share(*points, all);
+            json!({ "regime": regime, "points": points, "share": share, "ranges": ranges })
         };
         self.present.iter().map(facts).collect()
     }
 
     /// The largest value, or with a negative sign the smallest, and the first point that has it.
-    fn extreme(&self, of: Recorded, sign: f64) -> Option<(Quantity, Value)> {
+    fn extreme(&self, of: Recorded, sign: f64) -> Option<Value> {
         let there = self.column(of)?.iter().enumerate();
         let there = there.filter_map(|(point, value)| Some((point, (*value)?)));
         let (point, value) =
             there.reduce(|best, one| if sign * one.1 > sign * best.1 { one } else { best })?;
-        Some((quantity(of, value)?, json!(self.swept.place(point))))
+        Some(json!({ "of": quantity(of, value), "at": self.swept.place(point) }))
     }
 
     /// Against the oscillator alone: where it is best and worst, whether the worst is an increase, and at how many
     /// of the points at which it is known there is a reduction.
     fn reduction(&self) -> Option<Value> {
-        let column = self.column(Recorded::ReductionDb)?;
-        let (best, best_at) = self.extreme(Recorded::ReductionDb, 1.0)?;
-        let (worst, worst_at) = self.extreme(Recorded::ReductionDb, -1.0)?;
-        let known = column.iter().flatten().count();
-        let reduced = column.iter().flatten().filter(|value| **value >= NO_REDUCTION).count();
+        let known: Vec<f64> =
+            self.column(Recorded::ReductionDb)?.iter().flatten().copied().collect();
+        let reduced = known.iter().filter(|value| **value >= NO_REDUCTION).count();
         Some(json!({
-            "best": { "of": best, "at": best_at },
-            "worst": { "of": worst, "at": worst_at },
-            "grows": worst.value <= -NO_REDUCTION,
-            "reduced": reduced, "known": known, "share": share(reduced, known),
+            "best": self.extreme(Recorded::ReductionDb, 1.0),
+            "worst": self.extreme(Recorded::ReductionDb, -1.0),
+            "grows": known.iter().any(|value| *value <= -NO_REDUCTION),
+            "reduced": reduced, "known": known.len(), "share": share(reduced, known.len()),
         }))
     }
 
@@ -232,7 +221,7 @@ impl<'a> Counted<'a> {
         });
         Some(json!({
             "points": indices.len(),
-            "share": share(indices.len(), self.worked_out),
+            "share": share(indices.len(), self.worked_out()),
             "most": motions.iter().flatten().fold(0.0, |most: f64, count| most.max(*count)) as usize,
             "within": within.collect::<Vec<_>>(),
         }))
@@ -240,16 +229,15 @@ impl<'a> Counted<'a> {
 
     /// Stretches of a single axis in which neighbours have the same regime.
     fn stretches(&self) -> Vec<Value> {
-        let ([axis], Some(regimes)) = (self.swept.axes.as_slice(), &self.regimes) else {
+        let ([axis], [_, ..]) = (self.swept.axes.as_slice(), self.present.as_slice()) else {
             return Vec::new();
         };
-        let mut begin = 0;
-        let stretches = regimes.chunk_by(|a, b| a == b).map(|run| {
-            let within = begin..begin + run.len();
-            begin = within.end;
+        let stretches = runs(&self.regimes).into_iter().map(|within| {
             json!({
                 "ends": [axis.at(within.start), axis.at(within.end - 1)],
-                "points": run.len(), "regime": run[0], "ranges": self.ranges(|point| within.contains(point))
+                "points": within.len(),
+                "regime": self.regimes[within.start],
+                "ranges": self.ranges(|point| within.contains(point)),
             })
         });
         stretches.collect()
@@ -258,27 +246,26 @@ impl<'a> Counted<'a> {
     /// Shares of the regimes, in their order, in each area of the theory, where an exact orbit attracts and where
     /// none does.
     fn groups(&self) -> Vec<Value> {
+        if self.swept.is_basin() {
+            return Vec::new();
+        }
         let group = |name: &str, within: &dyn Fn(usize) -> bool| {
             let counts = self.present.iter().map(|(regime, _)| self.count(*regime, within));
             let counts: Vec<[usize; 2]> = counts.collect();
-            let points = counts.first().map_or(0, |[points, _]| *points);
+            let [points, _] = *counts.first()?;
             let shares: Vec<Quantity> =
                 counts.iter().map(|[all, same]| share(*same, *all)).collect();
             (points > 0).then(|| json!({ "name": name, "points": points, "shares": shares }))
         };
         let mut all = Vec::new();
-        if self.swept.is_basin() {
-            return all;
-        }
         if let Some(areas) = self.swept.areas() {
-            let of = |(name, _)| group(name, &|point| areas[point] == Some(name));
-            all.extend(AREAS.map(of).into_iter().flatten());
+            all.extend(AREAS.map(|(name, _)| group(name, &|point| areas[point] == Some(name))));
         }
         if let Some(orbit) = &self.orbit {
-            all.extend(group("orbit", &|point| orbit[point].is_some()));
-            all.extend(group("no-orbit", &|point| orbit[point].is_none()));
+            all.push(group("orbit", &|point| orbit[point].is_some()));
+            all.push(group("no-orbit", &|point| orbit[point].is_none()));
         }
-        all
+        all.into_iter().flatten().collect()
     }
 
     /// Share of two symmetric impacts per period inside and outside of area Z3.
@@ -295,7 +282,7 @@ impl<'a> Counted<'a> {
 
     /// Where an exact orbit attracts: the share of the points; and of these, those with two symmetric impacts per
     /// period, and those at which no start leads to the orbit.
-    fn orbit_facts(&self) -> Option<Value> {
+    fn orbit(&self) -> Option<Value> {
         let orbit = self.orbit.as_ref()?;
         let [all, _] = self.count(Regime::TwoSymmetric, |_| true);
         let [points, main] = self.count(Regime::TwoSymmetric, |point| orbit[point].is_some());
@@ -312,68 +299,70 @@ impl<'a> Counted<'a> {
         if let Some(reached) = self.swept.numbers(Recorded::OrbitReached, self.direction) {
             return Some(attracts.filter(|point| reached[*point] == Some(0.0)).count());
         }
-        let regimes = self.regimes.as_ref()?;
         let motions = self.swept.numbers(Recorded::Motions, self.direction)?;
         let another = |point: &usize| {
-            let other = regimes[*point].is_some_and(|regime| regime != Regime::TwoSymmetric);
+            let other = self.regimes[*point].is_some_and(|regime| regime != Regime::TwoSymmetric);
             other && motions[*point] == Some(1.0)
         };
         Some(attracts.filter(another).count())
     }
+
+    fn peak(&self, point: usize) -> Option<f64> {
+        self.column(Recorded::Peak)?[point]
+    }
+
+    /// Whether another motion was found at a point than in the other direction.
+    fn differs_from(&self, other: &Self, point: usize) -> bool {
+        match self.regimes[point].zip(other.regimes[point]) {
+            Some((one, two)) if one != two => return true,
+            // These do not repeat.
+            Some((Regime::StronglyModulated | Regime::BelowTwo, _)) => return false,
+            None if !self.present.is_empty() && !other.present.is_empty() => return false,
+            _ => {}
+        }
+        let peaks = self.peak(point).zip(other.peak(point));
+        peaks.is_some_and(|(one, two)| (one - two).abs() > SAME_PEAK * one.max(two))
+    }
 }
 
 /// Where what was followed up differs from what was followed down; `None` where a motion was not followed.
-fn hysteresis(swept: &Swept) -> Option<Value> {
-    let directions = [SweepDirection::Up, SweepDirection::Down];
-    let regimes = directions.map(|way| swept.regimes(way));
-    let peaks = directions.map(|way| swept.numbers(Recorded::Peak, way));
-    let regimes_known = regimes.iter().all(Option::is_some);
-    if !regimes_known && peaks.iter().any(Option::is_none) {
+fn hysteresis(counted: &[Counted]) -> Option<Value> {
+    let [up, down] = counted else { return None };
+    let both = |known: &dyn Fn(&Counted) -> bool| known(up) && known(down);
+    if !both(&|one| !one.present.is_empty()) && !both(&|one| one.column(Recorded::Peak).is_some()) {
         return None;
     }
-    let regime = |way: usize, point: usize| regimes[way].as_ref().and_then(|all| all[point]);
-    let peak = |way: usize, point: usize| peaks[way].as_ref().and_then(|all| all[point]);
-    let differs = |point: usize| {
-        match regime(0, point).zip(regime(1, point)) {
-            Some((up, down)) if up != down => return true,
-            // These do not repeat.
-            Some((Regime::StronglyModulated | Regime::BelowTwo, _)) => return false,
-            None if regimes_known => return false,
-            _ => {}
-        }
-        let peaks = peak(0, point).zip(peak(1, point));
-        peaks.is_some_and(|(up, down)| (up - down).abs() > SAME_PEAK * up.max(down))
-    };
-    let differing: Vec<bool> = (0..swept.points()).map(differs).collect();
-    let points = differing.iter().filter(|one| **one).count();
+    let points = up.swept.points();
+    let differing: Vec<bool> = (0..points).map(|point| up.differs_from(down, point)).collect();
+    let count = differing.iter().filter(|one| **one).count();
     let mut stretches = Vec::new();
-    if let [axis] = swept.axes.as_slice() {
-        stretches.extend(runs(&differing).into_iter().map(|[from, to]| {
+    if let [axis] = up.swept.axes.as_slice() {
+        let runs = runs(&differing).into_iter().filter(|within| differing[within.start]);
+        stretches.extend(runs.map(|Range { start, end }| {
             // What was found in the middle.
-            let [up, down] = [0, 1].map(|way| {
-                let middle = usize::midpoint(from, to);
-                let peak = peak(way, middle).and_then(|peak| quantity(Recorded::Peak, peak));
-                json!({ "regime": regime(way, middle), "peak": peak })
-            });
-            json!({ "ends": [axis.at(from), axis.at(to)], "up": up, "down": down })
+            let middle = usize::midpoint(start, end - 1);
+            let found = |way: &Counted| {
+                let peak = way.peak(middle).and_then(|peak| quantity(Recorded::Peak, peak));
+                json!({ "regime": way.regimes[middle], "peak": peak })
+            };
+            let ends = [axis.at(start), axis.at(end - 1)];
+            json!({ "ends": ends, "up": found(up), "down": found(down) })
         }));
     }
     Some(json!({
-        "points": points,
-        "share": share(points, differing.len()),
+        "points": count,
+        "share": share(count, points),
         "more_stretches": stretches.len().saturating_sub(MOST_TOLD),
         "stretches": stretches.into_iter().take(MOST_TOLD).collect::<Vec<_>>(),
     }))
 }
 
-/// First and last index of every run.
-fn runs(flags: &[bool]) -> Vec<[usize; 2]> {
-    let (mut begin, mut found) = (0, Vec::new());
-    for run in flags.chunk_by(|a, b| a == b) {
-        if run[0] {
-            found.push([begin, begin + run.len() - 1]);
-        }
+/// The runs of equal values.
+fn runs<T: PartialEq>(values: &[T]) -> Vec<Range<usize>> {
+    let mut begin = 0;
+    let runs = values.chunk_by(|a, b| a == b).map(|run| {
         begin += run.len();
-    }
-    found
+        begin - run.len()..begin
+    });
+    runs.collect()
 }

@@ -1,44 +1,20 @@
 //! The table of a sweep, looked at by axes, slices and directions.
 
-use serde::Serialize;
-
 use super::Swept;
 use super::axis::{At, AxisShown};
 use crate::case::{Recorded, SweepParameter};
 use crate::quantity::{Kind, Units};
 use crate::regimes::Regime;
 use crate::report::document;
-use crate::sweep::columns::Values;
+use crate::sweep::columns::{Cell, Column, Direction};
+use crate::sweep::indices;
 
-/// How the motions of a column were come by.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub(super) enum SweepDirection {
-    /// Looked for at each point by itself.
-    Single,
-    /// Followed with the axis ascending.
-    Up,
-    /// Followed with the axis descending.
-    Down,
-}
-
-impl SweepDirection {
-    /// How the names of its columns end.
-    const fn suffix(self) -> &'static str {
-        match self {
-            Self::Single => "",
-            Self::Up => "_up",
-            Self::Down => "_down",
-        }
-    }
-
-    /// What a panel or a mark is called.
-    pub(super) const fn words(self) -> &'static str {
-        match self {
-            Self::Single => "simulated",
-            Self::Up => "way up",
-            Self::Down => "way down",
-        }
+/// What a panel or a mark of a direction is called.
+pub(super) const fn words(direction: Direction) -> &'static str {
+    match direction {
+        Direction::Single => "simulated",
+        Direction::Up => "way up",
+        Direction::Down => "way down",
     }
 }
 
@@ -93,50 +69,45 @@ impl Swept<'_> {
     }
 
     /// Up and down where a motion was followed.
-    pub(super) fn directions(&self) -> Vec<SweepDirection> {
-        let any = |direction: &SweepDirection| {
-            self.columns.iter().any(|column| column.name.ends_with(direction.suffix()))
-        };
-        let mut found = vec![SweepDirection::Up, SweepDirection::Down];
-        found.retain(any);
-        if found.is_empty() { vec![SweepDirection::Single] } else { found }
+    pub(super) fn directions(&self) -> Vec<Direction> {
+        let mut found = vec![Direction::Up, Direction::Down];
+        found.retain(|way| self.columns.iter().any(|column| column.name.ends_with(way.suffix())));
+        if found.is_empty() { vec![Direction::Single] } else { found }
     }
 
-    fn values(&self, name: &str, direction: SweepDirection) -> Option<&Values> {
-        let same = |column: &str| column.strip_suffix(direction.suffix()) == Some(name);
-        self.columns.iter().find(|column| same(&column.name)).map(|column| &column.values)
+    /// The column of a name.
+    pub(super) fn cells(&self, name: &str, direction: Direction) -> Option<&[Option<Cell>]> {
+        let same = |column: &&Column| column.name.strip_suffix(direction.suffix()) == Some(name);
+        self.columns.iter().find(same).map(|column| column.cells.as_slice())
     }
 
-    /// A column of numbers, whole numbers or flags, by its name.
-    pub(super) fn named(&self, name: &str, direction: SweepDirection) -> Option<Numbers> {
-        match self.values(name, direction)? {
-            Values::Number(all) => Some(all.clone()),
-            Values::Whole(all) => Some(all.iter().map(|one| one.map(|one| one as f64)).collect()),
-            Values::Flag(all) => Some(all.iter().map(|one| one.map(f64::from)).collect()),
-            Values::Text(_) => None,
-        }
+    /// The same as numbers.
+    pub(super) fn named(&self, name: &str, direction: Direction) -> Option<Numbers> {
+        let cells = self.cells(name, direction)?;
+        Some(cells.iter().map(|cell| cell.and_then(Cell::number)).collect())
     }
 
     /// The same by what it records.
-    pub(super) fn numbers(&self, of: Recorded, direction: SweepDirection) -> Option<Numbers> {
+    pub(super) fn numbers(&self, of: Recorded, direction: Direction) -> Option<Numbers> {
         self.named(of.key(), direction)
     }
 
-    /// The theory's area at each point, which no direction changes.
-    pub(super) fn areas(&self) -> Option<&[Option<&'static str>]> {
-        match self.values(Recorded::Area.key(), SweepDirection::Single)? {
-            Values::Text(all) => Some(all),
-            _ => None,
-        }
+    /// The same in each direction that has it.
+    pub(super) fn in_directions(&self, of: Recorded) -> Vec<(Direction, Numbers)> {
+        let numbers = |way: Direction| Some((way, self.numbers(of, way)?));
+        self.directions().into_iter().filter_map(numbers).collect()
     }
 
-    pub(super) fn regimes(&self, direction: SweepDirection) -> Option<Vec<Option<Regime>>> {
-        match self.values(Recorded::Regime.key(), direction)? {
-            Values::Text(all) => {
-                Some(all.iter().map(|name| name.and_then(Regime::of_key)).collect())
-            }
-            _ => None,
-        }
+    /// The theory's area at each point, which no direction changes.
+    pub(super) fn areas(&self) -> Option<Vec<Option<&'static str>>> {
+        let cells = self.cells(Recorded::Area.key(), Direction::Single)?;
+        Some(cells.iter().map(|cell| cell.and_then(Cell::text)).collect())
+    }
+
+    pub(super) fn regimes(&self, direction: Direction) -> Option<Vec<Option<Regime>>> {
+        let cells = self.cells(Recorded::Regime.key(), direction)?;
+        let regime = |cell: &Option<Cell>| cell.and_then(Cell::text).and_then(Regime::of_key);
+        Some(cells.iter().map(regime).collect())
     }
 
     /// The last two axes; `None` where there is only one.
@@ -178,14 +149,7 @@ impl Swept<'_> {
 
     /// A point's index on each axis; the last varies fastest.
     pub(super) fn indices(&self, point: usize) -> Vec<usize> {
-        let mut rest = point;
-        let mut found: Vec<usize> = Vec::new();
-        for axis in self.axes.iter().rev() {
-            found.push(rest % axis.values.len());
-            rest /= axis.values.len();
-        }
-        found.reverse();
-        found
+        indices(point as u64, self.axes.iter().map(|axis| axis.values.len()))
     }
 }
 

@@ -9,7 +9,7 @@ mod kinds;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use serde::Serialize;
+use serde_json::json;
 
 use super::FigureRow;
 use super::figure::Figure;
@@ -76,13 +76,6 @@ pub enum SweptError {
     Render(#[from] RenderError),
 }
 
-/// What the template of the page gets.
-#[derive(Serialize)]
-struct Context<'a> {
-    page: &'a serde_json::Value,
-    figures: Vec<FigureRow>,
-}
-
 impl Swept<'_> {
     /// Proves that every column fits the axes.
     fn check(&self) -> Result<(), SweptError> {
@@ -93,9 +86,9 @@ impl Swept<'_> {
         if points > MOST_POINTS {
             return Err(SweptError::TooLarge { points });
         }
-        for Column { name, values, .. } in self.columns {
-            if values.len() != points {
-                let (column, found) = (name.clone(), values.len());
+        for Column { name, cells, .. } in self.columns {
+            if cells.len() != points {
+                let (column, found) = (name.clone(), cells.len());
                 return Err(SweptError::Length { column, found, expected: points });
             }
         }
@@ -118,8 +111,9 @@ impl Swept<'_> {
     pub fn files(&self) -> Result<BTreeMap<PathBuf, Vec<u8>>, SweptError> {
         let drawn = self.figures()?;
         let (document, drawings) = (facts::document(self), drawings(&drawn)?);
-        let figures = drawn.iter().map(FigureRow::of).collect();
-        let text = render("sweep.md", &self.units(), &Context { page: &document, figures })?;
+        let figures: Vec<FigureRow> = drawn.iter().map(FigureRow::of).collect();
+        let context = json!({ "page": document, "figures": figures });
+        let text = render("sweep.md", &self.units(), &context)?;
         let markdown = without_repeated_blank_lines(&text);
         let title = format!("{}: a sweep", self.case.title);
         let html =

@@ -10,7 +10,7 @@ use tera::{Context, Tera};
 use vinesink::digest::sha256;
 
 use super::super::{Sweep, shown};
-use super::{Arguments, Engine, Time};
+use super::{Arguments, Engine};
 
 /// Tasks unless said otherwise: one less than the number that Slurm allows in an array, 1001, unless it
 /// is told to allow more.
@@ -57,7 +57,7 @@ impl Job {
             "engine": if *engine == Engine::Slurm { "slurm" } else { "hyperqueue" },
             "name": name, "folder": shown(&folder), "tasks": tasks, "cpus": cpus_per_task,
             "retries": retries, "pause": pause,
-            "seconds": time.map(|Time(seconds)| seconds), "time": time.map(|time| time.to_string()),
+            "seconds": time, "time": time.map(clock),
             "program": shown(&program), "program_word": word(&shown(&program)),
             "case": shown(&case), "case_word": word(&shown(&case)),
             "out": shown(&out), "out_word": word(&shown(&out)),
@@ -143,6 +143,11 @@ fn is_writable_in_scripts(path: &Path) -> Result<()> {
 fn filled(template: &str, facts: &Value) -> Result<String> {
     let context = Context::from_serialize(facts).into_diagnostic()?;
     Tera::one_off(template, &context, false).into_diagnostic()
+}
+
+/// Seconds as hours, minutes and seconds.
+fn clock(seconds: u64) -> String {
+    format!("{:02}:{:02}:{:02}", seconds / 3600, seconds / 60 % 60, seconds % 60)
 }
 
 /// What an engine's command answers: the number of the job.

@@ -4,17 +4,17 @@ use serde_json::json;
 
 use super::super::Swept;
 use super::super::axis::AxisShown;
-use super::super::grid::{Measure, Numbers, SweepDirection};
+use super::super::grid::{self, Measure, Numbers};
 use super::super::kinds::{mark, tint};
 use super::QUANTITIES;
 use crate::case::Recorded;
 use crate::quantity::catalogue::{PEAK, SECTION};
 use crate::regimes::Regime;
 use crate::report::figure::{
-    Axis, Cells, Color, Dash, Figure, Image, Layer, Layout, MarkedPoint, Marker, Panel, Role, Rule,
-    Shape, Style, Tick,
+    Axis, Cells, Color, Dash, Figure, Image, Layer, Layout, Marker, Panel, Role, Rule, Shape,
+    Style, Tick,
 };
-use crate::sweep::columns::{self, kind};
+use crate::sweep::columns::{self, Direction, kind};
 
 /// The template of the figures' words.
 const WORDS: &str = "captions/sweep-line";
@@ -30,7 +30,7 @@ pub(super) fn all(swept: &Swept, axis: &AxisShown) -> Vec<Figure> {
 struct Diagram<'a> {
     swept: &'a Swept<'a>,
     axis: &'a AxisShown,
-    directions: Vec<SweepDirection>,
+    directions: Vec<Direction>,
 }
 
 impl Diagram<'_> {
@@ -48,15 +48,14 @@ impl Diagram<'_> {
         let facts = json!({
             "of": of, "x": self.axis.kind.id, "x_ends": self.axis.ends(),
             "followed": self.directions.len() > 1,
-            "simulated": self.directions.iter().any(|way| self.swept.numbers(Recorded::Peak, *way).is_some())
+            "simulated": self.directions.iter().any(|way| self.swept.cells(Recorded::Peak.key(), *way).is_some())
         });
         Some(Figure::new(name, "").with_panel(panel).with_facts(WORDS, facts))
     }
 
     /// A quantity of the main motion over the axis.
     fn values(&self, name: &str, of: Recorded) -> Option<Figure> {
-        let known = |way: &SweepDirection| Some((*way, self.swept.numbers(of, *way)?));
-        let all: Vec<_> = self.directions.iter().filter_map(known).collect();
+        let all = self.swept.in_directions(of);
         let measure = Measure::of(&self.swept.units(), kind(of)?, all.iter().map(|(_, one)| one));
         let all = all.iter().flat_map(|(way, values)| self.marks(*way, &measure.shown(values)));
         self.figure(name, kind(of)?.id, measure.label.clone(), all.collect())
@@ -65,11 +64,10 @@ impl Diagram<'_> {
     /// The peak over the axis, with exact orbit and bare oscillator as lines; a strip of regimes below where the
     /// way up and the way down are both drawn.
     fn peaks(&self) -> Option<Figure> {
-        let of = |recorded| self.swept.numbers(recorded, SweepDirection::Single);
+        let of = |recorded| self.swept.numbers(recorded, Direction::Single);
         let [bare, orbit, largest] =
             [Recorded::BareAmplitude, Recorded::OrbitPeak, Recorded::LargestPeak].map(of);
-        let known = |way: &SweepDirection| Some((*way, self.swept.numbers(Recorded::Peak, *way)?));
-        let peaks: Vec<_> = self.directions.iter().filter_map(known).collect();
+        let peaks = self.swept.in_directions(Recorded::Peak);
         let all = peaks.iter().map(|(_, one)| one).chain(&bare).chain(&orbit);
         let measure = Measure::of(&self.swept.units(), &PEAK, all);
         let mut layers = Vec::new();
@@ -77,7 +75,7 @@ impl Diagram<'_> {
             let line = self.line(&measure.shown(&bare));
             Layer::curve(Role::BareOscillator, line).labelled("without absorber")
         }));
-        if let (Some(largest), [(SweepDirection::Single, main)]) = (largest, peaks.as_slice()) {
+        if let (Some(largest), [(Direction::Single, main)]) = (largest, peaks.as_slice()) {
             layers.extend(self.others(&measure, &largest, main));
         }
         for (way, values) in &peaks {
@@ -100,30 +98,31 @@ impl Diagram<'_> {
         };
         let others: Numbers = largest.iter().zip(main).map(other).collect();
         let marker = Marker::hollow(Shape::Diamond).sized(5.0);
-        let layer = Layer::marked(marker, Color::Grey, self.points(&measure.shown(&others)));
-        let any = others.iter().any(Option::is_some);
-        any.then(|| layer.labelled("largest other motion"))
+        let points = self.points(&measure.shown(&others));
+        let layer = |points| Layer::marked(marker, Color::Grey, points);
+        (!points.is_empty()).then(|| layer(points).labelled("largest other motion"))
     }
 
     /// The displacement once a period, at the end of the last periods.
     fn section(&self) -> Option<Figure> {
-        let named = |way: SweepDirection| {
-            let columns = 1..=columns::SECTION;
-            let all = columns.filter_map(|k| self.swept.named(&format!("section_{k:02}"), way));
-            (way, all.collect::<Vec<Numbers>>())
+        let named = |way: &Direction| {
+            let names = columns::names(Recorded::Section);
+            let all = names.iter().filter_map(|name| self.swept.named(name, *way));
+            (*way, all.collect::<Vec<Numbers>>())
         };
-        let all: Vec<_> = self.directions.iter().map(|way| named(*way)).collect();
+        let all: Vec<_> = self.directions.iter().map(named).collect();
         let columns = all.iter().flat_map(|(_, columns)| columns);
         let measure = Measure::of(&self.swept.units(), &SECTION, columns);
         let layers = all.iter().filter_map(|(way, columns)| {
             let dots = columns.iter().flat_map(|column| self.points(&measure.shown(column)));
             let dots: Vec<[f64; 2]> = dots.collect();
-            let (_, color) = way_mark(*way);
-            let filled = *way != SweepDirection::Down;
-            let layer = Layer::marked(Marker { filled, ..Marker::dot() }, color, dots.clone());
-            let single = *way == SweepDirection::Single;
-            let layer = if single { layer } else { layer.labelled(way.words()) };
-            (!dots.is_empty()).then_some(layer)
+            if dots.is_empty() {
+                return None;
+            }
+            let marker = Marker { filled: *way != Direction::Down, ..Marker::dot() };
+            let layer = Layer::marked(marker, way_mark(*way).1, dots);
+            let single = *way == Direction::Single;
+            Some(if single { layer } else { layer.labelled(grid::words(*way)) })
         });
         self.figure("sweep-section", SECTION.id, measure.label.clone(), layers.collect())
     }
@@ -140,26 +139,20 @@ impl Diagram<'_> {
     }
 
     /// Points of each regime in its own colour and mark; or of a direction, where there are two.
-    fn marks(&self, way: SweepDirection, values: &Numbers) -> Vec<Layer> {
-        let known = values.iter().any(Option::is_some);
-        match self.swept.regimes(way).filter(|_| way == SweepDirection::Single) {
-            Some(regimes) => {
-                let of = |regime: Regime| {
-                    let here = (0..values.len()).filter(|k| regimes[*k] == Some(regime));
-                    let here =
-                        here.filter_map(|k| Some(MarkedPoint::new(self.axis.shown[k], values[k]?)));
-                    let (here, (marker, color)) = (here.collect::<Vec<_>>(), mark(regime));
-                    let layer = || Layer::marked(marker, color, here.clone());
-                    (!here.is_empty()).then(|| layer().labelled(regime.short()))
-                };
-                Regime::ALL.into_iter().filter_map(of).collect()
-            }
-            None if known => {
-                let (marker, color) = way_mark(way);
-                vec![Layer::marked(marker, color, self.points(values)).labelled(way.words())]
-            }
-            None => Vec::new(),
-        }
+    fn marks(&self, way: Direction, values: &Numbers) -> Vec<Layer> {
+        let layer = |(marker, color), points: Vec<[f64; 2]>, name: &'static str| {
+            (!points.is_empty()).then(|| Layer::marked(marker, color, points).labelled(name))
+        };
+        let Some(regimes) = self.swept.regimes(way).filter(|_| way == Direction::Single) else {
+            let layer = layer(way_mark(way), self.points(values), grid::words(way));
+            return layer.into_iter().collect();
+        };
+        let of = |regime: Regime| {
+            let here = values.iter().zip(&regimes);
+            let here = here.map(|(value, one)| value.filter(|_| *one == Some(regime)));
+            layer(mark(regime), self.points(&here.collect()), regime.short())
+        };
+        Regime::ALL.into_iter().filter_map(of).collect()
     }
 
     /// The regimes of each direction as a row of colours below, the first above the second.
@@ -177,7 +170,7 @@ impl Diagram<'_> {
             ),
         };
         let ticks = self.directions.iter().rev().zip(0_u8..).map(|(way, row)| {
-            let name = if *way == SweepDirection::Up { "up" } else { "down" };
+            let name = if *way == Direction::Up { "up" } else { "down" };
             Tick { value: f64::from(row) + 0.5, label: Some(name.to_owned()) }
         });
         let y = Axis::linear("").with_range(0.0, rows.len() as f64).with_ticks(ticks.collect());
@@ -191,9 +184,9 @@ impl Diagram<'_> {
 }
 
 /// How points of a direction look where colours do not tell regimes.
-fn way_mark(way: SweepDirection) -> (Marker, Color) {
+fn way_mark(way: Direction) -> (Marker, Color) {
     match way {
-        SweepDirection::Down => (Marker::hollow(Shape::Square).sized(5.4), Color::Blue),
+        Direction::Down => (Marker::hollow(Shape::Square).sized(5.4), Color::Blue),
         _ => (Marker::filled(Shape::Circle).sized(4.4), Color::ReddishPurple),
     }
 }

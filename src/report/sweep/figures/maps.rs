@@ -3,14 +3,14 @@
 use serde_json::json;
 
 use super::super::Swept;
-use super::super::grid::{Measure, Numbers, Plane, SweepDirection};
+use super::super::grid::{self, Measure, Numbers, Plane};
 use super::super::kinds::{AREAS, COUNTS, area_name, tint};
 use super::QUANTITIES;
 use super::overlay::{self, Lines};
 use crate::case::Recorded;
 use crate::regimes::Regime;
 use crate::report::figure::{Axis, Cell, Cells, Figure, Image, Layer, Layout, Panel, Ramp, Tint};
-use crate::sweep::columns::kind;
+use crate::sweep::columns::{Direction, kind};
 
 /// At most so many maps in a figure.
 const MOST_PANELS: usize = 6;
@@ -26,7 +26,7 @@ struct Map {
     name: &'static str,
     /// What the template calls it: `regimes`, `areas`, or the id of a quantity.
     of: &'static str,
-    cells: Vec<(SweepDirection, Cells)>,
+    cells: Vec<(Direction, Cells)>,
     keys: Vec<(Tint, &'static str)>,
     /// Label of the bar beside a map of values, and whether some lie beyond its range.
     bar: Option<(String, bool)>,
@@ -36,7 +36,7 @@ struct Map {
 struct Panels<'a> {
     swept: &'a Swept<'a>,
     plane: Plane<'a>,
-    shown: Vec<(usize, SweepDirection)>,
+    shown: Vec<(usize, Direction)>,
 }
 
 pub(super) fn all(swept: &Swept) -> Vec<Figure> {
@@ -63,44 +63,43 @@ fn chosen(count: usize, most: usize) -> Vec<usize> {
     (0..most).map(|k| (2 * k * (count - 1) + (most - 1)) / (2 * (most - 1))).collect()
 }
 
-fn regimes(swept: &Swept) -> Option<Map> {
-    let of = |way: SweepDirection| Some((way, swept.regimes(way)?));
-    let all: Vec<_> = swept.directions().into_iter().filter_map(of).collect();
-    let has = |one: Option<Regime>| all.iter().any(|(_, regimes)| regimes.contains(&one));
-    let present = Regime::ALL.into_iter().filter(|regime| has(Some(*regime)));
-    let mut keys: Vec<_> = present.map(|regime| (tint(regime), regime.words())).collect();
-    keys.extend(has(None).then_some((Tint::UNKNOWN, "not worked out")));
-    let tints = Regime::ALL.map(tint).to_vec();
-    let cells = all.iter().map(|(way, regimes)| {
-        let indices = regimes.iter().map(|regime| regime.map(|one| one.index() as u8));
-        (*way, Cells::Kinds(tints.clone(), indices.collect()))
+/// A map of kinds, of which those that occur are in the key.
+fn kinds(
+    name: &'static str,
+    of: &'static str,
+    table: &[(Tint, &'static str)],
+    indices: Vec<(Direction, Vec<Option<usize>>)>,
+) -> Option<Map> {
+    let has = |k: usize| indices.iter().any(|(_, all)| all.contains(&Some(k)));
+    let keys = (0..table.len()).filter(|k| has(*k)).map(|k| table[k]).collect();
+    let tints: Vec<Tint> = table.iter().map(|(tint, _)| *tint).collect();
+    let cells = indices.into_iter().map(|(way, all)| {
+        let all = all.into_iter().map(|index| index.map(|index| index as u8));
+        (way, Cells::Kinds(tints.clone(), all.collect()))
     });
     let cells: Vec<_> = cells.collect();
-    (!cells.is_empty()).then_some(Map {
-        name: "sweep-regimes",
-        of: "regimes",
-        cells,
-        keys,
-        bar: None,
-    })
+    (!cells.is_empty()).then_some(Map { name, of, cells, keys, bar: None })
+}
+
+fn regimes(swept: &Swept) -> Option<Map> {
+    let of = |way: Direction| {
+        let regimes = swept.regimes(way)?.into_iter();
+        Some((way, regimes.map(|regime| regime.map(Regime::index)).collect::<Vec<_>>()))
+    };
+    let all: Vec<_> = swept.directions().into_iter().filter_map(of).collect();
+    let unknown = all.iter().any(|(_, regimes)| regimes.contains(&None));
+    let table = Regime::ALL.map(|regime| (tint(regime), regime.words()));
+    let mut map = kinds("sweep-regimes", "regimes", &table, all)?;
+    map.keys.extend(unknown.then_some((Tint::UNKNOWN, "not worked out")));
+    Some(map)
 }
 
 /// The theory's areas, where nothing was simulated to set beside them.
 fn areas(swept: &Swept) -> Option<Map> {
-    let areas = swept.areas()?;
-    let index = |name: &str| AREAS.iter().position(|(area, _)| *area == name);
-    let indices = areas.iter().map(|area| Some(index((*area)?)? as u8)).collect();
-    let present = AREAS.iter().filter(|(area, _)| areas.contains(&Some(*area)));
-    Some(Map {
-        name: "sweep-areas",
-        of: "areas",
-        cells: vec![(
-            swept.directions()[0],
-            Cells::Kinds(AREAS.map(|(_, tint)| tint).to_vec(), indices),
-        )],
-        keys: present.map(|(area, tint)| (*tint, area_name(area))).collect(),
-        bar: None,
-    })
+    let index = |name: &'static str| AREAS.iter().position(|(area, _)| *area == name);
+    let indices = swept.areas()?.into_iter().map(|area| area.and_then(index)).collect();
+    let table = AREAS.map(|(area, tint)| (tint, area_name(area)));
+    kinds("sweep-areas", "areas", &table, vec![(swept.directions()[0], indices)])
 }
 
 /// How many motions there are; nothing where one is all that could be found.
@@ -108,27 +107,20 @@ fn motions(swept: &Swept) -> Option<Map> {
     if swept.starts < 2 && !swept.is_basin() {
         return None;
     }
-    let motions = swept.numbers(Recorded::Motions, SweepDirection::Single)?;
+    let motions = swept.numbers(Recorded::Motions, Direction::Single)?;
     let index = |count: f64| (count.max(0.0) as usize).min(COUNTS.len() - 1);
-    let indices: Vec<_> =
-        motions.iter().map(|count| count.map(|count| index(count) as u8)).collect();
-    let present = |k: &usize| indices.contains(&Some(*k as u8));
-    if !(2..COUNTS.len()).any(|k| present(&k)) {
-        return None;
-    }
-    let keys = (0..COUNTS.len()).filter(present).map(|k| COUNTS[k]).collect();
-    let cells = Cells::Kinds(COUNTS.map(|(tint, _)| tint).to_vec(), indices);
-    let cells = vec![(SweepDirection::Single, cells)];
-    Some(Map { name: "sweep-motions", of: "motions", cells, keys, bar: None })
+    let indices: Vec<_> = motions.iter().map(|count| count.map(index)).collect();
+    let several = indices.iter().flatten().any(|index| *index > 1);
+    several
+        .then(|| kinds("sweep-motions", "motions", &COUNTS, vec![(Direction::Single, indices)]))?
 }
 
 impl Panels<'_> {
     /// A quantity on a ramp; nothing where it is not recorded.
     fn values(&self, name: &'static str, of: Recorded, ramp: Ramp) -> Option<Map> {
-        let known = |way: SweepDirection| Some((way, self.swept.numbers(of, way)?));
-        let all: Vec<_> = self.swept.directions().into_iter().filter_map(known).collect();
+        let all = self.swept.in_directions(of);
         let measure = Measure::of(&self.swept.units(), kind(of)?, all.iter().map(|(_, one)| one));
-        let all: Vec<(SweepDirection, Numbers)> =
+        let all: Vec<(Direction, Numbers)> =
             all.iter().map(|(way, values)| (*way, measure.shown(values))).collect();
         let shown = self.shown.iter().flat_map(|(slice, way)| {
             let here = all.iter().find(|(of, _)| of == way);
@@ -146,32 +138,53 @@ impl Panels<'_> {
         })
     }
 
+    /// The maps row by row, in a size that they have room in, and the bar beside maps of values.
     fn figure(&self, map: &Map) -> Option<Figure> {
-        let columns = columns(self.shown.len());
-        let mut lines = Lines::None;
-        let mut figure = Figure::new(map.name, "");
+        let count = self.shown.len();
+        let columns = match count {
+            0..=2 => count.max(1),
+            4 => 2,
+            _ => 3,
+        };
+        let rows = count.div_ceil(columns);
+        let (width, height) = match (columns, rows) {
+            (1, _) => (720, 500),
+            (2, 1) => (880, 430),
+            (2, _) => (880, 760),
+            (_, rows) => (900, 120 + 260 * rows as u32),
+        };
+        let mut figure = Figure::new(map.name, "").with_size(width, height);
+        let (mut cells, mut widths) = (Vec::new(), vec![1.0; columns]);
+        let mut lines = Lines::default();
         for (index, (slice, way)) in self.shown.iter().enumerate() {
-            let (_, cells) = map.cells.iter().find(|(of, _)| of == way)?;
-            let (mut panel, drawn) = self.panel(cells, *slice, *way, map.of == "regimes", columns);
-            if index % columns > 0 {
+            let (_, of_way) = map.cells.iter().find(|(of, _)| of == way)?;
+            let (mut panel, drawn) = self.panel(of_way, *slice, *way, map.of == "regimes", columns);
+            let (column, row) = (index % columns, index / columns);
+            if column > 0 {
                 panel.y.label.clear();
             }
             lines = drawn;
-            figure = figure.with_panel(panel);
+            figure.panels.push(panel);
+            cells.push(Cell { column, row, columns: 1, rows: 1 });
+        }
+        if let Some(bar) = bar(map) {
+            figure.panels.push(bar);
+            cells.push(Cell { column: columns, row: 0, columns: 1, rows });
+            widths.push(0.11 * columns as f64);
         }
         for (tint, label) in &map.keys {
             figure = figure.with_key(*tint, *label);
         }
-        let slices = self.swept.slices();
         let facts = json!({
             "of": map.of, "basin": self.swept.is_basin(), "lines": lines,
             "x": self.plane.x.kind.id, "y": self.plane.y.kind.id,
             "x_ends": self.plane.x.ends(), "y_ends": self.plane.y.ends(),
             "cut": map.bar.as_ref().is_some_and(|(_, cut)| *cut),
             "others": self.swept.others().iter().map(|axis| axis.kind.id).collect::<Vec<_>>(),
-            "slices": slices, "shown": self.shown.len() / self.swept.directions().len(),
+            "slices": self.swept.slices(), "shown": count / self.swept.directions().len(),
         });
-        Some(with_bar(arranged(figure, columns), columns, map).with_facts(WORDS, facts))
+        let layout = Layout::Cells { widths, heights: vec![1.0; rows], cells };
+        Some(figure.with_layout(layout).with_facts(WORDS, facts))
     }
 
     /// One map with what lies over it.
@@ -179,7 +192,7 @@ impl Panels<'_> {
         &self,
         cells: &Cells,
         slice: usize,
-        way: SweepDirection,
+        way: Direction,
         named: bool,
         columns: usize,
     ) -> (Panel, Lines) {
@@ -193,10 +206,10 @@ impl Panels<'_> {
         let image = Image { x_edges: x.edges(), y_edges: y.edges(), cells };
         let mut panel = Panel::new(x.drawn(), y.drawn()).with(Layer::Image(image));
         let mut words = self.swept.slice_words(slice);
-        words.extend((way != SweepDirection::Single).then(|| way.words().to_owned()));
+        words.extend((way != Direction::Single).then(|| grid::words(way).to_owned()));
         panel.heading = (!words.is_empty()).then(|| words.join(", "));
         if self.swept.is_basin() {
-            return (panel, Lines::None);
+            return (panel, Lines::default());
         }
         let (layers, lines) =
             overlay::boundaries(self.swept, self.plane, slice, self.shown.len() == 1);
@@ -211,34 +224,10 @@ impl Panels<'_> {
     }
 }
 
-fn columns(panels: usize) -> usize {
-    match panels {
-        0..=2 => panels.max(1),
-        4 => 2,
-        _ => 3,
-    }
-}
-
-/// Panels row by row, in a size that they have room in.
-fn arranged(figure: Figure, columns: usize) -> Figure {
-    let rows = figure.panels.len().div_ceil(columns);
-    let cells = (0..figure.panels.len())
-        .map(|k| Cell { column: k % columns, row: k / columns, columns: 1, rows: 1 })
-        .collect();
-    let (width, height) = match (columns, rows) {
-        (1, _) => (720, 500),
-        (2, 1) => (880, 430),
-        (2, _) => (880, 760),
-        (_, rows) => (900, 120 + 260 * rows as u32),
-    };
-    let (widths, heights) = (vec![1.0; columns], vec![1.0; rows]);
-    figure.with_size(width, height).with_layout(Layout::Cells { widths, heights, cells })
-}
-
-/// Beside maps of values, the bar that says what the colours mean.
-fn with_bar(mut figure: Figure, columns: usize, map: &Map) -> Figure {
-    let Some((label, _)) = &map.bar else { return figure };
-    let Some((_, Cells::Values(ramp, (low, high), _))) = map.cells.first() else { return figure };
+/// What the colours of a map of values mean.
+fn bar(map: &Map) -> Option<Panel> {
+    let (label, _) = map.bar.as_ref()?;
+    let (_, Cells::Values(ramp, (low, high), _)) = map.cells.first()? else { return None };
     let part = |k: f64| low + (high - low) * k / f64::from(BAR);
     let cells = (0..BAR).map(|k| Some(part(f64::from(k) + 0.5))).collect();
     let image = Image {
@@ -248,11 +237,7 @@ fn with_bar(mut figure: Figure, columns: usize, map: &Map) -> Figure {
     };
     let x = Axis::linear("").with_range(0.0, 1.0).with_ticks(Vec::new());
     let y = Axis::linear(label).with_range(*low, *high);
-    if let Layout::Cells { widths, heights, cells } = &mut figure.layout {
-        cells.push(Cell { column: columns, row: 0, columns: 1, rows: heights.len() });
-        widths.push(0.11 * columns as f64);
-    }
-    figure.with_panel(Panel::new(x, y).with(Layer::Image(image)))
+    Some(Panel::new(x, y).with(Layer::Image(image)))
 }
 
 /// The range of a ramp, and whether some values lie beyond it.

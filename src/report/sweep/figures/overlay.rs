@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::super::Swept;
-use super::super::grid::{Plane, SweepDirection};
+use super::super::grid::Plane;
 use super::super::kinds::{AREAS, area_name};
 use super::contours;
 use crate::analysis::Manifold;
@@ -11,6 +11,7 @@ use crate::case::{Recorded, SweepParameter};
 use crate::quantity::catalogue::CLEARANCE;
 use crate::report::figure::{Color, Dash, Layer, MarkedPoint, Role, Style};
 use crate::report::figures::borders::Borders;
+use crate::sweep::columns::Direction;
 use crate::sweep::limits::StabilityLimit;
 
 /// About the width of a panel that has a figure to itself, and of a letter, pixels.
@@ -18,17 +19,14 @@ const PANEL: f64 = 560.0;
 const LETTER: f64 = 10.0;
 
 /// The lines over a map.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub(super) enum Lines {
-    None,
+#[derive(Debug, Clone, Copy, Default, Serialize)]
+pub(super) struct Lines {
     /// Those of closed form and of exact orbits themselves.
-    Computed,
-    /// Traced between points of the grid: where the theory's area changes, where an exact orbit begins or ceases
-    /// to attract, or both.
-    Areas,
-    Orbit,
-    AreasAndOrbit,
+    computed: bool,
+    /// Traced between points of the grid: where the theory's area changes,
+    areas: bool,
+    /// and where an exact orbit begins or ceases to attract.
+    orbit: bool,
 }
 
 /// The boundaries of a slice; traced ones have names where `named`.
@@ -39,7 +37,7 @@ pub(super) fn boundaries(
     named: bool,
 ) -> (Vec<Layer>, Lines) {
     match computed(swept, plane).filter(|_| swept.slices() == 1) {
-        Some(layers) => (layers, Lines::Computed),
+        Some(layers) => (layers, Lines { computed: true, ..Lines::default() }),
         None => traced(swept, plane, slice, named),
     }
 }
@@ -97,20 +95,15 @@ fn traced(swept: &Swept, plane: Plane, slice: usize, named: bool) -> (Vec<Layer>
         cased(if named { layer.labelled(name) } else { layer })
     };
     let areas = swept.areas().map_or_else(Vec::new, |areas| {
-        contours::between(&plane.cells(areas, slice), &x_edges, &y_edges)
+        contours::between(&plane.cells(&areas, slice), &x_edges, &y_edges)
     });
-    let peaks = swept.numbers(Recorded::OrbitPeak, SweepDirection::Single);
+    let peaks = swept.numbers(Recorded::OrbitPeak, Direction::Single);
     let orbit = peaks.map_or_else(Vec::new, |peaks| {
         let cells = plane.cells(&peaks, slice);
         let attracts: Vec<_> = cells.iter().map(|peak| Some(peak.is_some())).collect();
         contours::between(&attracts, &x_edges, &y_edges)
     });
-    let lines = match [areas.is_empty(), orbit.is_empty()] {
-        [false, false] => Lines::AreasAndOrbit,
-        [false, true] => Lines::Areas,
-        [true, false] => Lines::Orbit,
-        [true, true] => Lines::None,
-    };
+    let lines = Lines { computed: false, areas: !areas.is_empty(), orbit: !orbit.is_empty() };
     let solid = Style::new(Color::Vermillion, 1.7, Dash::Solid);
     let dashed = Style::new(Color::Black, 1.3, Dash::Dashed);
     let mut layers = Vec::from(line(areas, solid, "areas of the theory"));
@@ -132,7 +125,7 @@ fn cased(layer: Layer) -> [Layer; 2] {
 /// columns.
 pub(super) fn area_names(swept: &Swept, plane: Plane, slice: usize, columns: usize) -> Vec<Layer> {
     let Some(areas) = swept.areas() else { return Vec::new() };
-    let cells = plane.cells(areas, slice);
+    let cells = plane.cells(&areas, slice);
     let (across, up) = (plane.x.values.len(), plane.y.values.len());
     let inside = depths(&cells, across, up);
     let size = PANEL / columns as f64;
