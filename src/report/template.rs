@@ -52,6 +52,7 @@ const TEMPLATES: &[(&str, &str)] = &[
     ("captions/modulation", include_str!("../../templates/captions/modulation.tera")),
     ("captions/motion", include_str!("../../templates/captions/motion.tera")),
     ("captions/plane", include_str!("../../templates/captions/plane.tera")),
+    ("captions/ranges", include_str!("../../templates/captions/ranges.tera")),
     ("captions/response", include_str!("../../templates/captions/response.tera")),
     ("captions/restitutions", include_str!("../../templates/captions/restitutions.tera")),
     ("captions/return-map", include_str!("../../templates/captions/return-map.tera")),

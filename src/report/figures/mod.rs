@@ -11,6 +11,7 @@ mod motions;
 mod over_time;
 mod parts;
 mod peaks;
+mod ranges;
 mod responses;
 mod statistics;
 
@@ -65,6 +66,7 @@ impl<'a> Scene<'a> {
     fn figure_of(&self, plot: &Plot) -> Option<Figure> {
         match plot {
             Plot::Band(data) => peaks::band(self, data),
+            Plot::Ranges(data) => ranges::figure(self, data),
             Plot::Map(data) => Some(boundaries::map(self, data)),
             Plot::Plane(data) => Some(boundaries::plane(self, data)),
             Plot::Manifold => Some(responses::manifold(self)),
@@ -144,8 +146,12 @@ impl<'a> Scene<'a> {
 
     /// A name of a curve by its clearance: `b = 7.500 mm`.
     fn at_clearance(&self, clearance: f64) -> String {
-        let clearance = self.si(&of::BOUNDARY, clearance);
-        format!("b = {}", self.units.with_digits(&of::BOUNDARY, clearance, Digits::Significant(3)))
+        format!("b = {}", self.short(&of::BOUNDARY, clearance))
+    }
+
+    /// A number in three digits, with its unit.
+    fn short(&self, kind: &Kind, value: f64) -> String {
+        self.units.with_digits(kind, self.si(kind, value), Digits::Significant(3))
     }
 
     /// What a tooltip says: `simulated, symmetric 1:1: f = 8.304 Hz, x̂ = 3.56 mm`.

@@ -5,6 +5,7 @@
 pub mod amplitude;
 pub mod areas;
 pub mod borders;
+pub mod ranges;
 pub mod responses;
 pub mod restitutions;
 pub mod traces;
@@ -31,6 +32,7 @@ use super::{CaseStudy, StudyError};
 pub use amplitude::Amplitude;
 pub use areas::{Areas, Levels};
 pub use borders::{Bifurcations, Borders};
+pub use ranges::Ranges;
 pub use responses::Responses;
 pub use restitutions::Restitutions;
 pub use traces::{Modulation, Motion, Transfer};
@@ -46,6 +48,8 @@ pub type Line = Vec<[f64; 2]>;
 pub enum Plot {
     /// The response over the case's band.
     Band(BandCurves),
+    /// Where steady 1:1 resonance begins and ends.
+    Ranges(Vec<Ranges>),
     /// The case among its boundaries, in frequency and clearance.
     Map(Map),
     /// The same in detuning and forcing per clearance.
@@ -85,14 +89,17 @@ pub enum Plot {
 }
 
 impl Plot {
-    /// All that a report shows, in reading order: the band first, then the case among its boundaries; what
-    /// the case asks for last.
+    /// All that a report shows, in reading order: the band first, or how far a case at one frequency may
+    /// change, then the case among its boundaries; what the case asks for last.
     ///
     /// # Errors
     /// [`StudyError`] where theory or simulation cannot be carried out.
     pub fn all(case: &Case, study: &CaseStudy) -> Result<Vec<Self>, StudyError> {
         let mut plots = Vec::new();
         plots.extend(BandCurves::of(study).map(Self::Band));
+        if study.band.is_none() {
+            plots.push(Self::Ranges(Ranges::of(study)));
+        }
         plots.extend(Map::of(study)?.map(Self::Map));
         plots.push(Self::Plane(Borders::around(study)?));
         plots.push(Self::Manifold);
