@@ -24,9 +24,11 @@ const ROOM: f64 = 0.22;
 
 /// One panel for each parameter.
 pub(super) fn figure(scene: &Scene, data: &[Ranges]) -> Option<Figure> {
-    let heights: Vec<f64> = data.iter().map(|one| one.layers.len() as f64 + ABOVE).collect();
+    let heights: Vec<f64> = data.iter().map(|one| rows(one) + ABOVE).collect();
     let height = 52.0 * data.len() as f64 + 32.0 * heights.iter().sum::<f64>();
+    let ranges = || data.iter().flat_map(|one| &one.layers).flat_map(|(_, ranges)| ranges);
     let facts = json!({
+        "open": ranges().flatten().any(Option::is_none),
         "rows": data.iter().map(|one| row_facts(scene, one)).collect::<Vec<_>>(),
         "inside": scene.study.exact.stretch().is_some(),
     });
@@ -35,7 +37,11 @@ pub(super) fn figure(scene: &Scene, data: &[Ranges]) -> Option<Figure> {
         .with_size(720, height as u32)
         .with_layout(Layout::rows(&heights));
     let figure = data.iter().map(|one| panel(scene, one)).fold(figure, Figure::with_panel);
-    data.iter().any(|one| !one.layers.is_empty()).then_some(figure)
+    ranges().next().map(|_| figure)
+}
+
+fn rows(data: &Ranges) -> f64 {
+    data.layers.len().max(1) as f64
 }
 
 fn row_facts(scene: &Scene, data: &Ranges) -> Value {
@@ -67,7 +73,7 @@ fn panel(scene: &Scene, data: &Ranges) -> Panel {
     let edges = [-ROOM, 1.0 + ROOM].map(|part| parameter.between(span, part));
     let log = parameter.is_logarithmic();
     let chart = Chart::new(scene, [kind; 2], [edges; 2]).with_log([log, false]);
-    let count = data.layers.len() as f64;
+    let count = rows(data);
     let row = |index: usize| count - 0.5 - index as f64;
     let tick = |(index, (layer, _)): (usize, &(Method, _))| Tick {
         value: row(index),
@@ -79,6 +85,10 @@ fn panel(scene: &Scene, data: &Ranges) -> Panel {
     let mut panel = Panel { y, ..chart.panel() }
         .with(chart.vertical(here, Style::new(Color::Black, 1.0, Dash::Dashed)))
         .with(Layer::this_case(star, Some(scene.tip("this case", &[(kind, here)]))));
+    if data.layers.is_empty() {
+        let middle = chart.at([parameter.between(span, 0.5), 0.0])[0];
+        panel = panel.with(Layer::note([middle, row(0)], "no range is known"));
+    }
     let necks = [HEAD - ROOM, 1.0 + ROOM - HEAD].map(|part| parameter.between(span, part));
     for (index, (layer, ranges)) in data.layers.iter().enumerate() {
         let place = |value: f64| [chart.at([value, 0.0])[0], row(index)];
