@@ -7,7 +7,6 @@ use super::{CaseReport, CaseSet, HYSTERESIS, PaperError, STEADY, Section, TRANSF
 use crate::analysis::{Branch, motion};
 use crate::orbits::Bifurcation;
 use crate::regimes::{FoundAttractor, Regime};
-use crate::study::StudyError;
 use crate::study::plots::responses::shares;
 use crate::study::scenes::{WalkPoint, walk};
 use crate::validation::tolerance::asymptotic_error;
@@ -153,13 +152,9 @@ pub(super) fn figure_6(cases: &CaseSet) -> Result<Section, PaperError> {
 
 pub(super) fn figure_7(cases: &CaseSet) -> Result<Section, PaperError> {
     let member = cases.case(TRANSFER)?;
-    let shares = shares(&member.study.analysis.system).map_err(StudyError::from)?;
-    let [far, touching, inside, below] = shares.as_slice() else {
-        return member.needs(None, "four responses");
-    };
-    let told = [touching, far, inside, below].map(
-        |(clearance, share)| json!({ "clearance": member.length(*clearance), "share": share }),
-    );
+    let [far, touching, inside, below] = shares(&member.study.analysis.system);
+    let told = [touching, far, inside, below]
+        .map(|(clearance, share)| json!({ "clearance": member.length(clearance), "share": share }));
     Ok(Section::new(
         [
             ("widest", touching.1 > far.1.max(inside.1).max(below.1)),

@@ -1,7 +1,7 @@
 //! Two quantities as axes: from dimensionless numbers to numbers in the units of the axes.
 
 use crate::quantity::Kind;
-use crate::report::figure::{Axis, Layer, Panel, Role, Rule, Scale, Style};
+use crate::report::figure::{Axis, Layer, Panel, Rule, Scale, Style};
 
 use super::Scene;
 
@@ -58,9 +58,9 @@ impl Chart {
         points.into_iter().map(|point| self.at(*point)).collect()
     }
 
-    /// A curve in the style of its role.
-    pub(super) fn curve(&self, role: Role, points: &[[f64; 2]]) -> Layer {
-        Layer::curve(role, self.line(points))
+    /// A curve in the style of its role, or in one of its own.
+    pub(super) fn curve(&self, style: impl Into<Style>, points: &[[f64; 2]]) -> Layer {
+        Layer::styled(style.into(), self.line(points))
     }
 
     /// A line across the panel at an abscissa.

@@ -17,22 +17,29 @@ mod statistics;
 
 use serde_json::{Value, json};
 
-use crate::case::{BandOver, Case, Scales, Subject};
+use crate::case::{Case, Scales, Subject};
 use crate::method::Method;
 use crate::quantity::{Digits, Dimension, Kind, Quantity, Units, catalogue as of};
 use crate::study::CaseStudy;
 use crate::study::plots::Plot;
 use crate::system::{Parameter, System};
 
-use super::document::Scale;
-use super::figure::{Figure, MarkedPoint};
+use super::document::{MotionFacts, Scale, TheoryFacts};
+use super::figure::{Figure, Layer, MarkedPoint};
 use chart::Chart;
 
 /// All figures of a report, in reading order; their words are still to be filled in by
 /// [`super::template::worded`].
 pub fn all(case: &Case, study: &CaseStudy, plots: &[Plot]) -> Vec<Figure> {
     let scene = Scene::new(case, study);
-    plots.iter().filter_map(|plot| scene.figure_of(plot)).collect()
+    let mut figures: Vec<Figure> = plots.iter().flat_map(|plot| scene.figures_of(plot)).collect();
+    for panel in figures.iter_mut().flat_map(|figure| &mut figure.panels) {
+        // A layer without points would still be named.
+        let empty =
+            |layer: &Layer| matches!(layer, Layer::Points { points, .. } if points.is_empty());
+        panel.layers.retain(|layer| !empty(layer));
+    }
+    figures
 }
 
 /// A studied case and its units. Numbers that go in are dimensionless: lengths over the clearance, times in
@@ -45,26 +52,46 @@ struct Scene<'a> {
     forcing: (&'static Kind, f64),
     /// The largest displacement that the case allows.
     limit: Option<f64>,
+    /// What every caption may speak of.
+    known: Value,
 }
 
 impl<'a> Scene<'a> {
     fn new(case: &Case, study: &'a CaseStudy) -> Self {
-        let scales = case.scales();
+        let (scale, scales) = (Scale::of(case), case.scales());
         let mut limits = case.criteria.iter();
         let asked = limits.find(|one| one.subject == Subject::PeakDisplacement);
-        let own = Scale::of(case).amplitude(1.0, Method::Given);
-        let limit = asked.map(|one| one.limit / scales.length(1.0));
+        let own = scale.amplitude(1.0, Method::Given);
+        let system = &study.analysis.system;
+        let natural = scales.frequency_hz(1.0).unwrap_or(1.0);
+        let frequency =
+            scales.frequency_hz(system.frequency_ratio()).unwrap_or(system.frequency_ratio());
+        let motions = study
+            .attractors
+            .iter()
+            .zip(&study.proofs)
+            .map(|(found, proof)| MotionFacts::found(&scale, system, found, proof.as_ref()));
+        let known = json!({
+            "frequency": Quantity::new(&of::EXCITATION_FREQUENCY, frequency, Method::Given),
+            "clearance": scale.length(&of::CLEARANCE, 1.0, Method::Given),
+            // Units of lengths over the clearance and of frequency ratios.
+            "b": scales.length(1.0),
+            "f0": natural,
+            "theory": TheoryFacts::with_margins(&scale, study),
+            "motions": motions.collect::<Vec<_>>(),
+        });
         Self {
             study,
             scales,
-            units: Scale::of(case).units(),
+            units: scale.units(),
             forcing: (own.kind, own.value),
-            limit,
+            limit: asked.map(|one| one.limit / scales.length(1.0)),
+            known,
         }
     }
 
-    fn figure_of(&self, plot: &Plot) -> Option<Figure> {
-        match plot {
+    fn figures_of(&self, plot: &Plot) -> Vec<Figure> {
+        let figure = match plot {
             Plot::Band(data) => peaks::band(self, data),
             Plot::Ranges(data) => ranges::figure(self, data),
             Plot::Map(data) => Some(boundaries::map(self, data)),
@@ -72,8 +99,13 @@ impl<'a> Scene<'a> {
             Plot::Manifold => Some(responses::manifold(self)),
             Plot::Responses(data) => Some(responses::figure(self, data)),
             Plot::Amplitude(data) => Some(peaks::amplitude(self, data)),
-            Plot::Motion(data) => Some(over_time::motion(self, data)),
-            Plot::ReturnMap(index) => statistics::return_map(self, *index),
+            Plot::Motion(data) => {
+                let motion = over_time::motion(self, data);
+                return [motion]
+                    .into_iter()
+                    .chain(statistics::return_map(self, data.index))
+                    .collect();
+            }
             Plot::Areas(data) => Some(responses::areas(self, data)),
             Plot::Bifurcations(data) => Some(boundaries::bifurcations(self, data)),
             Plot::Modulation(data) => Some(motions::modulation(self, data)),
@@ -85,7 +117,8 @@ impl<'a> Scene<'a> {
             Plot::Transfer(data) => Some(over_time::transfer(self, data)),
             Plot::TransferStretches(data) => over_time::stretches(self, data),
             Plot::Diagram(data, bare) => Some(diagram::figure(self, data, bare)),
-        }
+        };
+        figure.into_iter().collect()
     }
 
     const fn system(&self) -> &'a System {
@@ -120,25 +153,6 @@ impl<'a> Scene<'a> {
         }
     }
 
-    fn quantity(&self, kind: &'static Kind, value: f64, method: Method) -> Quantity {
-        Quantity::new(kind, self.si(kind, value), method)
-    }
-
-    /// A number of the theory.
-    fn theory(&self, kind: &'static Kind, value: f64) -> Quantity {
-        self.quantity(kind, value, Method::Theory)
-    }
-
-    /// A number of an exact orbit.
-    fn exact(&self, kind: &'static Kind, value: f64) -> Quantity {
-        self.quantity(kind, value, Method::ExactOrbit)
-    }
-
-    /// A simulated number.
-    fn seen(&self, kind: &'static Kind, value: f64) -> Quantity {
-        self.quantity(kind, value, Method::Simulation)
-    }
-
     /// A number with its unit.
     fn text(&self, kind: &Kind, value: f64) -> String {
         self.units.text(kind, self.si(kind, value))
@@ -170,6 +184,11 @@ impl<'a> Scene<'a> {
         MarkedPoint::from(chart.at(at)).with_tooltip(self.tip(what, &[(x, at[0]), (y, at[1])]))
     }
 
+    /// The mark of the case.
+    fn star(&self, chart: &Chart, at: [f64; 2]) -> Layer {
+        Layer::this_case(chart.at(at), self.mark(chart, at, "this case").tooltip)
+    }
+
     /// What a parameter is.
     fn kind(&self, parameter: Parameter) -> &'static Kind {
         match parameter {
@@ -180,20 +199,13 @@ impl<'a> Scene<'a> {
         }
     }
 
-    /// What a band goes over.
-    fn band_kind(&self, over: BandOver) -> &'static Kind {
-        match over {
-            BandOver::Frequency => self.kind(Parameter::FrequencyRatio),
-            BandOver::Amplitude => self.forcing.0,
+    /// A figure whose words come from `templates/captions/`, which get what is known of the case beside the
+    /// facts.
+    fn figure(&self, name: &str, template: &'static str, facts: Value) -> Figure {
+        let mut all = self.known.clone();
+        if let (Value::Object(all), Value::Object(facts)) = (&mut all, facts) {
+            all.extend(facts);
         }
-    }
-
-    /// A figure whose words come from `templates/captions/`; every template has the case's frequency and
-    /// clearance beside the facts.
-    fn figure(&self, name: impl Into<String>, template: &'static str, mut facts: Value) -> Figure {
-        let given = |kind, value| json!(self.quantity(kind, value, Method::Given));
-        facts["frequency"] = given(&of::EXCITATION_FREQUENCY, self.system().frequency_ratio());
-        facts["clearance"] = given(&of::CLEARANCE, 1.0);
-        Figure::new(name, "").with_facts(template, facts)
+        Figure::new(name, "").with_facts(template, all)
     }
 }

@@ -59,15 +59,14 @@ pub(super) fn fixed_points(
         let chosen = points.iter().filter(|point| point.stable == stable);
         let marks: Vec<MarkedPoint> = chosen.map(|at| fixed_point(scene, at, place(at))).collect();
         let name = if marks.len() == 1 { one } else { more };
-        let layer = Layer::marked(role.marker().sized(9.0), role.color(), marks.clone());
-        let layer = if named { layer.labelled(name) } else { layer };
-        (!marks.is_empty()).then_some(layer)
+        let layer = Layer::marked(role.marker().sized(9.0), role.color(), marks);
+        if named { layer.labelled(name) } else { layer }
     };
     let both = [
         (Role::Stable, true, "stable fixed point", "stable fixed points"),
         (Role::Unstable, false, "unstable fixed point", "unstable fixed points"),
     ];
-    both.into_iter().filter_map(layer).collect()
+    both.map(layer).into()
 }
 
 /// A fixed point's mark.
@@ -98,12 +97,11 @@ const REGIMES: [(&str, Marker, &[Regime]); 5] = [
 pub(super) fn by_regime(found: &[(Regime, MarkedPoint)], named: bool) -> Vec<Layer> {
     let layer = |(name, marker, regimes): (&str, Marker, &[Regime])| {
         let chosen = found.iter().filter(|(regime, _)| regimes.contains(regime));
-        let marks: Vec<MarkedPoint> = chosen.map(|(_, mark)| mark.clone()).collect();
-        let some = !marks.is_empty();
+        let marks = chosen.map(|(_, mark)| mark.clone());
         let layer = Layer::marked(marker, Role::Simulation.color(), marks);
-        some.then(|| if named { layer.labelled(name) } else { layer })
+        if named { layer.labelled(name) } else { layer }
     };
-    REGIMES.into_iter().filter_map(layer).collect()
+    REGIMES.map(layer).into()
 }
 
 /// The areas as bands of `C/b` over the whole of a panel, in the units of its axes.

@@ -47,11 +47,11 @@ fn rows(data: &Ranges) -> f64 {
 fn row_facts(scene: &Scene, data: &Ranges) -> Value {
     let kind = scene.kind(data.parameter);
     let bars = data.layers.iter().flat_map(|(layer, ranges)| {
-        let end = |at: Option<f64>| at.map(|at| scene.quantity(kind, at, *layer));
+        let end = |at: Option<f64>| at.map(|at| scene.si(kind, at));
         ranges.iter().map(move |range| json!({ "by": layer, "ends": range.map(end) }))
     });
-    let here = scene.quantity(kind, data.parameter.of(scene.system()), Method::Given);
-    json!({ "here": here, "bars": bars.collect::<Vec<_>>() })
+    let here = scene.si(kind, data.parameter.of(scene.system()));
+    json!({ "of": kind.id, "here": here, "bars": bars.collect::<Vec<_>>() })
 }
 
 /// What a layer's row is called, and its colour.

@@ -15,7 +15,7 @@ use crate::band::Band;
 use crate::band::rivals::bare_amplitude;
 use crate::case::{Case, ExtraFigure};
 use crate::orbits::boundaries::over_frequency;
-use crate::orbits::{Boundaries, symmetric_orbits};
+use crate::orbits::{Boundaries, SymmetricOrbit, symmetric_orbits};
 use crate::regimes::basins::Basins;
 use crate::regimes::starts::StartBox;
 use crate::regimes::{Effort, Exponent, FoundAttractor, Regime, Transient};
@@ -43,7 +43,18 @@ const MOTIONS: usize = 3;
 /// A line; a point that is not finite interrupts it.
 pub type Line = Vec<[f64; 2]>;
 
-/// The data of one figure.
+/// What there is without forcing has no boundaries, and nothing to sweep.
+const NEED_FORCING: [ExtraFigure; 7] = [
+    ExtraFigure::Areas,
+    ExtraFigure::Bifurcations,
+    ExtraFigure::ForcingResponses,
+    ExtraFigure::Clearances,
+    ExtraFigure::DiagramClearance,
+    ExtraFigure::DiagramFrequency,
+    ExtraFigure::DiagramForcing,
+];
+
+/// The data of one figure, or of two that show the same in different ways.
 #[derive(Debug, Clone)]
 pub enum Plot {
     /// The response over the case's band.
@@ -60,10 +71,8 @@ pub enum Plot {
     Responses(Responses),
     /// Peaks over frequency.
     Amplitude(Amplitude),
-    /// A motion over time.
+    /// A motion over time, and the times between its impacts.
     Motion(Motion),
-    /// The times between impacts of the motion with this index.
-    ReturnMap(usize),
     /// The areas along the manifold.
     Areas(Areas),
     /// The conditions of saddle-node and Hopf boundary.
@@ -95,24 +104,29 @@ impl Plot {
     /// # Errors
     /// [`StudyError`] where theory or simulation cannot be carried out.
     pub fn all(case: &Case, study: &CaseStudy) -> Result<Vec<Self>, StudyError> {
+        // Without forcing every boundary is at no clearance at all, and everything comes to rest.
+        let forced = study.analysis.system.forcing_per_clearance() != 0.0;
         let mut plots = Vec::new();
         plots.extend(BandCurves::of(study).map(Self::Band));
-        if study.band.is_none() {
+        if forced && study.band.is_none() {
             plots.push(Self::Ranges(Ranges::of(study)));
         }
-        plots.extend(Map::of(study)?.map(Self::Map));
-        plots.push(Self::Plane(Borders::around(study)?));
-        plots.push(Self::Manifold);
-        plots.extend(Responses::around(study)?.map(Self::Responses));
+        if forced {
+            plots.push(Self::Map(Map::of(study)?));
+        }
+        plots.extend([Self::Plane(Borders::around(study)), Self::Manifold]);
+        plots.extend(Responses::around(study).filter(|_| forced).map(Self::Responses));
         if !study.simulated {
             return Ok(plots);
         }
-        plots.extend(Amplitude::of(study)?.map(Self::Amplitude));
+        if forced {
+            plots.push(Self::Amplitude(Amplitude::of(study)?));
+        }
         for index in 0..study.attractors.len().min(MOTIONS) {
             plots.extend(Motion::of(study, index)?.map(Self::Motion));
-            plots.extend(drawn(study, index).map(|_| Self::ReturnMap(index)));
         }
-        for wanted in &case.report.figures {
+        let shown = |wanted: &&ExtraFigure| forced || !NEED_FORCING.contains(*wanted);
+        for wanted in case.report.figures.iter().filter(shown) {
             plots.extend(Self::extra(case, study, *wanted)?);
         }
         Ok(plots)
@@ -126,10 +140,10 @@ impl Plot {
     ) -> Result<Option<Self>, StudyError> {
         Ok(match wanted {
             ExtraFigure::Areas => Areas::of(study)?.map(Self::Areas),
-            ExtraFigure::Bifurcations => Bifurcations::of(study)?.map(Self::Bifurcations),
-            ExtraFigure::ForcingResponses => Responses::across(study)?.map(Self::Responses),
+            ExtraFigure::Bifurcations => Bifurcations::of(study).map(Self::Bifurcations),
+            ExtraFigure::ForcingResponses => Responses::across(study).map(Self::Responses),
             ExtraFigure::Modulation => Modulation::of(study)?.map(Self::Modulation),
-            ExtraFigure::Restitutions => Restitutions::of(study)?.map(Self::Restitutions),
+            ExtraFigure::Restitutions => Restitutions::of(study).map(Self::Restitutions),
             ExtraFigure::Basins => Some(Self::Basins(StartPlane::of(study)?)),
             ExtraFigure::Captures => Some(Self::Captures),
             ExtraFigure::Exponents => Some(Self::Exponents(MotionExponents::of(study)?)),
@@ -199,20 +213,16 @@ impl Map {
     /// Frequencies, less one, at which the exact boundaries are marked.
     const EXACT: u32 = 40;
 
-    fn of(study: &CaseStudy) -> Result<Option<Self>, StudyError> {
+    fn of(study: &CaseStudy) -> Result<Self, StudyError> {
         let (system, manifold) = (&study.analysis.system, &study.analysis.manifold);
-        if system.forcing_per_clearance() == 0.0 {
-            // Without forcing every boundary is at no clearance at all.
-            return Ok(None);
-        }
         let window = window(system);
         let detunings = window.map(|ratio| (ratio - 1.0) / system.mass_ratio());
-        let borders = Borders::over(system, manifold, (detunings[0], detunings[1]))?;
+        let borders = Borders::over(system, manifold, (detunings[0], detunings[1]));
         let ratios: Vec<f64> = even(window[0], window[1], Self::EXACT).collect();
         let inner = &ratios[1..Self::EXACT as usize];
         let exact = if has_resonance(system) { over_frequency(system, inner) } else { Vec::new() };
         let errors = errors_over_frequency(system, manifold, &exact)?;
-        Ok(Some(Self { window, borders, exact, errors }))
+        Ok(Self { window, borders, exact, errors })
     }
 }
 
@@ -251,8 +261,7 @@ impl BandCurves {
         // one of them where the other begins or ends.
         for which in 0..2 {
             for at in band.places(Self::PLACES) {
-                let found = band.system(at).ok().and_then(|system| symmetric_orbits(&system).ok());
-                let found = found.unwrap_or_default();
+                let found = symmetric_orbits_at(band.system(at).ok());
                 let orbit = found.iter().rev().nth(which);
                 let orbit = orbit.filter(|one| one.orbit.admissibility.admissible);
                 for (line, stable) in lines.iter_mut().zip([true, false]) {
@@ -344,7 +353,7 @@ impl StartPlane {
 fn clearances(study: &CaseStudy) -> Result<Option<Vec<WalkPoint>>, StudyError> {
     let (system, boundaries) = (&study.analysis.system, &study.analysis.boundaries);
     let gamma = system.forcing_per_clearance();
-    if gamma == 0.0 || !has_resonance(system) {
+    if !has_resonance(system) {
         return Ok(None);
     }
     let hopf = gamma / boundaries.hopf;
@@ -357,7 +366,7 @@ fn clearances(study: &CaseStudy) -> Result<Option<Vec<WalkPoint>>, StudyError> {
 
 fn diagram(study: &CaseStudy, parameter: Parameter) -> Result<Option<Plot>, StudyError> {
     let system = &study.analysis.system;
-    if system.forcing_per_clearance() == 0.0 || !has_resonance(system) {
+    if !has_resonance(system) {
         return Ok(None);
     }
     let Some(diagram) = Diagram::around(&study.exact, parameter)? else { return Ok(None) };
@@ -370,8 +379,29 @@ fn diagram(study: &CaseStudy, parameter: Parameter) -> Result<Option<Plot>, Stud
     Ok(Some(Plot::Diagram(diagram, bare)))
 }
 
+/// The exact symmetric orbits of a system, if there is one.
+fn symmetric_orbits_at(system: Option<System>) -> Vec<SymmetricOrbit> {
+    system.and_then(|system| symmetric_orbits(&system).ok()).unwrap_or_default()
+}
+
 /// Whether a fixed point where the curve of fixed points rises or falls is stable: it must lie on the stable
 /// branch, and not where the curve has turned back.
 fn on_stable_branch(branches: [Branch; 2], rises: bool) -> bool {
     rises && branches == [Branch::Stable; 2]
+}
+
+/// A curve as two lines with gaps: the stable pieces between neighbouring points, and the others.
+fn branches<T>(
+    points: &[T],
+    stable: &dyn Fn([&T; 2]) -> bool,
+    place: &dyn Fn(&T) -> [f64; 2],
+) -> [Line; 2] {
+    let mut lines = [Vec::new(), Vec::new()];
+    let pairs: Vec<[&T; 2]> = points.windows(2).map(|pair| [&pair[0], &pair[1]]).collect();
+    for run in pairs.chunk_by(|a, b| stable(*a) == stable(*b)) {
+        let line = &mut lines[usize::from(!stable(run[0]))];
+        line.extend(run.iter().map(|pair| place(pair[0])));
+        line.extend([place(run[run.len() - 1][1]), [f64::NAN; 2]]);
+    }
+    lines
 }

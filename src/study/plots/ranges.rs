@@ -23,11 +23,8 @@ pub struct Ranges {
 }
 
 impl Ranges {
-    /// Those of clearance, frequency and forcing; none without forcing.
+    /// Those of clearance, frequency and forcing.
     pub(super) fn of(study: &CaseStudy) -> Vec<Self> {
-        if study.analysis.system.forcing_per_clearance() == 0.0 {
-            return Vec::new();
-        }
         let clearance = in_clearance(study);
         // The response scales with the forcing: k times the clearance does what 1/k times the forcing does.
         let inverse = |[low, high]: &Range| [high, low].map(|end| end.map(f64::recip));

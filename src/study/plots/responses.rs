@@ -1,11 +1,11 @@
 //! Frequency responses of the 1:1 motion at several clearances (Fig. 7).
 
 use crate::analysis::frequency_response::{ResponsePoint, response};
-use crate::analysis::{AnalysisError, FixedPointCurve, Manifold};
-use crate::study::{CaseStudy, StudyError};
+use crate::analysis::{FixedPointCurve, Manifold};
+use crate::study::CaseStudy;
 use crate::system::{Parameters, System};
 
-use super::{Levels, Line, even, on_stable_branch, window};
+use super::{Levels, Line, branches, even, on_stable_branch, window};
 
 /// Half the band around the natural frequency that the absorber should serve, in detuning: where the bare
 /// oscillator of Table 1 is amplified more than tenfold.
@@ -49,14 +49,14 @@ pub struct Response {
 
 impl Responses {
     /// The case's and three others that show the areas.
-    pub(super) fn around(study: &CaseStudy) -> Result<Option<Self>, StudyError> {
+    pub(super) fn around(study: &CaseStudy) -> Option<Self> {
         let analysis = &study.analysis;
         let (system, manifold) = (&analysis.system, &analysis.manifold);
         let gamma = system.forcing_per_clearance();
         let boundaries = &analysis.boundaries;
         let others = others(gamma, boundaries.symmetry_breaking, boundaries.hopf);
-        if gamma == 0.0 || others.is_empty() {
-            return Ok(None);
+        if others.is_empty() {
+            return None;
         }
         let amplitudes = analysis.fixed_points.iter().map(|point| point.oscillator_amplitude);
         let breaking = manifold.symmetry_breaking.oscillator_amplitude;
@@ -65,48 +65,50 @@ impl Responses {
         let bottom = if top > FAR * breaking { low } else { 0.0 };
         // On the right branch C exceeds B - b, whatever the restitution. The samples are spread evenly: a
         // curve that matters only below must not be coarse there.
-        let mut members = Vec::new();
-        for at in others {
-            members.extend(Response::of(system, at, (top + 1.0).min(OTHERS))?);
-        }
-        members.extend(Response::of(system, gamma, top + 1.0)?);
-        let levels = Levels::of_manifold(manifold);
-        let (window, heights) = (window(system), [bottom, top]);
-        Ok(Some(Self { members, own: true, window, heights, levels }))
+        let others = others.into_iter().map(|at| (at, (top + 1.0).min(OTHERS)));
+        let members = others.chain([(gamma, top + 1.0)]);
+        let members = members.filter_map(|(at, largest)| Response::of(system, at, largest));
+        Some(Self {
+            members: members.collect(),
+            own: true,
+            window: window(system),
+            heights: [bottom, top],
+            levels: Levels::of_manifold(manifold),
+        })
     }
 
     /// Four across the areas, wherever the case lies.
-    pub(super) fn across(study: &CaseStudy) -> Result<Option<Self>, StudyError> {
+    pub(super) fn across(study: &CaseStudy) -> Option<Self> {
         let (system, manifold) = (&study.analysis.system, &study.analysis.manifold);
-        let folds = manifold.fold.oscillator_amplitude > 0.0;
-        if system.forcing_per_clearance() == 0.0 || !folds {
-            return Ok(None);
+        if manifold.fold.oscillator_amplitude <= 0.0 {
+            return None;
         }
         let top = 2.2 * manifold.symmetry_breaking.oscillator_amplitude;
-        let mut members = Vec::new();
-        for at in family(system)? {
-            members.extend(Response::of(system, at, top + 1.0)?);
-        }
+        let members = family(system).into_iter();
         let half = BAND * system.mass_ratio();
-        let (window, heights) = ([(1.0 - half).max(0.05), 1.0 + half], [0.0, top]);
-        let levels = Levels::of_manifold(manifold);
-        Ok(Some(Self { members, own: false, window, heights, levels }))
+        Some(Self {
+            members: members.filter_map(|at| Response::of(system, at, top + 1.0)).collect(),
+            own: false,
+            window: [(1.0 - half).max(0.05), 1.0 + half],
+            heights: [0.0, top],
+            levels: Levels::of_manifold(manifold),
+        })
     }
 }
 
 impl Response {
-    fn of(system: &System, gamma: f64, largest: f64) -> Result<Option<Self>, AnalysisError> {
+    fn of(system: &System, gamma: f64, largest: f64) -> Option<Self> {
         let there = Parameters { forcing_per_clearance: gamma, ..system.parameters() };
-        let Ok(there) = System::new(there) else { return Ok(None) };
+        let there = System::new(there).ok()?;
         let manifold = Manifold::of(system.restitution());
         let place = |point: &ResponsePoint| {
             [1.0 + there.mass_ratio() * point.detuning, point.oscillator_amplitude]
         };
-        Ok(Some(Self {
+        Some(Self {
             clearance: system.forcing_per_clearance() / gamma,
-            lines: lines(&there, &manifold, largest, &place)?,
-            share: share(system, gamma)?,
-        }))
+            lines: lines(&there, &manifold, largest, &place),
+            share: share(system, gamma),
+        })
     }
 }
 
@@ -120,24 +122,21 @@ pub(super) fn lines(
     manifold: &Manifold,
     largest: f64,
     place: &dyn Fn(&ResponsePoint) -> [f64; 2],
-) -> Result<[Line; 2], AnalysisError> {
+) -> [Line; 2] {
     let mut lines = [Vec::new(), Vec::new()];
     for (side, curves) in response(system, manifold, largest).iter().enumerate() {
         let outwards = if side == 0 { 1.0 } else { -1.0 };
-        let stable = |pair: &[ResponsePoint]| {
-            let rises = (pair[1].detuning - pair[0].detuning) * outwards > 0.0;
-            on_stable_branch([pair[0].branch, pair[1].branch], rises)
+        let stable = |[a, b]: [&ResponsePoint; 2]| {
+            let rises = (b.detuning - a.detuning) * outwards > 0.0;
+            on_stable_branch([a.branch, b.branch], rises)
         };
         for curve in curves {
-            let pairs: Vec<&[ResponsePoint]> = curve.windows(2).collect();
-            for run in pairs.chunk_by(|a, b| stable(a) == stable(b)) {
-                let line = &mut lines[usize::from(!stable(run[0]))];
-                line.extend(run.iter().map(|pair| place(&pair[0])));
-                line.extend([place(&run[run.len() - 1][1]), [f64::NAN; 2]]);
+            for (line, more) in lines.iter_mut().zip(branches(curve, &stable, place)) {
+                line.extend(more);
             }
         }
     }
-    Ok(lines)
+    lines
 }
 
 /// Three forcings per clearance that show the areas, apart from the case's.
@@ -157,33 +156,30 @@ fn others(case: f64, breaking: f64, hopf: f64) -> Vec<f64> {
 
 /// Four forcings per clearance, from the largest: one that lifts the response far beyond symmetry breaking,
 /// one with which its top just reaches it, one inside Z3, and one below the fold at every frequency.
-fn family(system: &System) -> Result<[f64; 4], AnalysisError> {
-    let least = |boundary: fn(&FixedPointCurve) -> f64| -> Result<f64, AnalysisError> {
-        Ok(curves(system)?.map(|curve| boundary(&curve)).fold(f64::INFINITY, f64::min))
+fn family(system: &System) -> [f64; 4] {
+    let least = |boundary: fn(&FixedPointCurve) -> f64| {
+        curves(system).map(|curve| boundary(&curve)).fold(f64::INFINITY, f64::min)
     };
     let (hopf, breaking) =
-        (least(FixedPointCurve::hopf)?, least(FixedPointCurve::symmetry_breaking)?);
-    Ok([2.5 * breaking, breaking, (hopf * breaking).sqrt(), 0.85 * hopf])
+        (least(FixedPointCurve::hopf), least(FixedPointCurve::symmetry_breaking));
+    [2.5 * breaking, breaking, (hopf * breaking).sqrt(), 0.85 * hopf]
 }
 
 /// The clearances of the four over the case's, each with the share of the band that lies in Z3.
-///
-/// # Errors
-/// As the theory's boundaries.
-pub fn shares(system: &System) -> Result<Vec<(f64, f64)>, AnalysisError> {
+pub fn shares(system: &System) -> [(f64, f64); 4] {
     let own = system.forcing_per_clearance();
-    family(system)?.into_iter().map(|gamma| Ok((own / gamma, share(system, gamma)?))).collect()
+    family(system).map(|gamma| (own / gamma, share(system, gamma)))
 }
 
 /// The fixed points over the detunings of the band.
-fn curves(system: &System) -> Result<impl Iterator<Item = FixedPointCurve>, AnalysisError> {
+fn curves(system: &System) -> impl Iterator<Item = FixedPointCurve> {
     let manifold = Manifold::of(system.restitution());
     let detunings = even(-BAND, BAND, SAMPLES);
-    Ok(detunings.map(move |at| FixedPointCurve::at_detuning(system, &manifold, at)))
+    detunings.map(move |at| FixedPointCurve::at_detuning(system, &manifold, at))
 }
 
-fn share(system: &System, gamma: f64) -> Result<f64, AnalysisError> {
+fn share(system: &System, gamma: f64) -> f64 {
     let inside =
-        curves(system)?.filter(|curve| curve.hopf() <= gamma && gamma <= curve.symmetry_breaking());
-    Ok(inside.count() as f64 / f64::from(SAMPLES + 1))
+        curves(system).filter(|curve| curve.hopf() <= gamma && gamma <= curve.symmetry_breaking());
+    inside.count() as f64 / f64::from(SAMPLES + 1)
 }

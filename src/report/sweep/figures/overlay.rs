@@ -58,7 +58,7 @@ fn computed(swept: &Swept, plane: Plane) -> Option<Vec<Layer>> {
     let [first, last] = [edges[0], edges[edges.len() - 1]].map(|edge| edge / natural);
     let detuning = |ratio: f64| (ratio - 1.0) / system.mass_ratio();
     let manifold = Manifold::of(system.restitution());
-    let borders = Borders::over(&system, &manifold, (detuning(first), detuning(last))).ok()?;
+    let borders = Borders::over(&system, &manifold, (detuning(first), detuning(last)));
     let shown = |ratio: f64, over_clearance: f64| {
         [ratio * natural, scales.length(over_clearance) / plane.y.unit.size]
     };
