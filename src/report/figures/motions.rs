@@ -137,12 +137,8 @@ fn over_restitution(scene: &Scene, data: &Restitutions) -> Panel {
     ];
     for (name, color, value) in values {
         let [thick, thin] = data.lines(value);
-        let named = usize::from(!thick.is_empty());
-        let mut layers = [
-            Layer::styled(Style::new(color, 1.2, Dash::Dashed), thin),
-            Layer::styled(Style::new(color, 2.6, Dash::Solid), thick),
-        ];
-        layers[named] = layers[named].clone().labelled(name);
+        let thin = (Style::new(color, 1.2, Dash::Dashed), thin);
+        let layers = parts::branches([thin, (Style::new(color, 2.6, Dash::Solid), thick)], name);
         panel.layers.extend(layers);
     }
     panel

@@ -3,7 +3,9 @@
 use crate::analysis::{FixedPoint, Manifold};
 use crate::quantity::catalogue as of;
 use crate::regimes::Regime;
-use crate::report::figure::{Color, Fill, Hatch, Layer, MarkedPoint, Marker, Role, Shape};
+use crate::report::figure::{
+    Color, Fill, Hatch, Label, Layer, MarkedPoint, Marker, Role, Shape, Style,
+};
 use crate::study::plots::{Levels, Line};
 
 use super::Scene;
@@ -46,6 +48,14 @@ pub(super) fn manifold(manifold: &Manifold, last: f64) -> [Line; 2] {
 pub(super) fn manifold_layers(of: &Manifold, last: f64) -> [Layer; 2] {
     let [unstable, stable] = manifold(of, last);
     [Layer::curve(Role::Unstable, unstable), Layer::curve(Role::Stable, stable)]
+}
+
+/// The unstable and the stable part of a curve, of which one has a name.
+pub(super) fn branches(parts: [(Style, Line); 2], name: impl Into<Label>) -> [Layer; 2] {
+    let named = usize::from(!parts[1].1.is_empty());
+    let mut layers = parts.map(|(style, line)| Layer::styled(style, line));
+    layers[named] = layers[named].clone().labelled(name);
+    layers
 }
 
 /// Fixed points by their places: stable ones filled, unstable ones hollow, named where that is asked for.

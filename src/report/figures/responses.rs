@@ -105,12 +105,8 @@ pub(super) fn figure(scene: &Scene, data: &Responses) -> Figure {
         let width = if own { 3.4 } else { 2.2 };
         let name = scene.at_clearance(member.clearance);
         let name = if own { format!("{name}, this case") } else { name };
-        let named = usize::from(!stable.is_empty());
-        let mut layers = [
-            Layer::styled(Style::new(color, 1.1, dash), unstable),
-            Layer::styled(Style::new(color, width, Dash::Solid), stable),
-        ];
-        layers[named] = layers[named].clone().labelled(name);
+        let thin = (Style::new(color, 1.1, dash), unstable);
+        let layers = parts::branches([thin, (Style::new(color, width, Dash::Solid), stable)], name);
         second.layers.extend(layers);
     }
     if data.own {

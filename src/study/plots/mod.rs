@@ -4,37 +4,37 @@
 
 pub mod amplitude;
 pub mod areas;
+pub mod band;
 pub mod borders;
 pub mod ranges;
 pub mod responses;
 pub mod restitutions;
+pub mod statistics;
 pub mod traces;
 
 use crate::analysis::Branch;
-use crate::band::Band;
-use crate::band::rivals::bare_amplitude;
 use crate::case::{Case, ExtraFigure};
 use crate::orbits::boundaries::over_frequency;
 use crate::orbits::{Boundaries, SymmetricOrbit, symmetric_orbits};
-use crate::regimes::basins::Basins;
-use crate::regimes::starts::StartBox;
-use crate::regimes::{Effort, Exponent, FoundAttractor, Regime, Transient};
+use crate::regimes::{FoundAttractor, Regime};
 use crate::simulation::Stop;
-use crate::system::{Parameter, State, System};
+use crate::system::{Parameter, System};
 use crate::validation::AsymptoticError;
 use crate::validation::asymptotic_error::errors_over_frequency;
 use crate::validation::tolerance::has_resonance;
 
 use super::diagrams::Diagram;
-use super::scenes::{WalkPoint, exponents, walk};
+use super::scenes::{WalkPoint, walk};
 use super::{CaseStudy, StudyError};
 
 pub use amplitude::Amplitude;
 pub use areas::{Areas, Levels};
+pub use band::BandCurves;
 pub use borders::{Bifurcations, Borders};
 pub use ranges::Ranges;
 pub use responses::Responses;
 pub use restitutions::Restitutions;
+pub use statistics::{MotionExponents, StartPlane};
 pub use traces::{Modulation, Motion, Transfer};
 
 /// So many motions are drawn.
@@ -223,128 +223,6 @@ impl Map {
         let exact = if has_resonance(system) { over_frequency(system, inner) } else { Vec::new() };
         let errors = errors_over_frequency(system, manifold, &exact)?;
         Ok(Self { window, borders, exact, errors })
-    }
-}
-
-/// Peaks over the clearance along a band, `[place, peak]`.
-#[derive(Debug, Clone)]
-pub struct BandCurves {
-    /// Without absorber.
-    pub bare: Line,
-    /// With the best tuned mass damper of the same mass.
-    pub damper: Line,
-    /// Of the admissible symmetric orbits: those that attract, and those that do not.
-    pub orbits: [Line; 2],
-}
-
-impl BandCurves {
-    /// Places along the band.
-    const PLACES: u32 = 301;
-
-    fn of(study: &CaseStudy) -> Option<Self> {
-        let survey = study.band.as_ref()?;
-        let (band, damper) = (survey.band(), survey.rivals.damper);
-        let curve = |amplitude: &dyn Fn(&System) -> f64| -> Line {
-            let value = |at: f64| band.system(at).map_or(f64::NAN, |system| amplitude(&system));
-            band.places(Self::PLACES).map(|at| [at, value(at)]).collect()
-        };
-        Some(Self {
-            bare: curve(&bare_amplitude),
-            damper: curve(&|system| damper.amplitudes(system)[0]),
-            orbits: Self::orbits(band),
-        })
-    }
-
-    fn orbits(band: &Band) -> [Line; 2] {
-        let mut lines = [Vec::new(), Vec::new()];
-        // Both orbits of a place in turn, from the larger absorber amplitude down, so that a line follows
-        // one of them where the other begins or ends.
-        for which in 0..2 {
-            for at in band.places(Self::PLACES) {
-                let found = symmetric_orbits_at(band.system(at).ok());
-                let orbit = found.iter().rev().nth(which);
-                let orbit = orbit.filter(|one| one.orbit.admissibility.admissible);
-                for (line, stable) in lines.iter_mut().zip([true, false]) {
-                    let shown = orbit.filter(|one| one.orbit.attracts() == stable);
-                    line.push(shown.map_or([f64::NAN; 2], |one| [at, one.peaks.displacement]));
-                }
-            }
-            lines.iter_mut().for_each(|line| line.push([f64::NAN; 2]));
-        }
-        lines
-    }
-}
-
-/// Lyapunov exponents of a motion after longer and longer windows.
-#[derive(Debug, Clone)]
-pub struct MotionExponents {
-    /// Which motion.
-    pub index: usize,
-    /// The exponents; never empty.
-    pub exponents: Vec<Exponent>,
-    /// Logarithm of the largest multiplier per period, where the motion is an exact orbit.
-    pub exact: Option<f64>,
-}
-
-impl MotionExponents {
-    /// Powers of two: from the shortest window that has an error to one in which the error of a chaotic
-    /// motion has shrunk to some per cent.
-    const WINDOWS: std::ops::RangeInclusive<u32> = 4..=13;
-
-    fn of(study: &CaseStudy) -> Result<Vec<Self>, StudyError> {
-        let periods: Vec<u64> = Self::WINDOWS.map(|power| 1 << power).collect();
-        let mut all = Vec::new();
-        for index in 0..study.attractors.len().min(MOTIONS) {
-            let Some(found) = drawn(study, index) else { continue };
-            let exponents = exponents(&study.analysis.system, found.attractor.state, &periods)?;
-            let proof = study.proofs[index].as_ref();
-            let exact = proof.map(|proof| libm::log(proof.orbit.radius_per_period()));
-            if !exponents.is_empty() {
-                all.push(Self { index, exponents, exact });
-            }
-        }
-        Ok(all)
-    }
-}
-
-/// Enough to recognise the motion; in a shorter window a strongly modulated one may show no capture.
-/// Ten impacts per period are recognised as that without going on.
-const BASIN_EFFORT: Effort = Effort { discard: None, periods: 200, most_impacts: 10 };
-
-/// Starts of the oscillator at excitation phase 0, the absorber at rest in the middle of its cavity.
-#[derive(Debug, Clone)]
-pub struct StartPlane {
-    /// Displacement and velocity of each.
-    pub starts: Vec<[f64; 2]>,
-    /// Largest displacement and velocity.
-    pub reach: f64,
-    /// Where they lead.
-    pub basins: Basins,
-    /// Excitation periods left out at least.
-    pub transient: u64,
-}
-
-impl StartPlane {
-    /// Starts along either axis: squares that are still seen one by one.
-    const CELLS: u32 = 40;
-
-    fn of(study: &CaseStudy) -> Result<Self, StudyError> {
-        let system = &study.analysis.system;
-        let reach = StartBox::around(system).reach;
-        let cells = f64::from(Self::CELLS);
-        let middle = |cell: u32| reach * (2.0 * (f64::from(cell) + 0.5) / cells - 1.0);
-        let place = |k: u32| [middle(k % Self::CELLS), middle(k / Self::CELLS)];
-        let starts: Vec<[f64; 2]> = (0..Self::CELLS * Self::CELLS).map(place).collect();
-        let state = |[x, x_velocity]: &[f64; 2]| State {
-            x: *x,
-            x_velocity: *x_velocity,
-            y: *x,
-            y_velocity: 0.0,
-        };
-        let states: Vec<State> = starts.iter().map(state).collect();
-        let known = study.attractors.iter().map(|found| found.attractor.motion).collect();
-        let basins = Basins::of(system, &states, known, &BASIN_EFFORT, &mut |_| {})?;
-        Ok(Self { starts, reach, basins, transient: Transient::of(system).periods })
     }
 }
 
