@@ -3,6 +3,7 @@
 use serde_json::{Value, json};
 
 use crate::method::Method;
+use crate::quantity::Quantity;
 use crate::report::figure::{
     Axis, Color, Dash, Figure, Fill, Hatch, Layer, Layout, MarkedPoint, Marker, Panel, Shape,
     Style, Tick,
@@ -51,6 +52,7 @@ fn row_facts(scene: &Scene, data: &Ranges) -> Value {
         ranges.iter().map(move |range| json!({ "by": layer, "ends": range.map(end) }))
     });
     let here = scene.si(kind, data.parameter.of(scene.system()));
+    let here = Quantity::new(kind, here, Method::Given);
     json!({ "of": kind.id, "here": here, "bars": bars.collect::<Vec<_>>() })
 }
 
