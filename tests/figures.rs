@@ -7,7 +7,7 @@ use std::fs;
 
 use vinesink::case::{Case, ExtraFigure, ReportSettings};
 use vinesink::report::document::{self, Source};
-use vinesink::report::figure::{Color, Figure, Layer, Scale, Shape, draw};
+use vinesink::report::figure::{Color, Figure, Layer, Panel, Scale, Shape, draw};
 use vinesink::report::{figures as made, template};
 use vinesink::study::plots::Plot;
 use vinesink::study::{CaseStudy, StudyEffort};
@@ -61,15 +61,17 @@ fn check(case: &Case) -> Vec<String> {
             assert!(!words.contains("NaN") && !words.contains("undefined"), "{name}: {words}");
             assert!(has_unit(words), "{}: no unit in {name}: {words}", case.title);
         }
-        assert!(!figure.title.is_empty() && figure.alt != figure.caption, "{name}");
+        assert!(!figure.title.is_empty(), "{name}");
+        common::caption_is_short(figure);
         common::words_are_apart(figure, &drawing.texts);
     }
     let allowed = 190_000 + 30_000 * case.report.figures.len();
     assert!(sum < allowed, "{}: {sum} bytes", case.title);
     let mut names: Vec<String> = figures.iter().map(|figure| figure.name.clone()).collect();
-    if let Some(map) = figures.iter().find(|figure| figure.name == "map") {
-        assert_eq!(names[0], "map");
-        case_is_inside(map);
+    let of = |name: &str| figures.iter().find(|figure| figure.name == name);
+    assert_eq!(of("ranges").is_some(), names[0] == "ranges", "{names:?}");
+    for panel in [of("ranges"), of("map")].into_iter().flatten().flat_map(case_panels) {
+        case_is_inside(panel);
     }
     names.sort();
     names.dedup();
@@ -82,9 +84,13 @@ fn has_unit(words: &str) -> bool {
     units.iter().any(|unit| words.contains(unit))
 }
 
-/// The case's mark is well inside the map, and there is one.
-fn case_is_inside(map: &Figure) {
-    let panel = &map.panels[0];
+/// The panels that mark the case: all of the ranges, the upper one of the map.
+fn case_panels(figure: &Figure) -> &[Panel] {
+    if figure.name == "map" { &figure.panels[..1] } else { &figure.panels }
+}
+
+/// The case's mark is well inside the panel, and there is one.
+fn case_is_inside(panel: &Panel) {
     let marks: Vec<[f64; 2]> = panel
         .layers
         .iter()
@@ -127,7 +133,9 @@ fn shipped_cases_have_every_figure() {
         "force-on-mass",
     ] {
         let names = check(&shipped(name));
-        for wanted in ["map", "plane", "sim", "response", "amplitude", "motion-1", "return-map-1"] {
+        for wanted in
+            ["ranges", "map", "plane", "sim", "response", "amplitude", "motion-1", "return-map-1"]
+        {
             assert!(has(&names, wanted), "{name} lacks {wanted}: {names:?}");
         }
     }
@@ -218,10 +226,25 @@ fn captions_say_what_the_case_does() {
         let figure = figures.iter().find(|figure| figure.name == name).expect("is there");
         figure.caption.as_str()
     };
+    // The ends of the exact orbit and of what every start finds, as among the margins.
+    assert!(caption("ranges").contains("from 4.85 mm to 16.7 mm (exact orbit), and every"));
+    assert!(caption("ranges").contains("up to 14.4 mm"), "{}", caption("ranges"));
     assert!(caption("map").contains("Z3") && caption("map").contains("4.69 mm"));
     assert!(caption("amplitude").contains("3.56 mm instead of 3.01 mm (+1.4 dB)"));
     assert!(caption("return-map-1").contains("every 0.500 T"));
     assert!(caption("motion-1").contains("3.56 mm"));
+}
+
+/// In Z4 there is no fixed point, and still the ranges are shown, with the case beside them.
+#[test]
+fn a_case_outside_every_range_shows_where_they_are() {
+    let figures = figures(&shipped("li2016-8hz-b20mm"));
+    let ranges = &figures[0];
+    assert_eq!((ranges.name.as_str(), ranges.panels.len()), ("ranges", 3));
+    let caption = &ranges.caption;
+    assert!(caption.starts_with("This case has no stable 1:1 orbit; one is stable"), "{caption}");
+    assert!(caption.contains("from 4.85 mm to 16.7 mm (exact orbit)"), "{caption}");
+    assert!(ranges.alt.contains("here 20 mm") && ranges.alt.contains("8.09 Hz to 8.63 Hz"));
 }
 
 /// Up and down differ in shape as well as in colour, in both panels, under the exact branches.

@@ -64,6 +64,7 @@ const TEMPLATES: &[(&str, &str)] = templates![
     "captions/modulation",
     "captions/motion",
     "captions/plane",
+    "captions/ranges",
     "captions/response",
     "captions/restitutions",
     "captions/return-map",

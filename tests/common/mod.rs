@@ -53,3 +53,12 @@ pub fn words_are_apart(figure: &Figure, texts: &[PlacedText]) {
         }
     }
 }
+
+/// A caption says what to see in at most two sentences, and not what the alternative text says.
+pub fn caption_is_short(figure: &Figure) {
+    let caption = figure.caption.replace("Fig. ", "").replace("Figs. ", "");
+    let sentences = caption.split_inclusive(". ").count();
+    assert!((1..=2).contains(&sentences), "{}: {sentences} sentences: {caption}", figure.name);
+    assert!(caption.ends_with('.'), "{}: {caption}", figure.name);
+    assert!(figure.alt.len() > 30 && figure.alt != figure.caption, "{}", figure.name);
+}

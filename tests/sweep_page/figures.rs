@@ -249,6 +249,6 @@ fn words_neither_touch_nor_are_cut() {
     let three = swept(&case, axes, &more);
     for figure in two.figures().expect("figures").iter().chain(&three.figures().expect("figures")) {
         common::words_are_apart(figure, &draw(figure).expect("drawn").texts);
-        assert!(!figure.caption.is_empty() && !figure.alt.is_empty());
+        common::caption_is_short(figure);
     }
 }

@@ -2,7 +2,6 @@
 
 use serde_json::json;
 
-use crate::analysis::Branch;
 use crate::orbits::Bifurcation;
 use crate::quantity::catalogue as of;
 use crate::report::figure::{
@@ -11,16 +10,15 @@ use crate::report::figure::{
 use crate::study::plots::borders::{Bifurcations, Border, Condition};
 use crate::study::plots::{Borders, Map};
 use crate::validation::AsymptoticError;
-use crate::validation::boundaries::BoundaryAt;
 
 use super::Scene;
 use super::chart::Chart;
 
 /// The boundaries that are compared with exact ones.
-const COMPARED: [(Bifurcation, Role, &str); 3] = [
-    (Bifurcation::SymmetryBreaking, Role::SymmetryBreaking, "symmetry breaking"),
-    (Bifurcation::NeimarkSacker, Role::Hopf, "Hopf"),
-    (Bifurcation::SaddleNode, Role::SaddleNode, "saddle-node"),
+const COMPARED: [(Bifurcation, Role); 3] = [
+    (Bifurcation::SymmetryBreaking, Role::SymmetryBreaking),
+    (Bifurcation::NeimarkSacker, Role::Hopf),
+    (Bifurcation::SaddleNode, Role::SaddleNode),
 ];
 
 /// In frequency and clearance, with the theory's errors below.
@@ -28,19 +26,28 @@ pub(super) fn map(scene: &Scene, data: &Map) -> Figure {
     let (heights, log) = heights(scene, &data.borders);
     let kinds = [&of::EXCITATION_FREQUENCY, &of::CLEARANCE];
     let chart = Chart::new(scene, kinds, [data.window, heights]).with_log([false, log]);
+    let mut panel = chart.panel();
+    let ends = heights.map(|height| chart.at([0.0, height])[1]);
+    let grazing = data.exact.iter().filter_map(|at| Some([at.frequency_ratio, at.grazing()?]));
+    let grazing: Vec<[f64; 2]> = grazing.collect();
     let place =
         |detuning: f64, gamma: f64| chart.at([scene.ratio(detuning), scene.clearance(gamma)]);
-    let mut panel = chart.panel();
-    let [bottom, top] = heights.map(|height| chart.at([0.0, height])[1]);
-    let grazing = data.exact.iter().filter_map(|at| Some([at.frequency_ratio, at.grazing()?]));
-    let grazing = chart.line(&grazing.collect::<Vec<_>>());
-    panel.layers = data.borders.layers(&place, [top, bottom], &grazing);
-    exact_boundaries(scene, data, &chart, &mut panel);
-    let case = [scene.system().frequency_ratio(), 1.0];
-    let here = scene.mark(&chart, case, "this case");
-    panel = panel.with(Layer::this_case(chart.at(case), here.tooltip));
+    panel.layers = data.borders.layers(&place, [ends[1], ends[0]], &chart.line(&grazing));
+    let mark = |at: [f64; 2], what: &str| scene.mark(&chart, at, what);
+    let third = grazing.iter().map(|at| mark(*at, "more impacts below"));
+    let limits = data.exact.iter().flat_map(|at| {
+        let bounds = at.symmetric.limits.iter().filter(|limit| limit.bounds_stability);
+        bounds.map(|limit| mark([at.frequency_ratio, limit.clearance], limit.kind.words()))
+    });
+    let small = |shape, marks: Vec<MarkedPoint>| {
+        Layer::marked(Marker::hollow(shape).sized(5.0), Role::ExactOrbit.color(), marks)
+    };
+    let panel = panel
+        .with(small(Shape::Square, third.collect()).labelled("Z2 ends (exact)"))
+        .with(small(Shape::Circle, limits.collect()).labelled("exact limits"))
+        .with(scene.star(&chart, [scene.system().frequency_ratio(), 1.0]));
     let below = errors(scene, data, panel.x.clone());
-    let figure = scene.figure("map", "captions/map", map_facts(scene, below.is_some()));
+    let figure = scene.figure("map", "captions/map", json!({ "compared": below.is_some() }));
     match below {
         None => figure.with_panel(panel),
         Some(below) => figure
@@ -49,31 +56,6 @@ pub(super) fn map(scene: &Scene, data: &Map) -> Figure {
             .with_panel(panel)
             .with_panel(below),
     }
-}
-
-fn map_facts(scene: &Scene, compared: bool) -> serde_json::Value {
-    let study = scene.study;
-    let [below, above] = study.margins.clearance_neighbours();
-    let margin = |at: Option<BoundaryAt>| {
-        at.map(|at| {
-            json!({"kind": at.kind, "at": scene.theory(&of::BOUNDARY, at.clearance),
-                   "change": scene.theory(&of::MARGIN, at.clearance - 1.0)})
-        })
-    };
-    let error = |kind: Bifurcation, name: &str| {
-        let mut bounds = study.asymptotic_errors.iter().filter(|error| error.bounds_stability);
-        let difference = bounds.find(|error| error.kind == kind)?.difference?;
-        Some(json!({"of": name, "error": scene.theory(&of::THEORY_ERROR, difference)}))
-    };
-    let errors =
-        COMPARED.iter().filter(|_| compared).filter_map(|(kind, _, name)| error(*kind, name));
-    json!({
-        "area": study.area.area,
-        "strip": study.analysis.zone.strip,
-        "below": margin(below),
-        "above": margin(above),
-        "errors": errors.collect::<Vec<_>>(),
-    })
 }
 
 /// Smallest and largest clearance that show the boundaries and the case; logarithmic where a linear axis
@@ -98,63 +80,36 @@ fn heights(scene: &Scene, borders: &Borders) -> ([f64; 2], bool) {
     }
 }
 
-/// Where the stable exact orbit begins and ends, and where more than two impacts per period begin.
-fn exact_boundaries(scene: &Scene, data: &Map, chart: &Chart, panel: &mut Panel) {
-    let mark = |ratio: f64, clearance: f64, what: &str| scene.mark(chart, [ratio, clearance], what);
-    let grazing = data
-        .exact
-        .iter()
-        .filter_map(|at| Some(mark(at.frequency_ratio, at.grazing()?, "more impacts below")));
-    let grazing: Vec<MarkedPoint> = grazing.collect();
-    let limits = data.exact.iter().flat_map(|at| {
-        let bounds = at.symmetric.limits.iter().filter(|limit| limit.bounds_stability);
-        bounds.map(|limit| mark(at.frequency_ratio, limit.clearance, limit.kind.words()))
-    });
-    let limits: Vec<MarkedPoint> = limits.collect();
-    let small = |shape| Marker::hollow(shape).sized(5.0);
-    for (name, shape, marks) in
-        [("Z2 ends (exact)", Shape::Square, grazing), ("exact limits", Shape::Circle, limits)]
-    {
-        if !marks.is_empty() {
-            let layer = Layer::marked(small(shape), Role::ExactOrbit.color(), marks);
-            panel.layers.push(layer.labelled(name));
-        }
-    }
-}
-
 /// How far each boundary of the theory lies from the exact one; none where there is nothing to compare.
 fn errors(scene: &Scene, data: &Map, x: Axis) -> Option<Panel> {
-    let kinds = [&of::EXCITATION_FREQUENCY, &of::THEORY_ERROR];
     let known = |errors: &[AsymptoticError], kind| {
         let mut bounds = errors.iter().filter(|error| error.bounds_stability);
         bounds.find_map(|error| error.difference.filter(|_| error.kind == kind))
     };
-    let (mut range, mut lines) = ([-0.01_f64, 0.01_f64], Vec::new());
-    for (kind, role, name) in COMPARED {
-        let line: Vec<[f64; 2]> = data
-            .errors
-            .iter()
-            .map(|(ratio, errors)| [*ratio, known(errors, kind).unwrap_or(f64::NAN)])
-            .collect();
-        for at in line.iter().filter(|at| at[1].is_finite()) {
-            range = [range[0].min(at[1]), range[1].max(at[1])];
-        }
-        lines.push((role, name, line));
-    }
-    lines.retain(|(_, _, line)| line.iter().any(|at| at[1].is_finite()));
-    let span = range[1] - range[0];
-    let range = [range[0] - 0.1 * span, range[1] + 0.1 * span];
-    let chart = Chart::new(scene, kinds, [data.window, range]);
+    let line = |kind| -> Vec<[f64; 2]> {
+        let of =
+            |(ratio, errors): &(f64, Vec<_>)| [*ratio, known(errors, kind).unwrap_or(f64::NAN)];
+        data.errors.iter().map(of).collect()
+    };
+    let lines = COMPARED.map(|(kind, role)| (kind, role, line(kind)));
+    let values =
+        || lines.iter().flat_map(|(_, _, line)| line).map(|at| at[1]).filter(|at| at.is_finite());
+    values().next()?;
+    let [low, high] = [values().fold(-0.01, f64::min), values().fold(0.01, f64::max)];
+    let room = 0.1 * (high - low);
+    let kinds = [&of::EXCITATION_FREQUENCY, &of::THEORY_ERROR];
+    let chart = Chart::new(scene, kinds, [data.window, [low - room, high + room]]);
     let mut panel = Panel { x, ..chart.panel() }
         .with(chart.vertical(scene.system().frequency_ratio(), Role::Guide))
         .with(chart.horizontal(0.0, Role::Guide));
-    for (role, name, line) in &lines {
+    for (kind, role, line) in &lines {
+        let name = kind.words_in_slow_flow();
         let shown = line.iter().filter(|at| at[1].is_finite());
         let marks = shown.map(|at| chart.at(*at));
         let marks = Layer::marked(role.marker().sized(4.0), role.color(), marks);
-        panel = panel.with(chart.curve(*role, line).labelled(*name)).with(marks);
+        panel = panel.with(chart.curve(*role, line).labelled(name)).with(marks);
     }
-    (!lines.is_empty()).then_some(panel)
+    Some(panel)
 }
 
 /// In the reduced parameters `(sigma, gamma)`.
@@ -170,21 +125,12 @@ pub(super) fn plane(scene: &Scene, borders: &Borders) -> Figure {
     let chart = Chart::new(scene, kinds, [borders.window(), y]).with_log([false, log]);
     let mut panel = chart.panel();
     panel.layers = borders.layers(&|detuning, gamma| [detuning, gamma], y, &[]);
-    let here = scene.mark(&chart, case, "this case");
-    let panel = panel.with(Layer::this_case(case, here.tooltip));
-    let at = &scene.study.analysis.boundaries;
-    let gamma = |value| scene.theory(&of::FORCING_PER_CLEARANCE, value);
     let facts = json!({
-        "gamma": gamma(case[1]),
-        "detuning": scene.theory(&of::DETUNING, case[0]),
-        "hopf": gamma(at.hopf),
-        "breaking": gamma(at.symmetry_breaking),
-        "place": if case[1] < at.hopf { "below" } else if case[1] > at.symmetry_breaking { "above" } else { "between" },
-        "meeting": borders.meeting.map(|at| json!({
-            "detuning": scene.theory(&of::DETUNING, at[0]), "gamma": gamma(at[1])
-        })),
+        "here": case,
+        "boundaries": scene.study.analysis.boundaries,
+        "meeting": borders.meeting,
     });
-    scene.figure("plane", "captions/plane", facts).with_panel(panel)
+    scene.figure("plane", "captions/plane", facts).with_panel(panel.with(scene.star(&chart, case)))
 }
 
 /// Colour and dashes of the three frequencies; P1's is in the middle.
@@ -197,23 +143,21 @@ const STYLES: [Style; 3] = [
 /// What the saddle-node and the Hopf boundary are, and where they lie.
 pub(super) fn bifurcations(scene: &Scene, data: &Bifurcations) -> Figure {
     let meeting = scene.study.analysis.boundaries.codimension_two;
-    let highest = |at: &Condition| at.collision.map_or(at.hopf, |(_, b, _)| b.max(at.hopf));
-    let highest = data.conditions.iter().map(highest).fold(0.0, f64::max);
+    let found = data.conditions.iter().flat_map(|at| [Some(hopf(scene, at)), collision(scene, at)]);
+    let highest = found.flatten().fold(0.0, f64::max);
     let y = [0.0, 1.25 * highest.max(scene.clearance(meeting.forcing_over_clearance))];
     let side = |at: &Condition| {
         json!({
-            "frequency": scene.theory(&of::EXCITATION_FREQUENCY, scene.ratio(at.detuning)),
-            "hopf": scene.theory(&of::BOUNDARY, at.hopf),
-            "collision": at.collision.map(|(_, b, branch)| json!({
-                "at": scene.theory(&of::BOUNDARY, b),
-                "strip": if branch == Branch::Left { "A2" } else { "A1" },
-            })),
+            "ratio": scene.ratio(at.detuning),
+            "hopf": hopf(scene, at),
+            "collision": collision(scene, at),
+            "branch": at.boundaries.saddle_node.map(|node| node.branch),
         })
     };
     let facts = json!({
         "sides": [side(&data.conditions[0]), side(&data.conditions[2])],
-        "meeting": scene.theory(&of::EXCITATION_FREQUENCY, scene.ratio(meeting.detuning)),
-        "gamma": scene.theory(&of::FORCING_PER_CLEARANCE, meeting.forcing_over_clearance),
+        "meeting": scene.ratio(meeting.detuning),
+        "gamma": meeting.forcing_over_clearance,
     });
     scene
         .figure("bifurcations", "captions/bifurcations", facts)
@@ -222,11 +166,31 @@ pub(super) fn bifurcations(scene: &Scene, data: &Bifurcations) -> Figure {
         .with_panel(border_panel(scene, data, y))
 }
 
-/// Marks of the Hopf condition and of collisions.
-fn condition_marks(hopf: Vec<MarkedPoint>, collisions: Vec<MarkedPoint>) -> [Layer; 2] {
+/// The clearance with a fixed point at the fold.
+fn hopf(scene: &Scene, at: &Condition) -> f64 {
+    scene.clearance(at.boundaries.hopf)
+}
+
+/// The clearance at which two fixed points collide.
+fn collision(scene: &Scene, at: &Condition) -> Option<f64> {
+    at.boundaries.saddle_node.map(|node| scene.clearance(node.forcing_over_clearance))
+}
+
+/// Marks of the Hopf condition and of collisions, at the abscissae that `x` gives both.
+fn condition_marks(
+    scene: &Scene,
+    data: &Bifurcations,
+    chart: &Chart,
+    x: impl Fn(&Condition) -> [f64; 2],
+) -> [Layer; 2] {
+    let marks = |k: usize, role: Role, name: &str, of: &dyn Fn(&Condition) -> Option<f64>| {
+        let found = data.conditions.iter();
+        let marks = found.filter_map(|at| Some(scene.mark(chart, [x(at)[k], of(at)?], name)));
+        Layer::marked(role.marker().sized(9.0), role.color(), marks)
+    };
     [
-        Layer::marked(Role::Hopf.marker().sized(9.0), Role::Hopf.color(), hopf),
-        Layer::marked(Role::SaddleNode.marker().sized(9.0), Role::SaddleNode.color(), collisions),
+        marks(0, Role::Hopf, "Hopf", &|at| Some(hopf(scene, at))),
+        marks(1, Role::SaddleNode, "saddle-node", &|at| collision(scene, at)),
     ]
 }
 
@@ -241,11 +205,9 @@ fn condition_panel(scene: &Scene, data: &Bifurcations, y: [f64; 2]) -> Panel {
         let name = scene.text(&of::EXCITATION_FREQUENCY, scene.ratio(at.detuning));
         panel = panel.with(Layer::styled(style, chart.line(&at.line)).labelled(name));
     }
-    let hopf = data.conditions.iter().map(|at| scene.mark(&chart, [fold, at.hopf], "Hopf"));
-    let collisions = data.conditions.iter().filter_map(|at| at.collision);
-    let collisions =
-        collisions.map(|(absorber, b, _)| scene.mark(&chart, [absorber, b], "saddle-node"));
-    let [hopf, collisions] = condition_marks(hopf.collect(), collisions.collect());
+    let node =
+        |at: &Condition| at.boundaries.saddle_node.map_or(f64::NAN, |node| node.absorber_amplitude);
+    let [hopf, collisions] = condition_marks(scene, data, &chart, |at| [fold, node(at)]);
     panel
         .with(hopf.labelled("Hopf: at the fold"))
         .with(collisions.labelled("saddle-node: at the top"))
@@ -260,14 +222,11 @@ fn border_panel(scene: &Scene, data: &Bifurcations, y: [f64; 2]) -> Panel {
         |detuning: f64, gamma: f64| chart.at([scene.ratio(detuning), scene.clearance(gamma)]);
     let mut panel = chart.panel().with_heading("the boundaries");
     panel.layers = data.borders.layers(&place, [chart.at(y)[1], 0.0], &[]);
-    let (mut hopf, mut collisions) = (Vec::new(), Vec::new());
     for (at, style) in data.conditions.iter().zip(STYLES) {
-        let ratio = scene.ratio(at.detuning);
-        panel = panel.with(chart.vertical(ratio, Style { width: 1.1, ..style }));
-        hopf.push(scene.mark(&chart, [ratio, at.hopf], "Hopf"));
-        let collision = at.collision.map(|(_, b, _)| scene.mark(&chart, [ratio, b], "saddle-node"));
-        collisions.extend(collision);
+        let rule = chart.vertical(scene.ratio(at.detuning), Style { width: 1.1, ..style });
+        panel.layers.push(rule);
     }
-    panel.layers.extend(condition_marks(hopf, collisions));
+    let ratio = |at: &Condition| [scene.ratio(at.detuning); 2];
+    panel.layers.extend(condition_marks(scene, data, &chart, ratio));
     panel
 }

@@ -1,36 +1,33 @@
 //! Two quantities as axes: from dimensionless numbers to numbers in the units of the axes.
 
 use crate::quantity::Kind;
-use crate::report::figure::{Axis, Layer, Panel, Role, Rule, Scale, Style};
+use crate::report::figure::{Axis, Layer, Panel, Rule, Scale, Style};
 
 use super::Scene;
 
 /// The axes of a panel.
 pub(super) struct Chart {
-    axes: [Measure; 2],
-}
-
-/// One axis.
-struct Measure {
-    kind: &'static Kind,
-    label: String,
-    /// Displayed units in one of the dimensionless number.
-    factor: f64,
-    range: [f64; 2],
-    scale: Scale,
+    kinds: [&'static Kind; 2],
+    ranges: [[f64; 2]; 2],
+    /// Displayed units in one of each dimensionless number.
+    factors: [f64; 2],
+    axes: [Axis; 2],
 }
 
 impl Chart {
-    /// Axes of two kinds over two ranges; units and prefixes suit the ends of the ranges.
-    pub(super) fn new(scene: &Scene, kinds: [&'static Kind; 2], [x, y]: [[f64; 2]; 2]) -> Self {
-        let measure = |kind: &'static Kind, range: [f64; 2]| {
-            let largest = scene.si(kind, range[1].abs().max(range[0].abs()));
-            let unit = scene.units.axis_unit(kind, largest);
-            let label = scene.units.axis_label(kind, largest);
-            let factor = scene.si(kind, 1.0) / unit.size;
-            Measure { kind, label, factor, range, scale: Scale::Linear }
-        };
-        Self { axes: [measure(kinds[0], x), measure(kinds[1], y)] }
+    /// Axes of two kinds over two ranges; units and prefixes suit the ends of the ranges. A range with an end
+    /// that is not finite follows from what is drawn.
+    pub(super) fn new(scene: &Scene, kinds: [&'static Kind; 2], ranges: [[f64; 2]; 2]) -> Self {
+        let largest =
+            [0, 1].map(|k| scene.si(kinds[k], ranges[k][1].abs().max(ranges[k][0].abs())));
+        let unit = |k: usize| scene.units.axis_unit(kinds[k], largest[k]).size;
+        let factors = [0, 1].map(|k| scene.si(kinds[k], 1.0) / unit(k));
+        let axes = [0, 1].map(|k| {
+            let axis = Axis::linear(scene.units.axis_label(kinds[k], largest[k]));
+            let [first, last] = ranges[k].map(|value| value * factors[k]);
+            if first.is_finite() && last.is_finite() { axis.with_range(first, last) } else { axis }
+        });
+        Self { kinds, ranges, factors, axes }
     }
 
     /// The same with logarithmic axes where that is asked for.
@@ -41,26 +38,26 @@ impl Chart {
         self
     }
 
-    pub(super) fn kinds(&self) -> [&'static Kind; 2] {
-        [self.axes[0].kind, self.axes[1].kind]
+    pub(super) const fn kinds(&self) -> [&'static Kind; 2] {
+        self.kinds
     }
 
     /// The range of an axis: 0 across, 1 up.
-    pub(super) fn range(&self, index: usize) -> [f64; 2] {
-        self.axes[index].range
+    pub(super) const fn range(&self, index: usize) -> [f64; 2] {
+        self.ranges[index]
     }
 
     pub(super) fn at(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        [x * self.axes[0].factor, y * self.axes[1].factor]
+        [x * self.factors[0], y * self.factors[1]]
     }
 
     pub(super) fn line<'a>(&self, points: impl IntoIterator<Item = &'a [f64; 2]>) -> Vec<[f64; 2]> {
         points.into_iter().map(|point| self.at(*point)).collect()
     }
 
-    /// A curve in the style of its role.
-    pub(super) fn curve(&self, role: Role, points: &[[f64; 2]]) -> Layer {
-        Layer::curve(role, self.line(points))
+    /// A curve in the style of its role, or in one of its own.
+    pub(super) fn curve(&self, style: impl Into<Style>, points: &[[f64; 2]]) -> Layer {
+        Layer::styled(style.into(), self.line(points))
     }
 
     /// A line across the panel at an abscissa.
@@ -75,11 +72,7 @@ impl Chart {
 
     /// An empty panel with these axes.
     pub(super) fn panel(&self) -> Panel {
-        let axis = |of: &Measure| {
-            let [first, last] = of.range.map(|value| value * of.factor);
-            let axis = Axis { scale: of.scale, ..Axis::linear(of.label.clone()) };
-            if first.is_finite() && last.is_finite() { axis.with_range(first, last) } else { axis }
-        };
-        Panel::new(axis(&self.axes[0]), axis(&self.axes[1]))
+        let [x, y] = self.axes.clone();
+        Panel::new(x, y)
     }
 }

@@ -79,9 +79,7 @@ pub(super) fn figure(scene: &Scene, diagram: &Diagram, bare: &[[f64; 2]]) -> Fig
     first = first.with(bare.labelled("without absorber"));
     upper.draw(scene, &mut first, true);
     if let Some(found) = first_drawn(scene.study) {
-        let at = [own, found.attractor.peak];
-        let here = scene.mark(&upper.chart, at, "this case");
-        first = first.with(Layer::this_case(upper.chart.at(at), here.tooltip));
+        first = first.with(scene.star(&upper.chart, [own, found.attractor.peak]));
     }
     let all = diagram.points.iter().flat_map(|point| &point.intervals);
     let longest = all.copied().fold(0.5, f64::max).min(LONGEST);
@@ -151,11 +149,9 @@ impl Heights<'_> {
             panel.layers.push(label(Layer::styled(style, self.lines(stable)), name));
         }
         for (kind, shape, color) in KINDS {
-            let points = self.marks(scene, kind);
-            if !points.is_empty() {
-                let layer = Layer::marked(Marker::hollow(shape).sized(8.0), color, points);
-                panel.layers.push(label(layer, kind.words()));
-            }
+            let marker = Marker::hollow(shape).sized(8.0);
+            let layer = Layer::marked(marker, color, self.marks(scene, kind));
+            panel.layers.push(label(layer, kind.words()));
         }
     }
 
@@ -237,12 +233,12 @@ fn outside(points: Vec<[f64; 2]>, known: &[Vec<[f64; 2]>]) -> Option<Vec<[f64; 2
 
 fn facts(scene: &Scene, diagram: &Diagram) -> Value {
     let kind = scene.kind(diagram.parameter);
-    let value = |value| scene.exact(kind, value);
+    let value = |value| scene.si(kind, value);
     let hysteresis = diagram.hysteresis.iter().map(|one| {
         json!({
             "values": one.values.map(value),
             "regimes": one.regimes,
-            "peaks": one.peaks.map(|peak| scene.seen(&of::PEAK, peak)),
+            "peaks": one.peaks,
         })
     });
     let stretches = diagram.exact.attracting_stretches();
@@ -257,11 +253,6 @@ fn facts(scene: &Scene, diagram: &Diagram) -> Value {
         "periods": EFFORT.periods,
         "hysteresis": hysteresis.collect::<Vec<_>>(),
         "attracting": attracting.collect::<Vec<_>>(),
-        "agreement": diagram.agreement.map(|found| json!({
-            "compared": found.compared,
-            "without_orbit": found.without_orbit,
-            "largest": found.largest,
-            "at": value(found.at),
-        })),
+        "agreement": diagram.agreement.map(|found| found.largest),
     })
 }

@@ -11,27 +11,36 @@ mod motions;
 mod over_time;
 mod parts;
 mod peaks;
+mod ranges;
 mod responses;
 mod statistics;
 
 use serde_json::{Value, json};
 
-use crate::case::{BandOver, Case, Scales, Subject};
+use crate::case::{Case, Scales, Subject};
 use crate::method::Method;
 use crate::quantity::{Digits, Dimension, Kind, Quantity, Units, catalogue as of};
 use crate::study::CaseStudy;
 use crate::study::plots::Plot;
 use crate::system::{Parameter, System};
 
-use super::document::Scale;
-use super::figure::{Figure, MarkedPoint};
+use super::document::motions::found;
+use super::document::{Scale, theory};
+use super::figure::{Figure, Layer, MarkedPoint};
 use chart::Chart;
 
 /// All figures of a report, in reading order; their words are still to be filled in by
 /// [`super::template::worded`].
 pub fn all(case: &Case, study: &CaseStudy, plots: &[Plot]) -> Vec<Figure> {
     let scene = Scene::new(case, study);
-    plots.iter().filter_map(|plot| scene.figure_of(plot)).collect()
+    let mut figures: Vec<Figure> = plots.iter().flat_map(|plot| scene.figures_of(plot)).collect();
+    for panel in figures.iter_mut().flat_map(|figure| &mut figure.panels) {
+        // A layer without points would still be named.
+        let empty =
+            |layer: &Layer| matches!(layer, Layer::Points { points, .. } if points.is_empty());
+        panel.layers.retain(|layer| !empty(layer));
+    }
+    figures
 }
 
 /// A studied case and its units. Numbers that go in are dimensionless: lengths over the clearance, times in
@@ -44,34 +53,55 @@ struct Scene<'a> {
     forcing: (&'static Kind, f64),
     /// The largest displacement that the case allows.
     limit: Option<f64>,
+    /// What every caption may speak of.
+    known: Value,
 }
 
 impl<'a> Scene<'a> {
     fn new(case: &Case, study: &'a CaseStudy) -> Self {
-        let scales = case.scales();
+        let (scale, scales) = (Scale::of(case), case.scales());
         let mut limits = case.criteria.iter();
         let asked = limits.find(|one| one.subject == Subject::PeakDisplacement);
-        let own = Scale::of(case).amplitude(1.0, Method::Given);
-        let limit = asked.map(|one| one.limit / scales.length(1.0));
+        let own = scale.amplitude(1.0, Method::Given);
+        let system = &study.analysis.system;
+        let frequency = scales.frequency(system.frequency_ratio());
+        let proven = study.attractors.iter().zip(&study.proofs);
+        let motions = proven.map(|(one, proof)| found(&scale, system, one, proof.as_ref()));
+        let known = json!({
+            "frequency": Quantity::new(&of::EXCITATION_FREQUENCY, frequency, Method::Given),
+            "clearance": scale.length(&of::CLEARANCE, 1.0, Method::Given),
+            // Units of lengths over the clearance and of frequency ratios.
+            "b": scales.length(1.0),
+            "f0": scales.frequency(1.0),
+            "theory": theory::with_margins(&scale, study),
+            "motions": motions.collect::<Vec<_>>(),
+        });
         Self {
             study,
             scales,
-            units: Scale::of(case).units(),
+            units: scale.units(),
             forcing: (own.kind, own.value),
-            limit,
+            limit: asked.map(|one| one.limit / scales.length(1.0)),
+            known,
         }
     }
 
-    fn figure_of(&self, plot: &Plot) -> Option<Figure> {
-        match plot {
+    fn figures_of(&self, plot: &Plot) -> Vec<Figure> {
+        let figure = match plot {
             Plot::Band(data) => peaks::band(self, data),
+            Plot::Ranges(data) => ranges::figure(self, data),
             Plot::Map(data) => Some(boundaries::map(self, data)),
             Plot::Plane(data) => Some(boundaries::plane(self, data)),
             Plot::Manifold => Some(responses::manifold(self)),
             Plot::Responses(data) => Some(responses::figure(self, data)),
             Plot::Amplitude(data) => Some(peaks::amplitude(self, data)),
-            Plot::Motion(data) => Some(over_time::motion(self, data)),
-            Plot::ReturnMap(index) => statistics::return_map(self, *index),
+            Plot::Motion(data) => {
+                let motion = over_time::motion(self, data);
+                return [motion]
+                    .into_iter()
+                    .chain(statistics::return_map(self, data.index))
+                    .collect();
+            }
             Plot::Areas(data) => Some(responses::areas(self, data)),
             Plot::Bifurcations(data) => Some(boundaries::bifurcations(self, data)),
             Plot::Modulation(data) => Some(motions::modulation(self, data)),
@@ -83,7 +113,8 @@ impl<'a> Scene<'a> {
             Plot::Transfer(data) => Some(over_time::transfer(self, data)),
             Plot::TransferStretches(data) => over_time::stretches(self, data),
             Plot::Diagram(data, bare) => Some(diagram::figure(self, data, bare)),
-        }
+        };
+        figure.into_iter().collect()
     }
 
     const fn system(&self) -> &'a System {
@@ -118,25 +149,6 @@ impl<'a> Scene<'a> {
         }
     }
 
-    fn quantity(&self, kind: &'static Kind, value: f64, method: Method) -> Quantity {
-        Quantity::new(kind, self.si(kind, value), method)
-    }
-
-    /// A number of the theory.
-    fn theory(&self, kind: &'static Kind, value: f64) -> Quantity {
-        self.quantity(kind, value, Method::Theory)
-    }
-
-    /// A number of an exact orbit.
-    fn exact(&self, kind: &'static Kind, value: f64) -> Quantity {
-        self.quantity(kind, value, Method::ExactOrbit)
-    }
-
-    /// A simulated number.
-    fn seen(&self, kind: &'static Kind, value: f64) -> Quantity {
-        self.quantity(kind, value, Method::Simulation)
-    }
-
     /// A number with its unit.
     fn text(&self, kind: &Kind, value: f64) -> String {
         self.units.text(kind, self.si(kind, value))
@@ -144,8 +156,12 @@ impl<'a> Scene<'a> {
 
     /// A name of a curve by its clearance: `b = 7.500 mm`.
     fn at_clearance(&self, clearance: f64) -> String {
-        let clearance = self.si(&of::BOUNDARY, clearance);
-        format!("b = {}", self.units.with_digits(&of::BOUNDARY, clearance, Digits::Significant(3)))
+        format!("b = {}", self.short(&of::BOUNDARY, clearance))
+    }
+
+    /// A number in three digits, with its unit.
+    fn short(&self, kind: &Kind, value: f64) -> String {
+        self.units.with_digits(kind, self.si(kind, value), Digits::Significant(3))
     }
 
     /// What a tooltip says: `simulated, symmetric 1:1: f = 8.304 Hz, x̂ = 3.56 mm`.
@@ -164,6 +180,11 @@ impl<'a> Scene<'a> {
         MarkedPoint::from(chart.at(at)).with_tooltip(self.tip(what, &[(x, at[0]), (y, at[1])]))
     }
 
+    /// The mark of the case.
+    fn star(&self, chart: &Chart, at: [f64; 2]) -> Layer {
+        Layer::this_case(chart.at(at), self.mark(chart, at, "this case").tooltip)
+    }
+
     /// What a parameter is.
     fn kind(&self, parameter: Parameter) -> &'static Kind {
         match parameter {
@@ -174,20 +195,13 @@ impl<'a> Scene<'a> {
         }
     }
 
-    /// What a band goes over.
-    fn band_kind(&self, over: BandOver) -> &'static Kind {
-        match over {
-            BandOver::Frequency => self.kind(Parameter::FrequencyRatio),
-            BandOver::Amplitude => self.forcing.0,
+    /// A figure whose words come from `templates/captions/`, which get what is known of the case beside the
+    /// facts.
+    fn figure(&self, name: &str, template: &'static str, facts: Value) -> Figure {
+        let mut all = self.known.clone();
+        if let (Value::Object(all), Value::Object(facts)) = (&mut all, facts) {
+            all.extend(facts);
         }
-    }
-
-    /// A figure whose words come from `templates/captions/`; every template has the case's frequency and
-    /// clearance beside the facts.
-    fn figure(&self, name: impl Into<String>, template: &'static str, mut facts: Value) -> Figure {
-        let given = |kind, value| json!(self.quantity(kind, value, Method::Given));
-        facts["frequency"] = given(&of::EXCITATION_FREQUENCY, self.system().frequency_ratio());
-        facts["clearance"] = given(&of::CLEARANCE, 1.0);
-        Figure::new(name, "").with_facts(template, facts)
+        Figure::new(name, "").with_facts(template, all)
     }
 }

@@ -2,7 +2,7 @@
 
 use serde_json::json;
 
-use crate::analysis::Branch;
+use crate::analysis::{Branch, Manifold};
 use crate::quantity::catalogue as of;
 use crate::report::figure::{
     Color, Dash, Figure, Label, Layer, Layout, Marker, Panel, Role, Shape, Style,
@@ -78,28 +78,18 @@ fn around(line: &[[f64; 2]], index: usize) -> [f64; 2] {
     [(low - room).max(0.0), high + room]
 }
 
-/// How the restitutions of Fig. 9 look, from 1 down.
-const LOOKS: [(Color, Dash); 5] = [
-    (Color::Vermillion, Dash::LongDashed),
-    (Color::Orange, Dash::Dashed),
-    (Color::BluishGreen, Dash::Solid),
-    (Color::Blue, Dash::DashDot),
-    (Color::Black, Dash::Dotted),
+/// The restitutions of Fig. 9, and how they look.
+const LOOKS: [(f64, Color, Dash); 5] = [
+    (1.0, Color::Vermillion, Dash::LongDashed),
+    (0.8, Color::Orange, Dash::Dashed),
+    (0.6, Color::BluishGreen, Dash::Solid),
+    (0.4, Color::Blue, Dash::DashDot),
+    (0.2, Color::Black, Dash::Dotted),
 ];
 
 /// The manifold, and what it takes from the oscillator.
 pub(super) fn restitutions(scene: &Scene, data: &Restitutions) -> Figure {
-    let restitution = |value| scene.theory(&of::RESTITUTION, value);
-    let facts = json!({
-        "level": scene.theory(&of::OSCILLATOR_AMPLITUDE, data.level),
-        "first": restitution(data.strongest.stable[0]),
-        "last": restitution(data.strongest.stable[1]),
-        "harmonic": restitution(data.strongest.harmonic),
-        "damping": restitution(data.strongest.damping),
-        "best": data.best.map(|(r, peak)| json!({
-            "restitution": scene.exact(&of::RESTITUTION, r), "peak": scene.exact(&of::PEAK, peak)
-        })),
-    });
+    let facts = json!({ "level": data.level, "strongest": data.strongest, "best": data.best });
     scene
         .figure("restitutions", "captions/restitutions", facts)
         .with_size(860, 450)
@@ -114,8 +104,8 @@ fn manifolds(scene: &Scene, data: &Restitutions) -> Panel {
     let rule = rule.labelled(Label::near("this case", [0.25 * last, data.level]));
     let mut panel = chart.panel().with_heading("manifolds: stable part thick").with(rule);
     let mut marks = Vec::new();
-    for ((restitution, manifold), (color, dash)) in data.manifolds.iter().zip(LOOKS) {
-        let [unstable, stable] = parts::manifold(manifold, last);
+    for (restitution, color, dash) in LOOKS {
+        let [unstable, stable] = parts::manifold(&Manifold::of(restitution), last);
         let thin = Style::new(color, 1.0, dash);
         let thick = Layer::styled(Style { width: 2.6, ..thin }, stable);
         panel = panel.with(Layer::styled(thin, unstable));
@@ -146,21 +136,9 @@ fn over_restitution(scene: &Scene, data: &Restitutions) -> Panel {
         ("E sin Θ/b", Color::Vermillion, |at| at.damping),
     ];
     for (name, color, value) in values {
-        let [mut thick, mut thin] = [Vec::new(), Vec::new()];
-        for pair in data.taken.windows(2) {
-            let line = if pair[1].branch == Branch::Stable { &mut thick } else { &mut thin };
-            let ends = [&pair[0], &pair[1]].map(|at| [at.restitution, value(at)]);
-            if line.last() != Some(&ends[0]) {
-                line.extend([[f64::NAN; 2], ends[0]]);
-            }
-            line.push(ends[1]);
-        }
-        let named = usize::from(!thick.is_empty());
-        let mut layers = [
-            Layer::styled(Style::new(color, 1.2, Dash::Dashed), thin),
-            Layer::styled(Style::new(color, 2.6, Dash::Solid), thick),
-        ];
-        layers[named] = layers[named].clone().labelled(name);
+        let [thick, thin] = data.lines(value);
+        let thin = (Style::new(color, 1.2, Dash::Dashed), thin);
+        let layers = parts::branches([thin, (Style::new(color, 2.6, Dash::Solid), thick)], name);
         panel.layers.extend(layers);
     }
     panel

@@ -90,7 +90,7 @@ pub(super) fn motion(scene: &Scene, data: &Motion) -> Figure {
         .with(low.marks(scene, &|_, impact| impact.side.sign()).labelled("impacts"));
     let number = data.index + 1;
     scene
-        .figure(format!("motion-{number}"), "captions/motion", motion_facts(scene, data))
+        .figure(&format!("motion-{number}"), "captions/motion", motion_facts(scene, data))
         .with_size(860, 420)
         .with_layout(Layout::cells(
             &[1.15, 1.0],
@@ -123,20 +123,14 @@ fn projection(scene: &Scene, data: &Motion) -> Panel {
     panel.with(Layer::marked(marker, Role::Simulation.color(), marks))
 }
 
+/// What the motion's own facts do not say.
 fn motion_facts(scene: &Scene, data: &Motion) -> Value {
-    let attractor = &scene.study.attractors[data.index].attractor;
-    let evidence = &attractor.classification.evidence;
-    let depth = evidence.modulation_depth;
+    let evidence = &scene.study.attractors[data.index].attractor.classification.evidence;
     json!({
-        "number": data.index + 1,
+        "index": data.index,
         "periods": data.periods,
-        "regime": attractor.classification.regime,
         "repeats": evidence.periodicity.is_some(),
-        "peak": scene.seen(&of::PEAK, attractor.peak),
-        "z": scene.seen(&of::IMPACTS_PER_PERIOD, evidence.impacts_per_period),
         "asymmetry": evidence.asymmetry,
-        "captured": scene.seen(&of::CAPTURE_SHARE, evidence.captures.share),
-        "varies": 2.0 * depth / (1.0 + depth),
     })
 }
 
@@ -157,14 +151,9 @@ pub(super) fn captures(scene: &Scene) -> Option<Figure> {
         capture_panel(scene, shown, &of::OSCILLATOR_AMPLITUDE, |one| one.oscillator_amplitude);
     let evidence = &found.attractor.classification.evidence;
     let (captures, amplitude) = (&evidence.captures, &evidence.absorber_amplitude);
-    let mean = |value: Option<f64>| value.map(|value| scene.seen(&of::HARMONIC_AMPLITUDE, value));
     let facts = json!({
-        "share": scene.seen(&of::CAPTURE_SHARE, captures.share),
-        "mean": captures.mean,
-        "longest": captures.longest,
-        "inside": mean(amplitude.in_captures),
-        "between": mean(amplitude.between),
-        "correlation": amplitude.correlation_with_growth,
+        "captures": captures,
+        "amplitude": amplitude,
     });
     Some(
         scene
@@ -279,14 +268,13 @@ fn transfer_facts(scene: &Scene, data: &Transfer, largest: f64) -> Value {
     let inside: Vec<&Stretch> = captures.iter().filter(whole).collect();
     let captured: usize = inside.iter().map(|capture| capture.periods).sum();
     let peaks = &data.periods.peaks[window.first..window.end()];
-    let peak = |value| scene.seen(&of::PEAK, value);
     json!({
-        "low": peak(peaks.iter().copied().fold(f64::INFINITY, f64::min)),
-        "high": peak(peaks.iter().copied().fold(0.0, f64::max)),
+        "low": peaks.iter().copied().fold(f64::INFINITY, f64::min),
+        "high": peaks.iter().copied().fold(0.0, f64::max),
         "captures": inside.len(),
         "share": captured as f64 / window.periods as f64,
         "periods": window.periods,
-        "largest": scene.seen(&of::IMPULSE, largest),
+        "largest": scene.si(&of::IMPULSE, largest),
     })
 }
 
@@ -299,9 +287,9 @@ pub(super) fn stretches(scene: &Scene, data: &Transfer) -> Option<Figure> {
         json!({
             "part": &name[..1],
             "impacts": part.impacts,
-            "impulse": (part.impacts > 0).then(|| scene.seen(&of::IMPULSE, part.impulse)),
+            "impulse": (part.impacts > 0).then(|| scene.si(&of::IMPULSE, part.impulse)),
             "periods": part.stretch.periods,
-            "change": scene.seen(&of::MARGIN, part.change),
+            "change": part.change,
         })
     });
     let facts = json!({

@@ -3,7 +3,9 @@
 use crate::analysis::{FixedPoint, Manifold};
 use crate::quantity::catalogue as of;
 use crate::regimes::Regime;
-use crate::report::figure::{Color, Fill, Hatch, Layer, MarkedPoint, Marker, Role, Shape};
+use crate::report::figure::{
+    Color, Fill, Hatch, Label, Layer, MarkedPoint, Marker, Role, Shape, Style,
+};
 use crate::study::plots::{Levels, Line};
 
 use super::Scene;
@@ -48,6 +50,14 @@ pub(super) fn manifold_layers(of: &Manifold, last: f64) -> [Layer; 2] {
     [Layer::curve(Role::Unstable, unstable), Layer::curve(Role::Stable, stable)]
 }
 
+/// The unstable and the stable part of a curve, of which one has a name.
+pub(super) fn branches(parts: [(Style, Line); 2], name: impl Into<Label>) -> [Layer; 2] {
+    let named = usize::from(!parts[1].1.is_empty());
+    let mut layers = parts.map(|(style, line)| Layer::styled(style, line));
+    layers[named] = layers[named].clone().labelled(name);
+    layers
+}
+
 /// Fixed points by their places: stable ones filled, unstable ones hollow, named where that is asked for.
 pub(super) fn fixed_points(
     scene: &Scene,
@@ -59,15 +69,14 @@ pub(super) fn fixed_points(
         let chosen = points.iter().filter(|point| point.stable == stable);
         let marks: Vec<MarkedPoint> = chosen.map(|at| fixed_point(scene, at, place(at))).collect();
         let name = if marks.len() == 1 { one } else { more };
-        let layer = Layer::marked(role.marker().sized(9.0), role.color(), marks.clone());
-        let layer = if named { layer.labelled(name) } else { layer };
-        (!marks.is_empty()).then_some(layer)
+        let layer = Layer::marked(role.marker().sized(9.0), role.color(), marks);
+        if named { layer.labelled(name) } else { layer }
     };
     let both = [
         (Role::Stable, true, "stable fixed point", "stable fixed points"),
         (Role::Unstable, false, "unstable fixed point", "unstable fixed points"),
     ];
-    both.into_iter().filter_map(layer).collect()
+    both.map(layer).into()
 }
 
 /// A fixed point's mark.
@@ -98,12 +107,11 @@ const REGIMES: [(&str, Marker, &[Regime]); 5] = [
 pub(super) fn by_regime(found: &[(Regime, MarkedPoint)], named: bool) -> Vec<Layer> {
     let layer = |(name, marker, regimes): (&str, Marker, &[Regime])| {
         let chosen = found.iter().filter(|(regime, _)| regimes.contains(regime));
-        let marks: Vec<MarkedPoint> = chosen.map(|(_, mark)| mark.clone()).collect();
-        let some = !marks.is_empty();
+        let marks = chosen.map(|(_, mark)| mark.clone());
         let layer = Layer::marked(marker, Role::Simulation.color(), marks);
-        some.then(|| if named { layer.labelled(name) } else { layer })
+        if named { layer.labelled(name) } else { layer }
     };
-    REGIMES.into_iter().filter_map(layer).collect()
+    REGIMES.map(layer).into()
 }
 
 /// The areas as bands of `C/b` over the whole of a panel, in the units of its axes.

@@ -2,6 +2,8 @@
 
 use serde_json::json;
 
+use crate::band::Survey;
+use crate::case::BandOver;
 use crate::quantity::catalogue as of;
 use crate::regimes::Regime;
 use crate::report::figure::{
@@ -18,15 +20,18 @@ use super::parts;
 pub(super) fn band(scene: &Scene, data: &BandCurves) -> Option<Figure> {
     let survey = scene.study.band.as_ref()?;
     let band = survey.band();
-    let found = simulated(scene);
+    let found = beside_orbits(scene, survey);
     let drawn = data.orbits.iter().flatten().map(|point| point[1]);
     let highest = drawn.chain(found.iter().map(|(at, _)| at[1]));
     let highest = highest.filter(|value| value.is_finite()).fold(0.0, f64::max);
     let rival = data.bare.iter().chain(&data.damper).map(|point| point[1]).fold(0.0, f64::max);
     // The bare oscillator's resonance is cut where it would hide the rest.
     let top = 1.05 * if highest > 0.0 { rival.min(1.6 * highest).max(highest) } else { rival };
-    let kinds = [scene.band_kind(band.over), &of::PEAK];
-    let chart = Chart::new(scene, kinds, [band.range, [0.0, top]]);
+    let kind = match band.over {
+        BandOver::Frequency => &of::EXCITATION_FREQUENCY,
+        BandOver::Amplitude => scene.forcing.0,
+    };
+    let chart = Chart::new(scene, [kind, &of::PEAK], [band.range, [0.0, top]]);
     let damper = Style::new(Color::Orange, 1.6, Dash::LongDashed);
     let marks = found.iter().map(|(at, what)| scene.mark(&chart, *at, what));
     let marker = Marker::filled(Shape::Cross).sized(7.0);
@@ -34,7 +39,7 @@ pub(super) fn band(scene: &Scene, data: &BandCurves) -> Option<Figure> {
     let mut panel = chart
         .panel()
         .with(chart.curve(Role::BareOscillator, &data.bare).labelled("without absorber"))
-        .with(Layer::styled(damper, chart.line(&data.damper)).labelled("tuned mass damper"))
+        .with(chart.curve(damper, &data.damper).labelled("tuned mass damper"))
         .with(chart.curve(Role::Unstable, unstable).labelled("unstable 1:1"))
         .with(chart.curve(Role::Stable, stable).labelled("stable 1:1 (exact)"))
         .with(Layer::marked(marker, Role::Simulation.color(), marks).labelled("simulated"));
@@ -42,22 +47,22 @@ pub(super) fn band(scene: &Scene, data: &BandCurves) -> Option<Figure> {
         let style = Style::new(Color::Vermillion, 1.4, Dash::Dotted);
         panel = panel.with(chart.horizontal(limit, style).labelled("limit"));
     }
-    let zone = |zone: &crate::band::Stretch<crate::analysis::Zone>| {
-        let ends = [zone.from, zone.to].map(|at| scene.theory(kinds[0], at));
-        json!({"from": ends[0], "to": ends[1], "area": zone.of.area, "strip": zone.of.strip})
-    };
+    let zones = survey.zones.iter().map(|zone| {
+        let ends = [zone.from, zone.to].map(|at| scene.si(kind, at));
+        json!({ "ends": ends, "of": zone.of })
+    });
     let facts = json!({
-        "z3": scene.theory(&of::Z3_SHARE, survey.z3_share()),
-        "stable": scene.exact(&of::STABLE_SHARE, survey.motions.stable_share()),
-        "zones": survey.zones.iter().map(zone).collect::<Vec<_>>(),
+        "z3": survey.z3_share(),
+        "stable": survey.motions.stable_share(),
+        "over": kind.id,
+        "zones": zones.collect::<Vec<_>>(),
         "inactive": survey.motions.count_inactive && survey.motions.inactive.is_some(),
     });
     Some(scene.figure("band", "captions/band", facts).with_panel(panel))
 }
 
 /// Simulated peaks along the band where they are not the exact orbit's.
-fn simulated(scene: &Scene) -> Vec<([f64; 2], String)> {
-    let Some(survey) = &scene.study.band else { return Vec::new() };
+fn beside_orbits(scene: &Scene, survey: &Survey) -> Vec<([f64; 2], String)> {
     let mut found = Vec::new();
     for place in &survey.motions.places {
         for motion in place.beside_orbit() {
@@ -84,37 +89,37 @@ pub(super) fn amplitude(scene: &Scene, data: &Amplitude) -> Figure {
         .with(chart.curve(Role::Unstable, unstable).labelled("unstable 1:1"))
         .with(chart.curve(Role::Stable, stable).labelled("stable 1:1 (theory)"));
     for (attracts, name) in [(true, "exact stable orbit"), (false, "exact unstable orbit")] {
-        let chosen = data.exact.iter().filter(|one| one.attracts == attracts);
-        let marks: Vec<MarkedPoint> = chosen
-            .map(|one| {
-                let radius = scene.text(&of::SPECTRAL_RADIUS, one.radius);
-                scene.mark(&chart, one.at, &format!("multiplier {radius}"))
-            })
-            .collect();
+        let chosen = data.exact.iter().filter(|(_, one)| one.orbit.attracts() == attracts);
+        let marks = chosen.map(|(ratio, one)| {
+            let radius = scene.text(&of::SPECTRAL_RADIUS, one.orbit.radius_per_period());
+            let what = format!("multiplier {radius}");
+            scene.mark(&chart, [*ratio, one.peaks.displacement], &what)
+        });
         let marker = Marker { filled: attracts, ..Marker::hollow(Shape::Circle).sized(4.0) };
-        if !marks.is_empty() {
-            let layer = Layer::marked(marker, Role::ExactOrbit.color(), marks);
-            panel = panel.with(layer.labelled(name));
-        }
+        let layer = Layer::marked(marker, Role::ExactOrbit.color(), marks);
+        panel = panel.with(layer.labelled(name));
     }
     let found = data.simulated.iter().map(|one| {
         let what = format!("simulated, {}", one.regime.words());
         (one.regime, scene.mark(&chart, [one.frequency_ratio, one.peak], &what))
     });
     panel.layers.extend(parts::by_regime(&found.collect::<Vec<_>>(), true));
-    if let Some(peak) = data.here {
-        let at = [scene.system().frequency_ratio(), peak];
-        let here = scene.mark(&chart, at, "this case");
-        panel = panel.with(Layer::this_case(chart.at(at), here.tooltip));
-    }
-    let both = data.here.zip(data.alone.filter(|alone| *alone > 0.0));
+    let star = data.here.map(|peak| scene.star(&chart, [scene.system().frequency_ratio(), peak]));
+    panel.layers.extend(star);
+    let bare = bare(scene);
+    let both = data.here.zip(bare.filter(|bare| *bare > 0.0));
     let facts = json!({
-        "peak": data.here.map(|peak| scene.seen(&of::PEAK, peak)),
-        "bare": data.alone.map(|peak| scene.theory(&of::BARE_PEAK, peak)),
-        "change": both.map(|(peak, alone)| scene.seen(&of::CHANGE_DB, decibels(peak / alone))),
-        "ratio": both.map(|(peak, alone)| peak / alone),
+        "peak": data.here,
+        "bare": bare,
+        "change": both.map(|(peak, bare)| decibels(peak / bare)),
+        "ratio": both.map(|(peak, bare)| peak / bare),
     });
     scene.figure("amplitude", "captions/amplitude", facts).with_panel(panel)
+}
+
+/// The peak without absorber, if anything limits it.
+fn bare(scene: &Scene) -> Option<f64> {
+    Some(scene.study.rivals.bare.1).filter(|bare| bare.is_finite())
 }
 
 fn decibels(ratio: f64) -> f64 {
@@ -124,27 +129,20 @@ fn decibels(ratio: f64) -> f64 {
 /// What simulation finds at many clearances: where on the manifold (Fig. 11g), and how much the oscillator
 /// vibrates (section 3.1 and the red cross in Fig. 6c).
 pub(super) fn clearances(scene: &Scene, found: &[WalkPoint]) -> Figure {
-    let bare = scene.system().linear_response().map(|bare| bare.amplitude());
     let least = found.iter().min_by(|a, b| a.peak.total_cmp(&b.peak));
-    let change = least.zip(bare).map(|(least, bare)| decibels(least.peak / bare));
-    let hopf = scene.clearance(scene.study.analysis.boundaries.hopf);
     let facts = json!({
         "count": found.len(),
-        "least": least.map(|at| json!({
-            "peak": scene.seen(&of::PEAK, at.peak),
-            "clearance": scene.seen(&of::CLEARANCE, at.clearance),
-            "regime": at.regime,
-        })),
-        "hopf": scene.theory(&of::BOUNDARY, hopf),
-        "bare": bare.map(|bare| scene.theory(&of::BARE_PEAK, bare)),
-        "change": change.map(|change| scene.seen(&of::CHANGE_DB, change)),
+        "least": least,
+        "hopf": scene.clearance(scene.study.analysis.boundaries.hopf),
+        "bare": bare(scene),
+        "change": least.zip(bare(scene)).map(|(least, bare)| decibels(least.peak / bare)),
     });
     scene
         .figure("clearances", "captions/clearances", facts)
         .with_size(860, 470)
         .with_layout(Layout::columns(&[1.0, 1.0]))
         .with_panel(on_manifold(scene, found))
-        .with_panel(over_clearance(scene, found, bare))
+        .with_panel(over_clearance(scene, found))
 }
 
 /// The motions by regime, and the case.
@@ -184,7 +182,8 @@ fn on_manifold(scene: &Scene, found: &[WalkPoint]) -> Panel {
     panel.with(Layer::marked(Role::Guide.marker().sized(3.0), Color::Black, ends))
 }
 
-fn over_clearance(scene: &Scene, found: &[WalkPoint], bare: Option<f64>) -> Panel {
+fn over_clearance(scene: &Scene, found: &[WalkPoint]) -> Panel {
+    let bare = bare(scene);
     let highest = found.iter().map(|point| point.peak).chain(bare).fold(0.0, f64::max);
     let ends = [found.first(), found.last()].map(|at| at.map_or(1.0, |at| at.clearance));
     let ranges = [[0.9 * ends[0], 1.15 * ends[1]], [0.0, 1.15 * highest]];

@@ -56,6 +56,7 @@ pub(super) fn manifold(scene: &Scene) -> Figure {
     scene.figure("sim", "captions/sim", manifold_facts(scene, &seen)).with_panel(panel)
 }
 
+/// The predicted stable motion, and the simulated 1:1 motion next to it.
 fn manifold_facts(scene: &Scene, seen: &[([f64; 2], Regime)]) -> Value {
     let analysis = &scene.study.analysis;
     let predicted = analysis.stable_points().last();
@@ -64,19 +65,12 @@ fn manifold_facts(scene: &Scene, seen: &[([f64; 2], Regime)]) -> Value {
         let change = |at: &[f64; 2]| at[1] / point.oscillator_amplitude - 1.0;
         two.map(|(at, _)| (at[1], change(at))).min_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))
     });
-    let ratio = |value| scene.theory(&of::ABSORBER_AMPLITUDE_RATIO, value);
+    let [fold, breaking] = [analysis.manifold.fold, analysis.manifold.symmetry_breaking];
     json!({
-        "fixed_points": analysis.fixed_points.len(),
-        "stable": predicted.map(|point| json!({
-            "oscillator": scene.theory(&of::OSCILLATOR_AMPLITUDE, point.oscillator_amplitude),
-            "absorber": scene.theory(&of::ABSORBER_AMPLITUDE, point.absorber_amplitude),
-        })),
-        "seen": close.map(|(oscillator, change)| json!({
-            "oscillator": scene.seen(&of::OSCILLATOR_AMPLITUDE, oscillator),
-            "change": scene.seen(&of::THEORY_ERROR, change),
-        })),
-        "fold": ratio(analysis.manifold.fold.absorber_amplitude),
-        "breaking": ratio(analysis.manifold.symmetry_breaking.absorber_amplitude),
+        "stable": predicted.map(|at| [at.oscillator_amplitude, at.absorber_amplitude]),
+        "seen": close,
+        "fold": fold.absorber_amplitude,
+        "breaking": breaking.absorber_amplitude,
     })
 }
 
@@ -111,12 +105,8 @@ pub(super) fn figure(scene: &Scene, data: &Responses) -> Figure {
         let width = if own { 3.4 } else { 2.2 };
         let name = scene.at_clearance(member.clearance);
         let name = if own { format!("{name}, this case") } else { name };
-        let named = usize::from(!stable.is_empty());
-        let mut layers = [
-            Layer::styled(Style::new(color, 1.1, dash), unstable),
-            Layer::styled(Style::new(color, width, Dash::Solid), stable),
-        ];
-        layers[named] = layers[named].clone().labelled(name);
+        let thin = (Style::new(color, 1.1, dash), unstable);
+        let layers = parts::branches([thin, (Style::new(color, width, Dash::Solid), stable)], name);
         second.layers.extend(layers);
     }
     if data.own {
@@ -142,28 +132,25 @@ pub(super) fn figure(scene: &Scene, data: &Responses) -> Figure {
 
 fn response_facts(scene: &Scene, data: &Responses) -> Value {
     let analysis = &scene.study.analysis;
-    let clearance = |value| scene.theory(&of::BOUNDARY, value);
-    let band = [-BAND, BAND].map(|at| scene.theory(&of::EXCITATION_FREQUENCY, scene.ratio(at)));
-    let shares = data.members.iter().map(|at| {
-        json!({"clearance": clearance(at.clearance), "share": scene.theory(&of::Z3_SHARE, at.share)})
-    });
-    let stable = analysis.stable_points().last();
+    let ends = [analysis.boundaries.symmetry_breaking, analysis.boundaries.hopf];
+    let band = [-BAND, BAND].map(|at| scene.ratio(at));
+    let shares: Vec<[f64; 2]> = data.members.iter().map(|at| [at.clearance, at.share]).collect();
     json!({
-        "stable": stable.map(|at| scene.theory(&of::OSCILLATOR_AMPLITUDE, at.oscillator_amplitude)),
-        "fixed_points": analysis.fixed_points.len(),
-        "narrowest": clearance(scene.clearance(analysis.boundaries.symmetry_breaking)),
-        "widest": clearance(scene.clearance(analysis.boundaries.hopf)),
+        "stable": analysis.stable_points().last().map(|at| at.oscillator_amplitude),
+        "ends": ends.map(|gamma| scene.clearance(gamma)),
         "band": band,
-        "shares": shares.collect::<Vec<_>>(),
+        "shares": shares,
     })
 }
 
 /// The areas along the manifold, and how the fixed points move as the clearance grows.
 pub(super) fn areas(scene: &Scene, data: &Areas) -> Figure {
     let manifold = &scene.study.analysis.manifold;
-    let [breaking, hopf] = data.boundaries;
+    let at = &scene.study.analysis.boundaries;
+    let [breaking, hopf] = [at.symmetry_breaking, at.hopf].map(|gamma| scene.clearance(gamma));
+    let last = at.saddle_node.map(|node| scene.clearance(node.forcing_over_clearance));
     let top = manifold.point(Areas::WIDEST - 1.0).oscillator_amplitude;
-    let reach = 1.12 * data.last.map_or(hopf, |(last, _)| last.max(hopf));
+    let reach = 1.12 * last.map_or(hopf, |last| last.max(hopf));
     let left = parts::amplitudes(scene, [0.0, Areas::WIDEST], [0.0, top]);
     let kinds = [&of::CLEARANCE, &of::OSCILLATOR_AMPLITUDE_RATIO];
     let right = Chart::new(scene, kinds, [[0.4 * breaking, reach], [0.0, top]]);
@@ -180,7 +167,7 @@ pub(super) fn areas(scene: &Scene, data: &Areas) -> Figure {
         .with(right.curve(Role::Unstable, unstable).labelled("unstable"))
         .with(right.curve(Role::Stable, stable).labelled("stable"))
         .with(right.vertical(hopf, Role::Hopf).labelled(near(hopf, "Hopf")));
-    if let Some((last, _)) = data.last {
+    if let Some(last) = last {
         second =
             second.with(right.vertical(last, Role::SaddleNode).labelled(near(last, "collision")));
     }
@@ -228,14 +215,12 @@ fn chosen(scene: &Scene, data: &Areas, charts: [&Chart; 2], panels: [&mut Panel;
 }
 
 fn area_facts(scene: &Scene, data: &Areas) -> Value {
-    let clearance = |value| scene.theory(&of::BOUNDARY, value);
-    let level = |value| scene.theory(&of::OSCILLATOR_AMPLITUDE_RATIO, value);
+    let at = &scene.study.analysis.boundaries;
     json!({
-        "breaking": clearance(data.boundaries[0]),
-        "hopf": clearance(data.boundaries[1]),
-        "last": data.last.map(|(at, branch)| json!({"at": clearance(at), "branch": branch})),
-        "fold_level": level(data.levels.fold),
-        "breaking_level": level(data.levels.breaking),
-        "grazing_level": data.levels.grazing.map(level),
+        "breaking": scene.clearance(at.symmetry_breaking),
+        "hopf": scene.clearance(at.hopf),
+        "last": at.saddle_node.map(|node| scene.clearance(node.forcing_over_clearance)),
+        "branch": at.saddle_node.map(|node| node.branch),
+        "levels": [Some(data.levels.fold), Some(data.levels.breaking), data.levels.grazing],
     })
 }

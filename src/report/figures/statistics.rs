@@ -2,10 +2,11 @@
 
 use serde_json::{Value, json};
 
-use crate::quantity::catalogue as of;
+use crate::method::Method;
+use crate::quantity::{Quantity, catalogue as of};
 use crate::regimes::basins::Cell;
 use crate::regimes::return_map::pairs;
-use crate::regimes::{Attractor, Exponent, Regime};
+use crate::regimes::{Exponent, Regime};
 use crate::report::figure::{
     Color, Dash, Figure, Fill, Hatch, Label, Layer, MarkedPoint, Marker, Role, Rule, Shape, Style,
 };
@@ -52,8 +53,8 @@ pub(super) fn return_map(scene: &Scene, index: usize) -> Option<Figure> {
         .with(guide(sloped([0.0, 0.0], 1.0), names[1], [0.95 * near, 0.95 * near]))
         .with(Layer::marked(marker, Role::Simulation.color(), marks))
         .with_equal_aspect();
-    let facts = return_facts(scene, attractor, &all, &points, index + 1);
-    let figure = scene.figure(format!("return-map-{}", index + 1), "captions/return-map", facts);
+    let facts = return_facts(&all, &points, index);
+    let figure = scene.figure(&format!("return-map-{}", index + 1), "captions/return-map", facts);
     Some(figure.with_size(480, 450).with_panel(panel))
 }
 
@@ -69,28 +70,19 @@ fn distinct(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     kept
 }
 
-fn return_facts(
-    scene: &Scene,
-    attractor: &Attractor,
-    all: &[[f64; 2]],
-    distinct: &[[f64; 2]],
-    number: usize,
-) -> Value {
+fn return_facts(all: &[[f64; 2]], distinct: &[[f64; 2]], index: usize) -> Value {
     let on_line = all.iter().filter(|[x, y]| (x + y - 1.0).abs() < 0.02).count();
     let firsts = || distinct.iter().map(|point| point[0]);
     let (least, most) = (firsts().fold(f64::INFINITY, f64::min), firsts().fold(0.0, f64::max));
-    let interval = |value| scene.seen(&of::IMPACT_INTERVAL, value);
-    let z = attractor.classification.evidence.impacts_per_period;
     json!({
-        "number": number,
+        "index": index,
         "points": distinct.len(),
         // Each of them seen several times.
         "repeats": distinct.len() <= SINGLE && all.len() >= 4 * distinct.len(),
-        "least": interval(least),
-        "most": interval(most),
-        "z": scene.seen(&of::IMPACTS_PER_PERIOD, z),
+        "least": least,
+        "most": most,
         "on_line": on_line as f64 / all.len() as f64,
-        "beyond": (most > ENDS[1]).then(|| interval(ENDS[1])),
+        "beyond": (most > ENDS[1]).then_some(ENDS[1]),
     })
 }
 
@@ -129,9 +121,9 @@ pub(super) fn basins(scene: &Scene, data: &StartPlane) -> Figure {
             scene.text(&of::PEAK, motion.peak)
         };
         motions.push(json!({
-            "share": scene.seen(&of::START_SHARE, share(marks.len())),
+            "share": share(marks.len()),
             "regime": regime,
-            "peak": (!free).then(|| scene.seen(&of::PEAK, motion.peak)),
+            "peak": (!free).then_some(motion.peak),
         }));
         let (color, marker) = LOOKS[index.min(LOOKS.len() - 1)];
         let name = format!("{}, peak {peak}", regime.words());
@@ -142,12 +134,10 @@ pub(super) fn basins(scene: &Scene, data: &StartPlane) -> Figure {
         "starts": cells.len(),
         "periods": data.transient,
         "motions": motions,
-        "open": (!open.is_empty()).then(|| scene.seen(&of::START_SHARE, share(open.len()))),
+        "open": (!open.is_empty()).then(|| share(open.len())),
     });
-    if !open.is_empty() {
-        let marker = Marker::filled(Shape::Cross).sized(5.0);
-        panel = panel.with(Layer::marked(marker, Color::Grey, open).labelled("not settled"));
-    }
+    let marker = Marker::filled(Shape::Cross).sized(5.0);
+    panel = panel.with(Layer::marked(marker, Color::Grey, open).labelled("not settled"));
     scene.figure("basins", "captions/basins", facts).with_size(640, 640).with_panel(panel)
 }
 
@@ -178,13 +168,13 @@ pub(super) fn exponents(scene: &Scene, data: &[MotionExponents]) -> Option<Figur
             panel = panel.with(rule.labelled("logarithm of the multiplier"));
         }
         let last = one.exponents.last()?;
-        let value = scene.seen(&of::LYAPUNOV_EXPONENT, last.per_period);
+        let value = Quantity::new(&of::LYAPUNOV_EXPONENT, last.per_period, Method::Simulation);
         motions.push(json!({
             "regime": found.regime(),
             "dynamics": dynamics,
             "exponent": value.with_error(2.0 * last.standard_error),
             "periods": last.periods,
-            "exact": one.exact.map(|exact| scene.exact(&of::LYAPUNOV_EXPONENT, exact)),
+            "exact": one.exact,
         }));
     }
     let facts = json!({ "motions": motions });

@@ -4,13 +4,13 @@ use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, PI};
 
 use crate::analysis::Manifold;
 use crate::analysis::frequency_response::ResponsePoint;
-use crate::orbits::symmetric_orbits;
+use crate::band::rivals::bare_amplitude;
+use crate::orbits::SymmetricOrbit;
 use crate::simulation::Stop;
 use crate::study::scenes::{SweepPoint, sweep};
 use crate::study::{CaseStudy, StudyError};
-use crate::system::System;
 
-use super::{Line, even, responses, window};
+use super::{Line, even, responses, symmetric_orbits_at, window};
 
 /// Simulated frequencies.
 const SWEEP: u32 = 17;
@@ -30,42 +30,28 @@ pub struct Amplitude {
     pub bare: Line,
     /// The theory's 1:1 motions: the stable ones, and the others.
     pub theory: [Line; 2],
-    /// Exact symmetric orbits that are motions.
-    pub exact: Vec<ExactPeak>,
+    /// Exact symmetric orbits that are motions, with their frequency ratio.
+    pub exact: Vec<(f64, SymmetricOrbit)>,
     /// Simulated motions.
     pub simulated: Vec<SweepPoint>,
     /// The case's main motion, where it could be followed.
     pub here: Option<f64>,
-    /// The case without absorber; none if its vibration grows without limit.
-    pub alone: Option<f64>,
     /// The largest that is shown.
     pub top: f64,
 }
 
-/// An exact symmetric orbit at one frequency.
-#[derive(Debug, Clone, Copy)]
-pub struct ExactPeak {
-    /// Frequency ratio and peak.
-    pub at: [f64; 2],
-    /// Whether it attracts.
-    pub attracts: bool,
-    /// Its largest multiplier per period.
-    pub radius: f64,
-}
-
 impl Amplitude {
-    pub(super) fn of(study: &CaseStudy) -> Result<Option<Self>, StudyError> {
+    /// Of a simulated case.
+    pub(super) fn of(study: &CaseStudy) -> Result<Self, StudyError> {
         let (system, manifold) = (&study.analysis.system, &study.analysis.manifold);
-        if system.forcing_per_clearance() == 0.0 {
-            // Everything comes to rest.
-            return Ok(None);
-        }
         let window = window(system);
         let over = |count| even(window[0], window[1], count);
-        let mut bare: Line = over(BARE)
-            .chain([system.frequency_ratio(), 1.0])
-            .map(|ratio| [ratio, bare_amplitude(system, ratio).unwrap_or(f64::NAN)])
-            .collect();
+        let peak_at = |ratio: f64| {
+            let there = system.with_frequency_ratio(ratio);
+            [ratio, there.map_or(f64::NAN, |there| bare_amplitude(&there))]
+        };
+        let mut bare: Line =
+            over(BARE).chain([system.frequency_ratio(), 1.0]).map(peak_at).collect();
         bare.sort_by(|a, b| a[0].total_cmp(&b[0]));
         let half = 0.5 * (window[1] - window[0]) / f64::from(SWEEP);
         let middles: Vec<f64> = even(window[0] + half, window[1] - half, SWEEP - 1).collect();
@@ -73,32 +59,28 @@ impl Amplitude {
         let attractor = study.main_attractor().map(|found| &found.attractor);
         let known = attractor.filter(|one| one.stop == Stop::EndTime && one.periods > 0);
         let here = known.map(|one| one.peak).filter(|peak| peak.is_finite());
-        let alone = bare_amplitude(system, system.frequency_ratio()).filter(|at| at.is_finite());
-        let top = top(&bare, &simulated, here, alone);
+        let top = top(&bare, simulated.iter().map(|at| at.peak).chain(here), study.rivals.bare.1);
         let place = |point: &ResponsePoint| {
             let ratio = 1.0 + system.mass_ratio() * point.detuning;
             [ratio, peak(system.mass_ratio(), manifold, point)]
         };
         let theory = responses::lines(system, manifold, 2.0 + top, &place);
-        let exact = over(EXACT).flat_map(|ratio| exact(system, ratio)).collect();
-        Ok(Some(Self { window, bare, theory, exact, simulated, here, alone, top }))
+        let orbits = |ratio| symmetric_orbits_at(system.with_frequency_ratio(ratio).ok());
+        let exact = over(EXACT).flat_map(|at| orbits(at).into_iter().map(move |one| (at, one)));
+        let exact = exact.filter(|(_, one)| one.orbit.admissibility.admissible).collect();
+        Ok(Self { window, bare, theory, exact, simulated, here, top })
     }
 }
 
-fn bare_amplitude(system: &System, ratio: f64) -> Option<f64> {
-    Some(system.with_frequency_ratio(ratio).ok()?.linear_response()?.amplitude())
-}
-
-/// The upper end of the axis: all that was simulated, and the bare oscillator's resonance as far as it
-/// leaves the rest legible.
-fn top(bare: &Line, simulated: &[SweepPoint], here: Option<f64>, alone: Option<f64>) -> f64 {
-    let largest = |values: &mut dyn Iterator<Item = f64>| {
-        values.filter(|value| value.is_finite()).fold(0.0, f64::max)
-    };
-    let moving = largest(&mut simulated.iter().map(|point| point.peak).chain(here));
-    let resonance = largest(&mut bare.iter().map(|point| point[1]));
+/// The upper end of the axis: all that was simulated, and the bare oscillator's resonance as far as it leaves
+/// the rest legible.
+fn top(bare: &Line, simulated: impl Iterator<Item = f64>, alone: f64) -> f64 {
+    let largest =
+        |largest: f64, value: f64| if value.is_finite() { largest.max(value) } else { largest };
+    let moving = simulated.fold(0.0, largest);
+    let resonance = bare.iter().map(|point| point[1]).fold(0.0, largest);
     let cut = if moving > 0.0 { resonance.min(CUT * moving) } else { resonance };
-    let alone = alone.unwrap_or(0.0).min(2.0 * CUT * moving.max(1e-3));
+    let alone = largest(0.0, alone).min(2.0 * CUT * moving.max(1e-3));
     let top = 1.08 * moving.max(cut).max(alone);
     if top > 0.0 { top } else { 1.0 }
 }
@@ -118,17 +100,4 @@ fn peak(mass_ratio: f64, manifold: &Manifold, point: &ResponsePoint) -> f64 {
         .into_iter()
         .map(|z| displacement(z).abs())
         .fold(0.0, f64::max)
-}
-
-/// The admissible symmetric orbits at one frequency.
-fn exact(system: &System, ratio: f64) -> Vec<ExactPeak> {
-    let there = system.with_frequency_ratio(ratio).ok();
-    let orbits = there.and_then(|there| symmetric_orbits(&there).ok()).unwrap_or_default();
-    let admissible = orbits.iter().filter(|one| one.orbit.admissibility.admissible);
-    let peak = |one: &crate::orbits::SymmetricOrbit| ExactPeak {
-        at: [ratio, one.peaks.displacement],
-        attracts: one.orbit.attracts(),
-        radius: one.orbit.radius_per_period(),
-    };
-    admissible.map(peak).collect()
 }

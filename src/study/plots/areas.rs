@@ -5,7 +5,7 @@ use crate::orbits::Boundaries;
 use crate::study::{CaseStudy, StudyError};
 use crate::system::System;
 
-use super::{Line, on_stable_branch};
+use super::{Line, branches, on_stable_branch};
 
 /// The areas of Fig. 5a as levels of `C/b`: below the fold there is no 1:1 motion (Z4), up to symmetry
 /// breaking a steady one (Z3), beyond that Z2, then Z1.
@@ -44,10 +44,6 @@ impl Levels {
 pub struct Areas {
     /// Where the areas end.
     pub levels: Levels,
-    /// Clearances of symmetry breaking and Hopf boundary.
-    pub boundaries: [f64; 2],
-    /// Where the last fixed points collide, and on which branch.
-    pub last: Option<(f64, Branch)>,
     /// Fixed points over the clearance, `[clearance, C/b]`: stable ones, and the others.
     pub lines: [Line; 2],
     /// Clearances that show the way, with their fixed points.
@@ -61,14 +57,13 @@ impl Areas {
     pub(super) fn of(study: &CaseStudy) -> Result<Option<Self>, StudyError> {
         let (system, manifold) = (&study.analysis.system, &study.analysis.manifold);
         let gamma = system.forcing_per_clearance();
-        if gamma == 0.0 || manifold.fold.oscillator_amplitude == 0.0 {
+        if manifold.fold.oscillator_amplitude == 0.0 {
             return Ok(None);
         }
         let at = &study.analysis.boundaries;
         let [breaking, hopf] = [gamma / at.symmetry_breaking, gamma / at.hopf];
-        let last = at.saddle_node.map(|node| (gamma / node.forcing_over_clearance, node.branch));
         // One in each area, and two on the way to the collision.
-        let end = last.map_or(1.3 * hopf, |(last, _)| last);
+        let end = at.saddle_node.map_or(1.3 * hopf, |node| gamma / node.forcing_over_clearance);
         let between = |part: f64| hopf + part * (end - hopf);
         let mut chosen = Vec::new();
         for clearance in
@@ -77,8 +72,7 @@ impl Areas {
             let Ok(there) = system.with_clearance_scaled(clearance) else { continue };
             chosen.push((clearance, fixed_points::solve(&there, manifold)?));
         }
-        let (boundaries, lines) = ([breaking, hopf], lines(system, manifold));
-        Ok(Some(Self { levels: Levels::of(study)?, boundaries, last, lines, chosen }))
+        Ok(Some(Self { levels: Levels::of(study)?, lines: lines(system, manifold), chosen }))
     }
 }
 
@@ -93,17 +87,10 @@ fn lines(system: &System, manifold: &Manifold) -> [Line; 2] {
         .collect();
     shifts.sort_by(f64::total_cmp);
     let forcing = |shift: f64| curve.forcing_squared(1.0 + shift).sqrt();
-    let place = |shift: f64| [gamma / forcing(shift), manifold.point(shift).oscillator_amplitude];
-    let stable = |pair: &[f64]| {
-        let branches = [manifold.branch(pair[0]), manifold.branch(pair[1])];
-        on_stable_branch(branches, forcing(pair[1]) > forcing(pair[0]))
+    let place =
+        |shift: &f64| [gamma / forcing(*shift), manifold.point(*shift).oscillator_amplitude];
+    let stable = |[a, b]: [&f64; 2]| {
+        on_stable_branch([a, b].map(|at| manifold.branch(*at)), forcing(*b) > forcing(*a))
     };
-    let mut lines = [Vec::new(), Vec::new()];
-    let pairs: Vec<&[f64]> = shifts.windows(2).collect();
-    for run in pairs.chunk_by(|a, b| stable(a) == stable(b)) {
-        let line = &mut lines[usize::from(!stable(run[0]))];
-        line.extend(run.iter().map(|pair| place(pair[0])));
-        line.extend([place(run[run.len() - 1][1]), [f64::NAN; 2]]);
-    }
-    lines
+    branches(&shifts, &stable, &place)
 }

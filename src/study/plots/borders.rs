@@ -44,10 +44,8 @@ pub struct Borders {
 impl Borders {
     /// Samples the boundaries from the detuning `first` to `last`.
     pub fn over(system: &System, manifold: &Manifold, (first, last): (f64, f64)) -> Self {
-        let of = |detuning: f64| -> Option<Boundaries> {
-            let there = system.with_detuning(detuning).ok();
-            there.map(|there| Boundaries::of(&there, manifold))
-        };
+        let of =
+            |detuning: f64| Some(Boundaries::of(&system.with_detuning(detuning).ok()?, manifold));
         let within = |detuning: f64| (first..=last).contains(&detuning);
         let meeting = of(f64::midpoint(first, last))
             .map(|at| [at.codimension_two.detuning, at.codimension_two.forcing_over_clearance])
@@ -58,11 +56,8 @@ impl Borders {
             .collect();
         detunings.sort_by(f64::total_cmp);
         detunings.dedup();
-        let mut samples = Vec::new();
-        for detuning in detunings {
-            samples.extend(of(detuning).map(|at| Border::of(system, detuning, &at)));
-        }
-        Self { samples, meeting }
+        let sample = |detuning| Some(Border::of(system, detuning, &of(detuning)?));
+        Self { samples: detunings.into_iter().filter_map(sample).collect(), meeting }
     }
 
     /// Around a case's detuning and P1: at least six to either side of resonance.
@@ -112,17 +107,15 @@ pub struct Bifurcations {
     pub borders: Borders,
 }
 
-/// Fixed points at one frequency; clearances over the case's.
+/// Fixed points at one frequency.
 #[derive(Debug, Clone)]
 pub struct Condition {
     /// `sigma`.
     pub detuning: f64,
-    /// Which clearance gives which amplitude: `[B/b, clearance]`.
+    /// Which clearance over the case's gives which amplitude: `[B/b, clearance]`.
     pub line: Line,
-    /// The clearance with a fixed point at the fold.
-    pub hopf: f64,
-    /// `B/b`, clearance and branch of the collision.
-    pub collision: Option<(f64, f64, Branch)>,
+    /// Where a fixed point is at the fold, and where two collide.
+    pub boundaries: Boundaries,
 }
 
 impl Bifurcations {
@@ -134,17 +127,16 @@ impl Bifurcations {
         let meeting = study.analysis.boundaries.codimension_two;
         let known = meeting.forcing_over_clearance > 0.0 && meeting.detuning.is_finite();
         let folds = manifold.fold.oscillator_amplitude > 0.0;
-        if system.forcing_per_clearance() == 0.0 || !known || !folds {
+        if !known || !folds {
             return None;
         }
         let away = system.detuning() - meeting.detuning;
         let away = away.abs().max(0.8).copysign(away);
-        let mut conditions = Vec::new();
-        for part in [-1.0, 0.0, 1.0] {
-            let there = system.with_detuning(meeting.detuning + part * away).ok()?;
-            conditions.push(Condition::of(&there, manifold));
-        }
         let middle = meeting.detuning;
+        let condition = |part: f64| {
+            Some(Condition::of(&system.with_detuning(middle + part * away).ok()?, manifold))
+        };
+        let conditions = [-1.0, 0.0, 1.0].into_iter().map(condition).collect::<Option<_>>()?;
         let first = (middle - 1.5 * away.abs()).max(-0.95 / system.mass_ratio());
         let borders = Borders::over(system, manifold, (first, middle + 1.5 * away.abs()));
         Some(Self { conditions, borders })
@@ -157,11 +149,7 @@ impl Condition {
         let gamma = there.forcing_per_clearance();
         let [first, last] = Bifurcations::AMPLITUDES;
         let at = |ratio: f64| [ratio, gamma / curve.forcing_squared(ratio).sqrt()];
-        let boundaries = Boundaries::of(there, manifold);
-        let collision = boundaries.saddle_node.map(|node| {
-            (node.absorber_amplitude, gamma / node.forcing_over_clearance, node.branch)
-        });
         let line = even(first, last, SAMPLES).map(at).collect();
-        Self { detuning: there.detuning(), line, hopf: gamma / boundaries.hopf, collision }
+        Self { detuning: there.detuning(), line, boundaries: Boundaries::of(there, manifold) }
     }
 }

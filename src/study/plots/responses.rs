@@ -5,7 +5,7 @@ use crate::analysis::{FixedPointCurve, Manifold};
 use crate::study::CaseStudy;
 use crate::system::{Parameters, System};
 
-use super::{Levels, Line, even, on_stable_branch, window};
+use super::{Levels, Line, branches, even, on_stable_branch, window};
 
 /// Half the band around the natural frequency that the absorber should serve, in detuning: where the bare
 /// oscillator of Table 1 is amplified more than tenfold.
@@ -55,7 +55,7 @@ impl Responses {
         let gamma = system.forcing_per_clearance();
         let boundaries = &analysis.boundaries;
         let others = others(gamma, boundaries.symmetry_breaking, boundaries.hopf);
-        if gamma == 0.0 || others.is_empty() {
+        if others.is_empty() {
             return None;
         }
         let amplitudes = analysis.fixed_points.iter().map(|point| point.oscillator_amplitude);
@@ -65,28 +65,34 @@ impl Responses {
         let bottom = if top > FAR * breaking { low } else { 0.0 };
         // On the right branch C exceeds B - b, whatever the restitution. The samples are spread evenly: a
         // curve that matters only below must not be coarse there.
-        let near = (top + 1.0).min(OTHERS);
-        let drawn = others.into_iter().map(|at| (at, near)).chain([(gamma, top + 1.0)]);
-        let members = drawn.filter_map(|(at, largest)| Response::of(system, at, largest)).collect();
-        let levels = Levels::of_manifold(manifold);
-        let (window, heights) = (window(system), [bottom, top]);
-        Some(Self { members, own: true, window, heights, levels })
+        let others = others.into_iter().map(|at| (at, (top + 1.0).min(OTHERS)));
+        let members = others.chain([(gamma, top + 1.0)]);
+        let members = members.filter_map(|(at, largest)| Response::of(system, at, largest));
+        Some(Self {
+            members: members.collect(),
+            own: true,
+            window: window(system),
+            heights: [bottom, top],
+            levels: Levels::of_manifold(manifold),
+        })
     }
 
     /// Four across the areas, wherever the case lies.
     pub(super) fn across(study: &CaseStudy) -> Option<Self> {
         let (system, manifold) = (&study.analysis.system, &study.analysis.manifold);
-        let folds = manifold.fold.oscillator_amplitude > 0.0;
-        if system.forcing_per_clearance() == 0.0 || !folds {
+        if manifold.fold.oscillator_amplitude <= 0.0 {
             return None;
         }
         let top = 2.2 * manifold.symmetry_breaking.oscillator_amplitude;
-        let drawn = family(system).into_iter();
-        let members = drawn.filter_map(|at| Response::of(system, at, top + 1.0)).collect();
+        let members = family(system).into_iter();
         let half = BAND * system.mass_ratio();
-        let (window, heights) = ([(1.0 - half).max(0.05), 1.0 + half], [0.0, top]);
-        let levels = Levels::of_manifold(manifold);
-        Some(Self { members, own: false, window, heights, levels })
+        Some(Self {
+            members: members.filter_map(|at| Response::of(system, at, top + 1.0)).collect(),
+            own: false,
+            window: [(1.0 - half).max(0.05), 1.0 + half],
+            heights: [0.0, top],
+            levels: Levels::of_manifold(manifold),
+        })
     }
 }
 
@@ -120,16 +126,13 @@ pub(super) fn lines(
     let mut lines = [Vec::new(), Vec::new()];
     for (side, curves) in response(system, manifold, largest).iter().enumerate() {
         let outwards = if side == 0 { 1.0 } else { -1.0 };
-        let stable = |pair: &[ResponsePoint]| {
-            let rises = (pair[1].detuning - pair[0].detuning) * outwards > 0.0;
-            on_stable_branch([pair[0].branch, pair[1].branch], rises)
+        let stable = |[a, b]: [&ResponsePoint; 2]| {
+            let rises = (b.detuning - a.detuning) * outwards > 0.0;
+            on_stable_branch([a.branch, b.branch], rises)
         };
         for curve in curves {
-            let pairs: Vec<&[ResponsePoint]> = curve.windows(2).collect();
-            for run in pairs.chunk_by(|a, b| stable(a) == stable(b)) {
-                let line = &mut lines[usize::from(!stable(run[0]))];
-                line.extend(run.iter().map(|pair| place(&pair[0])));
-                line.extend([place(&run[run.len() - 1][1]), [f64::NAN; 2]]);
+            for (line, more) in lines.iter_mut().zip(branches(curve, &stable, place)) {
+                line.extend(more);
             }
         }
     }

@@ -3,13 +3,14 @@
 use std::f64::consts::{FRAC_2_PI, PI};
 
 use crate::analysis::motion::read_off;
+use serde::Serialize;
+
 use crate::analysis::{Branch, Manifold};
-use crate::orbits::symmetric_orbits;
 use crate::regimes::FoundAttractor;
 use crate::study::CaseStudy;
 use crate::system::{Parameters, System};
 
-use super::first_drawn;
+use super::{Line, branches, even, first_drawn, symmetric_orbits_at};
 
 /// Steps in restitution.
 const STEPS: u32 = 200;
@@ -32,7 +33,7 @@ pub struct Taken {
 }
 
 /// Which restitutions matter at an oscillator amplitude.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Strongest {
     /// Where `E` is largest, among those with a steady 1:1 motion.
     pub harmonic: f64,
@@ -51,8 +52,6 @@ pub struct Restitutions {
     pub taken: Vec<Taken>,
     /// Which matter.
     pub strongest: Strongest,
-    /// Those of Fig. 9, with their manifolds.
-    pub manifolds: Vec<(f64, Manifold)>,
     /// At the case's clearance and forcing: the restitution whose exact symmetric orbit attracts and vibrates
     /// least, with its peak.
     pub best: Option<(f64, f64)>,
@@ -65,11 +64,15 @@ impl Restitutions {
         let seen = || Some(observed(study, first_drawn(study)?)?[1]);
         let level = stable.or_else(seen)?;
         let taken: Vec<Taken> =
-            (0..=STEPS).filter_map(|k| taken(f64::from(k) / f64::from(STEPS), level)).collect();
+            even(0.0, 1.0, STEPS).filter_map(|restitution| taken(restitution, level)).collect();
         let strongest = strongest(&taken)?;
-        let manifolds = [1.0, 0.8, 0.6, 0.4, 0.2].map(|r| (r, Manifold::of(r))).into();
-        let best = best(&study.analysis.system);
-        Some(Self { level, taken, strongest, manifolds, best })
+        Some(Self { level, taken, strongest, best: best(&study.analysis.system) })
+    }
+
+    /// `[restitution, value]` on the stable branch of the manifold, and beside it.
+    pub fn lines(&self, value: fn(&Taken) -> f64) -> [Line; 2] {
+        let stable = |[_, next]: [&Taken; 2]| next.branch == Branch::Stable;
+        branches(&self.taken, &stable, &|at| [at.restitution, value(at)])
     }
 }
 
@@ -112,9 +115,9 @@ fn strongest(all: &[Taken]) -> Option<Strongest> {
 
 /// At small restitutions an orbit of the theory may be none: the absorber would leave its cavity.
 fn best(system: &System) -> Option<(f64, f64)> {
-    let tried = (0..=TRIED).map(|k| f64::from(k) / f64::from(TRIED)).filter_map(|restitution| {
-        let there = System::new(Parameters { restitution, ..system.parameters() }).ok()?;
-        let orbits = symmetric_orbits(&there).ok()?;
+    let tried = even(0.0, 1.0, TRIED).filter_map(|restitution| {
+        let there = System::new(Parameters { restitution, ..system.parameters() }).ok();
+        let orbits = symmetric_orbits_at(there);
         let orbit = orbits.iter().find(|orbit| orbit.orbit.attracts())?;
         Some((restitution, orbit.peaks.displacement))
     });
