@@ -100,15 +100,13 @@ fn heights(scene: &Scene, borders: &Borders) -> ([f64; 2], bool) {
 
 /// Where the stable exact orbit begins and ends, and where more than two impacts per period begin.
 fn exact_boundaries(scene: &Scene, data: &Map, chart: &Chart, panel: &mut Panel) {
-    let mark = |ratio: f64, clearance: f64, what: &str| scene.mark(chart, [ratio, clearance], what);
-    let grazing = data
-        .exact
-        .iter()
-        .filter_map(|at| Some(mark(at.frequency_ratio, at.grazing()?, "more impacts below")));
-    let grazing: Vec<MarkedPoint> = grazing.collect();
+    let grazing = data.exact.iter().filter_map(|at| Some([at.frequency_ratio, at.grazing()?]));
+    let grazing: Vec<MarkedPoint> = grazing.map(|at| chart.at(at).into()).collect();
     let limits = data.exact.iter().flat_map(|at| {
         let bounds = at.symmetric.limits.iter().filter(|limit| limit.bounds_stability);
-        bounds.map(|limit| mark(at.frequency_ratio, limit.clearance, limit.kind.words()))
+        bounds.map(|limit| {
+            scene.mark(chart, [at.frequency_ratio, limit.clearance], limit.kind.words())
+        })
     });
     let limits: Vec<MarkedPoint> = limits.collect();
     let small = |shape| Marker::hollow(shape).sized(5.0);
