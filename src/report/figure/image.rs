@@ -120,6 +120,9 @@ fn thinned(cells: &[usize], one_in: usize) -> Vec<usize> {
     (0..count).map(|k| cells[(2 * k + 1) * cells.len() / (2 * count)]).collect()
 }
 
+/// Which number of a palette a cell has, if anything is known of it.
+type Numbering<'a> = Box<dyn Fn(usize) -> Option<u8> + 'a>;
+
 /// What some columns and rows of cells hold, as numbers of a palette whose last tint is for what is not known;
 /// values take one of so many levels.
 fn indexed(
@@ -129,7 +132,7 @@ fn indexed(
     levels: f64,
 ) -> (Vec<Tint>, Vec<Vec<u8>>) {
     let across = image.x_edges.len() - 1;
-    let (mut palette, number): (Vec<Tint>, Box<dyn Fn(usize) -> Option<u8>>) = match &image.cells {
+    let (mut palette, number): (Vec<Tint>, Numbering<'_>) = match &image.cells {
         Cells::Kinds(tints, cells) => {
             (tints.clone(), Box::new(|cell| cells.get(cell).copied().flatten()))
         }

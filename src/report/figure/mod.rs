@@ -4,9 +4,9 @@
 //! figure gives the same bytes. The way from one to the other:
 //!
 //! ```text
-//! Figure ─> limits ─> layout ─> shapes ─> labels ─┬─> frame (grid, axes, their words)
-//!                       ^                   │     └─> paint (data, names, tooltips)
-//!                       └── names without ──┘
+//! Figure ─> limits ─> layout ─> shapes ─> labels ─┬─> frame (grid, ticks, edges)
+//!                       ^                   │     ├─> paint, image (data, tooltips)
+//!                       └── names without ──┘     └─> text (all words)
 //!                           a place go to a legend
 //! ```
 

@@ -172,7 +172,7 @@ fn points_of(svg: &mut String, points: &[MarkedPoint], dots: &[Dot], marker: Mar
 /// The one mark for the case at hand: a black star with five points in a white one.
 fn star(svg: &mut String, at: Point, tooltip: &str) {
     let corner = |k: usize| {
-        let radius = if k % 2 == 0 { STAR } else { 0.42 * STAR };
+        let radius = if k.is_multiple_of(2) { STAR } else { 0.42 * STAR };
         let (sin, cos) = libm::sincos(k as f64 * core::f64::consts::PI / 5.0);
         [at[0] + radius * sin, at[1] - radius * cos]
     };

@@ -116,61 +116,28 @@ impl Words {
         look
     }
 
-    /// Where the baseline begins, ends or has its middle, in tenths of a pixel.
-    fn base(&self) -> [i32; 2] {
+    fn element(&self) -> String {
         // From the middle of the digits to the baseline.
         let drop = 0.35 * self.size;
-        let [x, y] = self.at;
-        if self.upright { [x + drop, y].map(tenths) } else { [x, y + drop].map(tenths) }
-    }
-
-    /// What words of an axis have in common: their abscissa or their ordinate.
-    fn line(&self) -> [i32; 2] {
-        match self.anchor {
-            Anchor::Middle => [0, self.base()[1]],
-            Anchor::End => [self.base()[0], 0],
-            Anchor::Start => [0, 0],
-        }
-    }
-
-    fn element(&self, from: [i32; 2]) -> String {
-        let [x, y] = [0, 1].map(|i| self.base()[i] - from[i]);
         let text = escape(&self.text);
-        let place = match [x, y] {
-            _ if self.upright => format!("transform=\"translate({x} {y})rotate(-90)\""),
-            [x, 0] => format!("x=\"{x}\""),
-            [0, y] => format!("y=\"{y}\""),
-            [x, y] => format!("x=\"{x}\" y=\"{y}\""),
-        };
-        format!("<text {place}>{text}</text>\n")
+        if self.upright {
+            let [x, y] = [self.at[0] + drop, self.at[1]].map(tenths);
+            return format!("<text transform=\"translate({x} {y})rotate(-90)\">{text}</text>\n");
+        }
+        let [x, y] = [self.at[0], self.at[1] + drop].map(tenths);
+        format!("<text x=\"{x}\" y=\"{y}\">{text}</text>\n")
     }
 }
 
-/// Writes words, those of one look together, those of one axis from its line on, halos below all of them.
+/// Writes words, those of one look together, halos below all of them.
 pub(super) fn write(svg: &mut String, words: &[Words]) {
-    /// From so many words on, a line of their own makes them shorter.
-    const FEW: usize = 4;
     for halo in [true, false] {
-        let mut looks: BTreeMap<String, Vec<&Words>> = BTreeMap::new();
+        let mut groups: BTreeMap<String, String> = BTreeMap::new();
         for words in words.iter().filter(|words| words.halo || !halo) {
-            looks.entry(words.look(halo)).or_default().push(words);
+            *groups.entry(words.look(halo)).or_default() += &words.element();
         }
-        for (look, words) in looks {
-            let mut others = String::new();
-            for line in words.chunk_by(|a, b| a.line() == b.line()) {
-                let elements =
-                    |from| line.iter().map(|words| words.element(from)).collect::<String>();
-                let [x, y] = line[0].line();
-                if line.len() < FEW || line[0].upright {
-                    others += &elements([0, 0]);
-                    continue;
-                }
-                let elements = elements([x, y]);
-                *svg += &format!("<g {look} transform=\"translate({x} {y})\">\n{elements}</g>\n");
-            }
-            if !others.is_empty() {
-                *svg += &format!("<g {look}>\n{others}</g>\n");
-            }
+        for (look, elements) in groups {
+            *svg += &format!("<g {look}>\n{elements}</g>\n");
         }
     }
 }

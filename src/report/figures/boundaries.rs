@@ -34,7 +34,7 @@ pub(super) fn map(scene: &Scene, data: &Map) -> Figure {
         |detuning: f64, gamma: f64| chart.at([scene.ratio(detuning), scene.clearance(gamma)]);
     panel.layers = data.borders.layers(&place, [ends[1], ends[0]], &chart.line(&grazing));
     let mark = |at: [f64; 2], what: &str| scene.mark(&chart, at, what);
-    let third = grazing.iter().map(|at| mark(*at, "more impacts below"));
+    let third = grazing.iter().map(|at| chart.at(*at).into());
     let limits = data.exact.iter().flat_map(|at| {
         let bounds = at.symmetric.limits.iter().filter(|limit| limit.bounds_stability);
         bounds.map(|limit| mark([at.frequency_ratio, limit.clearance], limit.kind.words()))
