@@ -149,16 +149,19 @@ impl SymmetricCurve {
     /// `w = cos(Omega s) + beta k(s)` is 1 or -1 at some `s`, so that it turns there.
     pub fn grazing(&self, flight: &Flight) -> Option<f64> {
         let omega = flight.frequency();
-        // Of `w = 1` where `k` is above 0, of `w = -1` where it is below: `1/beta` and the sign of its rate.
-        let inverse = |s: f64| {
-            let ([k, rate], (sin, cos)) = (self.sway(flight, s), libm::sincos(omega * s));
-            let side = if k > 0.0 { 1.0 - cos } else { -1.0 - cos };
-            (k / side, rate * side - k * omega * sin)
-        };
         let range = [NEXT_TO_IMPACT, 1.0 - NEXT_TO_IMPACT].map(|part| part * self.half_period);
         let pieces = (self.half_period * omega.max(1.0) * PIECES_PER_RADIAN).ceil();
-        let turns = sign_changes(range, pieces as u32, |s| inverse(s).1);
-        let largest = turns.iter().map(|s| inverse(*s).0).fold(0.0, f64::max);
+        let largest = |wall: f64| {
+            // `1/beta` with `w = wall` at `s`, and the sign of its rate.
+            let inverse = |s: f64| {
+                let ([k, rate], (sin, cos)) = (self.sway(flight, s), libm::sincos(omega * s));
+                let room = 1.0 - wall * cos;
+                (wall * k / room, wall * rate * room - k * omega * sin)
+            };
+            let turns = sign_changes(range, pieces as u32, |s| inverse(s).1);
+            turns.iter().map(|s| inverse(*s).0).fold(0.0, f64::max)
+        };
+        let largest = largest(1.0).max(largest(-1.0));
         (largest > 0.0).then(|| 1.0 / largest)
     }
 
