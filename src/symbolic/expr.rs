@@ -2,8 +2,11 @@
 
 use super::{MissingValue, Symbol, Values};
 
-/// The functions of expressions by their names; each reads its arguments in order.
-const FUNCTIONS: [(&str, fn(&[f64]) -> f64); 6] = [
+/// A function with its name; it reads its arguments in order.
+type Named = (&'static str, fn(&[f64]) -> f64);
+
+/// The functions of expressions.
+const FUNCTIONS: [Named; 6] = [
     ("sqrt", |x| sqrt(x[0])),
     ("sin", |x| sin(x[0])),
     ("cos", |x| cos(x[0])),
