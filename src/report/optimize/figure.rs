@@ -60,13 +60,6 @@ impl Drawing<'_> {
         let largest = values.fold(0.0, f64::max);
         let unit = self.units.axis_unit(kind, largest).size;
         let place = |at: f64, value: f64| [self.length(at), value / unit];
-        let point = |at: f64, value: f64, error: f64, name: &str| {
-            let [x, y] = place(at, value);
-            let told = objective(&found.task, value, error);
-            let value = self.units.with_error(told.kind, told.value, told.error, told.kind.digits);
-            let clearance = self.units.text(&catalogue::CLEARANCE, at);
-            MarkedPoint::new(x, y).with_tooltip(format!("{name}{clearance}: {value}"))
-        };
         let [low, high] =
             [found.task.bounds[0].from, found.task.bounds[0].to].map(|at| self.length(at));
         let x = Axis::log(self.clearances()).with_range(low, high);
@@ -89,6 +82,22 @@ impl Drawing<'_> {
             let rule = at.map(|at| Layer::rule(Rule::Vertical(at), style).labelled(name));
             panel.layers.extend(rule);
         }
+        panel.layers.extend(self.judged(unit));
+        Figure::new("optimize-landscape", "").with_panel(panel)
+    }
+
+    /// What was judged as `check` judges its case, the optimum and the robust one as marks; heights in `unit`.
+    fn judged(&self, unit: f64) -> Vec<Layer> {
+        let (found, kind) = (self.found, kind(self.found.task.objective));
+        let amplitude = found.task.objective == Objective::WorstAmplitude;
+        let mark = |[at, value, error]: [f64; 3], name: &str| {
+            let told = objective(&found.task, value, error);
+            let told = self.units.with_error(kind, told.value, told.error, kind.digits);
+            let clearance = self.units.text(&catalogue::CLEARANCE, at);
+            MarkedPoint::new(self.length(at), value / unit)
+                .with_tooltip(format!("{name}{clearance}: {told}"))
+        };
+        let mut layers = Vec::new();
         for (feasible, name, shape, color) in [
             (false, "checked, criteria fail", Shape::Square, Color::Vermillion),
             (true, "checked", Shape::Circle, Color::Blue),
@@ -96,28 +105,24 @@ impl Drawing<'_> {
             let some = found.judged.iter().filter(|one| one.feasible == feasible);
             let some = some.filter(|one| one.value.is_finite() && (amplitude || !feasible));
             let points: Vec<MarkedPoint> =
-                some.map(|one| point(one.clearance, one.value, one.error, "")).collect();
+                some.map(|one| mark([one.clearance, one.value, one.error], "")).collect();
             if !points.is_empty() {
-                panel
-                    .layers
-                    .push(Layer::marked(Marker::hollow(shape), color, points).labelled(name));
+                layers.push(Layer::marked(Marker::hollow(shape), color, points).labelled(name));
             }
         }
         let best = Some((found.best.choice.clearance, found.best.value));
         let robust = found.robust.as_ref();
         let robust = robust.map(|one| (one.design.choice.clearance, one.under[0].expected));
-        for (mark, name, marker) in [
+        for (one, name, marker) in [
             (best, "optimum", Marker::filled(Shape::Circle)),
             (robust, "robust, expected", Marker::hollow(Shape::Diamond)),
         ] {
-            let Some((at, value)) = mark.filter(|mark| mark.1.is_finite() && found.reached())
-            else {
-                continue;
-            };
-            let points = [point(at, value, 0.0, &format!("{name}, "))];
-            panel.layers.push(Layer::marked(marker, Color::Black, points).labelled(name));
+            if let Some((at, value)) = one.filter(|one| one.1.is_finite() && found.reached()) {
+                let points = [mark([at, value, 0.0], &format!("{name}, "))];
+                layers.push(Layer::marked(marker, Color::Black, points).labelled(name));
+            }
         }
-        Figure::new("optimize-landscape", "").with_panel(panel)
+        layers
     }
 
     /// `None` where no clearance suits any of the frequencies.
