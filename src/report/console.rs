@@ -215,6 +215,7 @@ fn measured(scale: &Scale, motion: &Attractor, told: Value) -> Value {
         "sustained_contact": motion.sustained_contact,
         "stop": motion.stop,
         "trusted": motion.doubts().is_empty(),
+        "doubts": told["doubts"],
         "classification": motion.classification,
         "energetics": motion.energetics,
         "motion": told,
