@@ -11,7 +11,7 @@ use vinesink::regimes::{Attractor, Window};
 use vinesink::report::console::Simulated;
 use vinesink::simulation::{Impact, ImpactLog, Simulation};
 use vinesink::store;
-use vinesink::study::{self, LongTermMotions, StudyEffort};
+use vinesink::study::{self, LongTermMotions, Proof, StudyEffort};
 use vinesink::system::State;
 
 use super::budget::Work;
@@ -81,7 +81,9 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
             (motion, Some(found))
         }
     };
-    let simulated = Simulated { case: &case, motion: &motion, found: found.as_ref() };
+    let proof = Proof::of(&case.system(), &motion);
+    let (found, proof) = (found.as_ref(), proof.as_ref());
+    let simulated = Simulated { case: &case, motion: &motion, proof, found };
     arguments.one.print(|| simulated.text(), || simulated.document())?;
     let doubts = motion.doubts();
     for doubt in &doubts {

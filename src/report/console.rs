@@ -147,6 +147,8 @@ pub struct Simulated<'a> {
     pub case: &'a Case,
     /// The motion.
     pub motion: &'a Attractor,
+    /// The exact orbit that it is, where Newton's method finds one.
+    pub proof: Option<&'a Proof>,
     /// Every long-term motion found.
     pub found: Option<&'a LongTermMotions>,
 }
@@ -155,12 +157,11 @@ impl Simulated<'_> {
     /// The motion and those that were found, as in `report.json`.
     fn told(&self) -> (Value, Option<Vec<Value>>) {
         let (scale, system) = (Scale::of(self.case), self.case.system());
-        let proof = Proof::of(&system, self.motion);
         let all = self.found.map(|found| {
             let each = found.attractors.iter().zip(&found.proofs);
             each.map(|(one, proof)| motions::found(&scale, &system, one, proof.as_ref())).collect()
         });
-        (motions::measured(&scale, &system, self.motion, proof.as_ref()), all)
+        (motions::measured(&scale, &system, self.motion, self.proof), all)
     }
 
     /// For a person.

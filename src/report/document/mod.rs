@@ -17,7 +17,7 @@ use serde::Serialize;
 use serde_json::{Value, json};
 
 use super::figure::Figure;
-use crate::case::Case;
+use crate::case::{Case, Design};
 use crate::criteria::Judged;
 use crate::method::Method;
 use crate::quantity::catalogue as of;
@@ -154,7 +154,7 @@ fn quantities(scale: &Scale, case: &Case, study: &CaseStudy) -> BTreeMap<&'stati
         scale.length(&of::DAMPER_PEAK, study.rivals.damped.amplitude, Method::ClosedForm),
         scale.length(&of::DAMPER_STROKE, study.rivals.damped.stroke, Method::ClosedForm),
     ];
-    if let crate::case::Design::Physical(physical) = &case.design {
+    if let Design::Physical(physical) = &case.design {
         all.push(given(&of::ABSORBER_MASS, physical.absorber_mass_kg));
     }
     if let Some(main) = study.main_attractor() {
