@@ -6,10 +6,11 @@
 //!
 //! * The saddle-node is explicit, and so is the place from which the absorber stays on the wall.
 //! * The Jacobian of the half-period map is `J = M(beta) - u(beta) v(beta)^T / a(beta)`. Of `M` one column
-//!   and of the other three every component is linear in `beta`, and the approach `a` is proportional to it.
-//!   So `beta det(J - mu I)` is a quadratic in `beta` for any `mu`: `beta det(J + I)` for the symmetry
-//!   breaking; and with all coefficients of the characteristic polynomial quadratics over `beta`, whose last
-//!   one is constant, `beta^2 det(J^(2) - I)` is a quartic for the Neimark-Sacker bifurcation.
+//!   and of the other three every component is linear in `beta`, and the approach `a` is proportional to it;
+//!   so a coefficient of the characteristic polynomial is a quadratic over `beta`. A large motion does not feel
+//!   the clearance: as `beta` grows, `J` tends to a limit, and that quadratic has no square. So `beta det(J + I)`
+//!   is linear in `beta`, for the symmetry breaking; and as the last coefficient is constant,
+//!   `beta^2 det(J^(2) - I)` is a quadratic, for the Neimark-Sacker bifurcation.
 //! * The relative displacement between two impacts is linear in `beta`, `w = cos(Omega s) + beta k(s)`
 //!   ([`SymmetricCurve::sway`]). So the orbit is a motion up to one `beta`, and the grazing there is where
 //!   the larger of `k/(1 - cos(Omega s))` and `-k/(1 + cos(Omega s))` has its largest value, `1/beta`.
@@ -159,13 +160,13 @@ impl Family {
         Departure::of(&cycle.flights(&map)[0]).is_still().then_some(beta)
     }
 
-    /// A test function times a power of `beta`: a polynomial in `beta` of twice that degree.
+    /// A test function times a power of `beta`: a polynomial in `beta` of that degree.
     fn scaled_test(&self, kind: Bifurcation, power: u32, beta: f64) -> f64 {
         self.test(kind, beta) * libm::pow(beta, f64::from(power))
     }
 
     fn polynomial(&self, kind: Bifurcation, power: u32) -> Vec<f64> {
-        let nodes = 2 * power + 1;
+        let nodes = power + 1;
         let places = (1..=nodes).map(|k| RANGE[1] * f64::from(k) / f64::from(nodes));
         let points = places.map(|beta| (beta, self.scaled_test(kind, power, beta)));
         through(&points.collect::<Vec<_>>())
