@@ -252,7 +252,7 @@ fn mistakes_are_told() {
     tells(&figure, "axis \"y (1)\" cannot run from 0 to 1");
     tells(&simple(vec![]).with_size(60, 60), "pixels; enlarge the figure");
     let cells = vec![Cell { column: 1, row: 0, columns: 1, rows: 1 }];
-    let layout = Layout::Cells { widths: vec![1.0], heights: vec![1.0], cells };
+    let layout = Layout { widths: vec![1.0], heights: vec![1.0], cells };
     tells(&simple(vec![]).with_layout(layout), "the cell of panel 0 is empty or outside the grid");
 }
 
@@ -262,7 +262,7 @@ fn stacked_panels_share_their_time_axis() {
         Panel::new(Axis::linear("time t (s)"), Axis::linear("y (1)"))
             .with(Layer::curve(Role::Simulation, vec![[0.0, 0.0], [end, 1.0]]))
     };
-    let figure = Figure::new("stack", "Stack").with_layout(Layout::Column);
+    let figure = Figure::new("stack", "Stack").with_layout(Layout::rows(&[1.0; 2]));
     let drawing = draw(&figure.with_panel(panel(5.0)).with_panel(panel(10.0))).unwrap();
     assert_eq!(drawing.texts.iter().filter(|t| t.text == "time t (s)").count(), 1);
     assert_eq!(drawing.texts.iter().filter(|t| t.text == "10").count(), 1);

@@ -7,7 +7,7 @@ use std::fs;
 
 use vinesink::case::{Case, ExtraFigure, ReportSettings};
 use vinesink::report::document::{self, Source};
-use vinesink::report::figure::{Color, Figure, Layer, Panel, Scale, Shape, draw};
+use vinesink::report::figure::{Color, Figure, Layer, Marker, Panel, Scale, Shape, draw};
 use vinesink::report::{figures as made, template};
 use vinesink::study::plots::Plot;
 use vinesink::study::{CaseStudy, StudyEffort};
@@ -95,7 +95,9 @@ fn case_is_inside(panel: &Panel) {
         .layers
         .iter()
         .filter_map(|layer| match layer {
-            Layer::ThisCase { at, tooltip: Some(_) } => Some(*at),
+            Layer::Points { points, marker: Marker::THIS_CASE, .. } => {
+                points[0].tooltip.as_ref().map(|_| [points[0].x, points[0].y])
+            }
             _ => None,
         })
         .collect();

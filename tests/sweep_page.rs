@@ -16,7 +16,8 @@ use vinesink::case::{Case, SweepAxis, SweepParameter};
 use vinesink::orbits::attracting_orbit;
 use vinesink::regimes::Regime;
 use vinesink::report::figure::{
-    Axis, Cells, Figure, Image, Label, Layer, Panel, Ramp, Rule, Scale, Tint, draw, edges, render,
+    Axis, Cells, Figure, Image, Label, Layer, Marker, Panel, Ramp, Rule, Scale, Tint, draw, edges,
+    render,
 };
 use vinesink::report::render;
 use vinesink::report::sweep::{AxisShown, Swept, SweptError, tint};

@@ -312,7 +312,7 @@ fn decay() -> Figure {
             .with(Layer::curve(Role::Simulation, sampled(0.0, 8.0, 20_000, wave(a))))
     };
     Figure::new("decay", "Three quantities over one time")
-        .with_layout(Layout::Column)
+        .with_layout(Layout::rows(&[1.0; 3]))
         .with_panel(
             panel("displacement x (mm)", 3.2).with(
                 Layer::rule(Rule::Vertical(2.0), Role::Guide.style()).labelled("impacts end"),

@@ -96,7 +96,9 @@ fn boundaries_lie_where_the_theory_has_them() {
         .layers
         .iter()
         .filter_map(|layer| match layer {
-            Layer::ThisCase { at, .. } => Some(*at),
+            Layer::Points { points, marker: Marker::THIS_CASE, .. } => {
+                Some([points[0].x, points[0].y])
+            }
             _ => None,
         })
         .collect();
@@ -133,7 +135,9 @@ fn lines_are_traced_over_other_axes() {
         .layers
         .iter()
         .filter_map(|layer| match layer {
-            Layer::Note { at, text, .. } => Some((at[0], text.as_str())),
+            Layer::Points { points, marker: Marker::NONE, .. } => {
+                Some((points[0].x, points[0].label.as_deref()?))
+            }
             _ => None,
         })
         .collect();

@@ -48,9 +48,6 @@ fn is_usual(one: &Method) -> bool {
     matches!(one, Method::Simulation { search: Search::Panels, excursion: None, .. })
 }
 
-/// Room beside the outermost points, as a factor.
-const ROOM: f64 = 2.0;
-
 /// The diagram.
 pub fn figure(document: &TradeoffDocument) -> Figure {
     let tradeoff = document.found;
@@ -68,16 +65,9 @@ pub fn figure(document: &TradeoffDocument) -> Figure {
             Some((trial.method, point.with_tooltip(tooltip)))
         })
         .collect();
-    let around = |values: &[f64]| {
-        let low = values.iter().copied().fold(f64::INFINITY, f64::min);
-        (low / ROOM, values.iter().copied().fold(0.0, f64::max) * ROOM)
-    };
     let (best, allowed) = (tradeoff.best.rms_error, document.allowed);
-    let (left, right) = around(&placed.iter().map(|(_, point)| point.x).collect::<Vec<_>>());
-    let errors = placed.iter().map(|(_, point)| point.y).chain([best, allowed]);
-    let (low, high) = around(&errors.collect::<Vec<_>>());
-    let x = Axis::log("cost (operations)").with_range(left, right);
-    let y = Axis::log("relative error of the rms displacement (1)").with_range(low, high);
+    let x = Axis::log("cost (operations)");
+    let y = Axis::log("relative error of the rms displacement (1)");
     let known = Style::new(Color::Grey, 1.2, Dash::DashDot);
     let mut panel = Panel::new(x, y)
         .with(Drawn::rule(Rule::Horizontal(best), known).labelled("error of the best answer"))

@@ -1,6 +1,8 @@
 //! Places that a label could take, and how good each would be.
 
 use super::geometry::{Point, Rect, depth, distance, lerp};
+use super::layers::Layer;
+use super::shapes::Shape;
 use super::text::Anchor;
 
 /// The eight sides of a point, the liked ones first: by what side the words are held, how far down they are,
@@ -15,6 +17,9 @@ const SIDES: [(Anchor, f64, f64); 8] = [
     (Anchor::End, 1.0, 1.2),
     (Anchor::Middle, 1.0, 1.4),
 ];
+/// From what is named to words beside it, and to words with a leader, pixels.
+const CLOSE: [f64; 2] = [4.5, 8.0];
+const FAR: [f64; 6] = [14.0, 20.0, 28.0, 38.0, 50.0, 64.0];
 
 /// A place for words.
 #[derive(Debug, Clone, Copy)]
@@ -29,22 +34,69 @@ pub(super) struct Candidate {
 }
 
 impl Candidate {
-    fn at(center: Point, size: Point, anchor: Anchor, penalty: f64) -> Self {
-        Self { room: Rect::around(center, size[0], size[1]), anchor, penalty, leader: None }
+    /// Words right on a place.
+    fn on(at: Point, size: Point, penalty: f64) -> Self {
+        let room = Rect::around(at, size[0], size[1]);
+        Self { room, anchor: Anchor::Middle, penalty, leader: None }
     }
 }
 
-/// Words of some size on the sides of a point.
-fn around(at: Point, gap: f64, size: Point) -> impl Iterator<Item = Candidate> {
-    SIDES.into_iter().map(move |(anchor, down, penalty)| {
-        let right = 1.0 - 2.0 * anchor.part();
-        let center = [at[0] + right * (size[0] / 2.0 + gap), at[1] + down * (size[1] / 2.0 + gap)];
-        Candidate::at(center, size, anchor, penalty)
-    })
+/// Where the name of a layer can go; nowhere where nothing of the layer is visible.
+pub(super) fn of_layer(layer: &Layer, shape: &Shape, size: Point) -> Vec<Candidate> {
+    let close = |(at, radius, penalty)| around(at, radius, &CLOSE, penalty, size);
+    match (layer, shape) {
+        (_, Shape::Lines(lines)) => {
+            sampled(lines).into_iter().flat_map(|(at, penalty)| close((at, 0.5, penalty))).collect()
+        }
+        (Layer::Points { marker, .. }, Shape::Dots(dots)) => {
+            let some = dots.iter().step_by(dots.len().div_ceil(60).max(1));
+            some.flat_map(|dot| close((dot.at, marker.diameter / 2.0, 0.0))).collect()
+        }
+        (_, Shape::Area(area)) => within(area, size),
+        _ => Vec::new(),
+    }
 }
 
-/// Beside lines, about every ten pixels; the middle is liked a little better than the ends.
-pub(super) fn along(lines: &[Vec<Point>], size: Point) -> Vec<Candidate> {
+/// Where the words of a marked point can go: beside its marker, or on its place where it has none, then further
+/// and further from it.
+pub(super) fn of_point(at: Point, radius: f64, size: Point) -> Vec<Candidate> {
+    let on = (radius == 0.0).then(|| Candidate::on(at, size, 0.0));
+    let beside = around(at, radius, &CLOSE, 1.0, size);
+    on.into_iter().chain(beside).chain(around(at, radius, &FAR, 10.0, size)).collect()
+}
+
+/// Words on the sides of a marker of some radius, with a leader where they are far from it.
+fn around(
+    at: Point,
+    radius: f64,
+    gaps: &'static [f64],
+    penalty: f64,
+    size: Point,
+) -> impl Iterator<Item = Candidate> {
+    let place = move |gap: f64, (anchor, down, side): (Anchor, f64, f64)| {
+        let right = 1.0 - 2.0 * anchor.part();
+        let gaps = radius + gap;
+        let at_side =
+            [at[0] + right * (size[0] / 2.0 + gaps), at[1] + down * (size[1] / 2.0 + gaps)];
+        let room = Rect::around(at_side, size[0], size[1]);
+        let far = gap >= FAR[0];
+        let leader = if far { leader(at, radius + 1.5, &room) } else { None };
+        let gap = if far { gap } else { 0.15 * gap };
+        Candidate { room, anchor, penalty: penalty + side + gap, leader }
+    };
+    gaps.iter().flat_map(move |gap| SIDES.map(|side| place(*gap, side)))
+}
+
+/// The line from the edge of a marker to the nearest point of the words' room.
+fn leader(at: Point, radius: f64, room: &Rect) -> Option<[Point; 2]> {
+    let end = [at[0].clamp(room.left, room.right), at[1].clamp(room.top, room.bottom)];
+    let length = distance(at, end);
+    let reach = length - 1.5;
+    (reach > radius + 2.0).then(|| [radius, reach].map(|way| lerp(at, end, way / length)))
+}
+
+/// Places on lines about every ten pixels; the middle is liked a little better than the ends.
+fn sampled(lines: &[Vec<Point>]) -> Vec<(Point, f64)> {
     const EVERY: f64 = 10.0;
     let pairs = || lines.iter().flat_map(|line| line.windows(2));
     let total: f64 = pairs().map(|pair| distance(pair[0], pair[1])).sum();
@@ -54,12 +106,7 @@ pub(super) fn along(lines: &[Vec<Point>], size: Point) -> Vec<Candidate> {
         let step = distance(pair[0], pair[1]);
         while next <= passed + step && step > 0.0 {
             let at = lerp(pair[0], pair[1], (next - passed) / step);
-            let off_middle = 4.0 * (next / total - 0.55).abs();
-            for gap in [5.0, 9.0] {
-                let penalty = off_middle + 0.15 * gap;
-                let worse = |c: Candidate| Candidate { penalty: c.penalty + penalty, ..c };
-                all.extend(around(at, gap, size).map(worse));
-            }
+            all.push((at, 4.0 * (next / total - 0.55).abs()));
             next += every;
         }
         passed += step;
@@ -67,14 +114,8 @@ pub(super) fn along(lines: &[Vec<Point>], size: Point) -> Vec<Candidate> {
     all
 }
 
-/// Beside one of many points with markers of some radius that are named together.
-pub(super) fn among(points: &[Point], radius: f64, size: Point) -> Vec<Candidate> {
-    let every = points.len().div_ceil(60).max(1);
-    points.iter().step_by(every).flat_map(|at| around(*at, radius + 5.0, size)).collect()
-}
-
 /// Inside an area, far from its edges; beside it with a leader where it is too narrow.
-pub(super) fn within(area: &[Point], size: Point) -> Vec<Candidate> {
+fn within(area: &[Point], size: Point) -> Vec<Candidate> {
     const STEPS: u32 = 40;
     let Some(&first) = area.first() else { return Vec::new() };
     let (low, high) = area.iter().fold((first, first), |(low, high), p| {
@@ -88,46 +129,13 @@ pub(super) fn within(area: &[Point], size: Point) -> Vec<Candidate> {
         if depth_here > deepest.0 {
             deepest = (depth_here, at);
         }
-        let place = Candidate::at(at, size, Anchor::Middle, 20.0 - depth_here.min(20.0));
+        let place = Candidate::on(at, size, 20.0 - depth_here.min(20.0));
         let Rect { left, top, right, bottom } = place.room;
         let corners = [[left, top], [right, top], [left, bottom], [right, bottom]];
         if depth_here > size[1] / 2.0 && corners.iter().all(|c| depth(area, *c) >= 0.0) {
             all.push(place);
         }
     }
-    let beside = rings(deepest.1, 3.0, size).into_iter().filter(|c| c.leader.is_some());
-    all.extend(beside.map(|c| Candidate { penalty: c.penalty + 40.0, ..c }));
-    all
-}
-
-/// Beside a point, then further and further from it, with a leader where that is far.
-pub(super) fn rings(at: Point, radius: f64, size: Point) -> Vec<Candidate> {
-    const CLOSE: f64 = 7.0;
-    let mut all = Vec::new();
-    for gap in [4.0, 6.5, 14.0, 20.0, 28.0, 38.0, 50.0, 64.0] {
-        for near in around(at, radius + gap, size) {
-            if gap < CLOSE {
-                all.push(Candidate { penalty: near.penalty + gap, ..near });
-            } else {
-                let leader = leader(at, radius + 1.5, &near.room);
-                all.push(Candidate { penalty: near.penalty + gap + 10.0, leader, ..near });
-            }
-        }
-    }
-    all
-}
-
-/// The line from the edge of a marker to the nearest point of the words' room.
-fn leader(at: Point, radius: f64, room: &Rect) -> Option<[Point; 2]> {
-    let end = [at[0].clamp(room.left, room.right), at[1].clamp(room.top, room.bottom)];
-    let length = distance(at, end);
-    let reach = length - 1.5;
-    (reach > radius + 2.0).then(|| [radius, reach].map(|way| lerp(at, end, way / length)))
-}
-
-/// At a place, or beside it.
-pub(super) fn nearby(at: Point, size: Point) -> Vec<Candidate> {
-    let mut all = vec![Candidate::at(at, size, Anchor::Middle, 0.0)];
-    all.extend(rings(at, 0.0, size));
+    all.extend(around(deepest.1, 3.0, &FAR, 50.0, size));
     all
 }

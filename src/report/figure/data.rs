@@ -20,8 +20,8 @@ pub struct Figure {
     pub size: (u32, u32),
     /// The panels, in the order of the layout's cells.
     pub panels: Vec<Panel>,
-    /// Where the panels go.
-    pub layout: Layout,
+    /// Where the panels go; side by side where nothing is said.
+    pub layout: Option<Layout>,
     /// What the tints of its images stand for, in rows above all panels.
     pub keys: Vec<Key>,
 }
@@ -55,7 +55,7 @@ impl Figure {
             facts: None,
             size: (720, 450),
             panels: Vec::new(),
-            layout: Layout::Row,
+            layout: None,
             keys: Vec::new(),
         }
     }
@@ -77,7 +77,7 @@ impl Figure {
     /// Sets the layout.
     #[must_use]
     pub fn with_layout(mut self, layout: Layout) -> Self {
-        self.layout = layout;
+        self.layout = Some(layout);
         self
     }
 
@@ -99,20 +99,13 @@ impl Figure {
 /// Where the panels go. Panels one above the other whose x axes have the same label and scale share
 /// that axis: one range, and the words only at the lowest.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Layout {
-    /// Side by side; also right for a single panel.
-    Row,
-    /// One above the other.
-    Column,
-    /// Anything else.
-    Cells {
-        /// Relative widths of the columns.
-        widths: Vec<f64>,
-        /// Relative heights of the rows.
-        heights: Vec<f64>,
-        /// One cell for each panel.
-        cells: Vec<Cell>,
-    },
+pub struct Layout {
+    /// Relative widths of the columns.
+    pub widths: Vec<f64>,
+    /// Relative heights of the rows.
+    pub heights: Vec<f64>,
+    /// One cell for each panel.
+    pub cells: Vec<Cell>,
 }
 
 impl Layout {
@@ -126,11 +119,8 @@ impl Layout {
             columns: *columns,
             rows: *rows,
         };
-        Self::Cells {
-            widths: widths.to_vec(),
-            heights: heights.to_vec(),
-            cells: cells.iter().map(cell).collect(),
-        }
+        let cells = cells.iter().map(cell).collect();
+        Self { widths: widths.to_vec(), heights: heights.to_vec(), cells }
     }
 
     /// Panels side by side, with these relative widths.

@@ -120,9 +120,6 @@ fn thinned(cells: &[usize], one_in: usize) -> Vec<usize> {
     (0..count).map(|k| cells[(2 * k + 1) * cells.len() / (2 * count)]).collect()
 }
 
-/// Which number of a palette a cell has, if anything is known of it.
-type Numbering<'a> = Box<dyn Fn(usize) -> Option<u8> + 'a>;
-
 /// What some columns and rows of cells hold, as numbers of a palette whose last tint is for what is not known;
 /// values take one of so many levels.
 fn indexed(
@@ -131,26 +128,21 @@ fn indexed(
     rows: &[usize],
     levels: f64,
 ) -> (Vec<Tint>, Vec<Vec<u8>>) {
-    let across = image.x_edges.len() - 1;
-    let (mut palette, number): (Vec<Tint>, Numbering<'_>) = match &image.cells {
-        Cells::Kinds(tints, cells) => {
-            (tints.clone(), Box::new(|cell| cells.get(cell).copied().flatten()))
-        }
+    let (mut palette, numbers): (Vec<Tint>, Vec<Option<u8>>) = match &image.cells {
+        Cells::Kinds(tints, cells) => (tints.clone(), cells.clone()),
         Cells::Values(ramp, (low, high), cells) => {
-            let span = high - low;
-            let tint =
-                |k: u32| ramp.tint(low + span * (f64::from(k) + 0.5) / levels, (*low, low + span));
-            let level = move |value: f64| {
-                ((value - low) / span * levels).floor().clamp(0.0, levels - 1.0) as u8
-            };
-            let palette = (0..levels as u32).map(tint).collect();
-            (palette, Box::new(move |cell| cells.get(cell).copied().flatten().map(level)))
+            let middle = |k: u32| low + (high - low) * (f64::from(k) + 0.5) / levels;
+            let tints = (0..levels as u32).map(|k| ramp.tint(middle(k), (*low, *high)));
+            let level = |value: f64| (value - low) / (high - low) * levels;
+            let level = |value: f64| level(value).floor().clamp(0.0, levels - 1.0) as u8;
+            (tints.collect(), cells.iter().map(|value| value.map(level)).collect())
         }
     };
     let unknown = palette.len() as u8;
     palette.push(Tint::UNKNOWN);
-    let cell = |row: usize, column: usize| number(row * across + column).unwrap_or(unknown);
-    let row = |row: &usize| columns.iter().map(|column| cell(*row, *column)).collect();
+    let across = image.x_edges.len() - 1;
+    let number = |cell: usize| numbers.get(cell).copied().flatten().unwrap_or(unknown);
+    let row = |row: &usize| columns.iter().map(|column| number(row * across + column)).collect();
     (palette, rows.iter().map(row).collect())
 }
 

@@ -1,10 +1,11 @@
 //! Names beside the data, so that nothing covers anything.
 
-use super::candidates::{Candidate, along, among, nearby, rings, within};
+use super::candidates::{Candidate, of_layer, of_point};
 use super::data::Panel;
 use super::geometry::{Point, Rect, distance, is_finite};
 use super::layers::{Hatch, Layer};
 use super::layout::Frame;
+use super::palette::Marker;
 use super::raster::{Raster, WORDS, bit};
 use super::shapes::Shape;
 use super::text::{Anchor, LARGE, SMALL, Words};
@@ -17,8 +18,6 @@ const AMBIGUOUS: f64 = 10.0;
 const CLOSEST: f64 = 7.0;
 /// From labels to the plot's edge, pixels.
 const INSET: f64 = 3.0;
-/// The radius of the mark for the case at hand, pixels.
-pub(super) const STAR: f64 = 9.0;
 
 /// The names of a panel, as far as they found a place.
 #[derive(Debug, Default)]
@@ -123,14 +122,11 @@ fn occupied(panel: &Panel, frame: &Frame, shapes: &[Shape]) -> Raster {
             (Layer::Curve { style, .. } | Layer::Rule { style, .. }, Shape::Lines(lines)) => {
                 lines.iter().for_each(|line| raster.trace(line, style.width, bit(index)));
             }
-            (Layer::Points { marker, .. }, Shape::Dots(dots)) => {
+            (Layer::Points { marker, .. }, Shape::Dots(dots)) if *marker != Marker::NONE => {
                 let side = marker.diameter + 1.0;
                 for dot in dots {
                     raster.take(&Rect::around(dot.at, side, side), bit(index));
                 }
-            }
-            (Layer::ThisCase { .. }, Shape::Place(at)) => {
-                raster.take(&Rect::around(*at, 2.0 * STAR, 2.0 * STAR), bit(index));
             }
             _ => {}
         }
@@ -146,57 +142,31 @@ fn requests(panel: &Panel, frame: &Frame, shapes: &[Shape]) -> Vec<Request> {
         |layer: &Layer| matches!(layer, Layer::Band { fill, .. } if fill.hatch != Hatch::None);
     let halo = panel.layers.iter().any(hatched);
     for (layer, (data, shape)) in panel.layers.iter().zip(shapes).enumerate() {
-        let words = |text: &str| Words {
-            color: data.text_color(),
-            halo,
-            ..Words::new(text, [0.0; 2], Anchor::Middle, SMALL)
-        };
-        let mut fixed =
-            |words: Words, places: fn(Point, f64, Point) -> Vec<Candidate>, at, radius| {
-                let places = places(at, radius, words.size());
+        let color = data.text_color();
+        let words =
+            |text: &str| Words { color, halo, ..Words::new(text, [0.0; 2], Anchor::Middle, SMALL) };
+        if let (Layer::Points { points, marker, .. }, Shape::Dots(dots)) = (data, shape) {
+            let size = if *marker == Marker::NONE { LARGE } else { SMALL };
+            for dot in dots {
+                let Some(label) = &points[dot.index].label else { continue };
+                let words = Words { size, bold: *marker == Marker::THIS_CASE, ..words(label) };
+                let places = of_point(dot.at, marker.diameter / 2.0, words.size());
                 all.push(Request { layer, words, places, beside_line: false, movable: false });
-            };
-        match (data, shape) {
-            (Layer::Points { points, marker, .. }, Shape::Dots(dots)) => {
-                for dot in dots {
-                    if let Some(label) = &points[dot.index].label {
-                        fixed(words(label), rings, dot.at, marker.diameter / 2.0);
-                    }
-                }
             }
-            (Layer::Note { text, .. }, Shape::Place(at)) => {
-                let words = Words { size: LARGE, ..words(text) };
-                fixed(words, |at, _, size| nearby(at, size), *at, 0.0);
-            }
-            (Layer::ThisCase { .. }, Shape::Place(at)) => {
-                fixed(Words { bold: true, ..words("this case") }, rings, *at, STAR);
-            }
-            _ => {}
         }
         let named = frame.legend.iter().any(|(k, _)| *k == layer);
         let Some(label) = data.label().filter(|_| !named) else { continue };
         let words = words(&label.text);
-        let Some(mut places) = beside(data, shape, words.size()) else { continue };
+        let mut places = of_layer(data, shape, words.size());
         if let Some(near) = label.near.map(|at| frame.map(at)).filter(is_finite) {
             for place in &mut places {
                 place.penalty += 0.3 * distance(place.room.center(), near);
             }
         }
         let beside_line = matches!(shape, Shape::Lines(_));
-        all.push(Request { layer, words, places, beside_line, movable: true });
+        if !places.is_empty() {
+            all.push(Request { layer, words, places, beside_line, movable: true });
+        }
     }
     all
-}
-
-/// Where a layer's name can go, if anything of the layer is visible.
-fn beside(layer: &Layer, shape: &Shape, size: Point) -> Option<Vec<Candidate>> {
-    match (layer, shape) {
-        (_, Shape::Lines(lines)) if !lines.is_empty() => Some(along(lines, size)),
-        (_, Shape::Area(area)) if !area.is_empty() => Some(within(area, size)),
-        (Layer::Points { marker, .. }, Shape::Dots(dots)) if !dots.is_empty() => {
-            let places: Vec<Point> = dots.iter().map(|dot| dot.at).collect();
-            Some(among(&places, marker.diameter / 2.0, size))
-        }
-        _ => None,
-    }
 }

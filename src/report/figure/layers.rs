@@ -44,25 +44,9 @@ pub enum Layer {
         /// What it is called.
         label: Option<Label>,
     },
-    /// Words at a place; they move a little where they would cover something.
-    Note {
-        /// The middle of the words.
-        at: [f64; 2],
-        /// The words.
-        text: String,
-        /// Their colour.
-        color: Color,
-    },
     /// Cells in colours; what the colours stand for is said by [`super::Figure::keys`], or by a bar in a panel
     /// of its own.
     Image(Image),
-    /// The case at hand: one unmistakable mark.
-    ThisCase {
-        /// Where.
-        at: [f64; 2],
-        /// Shown on hovering.
-        tooltip: Option<String>,
-    },
 }
 
 impl Layer {
@@ -107,18 +91,21 @@ impl Layer {
         Self::Rule { rule, style, label: None }
     }
 
-    /// Words at a place.
+    /// Words at a place; they move a little where they would cover something.
     pub fn note(at: [f64; 2], text: impl Into<String>) -> Self {
-        Self::Note { at, text: text.into(), color: Color::Grey }
+        Self::marked(Marker::NONE, Color::Grey, [MarkedPoint::from(at).with_label(text)])
     }
 
-    /// The case at hand.
+    /// The case at hand: one unmistakable mark.
     #[must_use]
-    pub const fn this_case(at: [f64; 2], tooltip: Option<String>) -> Self {
-        Self::ThisCase { at, tooltip }
+    pub fn this_case(at: [f64; 2], tooltip: Option<String>) -> Self {
+        let words = "this case";
+        let point = MarkedPoint::from(at).with_label(words);
+        let point = point.with_tooltip(tooltip.unwrap_or_else(|| words.to_owned()));
+        Self::marked(Marker::THIS_CASE, Color::Black, [point])
     }
 
-    /// Names the layer; notes and the case at hand have their words already and stay as they are.
+    /// Names the layer; what the colours of an image stand for is said elsewhere.
     #[must_use]
     pub fn labelled(mut self, name: impl Into<Label>) -> Self {
         match &mut self {
@@ -126,7 +113,7 @@ impl Layer {
             | Self::Points { label, .. }
             | Self::Band { label, .. }
             | Self::Rule { label, .. } => *label = Some(name.into()),
-            Self::Note { .. } | Self::ThisCase { .. } | Self::Image(_) => {}
+            Self::Image(_) => {}
         }
         self
     }
@@ -138,7 +125,7 @@ impl Layer {
             | Self::Points { label, .. }
             | Self::Band { label, .. }
             | Self::Rule { label, .. } => label.as_ref(),
-            Self::Note { .. } | Self::ThisCase { .. } | Self::Image(_) => None,
+            Self::Image(_) => None,
         }
     }
 
@@ -146,9 +133,9 @@ impl Layer {
     pub(super) const fn text_color(&self) -> &'static str {
         match self {
             Self::Curve { style, .. } | Self::Rule { style, .. } => style.color.text_hex(),
-            Self::Points { color, .. } | Self::Note { color, .. } => color.text_hex(),
+            Self::Points { color, .. } => color.text_hex(),
             Self::Band { fill, .. } => fill.color.text_hex(),
-            Self::ThisCase { .. } | Self::Image(_) => "#000000",
+            Self::Image(_) => Color::Black.text_hex(),
         }
     }
 }

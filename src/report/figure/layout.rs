@@ -77,29 +77,17 @@ impl Frame {
     }
 }
 
-/// The grid that a layout stands for.
-struct Grid {
-    widths: Vec<f64>,
-    heights: Vec<f64>,
-    cells: Vec<Cell>,
-}
-
-fn grid(figure: &Figure) -> Result<Grid, FigureError> {
-    let even = vec![1.0; figure.panels.len()];
-    let layout = match &figure.layout {
-        Layout::Row => &Layout::columns(&even),
-        Layout::Column => &Layout::rows(&even),
-        cells => cells,
-    };
-    let Layout::Cells { widths, heights, cells } = layout.clone() else {
-        unreachable!("rows and columns are cells")
-    };
+/// The grid of a figure, proven valid.
+fn grid(figure: &Figure) -> Result<Layout, FigureError> {
+    let row = || Layout::columns(&vec![1.0; figure.panels.len()]);
+    let grid = figure.layout.clone().unwrap_or_else(row);
+    let Layout { widths, heights, cells } = &grid;
     let wrong = |reason: String| Err(FigureError::new(&figure.name, reason));
     if cells.len() != figure.panels.len() {
         let panels = figure.panels.len();
         return wrong(format!("{panels} panels, but {} cells for them", cells.len()));
     }
-    if let Some(w) = widths.iter().chain(&heights).find(|w| !(**w > 0.0 && **w < 1e6)) {
+    if let Some(w) = widths.iter().chain(heights).find(|w| !(**w > 0.0 && **w < 1e6)) {
         return wrong(format!("a relative width or height is {w}, expected above 0"));
     }
     let fits = |c: &Cell| {
@@ -110,11 +98,11 @@ fn grid(figure: &Figure) -> Result<Grid, FigureError> {
     if let Some(i) = cells.iter().position(|cell| !fits(cell)) {
         return wrong(format!("the cell of panel {i} is empty or outside the grid"));
     }
-    Ok(Grid { widths, heights, cells })
+    Ok(grid)
 }
 
 /// For each panel the first one above or below it with the same horizontal axis, which may be itself.
-fn sharing(figure: &Figure, grid: &Grid) -> Vec<usize> {
+fn sharing(figure: &Figure, grid: &Layout) -> Vec<usize> {
     let axis = |i: usize| {
         let (cell, x) = (grid.cells[i], &figure.panels[i].x);
         (cell.column, cell.columns, &x.label, x.scale, x.range)
@@ -163,7 +151,7 @@ pub(super) fn lay_out(figure: &Figure, legends: &[Vec<usize>]) -> Result<Vec<Fra
 
 /// Gives the vertical axes of a column their words at the same place, and the panels of a row their headings
 /// at the same height.
-fn align(grid: &Grid, frames: &mut [Frame]) {
+fn align(grid: &Layout, frames: &mut [Frame]) {
     let ([columns, rows], _) = margins(grid, frames);
     for (cell, frame) in grid.cells.iter().zip(frames) {
         let [left, top, ..] = frame.margins();
@@ -251,12 +239,8 @@ fn fitting(axis: &Axis, span: &Span, length: f64, most: f64, ordinate: bool) -> 
         distance >= f64::midpoint(extent(a), extent(b)) + gap
     };
     if let Some(given) = &axis.ticks {
-        let mut kept: Vec<Tick> = Vec::new();
-        for tick in given.iter().filter(|t| (-1e-9..=1.0 + 1e-9).contains(&span.part(t.value))) {
-            let clear = kept.iter().filter(|other| other.label.is_some()).all(|o| free(o, tick));
-            kept.push(Tick { value: tick.value, label: tick.label.clone().filter(|_| clear) });
-        }
-        return kept;
+        let inside = |tick: &&Tick| (-1e-9..=1.0 + 1e-9).contains(&span.part(tick.value));
+        return given.iter().filter(inside).cloned().collect();
     }
     // Not so few that they say nothing, not so many that their words touch.
     let most = most.max(2.0).floor() as usize;
@@ -270,12 +254,11 @@ fn fitting(axis: &Axis, span: &Span, length: f64, most: f64, ordinate: bool) -> 
     let fits: Vec<(Vec<Tick>, usize)> =
         tries.filter_map(|(ticks, named, apart)| apart.then_some((ticks, named))).collect();
     let wanted = fits.iter().rev().find(|(_, named)| (3..=most.max(3)).contains(named));
-    let enough = || fits.iter().find(|(_, named)| *named >= 3);
-    wanted.or_else(enough).or(fits.last()).map_or_else(Vec::new, |(ticks, _)| ticks.clone())
+    wanted.or(fits.last()).map_or_else(Vec::new, |(ticks, _)| ticks.clone())
 }
 
 /// The margins before and after each column and each row.
-fn margins(grid: &Grid, frames: &[Frame]) -> ([Vec<f64>; 2], [Vec<f64>; 2]) {
+fn margins(grid: &Layout, frames: &[Frame]) -> ([Vec<f64>; 2], [Vec<f64>; 2]) {
     let mut before = [vec![0.0_f64; grid.widths.len()], vec![0.0_f64; grid.heights.len()]];
     let mut after = before.clone();
     for (frame, cell) in frames.iter().zip(&grid.cells) {
@@ -290,7 +273,7 @@ fn margins(grid: &Grid, frames: &[Frame]) -> ([Vec<f64>; 2], [Vec<f64>; 2]) {
 }
 
 /// The plots' rectangles: what the margins leave, shared by the relative widths and heights.
-fn plots(grid: &Grid, frames: &[Frame], room: &Rect) -> Vec<Rect> {
+fn plots(grid: &Layout, frames: &[Frame], room: &Rect) -> Vec<Rect> {
     let (before, after) = margins(grid, frames);
     let columns = tracks(&before[0], &grid.widths, &after[0], room.width());
     let rows = tracks(&before[1], &grid.heights, &after[1], room.height());

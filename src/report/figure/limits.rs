@@ -89,37 +89,23 @@ fn resolve(panel: &Panel, index: usize) -> Result<Span, String> {
     Ok(rounded(extent(&values, index, floor), index))
 }
 
-/// What a coordinate asks of its axis.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Wish {
-    /// May touch the panel's sides.
-    Line,
-    /// Wants a margin.
-    Mark,
-    /// Wants one, and is shown even if it is an outlier.
-    Must,
-}
-
-fn coordinates(panel: &Panel, index: usize) -> Vec<(f64, Wish)> {
+/// What is drawn at, and whether it is shown even if it is an outlier.
+fn coordinates(panel: &Panel, index: usize) -> Vec<(f64, bool)> {
     let mut all = Vec::new();
     for layer in &panel.layers {
         match layer {
             Layer::Curve { points, .. } | Layer::Band { outline: points, .. } => {
-                all.extend(points.iter().map(|p| (p[index], Wish::Line)));
+                all.extend(points.iter().map(|p| (p[index], false)));
             }
-            Layer::Points { points, .. } => all.extend(points.iter().map(|point| {
-                let wish = if point.label.is_some() { Wish::Must } else { Wish::Mark };
-                ([point.x, point.y][index], wish)
-            })),
+            Layer::Points { points, .. } => all.extend(
+                points.iter().map(|point| ([point.x, point.y][index], point.label.is_some())),
+            ),
             Layer::Image(image) => {
                 let edges = [&image.x_edges, &image.y_edges][index];
-                all.extend(edges.first().into_iter().chain(edges.last()).map(|v| (*v, Wish::Line)));
-            }
-            Layer::ThisCase { at, .. } | Layer::Note { at, .. } => {
-                all.push((at[index], Wish::Must))
+                all.extend(edges.first().into_iter().chain(edges.last()).map(|v| (*v, false)));
             }
             Layer::Rule { rule, .. } => match (rule, index) {
-                (Rule::Vertical(v), 0) | (Rule::Horizontal(v), 1) => all.push((*v, Wish::Mark)),
+                (Rule::Vertical(v), 0) | (Rule::Horizontal(v), 1) => all.push((*v, false)),
                 _ => {}
             },
         }
@@ -128,8 +114,8 @@ fn coordinates(panel: &Panel, index: usize) -> Vec<(f64, Wish)> {
 }
 
 /// The interval to show, with its margin.
-fn extent(values: &[(f64, Wish)], index: usize, floor: bool) -> [f64; 2] {
-    let (must, others): (Vec<_>, Vec<_>) = values.iter().partition(|(_, w)| *w == Wish::Must);
+fn extent(values: &[(f64, bool)], index: usize, floor: bool) -> [f64; 2] {
+    let (must, others): (Vec<_>, Vec<_>) = values.iter().partition(|(_, must)| *must);
     let mut sorted: Vec<f64> = others.iter().map(|(v, _)| *v).collect();
     sorted.sort_by(f64::total_cmp);
     let (mut low, mut high) = inliers(&sorted);
@@ -145,13 +131,8 @@ fn extent(values: &[(f64, Wish)], index: usize, floor: bool) -> [f64; 2] {
         let half = if size > 0.0 { 0.1 * size } else { 1.0 };
         return [low - half, high + half];
     }
-    let ordinate = index == 1;
-    let margin = |end: f64| {
-        let near = |(v, w): &(f64, Wish)| *w != Wish::Line && (v - end).abs() < 0.5 * MARGIN * span;
-        if ordinate || values.iter().any(near) { MARGIN * span } else { 0.0 }
-    };
-    let mut padded = [low - margin(low), high + margin(high)];
-    if floor && (padded[0] < 0.0 || (ordinate && low < 0.35 * high)) {
+    let mut padded = [low - MARGIN * span, high + MARGIN * span];
+    if floor && (padded[0] < 0.0 || (index == 1 && low < 0.35 * high)) {
         padded[0] = 0.0;
     }
     padded

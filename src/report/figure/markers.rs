@@ -25,6 +25,7 @@ pub(super) fn paint(marker: Marker, color: Color) -> (String, Option<String>) {
             (dot(hex, marker.diameter), below)
         }
         (Shape::Cross, _) => (dot(hex, 1.5), None),
+        (Shape::Star, _) => (format!("fill=\"{hex}\""), Some(dot("#FFFFFF", 5.0))),
         (_, true) => (format!("fill=\"{hex}\" stroke=\"#FFFFFF\" stroke-width=\"6\""), None),
         (_, false) => (format!("fill=\"#FFFFFF\" stroke=\"{hex}\" stroke-width=\"13\""), None),
     }
@@ -69,6 +70,16 @@ fn outline(marker: Marker) -> ([i32; 2], String, [i32; 2]) {
         Shape::Cross => {
             let (half, side) = (part(CROSS), 2 * part(CROSS));
             ([-half, -half], format!("l{side} {side}m0-{side}l-{side} {side}"), [0, side])
+        }
+        Shape::Star => {
+            let corner = |k: u32| {
+                let radius = if k.is_multiple_of(2) { 1.0 } else { 0.42 };
+                let (sin, cos) = libm::sincos(f64::from(k) * core::f64::consts::PI / 5.0);
+                [part(radius * sin), -part(radius * cos)]
+            };
+            let step = |k: u32| [0, 1].map(|axis| corner(k + 1)[axis] - corner(k)[axis]);
+            let sides = (0..9).map(step).map(|[x, y]| format!("l{x} {y}"));
+            ([0, -radius], sides.collect::<String>() + "z", [0, 0])
         }
     }
 }

@@ -4,7 +4,6 @@ use std::fmt::Write;
 
 use super::colors::Tint;
 use super::geometry::{Point, lerp};
-use super::labels::STAR;
 use super::layers::{Fill, Hatch, Layer, MarkedPoint};
 use super::layout::{KEY, swatch};
 use super::markers;
@@ -23,11 +22,10 @@ pub(super) fn layer(svg: &mut String, layer: &Layer, shape: &Shape) {
             stroke(svg, lines, *style);
         }
         (Layer::Band { fill, .. }, Shape::Area(area)) => area_of(svg, area, *fill),
-        (Layer::Points { points, marker, color, .. }, Shape::Dots(dots)) => {
+        (Layer::Points { points, marker, color, .. }, Shape::Dots(dots))
+            if *marker != Marker::NONE =>
+        {
             points_of(svg, points, dots, *marker, *color);
-        }
-        (Layer::ThisCase { tooltip, .. }, Shape::Place(at)) => {
-            star(svg, *at, tooltip.as_deref().unwrap_or("this case"));
         }
         _ => {}
     }
@@ -147,12 +145,13 @@ fn hatching(area: &[Point], hatch: Hatch) -> Vec<Vec<Point>> {
 /// Points: those that have nothing to say in one path, the others as elements with a tooltip.
 fn points_of(svg: &mut String, points: &[MarkedPoint], dots: &[Dot], marker: Marker, color: Color) {
     let (paint, below) = markers::paint(marker, color);
+    let at = |dots: &[&Dot]| markers::path(marker, dots.iter().map(|dot| dot.at));
+    if let Some(below) = below {
+        path(svg, &at(&dots.iter().collect::<Vec<_>>()), &below);
+    }
     let (telling, silent): (Vec<&Dot>, Vec<&Dot>) =
         dots.iter().partition(|dot| points[dot.index].tooltip.is_some());
-    let d = markers::path(marker, silent.iter().map(|dot| dot.at));
-    for attributes in below.iter().chain([&paint]) {
-        path(svg, &d, attributes);
-    }
+    path(svg, &at(&silent), &paint);
     if telling.is_empty() {
         return;
     }
@@ -163,21 +162,8 @@ fn points_of(svg: &mut String, points: &[MarkedPoint], dots: &[Dot], marker: Mar
             1 => String::new(),
             count => format!(" (and {} more here)", count - 1),
         };
-        let d = markers::path(marker, [dot.at]);
+        let d = at(&[dot]);
         let _ = writeln!(svg, "<path d=\"{d}\"><title>{said}{more}</title></path>");
     }
     svg.push_str("</g>\n");
-}
-
-/// The one mark for the case at hand: a black star with five points in a white one.
-fn star(svg: &mut String, at: Point, tooltip: &str) {
-    let corner = |k: usize| {
-        let radius = if k.is_multiple_of(2) { STAR } else { 0.42 * STAR };
-        let (sin, cos) = libm::sincos(k as f64 * core::f64::consts::PI / 5.0);
-        [at[0] + radius * sin, at[1] - radius * cos]
-    };
-    let d = format!("{}z", path_data([&core::array::from_fn::<_, 10, _>(corner)[..]]));
-    path(svg, &d, "stroke=\"#FFFFFF\" stroke-width=\"50\"");
-    let title = escape(tooltip);
-    let _ = writeln!(svg, "<path d=\"{d}\" fill=\"#000000\"><title>{title}</title></path>");
 }

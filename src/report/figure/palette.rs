@@ -132,6 +132,8 @@ pub enum Shape {
     Diamond,
     /// A diagonal cross.
     Cross,
+    /// A star with five points, for the case at hand alone.
+    Star,
 }
 
 /// How a point looks.
@@ -146,6 +148,11 @@ pub struct Marker {
 }
 
 impl Marker {
+    /// None: the words of a point stand on its place.
+    pub const NONE: Self = Self::dot().sized(0.0);
+    /// The case at hand.
+    pub const THIS_CASE: Self = Self::filled(Shape::Star).sized(18.0);
+
     /// A filled marker of the usual size.
     #[must_use]
     pub const fn filled(shape: Shape) -> Self {

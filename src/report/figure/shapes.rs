@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::data::Panel;
-use super::geometry::{Point, clip_polygon, clip_polyline, distance, square_distance};
+use super::geometry::{Point, clip_polygon, clip_polyline, square_distance};
 use super::layers::{Layer, MarkedPoint, Rule};
 use super::layout::Frame;
 
@@ -12,10 +12,6 @@ const TOLERANCE: f64 = 0.2;
 /// A curve is cut into pieces of this many points before it is simplified, so that the worst case
 /// (no point can go) costs a bounded time per point. It adds one point per thousand.
 const PIECE: usize = 1024;
-
-/// From that many points per pixel column on, a curve that never runs backwards is reduced to the
-/// four points per column that decide its picture.
-const DENSE: f64 = 4.0;
 
 /// A point to be drawn.
 #[derive(Debug, Clone)]
@@ -33,7 +29,6 @@ pub(super) enum Shape {
     Lines(Vec<Vec<Point>>),
     Dots(Vec<Dot>),
     Area(Vec<Point>),
-    Place(Point),
 }
 
 /// How much detail is left out; 1 is invisible, more is for figures that would be too large.
@@ -57,11 +52,6 @@ fn shape(layer: &Layer, frame: &Frame, coarseness: f64) -> Shape {
         }
         Layer::Image(_) => Shape::Lines(Vec::new()),
         Layer::Points { points, .. } => Shape::Dots(dots(points, frame, 0.5 * coarseness)),
-        Layer::Note { at, .. } | Layer::ThisCase { at, .. } => {
-            let at = frame.map(*at);
-            let visible = frame.plot.grown(0.5).has(at);
-            if visible { Shape::Place(at) } else { Shape::Lines(Vec::new()) }
-        }
     }
 }
 
@@ -77,62 +67,31 @@ fn ends(rule: Rule, frame: &Frame) -> [Point; 2] {
     }
 }
 
-/// The visible points; one that is closer than `reach` to an earlier one is represented by that one, unless
-/// it has a label.
-fn dots(points: &[MarkedPoint], frame: &Frame, reach: f64) -> Vec<Dot> {
+/// The visible points; of those in one square of this side the first stands for the others, unless they have
+/// labels.
+fn dots(points: &[MarkedPoint], frame: &Frame, side: f64) -> Vec<Dot> {
     let edge = frame.plot.grown(0.5);
     let mut kept: Vec<Dot> = Vec::new();
-    let mut cells: BTreeMap<[i64; 2], Vec<usize>> = BTreeMap::new();
+    let mut squares: BTreeMap<[i64; 2], usize> = BTreeMap::new();
     for (index, point) in points.iter().enumerate() {
         let at = frame.map([point.x, point.y]);
         if !edge.has(at) {
             continue;
         }
-        let [column, row] = at.map(|v| (v / reach).floor() as i64);
-        let around = (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| [column + dx, row + dy]));
-        let mut near = around.filter_map(|cell| cells.get(&cell)).flatten().copied();
-        match near.find(|&k| point.label.is_none() && distance(kept[k].at, at) < reach) {
-            Some(k) => kept[k].count += 1,
-            None => {
-                cells.entry([column, row]).or_default().push(kept.len());
-                kept.push(Dot { at, index, count: 1 });
-            }
+        let first = *squares.entry(at.map(|v| (v / side).floor() as i64)).or_insert(kept.len());
+        if first < kept.len() && point.label.is_none() {
+            kept[first].count += 1;
+        } else {
+            kept.push(Dot { at, index, count: 1 });
         }
     }
     kept
 }
 
-/// Reduces a polyline in pixels. No point of the original is further than `tolerance` from the
-/// result, but for the columns of a dense series, which keep first, least, greatest and last point.
-fn simplify(points: &[Point], tolerance: f64) -> Vec<Point> {
-    let (Some(first), Some(last)) = (points.first(), points.last()) else { return Vec::new() };
-    let column = (tolerance / TOLERANCE).max(1.0);
-    let monotone = points.windows(2).all(|pair| pair[0][0] <= pair[1][0]);
-    let dense = points.len() as f64 > DENSE * (last[0] - first[0]).abs() / column;
-    if monotone && dense && points.len() > 16 {
-        return peucker(&columns(points, column), tolerance);
-    }
-    peucker(points, tolerance)
-}
-
-/// First, least, greatest and last point of every pixel column, in their order.
-fn columns(points: &[Point], width: f64) -> Vec<Point> {
-    let mut kept = Vec::new();
-    let of = |p: &Point| (p[0] / width).floor();
-    for group in points.chunk_by(|a, b| of(a) == of(b)) {
-        let by_height = |&a: &usize, &b: &usize| group[a][1].total_cmp(&group[b][1]);
-        let least = (0..group.len()).min_by(by_height).unwrap_or(0);
-        let greatest = (0..group.len()).max_by(by_height).unwrap_or(0);
-        let mut indices = [0, least.min(greatest), least.max(greatest), group.len() - 1].to_vec();
-        indices.dedup();
-        kept.extend(indices.into_iter().map(|i| group[i]));
-    }
-    kept
-}
-
-/// Keeps, between two kept points, the one furthest from their segment if it is further than the
+/// Reduces a polyline in pixels; no point of the original is further than `tolerance` from the result. Keeps,
+/// between two kept points, the one furthest from their segment if it is further than the
 /// tolerance, and so on (Ramer; Douglas and Peucker).
-fn peucker(points: &[Point], tolerance: f64) -> Vec<Point> {
+fn simplify(points: &[Point], tolerance: f64) -> Vec<Point> {
     if points.len() < 3 {
         return points.to_vec();
     }

@@ -12,7 +12,7 @@ use crate::study::plots::{Borders, Map};
 use crate::validation::AsymptoticError;
 
 use super::Scene;
-use super::chart::Chart;
+use super::chart::{Chart, FITTED};
 
 /// The boundaries that are compared with exact ones.
 const COMPARED: [(Bifurcation, Role); 3] = [
@@ -95,10 +95,8 @@ fn errors(scene: &Scene, data: &Map, x: Axis) -> Option<Panel> {
     let values =
         || lines.iter().flat_map(|(_, _, line)| line).map(|at| at[1]).filter(|at| at.is_finite());
     values().next()?;
-    let [low, high] = [values().fold(-0.01, f64::min), values().fold(0.01, f64::max)];
-    let room = 0.1 * (high - low);
     let kinds = [&of::EXCITATION_FREQUENCY, &of::THEORY_ERROR];
-    let chart = Chart::new(scene, kinds, [data.window, [low - room, high + room]]);
+    let chart = Chart::new(scene, kinds, [data.window, FITTED]);
     let mut panel = Panel { x, ..chart.panel() }
         .with(chart.vertical(scene.system().frequency_ratio(), Role::Guide))
         .with(chart.horizontal(0.0, Role::Guide));
@@ -143,19 +141,13 @@ const STYLES: [Style; 3] = [
 /// What the saddle-node and the Hopf boundary are, and where they lie.
 pub(super) fn bifurcations(scene: &Scene, data: &Bifurcations) -> Figure {
     let meeting = scene.study.analysis.boundaries.codimension_two;
-    let found = data.conditions.iter().flat_map(|at| [Some(hopf(scene, at)), collision(scene, at)]);
-    let highest = found.flatten().fold(0.0, f64::max);
-    let y = [0.0, 1.25 * highest.max(scene.clearance(meeting.forcing_over_clearance))];
-    let side = |at: &Condition| {
-        json!({
-            "ratio": scene.ratio(at.detuning),
-            "hopf": hopf(scene, at),
-            "collision": collision(scene, at),
-            "branch": at.boundaries.saddle_node.map(|node| node.branch),
-        })
-    };
+    let collisions = data.conditions.iter().filter_map(|at| Some(at.collision?.0));
+    let found = data.conditions.iter().map(|at| at.hopf).chain(collisions);
+    let highest =
+        found.chain([scene.clearance(meeting.forcing_over_clearance)]).fold(0.0, f64::max);
+    let y = [0.0, 1.25 * highest];
     let facts = json!({
-        "sides": [side(&data.conditions[0]), side(&data.conditions[2])],
+        "sides": [&data.conditions[0], &data.conditions[2]],
         "meeting": scene.ratio(meeting.detuning),
         "gamma": meeting.forcing_over_clearance,
     });
@@ -166,32 +158,21 @@ pub(super) fn bifurcations(scene: &Scene, data: &Bifurcations) -> Figure {
         .with_panel(border_panel(scene, data, y))
 }
 
-/// The clearance with a fixed point at the fold.
-fn hopf(scene: &Scene, at: &Condition) -> f64 {
-    scene.clearance(at.boundaries.hopf)
-}
-
-/// The clearance at which two fixed points collide.
-fn collision(scene: &Scene, at: &Condition) -> Option<f64> {
-    at.boundaries.saddle_node.map(|node| scene.clearance(node.forcing_over_clearance))
-}
-
-/// Marks of the Hopf condition and of collisions, at the abscissae that `x` gives both.
+/// Marks of the Hopf condition and of collisions, at the abscissae of the first and of the second.
 fn condition_marks(
     scene: &Scene,
     data: &Bifurcations,
     chart: &Chart,
     x: impl Fn(&Condition) -> [f64; 2],
 ) -> [Layer; 2] {
-    let marks = |k: usize, role: Role, name: &str, of: &dyn Fn(&Condition) -> Option<f64>| {
-        let found = data.conditions.iter();
-        let marks = found.filter_map(|at| Some(scene.mark(chart, [x(at)[k], of(at)?], name)));
+    let all = data.conditions.iter();
+    let hopf = all.clone().map(|at| scene.mark(chart, [x(at)[0], at.hopf], "Hopf"));
+    let collisions =
+        all.filter_map(|at| Some(scene.mark(chart, [x(at)[1], at.collision?.0], "saddle-node")));
+    let layer = |role: Role, marks: Vec<MarkedPoint>| {
         Layer::marked(role.marker().sized(9.0), role.color(), marks)
     };
-    [
-        marks(0, Role::Hopf, "Hopf", &|at| Some(hopf(scene, at))),
-        marks(1, Role::SaddleNode, "saddle-node", &|at| collision(scene, at)),
-    ]
+    [layer(Role::Hopf, hopf.collect()), layer(Role::SaddleNode, collisions.collect())]
 }
 
 /// Which clearance gives a fixed point which amplitude: its top is the collision.
@@ -202,12 +183,12 @@ fn condition_panel(scene: &Scene, data: &Bifurcations, y: [f64; 2]) -> Panel {
     let mut panel = chart.panel().with_heading("clearance of a fixed point");
     panel = panel.with(chart.vertical(fold, Role::Guide).labelled("fold"));
     for (at, style) in data.conditions.iter().zip(STYLES) {
-        let name = scene.text(&of::EXCITATION_FREQUENCY, scene.ratio(at.detuning));
+        let name = scene.text(&of::EXCITATION_FREQUENCY, at.ratio);
         panel = panel.with(Layer::styled(style, chart.line(&at.line)).labelled(name));
     }
-    let node =
-        |at: &Condition| at.boundaries.saddle_node.map_or(f64::NAN, |node| node.absorber_amplitude);
-    let [hopf, collisions] = condition_marks(scene, data, &chart, |at| [fold, node(at)]);
+    let [hopf, collisions] = condition_marks(scene, data, &chart, |at| {
+        [fold, at.collision.map_or(f64::NAN, |(_, amplitude, _)| amplitude)]
+    });
     panel
         .with(hopf.labelled("Hopf: at the fold"))
         .with(collisions.labelled("saddle-node: at the top"))
@@ -223,10 +204,9 @@ fn border_panel(scene: &Scene, data: &Bifurcations, y: [f64; 2]) -> Panel {
     let mut panel = chart.panel().with_heading("the boundaries");
     panel.layers = data.borders.layers(&place, [chart.at(y)[1], 0.0], &[]);
     for (at, style) in data.conditions.iter().zip(STYLES) {
-        let rule = chart.vertical(scene.ratio(at.detuning), Style { width: 1.1, ..style });
+        let rule = chart.vertical(at.ratio, Style { width: 1.1, ..style });
         panel.layers.push(rule);
     }
-    let ratio = |at: &Condition| [scene.ratio(at.detuning); 2];
-    panel.layers.extend(condition_marks(scene, data, &chart, ratio));
+    panel.layers.extend(condition_marks(scene, data, &chart, |at| [at.ratio; 2]));
     panel
 }

@@ -5,6 +5,9 @@ use crate::report::figure::{Axis, Layer, Panel, Rule, Scale, Style};
 
 use super::Scene;
 
+/// A range that follows from what is drawn.
+pub(super) const FITTED: [f64; 2] = [0.0, f64::NAN];
+
 /// The axes of a panel.
 pub(super) struct Chart {
     kinds: [&'static Kind; 2],
@@ -15,8 +18,7 @@ pub(super) struct Chart {
 }
 
 impl Chart {
-    /// Axes of two kinds over two ranges; units and prefixes suit the ends of the ranges. A range with an end
-    /// that is not finite follows from what is drawn.
+    /// Axes of two kinds over two ranges; units and prefixes suit the ends of the ranges.
     pub(super) fn new(scene: &Scene, kinds: [&'static Kind; 2], ranges: [[f64; 2]; 2]) -> Self {
         let largest =
             [0, 1].map(|k| scene.si(kinds[k], ranges[k][1].abs().max(ranges[k][0].abs())));

@@ -15,8 +15,10 @@ mod ranges;
 mod responses;
 mod statistics;
 
+use serde::Serialize;
 use serde_json::{Value, json};
 
+use crate::analysis::Branch;
 use crate::case::{Case, Scales, Subject};
 use crate::method::Method;
 use crate::quantity::{Digits, Dimension, Kind, Quantity, Units, catalogue as of};
@@ -53,8 +55,20 @@ struct Scene<'a> {
     forcing: (&'static Kind, f64),
     /// The largest displacement that the case allows.
     limit: Option<f64>,
+    /// Where the theory's boundaries are.
+    ends: Ends,
     /// What every caption may speak of.
     known: Value,
+}
+
+/// Clearances over the case's at which a boundary of the theory lies.
+#[derive(Debug, Clone, Copy, Serialize)]
+struct Ends {
+    breaking: f64,
+    hopf: f64,
+    /// Where two fixed points collide and leave nothing, and on which branch, if they do.
+    last: Option<f64>,
+    branch: Option<Branch>,
 }
 
 impl<'a> Scene<'a> {
@@ -65,6 +79,14 @@ impl<'a> Scene<'a> {
         let own = scale.amplitude(1.0, Method::Given);
         let system = &study.analysis.system;
         let frequency = scales.frequency(system.frequency_ratio());
+        let bounds = &study.analysis.boundaries;
+        let over_own = |gamma: f64| system.forcing_per_clearance() / gamma;
+        let ends = Ends {
+            breaking: over_own(bounds.symmetry_breaking),
+            hopf: over_own(bounds.hopf),
+            last: bounds.saddle_node.map(|node| over_own(node.forcing_over_clearance)),
+            branch: bounds.saddle_node.map(|node| node.branch),
+        };
         let proven = study.attractors.iter().zip(&study.proofs);
         let motions = proven.map(|(one, proof)| found(&scale, system, one, proof.as_ref()));
         let known = json!({
@@ -74,6 +96,7 @@ impl<'a> Scene<'a> {
             "b": scales.length(1.0),
             "f0": scales.frequency(1.0),
             "theory": theory::with_margins(&scale, study),
+            "ends": ends,
             "motions": motions.collect::<Vec<_>>(),
         });
         Self {
@@ -82,6 +105,7 @@ impl<'a> Scene<'a> {
             units: scale.units(),
             forcing: (own.kind, own.value),
             limit: asked.map(|one| one.limit / scales.length(1.0)),
+            ends,
             known,
         }
     }

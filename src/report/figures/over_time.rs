@@ -16,7 +16,7 @@ use crate::study::stretches::{Stretch, impulse};
 use crate::system::{Excitation, State, System};
 
 use super::Scene;
-use super::chart::Chart;
+use super::chart::{Chart, FITTED};
 use super::parts;
 
 /// Up to so many impacts have a tooltip.
@@ -69,9 +69,6 @@ impl<'a> Series<'a> {
         Layer::points(Role::Impact, marks)
     }
 }
-
-/// A range that follows from what is drawn.
-const FITTED: [f64; 2] = [0.0, f64::NAN];
 
 /// A motion: oscillator and relative displacement over time, and both amplitudes on the manifold.
 pub(super) fn motion(scene: &Scene, data: &Motion) -> Figure {
@@ -159,7 +156,7 @@ pub(super) fn captures(scene: &Scene) -> Option<Figure> {
         scene
             .figure("captures", "captions/captures", facts)
             .with_size(860, 520)
-            .with_layout(Layout::Column)
+            .with_layout(Layout::rows(&[1.0; 2]))
             .with_panel(absorber)
             .with_panel(oscillator),
     )
@@ -255,7 +252,7 @@ pub(super) fn transfer(scene: &Scene, data: &Transfer) -> Figure {
     scene
         .figure("transfer", "captions/transfer", transfer_facts(scene, data, largest))
         .with_size(860, 620)
-        .with_layout(Layout::Column)
+        .with_layout(Layout::rows(&[1.0; 3]))
         .with_panel(first)
         .with_panel(second)
         .with_panel(third)
@@ -301,7 +298,7 @@ pub(super) fn stretches(scene: &Scene, data: &Transfer) -> Option<Figure> {
     let figure = scene
         .figure("transfer-stretches", "captions/transfer-stretches", facts)
         .with_size(720, 40 + 210 * shown.len() as u32)
-        .with_layout(Layout::Column);
+        .with_layout(Layout::rows(&vec![1.0; shown.len()]));
     let panels = shown.iter().map(|(name, part)| stretch_panel(scene, data, name, part));
     let figure = panels.fold(figure, Figure::with_panel);
     (!shown.is_empty()).then_some(figure)

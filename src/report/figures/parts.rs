@@ -3,9 +3,8 @@
 use crate::analysis::{FixedPoint, Manifold};
 use crate::quantity::catalogue as of;
 use crate::regimes::Regime;
-use crate::report::figure::{
-    Color, Fill, Hatch, Label, Layer, MarkedPoint, Marker, Role, Shape, Style,
-};
+use crate::report::figure::{Color, Fill, Hatch, Label, Layer, MarkedPoint, Marker, Role, Style};
+use crate::report::sweep::mark;
 use crate::study::plots::{Levels, Line};
 
 use super::Scene;
@@ -58,29 +57,29 @@ pub(super) fn branches(parts: [(Style, Line); 2], name: impl Into<Label>) -> [La
     layers
 }
 
-/// Fixed points by their places: stable ones filled, unstable ones hollow, named where that is asked for.
+/// Fixed points by their places: the stable and the unstable ones, in the looks of these.
 pub(super) fn fixed_points(
     scene: &Scene,
     points: &[FixedPoint],
-    named: bool,
+    looks: [(Marker, Color); 2],
     place: &dyn Fn(&FixedPoint) -> [f64; 2],
-) -> Vec<Layer> {
-    let layer = |(role, stable, one, more): (Role, bool, &str, &str)| {
+) -> [Layer; 2] {
+    let layer = |stable: bool| {
+        let (marker, color) = looks[usize::from(!stable)];
         let chosen = points.iter().filter(|point| point.stable == stable);
-        let marks: Vec<MarkedPoint> = chosen.map(|at| fixed_point(scene, at, place(at))).collect();
-        let name = if marks.len() == 1 { one } else { more };
-        let layer = Layer::marked(role.marker().sized(9.0), role.color(), marks);
-        if named { layer.labelled(name) } else { layer }
+        let marks = chosen.map(|point| fixed_point(scene, point, place(point)));
+        Layer::marked(marker.sized(9.0), color, marks)
     };
-    let both = [
-        (Role::Stable, true, "stable fixed point", "stable fixed points"),
-        (Role::Unstable, false, "unstable fixed point", "unstable fixed points"),
-    ];
-    both.map(layer).into()
+    [layer(true), layer(false)]
+}
+
+/// How a case's own fixed points look.
+pub(super) fn own_points() -> [(Marker, Color); 2] {
+    [Role::Stable, Role::Unstable].map(|role| (role.marker(), role.color()))
 }
 
 /// A fixed point's mark.
-pub(super) fn fixed_point(scene: &Scene, point: &FixedPoint, at: [f64; 2]) -> MarkedPoint {
+fn fixed_point(scene: &Scene, point: &FixedPoint, at: [f64; 2]) -> MarkedPoint {
     let stability = if point.stable { "stable" } else { "unstable" };
     let what = format!("{stability} fixed point, {} of the slow flow", point.kind.words());
     let amplitudes = [
@@ -90,28 +89,16 @@ pub(super) fn fixed_point(scene: &Scene, point: &FixedPoint, at: [f64; 2]) -> Ma
     MarkedPoint::from(at).with_tooltip(scene.tip(&what, &amplitudes))
 }
 
-/// How simulated regimes are marked.
-const REGIMES: [(&str, Marker, &[Regime]); 5] = [
-    ("symmetric 1:1", Marker::filled(Shape::Circle), &[Regime::TwoSymmetric]),
-    ("asymmetric", Marker::hollow(Shape::Triangle), &[Regime::TwoAsymmetric]),
-    ("more impacts", Marker::hollow(Shape::Square), &[Regime::AboveTwo]),
-    (
-        "modulated or fewer",
-        Marker::filled(Shape::Cross).sized(8.0),
-        &[Regime::StronglyModulated, Regime::BelowTwo],
-    ),
-    ("at rest", Marker::hollow(Shape::Circle), &[Regime::AtRest]),
-];
-
 /// Simulated motions by regime.
 pub(super) fn by_regime(found: &[(Regime, MarkedPoint)], named: bool) -> Vec<Layer> {
-    let layer = |(name, marker, regimes): (&str, Marker, &[Regime])| {
-        let chosen = found.iter().filter(|(regime, _)| regimes.contains(regime));
-        let marks = chosen.map(|(_, mark)| mark.clone());
+    let layer = |regime: Regime| {
+        let (marker, _) = mark(regime);
+        let marks = found.iter().filter(|(one, _)| *one == regime).map(|(_, mark)| mark.clone());
+        let marker = marker.sized(1.6 * marker.diameter);
         let layer = Layer::marked(marker, Role::Simulation.color(), marks);
-        if named { layer.labelled(name) } else { layer }
+        if named { layer.labelled(regime.short()) } else { layer }
     };
-    REGIMES.map(layer).into()
+    Regime::ALL.map(layer).into()
 }
 
 /// The areas as bands of `C/b` over the whole of a panel, in the units of its axes.

@@ -7,14 +7,14 @@ use crate::case::BandOver;
 use crate::quantity::catalogue as of;
 use crate::regimes::Regime;
 use crate::report::figure::{
-    Color, Dash, Figure, Layer, Layout, MarkedPoint, Marker, Panel, Role, Shape, Style,
+    Color, Dash, Figure, Layer, MarkedPoint, Marker, Panel, Role, Shape, Style,
 };
 use crate::study::plots::{Amplitude, BandCurves};
 use crate::study::scenes::WalkPoint;
 
-use super::Scene;
 use super::chart::Chart;
 use super::parts;
+use super::{Ends, Scene};
 
 /// The response over the case's band, and what else could be done.
 pub(super) fn band(scene: &Scene, data: &BandCurves) -> Option<Figure> {
@@ -133,14 +133,12 @@ pub(super) fn clearances(scene: &Scene, found: &[WalkPoint]) -> Figure {
     let facts = json!({
         "count": found.len(),
         "least": least,
-        "hopf": scene.clearance(scene.study.analysis.boundaries.hopf),
         "bare": bare(scene),
         "change": least.zip(bare(scene)).map(|(least, bare)| decibels(least.peak / bare)),
     });
     scene
         .figure("clearances", "captions/clearances", facts)
         .with_size(860, 470)
-        .with_layout(Layout::columns(&[1.0, 1.0]))
         .with_panel(on_manifold(scene, found))
         .with_panel(over_clearance(scene, found))
 }
@@ -188,9 +186,7 @@ fn over_clearance(scene: &Scene, found: &[WalkPoint]) -> Panel {
     let ends = [found.first(), found.last()].map(|at| at.map_or(1.0, |at| at.clearance));
     let ranges = [[0.9 * ends[0], 1.15 * ends[1]], [0.0, 1.15 * highest]];
     let chart = Chart::new(scene, [&of::CLEARANCE, &of::PEAK], ranges).with_log([true, false]);
-    let boundaries = &scene.study.analysis.boundaries;
-    let [breaking, hopf] =
-        [boundaries.symmetry_breaking, boundaries.hopf].map(|gamma| scene.clearance(gamma));
+    let Ends { breaking, hopf, .. } = scene.ends;
     let mut panel = chart
         .panel()
         .with_heading("peak displacement")

@@ -5,15 +5,15 @@ use serde_json::{Value, json};
 use crate::quantity::catalogue as of;
 use crate::regimes::Regime;
 use crate::report::figure::{
-    Color, Dash, Figure, Label, Layer, Layout, MarkedPoint, Marker, Panel, Role, Shape, Style,
+    Color, Dash, Figure, Label, Layer, Layout, Marker, Panel, Role, Shape, Style,
 };
 use crate::study::plots::responses::BAND;
 use crate::study::plots::restitutions::observed;
 use crate::study::plots::{Areas, Responses, drawn};
 
-use super::Scene;
 use super::chart::Chart;
 use super::parts;
+use super::{Ends, Scene};
 
 /// Beyond this `B/b` the plane of the manifold is logarithmic.
 const FAR: f64 = 40.0;
@@ -45,10 +45,16 @@ pub(super) fn manifold(scene: &Scene) -> Figure {
         .with(unstable.labelled("unstable"))
         .with(stable.labelled("stable"))
         .with(Layer::marked(Role::Guide.marker().sized(6.0), Color::Black, special));
-    let place = |point: &crate::analysis::FixedPoint| {
-        [point.absorber_amplitude, point.oscillator_amplitude]
-    };
-    panel.layers.extend(parts::fixed_points(scene, &analysis.fixed_points, true, &place));
+    let looks = parts::own_points();
+    let points = parts::fixed_points(scene, &analysis.fixed_points, looks, &|point| {
+        chart.at([point.absorber_amplitude, point.oscillator_amplitude])
+    });
+    for (layer, stable) in points.into_iter().zip([true, false]) {
+        let count = analysis.fixed_points.iter().filter(|point| point.stable == stable).count();
+        let what = if stable { "stable" } else { "unstable" };
+        let plural = if count == 1 { "" } else { "s" };
+        panel = panel.with(layer.labelled(format!("{what} fixed point{plural}")));
+    }
     if !seen.is_empty() {
         let marks = seen.iter().map(|(at, regime)| scene.mark(&chart, *at, regime.words()));
         panel = panel.with(Layer::points(Role::Simulation, marks).labelled("simulated"));
@@ -112,11 +118,11 @@ pub(super) fn figure(scene: &Scene, data: &Responses) -> Figure {
     if data.own {
         let ratio = scene.system().frequency_ratio();
         second.layers.insert(0, right.vertical(ratio, Role::Guide));
-        let points = &analysis.fixed_points;
-        first.layers.extend(parts::fixed_points(scene, points, false, &|point| {
+        let (points, looks) = (&analysis.fixed_points, parts::own_points());
+        first.layers.extend(parts::fixed_points(scene, points, looks, &|point| {
             left.at([point.absorber_amplitude, point.oscillator_amplitude])
         }));
-        second.layers.extend(parts::fixed_points(scene, points, false, &|point| {
+        second.layers.extend(parts::fixed_points(scene, points, looks, &|point| {
             right.at([ratio, point.oscillator_amplitude])
         }));
     }
@@ -132,12 +138,10 @@ pub(super) fn figure(scene: &Scene, data: &Responses) -> Figure {
 
 fn response_facts(scene: &Scene, data: &Responses) -> Value {
     let analysis = &scene.study.analysis;
-    let ends = [analysis.boundaries.symmetry_breaking, analysis.boundaries.hopf];
     let band = [-BAND, BAND].map(|at| scene.ratio(at));
     let shares: Vec<[f64; 2]> = data.members.iter().map(|at| [at.clearance, at.share]).collect();
     json!({
         "stable": analysis.stable_points().last().map(|at| at.oscillator_amplitude),
-        "ends": ends.map(|gamma| scene.clearance(gamma)),
         "band": band,
         "shares": shares,
     })
@@ -146,9 +150,7 @@ fn response_facts(scene: &Scene, data: &Responses) -> Value {
 /// The areas along the manifold, and how the fixed points move as the clearance grows.
 pub(super) fn areas(scene: &Scene, data: &Areas) -> Figure {
     let manifold = &scene.study.analysis.manifold;
-    let at = &scene.study.analysis.boundaries;
-    let [breaking, hopf] = [at.symmetry_breaking, at.hopf].map(|gamma| scene.clearance(gamma));
-    let last = at.saddle_node.map(|node| scene.clearance(node.forcing_over_clearance));
+    let Ends { breaking, hopf, last, .. } = scene.ends;
     let top = manifold.point(Areas::WIDEST - 1.0).oscillator_amplitude;
     let reach = 1.12 * last.map_or(hopf, |last| last.max(hopf));
     let left = parts::amplitudes(scene, [0.0, Areas::WIDEST], [0.0, top]);
@@ -173,7 +175,7 @@ pub(super) fn areas(scene: &Scene, data: &Areas) -> Figure {
     }
     chosen(scene, data, [&left, &right], [&mut first, &mut second]);
     scene
-        .figure("areas", "captions/areas", area_facts(scene, data))
+        .figure("areas", "captions/areas", json!({ "levels": data.levels }))
         .with_size(860, 450)
         .with_panel(first)
         .with_panel(second)
@@ -191,36 +193,18 @@ const LOOKS: [(Color, Shape); 5] = [
 /// The fixed points of some clearances in both panels: stable ones filled, others hollow.
 fn chosen(scene: &Scene, data: &Areas, charts: [&Chart; 2], panels: [&mut Panel; 2]) {
     for ((clearance, points), (color, shape)) in data.chosen.iter().zip(LOOKS) {
-        for (k, chart) in charts.into_iter().enumerate() {
-            let mut name = (k == 0).then(|| scene.at_clearance(*clearance));
-            for stable in [true, false] {
-                let marker = if stable { Marker::filled(shape) } else { Marker::hollow(shape) };
-                let marks = points.iter().filter(|point| point.stable == stable).map(|point| {
-                    let x = if k == 0 { point.absorber_amplitude } else { *clearance };
-                    parts::fixed_point(scene, point, chart.at([x, point.oscillator_amplitude]))
-                });
-                let marks: Vec<MarkedPoint> = marks.collect();
-                if marks.is_empty() {
-                    continue;
-                }
-                let layer = Layer::marked(marker.sized(9.0), color, marks);
-                let layer = match name.take() {
-                    Some(name) => layer.labelled(name),
-                    None => layer,
-                };
-                panels[k].layers.push(layer);
-            }
-        }
+        let looks = [Marker::filled(shape), Marker::hollow(shape)].map(|marker| (marker, color));
+        let [left, right] = [0, 1].map(|k| {
+            parts::fixed_points(scene, points, looks, &|point| {
+                let x = if k == 0 { point.absorber_amplitude } else { *clearance };
+                charts[k].at([x, point.oscillator_amplitude])
+            })
+        });
+        let named = usize::from(points.iter().all(|point| !point.stable));
+        let name = |(k, layer): (usize, Layer)| {
+            if k == named { layer.labelled(scene.at_clearance(*clearance)) } else { layer }
+        };
+        panels[0].layers.extend(left.into_iter().enumerate().map(name));
+        panels[1].layers.extend(right);
     }
-}
-
-fn area_facts(scene: &Scene, data: &Areas) -> Value {
-    let at = &scene.study.analysis.boundaries;
-    json!({
-        "breaking": scene.clearance(at.symmetry_breaking),
-        "hopf": scene.clearance(at.hopf),
-        "last": at.saddle_node.map(|node| scene.clearance(node.forcing_over_clearance)),
-        "branch": at.saddle_node.map(|node| node.branch),
-        "levels": [Some(data.levels.fold), Some(data.levels.breaking), data.levels.grazing],
-    })
 }

@@ -8,12 +8,13 @@ use crate::regimes::basins::Cell;
 use crate::regimes::return_map::pairs;
 use crate::regimes::{Exponent, Regime};
 use crate::report::figure::{
-    Color, Dash, Figure, Fill, Hatch, Label, Layer, MarkedPoint, Marker, Role, Rule, Shape, Style,
+    Cells, Color, Dash, Figure, Fill, Hatch, Image, Key, Label, Layer, MarkedPoint, Marker, Role,
+    Rule, Style, Tint,
 };
 use crate::study::plots::{MotionExponents, StartPlane, drawn};
 
 use super::Scene;
-use super::chart::Chart;
+use super::chart::{Chart, FITTED};
 
 /// At most so many points of a return map, the last ones.
 const POINTS: usize = 600;
@@ -86,13 +87,14 @@ fn return_facts(all: &[[f64; 2]], distinct: &[[f64; 2]], index: usize) -> Value 
     })
 }
 
-/// Colour and marker of each motion, so that they can be told apart without colours.
-const LOOKS: [(Color, Marker); 5] = [
-    (Color::SkyBlue, Marker::filled(Shape::Square).sized(9.0)),
-    (Color::Vermillion, Marker::filled(Shape::Circle).sized(6.0)),
-    (Color::BluishGreen, Marker::filled(Shape::Triangle).sized(7.0)),
-    (Color::ReddishPurple, Marker::filled(Shape::Diamond).sized(7.0)),
-    (Color::Orange, Marker::hollow(Shape::Square).sized(6.0)),
+/// The tint of each motion, of lightnesses of their own so that a print in grey tells them apart; the last
+/// stands for all further ones.
+const TINTS: [Tint; 5] = [
+    Tint([0x53, 0xAC, 0xDB]),
+    Tint([0xF1, 0xAA, 0x63]),
+    Tint([0x8F, 0xE2, 0xC0]),
+    Tint([0xBE, 0x74, 0x9D]),
+    Tint([0xF2, 0xEB, 0x99]),
 ];
 
 /// Which starts lead to which long-term motion.
@@ -100,53 +102,51 @@ pub(super) fn basins(scene: &Scene, data: &StartPlane) -> Figure {
     let cells = &data.basins.cells;
     let kinds = [&of::DISPLACEMENT, &of::VELOCITY];
     let chart = Chart::new(scene, kinds, [[-data.reach, data.reach]; 2]);
-    let marks = |wanted: Cell| -> Vec<[f64; 2]> {
-        let chosen = data.starts.iter().zip(cells).filter(|(_, cell)| **cell == wanted);
-        chart.line(chosen.map(|(start, _)| start))
+    let edges: Vec<[f64; 2]> = data.edges().map(|edge| chart.at([edge; 2])).collect();
+    let kind = |cell: &Cell| match cell {
+        Cell::Leads(index) => Some((*index).min(TINTS.len() - 1) as u8),
+        Cell::NotSettled => None,
+    };
+    let image = Image {
+        x_edges: edges.iter().map(|edge| edge[0]).collect(),
+        y_edges: edges.iter().map(|edge| edge[1]).collect(),
+        cells: Cells::Kinds(TINTS.to_vec(), cells.iter().map(kind).collect()),
+    };
+    let share = |wanted: Cell| {
+        let count = cells.iter().filter(|cell| **cell == wanted).count();
+        (count > 0).then_some(count as f64 / cells.len() as f64)
     };
     // Without impacts and damping a free vibration never fades.
     let undamped = scene.system().damping() == 0.0;
-    let share = |count: usize| count as f64 / cells.len() as f64;
-    let mut panel = chart.panel().with_heading("the oscillator at the start");
-    let mut motions = Vec::new();
+    let (mut keys, mut motions) = (Vec::new(), Vec::new());
     for (index, motion) in data.basins.motions.iter().enumerate() {
-        let marks = marks(Cell::Leads(index));
-        if marks.is_empty() {
-            continue;
-        }
+        let Some(share) = share(Cell::Leads(index)) else { continue };
         let (regime, free) = (motion.regime, motion.regime == Regime::AtRest && undamped);
-        let peak = if free {
-            "depends on the start".to_owned()
-        } else {
-            scene.text(&of::PEAK, motion.peak)
-        };
-        motions.push(json!({
-            "share": share(marks.len()),
-            "regime": regime,
-            "peak": (!free).then_some(motion.peak),
-        }));
-        let (color, marker) = LOOKS[index.min(LOOKS.len() - 1)];
-        let name = format!("{}, peak {peak}", regime.words());
-        panel = panel.with(Layer::marked(marker, color, marks).labelled(name));
+        let peak = (!free).then_some(motion.peak);
+        let words = peak.map_or("depends on the start".to_owned(), |x| scene.text(&of::PEAK, x));
+        let label = format!("{}, peak {words}", regime.words());
+        keys.push(Key { tint: TINTS[index.min(TINTS.len() - 1)], label });
+        motions.push(json!({ "share": share, "regime": regime, "peak": peak }));
     }
-    let open = marks(Cell::NotSettled);
+    let open = share(Cell::NotSettled);
+    let unknown = |_| Key { tint: Tint::UNKNOWN, label: "not settled".to_owned() };
+    keys.extend(open.map(unknown));
     let facts = json!({
         "starts": cells.len(),
         "periods": data.transient,
         "motions": motions,
-        "open": (!open.is_empty()).then(|| share(open.len())),
+        "open": open,
     });
-    let marker = Marker::filled(Shape::Cross).sized(5.0);
-    panel = panel.with(Layer::marked(marker, Color::Grey, open).labelled("not settled"));
-    scene.figure("basins", "captions/basins", facts).with_size(640, 640).with_panel(panel)
+    let panel = chart.panel().with(Layer::Image(image)).with_heading("the oscillator at the start");
+    let figure = scene.figure("basins", "captions/basins", facts);
+    Figure { keys, ..figure.with_size(640, 640).with_panel(panel) }
 }
 
 /// How the largest Lyapunov exponent of each motion converges, and what the exact orbit says of it.
 pub(super) fn exponents(scene: &Scene, data: &[MotionExponents]) -> Option<Figure> {
-    let windows = || data.iter().flat_map(|one| &one.exponents).map(|at| at.periods as f64);
-    let x = [windows().reduce(f64::min)?, windows().fold(0.0, f64::max)];
+    data.first()?;
     let kinds = [&of::WINDOW, &of::LYAPUNOV_EXPONENT];
-    let chart = Chart::new(scene, kinds, [x, [0.0, f64::NAN]]).with_log([true, false]);
+    let chart = Chart::new(scene, kinds, [FITTED; 2]).with_log([true, false]);
     let mut panel = chart.panel().with(chart.horizontal(0.0, Role::Guide));
     let mut motions = Vec::new();
     for (one, color) in data.iter().zip([Color::Blue, Color::Vermillion, Color::BluishGreen]) {

@@ -8,8 +8,8 @@ use crate::optimize::chart::Suited;
 use crate::quantity::{Dimension, Units, catalogue};
 use crate::report::document::Scale;
 use crate::report::figure::{
-    Axis, Color, Dash, Figure, Fill, Label, Layer, Layout, MarkedPoint, Marker, Panel, Role, Rule,
-    Shape, Style,
+    Axis, Color, Dash, Figure, Fill, Label, Layer, MarkedPoint, Marker, Panel, Role, Rule, Shape,
+    Style,
 };
 
 /// Amplitudes of the chart, over the case's own.
@@ -171,10 +171,7 @@ impl Drawing<'_> {
             .with(Layer::curve(Role::Stable, line(here.best?)).labelled("best"))
             .with(Layer::this_case(own, None));
         Some(
-            Figure::new("optimize-chart", "")
-                .with_layout(Layout::columns(&[1.0, 1.0]))
-                .with_panel(over_frequency)
-                .with_panel(over_amplitude),
+            Figure::new("optimize-chart", "").with_panel(over_frequency).with_panel(over_amplitude),
         )
     }
 }

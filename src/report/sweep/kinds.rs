@@ -18,7 +18,7 @@ pub const fn tint(regime: Regime) -> Tint {
 }
 
 /// A regime's mark in a diagram over one axis.
-pub(super) const fn mark(regime: Regime) -> (Marker, Color) {
+pub(in crate::report) const fn mark(regime: Regime) -> (Marker, Color) {
     match regime {
         Regime::AboveTwo => (Marker::filled(Shape::Square).sized(4.2), Color::ReddishPurple),
         Regime::TwoAsymmetric => (Marker::filled(Shape::Triangle).sized(5.0), Color::Blue),

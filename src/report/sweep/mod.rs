@@ -21,6 +21,7 @@ use crate::sweep::columns::Column;
 use crate::sweep::limits::StabilityLimit;
 
 pub use axis::AxisShown;
+pub(in crate::report) use kinds::mark;
 pub use kinds::tint;
 
 /// A page shows at most so many points; of more, the table alone is the result.

@@ -1,5 +1,7 @@
 //! The areas along the manifold, and how the fixed points move as the clearance grows (Fig. 5).
 
+use serde::Serialize;
+
 use crate::analysis::{Branch, FixedPoint, FixedPointCurve, Manifold, fixed_points};
 use crate::orbits::Boundaries;
 use crate::study::{CaseStudy, StudyError};
@@ -9,7 +11,7 @@ use super::{Line, branches, on_stable_branch};
 
 /// The areas of Fig. 5a as levels of `C/b`: below the fold there is no 1:1 motion (Z4), up to symmetry
 /// breaking a steady one (Z3), beyond that Z2, then Z1.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Levels {
     /// Between Z4 and Z3.
     pub fold: f64,

@@ -3,6 +3,8 @@
 //! At each detuning the collision of fixed points that counts is the one at the smallest forcing (the largest
 //! clearance), beyond which no fixed point is left. Other collisions bound no area.
 
+use serde::Serialize;
+
 use crate::analysis::{Boundaries, Branch, FixedPointCurve, Manifold, Strip};
 use crate::study::CaseStudy;
 use crate::system::System;
@@ -107,15 +109,18 @@ pub struct Bifurcations {
     pub borders: Borders,
 }
 
-/// Fixed points at one frequency.
-#[derive(Debug, Clone)]
+/// Fixed points at one frequency; clearances over the case's.
+#[derive(Debug, Clone, Serialize)]
 pub struct Condition {
-    /// `sigma`.
-    pub detuning: f64,
-    /// Which clearance over the case's gives which amplitude: `[B/b, clearance]`.
+    /// The frequency over the natural one.
+    pub ratio: f64,
+    /// Which clearance gives which amplitude: `[B/b, clearance]`.
+    #[serde(skip)]
     pub line: Line,
-    /// Where a fixed point is at the fold, and where two collide.
-    pub boundaries: Boundaries,
+    /// The clearance with a fixed point at the fold.
+    pub hopf: f64,
+    /// The clearance at which two fixed points collide, their `B/b`, and the branch.
+    pub collision: Option<(f64, f64, Branch)>,
 }
 
 impl Bifurcations {
@@ -150,6 +155,10 @@ impl Condition {
         let [first, last] = Bifurcations::AMPLITUDES;
         let at = |ratio: f64| [ratio, gamma / curve.forcing_squared(ratio).sqrt()];
         let line = even(first, last, SAMPLES).map(at).collect();
-        Self { detuning: there.detuning(), line, boundaries: Boundaries::of(there, manifold) }
+        let found = Boundaries::of(there, manifold);
+        let collision = found.saddle_node.map(|node| {
+            (gamma / node.forcing_over_clearance, node.absorber_amplitude, node.branch)
+        });
+        Self { ratio: there.frequency_ratio(), line, hopf: gamma / found.hopf, collision }
     }
 }

@@ -85,18 +85,14 @@ pub fn observed(study: &CaseStudy, found: &FoundAttractor) -> Option<[f64; 2]> {
     place.iter().all(|value| value.is_finite()).then_some(place)
 }
 
-/// The right one of the two points of the manifold at a given `C/b`, from (16) as a quadratic in `B/b`; none
-/// below the fold.
+/// The right one of the two points of the manifold at a given `C/b`; none below the fold.
 fn taken(restitution: f64, level: f64) -> Option<Taken> {
     let manifold = Manifold::of(restitution);
-    let r = manifold.curvature;
-    let root = level * level * (1.0 + r) - r;
-    let absorber = (1.0 + root.sqrt()) / (1.0 + r);
+    let absorber = manifold.stable_absorber(level)?;
     let harmonic = 8.0 / (PI * PI) * absorber;
     let sine = FRAC_2_PI * manifold.restitution_ratio * absorber / level;
     let branch = manifold.branch(absorber - 1.0);
-    let found = Taken { restitution, absorber, harmonic, damping: harmonic * sine, branch };
-    (root >= 0.0).then_some(found)
+    Some(Taken { restitution, absorber, harmonic, damping: harmonic * sine, branch })
 }
 
 /// Where 1:1 resonance is not steady the manifold takes nothing.

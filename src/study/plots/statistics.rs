@@ -7,7 +7,7 @@ use crate::study::scenes::exponents;
 use crate::study::{CaseStudy, StudyError};
 use crate::system::State;
 
-use super::{MOTIONS, drawn};
+use super::{MOTIONS, drawn, even};
 
 /// Lyapunov exponents of a motion after longer and longer windows.
 #[derive(Debug, Clone)]
@@ -48,11 +48,9 @@ const BASIN_EFFORT: Effort = Effort { discard: None, periods: 200, most_impacts:
 /// Starts of the oscillator at excitation phase 0, the absorber at rest in the middle of its cavity.
 #[derive(Debug, Clone)]
 pub struct StartPlane {
-    /// Displacement and velocity of each.
-    pub starts: Vec<[f64; 2]>,
     /// Largest displacement and velocity.
     pub reach: f64,
-    /// Where they lead.
+    /// Where they lead, row by row from the smallest velocity.
     pub basins: Basins,
     /// Excitation periods left out at least.
     pub transient: u64,
@@ -62,22 +60,23 @@ impl StartPlane {
     /// Starts along either axis: squares that are still seen one by one.
     const CELLS: u32 = 40;
 
+    /// Where cells begin and end along either axis.
+    pub fn edges(&self) -> impl Iterator<Item = f64> {
+        even(-self.reach, self.reach, Self::CELLS)
+    }
+
     pub(super) fn of(study: &CaseStudy) -> Result<Self, StudyError> {
         let system = &study.analysis.system;
         let reach = StartBox::around(system).reach;
         let cells = f64::from(Self::CELLS);
         let middle = |cell: u32| reach * (2.0 * (f64::from(cell) + 0.5) / cells - 1.0);
-        let place = |k: u32| [middle(k % Self::CELLS), middle(k / Self::CELLS)];
-        let starts: Vec<[f64; 2]> = (0..Self::CELLS * Self::CELLS).map(place).collect();
-        let state = |[x, x_velocity]: &[f64; 2]| State {
-            x: *x,
-            x_velocity: *x_velocity,
-            y: *x,
-            y_velocity: 0.0,
+        let state = |k: u32| {
+            let (x, x_velocity) = (middle(k % Self::CELLS), middle(k / Self::CELLS));
+            State { x, x_velocity, y: x, y_velocity: 0.0 }
         };
-        let states: Vec<State> = starts.iter().map(state).collect();
+        let states: Vec<State> = (0..Self::CELLS * Self::CELLS).map(state).collect();
         let known = study.attractors.iter().map(|found| found.attractor.motion).collect();
         let basins = Basins::of(system, &states, known, &BASIN_EFFORT, &mut |_| {})?;
-        Ok(Self { starts, reach, basins, transient: Transient::of(system).periods })
+        Ok(Self { reach, basins, transient: Transient::of(system).periods })
     }
 }

@@ -183,7 +183,7 @@ impl Panels<'_> {
             "others": self.swept.others().iter().map(|axis| axis.kind.id).collect::<Vec<_>>(),
             "slices": self.swept.slices(), "shown": count / self.swept.directions().len(),
         });
-        let layout = Layout::Cells { widths, heights: vec![1.0; rows], cells };
+        let layout = Layout { widths, heights: vec![1.0; rows], cells };
         Some(figure.with_layout(layout).with_facts(WORDS, facts))
     }
 
