@@ -1,12 +1,14 @@
 //! Stretches of a traced motion: where it is captured in 1:1 resonance, where the oscillator's
 //! amplitude falls, where impacts are missing (sections 3.5 and 4.2 of Li, Seguy, Berlioz 2016).
 
+use serde::Serialize;
+
 use crate::simulation::{Impact, Trace};
 
 pub use crate::regimes::thresholds::SHORTEST_CAPTURE;
 
 /// Some whole periods of a trace.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct Stretch {
     /// The first period, from 0.
     pub first: usize,

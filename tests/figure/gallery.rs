@@ -259,7 +259,7 @@ fn map_crowded() -> Figure {
         let curve =
             sampled(-10.0, 10.0, 500, |s| 0.16 + 0.4 * gamma * gauss(s, 0.3 - 0.5 * gamma, gamma));
         panel = panel.with(
-            Layer::styled(Role::Stable.style().colored(color), curve)
+            Layer::curve(Role::Stable.style().colored(color), curve)
                 .labelled(format!("G/b = {gamma}")),
         );
     }
@@ -291,10 +291,10 @@ fn loglog() -> Figure {
     let (rk, event): (Vec<[f64; 2]>, Vec<[f64; 2]>) = (rk.collect(), event.collect());
     let style = Style::new(Color::Vermillion, 1.4, vinesink::report::figure::Dash::Dashed);
     let panel = Panel::new(Axis::log("step Δτ (1)"), Axis::log("error of x (1)"))
-        .with(Layer::styled(style, rk.clone()).labelled("fixed step, order 4"))
+        .with(Layer::curve(style, rk.clone()).labelled("fixed step, order 4"))
         .with(Layer::points(Role::SaddleNode, rk))
         .with(
-            Layer::styled(
+            Layer::curve(
                 Style::new(Color::Blue, 1.4, vinesink::report::figure::Dash::Solid),
                 event.clone(),
             )

@@ -80,7 +80,7 @@ pub fn figure(document: &TradeoffDocument) -> Figure {
         let points: Vec<MarkedPoint> = of_series.map(|(_, point)| point.clone()).collect();
         if let Some(dash) = dash.filter(|_| !points.is_empty()) {
             let line = points.iter().map(|point| [point.x, point.y]).collect();
-            panel.layers.push(Drawn::styled(Style::new(color, 1.2, dash), line));
+            panel.layers.push(Drawn::curve(Style::new(color, 1.2, dash), line));
         }
         if !points.is_empty() {
             panel.layers.push(Drawn::marked(marker, color, points).labelled(name));

@@ -44,6 +44,12 @@ pub struct Key {
     pub label: String,
 }
 
+impl From<(Tint, &str)> for Key {
+    fn from((tint, label): (Tint, &str)) -> Self {
+        Self { tint, label: label.to_owned() }
+    }
+}
+
 impl Figure {
     /// A figure of the usual size, without panels yet.
     pub fn new(name: impl Into<String>, title: impl Into<String>) -> Self {
@@ -78,13 +84,6 @@ impl Figure {
     #[must_use]
     pub fn with_layout(mut self, layout: Layout) -> Self {
         self.layout = Some(layout);
-        self
-    }
-
-    /// Adds a tint and what it stands for.
-    #[must_use]
-    pub fn with_key(mut self, tint: Tint, label: impl Into<String>) -> Self {
-        self.keys.push(Key { tint, label: label.into() });
         self
     }
 
@@ -226,11 +225,10 @@ impl Axis {
         self
     }
 
-    /// Fixes the ticks.
+    /// An axis without a label, with these ticks alone.
     #[must_use]
-    pub fn with_ticks(mut self, ticks: Vec<Tick>) -> Self {
-        self.ticks = Some(ticks);
-        self
+    pub fn of_ticks((first, last): (f64, f64), ticks: Vec<Tick>) -> Self {
+        Self { ticks: Some(ticks), ..Self::linear("").with_range(first, last) }
     }
 }
 

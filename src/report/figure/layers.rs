@@ -50,16 +50,9 @@ pub enum Layer {
 }
 
 impl Layer {
-    /// A curve in the style of its role.
-    #[must_use]
-    pub const fn curve(role: Role, points: Vec<[f64; 2]>) -> Self {
-        Self::Curve { points, style: role.style(), label: None }
-    }
-
-    /// A curve in a style of its own.
-    #[must_use]
-    pub const fn styled(style: Style, points: Vec<[f64; 2]>) -> Self {
-        Self::Curve { points, style, label: None }
+    /// A curve in the style of its role, or in one of its own.
+    pub fn curve(style: impl Into<Style>, points: Vec<[f64; 2]>) -> Self {
+        Self::Curve { points, style: style.into(), label: None }
     }
 
     /// Points with the marker and colour of their role.
@@ -86,9 +79,8 @@ impl Layer {
     }
 
     /// A straight line across the whole panel.
-    #[must_use]
-    pub const fn rule(rule: Rule, style: Style) -> Self {
-        Self::Rule { rule, style, label: None }
+    pub fn rule(rule: Rule, style: impl Into<Style>) -> Self {
+        Self::Rule { rule, style: style.into(), label: None }
     }
 
     /// Words at a place; they move a little where they would cover something.

@@ -184,7 +184,7 @@ fn condition_panel(scene: &Scene, data: &Bifurcations, y: [f64; 2]) -> Panel {
     panel = panel.with(chart.vertical(fold, Role::Guide).labelled("fold"));
     for (at, style) in data.conditions.iter().zip(STYLES) {
         let name = scene.text(&of::EXCITATION_FREQUENCY, at.ratio);
-        panel = panel.with(Layer::styled(style, chart.line(&at.line)).labelled(name));
+        panel = panel.with(Layer::curve(style, chart.line(&at.line)).labelled(name));
     }
     let [hopf, collisions] = condition_marks(scene, data, &chart, |at| {
         [fold, at.collision.map_or(f64::NAN, |(_, amplitude, _)| amplitude)]

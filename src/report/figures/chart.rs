@@ -59,17 +59,17 @@ impl Chart {
 
     /// A curve in the style of its role, or in one of its own.
     pub(super) fn curve(&self, style: impl Into<Style>, points: &[[f64; 2]]) -> Layer {
-        Layer::styled(style.into(), self.line(points))
+        Layer::curve(style, self.line(points))
     }
 
     /// A line across the panel at an abscissa.
     pub(super) fn vertical(&self, x: f64, style: impl Into<Style>) -> Layer {
-        Layer::rule(Rule::Vertical(self.at([x, 0.0])[0]), style.into())
+        Layer::rule(Rule::Vertical(self.at([x, 0.0])[0]), style)
     }
 
     /// A line across the panel at an ordinate.
     pub(super) fn horizontal(&self, y: f64, style: impl Into<Style>) -> Layer {
-        Layer::rule(Rule::Horizontal(self.at([0.0, y])[1]), style.into())
+        Layer::rule(Rule::Horizontal(self.at([0.0, y])[1]), style)
     }
 
     /// An empty panel with these axes.

@@ -146,7 +146,7 @@ impl Heights<'_> {
             });
         }
         for (stable, name, style) in EXACT {
-            panel.layers.push(label(Layer::styled(style, self.lines(stable)), name));
+            panel.layers.push(label(Layer::curve(style, self.lines(stable)), name));
         }
         for (kind, shape, color) in KINDS {
             let marker = Marker::hollow(shape).sized(8.0);

@@ -33,7 +33,7 @@ pub(super) fn modulation(scene: &Scene, data: &Modulation) -> Figure {
         let line = data.projection.line(Some(stretch));
         let [[left, right], [low, high]] = [around(&line, 0), around(&line, 1)];
         let frame = vec![[left, low], [right, low], [right, high], [left, high], [left, low]];
-        let frame = Layer::styled(Style::new(Color::Black, 1.0, Dash::Solid), frame);
+        let frame = Layer::curve(Style::new(Color::Black, 1.0, Dash::Solid), frame);
         whole = whole.with(frame.labelled(Label::near(letter, [right, high])));
         let panel = on_manifold(scene, data, Some(stretch), [[left, right], [low, high]]);
         parts.push(panel.with_heading(format!("{letter}: {what}")));
@@ -107,8 +107,8 @@ fn manifolds(scene: &Scene, data: &Restitutions) -> Panel {
     for (restitution, color, dash) in LOOKS {
         let [unstable, stable] = parts::manifold(&Manifold::of(restitution), last);
         let thin = Style::new(color, 1.0, dash);
-        let thick = Layer::styled(Style { width: 2.6, ..thin }, stable);
-        panel = panel.with(Layer::styled(thin, unstable));
+        let thick = Layer::curve(Style { width: 2.6, ..thin }, stable);
+        panel = panel.with(Layer::curve(thin, unstable));
         panel = panel.with(thick.labelled(format!("r = {restitution}")));
         let close = |at: &&Taken| (at.restitution - restitution).abs() < 1e-9;
         if let Some(at) = data.taken.iter().find(close) {

@@ -248,7 +248,7 @@ pub(super) fn transfer(scene: &Scene, data: &Transfer) -> Figure {
         .flat_map(|(time, impact)| [[time, 0.0], [time, strength(impact)], [f64::NAN; 2]])
         .collect();
     let style = Style::new(Color::Vermillion, 1.6, Dash::Solid);
-    let third = low.chart.panel().with(Layer::styled(style, low.chart.line(&stems)));
+    let third = low.chart.panel().with(Layer::curve(style, low.chart.line(&stems)));
     scene
         .figure("transfer", "captions/transfer", transfer_facts(scene, data, largest))
         .with_size(860, 620)
@@ -280,17 +280,9 @@ pub(super) fn stretches(scene: &Scene, data: &Transfer) -> Option<Figure> {
     let names = ["d: captured, yet it grows", "e: captured, it falls", "f: few impacts, it grows"];
     let shown = names.into_iter().zip(data.parts).filter_map(|(name, part)| Some((name, part?)));
     let shown: Vec<(&str, Part)> = shown.collect();
-    let told = shown.iter().map(|(name, part)| {
-        json!({
-            "part": &name[..1],
-            "impacts": part.impacts,
-            "impulse": (part.impacts > 0).then(|| scene.si(&of::IMPULSE, part.impulse)),
-            "periods": part.stretch.periods,
-            "change": part.change,
-        })
-    });
     let facts = json!({
-        "parts": told.collect::<Vec<_>>(),
+        "parts": shown,
+        "impulse": scene.si(&of::IMPULSE, 1.0),
         "weak": data.parts[0].is_some(),
         "searched": Transfer::PERIODS,
         "longest": Transfer::SHORT,

@@ -52,7 +52,7 @@ pub(super) fn manifold_layers(of: &Manifold, last: f64) -> [Layer; 2] {
 /// The unstable and the stable part of a curve, of which one has a name.
 pub(super) fn branches(parts: [(Style, Line); 2], name: impl Into<Label>) -> [Layer; 2] {
     let named = usize::from(!parts[1].1.is_empty());
-    let mut layers = parts.map(|(style, line)| Layer::styled(style, line));
+    let mut layers = parts.map(|(style, line)| Layer::curve(style, line));
     layers[named] = layers[named].clone().labelled(name);
     layers
 }

@@ -82,7 +82,7 @@ fn panel(scene: &Scene, data: &Ranges) -> Panel {
         label: Some(look(*layer).0.to_owned()),
     };
     let ticks = data.layers.iter().enumerate().map(tick).collect();
-    let y = Axis::linear("").with_range(0.0, count + ABOVE).with_ticks(ticks);
+    let y = Axis::of_ticks((0.0, count + ABOVE), ticks);
     let star = [chart.at([here, 0.0])[0], count + 0.5 * ABOVE];
     let mut panel = Panel { y, ..chart.panel() }
         .with(chart.vertical(here, Style::new(Color::Black, 1.0, Dash::Dashed)))
@@ -97,7 +97,7 @@ fn panel(scene: &Scene, data: &Ranges) -> Panel {
         let (what, color) = look(*layer);
         for range in ranges {
             let ends = [0, 1].map(|k| range[k].unwrap_or(necks[k]));
-            let line = Layer::styled(Style::new(color, BAR, Dash::Solid), ends.map(place).to_vec());
+            let line = Layer::curve(Style::new(color, BAR, Dash::Solid), ends.map(place).to_vec());
             let known = range.iter().flatten().filter(|end| **end != here).map(|end| {
                 let tooltip = scene.tip(what, &[(kind, *end)]);
                 let words = scene.short(kind, *end);

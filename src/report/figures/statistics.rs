@@ -129,8 +129,7 @@ pub(super) fn basins(scene: &Scene, data: &StartPlane) -> Figure {
         motions.push(json!({ "share": share, "regime": regime, "peak": peak }));
     }
     let open = share(Cell::NotSettled);
-    let unknown = |_| Key { tint: Tint::UNKNOWN, label: "not settled".to_owned() };
-    keys.extend(open.map(unknown));
+    keys.extend(open.map(|_| Key::from((Tint::UNKNOWN, "not settled"))));
     let facts = json!({
         "starts": cells.len(),
         "periods": data.transient,
@@ -158,7 +157,7 @@ pub(super) fn exponents(scene: &Scene, data: &[MotionExponents]) -> Option<Figur
         let found = &scene.study.attractors[one.index];
         let dynamics = found.attractor.classification.dynamics.words();
         let style = Style::new(color, 1.8, Dash::Solid);
-        let exponent = Layer::styled(style, line(|at| at.per_period));
+        let exponent = Layer::curve(style, line(|at| at.per_period));
         let name = format!("{}, {dynamics}", found.regime().words());
         panel = panel.with(Layer::between(&interval[0], &interval[1], fill));
         panel = panel.with(exponent.labelled(name));

@@ -6,9 +6,11 @@ use crate::analysis::Manifold;
 use crate::analysis::frequency_response::ResponsePoint;
 use crate::band::rivals::bare_amplitude;
 use crate::orbits::SymmetricOrbit;
+use crate::regimes::Motion;
 use crate::simulation::Stop;
-use crate::study::scenes::{SweepPoint, sweep};
+use crate::study::scenes::visited;
 use crate::study::{CaseStudy, StudyError};
+use crate::system::System;
 
 use super::{Line, even, responses, symmetric_orbits_at, window};
 
@@ -32,8 +34,8 @@ pub struct Amplitude {
     pub theory: [Line; 2],
     /// Exact symmetric orbits that are motions, with their frequency ratio.
     pub exact: Vec<(f64, SymmetricOrbit)>,
-    /// Simulated motions.
-    pub simulated: Vec<SweepPoint>,
+    /// Simulated motions with their frequency ratio.
+    pub simulated: Vec<(f64, System, Motion)>,
     /// The case's main motion, where it could be followed.
     pub here: Option<f64>,
     /// The largest that is shown.
@@ -55,11 +57,12 @@ impl Amplitude {
         bare.sort_by(|a, b| a[0].total_cmp(&b[0]));
         let half = 0.5 * (window[1] - window[0]) / f64::from(SWEEP);
         let middles: Vec<f64> = even(window[0] + half, window[1] - half, SWEEP - 1).collect();
-        let simulated = sweep(system, &middles)?;
+        let simulated = visited(&middles, |ratio| system.with_frequency_ratio(ratio))?;
         let attractor = study.main_attractor().map(|found| &found.attractor);
         let known = attractor.filter(|one| one.stop == Stop::EndTime && one.periods > 0);
         let here = known.map(|one| one.peak).filter(|peak| peak.is_finite());
-        let top = top(&bare, simulated.iter().map(|at| at.peak).chain(here), study.rivals.bare.1);
+        let top =
+            top(&bare, simulated.iter().map(|(.., at)| at.peak).chain(here), study.rivals.bare.1);
         let place = |point: &ResponsePoint| {
             let ratio = 1.0 + system.mass_ratio() * point.detuning;
             [ratio, peak(system.mass_ratio(), manifold, point)]

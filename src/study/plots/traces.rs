@@ -1,5 +1,7 @@
 //! Motions over time, simulated once more from their state at phase 0 (Figs. 4, 8 and 12).
 
+use serde::Serialize;
+
 use crate::analysis::Branch;
 use crate::case::Case;
 use crate::regimes::{Attractor, Regime};
@@ -170,9 +172,10 @@ pub struct Transfer {
 }
 
 /// A short stretch and what it shows.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Part {
     /// Where it is.
+    #[serde(flatten)]
     pub stretch: Stretch,
     /// Last peak over the first one, less 1.
     pub change: f64,

@@ -11,7 +11,7 @@ use crate::case::Recorded;
 use crate::quantity::catalogue::{PEAK, SECTION};
 use crate::regimes::Regime;
 use crate::report::figure::{
-    Axis, Cells, Color, Dash, Figure, Image, Layer, Layout, Marker, Panel, Role, Rule, Shape,
+    Axis, Cells, Color, Dash, Figure, Image, Key, Layer, Layout, Marker, Panel, Role, Rule, Shape,
     Style, Tick,
 };
 use crate::sweep::columns::{self, Direction, kind};
@@ -173,11 +173,10 @@ impl Diagram<'_> {
             let name = if *way == Direction::Up { "up" } else { "down" };
             Tick { value: f64::from(row) + 0.5, label: Some(name.to_owned()) }
         });
-        let y = Axis::linear("").with_range(0.0, rows.len() as f64).with_ticks(ticks.collect());
+        let y = Axis::of_ticks((0.0, rows.len() as f64), ticks.collect());
         let present = |regime: &Regime| rows.iter().flatten().any(|one| *one == Some(*regime));
-        for regime in Regime::ALL.into_iter().filter(present) {
-            figure = figure.with_key(tint(regime), regime.words());
-        }
+        let shown = Regime::ALL.into_iter().filter(present);
+        figure.keys = shown.map(|regime| Key::from((tint(regime), regime.words()))).collect();
         let strip = Panel::new(self.axis.drawn(), y).with(Layer::Image(image));
         figure.with_size(720, 560).with_layout(Layout::rows(&[5.0, 1.0])).with_panel(strip)
     }

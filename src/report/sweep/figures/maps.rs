@@ -9,7 +9,9 @@ use super::QUANTITIES;
 use super::overlay::{self, Lines};
 use crate::case::Recorded;
 use crate::regimes::Regime;
-use crate::report::figure::{Axis, Cell, Cells, Figure, Image, Layer, Layout, Panel, Ramp, Tint};
+use crate::report::figure::{
+    Axis, Cell, Cells, Figure, Image, Key, Layer, Layout, Panel, Ramp, Tint,
+};
 use crate::sweep::columns::{Direction, kind};
 
 /// At most so many maps in a figure.
@@ -27,7 +29,7 @@ struct Map {
     /// What the template calls it: `regimes`, `areas`, or the id of a quantity.
     of: &'static str,
     cells: Vec<(Direction, Cells)>,
-    keys: Vec<(Tint, &'static str)>,
+    keys: Vec<Key>,
     /// Label of the bar beside a map of values, and whether some lie beyond its range.
     bar: Option<(String, bool)>,
 }
@@ -71,7 +73,7 @@ fn kinds(
     indices: Vec<(Direction, Vec<Option<usize>>)>,
 ) -> Option<Map> {
     let has = |k: usize| indices.iter().any(|(_, all)| all.contains(&Some(k)));
-    let keys = (0..table.len()).filter(|k| has(*k)).map(|k| table[k]).collect();
+    let keys = (0..table.len()).filter(|k| has(*k)).map(|k| Key::from(table[k])).collect();
     let tints: Vec<Tint> = table.iter().map(|(tint, _)| *tint).collect();
     let cells = indices.into_iter().map(|(way, all)| {
         let all = all.into_iter().map(|index| index.map(|index| index as u8));
@@ -90,7 +92,7 @@ fn regimes(swept: &Swept) -> Option<Map> {
     let unknown = all.iter().any(|(_, regimes)| regimes.contains(&None));
     let table = Regime::ALL.map(|regime| (tint(regime), regime.words()));
     let mut map = kinds("sweep-regimes", "regimes", &table, all)?;
-    map.keys.extend(unknown.then_some((Tint::UNKNOWN, "not worked out")));
+    map.keys.extend(unknown.then(|| Key::from((Tint::UNKNOWN, "not worked out"))));
     Some(map)
 }
 
@@ -133,7 +135,7 @@ impl Panels<'_> {
             name,
             of: kind(of)?.id,
             cells: cells.collect(),
-            keys: unknown.then_some((Tint::UNKNOWN, "no value")).into_iter().collect(),
+            keys: unknown.then(|| Key::from((Tint::UNKNOWN, "no value"))).into_iter().collect(),
             bar: Some((measure.label, cut)),
         })
     }
@@ -172,9 +174,7 @@ impl Panels<'_> {
             cells.push(Cell { column: columns, row: 0, columns: 1, rows });
             widths.push(0.11 * columns as f64);
         }
-        for (tint, label) in &map.keys {
-            figure = figure.with_key(*tint, *label);
-        }
+        figure.keys.clone_from(&map.keys);
         let facts = json!({
             "of": map.of, "basin": self.swept.is_basin(), "lines": lines,
             "x": self.plane.x.kind.id, "y": self.plane.y.kind.id,
@@ -235,7 +235,7 @@ fn bar(map: &Map) -> Option<Panel> {
         y_edges: (0..=BAR).map(|k| part(f64::from(k))).collect(),
         cells: Cells::Values(*ramp, (*low, *high), cells),
     };
-    let x = Axis::linear("").with_range(0.0, 1.0).with_ticks(Vec::new());
+    let x = Axis::of_ticks((0.0, 1.0), Vec::new());
     let y = Axis::linear(label).with_range(*low, *high);
     Some(Panel::new(x, y).with(Layer::Image(image)))
 }

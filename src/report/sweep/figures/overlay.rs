@@ -91,7 +91,7 @@ fn traced(swept: &Swept, plane: Plane, slice: usize, named: bool) -> (Vec<Layer>
     let (x_edges, y_edges) = (plane.x.edges(), plane.y.edges());
     let line = |curve: Vec<[f64; 2]>, style: Style, name: &str| {
         let named = named && !curve.is_empty();
-        let layer = Layer::styled(style, curve);
+        let layer = Layer::curve(style, curve);
         cased(if named { layer.labelled(name) } else { layer })
     };
     let areas = swept.areas().map_or_else(Vec::new, |areas| {
