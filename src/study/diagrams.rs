@@ -1,6 +1,8 @@
 //! Bifurcation diagrams: a parameter swept up and down by simulation, the exact orbits over the same
 //! range, how well both agree, and where the way up and the way down end in different motions.
 
+use serde::Serialize;
+
 use crate::orbits::measures::Peaks;
 use crate::orbits::newton::solve;
 use crate::orbits::{
@@ -78,7 +80,7 @@ pub struct Agreement {
 }
 
 /// Neighbouring values at which both ways end in different motions.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Hysteresis {
     /// First and last of them.
     pub values: [f64; 2],

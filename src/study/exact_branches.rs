@@ -1,6 +1,8 @@
 //! Exact periodic orbits over a range of one parameter: both symmetric 1:1 orbits, the asymmetric
 //! ones that leave them, those with one more impact beyond a grazing, and every bifurcation between.
 
+use serde::Serialize;
+
 use crate::orbits::branch::{Direction, Settings, follow};
 use crate::orbits::measures::Peaks;
 use crate::orbits::switching::{branch_off, continue_beyond};
@@ -60,7 +62,7 @@ pub struct ExactMark {
 }
 
 /// Neighbouring values at which the symmetric 1:1 orbit attracts.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Stretch {
     /// First and last.
     pub values: [f64; 2],

@@ -118,7 +118,8 @@ fn extent(values: &[(f64, bool)], index: usize, floor: bool) -> [f64; 2] {
     let (must, others): (Vec<_>, Vec<_>) = values.iter().partition(|(_, must)| *must);
     let mut sorted: Vec<f64> = others.iter().map(|(v, _)| *v).collect();
     sorted.sort_by(f64::total_cmp);
-    let (mut low, mut high) = inliers(&sorted);
+    let inside = inliers(&sorted, OUTLYING, FAR);
+    let [mut low, mut high] = inside.unwrap_or([f64::INFINITY, f64::NEG_INFINITY]);
     for (v, _) in must {
         (low, high) = (low.min(v), high.max(v));
     }
@@ -138,18 +139,18 @@ fn extent(values: &[(f64, bool)], index: usize, floor: bool) -> [f64; 2] {
     padded
 }
 
-/// First and last value, without the few that lie far from all others.
-fn inliers(sorted: &[f64]) -> (f64, f64) {
-    let (Some(first), Some(last)) = (sorted.first(), sorted.last()) else {
-        return (f64::INFINITY, f64::NEG_INFINITY);
-    };
-    let drop = (sorted.len() as f64 * OUTLYING).floor() as usize;
+/// First and last value, at either end without at most a part `outlying` of them, if these lie beyond the others
+/// by more than `far` times the others' span.
+pub fn inliers(sorted: &[f64], outlying: f64, far: f64) -> Option<[f64; 2]> {
+    let (first, last) = (*sorted.first()?, *sorted.last()?);
+    let drop = (sorted.len() as f64 * outlying).floor() as usize;
     let (low, high) = (sorted[drop], sorted[sorted.len() - 1 - drop]);
-    let reach = FAR * (high - low);
+    let reach = far * (high - low);
     if reach == 0.0 {
-        return (*first, *last);
+        return Some([first, last]);
     }
-    (if low - first > reach { low } else { *first }, if last - high > reach { high } else { *last })
+    let low = if low - first > reach { low } else { first };
+    Some([low, if last - high > reach { high } else { last }])
 }
 
 /// Moves the ends outwards to round numbers.

@@ -34,6 +34,7 @@ pub use data::{Axis, Cell, Figure, Key, Layout, Panel, Scale, Tick};
 pub use geometry::Rect;
 pub use image::{Cells, Image, edges};
 pub use layers::{Fill, Hatch, Label, Layer, MarkedPoint, Rule};
+pub use limits::inliers;
 pub use palette::{Color, Dash, Marker, Role, Shape, Style};
 pub use render::{Drawing, FigureError, LIMIT, PlacedText, draw, render};
 pub use text::escape;

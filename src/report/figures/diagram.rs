@@ -233,26 +233,15 @@ fn outside(points: Vec<[f64; 2]>, known: &[Vec<[f64; 2]>]) -> Option<Vec<[f64; 2
 
 fn facts(scene: &Scene, diagram: &Diagram) -> Value {
     let kind = scene.kind(diagram.parameter);
-    let value = |value| scene.si(kind, value);
-    let hysteresis = diagram.hysteresis.iter().map(|one| {
-        json!({
-            "values": one.values.map(value),
-            "regimes": one.regimes,
-            "peaks": one.peaks,
-        })
-    });
-    let stretches = diagram.exact.attracting_stretches();
-    let attracting = stretches.iter().map(|one| {
-        json!({"values": one.values.map(value), "ends": one.ends.map(|end| end.map(Bifurcation::words))})
-    });
     json!({
         "over": kind.id,
+        "unit": scene.si(kind, 1.0),
         "digits": if diagram.parameter == Parameter::FrequencyRatio { 4 } else { 3 },
-        "range": diagram.range.map(value),
+        "range": diagram.range,
         "steps": STEPS,
         "periods": EFFORT.periods,
-        "hysteresis": hysteresis.collect::<Vec<_>>(),
-        "attracting": attracting.collect::<Vec<_>>(),
+        "hysteresis": diagram.hysteresis,
+        "attracting": diagram.exact.attracting_stretches(),
         "agreement": diagram.agreement.map(|found| found.largest),
     })
 }

@@ -10,7 +10,7 @@ use super::overlay::{self, Lines};
 use crate::case::Recorded;
 use crate::regimes::Regime;
 use crate::report::figure::{
-    Axis, Cell, Cells, Figure, Image, Key, Layer, Layout, Panel, Ramp, Tint,
+    Axis, Cell, Cells, Figure, Image, Key, Layer, Layout, Panel, Ramp, Tint, inliers,
 };
 use crate::sweep::columns::{Direction, kind};
 
@@ -243,14 +243,9 @@ fn bar(map: &Map) -> Option<Panel> {
 /// The range of a ramp, and whether some values lie beyond it.
 fn range(mut values: Vec<f64>) -> Option<((f64, f64), bool)> {
     values.sort_by(f64::total_cmp);
-    let (first, last) = (*values.first()?, *values.last()?);
-    let drop = (values.len() as f64 * OUTLYING).floor() as usize;
-    let (low, high) = (values[drop], values[values.len() - 1 - drop]);
     // Only what would take more than half as much room again is cut.
-    let far = 0.5 * (high - low);
-    let low = if low - first > far { low } else { first };
-    let high = if last - high > far { high } else { last };
-    let cut = low > first || high < last;
+    let [low, high] = inliers(&values, OUTLYING, 0.5)?;
+    let cut = low > values[0] || high < values[values.len() - 1];
     if high - low > 1e-9 * high.abs().max(low.abs()) {
         return Some(((low, high), cut));
     }
