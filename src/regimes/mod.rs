@@ -65,11 +65,11 @@ impl Regime {
         Self::AtRest,
     ];
 
-    /// Its name in results and documents, in a few words, and in as few as a table has room for.
+    /// Its name in results and documents, in a few words, and in as few as a figure has room for.
     const fn names(self) -> [&'static str; 3] {
         match self {
-            Self::AtRest => ["at-rest", "absorber at rest, no impacts", "rest"],
-            Self::AboveTwo => ["above-two", "more than two impacts per period", "z > 2"],
+            Self::AtRest => ["at-rest", "absorber at rest, no impacts", "at rest"],
+            Self::AboveTwo => ["above-two", "more than two impacts per period", "more impacts"],
             Self::TwoAsymmetric => {
                 ["two-asymmetric", "two asymmetric impacts per period", "asymmetric"]
             }
@@ -79,7 +79,7 @@ impl Regime {
             Self::StronglyModulated => {
                 ["strongly-modulated", "strongly modulated response", "strongly modulated"]
             }
-            Self::BelowTwo => ["below-two", "fewer than two impacts per period", "z < 2"],
+            Self::BelowTwo => ["below-two", "fewer than two impacts per period", "fewer impacts"],
         }
     }
 
@@ -103,7 +103,7 @@ impl Regime {
         self.names()[1]
     }
 
-    /// The regime in as few words as a table has room for.
+    /// The regime in as few words as a figure has room for.
     pub const fn short(self) -> &'static str {
         self.names()[2]
     }
