@@ -3,13 +3,14 @@
 use clap::Args;
 use miette::{IntoDiagnostic, Result, WrapErr};
 use vinesink::analysis::Analysis;
+use vinesink::method::Method;
 use vinesink::orbits::FullSystem;
 use vinesink::report::console::Analysed;
 use vinesink::study::fidelity::Plan;
 use vinesink::study::{StudyEffort, settle_area};
 
 use super::budget::{ANALYSIS, Work};
-use super::case_file::{self, Fidelity, OneCase};
+use super::case_file::{self, OneCase};
 use super::progress::Progress;
 use super::{Outcome, simulate};
 
@@ -26,8 +27,8 @@ pub struct Arguments {
     one: OneCase,
     /// Also answer by this layer [default: with [accuracy] in the case by the cheapest that is exact
     /// enough, else by none]
-    #[arg(long, value_enum, value_name = "LAYER")]
-    fidelity: Option<Fidelity>,
+    #[arg(long, value_parser = case_file::layer(), value_name = "LAYER")]
+    fidelity: Option<Method>,
 }
 
 const EXAMPLES: &str = "\

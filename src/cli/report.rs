@@ -8,6 +8,7 @@ use miette::{IntoDiagnostic, Result, miette};
 use vinesink::band::{Survey, SurveySettings};
 use vinesink::case::Case;
 use vinesink::criteria;
+use vinesink::method::Method;
 use vinesink::report::document::{self, Source};
 use vinesink::report::figure::Figure;
 use vinesink::report::{equations, figures, render, template};
@@ -17,10 +18,9 @@ use vinesink::study::plots::Plot;
 use vinesink::study::{CaseStudy, StudyEffort};
 
 use super::budget::{Long, Work};
-use super::case_file::{self, Fidelity};
 use super::parallel::Parallel;
 use super::progress::Progress;
-use super::{Outcome, index, output};
+use super::{Outcome, case_file, index, output};
 
 /// Write the design report of each case
 ///
@@ -38,8 +38,8 @@ pub struct Arguments {
     out: PathBuf,
     /// The layer that answers [default: with [accuracy] in the case the cheapest that is exact enough,
     /// without it all of them, and simulation decides]
-    #[arg(long, value_enum, value_name = "LAYER")]
-    fidelity: Option<Fidelity>,
+    #[arg(long, value_parser = case_file::layer(), value_name = "LAYER")]
+    fidelity: Option<Method>,
     /// Write nothing; say which files in OUT are not as this would write them, and exit with 1 if any.
     /// report.html is not looked at: it is the same report once more
     #[arg(long)]

@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use clap::Args;
 use miette::{IntoDiagnostic, Result};
-use vinesink::evidence::tradeoff::page::{TradeoffDocument, USUAL};
+use vinesink::evidence::tradeoff::page::{Page, USUAL};
 use vinesink::evidence::tradeoff::{Tradeoff, TradeoffEffort, Trial};
 use vinesink::study::{StudyEffort, StudyError};
 use vinesink::system::{State, System};
@@ -66,15 +66,12 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
     let seconds =
         if timed { seconds(&system, &found, &progress).into_diagnostic()? } else { Vec::new() };
     drop(progress);
+    let page = Page { case: &case, found: &found, allowed, seconds: None };
     if let Some(out) = &arguments.out {
-        let page = TradeoffDocument::new(&case, &found, allowed, None);
-        index::add_to_report(out, path, &page.files(&case).into_diagnostic()?)?;
+        index::add_to_report(out, path, &page.files().into_diagnostic()?)?;
     }
-    let document = |seconds| TradeoffDocument::new(&case, &found, allowed, seconds);
-    arguments.one.print(
-        || document(Some(&seconds)).text(&case),
-        || document(arguments.seconds.then_some(seconds.as_slice())),
-    )?;
+    let timed = Page { seconds: timed.then_some(seconds.as_slice()), ..page };
+    arguments.one.print(|| timed.text(), || timed.document())?;
     Ok(Outcome::Done)
 }
 

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 
 use super::{Difference, ReportDifference};
 use crate::quantity::Units;
-use crate::report::render::{RenderError, without_repeated_blank_lines};
+use crate::report::render::RenderError;
 use crate::report::template::render;
 
 /// GitHub refuses comments of more than 65,536 characters; a script may add some of its own.
@@ -107,8 +107,7 @@ fn head(difference: &Difference, changed: usize) -> Result<String, RenderError> 
             "removed": difference.removed.len(),
         },
     });
-    let text = render("diff.md", &Units::reduced(), &facts)?;
-    Ok(without_repeated_blank_lines(&text))
+    render("diff.md", &Units::reduced(), &facts)
 }
 
 fn section(
@@ -128,8 +127,7 @@ fn section(
         "tables": tables,
         "heading": heading,
     });
-    let text = render("diff_report.md", &units, &facts)?;
-    Ok(format!("\n{}", without_repeated_blank_lines(&text)))
+    Ok(format!("\n{}", render("diff_report.md", &units, &facts)?))
 }
 
 fn url(address: Option<&String>) -> Option<&str> {

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use super::document::{Tone, Word};
-use super::render::{self, RenderError};
+use super::render::{Files, RenderError};
 use super::stored::{self, ReadError};
 use super::template;
 use crate::quantity::{Units, catalogue};
@@ -79,8 +79,7 @@ impl Summary {
     pub fn read(place: &str, text: &str) -> Result<Self, ReadError> {
         stored::read(place, text)?;
         // Out of the text once more, which knows the line where something is missing.
-        serde_json::from_str(text)
-            .map_err(|cause| ReadError::Incomplete { place: place.to_owned(), cause })
+        serde_json::from_str(text).map_err(|cause| stored::incomplete(place, &cause))
     }
 
     /// Numbers of the table, each from one end of a range to the other or one: clearance, excitation, vibration
@@ -108,10 +107,7 @@ impl Summary {
 ///
 /// # Errors
 /// [`RenderError::Template`] if template and index do not fit.
-pub fn files(
-    mut cases: Vec<CaseReport>,
-    mut others: Vec<OtherPage>,
-) -> Result<BTreeMap<PathBuf, Vec<u8>>, RenderError> {
+pub fn files(mut cases: Vec<CaseReport>, mut others: Vec<OtherPage>) -> Result<Files, RenderError> {
     cases.sort_by(|a, b| a.name.cmp(&b.name));
     others.sort_by(|a, b| a.file.cmp(&b.file));
     let mut words: BTreeMap<Word, usize> = BTreeMap::new();
@@ -138,10 +134,9 @@ pub fn files(
     });
     let units = Units::physical(USUAL_CLEARANCE);
     let text = |name: &str| template::render(name, &units, &context);
-    let markdown = render::without_repeated_blank_lines(&text("index.md")?);
     Ok(BTreeMap::from([
         (PathBuf::from(HTML), text("index.html")?.into_bytes()),
-        (PathBuf::from(MARKDOWN), markdown.into_bytes()),
+        (PathBuf::from(MARKDOWN), text("index.md")?.into_bytes()),
     ]))
 }
 

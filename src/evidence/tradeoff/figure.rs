@@ -3,7 +3,7 @@
 use serde_json::json;
 
 use super::by_hand::Locate;
-use super::page::TradeoffDocument;
+use super::page::Page;
 use super::{Layer, Method, Search};
 use crate::quantity::numbers::{asked, operations, relative_error};
 use crate::report::figure::{
@@ -52,8 +52,8 @@ fn is_usual(one: &Method) -> bool {
 const ROOM: f64 = 2.0;
 
 /// The diagram.
-pub fn figure(document: &TradeoffDocument) -> Figure {
-    let tradeoff = document.found;
+pub fn figure(page: &Page) -> Figure {
+    let tradeoff = page.found;
     let placed: Vec<(Method, MarkedPoint)> = tradeoff
         .trials
         .iter()
@@ -72,7 +72,7 @@ pub fn figure(document: &TradeoffDocument) -> Figure {
         let low = values.iter().copied().fold(f64::INFINITY, f64::min);
         (low / ROOM, values.iter().copied().fold(0.0, f64::max) * ROOM)
     };
-    let (best, allowed) = (tradeoff.best.rms_error, document.allowed);
+    let (best, allowed) = (tradeoff.best.rms_error, page.allowed);
     let (left, right) = around(&placed.iter().map(|(_, point)| point.x).collect::<Vec<_>>());
     let errors = placed.iter().map(|(_, point)| point.y).chain([best, allowed]);
     let (low, high) = around(&errors.collect::<Vec<_>>());
@@ -98,5 +98,5 @@ pub fn figure(document: &TradeoffDocument) -> Figure {
     }
     Figure::new("tradeoff", "")
         .with_panel(panel)
-        .with_facts("captions/tradeoff", json!({ "page": document }))
+        .with_facts("captions/tradeoff", json!({ "page": page.document() }))
 }
