@@ -19,6 +19,7 @@
 //! | `annotation`, `property` | text | safe in a message of a GitHub workflow, in a property of one |
 //! | `md`, `cell`, `attr`, `path` | text of a user | safe in Markdown, in a table's cell, in an attribute, in a link |
 
+use std::collections::BTreeMap;
 use std::ffi::OsStr;
 use std::path::Path;
 use std::sync::LazyLock;
@@ -40,18 +41,23 @@ const COMPONENTS: [&str; 3] = ["components", "optimize", "evidence"];
 /// How a component begins.
 const COMPONENT: &str = "{%- component ";
 
-/// The components of all templates: the name of each, and its text.
-static COMPONENTS_BY_NAME: LazyLock<Vec<(&str, &str)>> = LazyLock::new(|| {
-    let files = TEMPLATES.iter().filter(|(file, _)| COMPONENTS.contains(file));
-    let starts = files.flat_map(|(_, text)| {
+/// All texts by name: templates, and each component by itself.
+static TEXTS: LazyLock<BTreeMap<&str, &str>> = LazyLock::new(|| {
+    let (components, templates): (Vec<_>, Vec<_>) =
+        TEMPLATES.iter().copied().partition(|(file, _)| COMPONENTS.contains(file));
+    let components = components.into_iter().flat_map(|(_, text)| {
         let starts = text.match_indices(COMPONENT).map(|(start, _)| start);
         let starts: Vec<usize> = starts.chain([text.len()]).collect();
         let texts = starts.windows(2).map(|ends| &text[ends[0]..ends[1]]);
-        texts.collect::<Vec<_>>()
+        texts.map(|text| (word(&text[COMPONENT.len()..]), text)).collect::<Vec<_>>()
     });
-    let name = |text: &'static str| text[COMPONENT.len()..].split('(').next().unwrap_or_default();
-    starts.map(|text| (name(text), text)).collect()
+    templates.into_iter().chain(components).collect()
 });
+
+/// What a text begins with, up to the end of a name.
+fn word(text: &str) -> &str {
+    text.split([' ', '(', '"']).next().unwrap_or_default()
+}
 
 /// A template filled in; a quantity is written in `units`. Markdown has no repeated blank lines, and the tables
 /// of a text are aligned.
@@ -70,19 +76,17 @@ pub fn render(name: &str, units: &Units, context: &impl Serialize) -> Result<Str
     })
 }
 
-/// A template with what it includes and the components that it uses; all others would cost more to read than a
-/// page to write.
+/// A template with what it includes, between quotation marks, and the components that it uses, as in `<name `. To read
+/// all of them would take longer than to write a page.
 fn needed(name: &str) -> TeraResult<Vec<(&'static str, &'static str)>> {
-    let found = TEMPLATES.iter().find(|(known, _)| *known == name);
-    let mut all = vec![*found.ok_or_else(|| tera::Error::message(format!("no template {name}")))?];
+    let text = |name: &str| TEXTS.get_key_value(name).map(|(name, text)| (*name, *text));
+    let mut all =
+        vec![text(name).ok_or_else(|| tera::Error::message(format!("no template {name}")))?];
     let mut next = 0;
-    while let Some((_, text)) = all.get(next).copied() {
-        let included = TEMPLATES.iter().filter(|(file, _)| text.contains(&format!("\"{file}\"")));
-        let used =
-            COMPONENTS_BY_NAME.iter().filter(|(name, _)| text.contains(&format!("<{name} ")));
-        for part in included.chain(used) {
-            if !all.contains(part) {
-                all.push(*part);
+    while let Some((_, reader)) = all.get(next) {
+        for part in reader.split(['<', '"']).filter_map(|part| text(word(part))) {
+            if !all.contains(&part) {
+                all.push(part);
             }
         }
         next += 1;
