@@ -12,7 +12,7 @@ use vinesink::study::{StudyEffort, settle_area};
 use super::budget::{ANALYSIS, Work};
 use super::case_file::{self, OneCase};
 use super::progress::Progress;
-use super::{Outcome, simulate};
+use super::simulate;
 
 /// Print what the theory and the exact orbits say of a case
 ///
@@ -37,7 +37,7 @@ Examples:
   vinesink analyze damper.toml --fidelity orbit    amplitude and regime by the exact orbit
   vinesink analyze damper.toml --format json | jq .boundaries";
 
-pub fn run(arguments: Arguments) -> Result<Outcome> {
+pub fn run(arguments: Arguments) -> Result<bool> {
     let OneCase { path, long, .. } = &arguments.one;
     let case = case_file::read(path)?;
     let plan = case_file::plan(&case, arguments.fidelity)?;
@@ -70,5 +70,5 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
         answers: answers.as_ref(),
     };
     arguments.one.print(|| found.text(), || found.document())?;
-    Ok(answers.is_none_or(|answers| answers.enough()).into())
+    Ok(answers.is_none_or(|answers| answers.enough()))
 }

@@ -5,7 +5,7 @@ use miette::{IntoDiagnostic as _, Result, miette};
 use vinesink::diff::Difference;
 use vinesink::diff::markdown::{Addresses, markdown};
 
-use super::{Outcome, output};
+use super::output;
 use side::Side;
 
 mod side;
@@ -61,7 +61,7 @@ enum Format {
     Json,
 }
 
-pub fn run(arguments: Arguments) -> Result<Outcome> {
+pub fn run(arguments: Arguments) -> Result<bool> {
     let Arguments { path, format, cases, .. } = &arguments;
     let mut old = Side::read(&arguments.old, path)?;
     let mut new = Side::read(&arguments.new, path)?;
@@ -106,5 +106,5 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
             output::print(markdown(&difference, &addresses).into_diagnostic()?)?;
         }
     }
-    Ok(if difference.is_significant() { Outcome::DoesNotHold } else { Outcome::Done })
+    Ok(!difference.is_significant())
 }

@@ -13,7 +13,7 @@ use vinesink::store;
 use super::budget::Work;
 use super::case_file::{self, Format, OneCase};
 use super::parallel::Parallel;
-use super::{Outcome, index, output};
+use super::{index, output};
 
 /// Choose the clearance, and on request restitution and mass, that serve a case best
 ///
@@ -71,7 +71,7 @@ fn objectives() -> impl TypedValueParser<Value = Objective> {
     }))
 }
 
-pub fn run(arguments: Arguments) -> Result<Outcome> {
+pub fn run(arguments: Arguments) -> Result<bool> {
     let OneCase { path, format, long } = &arguments.one;
     let (case, text) = case_file::read_with_text(path)?;
     if let Some(new) = &arguments.write {
@@ -102,7 +102,7 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
         (Some(line), Format::Json) => output::complain(&line),
         (None, _) => {}
     }
-    Ok(found.succeeds().into())
+    Ok(found.succeeds())
 }
 
 /// Writes the absorber that was asked for, if it is better than the case's own, and says what became of the

@@ -13,8 +13,8 @@ use vinesink::system::{State, System};
 
 use super::budget::{BEST_ANSWER, Work};
 use super::case_file::{self, Format, OneCase};
+use super::index;
 use super::progress::Progress;
-use super::{Outcome, index};
 
 /// Measure how much accuracy each layer gives for how much work
 ///
@@ -46,7 +46,7 @@ Examples:
 const RUNS: u32 = 5;
 const LONG_ENOUGH: f64 = 0.2;
 
-pub fn run(arguments: Arguments) -> Result<Outcome> {
+pub fn run(arguments: Arguments) -> Result<bool> {
     let OneCase { path, format, long } = &arguments.one;
     let case = case_file::read(path)?;
     let system = case.system();
@@ -72,7 +72,7 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
     }
     let timed = Page { seconds: timed.then_some(seconds.as_slice()), ..page };
     arguments.one.print(|| timed.text(), || timed.document())?;
-    Ok(Outcome::Done)
+    Ok(true)
 }
 
 /// The shortest of several runs of each method, in seconds, in the order of the trials.
