@@ -3,7 +3,7 @@
 use clap::{Args, ValueEnum};
 use miette::{IntoDiagnostic as _, Result, miette};
 use vinesink::diff::Difference;
-use vinesink::diff::markdown::{Addresses, markdown};
+use vinesink::diff::markdown::markdown;
 
 use super::output;
 use side::Side;
@@ -99,11 +99,10 @@ pub fn run(arguments: Arguments) -> Result<bool> {
     match format {
         Format::Json => output::print_json(&difference)?,
         Format::Markdown => {
-            let addresses = Addresses {
-                old: arguments.old_url.or(old.address),
-                new: arguments.new_url.or(new.address),
-            };
-            output::print(markdown(&difference, &addresses).into_diagnostic()?)?;
+            let old = arguments.old_url.or(old.address);
+            let new = arguments.new_url.or(new.address);
+            let addresses = [old.as_deref(), new.as_deref()];
+            output::print(markdown(&difference, addresses).into_diagnostic()?)?;
         }
     }
     Ok(!difference.is_significant())

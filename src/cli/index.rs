@@ -104,9 +104,7 @@ fn members(folder: &Path, names: Vec<String>) -> Result<Vec<CaseReport>> {
         let Some(text) = store::read_text_if_there(&path)? else { continue };
         let summary = Summary::read(&path.display().to_string(), &text)?;
         let files = store::list(&folder.join(&name))?.files;
-        let has = |page: &str| files.iter().any(|file| file == page);
-        let (has_tradeoff, has_sweep) = (has(index::TRADEOFF), has(index::SWEEP));
-        members.push(CaseReport { name, summary, has_tradeoff, has_sweep });
+        members.push(CaseReport { name, summary, files });
     }
     Ok(members)
 }

@@ -18,11 +18,6 @@ pub const HTML: &str = "index.html";
 /// See [`HTML`].
 pub const MARKDOWN: &str = "README.md";
 
-/// The pages of accuracy and cost that may lie in a case's folder.
-pub const TRADEOFF: &str = "tradeoff.md";
-/// Where the page of a sweep is, in the folder of a report.
-pub const SWEEP: &str = "sweep.md";
-
 /// What both files of an index say of themselves, so that no other file is taken for one.
 const SIGNATURE: &str = "This page is written by";
 /// A clearance in m whose unit, mm, is that of an index of cases of any size.
@@ -36,10 +31,8 @@ pub struct CaseReport {
     /// What its `report.json` says.
     #[serde(flatten)]
     pub summary: Summary,
-    /// Whether the folder has a page of accuracy and cost.
-    pub has_tradeoff: bool,
-    /// Whether the page of a sweep lies beside its report.
-    pub has_sweep: bool,
+    /// The files of its folder: it may have pages of other commands.
+    pub files: Vec<String>,
 }
 
 /// What an index needs of a report. Quantities as [`crate::quantity::Quantity`] is written.
@@ -167,7 +160,7 @@ mod tests {
             "quantities": {"clearance": number("clearance", 0.02), "peak_displacement": number("peak_displacement", peak)},
         });
         let summary = Summary::read(name, &text.to_string()).expect("a report");
-        CaseReport { name: name.to_owned(), summary, has_tradeoff: false, has_sweep: false }
+        CaseReport { name: name.to_owned(), summary, files: Vec::new() }
     }
 
     #[test]
