@@ -1,5 +1,5 @@
 //! Names the sources that a program is built from, so that it can tell its results from those of another
-//! build: a SHA-256 over every file of `src/` and the locked versions of its dependencies.
+//! build: a SHA-256 over every file of `src/` and the locked versions of its dependencies. Lists the templates.
 
 #[path = "src/digest.rs"]
 mod digest;
@@ -8,19 +8,36 @@ use std::error::Error;
 use std::path::{Path, PathBuf};
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let mut files = Vec::new();
-    for place in ["src", "Cargo.lock"] {
-        println!("cargo::rerun-if-changed={place}");
-        add(Path::new(place), &mut files)?;
-    }
-    files.sort();
     let mut list = String::new();
-    for file in files {
+    for file in files(&["src", "Cargo.lock"])? {
         let named = digest::sha256(&std::fs::read(&file)?);
         list += &format!("{named} {}\n", file.display());
     }
     println!("cargo::rustc-env=VINESINK_SOURCES={}", digest::sha256(list.as_bytes()));
-    Ok(())
+    templates()
+}
+
+/// Writes a list of every file of `templates/`: its path there without `.tera`, and its text.
+fn templates() -> Result<(), Box<dyn Error>> {
+    let mut list = String::from("&[\n");
+    for file in files(&["templates"])? {
+        let name = file.strip_prefix("templates")?.display().to_string();
+        let path = std::path::absolute(&file)?;
+        list += &format!("({:?}, include_str!({path:?})),\n", name.trim_end_matches(".tera"));
+    }
+    let folder = std::env::var("OUT_DIR")?;
+    Ok(std::fs::write(Path::new(&folder).join("templates.rs"), list + "]\n")?)
+}
+
+/// All files of some places, sorted; the build follows their changes.
+fn files(places: &[&str]) -> std::io::Result<Vec<PathBuf>> {
+    let mut files = Vec::new();
+    for place in places {
+        println!("cargo::rerun-if-changed={place}");
+        add(Path::new(place), &mut files)?;
+    }
+    files.sort();
+    Ok(files)
 }
 
 /// Adds a file, or all that are in a folder.

@@ -8,7 +8,9 @@ use clap::Parser;
 
 fn main() -> ExitCode {
     match cli::Cli::parse().run() {
-        Ok(outcome) => outcome.into(),
+        Ok(true) => ExitCode::SUCCESS,
+        // Done, and a check or criterion does not hold.
+        Ok(false) => ExitCode::from(1),
         Err(error) => cli::could_not(&error),
     }
 }

@@ -21,7 +21,7 @@ fn residual(equation: &Equation, values: &Values) -> f64 {
 }
 
 fn number<const N: usize>(formula: &Formula<N>, values: &Values) -> f64 {
-    formula.of(values).expect("all symbols have values")
+    formula.at(formula.parameters.map(|symbol| values.require(symbol).expect("a value")))
 }
 
 fn of(values: &Values, symbol: Symbol) -> f64 {

@@ -197,8 +197,7 @@ fn markdown_becomes_a_page() {
     let facts = shipped("li2016-band");
     let markdown = page("report.md", &facts);
     let drawings = std::collections::BTreeMap::new();
-    let made = html::Page { title: "T", tone: "bad", markdown: &markdown, drawings: &drawings };
-    let html = html::page(&made).expect("a page");
+    let html = html::page("bad", &markdown, &drawings).expect("a page");
     assert!(html.contains("<section class=\"verdict bad\">") && html.contains("<table>"));
     assert_eq!(html.matches("<div class=\"table tiles\"").count(), 1);
 }

@@ -83,7 +83,7 @@ fn the_slow_flow_in_c_is_the_derived_flow_in_b() {
         let point = point.with(Symbol::beta, 1.0 + shift);
         let point = point.completed(equations::groups(system.excitation()));
         let ratio_rate = point.require(Symbol::D1_beta).expect("values");
-        let derived = slow_flow::PHASE_RATE.of(&point).expect("values");
+        let derived = slow_flow::PHASE_RATE.equation.right().evaluate(&point).expect("values");
         // C^2 = (1 + R) B^2 - 2 B + 1, so C C' = ((1 + R) B - 1) B'.
         let expected = ((1.0 + manifold.curvature) * (1.0 + shift) - 1.0) * ratio_rate / c;
         // Both are a dozen operations of numbers near 1.

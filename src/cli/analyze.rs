@@ -3,15 +3,16 @@
 use clap::Args;
 use miette::{IntoDiagnostic, Result, WrapErr};
 use vinesink::analysis::Analysis;
+use vinesink::method::Method;
 use vinesink::orbits::FullSystem;
 use vinesink::report::console::Analysed;
 use vinesink::study::fidelity::Plan;
 use vinesink::study::{StudyEffort, settle_area};
 
 use super::budget::{ANALYSIS, Work};
-use super::case_file::{self, Fidelity, OneCase};
+use super::case_file::{self, OneCase};
 use super::progress::Progress;
-use super::{Outcome, simulate};
+use super::simulate;
 
 /// Print what the theory and the exact orbits say of a case
 ///
@@ -26,8 +27,8 @@ pub struct Arguments {
     one: OneCase,
     /// Also answer by this layer [default: with [accuracy] in the case by the cheapest that is exact
     /// enough, else by none]
-    #[arg(long, value_enum, value_name = "LAYER")]
-    fidelity: Option<Fidelity>,
+    #[arg(long, value_parser = case_file::layer(), value_name = "LAYER")]
+    fidelity: Option<Method>,
 }
 
 const EXAMPLES: &str = "\
@@ -36,7 +37,7 @@ Examples:
   vinesink analyze damper.toml --fidelity orbit    amplitude and regime by the exact orbit
   vinesink analyze damper.toml --format json | jq .boundaries";
 
-pub fn run(arguments: Arguments) -> Result<Outcome> {
+pub fn run(arguments: Arguments) -> Result<bool> {
     let OneCase { path, long, .. } = &arguments.one;
     let case = case_file::read(path)?;
     let plan = case_file::plan(&case, arguments.fidelity)?;
@@ -69,5 +70,5 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
         answers: answers.as_ref(),
     };
     arguments.one.print(|| found.text(), || found.document())?;
-    Ok(answers.is_none_or(|answers| answers.enough()).into())
+    Ok(answers.is_none_or(|answers| answers.enough()))
 }

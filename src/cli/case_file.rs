@@ -3,6 +3,7 @@
 use std::error::Error;
 use std::path::{Path, PathBuf};
 
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use miette::{IntoDiagnostic, NamedSource, Report, Result, miette};
 use serde::Serialize;
@@ -75,32 +76,31 @@ pub enum Format {
     Json,
 }
 
-/// The layer that answers, where the cheapest that is exact enough shall not.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Fidelity {
-    /// Manifold and fixed points, in closed form
-    Manifold,
-    /// The exact symmetric orbit
-    Orbit,
-    /// Event-driven simulation
-    Simulation,
+/// Reads the layer that answers, where the cheapest that is exact enough shall not.
+pub fn layer() -> impl TypedValueParser<Value = Method> {
+    one_of([
+        ("manifold", Method::Theory, "Manifold and fixed points, in closed form"),
+        ("orbit", Method::ExactOrbit, "The exact symmetric orbit"),
+        ("simulation", Method::Simulation, "Event-driven simulation"),
+    ])
 }
 
-impl From<Fidelity> for Method {
-    fn from(asked: Fidelity) -> Self {
-        match asked {
-            Fidelity::Manifold => Self::Theory,
-            Fidelity::Orbit => Self::ExactOrbit,
-            Fidelity::Simulation => Self::Simulation,
-        }
-    }
+/// Reads one of some names with their values and what the help says of them.
+pub fn one_of<T: Copy + Send + Sync + 'static, const N: usize>(
+    all: [(&'static str, T, &'static str); N],
+) -> impl TypedValueParser<Value = T> {
+    let names = all.map(|(name, _, help)| PossibleValue::new(name).help(help));
+    PossibleValuesParser::new(names).try_map(move |name| {
+        let known = all.iter().find(|(known, ..)| *known == name);
+        known.map(|(_, value, _)| *value).ok_or("not one of the names")
+    })
 }
 
 /// Which layer answers what, if the case asks for accuracy or a layer is insisted on.
-pub fn plan(case: &Case, forced: Option<Fidelity>) -> Result<Option<Plan>> {
+pub fn plan(case: &Case, forced: Option<Method>) -> Result<Option<Plan>> {
     if case.accuracy.is_none() && forced.is_none() {
         return Ok(None);
     }
     let demand = case.accuracy.as_ref().map_or_else(AccuracyTarget::default, AccuracyTarget::of);
-    Plan::of(&case.system(), demand, forced.map(Into::into)).map(Some).into_diagnostic()
+    Plan::of(&case.system(), demand, forced).map(Some).into_diagnostic()
 }

@@ -14,7 +14,7 @@ use vinesink::report::render::RenderError;
 
 use super::budget::{Long, Work};
 use super::parallel::Parallel;
-use super::{Outcome, case_file, output};
+use super::{case_file, output};
 
 /// Hold each case against its criteria
 ///
@@ -61,7 +61,7 @@ enum Format {
     Junit,
 }
 
-pub fn run(arguments: Arguments) -> Result<Outcome> {
+pub fn run(arguments: Arguments) -> Result<bool> {
     let mut failures = Vec::new();
     let cases: Vec<Checked> =
         arguments.cases.iter().map(|path| checked(path, arguments.long, &mut failures)).collect();
@@ -83,7 +83,7 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
     }
     // One bad case does not keep the others from being checked; each is said in full.
     output::last_of(failures)?;
-    Ok(holds.into())
+    Ok(holds)
 }
 
 fn checked(path: &Path, long: Long, failures: &mut Vec<Report>) -> Checked {

@@ -4,7 +4,7 @@ use clap::{Args, CommandFactory};
 use clap_complete::Shell;
 use miette::Result;
 
-use super::{Cli, Outcome, output};
+use super::{Cli, output};
 
 /// Print a script that completes vinesink's commands in a shell
 #[derive(Debug, Args)]
@@ -20,9 +20,9 @@ Examples:
   vinesink completions fish > ~/.config/fish/completions/vinesink.fish
   vinesink completions zsh > \"${fpath[1]}/_vinesink\"";
 
-pub fn run(arguments: Arguments) -> Result<Outcome> {
+pub fn run(arguments: Arguments) -> Result<bool> {
     let mut script = Vec::new();
     clap_complete::generate(arguments.shell, &mut Cli::command(), "vinesink", &mut script);
     output::print(script)?;
-    Ok(Outcome::Done)
+    Ok(true)
 }

@@ -3,9 +3,9 @@
 use clap::{Args, ValueEnum};
 use miette::{IntoDiagnostic as _, Result, miette};
 use vinesink::diff::Difference;
-use vinesink::diff::markdown::{Addresses, markdown};
+use vinesink::diff::markdown::markdown;
 
-use super::{Outcome, output};
+use super::output;
 use side::Side;
 
 mod side;
@@ -61,7 +61,7 @@ enum Format {
     Json,
 }
 
-pub fn run(arguments: Arguments) -> Result<Outcome> {
+pub fn run(arguments: Arguments) -> Result<bool> {
     let Arguments { path, format, cases, .. } = &arguments;
     let mut old = Side::read(&arguments.old, path)?;
     let mut new = Side::read(&arguments.new, path)?;
@@ -99,12 +99,11 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
     match format {
         Format::Json => output::print_json(&difference)?,
         Format::Markdown => {
-            let addresses = Addresses {
-                old: arguments.old_url.or(old.address),
-                new: arguments.new_url.or(new.address),
-            };
-            output::print(markdown(&difference, &addresses).into_diagnostic()?)?;
+            let old = arguments.old_url.or(old.address);
+            let new = arguments.new_url.or(new.address);
+            let addresses = [old.as_deref(), new.as_deref()];
+            output::print(markdown(&difference, addresses).into_diagnostic()?)?;
         }
     }
-    Ok(if difference.is_significant() { Outcome::DoesNotHold } else { Outcome::Done })
+    Ok(!difference.is_significant())
 }

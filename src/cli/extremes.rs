@@ -7,8 +7,8 @@ use miette::{IntoDiagnostic, Result};
 use vinesink::evidence::extremes::contact::tables;
 use vinesink::evidence::extremes::{entries, holds, page, unit_checks};
 
+use super::index;
 use super::progress::Progress;
-use super::{Outcome, index};
 
 /// Simulate at the ends of every parameter's range and compare with 77 decimal digits
 ///
@@ -28,7 +28,7 @@ Examples:
   vinesink extremes
   vinesink extremes --out /somewhere/else";
 
-pub fn run(arguments: Arguments) -> Result<Outcome> {
+pub fn run(arguments: Arguments) -> Result<bool> {
     let entries = entries().into_diagnostic()?;
     let progress = Progress::new("extremes", entries.len() as u64 + 2);
     let mut outcomes = Vec::new();
@@ -42,5 +42,5 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
     progress.advance(1);
     let text = page(&outcomes, &contact, &units).into_diagnostic()?;
     index::write_page(&arguments.out, "extremes.md", &text)?;
-    Ok(holds(&outcomes, &units).into())
+    Ok(holds(&outcomes, &units))
 }

@@ -1,14 +1,14 @@
 //! `vinesink index [FOLDER]`
 
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 use miette::{IntoDiagnostic, Result, WrapErr, miette};
 use vinesink::report::index::{self, CaseReport, OtherPage, Summary};
+use vinesink::report::render::Files;
 use vinesink::store::{self, Listing};
 
-use super::{Outcome, case_file, output};
+use super::{case_file, output};
 
 /// List the reports of a folder, with verdicts and key numbers, to sort and to compare
 ///
@@ -27,7 +27,7 @@ Examples:
   vinesink report cases/*.toml && vinesink index
   vinesink index /somewhere/else";
 
-pub fn run(arguments: Arguments) -> Result<Outcome> {
+pub fn run(arguments: Arguments) -> Result<bool> {
     let folder = &arguments.folder;
     for name in [index::HTML, index::MARKDOWN] {
         if existing(folder, name)? == Some(false) {
@@ -42,7 +42,7 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
     for name in [index::HTML, index::MARKDOWN] {
         output::print_path(&folder.join(name))?;
     }
-    Ok(Outcome::Done)
+    Ok(true)
 }
 
 /// Writes the index of a folder anew where it has one; a file of that name that is none is left alone.
@@ -56,11 +56,7 @@ pub fn refresh(folder: &Path) -> Result<()> {
 }
 
 /// Adds files to the folder of a case's report in a folder of reports.
-pub fn add_to_report(
-    reports: &Path,
-    case: &Path,
-    files: &BTreeMap<PathBuf, Vec<u8>>,
-) -> Result<()> {
+pub fn add_to_report(reports: &Path, case: &Path, files: &Files) -> Result<()> {
     store::add_to_folder(&reports.join(case_file::name(case)?), files)?;
     refresh(reports)
 }
@@ -108,9 +104,7 @@ fn members(folder: &Path, names: Vec<String>) -> Result<Vec<CaseReport>> {
         let Some(text) = store::read_text_if_there(&path)? else { continue };
         let summary = Summary::read(&path.display().to_string(), &text)?;
         let files = store::list(&folder.join(&name))?.files;
-        let has = |page: &str| files.iter().any(|file| file == page);
-        let (has_tradeoff, has_sweep) = (has(index::TRADEOFF), has(index::SWEEP));
-        members.push(CaseReport { name, summary, has_tradeoff, has_sweep });
+        members.push(CaseReport { name, summary, files });
     }
     Ok(members)
 }

@@ -1,5 +1,5 @@
 //! The command line. A command is a variant of [`Command`] and a file with its arguments and
-//! `pub fn run(arguments) -> Result<Outcome, miette::Report>`.
+//! `pub fn run(arguments) -> Result<bool, miette::Report>`, which says whether every check asked for holds.
 
 mod analyze;
 mod budget;
@@ -73,33 +73,9 @@ enum Command {
     Completions(completions::Arguments),
 }
 
-/// How a command that could be carried out ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Outcome {
-    /// Done, and every check asked for holds.
-    Done,
-    /// Done, and a check or criterion does not hold.
-    DoesNotHold,
-}
-
-impl From<bool> for Outcome {
-    fn from(holds: bool) -> Self {
-        if holds { Self::Done } else { Self::DoesNotHold }
-    }
-}
-
-impl From<Outcome> for ExitCode {
-    fn from(outcome: Outcome) -> Self {
-        match outcome {
-            Outcome::Done => Self::SUCCESS,
-            Outcome::DoesNotHold => Self::from(1),
-        }
-    }
-}
-
 impl Cli {
-    /// Carries out the command.
-    pub fn run(self) -> Result<Outcome, miette::Report> {
+    /// Carries out the command; whether every check asked for holds.
+    pub fn run(self) -> Result<bool, miette::Report> {
         match self.command {
             Command::New(arguments) => new::run(arguments),
             Command::Analyze(arguments) => analyze::run(arguments),

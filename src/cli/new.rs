@@ -7,7 +7,7 @@ use miette::{Result, miette};
 use vinesink::case::Case;
 use vinesink::store;
 
-use super::{Outcome, output};
+use super::output;
 
 /// Write a commented case to start from
 ///
@@ -26,7 +26,7 @@ Examples:
   vinesink new damper                write damper.toml
   vinesink new cases/footbridge      write cases/footbridge.toml; the folder must exist";
 
-pub fn run(arguments: Arguments) -> Result<Outcome> {
+pub fn run(arguments: Arguments) -> Result<bool> {
     // Also behind a dot that is part of the name, as in `8.5hz`.
     let path = match arguments.path.extension() {
         Some(extension) if extension == "toml" => arguments.path.clone(),
@@ -42,5 +42,5 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
     let text = Case::starting_text(&title.to_string_lossy());
     store::write_new(&path, text.as_bytes())?;
     output::print_path(&path)?;
-    Ok(Outcome::Done)
+    Ok(true)
 }

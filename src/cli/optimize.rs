@@ -2,9 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::{Args, ValueEnum};
+use clap::Args;
+use clap::builder::TypedValueParser;
 use miette::{IntoDiagnostic, Result, miette};
-use vinesink::case::{self, Case};
+use vinesink::case::{Case, Objective};
 use vinesink::optimize::{Optimization, Task};
 use vinesink::report::optimize as page;
 use vinesink::store;
@@ -12,7 +13,7 @@ use vinesink::store;
 use super::budget::Work;
 use super::case_file::{self, Format, OneCase};
 use super::parallel::Parallel;
-use super::{Outcome, index, output};
+use super::{index, output};
 
 /// Choose the clearance, and on request restitution and mass, that serve a case best
 ///
@@ -27,7 +28,7 @@ pub struct Arguments {
     #[command(flatten)]
     one: OneCase,
     /// What to look for, instead of what the case says
-    #[arg(long, value_enum)]
+    #[arg(long, value_parser = objectives())]
     objective: Option<Objective>,
     /// Also write optimize.md and its figures into OUT/<name of the case file>
     #[arg(long, value_name = "OUT")]
@@ -55,31 +56,22 @@ A case says what it wants in
   clearance = \"0.2 mm\"     # standard deviation
   restitution = \"± 0.05\"   # anywhere within";
 
-/// What a design is chosen for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Objective {
-    /// Largest share of the band in area Z3 of the theory
-    Z3Share,
-    /// Largest share of the band with a stable 1:1 orbit
-    StableShare,
-    /// Smallest worst amplitude over the band
-    WorstAmplitude,
-    /// Largest distance of the clearance from the ends of the stable 1:1 motion
-    Margin,
+/// Reads what a design is chosen for.
+fn objectives() -> impl TypedValueParser<Value = Objective> {
+    case_file::one_of(Objective::ALL.map(|objective| {
+        let help = match objective {
+            Objective::Z3Share => "Largest share of the band in area Z3 of the theory",
+            Objective::StableShare => "Largest share of the band with a stable 1:1 orbit",
+            Objective::WorstAmplitude => "Smallest worst amplitude over the band",
+            Objective::Margin => {
+                "Largest distance of the clearance from the ends of the stable 1:1 motion"
+            }
+        };
+        (objective.name(), objective, help)
+    }))
 }
 
-impl From<Objective> for case::Objective {
-    fn from(asked: Objective) -> Self {
-        match asked {
-            Objective::Z3Share => Self::Z3Share,
-            Objective::StableShare => Self::StableShare,
-            Objective::WorstAmplitude => Self::WorstAmplitude,
-            Objective::Margin => Self::Margin,
-        }
-    }
-}
-
-pub fn run(arguments: Arguments) -> Result<Outcome> {
+pub fn run(arguments: Arguments) -> Result<bool> {
     let OneCase { path, format, long } = &arguments.one;
     let (case, text) = case_file::read_with_text(path)?;
     if let Some(new) = &arguments.write {
@@ -92,7 +84,7 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
             path.display()
         ));
     }
-    let task = Task::of(&case, arguments.objective.map(Into::into)).map_err(|error| {
+    let task = Task::of(&case, arguments.objective).map_err(|error| {
         miette!(help = "give the excitation an amplitude above 0", "{}: {error}", path.display())
     })?;
     long.allows(path, &case, &[Work::designs(&case)])?;
@@ -110,7 +102,7 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
         (Some(line), Format::Json) => output::complain(&line),
         (None, _) => {}
     }
-    Ok(found.succeeds().into())
+    Ok(found.succeeds())
 }
 
 /// Writes the absorber that was asked for, if it is better than the case's own, and says what became of the

@@ -9,7 +9,7 @@ use vinesink::evidence::paper::{CASES, CaseReport, TRANSFER, page};
 use vinesink::study::{CaseStudy, StudyEffort};
 
 use super::progress::Progress;
-use super::{Outcome, case_file, index, report};
+use super::{case_file, index, report};
 
 /// Compare every figure of the paper with what the program finds
 ///
@@ -31,7 +31,7 @@ Examples:
   vinesink report cases/*.toml && vinesink paper
   vinesink paper --cases cases --out /somewhere/else";
 
-pub fn run(arguments: Arguments) -> Result<Outcome> {
+pub fn run(arguments: Arguments) -> Result<bool> {
     let names: Vec<&'static str> = CASES.into_iter().chain([TRANSFER]).collect();
     let read = |name: &str| case_file::read(&arguments.cases.join(format!("{name}.toml")));
     let cases: Vec<Case> = names.iter().map(|name| read(name)).collect::<Result<_>>()?;
@@ -47,5 +47,5 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
     }
     let text = page(&members).into_diagnostic()?;
     index::write_page(&arguments.out, "paper.md", &text)?;
-    Ok(Outcome::Done)
+    Ok(true)
 }

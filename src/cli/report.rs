@@ -1,6 +1,6 @@
 //! `vinesink report CASE...`
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -8,19 +8,20 @@ use miette::{IntoDiagnostic, Result, miette};
 use vinesink::band::{Survey, SurveySettings};
 use vinesink::case::Case;
 use vinesink::criteria;
+use vinesink::method::Method;
 use vinesink::report::document::{self, Source};
 use vinesink::report::figure::Figure;
-use vinesink::report::{equations, figures, render, template};
+use vinesink::report::render::{self, Files};
+use vinesink::report::{equations, figures, template};
 use vinesink::store;
 use vinesink::study::fidelity::Plan;
 use vinesink::study::plots::Plot;
 use vinesink::study::{CaseStudy, StudyEffort};
 
 use super::budget::{Long, Work};
-use super::case_file::{self, Fidelity};
 use super::parallel::Parallel;
 use super::progress::Progress;
-use super::{Outcome, index, output};
+use super::{case_file, index, output};
 
 /// Write the design report of each case
 ///
@@ -38,8 +39,8 @@ pub struct Arguments {
     out: PathBuf,
     /// The layer that answers [default: with [accuracy] in the case the cheapest that is exact enough,
     /// without it all of them, and simulation decides]
-    #[arg(long, value_enum, value_name = "LAYER")]
-    fidelity: Option<Fidelity>,
+    #[arg(long, value_parser = case_file::layer(), value_name = "LAYER")]
+    fidelity: Option<Method>,
     /// Write nothing; say which files in OUT are not as this would write them, and exit with 1 if any.
     /// report.html is not looked at: it is the same report once more
     #[arg(long)]
@@ -58,13 +59,10 @@ Examples:
 /// Steps of the progress bar beyond the study: figures, files.
 const FURTHER_STEPS: u64 = 8;
 
-/// Files by their path in a report's folder.
-type Files = BTreeMap<PathBuf, Vec<u8>>;
-
-pub fn run(arguments: Arguments) -> Result<Outcome> {
+pub fn run(arguments: Arguments) -> Result<bool> {
     let names = names(&arguments.cases)?;
     let mut failures = Vec::new();
-    let mut outcome = Outcome::Done;
+    let mut holds = true;
     for (path, name) in arguments.cases.iter().zip(names) {
         let folder = arguments.out.join(&name);
         let done = match arguments.check {
@@ -72,8 +70,7 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
             true => check(path, &name, &folder, &arguments),
         };
         match done {
-            Ok(Outcome::Done) => {}
-            Ok(Outcome::DoesNotHold) => outcome = Outcome::DoesNotHold,
+            Ok(one) => holds &= one,
             Err(error) => {
                 let not_done = if arguments.check { "checked" } else { "written" };
                 let which = format!("no report was {not_done} for {}", path.display());
@@ -86,7 +83,7 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
     }
     // One bad case does not keep the others from being written; each is named.
     output::last_of(failures)?;
-    Ok(outcome)
+    Ok(holds)
 }
 
 /// The folder's name for each case; two cases must not share one.
@@ -107,25 +104,25 @@ fn names(cases: &[PathBuf]) -> Result<Vec<String>> {
 
 /// Writes one report; what was asked of accuracy does not hold where a layer that was insisted on, or
 /// the longest simulation, is not exact enough.
-fn write(path: &Path, name: &str, folder: &Path, arguments: &Arguments) -> Result<Outcome> {
-    let (files, outcome) = rendered(path, name, arguments)?;
+fn write(path: &Path, name: &str, folder: &Path, arguments: &Arguments) -> Result<bool> {
+    let (files, holds) = rendered(path, name, arguments)?;
     store::replace_folder(folder, &files, render::is_of_report)?;
     output::print_path(&folder.join("report.md"))?;
-    Ok(outcome)
+    Ok(holds)
 }
 
 /// Says which files of a report are not as [`write()`] would leave them.
-fn check(path: &Path, name: &str, folder: &Path, arguments: &Arguments) -> Result<Outcome> {
+fn check(path: &Path, name: &str, folder: &Path, arguments: &Arguments) -> Result<bool> {
     let is_checked = |file: &Path| render::is_of_report(file) && file != Path::new("report.html");
     let (mut files, _) = rendered(path, name, arguments)?;
     files.retain(|file, _| is_checked(file));
     let there = store::read_folder(folder, is_checked)?;
     if there.is_empty() {
         output::print(format!("{}: there is no report\n", folder.display()))?;
-        return Ok(Outcome::DoesNotHold);
+        return Ok(false);
     }
     let all: BTreeSet<&PathBuf> = files.keys().chain(there.keys()).collect();
-    let mut outcome = Outcome::Done;
+    let mut holds = true;
     for file in all {
         let why = match (files.get(file), there.get(file)) {
             (new, old) if new == old => continue,
@@ -134,13 +131,13 @@ fn check(path: &Path, name: &str, folder: &Path, arguments: &Arguments) -> Resul
             (None, _) => "is no longer part of the report",
         };
         output::print(format!("{}: {why}\n", folder.join(file).display()))?;
-        outcome = Outcome::DoesNotHold;
+        holds = false;
     }
-    Ok(outcome)
+    Ok(holds)
 }
 
 /// The files of a report, and whether it is exact enough and to be trusted.
-fn rendered(path: &Path, name: &str, arguments: &Arguments) -> Result<(Files, Outcome)> {
+fn rendered(path: &Path, name: &str, arguments: &Arguments) -> Result<(Files, bool)> {
     let case = case_file::read(path)?;
     let effort = StudyEffort::of(&case.simulation);
     let plan = case_file::plan(&case, arguments.fidelity)?;
@@ -198,7 +195,7 @@ fn rendered(path: &Path, name: &str, arguments: &Arguments) -> Result<(Files, Ou
     let equations = equations::groups(&case, &study);
     let files = render::files(&document, &equations, &document::units(&case), &drawn);
     let enough = answers.is_none_or(|answers| answers.enough());
-    Ok((files.into_diagnostic()?, (trusted && enough).into()))
+    Ok((files.into_diagnostic()?, trusted && enough))
 }
 
 /// The same survey as that of `check`.

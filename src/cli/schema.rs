@@ -4,7 +4,7 @@ use clap::Args;
 use miette::Result;
 use vinesink::case;
 
-use super::{Outcome, output};
+use super::output;
 
 /// Print the JSON Schema of a case file
 ///
@@ -18,7 +18,7 @@ const EXAMPLES: &str = "\
 Examples:
   vinesink schema > vinesink.schema.json        beside the cases that refer to it";
 
-pub fn run(_: Arguments) -> Result<Outcome> {
+pub fn run(_: Arguments) -> Result<bool> {
     output::print_json(&case::schema())?;
-    Ok(Outcome::Done)
+    Ok(true)
 }

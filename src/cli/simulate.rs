@@ -16,8 +16,8 @@ use vinesink::system::State;
 
 use super::budget::Work;
 use super::case_file::{self, OneCase};
+use super::output;
 use super::progress::Progress;
-use super::{Outcome, output};
 
 /// Simulate a case directly, impact by impact
 ///
@@ -57,7 +57,7 @@ lengths over the clearance, tau counted from the start of the run, side +1 where
 /// Impacts after which a run is ended; at a million impacts a second this is some minutes.
 const IMPACT_LIMIT: u64 = 200_000_000;
 
-pub fn run(arguments: Arguments) -> Result<Outcome> {
+pub fn run(arguments: Arguments) -> Result<bool> {
     let OneCase { path, long, .. } = &arguments.one;
     let case = case_file::read(path)?;
     let effort = arguments.effort(&case);
@@ -89,7 +89,7 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
     for doubt in &doubts {
         output::complain(&format!("not to be trusted: {}; {}", doubt.words(), doubt.advice()));
     }
-    Ok(doubts.is_empty().into())
+    Ok(doubts.is_empty())
 }
 
 impl Arguments {

@@ -16,7 +16,7 @@ use vinesink::sweep::{Plan, parquet, work};
 
 use super::budget::{Long, Work};
 use super::progress::{Progress, duration};
-use super::{Outcome, case_file, output};
+use super::{case_file, output};
 
 /// Work out every point of a case's table [sweep]
 ///
@@ -105,7 +105,7 @@ const STRETCHES: u64 = 8;
 /// so many points long.
 const SAMPLE: u64 = 64;
 
-pub fn run(arguments: Arguments) -> Result<Outcome> {
+pub fn run(arguments: Arguments) -> Result<bool> {
     match (arguments.verb, arguments.sweep) {
         (Some(Verb::Plan(at)), _) => plan(&Sweep::open(&at)?),
         (Some(Verb::Run { sweep, chunk, every, threads }), _) => {
@@ -113,7 +113,7 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
             let sweep = Sweep::open(&sweep)?;
             let wanted = task::chunks(chunk, every, sweep.plan.chunks())?;
             sweep.work(&wanted)?;
-            Ok(Outcome::Done)
+            Ok(true)
         }
         (Some(Verb::Submit(arguments)), _) => submit::run(&arguments),
         (Some(Verb::Status(at)), _) => status(&Sweep::open(&at)?),
@@ -210,7 +210,7 @@ fn shown(path: &Path) -> String {
     path.display().to_string()
 }
 
-fn plan(sweep: &Sweep) -> Result<Outcome> {
+fn plan(sweep: &Sweep) -> Result<bool> {
     let Plan { settings, .. } = &sweep.plan;
     let axes: Vec<String> =
         settings.axes.iter().map(|axis| axis.values.len().to_string()).collect();
@@ -230,18 +230,18 @@ fn plan(sweep: &Sweep) -> Result<Outcome> {
         axes.join(" x "),
         sweep.plan.points()
     ))?;
-    Ok(Outcome::Done)
+    Ok(true)
 }
 
-fn status(sweep: &Sweep) -> Result<Outcome> {
+fn status(sweep: &Sweep) -> Result<bool> {
     let missing = sweep.missing()?;
     let chunks = sweep.plan.chunks();
     output::print(format!("{} of {chunks} chunks are there\n", chunks - missing.len() as u64))?;
-    Ok(missing.is_empty().into())
+    Ok(missing.is_empty())
 }
 
 /// Works out some points spread over the sweep, and says how long all would take.
-fn estimate(sweep: &Sweep) -> Result<Outcome> {
+fn estimate(sweep: &Sweep) -> Result<bool> {
     plan(sweep)?;
     let plan = &sweep.plan;
     let points = plan.points();
@@ -267,5 +267,5 @@ fn estimate(sweep: &Sweep) -> Result<Outcome> {
         duration(seconds),
         1e3 * each
     ))?;
-    Ok(Outcome::Done)
+    Ok(true)
 }

@@ -6,15 +6,15 @@ use std::time::Instant;
 
 use clap::Args;
 use miette::{IntoDiagnostic, Result};
-use vinesink::evidence::tradeoff::page::{TradeoffDocument, USUAL};
+use vinesink::evidence::tradeoff::page::{Page, USUAL};
 use vinesink::evidence::tradeoff::{Tradeoff, TradeoffEffort, Trial};
 use vinesink::study::{StudyEffort, StudyError};
 use vinesink::system::{State, System};
 
 use super::budget::{BEST_ANSWER, Work};
 use super::case_file::{self, Format, OneCase};
+use super::index;
 use super::progress::Progress;
-use super::{Outcome, index};
 
 /// Measure how much accuracy each layer gives for how much work
 ///
@@ -46,7 +46,7 @@ Examples:
 const RUNS: u32 = 5;
 const LONG_ENOUGH: f64 = 0.2;
 
-pub fn run(arguments: Arguments) -> Result<Outcome> {
+pub fn run(arguments: Arguments) -> Result<bool> {
     let OneCase { path, format, long } = &arguments.one;
     let case = case_file::read(path)?;
     let system = case.system();
@@ -66,16 +66,13 @@ pub fn run(arguments: Arguments) -> Result<Outcome> {
     let seconds =
         if timed { seconds(&system, &found, &progress).into_diagnostic()? } else { Vec::new() };
     drop(progress);
+    let page = Page { case: &case, found: &found, allowed, seconds: None };
     if let Some(out) = &arguments.out {
-        let page = TradeoffDocument::new(&case, &found, allowed, None);
-        index::add_to_report(out, path, &page.files(&case).into_diagnostic()?)?;
+        index::add_to_report(out, path, &page.files().into_diagnostic()?)?;
     }
-    let document = |seconds| TradeoffDocument::new(&case, &found, allowed, seconds);
-    arguments.one.print(
-        || document(Some(&seconds)).text(&case),
-        || document(arguments.seconds.then_some(seconds.as_slice())),
-    )?;
-    Ok(Outcome::Done)
+    let timed = Page { seconds: timed.then_some(seconds.as_slice()), ..page };
+    arguments.one.print(|| timed.text(), || timed.document())?;
+    Ok(true)
 }
 
 /// The shortest of several runs of each method, in seconds, in the order of the trials.

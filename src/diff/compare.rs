@@ -59,11 +59,10 @@ pub(super) fn reports(old: &Document, new: &Document, folder: &str) -> ReportDif
         verdict: said(old) != said(new),
         inputs: inputs(old, new),
         criteria,
-        claims: Vec::new(),
         states: main_motion(old, new).into_iter().collect(),
-        numbers: Vec::new(),
         figures: figures(old, new),
         folded: Folded { same: agreeing, ..Folded::default() },
+        ..ReportDifference::default()
     };
     let mut comparison = Comparison { old, new, found };
     for key in COMPARED {
@@ -79,15 +78,12 @@ fn change(path: &str, old: &Value, new: &Value) -> Change {
         _ if is_quantity(one) && kind(one).is_none() => one["value"].clone(),
         _ => one.clone(),
     };
-    let (old, new) = (shown(old), shown(new));
     Change {
         what: label(path, known),
         path: path.to_owned(),
-        old,
-        new,
-        change: None,
-        allowed: None,
-        statement: None,
+        old: shown(old),
+        new: shown(new),
+        ..Change::default()
     }
 }
 

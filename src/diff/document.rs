@@ -63,7 +63,7 @@ impl Document {
         figures: BTreeMap<String, Vec<u8>>,
     ) -> Result<Self, ReadError> {
         let report = match stored::read(place, text) {
-            Err(ReadError::OtherFormat { found, .. }) if found == OLD_FORMAT => {
+            Err(error) if error.other_format.as_deref() == Some(OLD_FORMAT) => {
                 serde_json::from_str(text).unwrap_or_default()
             }
             other => other?,

@@ -5,27 +5,21 @@ use serde_json::{Value, json};
 
 use super::{Difference, ReportDifference};
 use crate::quantity::Units;
-use crate::report::render::{RenderError, without_repeated_blank_lines};
+use crate::report::render::RenderError;
 use crate::report::template::render;
 
 /// GitHub refuses comments of more than 65,536 characters; a script may add some of its own.
 pub const LIMIT: usize = 60_000;
-/// Where the figures can be looked at, such as an address of the forge: the folder of the reports of
-/// either side. Without one they are named and not shown.
-#[derive(Debug, Clone, Default)]
-pub struct Addresses {
-    /// Of the old side.
-    pub old: Option<String>,
-    /// Of the new side.
-    pub new: Option<String>,
-}
+/// Where the figures of the old and the new side can be looked at, such as an address of the forge: the folder of
+/// the reports. Without one they are named and not shown.
+pub type Addresses<'a> = [Option<&'a str>; 2];
 
 /// The whole difference, of at most [`LIMIT`] characters: folded tables go first, then whole reports from
 /// the end. One line where there is nothing to look at.
 ///
 /// # Errors
 /// [`RenderError::Template`] if a template does not fit.
-pub fn markdown(difference: &Difference, addresses: &Addresses) -> Result<String, RenderError> {
+pub fn markdown(difference: &Difference, addresses: Addresses) -> Result<String, RenderError> {
     let whole = sections(difference, addresses, true)?.concat();
     if whole.chars().count() <= LIMIT {
         return Ok(whole);
@@ -59,7 +53,7 @@ fn cut(sections: &[String]) -> String {
 /// The head, then every report that changed, then those of which only figures did.
 fn sections(
     difference: &Difference,
-    addresses: &Addresses,
+    addresses: Addresses,
     tables: bool,
 ) -> Result<Vec<String>, RenderError> {
     let (changed, rest): (Vec<_>, Vec<_>) =
@@ -107,13 +101,12 @@ fn head(difference: &Difference, changed: usize) -> Result<String, RenderError> 
             "removed": difference.removed.len(),
         },
     });
-    let text = render("diff.md", &Units::reduced(), &facts)?;
-    Ok(without_repeated_blank_lines(&text))
+    render("diff.md", &Units::reduced(), &facts)
 }
 
 fn section(
     report: &ReportDifference,
-    addresses: &Addresses,
+    addresses: Addresses,
     tables: bool,
     heading: &Value,
 ) -> Result<String, RenderError> {
@@ -123,15 +116,14 @@ fn section(
         "significant": report.is_significant(),
         "key_states": report.states.iter().filter(|one| one.is_key_state()).count(),
         "same": report.folded.same + report.folded.within,
-        "old_url": url(addresses.old.as_ref()),
-        "new_url": url(addresses.new.as_ref()),
+        "old_url": url(addresses[0]),
+        "new_url": url(addresses[1]),
         "tables": tables,
         "heading": heading,
     });
-    let text = render("diff_report.md", &units, &facts)?;
-    Ok(format!("\n{}", without_repeated_blank_lines(&text)))
+    Ok(format!("\n{}", render("diff_report.md", &units, &facts)?))
 }
 
-fn url(address: Option<&String>) -> Option<&str> {
+fn url(address: Option<&str>) -> Option<&str> {
     address.map(|url| url.trim_end_matches('/'))
 }

@@ -21,7 +21,7 @@ pub use document::{CaseFile, Document, Remedy};
 pub type Reports = BTreeMap<String, Document>;
 
 /// What changed between two sets of reports.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Difference {
     /// `vinesink/diff@2`.
     pub format: &'static str,
@@ -43,7 +43,7 @@ pub struct Difference {
 }
 
 /// What changed in one report.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct ReportDifference {
     /// The new report's name and answer.
     pub new: Value,
@@ -87,7 +87,7 @@ pub struct Folded {
 }
 
 /// A value that is another one.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Change {
     /// What it is, for a reader.
     pub what: String,
@@ -115,11 +115,7 @@ impl Difference {
             format: "vinesink/diff@2",
             old: old_label.to_owned(),
             new: new_label.to_owned(),
-            stale: Vec::new(),
-            compared: 0,
-            reports: Vec::new(),
-            added: Vec::new(),
-            removed: Vec::new(),
+            ..Self::default()
         };
         for (name, document) in old {
             match new.get(name) {

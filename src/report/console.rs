@@ -16,7 +16,6 @@ use crate::analysis::{Analysis, ManifoldPoint};
 use crate::case::Case;
 use crate::method::Method::{ExactOrbit, Simulation, Theory};
 use crate::orbits::{FullSystem, SymmetricOrbit};
-use crate::quantity::Quantity;
 use crate::quantity::catalogue as of;
 use crate::regimes::Attractor;
 use crate::study::fidelity::Answers;
@@ -58,7 +57,6 @@ impl Analysed<'_> {
         // Where saddle-node and Hopf meet.
         let p1 = analysis.boundaries.codimension_two;
         let frequency_ratio = 1.0 + analysis.system.mass_ratio() * p1.detuning;
-        let forcing = Quantity::new(&of::FORCING_PER_CLEARANCE, p1.forcing_over_clearance, Theory);
         let page = json!({
             "title": case.title,
             "limits": theory_limits(&analysis.system),
@@ -66,8 +64,8 @@ impl Analysed<'_> {
             "fold": point(&analysis.manifold.fold),
             "symmetry_breaking": point(&analysis.manifold.symmetry_breaking),
             "p1": {
-                "detuning": Quantity::new(&of::DETUNING, p1.detuning, Theory),
-                "forcing": forcing,
+                "detuning": p1.detuning,
+                "forcing": p1.forcing_over_clearance,
                 "frequency": scale.frequency(frequency_ratio, Theory),
             },
             "answers": answers,

@@ -4,8 +4,8 @@ use serde_json::{Value, json};
 
 use super::document::criteria::{criteria, place};
 use super::document::{self, place::Place};
-use super::render::{RenderError, without_repeated_blank_lines};
-use super::template::{aligned, render};
+use super::render::RenderError;
+use super::template::render;
 use crate::case::Case;
 use crate::criteria::Judged;
 use crate::quantity::Units;
@@ -70,7 +70,7 @@ impl Checked {
     /// # Errors
     /// [`RenderError::Template`] if the template does not fit.
     pub fn text(&self) -> Result<String, RenderError> {
-        Ok(aligned(&render("check.txt", &self.units, &self.page)?))
+        render("check.txt", &self.units, &self.page)
     }
 
     /// GitHub-flavoured Markdown.
@@ -78,7 +78,7 @@ impl Checked {
     /// # Errors
     /// As [`Checked::text`].
     pub fn markdown(&self) -> Result<String, RenderError> {
-        Ok(without_repeated_blank_lines(&render("check.md", &self.units, &self.page)?))
+        render("check.md", &self.units, &self.page)
     }
 
     /// Annotations of a GitHub workflow: an error for each criterion that does not hold and for each place at

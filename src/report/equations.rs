@@ -45,14 +45,19 @@ fn with_numbers(group: &Group, values: &Values) -> Value {
     })
 }
 
+/// A length over the clearance in the unit of the case's pages.
+fn length(case: &Case, over_clearance: f64) -> f64 {
+    document::units(case).length_number(case.scales().length(over_clearance))
+}
+
 /// The case's numbers that belong to no motion: dimensionless ones, and lengths in the report's unit.
 fn case_values(case: &Case, study: &CaseStudy) -> Values {
-    let (scales, system) = (case.scales(), &study.analysis.system);
-    let lengths = document::units(case);
+    let system = &study.analysis.system;
+    let forcing = document::units(case).length_number(case.scales().forcing);
     equations::values_of(system)
-        .with(Symbol::b, lengths.length_number(scales.length(1.0)))
-        .with(Symbol::G, lengths.length_number(scales.forcing))
-        .with(Symbol::F, lengths.length_number(scales.forcing) * system.mass_ratio())
+        .with(Symbol::b, length(case, 1.0))
+        .with(Symbol::G, forcing)
+        .with(Symbol::F, forcing * system.mass_ratio())
 }
 
 /// The case's numbers with those of the exact symmetric orbit: of the larger attracting one, else of
@@ -68,13 +73,10 @@ fn orbit_values(case: &Case, study: &CaseStudy) -> Values {
     let values = values.with(Symbol::g, impulse).with(Symbol::h, rate_plus_one);
     let shown = orbits.iter().rfind(|orbit| orbit.orbit.attracts()).or_else(|| orbits.last());
     let Some(orbit) = shown else { return values };
-    let scales = case.scales();
-    let length =
-        |over_clearance| document::units(case).length_number(scales.length(over_clearance));
     values
         .with(Symbol::beta, orbit.absorber_amplitude)
-        .with(Symbol::B, length(orbit.absorber_amplitude))
-        .with(Symbol::x_0, length(orbit.impact_displacement))
+        .with(Symbol::B, length(case, orbit.absorber_amplitude))
+        .with(Symbol::x_0, length(case, orbit.impact_displacement))
 }
 
 /// The case's numbers with the amplitudes of the stable fixed point, else of the last one.
@@ -84,13 +86,10 @@ fn fixed_point_values(case: &Case, study: &CaseStudy) -> Values {
     let Some(point) = points.iter().rfind(|point| point.stable).or_else(|| points.last()) else {
         return values;
     };
-    let scales = case.scales();
-    let length =
-        |over_clearance| document::units(case).length_number(scales.length(over_clearance));
     values
         .with(Symbol::beta, point.absorber_amplitude)
         .with(Symbol::u, point.shift)
         .with(Symbol::eta, point.eta)
-        .with(Symbol::C, length(point.oscillator_amplitude))
-        .with(Symbol::B, length(point.absorber_amplitude))
+        .with(Symbol::C, length(case, point.oscillator_amplitude))
+        .with(Symbol::B, length(case, point.absorber_amplitude))
 }

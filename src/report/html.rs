@@ -4,57 +4,53 @@
 use std::collections::{BTreeMap, HashMap};
 
 use pulldown_cmark::{CowStr, Event, HeadingLevel, Options, Parser, Tag, TagEnd};
+use serde_json::json;
 use tera::escape_html;
 
-use super::render::{RenderError, STYLE};
+use super::render::RenderError;
+use super::template;
+use crate::quantity::Units;
 use crate::symbolic::to_mathml;
 
-/// What a page is made from.
-pub struct Page<'a> {
-    /// Title of the document.
-    pub title: &'a str,
-    /// Class of the first quotation, the verdict: `good`, `mixed` or `bad`; empty for none of them.
-    pub tone: &'a str,
-    /// The Markdown of the page, with the files that it links to after it.
-    pub markdown: &'a str,
-    /// The drawings as SVG, by their name.
-    pub drawings: &'a BTreeMap<String, String>,
-}
-
-/// The page as HTML.
+/// The page as HTML, called by its first heading: of its Markdown, with the files that it links to after it, and of
+/// its drawings as SVG by their names. `tone` is the class of the first quotation, the verdict: `good`, `mixed`, `bad`,
+/// or nothing.
 ///
 /// # Errors
 /// [`RenderError::Formula`] if a formula is not understood.
-pub fn page(page: &Page) -> Result<String, RenderError> {
-    let mut writer = Writer::new(page);
+pub fn page(
+    tone: &str,
+    markdown: &str,
+    drawings: &BTreeMap<String, String>,
+) -> Result<String, RenderError> {
+    let mut writer = Writer { tone, drawings: Some(drawings), ..Writer::default() };
     let options = Options::ENABLE_TABLES | Options::ENABLE_MATH;
     let mut events = Vec::new();
-    for event in Parser::new_ext(page.markdown, options) {
+    for event in Parser::new_ext(markdown, options) {
         writer.take(event, &mut events)?;
     }
     writer.end_figure(&mut events);
     writer.end_formulas(&mut events);
     let mut body = String::new();
     pulldown_cmark::html::push_html(&mut body, events.into_iter());
-    Ok(format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <meta name=\"generator\" content=\"{} {}\">\n<title>{}</title>\n<link rel=\"icon\" href=\"data:,\">\n\
-         <style>\n{STYLE}</style>\n</head>\n<body>\n<div class=\"page\">\n\
-         <nav aria-label=\"Contents\">\n<strong>Contents</strong>\n<ol>\n{}</ol>\n</nav>\n<main>\n{body}</main>\n</div>\n\
-         </body>\n</html>\n",
-        env!("CARGO_PKG_NAME"),
-        env!("CARGO_PKG_VERSION"),
-        escaped(page.title),
-        writer.contents,
-    ))
+    let facts = json!({
+        "title": writer.title,
+        "contents": writer.contents,
+        "body": body,
+        "version": env!("CARGO_PKG_VERSION"),
+    });
+    template::render("page.html", &Units::reduced(), &facts)
 }
 
 /// Turns the events of Markdown into those of the page.
+#[derive(Default)]
 struct Writer<'a> {
-    page: &'a Page<'a>,
-    /// Entries of the table of contents.
-    contents: String,
+    tone: &'a str,
+    drawings: Option<&'a BTreeMap<String, String>>,
+    /// The first heading.
+    title: Option<String>,
+    /// Anchors and headings of the table of contents.
+    contents: Vec<[String; 2]>,
     /// Text of the heading that is being read, and its level.
     heading: Option<(HeadingLevel, String)>,
     /// The section's heading: regions for screen readers are named after it.
@@ -70,29 +66,15 @@ struct Writer<'a> {
 }
 
 /// What follows a drawing is its caption.
-#[derive(PartialEq)]
+#[derive(Default, PartialEq)]
 enum Caption {
+    #[default]
     None,
     Expected,
     Open,
 }
 
 impl<'a> Writer<'a> {
-    fn new(page: &'a Page<'a>) -> Self {
-        Self {
-            page,
-            contents: String::new(),
-            heading: None,
-            section: page.title.to_owned(),
-            regions: HashMap::new(),
-            figure: Caption::None,
-            quoted: false,
-            in_verdict: false,
-            tables: 0,
-            in_formulas: false,
-        }
-    }
-
     fn take(&mut self, event: Event<'a>, out: &mut Vec<Event<'a>>) -> Result<(), RenderError> {
         match event {
             Event::Start(Tag::Heading { level, .. }) => {
@@ -125,7 +107,7 @@ impl<'a> Writer<'a> {
             }
             Event::Start(Tag::BlockQuote(_)) if !self.quoted => {
                 self.in_verdict = true;
-                out.push(html(format!("<section class=\"verdict {}\">\n", self.page.tone)));
+                out.push(html(format!("<section class=\"verdict {}\">\n", self.tone)));
             }
             Event::End(TagEnd::BlockQuote(_)) if !self.quoted => {
                 (self.quoted, self.in_verdict) = (true, false);
@@ -157,9 +139,10 @@ impl<'a> Writer<'a> {
         let Some((level, text)) = self.heading.take() else { return };
         let (id, name) = (slug(&text), escaped(&text));
         if level == HeadingLevel::H2 {
-            self.contents.push_str(&format!("<li><a href=\"#{id}\">{name}</a></li>\n"));
+            self.contents.push([id.clone(), text.clone()]);
         }
-        self.section.clone_from(&text);
+        self.title.get_or_insert_with(|| text.clone());
+        self.section = text;
         out.push(html(format!("<{level} id=\"{id}\">{name}</{level}>\n")));
     }
 
@@ -181,7 +164,7 @@ impl<'a> Writer<'a> {
         };
         let file = part("src").unwrap_or_default();
         let name = file.rsplit('/').next().unwrap_or_default().trim_end_matches(".svg");
-        let Some(drawing) = self.page.drawings.get(name) else {
+        let Some(drawing) = self.drawings.and_then(|all| all.get(name)) else {
             return out.push(html(image.to_owned()));
         };
         let width = part("width").unwrap_or("720");
@@ -273,8 +256,7 @@ mod tests {
     fn a_page_has_its_drawings_formulas_and_contents() {
         let drawings = BTreeMap::from([("map".to_owned(), "<svg></svg>".to_owned())]);
         let markdown = "# Case & co\n\n> **Works.** Yes.\n\n<img src=\"figures/map.svg\" width=\"720\" alt=\"A map\">\n\nWhat to see.\n\n## Theory, (18)\n\n| a | b |\n| --- | ---: |\n| $x^2$ | [c](validation.md#claims) |\n";
-        let made = Page { title: "Case & co", tone: "good", markdown, drawings: &drawings };
-        let text = page(&made).expect("a page");
+        let text = page("good", markdown, &drawings).expect("a page");
         for part in [
             "<title>Case &amp; co</title>",
             "<h1 id=\"case--co\">Case &amp; co</h1>",

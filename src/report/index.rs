@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use super::document::{Tone, Word};
-use super::render::{self, RenderError};
+use super::render::{Files, RenderError};
 use super::stored::{self, ReadError};
 use super::template;
 use crate::quantity::{Units, catalogue};
@@ -17,11 +17,6 @@ use crate::quantity::{Units, catalogue};
 pub const HTML: &str = "index.html";
 /// See [`HTML`].
 pub const MARKDOWN: &str = "README.md";
-
-/// The pages of accuracy and cost that may lie in a case's folder.
-pub const TRADEOFF: &str = "tradeoff.md";
-/// Where the page of a sweep is, in the folder of a report.
-pub const SWEEP: &str = "sweep.md";
 
 /// What both files of an index say of themselves, so that no other file is taken for one.
 const SIGNATURE: &str = "This page is written by";
@@ -36,10 +31,8 @@ pub struct CaseReport {
     /// What its `report.json` says.
     #[serde(flatten)]
     pub summary: Summary,
-    /// Whether the folder has a page of accuracy and cost.
-    pub has_tradeoff: bool,
-    /// Whether the page of a sweep lies beside its report.
-    pub has_sweep: bool,
+    /// The files of its folder: it may have pages of other commands.
+    pub files: Vec<String>,
 }
 
 /// What an index needs of a report. Quantities as [`crate::quantity::Quantity`] is written.
@@ -79,8 +72,7 @@ impl Summary {
     pub fn read(place: &str, text: &str) -> Result<Self, ReadError> {
         stored::read(place, text)?;
         // Out of the text once more, which knows the line where something is missing.
-        serde_json::from_str(text)
-            .map_err(|cause| ReadError::Incomplete { place: place.to_owned(), cause })
+        serde_json::from_str(text).map_err(|cause| stored::incomplete(place, &cause))
     }
 
     /// Numbers of the table, each from one end of a range to the other or one: clearance, excitation, vibration
@@ -108,10 +100,7 @@ impl Summary {
 ///
 /// # Errors
 /// [`RenderError::Template`] if template and index do not fit.
-pub fn files(
-    mut cases: Vec<CaseReport>,
-    mut others: Vec<OtherPage>,
-) -> Result<BTreeMap<PathBuf, Vec<u8>>, RenderError> {
+pub fn files(mut cases: Vec<CaseReport>, mut others: Vec<OtherPage>) -> Result<Files, RenderError> {
     cases.sort_by(|a, b| a.name.cmp(&b.name));
     others.sort_by(|a, b| a.file.cmp(&b.file));
     let mut words: BTreeMap<Word, usize> = BTreeMap::new();
@@ -138,10 +127,9 @@ pub fn files(
     });
     let units = Units::physical(USUAL_CLEARANCE);
     let text = |name: &str| template::render(name, &units, &context);
-    let markdown = render::without_repeated_blank_lines(&text("index.md")?);
     Ok(BTreeMap::from([
         (PathBuf::from(HTML), text("index.html")?.into_bytes()),
-        (PathBuf::from(MARKDOWN), markdown.into_bytes()),
+        (PathBuf::from(MARKDOWN), text("index.md")?.into_bytes()),
     ]))
 }
 
@@ -172,7 +160,7 @@ mod tests {
             "quantities": {"clearance": number("clearance", 0.02), "peak_displacement": number("peak_displacement", peak)},
         });
         let summary = Summary::read(name, &text.to_string()).expect("a report");
-        CaseReport { name: name.to_owned(), summary, has_tradeoff: false, has_sweep: false }
+        CaseReport { name: name.to_owned(), summary, files: Vec::new() }
     }
 
     #[test]

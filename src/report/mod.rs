@@ -15,5 +15,3 @@ pub mod sweep;
 pub mod template;
 
 pub mod equations;
-
-pub use document::FigureRow;

@@ -5,13 +5,15 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 
+use super::document::figure_row;
 use super::figure::{self, Figure, FigureError};
 use super::html;
 use super::template;
 use crate::quantity::Units;
 use crate::symbolic::MathError;
 
-pub(super) const STYLE: &str = include_str!("../../templates/report.css");
+/// Files by their path in a folder.
+pub type Files = BTreeMap<PathBuf, Vec<u8>>;
 
 /// The drawings that belong to pages of other commands, in the folder of a report.
 const FIGURES_OF_OTHERS: [&str; 3] =
@@ -59,37 +61,59 @@ pub fn files(
     equations: &[Value],
     units: &Units,
     figures: &[Figure],
-) -> Result<BTreeMap<PathBuf, Vec<u8>>, RenderError> {
+) -> Result<Files, RenderError> {
     let drawings = drawings(figures)?;
-    let page = |name: &str| -> Result<String, RenderError> {
-        Ok(without_repeated_blank_lines(&template::render(name, units, document)?))
-    };
+    let page = |name: &str| template::render(name, units, document);
     let (report, validation) = (page("report.md")?, page("validation.md")?);
     let equations = json!({
         "title": document["title"], "length_unit": units.length_symbol(), "equations": equations,
     });
-    let equations = |name: &str| -> Result<String, RenderError> {
-        Ok(without_repeated_blank_lines(&template::render(name, units, &equations)?))
-    };
+    let equations = |name: &str| template::render(name, units, &equations);
     // The page has everything; the file beside it, which is under review, what is short.
     let whole = [
         report.clone(),
         appendix("validation", &validation),
         appendix("equations", &equations("equations-all.md")?),
     ];
-    let (whole, title) = (whole.join("\n"), document["title"].as_str().unwrap_or_default());
     let tone = document["verdict"]["tone"].as_str().unwrap_or_default();
-    let html = html::page(&html::Page { title, tone, markdown: &whole, drawings: &drawings })?;
+    let html = html::page(tone, &whole.join("\n"), &drawings)?;
     let mut files = figure_files(drawings);
-    let pages = [
-        ("report.md", report),
-        ("validation.md", validation),
-        ("equations.md", equations("equations.md")?),
-        ("report.html", html),
-        ("report.json", format!("{}\n", in_lines(document, 0))),
-    ];
-    files.extend(pages.map(|(name, text)| (PathBuf::from(name), text.into_bytes())));
+    files.extend(texts([
+        ("report.md".into(), report),
+        ("validation.md".into(), validation),
+        ("equations.md".into(), equations("equations.md")?),
+        ("report.html".into(), html),
+        ("report.json".into(), format!("{}\n", in_lines(document, 0))),
+    ]));
     Ok(files)
+}
+
+/// The files of another command's page in a case's folder: `NAME.md` by the template of that name, which gets the
+/// figures beside its facts, their drawings, and where a tone is told `NAME.html`.
+///
+/// # Errors
+/// [`RenderError`] says which part cannot be rendered.
+pub(crate) fn page_files(
+    name: &str,
+    tone: Option<&str>,
+    units: &Units,
+    mut facts: Value,
+    figures: &[Figure],
+) -> Result<Files, RenderError> {
+    facts["figures"] = figures.iter().map(figure_row).collect();
+    let markdown = template::render(&format!("{name}.md"), units, &facts)?;
+    let drawings = drawings(figures)?;
+    let html = tone.map(|tone| html::page(tone, &markdown, &drawings)).transpose()?;
+    let mut files = figure_files(drawings);
+    files.extend(texts(html.map(|html| (format!("{name}.html"), html))));
+    files.extend(texts([(format!("{name}.md"), markdown)]));
+    Ok(files)
+}
+
+fn texts(
+    of: impl IntoIterator<Item = (String, String)>,
+) -> impl Iterator<Item = (PathBuf, Vec<u8>)> {
+    of.into_iter().map(|(name, text)| (name.into(), text.into_bytes()))
 }
 
 /// Characters of JSON up to which what belongs together stands on a line.
@@ -128,16 +152,14 @@ fn appendix(name: &str, page: &str) -> String {
 }
 
 /// Every figure as SVG, by its name.
-pub(crate) fn drawings(figures: &[Figure]) -> Result<BTreeMap<String, String>, RenderError> {
+fn drawings(figures: &[Figure]) -> Result<BTreeMap<String, String>, RenderError> {
     let each = figures.iter();
     each.map(|figure| Ok((figure.name.clone(), figure::render(figure)?))).collect()
 }
 
-/// The same as files of a report's folder.
-pub(crate) fn figure_files(drawings: BTreeMap<String, String>) -> BTreeMap<PathBuf, Vec<u8>> {
-    let each = drawings.into_iter();
-    each.map(|(name, drawing)| (format!("figures/{name}.svg").into(), drawing.into_bytes()))
-        .collect()
+fn figure_files(drawings: BTreeMap<String, String>) -> Files {
+    let path = |name: String| format!("figures/{name}.svg");
+    texts(drawings.into_iter().map(|(name, drawing)| (path(name), drawing))).collect()
 }
 
 /// Text whose characters mean nothing to Markdown; a line of its own stays one line.
@@ -180,7 +202,7 @@ pub(super) fn attribute(text: &str) -> String {
         .replace(['\n', '\r'], " ")
 }
 
-pub(crate) fn without_repeated_blank_lines(text: &str) -> String {
+pub(super) fn without_repeated_blank_lines(text: &str) -> String {
     let mut result = String::with_capacity(text.len());
     let mut blank = true;
     for line in text.lines().map(str::trim_end) {

@@ -6,47 +6,31 @@ use super::document::FORMAT;
 
 /// Why a file is not a report that can be read.
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]
-pub enum ReadError {
-    /// Not JSON.
-    #[error("{place} is not JSON: {cause}")]
-    #[diagnostic(help(
-        "write the report again with `vinesink report CASE`, or look for a conflict left by a merge"
-    ))]
-    Syntax {
-        /// The file, and where it was read from.
-        place: String,
-        /// What is wrong, with line and column.
-        cause: serde_json::Error,
-    },
-    /// A document of another kind.
-    #[error("{place} does not say that it is a report: it has no \"format\": \"{FORMAT}\"")]
-    #[diagnostic(help(
-        "name what `vinesink report CASE` writes; write the report again, or take its folder out of the way"
-    ))]
-    NotAReport {
-        /// The file, and where it was read from.
-        place: String,
-    },
-    /// A report of another version, or another document of this program.
-    #[error("{place} has the format `{found}`, and this version reads `{FORMAT}`")]
-    #[diagnostic(help("write the report again with this version's `vinesink report CASE`"))]
-    OtherFormat {
-        /// The file, and where it was read from.
-        place: String,
-        /// What it says it is.
-        found: String,
-    },
-    /// Something else than a report needs stands in a place.
-    #[error("{place} is not a whole report: {cause}")]
-    #[diagnostic(help(
-        "write the report again with `vinesink report CASE`, or take its folder out of the way"
-    ))]
-    Incomplete {
-        /// The file, and where it was read from.
-        place: String,
-        /// What is wrong, with line and column.
-        cause: serde_json::Error,
-    },
+#[error("{message}")]
+#[diagnostic(help("{help}"))]
+pub struct ReadError {
+    /// The file and where it was read from, and what is wrong, for JSON with line and column.
+    message: String,
+    /// What to do.
+    help: &'static str,
+    /// The format of another version, or of another document of this program.
+    pub(crate) other_format: Option<String>,
+}
+
+const CONFLICT: &str =
+    "write the report again with `vinesink report CASE`, or look for a conflict left by a merge";
+const NO_REPORT: &str = "name what `vinesink report CASE` writes; write the report again, or take its folder out of the way";
+const OUT_OF_DATE: &str = "write the report again with this version's `vinesink report CASE`";
+const HALF: &str =
+    "write the report again with `vinesink report CASE`, or take its folder out of the way";
+
+fn error(message: String, help: &'static str) -> ReadError {
+    ReadError { message, help, other_format: None }
+}
+
+/// Something else than a report needs stands in a place.
+pub(super) fn incomplete(place: &str, cause: &serde_json::Error) -> ReadError {
+    error(format!("{place} is not a whole report: {cause}"), HALF)
 }
 
 /// The document in the text of a `report.json`; `place` says where it came from.
@@ -54,13 +38,19 @@ pub enum ReadError {
 /// # Errors
 /// [`ReadError`] where it is not JSON, or not a report of this format.
 pub fn read(place: &str, text: &str) -> Result<Value, ReadError> {
-    let place = || place.to_owned();
-    let report: Value =
-        serde_json::from_str(text).map_err(|cause| ReadError::Syntax { place: place(), cause })?;
+    let report: Value = serde_json::from_str(text)
+        .map_err(|cause| error(format!("{place} is not JSON: {cause}"), CONFLICT))?;
     match report["format"].as_str() {
         Some(FORMAT) => Ok(report),
-        Some(found) => Err(ReadError::OtherFormat { place: place(), found: found.to_owned() }),
-        None => Err(ReadError::NotAReport { place: place() }),
+        Some(found) => {
+            let message =
+                format!("{place} has the format `{found}`, and this version reads `{FORMAT}`");
+            Err(ReadError { other_format: Some(found.to_owned()), ..error(message, OUT_OF_DATE) })
+        }
+        None => {
+            let lacks = format!("it has no \"format\": \"{FORMAT}\"");
+            Err(error(format!("{place} does not say that it is a report: {lacks}"), NO_REPORT))
+        }
     }
 }
 
@@ -77,9 +67,10 @@ mod tests {
         assert!(newer.contains("`vinesink/report@2`") && newer.contains("`vinesink/report@1`"));
         for text in ["[]", "{}", "3", "\"x\"", "null", "{\"format\": 1}", "{\"title\": \"T\"}"] {
             let error = read(text).expect_err("no report");
-            assert!(matches!(error, ReadError::NotAReport { .. }), "{text}: {error}");
+            let said = error.to_string();
+            assert!(said.contains("does not say that it is a report"), "{text}: {said}");
         }
-        assert!(matches!(read(""), Err(ReadError::Syntax { .. })));
+        assert!(read("").expect_err("nothing").to_string().contains("is not JSON"));
         let broken = read("{\"format\":\n<<<<<<< HEAD").expect_err("a conflict");
         let broken = broken.to_string();
         assert!(

@@ -19,95 +19,79 @@
 //! | `annotation`, `property` | text | safe in a message of a GitHub workflow, in a property of one |
 //! | `md`, `cell`, `attr`, `path` | text of a user | safe in Markdown, in a table's cell, in an attribute, in a link |
 
+use std::collections::BTreeMap;
+use std::ffi::OsStr;
+use std::path::Path;
+use std::sync::LazyLock;
+
 use serde::Serialize;
 use tera::{Context, Kwargs, Map, State, Tera, TeraResult, Value};
 
 use super::figure::Figure;
-use super::render::{RenderError, attribute, markdown_cell, markdown_text, url_path};
+use super::render::{
+    RenderError, attribute, markdown_cell, markdown_text, url_path, without_repeated_blank_lines,
+};
 use crate::quantity::catalogue::{self, Digits, Kind};
 use crate::quantity::{Units, numbers};
 
-/// Files of `templates/` by their names, of which each has `.tera` after it.
-macro_rules! templates {
-    ($($name:literal),* $(,)?) => {
-        &[$(($name, include_str!(concat!("../../templates/", $name, ".tera")))),*]
-    };
+/// The files of `templates/`, by their path in it without `.tera`, and their texts.
+const TEMPLATES: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/templates.rs"));
+/// Files of components, which every template may use.
+const COMPONENTS: [&str; 3] = ["components", "optimize", "evidence"];
+/// How a component begins.
+const COMPONENT: &str = "{%- component ";
+
+/// All texts by name: templates, and each component by itself.
+static TEXTS: LazyLock<BTreeMap<&str, &str>> = LazyLock::new(|| {
+    let (components, templates): (Vec<_>, Vec<_>) =
+        TEMPLATES.iter().copied().partition(|(file, _)| COMPONENTS.contains(file));
+    let components = components.into_iter().flat_map(|(_, text)| {
+        let starts = text.match_indices(COMPONENT).map(|(start, _)| start);
+        let starts: Vec<usize> = starts.chain([text.len()]).collect();
+        let texts = starts.windows(2).map(|ends| &text[ends[0]..ends[1]]);
+        texts.map(|text| (word(&text[COMPONENT.len()..]), text)).collect::<Vec<_>>()
+    });
+    templates.into_iter().chain(components).collect()
+});
+
+/// What a text begins with, up to the end of a name.
+fn word(text: &str) -> &str {
+    text.split([' ', '(', '"']).next().unwrap_or_default()
 }
 
-/// Every template: its name and its text.
-const TEMPLATES: &[(&str, &str)] = templates![
-    "report.md",
-    "validation.md",
-    "equations.md",
-    "equations-all.md",
-    "analyze.txt",
-    "simulate.txt",
-    "check.txt",
-    "check.md",
-    "check.github",
-    "check.xml",
-    "index.md",
-    "index.html",
-    "diff.md",
-    "diff_report.md",
-    "captions/amplitude",
-    "captions/areas",
-    "captions/band",
-    "captions/basins",
-    "captions/bifurcations",
-    "captions/captures",
-    "captions/clearances",
-    "captions/diagram",
-    "captions/exponents",
-    "captions/forcing-responses",
-    "captions/map",
-    "captions/modulation",
-    "captions/motion",
-    "captions/plane",
-    "captions/ranges",
-    "captions/response",
-    "captions/restitutions",
-    "captions/return-map",
-    "captions/sim",
-    "captions/transfer",
-    "captions/transfer-stretches",
-    "captions/optimize-chart",
-    "captions/optimize-landscape",
-    "captions/sweep-line",
-    "captions/sweep-map",
-    "captions/tradeoff",
-    "optimize.md",
-    "optimize.txt",
-    "optimize-written.txt",
-    "extremes.md",
-    "paper.md",
-    "tradeoff.md",
-    "tradeoff.txt",
-    "sweep.md",
-];
-
-/// Components that every template may use.
-const COMPONENTS: &[(&str, &str)] = templates!["components", "optimize", "evidence"];
-
-/// What other templates include: styles and scripts.
-const INCLUDED: &[(&str, &str)] = &[
-    ("report.css", include_str!("../../templates/report.css")),
-    ("index.css", include_str!("../../templates/index.css")),
-    ("index.js", include_str!("../../templates/index.js")),
-];
-
-/// A template filled in; a quantity is written in `units`.
+/// A template filled in; a quantity is written in `units`. Markdown has no repeated blank lines, and the tables
+/// of a text are aligned.
 ///
 /// # Errors
 /// [`RenderError::Template`] if template and context do not fit.
 pub fn render(name: &str, units: &Units, context: &impl Serialize) -> Result<String, RenderError> {
-    let found = TEMPLATES.iter().find(|(known, _)| *known == name);
-    let (name, text) = found.ok_or_else(|| tera::Error::message(format!("no template {name}")))?;
     let mut tera = Tera::new();
     register(&mut tera, *units);
-    let included = INCLUDED.iter().copied().filter(|(file, _)| text.contains(file));
-    tera.add_raw_templates(included.chain(COMPONENTS.iter().copied()).chain([(*name, *text)]))?;
-    Ok(tera.render(name, &Context::from_serialize(context)?)?)
+    tera.add_raw_templates(needed(name)?)?;
+    let text = tera.render(name, &Context::from_serialize(context)?)?;
+    Ok(match Path::new(name).extension().and_then(OsStr::to_str) {
+        Some("md") => without_repeated_blank_lines(&text),
+        Some("txt") => aligned(&without_repeated_blank_lines(&text)),
+        _ => text,
+    })
+}
+
+/// A template with what it includes, between quotation marks, and the components that it uses, as in `<name `. To read
+/// all of them would take longer than to write a page.
+fn needed(name: &str) -> TeraResult<Vec<(&'static str, &'static str)>> {
+    let text = |name: &str| TEXTS.get_key_value(name).map(|(name, text)| (*name, *text));
+    let mut all =
+        vec![text(name).ok_or_else(|| tera::Error::message(format!("no template {name}")))?];
+    let mut next = 0;
+    while let Some((_, reader)) = all.get(next) {
+        for part in reader.split(['<', '"']).filter_map(|part| text(word(part))) {
+            if !all.contains(&part) {
+                all.push(part);
+            }
+        }
+        next += 1;
+    }
+    Ok(all)
 }
 
 /// The figures with title, caption and alternative text from their templates: the first three lines of one.
@@ -238,7 +222,7 @@ fn quantity_text(units: &Units, value: &Value, options: &Kwargs) -> TeraResult<S
 }
 
 /// Text for a terminal: the tables of its Markdown with their columns aligned.
-pub fn aligned(markdown: &str) -> String {
+fn aligned(markdown: &str) -> String {
     let lines: Vec<&str> = markdown.lines().collect();
     let is_row = |line: &&str| line.starts_with('|');
     let blocks = lines.chunk_by(|a, b| is_row(a) == is_row(b));

@@ -1,6 +1,6 @@
 //! Equations, and the macro that writes each of them once.
 
-use super::{Expr, MissingValue, Symbol, Values};
+use super::{Expr, Symbol, Values};
 use crate::operation_count::{self, ELEMENTARY};
 
 /// An equation as its two sides were written in the code.
@@ -71,18 +71,6 @@ impl<const N: usize> Formula<N> {
     pub fn at(&self, values: [f64; N]) -> f64 {
         operation_count::note(self.cost);
         (self.function)(values)
-    }
-
-    /// The same with the parameters taken from `values`.
-    ///
-    /// # Errors
-    /// If one of them has no value.
-    pub fn of(&self, values: &Values) -> Result<f64, MissingValue> {
-        let mut numbers = [0.0; N];
-        for (number, symbol) in numbers.iter_mut().zip(self.parameters) {
-            *number = values.require(symbol)?;
-        }
-        Ok(self.at(numbers))
     }
 }
 

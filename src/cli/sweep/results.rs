@@ -15,7 +15,7 @@ use vinesink::sweep::limits::{StabilityLimit, stability_limits};
 use vinesink::sweep::parquet;
 
 use super::super::progress::Progress;
-use super::super::{Outcome, index, output};
+use super::super::{index, output};
 use super::{Sweep, shown};
 
 /// What is written besides the results.
@@ -31,7 +31,7 @@ pub struct Wanted {
 
 impl Sweep {
     /// Puts all chunks together, one at a time, and writes what else is wanted.
-    pub(super) fn merge(&self, wanted: &Wanted) -> Result<Outcome> {
+    pub(super) fn merge(&self, wanted: &Wanted) -> Result<bool> {
         if let [first, ..] = self.missing()?.as_slice() {
             return Err(miette!(
                 help = "`vinesink sweep run CASE` works out what is missing",
@@ -51,10 +51,10 @@ impl Sweep {
             output::complain(&format!(
                 "There is no page of more than {MOST_POINTS} points; the results are whole."
             ));
-            return Ok(Outcome::Done);
+            return Ok(true);
         }
         self.write_page(&path, wanted.report.as_deref())?;
-        Ok(Outcome::Done)
+        Ok(true)
     }
 
     /// Reads the chunks in their order, one at a time, so that memory holds no more.

@@ -9,7 +9,7 @@ use clap::{Args, ValueEnum};
 use miette::Result;
 use vinesink::store;
 
-use super::{Long, Outcome, Sweep, Where, output, shown};
+use super::{Long, Sweep, Where, output, shown};
 use job::{Job, word};
 
 /// Submit all chunks to the engine of a cluster, and the merge after them
@@ -84,13 +84,13 @@ fn seconds(text: &str) -> Result<u64, String> {
     }
 }
 
-pub fn run(arguments: &Arguments) -> Result<Outcome> {
+pub fn run(arguments: &Arguments) -> Result<bool> {
     let sweep = Sweep::open(&arguments.sweep)?;
     sweep.is_ordinary(&arguments.sweep.case, arguments.long)?;
     let job = Job::of(arguments, &sweep)?;
     if arguments.dry_run {
         output::print(job.described())?;
-        return Ok(Outcome::Done);
+        return Ok(true);
     }
     let at = &arguments.sweep;
     let out = match shown(&at.out).as_str() {
@@ -104,7 +104,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome> {
             sweep.plan.chunks(),
             by_hand("merge")
         ))?;
-        return Ok(Outcome::Done);
+        return Ok(true);
     }
     store::write_file_and_folder(&job.case, sweep.case_text.as_bytes())?;
     for (file, text) in &job.files {
@@ -123,7 +123,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome> {
         shown(&job.folder.join("*.log")),
         by_hand("merge"),
     ))?;
-    Ok(Outcome::Done)
+    Ok(true)
 }
 
 #[cfg(test)]

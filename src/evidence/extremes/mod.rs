@@ -17,7 +17,7 @@ use serde_json::json;
 
 use crate::case::CaseError;
 use crate::quantity::Units;
-use crate::report::render::{RenderError, without_repeated_blank_lines};
+use crate::report::render::RenderError;
 use crate::report::template;
 use crate::simulation::StartError;
 use crate::simulation::trust::{ENERGY_RESIDUAL, RESOLUTION};
@@ -131,8 +131,7 @@ pub fn page(
             "roundings": ROUNDINGS,
         },
     });
-    let text = template::render("extremes.md", &Units::reduced(), &context)?;
-    Ok(without_repeated_blank_lines(&text))
+    template::render("extremes.md", &Units::reduced(), &context)
 }
 
 #[cfg(test)]

@@ -19,7 +19,7 @@ use crate::orbits::Bifurcation;
 use crate::quantity::Units;
 use crate::regimes::{FoundAttractor, Regime};
 use crate::report::figure::Figure;
-use crate::report::render::{RenderError, without_repeated_blank_lines};
+use crate::report::render::RenderError;
 use crate::report::template;
 use crate::study::{CaseStudy, StudyError};
 use crate::validation::boundaries::clearances;
@@ -244,8 +244,7 @@ pub fn page(members: &[CaseReport]) -> Result<String, PaperError> {
     let [steady_8, steady_85] = STEADY.map(|name| boundaries::steady(&cases, name));
     let context = json!({ "figures": sections, "steady": [steady_8?, steady_85?] });
     let units = Units::physical(cases.case(STEADY[0])?.length(1.0));
-    let text = template::render("paper.md", &units, &context)?;
-    Ok(without_repeated_blank_lines(&text))
+    Ok(template::render("paper.md", &units, &context)?)
 }
 
 #[cfg(test)]
@@ -368,7 +367,6 @@ mod tests {
         let context = json!({ "figures": figures, "steady": [steady, steady] });
         let text = template::render("paper.md", &Units::physical(0.0075), &context);
         let text = text.unwrap_or_else(|error| panic!("{error}"));
-        let text = without_repeated_blank_lines(&text);
         for part in [
             "| [5](#fig-5): areas Z1 to Z4, and the two ways out of Z3 | reproduced |",
             "| [6](#fig-6): saddle-node and Hopf boundary, and the regions A1 and A2 | reproduced with a difference |",

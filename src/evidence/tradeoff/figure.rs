@@ -3,7 +3,7 @@
 use serde_json::json;
 
 use super::by_hand::Locate;
-use super::page::TradeoffDocument;
+use super::page::Page;
 use super::{Layer, Method, Search};
 use crate::quantity::numbers::{asked, operations, relative_error};
 use crate::report::figure::{
@@ -49,8 +49,8 @@ fn is_usual(one: &Method) -> bool {
 }
 
 /// The diagram.
-pub fn figure(document: &TradeoffDocument) -> Figure {
-    let tradeoff = document.found;
+pub fn figure(page: &Page) -> Figure {
+    let tradeoff = page.found;
     let placed: Vec<(Method, MarkedPoint)> = tradeoff
         .trials
         .iter()
@@ -65,7 +65,7 @@ pub fn figure(document: &TradeoffDocument) -> Figure {
             Some((trial.method, point.with_tooltip(tooltip)))
         })
         .collect();
-    let (best, allowed) = (tradeoff.best.rms_error, document.allowed);
+    let (best, allowed) = (tradeoff.best.rms_error, page.allowed);
     let x = Axis::log("cost (operations)");
     let y = Axis::log("relative error of the rms displacement (1)");
     let known = Style::new(Color::Grey, 1.2, Dash::DashDot);
@@ -88,5 +88,5 @@ pub fn figure(document: &TradeoffDocument) -> Figure {
     }
     Figure::new("tradeoff", "")
         .with_panel(panel)
-        .with_facts("captions/tradeoff", json!({ "page": document }))
+        .with_facts("captions/tradeoff", json!({ "page": page.document() }))
 }

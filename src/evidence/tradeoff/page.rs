@@ -1,21 +1,15 @@
 //! The page of `vinesink tradeoff` as data, which is also its JSON document. The sentences are in
 //! `templates/`. Seconds belong to one machine and stay out of the page.
 
-use std::collections::BTreeMap;
-use std::path::PathBuf;
-
-use serde::Serialize;
-use serde_json::json;
+use serde_json::{Value, json};
 
 use super::{Best, Layer, Method, Search, Tradeoff, Trial};
 use crate::case::Case;
 use crate::method::Method as KnownBy;
 use crate::quantity::{Quantity, catalogue};
-use crate::report::FigureRow;
 use crate::report::document::Scale;
-use crate::report::render::{RenderError, drawings, figure_files, without_repeated_blank_lines};
-use crate::report::template::{aligned, render, worded};
-use crate::study::answer::WhyNot;
+use crate::report::render::{Files, RenderError, page_files};
+use crate::report::template::{render, worded};
 
 /// Relative error of the amplitude that the page speaks of where the case asks for none.
 pub const USUAL: f64 = 0.01;
@@ -24,137 +18,80 @@ pub const USUAL: f64 = 0.01;
 const COMPETING: [Layer; 4] =
     [Layer::ClosedForm, Layer::SlowFlow, Layer::ExactOrbit, Layer::Simulation];
 
-/// `vinesink/tradeoff@3`. What refers to a method is its place in `methods`.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct TradeoffDocument<'a> {
-    format: &'static str,
-    title: &'a str,
+/// The page of a case.
+#[derive(Debug, Clone, Copy)]
+pub struct Page<'a> {
+    /// The case.
+    pub case: &'a Case,
+    /// What was tried.
+    pub found: &'a Tradeoff,
     /// Relative error of the amplitude that is asked for.
-    pub(super) allowed: f64,
-    #[serde(flatten)]
-    pub(super) found: &'a Tradeoff,
-    /// Of the best answer: in metres, or in the case's own unit of length.
-    rms_displacement: f64,
-    /// Of the best answer: impacts per period with their error.
-    impacts: Quantity,
-    methods: Vec<MethodRow<'a>>,
-    /// The cheapest that is enough; `None` where none is.
-    enough: Option<usize>,
-    /// The other layers.
-    layers: Vec<LayerRow>,
-    longer: Option<Longer>,
-    /// A baseline whose amplitude is right and whose impacts are not.
-    wrong_count: Option<usize>,
-    flights: Option<FlightsRow>,
-    case_sha256: &'a str,
+    pub allowed: f64,
+    /// What each trial took, in their order; with it the document is not the same twice.
+    pub seconds: Option<&'a [f64]>,
 }
 
-#[derive(Debug, Clone, PartialEq, Serialize)]
-struct MethodRow<'a> {
-    #[serde(flatten)]
-    trial: &'a Trial,
-    layer: Layer,
-    rms_displacement: Option<f64>,
-    /// Operations over those of the cheapest that is enough, or of the cheapest.
-    times: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    seconds: Option<f64>,
-}
-
-/// What a layer has to offer against the cheapest that is enough.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-struct LayerRow {
-    layer: Layer,
-    /// Its cheapest method that is enough.
-    enough: Option<usize>,
-    /// Where none is, the method that comes closest.
-    closest: Option<usize>,
-    /// Excitation periods that this left out for a transient that is not over.
-    transient: Option<u64>,
-    /// Why it gives no answer.
-    why_not: Option<WhyNot>,
-}
-
-/// What a longer simulation would take.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-struct Longer {
-    /// Whether the longest that was tried is still in its transient: then no length can be told.
-    in_transient: bool,
-    periods: u64,
-    operations: u64,
-}
-
-/// The baseline's flights in short.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-struct FlightsRow {
-    variants: usize,
-    /// Variants that miss impacts or invent some.
-    wrong: usize,
-    /// The worst of them.
-    worst: usize,
-}
-
-impl<'a> TradeoffDocument<'a> {
-    /// The document of a case, `allowed` being the relative error of the amplitude that it speaks of. With
-    /// `seconds`, in the order of the trials, it is not the same twice.
-    pub fn new(case: &'a Case, found: &'a Tradeoff, allowed: f64, seconds: Option<&[f64]>) -> Self {
+impl Page<'_> {
+    /// `vinesink/tradeoff@3`. What refers to a method is its place in `methods`.
+    pub fn document(&self) -> Value {
+        let Self { case, found, allowed, seconds } = *self;
         let scales = case.scales();
         let enough = winner(found, allowed);
         let answering = found.trials.iter().filter(|trial| trial.answer.rms.is_some());
         let cheapest = enough.map(|k| found.trials[k].operations);
         let cheapest = cheapest.or(answering.map(|trial| trial.operations).min()).unwrap_or(1);
-        let row = |(k, trial): (usize, &'a Trial)| MethodRow {
-            layer: trial.method.layer(),
-            trial,
-            times: trial.answer.rms.map(|_| trial.operations as f64 / cheapest.max(1) as f64),
-            rms_displacement: trial.answer.rms.map(|rms| scales.length(rms)),
-            seconds: seconds.and_then(|seconds| seconds.get(k).copied()),
+        let method = |(k, trial): (usize, &Trial)| {
+            let rms = trial.answer.rms;
+            let mut row = json!(trial);
+            row["layer"] = json!(trial.method.layer());
+            row["rms_displacement"] = json!(rms.map(|rms| scales.length(rms)));
+            // Operations over those of the cheapest that is enough, or of the cheapest.
+            let times = trial.operations as f64 / cheapest.max(1) as f64;
+            row["times"] = json!(rms.map(|_| times));
+            if let Some(seconds) = seconds {
+                row["seconds"] = json!(seconds.get(k));
+            }
+            row
         };
         let others = COMPETING.into_iter().chain([Layer::FixedStep]);
         let others =
             others.filter(|layer| enough.is_none_or(|k| found.trials[k].method.layer() != *layer));
-        Self {
-            format: "vinesink/tradeoff@3",
-            title: &case.title,
-            allowed,
-            found,
-            rms_displacement: scales.length(found.best.rms),
-            impacts: impacts(&found.best),
-            methods: found.trials.iter().enumerate().map(row).collect(),
-            enough,
-            layers: others.map(|layer| LayerRow::of(found, layer, allowed)).collect(),
-            longer: longer(found, allowed),
-            wrong_count: wrong_count(found),
-            flights: flights(found),
-            case_sha256: &case.text_hash,
-        }
+        let mut document = json!(found);
+        document["format"] = json!("vinesink/tradeoff@3");
+        document["title"] = json!(case.title);
+        document["allowed"] = json!(allowed);
+        // Of the best answer: in metres, or in the case's own unit of length.
+        document["rms_displacement"] = json!(scales.length(found.best.rms));
+        document["impacts"] = json!(impacts(&found.best));
+        document["methods"] = found.trials.iter().enumerate().map(method).collect();
+        // The cheapest that is enough; none where none is.
+        document["enough"] = json!(enough);
+        document["layers"] = others.map(|of| layer(found, of, allowed)).collect();
+        document["longer"] = json!(longer(found, allowed));
+        // A baseline whose amplitude is right and whose impacts are not.
+        document["wrong_count"] = json!(wrong_count(found));
+        document["flights"] = json!(flights(found));
+        document["case_sha256"] = json!(case.text_hash);
+        document
     }
 
     /// The files of the page, by their path in the case's folder.
     ///
     /// # Errors
     /// [`RenderError`] if template and page do not fit, or the figure cannot be drawn.
-    pub fn files(&self, case: &Case) -> Result<BTreeMap<PathBuf, Vec<u8>>, RenderError> {
-        let units = Scale::of(case).units();
+    pub fn files(&self) -> Result<Files, RenderError> {
+        let units = Scale::of(self.case).units();
         let figures = worded(vec![super::figure(self)], &units)?;
-        let context = json!({
-            "page": self,
-            "figure": FigureRow::of(&figures[0]),
-            "version": env!("CARGO_PKG_VERSION"),
-        });
-        let text = render("tradeoff.md", &units, &context)?;
-        let mut files = figure_files(drawings(&figures)?);
-        files.insert("tradeoff.md".into(), without_repeated_blank_lines(&text).into_bytes());
-        Ok(files)
+        let facts = json!({ "page": self.document(), "version": env!("CARGO_PKG_VERSION") });
+        page_files("tradeoff", None, &units, facts, &figures)
     }
 
     /// What the terminal shows: the page's words and every method with the time that it took.
     ///
     /// # Errors
     /// [`RenderError::Template`] if template and page do not fit.
-    pub fn text(&self, case: &Case) -> Result<String, RenderError> {
-        let text = render("tradeoff.txt", &Scale::of(case).units(), &json!({ "page": self }))?;
-        Ok(aligned(&without_repeated_blank_lines(&text)))
+    pub fn text(&self) -> Result<String, RenderError> {
+        render("tradeoff.txt", &Scale::of(self.case).units(), &json!({ "page": self.document() }))
     }
 }
 
@@ -167,19 +104,22 @@ fn impacts(best: &Best) -> Quantity {
     found.with_error(best.impacts_error)
 }
 
-impl LayerRow {
-    fn of(found: &Tradeoff, layer: Layer, allowed: f64) -> Self {
-        let trials = || found.of_layer(layer);
-        let errors = trials().filter_map(|(k, trial)| Some((k, trial.rms_error?.value)));
-        let closest = errors.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(k, _)| k);
-        Self {
-            layer,
-            enough: found.cheapest(layer, allowed),
-            closest,
-            transient: closest.and_then(|k| found.transient(&found.trials[k])),
-            why_not: trials().find_map(|(_, trial)| trial.answer.why_not),
-        }
-    }
+/// What a layer has to offer against the cheapest that is enough.
+fn layer(found: &Tradeoff, layer: Layer, allowed: f64) -> Value {
+    let trials = || found.of_layer(layer);
+    let errors = trials().filter_map(|(k, trial)| Some((k, trial.rms_error?.value)));
+    let closest = errors.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(k, _)| k);
+    json!({
+        "layer": layer,
+        // Its cheapest method that is enough.
+        "enough": found.cheapest(layer, allowed),
+        // Where none is, the method that comes closest.
+        "closest": closest,
+        // Excitation periods that this left out for a transient that is not over.
+        "transient": closest.and_then(|k| found.transient(&found.trials[k])),
+        // Why it gives no answer.
+        "why_not": trials().find_map(|(_, trial)| trial.answer.why_not),
+    })
 }
 
 /// The cheapest method of the competing layers that is enough.
@@ -190,7 +130,7 @@ fn winner(found: &Tradeoff, allowed: f64) -> Option<usize> {
 
 /// The length that a simulation of a motion without repetition would take: its scatter falls with
 /// the root of the length. Of a transient that is not over no length can be told.
-fn longer(found: &Tradeoff, allowed: f64) -> Option<Longer> {
+fn longer(found: &Tradeoff, allowed: f64) -> Option<Value> {
     let simulations = found.trials.iter().filter_map(|trial| match trial.method {
         Method::Simulation { periods, search: Search::Panels, .. } => Some((periods, trial)),
         _ => None,
@@ -201,12 +141,14 @@ fn longer(found: &Tradeoff, allowed: f64) -> Option<Longer> {
     let in_transient = found.transient(longest).is_some();
     let factor = longest.answer.scatter? / allowed;
     let told = in_transient || (found.best.layer == Layer::Simulation && factor > 1.0);
-    told.then_some(Longer {
-        in_transient,
+    let longer = json!({
+        // Whether the longest that was tried is still in its transient: then no length can be told.
+        "in_transient": in_transient,
         // Rounded up to whole thousands.
-        periods: (periods as f64 * factor * factor / 1000.0).ceil() as u64 * 1000,
-        operations: (longest.operations as f64 * factor * factor) as u64,
-    })
+        "periods": (periods as f64 * factor * factor / 1000.0).ceil() as u64 * 1000,
+        "operations": (longest.operations as f64 * factor * factor) as u64,
+    });
+    told.then_some(longer)
 }
 
 /// Relative difference of a count of impacts that is worth a sentence.
@@ -223,7 +165,8 @@ fn wrong_count(found: &Tradeoff) -> Option<usize> {
     (off > WRONG_COUNT).then_some(k)
 }
 
-fn flights(found: &Tradeoff) -> Option<FlightsRow> {
+/// The baseline's flights in short: variants, those that miss impacts or invent some, and the worst of them.
+fn flights(found: &Tradeoff) -> Option<Value> {
     let flown = || {
         found.trials.iter().enumerate().filter_map(|(k, trial)| {
             let flights = trial.flights?;
@@ -233,7 +176,7 @@ fn flights(found: &Tradeoff) -> Option<FlightsRow> {
     };
     let (worst, _) = flown().max_by(|a, b| a.1.total_cmp(&b.1))?;
     let wrong = flown().filter(|(_, wrong)| *wrong > 0.0).count();
-    Some(FlightsRow { variants: flown().count(), wrong, worst })
+    Some(json!({ "variants": flown().count(), "wrong": wrong, "worst": worst }))
 }
 
 #[cfg(test)]
@@ -256,10 +199,10 @@ mod tests {
         };
         let found = Tradeoff::of(&case.system(), &effort, &mut |_| ()).expect("tried");
         let seconds = vec![0.5; found.trials.len()];
-        let timed = TradeoffDocument::new(&case, &found, 0.01, Some(&seconds));
-        let terminal = timed.text(&case).expect("a text");
-        let document = TradeoffDocument::new(&case, &found, 0.01, None);
-        let files = document.files(&case).expect("files");
+        let page = Page { case: &case, found: &found, allowed: 0.01, seconds: None };
+        let timed = Page { seconds: Some(&seconds), ..page };
+        let terminal = timed.text().expect("a text");
+        let files = page.files().expect("files");
         let page = String::from_utf8_lossy(&files[std::path::Path::new("tradeoff.md")]);
         let answer =
             "For 1 % in amplitude the exact orbit is enough: symmetric orbit, closed form, ";

@@ -27,16 +27,25 @@ pub fn inactive(scale: &Scale, of: &Inactive, at: Option<Quantity>, counted: boo
     })
 }
 
-/// A tuned mass damper of the absorber's mass: at a single excitation, or along the band of a survey, where
-/// both devices are also held against a structure whose frequency is off.
-pub fn damper(scale: &Scale, rivals: &Rivals, survey: Option<&Survey>) -> Value {
+/// What a tuned mass damper is held against along a band.
+pub(in crate::report) struct Absorber<'a> {
+    pub over: BandOver,
+    /// The absorber's worst motion, where anything was simulated.
+    pub worst: Option<Worst>,
+    /// The same with the structure's frequency off.
+    pub detuned: &'a [Option<Worst>],
+}
+
+/// A tuned mass damper of the absorber's mass: at a single excitation, or along a band, where both devices are
+/// also held against a structure whose frequency is off.
+pub(in crate::report) fn damper(scale: &Scale, rivals: &Rivals, along: Option<&Absorber>) -> Value {
     let length = |kind, value| scale.length(kind, value, ClosedForm);
     let Rivals { damper, damped, detuned, .. } = rivals;
-    let absorber = |k: usize| survey.and_then(|one| one.detuned.get(k).copied().flatten());
+    let absorber = |k: usize| along.and_then(|one| one.detuned.get(k).copied().flatten());
     let reach = |worst: Worst| worst.peak + worst.error;
     let off = [0, 1].into_iter().filter_map(absorber).map(reach).reduce(f64::max);
     let damper_off = detuned.iter().map(|one| one.amplitude).fold(0.0, f64::max);
-    let worst = survey.and_then(|one| one.motions.worst());
+    let worst = along.and_then(|one| one.worst);
     let off_tune = |k: usize| {
         json!({
             "change": Quantity::new(&of::MARGIN, DETUNED[k] - 1.0, ClosedForm),
@@ -55,14 +64,14 @@ pub fn damper(scale: &Scale, rivals: &Rivals, survey: Option<&Survey>) -> Value 
         "frequency": frequency,
         "damping_ratio": Quantity::new(&of::DAMPER_DAMPING_RATIO, damper.damping_ratio, ClosedForm),
         "peak": length(&of::DAMPER_PEAK, damped.amplitude),
-        "at": survey.map(|one| scale.place(one.band().over, damped.at)),
+        "at": along.map(|one| scale.place(one.over, damped.at)),
         "stroke": length(&of::DAMPER_STROKE, damped.stroke),
         "needs_more_room": damped.stroke > 1.0,
         // By the absorber's worst motion, where anything was simulated.
         "absorber_is_better": worst.map(|worst| reach(worst) < damped.amplitude),
         // The same with the structure's frequency off, at the worse end.
         "absorber_is_better_detuned": off.map(|off| off < damper_off),
-        "detuned": survey.map_or_else(Vec::new, |_| (0..DETUNED.len()).map(off_tune).collect()),
+        "detuned": along.map_or_else(Vec::new, |_| (0..DETUNED.len()).map(off_tune).collect()),
     })
 }
 
@@ -91,6 +100,8 @@ pub fn band(scale: &Scale, survey: &Survey) -> Value {
         })
     });
     let asleep = motions.inactive.as_ref();
+    let (worst_motion, detuned) = (motions.worst(), survey.detuned.as_slice());
+    let absorber = Absorber { over: band.over, worst: worst_motion, detuned };
     let bare_peak = scale.length(&of::BARE_PEAK, bare, ClosedForm);
     let (gap_at, gap) = survey.smallest_gap;
     let gap = Quantity::new(&of::GAP, gap, ExactOrbit).with_error(ROOT_OF_ROUNDING * gap);
@@ -109,7 +120,7 @@ pub fn band(scale: &Scale, survey: &Survey) -> Value {
         "orbit": orbit,
         "inactive": asleep.map(|(at, one)| inactive(scale, one, Some(place(*at)), motions.count_inactive)),
         "bare": { "peak": bare_peak, "at": place(bare_at), "change": null },
-        "damper": damper(scale, &survey.rivals, Some(survey)),
+        "damper": damper(scale, &survey.rivals, Some(&absorber)),
         "stable_share": Quantity::new(&of::STABLE_SHARE, motions.stable_share(), ExactOrbit),
         "z3_share": Quantity::new(&of::Z3_SHARE, survey.z3_share(), Theory),
         "a1_share": Quantity::new(&of::A1_SHARE, survey.strip_share(Strip::A1), Theory),

@@ -13,7 +13,6 @@ mod verdict;
 
 use std::collections::BTreeMap;
 
-use serde::Serialize;
 use serde_json::{Value, json};
 
 use super::figure::Figure;
@@ -26,6 +25,7 @@ use crate::regimes::FoundAttractor;
 use crate::study::CaseStudy;
 use crate::study::fidelity::Answers;
 
+pub(super) use band::{Absorber, damper};
 pub use notes::theory_limits;
 pub use scale::Scale;
 pub use verdict::{Tone, Word};
@@ -35,21 +35,6 @@ pub const FORMAT: &str = "vinesink/report@2";
 
 /// Relative change of the vibration that is worth calling a change.
 const NOTICEABLE: f64 = 0.02;
-
-/// A figure's words; the drawing is a file of its own.
-#[derive(Debug, Clone, Serialize)]
-pub struct FigureRow {
-    /// File stem under `figures/`.
-    pub name: String,
-    /// Title.
-    pub title: String,
-    /// What to see.
-    pub caption: String,
-    /// What it shows, for those who cannot see it.
-    pub alt: String,
-    /// Width in pixels at which it is shown.
-    pub width: u32,
-}
 
 /// What a report is made from.
 pub struct Source<'a> {
@@ -70,17 +55,15 @@ pub struct Source<'a> {
 /// Width of a page's column in pixels.
 const PAGE_WIDTH: u32 = 720;
 
-impl FigureRow {
-    /// Of a figure that has its words.
-    pub fn of(figure: &Figure) -> Self {
-        Self {
-            name: figure.name.clone(),
-            title: figure.title.clone(),
-            caption: figure.caption.clone(),
-            alt: figure.alt.clone(),
-            width: figure.size.0.min(PAGE_WIDTH),
-        }
-    }
+/// The words of a figure, whose drawing is a file of its own, and the width in pixels at which it is shown.
+pub fn figure_row(figure: &Figure) -> Value {
+    json!({
+        "name": figure.name,
+        "title": figure.title,
+        "caption": figure.caption,
+        "alt": figure.alt,
+        "width": figure.size.0.min(PAGE_WIDTH),
+    })
 }
 
 /// A report. Quantities are in SI, or in the units of a reduced case.
@@ -124,7 +107,7 @@ pub fn document(source: &Source) -> Value {
         "inputs": case.inputs(),
         "derived": case.derived(),
         // In reading order, and the names of those that the case asks for and that have nothing to show.
-        "figures": source.figures.iter().map(FigureRow::of).collect::<Vec<_>>(),
+        "figures": source.figures.iter().map(figure_row).collect::<Vec<_>>(),
         "left_out": wanted.filter(|name| !drawn(name)).collect::<Vec<_>>(),
         "provenance": {
             "program": env!("CARGO_PKG_NAME"),

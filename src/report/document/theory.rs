@@ -75,8 +75,7 @@ pub fn with_margins(scale: &Scale, study: &CaseStudy) -> Value {
         told["lost"]["change"] = json!(bracketed(change(limit.lost.factor), limit));
     }
     told["best"] = json!(facts.best(study));
-    told["amplitude_error"] =
-        json!(error.map(|error| Quantity::new(&of::THEORY_ERROR, error, Theory)));
+    told["amplitude_error"] = json!(error.map(theory_error));
     told
 }
 
@@ -137,44 +136,40 @@ impl Facts<'_> {
     fn boundaries(&self) -> Vec<Value> {
         let length = |factor, method| self.scale.length(&of::BOUNDARY, factor, method);
         let node = self.analysis.boundaries.saddle_node.map(|node| node.branch);
-        let symmetric = self.errors.iter().map(|one| {
-            let of_theory = one.kind == Bifurcation::SaddleNode && one.theory.is_some();
-            let place = one.exact.or(one.theory).unwrap_or(0.0);
-            let told = json!({
-                "kind": one.kind,
-                // The branch on which two fixed points of the theory meet.
-                "branch": node.filter(|_| of_theory),
-                "of_asymmetric": false,
-                "theory": one.theory.map(|at| length(at, Theory)),
-                "exact": one.exact.map(|at| length(at, ExactOrbit)),
-                "theory_error": one.difference.map(|error| Quantity::new(&of::THEORY_ERROR, error, Theory)),
-                "change": change(place),
-                "bounds_stability": one.bounds_stability,
-            });
-            (place, told)
-        });
+        let symmetric = self.errors.iter().map(|one| (false, one.clone()));
         let asymmetric = self.exact.boundaries.iter().filter_map(|one| one.asymmetric.as_ref());
         let asymmetric = asymmetric.flat_map(|one| {
             let doubling = (Bifurcation::PeriodDoubling, one.period_doubling);
             [doubling, (Bifurcation::Grazing, one.grazing)]
         });
-        let asymmetric = asymmetric.filter_map(|(kind, at)| {
-            let at = at?;
-            let told = json!({
-                "kind": kind,
-                "branch": null,
-                "of_asymmetric": true,
-                "theory": null,
-                "exact": length(at, ExactOrbit),
-                "theory_error": null,
-                "change": change(at),
-                "bounds_stability": false,
-            });
-            Some((at, told))
+        let asymmetric = asymmetric.filter(|(_, at)| at.is_some()).map(|(kind, exact)| {
+            let only = AsymptoticError {
+                kind,
+                theory: None,
+                exact,
+                difference: None,
+                bounds_stability: false,
+            };
+            (true, only)
         });
-        let mut found: Vec<(f64, Value)> = symmetric.chain(asymmetric).collect();
-        found.sort_by(|a, b| a.0.total_cmp(&b.0));
-        found.into_iter().map(|(_, told)| told).collect()
+        let place = |one: &AsymptoticError| one.exact.or(one.theory).unwrap_or(0.0);
+        let mut all: Vec<(bool, AsymptoticError)> = symmetric.chain(asymmetric).collect();
+        all.sort_by(|a, b| place(&a.1).total_cmp(&place(&b.1)));
+        let told = all.iter().map(|(of_asymmetric, one)| {
+            let of_theory = one.kind == Bifurcation::SaddleNode && one.theory.is_some();
+            json!({
+                "kind": one.kind,
+                // The branch on which two fixed points of the theory meet.
+                "branch": node.filter(|_| of_theory),
+                "of_asymmetric": of_asymmetric,
+                "theory": one.theory.map(|at| length(at, Theory)),
+                "exact": one.exact.map(|at| length(at, ExactOrbit)),
+                "theory_error": one.difference.map(theory_error),
+                "change": change(place(one)),
+                "bounds_stability": one.bounds_stability,
+            })
+        });
+        told.collect()
     }
 
     /// Limits of the motion that the case has, below and above, in each parameter.
@@ -205,7 +200,7 @@ impl Facts<'_> {
             "at": self.clearance(factor),
             "change": change(factor),
             "theory": theory.map(|at| self.scale.length(&of::CLEARANCE, at, Theory)),
-            "theory_error": error.map(|error| Quantity::new(&of::THEORY_ERROR, error, Theory)),
+            "theory_error": error.map(theory_error),
         })
     }
 
@@ -265,6 +260,11 @@ fn bracketed(of: Quantity, limit: &SimulatedLimit) -> Quantity {
         Dimension::Length => of.with_error(width * of.value / limit.kept),
         _ => of.with_error(width),
     }
+}
+
+/// By how much theory is off.
+fn theory_error(error: f64) -> Quantity {
+    Quantity::new(&of::THEORY_ERROR, error, Theory)
 }
 
 /// The relative change to a multiple.

@@ -3,21 +3,15 @@
 
 mod figure;
 
-use std::collections::BTreeMap;
-use std::path::PathBuf;
-
 use serde_json::{Value, json};
 
 use super::document::criteria::criterion;
-use super::document::{FigureRow, Scale};
-use super::html::{Page, page};
-use super::render::{RenderError, drawings, figure_files, without_repeated_blank_lines};
-use super::template::{aligned, render, worded};
-use crate::band::rivals::DETUNED;
-use crate::band::{Motions, Rivals, Source, Worst};
+use super::document::{Absorber, Scale, damper};
+use super::render::{Files, RenderError, page_files};
+use super::template::{render, worded};
+use crate::band::{Motions, Source};
 use crate::case::{AbsorberDesign, BandOver, Case, Objective};
 use crate::method::Method;
-use crate::optimize::robust::UnderDeviations;
 use crate::optimize::task::value_of;
 use crate::optimize::{Bounds, Design, Optimization, Task, Variable};
 use crate::quantity::{Kind, Quantity, catalogue};
@@ -31,7 +25,7 @@ const STRIPS: f64 = 0.01;
 /// Places of the band that the table shows, the worst one included.
 const SHOWN: usize = 9;
 
-/// What an optimisation found: `vinesink/optimization@2`. Lengths in metres or the case's own unit.
+/// What an optimisation found: `vinesink/optimization@3`. Lengths in metres or the case's own unit.
 pub fn document(case: &Case, found: &Optimization) -> Value {
     let (best, task) = (&found.best, &found.task);
     let row = |design: &Design| absorber(case, task, design);
@@ -45,8 +39,9 @@ pub fn document(case: &Case, found: &Optimization) -> Value {
         robust["optimum_worst_corner"] = json!(of_best.worst_corner);
         robust
     });
+    let along = Absorber { over: over(task), worst: best.worst, detuned: &[] };
     json!({
-        "format": "vinesink/optimization@2",
+        "format": "vinesink/optimization@3",
         "title": case.title,
         "answer": match (found.reached(), best.is_feasible(), found.improves()) {
             // The objective has no value above 0.
@@ -78,7 +73,8 @@ pub fn document(case: &Case, found: &Optimization) -> Value {
         // Clearances that are as good as the optimum's.
         "plateau": found.plateau,
         "bare": best.rivals.bare.1 * best.choice.clearance,
-        "tuned_mass_damper": damper(&Scale::of(case), best),
+        // The one of the absorber's mass that is best along the band.
+        "tuned_mass_damper": damper(&Scale::of(&best.written.case), &best.rivals, Some(&along)),
         // Pairs of clearance and objective by the cheap layer.
         "landscape": found.landscape,
         // Every absorber that was judged.
@@ -105,33 +101,6 @@ fn absorber(case: &Case, task: &Task, design: &Design) -> Value {
     row
 }
 
-/// The tuned mass damper of the absorber's mass that is best along the band: its natural frequency over the
-/// structure's, and what it does also where the structure's frequency is off by a factor.
-fn damper(scale: &Scale, best: &Design) -> Value {
-    let Rivals { damper, damped, detuned, .. } = &best.rivals;
-    let vibrates_less = |worst: Worst| damped.amplitude < worst.peak + worst.error;
-    let length = |over: f64| over * best.choice.clearance;
-    let off = DETUNED.iter().zip(detuned).map(|(factor, one)| {
-        json!({
-            "factor": factor,
-            "largest_peak": length(one.amplitude),
-            "stroke": length(one.stroke),
-        })
-    });
-    json!({
-        "tuning": damper.tuning,
-        "frequency": scale.frequency(damper.tuning, Method::ClosedForm),
-        "damping_ratio": damper.damping_ratio,
-        "largest_peak": length(damped.amplitude),
-        "at": damped.at,
-        "stroke": length(damped.stroke),
-        // Than the absorber, where its band was simulated.
-        "vibrates_less": best.worst.map(vibrates_less),
-        "needs_more_room": damped.stroke > 1.0,
-        "detuned": off.collect::<Vec<_>>(),
-    })
-}
-
 /// The kind of an objective's value.
 fn kind(objective: Objective) -> &'static Kind {
     match objective {
@@ -155,20 +124,11 @@ fn objective(task: &Task, value: f64, error: f64) -> Quantity {
 ///
 /// # Errors
 /// [`RenderError`] if template and page do not fit, or a figure cannot be drawn.
-pub fn files(case: &Case, found: &Optimization) -> Result<BTreeMap<PathBuf, Vec<u8>>, RenderError> {
+pub fn files(case: &Case, found: &Optimization) -> Result<Files, RenderError> {
     let units = Scale::of(case).units();
-    let mut context = context(case, found);
-    let figures = worded(figures(case, found), &units)?;
-    context["figures"] = json!(figures.iter().map(FigureRow::of).collect::<Vec<_>>());
-    let markdown = without_repeated_blank_lines(&render("optimize.md", &units, &context)?);
-    let drawings = drawings(&figures)?;
-    let title = format!("{}: the best absorber", case.title);
     let tone = if found.succeeds() { "good" } else { "bad" };
-    let html = page(&Page { title: &title, tone, markdown: &markdown, drawings: &drawings })?;
-    let mut files = figure_files(drawings);
-    files.insert("optimize.md".into(), markdown.into_bytes());
-    files.insert("optimize.html".into(), html.into_bytes());
-    Ok(files)
+    let figures = worded(figures(case, found), &units)?;
+    page_files("optimize", Some(tone), &units, context(case, found), &figures)
 }
 
 /// What the terminal shows.
@@ -176,8 +136,7 @@ pub fn files(case: &Case, found: &Optimization) -> Result<BTreeMap<PathBuf, Vec<
 /// # Errors
 /// [`RenderError::Template`] if template and page do not fit.
 pub fn summary(case: &Case, found: &Optimization) -> Result<String, RenderError> {
-    let text = render("optimize.txt", &Scale::of(case).units(), &context(case, found))?;
-    Ok(aligned(&without_repeated_blank_lines(&text)))
+    render("optimize.txt", &Scale::of(case).units(), &context(case, found))
 }
 
 /// What became of the file that was asked for, in a line; `robust` if it holds the best in expectation.
@@ -206,7 +165,7 @@ pub fn written(
 /// What the templates read.
 fn context(case: &Case, found: &Optimization) -> Value {
     let (best, scale) = (&found.best, Scale::of(case));
-    let over = found.task.band.as_ref().map_or(BandOver::Frequency, |band| band.over);
+    let over = over(&found.task);
     let worst = best.worst.filter(|_| found.task.objective == Objective::WorstAmplitude);
     let given = case.inputs().iter().filter(|input| input.table == "uncertainty");
     let uncertain = given.filter(|input| input.value > 0.0).map(|input| {
@@ -220,7 +179,6 @@ fn context(case: &Case, found: &Optimization) -> Value {
             BandOver::Frequency => "frequency",
             BandOver::Amplitude => "amplitude",
         }),
-        "absorbers": absorbers(case, found),
         "uncertain": uncertain.collect::<Vec<_>>(),
         "worst": worst.map(|worst| json!({
             "at": scale.place(over, worst.at),
@@ -236,32 +194,16 @@ fn context(case: &Case, found: &Optimization) -> Value {
         })),
         "strips": found.strips.filter(|[a1, a2]| a1 + a2 > STRIPS),
         "on_bounds": on_bounds(found),
-        "places": places(&scale, over, found),
+        "places": places(over, found),
         "expectation": found.robust.as_ref().map(|one| [one.nodes, one.combinations]),
         "chart_at": figure::nearest(found).map(|one| scale.frequency(one.frequency_ratio, Method::Given)),
         "version": env!("CARGO_PKG_VERSION"),
     } })
 }
 
-/// The case's absorber, the best, the robust one, and where no criteria can be met the closest.
-fn absorbers(case: &Case, found: &Optimization) -> Vec<Value> {
-    let row = |is: &str, one: &Design, under: Option<UnderDeviations>| {
-        let mut row = absorber(case, &found.task, one);
-        row["is"] = json!(is);
-        row["expected"] = json!(under.map(|under| objective(&found.task, under.expected, 0.0)));
-        row
-    };
-    let under = |k: usize| found.robust.as_ref().map(|robust| robust.under[k]);
-    let mut rows = vec![row("own", &found.own, None)];
-    if found.improves() {
-        rows.push(row("optimum", &found.best, under(1)));
-        rows.extend(found.robust.iter().map(|one| row("robust", &one.design, under(0))));
-    }
-    let others = found.closest.iter().filter(|one| {
-        found.reached() && one.choice != found.best.choice && one.choice != found.own.choice
-    });
-    rows.extend(others.map(|one| row("closest", one, None)));
-    rows
+/// What varies along the band.
+fn over(task: &Task) -> BandOver {
+    task.band.as_ref().map_or(BandOver::Frequency, |band| band.over)
 }
 
 /// The bounds on which the best lies, but for those that no restitution can pass.
@@ -278,20 +220,19 @@ fn on_bounds(found: &Optimization) -> Vec<Value> {
 }
 
 /// What the survey finds with the best absorber at some of its places.
-fn places(scale: &Scale, over: BandOver, found: &Optimization) -> Vec<Value> {
-    let Design { motions: Motions { places, .. }, choice, worst, .. } = &found.best;
+fn places(over: BandOver, found: &Optimization) -> Vec<Value> {
+    let Design { motions: Motions { places, .. }, written, worst, .. } = &found.best;
+    let scale = Scale::of(&written.case);
     let every = places.len().div_ceil(SHOWN).max(1);
     let amplitude = found.task.objective == Objective::WorstAmplitude;
     let shown = places.iter().enumerate().filter(|(k, place)| {
         k.is_multiple_of(every) || worst.is_some_and(|worst| worst.at == place.at)
     });
     let rows = shown.map(|(_, one)| {
-        let peak = |peak: f64| {
-            Quantity::new(&catalogue::PEAK, peak * choice.clearance, Method::Simulation)
-        };
+        let peak = |peak: f64| scale.length(&catalogue::PEAK, peak, Method::Simulation);
         let largest = one.largest().map(|motion| {
-            let error = if amplitude { motion.peak_error * choice.clearance } else { 0.0 };
-            peak(motion.peak).with_error(error)
+            let error = if amplitude { motion.peak_error } else { 0.0 };
+            scale.length_with(&catalogue::PEAK, [motion.peak, error], Method::Simulation)
         });
         json!({
             "at": scale.place(over, one.at),

@@ -2,14 +2,13 @@
 
 use serde::Serialize;
 
-use crate::case::{Case, Design, SweepAxis, SweepParameter};
+use crate::case::{Case, SweepAxis, SweepParameter};
 use crate::method::Method;
 use crate::quantity::catalogue as of;
 use crate::quantity::units::Unit;
 use crate::quantity::{Digits, Kind, Quantity, Units};
 use crate::report::document;
 use crate::report::figure::{Axis, Scale, edges};
-use crate::system::Excitation;
 
 /// An axis as it is shown.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,7 +43,7 @@ impl AxisShown {
     /// An axis of a case's table `[sweep]`.
     pub fn of(case: &Case, axis: &SweepAxis) -> Self {
         let SweepAxis { parameter, ref values, logarithmic } = *axis;
-        let (kind, units) = (kind(parameter, &case.design), document::units(case));
+        let (kind, units) = (kind(parameter, case), document::units(case));
         let largest = values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
         let unit = units.axis_unit(kind, largest);
         Self {
@@ -105,29 +104,25 @@ impl AxisShown {
 }
 
 /// The quantity that an axis varies.
-const fn kind(parameter: SweepParameter, design: &Design) -> &'static Kind {
+fn kind(parameter: SweepParameter, case: &Case) -> &'static Kind {
     use SweepParameter as P;
-    match (parameter, design) {
-        (P::Clearance, _) => &of::CLEARANCE,
-        (P::Frequency, Design::Physical(_)) => &of::EXCITATION_FREQUENCY,
-        (P::Frequency, Design::Reduced(_)) => &of::FREQUENCY_RATIO,
-        (P::Detuning, _) => &of::DETUNING,
-        (P::Amplitude, Design::Reduced(_)) => &of::REDUCED_FORCING,
-        (P::Amplitude, Design::Physical(physical)) => match physical.excitation {
-            Excitation::BaseDisplacement => &of::BASE_AMPLITUDE,
-            Excitation::Force => &of::FORCE_AMPLITUDE,
-        },
-        (P::Restitution, _) => &of::RESTITUTION,
-        (P::AbsorberMass, _) => &of::ABSORBER_MASS,
-        (P::MassRatio, _) => &of::MASS_RATIO,
-        (P::Mass, _) => &of::OSCILLATOR_MASS,
-        (P::Stiffness, _) => &of::STIFFNESS,
-        (P::Damping, Design::Physical(_)) => &of::DAMPING,
-        (P::Damping, Design::Reduced(_)) => &of::REDUCED_DAMPING,
-        (P::DampingRatio, _) => &of::DAMPING_RATIO,
-        (P::InitialDisplacement, _) => &of::INITIAL_DISPLACEMENT,
-        (P::InitialVelocity, _) => &of::INITIAL_VELOCITY,
-        (P::InitialAbsorberDisplacement, _) => &of::INITIAL_ABSORBER_DISPLACEMENT,
-        (P::InitialAbsorberVelocity, _) => &of::INITIAL_ABSORBER_VELOCITY,
+    let scale = document::Scale::of(case);
+    match parameter {
+        P::Clearance => &of::CLEARANCE,
+        P::Frequency => scale.frequency(1.0, Method::Given).kind,
+        P::Detuning => &of::DETUNING,
+        P::Amplitude => scale.amplitude(1.0, Method::Given).kind,
+        P::Restitution => &of::RESTITUTION,
+        P::AbsorberMass => &of::ABSORBER_MASS,
+        P::MassRatio => &of::MASS_RATIO,
+        P::Mass => &of::OSCILLATOR_MASS,
+        P::Stiffness => &of::STIFFNESS,
+        P::Damping if scale.units().physical => &of::DAMPING,
+        P::Damping => &of::REDUCED_DAMPING,
+        P::DampingRatio => &of::DAMPING_RATIO,
+        P::InitialDisplacement => &of::INITIAL_DISPLACEMENT,
+        P::InitialVelocity => &of::INITIAL_VELOCITY,
+        P::InitialAbsorberDisplacement => &of::INITIAL_ABSORBER_DISPLACEMENT,
+        P::InitialAbsorberVelocity => &of::INITIAL_ABSORBER_VELOCITY,
     }
 }

@@ -6,16 +6,11 @@ mod figures;
 mod grid;
 mod kinds;
 
-use std::collections::BTreeMap;
-use std::path::PathBuf;
-
 use serde_json::json;
 
-use super::FigureRow;
 use super::figure::Figure;
-use super::html::{Page, page};
-use super::render::{RenderError, drawings, figure_files, without_repeated_blank_lines};
-use super::template::{render, worded};
+use super::render::{Files, RenderError, page_files};
+use super::template::worded;
 use crate::case::Case;
 use crate::sweep::columns::Column;
 use crate::sweep::limits::StabilityLimit;
@@ -109,21 +104,12 @@ impl Swept<'_> {
     ///
     /// # Errors
     /// [`SweptError`] where the columns do not fit the axes, or a figure cannot be drawn.
-    pub fn files(&self) -> Result<BTreeMap<PathBuf, Vec<u8>>, SweptError> {
-        let drawn = self.figures()?;
-        let (document, drawings) = (facts::document(self), drawings(&drawn)?);
-        let figures: Vec<FigureRow> = drawn.iter().map(FigureRow::of).collect();
-        let context = json!({ "page": document, "figures": figures });
-        let text = render("sweep.md", &self.units(), &context)?;
-        let markdown = without_repeated_blank_lines(&text);
-        let title = format!("{}: a sweep", self.case.title);
-        let html =
-            page(&Page { title: &title, tone: "", markdown: &markdown, drawings: &drawings })?;
+    pub fn files(&self) -> Result<Files, SweptError> {
+        let document = facts::document(self);
         let json = serde_json::to_string_pretty(&document).map_err(RenderError::from)? + "\n";
-        let mut files = figure_files(drawings);
-        for (name, text) in [("sweep.md", markdown), ("sweep.html", html), ("sweep.json", json)] {
-            files.insert(name.into(), text.into_bytes());
-        }
+        let facts = json!({ "page": document });
+        let mut files = page_files("sweep", Some(""), &self.units(), facts, &self.figures()?)?;
+        files.insert("sweep.json".into(), json.into_bytes());
         Ok(files)
     }
 }

@@ -5,9 +5,10 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use miette::{IntoDiagnostic, Result, WrapErr as _, miette};
-use serde_json::{Value, json};
-use tera::{Context, Tera};
+use serde_json::json;
 use vinesink::digest::sha256;
+use vinesink::quantity::Units;
+use vinesink::report::template::render;
 
 use super::super::{Sweep, shown};
 use super::{Arguments, Engine};
@@ -15,10 +16,6 @@ use super::{Arguments, Engine};
 /// Tasks unless said otherwise: one less than the number that Slurm allows in an array, 1001, unless it
 /// is told to allow more.
 const MOST_TASKS: u64 = 1000;
-
-const TASKS: &str = include_str!("../../../../templates/jobs/tasks.sh.tera");
-const MERGE: &str = include_str!("../../../../templates/jobs/merge.sh.tera");
-const HYPERQUEUE: &str = include_str!("../../../../templates/jobs/hyperqueue.toml.tera");
 
 /// Everything of a job that is known before it is submitted.
 pub(super) struct Job {
@@ -62,53 +59,48 @@ impl Job {
             "case": shown(&case), "case_word": word(&shown(&case)),
             "out": shown(&out), "out_word": word(&shown(&out)),
         });
-        let (second, template) = match engine {
-            Engine::Slurm => ("merge.sh", MERGE),
-            Engine::Hyperqueue => ("job.toml", HYPERQUEUE),
+        let second = match engine {
+            Engine::Slurm => "merge.sh",
+            Engine::Hyperqueue => "job.toml",
         };
-        let files = [
-            (folder.join("tasks.sh"), filled(TASKS, &facts)?),
-            (folder.join(second), filled(template, &facts)?),
-        ];
+        let file = |name: &str| {
+            let text = render(&format!("jobs/{name}"), &Units::reduced(), &facts);
+            text.map(|text| (folder.join(name), text)).into_diagnostic()
+        };
+        let files = [file("tasks.sh")?, file(second)?];
         Ok(Self { engine: *engine, options: arguments.options.clone(), tasks, folder, files, case })
     }
 
-    /// The command that submits the tasks.
-    fn command(&self) -> Vec<String> {
-        match self.engine {
-            Engine::Slurm => self.sbatch(&["--parsable"], 0),
+    /// The command that submits the tasks; and what submits the merge after Slurm's, HyperQueue having it from the job
+    /// file. It runs whatever became of them: what is missing it can say better than a dependency that never
+    /// comes true.
+    fn command(&self, after: Option<&str>) -> Vec<String> {
+        let file = match (self.engine, after) {
+            (Engine::Slurm, None) => &self.files[0].0,
+            _ => &self.files[1].0,
+        };
+        let after = after.map(|id| format!("--dependency=afterany:{id}"));
+        let options = self.options.iter().cloned();
+        let own = |words: &[&str]| words.iter().map(|word| (*word).to_owned()).collect::<Vec<_>>();
+        let (begin, end) = match self.engine {
+            Engine::Slurm => (own(&["sbatch", "--parsable"]), Vec::new()),
             Engine::Hyperqueue => {
-                let end = ["--output-mode=quiet", "job", "submit-file"].map(str::to_owned);
-                let file = shown(&self.files[1].0);
-                [vec!["hq".to_owned()], self.options.clone(), end.to_vec(), vec![file]].concat()
+                (own(&["hq"]), own(&["--output-mode=quiet", "job", "submit-file"]))
             }
-        }
-    }
-
-    /// The command that submits the merge after Slurm's tasks; HyperQueue has it from the job file. It runs
-    /// whatever became of them: what is missing it can say better than a dependency that never comes true.
-    fn merge_command(&self, id: &str) -> Vec<String> {
-        self.sbatch(&["--parsable", &format!("--dependency=afterany:{id}")], 1)
-    }
-
-    fn sbatch(&self, ours: &[&str], file: usize) -> Vec<String> {
-        let ours = ours.iter().map(|option| (*option).to_owned());
-        let mut command = vec!["sbatch".to_owned()];
-        command.extend(ours.chain(self.options.iter().cloned()));
-        command.push(shown(&self.files[file].0));
-        command
+        };
+        begin.into_iter().chain(after).chain(options).chain(end).chain([shown(file)]).collect()
     }
 
     /// Submits it; returns the commands to watch and to cancel it.
     pub(super) fn submit(&self) -> Result<[String; 2]> {
         let kept =
             || format!("nothing is submitted; the files are kept in {}", shown(&self.folder));
-        let id = told(&self.command()).wrap_err_with(kept)?;
+        let id = told(&self.command(None)).wrap_err_with(kept)?;
         if self.engine == Engine::Hyperqueue {
             let hq = line(&[vec!["hq".to_owned()], self.options.clone()].concat());
             return Ok([format!("{hq} job info {id}"), format!("{hq} job cancel {id}")]);
         }
-        let merge = told(&self.merge_command(&id)).wrap_err_with(|| {
+        let merge = told(&self.command(Some(&id))).wrap_err_with(|| {
             format!(
                 "the tasks are submitted as job {id}, but not the merge after them; `vinesink sweep merge` \
                  does it by hand"
@@ -120,8 +112,8 @@ impl Job {
     /// All that would be written and run.
     pub(super) fn described(&self) -> String {
         let files = self.files.iter().map(|(file, text)| format!("# {}\n{text}\n", shown(file)));
-        let merge = (self.engine == Engine::Slurm).then(|| self.merge_command("ID"));
-        let commands = [Some(self.command()), merge].into_iter().flatten();
+        let merge = (self.engine == Engine::Slurm).then(|| self.command(Some("ID")));
+        let commands = [Some(self.command(None)), merge].into_iter().flatten();
         let commands = commands.map(|command| line(&command) + "\n");
         files.chain(["# Commands\n".to_owned()]).chain(commands).collect()
     }
@@ -138,11 +130,6 @@ fn is_writable_in_scripts(path: &Path) -> Result<()> {
          scripts cannot have",
         shown(path)
     ))
-}
-
-fn filled(template: &str, facts: &Value) -> Result<String> {
-    let context = Context::from_serialize(facts).into_diagnostic()?;
-    Tera::one_off(template, &context, false).into_diagnostic()
 }
 
 /// Seconds as hours, minutes and seconds.
