@@ -15,12 +15,13 @@ use super::render::{RenderError, drawings, figure_files, without_repeated_blank_
 use super::template::{aligned, render, worded};
 use crate::band::rivals::DETUNED;
 use crate::band::{Motions, Rivals, Source, Worst};
-use crate::case::{AbsorberDesign, BandOver, Case, Objective};
+use crate::case::{self, BandOver, Case, Objective};
 use crate::method::Method;
 use crate::optimize::robust::UnderDeviations;
-use crate::optimize::task::value_of;
-use crate::optimize::{Bounds, Design, Optimization, Task, Variable};
+use crate::optimize::sensitivity::Sensitivity;
+use crate::optimize::{Bounds, Design, Optimization, Task};
 use crate::quantity::{Kind, Quantity, catalogue};
+use crate::system::Parameter;
 
 pub use figure::figures;
 
@@ -45,6 +46,14 @@ pub fn document(case: &Case, found: &Optimization) -> Value {
         robust["optimum_worst_corner"] = json!(of_best.worst_corner);
         robust
     });
+    let judged = found.judged.iter().map(|one| {
+        let (clearance, feasible) = (one.choice.clearance(), one.is_feasible());
+        json!({ "clearance": clearance, "value": one.value, "error": one.error, "feasible": feasible })
+    });
+    let sensitivities = found.sensitivities.iter().map(|one| {
+        let Sensitivity { of, change, smaller, larger } = one;
+        json!({ "of": name(*of), "change": change, "smaller": smaller, "larger": larger })
+    });
     json!({
         "format": "vinesink/optimization@2",
         "title": case.title,
@@ -56,9 +65,9 @@ pub fn document(case: &Case, found: &Optimization) -> Value {
             (true, true, true) => "found",
         },
         "objective": task.objective.name(),
-        "bounds": task.bounds,
-        // The frequency's as a frequency ratio, the amplitude's over the case's own.
-        "uncertainty": task.uncertainty,
+        "bounds": bounds(task),
+        // In the units of the case.
+        "uncertainty": case.uncertainty,
         // Whether the objective has a value at all.
         "reached": found.reached(),
         // Whether all criteria hold at the optimum; true without criteria.
@@ -66,7 +75,7 @@ pub fn document(case: &Case, found: &Optimization) -> Value {
         // Whether the optimum is another absorber than the case's own, and not worse.
         "improves": found.improves(),
         // Rounded as it is written; none where nothing is reached.
-        "optimum": found.reached().then_some(best.choice),
+        "optimum": found.reached().then(|| built(&best.choice)),
         // The objective at the optimum as it is shown, and as a check of the written case gives it.
         "claimed": objective(task, best.value, best.error),
         "checked": objective(task, found.checked.0, found.checked.1),
@@ -77,13 +86,13 @@ pub fn document(case: &Case, found: &Optimization) -> Value {
         "robust": robust,
         // Clearances that are as good as the optimum's.
         "plateau": found.plateau,
-        "bare": best.rivals.bare.1 * best.choice.clearance,
+        "bare": best.rivals.bare.1 * best.choice.clearance(),
         "tuned_mass_damper": damper(&Scale::of(case), best),
         // Pairs of clearance and objective by the cheap layer.
         "landscape": found.landscape,
         // Every absorber that was judged.
-        "judged": found.judged,
-        "sensitivities": found.sensitivities,
+        "judged": judged.collect::<Vec<_>>(),
+        "sensitivities": sensitivities.collect::<Vec<_>>(),
         // Over the case's own clearance.
         "claim": found.claim,
         "chart": found.chart,
@@ -91,14 +100,31 @@ pub fn document(case: &Case, found: &Optimization) -> Value {
     })
 }
 
+/// A parameter as templates and files call it: of masses only the absorber's is chosen.
+fn name(parameter: Parameter) -> &'static str {
+    if parameter == Parameter::AbsorberMass { "mass" } else { parameter.key() }
+}
+
+/// The absorber of a design.
+fn built(design: &case::Design) -> Value {
+    let chosen = [Parameter::Clearance, Parameter::Restitution, Parameter::AbsorberMass];
+    chosen.into_iter().map(|one| (name(one).to_owned(), json!(design.value(one)))).collect()
+}
+
+fn bounds(task: &Task) -> Vec<Value> {
+    let bounds = task.bounds.iter().map(|Bounds { parameter, from, to }| {
+        json!({ "variable": name(*parameter), "from": from, "to": to })
+    });
+    bounds.collect()
+}
+
 /// An absorber with its objective, as a quantity is written, and the criteria that it misses of all.
 fn absorber(case: &Case, task: &Task, design: &Design) -> Value {
-    let AbsorberDesign { clearance, restitution, mass } = design.choice;
     let missed = design.criteria.iter().filter(|one| one.holds != Some(true));
     let mut row = json!(objective(task, design.value, design.error));
-    row["clearance"] = json!(clearance);
-    row["restitution"] = json!(restitution);
-    row["mass"] = json!(mass);
+    for (key, value) in built(&design.choice).as_object().into_iter().flatten() {
+        row[key] = value.clone();
+    }
     row["feasible"] = json!(design.is_feasible());
     row["criteria"] = json!(design.criteria.len());
     row["missed"] = missed.map(|one| criterion(case, one)).collect();
@@ -110,7 +136,8 @@ fn absorber(case: &Case, task: &Task, design: &Design) -> Value {
 fn damper(scale: &Scale, best: &Design) -> Value {
     let Rivals { damper, damped, detuned, .. } = &best.rivals;
     let vibrates_less = |worst: Worst| damped.amplitude < worst.peak + worst.error;
-    let length = |over: f64| over * best.choice.clearance;
+    let clearance = best.choice.clearance();
+    let length = |over: f64| over * clearance;
     let off = DETUNED.iter().zip(detuned).map(|(factor, one)| {
         json!({
             "factor": factor,
@@ -193,12 +220,12 @@ pub fn written(
 ) -> Result<String, RenderError> {
     let context = json!({
         "file": file,
-        "choice": written.map(|design| design.choice),
+        "choice": written.map(|design| built(&design.choice)),
         "feasible": written.is_some_and(Design::is_feasible),
         "none_meets": !found.best.is_feasible(),
         "robust": robust,
         "reached": found.reached(),
-        "bounds": found.task.bounds,
+        "bounds": bounds(&found.task),
     });
     Ok(render("optimize-written.txt", &Scale::of(case).units(), &context)?.trim().to_owned())
 }
@@ -206,7 +233,7 @@ pub fn written(
 /// What the templates read.
 fn context(case: &Case, found: &Optimization) -> Value {
     let (best, scale) = (&found.best, Scale::of(case));
-    let over = found.task.band.as_ref().map_or(BandOver::Frequency, |band| band.over);
+    let over = found.task.case.band.as_ref().map_or(BandOver::Frequency, |band| band.over);
     let worst = best.worst.filter(|_| found.task.objective == Objective::WorstAmplitude);
     let given = case.inputs().iter().filter(|input| input.table == "uncertainty");
     let uncertain = given.filter(|input| input.value > 0.0).map(|input| {
@@ -216,10 +243,7 @@ fn context(case: &Case, found: &Optimization) -> Value {
     });
     json!({ "at": {
         "page": document(case, found),
-        "over": found.task.band.as_ref().map(|band| match band.over {
-            BandOver::Frequency => "frequency",
-            BandOver::Amplitude => "amplitude",
-        }),
+        "over": case.band.as_ref().map(|band| band.over.name()),
         "absorbers": absorbers(case, found),
         "uncertain": uncertain.collect::<Vec<_>>(),
         "worst": worst.map(|worst| json!({
@@ -237,7 +261,7 @@ fn context(case: &Case, found: &Optimization) -> Value {
         "strips": found.strips.filter(|[a1, a2]| a1 + a2 > STRIPS),
         "on_bounds": on_bounds(found),
         "places": places(&scale, over, found),
-        "expectation": found.robust.as_ref().map(|one| [one.nodes, one.combinations]),
+        "expectation": found.robust.is_some().then(|| [found.task.nodes(), found.task.deviations().len()]),
         "chart_at": figure::nearest(found).map(|one| scale.frequency(one.frequency_ratio, Method::Given)),
         "version": env!("CARGO_PKG_VERSION"),
     } })
@@ -267,12 +291,13 @@ fn absorbers(case: &Case, found: &Optimization) -> Vec<Value> {
 /// The bounds on which the best lies, but for those that no restitution can pass.
 fn on_bounds(found: &Optimization) -> Vec<Value> {
     let ends = found.task.bounds.iter().filter_map(|bounds| {
-        let Bounds { variable, from, to } = *bounds;
-        let value = value_of(variable, &found.best.choice);
-        let passable = |end: &f64| variable != Variable::Restitution || (*end > 0.0 && *end < 1.0);
+        let Bounds { parameter, from, to } = *bounds;
+        let value = bounds.value(&found.best.choice);
+        let passable =
+            |end: &f64| parameter != Parameter::Restitution || (*end > 0.0 && *end < 1.0);
         let near = |end: &f64| (value - end).abs() <= ON_BOUND * end;
         let end = [from, to].into_iter().filter(passable).find(near)?;
-        Some(json!({ "variable": variable, "value": end }))
+        Some(json!({ "variable": name(parameter), "value": end }))
     });
     ends.collect()
 }
@@ -282,15 +307,15 @@ fn places(scale: &Scale, over: BandOver, found: &Optimization) -> Vec<Value> {
     let Design { motions: Motions { places, .. }, choice, worst, .. } = &found.best;
     let every = places.len().div_ceil(SHOWN).max(1);
     let amplitude = found.task.objective == Objective::WorstAmplitude;
+    let clearance = choice.clearance();
     let shown = places.iter().enumerate().filter(|(k, place)| {
         k.is_multiple_of(every) || worst.is_some_and(|worst| worst.at == place.at)
     });
     let rows = shown.map(|(_, one)| {
-        let peak = |peak: f64| {
-            Quantity::new(&catalogue::PEAK, peak * choice.clearance, Method::Simulation)
-        };
+        let peak =
+            |peak: f64| Quantity::new(&catalogue::PEAK, peak * clearance, Method::Simulation);
         let largest = one.largest().map(|motion| {
-            let error = if amplitude { motion.peak_error * choice.clearance } else { 0.0 };
+            let error = if amplitude { motion.peak_error * clearance } else { 0.0 };
             peak(motion.peak).with_error(error)
         });
         json!({

@@ -2,20 +2,19 @@
 
 use serde::Serialize;
 
-use crate::case::{Case, Design, SweepAxis, SweepParameter};
+use crate::case::{Case, SweepAxis};
 use crate::method::Method;
-use crate::quantity::catalogue as of;
 use crate::quantity::units::Unit;
 use crate::quantity::{Digits, Kind, Quantity, Units};
 use crate::report::document;
 use crate::report::figure::{Axis, Scale, edges};
-use crate::system::Excitation;
+use crate::system::Parameter;
 
 /// An axis as it is shown.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AxisShown {
     /// What is varied.
-    pub parameter: SweepParameter,
+    pub parameter: Parameter,
     /// The quantity that it is.
     pub kind: &'static Kind,
     /// The name with symbol and unit: `clearance b (mm)`.
@@ -44,7 +43,7 @@ impl AxisShown {
     /// An axis of a case's table `[sweep]`.
     pub fn of(case: &Case, axis: &SweepAxis) -> Self {
         let SweepAxis { parameter, ref values, logarithmic } = *axis;
-        let (kind, units) = (kind(parameter, &case.design), document::units(case));
+        let (kind, units) = (case.design.kind(parameter), document::units(case));
         let largest = values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
         let unit = units.axis_unit(kind, largest);
         Self {
@@ -55,7 +54,7 @@ impl AxisShown {
             values: values.clone(),
             shown: values.iter().map(|value| value / unit.size).collect(),
             logarithmic,
-            own: parameter.of(&case.design),
+            own: case.design.value(parameter),
             units,
         }
     }
@@ -101,33 +100,5 @@ impl AxisShown {
         let At { of, digits } = self.at(index);
         let number = self.units.with_digits(of.kind, of.value, Digits::Significant(digits));
         format!("{} {number}", of.kind.name)
-    }
-}
-
-/// The quantity that an axis varies.
-const fn kind(parameter: SweepParameter, design: &Design) -> &'static Kind {
-    use SweepParameter as P;
-    match (parameter, design) {
-        (P::Clearance, _) => &of::CLEARANCE,
-        (P::Frequency, Design::Physical(_)) => &of::EXCITATION_FREQUENCY,
-        (P::Frequency, Design::Reduced(_)) => &of::FREQUENCY_RATIO,
-        (P::Detuning, _) => &of::DETUNING,
-        (P::Amplitude, Design::Reduced(_)) => &of::REDUCED_FORCING,
-        (P::Amplitude, Design::Physical(physical)) => match physical.excitation {
-            Excitation::BaseDisplacement => &of::BASE_AMPLITUDE,
-            Excitation::Force => &of::FORCE_AMPLITUDE,
-        },
-        (P::Restitution, _) => &of::RESTITUTION,
-        (P::AbsorberMass, _) => &of::ABSORBER_MASS,
-        (P::MassRatio, _) => &of::MASS_RATIO,
-        (P::Mass, _) => &of::OSCILLATOR_MASS,
-        (P::Stiffness, _) => &of::STIFFNESS,
-        (P::Damping, Design::Physical(_)) => &of::DAMPING,
-        (P::Damping, Design::Reduced(_)) => &of::REDUCED_DAMPING,
-        (P::DampingRatio, _) => &of::DAMPING_RATIO,
-        (P::InitialDisplacement, _) => &of::INITIAL_DISPLACEMENT,
-        (P::InitialVelocity, _) => &of::INITIAL_VELOCITY,
-        (P::InitialAbsorberDisplacement, _) => &of::INITIAL_ABSORBER_DISPLACEMENT,
-        (P::InitialAbsorberVelocity, _) => &of::INITIAL_ABSORBER_VELOCITY,
     }
 }
