@@ -168,3 +168,25 @@ impl Design {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::Case;
+
+    #[test]
+    fn a_value_that_is_set_is_the_value_that_is_there() {
+        let design = Case::parse("a case", &Case::starting_text("t")).expect("valid").design;
+        for parameter in Parameter::ALL {
+            let Some(own) = design.value(parameter) else { continue };
+            let other = design.with(parameter, 1.1 * own).value(parameter).expect("the same key");
+            assert!((other / own - 1.1).abs() < 1e-12, "{parameter:?}");
+        }
+        assert_eq!(design.value(Parameter::InitialVelocity), None);
+        assert_eq!(design.with(Parameter::InitialVelocity, 1.0), design);
+        let off = [(Parameter::Restitution, 2.0), (Parameter::Amplitude, -1e9)];
+        let built = design.deviating(&off);
+        assert_eq!(built.value(Parameter::Restitution), Some(1.0));
+        assert_eq!(built.value(Parameter::Amplitude), Some(0.0));
+    }
+}

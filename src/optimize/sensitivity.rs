@@ -1,7 +1,5 @@
 //! What a change of each parameter does to the objective.
 
-use serde::Serialize;
-
 use super::task::Task;
 use crate::case::Design;
 use crate::executor::{Executor, Serial, map};
@@ -11,7 +9,7 @@ use crate::system::Parameter;
 pub const CHANGE: f64 = 0.01;
 
 /// The objective with a parameter a little smaller and a little larger.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sensitivity {
     /// The parameter.
     pub of: Parameter,

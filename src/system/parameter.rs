@@ -2,6 +2,8 @@
 //! errors and an optimisation move along.
 //!
 //! Here it is a number of the dimensionless system, `case/parameter.rs` has its values in a design.
+// Descriptions of keys go into the schema as they are: [reduced] is a table of the case file, not an item.
+#![allow(rustdoc::broken_intra_doc_links)]
 
 use serde::Serialize;
 
@@ -65,6 +67,7 @@ impl Parameter {
     pub const fn is_logarithmic(self) -> bool {
         matches!(self, Self::Clearance | Self::Amplitude | Self::AbsorberMass)
     }
+
     /// The value at a part of the way between two, from 0 to 1.
     pub fn between(self, [low, high]: [f64; 2], part: f64) -> f64 {
         if self.is_logarithmic() {
