@@ -46,14 +46,6 @@ pub fn document(case: &Case, found: &Optimization) -> Value {
         robust["optimum_worst_corner"] = json!(of_best.worst_corner);
         robust
     });
-    let judged = found.judged.iter().map(|one| {
-        let (clearance, feasible) = (one.choice.clearance(), one.is_feasible());
-        json!({ "clearance": clearance, "value": one.value, "error": one.error, "feasible": feasible })
-    });
-    let sensitivities = found.sensitivities.iter().map(|one| {
-        let Sensitivity { of, change, smaller, larger } = one;
-        json!({ "of": name(*of), "change": change, "smaller": smaller, "larger": larger })
-    });
     json!({
         "format": "vinesink/optimization@2",
         "title": case.title,
@@ -91,8 +83,8 @@ pub fn document(case: &Case, found: &Optimization) -> Value {
         // Pairs of clearance and objective by the cheap layer.
         "landscape": found.landscape,
         // Every absorber that was judged.
-        "judged": judged.collect::<Vec<_>>(),
-        "sensitivities": sensitivities.collect::<Vec<_>>(),
+        "judged": judged(found),
+        "sensitivities": sensitivities(found),
         // Over the case's own clearance.
         "claim": found.claim,
         "chart": found.chart,
@@ -109,6 +101,22 @@ fn name(parameter: Parameter) -> &'static str {
 fn built(design: &case::Design) -> Value {
     let chosen = [Parameter::Clearance, Parameter::Restitution, Parameter::AbsorberMass];
     chosen.into_iter().map(|one| (name(one).to_owned(), json!(design.value(one)))).collect()
+}
+
+fn judged(found: &Optimization) -> Vec<Value> {
+    let rows = found.judged.iter().map(|one| {
+        let (clearance, feasible) = (one.choice.clearance(), one.is_feasible());
+        json!({ "clearance": clearance, "value": one.value, "error": one.error, "feasible": feasible })
+    });
+    rows.collect()
+}
+
+fn sensitivities(found: &Optimization) -> Vec<Value> {
+    let rows = found.sensitivities.iter().map(|one| {
+        let Sensitivity { of, change, smaller, larger } = one;
+        json!({ "of": name(*of), "change": change, "smaller": smaller, "larger": larger })
+    });
+    rows.collect()
 }
 
 fn bounds(task: &Task) -> Vec<Value> {
