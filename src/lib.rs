@@ -13,6 +13,7 @@ pub mod equations;
 pub mod evidence;
 pub mod executor;
 pub mod method;
+mod names;
 pub mod numerics;
 pub mod operation_count;
 pub mod optimize;

@@ -1,14 +1,13 @@
 //! What a case file means, and what is said about one that is wrong.
 
 use vinesink::case::{
-    AbsorberDesign, BandOver, Case, CaseError, Design, ExtraFigure, Objective, Physical, Rounding,
-    Subject,
+    BandOver, Case, CaseError, Design, ExtraFigure, Objective, Physical, Rounding, Subject,
 };
 use vinesink::quantity::catalogue::{
     ABSORBER_MASS, DAMPING, EXCITATION_FREQUENCY, IMPACT_SPEED, PEAK, STIFFNESS,
 };
 use vinesink::quantity::{Dimension, Units};
-use vinesink::system::Excitation;
+use vinesink::system::{Excitation, Parameter};
 
 const PHYSICAL: &str = r#"title = "Li 2016, 8 Hz, b = 7.5 mm"
 source = "Li, Seguy, Berlioz 2016, Table 1"
@@ -187,7 +186,7 @@ fn ratios_may_be_shares() {
     let input = case.inputs().iter().find(|input| input.name == "mass_ratio").expect("an input");
     assert_eq!((input.value, input.unit, input.as_written.as_str()), (0.03, "1", "3 %"));
     // Written again it stays a share.
-    let choice = AbsorberDesign { mass: Some(0.2), ..AbsorberDesign::of(&case.design) };
+    let choice = case.design.with(Parameter::AbsorberMass, 0.2);
     let again = case.rewritten("again", &text, &choice, Rounding::Exact).expect("a case");
     let line = again.text.lines().find(|line| line.starts_with("mass_ratio")).expect("a line");
     let share = line.strip_prefix("mass_ratio = \"").and_then(|rest| rest.strip_suffix(" %\""));
@@ -769,7 +768,7 @@ fn the_starting_case_shows_every_optional_key_and_parses_without_its_comment_sig
     let full = lines.join("\n");
     let case = parsed(&full);
     assert_eq!(case.criteria.len(), Subject::ALL.len());
-    assert_eq!(case.uncertainty.count(), 4);
+    assert_eq!(case.uncertainty.parameters().count(), 4);
     let band = case.band.expect("a band");
     assert_eq!((band.over, band.spectrum.len()), (BandOver::Frequency, 2));
     let optimize = case.optimize;

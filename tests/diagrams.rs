@@ -99,7 +99,7 @@ fn forcing_is_the_clearance_read_backwards() {
     let system = table_1(8.0, 15.0);
     let whole = [0.2, 5.0];
     let over = |parameter| ExactBranches::over(&system, parameter, whole);
-    let (clearance, forcing) = (over(Parameter::Clearance), over(Parameter::Forcing));
+    let (clearance, forcing) = (over(Parameter::Clearance), over(Parameter::Amplitude));
     let (clearances, forcings) = (clearance.attracting_stretches(), forcing.attracting_stretches());
     assert!(clearances.len() == 1 && forcings.len() == 1, "{clearances:?} {forcings:?}");
     for k in [0, 1] {
@@ -122,7 +122,7 @@ fn forcing_is_the_clearance_read_backwards() {
 #[test]
 fn a_bubble_is_found_once() {
     let system = table_1(8.0, 15.0);
-    let diagram = diagram(&system, Parameter::FrequencyRatio);
+    let diagram = diagram(&system, Parameter::Frequency);
     let hertz = |value: f64| value * common::natural_frequency() / std::f64::consts::TAU;
     let breakings: Vec<f64> = diagram
         .exact
@@ -147,7 +147,7 @@ fn a_bubble_is_found_once() {
 fn without_forcing_there_is_no_diagram() {
     let free = Parameters { forcing_per_clearance: 0.0, ..table_1(8.0, 15.0).parameters() };
     let exact = FullSystem::of(&System::new(free).expect("valid"));
-    for parameter in [Parameter::Clearance, Parameter::FrequencyRatio, Parameter::Forcing] {
+    for parameter in [Parameter::Clearance, Parameter::Frequency, Parameter::Amplitude] {
         assert_eq!(Diagram::around(&exact, parameter), Ok(None));
     }
 }
@@ -155,6 +155,6 @@ fn without_forcing_there_is_no_diagram() {
 #[test]
 fn a_diagram_is_the_same_each_time() {
     let system = table_1(8.5, 20.0);
-    let once = || diagram(&system, Parameter::FrequencyRatio);
+    let once = || diagram(&system, Parameter::Frequency);
     assert!(once() == once());
 }

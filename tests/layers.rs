@@ -16,13 +16,14 @@ use regex::Regex;
 const ROOMS: &[(&str, &[&str])] = &[
     ("bifurcation", &[]),
     ("method", &[]),
+    ("names", &[]),
     ("operation_count", &[]),
     ("digest", &[]),
     ("executor", &[]),
     ("quantity", &["method"]),
     ("symbolic", &["operation_count"]),
     ("numerics", &["operation_count"]),
-    ("system", &[]),
+    ("system", &["names"]),
     ("equations", &["symbolic", "system"]),
     ("analysis", &["bifurcation", "equations", "numerics", "system", "operation_count"]),
     ("orbits", &["bifurcation", "numerics", "symbolic", "system", "operation_count"]),
@@ -94,7 +95,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "validation",
         ],
     ),
-    ("case", &["digest", "numerics", "quantity", "system"]),
+    ("case", &["digest", "names", "numerics", "quantity", "system"]),
     (
         "optimize",
         &[

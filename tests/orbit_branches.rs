@@ -79,7 +79,7 @@ fn every_point_of_a_branch_is_an_orbit() {
 #[test]
 fn a_closed_branch_says_that_it_is_closed() {
     let system = table_1(8.5, 20.0);
-    let isola = branch(&system, Parameter::FrequencyRatio, Direction::Up, [0.5, 1.5]);
+    let isola = branch(&system, Parameter::Frequency, Direction::Up, [0.5, 1.5]);
     assert!(matches!(isola.end, BranchEnd::Closed { .. }), "{:?}", isola.end);
     let turns = isola.specials.iter().filter(|s| s.kind == Bifurcation::SaddleNode).count();
     assert_eq!(turns, 2, "a closed curve turns back twice");
@@ -272,7 +272,7 @@ fn the_border_between_two_and_more_impacts_is_a_grazing() {
 fn an_asymmetric_branch_ends_at_the_other_symmetry_breaking() {
     let system = table_1(8.0, 15.0);
     let settings = Settings::within([0.5, 2.0]);
-    let symmetric = branch(&system, Parameter::FrequencyRatio, Direction::Up, [0.5, 2.0]);
+    let symmetric = branch(&system, Parameter::Frequency, Direction::Up, [0.5, 2.0]);
     let breakings: Vec<&SpecialPoint> = symmetric
         .specials
         .iter()
@@ -280,7 +280,7 @@ fn an_asymmetric_branch_ends_at_the_other_symmetry_breaking() {
         .collect();
     assert_eq!(breakings.len(), 2, "{breakings:?}");
     let asymmetric =
-        branch_off(&system, Parameter::FrequencyRatio, breakings[0], &settings).expect("found");
+        branch_off(&system, Parameter::Frequency, breakings[0], &settings).expect("found");
     let met = first(&asymmetric, Bifurcation::SymmetryBreaking);
     assert!((met.value / breakings[1].value - 1.0).abs() < 1e-12, "{met:?}");
     assert!(matches!(met.orbit.cycle.closure, Closure::Mirrors { periods: 1 }));

@@ -412,8 +412,8 @@ fn other_parameters_are_swept_in_their_own_units() {
     let elastic =
         vinesink::system::Parameters { restitution: 0.9, ..common::table_1(8.0, 7.5).parameters() };
     for (base, clearance_mm, parameter, value, peak_mm) in [
-        (common::table_1(8.5, 7.5), 7.5, Parameter::FrequencyRatio, there.frequency_ratio(), 3.562),
-        (common::table_1(8.0, 15.0), 15.0, Parameter::Forcing, 2.0, 2.0 * 3.562),
+        (common::table_1(8.5, 7.5), 7.5, Parameter::Frequency, there.frequency_ratio(), 3.562),
+        (common::table_1(8.0, 15.0), 15.0, Parameter::Amplitude, 2.0, 2.0 * 3.562),
         (System::new(elastic).expect("valid"), 7.5, Parameter::Restitution, 0.6, 3.562),
         (common::table_1(8.0, 10.0), 10.0, Parameter::Clearance, 0.75, 3.562),
     ] {

@@ -12,7 +12,7 @@ use parquet::record::{Field, Row};
 use tempfile::TempDir;
 
 use vinesink::analysis::Analysis;
-use vinesink::case::{Case, Recorded, SweepParameter};
+use vinesink::case::{Case, Recorded};
 use vinesink::operation_count;
 use vinesink::orbits::attracting_orbit;
 use vinesink::regimes::long_term::motions;
@@ -20,7 +20,7 @@ use vinesink::regimes::starts::{self, FROM_REST};
 use vinesink::regimes::{Effort, Motion};
 use vinesink::simulation::Simulation;
 use vinesink::sweep::{Plan, work};
-use vinesink::system::System;
+use vinesink::system::{Parameter, System};
 
 /// Table 1 of Li, Seguy, Berlioz (2016), hardly simulated, over two chunks and a bit.
 fn text(clearances: u32, frequencies: u32) -> String {
@@ -96,14 +96,14 @@ fn points_cover_the_grid_once() {
     }
     assert!((frequency(1) - 8.35).abs() < 1e-14);
     assert_eq!(frequency(1), frequency(13));
-    assert_eq!(plan.settings.axes[0].parameter, SweepParameter::Clearance);
+    assert_eq!(plan.settings.axes[0].parameter, Parameter::Clearance);
     assert_eq!((plan.chunk(0), plan.chunk(1)), (0..15, 15..15));
     let chunks = self::plan(&text(40, 64));
     assert_eq!([0, 1, 2].map(|k| chunks.chunk(k)), [0..1024, 1024..2048, 2048..2560]);
     // Axes are in the order of the file.
     let turned = "frequency = { values = [\"8 Hz\"] }\nclearance = { values = [\"9 mm\"] }\n";
     let turned = self::plan(&sweeping(turned));
-    assert_eq!(turned.settings.axes[0].parameter, SweepParameter::Frequency);
+    assert_eq!(turned.settings.axes[0].parameter, Parameter::Frequency);
 }
 
 /// What is written of a point is what the layers say of its system alone.

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use vinesink::analysis::Analysis;
-use vinesink::case::{Case, SweepAxis, SweepParameter};
+use vinesink::case::{Case, SweepAxis};
 use vinesink::orbits::attracting_orbit;
 use vinesink::regimes::Regime;
 use vinesink::report::figure::{
@@ -23,6 +23,7 @@ use vinesink::report::render;
 use vinesink::report::sweep::{AxisShown, Swept, SweptError, tint};
 use vinesink::sweep::columns::{Cell, Column, Storage};
 use vinesink::sweep::limits::stability_limits;
+use vinesink::system::Parameter;
 
 /// Table 1 of Li, Seguy, Berlioz (2016) at 8.35 Hz and 20 mm.
 fn case() -> Case {
@@ -58,7 +59,7 @@ fn counts(name: &'static str, values: &[i64]) -> Column {
 
 fn swept<'a>(case: &'a Case, axes: Vec<AxisShown>, columns: &'a [Column]) -> Swept<'a> {
     let results_sha256 = "f".repeat(64);
-    let frequency = axes.iter().find(|axis| axis.parameter == SweepParameter::Frequency);
+    let frequency = axes.iter().find(|axis| axis.parameter == Parameter::Frequency);
     let frequencies = frequency.filter(|_| axes.len() == 2).map_or(&[][..], |axis| &axis.values);
     let limits = stability_limits(case, frequencies);
     Swept { case, axes, columns, starts: 4, periods: 100, limits, results_sha256 }
@@ -122,15 +123,15 @@ fn small_columns() -> Vec<Column> {
     ]
 }
 
-fn axis(case: &Case, parameter: SweepParameter, values: &[f64]) -> AxisShown {
+fn axis(case: &Case, parameter: Parameter, values: &[f64]) -> AxisShown {
     let axis = SweepAxis { parameter, values: values.to_vec(), logarithmic: false };
     AxisShown::of(case, &axis)
 }
 
 fn small_axes(case: &Case) -> Vec<AxisShown> {
     vec![
-        axis(case, SweepParameter::Clearance, &[0.01, 0.02]),
-        axis(case, SweepParameter::Frequency, &[8.0, 8.2, 8.4, 8.6]),
+        axis(case, Parameter::Clearance, &[0.01, 0.02]),
+        axis(case, Parameter::Frequency, &[8.0, 8.2, 8.4, 8.6]),
     ]
 }
 
@@ -219,7 +220,7 @@ fn numbers_behind_the_words_are_in_the_document() {
 /// Name, symbol, unit, and the case's own value in that unit.
 #[test]
 fn an_axis_is_shown_in_the_terms_of_its_design() {
-    use SweepParameter as P;
+    use Parameter as P;
     let forced = common::table_1_case()
         .replace("base-displacement", "force")
         .replace("amplitude = \"0.25 mm\"", "amplitude = \"2.9 N\"");
@@ -328,7 +329,7 @@ fn one_axis_is_told_in_stretches() {
         all("section_01", &[1e-3; 6]),
         all("section_02", &[2e-3; 6]),
     ];
-    let axes = vec![axis(&case, SweepParameter::Clearance, &clearances)];
+    let axes = vec![axis(&case, Parameter::Clearance, &clearances)];
     let found = files(&swept(&case, axes, &columns));
     let text = &found[Path::new("sweep.md")];
     for line in [
@@ -355,7 +356,7 @@ fn what_was_followed_up_and_down_shows_its_hysteresis() {
         all("peak_down", &[1.01e-3, 2e-3, 7e-3, 7e-3, 5e-3, 4e-3]),
     ];
     let values = [8.0, 8.1, 8.2, 8.3, 8.4, 8.5];
-    let axes = vec![axis(&case, SweepParameter::Frequency, &values)];
+    let axes = vec![axis(&case, Parameter::Frequency, &values)];
     let found = files(&swept(&case, axes.clone(), &columns));
     let text = &found[Path::new("sweep.md")];
     let line = "> Hysteresis: from 8.2 Hz to 8.3 Hz two symmetric impacts per period (peak 3.00 mm) up, strongly modulated response (peak 7.00 mm) down.";
@@ -373,8 +374,8 @@ fn what_was_followed_up_and_down_shows_its_hysteresis() {
     assert_eq!(names, [(0.5, Some("down".to_owned())), (1.5, Some("up".to_owned()))]);
     // Over two axes, a panel for each way.
     let axes = vec![
-        axis(&case, SweepParameter::Clearance, &[0.01, 0.02]),
-        axis(&case, SweepParameter::Frequency, &values[..3]),
+        axis(&case, Parameter::Clearance, &[0.01, 0.02]),
+        axis(&case, Parameter::Frequency, &values[..3]),
     ];
     let found = files(&swept(&case, axes, &columns));
     let maps = shown(&found[Path::new("figures/sweep-regimes.svg")]);
@@ -389,7 +390,7 @@ fn what_was_followed_up_and_down_shows_its_hysteresis() {
 fn of_three_axes_some_slices_are_shown() {
     let case = case();
     let restitutions: Vec<f64> = (0..11).map(|k| 0.4 + 0.05 * f64::from(k)).collect();
-    let mut axes = vec![axis(&case, SweepParameter::Restitution, &restitutions)];
+    let mut axes = vec![axis(&case, Parameter::Restitution, &restitutions)];
     axes.extend(small_axes(&case));
     // Each slice is one regime: even ones symmetric, odd ones not.
     let regimes: Vec<&'static str> =
@@ -414,8 +415,8 @@ fn of_three_axes_some_slices_are_shown() {
 fn a_map_of_starts_is_one_of_basins() {
     let case = case();
     let axes = vec![
-        axis(&case, SweepParameter::InitialDisplacement, &[-0.01, 0.0, 0.01]),
-        axis(&case, SweepParameter::InitialVelocity, &[-0.5, 0.5]),
+        axis(&case, Parameter::InitialDisplacement, &[-0.01, 0.0, 0.01]),
+        axis(&case, Parameter::InitialVelocity, &[-0.5, 0.5]),
     ];
     let columns = [
         texts("regime", &[SYM, SYM, SYM, SMR, SYM, SMR]),
@@ -509,7 +510,7 @@ fn a_long_axis_is_told_in_short() {
     let values: Vec<f64> = (0..60).map(|k| 8.3 + 1e-4 * f64::from(k)).collect();
     let regimes: Vec<&'static str> = (0..60).map(|k| if k % 2 == 0 { SYM } else { SMR }).collect();
     let columns = [texts("regime", &regimes)];
-    let axes = vec![axis(&case, SweepParameter::Frequency, &values)];
+    let axes = vec![axis(&case, Parameter::Frequency, &values)];
     let text = markdown(&swept(&case, axes, &columns));
     assert!(text.contains("| 8.3001 Hz | 8.3001 Hz | 1 | strongly modulated response |"), "{text}");
     assert!(text.contains("and 36 more stretches"), "{text}");
@@ -519,11 +520,8 @@ fn a_long_axis_is_told_in_short() {
         ([8.0, 8.1, 9.0], false, "as listed"),
         ([4.0, 8.0, 16.0], true, "logarithmic"),
     ] {
-        let axis = SweepAxis {
-            parameter: SweepParameter::Frequency,
-            values: values.to_vec(),
-            logarithmic,
-        };
+        let axis =
+            SweepAxis { parameter: Parameter::Frequency, values: values.to_vec(), logarithmic };
         let columns = [texts("regime", &[SYM, SYM, SMR])];
         let text = markdown(&swept(&case, vec![AxisShown::of(&case, &axis)], &columns));
         assert!(text.contains(&format!("(3 values, {how})")), "{how}: {text}");
@@ -535,8 +533,8 @@ fn more_points_than_a_page_shows_are_refused() {
     let case = case();
     let values: Vec<f64> = (1..=1001).map(|k| 1e-3 * f64::from(k)).collect();
     let axes = vec![
-        axis(&case, SweepParameter::Clearance, &values),
-        axis(&case, SweepParameter::Frequency, &values),
+        axis(&case, Parameter::Clearance, &values),
+        axis(&case, Parameter::Frequency, &values),
     ];
     let error = swept(&case, axes, &[]).figures().expect_err("too many");
     assert!(matches!(error, SweptError::TooLarge { points: 1_002_001 }), "{error}");

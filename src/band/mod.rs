@@ -79,12 +79,12 @@ impl Band {
     /// [`InvalidParameter`] outside of what a system can have.
     pub fn system(&self, at: f64) -> Result<System, InvalidParameter> {
         match self.over {
-            BandOver::Amplitude => Parameter::Forcing.applied(&self.base, at),
+            BandOver::Amplitude => Parameter::Amplitude.applied(&self.base, at),
             BandOver::Frequency => {
                 let there = self.base.with_frequency_ratio(at)?;
                 match self.forcing(at) {
                     1.0 => Ok(there),
-                    forcing => Parameter::Forcing.applied(&there, forcing),
+                    forcing => Parameter::Amplitude.applied(&there, forcing),
                 }
             }
         }

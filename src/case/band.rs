@@ -5,9 +5,10 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 
 use super::inputs::Input;
-use super::names::names;
 use super::reader::{Reader, Table};
 use super::schema::in_design;
+use crate::names::names;
+use crate::system::Parameter;
 
 names! { name:
     /// What is varied along a band.
@@ -112,7 +113,7 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<BandSettings> {
         let (table, name, symbol) = ("band".to_owned(), "spectrum", "F(f)".to_owned());
         reader.inputs.push(Input { table, name, symbol, value, unit: "1", as_written, span });
     }
-    let own = design.amplitude();
+    let own = design.value(Parameter::Amplitude)?;
     let omega = |frequency: f64| design.scales().frequency_ratio(frequency);
     let range = [band.from, band.to].map(|end| match over {
         BandOver::Frequency => omega(end),

@@ -6,11 +6,11 @@ use serde_json::{Value, json};
 use toml::de::DeValue;
 
 use super::Design;
-use super::names::names;
 use super::number::{Bound, Form, sign_of};
 use super::reader::{Reader, Table, kind};
 use super::schema::add_names;
 use super::value::Place;
+use crate::names::names;
 use crate::quantity::catalogue as of;
 use crate::quantity::{Dimension, Kind};
 

@@ -8,19 +8,19 @@
 // Descriptions of keys go into the schema as they are: [reduced] is a table of the case file, not an item.
 #![allow(rustdoc::broken_intra_doc_links)]
 
-mod absorber_design;
 mod band;
 mod criteria;
 mod document;
 mod error;
 mod inputs;
-mod names;
 mod number;
 mod optimize;
+mod parameter;
 mod physical;
 mod quantity;
 mod reader;
 mod reduced;
+mod rewrite;
 mod scales;
 mod schema;
 mod settings;
@@ -34,7 +34,6 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 use toml::de::DeTable;
 
-pub use absorber_design::{AbsorberDesign, RewriteError, Rewritten, Rounding};
 pub use band::{BandOver, BandSettings};
 pub use criteria::{Criterion, Relation, Subject};
 pub use error::{CaseError, Problem};
@@ -43,10 +42,11 @@ pub use optimize::{Objective, OptimizeSettings};
 pub use physical::Physical;
 pub use quantity::QuantityError;
 pub use reduced::Reduced;
+pub use rewrite::{RewriteError, Rewritten, Rounding};
 pub use scales::Scales;
 pub use schema::{FILE_NAME as SCHEMA_FILE_NAME, schema};
 pub use settings::{AccuracySettings, ExtraFigure, ReportSettings, SimulationSettings};
-pub use sweep::{Layer, Recorded, SweepAxis, SweepParameter, SweepSettings};
+pub use sweep::{Recorded, SweepAxis, SweepSettings};
 pub use uncertainty::{Distribution, Uncertainty};
 
 use crate::digest::sha256;

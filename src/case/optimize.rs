@@ -5,9 +5,9 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use super::Design;
-use super::names::names;
 use super::reader::{Reader, Table};
 use super::schema::in_design;
+use crate::names::names;
 
 names! { name:
     /// What a design is chosen for, over the case's band if it has one.

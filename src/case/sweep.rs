@@ -2,7 +2,6 @@
 //! what is recorded.
 
 mod axis;
-mod parameter;
 mod recorded;
 
 use schemars::{JsonSchema, Schema};
@@ -11,10 +10,10 @@ use serde::Deserialize;
 use super::reader::{Reader, Table};
 use super::schema::{add_names, in_design, schema_of};
 use super::value::or;
+use crate::system::Parameter;
 
 pub use axis::SweepAxis;
-pub use parameter::SweepParameter;
-pub use recorded::{Layer, Recorded};
+pub use recorded::Recorded;
 
 /// What the case says about its sweep.
 #[derive(Debug, Clone, PartialEq)]
@@ -66,7 +65,7 @@ fn with_axes(schema: &mut Schema) {
     for word in ["$schema", "title"] {
         axis.as_object_mut().and_then(|axis| axis.remove(word));
     }
-    add_names::<SweepParameter>(schema, |key| {
+    add_names::<Parameter>(schema, |key| {
         let mut axis = axis.clone();
         for end in ["from", "to"] {
             axis["properties"][end]["x-parameter"] = key.into();
@@ -80,6 +79,12 @@ fn with_axes(schema: &mut Schema) {
 const MOST_POINTS: f64 = 1e12;
 const DEFAULT_STARTS: u32 = 4;
 const DEFAULT_PERIODS: u64 = 250;
+/// Pairs of parameters that say the same of a design.
+const RIVALS: [(Parameter, Parameter); 3] = [
+    (Parameter::AbsorberMass, Parameter::MassRatio),
+    (Parameter::Damping, Parameter::DampingRatio),
+    (Parameter::Frequency, Parameter::Detuning),
+];
 
 /// Reads the table, which may be missing.
 pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<SweepSettings> {
@@ -127,7 +132,7 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<SweepSettings> {
 /// The axes in the order of the file.
 fn read_axes(reader: &mut Reader, table: &Table) -> Option<Vec<SweepAxis>> {
     let mut axes = Vec::new();
-    for parameter in SweepParameter::ALL.into_iter().filter(|one| table.has(one.key())) {
+    for parameter in Parameter::ALL.into_iter().filter(|one| table.has(one.key())) {
         let at = table.span_of(parameter.key()).start;
         axes.push((at, axis::read(reader, table, parameter)?));
     }
@@ -138,7 +143,7 @@ fn read_axes(reader: &mut Reader, table: &Table) -> Option<Vec<SweepAxis>> {
 /// Reports axes that are too few, too many, or say the same thing twice.
 fn check_axes(reader: &mut Reader, table: &Table, axes: &[SweepAxis]) -> Option<()> {
     if axes.is_empty() {
-        let names = or(&SweepParameter::ALL.map(|parameter| format!("\"{}\"", parameter.key())));
+        let names = or(&Parameter::ALL.map(|parameter| format!("\"{}\"", parameter.key())));
         reader.report(
             table.span_of(""),
             "the sweep varies nothing",
@@ -148,8 +153,7 @@ fn check_axes(reader: &mut Reader, table: &Table, axes: &[SweepAxis]) -> Option<
         return None;
     }
     let has = |parameter| axes.iter().any(|axis| axis.parameter == parameter);
-    let mut twice = axes.iter().filter_map(|axis| Some((axis.parameter, axis.parameter.rival()?)));
-    if let Some((one, other)) = twice.find(|(_, other)| has(*other)) {
+    if let Some((one, other)) = RIVALS.into_iter().find(|(one, other)| has(*one) && has(*other)) {
         let message = format!("`{}` and `{}` say the same thing twice", one.key(), other.key());
         let at = table.span_of(other.key());
         reader.report(at, message, "expected only one of the two axes", "remove one of the two");

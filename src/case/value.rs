@@ -7,8 +7,8 @@ use toml::de::{DeArray, DeValue};
 use super::Design;
 use super::number::{Bound, Form, toml};
 use super::reader::{Reader, Table, kind};
-use super::sweep::SweepParameter;
 use crate::quantity::Dimension;
+use crate::system::Parameter;
 
 /// A value, and what to call it.
 #[derive(Clone)]
@@ -83,7 +83,7 @@ impl Reader<'_> {
     fn form(&self, schema: &'static Value) -> Option<Form> {
         let parameter = schema["x-parameter"].as_str().or(schema["x-signed"].as_str());
         let Some(parameter) = parameter else { return Form::of(schema) };
-        let mut form = SweepParameter::of_name(parameter)?.form(self.design.as_ref()?)?;
+        let mut form = self.design.as_ref()?.form(Parameter::of_name(parameter)?)?;
         let bound = Bound::of(schema);
         if bound != Bound::default() {
             form.bound = bound;

@@ -5,6 +5,7 @@
 use super::error::Problem;
 use super::inputs::Input;
 use super::{BandOver, BandSettings, Case, Design, physical, reduced};
+use crate::quantity::numbers::rounded_to;
 
 /// Ratio of the frequencies of drive and structure from which on they have nothing to do with one another.
 const FAR_APART: f64 = 30.0;
@@ -197,8 +198,7 @@ fn percent(share: f64) -> String {
 
 /// Three digits.
 fn short(value: f64) -> String {
-    let rounded = format!("{value:.2e}").parse().unwrap_or(value);
-    match rounded {
+    match rounded_to(value, 3) {
         plain if (1e-4..1e7).contains(&plain) => plain.to_string(),
         far => format!("{far:e}"),
     }

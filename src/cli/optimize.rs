@@ -88,7 +88,7 @@ pub fn run(arguments: Arguments) -> Result<bool> {
         miette!(help = "give the excitation an amplitude above 0", "{}: {error}", path.display())
     })?;
     long.allows(path, &case, &[Work::designs(&case)])?;
-    let found = Optimization::of(&case, &text, &task, &Parallel).into_diagnostic()?;
+    let found = Optimization::of(&task, &text, &Parallel).into_diagnostic()?;
     if let Some(out) = &arguments.out {
         index::add_to_report(out, path, &page::files(&case, &found).into_diagnostic()?)?;
     }

@@ -10,7 +10,7 @@ use std::time::Instant;
 use clap::{Args, Subcommand};
 use miette::{IntoDiagnostic, Result, miette};
 use rayon::iter::{IndexedParallelIterator as _, IntoParallelIterator as _, ParallelIterator as _};
-use vinesink::case::{Case, Layer};
+use vinesink::case::Case;
 use vinesink::store::Shards;
 use vinesink::sweep::{Plan, parquet, work};
 
@@ -158,7 +158,7 @@ impl Sweep {
 
     /// Whether each point takes as long as is ordinary, or more is asked for.
     fn is_ordinary(&self, path: &Path, long: Long) -> Result<()> {
-        match self.plan.needs(Layer::Simulation) {
+        match self.plan.needs_simulation() {
             true => long.allows(path, &self.case, &[Work::points(&self.plan)]),
             false => Ok(()),
         }

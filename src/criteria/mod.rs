@@ -20,29 +20,6 @@ use scope::Scope;
 /// Distance from a count that still is that count: as regimes are told apart.
 const SAME_COUNT: f64 = 0.01;
 
-/// A value of the design, as a criterion is about.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Value {
-    /// In the criterion's unit.
-    found: f64,
-    /// How far it may be off.
-    error: f64,
-    /// Place in the band, where it is the worst of one.
-    at: Option<f64>,
-    /// Share of resting places, where the motion is that of an absorber that never wakes.
-    inactive: Option<f64>,
-    /// Whether the motion has settled.
-    settled: bool,
-    by: Method,
-}
-
-impl Value {
-    /// One that is known of the whole range, or of a motion that has settled.
-    fn known(found: f64, error: f64, by: Method) -> Self {
-        Self { found, error, at: None, inactive: None, settled: true, by }
-    }
-}
-
 /// A criterion and what was found.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Judged {
@@ -163,22 +140,22 @@ impl Criterion {
         }
     }
 
-    fn judged(&self, value: Option<Value>, otherwise: Method) -> Judged {
+    /// A value that is known of the whole range, or of a motion that has settled.
+    fn judged(&self, found: Option<f64>, error: f64, decided_by: Method) -> Judged {
         // What is about motions holds if it does so with its error.
         let counts = self.subject.is_of_motions() && self.relation != Relation::Equal;
-        let room = value.map(|value| self.room(value.found));
-        let error = value.map_or(0.0, |value| value.error);
+        let margin = found.map(|found| self.room(found));
         Judged {
             criterion: self.clone(),
-            found: value.map(|value| value.found),
+            found,
             error,
-            margin: room,
-            holds: room.map(|room| room >= if counts { error } else { 0.0 }),
-            near_limit: room.is_some_and(|room| self.is_open(room, error)),
-            at: value.and_then(|value| value.at),
-            inactive: value.and_then(|value| value.inactive),
-            settled: value.is_none_or(|value| value.settled),
-            decided_by: value.map_or(otherwise, |value| value.by),
+            margin,
+            holds: margin.map(|room| room >= if counts { error } else { 0.0 }),
+            near_limit: margin.is_some_and(|room| self.is_open(room, error)),
+            at: None,
+            inactive: None,
+            settled: true,
+            decided_by,
         }
     }
 }

@@ -1,6 +1,6 @@
 //! What a survey says of each criterion.
 
-use super::{Judged, ROUNDING, Seen, Value, of_motion};
+use super::{Judged, ROUNDING, Seen, of_motion};
 use crate::band::exact::{self, attracting};
 use crate::band::{Inactive, Motions, Survey, inactive, theory};
 use crate::case::{Criterion, Scales, Subject};
@@ -23,14 +23,27 @@ pub(super) struct Scope<'a> {
 impl Scope<'_> {
     /// Judges one criterion.
     pub(super) fn judge(&self, criterion: &Criterion) -> Judged {
-        let (value, by) = match criterion.subject {
-            Subject::Z3Share => (Some(self.z3_share()), Method::Theory),
-            Subject::StableShare => (Some(self.stable_share()), Method::ExactOrbit),
-            Subject::MarginClearance => (Some(self.margin()), Method::ExactOrbit),
-            Subject::NoCoexistence => (self.one_motion(), Method::Simulation),
-            _ => (self.worst(criterion), Method::Simulation),
-        };
-        criterion.judged(value, by)
+        match criterion.subject {
+            Subject::Z3Share => self.z3_share(criterion),
+            Subject::StableShare => {
+                // All and nothing have no end that could be off.
+                let ends = self.survey.motions.stability.len() > 1;
+                let error = if ends { SHARE_ROUNDING } else { 0.0 };
+                let share = self.survey.motions.stable_share();
+                criterion.judged(Some(share), error, Method::ExactOrbit)
+            }
+            Subject::MarginClearance => {
+                let (at, found) = self.survey.smallest_gap;
+                let judged = criterion.judged(Some(found), ROUNDING, Method::ExactOrbit);
+                Judged { at: self.place(at), ..judged }
+            }
+            // Where nothing was simulated, nothing is known of motions.
+            _ if self.survey.motions.places.is_empty() => {
+                criterion.judged(None, 0.0, Method::Simulation)
+            }
+            Subject::NoCoexistence => self.one_motion(criterion),
+            _ => self.worst(criterion),
+        }
     }
 
     /// A place, where the range has more than one.
@@ -39,7 +52,7 @@ impl Scope<'_> {
     }
 
     /// The share in Z3, with what the theory's own error in the boundaries makes of it.
-    fn z3_share(&self) -> Value {
+    fn z3_share(&self, criterion: &Criterion) -> Judged {
         let band = self.survey.band();
         let share = |factor: f64| {
             let base = band.base.with_clearance_scaled(factor).unwrap_or(band.base);
@@ -55,43 +68,34 @@ impl Scope<'_> {
         let shifted = [1.0 - error.min(0.9), 1.0 + error].map(share);
         let off =
             shifted.map(|other| (other - found).abs()).into_iter().fold(SHARE_ROUNDING, f64::max);
-        Value::known(found, off, Method::Theory)
+        criterion.judged(Some(found), off, Method::Theory)
     }
 
-    fn stable_share(&self) -> Value {
-        // All and nothing have no end that could be off.
-        let error = if self.survey.motions.stability.len() > 1 { SHARE_ROUNDING } else { 0.0 };
-        Value::known(self.survey.motions.stable_share(), error, Method::ExactOrbit)
-    }
-
-    fn margin(&self) -> Value {
-        let (at, found) = self.survey.smallest_gap;
-        Value { at: self.place(at), ..Value::known(found, ROUNDING, Method::ExactOrbit) }
-    }
-
-    /// 1 where every place has one motion, 0 where one has several; `None` where nothing was simulated.
-    fn one_motion(&self) -> Option<Value> {
+    /// 1 where every place has one motion, 0 where one has several.
+    fn one_motion(&self, criterion: &Criterion) -> Judged {
         let motions = &self.survey.motions;
-        motions.places.first()?;
         let several = motions.places.iter().find(|place| place.count(motions.count_inactive) > 1);
         let inactive = several.filter(|_| motions.count_inactive);
-        Some(Value {
+        let found = Some(f64::from(u8::from(several.is_none())));
+        Judged {
             at: several.and_then(|place| self.place(place.at)),
             inactive: inactive.and_then(|place| Some(place.inactive?.share)),
-            ..Value::known(f64::from(u8::from(several.is_none())), 0.0, Method::Simulation)
-        })
+            ..criterion.judged(found, 0.0, Method::Simulation)
+        }
     }
 
-    /// The worst value of a criterion about motions; its error covers all others with theirs. `None` where
-    /// nothing was simulated.
-    fn worst(&self, criterion: &Criterion) -> Option<Value> {
-        self.survey.motions.places.first()?;
+    /// The worst value of a criterion about motions; its error covers all others with theirs.
+    fn worst(&self, criterion: &Criterion) -> Judged {
         let all = self.worst_orbit(criterion).into_iter().chain(self.worst_inactive(criterion));
-        let all: Vec<Value> = all.chain(self.simulated(criterion)).collect();
-        let room = |value: &Value| criterion.room(value.found);
-        let worst = *all.iter().min_by(|a, b| room(a).total_cmp(&room(b)))?;
+        let all: Vec<Judged> = all.chain(self.simulated(criterion)).collect();
+        let room = |one: &Judged| one.margin.unwrap_or(f64::INFINITY);
+        let Some(worst) = all.iter().min_by(|a, b| room(a).total_cmp(&room(b))) else {
+            return criterion.judged(None, 0.0, Method::Simulation);
+        };
         let least = all.iter().map(|one| room(one) - one.error).fold(f64::INFINITY, f64::min);
-        Some(Value { error: room(&worst) - least, ..worst })
+        let Judged { at, inactive, settled, .. } = *worst;
+        let judged = criterion.judged(worst.found, room(worst) - least, worst.decided_by);
+        Judged { at, inactive, settled, ..judged }
     }
 
     fn of_motion(&self, criterion: &Criterion, seen: &Seen) -> Option<[f64; 2]> {
@@ -99,7 +103,7 @@ impl Scope<'_> {
     }
 
     /// The worst of the attracting orbit, wherever there is one.
-    fn worst_orbit(&self, criterion: &Criterion) -> Option<Value> {
+    fn worst_orbit(&self, criterion: &Criterion) -> Option<Judged> {
         let Motions { band, stability, orbit, .. } = &self.survey.motions;
         let value = |at: f64, orbit: &SymmetricOrbit| {
             let system = band.system(at).ok()?;
@@ -114,42 +118,43 @@ impl Scope<'_> {
             exact::largest_value(band, stability, loss)?.0
         };
         let [found, error] = value(at, &attracting(band, at)?)?;
-        Some(Value { at: self.place(at), ..Value::known(found, error, Method::ExactOrbit) })
+        let judged = criterion.judged(Some(found), error, Method::ExactOrbit);
+        Some(Judged { at: self.place(at), ..judged })
     }
 
     /// The worst of an absorber that never wakes, in closed form, wherever it can rest.
-    fn worst_inactive(&self, criterion: &Criterion) -> Option<Value> {
+    fn worst_inactive(&self, criterion: &Criterion) -> Option<Judged> {
         let Motions { band, inactive, count_inactive: true, .. } = &self.survey.motions else {
             return None;
         };
         let value = |at: f64| {
             let inactive = Inactive::of(&band.system(at).ok()?)?;
             let [found, error] = self.of_motion(criterion, &Seen::inactive(&inactive))?;
-            Some(Value {
+            Some(Judged {
                 at: self.place(at),
                 inactive: Some(inactive.share),
-                ..Value::known(found, error, Method::ClosedForm)
+                ..criterion.judged(Some(found), error, Method::ClosedForm)
             })
         };
         let at = if criterion.is_against_displacement() {
             inactive.as_ref()?.0
         } else {
-            inactive::largest_by(band, |at| value(at).map(|one| -criterion.room(one.found)))?.0
+            inactive::largest_by(band, |at| value(at)?.margin.map(|room| -room))?.0
         };
         value(at)
     }
 
     /// The motions that starts led to; where one is the exact orbit, the orbit knows it better.
-    fn simulated(&self, criterion: &Criterion) -> impl Iterator<Item = Value> {
+    fn simulated(&self, criterion: &Criterion) -> impl Iterator<Item = Judged> {
         let motions = &self.survey.motions;
         motions.places.iter().flat_map(move |place| {
             place.beside_orbit().filter_map(move |motion| {
                 let seen = Seen::simulated(motion, motions.unresolved);
                 let [found, error] = self.of_motion(criterion, &seen)?;
-                Some(Value {
+                Some(Judged {
                     at: self.place(place.at),
                     settled: motion.settled,
-                    ..Value::known(found, error, Method::Simulation)
+                    ..criterion.judged(Some(found), error, Method::Simulation)
                 })
             })
         })

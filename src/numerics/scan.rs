@@ -57,7 +57,7 @@ pub fn below(low: f64, high: f64, mut height: impl FnMut(f64) -> f64) -> Option<
 }
 
 /// Narrows a range around the largest value of `f` by golden section, until `f` says `None`.
-fn narrow([mut low, mut high]: [f64; 2], mut f: impl FnMut(f64) -> Option<f64>) {
+pub fn narrow([mut low, mut high]: [f64; 2], mut f: impl FnMut(f64) -> Option<f64>) {
     let mut value = |part: f64, [low, high]: [f64; 2]| {
         let at = low + (high - low) * part;
         f(at).map(|value| (at, value))

@@ -4,9 +4,9 @@
 use serde::Serialize;
 
 use super::search::{on_line, scan};
-use super::task::{Deviation, Task};
+use super::task::Task;
 use crate::analysis::{FixedPointCurve, Manifold};
-use crate::case::{AbsorberDesign, BandOver, Objective};
+use crate::case::{BandOver, Design, Objective};
 use crate::executor::{Executor, Serial, map};
 use crate::numerics::scan::largest;
 use crate::orbits::{SymmetricFamily, attracting_orbit};
@@ -21,7 +21,7 @@ const PIECES: usize = 128;
 /// Width to which it is narrowed down, over the logarithm of the range.
 const WIDTH: f64 = 1e-7;
 
-/// The clearances that suit one excitation, in the units of a [`AbsorberDesign`].
+/// The clearances that suit one excitation, in the units of the design.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Suited {
     /// `Omega`.
@@ -37,10 +37,10 @@ const WIDE: [f64; 2] = [0.02, 50.0];
 
 /// The best clearance against the frequency of a single excitation with the case's own amplitude, with
 /// the chosen restitution and mass.
-pub fn chart(task: &Task, choice: &AbsorberDesign, executor: &dyn Executor) -> Vec<Suited> {
-    let Some((band, _)) = task.band_of(choice, &Deviation::default()) else { return Vec::new() };
-    let own = band.base.frequency_ratio();
-    let [from, to] = match &task.band {
+pub fn chart(task: &Task, choice: &Design, executor: &dyn Executor) -> Vec<Suited> {
+    let Some(band) = task.band_of(choice) else { return Vec::new() };
+    let (own, clearance) = (band.base.frequency_ratio(), choice.clearance());
+    let [from, to] = match &task.case.band {
         Some(_) if band.over == BandOver::Frequency => band.range,
         _ => [own * (1.0 - REACH), own * (1.0 + REACH)],
     };
@@ -55,8 +55,8 @@ pub fn chart(task: &Task, choice: &AbsorberDesign, executor: &dyn Executor) -> V
         let stable = system.and_then(|system| widest(&system));
         Suited {
             frequency_ratio: at(k),
-            stable: stable.map(|ends| ends.map(|end| end * choice.clearance)),
-            best: best.map(|factor| factor * choice.clearance),
+            stable: stable.map(|ends| ends.map(|end| end * clearance)),
+            best: best.map(|factor| factor * clearance),
         }
     })
 }

@@ -3,9 +3,9 @@
 use super::OptimizeError;
 use super::design::{Design, Judge};
 use super::search::{self, Effort, Found, Seen, distance, shortlist};
-use super::task::{Deviation, Task};
+use super::task::Task;
 use crate::band::simulated::Sampling;
-use crate::case::{AbsorberDesign, Objective};
+use crate::case::Objective;
 use crate::executor::{Executor, Serial, map};
 
 /// How thoroughly an exact objective is looked for.
@@ -36,10 +36,10 @@ pub fn propose(task: &Task, executor: &dyn Executor) -> Result<Proposed, Optimiz
     // A coarse survey, which only ranks.
     let cheap = Task { sampling: Sampling::SCREENING, ..task.clone() };
     let score = |parts: &[f64]| {
-        let found = cheap.score(&task.choice(parts), &Deviation::default(), &Serial);
+        let found = cheap.score(&task.choice(parts), &Serial);
         found.unwrap_or(f64::NEG_INFINITY)
     };
-    let own = task.parts(&AbsorberDesign::of(&task.design));
+    let own = task.parts(&task.case.design);
     let what = "looking between the bounds";
     let Found { line, seen, best } = search::everywhere(what, &own, &effort, executor, &score);
     if best.is_none() && (exact || task.bounds.len() > 1) {
@@ -87,7 +87,7 @@ pub fn judged(
     if proposed.best.is_none() {
         chosen.extend(shortlist(&proposed.seen, CLOSE, LIKED).into_iter().map(|seen| seen.0));
     }
-    if !judge.case.criteria.is_empty() {
+    if !judge.task.case.criteria.is_empty() {
         for (parts, _) in shortlist(&proposed.seen, APART, usize::MAX) {
             let apart = chosen.iter().all(|one| distance(one, &parts) >= APART);
             if apart && chosen.len() < LIKED + EVERYWHERE {

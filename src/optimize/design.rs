@@ -5,15 +5,15 @@ use super::OptimizeError;
 use super::task::Task;
 use crate::band::rivals::Rivals;
 use crate::band::{Motions, Source, Survey, Worst};
-use crate::case::{AbsorberDesign, Case, Objective, Relation, Rewritten, Rounding, Subject};
+use crate::case::{self, Objective, Relation, Rewritten, Rounding, Subject};
 use crate::criteria::{self, Judged};
 use crate::executor::Executor;
 
-/// A judged absorber. Lengths in the units of a [`AbsorberDesign`].
+/// A judged absorber. Lengths in the units of its design.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Design {
-    /// The absorber, rounded as it is written.
-    pub choice: AbsorberDesign,
+    /// The design with the absorber, rounded as it is written.
+    pub choice: case::Design,
     /// Its case file.
     pub written: Rewritten,
     /// The objective: a share, a relative distance, or a length.
@@ -86,12 +86,10 @@ fn violation(judged: &Judged) -> f64 {
 
 /// Judges absorbers of one task.
 pub struct Judge<'a> {
-    /// The case as it stands.
-    pub case: &'a Case,
-    /// Its file's text.
-    pub text: &'a str,
     /// What is optimised.
     pub task: &'a Task,
+    /// The text of its case's file.
+    pub text: &'a str,
 }
 
 impl Judge<'_> {
@@ -100,7 +98,7 @@ impl Judge<'_> {
     /// # Errors
     /// As [`Judge::design`].
     pub fn own(&self, executor: &dyn Executor) -> Result<Design, OptimizeError> {
-        let written = Rewritten { text: self.text.to_owned(), case: self.case.clone() };
+        let written = Rewritten { text: self.text.to_owned(), case: self.task.case.clone() };
         self.judged(written, executor)
     }
 
@@ -112,7 +110,15 @@ impl Judge<'_> {
         self.judged(self.rounded(parts)?, executor)
     }
 
-    fn judged(&self, written: Rewritten, executor: &dyn Executor) -> Result<Design, OptimizeError> {
+    /// What is written in a case.
+    ///
+    /// # Errors
+    /// [`OptimizeError`] where it cannot be simulated.
+    pub fn judged(
+        &self,
+        written: Rewritten,
+        executor: &dyn Executor,
+    ) -> Result<Design, OptimizeError> {
         let case = &written.case;
         let amplitude = self.task.objective == Objective::WorstAmplitude;
         let mut settings = criteria::settings(case);
@@ -120,10 +126,10 @@ impl Judge<'_> {
             settings.sampling = Some(criteria::sampling(case));
         }
         let survey = Survey::of(&criteria::range(case), &settings, executor)?;
-        let choice = AbsorberDesign::of(&case.design);
+        let (choice, clearance) = (case.design, case.design.clearance());
         let worst = survey.motions.worst().filter(|_| settings.sampling.is_some());
         let (value, error) = match (amplitude, worst) {
-            (true, Some(worst)) => (worst.peak * choice.clearance, worst.error * choice.clearance),
+            (true, Some(worst)) => (worst.peak * clearance, worst.error * clearance),
             (true, None) => (f64::INFINITY, 0.0),
             _ => (self.task.exact_score(survey.band()).unwrap_or(f64::NAN), 0.0),
         };
@@ -146,8 +152,8 @@ impl Judge<'_> {
         let mut best: Option<(f64, Rewritten)> = None;
         for rounding in Rounding::ALL {
             let written =
-                self.case.rewritten("the optimised case", self.text, &choice, rounding)?;
-            let kept = self.task.allows(&AbsorberDesign::of(&written.case.design));
+                self.task.case.rewritten("the optimised case", self.text, &choice, rounding)?;
+            let kept = self.task.allows(&written.case.design);
             // Bounds closer together than four digits leave no rounding; the exact value is kept then.
             let last = rounding == Rounding::Exact;
             if !(if last { best.is_none() } else { kept }) {

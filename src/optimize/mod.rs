@@ -17,13 +17,11 @@ pub mod task;
 mod choose;
 
 pub use design::Design;
-pub use task::{Bounds, Deviation, Task, Variable};
-
-use serde::Serialize;
+pub use task::{Bounds, Task};
 
 use crate::analysis::Strip;
 use crate::band::theory;
-use crate::case::{AbsorberDesign, Case, Objective, RewriteError};
+use crate::case::{self, Case, Objective, RewriteError, Rewritten};
 use crate::executor::Executor;
 use crate::simulation::StartError;
 use design::Judge;
@@ -61,7 +59,7 @@ pub struct Optimization {
     /// The best in expectation, where something is uncertain.
     pub robust: Option<robust::Robust>,
     /// Every absorber that was judged, in the order of the clearance.
-    pub judged: Vec<Judged>,
+    pub judged: Vec<Design>,
     /// Clearances whose objective is as good as the best one's, all else held, before rounding.
     pub plateau: [f64; 2],
     /// What the cheap layer says over the clearance: places with the objective's value. A line joins them
@@ -78,42 +76,24 @@ pub struct Optimization {
     pub chart: Vec<chart::Suited>,
 }
 
-/// An absorber that was judged, as the landscape shows it.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Judged {
-    /// Its clearance, in the units of a choice.
-    pub clearance: f64,
-    /// The objective and its error.
-    pub value: f64,
-    /// How far it may be off.
-    pub error: f64,
-    /// Whether its criteria hold.
-    pub feasible: bool,
-}
-
-fn strips(task: &Task, choice: &AbsorberDesign) -> Option<[f64; 2]> {
+fn strips(task: &Task, choice: &case::Design) -> Option<[f64; 2]> {
     if task.objective != Objective::Z3Share {
         return None;
     }
-    let (band, _) = task.band_of(choice, &Deviation::default())?;
+    let band = task.band_of(choice)?;
     let zones = theory::zones(&band);
     let share = |strip| band.share(&zones, |zone| zone.is_z3() && zone.strip == Some(strip));
     Some([Strip::A1, Strip::A2].map(share))
 }
 
 impl Optimization {
-    /// Optimises a case, `text` being its file's.
+    /// Optimises a task, `text` being that of its case's file.
     ///
     /// # Errors
     /// [`OptimizeError`] where there is nothing to choose, the text is not the case's, or the objective
     /// has no value.
-    pub fn of(
-        case: &Case,
-        text: &str,
-        task: &Task,
-        executor: &dyn Executor,
-    ) -> Result<Self, OptimizeError> {
-        let judge = Judge { case, text, task };
+    pub fn of(task: &Task, text: &str, executor: &dyn Executor) -> Result<Self, OptimizeError> {
+        let judge = Judge { task, text };
         let own = judge.own(executor)?;
         let proposed = choose::propose(task, executor)?;
         let mut designs = choose::judged(&judge, &proposed, executor)?;
@@ -121,26 +101,21 @@ impl Optimization {
         let best = choose::best(&designs, task.objective).ok_or(OptimizeError::Nowhere)?.clone();
         // The case's own absorber is one of the bounds' as well as any.
         let best = if best.is_worse_than(&own, task.objective) { own.clone() } else { best };
-        let again = Case::parse("the optimised case", &best.written.text).map_err(Box::new);
-        let again = again.map_err(RewriteError::from)?;
-        let again = Judge { case: &again, text: &best.written.text, task }.own(executor)?;
+        let text = best.written.text.clone();
+        let again = Case::parse("the optimised case", &text).map_err(Box::new);
+        let again = Rewritten { case: again.map_err(RewriteError::from)?, text };
+        let again = judge.judged(again, executor)?;
         let closest = designs.iter().chain([&own]).filter(|_| !best.is_feasible());
         let closest = closest.min_by(|a, b| a.violation().total_cmp(&b.violation())).cloned();
-        designs.sort_by(|a, b| a.choice.clearance.total_cmp(&b.choice.clearance));
-        let judged = designs.iter().map(|one| Judged {
-            clearance: one.choice.clearance,
-            value: one.value,
-            error: one.error,
-            feasible: one.is_feasible(),
-        });
+        designs.sort_by(|a, b| a.choice.clearance().total_cmp(&b.choice.clearance()));
         Ok(Self {
-            judged: judged.collect(),
             closest,
+            judged: designs,
             robust,
             plateau: proposed.plateau,
             landscape: proposed.landscape,
             sensitivities: sensitivity::of(task, &best.choice, executor),
-            claim: claim::Claim::of(&case.system()),
+            claim: claim::Claim::of(&task.case.system()),
             strips: strips(task, &best.choice),
             chart: chart::chart(task, &best.choice, executor),
             task: task.clone(),

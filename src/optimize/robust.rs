@@ -5,10 +5,11 @@ use super::OptimizeError;
 use super::choose::Proposed;
 use super::design::{Design, Judge};
 use super::search::{self, Effort};
-use super::task::{Deviation, Task};
-use crate::case::{AbsorberDesign, Distribution, Objective, Uncertainty};
+use super::task::Task;
+use crate::case::{self, Distribution, Objective, Uncertainty};
 use crate::executor::{Executor, Serial, map};
 use crate::numerics::gauss;
+use crate::system::Parameter;
 
 /// The best in expectation. Values are those of the objective.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,10 +18,6 @@ pub struct Robust {
     pub design: Design,
     /// What it and what the best as written achieve under deviations.
     pub under: [UnderDeviations; 2],
-    /// Nodes of each uncertain parameter.
-    pub nodes: usize,
-    /// Combinations of deviations that an expectation takes.
-    pub combinations: usize,
 }
 
 /// What an absorber achieves where parameters deviate.
@@ -31,6 +28,9 @@ pub struct UnderDeviations {
     /// The worst at the corners of the deviations: the largest of uniform ones, two standard deviations.
     pub worst_corner: f64,
 }
+
+/// Errors of some parameters, and the weight that they have in an average.
+pub type Deviation = (Vec<(Parameter, f64)>, f64);
 
 /// How thoroughly the expectation of an exact objective is looked for.
 const ROBUST: Effort = Effort { pieces: 80, particles: 16, steps: 12, width: 1e-4, smooth: true };
@@ -60,11 +60,11 @@ pub fn best(
 ) -> Result<Option<Robust>, OptimizeError> {
     let task = judge.task;
     let Some(nominal) = super::choose::best(designs, task.objective) else { return Ok(None) };
-    if !task.uncertainty.is_any() {
+    if !task.case.uncertainty.is_any() {
         return Ok(None);
     }
     let deviations = task.deviations();
-    let under = |choice: &AbsorberDesign| task.under(choice, &deviations, executor);
+    let under = |choice: &case::Design| task.under(choice, &deviations, executor);
     let of_nominal = under(&nominal.choice);
     let mut candidates: Vec<Design> = match task.objective {
         Objective::WorstAmplitude => smoothed(task, proposed, designs),
@@ -93,19 +93,14 @@ pub fn best(
         }
     }
     let (design, of_best) = best;
-    Ok(Some(Robust {
-        design,
-        under: [of_best, of_nominal],
-        nodes: task.nodes(),
-        combinations: deviations.len(),
-    }))
+    Ok(Some(Robust { design, under: [of_best, of_nominal] }))
 }
 
 /// Parts of the way at which the expectation of an exact objective is best, beside the best as written.
 fn expected_best(
     task: &Task,
-    deviations: &[(Deviation, f64)],
-    nominal: &AbsorberDesign,
+    deviations: &[Deviation],
+    nominal: &case::Design,
     executor: &dyn Executor,
 ) -> Result<Vec<f64>, OptimizeError> {
     let score = |parts: &[f64]| {
@@ -121,10 +116,10 @@ fn expected_best(
 /// of the clearance.
 fn smoothed(task: &Task, proposed: &Proposed, designs: &[Design]) -> Vec<Design> {
     let only_clearance =
-        Uncertainty { clearance: task.uncertainty.clearance, ..Uncertainty::default() };
+        Uncertainty { clearance: task.case.uncertainty.clearance, ..Uncertainty::default() };
     let nodes = combinations(&only_clearance, SIMULATED[1]);
     let expected = |design: &Design| -> f64 {
-        let at = |off: &Deviation| design.choice.clearance + off.clearance;
+        let at = |off: &[(Parameter, f64)]| design.choice.deviating(off).clearance();
         nodes.iter().map(|(off, weight)| weight * coarse(&proposed.landscape, at(off))).sum()
     };
     let mut order: Vec<(f64, &Design)> =
@@ -141,20 +136,18 @@ fn coarse(landscape: &[(f64, f64)], at: f64) -> f64 {
     low * (1.0 - part) + high * part
 }
 
-/// Errors of one parameter with their weights; a certain one has a single node.
+/// Errors of one parameter with their weights.
 fn nodes(distribution: Distribution, count: usize) -> Vec<(f64, f64)> {
     let (rule, size) = match distribution {
-        Distribution::Certain => return vec![(0.0, 1.0)],
         Distribution::Normal(deviation) => (gauss::normal(count), deviation),
         Distribution::Uniform(largest) => (gauss::uniform(count), largest),
     };
     rule.into_iter().map(|(node, weight)| (node * size, weight)).collect()
 }
 
-/// The corner of one parameter's errors: both ends, or 0 for a certain one.
+/// The corners of one parameter's errors: both ends.
 fn ends(distribution: Distribution) -> Vec<(f64, f64)> {
     let size = match distribution {
-        Distribution::Certain => return vec![(0.0, 1.0)],
         Distribution::Normal(deviation) => SIGMAS * deviation,
         Distribution::Uniform(largest) => largest,
     };
@@ -163,32 +156,20 @@ fn ends(distribution: Distribution) -> Vec<(f64, f64)> {
 
 /// All combinations of deviations with their weights, which add up to 1; `count` nodes of each
 /// uncertain parameter.
-pub fn combinations(uncertainty: &Uncertainty, count: usize) -> Vec<(Deviation, f64)> {
+pub fn combinations(uncertainty: &Uncertainty, count: usize) -> Vec<Deviation> {
     products(uncertainty, |one| nodes(one, count))
 }
-
-/// A part of a deviation.
-type PartOf = fn(&mut Deviation) -> &mut f64;
 
 fn products(
     uncertainty: &Uncertainty,
     values: impl Fn(Distribution) -> Vec<(f64, f64)>,
-) -> Vec<(Deviation, f64)> {
-    let Uncertainty { clearance, restitution, frequency_ratio, amplitude } = *uncertainty;
-    let each: [(Distribution, PartOf); 4] = [
-        (clearance, |off| &mut off.clearance),
-        (restitution, |off| &mut off.restitution),
-        (frequency_ratio, |off| &mut off.frequency_ratio),
-        (amplitude, |off| &mut off.amplitude),
-    ];
-    let mut found = vec![(Deviation::default(), 1.0)];
-    for (distribution, of) in each {
+) -> Vec<Deviation> {
+    let mut found = vec![(Vec::new(), 1.0)];
+    for (parameter, distribution) in uncertainty.parameters() {
         let values = values(distribution);
-        let combined = found.iter().flat_map(|(off, weight)| {
+        let combined = found.iter().flat_map(|(off, weight): &Deviation| {
             values.iter().map(move |(value, share)| {
-                let mut off = *off;
-                *of(&mut off) = *value;
-                (off, weight * share)
+                ([off.as_slice(), &[(parameter, *value)]].concat(), weight * share)
             })
         });
         found = combined.collect();
@@ -204,22 +185,22 @@ impl Task {
             Objective::WorstAmplitude => SIMULATED,
             Objective::StableShare | Objective::Margin => ORBITS,
         };
-        counts[self.uncertainty.count()]
+        counts[self.case.uncertainty.parameters().count()]
     }
 
     /// The combinations of deviations over which is averaged.
-    pub fn deviations(&self) -> Vec<(Deviation, f64)> {
-        combinations(&self.uncertainty, self.nodes())
+    pub fn deviations(&self) -> Vec<Deviation> {
+        combinations(&self.case.uncertainty, self.nodes())
     }
 
     /// The average score over deviations with weights; `None` where one leaves no system.
     pub fn expected(
         &self,
-        choice: &AbsorberDesign,
-        deviations: &[(Deviation, f64)],
+        choice: &case::Design,
+        deviations: &[Deviation],
         executor: &dyn Executor,
     ) -> Option<f64> {
-        let score = |k: usize| self.score(choice, &deviations[k].0, &Serial);
+        let score = |k: usize| self.score(&choice.deviating(&deviations[k].0), &Serial);
         let scores = map(executor, "", deviations.len(), score);
         scores.into_iter().zip(deviations).map(|(score, (_, weight))| Some(weight * score?)).sum()
     }
@@ -228,13 +209,14 @@ impl Task {
     /// deviation leaves no system.
     fn under(
         &self,
-        choice: &AbsorberDesign,
-        deviations: &[(Deviation, f64)],
+        choice: &case::Design,
+        deviations: &[Deviation],
         executor: &dyn Executor,
     ) -> UnderDeviations {
-        let corners = products(&self.uncertainty, ends);
-        let worst =
-            map(executor, "", corners.len(), |k| self.score(choice, &corners[k].0, &Serial));
+        let corners = products(&self.case.uncertainty, ends);
+        let worst = map(executor, "", corners.len(), |k| {
+            self.score(&choice.deviating(&corners[k].0), &Serial)
+        });
         let worst = worst.into_iter().map(|score| score.unwrap_or(f64::NEG_INFINITY));
         let expected = self.expected(choice, deviations, executor);
         UnderDeviations {
@@ -252,19 +234,26 @@ mod tests {
     #[test]
     fn combinations_have_the_moments_of_their_errors() {
         let two = Uncertainty {
-            clearance: Distribution::Normal(0.1),
-            amplitude: Distribution::Uniform(0.2),
+            clearance: Some(Distribution::Normal(0.1)),
+            amplitude: Some(Distribution::Uniform(0.2)),
             ..Uncertainty::default()
         };
         let all = combinations(&two, 7);
         assert_eq!(all.len(), 49);
-        let mean = |of: &dyn Fn(&Deviation) -> f64| -> f64 {
-            all.iter().map(|(off, weight)| weight * of(off)).sum()
+        let mean = |of: &dyn Fn(f64, f64) -> f64| -> f64 {
+            let values = |off: &Vec<(Parameter, f64)>| (off[0], off[1]);
+            let weighted = all.iter().map(|(off, weight)| match values(off) {
+                ((Parameter::Clearance, clearance), (Parameter::Amplitude, amplitude)) => {
+                    weight * of(clearance, amplitude)
+                }
+                other => panic!("{other:?}"),
+            });
+            weighted.sum()
         };
-        assert!((mean(&|_| 1.0) - 1.0).abs() < 1e-14);
-        assert!((mean(&|off| off.clearance * off.clearance) - 0.01).abs() < 1e-14);
-        assert!((mean(&|off| off.amplitude * off.amplitude) - 0.04 / 3.0).abs() < 1e-14);
-        assert!(mean(&|off| off.clearance * off.amplitude).abs() < 1e-16);
-        assert_eq!(combinations(&Uncertainty::default(), 7), [(Deviation::default(), 1.0)]);
+        assert!((mean(&|_, _| 1.0) - 1.0).abs() < 1e-14);
+        assert!((mean(&|clearance, _| clearance * clearance) - 0.01).abs() < 1e-14);
+        assert!((mean(&|_, amplitude| amplitude * amplitude) - 0.04 / 3.0).abs() < 1e-14);
+        assert!(mean(&|clearance, amplitude| clearance * amplitude).abs() < 1e-16);
+        assert_eq!(combinations(&Uncertainty::default(), 7), [(Vec::new(), 1.0)]);
     }
 }

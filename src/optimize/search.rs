@@ -4,13 +4,13 @@
 use std::cell::RefCell;
 
 use argmin::core::{CostFunction, Error, Executor, PopulationState};
-use argmin::solver::goldensectionsearch::GoldenSectionSearch;
 use argmin::solver::neldermead::NelderMead;
 use argmin::solver::particleswarm::ParticleSwarm;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::SeedableRng;
 
 use crate::executor::{Executor as Evaluations, map};
+use crate::numerics::scan::narrow;
 
 /// A score between bounds, minus infinity where there is none.
 pub type Score<'f> = &'f (dyn Fn(&[f64]) -> f64 + Sync);
@@ -50,8 +50,6 @@ pub struct Best {
 const SAME: f64 = 1e-9;
 /// Local maxima of a scan that are narrowed down.
 const PEAKS: usize = 4;
-/// Most steps of golden section: more than any width asks for.
-const NARROWINGS: u64 = 60;
 /// Width to which the end of a plateau is known, over that of a maximum.
 const END: f64 = 0.01;
 /// Steps of the polish in several dimensions, and the size of its first simplex.
@@ -65,38 +63,34 @@ const SEED: u64 = 2016;
 /// What stands for a place without a score.
 const NOTHING: f64 = 1e300;
 
-/// A problem for the optimiser, which remembers the best of all it was asked.
+/// A problem for the optimiser, which remembers all that it was asked.
 struct Problem<'f> {
     score: Score<'f>,
-    best: RefCell<Seen>,
     seen: RefCell<Vec<Seen>>,
 }
 
 impl<'f> Problem<'f> {
     fn new(score: Score<'f>) -> Self {
-        let best = RefCell::new((Vec::new(), f64::NEG_INFINITY));
-        Self { score, best, seen: RefCell::default() }
+        Self { score, seen: RefCell::default() }
     }
 
     /// Places outside of the bounds count as the nearest inside.
     fn asked(&self, parts: &[f64]) -> f64 {
         let inside: Vec<f64> = parts.iter().map(|part| part.clamp(0.0, 1.0)).collect();
         let score = (self.score)(&inside);
-        self.seen.borrow_mut().push((inside.clone(), score));
-        let mut best = self.best.borrow_mut();
-        // What is better by rounding only does not replace the middle of a plateau.
-        if score > best.1 && !same(score, best.1) {
-            *best = (inside, score);
-        }
-        if score.is_finite() { -score } else { NOTHING }
+        self.seen.borrow_mut().push((inside, score));
+        score
     }
 
-    /// The best of all that was asked, in the middle of the stretch that is as good.
-    fn best(self, width: f64) -> Option<Best> {
-        let (parts, score) = self.best.into_inner();
-        let at = *parts.first()?;
-        let best = Best { parts, score, plateau: [at; 2], seen: self.seen.into_inner() };
-        Some(centred(best, width, self.score))
+    /// The best of all that was asked; `None` where nothing has a score.
+    fn best(&self) -> Option<Best> {
+        let seen = self.seen.borrow();
+        let mut scored = seen.iter().filter(|one| one.1 > f64::NEG_INFINITY);
+        let first = scored.next()?;
+        // What is better by rounding only does not replace the middle of a plateau.
+        let better = |a: &Seen, b: &Seen| b.1 > a.1 && !same(a.1, b.1);
+        let (parts, score) = scored.fold(first, |a, b| if better(a, b) { b } else { a }).clone();
+        Some(Best { plateau: [parts[0]; 2], parts, score, seen: seen.clone() })
     }
 }
 
@@ -104,18 +98,8 @@ impl CostFunction for &Problem<'_> {
     type Param = Vec<f64>;
     type Output = f64;
     fn cost(&self, parts: &Self::Param) -> Result<f64, Error> {
-        Ok(self.asked(parts))
-    }
-}
-
-/// A problem on a line.
-struct OnLine<'p, 'f>(&'p Problem<'f>);
-
-impl CostFunction for OnLine<'_, '_> {
-    type Param = f64;
-    type Output = f64;
-    fn cost(&self, part: &f64) -> Result<f64, Error> {
-        Ok(self.0.asked(&[*part]))
+        let score = self.asked(parts);
+        Ok(if score.is_finite() { -score } else { NOTHING })
     }
 }
 
@@ -173,7 +157,7 @@ pub fn on_line(
         let (from, to) = (around(widest[0]).0, around(widest[widest.len() - 1]).1);
         narrowed(&problem, from.0, to.0, width);
     }
-    let mut best = problem.best(width)?;
+    let mut best = centred(problem.best()?, width, &asked);
     best.seen.extend(scanned.iter().map(|(part, score)| (vec![*part], *score)));
     Some(best)
 }
@@ -213,16 +197,16 @@ pub fn everywhere(
     Found { line, seen, best }
 }
 
-/// Golden section between two places; what it finds is remembered by the problem.
+/// Golden section between two places, until it moves by less than `width`; what it finds is remembered by the
+/// problem.
 fn narrowed(problem: &Problem, from: f64, to: f64, width: f64) {
-    let solver = GoldenSectionSearch::new(from, to).and_then(|solver| solver.with_tolerance(width));
-    let Ok(solver) = solver else { return };
-    let start = 0.5 * (from + to);
-    // Nothing is read from the outcome: the problem has seen every place.
-    let _ = Executor::new(OnLine(problem), solver)
-        .configure(|state| state.param(start).max_iters(NARROWINGS))
-        .timer(false)
-        .run();
+    let mut last = f64::INFINITY;
+    narrow([from, to], |part| {
+        let moved = (part - last).abs();
+        last = part;
+        let score = problem.asked(&[part]);
+        (moved > width).then_some(score)
+    });
 }
 
 /// The best place in several dimensions: a swarm with a fixed beginning, then for a smooth score a simplex
@@ -241,15 +225,11 @@ fn in_box(known: &[Vec<f64>], effort: &Effort, score: Score) -> Option<Best> {
         .configure(|state: PopulationState<_, f64>| state.max_iters(steps))
         .timer(false)
         .run();
-    let start = problem.best.borrow().0.clone();
-    if start.is_empty() {
-        return None;
-    }
+    let found = problem.best()?;
     if !effort.smooth {
-        let (parts, score) = problem.best.into_inner();
-        let plateau = [parts[0]; 2];
-        return Some(Best { parts, score, plateau, seen: problem.seen.into_inner() });
+        return Some(found);
     }
+    let start = found.parts;
     let mut simplex = vec![start.clone()];
     for k in 0..dimensions {
         let mut corner = start.clone();
@@ -262,7 +242,7 @@ fn in_box(known: &[Vec<f64>], effort: &Effort, score: Score) -> Option<Best> {
             .timer(false)
             .run();
     }
-    problem.best(effort.width)
+    Some(centred(problem.best()?, effort.width, score))
 }
 
 /// How far two places are apart, in the coordinate in which they are farthest.

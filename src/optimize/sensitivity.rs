@@ -1,35 +1,18 @@
 //! What a change of each parameter does to the objective.
 
-use serde::Serialize;
-
-use super::task::{Deviation, Task};
-use crate::case::AbsorberDesign;
+use super::task::Task;
+use crate::case::Design;
 use crate::executor::{Executor, Serial, map};
+use crate::system::Parameter;
 
 /// Relative change of a parameter; of the frequency a tenth of it, since resonance is sharp.
 pub const CHANGE: f64 = 0.01;
 
-/// A parameter that may change.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Changed {
-    /// The clearance.
-    Clearance,
-    /// The restitution.
-    Restitution,
-    /// The absorber's mass.
-    Mass,
-    /// The excitation's frequency, a whole band shifted.
-    Frequency,
-    /// The excitation's amplitude, that of a whole band.
-    Amplitude,
-}
-
 /// The objective with a parameter a little smaller and a little larger.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sensitivity {
     /// The parameter.
-    pub of: Changed,
+    pub of: Parameter,
     /// Its relative change.
     pub change: f64,
     /// Its value with the parameter smaller by that, `None` where there is no such system.
@@ -38,35 +21,31 @@ pub struct Sensitivity {
     pub larger: Option<f64>,
 }
 
-/// The sensitivities at an absorber.
-pub fn of(task: &Task, choice: &AbsorberDesign, executor: &dyn Executor) -> Vec<Sensitivity> {
-    let omega = task.design.system().map_or(1.0, |system| system.frequency_ratio());
-    let at = |of: Changed, change: f64| {
-        let mut choice = *choice;
-        let mut off = Deviation::default();
-        match of {
-            Changed::Clearance => choice.clearance *= 1.0 + change,
-            Changed::Restitution => off.restitution = change * choice.restitution,
-            Changed::Mass => choice.mass = choice.mass.map(|mass| mass * (1.0 + change)),
-            Changed::Frequency => off.frequency_ratio = change * omega,
-            Changed::Amplitude => off.amplitude = change,
-        }
-        task.score(&choice, &off, &Serial).map(|score| task.value(score))
-    };
-    let mut all = vec![
-        (Changed::Clearance, CHANGE),
-        (Changed::Restitution, CHANGE),
-        (Changed::Mass, CHANGE),
-        (Changed::Frequency, 0.1 * CHANGE),
-        (Changed::Amplitude, CHANGE),
-    ];
-    all.retain(|(of, _)| *of != Changed::Mass || choice.mass.is_some());
+/// The sensitivities at a design; a whole band is shifted or scaled with its frequency or amplitude.
+pub fn of(task: &Task, choice: &Design, executor: &dyn Executor) -> Vec<Sensitivity> {
+    let of_value = |of: Parameter, change: f64| Some((of, change, choice.value(of)?));
+    let all: Vec<(Parameter, f64, f64)> = [
+        of_value(Parameter::Clearance, CHANGE),
+        of_value(Parameter::Restitution, CHANGE),
+        of_value(Parameter::AbsorberMass, CHANGE),
+        of_value(Parameter::Frequency, 0.1 * CHANGE),
+        of_value(Parameter::Amplitude, CHANGE),
+    ]
+    .into_iter()
+    .flatten()
+    .collect();
     let scores = map(executor, "sensitivities", 2 * all.len(), |k| {
-        let (of, change) = all[k / 2];
-        at(of, if k % 2 == 0 { -change } else { change })
+        let (of, change, value) = all[k / 2];
+        let error = if k % 2 == 0 { -change * value } else { change * value };
+        task.score(&choice.deviating(&[(of, error)]), &Serial).map(|score| task.value(score))
     });
     let pairs = all.into_iter().zip(scores.chunks(2));
     pairs
-        .map(|((of, change), pair)| Sensitivity { of, change, smaller: pair[0], larger: pair[1] })
+        .map(|((of, change, _), pair)| Sensitivity {
+            of,
+            change,
+            smaller: pair[0],
+            larger: pair[1],
+        })
         .collect()
 }

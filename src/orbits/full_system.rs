@@ -81,8 +81,7 @@ impl FullSystem {
         let range = FREQUENCIES.map(|factor| factor * self.system.frequency_ratio());
         let settings = Settings::within(range);
         let branch =
-            follow(&self.system, &start.orbit, Parameter::FrequencyRatio, direction, &settings)
-                .ok()?;
+            follow(&self.system, &start.orbit, Parameter::Frequency, direction, &settings).ok()?;
         // The branch sets out stable: whichever of these comes first ends that.
         branch.specials.into_iter().find(|special| {
             matches!(

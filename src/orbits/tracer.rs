@@ -188,12 +188,7 @@ mod tests {
             excitation: Excitation::BaseDisplacement,
         })
         .expect("valid");
-        for parameter in [
-            Parameter::Clearance,
-            Parameter::FrequencyRatio,
-            Parameter::Forcing,
-            Parameter::Restitution,
-        ] {
+        for parameter in Parameter::OF_SYSTEM {
             let (value, h) = (0.8, 1e-5);
             let at = |value| {
                 let there = parameter.applied(&base, value).expect("valid");

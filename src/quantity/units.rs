@@ -26,58 +26,34 @@ const fn unit(symbol: &'static str, exponent: i32) -> Unit {
     Unit { symbol, size: if exponent < 0 { 1.0 / power } else { power }, exponent }
 }
 
-/// Units of each dimension that a page shows, from the largest to the smallest.
-const LENGTHS: &[Unit] =
-    &[unit("km", 3), unit("m", 0), unit("mm", -3), unit("µm", -6), unit("nm", -9)];
-const TIMES: &[Unit] = &[unit("s", 0), unit("ms", -3), unit("µs", -6)];
-const FREQUENCIES: &[Unit] = &[unit("kHz", 3), unit("Hz", 0), unit("mHz", -3)];
-const VELOCITIES: &[Unit] = &[unit("km/s", 3), unit("m/s", 0), unit("mm/s", -3), unit("µm/s", -6)];
-const ACCELERATIONS: &[Unit] = &[unit("m/s²", 0), unit("mm/s²", -3)];
-const MASSES: &[Unit] = &[unit("t", 3), unit("kg", 0), unit("g", -3), unit("mg", -6)];
-const STIFFNESSES: &[Unit] = &[unit("MN/m", 6), unit("kN/m", 3), unit("N/m", 0)];
-const DAMPINGS: &[Unit] = &[unit("kN s/m", 3), unit("N s/m", 0), unit("mN s/m", -3)];
-const FORCES: &[Unit] = &[unit("MN", 6), unit("kN", 3), unit("N", 0), unit("mN", -3)];
-const ENERGIES: &[Unit] =
-    &[unit("kJ", 3), unit("J", 0), unit("mJ", -3), unit("µJ", -6), unit("nJ", -9)];
-const POWERS: &[Unit] = &[unit("kW", 3), unit("W", 0), unit("mW", -3), unit("µW", -6)];
-const IMPULSES: &[Unit] = &[unit("kN s", 3), unit("N s", 0), unit("mN s", -3)];
-const ANGLES: &[Unit] = &[unit("rad", 0)];
-const SHARES: &[Unit] = &[unit("%", -2)];
-const LEVELS: &[Unit] = &[unit("dB", 0)];
-const NUMBERS: &[Unit] = &[unit("", 0)];
 const RADIANS_PER_SECOND: Unit = Unit { symbol: "rad/s", size: 1.0 / TAU, exponent: 0 };
-const FURTHER_STIFFNESSES: &[Unit] =
-    &[unit("mN/m", -3), unit("N/mm", 3), unit("kN/mm", 6), unit("N/cm", 2), unit("N/um", 6)];
-const FURTHER_DAMPINGS: &[Unit] = &[
-    unit("Ns/m", 0),
-    unit("kNs/m", 3),
-    unit("mNs/m", -3),
-    unit("N s/mm", 3),
-    unit("Ns/mm", 3),
-    unit("kg/s", 0),
-    unit("g/s", -3),
-];
 
 impl Dimension {
     /// Its units in SI, from the largest to the smallest.
     fn units(self) -> &'static [Unit] {
         match self {
-            Self::Length => LENGTHS,
-            Self::Time => TIMES,
-            Self::Frequency => FREQUENCIES,
-            Self::Velocity => VELOCITIES,
-            Self::Acceleration => ACCELERATIONS,
-            Self::Mass => MASSES,
-            Self::Stiffness => STIFFNESSES,
-            Self::Damping => DAMPINGS,
-            Self::Force => FORCES,
-            Self::Energy => ENERGIES,
-            Self::Power => POWERS,
-            Self::Impulse => IMPULSES,
-            Self::Angle => ANGLES,
-            Self::Share | Self::Change => SHARES,
-            Self::Level => LEVELS,
-            Self::Number | Self::Count => NUMBERS,
+            Self::Length => {
+                const { &[unit("km", 3), unit("m", 0), unit("mm", -3), unit("µm", -6), unit("nm", -9)] }
+            }
+            Self::Time => const { &[unit("s", 0), unit("ms", -3), unit("µs", -6)] },
+            Self::Frequency => const { &[unit("kHz", 3), unit("Hz", 0), unit("mHz", -3)] },
+            Self::Velocity => {
+                const { &[unit("km/s", 3), unit("m/s", 0), unit("mm/s", -3), unit("µm/s", -6)] }
+            }
+            Self::Acceleration => const { &[unit("m/s²", 0), unit("mm/s²", -3)] },
+            Self::Mass => const { &[unit("t", 3), unit("kg", 0), unit("g", -3), unit("mg", -6)] },
+            Self::Stiffness => const { &[unit("MN/m", 6), unit("kN/m", 3), unit("N/m", 0)] },
+            Self::Damping => const { &[unit("kN s/m", 3), unit("N s/m", 0), unit("mN s/m", -3)] },
+            Self::Force => const { &[unit("MN", 6), unit("kN", 3), unit("N", 0), unit("mN", -3)] },
+            Self::Energy => {
+                const { &[unit("kJ", 3), unit("J", 0), unit("mJ", -3), unit("µJ", -6), unit("nJ", -9)] }
+            }
+            Self::Power => const { &[unit("kW", 3), unit("W", 0), unit("mW", -3), unit("µW", -6)] },
+            Self::Impulse => const { &[unit("kN s", 3), unit("N s", 0), unit("mN s", -3)] },
+            Self::Angle => const { &[unit("rad", 0)] },
+            Self::Share | Self::Change => const { &[unit("%", -2)] },
+            Self::Level => const { &[unit("dB", 0)] },
+            Self::Number | Self::Count => const { &[unit("", 0)] },
         }
     }
 
@@ -88,8 +64,30 @@ impl Dimension {
             Self::Mass => const { &[unit("ug", -9)] },
             Self::Frequency => const { &[unit("MHz", 6), RADIANS_PER_SECOND] },
             Self::Velocity => const { &[unit("cm/s", -2)] },
-            Self::Stiffness => FURTHER_STIFFNESSES,
-            Self::Damping => FURTHER_DAMPINGS,
+            Self::Stiffness => {
+                const {
+                    &[
+                        unit("mN/m", -3),
+                        unit("N/mm", 3),
+                        unit("kN/mm", 6),
+                        unit("N/cm", 2),
+                        unit("N/um", 6),
+                    ]
+                }
+            }
+            Self::Damping => {
+                const {
+                    &[
+                        unit("Ns/m", 0),
+                        unit("kNs/m", 3),
+                        unit("mNs/m", -3),
+                        unit("N s/mm", 3),
+                        unit("Ns/mm", 3),
+                        unit("kg/s", 0),
+                        unit("g/s", -3),
+                    ]
+                }
+            }
             Self::Force => const { &[unit("uN", -6), unit("nN", -9)] },
             _ => &[],
         }
@@ -151,7 +149,7 @@ impl Units {
     pub fn physical(clearance_m: f64) -> Self {
         // 0.1 mm reads better than 100 µm, and 300 mm better than 0.3 m.
         let fits = |one: &&Unit| clearance_m >= one.size * if one.size == 1.0 { 1.0 } else { 0.1 };
-        let length = LENGTHS.iter().find(fits).copied();
+        let length = Dimension::Length.units().iter().find(fits).copied();
         Self { physical: true, length: length.unwrap_or(unit("nm", -9)) }
     }
 

@@ -145,9 +145,9 @@ impl Diagram {
 fn range(exact: &FullSystem, parameter: Parameter) -> Option<[f64; 2]> {
     match parameter {
         Parameter::Clearance => clearances(exact),
-        Parameter::Forcing => clearances(exact).map(|[low, high]| [1.0 / high, 1.0 / low]),
-        Parameter::FrequencyRatio => frequencies(&exact.system),
-        Parameter::Restitution => None,
+        Parameter::Amplitude => clearances(exact).map(|[low, high]| [1.0 / high, 1.0 / low]),
+        Parameter::Frequency => frequencies(&exact.system),
+        _ => None,
     }
 }
 

@@ -3,7 +3,7 @@
 use super::Plan;
 use super::facts::{Facts, Found};
 use crate::analysis::{Area, Strip, Zone};
-use crate::case::{Design, Layer, Recorded};
+use crate::case::{Design, Recorded};
 use crate::quantity::catalogue as of;
 use crate::quantity::{Dimension, Kind};
 use crate::regimes::Regime;
@@ -121,7 +121,7 @@ pub const fn kind(recorded: Recorded) -> Option<&'static Kind> {
 pub fn empty(plan: &Plan) -> Vec<Column> {
     let mut columns = vec![Column::empty("point".to_owned(), "1", Storage::Whole)];
     columns.extend(plan.settings.axes.iter().map(|axis| {
-        let unit = axis.parameter.unit(&plan.design);
+        let unit = plan.design.unit(axis.parameter);
         Column::empty(axis.parameter.key().to_owned(), unit, Storage::Number)
     }));
     let physical = matches!(plan.design, Design::Physical(_));
@@ -142,7 +142,7 @@ pub fn empty(plan: &Plan) -> Vec<Column> {
 /// What is recorded, in each direction in which it is found.
 fn recorded(plan: &Plan) -> impl Iterator<Item = (Recorded, Direction)> {
     plan.settings.record.iter().flat_map(|recorded| {
-        let both = plan.settings.follow && recorded.layer() == Layer::Simulation;
+        let both = plan.settings.follow && recorded.is_simulated();
         let directions: &[_] =
             if both { &[Direction::Up, Direction::Down] } else { &[Direction::Single] };
         directions.iter().map(|direction| (*recorded, *direction))

@@ -3,17 +3,17 @@
 
 use super::facts::Found;
 use super::{Plan, Point};
-use crate::case::{Scales, SweepParameter};
+use crate::case::Scales;
 use crate::regimes::diagram::carried_over;
 use crate::regimes::starts::FROM_REST;
 use crate::regimes::{Effort, long_term};
 use crate::simulation::StartError;
-use crate::system::State;
+use crate::system::{Parameter, State};
 
 /// The start that axes say, over the clearance; none where they say nothing. What no axis says is at
 /// rest, the absorber halfway between the middle of its cavity and a wall.
 pub(super) fn start(
-    axes: impl Iterator<Item = (SweepParameter, f64)>,
+    axes: impl Iterator<Item = (Parameter, f64)>,
     scales: &Scales,
 ) -> Option<State> {
     let speed = scales.natural_frequency;
@@ -23,9 +23,9 @@ pub(super) fn start(
     for (parameter, value) in axes.filter(|(parameter, _)| parameter.is_initial()) {
         said = true;
         match parameter {
-            SweepParameter::InitialDisplacement => start.x = length(value),
-            SweepParameter::InitialVelocity => start.x_velocity = velocity(value),
-            SweepParameter::InitialAbsorberVelocity => start.y_velocity = velocity(value),
+            Parameter::InitialDisplacement => start.x = length(value),
+            Parameter::InitialVelocity => start.x_velocity = velocity(value),
+            Parameter::InitialAbsorberVelocity => start.y_velocity = velocity(value),
             _ => absorber = Some(length(value)),
         }
     }
@@ -84,19 +84,19 @@ mod tests {
     /// By hand: 2 mm and 5 mm/s are 0.1 and 0.005 of a clearance of 20 mm at 50 rad/s.
     #[test]
     fn axes_set_the_start_and_the_rest_is_at_rest() {
-        let axes = [(SweepParameter::InitialDisplacement, 2e-3), (SweepParameter::Clearance, 0.02)];
+        let axes = [(Parameter::InitialDisplacement, 2e-3), (Parameter::Clearance, 0.02)];
         let found = start(axes.into_iter(), &scales(0.02)).expect("an axis says");
         assert!((found.x - 0.1).abs() < 1e-15 && found.x_velocity == 0.0);
         assert!((found.relative_displacement() + FROM_REST.y).abs() < 1e-15, "{found:?}");
         let axes = [
-            (SweepParameter::InitialVelocity, 5e-3),
-            (SweepParameter::InitialAbsorberDisplacement, -4e-3),
-            (SweepParameter::InitialAbsorberVelocity, 10e-3),
+            (Parameter::InitialVelocity, 5e-3),
+            (Parameter::InitialAbsorberDisplacement, -4e-3),
+            (Parameter::InitialAbsorberVelocity, 10e-3),
         ];
         let found = start(axes.into_iter(), &scales(0.02)).expect("an axis says");
         let wanted = State { x: 0.0, x_velocity: 0.005, y: -0.2, y_velocity: 0.01 };
         assert!(found.distance(&wanted) < 1e-15, "{found:?}");
-        assert_eq!(start([(SweepParameter::Clearance, 1.0)].into_iter(), &scales(1.0)), None);
+        assert_eq!(start([(Parameter::Clearance, 1.0)].into_iter(), &scales(1.0)), None);
     }
 
     #[test]

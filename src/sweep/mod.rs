@@ -11,9 +11,9 @@ pub mod work;
 
 use std::ops::Range;
 
-use crate::case::{Case, Design, Layer, Scales, SweepParameter, SweepSettings};
+use crate::case::{Case, Design, Scales, SweepSettings};
 use crate::digest::sha256;
-use crate::system::{State, System};
+use crate::system::{Parameter, State, System};
 
 /// Points of a chunk, at least: about half a second's work, so that little is lost with one, and a file of some
 /// hundred kilobytes, so that there are not too many of them.
@@ -108,21 +108,21 @@ impl Plan {
         let coordinates: Vec<f64> =
             axes.iter().zip(indices).map(|(axis, index)| axis.values[index]).collect();
         let parameters = axes.iter().map(|axis| axis.parameter);
-        let mut values: Vec<(SweepParameter, f64)> =
+        let mut values: Vec<(Parameter, f64)> =
             parameters.zip(coordinates.iter().copied()).collect();
         // Ratios are of what the others make the design.
         values.sort_by_key(|(parameter, _)| parameter.is_ratio());
         let applied =
-            |design, (parameter, value): &(SweepParameter, f64)| parameter.applied(&design, *value);
+            |design: Design, (parameter, value): &(Parameter, f64)| design.with(*parameter, *value);
         let design = values.iter().fold(self.design, applied);
         let scales = design.scales();
         let start = follow::start(values.into_iter(), &scales);
         Point { number, system: design.system().ok(), scales, start, coordinates }
     }
 
-    /// Whether anything is recorded that a layer knows.
-    pub fn needs(&self, layer: Layer) -> bool {
-        self.settings.record.iter().any(|recorded| recorded.layer() == layer)
+    /// Whether anything is recorded that only simulation knows.
+    pub fn needs_simulation(&self) -> bool {
+        self.settings.record.iter().any(|recorded| recorded.is_simulated())
     }
 }
 

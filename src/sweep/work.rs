@@ -6,7 +6,7 @@ use super::columns::{self, Column, SECTION};
 use super::facts::{Facts, Found};
 use super::follow;
 use super::{Plan, Point};
-use crate::case::{Layer, Recorded};
+use crate::case::Recorded;
 use crate::regimes::long_term::motions;
 use crate::regimes::{Effort, Lyapunov, starts};
 use crate::simulation::{Observer, Simulation, StartError, batch};
@@ -32,7 +32,7 @@ pub fn points(plan: &Plan, numbers: Range<u64>) -> Result<Vec<Column>, StartErro
     while begin < numbers.end {
         let end = numbers.end.min(begin + at_once);
         let some: Vec<Point> = (begin..end).map(|number| plan.point(number)).collect();
-        let found = match plan.needs(Layer::Simulation) {
+        let found = match plan.needs_simulation() {
             true => simulated(plan, &some)?,
             false => vec![Vec::new(); some.len()],
         };

@@ -1,54 +1,71 @@
-//! One parameter of a system that is varied while all others stay: what branches of orbits and
-//! bifurcation diagrams move along.
+//! One parameter that is varied while all others stay: what branches of orbits, bifurcation diagrams, sweeps,
+//! errors and an optimisation move along.
+//!
+//! Here it is a number of the dimensionless system, `case/parameter.rs` has its values in a design.
+// Descriptions of keys go into the schema as they are: [reduced] is a table of the case file, not an item.
+#![allow(rustdoc::broken_intra_doc_links)]
 
 use serde::Serialize;
 
 use super::{InvalidParameter, Parameters, System};
+use crate::names::names;
 
-/// The parameter that is varied, the others being those of a base system.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Parameter {
-    /// The clearance over the base system's; the excitation stays what it is, so that `gamma` is
-    /// divided by it.
-    Clearance,
-    /// The frequency ratio `Omega`.
-    FrequencyRatio,
-    /// The excitation's amplitude over the base system's; the clearance stays what it is, so that
-    /// `gamma` is multiplied by it.
-    Forcing,
-    /// The restitution `r`.
-    Restitution,
+names! { key:
+    /// A number of a case, or of a start, that an axis varies; every other number of the case stays. A
+    /// design's own are in SI units, or plain numbers of a reduced design.
+    #[derive(Serialize)]
+    pub enum Parameter {
+        /// Clearances.
+        Clearance = "clearance",
+        /// Frequencies of the excitation, or frequency ratios beside [reduced].
+        Frequency = "frequency",
+        /// Detunings sigma, beside [reduced].
+        Detuning = "detuning",
+        /// Amplitudes of the excitation, as in [excitation]; the reduced forcing G beside [reduced].
+        Amplitude = "amplitude",
+        /// Restitutions.
+        Restitution = "restitution",
+        /// Masses of the absorber, with a unit.
+        AbsorberMass = "absorber_mass",
+        /// Masses of the absorber over that of the oscillator.
+        MassRatio = "mass_ratio",
+        /// Masses of the oscillator, with a unit.
+        Mass = "mass",
+        /// Stiffnesses of the oscillator, with a unit.
+        Stiffness = "stiffness",
+        /// Viscous dampings of the oscillator, with a unit; lambda beside [reduced].
+        Damping = "damping",
+        /// Dampings of the oscillator over the critical one.
+        DampingRatio = "damping_ratio",
+        /// Displacements of the oscillator at the start.
+        InitialDisplacement = "initial_displacement",
+        /// Velocities of the oscillator at the start.
+        InitialVelocity = "initial_velocity",
+        /// Displacements of the absorber at the start; unless given it is half a clearance from the oscillator.
+        InitialAbsorberDisplacement = "initial_absorber_displacement",
+        /// Velocities of the absorber at the start.
+        InitialAbsorberVelocity = "initial_absorber_velocity",
+    }
 }
 
 impl Parameter {
-    /// All of them.
-    pub const ALL: [Self; 4] =
-        [Self::Clearance, Self::FrequencyRatio, Self::Forcing, Self::Restitution];
+    /// Those of a dimensionless system that [`Parameter::applied`] varies.
+    pub const OF_SYSTEM: [Self; 4] =
+        [Self::Clearance, Self::Frequency, Self::Amplitude, Self::Restitution];
 
-    /// Its name in a sentence.
-    pub const fn words(self) -> &'static str {
-        match self {
-            Self::Clearance => "clearance",
-            Self::FrequencyRatio => "excitation frequency",
-            Self::Forcing => "excitation amplitude",
-            Self::Restitution => "restitution",
-        }
+    /// Whether it is a part of the start, not of the design: these are the last.
+    pub fn is_initial(self) -> bool {
+        self >= Self::InitialDisplacement
     }
 
-    /// The symbol of its value.
-    pub const fn symbol(self) -> &'static str {
-        match self {
-            Self::Clearance => "b",
-            Self::FrequencyRatio => "Ω",
-            Self::Forcing => "F",
-            Self::Restitution => "r",
-        }
+    /// Whether it is a ratio to other numbers of a design, so that these have to be known first.
+    pub fn is_ratio(self) -> bool {
+        matches!(self, Self::MassRatio | Self::DampingRatio)
     }
 
     /// Whether equal ratios of it deserve equal room, rather than equal differences.
     pub const fn is_logarithmic(self) -> bool {
-        matches!(self, Self::Clearance | Self::Forcing)
+        matches!(self, Self::Clearance | Self::Amplitude | Self::AbsorberMass)
     }
 
     /// The value at a part of the way between two, from 0 to 1.
@@ -60,33 +77,46 @@ impl Parameter {
         }
     }
 
+    /// The part of the way between two at which a value lies; the inverse of [`Parameter::between`].
+    pub fn part(self, [low, high]: [f64; 2], value: f64) -> f64 {
+        if self.is_logarithmic() {
+            libm::log(value / low) / libm::log(high / low)
+        } else {
+            (value - low) / (high - low)
+        }
+    }
+
     /// Derivatives of forcing `gamma`, frequency and restitution by the parameter, at `value`: what
     /// [`Parameter::applied`] does to them.
     pub fn derivatives(self, base: &System, value: f64) -> [f64; 3] {
         let gamma = base.forcing_per_clearance();
         match self {
             Self::Clearance => [-gamma / (value * value), 0.0, 0.0],
-            Self::FrequencyRatio => [0.0, 1.0, 0.0],
-            Self::Forcing => [gamma, 0.0, 0.0],
+            Self::Frequency => [0.0, 1.0, 0.0],
+            Self::Amplitude => [gamma, 0.0, 0.0],
             Self::Restitution => [0.0, 0.0, 1.0],
+            _ => [0.0; 3],
         }
     }
 
-    /// Its value in the base system, dimensionless.
+    /// Its value in the base system, dimensionless: a clearance or an amplitude over the base system's, the
+    /// frequency as the ratio `Omega`; not a number for what is not varied in a system.
     pub fn of(self, base: &System) -> f64 {
         match self {
-            Self::Clearance | Self::Forcing => 1.0,
-            Self::FrequencyRatio => base.frequency_ratio(),
+            Self::Clearance | Self::Amplitude => 1.0,
+            Self::Frequency => base.frequency_ratio(),
             Self::Restitution => base.restitution(),
+            _ => f64::NAN,
         }
     }
 
-    /// The base system with the parameter at `value`. Lengths of the result are over its own
+    /// The base system with the parameter at `value`: another clearance leaves the excitation as it is, so that
+    /// `gamma` is divided by it; another amplitude multiplies `gamma`. Lengths of the result are over its own
     /// clearance, which is [`Parameter::unit`] times the base system's.
     ///
     /// # Errors
     /// [`InvalidParameter`] if no system has it: a clearance or frequency that is not above 0, a
-    /// forcing below 0, a restitution outside of 0 to 1.
+    /// forcing below 0, a restitution outside of 0 to 1, a parameter that is not varied in a system.
     pub fn applied(self, base: &System, value: f64) -> Result<System, InvalidParameter> {
         let parameters = base.parameters();
         // The detuning depends on the frequency alone, and 1 + eps sigma may have forgotten it.
@@ -95,12 +125,16 @@ impl Parameter {
         };
         match self {
             Self::Clearance => base.with_clearance_scaled(value),
-            Self::FrequencyRatio => base.with_frequency_ratio(value),
-            Self::Forcing => {
+            Self::Frequency => base.with_frequency_ratio(value),
+            Self::Amplitude => {
                 let forcing_per_clearance = value * parameters.forcing_per_clearance;
                 tuned_alike(Parameters { forcing_per_clearance, ..parameters })
             }
             Self::Restitution => tuned_alike(Parameters { restitution: value, ..parameters }),
+            _ => {
+                let expected = "a clearance, frequency, amplitude or restitution to vary";
+                Err(InvalidParameter { name: self.key(), value, expected })
+            }
         }
     }
 
@@ -132,12 +166,12 @@ mod tests {
     #[test]
     fn its_own_value_gives_the_base_system_back() {
         let base = base();
-        for parameter in Parameter::ALL {
+        for parameter in Parameter::OF_SYSTEM {
             let again = parameter.applied(&base, parameter.of(&base)).expect("valid");
             assert_eq!(again.parameters(), base.parameters(), "{parameter:?}");
             // A detuning that is given as a frequency ratio is as good as that number.
             let kept = again.detuning() == base.detuning();
-            assert!(kept || parameter == Parameter::FrequencyRatio, "{parameter:?}");
+            assert!(kept || parameter == Parameter::Frequency, "{parameter:?}");
         }
     }
 
@@ -145,22 +179,22 @@ mod tests {
     #[test]
     fn forcing_is_the_reciprocal_of_clearance_but_for_the_unit() {
         let base = base();
-        let driven = Parameter::Forcing.applied(&base, 4.0).expect("valid");
+        let driven = Parameter::Amplitude.applied(&base, 4.0).expect("valid");
         let narrow = Parameter::Clearance.applied(&base, 0.25).expect("valid");
         assert_eq!(driven, narrow);
         assert_eq!(driven.forcing_per_clearance(), 12.0);
-        assert_eq!((Parameter::Forcing.unit(4.0), Parameter::Clearance.unit(0.25)), (1.0, 0.25));
+        assert_eq!((Parameter::Amplitude.unit(4.0), Parameter::Clearance.unit(0.25)), (1.0, 0.25));
     }
 
     #[test]
     fn values_without_a_system_are_refused() {
-        for parameter in Parameter::ALL {
+        for parameter in Parameter::OF_SYSTEM {
             assert!(parameter.applied(&base(), -1.0).is_err(), "{parameter:?}");
             assert!(parameter.applied(&base(), f64::NAN).is_err(), "{parameter:?}");
         }
         assert!(Parameter::Restitution.applied(&base(), 1.1).is_err());
         // Without excitation there is a system, without room for the absorber there is none.
-        assert!(Parameter::Forcing.applied(&base(), 0.0).is_ok());
+        assert!(Parameter::Amplitude.applied(&base(), 0.0).is_ok());
         assert!(Parameter::Clearance.applied(&base(), 0.0).is_err());
     }
 }

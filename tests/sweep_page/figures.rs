@@ -49,8 +49,8 @@ fn values_that_are_cut_are_told() {
     for (peaks, cut) in [(peaks, false), (far, true)] {
         let columns = [all("peak", &peaks)];
         let axes = vec![
-            axis(&case, SweepParameter::Clearance, &values(20, 0.01)),
-            axis(&case, SweepParameter::Frequency, &values(20, 8.0)),
+            axis(&case, Parameter::Clearance, &values(20, 0.01)),
+            axis(&case, Parameter::Frequency, &values(20, 8.0)),
         ];
         let caption = figure(&swept(&case, axes, &columns), "sweep-amplitude").caption;
         assert_eq!(caption.contains("The most extreme values"), cut, "{caption}");
@@ -64,8 +64,8 @@ fn boundaries_lie_where_the_theory_has_them() {
     let case = case();
     let columns = small_columns();
     let axes = vec![
-        axis(&case, SweepParameter::Clearance, &[0.005, 0.01, 0.02, 0.03]),
-        axis(&case, SweepParameter::Frequency, &[8.0, 8.7]),
+        axis(&case, Parameter::Clearance, &[0.005, 0.01, 0.02, 0.03]),
+        axis(&case, Parameter::Frequency, &[8.0, 8.7]),
     ];
     let map = figure(&swept(&case, axes, &columns), "sweep-regimes").panels.remove(0);
     // The case's frequency and clearance are 8.35 Hz and 20 mm.
@@ -116,8 +116,8 @@ fn lines_are_traced_over_other_axes() {
         numbers("orbit_peak", &[None, None, Some(1e-3), Some(1e-3)]),
     ];
     let axes = vec![
-        axis(&case, SweepParameter::Restitution, &[0.4, 0.6]),
-        axis(&case, SweepParameter::Frequency, &[8.0, 8.2]),
+        axis(&case, Parameter::Restitution, &[0.4, 0.6]),
+        axis(&case, Parameter::Frequency, &[8.0, 8.2]),
     ];
     let regimes = figure(&swept(&case, axes, &columns), "sweep-regimes");
     let near = |found: &[[f64; 2]], wanted: [[f64; 2]; 2]| {
@@ -158,7 +158,7 @@ fn a_diagram_shows_each_point_once_in_its_regime() {
         all("section_02", &[2e-3; 4]),
         all("section_16", &[-3e-3; 4]),
     ];
-    let axes = vec![axis(&case, SweepParameter::Clearance, &[0.018, 0.019, 0.021, 0.022])];
+    let axes = vec![axis(&case, Parameter::Clearance, &[0.018, 0.019, 0.021, 0.022])];
     let swept = swept(&case, axes, &columns);
     let diagram = figure(&swept, "sweep-bifurcation");
     let panel = &diagram.panels[0];
@@ -243,7 +243,7 @@ fn words_neither_touch_nor_are_cut() {
     let columns = small_columns();
     let two = swept(&case, small_axes(&case), &columns);
     let restitutions = [0.3, 0.6, 0.9];
-    let mut axes = vec![axis(&case, SweepParameter::Restitution, &restitutions)];
+    let mut axes = vec![axis(&case, Parameter::Restitution, &restitutions)];
     axes.extend(small_axes(&case));
     let regimes: Vec<&'static str> = (0..24).map(|point| [SYM, ASY, SMR, LOW][point % 4]).collect();
     let areas: Vec<&'static str> =

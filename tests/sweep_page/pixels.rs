@@ -134,8 +134,8 @@ fn a_large_map_of_noise_stays_light() {
         (0..COUNT).map(|k| from + (to - from) * k as f64 / (COUNT - 1) as f64).collect()
     };
     let axes = vec![
-        axis(&case, SweepParameter::Clearance, &values(0.005, 0.04)),
-        axis(&case, SweepParameter::Frequency, &values(8.0, 8.7)),
+        axis(&case, Parameter::Clearance, &values(0.005, 0.04)),
+        axis(&case, Parameter::Frequency, &values(8.0, 8.7)),
     ];
     let swept = swept(&case, axes, &columns);
     let first = files(&swept);
@@ -161,8 +161,8 @@ fn levels_of_colour_are_left_out_before_points() {
     let columns = [all("peak", &peaks)];
     let values = |from: f64| -> Vec<f64> { (0..COUNT).map(|k| from + f64::from(k)).collect() };
     let axes = vec![
-        axis(&case, SweepParameter::Restitution, &values(1.0)),
-        axis(&case, SweepParameter::Frequency, &values(8.0)),
+        axis(&case, Parameter::Restitution, &values(1.0)),
+        axis(&case, Parameter::Frequency, &values(8.0)),
     ];
     let drawn = render(&figure(&swept(&case, axes, &columns), "sweep-amplitude")).expect("drawn");
     let map = &shown(&drawn)[0];

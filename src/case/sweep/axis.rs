@@ -5,15 +5,15 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use super::super::Design;
-use super::super::names::names;
 use super::super::reader::{Reader, Table};
-use super::parameter::SweepParameter;
+use crate::names::names;
+use crate::system::Parameter;
 
 /// A parameter and its values, ascending, in SI units or as plain numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SweepAxis {
     /// What is varied.
-    pub parameter: SweepParameter,
+    pub parameter: Parameter,
     /// Its values.
     pub values: Vec<f64>,
     /// Whether each is so many times the one before, not so much more.
@@ -51,14 +51,10 @@ pub(super) struct AxisTable {
 }
 
 /// Reads the axis of a parameter.
-pub(super) fn read(
-    reader: &mut Reader,
-    sweep: &Table,
-    parameter: SweepParameter,
-) -> Option<SweepAxis> {
+pub(super) fn read(reader: &mut Reader, sweep: &Table, parameter: Parameter) -> Option<SweepAxis> {
     let (name, design) = (parameter.key(), reader.design?);
     let table = reader.table::<AxisTable>(sweep, name)?;
-    if parameter.form(&design).is_none() {
+    if design.form(parameter).is_none() {
         let (this, other) = match design {
             Design::Physical(_) => ("[oscillator], [absorber] and [excitation]", "frequency"),
             Design::Reduced(_) => ("[reduced]", "mass_ratio or damping"),

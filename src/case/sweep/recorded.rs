@@ -1,17 +1,6 @@
-//! What a sweep records of each point, and which layer knows it.
+//! What a sweep records of each point.
 
-use super::super::names::names;
-
-/// A layer of the analysis, the cheapest first.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Layer {
-    /// Formulas of the theory, and of the oscillator alone.
-    ClosedForm,
-    /// Exact symmetric 1:1 orbits.
-    Orbit,
-    /// Simulation, impact by impact.
-    Simulation,
-}
+use crate::names::names;
 
 names! { key:
     /// Something that is recorded of each point.
@@ -60,13 +49,10 @@ names! { key:
 }
 
 impl Recorded {
-    /// The layer that knows it: what is recorded stands in the order of layers.
-    pub fn layer(self) -> Layer {
-        match self {
-            closed if closed <= Self::BareAmplitude => Layer::ClosedForm,
-            orbit if orbit <= Self::OrbitMultiplier => Layer::Orbit,
-            _ => Layer::Simulation,
-        }
+    /// Whether only simulation knows it: what is recorded stands in the order of layers, those of formulas
+    /// and exact orbits before it.
+    pub fn is_simulated(self) -> bool {
+        self > Self::OrbitMultiplier
     }
 
     /// Whether it compares what several starts lead to.

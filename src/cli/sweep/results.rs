@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 use ::csv::Writer;
 use clap::Args;
 use miette::{IntoDiagnostic, Result, WrapErr as _, miette};
-use vinesink::case::SweepParameter;
 use vinesink::digest::sha256;
 use vinesink::report::sweep::{AxisShown, MOST_POINTS, Swept};
 use vinesink::store::{self, Growing};
@@ -13,6 +12,7 @@ use vinesink::sweep::columns::{self, Column};
 use vinesink::sweep::csv;
 use vinesink::sweep::limits::{StabilityLimit, stability_limits};
 use vinesink::sweep::parquet;
+use vinesink::system::Parameter;
 
 use super::super::progress::Progress;
 use super::super::{index, output};
@@ -124,7 +124,7 @@ impl Sweep {
     fn limits(&self) -> Vec<StabilityLimit> {
         let axes = &self.plan.settings.axes;
         let of = |parameter| axes.iter().find(|axis| axis.parameter == parameter);
-        match (axes.len(), of(SweepParameter::Frequency), of(SweepParameter::Clearance)) {
+        match (axes.len(), of(Parameter::Frequency), of(Parameter::Clearance)) {
             (2, Some(frequency), Some(_)) => stability_limits(&self.case, &frequency.values),
             _ => Vec::new(),
         }

@@ -1,10 +1,10 @@
 //! From dimensionless results to quantities in SI, or in the units of a reduced case.
 
-use crate::case::{BandOver, Case, Design, Scales};
+use crate::case::{BandOver, Case, Scales};
 use crate::method::Method;
 use crate::quantity::catalogue as of;
 use crate::quantity::{Kind, Quantity, Units};
-use crate::system::Excitation;
+use crate::system::Parameter;
 
 /// The error in decibels of a level whose amplitude has an error.
 pub fn level_error(amplitude: f64, error: f64) -> f64 {
@@ -22,14 +22,9 @@ pub struct Scale {
 impl Scale {
     /// That of a case.
     pub fn of(case: &Case) -> Self {
-        let scales = case.scales();
-        let excitation = match &case.design {
-            Design::Physical(physical) => match physical.excitation {
-                Excitation::BaseDisplacement => (&of::BASE_AMPLITUDE, physical.amplitude),
-                Excitation::Force => (&of::FORCE_AMPLITUDE, physical.amplitude),
-            },
-            Design::Reduced(_) => (&of::REDUCED_FORCING, scales.forcing),
-        };
+        let (design, scales) = (&case.design, case.scales());
+        let amplitude = design.value(Parameter::Amplitude).unwrap_or_default();
+        let excitation = (design.kind(Parameter::Amplitude), amplitude);
         Self { scales, excitation }
     }
 

@@ -64,7 +64,7 @@ struct Heights<'a> {
 pub(super) fn figure(scene: &Scene, diagram: &Diagram, bare: &[[f64; 2]]) -> Figure {
     let parameter = diagram.parameter;
     let own = parameter.of(scene.system());
-    let log = [parameter.is_logarithmic(), parameter == Parameter::Forcing];
+    let log = [parameter.is_logarithmic(), parameter == Parameter::Amplitude];
     let peaks = |point: &DiagramPoint| point.period_peaks.clone();
     let range = fitted(diagram, log[1]);
     let kinds = [scene.kind(parameter), &of::PEAK];
@@ -94,8 +94,8 @@ pub(super) fn figure(scene: &Scene, diagram: &Diagram, bare: &[[f64; 2]]) -> Fig
     let mut second = lower.chart.panel().with(lower.chart.vertical(own, Role::Guide));
     lower.draw(scene, &mut second, false);
     let name = match parameter {
-        Parameter::FrequencyRatio => "diagram-frequency",
-        Parameter::Forcing => "diagram-forcing",
+        Parameter::Frequency => "diagram-frequency",
+        Parameter::Amplitude => "diagram-forcing",
         _ => "diagram-clearance",
     };
     scene
@@ -236,7 +236,7 @@ fn facts(scene: &Scene, diagram: &Diagram) -> Value {
     json!({
         "over": kind.id,
         "unit": scene.si(kind, 1.0),
-        "digits": if diagram.parameter == Parameter::FrequencyRatio { 4 } else { 3 },
+        "digits": if diagram.parameter == Parameter::Frequency { 4 } else { 3 },
         "range": diagram.range,
         "steps": STEPS,
         "periods": EFFORT.periods,

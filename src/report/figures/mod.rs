@@ -213,9 +213,9 @@ impl<'a> Scene<'a> {
     fn kind(&self, parameter: Parameter) -> &'static Kind {
         match parameter {
             Parameter::Clearance => &of::CLEARANCE,
-            Parameter::FrequencyRatio => &of::EXCITATION_FREQUENCY,
-            Parameter::Forcing => self.forcing.0,
-            Parameter::Restitution => &of::RESTITUTION,
+            Parameter::Frequency => &of::EXCITATION_FREQUENCY,
+            Parameter::Amplitude => self.forcing.0,
+            _ => &of::RESTITUTION,
         }
     }
 

@@ -30,7 +30,7 @@ pub fn figures(case: &Case, found: &Optimization) -> Vec<Figure> {
 
 /// The frequency of the chart that is nearest to the case's own and has a best clearance.
 pub(super) fn nearest(found: &Optimization) -> Option<&Suited> {
-    let own = found.task.design.system().ok()?.frequency_ratio();
+    let own = found.task.case.design.system().ok()?.frequency_ratio();
     let away = |one: &Suited| (one.frequency_ratio - own).abs();
     let suited = found.chart.iter().filter(|one| one.best.is_some());
     suited.min_by(|a, b| away(a).total_cmp(&away(b)))
@@ -45,11 +45,11 @@ struct Drawing<'a> {
 impl Drawing<'_> {
     /// A length in the units of the axes.
     fn length(&self, length: f64) -> f64 {
-        length / self.units.unit(Dimension::Length, self.found.own.choice.clearance).size
+        length / self.units.unit(Dimension::Length, self.found.own.choice.clearance()).size
     }
 
     fn clearances(&self) -> String {
-        self.units.axis_label(&catalogue::CLEARANCE, self.found.own.choice.clearance)
+        self.units.axis_label(&catalogue::CLEARANCE, self.found.own.choice.clearance())
     }
 
     fn landscape(&self) -> Figure {
@@ -74,7 +74,7 @@ impl Drawing<'_> {
         } else {
             Layer::curve(Role::Stable, cheap.collect::<Vec<_>>()).labelled("as written")
         });
-        let own = found.own.choice.clearance;
+        let own = found.own.choice.clearance();
         let end = found.claim.map(|claim| claim.end_clearance * own);
         let end = (end, "1:1 disappears", Style::new(Color::Vermillion, 1.4, Dash::DashDot));
         for (at, name, style) in [(Some(own), "the case", GUIDE), end] {
@@ -102,17 +102,17 @@ impl Drawing<'_> {
             (false, "checked, criteria fail", Shape::Square, Color::Vermillion),
             (true, "checked", Shape::Circle, Color::Blue),
         ] {
-            let some = found.judged.iter().filter(|one| one.feasible == feasible);
+            let some = found.judged.iter().filter(|one| one.is_feasible() == feasible);
             let some = some.filter(|one| one.value.is_finite() && (amplitude || !feasible));
             let points: Vec<MarkedPoint> =
-                some.map(|one| mark([one.clearance, one.value, one.error], "")).collect();
+                some.map(|one| mark([one.choice.clearance(), one.value, one.error], "")).collect();
             if !points.is_empty() {
                 layers.push(Layer::marked(Marker::hollow(shape), color, points).labelled(name));
             }
         }
-        let best = Some((found.best.choice.clearance, found.best.value));
+        let best = Some((found.best.choice.clearance(), found.best.value));
         let robust = found.robust.as_ref();
-        let robust = robust.map(|one| (one.design.choice.clearance, one.under[0].expected));
+        let robust = robust.map(|one| (one.design.choice.clearance(), one.under[0].expected));
         for (one, name, marker) in [
             (best, "optimum", Marker::filled(Shape::Circle)),
             (robust, "robust, expected", Marker::hollow(Shape::Diamond)),
@@ -154,7 +154,7 @@ impl Drawing<'_> {
             .with(Layer::between(&ends[0], &ends[1], tint).labelled("stable 1:1"))
             .with(Layer::curve(Role::Stable, best).labelled("best"));
         if found.reached() {
-            let at = Rule::Horizontal(self.length(found.best.choice.clearance));
+            let at = Rule::Horizontal(self.length(found.best.choice.clearance()));
             over_frequency.layers.push(Layer::rule(at, GUIDE).labelled("chosen"));
         }
         let here = nearest(found)?;
@@ -166,7 +166,7 @@ impl Drawing<'_> {
             let area = Layer::between(&line(low), &line(high), tint);
             over_amplitude = over_amplitude.with(area.labelled(Label::from("stable 1:1")));
         }
-        let own = [1.0, self.length(found.own.choice.clearance)];
+        let own = [1.0, self.length(found.own.choice.clearance())];
         let over_amplitude = over_amplitude
             .with(Layer::curve(Role::Stable, line(here.best?)).labelled("best"))
             .with(Layer::this_case(own, None));

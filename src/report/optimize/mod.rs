@@ -10,11 +10,12 @@ use super::document::{Absorber, Scale, damper};
 use super::render::{Files, RenderError, page_files};
 use super::template::{render, worded};
 use crate::band::{Motions, Source};
-use crate::case::{AbsorberDesign, BandOver, Case, Objective};
+use crate::case::{self, BandOver, Case, Objective};
 use crate::method::Method;
-use crate::optimize::task::value_of;
-use crate::optimize::{Bounds, Design, Optimization, Task, Variable};
+use crate::optimize::sensitivity::Sensitivity;
+use crate::optimize::{Bounds, Design, Optimization, Task};
 use crate::quantity::{Kind, Quantity, catalogue};
+use crate::system::Parameter;
 
 pub use figure::figures;
 
@@ -51,9 +52,9 @@ pub fn document(case: &Case, found: &Optimization) -> Value {
             (true, true, true) => "found",
         },
         "objective": task.objective.name(),
-        "bounds": task.bounds,
-        // The frequency's as a frequency ratio, the amplitude's over the case's own.
-        "uncertainty": task.uncertainty,
+        "bounds": bounds(task),
+        // In the units of the case.
+        "uncertainty": case.uncertainty,
         // Whether the objective has a value at all.
         "reached": found.reached(),
         // Whether all criteria hold at the optimum; true without criteria.
@@ -61,7 +62,7 @@ pub fn document(case: &Case, found: &Optimization) -> Value {
         // Whether the optimum is another absorber than the case's own, and not worse.
         "improves": found.improves(),
         // Rounded as it is written; none where nothing is reached.
-        "optimum": found.reached().then_some(best.choice),
+        "optimum": found.reached().then(|| built(&best.choice)),
         // The objective at the optimum as it is shown, and as a check of the written case gives it.
         "claimed": objective(task, best.value, best.error),
         "checked": objective(task, found.checked.0, found.checked.1),
@@ -72,14 +73,14 @@ pub fn document(case: &Case, found: &Optimization) -> Value {
         "robust": robust,
         // Clearances that are as good as the optimum's.
         "plateau": found.plateau,
-        "bare": best.rivals.bare.1 * best.choice.clearance,
+        "bare": best.rivals.bare.1 * best.choice.clearance(),
         // The one of the absorber's mass that is best along the band.
         "tuned_mass_damper": damper(&Scale::of(&best.written.case), &best.rivals, Some(&along)),
         // Pairs of clearance and objective by the cheap layer.
         "landscape": found.landscape,
         // Every absorber that was judged.
-        "judged": found.judged,
-        "sensitivities": found.sensitivities,
+        "judged": judged(found),
+        "sensitivities": sensitivities(found),
         // Over the case's own clearance.
         "claim": found.claim,
         "chart": found.chart,
@@ -87,14 +88,47 @@ pub fn document(case: &Case, found: &Optimization) -> Value {
     })
 }
 
+/// A parameter as templates and files call it: of masses only the absorber's is chosen.
+fn name(parameter: Parameter) -> &'static str {
+    if parameter == Parameter::AbsorberMass { "mass" } else { parameter.key() }
+}
+
+/// The absorber of a design.
+fn built(design: &case::Design) -> Value {
+    let chosen = [Parameter::Clearance, Parameter::Restitution, Parameter::AbsorberMass];
+    chosen.into_iter().map(|one| (name(one).to_owned(), json!(design.value(one)))).collect()
+}
+
+fn judged(found: &Optimization) -> Vec<Value> {
+    let rows = found.judged.iter().map(|one| {
+        let (clearance, feasible) = (one.choice.clearance(), one.is_feasible());
+        json!({ "clearance": clearance, "value": one.value, "error": one.error, "feasible": feasible })
+    });
+    rows.collect()
+}
+
+fn sensitivities(found: &Optimization) -> Vec<Value> {
+    let rows = found.sensitivities.iter().map(|one| {
+        let Sensitivity { of, change, smaller, larger } = one;
+        json!({ "of": name(*of), "change": change, "smaller": smaller, "larger": larger })
+    });
+    rows.collect()
+}
+
+fn bounds(task: &Task) -> Vec<Value> {
+    let bounds = task.bounds.iter().map(|Bounds { parameter, from, to }| {
+        json!({ "variable": name(*parameter), "from": from, "to": to })
+    });
+    bounds.collect()
+}
+
 /// An absorber with its objective, as a quantity is written, and the criteria that it misses of all.
 fn absorber(case: &Case, task: &Task, design: &Design) -> Value {
-    let AbsorberDesign { clearance, restitution, mass } = design.choice;
     let missed = design.criteria.iter().filter(|one| one.holds != Some(true));
     let mut row = json!(objective(task, design.value, design.error));
-    row["clearance"] = json!(clearance);
-    row["restitution"] = json!(restitution);
-    row["mass"] = json!(mass);
+    for (key, value) in built(&design.choice).as_object().into_iter().flatten() {
+        row[key] = value.clone();
+    }
     row["feasible"] = json!(design.is_feasible());
     row["criteria"] = json!(design.criteria.len());
     row["missed"] = missed.map(|one| criterion(case, one)).collect();
@@ -152,12 +186,12 @@ pub fn written(
 ) -> Result<String, RenderError> {
     let context = json!({
         "file": file,
-        "choice": written.map(|design| design.choice),
+        "choice": written.map(|design| built(&design.choice)),
         "feasible": written.is_some_and(Design::is_feasible),
         "none_meets": !found.best.is_feasible(),
         "robust": robust,
         "reached": found.reached(),
-        "bounds": found.task.bounds,
+        "bounds": bounds(&found.task),
     });
     Ok(render("optimize-written.txt", &Scale::of(case).units(), &context)?.trim().to_owned())
 }
@@ -175,10 +209,7 @@ fn context(case: &Case, found: &Optimization) -> Value {
     });
     json!({ "at": {
         "page": document(case, found),
-        "over": found.task.band.as_ref().map(|band| match band.over {
-            BandOver::Frequency => "frequency",
-            BandOver::Amplitude => "amplitude",
-        }),
+        "over": case.band.as_ref().map(|band| band.over.name()),
         "uncertain": uncertain.collect::<Vec<_>>(),
         "worst": worst.map(|worst| json!({
             "at": scale.place(over, worst.at),
@@ -195,7 +226,7 @@ fn context(case: &Case, found: &Optimization) -> Value {
         "strips": found.strips.filter(|[a1, a2]| a1 + a2 > STRIPS),
         "on_bounds": on_bounds(found),
         "places": places(over, found),
-        "expectation": found.robust.as_ref().map(|one| [one.nodes, one.combinations]),
+        "expectation": found.robust.is_some().then(|| [found.task.nodes(), found.task.deviations().len()]),
         "chart_at": figure::nearest(found).map(|one| scale.frequency(one.frequency_ratio, Method::Given)),
         "version": env!("CARGO_PKG_VERSION"),
     } })
@@ -203,18 +234,19 @@ fn context(case: &Case, found: &Optimization) -> Value {
 
 /// What varies along the band.
 fn over(task: &Task) -> BandOver {
-    task.band.as_ref().map_or(BandOver::Frequency, |band| band.over)
+    task.case.band.as_ref().map_or(BandOver::Frequency, |band| band.over)
 }
 
 /// The bounds on which the best lies, but for those that no restitution can pass.
 fn on_bounds(found: &Optimization) -> Vec<Value> {
     let ends = found.task.bounds.iter().filter_map(|bounds| {
-        let Bounds { variable, from, to } = *bounds;
-        let value = value_of(variable, &found.best.choice);
-        let passable = |end: &f64| variable != Variable::Restitution || (*end > 0.0 && *end < 1.0);
+        let Bounds { parameter, from, to } = *bounds;
+        let value = bounds.value(&found.best.choice);
+        let passable =
+            |end: &f64| parameter != Parameter::Restitution || (*end > 0.0 && *end < 1.0);
         let near = |end: &f64| (value - end).abs() <= ON_BOUND * end;
         let end = [from, to].into_iter().filter(passable).find(near)?;
-        Some(json!({ "variable": variable, "value": end }))
+        Some(json!({ "variable": name(parameter), "value": end }))
     });
     ends.collect()
 }

@@ -2,19 +2,19 @@
 
 use serde::Serialize;
 
-use crate::case::{Case, SweepAxis, SweepParameter};
+use crate::case::{Case, SweepAxis};
 use crate::method::Method;
-use crate::quantity::catalogue as of;
 use crate::quantity::units::Unit;
 use crate::quantity::{Digits, Kind, Quantity, Units};
 use crate::report::document;
 use crate::report::figure::{Axis, Scale, edges};
+use crate::system::Parameter;
 
 /// An axis as it is shown.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AxisShown {
     /// What is varied.
-    pub parameter: SweepParameter,
+    pub parameter: Parameter,
     /// The quantity that it is.
     pub kind: &'static Kind,
     /// The name with symbol and unit: `clearance b (mm)`.
@@ -43,7 +43,7 @@ impl AxisShown {
     /// An axis of a case's table `[sweep]`.
     pub fn of(case: &Case, axis: &SweepAxis) -> Self {
         let SweepAxis { parameter, ref values, logarithmic } = *axis;
-        let (kind, units) = (kind(parameter, case), document::units(case));
+        let (kind, units) = (case.design.kind(parameter), document::units(case));
         let largest = values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
         let unit = units.axis_unit(kind, largest);
         Self {
@@ -54,7 +54,7 @@ impl AxisShown {
             values: values.clone(),
             shown: values.iter().map(|value| value / unit.size).collect(),
             logarithmic,
-            own: parameter.of(&case.design),
+            own: case.design.value(parameter),
             units,
         }
     }
@@ -100,29 +100,5 @@ impl AxisShown {
         let At { of, digits } = self.at(index);
         let number = self.units.with_digits(of.kind, of.value, Digits::Significant(digits));
         format!("{} {number}", of.kind.name)
-    }
-}
-
-/// The quantity that an axis varies.
-fn kind(parameter: SweepParameter, case: &Case) -> &'static Kind {
-    use SweepParameter as P;
-    let scale = document::Scale::of(case);
-    match parameter {
-        P::Clearance => &of::CLEARANCE,
-        P::Frequency => scale.frequency(1.0, Method::Given).kind,
-        P::Detuning => &of::DETUNING,
-        P::Amplitude => scale.amplitude(1.0, Method::Given).kind,
-        P::Restitution => &of::RESTITUTION,
-        P::AbsorberMass => &of::ABSORBER_MASS,
-        P::MassRatio => &of::MASS_RATIO,
-        P::Mass => &of::OSCILLATOR_MASS,
-        P::Stiffness => &of::STIFFNESS,
-        P::Damping if scale.units().physical => &of::DAMPING,
-        P::Damping => &of::REDUCED_DAMPING,
-        P::DampingRatio => &of::DAMPING_RATIO,
-        P::InitialDisplacement => &of::INITIAL_DISPLACEMENT,
-        P::InitialVelocity => &of::INITIAL_VELOCITY,
-        P::InitialAbsorberDisplacement => &of::INITIAL_ABSORBER_DISPLACEMENT,
-        P::InitialAbsorberVelocity => &of::INITIAL_ABSORBER_VELOCITY,
     }
 }

@@ -2,12 +2,13 @@
 
 use super::Swept;
 use super::axis::{At, AxisShown};
-use crate::case::{Recorded, SweepParameter};
+use crate::case::Recorded;
 use crate::quantity::{Kind, Units};
 use crate::regimes::Regime;
 use crate::report::document;
 use crate::sweep::columns::{Cell, Column, Direction};
 use crate::sweep::indices;
+use crate::system::Parameter;
 
 /// What a panel or a mark of a direction is called.
 pub(super) const fn words(direction: Direction) -> &'static str {
@@ -112,7 +113,7 @@ impl Swept<'_> {
 
     /// The last two axes; `None` where there is only one.
     pub(super) fn plane(&self) -> Option<Plane<'_>> {
-        use SweepParameter as P;
+        use Parameter as P;
         let [.., first, last] = self.axes.as_slice() else { return None };
         // A frequency lies along the page and a clearance up it, as in every other figure.
         let lies = |axis: &AxisShown| match axis.parameter {

@@ -153,8 +153,8 @@ impl Plot {
                 Transfer::of(case, study)?.map(Self::TransferStretches)
             }
             ExtraFigure::DiagramClearance => diagram(study, Parameter::Clearance)?,
-            ExtraFigure::DiagramFrequency => diagram(study, Parameter::FrequencyRatio)?,
-            ExtraFigure::DiagramForcing => diagram(study, Parameter::Forcing)?,
+            ExtraFigure::DiagramFrequency => diagram(study, Parameter::Frequency)?,
+            ExtraFigure::DiagramForcing => diagram(study, Parameter::Amplitude)?,
         })
     }
 }

@@ -38,8 +38,8 @@ impl Ranges {
         };
         let all = [
             (Parameter::Clearance, clearance),
-            (Parameter::FrequencyRatio, in_frequency(study)),
-            (Parameter::Forcing, forcing),
+            (Parameter::Frequency, in_frequency(study)),
+            (Parameter::Amplitude, forcing),
         ];
         all.into_iter().map(of).collect()
     }

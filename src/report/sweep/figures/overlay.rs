@@ -7,12 +7,13 @@ use super::super::grid::Plane;
 use super::super::kinds::{AREAS, area_name};
 use super::contours;
 use crate::analysis::Manifold;
-use crate::case::{Recorded, SweepParameter};
+use crate::case::Recorded;
 use crate::quantity::catalogue::CLEARANCE;
 use crate::report::figure::{Color, Dash, Layer, MarkedPoint, Role, Style};
 use crate::report::figures::borders::Borders;
 use crate::sweep::columns::Direction;
 use crate::sweep::limits::StabilityLimit;
+use crate::system::Parameter;
 
 /// About the width of a panel that has a figure to itself, and of a letter, pixels.
 const PANEL: f64 = 560.0;
@@ -47,7 +48,7 @@ fn computed(swept: &Swept, plane: Plane) -> Option<Vec<Layer>> {
     let axes = [plane.x.parameter, plane.y.parameter];
     let (system, scales) = (swept.case.system(), swept.case.scales());
     let gamma = system.forcing_per_clearance();
-    if axes != [SweepParameter::Frequency, SweepParameter::Clearance] || gamma == 0.0 {
+    if axes != [Parameter::Frequency, Parameter::Clearance] || gamma == 0.0 {
         return None;
     }
     // A reduced case's frequencies are ratios to its own.

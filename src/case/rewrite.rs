@@ -1,64 +1,10 @@
-//! What of a design is chosen, its absorber; a case file with another one, everything else as its author
-//! wrote it.
-
-use serde::Serialize;
+//! A case file with other values, everything else as its author wrote it.
 
 use super::inputs::Input;
 use super::{Case, CaseError, Design};
 use crate::digest::sha256;
 use crate::quantity::Dimension;
-
-/// The absorber of a design.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct AbsorberDesign {
-    /// `b`, in metres or the case's own unit.
-    pub clearance: f64,
-    /// `r`.
-    pub restitution: f64,
-    /// `m2` in kg; `None` for a reduced design, whose mass ratio stays.
-    pub mass: Option<f64>,
-}
-
-impl AbsorberDesign {
-    /// That of a design.
-    pub fn of(design: &Design) -> Self {
-        match design {
-            Design::Physical(physical) => Self {
-                clearance: physical.clearance_m,
-                restitution: physical.restitution,
-                mass: Some(physical.absorber_mass_kg),
-            },
-            Design::Reduced(reduced) => {
-                Self { clearance: reduced.clearance, restitution: reduced.restitution, mass: None }
-            }
-        }
-    }
-}
-
-impl Design {
-    /// The amplitude of its excitation, in m, in N, or in its own unit.
-    pub(super) fn amplitude(&self) -> f64 {
-        match self {
-            Self::Physical(physical) => physical.amplitude,
-            Self::Reduced(reduced) => reduced.forcing,
-        }
-    }
-
-    /// The same oscillator and excitation with another absorber. Mass ratio, damping `lambda` and
-    /// forcing `G` of its system follow from the mass.
-    #[must_use]
-    pub fn with(mut self, choice: &AbsorberDesign) -> Self {
-        let (clearance, restitution) = match &mut self {
-            Self::Physical(physical) => {
-                physical.absorber_mass_kg = choice.mass.unwrap_or(physical.absorber_mass_kg);
-                (&mut physical.clearance_m, &mut physical.restitution)
-            }
-            Self::Reduced(reduced) => (&mut reduced.clearance, &mut reduced.restitution),
-        };
-        (*clearance, *restitution) = (choice.clearance, choice.restitution);
-        self
-    }
-}
+use crate::system::Parameter;
 
 /// Why a case file cannot be rewritten.
 #[derive(Debug, thiserror::Error)]
@@ -130,40 +76,30 @@ fn written(input: &Input, si: f64, step: Rounding) -> String {
 }
 
 impl Case {
-    /// The text of this case, which `text` must be, with another absorber: values rounded to four
+    /// The text of this case, which `text` must be, with another design: values that differ are rounded to four
     /// significant digits (the clearance as asked) in the unit their author used, comments and order kept.
     ///
     /// # Errors
-    /// [`RewriteError`] where `text` is not this case's, or the choice makes no case.
+    /// [`RewriteError`] where `text` is not this case's, or the design makes no case.
     pub fn rewritten(
         &self,
         name: &str,
         text: &str,
-        choice: &AbsorberDesign,
+        design: &Design,
         clearance: Rounding,
     ) -> Result<Rewritten, RewriteError> {
         if sha256(text.as_bytes()) != self.text_hash {
             return Err(RewriteError::OtherText);
         }
-        let own = AbsorberDesign::of(&self.design);
         let step = if clearance == Rounding::Exact { Rounding::Exact } else { Rounding::Nearest };
-        let mass = choice.mass.filter(|_| choice.mass != own.mass);
-        let changed = |input: &Input| match (input.name, &self.design) {
-            ("clearance", _) if choice.clearance != own.clearance => {
-                Some(written(input, choice.clearance, clearance))
-            }
-            ("restitution", _) if choice.restitution != own.restitution => {
-                Some(written(input, choice.restitution, step))
-            }
-            ("mass", _) => Some(written(input, mass?, step)),
-            ("mass_ratio", Design::Physical(physical)) => {
-                Some(written(input, mass? / physical.mass_kg, step))
-            }
-            _ => None,
+        let changed = |input: &Input| {
+            let parameter = input.parameter()?;
+            let value = design.value(parameter)?;
+            let rounding = if parameter == Parameter::Clearance { clearance } else { step };
+            (self.design.value(parameter) != Some(value)).then(|| written(input, value, rounding))
         };
         let mut text = text.strip_prefix('\u{feff}').unwrap_or(text).to_owned();
-        let of_absorber = |input: &&Input| ["absorber", "reduced"].contains(&&*input.table);
-        let mut inputs: Vec<&Input> = self.inputs.iter().filter(of_absorber).collect();
+        let mut inputs: Vec<&Input> = self.inputs.iter().collect();
         // From the end of the text, so that what is before stays in its place.
         inputs.sort_by_key(|input| std::cmp::Reverse(input.span.start));
         for input in inputs {
@@ -173,5 +109,16 @@ impl Case {
         }
         let case = Self::parse(name, &text).map_err(Box::new)?;
         Ok(Rewritten { text, case })
+    }
+}
+
+impl Input {
+    /// What it says of the absorber.
+    fn parameter(&self) -> Option<Parameter> {
+        match (self.table.as_str(), self.name) {
+            ("absorber", "mass") => Some(Parameter::AbsorberMass),
+            ("absorber" | "reduced", name) => Parameter::of_name(name),
+            _ => None,
+        }
     }
 }

@@ -1,0 +1,192 @@
+//! What a parameter is in a design: its value, the quantity that it is, and how it is written.
+
+use serde_json::Value;
+
+use super::Design;
+use super::number::Form;
+use super::schema::SCHEMA;
+use crate::quantity::catalogue as of;
+use crate::quantity::{Dimension, Kind};
+use crate::system::{Excitation, Parameter};
+
+impl Design {
+    /// The value of a parameter in SI, or a plain number of a reduced design; `None` for a part of the start,
+    /// or what the design has not.
+    pub fn value(&self, parameter: Parameter) -> Option<f64> {
+        match (parameter, self) {
+            (Parameter::Frequency, Self::Reduced(r)) => Some(r.frequency_ratio()),
+            (Parameter::Detuning, Self::Reduced(r)) => {
+                let of_ratio = || (r.frequency_ratio() - 1.0) / r.mass_ratio;
+                Some(r.detuning.unwrap_or_else(of_ratio))
+            }
+            _ => self.clone().number(parameter).map(|(number, over)| *number / over),
+        }
+    }
+
+    /// The design with another value; unchanged by what is a part of the start, or what it has not. A
+    /// mass, stiffness or damping changes alone: the others keep their numbers, not their ratios.
+    #[must_use]
+    pub fn with(mut self, parameter: Parameter, value: f64) -> Self {
+        match (parameter, &mut self) {
+            (Parameter::Frequency, Self::Reduced(r)) => {
+                (r.frequency_ratio, r.detuning) = (Some(value), None);
+            }
+            (Parameter::Detuning, Self::Reduced(r)) => {
+                (r.frequency_ratio, r.detuning) = (None, Some(value));
+            }
+            (_, changed) => {
+                if let Some((number, over)) = changed.number(parameter) {
+                    *number = value * over;
+                }
+            }
+        }
+        self
+    }
+
+    /// The same with errors added to some parameters; a restitution stays between 0 and 1, an amplitude at 0
+    /// or more.
+    #[must_use]
+    pub fn deviating(self, errors: &[(Parameter, f64)]) -> Self {
+        errors.iter().fold(self, |design, (parameter, error)| {
+            let value = design.value(*parameter).unwrap_or(f64::NAN) + error;
+            let possible = match parameter {
+                Parameter::Restitution => value.clamp(0.0, 1.0),
+                Parameter::Amplitude => value.max(0.0),
+                _ => value,
+            };
+            design.with(*parameter, possible)
+        })
+    }
+
+    /// `b`, in metres or the design's own unit.
+    pub fn clearance(&self) -> f64 {
+        self.scales().clearance
+    }
+
+    /// The number of a design that says it, and what it is over where it is a ratio; none for a detuning or the
+    /// frequency of a reduced design.
+    fn number(&mut self, parameter: Parameter) -> Option<(&mut f64, f64)> {
+        use Parameter as P;
+        let number = match (parameter, self) {
+            (P::MassRatio, Self::Physical(p)) => {
+                return Some((&mut p.absorber_mass_kg, p.mass_kg));
+            }
+            (P::DampingRatio, Self::Physical(p)) => {
+                let critical = p.critical_damping_n_s_per_m();
+                return Some((&mut p.damping_n_s_per_m, critical));
+            }
+            (P::Clearance, Self::Physical(p)) => &mut p.clearance_m,
+            (P::Frequency, Self::Physical(p)) => &mut p.frequency_hz,
+            (P::Amplitude, Self::Physical(p)) => &mut p.amplitude,
+            (P::Restitution, Self::Physical(p)) => &mut p.restitution,
+            (P::AbsorberMass, Self::Physical(p)) => &mut p.absorber_mass_kg,
+            (P::Mass, Self::Physical(p)) => &mut p.mass_kg,
+            (P::Stiffness, Self::Physical(p)) => &mut p.stiffness_n_per_m,
+            (P::Damping, Self::Physical(p)) => &mut p.damping_n_s_per_m,
+            (P::Clearance, Self::Reduced(r)) => &mut r.clearance,
+            (P::Amplitude, Self::Reduced(r)) => &mut r.forcing,
+            (P::Restitution, Self::Reduced(r)) => &mut r.restitution,
+            (P::MassRatio, Self::Reduced(r)) => &mut r.mass_ratio,
+            (P::Damping, Self::Reduced(r)) => &mut r.damping,
+            _ => return None,
+        };
+        Some((number, 1.0))
+    }
+
+    /// The quantity that a parameter is beside this design.
+    pub const fn kind(&self, parameter: Parameter) -> &'static Kind {
+        use Parameter as P;
+        match (parameter, self) {
+            (P::Clearance, _) => &of::CLEARANCE,
+            (P::Frequency, Self::Physical(_)) => &of::EXCITATION_FREQUENCY,
+            (P::Frequency, Self::Reduced(_)) => &of::FREQUENCY_RATIO,
+            (P::Detuning, _) => &of::DETUNING,
+            (P::Amplitude, Self::Reduced(_)) => &of::REDUCED_FORCING,
+            (P::Amplitude, Self::Physical(physical)) => match physical.excitation {
+                Excitation::BaseDisplacement => &of::BASE_AMPLITUDE,
+                Excitation::Force => &of::FORCE_AMPLITUDE,
+            },
+            (P::Restitution, _) => &of::RESTITUTION,
+            (P::AbsorberMass, _) => &of::ABSORBER_MASS,
+            (P::MassRatio, _) => &of::MASS_RATIO,
+            (P::Mass, _) => &of::OSCILLATOR_MASS,
+            (P::Stiffness, _) => &of::STIFFNESS,
+            (P::Damping, Self::Physical(_)) => &of::DAMPING,
+            (P::Damping, Self::Reduced(_)) => &of::REDUCED_DAMPING,
+            (P::DampingRatio, _) => &of::DAMPING_RATIO,
+            (P::InitialDisplacement, _) => &of::INITIAL_DISPLACEMENT,
+            (P::InitialVelocity, _) => &of::INITIAL_VELOCITY,
+            (P::InitialAbsorberDisplacement, _) => &of::INITIAL_ABSORBER_DISPLACEMENT,
+            (P::InitialAbsorberVelocity, _) => &of::INITIAL_ABSORBER_VELOCITY,
+        }
+    }
+
+    /// The symbol of the SI unit in which a parameter's values are held; "1" for a plain number.
+    pub fn unit(&self, parameter: Parameter) -> &'static str {
+        self.kind(parameter).dimension.symbol(self.scales().physical)
+    }
+
+    /// How values of a parameter are written beside this design: as the design's own; `None` where it has no
+    /// such number.
+    pub(super) fn form(&self, parameter: Parameter) -> Option<Form> {
+        if !parameter.is_initial() {
+            return Form::of(self.schema(parameter)?);
+        }
+        let symbol = match parameter {
+            Parameter::InitialDisplacement => "x_0",
+            Parameter::InitialVelocity => r"\dot{x}_0",
+            Parameter::InitialAbsorberDisplacement => "y_0",
+            _ => r"\dot{y}_0",
+        };
+        let dimension = self.kind(parameter).dimension;
+        Some(match (self, dimension) {
+            (Self::Reduced(_), _) => Form::free(None, "0.5", symbol),
+            (_, Dimension::Length) => Form::free(Some(dimension), "\"5 mm\"", symbol),
+            _ => Form::free(Some(dimension), "\"0.2 m/s\"", symbol),
+        })
+    }
+
+    /// The key in which a design has a parameter; `None` where it has no such number.
+    fn schema(&self, parameter: Parameter) -> Option<&'static Value> {
+        let properties = |table: &str| &SCHEMA["properties"][table]["properties"];
+        match (parameter, self) {
+            (Parameter::AbsorberMass, Self::Physical(_)) => properties("absorber").get("mass"),
+            (Parameter::Amplitude, Self::Physical(physical)) => {
+                let branch = usize::from(physical.excitation == Excitation::Force);
+                let branch = &SCHEMA["properties"]["excitation"]["oneOf"][branch];
+                branch["properties"].get(parameter.key())
+            }
+            (Parameter::Frequency, Self::Reduced(_)) => {
+                properties("reduced").get("frequency_ratio")
+            }
+            (Parameter::Amplitude, Self::Reduced(_)) => properties("reduced").get("forcing"),
+            (_, Self::Reduced(_)) => properties("reduced").get(parameter.key()),
+            (_, Self::Physical(_)) => {
+                let mut tables = super::physical::TABLES.map(properties).into_iter();
+                tables.find_map(|table| table.get(parameter.key()))
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::Case;
+
+    #[test]
+    fn a_value_that_is_set_is_the_value_that_is_there() {
+        let design = Case::parse("a case", &Case::starting_text("t")).expect("valid").design;
+        for parameter in Parameter::ALL {
+            let Some(own) = design.value(parameter) else { continue };
+            let other = design.with(parameter, 1.1 * own).value(parameter).expect("the same key");
+            assert!((other / own - 1.1).abs() < 1e-12, "{parameter:?}");
+        }
+        assert_eq!(design.value(Parameter::InitialVelocity), None);
+        assert_eq!(design.with(Parameter::InitialVelocity, 1.0), design);
+        let off = [(Parameter::Restitution, 2.0), (Parameter::Amplitude, -1e9)];
+        let built = design.deviating(&off);
+        assert_eq!(built.value(Parameter::Restitution), Some(1.0));
+        assert_eq!(built.value(Parameter::Amplitude), Some(0.0));
+    }
+}
