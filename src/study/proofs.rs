@@ -5,10 +5,9 @@ use std::f64::consts::TAU;
 
 use serde::Serialize;
 
-use super::main_index;
 use crate::orbits::newton::solve;
 use crate::orbits::{AfterImpact, Closure, Cycle, Measures, Orbit, Origin, Wall};
-use crate::regimes::{Attractor, DynamicsKind, FoundAttractor};
+use crate::regimes::{Attractor, DynamicsKind, FoundAttractor, Regime};
 use crate::simulation::{Impact, Side};
 use crate::system::System;
 
@@ -97,12 +96,16 @@ impl LongTermMotions {
         }
         motions
     }
-}
 
-impl LongTermMotions {
-    /// The moving one that most starts lead to, or rest if there is no other, with its proof.
+    /// The place of the moving one that most starts lead to, or of rest if there is no other.
+    pub fn main_index(&self) -> usize {
+        let moves = |found: &FoundAttractor| found.regime() != Regime::AtRest;
+        self.attractors.iter().position(moves).unwrap_or(0)
+    }
+
+    /// That motion with its proof.
     pub fn main(&self) -> Option<(&FoundAttractor, Option<&Proof>)> {
-        let main = main_index(&self.attractors);
+        let main = self.main_index();
         Some((self.attractors.get(main)?, self.proofs.get(main)?.as_ref()))
     }
 }

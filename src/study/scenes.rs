@@ -81,30 +81,14 @@ pub fn projected_after(system: &System, impact: &Impact) -> [f64; 2] {
     projected(system, &State { x: impact.x, x_velocity, y, y_velocity })
 }
 
-/// What simulation finds at one frequency, everything else being the case's.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct SweepPoint {
-    /// `Omega`.
-    pub frequency_ratio: f64,
-    /// Largest displacement of the oscillator over the clearance.
-    pub peak: f64,
-    /// Its regime.
-    pub regime: Regime,
-}
-
-/// Simulated peaks at the given frequency ratios, each from the motion that the theory predicts
-/// there, or from a moving absorber where it predicts none.
+/// The simulated motions at the given frequency ratios, each with its ratio and from the motion that the
+/// theory predicts there, or from a moving absorber where it predicts none.
 ///
 /// # Errors
 /// [`StudyError`] where theory or simulation cannot be carried out.
-pub fn sweep(system: &System, frequency_ratios: &[f64]) -> Result<Vec<SweepPoint>, StudyError> {
+pub fn sweep(system: &System, frequency_ratios: &[f64]) -> Result<Vec<(f64, Motion)>, StudyError> {
     let found = visited(frequency_ratios, |ratio| system.with_frequency_ratio(ratio))?;
-    let point = |(frequency_ratio, _, motion): (f64, System, Motion)| SweepPoint {
-        frequency_ratio,
-        peak: motion.peak,
-        regime: motion.regime,
-    };
-    Ok(found.into_iter().map(point).collect())
+    Ok(found.into_iter().map(|(ratio, _, motion)| (ratio, motion)).collect())
 }
 
 /// What simulation finds at one clearance, everything else being the case's.

@@ -65,7 +65,7 @@ impl<'a> Scene<'a> {
         let own = scale.amplitude(1.0, Method::Given);
         let system = &study.analysis.system;
         let frequency = scales.frequency(system.frequency_ratio());
-        let proven = study.attractors.iter().zip(&study.proofs);
+        let proven = study.motions.attractors.iter().zip(&study.motions.proofs);
         let motions = proven.map(|(one, proof)| found(&scale, system, one, proof.as_ref()));
         let known = json!({
             "frequency": Quantity::new(&of::EXCITATION_FREQUENCY, frequency, Method::Given),

@@ -99,9 +99,9 @@ pub(super) fn amplitude(scene: &Scene, data: &Amplitude) -> Figure {
         let layer = Layer::marked(marker, Role::ExactOrbit.color(), marks);
         panel = panel.with(layer.labelled(name));
     }
-    let found = data.simulated.iter().map(|one| {
+    let found = data.simulated.iter().map(|(ratio, one)| {
         let what = format!("simulated, {}", one.regime.words());
-        (one.regime, scene.mark(&chart, [one.frequency_ratio, one.peak], &what))
+        (one.regime, scene.mark(&chart, [*ratio, one.peak], &what))
     });
     panel.layers.extend(parts::by_regime(&found.collect::<Vec<_>>(), true));
     let star = data.here.map(|peak| scene.star(&chart, [scene.system().frequency_ratio(), peak]));

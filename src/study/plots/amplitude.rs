@@ -6,8 +6,9 @@ use crate::analysis::Manifold;
 use crate::analysis::frequency_response::ResponsePoint;
 use crate::band::rivals::bare_amplitude;
 use crate::orbits::SymmetricOrbit;
+use crate::regimes::Motion;
 use crate::simulation::Stop;
-use crate::study::scenes::{SweepPoint, sweep};
+use crate::study::scenes::sweep;
 use crate::study::{CaseStudy, StudyError};
 
 use super::{Line, even, responses, symmetric_orbits_at, window};
@@ -32,8 +33,8 @@ pub struct Amplitude {
     pub theory: [Line; 2],
     /// Exact symmetric orbits that are motions, with their frequency ratio.
     pub exact: Vec<(f64, SymmetricOrbit)>,
-    /// Simulated motions.
-    pub simulated: Vec<SweepPoint>,
+    /// Simulated motions, each with its frequency ratio.
+    pub simulated: Vec<(f64, Motion)>,
     /// The case's main motion, where it could be followed.
     pub here: Option<f64>,
     /// The largest that is shown.
@@ -59,7 +60,8 @@ impl Amplitude {
         let attractor = study.main_attractor().map(|found| &found.attractor);
         let known = attractor.filter(|one| one.stop == Stop::EndTime && one.periods > 0);
         let here = known.map(|one| one.peak).filter(|peak| peak.is_finite());
-        let top = top(&bare, simulated.iter().map(|at| at.peak).chain(here), study.rivals.bare.1);
+        let top =
+            top(&bare, simulated.iter().map(|(_, one)| one.peak).chain(here), study.rivals.bare.1);
         let place = |point: &ResponsePoint| {
             let ratio = 1.0 + system.mass_ratio() * point.detuning;
             [ratio, peak(system.mass_ratio(), manifold, point)]
