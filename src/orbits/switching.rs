@@ -79,7 +79,6 @@ fn twice(cycle: &Cycle) -> Cycle {
         cycle.impacts.iter().map(|impact| AfterImpact { phase: impact.phase + turn, ..*impact });
     Cycle {
         closure: Closure::Repeats { periods: 2 * cycle.periods() },
-        walls: cycle.walls.repeat(2),
         impacts: cycle.impacts.iter().copied().chain(later).collect(),
         durations: cycle.durations.repeat(2),
     }
@@ -163,6 +162,7 @@ fn inserted(tracer: &Tracer, scaled: f64, orbit: &Orbit) -> Option<Cycle> {
     let first = at.fraction * duration;
     let there = cycle.flights(&map)[at.flight].oscillator(first);
     let contact = AfterImpact {
+        wall: at.wall,
         phase: start.phase + map.flight.frequency() * first,
         x: there.x,
         x_velocity: there.v,
@@ -171,6 +171,5 @@ fn inserted(tracer: &Tracer, scaled: f64, orbit: &Orbit) -> Option<Cycle> {
     cycle.durations[at.flight] = first;
     cycle.durations.insert(at.flight + 1, duration - first);
     cycle.impacts.insert(at.flight + 1, contact);
-    cycle.walls.insert(at.flight + 1, at.wall);
     Some(cycle)
 }

@@ -127,16 +127,10 @@ fn cycle(system: &System, impacts: &[Impact], periods: u32) -> Option<Cycle> {
     let times: Vec<f64> = impacts.iter().map(passed).chain([whole]).collect();
     Some(Cycle {
         closure: Closure::Repeats { periods },
-        walls: impacts
-            .iter()
-            .map(|impact| match impact.side {
-                Side::Plus => Wall::Plus,
-                Side::Minus => Wall::Minus,
-            })
-            .collect(),
         impacts: impacts
             .iter()
             .map(|impact| AfterImpact {
+                wall: if impact.side == Side::Plus { Wall::Plus } else { Wall::Minus },
                 phase: first.phase + omega * passed(impact),
                 x: impact.x,
                 x_velocity: impact.x_velocity_after,
