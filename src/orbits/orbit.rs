@@ -170,6 +170,12 @@ impl Cycle {
             })
     }
 
+    /// Largest difference between its states and those of a cycle with as many impacts.
+    pub fn distance(&self, other: &Self) -> f64 {
+        let pairs = self.impacts.iter().zip(&other.impacts);
+        pairs.map(|(a, b)| (a.vector() - b.vector()).amax()).fold(0.0, f64::max)
+    }
+
     /// Its size, against which defects and distances are measured: the largest displacement or velocity
     /// after an impact, at least 1.
     pub(super) fn size(&self) -> f64 {

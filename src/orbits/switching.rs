@@ -141,15 +141,9 @@ fn across(tracer: &Tracer, scaled: f64, orbit: &Orbit) -> Option<(Orbit, f64)> {
     BEYOND.iter().find_map(|change| {
         let scaled = scaled * (1.0 + change);
         let found = tracer.at(&with_contact, scaled)?;
-        let goes_on = distance(&found.cycle, &with_contact) <= GOES_ON;
+        let goes_on = found.cycle.distance(&with_contact) <= GOES_ON;
         (goes_on && found.admissibility.admissible).then_some((found, scaled))
     })
-}
-
-/// Largest difference between the states of two cycles with as many impacts.
-fn distance(a: &Cycle, b: &Cycle) -> f64 {
-    let pairs = a.impacts.iter().zip(&b.impacts);
-    pairs.map(|(a, b)| (a.vector() - b.vector()).amax()).fold(0.0, f64::max)
 }
 
 /// The cycle with the grazing contact counted as an impact.

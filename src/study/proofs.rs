@@ -143,6 +143,5 @@ fn cycle(system: &System, impacts: &[Impact], periods: u32) -> Option<Cycle> {
 
 fn distance(exact: &Cycle, simulated: &Cycle) -> f64 {
     let size = exact.impacts.iter().map(|impact| impact.vector().amax()).fold(1.0, f64::max);
-    let pairs = exact.impacts.iter().zip(&simulated.impacts);
-    pairs.map(|(a, b)| (a.vector() - b.vector()).amax()).fold(0.0, f64::max) / size
+    exact.distance(simulated) / size
 }
