@@ -78,21 +78,38 @@ pub struct SpecialPoint {
     pub orbit: Orbit,
 }
 
-/// Why a branch ends: at its last orbit, or at its last bifurcation where that ends the motion.
+/// Why a branch ends, and where.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-#[serde(rename_all = "kebab-case")]
+#[serde(rename_all = "kebab-case", tag = "why")]
 pub enum BranchEnd {
     /// The end of the range was reached.
-    Range,
+    Range {
+        /// Last value of the parameter.
+        value: f64,
+    },
     /// The orbit stops being a motion: an impact appears or disappears, or the absorber stays on a
     /// wall.
-    Grazing,
+    Grazing {
+        /// Value of the parameter.
+        value: f64,
+    },
     /// The branch came back to where it began.
-    Closed,
+    Closed {
+        /// Value of the parameter there.
+        value: f64,
+    },
     /// So many points were asked for, or each of them takes so much work.
-    PointLimit,
-    /// Newton's method fails at the smallest step, and what it said.
-    NotConverged(String),
+    PointLimit {
+        /// Last value of the parameter.
+        value: f64,
+    },
+    /// Newton's method fails at the smallest step.
+    NotConverged {
+        /// Value of the parameter from which no further point was found.
+        value: f64,
+        /// What Newton's method said.
+        reason: String,
+    },
 }
 
 /// Orbits in order along a branch.
@@ -163,7 +180,7 @@ pub(super) fn trace(tracer: &Tracer, first: Point, settings: &Settings) -> Branc
         parameter: tracer.parameter,
         points: vec![BranchPoint { value: begin, orbit: first.orbit.clone(), passed: 0 }],
         specials: Vec::new(),
-        end: BranchEnd::PointLimit,
+        end: BranchEnd::PointLimit { value: begin },
     };
     let mut here = first.clone();
     let mut step = settings.first_step;
@@ -171,17 +188,18 @@ pub(super) fn trace(tracer: &Tracer, first: Point, settings: &Settings) -> Branc
     while branch.points.len() < settings.most_points && radians < MOST_RADIANS {
         radians += tracer.radians(&here);
         let (there, taken, last) = match tracer.at_edge(&here, step, settings.range) {
-            Some(there) => (there, step, Some(BranchEnd::Range)),
+            Some((there, edge)) => (there, step, Some(BranchEnd::Range { value: edge })),
             None => match tracer.next(&here, step) {
                 Ok((there, taken)) => (there, taken, None),
                 Err(reason) => {
-                    branch.end = BranchEnd::NotConverged(reason.to_string());
+                    let value = tracer.value(&here);
+                    branch.end = BranchEnd::NotConverged { value, reason: reason.to_string() };
                     return branch;
                 }
             },
         };
         let met = returns(&first, &here, &there, branch.points.len());
-        let last = last.or(met.then_some(BranchEnd::Closed));
+        let last = last.or(met.then_some(BranchEnd::Closed { value: begin }));
         if let Some(end) = record(tracer, &here, &there, taken, settings, &mut branch).or(last) {
             branch.end = end;
             return branch;
@@ -190,6 +208,7 @@ pub(super) fn trace(tracer: &Tracer, first: Point, settings: &Settings) -> Branc
         step = (taken * factor).min(settings.largest_step);
         here = there;
     }
+    branch.end = BranchEnd::PointLimit { value: tracer.value(&here) };
     branch
 }
 
@@ -217,9 +236,10 @@ fn record(
     found.retain(|special| (low..=high).contains(&special.value));
     let end = found.iter().position(|special| special.kind.ends_motion());
     found.truncate(end.map_or(found.len(), |index| index + 1));
+    let stops = end.map(|index| found[index].value);
     branch.specials.extend(found);
-    if end.is_some() {
-        return Some(BranchEnd::Grazing);
+    if let Some(value) = stops {
+        return Some(BranchEnd::Grazing { value });
     }
     let (value, passed) = (tracer.value(there), branch.specials.len());
     branch.points.push(BranchPoint { value, orbit: there.orbit.clone(), passed });

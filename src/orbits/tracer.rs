@@ -147,8 +147,9 @@ impl<'a> Tracer<'a> {
         }
     }
 
-    /// The orbit at the edge of `range` (values of the parameter), if the next step would leave it: parameters need not exist beyond (a restitution above 1).
-    pub fn at_edge(&self, here: &Point, step: f64, range: [f64; 2]) -> Option<Point> {
+    /// The orbit at the edge of `range` (values of the parameter) and the value there, if the next
+    /// step would leave it: parameters need not exist beyond (a restitution above 1).
+    pub fn at_edge(&self, here: &Point, step: f64, range: [f64; 2]) -> Option<(Point, f64)> {
         let [low, high] = range.map(|edge| edge / self.scale);
         let ahead = here.parameter + step * here.tangent[4];
         let edge = if ahead > high {
@@ -166,7 +167,7 @@ impl<'a> Tracer<'a> {
         let distance = (there.place() - here.place()).norm();
         let same = distance <= SAME_BRANCH * step.max(share.abs())
             && there.tangent.dot(&here.tangent) >= LARGEST_TURN;
-        same.then_some(there)
+        same.then_some((there, edge * self.scale))
     }
 }
 

@@ -188,7 +188,7 @@ impl Trunk {
             else {
                 continue;
             };
-            let closed = branch.end == BranchEnd::Closed;
+            let closed = matches!(branch.end, BranchEnd::Closed { .. });
             self.add(&branch, true, all);
             for special in &branch.specials {
                 self.leave(special, all);
