@@ -51,17 +51,4 @@ impl Bifurcation {
     pub(crate) fn ends_motion(self) -> bool {
         matches!(self, Self::Grazing | Self::Sticking | Self::VanishingImpact)
     }
-
-    /// The function whose zero it is.
-    pub fn test_function(self) -> &'static str {
-        match self {
-            Self::SaddleNode => "parameter component of the branch's tangent",
-            Self::SymmetryBreaking | Self::PeriodDoubling => "det(J + I)",
-            Self::NeimarkSacker => "det(J^(2) - I), second compound",
-            Self::Grazing => "smallest distance to a wall between impacts",
-            Self::Sticking => "smallest acceleration of a wall away from the absorber after impact",
-            Self::VanishingImpact => "smallest impact speed",
-            Self::BranchPoint => "det(J - I)",
-        }
-    }
 }

@@ -87,11 +87,11 @@ fn asymmetric_and_three_impacts_coexist() {
 fn a_motion_that_alternates_is_not_a_doubled_one() {
     let system = table_1(8.5, 5.08);
     let study = CaseStudy::of(&system, StudyEffort::default(), &mut |_| {}).expect("studied");
-    let proofs: Vec<&Proof> = study.proofs.iter().flatten().collect();
+    let proofs: Vec<&Proof> = study.motions.proofs.iter().flatten().collect();
     assert_eq!(proofs.len(), 1, "{proofs:?}");
     assert_eq!(proofs[0].orbit.cycle.periods(), 1);
     let leading = proofs[0].orbit.multipliers.values[0];
     assert!(leading[0] < -0.95 && leading[1] == 0.0, "no alternation: {leading:?}");
-    let dynamics = study.attractors[0].attractor.classification.dynamics;
+    let dynamics = study.motions.attractors[0].attractor.classification.dynamics;
     assert_eq!(dynamics, DynamicsKind::Periodic { impacts: 2, periods: 1 });
 }

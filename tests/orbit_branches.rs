@@ -116,7 +116,7 @@ fn the_branch_off_a_symmetry_breaking_is_the_simulated_asymmetric_motion() {
     let [a, b] = [orbit.cycle.durations[0], orbit.cycle.durations[1]];
     assert!((a - b).abs() > 0.1, "it is asymmetric: {a} {b}");
 
-    let impacts = impacts_from(&there, &common_start(&there), vinesink::orbits::Wall::Plus, 4000);
+    let impacts = impacts_from(&there, &common_start(&there), 4000);
     let last = &impacts[impacts.len() - 2..];
     let simulated: Vec<f64> = last.iter().map(|impact| impact.x.abs()).collect();
     let exact: Vec<f64> = orbit.cycle.impacts.iter().map(|impact| impact.x.abs()).collect();
@@ -164,7 +164,7 @@ fn newton_refines_a_disturbed_orbit_of_three_impacts() {
     assert!(gap < 1e-11, "{gap}");
     // A simulation started on it stays: three impacts a period, for ten periods.
     let after = refined.cycle.impacts[0];
-    let impacts = impacts_from(&there, &after, refined.cycle.walls[0], 30);
+    let impacts = impacts_from(&there, &after, 30);
     assert_eq!(impacts.len(), 30);
     assert!((impacts[29].x - after.x).abs() < 1e-9, "{} {}", impacts[29].x, after.x);
 }
@@ -216,14 +216,9 @@ fn sequences_are_named_once() {
     use vinesink::orbits::Wall::{Minus, Plus};
     let orbit = stable_orbit(&table_1(8.0, 7.5));
     let named = |walls: Vec<vinesink::orbits::Wall>, closure| {
-        let count = walls.len();
-        Cycle {
-            closure,
-            walls,
-            impacts: vec![orbit.cycle.impacts[0]; count],
-            durations: vec![1.0; count],
-        }
-        .sequence()
+        let at = |wall| vinesink::orbits::AfterImpact { wall, ..orbit.cycle.impacts[0] };
+        let durations = vec![1.0; walls.len()];
+        Cycle { closure, impacts: walls.into_iter().map(at).collect(), durations }.sequence()
     };
     let repeats = Closure::Repeats { periods: 1 };
     for walls in [vec![Plus, Plus, Minus], vec![Plus, Minus, Plus], vec![Minus, Minus, Plus]] {
@@ -259,8 +254,7 @@ fn the_border_between_two_and_more_impacts_is_a_grazing() {
         // Between symmetry breaking and period doubling a simulation settles on two impacts.
         let middle = 0.5 * (doubling + asymmetric.symmetry_breaking);
         let there = system.with_clearance_scaled(middle).expect("valid");
-        let impacts =
-            impacts_from(&there, &common_start(&there), vinesink::orbits::Wall::Plus, 4000);
+        let impacts = impacts_from(&there, &common_start(&there), 4000);
         let last = &impacts[impacts.len() - 5..];
         let passed = (last[4].tau - last[0].tau) / there.period();
         assert!((passed - 2.0).abs() < 1e-6, "{passed}");

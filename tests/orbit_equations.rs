@@ -271,7 +271,7 @@ fn a_flight_gets_longer_by_what_is_stated() {
     let gap = |change: f64, duration: f64| {
         let start =
             vinesink::orbits::AfterImpact { x_velocity: start.x_velocity + change, ..start };
-        map.step(&start, Wall::Plus, Wall::Minus, duration).gap
+        map.step(&start, Wall::Minus, duration).gap
     };
     let ends = |change: f64| {
         let (mut low, mut high) = (duration - 0.1, duration + 0.1);

@@ -238,7 +238,7 @@ fn a_disturbed_motion_returns_at_the_rate_of_the_multiplier() {
     let system = table_1(8.0, 7.5);
     let orbit = &symmetric_orbits(&system).expect("damped")[1];
     let after = orbit.orbit.cycle.impacts[0];
-    let mut start = after.state(orbit.orbit.cycle.walls[0]);
+    let mut start = after.state();
     start.y_velocity *= 1.0 + 1e-6;
     let mut simulation = Simulation::new(&system, start, after.phase).expect("inside");
     let distance = |simulation: &Simulation, reference: &Simulation| {
@@ -247,7 +247,7 @@ fn a_disturbed_motion_returns_at_the_rate_of_the_multiplier() {
             simulation.state().x_velocity - reference.state().x_velocity,
         )
     };
-    let undisturbed = after.state(orbit.orbit.cycle.walls[0]);
+    let undisturbed = after.state();
     let mut reference = Simulation::new(&system, undisturbed, after.phase).expect("inside");
     // A complex pair turns as it shrinks: the largest distance within a turn is compared.
     let mut largest = |periods: u64| {
@@ -274,7 +274,7 @@ fn measures_of_an_orbit_are_those_of_its_simulation() {
         let orbit = &symmetric_orbits(&system).expect("damped")[1];
         let exact = Measures::of(&system, &orbit.orbit.cycle).expect("damped");
         let after = orbit.orbit.cycle.impacts[0];
-        let start = after.state(orbit.orbit.cycle.walls[0]);
+        let start = after.state();
         let mut simulation = Simulation::new(&system, start, after.phase).expect("on the wall");
         simulation.run(2000, u64::MAX, &mut ());
         let mut statistics = Statistics::begin(&system, simulation.state());
@@ -304,7 +304,7 @@ fn derivatives_by_parameters_are_those_of_the_map() {
     let duration = orbit.cycle.durations[0];
     let step = |parameters: Parameters| {
         let map = map_of(&System::new(parameters).expect("valid"));
-        map.step(&start, Wall::Plus, Wall::Minus, duration)
+        map.step(&start, Wall::Minus, duration)
     };
     let base = system.parameters();
     let exact = step(base);

@@ -389,7 +389,7 @@ fn coexistence_is_only_known_to_simulation() {
     let answers: Answers = asked.answers(motions).expect("answered");
     let last = answers.answers.last().expect("four answers");
     assert_eq!((last.question, last.layer), (Question::Coexistence, Known::Simulation));
-    assert_eq!(last.others, Some(study.attractors.len() - 1));
+    assert_eq!(last.others, Some(study.motions.attractors.len() - 1));
     assert!(answers.enough());
     assert_eq!(answers.answers[0].layer, Known::ExactOrbit);
     // Insisting on the orbit leaves the question open, and says so.
@@ -428,7 +428,7 @@ fn simulation_measures_as_long_as_the_accuracy_takes() {
         let first = &answers.answers[0];
         assert!(first.enough && first.error.expect("known") <= amplitude, "{first:?}");
         assert_eq!(first.known_by, KnownBy::Scatter);
-        answers.operations[&Known::Simulation].expect("simulated") - study.motions_cost
+        answers.operations[&Known::Simulation].expect("simulated") - study.motions.operations
     };
     let (loose, tight) = (cost(0.2), cost(0.004));
     assert!(tight > 3 * loose, "{loose} {tight}");
@@ -443,10 +443,12 @@ fn what_an_orbit_answers_is_not_simulated() {
         operation_count::counted(|| CaseStudy::without_simulation(&system, effort));
     let (full, much) = operation_count::counted(|| CaseStudy::of(&system, effort, &mut |_| ()));
     let (cheap, full) = (cheap.expect("studied"), full.expect("studied"));
-    assert!(!cheap.simulated && cheap.attractors.is_empty() && cheap.motions_cost == 0);
-    assert!(full.simulated && full.motions_cost > 1_000_000, "{}", full.motions_cost);
+    assert!(
+        !cheap.simulated && cheap.motions.attractors.is_empty() && cheap.motions.operations == 0
+    );
+    assert!(full.simulated && full.motions.operations > 1_000_000, "{}", full.motions.operations);
     // Four starts of 400 periods and their confirmations against formulas and roots.
-    assert!(much > little + full.motions_cost, "{little} {much} {}", full.motions_cost);
+    assert!(much > little + full.motions.operations, "{little} {much} {}", full.motions.operations);
     // What both know is the same to the bit.
     let claims = cheap.claims.iter().map(|claim| &claim.id);
     let known: Vec<_> = full.claims.iter().map(|claim| &claim.id).collect();

@@ -16,7 +16,7 @@ fn in_strip_a1_answers_coexist_and_close_fixed_points_are_told_apart() {
     let system = common::table_1(8.0, 15.8);
     assert_eq!(Analysis::of(&system).expect("analysable").zone.strip, Some(Strip::A1));
     let study = CaseStudy::of(&system, StudyEffort::default(), &mut |_| ()).expect("studied");
-    let found: Vec<Regime> = study.attractors.iter().map(|found| found.regime()).collect();
+    let found: Vec<Regime> = study.motions.attractors.iter().map(|found| found.regime()).collect();
     for regime in [Regime::TwoSymmetric, Regime::BelowTwo, Regime::AtRest] {
         assert!(found.contains(&regime), "{regime:?} is missing from {found:?}");
     }

@@ -43,12 +43,13 @@ pub fn smallest(band: &Band) -> (f64, f64) {
     if band.is_point() {
         return gap(0.5 * (band.range[0] + band.range[1]));
     }
+    let better = |best: (f64, f64), at: f64| {
+        let tried = gap(at);
+        if tried.1 < best.1 { tried } else { best }
+    };
     let mut best = (band.range[0], f64::INFINITY);
     for at in band.places(PIECES + 1) {
-        let tried = gap(at);
-        if tried.1 < best.1 {
-            best = tried;
-        }
+        best = better(best, at);
         if best.1 == 0.0 {
             return best;
         }
@@ -58,14 +59,8 @@ pub fn smallest(band: &Band) -> (f64, f64) {
     let [from, to] = band.range;
     for _ in 0..HALVINGS {
         step *= 0.5;
-        for at in [best.0 - step, best.0 + step] {
-            if from <= at && at <= to {
-                let tried = gap(at);
-                if tried.1 < best.1 {
-                    best = tried;
-                }
-            }
-        }
+        let beside = [best.0 - step, best.0 + step].into_iter();
+        best = beside.filter(|at| from <= *at && *at <= to).fold(best, better);
     }
     best
 }

@@ -57,7 +57,7 @@ pub fn run(arguments: Arguments) -> Result<bool> {
     let answers = match plan {
         Some(plan) if plan.needs_simulation() => {
             let found = simulate::search(&analysis, &StudyEffort::of(&case.simulation))?;
-            Some(plan.answers(Some((&found).into())).into_diagnostic()?)
+            Some(plan.answers(Some(&found)).into_diagnostic()?)
         }
         Some(plan) => Some(plan.answers(None).into_diagnostic()?),
         None => None,

@@ -71,7 +71,10 @@ pub fn run(arguments: Arguments) -> Result<bool> {
         None => {
             let analysis = Analysis::of(&case.system()).into_diagnostic()?;
             let mut found = search(&analysis, &effort)?;
-            let main = study::main_attractor_mut(&mut found.attractors)
+            let main = found.main_index();
+            let main = found
+                .attractors
+                .get_mut(main)
                 .ok_or_else(|| miette!("no start led anywhere; ask for more than 0 starts"))?;
             let continued = StudyEffort { discard: Some(0), ..effort };
             let mut motion = follow(&case, main.attractor.state, &continued, &arguments)?;

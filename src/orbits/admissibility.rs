@@ -114,7 +114,7 @@ pub(super) struct Departure {
 impl Departure {
     /// At the beginning of a flight.
     pub fn of(leg: &Leg) -> Self {
-        let (inwards, at) = (-leg.from.sign(), leg.oscillator(0.0));
+        let (inwards, at) = (-leg.start.wall.sign(), leg.oscillator(0.0));
         let scale = 1.0 + at.x.abs() + at.v.abs() + leg.start.y_velocity.abs();
         Self {
             speed: inwards * (leg.start.x_velocity - leg.start.y_velocity),
@@ -182,7 +182,7 @@ fn turning_points(map: &ImpactMap, leg: &Leg, departure: &Departure) -> Vec<f64>
         // Where nothing but the acceleration parts the two, the velocity at the very beginning is
         // rounding.
         if s == 0.0 && departure.is_still() {
-            let rate = -leg.from.sign() * departure.acceleration;
+            let rate = -leg.start.wall.sign() * departure.acceleration;
             [rate.signum() * f64::MIN_POSITIVE, rate]
         } else {
             [at.v, at.a]

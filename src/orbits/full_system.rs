@@ -82,18 +82,8 @@ impl FullSystem {
         let settings = Settings::within(range);
         let branch =
             follow(&self.system, &start.orbit, Parameter::Frequency, direction, &settings).ok()?;
-        // The branch sets out stable: whichever of these comes first ends that.
-        branch.specials.into_iter().find(|special| {
-            matches!(
-                special.kind,
-                Bifurcation::SaddleNode
-                    | Bifurcation::SymmetryBreaking
-                    | Bifurcation::NeimarkSacker
-                    | Bifurcation::Grazing
-                    | Bifurcation::Sticking
-                    | Bifurcation::VanishingImpact
-            )
-        })
+        // The branch sets out stable: the first bifurcation ends that, but for a crossing of branches.
+        branch.specials.into_iter().find(|special| special.kind != Bifurcation::BranchPoint)
     }
 
     /// The clearance at which the attracting symmetric orbit vibrates least, to rounding.

@@ -44,6 +44,8 @@ impl Wall {
 /// The state right after an impact; lengths over the clearance, fast time.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct AfterImpact {
+    /// The wall that the absorber has hit and still touches.
+    pub wall: Wall,
     /// Phase of the excitation, radians.
     pub phase: f64,
     /// Displacement of the oscillator.
@@ -60,15 +62,18 @@ impl AfterImpact {
         Vector4::new(self.phase, self.x, self.x_velocity, self.y_velocity)
     }
 
-    /// From a vector `(phase, x, x', y')`.
-    pub fn from_vector(vector: &Vector4<f64>) -> Self {
-        Self { phase: vector[0], x: vector[1], x_velocity: vector[2], y_velocity: vector[3] }
+    /// The state with the vector `(phase, x, x', y')` on the same wall.
+    #[must_use]
+    pub fn moved_to(&self, vector: &Vector4<f64>) -> Self {
+        let [phase, x, x_velocity, y_velocity] = (*vector).into();
+        Self { wall: self.wall, phase, x, x_velocity, y_velocity }
     }
 
     /// The mirror image, which has the opposite sign everywhere, so many half periods of the excitation
     /// later; the image of a motion is a motion after an odd number of them.
     pub fn mirrored(&self, later: f64) -> Self {
         Self {
+            wall: self.wall.opposite(),
             phase: self.phase + later * std::f64::consts::PI,
             x: -self.x,
             x_velocity: -self.x_velocity,
@@ -76,12 +81,12 @@ impl AfterImpact {
         }
     }
 
-    /// All four displacements and velocities, the absorber touching `wall`.
-    pub fn state(&self, wall: Wall) -> State {
+    /// All four displacements and velocities.
+    pub fn state(&self) -> State {
         State {
             x: self.x,
             x_velocity: self.x_velocity,
-            y: self.x - wall.sign(),
+            y: self.x - self.wall.sign(),
             y_velocity: self.y_velocity,
         }
     }
@@ -97,8 +102,6 @@ impl AfterImpact {
 pub struct Leg {
     /// The state after the first impact.
     pub start: AfterImpact,
-    /// The wall of the first impact.
-    pub from: Wall,
     /// The wall of the next.
     pub to: Wall,
     /// Fast time between them.
@@ -119,7 +122,7 @@ impl Leg {
 
     /// The same, the oscillator's motion being known.
     pub fn relative_of(&self, at: Motion, s: f64) -> Motion {
-        let x = at.x - self.start.x + self.from.sign() - self.start.y_velocity * s;
+        let x = at.x - self.start.x + self.start.wall.sign() - self.start.y_velocity * s;
         Motion { x, v: at.v - self.start.y_velocity, ..at }
     }
 }
@@ -180,13 +183,13 @@ impl ImpactMap {
         Self { flight: self.flight.with_forcing(forcing), ..*self }
     }
 
-    /// The flight for `duration` from the wall `from` to the wall `to`.
-    pub fn leg(&self, start: &AfterImpact, from: Wall, to: Wall, duration: f64) -> Leg {
-        Leg { start: *start, from, to, duration, course: start.course(&self.flight) }
+    /// The flight for `duration` to the wall `to`.
+    pub fn leg(&self, start: &AfterImpact, to: Wall, duration: f64) -> Leg {
+        Leg { start: *start, to, duration, course: start.course(&self.flight) }
     }
 
-    /// Flies for `duration` from the wall `from` and collides with the wall `to`.
-    pub fn step(&self, start: &AfterImpact, from: Wall, to: Wall, duration: f64) -> Step {
+    /// Flies for `duration` and collides with the wall `to`.
+    pub fn step(&self, start: &AfterImpact, to: Wall, duration: f64) -> Step {
         let Arrival { at, by_phase, by_start, by_forcing, by_frequency } =
             start.course(&self.flight).arrival(duration);
         let yv = start.y_velocity;
@@ -204,12 +207,13 @@ impl ImpactMap {
         let frequency = self.flight.frequency();
         Step {
             next: AfterImpact {
+                wall: to,
                 phase: start.phase + frequency * duration,
                 x: at.x,
                 x_velocity: after_v,
                 y_velocity: after_yv,
             },
-            gap: at.x - start.x + from.sign() - yv * duration - to.sign(),
+            gap: at.x - start.x + start.wall.sign() - yv * duration - to.sign(),
             approach,
             next_by_state: Matrix4::from_columns(&[
                 column(1.0, by_phase.x, by_phase.y, 0.0),

@@ -118,7 +118,7 @@ fn integrals(system: &System, map: &ImpactMap, cycle: &Cycle) -> [f64; 7] {
     let panels = [PANEL / oscillating.max(damping), PANEL / oscillating];
     let mut sums = [0.0; 7];
     for leg in cycle.flights(map) {
-        let place = leg.start.x - leg.from.sign();
+        let place = leg.start.x - leg.start.wall.sign();
         quadrature::graded_nodes(leg.duration, panels[0], panels[1], |s, weight| {
             operation_count::note(2 * operation_count::ELEMENTARY + 30);
             let at = leg.oscillator(s);

@@ -66,9 +66,9 @@ fn minus_one_of(tracer: &Tracer, scaled: f64, orbit: &Orbit) -> Option<f64> {
 /// be the cycle itself.
 fn asymmetry(cycle: &Cycle) -> Option<f64> {
     let Closure::Repeats { periods } = cycle.closure else { return None };
-    let (first, second) = cycle.walls.split_at(cycle.walls.len() / 2);
+    let (first, second) = cycle.impacts.split_at(cycle.impacts.len() / 2);
     let opposite = first.len() == second.len()
-        && first.iter().zip(second).all(|(one, other)| *other == one.opposite());
+        && first.iter().zip(second).all(|(one, other)| other.wall == one.wall.opposite());
     (periods % 2 == 1 && opposite).then(|| {
         let (first, second) = cycle.durations.split_at(first.len());
         first.iter().sum::<f64>() - second.iter().sum::<f64>()
@@ -89,7 +89,7 @@ fn between(from: &Cycle, to: &Cycle, share: f64) -> Cycle {
 
 /// Half of the cycle that is its own mirror image and halfway between a cycle and its mirror image.
 fn symmetrised(cycle: &Cycle) -> Cycle {
-    let half = cycle.walls.len() / 2;
+    let half = cycle.impacts.len() / 2;
     let periods = cycle.periods();
     // The second half lasts as many half periods as there are periods.
     let image = |after: &AfterImpact| after.mirrored(-f64::from(periods));
@@ -97,12 +97,11 @@ fn symmetrised(cycle: &Cycle) -> Cycle {
     let durations = cycle.durations[..half].iter().zip(&cycle.durations[half..]);
     Cycle {
         closure: Closure::Mirrors { periods },
-        walls: cycle.walls[..half].to_vec(),
         impacts: pairs.map(|(first, second)| middle(first, &image(second), 0.5)).collect(),
         durations: durations.map(|(first, second)| 0.5 * (first + second)).collect(),
     }
 }
 
 fn middle(a: &AfterImpact, b: &AfterImpact, share: f64) -> AfterImpact {
-    AfterImpact::from_vector(&(a.vector() + (b.vector() - a.vector()) * share))
+    a.moved_to(&(a.vector() + (b.vector() - a.vector()) * share))
 }

@@ -9,7 +9,7 @@ use nalgebra::{Matrix4, Matrix5, Vector4, Vector5};
 use serde::Serialize;
 
 use super::OrbitError;
-use super::impact_map::{AfterImpact, ImpactMap, Step};
+use super::impact_map::{ImpactMap, Step};
 use super::orbit::{Cycle, Orbit, Origin};
 use crate::system::System;
 
@@ -91,7 +91,8 @@ impl Linearised {
         let parameter = change[4];
         let mut change: Vector4<f64> = change.fixed_rows::<4>(0).into();
         for (k, step) in self.steps.iter().enumerate() {
-            moved.impacts[k] = AfterImpact::from_vector(&(cycle.impacts[k].vector() + change));
+            let here = &cycle.impacts[k];
+            moved.impacts[k] = here.moved_to(&(here.vector() + change));
             let gap_by_parameter = weighted(step.gap_by_parameter, self.weights);
             let gap = step.gap + step.gap_by_state.dot(&change) + gap_by_parameter * parameter;
             moved.durations[k] -= gap / step.approach;

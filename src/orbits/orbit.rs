@@ -51,15 +51,12 @@ impl Closure {
     }
 }
 
-/// A closed sequence of impacts: the state after each, the wall it happened on, and the time to the
-/// next.
+/// A closed sequence of impacts: the state after each, and the time to the next.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Cycle {
     /// How it closes.
     pub closure: Closure,
-    /// The walls in order; for [`Closure::Mirrors`] of half the orbit.
-    pub walls: Vec<Wall>,
-    /// The state after each of those impacts.
+    /// The state after each impact, in order; for [`Closure::Mirrors`] of half the orbit.
     pub impacts: Vec<AfterImpact>,
     /// Fast time from each to the next.
     pub durations: Vec<f64>,
@@ -68,29 +65,27 @@ pub struct Cycle {
 impl Cycle {
     /// The wall that ends flight `index`.
     pub fn next_wall(&self, index: usize) -> Wall {
-        match (self.walls.get(index + 1), self.closure) {
-            (Some(wall), _) => *wall,
-            (None, Closure::Repeats { .. }) => self.walls[0],
-            (None, Closure::Mirrors { .. }) => self.walls[0].opposite(),
+        match (self.impacts.get(index + 1), self.closure) {
+            (Some(next), _) => next.wall,
+            (None, Closure::Repeats { .. }) => self.impacts[0].wall,
+            (None, Closure::Mirrors { .. }) => self.impacts[0].wall.opposite(),
         }
     }
 
     /// The whole orbit's sequence of walls over one repetition, as `+-`, in the canonical form
     /// of a [`crate::numerics::cyclic_word`], so that one motion has one name.
     pub fn sequence(&self) -> String {
-        let mut walls = self.walls.clone();
-        if matches!(self.closure, Closure::Mirrors { .. }) {
-            walls.extend(self.walls.iter().map(|wall| wall.opposite()));
-        }
-        let minus: Vec<bool> = walls.iter().map(|wall| *wall == Wall::Minus).collect();
+        let whole = self.unfolded();
+        let minus: Vec<bool> =
+            whole.impacts.iter().map(|after| after.wall == Wall::Minus).collect();
         canonical(&minus).into_iter().map(|minus| if minus { '-' } else { '+' }).collect()
     }
 
     /// `p`, impacts of the whole orbit.
     pub fn impact_count(&self) -> usize {
         match self.closure {
-            Closure::Repeats { .. } => self.walls.len(),
-            Closure::Mirrors { .. } => 2 * self.walls.len(),
+            Closure::Repeats { .. } => self.impacts.len(),
+            Closure::Mirrors { .. } => 2 * self.impacts.len(),
         }
     }
 
@@ -106,10 +101,8 @@ impl Cycle {
         let Closure::Mirrors { periods } = self.closure else { return self.clone() };
         // The second half begins where the mirror image of the first begins, half a turn later.
         let later = self.impacts.iter().map(|after| after.mirrored(f64::from(periods)));
-        let opposite = self.walls.iter().map(|wall| wall.opposite());
         Self {
             closure: Closure::Repeats { periods },
-            walls: self.walls.iter().copied().chain(opposite).collect(),
             impacts: self.impacts.iter().copied().chain(later).collect(),
             durations: self.durations.repeat(2),
         }
@@ -119,22 +112,26 @@ impl Cycle {
     /// over the clearance (radians for the phase).
     pub fn folded(&self, tolerance: f64) -> Option<Self> {
         let Closure::Repeats { periods } = self.closure else { return None };
-        let count = self.walls.len();
+        let count = self.impacts.len();
         if periods % 2 == 0 || count % 2 == 1 {
             return None;
         }
         let half = count / 2;
         let mirrors = (0..half).all(|k| {
             let mirror = self.impacts[k].mirrored(f64::from(periods));
-            let distance = (mirror.vector() - self.impacts[k + half].vector()).amax();
-            self.walls[k + half] == self.walls[k].opposite() && distance <= tolerance
+            let there = &self.impacts[k + half];
+            there.wall == mirror.wall && (mirror.vector() - there.vector()).amax() <= tolerance
         });
-        mirrors.then(|| Self {
-            closure: Closure::Mirrors { periods },
-            walls: self.walls[..half].to_vec(),
-            impacts: self.impacts[..half].to_vec(),
-            durations: self.durations[..half].to_vec(),
-        })
+        mirrors.then(|| self.beginning(half, Closure::Mirrors { periods }))
+    }
+
+    /// Its first impacts, closed in another way.
+    fn beginning(&self, count: usize, closure: Closure) -> Self {
+        Self {
+            closure,
+            impacts: self.impacts[..count].to_vec(),
+            durations: self.durations[..count].to_vec(),
+        }
     }
 
     /// A cycle that goes round more than once to within `tolerance` over its size, cut to once;
@@ -149,18 +146,12 @@ impl Cycle {
                 && periods % rounds == 0
                 && (length..count).all(|k| {
                     let (here, before) = (&cycle.impacts[k], &cycle.impacts[k - length]);
-                    cycle.walls[k] == cycle.walls[k - length]
-                        && apart(here, before) < tolerance * cycle.size()
+                    here.wall == before.wall && apart(here, before) < tolerance * cycle.size()
                 })
         };
         let rounds = (2..=periods).rev().find(repeats)?;
-        let length = count / rounds;
-        Some(Self {
-            closure: Closure::Repeats { periods: cycle.periods() / rounds as u32 },
-            walls: cycle.walls[..length].to_vec(),
-            impacts: cycle.impacts[..length].to_vec(),
-            durations: cycle.durations[..length].to_vec(),
-        })
+        let closure = Closure::Repeats { periods: cycle.periods() / rounds as u32 };
+        Some(cycle.beginning(count / rounds, closure))
     }
 
     /// Whether another cycle is the same motion or its mirror image, to within `tolerance` over its
@@ -179,6 +170,12 @@ impl Cycle {
             })
     }
 
+    /// Largest difference between its states and those of a cycle with as many impacts.
+    pub fn distance(&self, other: &Self) -> f64 {
+        let pairs = self.impacts.iter().zip(&other.impacts);
+        pairs.map(|(a, b)| (a.vector() - b.vector()).amax()).fold(0.0, f64::max)
+    }
+
     /// Its size, against which defects and distances are measured: the largest displacement or velocity
     /// after an impact, at least 1.
     pub(super) fn size(&self) -> f64 {
@@ -188,17 +185,15 @@ impl Cycle {
 
     /// The steps of the impact map along the cycle.
     pub fn steps(&self, map: &ImpactMap) -> Vec<Step> {
-        (0..self.walls.len())
-            .map(|k| {
-                map.step(&self.impacts[k], self.walls[k], self.next_wall(k), self.durations[k])
-            })
+        (0..self.impacts.len())
+            .map(|k| map.step(&self.impacts[k], self.next_wall(k), self.durations[k]))
             .collect()
     }
 
     /// Its flights.
     pub fn flights(&self, map: &ImpactMap) -> Vec<Leg> {
-        (0..self.walls.len())
-            .map(|k| map.leg(&self.impacts[k], self.walls[k], self.next_wall(k), self.durations[k]))
+        (0..self.impacts.len())
+            .map(|k| map.leg(&self.impacts[k], self.next_wall(k), self.durations[k]))
             .collect()
     }
 
@@ -214,13 +209,13 @@ impl Cycle {
     /// # Errors
     /// [`OrbitError::NotACycle`] where lengths disagree or a duration is not positive.
     pub(super) fn check(&self) -> Result<(), OrbitError> {
-        let count = self.walls.len();
+        let count = self.impacts.len();
         let refuse = |reason| Err(OrbitError::NotACycle { reason });
         if count == 0 || self.periods() == 0 {
             return refuse("it has no impact or no period");
         }
-        if self.impacts.len() != count || self.durations.len() != count {
-            return refuse("each impact needs a state and a time to the next");
+        if self.durations.len() != count {
+            return refuse("each impact needs a time to the next");
         }
         if matches!(self.closure, Closure::Mirrors { periods } if periods % 2 == 0) {
             return refuse("a motion equals its mirror image after an odd number of half periods");

@@ -79,7 +79,6 @@ fn twice(cycle: &Cycle) -> Cycle {
         cycle.impacts.iter().map(|impact| AfterImpact { phase: impact.phase + turn, ..*impact });
     Cycle {
         closure: Closure::Repeats { periods: 2 * cycle.periods() },
-        walls: cycle.walls.repeat(2),
         impacts: cycle.impacts.iter().copied().chain(later).collect(),
         durations: cycle.durations.repeat(2),
     }
@@ -142,15 +141,9 @@ fn across(tracer: &Tracer, scaled: f64, orbit: &Orbit) -> Option<(Orbit, f64)> {
     BEYOND.iter().find_map(|change| {
         let scaled = scaled * (1.0 + change);
         let found = tracer.at(&with_contact, scaled)?;
-        let goes_on = distance(&found.cycle, &with_contact) <= GOES_ON;
+        let goes_on = found.cycle.distance(&with_contact) <= GOES_ON;
         (goes_on && found.admissibility.admissible).then_some((found, scaled))
     })
-}
-
-/// Largest difference between the states of two cycles with as many impacts.
-fn distance(a: &Cycle, b: &Cycle) -> f64 {
-    let pairs = a.impacts.iter().zip(&b.impacts);
-    pairs.map(|(a, b)| (a.vector() - b.vector()).amax()).fold(0.0, f64::max)
 }
 
 /// The cycle with the grazing contact counted as an impact.
@@ -163,6 +156,7 @@ fn inserted(tracer: &Tracer, scaled: f64, orbit: &Orbit) -> Option<Cycle> {
     let first = at.fraction * duration;
     let there = cycle.flights(&map)[at.flight].oscillator(first);
     let contact = AfterImpact {
+        wall: at.wall,
         phase: start.phase + map.flight.frequency() * first,
         x: there.x,
         x_velocity: there.v,
@@ -171,6 +165,5 @@ fn inserted(tracer: &Tracer, scaled: f64, orbit: &Orbit) -> Option<Cycle> {
     cycle.durations[at.flight] = first;
     cycle.durations.insert(at.flight + 1, duration - first);
     cycle.impacts.insert(at.flight + 1, contact);
-    cycle.walls.insert(at.flight + 1, at.wall);
     Some(cycle)
 }

@@ -191,6 +191,7 @@ impl SymmetricCurve {
         let x = formulas::DISPLACEMENT.at([1.0, beta, self.displacement]);
         let v = formulas::VELOCITY.at([beta, self.velocity]);
         AfterImpact {
+            wall: Wall::Plus,
             phase: formulas::PHASE.at([s, c, x, v]),
             x: 1.0 - beta,
             x_velocity: formulas::VELOCITY_AFTER.at([self.rebound, speed]),
@@ -202,7 +203,6 @@ impl SymmetricCurve {
     pub fn cycle(&self, flight: &Flight, beta: f64) -> Cycle {
         Cycle {
             closure: Closure::Mirrors { periods: 1 },
-            walls: vec![Wall::Plus],
             impacts: vec![self.after_impact(flight, beta)],
             durations: vec![self.half_period],
         }

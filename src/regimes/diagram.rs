@@ -41,8 +41,6 @@ pub struct DiagramPoint {
     pub period_peaks: Vec<f64>,
     /// Times between the last impacts, over the excitation period.
     pub intervals: Vec<f64>,
-    /// Excitation phase of the last impacts, `0 .. 2 pi`.
-    pub phases: Vec<f64>,
 }
 
 /// Why a diagram cannot be drawn.
@@ -118,7 +116,8 @@ impl DiagramPoint {
         let stop = simulation.run(periods, MOST_IMPACTS, &mut watch);
         let records = watch.statistics().records();
         let period_peaks: Vec<f64> = records.iter().map(|one| unit * one.peak).collect();
-        let impacts = tail(&watch.log.impacts, MOST_POINTS + 1);
+        let impacts = &watch.log.impacts;
+        let impacts = &impacts[impacts.len().saturating_sub(MOST_POINTS + 1)..];
         let interval = |two: &[Impact]| (two[1].tau - two[0].tau) / system.period();
         Ok(Self {
             value,
@@ -126,17 +125,12 @@ impl DiagramPoint {
             peak: period_peaks.iter().copied().fold(unit * motion.peak, f64::max),
             period_peaks,
             intervals: impacts.windows(2).map(interval).collect(),
-            phases: tail(impacts, MOST_POINTS).iter().map(|impact| impact.phase).collect(),
             motion: Motion {
                 stop: if motion.stop == Stop::EndTime { stop } else { motion.stop },
                 ..motion
             },
         })
     }
-}
-
-fn tail<T>(all: &[T], most: usize) -> &[T] {
-    &all[all.len().saturating_sub(most)..]
 }
 
 #[cfg(test)]

@@ -20,8 +20,9 @@ pub const STEPS: u32 = 120;
 /// Each value: a modulation returns several times in 100 periods. More than ten impacts per period are given
 /// up: that regime is recognised, and its cost has to end somewhere.
 pub const EFFORT: Effort = Effort { discard: None, periods: 100, most_impacts: 10 };
-/// An absorber that crosses its cavity, at the first value; all others begin where the last one ended.
-const START: State = State { x: 0.0, x_velocity: 0.0, y: 0.0, y_velocity: 1.0 };
+/// An absorber that crosses its cavity: where the first value begins; all others begin where the last one
+/// ended.
+pub(super) const START: State = State { y_velocity: 1.0, ..State::AT_REST };
 
 /// The range in clearance: from this part of the smallest exact limit to this many times the largest.
 const AROUND_LIMITS: [f64; 2] = [0.6, 1.25];

@@ -9,13 +9,12 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use super::answer::{self, Answer, ORBIT_ROUNDING, measured};
-use super::{LongTermMotions, StudyError, main_attractor, main_index};
+use super::{LongTermMotions, StudyError};
 use crate::case::AccuracySettings;
 use crate::method::Method;
 use crate::operation_count;
 use crate::regimes::{FoundAttractor, Regime};
 use crate::simulation::{Doubt, Simulation};
-use crate::study::Proof;
 use crate::system::System;
 use crate::validation::tolerance::asymptotic_error;
 
@@ -146,24 +145,6 @@ impl Answers {
     }
 }
 
-/// Long-term motions that were simulated.
-#[derive(Debug, Clone, Copy)]
-pub struct Simulated<'a> {
-    /// The motions.
-    pub attractors: &'a [FoundAttractor],
-    /// For each of them the exact orbit that it is, where it is one.
-    pub proofs: &'a [Option<Proof>],
-    /// What finding them cost, in operations.
-    pub operations: u64,
-}
-
-impl<'a> From<&'a LongTermMotions> for Simulated<'a> {
-    fn from(found: &'a LongTermMotions) -> Self {
-        let LongTermMotions { attractors, proofs, operations } = found;
-        Self { attractors, proofs, operations: *operations }
-    }
-}
-
 impl Plan {
     /// Decides from the closed form and the symmetric orbit.
     ///
@@ -226,12 +207,11 @@ impl Plan {
     ///
     /// # Errors
     /// [`StudyError`] where a motion cannot be measured further.
-    pub fn answers(&self, simulated: Option<Simulated>) -> Result<Answers, StudyError> {
+    pub fn answers(&self, simulated: Option<&LongTermMotions>) -> Result<Answers, StudyError> {
         let mut cost = simulated.map(|simulated| simulated.operations);
         let mut answers = match (self.layer, simulated) {
             (Method::Simulation, Some(simulated)) => {
-                let (answers, further) =
-                    operation_count::counted(|| self.by_simulation(&simulated));
+                let (answers, further) = operation_count::counted(|| self.by_simulation(simulated));
                 cost = cost.map(|cost| cost + further);
                 answers?
             }
@@ -248,9 +228,8 @@ impl Plan {
             });
         }
         let compared = self.layer != Method::Simulation;
-        let main = simulated.and_then(|simulated| main_attractor(simulated.attractors));
-        let main = main.filter(|_| !compared);
-        let doubts = main.map(|main| main.attractor.doubts()).unwrap_or_default();
+        let main = simulated.and_then(LongTermMotions::main).filter(|_| !compared);
+        let doubts = main.map(|(main, _)| main.attractor.doubts()).unwrap_or_default();
         if !doubts.is_empty() {
             answers.iter_mut().for_each(|answer| answer.enough = false);
         }
@@ -283,10 +262,9 @@ impl Plan {
         self.told(layer, known_by, answer, [error, 0.0])
     }
 
-    fn by_simulation(&self, simulated: &Simulated) -> Result<Vec<Answered>, StudyError> {
-        let main = main_index(simulated.attractors);
-        let found = simulated.attractors.get(main).ok_or(StudyError::NoMotion)?;
-        let (answer, known_by) = match simulated.proofs.get(main).and_then(Option::as_ref) {
+    fn by_simulation(&self, simulated: &LongTermMotions) -> Result<Vec<Answered>, StudyError> {
+        let (found, proof) = simulated.main().ok_or(StudyError::NoMotion)?;
+        let (answer, known_by) = match proof {
             Some(proof) => (Answer::of_proof(proof), KnownBy::Closure),
             None => (self.long_enough(found)?, KnownBy::Scatter),
         };

@@ -25,13 +25,6 @@ impl Margins {
             best_clearance: exact.best_clearance(),
         }
     }
-
-    /// The theory's nearest below and above the case's clearance.
-    pub fn clearance_neighbours(&self) -> [Option<BoundaryAt>; 2] {
-        let split = self.clearance.partition_point(|at| at.clearance <= 1.0);
-        let (below, above) = self.clearance.split_at(split);
-        [below.last().copied(), above.first().copied()]
-    }
 }
 
 /// A limit of the attracting exact orbit and where it is met when one parameter alone is changed.

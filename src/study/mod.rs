@@ -83,10 +83,8 @@ pub struct CaseStudy {
     pub analysis: Analysis,
     /// Area, settled by simulation where closed form cannot.
     pub area: SettledArea,
-    /// Every long-term motion that was found, by share of starts.
-    pub attractors: Vec<FoundAttractor>,
-    /// For each of them the exact orbit that it is, where it is one.
-    pub proofs: Vec<Option<Proof>>,
+    /// Every long-term motion that was found, with its proof; none where nothing was simulated.
+    pub motions: LongTermMotions,
     /// Theory against simulation.
     pub claims: Vec<Claim>,
     /// The exact layer: symmetric orbits and the boundaries around them.
@@ -99,11 +97,9 @@ pub struct CaseStudy {
     pub confirmations: Confirmations,
     /// How thoroughly.
     pub effort: StudyEffort,
-    /// What finding the attractors has cost, in operations as [`crate::operation_count`] counts them.
-    pub motions_cost: u64,
     /// What is known along the case's band; none without one.
     pub band: Option<Survey>,
-    /// Whether anything was simulated; if not, `attractors` is empty.
+    /// Whether anything was simulated; if not, `motions` is empty.
     pub simulated: bool,
     /// The bare oscillator and a tuned mass damper at the case's own excitation.
     pub rivals: Rivals,
@@ -132,21 +128,19 @@ impl CaseStudy {
         progress: &mut dyn FnMut(u64),
     ) -> Result<Self, StudyError> {
         let study = Self::without_simulation(system, effort)?;
-        let LongTermMotions { attractors, proofs, operations } =
-            long_term_motions(&study.analysis, &effort, progress)?;
+        let motions = long_term_motions(&study.analysis, &effort, progress)?;
         let (analysis, exact) = (&study.analysis, &study.exact);
         let window = effort.window(system);
-        let further = validation::confront_simulation(analysis, exact, &attractors, &window)?;
+        let further =
+            validation::confront_simulation(analysis, exact, &motions.attractors, &window)?;
         let confirmations = Confirmations::of(exact, &study.margins)?;
         let mut claims = study.claims;
         claims.extend(further);
         Ok(Self {
-            attractors,
-            proofs,
+            motions,
             claims,
             confirmations,
             effort: StudyEffort { discard: Some(window.discard), ..effort },
-            motions_cost: operations,
             simulated: true,
             ..study
         })
@@ -162,14 +156,12 @@ impl CaseStudy {
         let exact = FullSystem::of(system);
         Ok(Self {
             area: settle_area(&analysis, &exact)?,
-            attractors: Vec::new(),
-            proofs: Vec::new(),
+            motions: LongTermMotions::default(),
             claims: validation::confront_theory(&analysis, &exact),
             asymptotic_errors: asymptotic_errors(&analysis, &exact),
             margins: Margins::of(&analysis, &exact),
             confirmations: Confirmations::default(),
             effort,
-            motions_cost: 0,
             band: None,
             simulated: false,
             rivals: Rivals::along(&Band::point(system)),
@@ -186,12 +178,8 @@ impl CaseStudy {
     }
 
     /// What was simulated, if anything was.
-    pub fn simulated_motions(&self) -> Option<fidelity::Simulated<'_>> {
-        self.simulated.then_some(fidelity::Simulated {
-            attractors: &self.attractors,
-            proofs: &self.proofs,
-            operations: self.motions_cost,
-        })
+    pub fn simulated_motions(&self) -> Option<&LongTermMotions> {
+        self.simulated.then_some(&self.motions)
     }
 
     /// Number of progress steps that a study takes, about.
@@ -201,23 +189,8 @@ impl CaseStudy {
 
     /// The moving attractor that most starts lead to, or rest if there is no other.
     pub fn main_attractor(&self) -> Option<&FoundAttractor> {
-        main_attractor(&self.attractors)
+        self.motions.main().map(|(main, _)| main)
     }
-}
-
-/// The moving attractor that most starts lead to, or rest if there is no other.
-pub fn main_attractor(found: &[FoundAttractor]) -> Option<&FoundAttractor> {
-    found.get(main_index(found))
-}
-
-/// The same, to be completed.
-pub fn main_attractor_mut(found: &mut [FoundAttractor]) -> Option<&mut FoundAttractor> {
-    let index = main_index(found);
-    found.get_mut(index)
-}
-
-fn main_index(found: &[FoundAttractor]) -> usize {
-    found.iter().position(|found| found.regime() != Regime::AtRest).unwrap_or(0)
 }
 
 /// Every long-term motion that evenly spread starts and the theory's predictions lead to.

@@ -5,10 +5,9 @@ use std::f64::consts::TAU;
 
 use serde::Serialize;
 
-use super::main_index;
 use crate::orbits::newton::solve;
 use crate::orbits::{AfterImpact, Closure, Cycle, Measures, Orbit, Origin, Wall};
-use crate::regimes::{Attractor, DynamicsKind, FoundAttractor};
+use crate::regimes::{Attractor, DynamicsKind, FoundAttractor, Regime};
 use crate::simulation::{Impact, Side};
 use crate::system::System;
 
@@ -97,12 +96,16 @@ impl LongTermMotions {
         }
         motions
     }
-}
 
-impl LongTermMotions {
-    /// The moving one that most starts lead to, or rest if there is no other, with its proof.
+    /// The place of the moving one that most starts lead to, or of rest if there is no other.
+    pub fn main_index(&self) -> usize {
+        let moves = |found: &FoundAttractor| found.regime() != Regime::AtRest;
+        self.attractors.iter().position(moves).unwrap_or(0)
+    }
+
+    /// That motion with its proof.
     pub fn main(&self) -> Option<(&FoundAttractor, Option<&Proof>)> {
-        let main = main_index(&self.attractors);
+        let main = self.main_index();
         Some((self.attractors.get(main)?, self.proofs.get(main)?.as_ref()))
     }
 }
@@ -124,16 +127,10 @@ fn cycle(system: &System, impacts: &[Impact], periods: u32) -> Option<Cycle> {
     let times: Vec<f64> = impacts.iter().map(passed).chain([whole]).collect();
     Some(Cycle {
         closure: Closure::Repeats { periods },
-        walls: impacts
-            .iter()
-            .map(|impact| match impact.side {
-                Side::Plus => Wall::Plus,
-                Side::Minus => Wall::Minus,
-            })
-            .collect(),
         impacts: impacts
             .iter()
             .map(|impact| AfterImpact {
+                wall: if impact.side == Side::Plus { Wall::Plus } else { Wall::Minus },
                 phase: first.phase + omega * passed(impact),
                 x: impact.x,
                 x_velocity: impact.x_velocity_after,
@@ -146,6 +143,5 @@ fn cycle(system: &System, impacts: &[Impact], periods: u32) -> Option<Cycle> {
 
 fn distance(exact: &Cycle, simulated: &Cycle) -> f64 {
     let size = exact.impacts.iter().map(|impact| impact.vector().amax()).fold(1.0, f64::max);
-    let pairs = exact.impacts.iter().zip(&simulated.impacts);
-    pairs.map(|(a, b)| (a.vector() - b.vector()).amax()).fold(0.0, f64::max) / size
+    exact.distance(simulated) / size
 }

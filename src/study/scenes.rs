@@ -12,6 +12,7 @@ use crate::simulation::{Impact, Simulation, StartError, Stop, Trace};
 use crate::system::{InvalidParameter, State, System};
 
 use super::StudyError;
+use super::diagrams::START;
 
 /// Effort of one point of a map: enough to recognise a regime. More than ten thousand impacts in a
 /// few hundred periods are recognised as more than two per period without going on.
@@ -152,8 +153,5 @@ fn amplitudes(system: &System, reached: &Attractor) -> [f64; 2] {
 /// On the largest motion that the theory predicts; else an absorber that crosses its cavity.
 fn moving_start(analysis: &Analysis) -> State {
     let best = analysis.stable_points().last().or_else(|| analysis.fixed_points.last());
-    match best {
-        Some(point) => state_of(point, &analysis.system),
-        None => State { x: 0.0, x_velocity: 0.0, y: 0.0, y_velocity: 1.0 },
-    }
+    best.map_or(START, |point| state_of(point, &analysis.system))
 }

@@ -5,7 +5,7 @@
 //! its disturbance shrink.
 
 use super::{Claim, Finding, Reached, Reason, Statement, Verdict};
-use crate::orbits::{AfterImpact, Bifurcation, FullSystem, Limit, SymmetricOrbit, Wall};
+use crate::orbits::{AfterImpact, Bifurcation, FullSystem, Limit, SymmetricOrbit};
 use crate::regimes::{AbsorberAmplitude, Attractor, Window};
 use crate::simulation::{Simulation, StartError};
 use crate::system::System;
@@ -42,15 +42,15 @@ pub fn simulated(exact: &FullSystem) -> Result<Vec<Claim>, StartError> {
 }
 
 /// The state at the next end of an excitation period on the orbit, by simulation from its impact.
-fn begun(system: &System, after: &AfterImpact, wall: Wall) -> Result<Simulation, StartError> {
-    let mut simulation = Simulation::new(system, after.state(wall), after.phase)?;
+fn begun(system: &System, after: &AfterImpact) -> Result<Simulation, StartError> {
+    let mut simulation = Simulation::new(system, after.state(), after.phase)?;
     simulation.run(1, u64::MAX, &mut ());
     Ok(simulation)
 }
 
 fn repeats(system: &System, orbit: &SymmetricOrbit, number: usize) -> Result<Claim, StartError> {
     let cycle = &orbit.orbit.cycle;
-    let mut simulation = begun(system, &cycle.impacts[0], cycle.walls[0])?;
+    let mut simulation = begun(system, &cycle.impacts[0])?;
     let before = simulation.state();
     simulation.run(1, u64::MAX, &mut ());
     let size = 1.0 + orbit.peaks.displacement + orbit.peaks.velocity;
@@ -80,8 +80,8 @@ fn shrinks(
     let cycle = &orbit.orbit.cycle;
     let after = cycle.impacts[0];
     let disturbed = AfterImpact { y_velocity: after.y_velocity * (1.0 + DISTURBANCE), ..after };
-    let mut reference = begun(system, &after, cycle.walls[0])?;
-    let mut simulation = begun(system, &disturbed, cycle.walls[0])?;
+    let mut reference = begun(system, &after)?;
+    let mut simulation = begun(system, &disturbed)?;
     let periods = needed as u64;
     let first = reference.state().distance(&simulation.state());
     // An unstable reference leaves as well: rounding grows with the disturbance, from far below it.
@@ -136,7 +136,7 @@ pub fn limits(exact: &FullSystem) -> Result<Vec<Claim>, StartError> {
 }
 
 fn stays(system: &System, after: &AfterImpact) -> Result<Reached, StartError> {
-    let simulation = begun(system, after, Wall::Plus)?;
+    let simulation = begun(system, after)?;
     let found = Attractor::reach(system, simulation.state(), &WINDOW)?;
     let AbsorberAmplitude { smallest, largest, .. } =
         found.classification.evidence.absorber_amplitude;

@@ -3,14 +3,13 @@
 #![allow(dead_code, reason = "each test file uses a part")]
 
 use nalgebra::Matrix4;
-use vinesink::orbits::{AfterImpact, SymmetricOrbit, Wall};
+use vinesink::orbits::{AfterImpact, SymmetricOrbit};
 use vinesink::simulation::{Impact, ImpactLog, Simulation, Stop};
 use vinesink::system::System;
 
-/// The next impacts of a simulation that starts at `after` on `wall`.
-pub fn impacts_from(system: &System, after: &AfterImpact, wall: Wall, count: u64) -> Vec<Impact> {
-    let mut simulation =
-        Simulation::new(system, after.state(wall), after.phase).expect("on the wall");
+/// The next impacts of a simulation that starts at `after`.
+pub fn impacts_from(system: &System, after: &AfterImpact, count: u64) -> Vec<Impact> {
+    let mut simulation = Simulation::new(system, after.state(), after.phase).expect("on the wall");
     let mut log = ImpactLog::default();
     let stop = simulation.run(20 + count, count, &mut log);
     assert!(matches!(stop, Stop::ImpactLimit | Stop::EndTime));
@@ -20,7 +19,7 @@ pub fn impacts_from(system: &System, after: &AfterImpact, wall: Wall, count: u64
 /// The same, on a symmetric orbit.
 pub fn simulated_impacts(system: &System, orbit: &SymmetricOrbit, count: u64) -> Vec<Impact> {
     let cycle = &orbit.orbit.cycle;
-    impacts_from(system, &cycle.impacts[0], cycle.walls[0], count)
+    impacts_from(system, &cycle.impacts[0], count)
 }
 
 /// Jacobian of the half-period map, mirrored, by central differences of the simulation.
@@ -31,14 +30,15 @@ pub fn simulated_half_map(system: &System, orbit: &SymmetricOrbit, h: f64) -> Ma
     let mapped = |k: usize, h: f64| {
         let mut vector = base;
         vector[k] += h;
-        let start = AfterImpact::from_vector(&vector);
-        let impact = impacts_from(system, &start, cycle.walls[0], 1)[0];
+        let start = cycle.impacts[0].moved_to(&vector);
+        let impact = impacts_from(system, &start, 1)[0];
         // The simulation reduces phases to one turn.
         let turns = (start.phase.div_euclid(std::f64::consts::TAU)) * std::f64::consts::TAU;
         let begun = start.phase - turns;
         let passed = impact.tau * system.frequency_ratio();
         let phase = turns + if passed >= begun { passed } else { passed + std::f64::consts::TAU };
         AfterImpact {
+            wall: start.wall,
             phase,
             x: impact.x,
             x_velocity: impact.x_velocity_after,

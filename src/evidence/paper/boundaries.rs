@@ -75,7 +75,7 @@ pub(super) fn figure_5(cases: &CaseSet) -> Result<Section, PaperError> {
     };
     let ([hopf, collision], [slow_hopf, slow_collision]) =
         (ways_out(beats)?, ways_out(hysteresis)?);
-    let attractors = hysteresis.study.attractors.iter();
+    let attractors = hysteresis.study.motions.attractors.iter();
     let regimes: Vec<Regime> = attractors.map(FoundAttractor::regime).collect();
     let unsteady = |at: &Regime| matches!(at, Regime::StronglyModulated | Regime::BelowTwo);
     Ok(Section::new(

@@ -83,27 +83,9 @@ const IMAGES: [(&str, &str, &str, u32); 28] = [
 /// Why the page cannot be written.
 #[derive(Debug, thiserror::Error)]
 pub enum PaperError {
-    /// A case that the page is made from was not given.
-    #[error("the page needs the case `{0}`, which was not given")]
-    NoCase(&'static str),
-    /// A case's report lacks a figure.
-    #[error(
-        "the report of `{case}` has no figure `{figure}`; its table [report] should ask for it"
-    )]
-    NoFigure {
-        /// The case.
-        case: &'static str,
-        /// The figure.
-        figure: &'static str,
-    },
-    /// A quantity that the page states does not exist for the case that should give it.
-    #[error("the case `{case}` gives no {what}")]
-    NoResult {
-        /// The case.
-        case: &'static str,
-        /// What is missing.
-        what: &'static str,
-    },
+    /// A case, a figure of its report, or a quantity that the page states is missing.
+    #[error("{0}")]
+    Missing(String),
     /// A case cannot be studied.
     #[error(transparent)]
     Study(#[from] StudyError),
@@ -145,7 +127,8 @@ impl CaseReport {
 
     /// What the case should give.
     fn needs<T>(&self, found: Option<T>, what: &'static str) -> Result<T, PaperError> {
-        found.ok_or(PaperError::NoResult { case: self.name, what })
+        found
+            .ok_or_else(|| PaperError::Missing(format!("the case `{}` gives no {what}", self.name)))
     }
 
     /// The moving attractor that most starts lead to.
@@ -156,7 +139,12 @@ impl CaseReport {
     /// A figure of its report.
     fn image(&self, name: &'static str, width: u32) -> Result<Value, PaperError> {
         let figure = self.figures.iter().find(|figure| figure.name == name);
-        let figure = figure.ok_or(PaperError::NoFigure { case: self.name, figure: name })?;
+        let figure = figure.ok_or_else(|| {
+            PaperError::Missing(format!(
+                "the report of `{}` has no figure `{name}`; its table [report] should ask for it",
+                self.name
+            ))
+        })?;
         Ok(json!({
             "case": self.name,
             "title": self.case.title,
@@ -181,7 +169,9 @@ struct CaseSet<'a>(&'a [CaseReport]);
 
 impl<'a> CaseSet<'a> {
     fn case(&self, name: &'static str) -> Result<&'a CaseReport, PaperError> {
-        self.0.iter().find(|member| member.name == name).ok_or(PaperError::NoCase(name))
+        let missing = || format!("the page needs the case `{name}`, which was not given");
+        let found = self.0.iter().find(|member| member.name == name);
+        found.ok_or_else(|| PaperError::Missing(missing()))
     }
 }
 

@@ -71,12 +71,13 @@ pub fn document(source: &Source) -> Value {
     let Source { case, study, judged, .. } = source;
     let scale = Scale::of(case);
     let system = &study.analysis.system;
-    let motions = study.attractors.iter().zip(&study.proofs);
+    let motions = study.motions.attractors.iter().zip(&study.motions.proofs);
     let motions =
         motions.map(|(found, proof)| motions::found(&scale, system, found, proof.as_ref()));
     let main = study.main_attractor();
-    let is_main =
-        |main: &FoundAttractor| study.attractors.iter().position(|found| std::ptr::eq(found, main));
+    let is_main = |main: &FoundAttractor| {
+        study.motions.attractors.iter().position(|found| std::ptr::eq(found, main))
+    };
     let counted = case.criteria.is_empty() || case.count_inactive;
     let inactive = study.inactive.as_ref();
     let wanted = case.report.figures.iter().map(|wanted| wanted.name());

@@ -43,7 +43,7 @@ pub fn notes(case: &Case, study: &CaseStudy) -> Vec<Value> {
     let refuted = claims
         .filter(|(_, claim)| claim.verdict == Verdict::Refuted)
         .map(|(claim, _)| noted("refuted", json!({ "claim": claim })));
-    let runs = study.attractors.iter().enumerate().flat_map(|(motion, found)| {
+    let runs = study.motions.attractors.iter().enumerate().flat_map(|(motion, found)| {
         let attractor = &found.attractor;
         let early = attractor.stop != Stop::EndTime;
         // That a run was ended early is said once.

@@ -87,7 +87,7 @@ impl<'a> Scene<'a> {
             last: bounds.saddle_node.map(|node| over_own(node.forcing_over_clearance)),
             branch: bounds.saddle_node.map(|node| node.branch),
         };
-        let proven = study.attractors.iter().zip(&study.proofs);
+        let proven = study.motions.attractors.iter().zip(&study.motions.proofs);
         let motions = proven.map(|(one, proof)| found(&scale, system, one, proof.as_ref()));
         let known = json!({
             "frequency": Quantity::new(&of::EXCITATION_FREQUENCY, frequency, Method::Given),

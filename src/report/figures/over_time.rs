@@ -122,7 +122,7 @@ fn projection(scene: &Scene, data: &Motion) -> Panel {
 
 /// What the motion's own facts do not say.
 fn motion_facts(scene: &Scene, data: &Motion) -> Value {
-    let evidence = &scene.study.attractors[data.index].attractor.classification.evidence;
+    let evidence = &scene.study.motions.attractors[data.index].attractor.classification.evidence;
     json!({
         "index": data.index,
         "periods": data.periods,

@@ -22,7 +22,7 @@ const FAR: f64 = 40.0;
 pub(super) fn manifold(scene: &Scene) -> Figure {
     let analysis = &scene.study.analysis;
     let manifold = &analysis.manifold;
-    let seen: Vec<([f64; 2], Regime)> = (0..scene.study.attractors.len())
+    let seen: Vec<([f64; 2], Regime)> = (0..scene.study.motions.attractors.len())
         .filter_map(|index| drawn(scene.study, index))
         .filter_map(|found| Some((observed(scene.study, found)?, found.regime())))
         .collect();

@@ -154,7 +154,7 @@ pub(super) fn exponents(scene: &Scene, data: &[MotionExponents]) -> Option<Figur
         };
         let fill = Fill { color, opacity: 0.15, hatch: Hatch::None };
         let interval = [line(|at| at.interval[0]), line(|at| at.interval[1])];
-        let found = &scene.study.attractors[one.index];
+        let found = &scene.study.motions.attractors[one.index];
         let dynamics = found.attractor.classification.dynamics.words();
         let style = Style::new(color, 1.8, Dash::Solid);
         let exponent = Layer::curve(style, line(|at| at.per_period));

@@ -122,7 +122,7 @@ impl Plot {
         if forced {
             plots.push(Self::Amplitude(Amplitude::of(study)?));
         }
-        for index in 0..study.attractors.len().min(MOTIONS) {
+        for index in 0..study.motions.attractors.len().min(MOTIONS) {
             plots.extend(Motion::of(study, index)?.map(Self::Motion));
         }
         let shown = |wanted: &&ExtraFigure| forced || !NEED_FORCING.contains(*wanted);
@@ -162,7 +162,7 @@ impl Plot {
 /// The motion with an index if it can be drawn: it moves and was followed to the end. One that was measured
 /// while it turned into another (its average is not that of the repetition it ends with) cannot.
 pub fn drawn(study: &CaseStudy, index: usize) -> Option<&FoundAttractor> {
-    let found = study.attractors.get(index)?;
+    let found = study.motions.attractors.get(index)?;
     let evidence = &found.attractor.classification.evidence;
     let lasts = evidence.periodicity.is_none_or(|repetition| {
         let repeated = f64::from(repetition.impacts) / f64::from(repetition.periods);
@@ -174,7 +174,7 @@ pub fn drawn(study: &CaseStudy, index: usize) -> Option<&FoundAttractor> {
 
 /// The first motion that can be drawn: the one that most starts lead to.
 pub fn first_drawn(study: &CaseStudy) -> Option<&FoundAttractor> {
-    (0..study.attractors.len()).find_map(|index| drawn(study, index))
+    (0..study.motions.attractors.len()).find_map(|index| drawn(study, index))
 }
 
 /// `count` + 1 numbers from `first` to `last`.

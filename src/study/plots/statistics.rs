@@ -28,10 +28,10 @@ impl MotionExponents {
     pub(super) fn of(study: &CaseStudy) -> Result<Vec<Self>, StudyError> {
         let periods: Vec<u64> = Self::WINDOWS.map(|power| 1 << power).collect();
         let mut all = Vec::new();
-        for index in 0..study.attractors.len().min(MOTIONS) {
+        for index in 0..study.motions.attractors.len().min(MOTIONS) {
             let Some(found) = drawn(study, index) else { continue };
             let exponents = exponents(&study.analysis.system, found.attractor.state, &periods)?;
-            let proof = study.proofs[index].as_ref();
+            let proof = study.motions.proofs[index].as_ref();
             let exact = proof.map(|proof| libm::log(proof.orbit.radius_per_period()));
             if !exponents.is_empty() {
                 all.push(Self { index, exponents, exact });
@@ -75,7 +75,7 @@ impl StartPlane {
             State { x, x_velocity, y: x, y_velocity: 0.0 }
         };
         let states: Vec<State> = (0..Self::CELLS * Self::CELLS).map(state).collect();
-        let known = study.attractors.iter().map(|found| found.attractor.motion).collect();
+        let known = study.motions.attractors.iter().map(|found| found.attractor.motion).collect();
         let basins = Basins::of(system, &states, known, &BASIN_EFFORT, &mut |_| {})?;
         Ok(Self { reach, basins, transient: Transient::of(system).periods })
     }
