@@ -13,7 +13,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use vinesink::case::Case;
-use vinesink::simulation::{Impact, Observer, Segment, Simulation, Statistics, Stop};
+use vinesink::simulation::{Detail, Impact, Observer, Segment, Simulation, Statistics, Stop};
 use vinesink::system::{Excitation, Parameters, State, System};
 
 /// Cases of each target that always run.
@@ -251,8 +251,8 @@ fn bounded(what: &str, simulation: &Simulation, sticks: u64) {
 struct Next(Option<Impact>);
 
 impl Observer for Next {
-    fn flights(&self) -> bool {
-        false
+    fn detail(&self) -> Detail {
+        Detail::Events
     }
     fn impact(&mut self, impact: &Impact) {
         self.0.get_or_insert(*impact);

@@ -2,7 +2,7 @@
 
 use super::{Evidence, Motion};
 use crate::simulation::{
-    Impact, ImpactLog, ImpactStatistics, Observer, Segment, Simulation, Statistics, Stop,
+    Detail, Impact, ImpactLog, ImpactStatistics, Observer, Segment, Simulation, Statistics, Stop,
 };
 use crate::system::State;
 
@@ -16,8 +16,8 @@ pub(super) struct Watch {
 }
 
 impl Observer for Watch {
-    fn flights(&self) -> bool {
-        self.statistics.flights()
+    fn detail(&self) -> Detail {
+        self.statistics.detail()
     }
     fn segment(&mut self, segment: &Segment) {
         self.statistics.segment(segment);

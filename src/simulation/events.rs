@@ -114,12 +114,22 @@ impl Segment {
     }
 }
 
+/// What an [`Observer`] needs to be told of; to describe the rest would cost time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Detail {
+    /// Nothing.
+    Nothing,
+    /// Impacts, ends of chattering sequences, ends of periods and sustained contact.
+    Events,
+    /// Flights as well, which cost more to describe than to fly.
+    Flights,
+}
+
 /// Receives what happens, in order.
 pub trait Observer {
-    /// Whether it looks at flights, which cost more to describe than to fly; if not, it may still be told of
-    /// some.
-    fn flights(&self) -> bool {
-        true
+    /// What it needs; it may be told of more. The same at any time.
+    fn detail(&self) -> Detail {
+        Detail::Flights
     }
     /// A stretch of smooth motion was completed.
     fn segment(&mut self, _segment: &Segment) {}
@@ -134,14 +144,14 @@ pub trait Observer {
 
 /// An observer that ignores everything: for transients.
 impl Observer for () {
-    fn flights(&self) -> bool {
-        false
+    fn detail(&self) -> Detail {
+        Detail::Nothing
     }
 }
 
 impl<A: Observer, B: Observer> Observer for (&mut A, &mut B) {
-    fn flights(&self) -> bool {
-        self.0.flights() || self.1.flights()
+    fn detail(&self) -> Detail {
+        self.0.detail().max(self.1.detail())
     }
     fn segment(&mut self, segment: &Segment) {
         self.0.segment(segment);

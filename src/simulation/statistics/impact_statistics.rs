@@ -3,16 +3,16 @@
 //! In flight the oscillator is `x = Re(z + u)`, a free phasor `z` that turns with `p = -d + i w` and a
 //! steady one `u` that turns with `i Omega`. Therefore `(Re(a z + b u))^2` has the antiderivative
 //!
-//! `V = Re(a^2 z^2)/(4 p) + |a z|^2/(4 Re p) + Re(a b z u/(p + i Omega)) + Re(a b* z u*/(p - i Omega))
-//! + Re(b^2 u^2/(2 i Omega))/2`
+//! `V = Re(a^2 z^2/(4 p)) + |a z|^2/(4 Re p) + Re(a b z u/(p + i Omega)) + Re(a b* z u*/(p - i Omega))
+//! + Re(b^2 u^2/(4 i Omega))`
 //!
-//! (the first quotient inside the real part) beside `|b u|^2/2` per unit of time, and an integral
-//! over a window is what `V` loses at its impacts, where only the oscillator's velocity jumps. A flight is
-//! searched for its peak where bounds do not rule one out.
+//! beside `|b u|^2/2` per unit of time. `V` is linear in five products of `z` and `u`, so an integral over a
+//! period follows from what these lose at its impacts, where only the oscillator's velocity jumps. A flight
+//! is searched for its peak where bounds do not rule one out.
 
 use nalgebra::Complex;
 
-use super::super::events::{Absorber, Impact, Observer, Segment};
+use super::super::events::{Absorber, Detail, Impact, Observer, Segment};
 use super::super::integrals::Ringing;
 use super::super::peaks::{self, Flight, Moment};
 use super::super::phasor::{Rates, Steady};
@@ -50,8 +50,10 @@ struct Telescope {
     drift: f64,
     /// Where the flight under way began.
     begin: Place,
-    /// Integrals of `x^2` and `x'^2` over the flights of this period, and their duration.
-    sums: [f64; 2],
+    /// By how much the products have grown over the flights of this period, but for their value where the
+    /// flight under way began.
+    grown: Products,
+    /// Time in sustained contact in this period.
     contact: f64,
     period: f64,
 }
@@ -66,14 +68,44 @@ struct Place {
     u: Phasor,
 }
 
-/// `V` of a linear form `Re(a z + b u)`.
+/// What the antiderivatives are linear in.
 #[derive(Debug, Clone, Copy)]
-struct Antiderivative {
+struct Products {
     zz: Phasor,
     size: f64,
     zu: Phasor,
     zu_conj: Phasor,
     uu: Phasor,
+}
+
+impl Products {
+    fn at(Place { z, u, .. }: &Place) -> Self {
+        Self { zz: z * z, size: z.norm_sqr(), zu: z * u, zu_conj: z * u.conj(), uu: u * u }
+    }
+
+    /// Adds so many times others.
+    fn add(&mut self, times: f64, other: &Self) {
+        self.zz += other.zz * times;
+        self.size += other.size * times;
+        self.zu += other.zu * times;
+        self.zu_conj += other.zu_conj * times;
+        self.uu += other.uu * times;
+    }
+
+    /// Adds what a jump of the free phasor from `before` to `after` takes away.
+    fn jump(&mut self, before: Phasor, after: Phasor, u: Phasor) {
+        let lost = before - after;
+        self.zz += lost * (before + after);
+        self.size += before.norm_sqr() - after.norm_sqr();
+        self.zu += lost * u;
+        self.zu_conj += lost * u.conj();
+    }
+}
+
+/// `V` of a linear form `Re(a z + b u)`: coefficients of the products.
+#[derive(Debug, Clone, Copy)]
+struct Antiderivative {
+    of: Products,
     /// `|b|^2/2`.
     rate: f64,
 }
@@ -81,22 +113,23 @@ struct Antiderivative {
 impl Antiderivative {
     fn of(a: Phasor, b: Phasor, pole: Phasor, frequency: f64) -> Self {
         let turn = Phasor::new(0.0, frequency);
-        Self {
+        let of = Products {
             zz: a * a / (pole * 4.0),
             size: a.norm_sqr() / (4.0 * pole.re),
             zu: a * b / (pole + turn),
             zu_conj: a * b.conj() / (pole - turn),
             uu: b * b / (turn * 4.0),
-            rate: 0.5 * b.norm_sqr(),
-        }
+        };
+        Self { of, rate: 0.5 * b.norm_sqr() }
     }
 
-    fn at(&self, Place { z, u, .. }: &Place) -> f64 {
-        (self.zz * z * z).re
-            + self.size * z.norm_sqr()
-            + (self.zu * z * u).re
-            + (self.zu_conj * z * u.conj()).re
-            + (self.uu * u * u).re
+    fn grown(&self, by: &Products) -> f64 {
+        let Self { of, .. } = self;
+        (of.zz * by.zz).re
+            + of.size * by.size
+            + (of.zu * by.zu).re
+            + (of.zu_conj * by.zu_conj).re
+            + (of.uu * by.uu).re
     }
 }
 
@@ -111,7 +144,7 @@ impl Telescope {
         if -pole.re < LEAST_DAMPING * pole.im {
             return None;
         }
-        let one = Phasor::new(1.0, 0.0);
+        let (zero, one) = (Phasor::new(0.0, 0.0), Phasor::new(1.0, 0.0));
         let mut telescope = Self {
             of,
             rates,
@@ -121,11 +154,11 @@ impl Telescope {
             bend: (pole * pole + frequency * frequency).norm_sqr().sqrt(),
             drift: (pole - turn).norm_sqr(),
             begin: Place { phase: 0.0, x: 0.0, v: 0.0, z: one, u: one },
-            sums: [0.0; 2],
+            grown: Products { zz: zero, size: 0.0, zu: zero, zu_conj: zero, uu: zero },
             contact: 0.0,
             period: system.period(),
         };
-        telescope.begin = telescope.place(0.0, statistics.start.x, statistics.start.x_velocity);
+        telescope.depart(telescope.place(0.0, statistics.start.x, statistics.start.x_velocity));
         Some(telescope)
     }
 
@@ -141,18 +174,23 @@ impl Telescope {
         Phasor::new(free, -(velocity - pole.re * free) / pole.im)
     }
 
-    /// Adds the flight that ends at a place to the integrals; the next begins there.
-    fn end(&mut self, end: Place) {
-        for (sum, form) in self.sums.iter_mut().zip([&self.displacement, &self.velocity]) {
-            *sum += form.at(&end) - form.at(&self.begin);
-        }
-        self.begin = end;
+    /// A flight begins at a place.
+    fn depart(&mut self, from: Place) {
+        self.grown.add(-1.0, &Products::at(&from));
+        self.begin = from;
     }
 
-    /// An impact has changed the oscillator's velocity.
-    fn jump(&mut self, v: f64) {
-        let Place { x, u, .. } = self.begin;
-        self.begin = Place { v, z: self.free(x, v, u), ..self.begin };
+    /// A flight ends at a place, from which the next goes on with the velocity `v`.
+    fn jump(&mut self, end: Place, v: f64) {
+        let z = self.free(end.x, v, end.u);
+        self.grown.jump(end.z, z, end.u);
+        self.begin = Place { v, z, ..end };
+    }
+
+    /// No flight is under way any more; by how much the products have grown.
+    fn arrive(&mut self) -> Products {
+        self.grown.add(1.0, &Products::at(&self.begin));
+        self.grown
     }
 
     /// The flight that ends at a place, if it may reach beyond a displacement that is known.
@@ -204,8 +242,7 @@ impl ImpactStatistics {
         let peak = &mut self.statistics.current.peak;
         *peak = peak.max(telescope.begin.x.abs()).max(end.x.abs());
         let flight = telescope.flight(&end, *peak, self.statistics.periods);
-        telescope.end(end);
-        telescope.jump(after);
+        telescope.jump(end, after);
         self.open.extend(flight);
         if self.open.len() == LANES {
             self.search();
@@ -226,8 +263,8 @@ impl ImpactStatistics {
 }
 
 impl Observer for ImpactStatistics {
-    fn flights(&self) -> bool {
-        self.telescope.is_none()
+    fn detail(&self) -> Detail {
+        if self.telescope.is_none() { Detail::Flights } else { Detail::Events }
     }
 
     fn segment(&mut self, segment: &Segment) {
@@ -239,7 +276,8 @@ impl Observer for ImpactStatistics {
                 let State { x, x_velocity, .. } = segment.at(segment.duration);
                 let phase = segment.phase + telescope.frequency * segment.duration;
                 telescope.contact += segment.duration;
-                telescope.begin = telescope.place(phase, x, x_velocity);
+                telescope.arrive();
+                telescope.depart(telescope.place(phase, x, x_velocity));
             }
         }
     }
@@ -262,13 +300,15 @@ impl Observer for ImpactStatistics {
             self.end_flight(Place { phase: std::f64::consts::TAU, ..end }, state.x_velocity);
         }
         if let Some(telescope) = &mut self.telescope {
-            telescope.begin.phase = 0.0;
+            let grown = telescope.arrive();
             let flown = telescope.period - telescope.contact;
             let size = telescope.of.steady.norm_sqr();
-            let [squared, velocity_squared] = std::mem::take(&mut telescope.sums);
-            let squared = squared + telescope.displacement.rate * size * flown;
-            let velocity_squared = velocity_squared + telescope.velocity.rate * size * flown;
+            let over = |form: &Antiderivative| form.grown(&grown) + form.rate * size * flown;
+            let (squared, velocity_squared) =
+                (over(&telescope.displacement), over(&telescope.velocity));
             telescope.contact = 0.0;
+            telescope.grown.add(-1.0, &grown);
+            telescope.depart(Place { phase: 0.0, ..telescope.begin });
             let statistics = &mut self.statistics;
             statistics.squared += squared;
             statistics.current.mean_square += squared;
