@@ -68,6 +68,21 @@ pub struct Impact {
     pub loss: f64,
     /// How far past the wall the search stopped: rounding, over the clearance.
     pub penetration: f64,
+    /// Displacement and velocity of the oscillator's steady motion there, if they are at hand.
+    #[serde(skip)]
+    pub(crate) steady: Option<[f64; 2]>,
+}
+
+impl Impact {
+    /// The state just before it, on the wall.
+    pub fn state_before(&self) -> State {
+        State {
+            x: self.x,
+            x_velocity: self.x_velocity_before,
+            y: self.x - self.side.sign(),
+            y_velocity: self.y_velocity_before,
+        }
+    }
 }
 
 /// A stretch of smooth motion, as observers see it.

@@ -120,7 +120,13 @@ impl Simulation {
                 at.impacts += 1;
                 let after = rebound(eps, r, v, y_velocity);
                 if detail > Detail::Nothing {
-                    observer.impact(&self.impact(&before, side, &after, at.turns, at.phase));
+                    observer.impact(&self.impact(
+                        &before,
+                        side,
+                        &after,
+                        (at.turns, at.phase),
+                        Some(steady),
+                    ));
                 }
                 at.state = self.rebounded(&before, side, &after);
                 let State { x, x_velocity: v, y, y_velocity } = at.state;

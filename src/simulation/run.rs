@@ -231,8 +231,8 @@ impl Simulation {
         before: &State,
         side: Side,
         after: &Rebound,
-        turns: u64,
-        phase: f64,
+        (turns, phase): (u64, f64),
+        steady: Option<Steady<f64>>,
     ) -> Impact {
         Impact {
             tau: (turns as f64 * TAU + phase) / self.system.frequency_ratio(),
@@ -245,6 +245,7 @@ impl Simulation {
             y_velocity_after: after.y_velocity,
             loss: after.loss,
             penetration: (before.relative_displacement().abs() - 1.0).max(0.0),
+            steady: steady.map(|Steady { x, v }| [x, v]),
         }
     }
 

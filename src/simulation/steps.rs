@@ -93,7 +93,9 @@ impl Simulation {
         let (eps, r) = (self.system.mass_ratio(), self.system.restitution());
         let after = rebound(eps, r, before.x_velocity, before.y_velocity);
         self.at.impacts += 1;
-        observer.impact(&self.impact(&before, side, &after, self.at.turns, self.at.phase));
+        let steady = self.rates.map(|_| self.at.steady);
+        let when = (self.at.turns, self.at.phase);
+        observer.impact(&self.impact(&before, side, &after, when, steady));
         self.at.state = self.rebounded(&before, side, &after);
         self.perhaps_stick(side, observer);
     }
