@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 use criterion::{Criterion, criterion_group, criterion_main};
 use vinesink::analysis::Analysis;
 use vinesink::evidence::tradeoff::by_hand::{ByHand, Locate};
-use vinesink::simulation::{Simulation, Statistics, Stop, batch};
+use vinesink::simulation::{Measurement, Simulation, Stop, batch};
 use vinesink::system::{State, System};
 
 const PERIODS: u64 = 200;
@@ -54,8 +54,9 @@ fn side_by_side(system: &System, periods: u64) -> u64 {
 /// One trajectory with everything that a report measures of it.
 fn measured(system: &System, periods: u64) -> u64 {
     let mut simulation = Simulation::new(system, START, 0.0).expect("inside the cavity");
-    let mut statistics = Statistics::begin(system, START);
-    assert_eq!(simulation.run(periods, u64::MAX, &mut statistics), Stop::EndTime);
+    let mut measurement = Measurement::begin(system, START);
+    assert_eq!(simulation.run(periods, u64::MAX, &mut measurement), Stop::EndTime);
+    let statistics = measurement.statistics();
     statistics.impacts()
 }
 

@@ -2,7 +2,7 @@
 
 mod common;
 
-use vinesink::simulation::{Impact, Observer, Segment, Simulation, Statistics, Stop, batch};
+use vinesink::simulation::{Impact, Measurement, Observer, Segment, Simulation, Stop, batch};
 use vinesink::system::{Excitation, Parameters, State, System};
 
 /// Everything that an observer is told.
@@ -156,14 +156,15 @@ fn statistics_are_the_same_side_by_side() {
     let system = common::table_1(8.5, 27.0);
     let mut together: Vec<_> = (0..11).map(|k| simulation(&system, k)).collect();
     let mut alone = together.clone();
-    let observer = |s: &Simulation| Statistics::begin(&system, s.state());
-    let mut statistics: Vec<Statistics> = together.iter().map(observer).collect();
-    batch::run(&mut together, 60, u64::MAX, &mut statistics);
+    let observer = |s: &Simulation| Measurement::begin(&system, s.state());
+    let mut measurements: Vec<Measurement> = together.iter().map(observer).collect();
+    batch::run(&mut together, 60, u64::MAX, &mut measurements);
     for (k, simulation) in alone.iter_mut().enumerate() {
-        let mut own = Statistics::begin(&system, simulation.state());
+        let mut own = Measurement::begin(&system, simulation.state());
         simulation.run(60, u64::MAX, &mut own);
-        assert_eq!(own.energy(), statistics[k].energy());
-        assert_eq!(own.records(), statistics[k].records());
-        assert_eq!((own.rms(), own.peak()), (statistics[k].rms(), statistics[k].peak()));
+        let (own, other) = (own.statistics(), measurements[k].statistics());
+        assert_eq!(own.energy(), other.energy());
+        assert_eq!(own.records(), other.records());
+        assert_eq!((own.rms(), own.peak()), (other.rms(), other.peak()));
     }
 }

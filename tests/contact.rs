@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 
 use vinesink::evidence::extremes::contact_costs;
 use vinesink::simulation::{
-    Absorber, Impact, Observer, Segment, Simulation, StartError, Statistics, Stop,
+    Absorber, Impact, Measurement, Observer, Segment, Simulation, StartError, Stop,
 };
 use vinesink::system::{Excitation, Parameters, State, System};
 
@@ -88,8 +88,9 @@ fn every_kind_of_start_on_a_wall_does_what_the_wall_makes_it_do() {
             assert!(receding.impacts.iter().all(|impact| impact.tau > 0.1), "{case}");
             // About to push: it touches at once, and rests on the wall before long.
             let mut simulation = Simulation::new(&system, start(0.0, -0.5, 0.0), 0.0).expect("in");
-            let mut statistics = Statistics::begin(&system, start(0.0, -0.5, 0.0));
-            assert_eq!(simulation.run(1, 100_000, &mut statistics), Stop::EndTime, "{case}");
+            let mut measurement = Measurement::begin(&system, start(0.0, -0.5, 0.0));
+            assert_eq!(simulation.run(1, 100_000, &mut measurement), Stop::EndTime, "{case}");
+            let statistics = measurement.statistics();
             assert!(statistics.penetration() < 1e-14, "{case}");
             assert!(statistics.sustained_contact().duration_tau > 2.0, "{case}");
             // Nothing moves at all.

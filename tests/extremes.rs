@@ -6,7 +6,7 @@ use assert_cmd::Command;
 use vinesink::evidence::extremes::{Verdict, entries, unit_checks};
 use vinesink::evidence::reference::{Event, Reference};
 use vinesink::simulation::trust::{self, Doubt};
-use vinesink::simulation::{Energy, Simulation, Statistics, Stop};
+use vinesink::simulation::{Energy, Measurement, Simulation, Stop};
 use vinesink::system::{Parameters, State, System};
 
 const START: State = State { x: 0.25, x_velocity: 0.3, y: -0.4, y_velocity: 0.6 };
@@ -60,8 +60,9 @@ fn absurd_forcing_ends_and_is_flagged() {
                 })
                 .expect("valid");
                 let mut simulation = Simulation::new(&system, START, 0.0).expect("inside");
-                let mut statistics = Statistics::begin(&system, START);
-                let stop = simulation.run(2, 1000, &mut statistics);
+                let mut measurement = Measurement::begin(&system, START);
+                let stop = simulation.run(2, 1000, &mut measurement);
+                let statistics = measurement.statistics();
                 // A fast excitation moves the oscillator by its forcing over a million only.
                 if frequency_ratio <= 1.0 {
                     let doubts = statistics.doubts(stop);

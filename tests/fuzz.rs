@@ -13,7 +13,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use vinesink::case::Case;
-use vinesink::simulation::{Impact, Observer, Segment, Simulation, Statistics, Stop};
+use vinesink::simulation::{Detail, Impact, Measurement, Observer, Segment, Simulation, Stop};
 use vinesink::system::{Excitation, Parameters, State, System};
 
 /// Cases of each target that always run.
@@ -208,8 +208,9 @@ fn engine(case: u64) {
     let size = start.size() + steady.min(1e4 * libm::hypot(sine, cosine));
     let fastest = system.frequency_ratio().max(1.0);
     let mut watch = Watch { complaint: None, impacts: Vec::new(), sticks: 0, size, fastest };
-    let mut statistics = Statistics::begin(&system, start);
-    let stop = simulation.run(PERIODS, IMPACTS, &mut (&mut watch, &mut statistics));
+    let mut measurement = Measurement::begin(&system, start);
+    let stop = simulation.run(PERIODS, IMPACTS, &mut (&mut watch, &mut measurement));
+    let statistics = measurement.statistics();
     assert_ne!(stop, Stop::NotFinite, "{what}");
     if let Some(complaint) = watch.complaint {
         panic!("{what}: {complaint}");
@@ -251,8 +252,8 @@ fn bounded(what: &str, simulation: &Simulation, sticks: u64) {
 struct Next(Option<Impact>);
 
 impl Observer for Next {
-    fn flights(&self) -> bool {
-        false
+    fn detail(&self) -> Detail {
+        Detail::Events
     }
     fn impact(&mut self, impact: &Impact) {
         self.0.get_or_insert(*impact);

@@ -10,7 +10,8 @@ use std::f64::consts::PI;
 use vinesink::analysis::{Analysis, Manifold};
 use vinesink::simulation::Absorber;
 use vinesink::simulation::{
-    Impact, ImpactLog, Observer, Segment, Simulation, Statistics, Stop, Trace, TracePoint,
+    Impact, ImpactLog, Measurement, Observer, Segment, Simulation, Statistics, Stop, Trace,
+    TracePoint,
 };
 use vinesink::system::{Excitation, Parameters, State, System};
 
@@ -43,9 +44,9 @@ fn near(found: f64, expected: f64, relative: f64) -> bool {
 /// Runs `periods` and measures all of them.
 fn measured(system: &System, start: State, periods: u64) -> Statistics {
     let mut simulation = Simulation::new(system, start, 0.0).expect("inside the cavity");
-    let mut statistics = Statistics::begin(system, start);
-    assert_eq!(simulation.run(periods, 10_000_000, &mut statistics), Stop::EndTime);
-    statistics
+    let mut measurement = Measurement::begin(system, start);
+    assert_eq!(simulation.run(periods, 10_000_000, &mut measurement), Stop::EndTime);
+    measurement.statistics().clone()
 }
 
 #[test]

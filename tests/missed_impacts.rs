@@ -9,7 +9,7 @@ mod common;
 
 use std::env;
 
-use vinesink::simulation::{Impact, Observer, Simulation, Stop};
+use vinesink::simulation::{Detail, Impact, Observer, Simulation, Stop};
 use vinesink::system::{Excitation, Parameters, State, System};
 
 /// Flights without a word from the caller: a second or two.
@@ -23,8 +23,8 @@ const PATIENCE: u64 = 50;
 struct Next(Option<Impact>);
 
 impl Observer for Next {
-    fn flights(&self) -> bool {
-        false
+    fn detail(&self) -> Detail {
+        Detail::Events
     }
     fn impact(&mut self, impact: &Impact) {
         self.0.get_or_insert(*impact);

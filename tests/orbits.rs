@@ -13,7 +13,7 @@ use vinesink::orbits::{
     Bifurcation, Leading, Measures, Multipliers, OrbitError, SymmetricFamily, Wall,
     symmetric_orbits,
 };
-use vinesink::simulation::{Simulation, Statistics};
+use vinesink::simulation::{Measurement, Simulation};
 use vinesink::system::{Excitation, Parameters, System};
 
 /// Half a unit of the last printed digit.
@@ -277,8 +277,9 @@ fn measures_of_an_orbit_are_those_of_its_simulation() {
         let start = after.state();
         let mut simulation = Simulation::new(&system, start, after.phase).expect("on the wall");
         simulation.run(2000, u64::MAX, &mut ());
-        let mut statistics = Statistics::begin(&system, simulation.state());
-        simulation.run(10, u64::MAX, &mut statistics);
+        let mut measurement = Measurement::begin(&system, simulation.state());
+        simulation.run(10, u64::MAX, &mut measurement);
+        let statistics = measurement.statistics();
         let close = |a: f64, b: f64| (a - b).abs() < 1e-11 * (1.0 + a.abs());
         assert!(close(exact.peaks.displacement, statistics.peak()));
         assert!(close(exact.rms, statistics.rms()));

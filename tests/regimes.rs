@@ -11,7 +11,7 @@ use vinesink::regimes::search::{self, SearchEffort};
 use vinesink::regimes::{
     Amplitudes, Attractor, DynamicsKind, Effort, Regime, Window, long_term, share, starts,
 };
-use vinesink::simulation::{Impact, Observer, Side, Simulation, Statistics, Stop};
+use vinesink::simulation::{Impact, Measurement, Observer, Side, Simulation, Stop};
 use vinesink::system::{Parameter, State, System};
 
 const START: State = State { x: 0.3, x_velocity: 0.2, y: 0.1, y_velocity: 0.8 };
@@ -61,9 +61,10 @@ fn a_chattering_sequence_is_one_visit() {
     for (frequency, clearance) in [(8.0, 0.3), (8.01, 20.0), (8.0, 20.0), (8.5, 27.0), (8.0, 7.5)] {
         let system = common::table_1(frequency, clearance);
         let mut simulation = Simulation::new(&system, START, 0.0).expect("inside the cavity");
-        let mut statistics = Statistics::begin(&system, START);
+        let mut measurement = Measurement::begin(&system, START);
         let mut diary = Diary::default();
-        simulation.run(300, 1_000_000, &mut (&mut statistics, &mut diary));
+        simulation.run(300, 1_000_000, &mut (&mut measurement, &mut diary));
+        let statistics = measurement.statistics();
         let expected = diary.visits();
         let counted = statistics.visits_per_period() * statistics.periods() as f64;
         let records = statistics.records();

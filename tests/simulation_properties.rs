@@ -13,7 +13,7 @@ use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use vinesink::simulation::Absorber;
 use vinesink::simulation::{
-    Impact, ImpactLog, Observer, Segment, Side, Simulation, StartError, Statistics, Stop, Trace,
+    Impact, ImpactLog, Measurement, Observer, Segment, Side, Simulation, StartError, Stop, Trace,
 };
 use vinesink::system::{Excitation, Parameters, State, System};
 
@@ -267,8 +267,9 @@ proptest! {
     ) {
         let mut simulation = Simulation::new(&system, start, 0.0).expect("inside the cavity");
         let mut inspector = Inspector::new(&system);
-        let mut statistics = Statistics::begin(&system, start);
-        let stop = simulation.run(periods, IMPACT_LIMIT, &mut (&mut inspector, &mut statistics));
+        let mut measurement = Measurement::begin(&system, start);
+        let stop = simulation.run(periods, IMPACT_LIMIT, &mut (&mut inspector, &mut measurement));
+        let statistics = measurement.statistics();
         prop_assert_eq!(inspector.complaint, None);
         prop_assert!(stop != Stop::NotFinite, "{:?}", stop);
         prop_assert_eq!(stop == Stop::ImpactLimit, simulation.impacts() >= IMPACT_LIMIT);

@@ -9,7 +9,7 @@ mod common;
 use vinesink::regimes::diagram::carried_over;
 use vinesink::regimes::lyapunov::{Exponent, Lyapunov};
 use vinesink::regimes::starts::StartBox;
-use vinesink::simulation::{Observer, Simulation, Statistics, Tangent};
+use vinesink::simulation::{Measurement, Observer, Simulation, Tangent};
 use vinesink::system::{Excitation, Parameters, State, System};
 
 const UNIT: [[f64; 4]; 4] =
@@ -26,8 +26,9 @@ fn numbers(state: State) -> [f64; 4] {
 /// Where a start leads after `periods`, with the impacts and the times it stuck.
 fn end(system: &System, start: State, periods: u64) -> (State, u64, u64) {
     let mut simulation = Simulation::new(system, start, 0.0).expect("inside the cavity");
-    let mut statistics = Statistics::begin(system, start);
-    simulation.run(periods, 1_000_000, &mut statistics);
+    let mut measurement = Measurement::begin(system, start);
+    simulation.run(periods, 1_000_000, &mut measurement);
+    let statistics = measurement.statistics();
     (simulation.state(), statistics.impacts(), statistics.sustained_contact().intervals)
 }
 

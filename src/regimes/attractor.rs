@@ -11,7 +11,7 @@ use super::{
 };
 use crate::operation_count;
 use crate::simulation::{
-    self, Doubt, Energy, Impact, ImpactLog, Simulation, StartError, Statistics, Stop,
+    self, Doubt, Energy, Impact, ImpactLog, Measurement, Simulation, StartError, Stop,
     SustainedContact,
 };
 use crate::system::{State, System};
@@ -124,20 +124,21 @@ impl Attractor {
         let system = *simulation.system();
         let before = simulation.operations();
         let mut stop = simulation.run(window.discard, window.impact_limit, &mut ());
-        let mut statistics = Statistics::begin(&system, simulation.state());
+        let mut measurement = Measurement::begin(&system, simulation.state());
         let mut lyapunov = Lyapunov::begin(&system);
         // A transient given up for its impacts is measured all the same: the impacts are the regime.
         if matches!(stop, Stop::EndTime | Stop::ImpactLimit) {
-            let mut counts = (&mut statistics, &mut *log);
+            let mut counts = (&mut measurement, &mut *log);
             let observer = &mut (&mut counts, &mut lyapunov);
             let measured = simulation.run(window.periods, window.impact_limit, observer);
             stop = if stop == Stop::EndTime { measured } else { stop };
         }
         operation_count::note(simulation.operations() - before);
+        let statistics = measurement.statistics();
         let (oscillator_harmonic, absorber_harmonic) = statistics.harmonics();
         let classification =
-            classify(&statistics, &log.impacts, lyapunov.exponent(), system.period());
-        let mut motion = Motion::of(&statistics, &classification.evidence, simulation, stop);
+            classify(statistics, &log.impacts, lyapunov.exponent(), system.period());
+        let mut motion = Motion::of(statistics, &classification.evidence, simulation, stop);
         motion.settled &= classification.dynamics != DynamicsKind::TransientNotOver;
         Self {
             motion,
@@ -145,7 +146,7 @@ impl Attractor {
             oscillator_harmonic,
             absorber_harmonic,
             energy: statistics.energy(),
-            energetics: Energetics::of(&system, &statistics),
+            energetics: Energetics::of(&system, statistics),
             sustained_contact: statistics.sustained_contact(),
             periods: statistics.periods(),
             impact_count: statistics.impacts(),

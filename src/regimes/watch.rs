@@ -2,7 +2,7 @@
 
 use super::{Evidence, Motion};
 use crate::simulation::{
-    Impact, ImpactLog, ImpactStatistics, Observer, Segment, Simulation, Statistics, Stop,
+    Detail, Impact, ImpactLog, Measurement, Observer, Segment, Simulation, Statistics, Stop,
 };
 use crate::system::State;
 
@@ -11,40 +11,40 @@ const KEPT_IMPACTS: usize = 1000;
 
 /// Measures one trajectory from its impacts.
 pub(super) struct Watch {
-    statistics: ImpactStatistics,
+    measurement: Measurement,
     pub log: ImpactLog,
 }
 
 impl Observer for Watch {
-    fn flights(&self) -> bool {
-        self.statistics.flights()
+    fn detail(&self) -> Detail {
+        self.measurement.detail()
     }
     fn segment(&mut self, segment: &Segment) {
-        self.statistics.segment(segment);
+        self.measurement.segment(segment);
     }
     fn impact(&mut self, impact: &Impact) {
         self.log.impact(impact);
-        self.statistics.impact(impact);
+        self.measurement.impact(impact);
     }
     fn sticks(&mut self, loss: f64) {
-        self.statistics.sticks(loss);
+        self.measurement.sticks(loss);
     }
     fn period(&mut self, state: &State) {
-        self.statistics.period(state);
+        self.measurement.period(state);
     }
 }
 
 impl Watch {
     pub fn begin(simulation: &Simulation) -> Self {
         Self {
-            statistics: ImpactStatistics::begin(simulation.system(), simulation.state()),
+            measurement: Measurement::of_impacts(simulation.system(), simulation.state()),
             log: ImpactLog::of_the_last(KEPT_IMPACTS),
         }
     }
 
     /// What has been measured so far; without harmonics and work.
     pub fn statistics(&mut self) -> &Statistics {
-        self.statistics.statistics()
+        self.measurement.statistics()
     }
 
     /// The motion measured; none where the trajectory came to a bad end.
@@ -52,7 +52,7 @@ impl Watch {
         if !matches!(stop, Stop::EndTime | Stop::ImpactLimit) {
             return None;
         }
-        let statistics = self.statistics.statistics();
+        let statistics = self.measurement.statistics();
         let period = simulation.system().period();
         let evidence = Evidence::of_impacts(statistics, &self.log.impacts, period);
         Some(Motion::of(statistics, &evidence, simulation, stop))

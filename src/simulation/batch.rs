@@ -77,6 +77,7 @@ fn run_at<O: Observer>(
         .map(|((simulation, observer), Extent { periods, impacts })| Task {
             limits: Limits::of(simulation, *periods, *impacts),
             simulation,
+            detail: observer.detail(),
             observer,
             stop: None,
         })
@@ -154,7 +155,7 @@ impl<S: Simd> Lanes<S> {
     }
 
     #[inline(always)]
-    fn run<O: Observer>(mut self, queue: &mut Queue<'_, O>) {
+    fn run(mut self, queue: &mut Queue<'_>) {
         self.simd.vectorize(
             #[inline(always)]
             || self.fly_all(queue),
@@ -162,7 +163,7 @@ impl<S: Simd> Lanes<S> {
     }
 
     #[inline(always)]
-    fn fly_all<O: Observer>(&mut self, queue: &mut Queue<'_, O>) {
+    fn fly_all(&mut self, queue: &mut Queue<'_>) {
         let mut fresh = 0;
         for lane in 0..LANES {
             if self.next_task(lane, queue) {
@@ -184,7 +185,7 @@ impl<S: Simd> Lanes<S> {
 
     /// Begins the flights of some lanes; those that do begin.
     #[inline(always)]
-    fn begin<O: Observer>(&mut self, lanes: u64, queue: &mut Queue<'_, O>) -> u64 {
+    fn begin(&mut self, lanes: u64, queue: &mut Queue<'_>) -> u64 {
         let (mut fresh, mut begun) = (lanes, 0);
         while fresh != 0 {
             let (here, slack) = self.rates.begin(self.x, self.v, self.steady, self.line);
@@ -205,7 +206,7 @@ impl<S: Simd> Lanes<S> {
 
     /// Lets some lanes' trajectories go on alone, from where their flight began, or take the next in
     /// the queue; those that fly again.
-    fn alone<O: Observer>(&mut self, lanes: u64, queue: &mut Queue<'_, O>) -> u64 {
+    fn alone(&mut self, lanes: u64, queue: &mut Queue<'_>) -> u64 {
         let mut again = 0;
         for lane in (0..LANES).filter(|lane| lanes >> lane & 1 == 1) {
             let Some(index) = self.task[lane] else { continue };
@@ -218,7 +219,7 @@ impl<S: Simd> Lanes<S> {
     }
 
     /// After its trajectory was set to where it stands; whether the lane flies again.
-    fn step<O: Observer>(&mut self, lane: usize, doubt: bool, queue: &mut Queue<'_, O>) -> bool {
+    fn step(&mut self, lane: usize, doubt: bool, queue: &mut Queue<'_>) -> bool {
         let Some(index) = self.task[lane] else { return false };
         match queue.tasks[index].alone(doubt) {
             Some(moment) => {
@@ -277,7 +278,7 @@ impl<S: Simd> Lanes<S> {
     }
 
     /// Takes the next trajectory that flies into a lane.
-    fn next_task<O: Observer>(&mut self, lane: usize, queue: &mut Queue<'_, O>) -> bool {
+    fn next_task(&mut self, lane: usize, queue: &mut Queue<'_>) -> bool {
         self.task[lane] = None;
         while queue.next < queue.tasks.len() {
             let index = queue.next;
@@ -293,7 +294,7 @@ impl<S: Simd> Lanes<S> {
     }
 
     /// Sets what stays the same along the trajectory that a lane has taken.
-    fn settle<O: Observer>(&mut self, lane: usize, tasks: &[Task<'_, O>]) {
+    fn settle(&mut self, lane: usize, tasks: &[Task<'_>]) {
         let one = self.mass_ratio.like(1.0);
         let each = self.task.map(|task| tasks[task?].simulation.rates.as_ref());
         self.rates = Rates::gathered(

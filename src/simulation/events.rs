@@ -68,6 +68,21 @@ pub struct Impact {
     pub loss: f64,
     /// How far past the wall the search stopped: rounding, over the clearance.
     pub penetration: f64,
+    /// Displacement and velocity of the oscillator's steady motion there, if they are at hand.
+    #[serde(skip)]
+    pub(crate) steady: Option<[f64; 2]>,
+}
+
+impl Impact {
+    /// The state just before it, on the wall.
+    pub fn state_before(&self) -> State {
+        State {
+            x: self.x,
+            x_velocity: self.x_velocity_before,
+            y: self.x - self.side.sign(),
+            y_velocity: self.y_velocity_before,
+        }
+    }
 }
 
 /// A stretch of smooth motion, as observers see it.
@@ -114,12 +129,22 @@ impl Segment {
     }
 }
 
+/// What an [`Observer`] needs to be told of; to describe the rest would cost time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Detail {
+    /// Nothing.
+    Nothing,
+    /// Impacts, ends of chattering sequences, ends of periods and sustained contact.
+    Events,
+    /// Flights as well, which cost more to describe than to fly.
+    Flights,
+}
+
 /// Receives what happens, in order.
 pub trait Observer {
-    /// Whether it looks at flights, which cost more to describe than to fly; if not, it may still be told of
-    /// some.
-    fn flights(&self) -> bool {
-        true
+    /// What it needs; it may be told of more. The same at any time.
+    fn detail(&self) -> Detail {
+        Detail::Flights
     }
     /// A stretch of smooth motion was completed.
     fn segment(&mut self, _segment: &Segment) {}
@@ -134,14 +159,14 @@ pub trait Observer {
 
 /// An observer that ignores everything: for transients.
 impl Observer for () {
-    fn flights(&self) -> bool {
-        false
+    fn detail(&self) -> Detail {
+        Detail::Nothing
     }
 }
 
 impl<A: Observer, B: Observer> Observer for (&mut A, &mut B) {
-    fn flights(&self) -> bool {
-        self.0.flights() || self.1.flights()
+    fn detail(&self) -> Detail {
+        self.0.detail().max(self.1.detail())
     }
     fn segment(&mut self, segment: &Segment) {
         self.0.segment(segment);

@@ -215,6 +215,7 @@ impl Motion {
     }
 
     /// Displacement and velocity of the free part where the stretch began.
+    #[cfg(test)]
     pub(super) fn free(&self) -> (f64, f64) {
         (self.free_x, self.free_v)
     }

@@ -1,80 +1,270 @@
-//! Integrals along a stretch of smooth motion, and its largest displacement: in closed form where the
-//! oscillator rings, else by quadrature and bracketed roots, exact to rounding.
+//! Integrals along smooth motion, exact to rounding: of flights in closed form, several side by side; of any
+//! stretch by quadrature.
 //!
 //! Free motion and excitation are phasors, `Re Z e^{p s}` and `Re E e^{i Omega s}`, and the steady
 //! motion is `Re a E e^{i Omega s}`: every quadratic integral is a sum of five, of `Z^2`, `|Z|^2`, `Z E`,
 //! `Z conj E` and `E^2`. The second and the fourth have exponents that may vanish, and are taken from
-//! `(e^q - 1)/q`, which is exact there.
+//! `e^q - 1`, which is exact there.
 
 use std::f64::consts::FRAC_PI_4;
+use std::ops::{Add, Mul, Sub};
 
+use fearless_simd::Simd;
 use nalgebra::Complex;
 
-use super::events::{Absorber, Segment};
-use super::flow::{Oscillator, mean_of_exponential};
-use super::peaks::{self, Moment};
-use super::phasor::{Rates, Steady};
+use super::events::Segment;
+use super::flow::Oscillator;
+use super::phasor::Rates;
+use super::small::{angles, exponential_minus_one};
 use crate::numerics::bracket::brent;
+use crate::numerics::lanes::Real;
 use crate::numerics::quadrature;
 use crate::operation_count;
 use crate::system::{State, System};
 
-type Phasor = Complex<f64>;
+/// A complex constant of a system.
+pub(super) type Phasor = Complex<f64>;
+
+/// A complex number for each flight.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Turning<R> {
+    pub re: R,
+    pub im: R,
+}
+
+impl<R: Real> Turning<R> {
+    #[inline(always)]
+    fn conj(self) -> Self {
+        Self { re: self.re, im: -self.im }
+    }
+    #[inline(always)]
+    fn times(self, factor: R) -> Self {
+        Self { re: self.re * factor, im: self.im * factor }
+    }
+    #[inline(always)]
+    pub(super) fn scaled(self, factor: Phasor) -> Self {
+        Self {
+            re: self.re * factor.re - self.im * factor.im,
+            im: self.re * factor.im + self.im * factor.re,
+        }
+    }
+    #[inline(always)]
+    fn size(self) -> R {
+        self.re * self.re + self.im * self.im
+    }
+}
+
+impl<R: Real> Add for Turning<R> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Self { re: self.re + other.re, im: self.im + other.im }
+    }
+}
+
+impl<R: Real> Sub for Turning<R> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Self { re: self.re - other.re, im: self.im - other.im }
+    }
+}
+
+impl<R: Real> Mul for Turning<R> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        Self {
+            re: self.re * other.re - self.im * other.im,
+            im: self.re * other.im + self.im * other.re,
+        }
+    }
+}
 
 /// Integrals over a stretch, in fast time; lengths over the clearance.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct Integrals {
+pub(super) struct Integrals<R> {
     /// Of `x^2`.
-    pub displacement_squared: f64,
+    pub displacement_squared: R,
     /// Of `x'^2`.
-    pub velocity_squared: f64,
+    pub velocity_squared: R,
     /// Of the excitation's force times `x'`.
-    pub work: f64,
+    pub work: R,
     /// Of `x` times sine and cosine of the excitation's phase.
-    pub oscillator: [f64; 2],
+    pub oscillator: [R; 2],
     /// Of `y` times the same.
-    pub absorber: [f64; 2],
+    pub absorber: [R; 2],
 }
 
-/// What the integrals of an oscillator that rings have in common.
+/// The five integrals, and the time that they are over.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Five<R> {
+    pub zz: Turning<R>,
+    pub size: R,
+    pub ze: Turning<R>,
+    pub ze_conj: Turning<R>,
+    pub ee: Turning<R>,
+    pub duration: R,
+}
+
+/// The integral of `Re(u) Re(w)` of two linear forms, `u[0] Z + u[1] E` and alike, as coefficients of the five.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Product {
+    zz: Phasor,
+    size: f64,
+    ze: Phasor,
+    ze_conj: Phasor,
+    ee: Phasor,
+    duration: f64,
+}
+
+impl Product {
+    pub(super) fn of(u: [Phasor; 2], w: [Phasor; 2]) -> Self {
+        Self {
+            zz: u[0] * w[0] * 0.5,
+            size: 0.5 * (u[0] * w[0].conj()).re,
+            ze: (u[0] * w[1] + w[0] * u[1]) * 0.5,
+            ze_conj: (u[0] * w[1].conj() + w[0] * u[1].conj()) * 0.5,
+            ee: u[1] * w[1] * 0.5,
+            duration: 0.5 * (u[1] * w[1].conj()).re,
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn over<R: Real>(&self, five: &Five<R>) -> R {
+        let real = |a: Turning<R>, c: Phasor| a.re * c.re - a.im * c.im;
+        real(five.zz, self.zz)
+            + five.size * self.size
+            + real(five.ze, self.ze)
+            + real(five.ze_conj, self.ze_conj)
+            + real(five.ee, self.ee)
+            + five.duration * self.duration
+    }
+}
+
+/// A system's oscillator between impacts, where it rings and is driven to a steady motion.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Ringing {
+    pub rates: Rates<f64>,
     /// `p = -d + i w`.
     pub pole: Phasor,
     /// `a`.
     pub steady: Phasor,
+    /// `i Omega`.
+    pub turn: Phasor,
+    /// Of `x^2`, `x'^2` and the excitation's work.
+    squares: [Product; 3],
 }
 
-/// Takes the integrals of a system's stretches.
-#[derive(Debug, Clone)]
-pub(super) struct Integrator {
-    frequency: f64,
-    /// The excitation's force is `Re f E`.
-    force: Phasor,
-    /// Longest panels of a quadrature, the second where fast decay has not ended.
-    panel: f64,
-    first_panel: f64,
-    alone: Option<Ringing>,
-    carrying: Option<Ringing>,
-    rates: Option<Rates<f64>>,
-    /// The last phase asked for and its `E`: one stretch ends where the next begins.
-    last: (f64, Phasor),
+/// One flight, or several.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Ends<R> {
+    /// The excitation's phase at either end.
+    pub phase: [R; 2],
+    /// Displacement and velocity of the oscillator there.
+    pub x: [R; 2],
+    pub v: [R; 2],
+    /// The absorber's displacement at the beginning, and its velocity.
+    pub y: R,
+    pub y_velocity: R,
 }
 
 impl Ringing {
-    fn of(oscillator: &Oscillator) -> Option<Self> {
-        let (sine, cosine) = oscillator.steady?;
-        let root = oscillator.stiffness.sqrt();
-        let ringing = ((root - oscillator.decay) * (root + oscillator.decay)).max(0.0).sqrt();
-        // Slower ones are not told from decay.
-        (ringing > 0.5 * root).then(|| Self {
-            pole: Phasor::new(-oscillator.decay, ringing),
-            steady: Phasor::new(cosine, -sine),
-        })
+    /// None where [`Rates::of`] has none.
+    pub(super) fn of(system: &System) -> Option<Self> {
+        let rates = Rates::of(&Oscillator::alone(system))?;
+        let (sine, cosine) = system.excitation_amplitudes();
+        let (zero, one) = (Phasor::new(0.0, 0.0), Phasor::new(1.0, 0.0));
+        let pole = Phasor::new(-rates.decay, rates.ringing);
+        let steady = Phasor::new(rates.origin.x, -rates.origin.v / rates.frequency);
+        let turn = Phasor::new(0.0, rates.frequency);
+        let (displacement, velocity) = ([one, steady], [pole, turn * steady]);
+        let squares = [
+            Product::of(displacement, displacement),
+            Product::of(velocity, velocity),
+            Product::of(velocity, [zero, Phasor::new(cosine, -sine)]),
+        ];
+        Some(Self { rates, pole, steady, turn, squares })
+    }
+
+    /// The excitation at either end of flights.
+    #[inline(always)]
+    pub(super) fn excitation<R: Real, S: Simd>(&self, simd: S, ends: &Ends<R>) -> [Turning<R>; 2] {
+        angles(simd, ends.phase).map(|(im, re)| Turning { re, im })
+    }
+
+    /// The integrals over flights, whose motion at the end is not used.
+    #[inline(always)]
+    pub(super) fn over<R: Real, S: Simd>(
+        &self,
+        simd: S,
+        ends: &Ends<R>,
+        [begin, end]: [Turning<R>; 2],
+    ) -> Integrals<R> {
+        let Rates { frequency, inverse_frequency, decay, ringing, .. } = self.rates;
+        let Ends { phase, x: [x, _], v: [v, _], y, y_velocity } = *ends;
+        let duration = (phase[1] - phase[0]) * inverse_frequency;
+        let steady = begin.scaled(self.steady);
+        let (free, velocity) = (x - steady.re, v + steady.im * frequency);
+        let z = Turning { re: free, im: -((velocity + free * decay) * (1.0 / ringing)) };
+        let [turned, half] =
+            angles(simd, [duration * ringing, duration * (0.5 * (ringing - frequency))]);
+        // What the envelope loses, and e^q - 1 of Z conj E.
+        let lost = exponential_minus_one(-(duration * decay));
+        let envelope = lost + 1.0;
+        let z_end = z * Turning { re: turned.1, im: turned.0 }.times(envelope);
+        let beat = Turning {
+            re: lost - half.0 * half.0 * envelope * 2.0,
+            im: half.0 * half.1 * envelope * 2.0,
+        };
+        let one = Phasor::new(1.0, 0.0);
+        let slip = self.pole - self.turn;
+        // Without damping and at resonance the last two quotients are 0/0, and their limit the duration.
+        let fading =
+            if decay > 0.0 { (lost * lost + lost * 2.0) * (-0.5 / decay) } else { duration };
+        let beating = if slip == Phasor::new(0.0, 0.0) {
+            Turning { re: duration, im: duration.like(0.0) }
+        } else {
+            beat.scaled(one / slip)
+        };
+        let five = Five {
+            zz: (z_end * z_end - z * z).scaled(one / (self.pole * 2.0)),
+            size: z.size() * fading,
+            ze: (z_end * end - z * begin).scaled(one / (self.pole + self.turn)),
+            ze_conj: z * begin.conj() * beating,
+            ee: (end * end - begin * begin).scaled(one / (self.turn * 2.0)),
+            duration,
+        };
+        let alone = five.ee.scaled(self.steady)
+            + Turning { re: duration, im: duration.like(0.0) }.scaled(self.steady.conj());
+        let oscillator = (five.ze + five.ze_conj.conj() + alone).times(duration.like(0.5));
+        let once = (end - begin).scaled(one / self.turn);
+        let absorber =
+            (end.times(y + y_velocity * duration) - begin.times(y) - once.times(y_velocity))
+                .scaled(one / self.turn);
+        let [displacement_squared, velocity_squared, work] = &self.squares;
+        Integrals {
+            displacement_squared: displacement_squared.over(&five),
+            velocity_squared: velocity_squared.over(&five),
+            work: work.over(&five),
+            oscillator: [oscillator.im, oscillator.re],
+            absorber: [absorber.im, absorber.re],
+        }
     }
 }
 
-impl Integrator {
+/// Takes integrals of any stretch of a system's motion, and its largest displacement.
+#[derive(Debug, Clone)]
+pub(super) struct Quadrature {
+    frequency: f64,
+    /// The excitation's force is `Re f E`.
+    force: Phasor,
+    /// Longest panels, the second where fast decay has not ended.
+    panel: f64,
+    first_panel: f64,
+}
+
+impl Quadrature {
     pub(super) fn of(system: &System) -> Self {
         let (sine, cosine) = system.excitation_amplitudes();
         let oscillating = 1.0_f64.max(system.frequency_ratio());
@@ -84,41 +274,12 @@ impl Integrator {
             panel: FRAC_PI_4 / oscillating,
             first_panel: FRAC_PI_4 / decaying,
             force: Phasor::new(cosine, -sine),
-            alone: Ringing::of(&Oscillator::alone(system)),
-            carrying: Ringing::of(&Oscillator::carrying_absorber(system)),
-            rates: Rates::of(&Oscillator::alone(system)),
-            last: (0.0, Phasor::new(1.0, 0.0)),
         }
     }
 
-    /// `e^{i phase}`.
-    fn excitation(&mut self, phase: f64) -> Phasor {
-        if self.last.0 != phase {
-            let (sin, cos) = libm::sincos(phase);
-            self.last = (phase, Phasor::new(cos, sin));
-        }
-        self.last.1
-    }
-
-    /// The largest absolute displacement of the oscillator in a stretch, at its ends included.
-    pub(super) fn peak(&mut self, segment: &Segment) -> f64 {
-        self.peak_by_quintics(segment).unwrap_or_else(|| self.peak_by_roots(segment))
-    }
-
-    /// As [`Self::peak`]; `None` as for [`Self::closed`], and in sustained contact.
-    pub(super) fn peak_by_quintics(&mut self, segment: &Segment) -> Option<f64> {
-        let Absorber::Flying { .. } = segment.absorber else { return None };
-        let Ringing { steady, .. } = self.alone?;
-        let rates = self.rates?;
-        let phasor = steady * self.excitation(segment.phase);
-        let steady = Steady { x: phasor.re, v: -self.frequency * phasor.im };
-        let (free, velocity) = segment.motion.free();
-        let begin = Moment { x: free + steady.x, v: velocity + steady.v, steady };
-        Some(peaks::alone(&rates, &begin, segment.duration))
-    }
-
-    /// As [`Self::peak`]: where the velocity changes sign between two points a panel apart.
-    fn peak_by_roots(&self, segment: &Segment) -> f64 {
+    /// The largest absolute displacement of the oscillator in a stretch: at an end, or where the velocity
+    /// changes sign between two points a panel apart.
+    pub(super) fn peak(&self, segment: &Segment) -> f64 {
         let panels = (segment.duration / self.panel).ceil().max(1.0);
         let step = segment.duration / panels;
         let mut before = segment.motion.at(0.0);
@@ -137,23 +298,8 @@ impl Integrator {
         peak
     }
 
-    /// What flights have in common, of an oscillator that rings and is driven to a steady motion.
-    pub(super) fn alone(&self) -> Option<Ringing> {
-        self.alone
-    }
-
-    /// What turns phasors in flight.
-    pub(super) fn rates(&self) -> Option<Rates<f64>> {
-        self.rates
-    }
-
     /// The integrals over a stretch.
-    pub(super) fn over(&mut self, segment: &Segment) -> Integrals {
-        self.closed(segment).unwrap_or_else(|| self.by_quadrature(segment))
-    }
-
-    /// As [`Self::over`], for any oscillator.
-    pub(super) fn by_quadrature(&self, segment: &Segment) -> Integrals {
+    pub(super) fn over(&self, segment: &Segment) -> Integrals<f64> {
         let omega = self.frequency;
         let mut sums = [0.0; 7];
         quadrature::graded_nodes(segment.duration, self.first_panel, self.panel, |s, weight| {
@@ -182,59 +328,5 @@ impl Integrator {
             oscillator: [x_sin, x_cos],
             absorber: [y_sin, y_cos],
         }
-    }
-
-    /// As [`Self::over`], in closed form; `None` where the oscillator does not ring, or has no steady motion
-    /// to be told from its free one.
-    pub(super) fn closed(&mut self, segment: &Segment) -> Option<Integrals> {
-        let Ringing { pole, steady } = match segment.absorber {
-            Absorber::Flying { .. } => self.alone?,
-            Absorber::Carried(_) => self.carrying?,
-        };
-        // Both phasors' ends, two means, five integrals and their sums.
-        operation_count::note(5 * operation_count::ELEMENTARY + 300);
-        let (duration, frequency) = (segment.duration, self.frequency);
-        let begin = self.excitation(segment.phase);
-        let end = self.excitation(segment.phase + frequency * duration);
-        let (free, velocity) = segment.motion.free();
-        let z = Phasor::new(free, -(velocity - pole.re * free) / pole.im);
-        let (sin, cos) = libm::sincos(pole.im * duration);
-        let z_end = z * Phasor::new(cos, sin) * libm::exp(pole.re * duration);
-        let turn = Phasor::new(0.0, frequency);
-        let mean = |re: f64, im: f64| {
-            mean_of_exponential(Phasor::new(re * duration, im * duration)) * duration
-        };
-        // The five.
-        let zz = (z_end * z_end - z * z) / (pole * 2.0);
-        let size = z.norm_sqr() * mean(2.0 * pole.re, 0.0).re;
-        let ze = (z_end * end - z * begin) / (pole + turn);
-        let ze_conj = z * begin.conj() * mean(pole.re, pole.im - frequency);
-        let ee = (end * end - begin * begin) / (turn * 2.0);
-        // Of Re(u) Re(w) for two phasors, each a free and a steady part.
-        let product = |u: [Phasor; 2], w: [Phasor; 2]| {
-            let free = (u[0] * w[0] * zz).re + (u[0] * w[0].conj()).re * size;
-            let mixed = (u[0] * w[1] + w[0] * u[1]) * ze
-                + (u[0] * w[1].conj() + w[0] * u[1].conj()) * ze_conj;
-            let steady = (u[1] * w[1] * ee).re + (u[1] * w[1].conj()).re * duration;
-            0.5 * (free + mixed.re + steady)
-        };
-        let (none, one) = (Phasor::new(0.0, 0.0), Phasor::new(1.0, 0.0));
-        let displacement = [one, steady];
-        let velocity = [pole, turn * steady];
-        let harmonic = (ze + ze_conj.conj() + steady * ee + steady.conj() * duration) * 0.5;
-        let once = (end - begin) / turn;
-        let absorber = match segment.absorber {
-            Absorber::Flying { y, y_velocity } => {
-                (end * (y + y_velocity * duration) - begin * y - once * y_velocity) / turn
-            }
-            Absorber::Carried(side) => harmonic - once * side.sign(),
-        };
-        Some(Integrals {
-            displacement_squared: product(displacement, displacement),
-            velocity_squared: product(velocity, velocity),
-            work: product(velocity, [none, self.force]),
-            oscillator: [harmonic.im, harmonic.re],
-            absorber: [absorber.im, absorber.re],
-        })
     }
 }

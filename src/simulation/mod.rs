@@ -24,9 +24,9 @@ pub mod trust;
 mod walls;
 
 pub use contact::ContactTolerance;
-pub use events::{Absorber, Impact, Observer, Segment, Side, StartError};
+pub use events::{Absorber, Detail, Impact, Observer, Segment, Side, StartError};
 pub use history::{ImpactLog, Trace, TracePoint};
 pub use run::{Simulation, Stop};
-pub use statistics::{Energy, ImpactStatistics, PeriodRecord, Statistics, SustainedContact};
+pub use statistics::{Energy, Measurement, PeriodRecord, Statistics, SustainedContact};
 pub use tangent::Tangent;
 pub use trust::{Doubt, doubts};

@@ -5,7 +5,7 @@ use fearless_simd::{Level, Simd, dispatch};
 
 use super::certificate::{Hull, Slack};
 use super::contact::rebound;
-use super::events::{Observer, Side};
+use super::events::{Detail, Observer, Side};
 use super::phasor::{At, Corrected, Line, Rates, Steady};
 use super::run::{Moment, Simulation, Stop};
 use super::walls::{self, Sticking};
@@ -63,11 +63,11 @@ pub(super) enum FlightEnd {
 
 impl Simulation {
     /// Flies from event to event by the instructions of `level`.
-    pub(super) fn fly_in_panels<O: Observer>(
+    pub(super) fn fly_in_panels(
         &mut self,
         level: Level,
         limits: Limits,
-        observer: &mut O,
+        observer: &mut dyn Observer,
     ) -> FlightEnd {
         let Some(rates) = self.rates else { return FlightEnd::Doubt };
         let (moment, end) = dispatch!(level, simd => self.fly_by(simd, &rates, limits, observer));
@@ -77,15 +77,16 @@ impl Simulation {
 
     /// By the instructions that `simd` stands for.
     #[inline(always)]
-    fn fly_by<S: Simd, O: Observer>(
+    fn fly_by<S: Simd>(
         &self,
         simd: S,
         rates: &Rates<f64>,
         limits: Limits,
-        observer: &mut O,
+        observer: &mut dyn Observer,
     ) -> (Moment, FlightEnd) {
         let (eps, r) = (self.system.mass_ratio(), self.system.restitution());
         let sticking = Sticking::of(self);
+        let detail = observer.detail();
         let mut at = self.at;
         // What has just been thrown back leaves its wall.
         let mut leaves = false;
@@ -109,7 +110,7 @@ impl Simulation {
             if !(x.abs() <= f64::MAX && y.abs() <= f64::MAX) {
                 return (at, FlightEnd::Doubt);
             }
-            if time > 0.0 && observer.flights() {
+            if time > 0.0 && detail == Detail::Flights {
                 observer.segment(&self.flown(&at, time));
             }
             let before = State { x, x_velocity: v, y, y_velocity };
@@ -118,7 +119,15 @@ impl Simulation {
                 at.phase += rates.frequency * time;
                 at.impacts += 1;
                 let after = rebound(eps, r, v, y_velocity);
-                observer.impact(&self.impact(&before, side, &after, at.turns, at.phase));
+                if detail > Detail::Nothing {
+                    observer.impact(&self.impact(
+                        &before,
+                        side,
+                        &after,
+                        (at.turns, at.phase),
+                        Some(steady),
+                    ));
+                }
                 at.state = self.rebounded(&before, side, &after);
                 let State { x, x_velocity: v, y, y_velocity } = at.state;
                 let line = Line { y, velocity: y_velocity };

@@ -1,75 +1,105 @@
-//! The largest displacement in a flight: at its ends, or where the velocity vanishes. A panel is looked at
-//! closer only where its quintic lets it exceed what is known. For one flight or for several of a
-//! trajectory side by side, with the same bits.
+//! The largest displacement in flights, and their integrals, several of a trajectory side by side. It is at an
+//! end, or where the velocity vanishes: a panel is looked at closer only where its quintic lets it exceed
+//! what is known.
 
 use fearless_simd::{Level, Simd, dispatch};
 
 use super::certificate::{Quintic, Slack};
+use super::integrals::{Ends, Integrals, Ringing};
 use super::phasor::{At, Line, Rates, Steady};
-use super::run::PANEL;
 use crate::numerics::lanes::{LANES, Mask, Real, Wide};
-use crate::operation_count;
 
 /// The oscillator at one moment.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Moment<R> {
-    pub x: R,
-    pub v: R,
-    pub steady: Steady<R>,
+struct Moment<R> {
+    x: R,
+    v: R,
+    steady: Steady<R>,
 }
 
-/// What the oscillator does between two events.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Flight {
-    /// Whole periods before it.
-    pub period: u64,
-    pub begin: Moment<f64>,
-    pub duration: f64,
-    pub end: Moment<f64>,
+/// What a flight adds to what is measured.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Measured {
+    pub peak: f64,
+    /// None where they are not asked for.
+    pub integrals: Option<Integrals<f64>>,
 }
 
-/// That of one flight, whose end is not at hand.
-pub(super) fn alone(rates: &Rates<f64>, begin: &Moment<f64>, duration: f64) -> f64 {
-    let panels = (duration / rates.step).ceil().max(1.0);
-    operation_count::note(PANEL * panels as u64);
-    dispatch!(Level::baseline(), simd => highest(simd, rates, begin, duration, None))
-}
-
-/// Those of up to [`LANES`] flights; more are left out.
-pub(super) fn together(rates: &Rates<f64>, flights: &[Flight]) -> [f64; LANES] {
-    dispatch!(Level::new(), simd => side_by_side(simd, rates, flights))
+/// Measures up to [`LANES`] flights; more are left out.
+pub(super) fn together(
+    ringing: &Ringing,
+    flights: &[Ends<f64>],
+    integrals: bool,
+) -> [Measured; LANES] {
+    dispatch!(Level::new(), simd => side_by_side(simd, ringing, flights, integrals))
 }
 
 #[inline(always)]
-fn side_by_side<S: Simd>(simd: S, rates: &Rates<f64>, flights: &[Flight]) -> [f64; LANES] {
+fn side_by_side<S: Simd>(
+    simd: S,
+    ringing: &Ringing,
+    flights: &[Ends<f64>],
+    integrals: bool,
+) -> [Measured; LANES] {
     simd.vectorize(
         #[inline(always)]
         || {
-            let zero = Wide::splat(simd, 0.0);
-            let nowhere = Moment { x: zero, v: zero, steady: Steady { x: zero, v: zero } };
-            let (mut begin, mut end, mut duration) = (nowhere, nowhere, zero);
-            for (lane, flight) in flights.iter().enumerate().take(LANES) {
-                begin.set(lane, &flight.begin);
-                end.set(lane, &flight.end);
-                duration[lane] = flight.duration;
-            }
+            let ends = gathered(simd, flights);
+            let excitation = ringing.excitation(simd, &ends);
             let rates = Rates::gathered(
                 #[inline(always)]
-                |rate| Wide::splat(simd, rate(rates)),
+                |rate| Wide::splat(simd, rate(&ringing.rates)),
             );
-            let highest = highest(simd, &rates, &begin, duration, Some(&end));
-            std::array::from_fn(|lane| highest[lane])
+            let [begin, end] = [0, 1].map(
+                #[inline(always)]
+                |k| {
+                    let steady = excitation[k].scaled(ringing.steady);
+                    let v = -(steady.im * ringing.rates.frequency);
+                    Moment { x: ends.x[k], v: ends.v[k], steady: Steady { x: steady.re, v } }
+                },
+            );
+            let duration = (ends.phase[1] - ends.phase[0]) * rates.inverse_frequency;
+            let peaks = highest(simd, &rates, &begin, duration, &end);
+            let integrals = integrals.then(
+                #[inline(always)]
+                || ringing.over(simd, &ends, excitation),
+            );
+            std::array::from_fn(|lane| Measured {
+                peak: peaks[lane],
+                integrals: integrals.map(|of| of.at(lane)),
+            })
         },
     )
 }
 
-impl<S: Simd> Moment<Wide<S>> {
+/// Flights side by side; the lanes that are left have a flight of no duration.
+#[inline(always)]
+fn gathered<S: Simd>(simd: S, flights: &[Ends<f64>]) -> Ends<Wide<S>> {
+    let zero = Wide::splat(simd, 0.0);
+    let mut all = Ends { phase: [zero; 2], x: [zero; 2], v: [zero; 2], y: zero, y_velocity: zero };
+    for (lane, flight) in flights.iter().enumerate().take(LANES) {
+        for k in 0..2 {
+            all.phase[k][lane] = flight.phase[k];
+            all.x[k][lane] = flight.x[k];
+            all.v[k][lane] = flight.v[k];
+        }
+        all.y[lane] = flight.y;
+        all.y_velocity[lane] = flight.y_velocity;
+    }
+    all
+}
+
+impl<S: Simd> Integrals<Wide<S>> {
+    /// Those of one flight.
     #[inline(always)]
-    fn set(&mut self, lane: usize, one: &Moment<f64>) {
-        self.x[lane] = one.x;
-        self.v[lane] = one.v;
-        self.steady.x[lane] = one.steady.x;
-        self.steady.v[lane] = one.steady.v;
+    fn at(&self, lane: usize) -> Integrals<f64> {
+        Integrals {
+            displacement_squared: self.displacement_squared[lane],
+            velocity_squared: self.velocity_squared[lane],
+            work: self.work[lane],
+            oscillator: self.oscillator.map(|one| one[lane]),
+            absorber: self.absorber.map(|one| one[lane]),
+        }
     }
 }
 
@@ -88,12 +118,12 @@ fn highest<R: Real, S: Simd>(
     rates: &Rates<R>,
     begin: &Moment<R>,
     duration: R,
-    end: Option<&Moment<R>>,
+    end: &Moment<R>,
 ) -> R {
     let zero = duration.like(0.0);
     let base = Line { y: zero, velocity: zero };
     let (mut here, slack) = begin.seen(rates, base);
-    let end = end.map(|end| end.seen(rates, base).0);
+    let (end, _) = end.seen(rates, base);
     let (mut left, mut peak) = (duration, here.gap.abs());
     loop {
         let flying = zero.less(left);
@@ -104,8 +134,7 @@ fn highest<R: Real, S: Simd>(
         let length = rates.step.smaller(left);
         let mut there = rates.next(&here, base);
         if last.any() {
-            let short = || rates.after(simd, &here, length.larger(zero), base);
-            there = At::choose(last, &end.unwrap_or_else(short), &there);
+            there = At::choose(last, &end, &there);
         }
         peak = R::choose(flying, peak.larger(there.gap.abs()), peak);
         let turns = flying & (here.slope * there.slope).less(zero);

@@ -174,7 +174,7 @@ impl Simulation {
 
     /// Continues to the end of the `periods`-th excitation period from here, or until
     /// `impact_limit` further impacts have happened.
-    pub fn run(&mut self, periods: u64, impact_limit: u64, observer: &mut impl Observer) -> Stop {
+    pub fn run(&mut self, periods: u64, impact_limit: u64, observer: &mut dyn Observer) -> Stop {
         let limits = Limits::of(self, periods, impact_limit);
         loop {
             if let Some(stop) = limits.stop(self) {
@@ -187,11 +187,7 @@ impl Simulation {
     }
 
     /// Continues by one impact, release or end of a period, or several within the limits.
-    pub(super) fn step<O: Observer>(
-        &mut self,
-        limits: Limits,
-        observer: &mut O,
-    ) -> Result<(), Stop> {
+    pub(super) fn step(&mut self, limits: Limits, observer: &mut dyn Observer) -> Result<(), Stop> {
         if let Mode::Contact(side) = self.mode {
             return self.carry(side, observer);
         }
@@ -235,8 +231,8 @@ impl Simulation {
         before: &State,
         side: Side,
         after: &Rebound,
-        turns: u64,
-        phase: f64,
+        (turns, phase): (u64, f64),
+        steady: Option<Steady<f64>>,
     ) -> Impact {
         Impact {
             tau: (turns as f64 * TAU + phase) / self.system.frequency_ratio(),
@@ -249,6 +245,7 @@ impl Simulation {
             y_velocity_after: after.y_velocity,
             loss: after.loss,
             penetration: (before.relative_displacement().abs() - 1.0).max(0.0),
+            steady: steady.map(|Steady { x, v }| [x, v]),
         }
     }
 
@@ -265,7 +262,7 @@ impl Simulation {
         }
     }
 
-    pub(super) fn perhaps_stick(&mut self, side: Side, observer: &mut impl Observer) {
+    pub(super) fn perhaps_stick(&mut self, side: Side, observer: &mut dyn Observer) {
         let State { x, x_velocity, y, y_velocity } = self.at.state;
         let (r, line) = (self.system.restitution(), Line { y, velocity: y_velocity });
         let sticking = Sticking::of(self);

@@ -71,6 +71,75 @@ pub(super) fn small_exponential<R: Real>(x: R) -> R {
     short
 }
 
+/// Largest angle that [`angles`] reduces: its multiple of a quarter turn times the first part below is exact.
+#[cfg(test)]
+const LARGEST_REDUCED: f64 = 100.0;
+
+/// Sine and cosine of two angles of up to some hundred, to rounding: reduced to an eighth of a turn by a
+/// quarter turn in three parts, of 33 bits each but the last.
+#[inline(always)]
+pub(super) fn angles<R: Real, S: Simd>(simd: S, of: [R; 2]) -> [(R, R); 2] {
+    const QUARTER: [f64; 3] =
+        [1.570_796_326_734_125_6, 6.077_100_506_303_966e-11, 2.022_266_248_795_950_7e-21];
+    let quarters = of.map(
+        #[inline(always)]
+        |angle| nearest_integer(angle * std::f64::consts::FRAC_2_PI),
+    );
+    let reduced = [0, 1].map(
+        #[inline(always)]
+        |k| {
+            let [first, second, third] = QUARTER;
+            of[k] - quarters[k] * first - quarters[k] * second - quarters[k] * third
+        },
+    );
+    let [a, b] = small_angles(simd, reduced);
+    [turned(a, quarters[0]), turned(b, quarters[1])]
+}
+
+/// Sine and cosine so many quarter turns further.
+#[inline(always)]
+fn turned<R: Real>((sin, cos): (R, R), quarters: R) -> (R, R) {
+    // -2 to 2.
+    let left = quarters - nearest_integer(quarters * 0.25) * 4.0;
+    let (half, three) = (left.like(0.5), left.like(1.5));
+    let odd = half.less(left.abs()) & left.abs().less(three);
+    let (s, c) = (R::choose(odd, cos, sin), R::choose(odd, sin, cos));
+    let sine_negative = left.less(-half) | three.less(left);
+    let cosine_negative = half.less(left) | left.less(-three);
+    (R::choose(sine_negative, -s, s), R::choose(cosine_negative, -c, c))
+}
+
+/// Nearest integer of a number below `2^51`, ties to even: the digits behind the point are rounded off.
+#[inline(always)]
+fn nearest_integer<R: Real>(x: R) -> R {
+    const SHIFT: f64 = 6_755_399_441_055_744.0;
+    (x + SHIFT) - SHIFT
+}
+
+/// `e^x - 1` for `x <= 0`, to rounding: by its series, or squared from where that reaches.
+#[inline(always)]
+pub(super) fn exponential_minus_one<R: Real>(x: R) -> R {
+    const SERIES: [f64; 17] = {
+        let mut coefficients = [1.0; 17];
+        let mut k = 1;
+        while k < 17 {
+            coefficients[k] = coefficients[k - 1] / (k + 1) as f64;
+            k += 1;
+        }
+        coefficients
+    };
+    let (mut reduced, mut halvings) = (x, 0);
+    // Beyond 2^10 all is lost.
+    while reduced.less(x.like(-0.78)).any() && halvings < 10 {
+        (reduced, halvings) = (reduced * 0.5, halvings + 1);
+    }
+    let mut lost = reduced.larger(x.like(-0.78)) * series(reduced.larger(x.like(-0.78)), SERIES);
+    for _ in 0..halvings {
+        lost = lost * (lost + 2.0);
+    }
+    lost
+}
+
 #[cfg(test)]
 mod tests {
     use fearless_simd::{Level, dispatch};
@@ -89,6 +158,23 @@ mod tests {
             assert!((cos - libm::cos(angle)).abs() <= f64::EPSILON);
             let decay = -0.78 * part;
             assert!((small_exponential(decay) - libm::exp(decay)).abs() <= f64::EPSILON);
+        }
+    }
+
+    #[test]
+    fn angles_and_exponentials_are_exact_to_rounding() {
+        for k in -4000..=4000 {
+            let angle = LARGEST_REDUCED * f64::from(k) / 4000.0;
+            let near = f64::from(k) * std::f64::consts::FRAC_PI_4;
+            let both = dispatch!(Level::baseline(), simd => angles(simd, [angle, near * 0.03]));
+            for ((sin, cos), angle) in both.into_iter().zip([angle, near * 0.03]) {
+                assert!((sin - libm::sin(angle)).abs() <= f64::EPSILON, "{angle}");
+                assert!((cos - libm::cos(angle)).abs() <= f64::EPSILON, "{angle}");
+            }
+            let fall = -1e-9 * libm::exp(f64::from(k + 4000) / 8000.0 * 24.5);
+            let (found, wanted) = (exponential_minus_one(fall), libm::expm1(fall));
+            // Each squaring doubles the relative error of what is left.
+            assert!((found - wanted).abs() <= 8.0 * f64::EPSILON * wanted.abs(), "{fall}");
         }
     }
 }

@@ -3,16 +3,16 @@
 //! Work of the excitation and loss in the damper are integrated independently of the change of
 //! stored energy, so that the balance is a check and not an identity.
 
-mod impact_statistics;
+mod measurement;
 
 use serde::Serialize;
 
-use super::events::{Absorber, Impact, Observer, Segment, Side};
-use super::integrals::Integrator;
+use super::events::{Impact, Side};
+use super::peaks::Measured;
 use crate::numerics::scatter::{error_of_largest, twice_standard_error};
 use crate::system::{State, System};
 
-pub use impact_statistics::ImpactStatistics;
+pub use measurement::Measurement;
 
 /// Energy balance over a window, per unit of the oscillator's mass, over the squared clearance.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -62,11 +62,10 @@ pub struct PeriodRecord {
     pub oscillator_harmonic: [f64; 2],
 }
 
-/// An [`Observer`] that accumulates over whole excitation periods.
+/// What a [`Measurement`] has measured over whole excitation periods.
 #[derive(Debug, Clone)]
 pub struct Statistics {
     system: System,
-    integrator: Integrator,
     start: State,
     end: State,
     impacts: u64,
@@ -82,7 +81,7 @@ pub struct Statistics {
     contact: SustainedContact,
     penetration: f64,
     largest_energy: f64,
-    /// The period under way, with the integral of the squared displacement instead of its mean.
+    /// The period under way.
     current: PeriodRecord,
     periods: u64,
     records: Vec<PeriodRecord>,
@@ -98,11 +97,9 @@ const BLOCKS_OF_LARGEST: usize = 16;
 const KEPT: usize = 20_000;
 
 impl Statistics {
-    /// Begins to measure at `start`, at the beginning of an excitation period.
-    pub fn begin(system: &System, start: State) -> Self {
+    fn begin(system: &System, start: State) -> Self {
         Self {
             system: *system,
-            integrator: Integrator::of(system),
             start,
             end: start,
             impacts: 0,
@@ -241,17 +238,46 @@ impl Statistics {
         mean
     }
 
-    /// A displacement that was reached in a period, the number of whole periods before which is given.
-    fn raise(&mut self, period: u64, peak: f64) {
+    /// The record of a period, the number of whole periods before which is given; none if it is not kept.
+    fn record(&mut self, period: u64) -> Option<&mut PeriodRecord> {
         if period == self.periods {
-            self.current.peak = self.current.peak.max(peak);
-            return;
+            return Some(&mut self.current);
         }
-        self.peak = self.peak.max(peak);
-        let back = (self.periods - period) as usize;
-        let record = self.records.len().checked_sub(back);
-        if let Some(record) = record.and_then(|at| self.records.get_mut(at)) {
-            record.peak = record.peak.max(peak);
+        let at = self.records.len().checked_sub((self.periods - period) as usize)?;
+        self.records.get_mut(at)
+    }
+
+    /// Adds a flight or another stretch in a period, the number of whole periods before which is given.
+    fn add(&mut self, period: u64, Measured { peak, integrals }: &Measured) {
+        if period < self.periods {
+            self.peak = self.peak.max(*peak);
+        }
+        if let Some(record) = self.record(period) {
+            record.peak = record.peak.max(*peak);
+        }
+        let Some(sums) = integrals else { return };
+        self.add_squares(period, [sums.displacement_squared, sums.velocity_squared]);
+        self.input += sums.work;
+        let scale = self.system.frequency_ratio() / std::f64::consts::PI;
+        let Some(record) = self.record(period) else { return };
+        for k in 0..2 {
+            record.oscillator_harmonic[k] += scale * sums.oscillator[k];
+            record.absorber_harmonic[k] += scale * sums.absorber[k];
+        }
+    }
+
+    /// Adds integrals of the squared displacement and velocity in a period.
+    fn add_squares(&mut self, period: u64, [displacement, velocity]: [f64; 2]) {
+        let lost = self.system.mass_ratio() * self.system.damping() * velocity;
+        self.squared += displacement;
+        self.damper += lost;
+        let mean = displacement / self.system.period();
+        if let Some(record) = self.record(period) {
+            record.mean_square += mean;
+        }
+        let since = self.records.len().saturating_sub((self.periods - period) as usize);
+        for record in &mut self.records[since..] {
+            record.lost[0] += lost;
         }
     }
 
@@ -270,30 +296,6 @@ impl Statistics {
             let here = further.min(*visits);
             *visits -= here;
             further -= here;
-        }
-    }
-}
-
-/// Place of a wall in a pair.
-fn index(side: Side) -> usize {
-    usize::from(side == Side::Minus)
-}
-
-impl Observer for Statistics {
-    fn segment(&mut self, segment: &Segment) {
-        let sums = self.integrator.over(segment);
-        self.squared += sums.displacement_squared;
-        self.current.mean_square += sums.displacement_squared;
-        self.input += sums.work;
-        self.damper += self.system.mass_ratio() * self.system.damping() * sums.velocity_squared;
-        let scale = self.system.frequency_ratio() / std::f64::consts::PI;
-        for k in 0..2 {
-            self.current.oscillator_harmonic[k] += scale * sums.oscillator[k];
-            self.current.absorber_harmonic[k] += scale * sums.absorber[k];
-        }
-        self.current.peak = self.integrator.peak(segment).max(self.current.peak);
-        if matches!(segment.absorber, Absorber::Carried(_)) {
-            self.contact.duration_tau += segment.duration;
         }
     }
 
@@ -330,12 +332,16 @@ impl Observer for Statistics {
             self.records.drain(..KEPT);
         }
         self.records.push(PeriodRecord {
-            mean_square: current.mean_square / self.system.period(),
             lost: [self.damper, self.impact_loss],
             end: *state,
             ..current
         });
     }
+}
+
+/// Place of a wall in a pair.
+fn index(side: Side) -> usize {
+    usize::from(side == Side::Minus)
 }
 
 #[cfg(test)]

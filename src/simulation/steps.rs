@@ -20,7 +20,7 @@ const HORIZON: f64 = 1.0;
 
 impl Simulation {
     /// Flies to the next impact or the end of the period.
-    pub(super) fn fly_step_by_step(&mut self, observer: &mut impl Observer) -> Result<(), Stop> {
+    pub(super) fn fly_step_by_step(&mut self, observer: &mut dyn Observer) -> Result<(), Stop> {
         self.resolves_walls()?;
         let State { x, x_velocity, y, y_velocity } = self.at.state;
         let motion = self.alone.motion(x, x_velocity, self.at.phase);
@@ -39,7 +39,7 @@ impl Simulation {
     }
 
     /// Carries the absorber to its release or the end of the period.
-    pub(super) fn carry(&mut self, side: Side, observer: &mut impl Observer) -> Result<(), Stop> {
+    pub(super) fn carry(&mut self, side: Side, observer: &mut dyn Observer) -> Result<(), Stop> {
         self.resolves_walls()?;
         let State { x, x_velocity, .. } = self.at.state;
         let motion = self.carrying.motion(x, x_velocity, self.at.phase);
@@ -59,7 +59,7 @@ impl Simulation {
         motion: Motion,
         absorber: Absorber,
         found: Search,
-        observer: &mut impl Observer,
+        observer: &mut dyn Observer,
     ) -> Result<Option<Edge>, Stop> {
         let (evaluations, duration, edge) = match found {
             Search::Clear { evaluations } => (evaluations, self.remaining(), None),
@@ -88,12 +88,14 @@ impl Simulation {
     }
 
     /// An impact where the absorber stands, and the end of a chattering sequence if it is one.
-    fn collide(&mut self, side: Side, observer: &mut impl Observer) {
+    fn collide(&mut self, side: Side, observer: &mut dyn Observer) {
         let before = self.at.state;
         let (eps, r) = (self.system.mass_ratio(), self.system.restitution());
         let after = rebound(eps, r, before.x_velocity, before.y_velocity);
         self.at.impacts += 1;
-        observer.impact(&self.impact(&before, side, &after, self.at.turns, self.at.phase));
+        let steady = self.rates.map(|_| self.at.steady);
+        let when = (self.at.turns, self.at.phase);
+        observer.impact(&self.impact(&before, side, &after, when, steady));
         self.at.state = self.rebounded(&before, side, &after);
         self.perhaps_stick(side, observer);
     }

@@ -9,7 +9,7 @@ use crate::analysis::{FixedPoint, Manifold, fixed_points};
 use crate::numerics::scatter::twice_standard_error;
 use crate::orbits::{Measures, attracting_orbit};
 use crate::regimes::{Regime, classify};
-use crate::simulation::{ImpactLog, Simulation, Statistics, Stop};
+use crate::simulation::{ImpactLog, Measurement, Simulation, Stop};
 use crate::system::System;
 
 /// What a layer answers; lengths over the clearance. `None` where it gives no such answer.
@@ -142,22 +142,24 @@ pub fn symmetric_orbit(system: &System) -> Answer {
 /// The averages of so many periods from here, with their scatter between blocks.
 pub fn measured(simulation: &mut Simulation, periods: u64) -> Option<Answer> {
     let system = *simulation.system();
-    let mut statistics = Statistics::begin(&system, simulation.state());
+    let mut measurement = Measurement::begin(&system, simulation.state());
     let mut log = ImpactLog::of_the_last(LAST_IMPACTS);
     let blocks = BLOCKS.min(periods).max(1);
     let (mut means, mut before) = (Vec::new(), [0.0; 2]);
     for block in 1..=blocks {
-        let length = periods * block / blocks - statistics.periods();
-        let observer = &mut (&mut statistics, &mut log);
+        let length = periods * block / blocks - measurement.statistics().periods();
+        let observer = &mut (&mut measurement, &mut log);
         if simulation.run(length, IMPACT_LIMIT, observer) != Stop::EndTime {
             return None;
         }
+        let statistics = measurement.statistics();
         let so_far = statistics.periods() as f64;
         let sums = [statistics.rms() * statistics.rms() * so_far, statistics.impacts() as f64];
         means.push([0, 1].map(|k| (sums[k] - before[k]) / length as f64));
         before = sums;
     }
-    let regime = classify(&statistics, &log.impacts, None, system.period()).regime;
+    let statistics = measurement.statistics();
+    let regime = classify(statistics, &log.impacts, None, system.period()).regime;
     let averages = Answer::averaged(statistics.rms(), statistics.impacts_per_period(), &means);
     Some(Answer { regime: Some(regime), ..averages })
 }

@@ -9,7 +9,7 @@ use super::{Plan, Point};
 use crate::case::Recorded;
 use crate::regimes::long_term::motions;
 use crate::regimes::{Effort, Lyapunov, starts};
-use crate::simulation::{Observer, Simulation, StartError, batch};
+use crate::simulation::{Detail, Observer, Simulation, StartError, batch};
 use crate::system::{State, System};
 
 /// Trajectories side by side: many times the lanes of a batch, so that they are filled, and few enough
@@ -116,8 +116,8 @@ struct Section {
 }
 
 impl Observer for Section {
-    fn flights(&self) -> bool {
-        false
+    fn detail(&self) -> Detail {
+        Detail::Events
     }
     fn period(&mut self, state: &State) {
         self.displacements.push(state.x);

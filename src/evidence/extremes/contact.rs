@@ -7,7 +7,7 @@ use super::ExtremesError;
 use super::list::{IMPACT_LIMIT, Varied, table_1};
 use super::measure::{LONGEST_SEQUENCE, Release, Seen, Witness};
 use crate::evidence::reference::{Event, Reference};
-use crate::simulation::{ContactTolerance, Simulation, StartError, Statistics};
+use crate::simulation::{ContactTolerance, Measurement, Simulation, StartError};
 use crate::system::{State, System};
 
 /// One setting of the tolerance, measured.
@@ -78,9 +78,10 @@ pub fn contact_costs(system: &System, periods: u64) -> Result<Vec<ContactCost>, 
     let measured = TOLERANCES.into_iter().map(|[excursion, drift]| {
         let tolerance = ContactTolerance { excursion, drift };
         let mut simulation = Simulation::new(system, START, 0.0)?.with_tolerance(tolerance);
-        let mut statistics = Statistics::begin(system, START);
+        let mut measurement = Measurement::begin(system, START);
         let mut witness = Witness::of(usize::MAX);
-        simulation.run(periods, IMPACT_LIMIT, &mut (&mut statistics, &mut witness));
+        simulation.run(periods, IMPACT_LIMIT, &mut (&mut measurement, &mut witness));
+        let statistics = measurement.statistics();
         let seen = witness.seen.iter().filter_map(|event| match event {
             Seen::Release(release) => Some(release),
             _ => None,

@@ -9,7 +9,7 @@ use super::Entry;
 use crate::evidence::reference::{Event, Reference};
 use crate::simulation::trust::energy_residual;
 use crate::simulation::{
-    Absorber, Doubt, Impact, Observer, Segment, Simulation, StartError, Statistics, Stop,
+    Absorber, Doubt, Impact, Measurement, Observer, Segment, Simulation, StartError, Stop,
 };
 
 /// Points of each stretch of motion at which the cavity is looked into.
@@ -148,10 +148,11 @@ impl Entry {
     pub fn measure(&self) -> Result<Measured, StartError> {
         let start = self.start.state();
         let mut simulation = Simulation::new(&self.system, start, 0.0)?;
-        let mut statistics = Statistics::begin(&self.system, start);
+        let mut measurement = Measurement::begin(&self.system, start);
         let mut witness = Witness::of(FOLLOWED);
-        let observers = &mut (&mut statistics, &mut witness);
+        let observers = &mut (&mut measurement, &mut witness);
         let stop = simulation.run(self.periods, self.impact_limit, observers);
+        let statistics = measurement.statistics();
         let peak = statistics.peak();
         let compared = !witness.seen.is_empty();
         Ok(Measured {

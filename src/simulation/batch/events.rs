@@ -7,7 +7,7 @@ use super::{Lanes, tightened};
 use crate::numerics::lanes::{LANES, Mask, Real, Wide, WideMask};
 use crate::simulation::certificate::{Hull, Slack};
 use crate::simulation::contact::{Rebound, rebound};
-use crate::simulation::events::{Observer, Side};
+use crate::simulation::events::{Detail, Side};
 use crate::simulation::panels::CORRECTIONS;
 use crate::simulation::phasor::{At, Line, Rates, Steady};
 use crate::system::State;
@@ -19,16 +19,16 @@ impl<S: Simd> Lanes<S> {
     /// Deals with the lanes that wait, in some of them with a panel that is clear: those that begin
     /// another flight, and those that fly on after a shorter panel.
     #[inline(always)]
-    pub(super) fn deal_with<O: Observer>(
+    pub(super) fn deal_with(
         &mut self,
         events: u64,
         clear: u64,
-        queue: &mut Queue<'_, O>,
+        queue: &mut Queue<'_>,
     ) -> (u64, u64) {
         let panel = self.narrowed(events, clear);
         let end = self.end(&panel);
         let event = self.event(&panel, &end);
-        self.tell(&event, queue);
+        self.tell(&event, &end, queue);
         self.stand(&event, &end);
         let stuck = event.impact & self.sticking.possible(self.x, self.v, self.line, panel.wall);
         let through = self.last_turn.at_most(self.turns) | self.last_impact.at_most(self.impacts);
@@ -183,13 +183,16 @@ impl<S: Simd> Lanes<S> {
 
     /// Tells observers of what has happened to their lanes.
     #[inline(always)]
-    fn tell<O: Observer>(&self, event: &Event<S>, queue: &mut Queue<'_, O>) {
+    fn tell(&self, event: &Event<S>, end: &End<S>, queue: &mut Queue<'_>) {
         let (good, impact) = (event.good.bits(), event.impact.bits());
         for lane in (0..LANES).filter(|lane| good >> lane & 1 == 1) {
             let Some(index) = self.task[lane] else { continue };
-            let Task { simulation, observer, .. } = &mut queue.tasks[index];
+            let Task { simulation, observer, detail, .. } = &mut queue.tasks[index];
+            if *detail == Detail::Nothing {
+                continue;
+            }
             let flight = event.flight[lane];
-            if flight > 0.0 && observer.flights() {
+            if flight > 0.0 && *detail == Detail::Flights {
                 observer.segment(&simulation.flown(&self.moment(lane), flight));
             }
             let at = State {
@@ -207,8 +210,10 @@ impl<S: Simd> Lanes<S> {
                 y_velocity: event.after.y_velocity[lane],
                 loss: event.after.loss[lane],
             };
-            let (side, turns) = (side(event.wall[lane]), self.turns[lane] as u64);
-            observer.impact(&simulation.impact(&at, side, &after, turns, event.phase[lane]));
+            let when = (self.turns[lane] as u64, event.phase[lane]);
+            let steady = Some(Steady { x: end.steady.x[lane], v: end.steady.v[lane] });
+            let side = side(event.wall[lane]);
+            observer.impact(&simulation.impact(&at, side, &after, when, steady));
         }
     }
 }

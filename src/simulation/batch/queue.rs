@@ -1,18 +1,20 @@
 //! The trajectories of a batch.
 
-use crate::simulation::events::Observer;
+use crate::simulation::events::{Detail, Observer};
 use crate::simulation::panels::Limits;
 use crate::simulation::run::{Moment, Simulation, Stop};
 
 /// A trajectory on its way.
-pub(super) struct Task<'a, O> {
+pub(super) struct Task<'a> {
     pub(super) simulation: &'a mut Simulation,
-    pub(super) observer: &'a mut O,
+    pub(super) observer: &'a mut dyn Observer,
+    /// What the observer needs to be told of.
+    pub(super) detail: Detail,
     pub(super) limits: Limits,
     pub(super) stop: Option<Stop>,
 }
 
-impl<O: Observer> Task<'_, O> {
+impl Task<'_> {
     /// Goes on alone until the trajectory flies through panels, or has ended; at least one step if
     /// `doubt`.
     pub(super) fn alone(&mut self, mut doubt: bool) -> Option<Moment> {
@@ -35,7 +37,7 @@ impl<O: Observer> Task<'_, O> {
 }
 
 /// Trajectories, and which of them is to be taken up next.
-pub(super) struct Queue<'a, O> {
-    pub(super) tasks: Vec<Task<'a, O>>,
+pub(super) struct Queue<'a> {
+    pub(super) tasks: Vec<Task<'a>>,
     pub(super) next: usize,
 }

@@ -1,18 +1,32 @@
-use super::*;
-use crate::simulation::{Simulation, Stop};
-use crate::system::{Excitation, Parameters};
+use crate::simulation::events::{Absorber, Observer, Segment};
+use crate::simulation::integrals::{Ends, Quadrature, Ringing};
+use crate::simulation::{Simulation, Stop, peaks};
+use crate::system::{Excitation, Parameters, State, System};
 
-/// Compares closed forms with quadrature and, for peaks, with samples, stretch by stretch.
+/// Compares closed forms with quadrature and, for peaks, with samples, flight by flight.
 struct Comparison {
-    statistics: Statistics,
-    integrator: Integrator,
+    system: System,
+    ringing: Option<Ringing>,
+    quadrature: Quadrature,
     compared: u32,
 }
 
 impl Observer for Comparison {
     fn segment(&mut self, segment: &Segment) {
-        let Some(closed) = self.integrator.closed(segment) else { return };
-        let sampled = self.integrator.by_quadrature(segment);
+        let Absorber::Flying { y, y_velocity } = segment.absorber else { return };
+        let Some(ringing) = &self.ringing else { return };
+        let (begin, end) = (segment.at(0.0), segment.at(segment.duration));
+        let over = segment.phase + self.system.frequency_ratio() * segment.duration;
+        let ends = Ends {
+            phase: [segment.phase, over],
+            x: [begin.x, end.x],
+            v: [begin.x_velocity, end.x_velocity],
+            y,
+            y_velocity,
+        };
+        let [measured, ..] = peaks::together(ringing, &[ends], true);
+        let closed = measured.integrals.expect("asked for");
+        let sampled = self.quadrature.over(segment);
         self.compared += 1;
         // Either is rounded some fifty times at the size of the motion, or of its free and steady
         // parts, squared, times the duration.
@@ -20,8 +34,8 @@ impl Observer for Comparison {
         let whole = segment.at(0.0);
         let parts = [free, velocity, whole.x, whole.x_velocity, whole.y, whole.y_velocity, 1.0];
         let size = parts.iter().map(|part| part * part).sum::<f64>();
-        let (sine, cosine) = self.statistics.system.excitation_amplitudes();
-        let slow = 1.0 / self.statistics.system.frequency_ratio().min(1.0);
+        let (sine, cosine) = self.system.excitation_amplitudes();
+        let slow = 1.0 / self.system.frequency_ratio().min(1.0);
         let scale = (size + sine * sine + cosine * cosine) * (segment.duration + slow * slow);
         let pairs = [
             (closed.displacement_squared, sampled.displacement_squared),
@@ -35,7 +49,7 @@ impl Observer for Comparison {
         for (one, other) in pairs {
             assert!((one - other).abs() < 1e-14 * scale, "{closed:?} {sampled:?} {scale}");
         }
-        let Some(peak) = self.integrator.peak_by_quintics(segment) else { return };
+        let peak = measured.peak;
         let mut largest = 0.0_f64;
         for k in 0..=400 {
             let at = segment.at(segment.duration * f64::from(k) / 400.0);
@@ -81,8 +95,9 @@ fn closed_forms_agree_with_quadrature_and_samples() {
     let mut compared = 0;
     for system in systems() {
         let mut comparison = Comparison {
-            statistics: Statistics::begin(&system, START),
-            integrator: Integrator::of(&system),
+            system,
+            ringing: Ringing::of(&system),
+            quadrature: Quadrature::of(&system),
             compared: 0,
         };
         let mut simulation = Simulation::new(&system, START, 0.0).expect("inside");
