@@ -3,7 +3,6 @@
 //! Prefixes are powers of ten, so the number is converted by moving its decimal exponent and rounded once:
 //! `"7.5 mm"` is the same double as `0.0075`.
 
-use std::f64::consts::TAU;
 use std::ops::Range;
 
 use super::value::nearest;
@@ -144,8 +143,8 @@ fn scaled(number: &str, unit: &Unit) -> Result<f64, String> {
     let exponent: i32 =
         written.parse().map_err(|_| format!("has an absurd exponent in {number}"))?;
     let shifted = format!("{mantissa}e{}", i64::from(exponent) + i64::from(unit.exponent));
-    let turns = if unit.symbol == "rad/s" { TAU } else { 1.0 };
-    let si = shifted.parse::<f64>().unwrap_or(f64::NAN) / turns;
+    let [times, over] = unit.quotient;
+    let si = shifted.parse::<f64>().unwrap_or(f64::NAN) * times / over;
     let symbol = unit.symbol;
     if si == 0.0 && mantissa.contains(|c| matches!(c, '1'..='9')) {
         return Err(format!("is {number} {symbol}, too small to be told from 0"));

@@ -12,8 +12,10 @@ pub struct Unit {
     pub symbol: &'static str,
     /// Its size in the unit without prefix.
     pub size: f64,
-    /// The size as a power of ten, with which a number is read without a second rounding.
+    /// The size as a power of ten, with which a number is read without a second rounding,
     pub exponent: i32,
+    /// times this quotient: `[127, 50]` of `10^-2` for an inch.
+    pub quotient: [f64; 2],
 }
 
 const fn unit(symbol: &'static str, exponent: i32) -> Unit {
@@ -23,10 +25,12 @@ const fn unit(symbol: &'static str, exponent: i32) -> Unit {
         power *= 10.0;
         k += 1;
     }
-    Unit { symbol, size: if exponent < 0 { 1.0 / power } else { power }, exponent }
+    let size = if exponent < 0 { 1.0 / power } else { power };
+    Unit { symbol, size, exponent, quotient: [1.0, 1.0] }
 }
 
-const RADIANS_PER_SECOND: Unit = Unit { symbol: "rad/s", size: 1.0 / TAU, exponent: 0 };
+const RADIANS_PER_SECOND: Unit =
+    Unit { symbol: "rad/s", size: 1.0 / TAU, exponent: 0, quotient: [1.0, TAU] };
 
 impl Dimension {
     /// Its units in SI, from the largest to the smallest.

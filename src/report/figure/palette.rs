@@ -178,7 +178,7 @@ impl Marker {
     }
 }
 
-/// What a curve or a point stands for; it decides how it looks, the same in every figure.
+/// What a curve or a point stands for; it decides how it looks, unless a figure colours by family.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Role {
     /// A stable branch: thick and solid.
