@@ -4,9 +4,10 @@
 use std::f64::consts::PI;
 
 use vinesink::equations::{self, fixed_points, manifold, slow_flow, stated};
+use vinesink::report::mathml::to_mathml;
 use vinesink::simulation::contact::rebound;
 use vinesink::simulation::flow::Oscillator;
-use vinesink::symbolic::{Equation, Formula, Symbol, Values, to_mathml};
+use vinesink::symbolic::{Equation, Formula, Symbol, Values};
 use vinesink::system::{Excitation, Parameters, System};
 
 /// A few dozen operations on numbers of order 1: a hundred units in the last place.

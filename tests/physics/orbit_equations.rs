@@ -8,7 +8,8 @@ use vinesink::orbits::equations as formulas;
 use vinesink::orbits::flight::Flight;
 use vinesink::orbits::symmetric::SymmetricCurve;
 use vinesink::orbits::{ImpactMap, SymmetricOrbit, Wall, symmetric_orbits};
-use vinesink::symbolic::{Equation, Expr, Formula, Symbol, Values, to_mathml};
+use vinesink::report::mathml::to_mathml;
+use vinesink::symbolic::{Equation, Expr, Formula, Symbol, Values};
 use vinesink::system::{Excitation, Parameters, System};
 
 /// Left less right: what vanishes where the equation holds.

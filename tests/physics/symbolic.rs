@@ -2,8 +2,9 @@
 //! what is printed is readable.
 
 use proptest::prelude::*;
+use vinesink::report::mathml::to_mathml;
 use vinesink::symbolic::{
-    Equation, Expr, Formula, Group, Symbol, Values, format_number, operations, to_mathml,
+    Equation, Expr, Formula, Group, Symbol, Values, format_number, operations,
 };
 
 const B: Symbol = Symbol::B;
