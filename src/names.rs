@@ -7,9 +7,8 @@ macro_rules! names {
         $($(#[$attribute:meta])* $variant:ident = $text:literal,)+
     }) => {
         $(#[$meta])*
-        #[derive(
-            Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, serde::Deserialize, schemars::JsonSchema,
-        )]
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, serde::Deserialize)]
+        #[cfg_attr(feature = "case", derive(schemars::JsonSchema))]
         $vis enum $type {
             $($(#[$attribute])* #[serde(rename = $text)] $variant,)+
         }

@@ -7,13 +7,13 @@
 
 mod parameter;
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use parameter::Parameter;
 
 /// How the linear oscillator is driven.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "case", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum Excitation {
     #[default]

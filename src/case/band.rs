@@ -56,7 +56,7 @@ pub(super) struct BandTable {
         with = "Option<Vec<Value>>",
         extend("items" = corner(), "minItems" = 1, "x-ascending" = true, "x-plain" = [[[0.97, 4.0], [1.03, 5.0]]])
     )]
-    #[schemars(example = [["8 Hz", "0.2 mm"], ["9 Hz", "0.3 mm"]])]
+    #[schemars(example = vec![["8 Hz", "0.2 mm"], ["9 Hz", "0.3 mm"]])]
     spectrum: Option<Vec<[f64; 2]>>,
 }
 

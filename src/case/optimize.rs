@@ -34,16 +34,16 @@ pub struct OptimizeSettings {
     /// Bounds of the clearance; a fifth to five times the case's own unless given. Plain numbers
     /// beside [reduced].
     #[schemars(with = "Option<[Value; 2]>", extend("x-plain" = [[0.5, 2.0]], "x-ascending" = true))]
-    #[schemars(extend("items" = in_design("clearance")), example = ["5 mm", "40 mm"])]
+    #[schemars(extend("items" = in_design("clearance")), example = vec!["5 mm", "40 mm"])]
     pub clearance: Option<[f64; 2]>,
     /// Bounds of the restitution, from 0 to 1; the case's own value unless given.
     #[schemars(extend("items" = { "type": "number", "minimum": 0, "maximum": 1 }, "x-ascending" = true))]
-    #[schemars(example = [0.4, 0.8])]
+    #[schemars(example = vec![0.4, 0.8])]
     pub restitution: Option<[f64; 2]>,
     /// Bounds of the absorber's mass; the case's own unless given. Not beside [reduced].
     #[schemars(with = "Option<[Value; 2]>", extend("x-ascending" = true))]
     #[schemars(extend("items" = { "type": "number", "x-measurand": "a mass", "exclusiveMinimum": 0 }))]
-    #[schemars(example = ["20 g", "50 g"])]
+    #[schemars(example = vec!["20 g", "50 g"])]
     pub mass: Option<[f64; 2]>,
 }
 

@@ -28,7 +28,7 @@ pub struct SimulationSettings {
 #[serde(default)]
 pub struct ReportSettings {
     /// Further figures, each once; the usual ones are in every report.
-    #[schemars(extend("uniqueItems" = true), example = ["areas", "transfer"])]
+    #[schemars(extend("uniqueItems" = true), example = vec!["areas", "transfer"])]
     pub figures: Vec<ExtraFigure>,
 }
 

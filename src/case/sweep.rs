@@ -55,7 +55,7 @@ pub(super) struct SweepTable {
     #[schemars(example = &"frequency")]
     follow: Option<String>,
     /// What is recorded of each point; the layers that nothing is recorded of are not computed.
-    #[schemars(length(min = 1), example = ["regime", "peak", "orbit_peak"])]
+    #[schemars(length(min = 1), example = vec!["regime", "peak", "orbit_peak"])]
     record: Option<Vec<Recorded>>,
 }
 

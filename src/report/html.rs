@@ -7,10 +7,10 @@ use pulldown_cmark::{CowStr, Event, HeadingLevel, Options, Parser, Tag, TagEnd};
 use serde_json::json;
 use tera::escape_html;
 
+use super::mathml::to_mathml;
 use super::render::RenderError;
 use super::template;
 use crate::quantity::Units;
-use crate::symbolic::to_mathml;
 
 /// The page as HTML, called by its first heading: of its Markdown, with the files that it links to after it, and of
 /// its drawings as SVG by their names. `tone` is the class of the first quotation, the verdict: `good`, `mixed`, `bad`,

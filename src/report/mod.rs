@@ -8,9 +8,11 @@ pub mod figure;
 pub mod figures;
 pub mod html;
 pub mod index;
+pub mod mathml;
 pub mod optimize;
 pub mod render;
 pub mod stored;
+#[cfg(feature = "sweep")]
 pub mod sweep;
 pub mod template;
 

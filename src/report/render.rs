@@ -8,9 +8,9 @@ use serde_json::{Value, json};
 use super::document::figure_row;
 use super::figure::{self, Figure, FigureError};
 use super::html;
+use super::mathml::MathError;
 use super::template;
 use crate::quantity::Units;
-use crate::symbolic::MathError;
 
 /// Files by their path in a folder.
 pub type Files = BTreeMap<PathBuf, Vec<u8>>;

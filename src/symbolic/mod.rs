@@ -9,7 +9,6 @@
 mod equation;
 mod expr;
 mod latex;
-mod mathml;
 mod symbol;
 mod values;
 
@@ -17,6 +16,5 @@ pub(crate) use equation::equations;
 pub use equation::{Equation, Formula, Group, operations};
 pub use expr::{Expr, atan2, cos, cube, sin, sqrt, square};
 pub use latex::format_number;
-pub use mathml::{MathError, to_mathml};
 pub use symbol::{Symbol, SymbolEntry};
 pub use values::{MissingValue, Values};

@@ -12,6 +12,7 @@ mod over_time;
 mod parts;
 mod peaks;
 mod ranges;
+pub mod regimes;
 mod responses;
 mod statistics;
 

@@ -1,10 +1,10 @@
 //! What several figures draw alike.
 
+use super::regimes::mark;
 use crate::analysis::{FixedPoint, Manifold};
 use crate::quantity::catalogue as of;
 use crate::regimes::Regime;
 use crate::report::figure::{Color, Fill, Hatch, Label, Layer, MarkedPoint, Marker, Role, Style};
-use crate::report::sweep::mark;
 use crate::study::plots::{Levels, Line};
 
 use super::Scene;

@@ -15,9 +15,8 @@ use crate::case::Case;
 use crate::sweep::columns::Column;
 use crate::sweep::limits::StabilityLimit;
 
+pub use super::figures::regimes::tint;
 pub use axis::AxisShown;
-pub(in crate::report) use kinds::mark;
-pub use kinds::tint;
 
 /// A page shows at most so many points; of more, the table alone is the result.
 pub const MOST_POINTS: usize = 1_000_000;

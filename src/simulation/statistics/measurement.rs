@@ -104,7 +104,7 @@ impl Telescope {
         let mut telescope = Self {
             of,
             squares,
-            bend: (pole * pole - turn * turn).norm(),
+            bend: (pole * pole - turn * turn).norm_sqr().sqrt(),
             drift: (pole - turn).norm_sqr(),
             z: one,
             u: steady,

@@ -5,7 +5,6 @@ use serde_json::json;
 use super::super::Swept;
 use super::super::axis::AxisShown;
 use super::super::grid::{self, Measure, Numbers};
-use super::super::kinds::{mark, tint};
 use super::QUANTITIES;
 use crate::case::Recorded;
 use crate::quantity::catalogue::{PEAK, SECTION};
@@ -14,6 +13,7 @@ use crate::report::figure::{
     Axis, Cells, Color, Dash, Figure, Image, Key, Layer, Layout, Marker, Panel, Role, Rule, Shape,
     Style, Tick,
 };
+use crate::report::figures::regimes::{mark, tint};
 use crate::sweep::columns::{self, Direction, kind};
 
 /// The template of the figures' words.

@@ -4,7 +4,7 @@ use serde_json::json;
 
 use super::super::Swept;
 use super::super::grid::{self, Measure, Numbers, Plane};
-use super::super::kinds::{AREAS, COUNTS, area_name, tint};
+use super::super::kinds::{AREAS, COUNTS, area_name};
 use super::QUANTITIES;
 use super::overlay::{self, Lines};
 use crate::case::Recorded;
@@ -12,6 +12,7 @@ use crate::regimes::Regime;
 use crate::report::figure::{
     Axis, Cell, Cells, Figure, Image, Key, Layer, Layout, Panel, Ramp, Tint, inliers,
 };
+use crate::report::figures::regimes::tint;
 use crate::sweep::columns::{Direction, kind};
 
 /// At most so many maps in a figure.

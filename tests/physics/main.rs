@@ -1,0 +1,31 @@
+//! Tests of the physics: theory, exact orbits, simulation, regimes. One program, which is linked once: run a
+//! part by its name, `cargo test --test physics orbits::`.
+
+#[path = "../common/mod.rs"]
+mod common;
+mod orbit_support;
+#[path = "../reference/mod.rs"]
+mod reference;
+
+mod asymptotic_error;
+mod batch;
+mod coexistence;
+mod contact;
+mod diagrams;
+mod dynamics_kind;
+mod equations;
+mod fixed_point_curve;
+mod fuzz;
+mod impact_times;
+mod limits;
+mod missed_impacts;
+mod orbit_branches;
+mod orbit_equations;
+mod orbits;
+mod published;
+mod regimes;
+mod simulation_properties;
+mod symbolic;
+mod tangent;
+mod transients;
+mod validation;

@@ -1,0 +1,163 @@
+//! Bands: shares against dense scans, response against published and closed-form limits.
+
+use crate::common;
+use std::f64::consts::TAU;
+
+use vinesink::analysis::Analysis;
+use vinesink::band::{Band, exact, margin, theory};
+use vinesink::case::BandOver;
+use vinesink::orbits::symmetric_orbits;
+use vinesink::regimes::{Effort, long_term, starts};
+use vinesink::system::{Excitation, Parameters, System};
+
+/// Table 1 of Li, Seguy, Berlioz (2016) at resonance, at a clearance in millimetres.
+fn li(clearance_mm: f64) -> System {
+    common::table_1(common::natural_frequency() / TAU, clearance_mm)
+}
+
+fn frequencies(base: System, range: [f64; 2]) -> Band {
+    Band { base, over: BandOver::Frequency, range, spectrum: Vec::new() }
+}
+
+/// Bands with different mass ratios, restitutions and excitations, one of amplitudes, one with a
+/// spectrum.
+fn bands() -> Vec<Band> {
+    let other = |mass_ratio, damping, restitution, gamma, excitation| {
+        System::new(Parameters {
+            mass_ratio,
+            damping,
+            restitution,
+            frequency_ratio: 1.0,
+            forcing_per_clearance: gamma,
+            excitation,
+        })
+        .expect("valid")
+    };
+    let spectrum = vec![[0.97, 0.7], [1.01, 1.3], [1.05, 0.9]];
+    vec![
+        frequencies(li(20.0), [0.94, 1.08]),
+        frequencies(li(7.5), [0.9, 1.1]),
+        Band { spectrum, ..frequencies(li(15.0), [0.95, 1.07]) },
+        Band { over: BandOver::Amplitude, range: [0.2, 4.0], ..frequencies(li(20.0), [0.0; 2]) },
+        frequencies(other(0.05, 1.0, 0.3, 2.0, Excitation::Force), [0.8, 1.3]),
+        frequencies(other(0.002, 2.5, 0.9, 1.2, Excitation::BaseDisplacement), [0.99, 1.01]),
+    ]
+}
+
+/// A share by brute force: what `holds` says at many places, the changes between neighbours bisected.
+fn scanned(band: &Band, holds: impl Fn(f64) -> bool) -> f64 {
+    const PLACES: u32 = 1500;
+    let places: Vec<f64> = band.places(PLACES).collect();
+    let mut sum = 0.0;
+    for pair in places.windows(2) {
+        let [from, to] = [pair[0], pair[1]];
+        sum += match (holds(from), holds(to)) {
+            (true, true) => to - from,
+            (false, false) => 0.0,
+            (first, _) => {
+                let (mut low, mut high) = (from, to);
+                for _ in 0..50 {
+                    let middle = 0.5 * (low + high);
+                    if holds(middle) == first { low = middle } else { high = middle }
+                }
+                if first { low - from } else { to - low }
+            }
+        };
+    }
+    sum / band.width()
+}
+
+#[test]
+fn shares_are_those_of_a_dense_scan() {
+    let mut partial = 0;
+    for (index, band) in bands().iter().enumerate() {
+        let z3 = |at: f64| {
+            Analysis::of(&band.system(at).expect("valid")).is_ok_and(|there| there.zone.is_z3())
+        };
+        let share = band.share(&theory::zones(band), |zone| zone.is_z3());
+        let scan = scanned(band, z3);
+        assert!((share - scan).abs() <= 1e-9, "{index}: Z3 {share} {scan}");
+        let attracts = |at: f64| {
+            symmetric_orbits(&band.system(at).expect("valid"))
+                .is_ok_and(|orbits| orbits.iter().any(|orbit| orbit.orbit.attracts()))
+        };
+        let stable = band.share(&exact::stability(band), |stable| *stable);
+        let scan = scanned(band, attracts);
+        assert!((stable - scan).abs() <= 1e-9, "{index}: stable {stable} {scan}");
+        partial += u32::from(0.01 < share && share < 0.99);
+        partial += u32::from(0.01 < stable && stable < 0.99);
+    }
+    assert!(partial >= 8, "only {partial} shares are neither all nor nothing");
+}
+
+/// Straight lines between the corners of a spectrum, constant outside of them.
+#[test]
+fn a_spectrum_is_straight_between_its_corners() {
+    let base = li(15.0);
+    let spectrum = vec![[0.97, 0.7], [1.01, 1.3], [1.05, 0.9]];
+    let band = Band { spectrum, ..frequencies(base, [0.95, 1.07]) };
+    for (at, factor) in
+        [(0.95, 0.7), (0.97, 0.7), (0.98, 0.85), (1.0, 1.15), (1.01, 1.3), (1.04, 1.0), (1.06, 0.9)]
+    {
+        let system = band.system(at).expect("valid");
+        let found = system.forcing_per_clearance() / base.forcing_per_clearance();
+        assert!((found - factor).abs() < 1e-12, "{at}: {found} {factor}");
+        assert_eq!(system.frequency_ratio(), at);
+    }
+}
+
+#[test]
+fn stretches_cover_the_band_once() {
+    for band in bands() {
+        let covers = |stretches: &[(f64, f64)]| {
+            assert_eq!(stretches.first().map(|one| one.0), Some(band.range[0]));
+            assert_eq!(stretches.last().map(|one| one.1), Some(band.range[1]));
+            assert!(stretches.windows(2).all(|pair| pair[0].1 == pair[1].0));
+        };
+        let ends = |from: f64, to: f64| (from, to);
+        covers(&theory::zones(&band).iter().map(|s| ends(s.from, s.to)).collect::<Vec<_>>());
+        covers(&exact::stability(&band).iter().map(|s| ends(s.from, s.to)).collect::<Vec<_>>());
+    }
+}
+
+/// The smallest gap is that of a dense scan, and a clearance that is off by less keeps the motion: where
+/// it must not shrink, and where it must not grow.
+#[test]
+fn the_smallest_gap_keeps_the_motion_along_the_band() {
+    for (clearance_mm, towards) in [(20.0, -1.0), (27.0, 1.0)] {
+        let band = frequencies(li(clearance_mm), [0.99, 1.01]);
+        let (at, gap) = margin::smallest(&band);
+        let scanned = band
+            .places(400)
+            .map(|at| margin::Gap::of(&band, at).expect("stable throughout").smaller())
+            .fold(f64::INFINITY, f64::min);
+        // A dip found to a thousandth of the band is flat to a millionth.
+        assert!((gap - scanned).abs() <= 1e-5 * gap, "{gap} {scanned} at {at}");
+        let stable_at = |factor: f64| {
+            let base = band.base.with_clearance_scaled(factor).expect("valid");
+            band.with_base(base).share(&exact::stability(&band.with_base(base)), |stable| *stable)
+        };
+        for sign in [-1.0, 1.0] {
+            assert_eq!(stable_at(1.0 + sign * 0.999 * gap), 1.0, "{clearance_mm} {sign}");
+        }
+        assert!(stable_at(1.0 + towards * 1.01 * gap) < 1.0, "{clearance_mm} {gap} at {at}");
+    }
+}
+
+/// Simulation along a band gives the orbit's numbers where it attracts, and other motions beside it.
+#[test]
+fn simulated_motions_are_the_exact_ones_where_those_attract() {
+    let band = frequencies(li(20.0), [0.98, 1.01]);
+    let systems: Vec<System> = band.places(9).map(|at| band.system(at).expect("valid")).collect();
+    let places: Vec<_> = systems.iter().map(|one| (*one, starts::of(one, 8).collect())).collect();
+    let found = long_term::motions(&places, &Effort::default()).expect("starts are finite");
+    for (system, motions) in systems.iter().zip(&found) {
+        let orbits = symmetric_orbits(system).expect("damped");
+        let orbit = orbits.iter().find(|one| one.orbit.attracts()).expect("stable here");
+        let motion = motions.iter().find(|one| one.impacts_per_period == 2.0).expect("1:1");
+        // What is left of the transient after twelve e-folds, and the window's own peak.
+        assert!((motion.peak / orbit.peaks.displacement - 1.0).abs() < 2e-3, "{motion:?}");
+        assert!((motion.impact_speed / orbit.impact_speed - 1.0).abs() < 5e-3, "{motion:?}");
+        assert_eq!(motions.iter().map(|one| one.starts).sum::<u32>(), 8);
+    }
+}

@@ -1,0 +1,309 @@
+//! Reports and their index as a person meets them: in Chromium, without a window.
+//!
+//! Needs Debian's package `chromium` (or a program named in `CHROMIUM`), and for the accessibility
+//! check axe-core's script, which `.ci/run` fetches into `target/axe` (or a file named in `AXE`).
+//! Where one is missing the tests say so and pass, unless `VINESINK_BROWSER=required`.
+
+use std::collections::BTreeMap;
+use std::env;
+use std::fs;
+use std::io::{self, Write as _};
+use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
+
+use crate::browser_support::checks::{self, DESKTOP, PHONE};
+use crate::browser_support::chromium::{self, Browser, Page, View};
+use assert_cmd::Command;
+use serde_json::json;
+
+/// Reports that differ: with notes and coexisting motions; answered without simulation; in a case's
+/// own unit.
+const CASES: [&str; 3] = ["li2016-8hz-b15mm", "li2016-8p5hz-1percent", "reduced-unit-clearance"];
+
+/// One with a band and criteria, which is in no index here.
+const FURTHER: &str = "li2016-band";
+
+/// The folder with their reports and the index, written once by the program.
+static REPORTS: LazyLock<PathBuf> = LazyLock::new(|| {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("browser reports");
+    let _ = fs::remove_dir_all(&folder);
+    let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases");
+    let mut report = Command::cargo_bin("vinesink").expect("built");
+    report.arg("report").args(CASES.map(|name| cases.join(format!("{name}.toml"))));
+    report.arg("--out").arg(&folder).assert().success();
+    let mut index = Command::cargo_bin("vinesink").expect("built");
+    index.arg("index").arg(&folder).assert().success();
+    let mut report = Command::cargo_bin("vinesink").expect("built");
+    report.arg("report").arg(cases.join(format!("{FURTHER}.toml")));
+    report.arg("--out").arg(folder.join("further")).assert().success();
+    folder.canonicalize().expect("a path")
+});
+
+/// Chromium, or nothing where these tests are to be skipped.
+fn browser() -> Option<Browser> {
+    let found = chromium::program();
+    if found.is_none() {
+        skipped(
+            "there is no chromium: install Debian's package `chromium`, or name it in CHROMIUM",
+        );
+    }
+    found.map(|program| Browser::start(&program))
+}
+
+fn skipped(why: &str) {
+    let required = env::var("VINESINK_BROWSER").is_ok_and(|value| value == "required");
+    assert!(!required, "{why}");
+    // Not captured by the test runner, unlike `eprintln!`.
+    let _ = writeln!(io::stderr(), "skipped: {why}");
+}
+
+fn pages() -> Vec<PathBuf> {
+    let mut pages = vec![REPORTS.join("index.html")];
+    pages.extend(CASES.map(|name| REPORTS.join(name).join("report.html")));
+    pages.push(REPORTS.join("further").join(FURTHER).join("report.html"));
+    pages
+}
+
+fn name(file: &Path) -> String {
+    file.strip_prefix(&*REPORTS).unwrap_or(file).display().to_string()
+}
+
+/// Calls `check` with every page in some views, and fails with all that it finds.
+fn everywhere(views: &[View], check: impl Fn(&mut Page) -> Vec<String>) {
+    let Some(mut browser) = browser() else { return };
+    let mut wrong: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    for file in pages() {
+        let mut page = browser.page(DESKTOP);
+        page.open(&file);
+        checks::unfold(&mut page);
+        for view in views {
+            page.look(*view);
+            let found = check(&mut page);
+            if !found.is_empty() {
+                let place = format!("{} at {} px, dark: {}", name(&file), view.width, view.dark);
+                wrong.insert(place, found);
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+#[test]
+fn pages_load_without_errors_and_without_the_network() {
+    let Some(mut browser) = browser() else { return };
+    for file in pages() {
+        for view in [DESKTOP, PHONE] {
+            let mut page = browser.page(view);
+            page.open(&file);
+            checks::unfold(&mut page);
+            let noise = checks::noise(&mut page, &REPORTS);
+            assert!(noise.is_empty(), "{}: {noise:#?}", name(&file));
+        }
+    }
+}
+
+#[test]
+fn equations_and_figures_are_seen_on_phone_and_desktop() {
+    everywhere(&[DESKTOP, PHONE], checks::layout);
+}
+
+#[test]
+fn pages_are_accessible() {
+    let Some(script) = checks::axe() else {
+        return skipped(
+            "there is no axe-core: run `npm pack axe-core` and unpack it in target/axe, or name its axe.min.js in AXE",
+        );
+    };
+    let script = fs::read_to_string(script).expect("readable");
+    // What is hidden on a phone may be pale in the dark only.
+    let views = [DESKTOP, PHONE].map(|view| [view, View { dark: true, ..view }]);
+    everywhere(views.as_flattened(), |page| checks::accessibility(page, &script));
+}
+
+#[test]
+fn colours_follow_the_readers_preference_and_figures_stay_white() {
+    let Some(mut browser) = browser() else { return };
+    for file in pages() {
+        let mut page = browser.page(DESKTOP);
+        page.open(&file);
+        let mut paper = |dark| {
+            page.look(View { dark, ..DESKTOP });
+            let colour = "getComputedStyle(document.body).backgroundColor";
+            let drawing = "document.querySelector('figure .drawing, figure img')";
+            let behind = format!("getComputedStyle({drawing}).backgroundColor");
+            [page.evaluate(colour), page.evaluate(&behind)]
+        };
+        assert_eq!(paper(false), ["rgb(255, 255, 255)", "rgb(255, 255, 255)"], "{}", name(&file));
+        assert_eq!(paper(true), ["rgb(22, 25, 29)", "rgb(255, 255, 255)"], "{}", name(&file));
+    }
+}
+
+#[test]
+fn marked_points_have_tooltips() {
+    let Some(mut browser) = browser() else { return };
+    for case in CASES {
+        let mut page = browser.page(DESKTOP);
+        page.open(&REPORTS.join(case).join("report.html"));
+        let found = checks::tooltips(&mut page).unwrap_or_else(|why| panic!("{case}: {why}"));
+        assert!(found > 5, "{case}: {found} tooltips");
+    }
+}
+
+#[test]
+fn pages_are_printed_on_several_sheets() {
+    let Some(mut browser) = browser() else { return };
+    for file in pages() {
+        let mut page = browser.page(DESKTOP);
+        page.open(&file);
+        let pdf = page.print();
+        assert!(pdf.len() > 20_000, "{}: {} bytes", name(&file), pdf.len());
+        let sheets = checks::pages(&pdf);
+        let expected = if file.ends_with("index.html") { 1..4 } else { 3..40 };
+        assert!(expected.contains(&sheets), "{}: {sheets} sheets", name(&file));
+    }
+}
+
+/// Texts of the column of a head, from the first row to the last.
+fn column(page: &mut Page, head: usize) -> Vec<String> {
+    let script = format!(
+        "[...document.querySelectorAll('#cases tbody tr')].map((row) => row.cells[{head}].textContent)"
+    );
+    let texts = page.evaluate(&script);
+    let texts = texts.as_array().expect("a list");
+    texts.iter().map(|text| text.as_str().expect("a text").to_owned()).collect()
+}
+
+const CLEARANCE: usize = 3;
+
+#[test]
+fn the_index_is_sorted_by_keyboard() {
+    let Some(mut browser) = browser() else { return };
+    let mut page = browser.page(DESKTOP);
+    page.open(&REPORTS.join("index.html"));
+    let by_name = column(&mut page, CLEARANCE);
+    assert_eq!(by_name, ["15 mm", "15 mm", "1 units"]);
+    // Tab goes from the head of the cases to that of the verdicts, and Enter sorts.
+    page.evaluate("document.querySelector('#cases thead button').focus()");
+    page.press("Tab", 9, "");
+    page.press("Enter", 13, "\r");
+    let sorted = "document.querySelector('#cases [aria-sort]').textContent
+        + ' ' + document.querySelector('#cases [aria-sort]').getAttribute('aria-sort')";
+    assert_eq!(page.evaluate(sorted), "Verdict ascending");
+    let tones = |page: &mut Page| -> Vec<String> {
+        let words = column(page, 2);
+        let before =
+            |text: &String| text.split(|c: char| c.is_ascii_digit()).next().map(str::to_owned);
+        words.iter().filter_map(before).map(|word| word.trim().to_owned()).collect()
+    };
+    assert_eq!(tones(&mut page), ["Mixed", "Makes it worse", "Makes it worse"]);
+    page.press("Enter", 13, "\r");
+    assert_eq!(page.evaluate(sorted), "Verdict descending");
+    assert_eq!(tones(&mut page), ["Makes it worse", "Makes it worse", "Mixed"]);
+    // What cannot be compared comes last, up and down.
+    let click = format!(
+        "document.querySelector('#cases thead').rows[0].cells[{CLEARANCE}].querySelector('button').click()"
+    );
+    for direction in ["ascending", "descending"] {
+        page.evaluate(&click);
+        assert_eq!(page.evaluate(sorted), format!("Clearance b {direction}"));
+        assert_eq!(column(&mut page, CLEARANCE), by_name, "{direction}");
+    }
+}
+
+#[test]
+fn chosen_cases_stand_side_by_side() {
+    let Some(mut browser) = browser() else { return };
+    let mut page = browser.page(DESKTOP);
+    page.open(&REPORTS.join("index.html"));
+    let shown = "[...document.querySelectorAll('#numbers tr')]
+        .map((row) => [...row.cells].filter((cell) => cell.checkVisibility())
+            .map((cell) => cell.textContent.trim()).join(' | ')).filter((row) => row)";
+    assert_eq!(page.evaluate(shown), json!([]));
+    let choose = |page: &mut Page, place: usize| {
+        let at = format!("document.querySelectorAll('#cases input')[{place}].focus()");
+        page.evaluate(&at);
+        page.press(" ", 32, " ");
+    };
+    choose(&mut page, 0);
+    assert_eq!(page.evaluate(shown), json!([]), "one case is no comparison");
+    choose(&mut page, 2);
+    let rows = page.evaluate(shown);
+    let rows: Vec<&str> =
+        rows.as_array().expect("rows").iter().filter_map(|row| row.as_str()).collect();
+    assert_eq!(rows[0], "Quantity | li2016-8hz-b15mm | reduced-unit-clearance");
+    for row in ["Clearance b | 15 mm | 1 units", "Restitution r | 0.6 | 0.6"] {
+        assert!(rows.contains(&row), "{row}: {rows:#?}");
+    }
+    let differs =
+        "[...document.querySelectorAll('#numbers tr.differs th')].map((th) => th.textContent)";
+    let differs = page.evaluate(differs).to_string();
+    assert!(differs.contains("Clearance b") && !differs.contains("Restitution r"), "{differs}");
+    assert!(checks::layout(&mut page).is_empty());
+    choose(&mut page, 0);
+    choose(&mut page, 1);
+    let rows = page.evaluate(shown).to_string();
+    assert!(rows.contains("Reduced forcing G | –") && !rows.contains("– | –"), "{rows}");
+    page.evaluate("document.querySelector('#clear').click()");
+    assert_eq!(page.evaluate(shown), json!([]));
+}
+
+#[test]
+fn the_index_does_without_scripts() {
+    let Some(mut browser) = browser() else { return };
+    let mut page = browser.page(DESKTOP);
+    page.without_scripts();
+    page.open(&REPORTS.join("index.html"));
+    assert_eq!(column(&mut page, CLEARANCE), ["15 mm", "15 mm", "1 units"]);
+    let dead = "[...document.querySelectorAll('button, input, #comparison, .scripted')]
+        .filter((part) => part.checkVisibility()).length";
+    assert_eq!(page.evaluate(dead), 0, "controls that do nothing");
+}
+
+/// The checks themselves: each must see what it is there for.
+#[test]
+fn faults_are_found() {
+    let Some(mut browser) = browser() else { return };
+    let folder = tempfile::tempdir().expect("a folder");
+    let faulty = folder.path().join("faulty.html");
+    let mut found = |content: &str, check: &dyn Fn(&mut Page) -> Vec<String>| {
+        let head = "<!DOCTYPE html><html lang=\"en\"><head><title>T</title>
+            <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">
+            </head><body><main><h1>T</h1>";
+        fs::write(&faulty, format!("{head}{content}</main></body></html>")).expect("writable");
+        let mut page = browser.page(PHONE);
+        page.open(&faulty);
+        check(&mut page).join("\n")
+    };
+    let noise = |page: &mut Page| checks::noise(page, folder.path());
+    assert_eq!(found("<p>good</p>", &noise), "");
+    assert!(found("<script>console.error('broken')</script>", &noise).contains("broken"));
+    assert!(found("<script>nonsense()</script>", &noise).contains("nonsense is not defined"));
+    let asked = found("<img alt=\"a\" src=\"http://localhost:1/x.png\">", &noise);
+    assert!(asked.contains("request: http://localhost:1/x.png"), "{asked}");
+    let outside = found("<img alt=\"a\" src=\"file:///etc/x.png\">", &noise);
+    assert!(outside.contains("request: file:///etc/x.png"), "{outside}");
+
+    let wide = "<svg width=\"900\" height=\"20\"></svg>";
+    let seen = found(wide, &checks::layout);
+    assert!(seen.contains("outside of the window"), "{seen:?}");
+    let boxed = format!("<div style=\"overflow-x: auto\">{wide}</div>");
+    assert_eq!(found(&boxed, &checks::layout), "");
+    assert!(found("<svg width=\"0\" height=\"0\"></svg>", &checks::layout).contains("no size"));
+    assert!(found("<img alt=\"a\" src=\"none.png\">", &checks::layout).contains("no image"));
+
+    let tooltips = |page: &mut Page| checks::tooltips(page).err().into_iter().collect();
+    let covered =
+        "<svg width=\"90\" height=\"90\"><g><title>t</title><circle cx=\"9\" cy=\"9\" r=\"3\"/></g>
+        <rect width=\"90\" height=\"90\"/></svg>";
+    assert!(found(covered, &tooltips).contains("nothing to point at"));
+
+    let Some(script) = checks::axe() else { return };
+    let script = fs::read_to_string(script).expect("readable");
+    let axe = |page: &mut Page| checks::accessibility(page, &script);
+    assert_eq!(found("<p>good</p>", &axe), "");
+    assert!(found("<img src=\"data:,\">", &axe).contains("image-alt"));
+    assert!(found("<p style=\"color: #bbbbbb\">pale</p>", &axe).contains("color-contrast"));
+    assert!(
+        found("<svg role=\"img\" width=\"9\" height=\"9\"></svg>", &axe).contains("svg-img-alt")
+    );
+}

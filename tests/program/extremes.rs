@@ -1,0 +1,180 @@
+//! The ends of the range: nothing hangs, nothing panics, and what cannot be trusted says so.
+
+use crate::common;
+use assert_cmd::Command;
+use vinesink::evidence::extremes::{Verdict, entries, unit_checks};
+use vinesink::evidence::reference::{Event, Reference};
+use vinesink::simulation::trust::{self, Doubt};
+use vinesink::simulation::{Energy, Measurement, Simulation, Stop};
+use vinesink::system::{Parameters, State, System};
+
+const START: State = State { x: 0.25, x_velocity: 0.3, y: -0.4, y_velocity: 0.6 };
+
+/// Every entry but the long runs, which the committed page has.
+#[test]
+fn whatever_is_trusted_agrees_with_the_reference() {
+    let mut seen = [0; 3];
+    for entry in entries().expect("a valid list") {
+        if entry.periods > 1000 {
+            continue;
+        }
+        let outcome = entry.outcome();
+        let name = format!("{:?} {:?}", outcome.entry.varied, outcome.entry.start);
+        match outcome.verdict {
+            Verdict::Holds => {
+                let comparison = outcome.measured.and_then(|measured| measured.comparison);
+                assert!(
+                    comparison.is_some_and(|found| found.events >= 6),
+                    "{name}: {comparison:?}"
+                );
+                seen[0] += 1;
+            }
+            Verdict::Flagged(_) => seen[1] += 1,
+            Verdict::Refused(_) => seen[2] += 1,
+            Verdict::Wrong => panic!("{name}: {:?}", outcome.measured),
+        }
+    }
+    assert!(seen[0] > 30 && seen[1] > 2 && seen[2] == 1, "{seen:?}");
+}
+
+#[test]
+fn a_design_does_not_know_its_unit_of_length() {
+    for check in unit_checks().expect("valid cases") {
+        assert!(check.holds && check.impacts > 20, "{check:?}");
+    }
+}
+
+/// Far beyond any physics: the run ends, and is not trusted.
+#[test]
+fn absurd_forcing_ends_and_is_flagged() {
+    for forcing_per_clearance in [1e10, 1e14, 1e16, 1e20, 1e50, 1e155, 1e200, 1e307] {
+        for restitution in [0.0, 0.6, 1.0] {
+            for frequency_ratio in [1e-3, 1.0, 1e3] {
+                let table = common::table_1(8.0, 7.5).parameters();
+                let system = System::new(Parameters {
+                    forcing_per_clearance,
+                    restitution,
+                    frequency_ratio,
+                    ..table
+                })
+                .expect("valid");
+                let mut simulation = Simulation::new(&system, START, 0.0).expect("inside");
+                let mut measurement = Measurement::begin(&system, START);
+                let stop = simulation.run(2, 1000, &mut measurement);
+                let statistics = measurement.statistics();
+                // A fast excitation moves the oscillator by its forcing over a million only.
+                if frequency_ratio <= 1.0 {
+                    let doubts = statistics.doubts(stop);
+                    assert!(!doubts.is_empty(), "{forcing_per_clearance:e} {restitution}");
+                }
+            }
+        }
+    }
+}
+
+/// An overdamped oscillator's fast rate, or a slow excitation, must not shorten every step.
+#[test]
+fn overdamped_and_slowly_driven_oscillators_cost_no_more_than_others() {
+    let base = common::table_1(8.0, 7.5).parameters();
+    let heavy = Parameters { mass_ratio: 0.9, damping: 1e3, ..base };
+    let slow = Parameters { mass_ratio: 0.18, frequency_ratio: 1e-3, restitution: 0.0, ..base };
+    let slow = Parameters { forcing_per_clearance: 6000.0, ..slow };
+    for (parameters, periods) in [(heavy, 20), (slow, 1)] {
+        let system = System::new(parameters).expect("valid");
+        let mut simulation = Simulation::new(&system, START, 0.0).expect("inside");
+        assert_eq!(simulation.run(periods, 1_000_000, &mut ()), Stop::EndTime);
+        let time = periods as f64 * system.period();
+        let events = time + simulation.impacts() as f64;
+        let each = simulation.evaluations() as f64 / events;
+        assert!(each < 50.0, "{each} evaluations for each impact or unit of time");
+    }
+}
+
+#[test]
+fn each_reason_to_doubt_is_given_where_it_applies_and_not_elsewhere() {
+    let sound =
+        Energy { input: 2.0, damper: 1.5, impact: 0.5, stored: 0.0, relative_residual: 0.0 };
+    let kinds = |stop, energy: &Energy, penetration, peak| -> Vec<&'static str> {
+        trust::doubts(stop, energy, penetration, peak)
+            .iter()
+            .map(|doubt| match doubt {
+                Doubt::Unfinished { .. } => "unfinished",
+                Doubt::Energy { .. } => "energy",
+                Doubt::Penetration { .. } => "penetration",
+                Doubt::Resolution { .. } => "resolution",
+            })
+            .collect()
+    };
+    assert_eq!(kinds(Stop::EndTime, &sound, 1e-15, 3.0), [""; 0]);
+    assert_eq!(kinds(Stop::ImpactLimit, &sound, 1e-15, 3.0), ["unfinished"]);
+    let open = Energy { input: 2.0 + 1e-7, ..sound };
+    assert_eq!(kinds(Stop::EndTime, &open, 1e-15, 1.0), ["energy"]);
+    // Half the squared peak is the largest energy, and hides it.
+    assert_eq!(kinds(Stop::EndTime, &open, 1e-15, 1e3), [""; 0]);
+    let undefined = Energy { input: f64::NAN, ..sound };
+    assert_eq!(kinds(Stop::EndTime, &undefined, 1e-15, 1.0), ["energy"]);
+    assert_eq!(kinds(Stop::EndTime, &sound, 2e-9, 1.0), ["penetration"]);
+    assert_eq!(kinds(Stop::EndTime, &sound, 0.0, 1e7), ["resolution"]);
+}
+
+/// An unforced, undamped oscillator at rest and an absorber that drifts to the wall.
+#[test]
+fn the_reference_knows_what_can_be_worked_out_by_hand() {
+    let system = System::new(Parameters {
+        mass_ratio: 0.5,
+        damping: 0.0,
+        restitution: 0.5,
+        forcing_per_clearance: 0.0,
+        ..common::table_1(8.0, 7.5).parameters()
+    })
+    .expect("valid");
+    let start = State { x: 0.0, x_velocity: 0.0, y: 0.0, y_velocity: 0.25 };
+    let mut reference = Reference::new(&system, start, 0.0);
+    let Some(Event::Impact { tau, side, x, loss, sticks }) = reference.next(10.0) else { panic!() };
+    assert_eq!((tau, side, x, sticks), (4.0, -1.0, 0.0, false));
+    // eps (1 - r^2) u^2 / (2 (1 + eps)) = 0.5 * 0.75 / 16 / 3
+    assert!((loss - 0.0078125).abs() < 1e-17, "{loss}");
+    assert_eq!(Reference::new(&system, start, 0.0).next(3.9), None);
+}
+
+#[test]
+fn simulate_warns_and_exits_with_1_where_it_is_not_to_be_trusted() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("tiny.toml");
+    let case = |forcing: &str| {
+        format!(
+            "title = \"t\"\nsource = \"s\"\n[reduced]\nmass_ratio = 0.0077\ndamping = 1.8\n\
+             restitution = 0.6\nclearance = 1.0\nforcing = {forcing}\nfrequency_ratio = 0.958\n"
+        )
+    };
+    let run = |forcing: &str, format: &str| {
+        std::fs::write(&path, case(forcing)).expect("written");
+        Command::cargo_bin("vinesink")
+            .expect("built")
+            .args(["simulate", path.to_str().expect("UTF-8"), "--initial", "0,0.01,0,0"])
+            .args(["--periods", "50", "--discard", "10", "--format", format])
+            .output()
+            .expect("runs")
+    };
+    let sound = run("4.342", "json");
+    assert_eq!(sound.status.code(), Some(0));
+    let document: serde_json::Value = serde_json::from_slice(&sound.stdout).expect("JSON");
+    assert_eq!(document["trusted"], true);
+    assert_eq!(document["doubts"], serde_json::json!([]));
+    let unsound = run("1e9", "json");
+    assert_eq!(unsound.status.code(), Some(1));
+    let document: serde_json::Value = serde_json::from_slice(&unsound.stdout).expect("JSON");
+    assert_eq!(document["trusted"], false);
+    let kinds: Vec<&str> = document["doubts"]
+        .as_array()
+        .expect("a list")
+        .iter()
+        .filter_map(|doubt| doubt["kind"].as_str())
+        .collect();
+    assert!(kinds.contains(&"resolution"), "{document}");
+    assert!(document["doubts"][0]["advice"].as_str().is_some_and(|advice| !advice.is_empty()));
+    let warning = String::from_utf8(unsound.stderr).expect("UTF-8");
+    assert!(warning.contains("not to be trusted"), "{warning}");
+    let text = String::from_utf8(run("1e9", "text").stdout).expect("UTF-8");
+    assert!(text.contains("NOT TO BE TRUSTED"), "{text}");
+}

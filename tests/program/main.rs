@@ -1,0 +1,35 @@
+//! Tests of cases, commands, reports and pages. One program, which is linked once: run a part by its name,
+//! `cargo test --test program diff::`.
+
+mod browser_support;
+#[path = "../common/mod.rs"]
+mod common;
+
+mod band;
+mod browser;
+mod case;
+mod case_properties;
+mod case_schema;
+mod check;
+mod cli;
+mod cli_case;
+mod cli_slips;
+mod decisions;
+mod diff;
+mod extremes;
+mod figure;
+mod figures;
+mod index;
+mod layers;
+mod optimize;
+mod paper;
+mod readers;
+mod report;
+#[cfg(unix)]
+mod review;
+mod sweep;
+mod sweep_page;
+#[cfg(unix)]
+mod sweep_submit;
+mod templates;
+mod tradeoff;
