@@ -336,8 +336,12 @@ fn every_page_is_listed_short_and_says_what_it_is_for() {
         let first = text.lines().skip(1).find(|line| !line.is_empty() && !line.starts_with("<!--"));
         let first = first.unwrap_or_default();
         assert!(first.starts_with("After this page you "), "{name} begins with: {first}");
-        let lines = fenced(text).filter(|(line, inside)| !inside && !line.is_empty()).count();
-        assert!(lines <= 190, "{name} has {lines} lines of text");
+        let generated = Regex::new(r"(?s)<!-- equations:.*?<!-- end -->").expect("a pattern");
+        let written = generated.replace_all(text, "");
+        let lines = fenced(&written).filter(|(line, inside)| !inside && !line.is_empty()).count();
+        // The case file has a line for each key.
+        let most = if name == "case-file.md" { 250 } else { 150 };
+        assert!(lines <= most, "{name} has {lines} lines of text");
     }
 }
 
