@@ -2,6 +2,8 @@
 //!
 //! A block marked `console` holds commands behind `$ `, an exit code that is not 0 behind `? `, and the output. The
 //! blocks of a page run one after another in a folder of its own; a comment `<!-- run: ... -->` does so unseen.
+//! A comment `<!-- slow: ... -->` before a block that takes seconds is done in its place where neither the test nor
+//! the program is optimised: `BOOK_PROGRAM=target/release/vinesink cargo test --test book` runs all of them.
 //! `[..]` stands for the rest of a line that is not the same on every machine. `SNAPSHOTS=overwrite` writes
 //! what is printed, the formulas and the equations into the pages.
 
@@ -70,23 +72,34 @@ struct Step {
     /// The lines of the exit code and of the output, from and to before.
     lines: (usize, usize),
     shown: bool,
+    /// What is done in its place where it would take too long; for the first of a block only.
+    instead: Option<String>,
+    slow: bool,
 }
 
 fn steps(text: &str) -> Vec<Step> {
     let mut steps: Vec<Step> = Vec::new();
     let (mut inside, mut command_goes_on) = (false, false);
+    let (mut slow, mut instead) = (false, None);
+    let comment = |line: &str, name: &str| {
+        let text = line.strip_prefix(&format!("<!-- {name}: "))?.strip_suffix(" -->")?;
+        Some(text.to_owned())
+    };
     for (number, line) in text.lines().enumerate() {
-        let hidden = line.strip_prefix("<!-- run: ").and_then(|rest| rest.strip_suffix(" -->"));
         if !inside {
             inside = line == "```console";
-            if let Some(command) = hidden {
-                steps.push(Step { command: command.to_owned(), ..Step::default() });
+            if let Some(command) = comment(line, "run") {
+                steps.push(Step { command, ..Step::default() });
+            }
+            if let Some(command) = comment(line, "slow") {
+                (slow, instead) = (true, Some(command));
             }
         } else if line == "```" {
-            inside = false;
+            (inside, slow) = (false, false);
         } else if let Some(command) = line.strip_prefix("$ ") {
-            let lines = (number + 1, number + 1);
-            steps.push(Step { command: command.to_owned(), lines, shown: true, ..Step::default() });
+            let (lines, instead) = ((number + 1, number + 1), instead.take());
+            let command = command.to_owned();
+            steps.push(Step { command, lines, shown: true, slow, instead, ..Step::default() });
             command_goes_on = true;
         } else if let Some(step) = steps.last_mut() {
             if let Some(more) = line.strip_prefix("> ").filter(|_| command_goes_on) {
@@ -119,7 +132,9 @@ fn run(command: &str, folder: &Path) -> (i32, String) {
     shell.env_clear().env("PATH", format!("{}:{path}", program.display()));
     shell.env("HOME", folder).env("LC_ALL", "C.UTF-8").env("BOOK", docs().join("src"));
     for (prefix, name) in who {
-        shell.env(format!("{prefix}_NAME"), name).env(format!("{prefix}_EMAIL"), "reader@example.org");
+        shell
+            .env(format!("{prefix}_NAME"), name)
+            .env(format!("{prefix}_EMAIL"), "reader@example.org");
         shell.env(format!("{prefix}_DATE"), "2026-03-02T09:00:00Z");
     }
     let output = shell.output().expect("a shell");
@@ -135,7 +150,12 @@ fn run_page(name: &str, text: &str) -> (Vec<String>, String) {
     fs::create_dir(folder.path().join("work")).expect("a folder");
     let lines: Vec<&str> = text.lines().collect();
     let (mut faults, mut page, mut copied) = (Vec::new(), String::new(), 0);
-    for step in steps(text) {
+    let quick = !cfg!(debug_assertions) || std::env::var_os("BOOK_PROGRAM").is_some();
+    for mut step in steps(text) {
+        if step.slow && !quick {
+            let Some(command) = step.instead.take() else { continue };
+            step = Step { command, ..Step::default() };
+        }
         let (code, output) = run(&step.command, folder.path());
         let where_ = format!("{name}: {}", step.command);
         if !step.shown {
@@ -149,9 +169,11 @@ fn run_page(name: &str, text: &str) -> (Vec<String>, String) {
         }
         // It would take a backslash for a part of a path.
         let plain = |text: &str| text.replace('\\', "\u{29f5}").into_data();
-        let same = snapbox::Assert::new()
-            .action(snapbox::assert::Action::Verify)
-            .try_eq(Some(&where_), plain(&output), plain(&step.output));
+        let same = snapbox::Assert::new().action(snapbox::assert::Action::Verify).try_eq(
+            Some(&where_),
+            plain(&output),
+            plain(&step.output),
+        );
         for line in &lines[copied..step.lines.0] {
             page.push_str(line);
             page.push('\n');
@@ -404,14 +426,16 @@ fn equations_are_those_that_are_evaluated() {
         vinesink::orbits::equations::groups(excitation).for_each(|group| add(group, excitation));
     }
     let mut left: BTreeSet<&str> = groups.keys().copied().collect();
-    let mark = Regex::new(r"(?s)<!-- equations: ([^\n]*?) -->\n(.*?)<!-- end -->").expect("a pattern");
+    let mark =
+        Regex::new(r"(?s)<!-- equations: ([^\n]*?) -->\n(.*?)<!-- end -->").expect("a pattern");
     for (name, text) in pages() {
         let mut page = text.clone();
         for found in mark.captures_iter(&text) {
             let group = groups.get(&found[1]);
             let group = group.unwrap_or_else(|| panic!("{name}: no group `{}`", &found[1]));
             left.remove(&found[1]);
-            let wanted = format!("<!-- equations: {} -->\n{}<!-- end -->", &found[1], typeset(group));
+            let wanted =
+                format!("<!-- equations: {} -->\n{}<!-- end -->", &found[1], typeset(group));
             if overwrites() {
                 page = page.replace(&found[0], &wanted);
             } else {
