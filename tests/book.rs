@@ -5,7 +5,7 @@
 //! A comment `<!-- slow: ... -->` before a block that takes seconds is done in its place where neither the test nor
 //! the program is optimised: `BOOK_PROGRAM=target/release/vinesink cargo test --test book` runs all of them.
 //! `[..]` stands for the rest of a line that is not the same on every machine. `SNAPSHOTS=overwrite` writes
-//! what is printed, the formulas and the equations into the pages.
+//! what is printed, equations, quotations and formulas into the pages; twice, since one may follow from another.
 
 #![cfg(unix)]
 
@@ -14,7 +14,7 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::sync::Mutex;
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread;
 
 use regex::Regex;
@@ -30,6 +30,12 @@ fn docs() -> PathBuf {
 
 fn overwrites() -> bool {
     std::env::var("SNAPSHOTS").is_ok_and(|action| action == "overwrite")
+}
+
+/// Tests that write pages take turns.
+fn turn() -> Option<MutexGuard<'static, ()>> {
+    static TURN: Mutex<()> = Mutex::new(());
+    overwrites().then(|| TURN.lock().unwrap_or_else(PoisonError::into_inner))
 }
 
 /// The pages by their names, with their text.
@@ -199,6 +205,7 @@ fn run_page(name: &str, text: &str) -> (Vec<String>, String) {
 
 #[test]
 fn what_the_book_shows_is_what_the_program_prints() {
+    let _turn = turn();
     // Where a page alone is worked on.
     let only = std::env::var("BOOK_PAGE").ok();
     let wanted = |name: &String| only.as_ref().is_none_or(|only| name.contains(only.as_str()));
@@ -383,6 +390,7 @@ fn formulas(text: &str) -> Vec<String> {
 
 #[test]
 fn formulas_are_converted_by_the_program() {
+    let _turn = turn();
     let mut known = BTreeMap::new();
     for (name, text) in pages() {
         for latex in formulas(&text) {
@@ -413,6 +421,7 @@ fn typeset(group: &Group) -> String {
 /// The equations of the theory pages are those that the program evaluates, all of them.
 #[test]
 fn equations_are_those_that_are_evaluated() {
+    let _turn = turn();
     let mut groups: BTreeMap<&str, &Group> = BTreeMap::new();
     let mut add = |group: &'static Group, excitation: Excitation| {
         // One title has a group for each kind of excitation.
@@ -447,4 +456,39 @@ fn equations_are_those_that_are_evaluated() {
         }
     }
     assert!(left.is_empty(), "no page has the equations {left:?}");
+}
+
+/// Lines that a page has from a report: from the first that contains some words to the next empty one, the
+/// links without their addresses.
+fn quoted(file: &str, words: &str) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
+    let text = fs::read_to_string(&path).unwrap_or_else(|error| panic!("{file}: {error}"));
+    let lines = text.lines().skip_while(|line| !line.contains(words));
+    let lines: Vec<&str> = lines.take_while(|line| !line.is_empty()).collect();
+    assert!(!lines.is_empty(), "{file} has no line with `{words}`");
+    let link = Regex::new(r"\[([^\]]*)\]\([^)]*\)").expect("a pattern");
+    link.replace_all(&(lines.join("\n") + "\n"), "$1").into_owned()
+}
+
+#[test]
+fn what_is_quoted_from_reports_stands_there() {
+    let _turn = turn();
+    let mark =
+        Regex::new(r"(?s)<!-- lines: (\S+) (.*?) -->\n\n(.*?)\n?<!-- end -->").expect("a pattern");
+    for (name, text) in pages() {
+        let mut page = text.clone();
+        for found in mark.captures_iter(&text) {
+            let lines = quoted(&found[1], &found[2]);
+            let wanted =
+                format!("<!-- lines: {} {} -->\n\n{lines}\n<!-- end -->", &found[1], &found[2]);
+            if overwrites() {
+                page = page.replace(&found[0], &wanted);
+            } else {
+                assert!(found[0] == wanted, "{name}: SNAPSHOTS=overwrite writes\n{wanted}");
+            }
+        }
+        if page != text {
+            write_page(&name, &page);
+        }
+    }
 }
