@@ -414,7 +414,7 @@ fn typeset(group: &Group) -> String {
     for equation in group.equations {
         write!(text, "\n$${}$$\n", equation.to_latex()).expect("memory");
     }
-    write!(text, "\n*Source and validity: {}.*\n", group.source).expect("memory");
+    write!(text, "\n*Source: {}.*\n", group.source).expect("memory");
     text
 }
 
@@ -422,19 +422,19 @@ fn typeset(group: &Group) -> String {
 #[test]
 fn equations_are_those_that_are_evaluated() {
     let _turn = turn();
-    let mut groups: BTreeMap<&str, &Group> = BTreeMap::new();
-    let mut add = |group: &'static Group, excitation: Excitation| {
+    let mut groups: BTreeMap<String, &Group> = BTreeMap::new();
+    let mut add = |room: &str, group: &'static Group, excitation: Excitation| {
+        let title = format!("{room}{}", group.title);
         // One title has a group for each kind of excitation.
-        let repeated = groups.get(group.title).is_some_and(|there| *there != group);
+        let repeated = groups.get(&title).is_some_and(|there| *there != group);
         let force = repeated && excitation == Excitation::Force;
-        let title = if force { "Excitation and gain, force" } else { group.title };
-        groups.insert(title, group);
+        groups.insert(if force { title + ", force" } else { title }, group);
     };
-    for excitation in [Excitation::BaseDisplacement, Excitation::Force] {
-        vinesink::equations::groups(excitation).for_each(|group| add(group, excitation));
-        vinesink::orbits::equations::groups(excitation).for_each(|group| add(group, excitation));
+    for kind in [Excitation::BaseDisplacement, Excitation::Force] {
+        vinesink::equations::groups(kind).for_each(|group| add("", group, kind));
+        vinesink::orbits::equations::groups(kind).for_each(|group| add("orbit: ", group, kind));
     }
-    let mut left: BTreeSet<&str> = groups.keys().copied().collect();
+    let mut left: BTreeSet<&str> = groups.keys().map(String::as_str).collect();
     let mark =
         Regex::new(r"(?s)<!-- equations: ([^\n]*?) -->\n(.*?)<!-- end -->").expect("a pattern");
     for (name, text) in pages() {
