@@ -136,6 +136,8 @@ fn run(command: &str, folder: &Path) -> (i32, String) {
     let mut shell = Command::new("sh");
     shell.current_dir(folder.join("work")).arg("-c").arg(format!("exec 2>&1\n{command}"));
     shell.env_clear().env("PATH", format!("{}:{path}", program.display()));
+    // How often progress is told depends on the machine.
+    shell.env("VINESINK_PROGRESS_SECONDS", "1000000");
     shell.env("HOME", folder).env("LC_ALL", "C.UTF-8").env("BOOK", docs().join("src"));
     for (prefix, name) in who {
         shell
