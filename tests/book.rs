@@ -1,0 +1,496 @@
+//! The book in `docs/`: what it shows is what the program prints.
+//!
+//! A block marked `console` holds commands behind `$ `, an exit code that is not 0 behind `? `, and the output. The
+//! blocks of a page run one after another in a folder of its own; a comment `<!-- run: ... -->` does so unseen.
+//! A comment `<!-- slow: ... -->` before a block that takes seconds is done in its place where neither the test nor
+//! the program is optimised: `BOOK_PROGRAM=target/release/vinesink cargo test --test book` runs all of them.
+//! `[..]` stands for the rest of a line that is not the same on every machine. `SNAPSHOTS=overwrite` writes
+//! what is printed, equations, quotations and formulas into the pages; twice, since one may follow from another.
+
+#![cfg(unix)]
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write as _;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::thread;
+
+use regex::Regex;
+use serde_json::Value;
+use snapbox::IntoData;
+use tempfile::TempDir;
+use vinesink::symbolic::{Group, to_mathml};
+use vinesink::system::Excitation;
+
+fn docs() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("docs")
+}
+
+fn overwrites() -> bool {
+    std::env::var("SNAPSHOTS").is_ok_and(|action| action == "overwrite")
+}
+
+/// Tests that write pages take turns.
+fn turn() -> Option<MutexGuard<'static, ()>> {
+    static TURN: Mutex<()> = Mutex::new(());
+    overwrites().then(|| TURN.lock().unwrap_or_else(PoisonError::into_inner))
+}
+
+/// The pages by their names, with their text.
+fn pages() -> BTreeMap<String, String> {
+    let mut pages = BTreeMap::new();
+    for folder in ["", "commands"] {
+        for entry in fs::read_dir(docs().join("src").join(folder)).expect("docs/src") {
+            let path = entry.expect("an entry").path();
+            if path.extension().is_some_and(|extension| extension == "md") {
+                let name = path.strip_prefix(docs().join("src")).expect("it is inside");
+                let name = name.to_str().expect("a name").to_owned();
+                pages.insert(name, fs::read_to_string(&path).expect("a page"));
+            }
+        }
+    }
+    pages
+}
+
+fn write_page(name: &str, text: &str) {
+    fs::write(docs().join("src").join(name), text).expect("written");
+}
+
+/// The lines of a page with whether they are inside a fence.
+fn fenced(text: &str) -> impl Iterator<Item = (&str, bool)> {
+    let mut inside = false;
+    text.lines().map(move |line| {
+        let fence = line.starts_with("```");
+        let is_inside = inside || fence;
+        inside ^= fence;
+        (line, is_inside)
+    })
+}
+
+/// A command of a page with what the page says of it.
+#[derive(Default)]
+struct Step {
+    command: String,
+    code: i32,
+    output: String,
+    /// The lines of the exit code and of the output, from and to before.
+    lines: (usize, usize),
+    shown: bool,
+    /// What is done in its place where it would take too long; for the first of a block only.
+    instead: Option<String>,
+    slow: bool,
+}
+
+fn steps(text: &str) -> Vec<Step> {
+    let mut steps: Vec<Step> = Vec::new();
+    let (mut inside, mut command_goes_on) = (false, false);
+    let (mut slow, mut instead) = (false, None);
+    let comment = |line: &str, name: &str| {
+        let text = line.strip_prefix(&format!("<!-- {name}: "))?.strip_suffix(" -->")?;
+        Some(text.to_owned())
+    };
+    for (number, line) in text.lines().enumerate() {
+        if !inside {
+            inside = line == "```console";
+            if let Some(command) = comment(line, "run") {
+                steps.push(Step { command, ..Step::default() });
+            }
+            if let Some(command) = comment(line, "slow") {
+                (slow, instead) = (true, Some(command));
+            }
+        } else if line == "```" {
+            (inside, slow) = (false, false);
+        } else if let Some(command) = line.strip_prefix("$ ") {
+            let (lines, instead) = ((number + 1, number + 1), instead.take());
+            let command = command.to_owned();
+            steps.push(Step { command, lines, shown: true, slow, instead, ..Step::default() });
+            command_goes_on = true;
+        } else if let Some(step) = steps.last_mut() {
+            if let Some(more) = line.strip_prefix("> ").filter(|_| command_goes_on) {
+                step.command = format!("{}\n{more}", step.command);
+                step.lines = (number + 1, number + 1);
+                continue;
+            }
+            command_goes_on = false;
+            let code = line.strip_prefix("? ").filter(|_| step.output.is_empty());
+            match code.and_then(|code| code.parse().ok()) {
+                Some(code) => step.code = code,
+                None => step.output = format!("{}{line}\n", step.output),
+            }
+            step.lines.1 = number + 1;
+        }
+    }
+    steps
+}
+
+/// Runs a command as a reader would, both streams together.
+fn run(command: &str, folder: &Path) -> (i32, String) {
+    // Another build of the program, where that is quicker: `BOOK_PROGRAM=target/release/vinesink`.
+    let program = std::env::var_os("BOOK_PROGRAM").map(PathBuf::from);
+    let program = program.unwrap_or_else(|| env!("CARGO_BIN_EXE_vinesink").into());
+    let program = program.parent().expect("a folder");
+    let path = std::env::var("PATH").unwrap_or_default();
+    let who = [("GIT_AUTHOR", "Reader"), ("GIT_COMMITTER", "Reader")];
+    let mut shell = Command::new("sh");
+    shell.current_dir(folder.join("work")).arg("-c").arg(format!("exec 2>&1\n{command}"));
+    shell.env_clear().env("PATH", format!("{}:{path}", program.display()));
+    // How often progress is told depends on the machine.
+    shell.env("VINESINK_PROGRESS_SECONDS", "1000000");
+    shell.env("HOME", folder).env("LC_ALL", "C.UTF-8").env("BOOK", docs().join("src"));
+    for (prefix, name) in who {
+        shell
+            .env(format!("{prefix}_NAME"), name)
+            .env(format!("{prefix}_EMAIL"), "reader@example.org");
+        shell.env(format!("{prefix}_DATE"), "2026-03-02T09:00:00Z");
+    }
+    let output = shell.output().expect("a shell");
+    let text = String::from_utf8(output.stdout).expect("text");
+    // What the pages have of spaces at the ends of lines.
+    let text: String = text.lines().map(|line| format!("{}\n", line.trim_end())).collect();
+    (output.status.code().unwrap_or(-1), text)
+}
+
+/// Runs a page's commands: what differs, and the page as it should be.
+fn run_page(name: &str, text: &str) -> (Vec<String>, String) {
+    let folder = TempDir::new().expect("a folder");
+    fs::create_dir(folder.path().join("work")).expect("a folder");
+    let lines: Vec<&str> = text.lines().collect();
+    let (mut faults, mut page, mut copied) = (Vec::new(), String::new(), 0);
+    let quick = !cfg!(debug_assertions) || std::env::var_os("BOOK_PROGRAM").is_some();
+    for mut step in steps(text) {
+        if step.slow && !quick {
+            let Some(command) = step.instead.take() else { continue };
+            step = Step { command, ..Step::default() };
+        }
+        let (code, output) = run(&step.command, folder.path());
+        let where_ = format!("{name}: {}", step.command);
+        if !step.shown {
+            if code != 0 {
+                faults.push(format!("{where_}: exit code {code}\n{output}"));
+            }
+            continue;
+        }
+        if code != step.code {
+            faults.push(format!("{where_}: exit code {code}, in the book {}\n", step.code));
+        }
+        // It would take a backslash for a part of a path.
+        let plain = |text: &str| text.replace('\\', "\u{29f5}").into_data();
+        let same = snapbox::Assert::new().action(snapbox::assert::Action::Verify).try_eq(
+            Some(&where_),
+            plain(&output),
+            plain(&step.output),
+        );
+        for line in &lines[copied..step.lines.0] {
+            page.push_str(line);
+            page.push('\n');
+        }
+        copied = step.lines.1;
+        if code != 0 {
+            writeln!(page, "? {code}").expect("memory");
+        }
+        match same {
+            Ok(()) => page.push_str(&step.output),
+            Err(difference) => {
+                faults.push(difference.to_string());
+                page.push_str(&output);
+            }
+        }
+    }
+    for line in &lines[copied..] {
+        page.push_str(line);
+        page.push('\n');
+    }
+    (faults, page)
+}
+
+#[test]
+fn what_the_book_shows_is_what_the_program_prints() {
+    let _turn = turn();
+    // Where a page alone is worked on.
+    let only = std::env::var("BOOK_PAGE").ok();
+    let wanted = |name: &String| only.as_ref().is_none_or(|only| name.contains(only.as_str()));
+    let waiting: Vec<(String, String)> =
+        pages().into_iter().filter(|(name, _)| wanted(name)).collect();
+    let (waiting, faults) = (Mutex::new(waiting), Mutex::new(Vec::new()));
+    let workers = thread::available_parallelism().map_or(2, usize::from).min(8);
+    thread::scope(|scope| {
+        for _ in 0..workers {
+            scope.spawn(|| {
+                loop {
+                    let Some((name, text)) = waiting.lock().expect("no panic").pop() else { break };
+                    let (differs, page) = run_page(&name, &text);
+                    if overwrites() && page != text {
+                        write_page(&name, &page);
+                    } else {
+                        faults.lock().expect("no panic").extend(differs);
+                    }
+                }
+            });
+        }
+    });
+    let faults = faults.into_inner().expect("no panic");
+    assert!(faults.is_empty(), "{}\nSNAPSHOTS=overwrite writes it", faults.join("\n"));
+}
+
+/// The keys of a table of the schema, those of its alternatives included.
+fn keys(schema: &Value) -> BTreeSet<String> {
+    let mut keys: BTreeSet<String> = schema["properties"]
+        .as_object()
+        .into_iter()
+        .flatten()
+        .map(|(key, _)| key.clone())
+        .collect();
+    for alternatives in ["oneOf", "anyOf", "allOf"] {
+        for alternative in schema[alternatives].as_array().into_iter().flatten() {
+            keys.extend(self::keys(alternative));
+        }
+    }
+    keys
+}
+
+/// The names that a key may have as its value.
+fn names(schema: &Value, found: &mut BTreeSet<String>) {
+    match schema {
+        Value::Object(entries) => {
+            if let Some(name) = entries.get("const").and_then(Value::as_str) {
+                found.insert(name.to_owned());
+            }
+            entries.values().for_each(|value| names(value, found));
+        }
+        Value::Array(items) => items.iter().for_each(|value| names(value, found)),
+        _ => {}
+    }
+}
+
+#[test]
+fn every_key_of_a_case_has_its_line() {
+    let text = &pages()["case-file.md"];
+    // Rows of tables begin with a key between backticks; a heading names the table of the case.
+    let mut told: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+    let mut table = String::new();
+    let heading = Regex::new(r"^## .*`\[([a-z]+)\]`").expect("a pattern");
+    for (line, inside) in fenced(text) {
+        if inside {
+            continue;
+        }
+        if line.starts_with("### ") {
+            "other".clone_into(&mut table);
+        } else if let Some(named) = heading.captures(line) {
+            named[1].clone_into(&mut table);
+        } else if line.starts_with("## ") {
+            table.clear();
+        }
+        let first = line.strip_prefix("| `").and_then(|row| row.split('|').next());
+        for key in first.into_iter().flat_map(|cell| cell.split(", ")) {
+            let key = key.trim().trim_matches('`').to_owned();
+            told.entry(table.clone()).or_default().insert(key);
+        }
+    }
+    let schema = vinesink::case::schema();
+    let mut wanted: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+    let mut values = BTreeSet::new();
+    names(&schema, &mut values);
+    for key in keys(&schema) {
+        let inside = keys(&schema["properties"][&key]);
+        wanted.entry(String::new()).or_default().insert(key.clone());
+        if !inside.is_empty() {
+            wanted.insert(key, inside);
+        }
+    }
+    for (table, keys) in &wanted {
+        let empty = BTreeSet::new();
+        let told = told.get(table).unwrap_or(&empty);
+        let lacks: Vec<_> = keys.difference(told).collect();
+        let has: Vec<_> = told.difference(keys).collect();
+        assert!(lacks.is_empty(), "docs/src/case-file.md has no line for {lacks:?} of [{table}]");
+        assert!(has.is_empty(), "docs/src/case-file.md has {has:?} in [{table}], no case has");
+    }
+    for table in told.keys() {
+        assert!(wanted.contains_key(table), "docs/src/case-file.md has [{table}], no case has");
+    }
+    for name in values {
+        assert!(text.contains(&format!("`{name}`")), "docs/src/case-file.md lacks `{name}`");
+    }
+}
+
+#[test]
+fn every_command_has_its_page() {
+    let summary = &pages()["SUMMARY.md"];
+    for command in subcommands(&[]) {
+        let page = format!("commands/{command}.md");
+        let text = pages().remove(&page).unwrap_or_else(|| panic!("no docs/src/{page}"));
+        assert!(summary.contains(&format!("]({page})")), "docs/src/SUMMARY.md lacks {page}");
+        for below in subcommands(&[&command]) {
+            let named = format!("vinesink {command} {below}");
+            assert!(text.contains(&named), "docs/src/{page} lacks `{named}`");
+        }
+        for option in options(&command) {
+            assert!(text.contains(&option), "docs/src/{page} lacks {option}");
+        }
+    }
+}
+
+fn help(of: &[&str]) -> String {
+    let output = Command::new(env!("CARGO_BIN_EXE_vinesink"))
+        .args(of)
+        .arg("--help")
+        .output()
+        .expect("it runs");
+    String::from_utf8(output.stdout).expect("text")
+}
+
+fn subcommands(of: &[&str]) -> Vec<String> {
+    let help = help(of);
+    let lines = help.lines().skip_while(|line| *line != "Commands:").skip(1);
+    let lines = lines.take_while(|line| !line.is_empty());
+    let names = lines.filter_map(|line| line.split_whitespace().next());
+    names.filter(|name| *name != "help").map(str::to_owned).collect()
+}
+
+fn options(command: &str) -> Vec<String> {
+    let option = Regex::new(r"(?m)^ +(--[a-z-]+)").expect("a pattern");
+    let help = help(&[command]);
+    option.captures_iter(&help).map(|found| found[1].to_owned()).collect()
+}
+
+#[test]
+fn every_page_is_listed_short_and_says_what_it_is_for() {
+    let pages = pages();
+    let summary = &pages["SUMMARY.md"];
+    for (name, text) in &pages {
+        if name == "SUMMARY.md" {
+            continue;
+        }
+        assert!(summary.contains(&format!("]({name})")), "docs/src/SUMMARY.md lacks {name}");
+        let first = text.lines().skip(1).find(|line| !line.is_empty() && !line.starts_with("<!--"));
+        let first = first.unwrap_or_default();
+        assert!(first.starts_with("After this page you "), "{name} begins with: {first}");
+        let generated = Regex::new(r"(?s)<!-- equations:.*?<!-- end -->").expect("a pattern");
+        let written = generated.replace_all(text, "");
+        let lines = fenced(&written).filter(|(line, inside)| !inside && !line.is_empty()).count();
+        // The case file has a line for each key.
+        let most = if name == "case-file.md" { 250 } else { 150 };
+        assert!(lines <= most, "{name} has {lines} lines of text");
+    }
+}
+
+/// The formulas of a page between dollar signs, as `docs/formulas.py` finds them.
+fn formulas(text: &str) -> Vec<String> {
+    let pattern = Regex::new(r"`[^`]*`|\$\$(.+?)\$\$|\$([^$\n]+?)\$").expect("a pattern");
+    let mut found = Vec::new();
+    for (line, inside) in fenced(text) {
+        if !inside {
+            let captures = pattern.captures_iter(line);
+            let formulas = captures.filter_map(|found| found.get(1).or(found.get(2)));
+            found.extend(formulas.map(|formula| formula.as_str().to_owned()));
+        }
+    }
+    found
+}
+
+#[test]
+fn formulas_are_converted_by_the_program() {
+    let _turn = turn();
+    let mut known = BTreeMap::new();
+    for (name, text) in pages() {
+        for latex in formulas(&text) {
+            let mathml = to_mathml(&latex).unwrap_or_else(|error| panic!("{name}: {error}"));
+            known.insert(latex, mathml);
+        }
+    }
+    let wanted = serde_json::to_string_pretty(&known).expect("text") + "\n";
+    let path = docs().join("formulas.json");
+    if overwrites() {
+        fs::write(&path, wanted).expect("written");
+        return;
+    }
+    let there = fs::read_to_string(&path).expect("docs/formulas.json");
+    assert!(there == wanted, "docs/formulas.json is out of date; SNAPSHOTS=overwrite writes it");
+}
+
+/// A group of equations as a page has it.
+fn typeset(group: &Group) -> String {
+    let mut text = format!("**{}**: {}.\n", group.title, group.gives);
+    for equation in group.equations {
+        write!(text, "\n$${}$$\n", equation.to_latex()).expect("memory");
+    }
+    write!(text, "\n*Source: {}.*\n", group.source).expect("memory");
+    text
+}
+
+/// The equations of the theory pages are those that the program evaluates, all of them.
+#[test]
+fn equations_are_those_that_are_evaluated() {
+    let _turn = turn();
+    let mut groups: BTreeMap<String, &Group> = BTreeMap::new();
+    let mut add = |room: &str, group: &'static Group, excitation: Excitation| {
+        let title = format!("{room}{}", group.title);
+        // One title has a group for each kind of excitation.
+        let repeated = groups.get(&title).is_some_and(|there| *there != group);
+        let force = repeated && excitation == Excitation::Force;
+        groups.insert(if force { title + ", force" } else { title }, group);
+    };
+    for kind in [Excitation::BaseDisplacement, Excitation::Force] {
+        vinesink::equations::groups(kind).for_each(|group| add("", group, kind));
+        vinesink::orbits::equations::groups(kind).for_each(|group| add("orbit: ", group, kind));
+    }
+    let mut left: BTreeSet<&str> = groups.keys().map(String::as_str).collect();
+    let mark =
+        Regex::new(r"(?s)<!-- equations: ([^\n]*?) -->\n(.*?)<!-- end -->").expect("a pattern");
+    for (name, text) in pages() {
+        let mut page = text.clone();
+        for found in mark.captures_iter(&text) {
+            let group = groups.get(&found[1]);
+            let group = group.unwrap_or_else(|| panic!("{name}: no group `{}`", &found[1]));
+            left.remove(&found[1]);
+            let wanted =
+                format!("<!-- equations: {} -->\n{}<!-- end -->", &found[1], typeset(group));
+            if overwrites() {
+                page = page.replace(&found[0], &wanted);
+            } else {
+                assert!(found[0] == wanted, "{name}: SNAPSHOTS=overwrite writes\n{wanted}");
+            }
+        }
+        if page != text {
+            write_page(&name, &page);
+        }
+    }
+    assert!(left.is_empty(), "no page has the equations {left:?}");
+}
+
+/// Lines that a page has from a report: from the first that contains some words to the next empty one, the
+/// links without their addresses.
+fn quoted(file: &str, words: &str) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
+    let text = fs::read_to_string(&path).unwrap_or_else(|error| panic!("{file}: {error}"));
+    let lines = text.lines().skip_while(|line| !line.contains(words));
+    let lines: Vec<&str> = lines.take_while(|line| !line.is_empty()).collect();
+    assert!(!lines.is_empty(), "{file} has no line with `{words}`");
+    let link = Regex::new(r"\[([^\]]*)\]\([^)]*\)").expect("a pattern");
+    link.replace_all(&(lines.join("\n") + "\n"), "$1").into_owned()
+}
+
+#[test]
+fn what_is_quoted_from_reports_stands_there() {
+    let _turn = turn();
+    let mark =
+        Regex::new(r"(?s)<!-- lines: (\S+) (.*?) -->\n\n(.*?)\n?<!-- end -->").expect("a pattern");
+    for (name, text) in pages() {
+        let mut page = text.clone();
+        for found in mark.captures_iter(&text) {
+            let lines = quoted(&found[1], &found[2]);
+            let wanted =
+                format!("<!-- lines: {} {} -->\n\n{lines}\n<!-- end -->", &found[1], &found[2]);
+            if overwrites() {
+                page = page.replace(&found[0], &wanted);
+            } else {
+                assert!(found[0] == wanted, "{name}: SNAPSHOTS=overwrite writes\n{wanted}");
+            }
+        }
+        if page != text {
+            write_page(&name, &page);
+        }
+    }
+}
