@@ -6,6 +6,8 @@ mod browser_support;
 mod common;
 
 mod band;
+#[cfg(unix)]
+mod book;
 mod browser;
 mod case;
 mod case_properties;

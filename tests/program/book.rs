@@ -3,11 +3,9 @@
 //! A block marked `console` holds commands behind `$ `, an exit code that is not 0 behind `? `, and the output. The
 //! blocks of a page run one after another in a folder of its own; a comment `<!-- run: ... -->` does so unseen.
 //! A comment `<!-- slow: ... -->` before a block that takes seconds is done in its place where neither the test nor
-//! the program is optimised: `BOOK_PROGRAM=target/release/vinesink cargo test --test book` runs all of them.
+//! the program is optimised: `BOOK_PROGRAM=target/release/vinesink cargo test --test program book::` runs all of them.
 //! `[..]` stands for the rest of a line that is not the same on every machine. `SNAPSHOTS=overwrite` writes
 //! what is printed, equations, quotations and formulas into the pages; twice, since one may follow from another.
-
-#![cfg(unix)]
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
@@ -21,7 +19,8 @@ use regex::Regex;
 use serde_json::Value;
 use snapbox::IntoData;
 use tempfile::TempDir;
-use vinesink::symbolic::{Group, to_mathml};
+use vinesink::report::mathml::to_mathml;
+use vinesink::symbolic::Group;
 use vinesink::system::Excitation;
 
 fn docs() -> PathBuf {
