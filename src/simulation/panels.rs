@@ -110,24 +110,15 @@ impl Simulation {
             if !(x.abs() <= f64::MAX && y.abs() <= f64::MAX) {
                 return (at, FlightEnd::Doubt);
             }
-            if time > 0.0 && detail == Detail::Flights {
-                observer.segment(&self.flown(&at, time));
-            }
             let before = State { x, x_velocity: v, y, y_velocity };
+            if detail > Detail::Nothing {
+                self.tell(at, landing, before, observer, detail);
+            }
             at.steady = steady;
             if let Some(side) = wall {
                 at.phase += rates.frequency * time;
                 at.impacts += 1;
                 let after = rebound(eps, r, v, y_velocity);
-                if detail > Detail::Nothing {
-                    observer.impact(&self.impact(
-                        &before,
-                        side,
-                        &after,
-                        (at.turns, at.phase),
-                        Some(steady),
-                    ));
-                }
                 at.state = self.rebounded(&before, side, &after);
                 let State { x, x_velocity: v, y, y_velocity } = at.state;
                 let line = Line { y, velocity: y_velocity };
@@ -136,15 +127,37 @@ impl Simulation {
                 }
             } else {
                 (at.state, at.phase, at.turns) = (before, 0.0, at.turns + 1);
-                if detail > Detail::Nothing {
-                    observer.period(&before);
-                }
             }
             leaves = wall.is_some();
             if limits.reached(&at) {
                 return (at, FlightEnd::Limit);
             }
         }
+    }
+
+    /// Tells an observer of the flight from `at` and of what it ended with; apart from the flights themselves,
+    /// which it would slow down: it gets copies, so that these stay in registers.
+    #[inline(never)]
+    fn tell(
+        &self,
+        at: Moment,
+        landing: Landing,
+        before: State,
+        observer: &mut dyn Observer,
+        detail: Detail,
+    ) {
+        let Landing { wall, time, steady, .. } = landing;
+        if time > 0.0 && detail == Detail::Flights {
+            observer.segment(&self.flown(&at, time));
+        }
+        let Some(side) = wall else {
+            observer.period(&before);
+            return;
+        };
+        let (eps, r) = (self.system.mass_ratio(), self.system.restitution());
+        let after = rebound(eps, r, before.x_velocity, before.y_velocity);
+        let when = (at.turns, at.phase + self.alone.frequency * time);
+        observer.impact(&self.impact(&before, side, &after, when, Some(steady)));
     }
 }
 

@@ -34,8 +34,10 @@ pub struct Measurement {
     telescope: Option<Telescope>,
     /// Where the flight under way began: phase, state.
     begin: (f64, State),
-    /// Flights that are yet to be measured, and the whole periods before each.
-    open: Vec<(u64, Ends<f64>)>,
+    /// Flights that are yet to be measured.
+    open: Vec<Ends<f64>>,
+    /// The whole periods before each.
+    periods: Vec<u64>,
 }
 
 /// What turns impacts into integrals.
@@ -199,6 +201,7 @@ impl Measurement {
             telescope: None,
             begin: (0.0, start),
             open: Vec::with_capacity(LANES),
+            periods: Vec::with_capacity(LANES),
         }
     }
 
@@ -242,7 +245,8 @@ impl Measurement {
             y: begin.y,
             y_velocity: begin.y_velocity,
         };
-        self.open.push((self.statistics.periods, ends));
+        self.open.push(ends);
+        self.periods.push(self.statistics.periods);
         if self.open.len() == LANES {
             self.measure_open();
         }
@@ -258,9 +262,9 @@ impl Measurement {
         if in_full {
             operation_count::note(INTEGRALS * self.open.len() as u64);
         }
-        let ends = self.open.iter().map(|(_, ends)| *ends).collect::<Vec<_>>();
-        let measured = peaks::together(ringing, &ends, in_full);
-        for ((period, _), one) in self.open.drain(..).zip(measured) {
+        let measured = peaks::together(ringing, &self.open, in_full);
+        self.open.clear();
+        for (period, one) in self.periods.drain(..).zip(measured) {
             self.statistics.add(period, &one);
         }
     }
