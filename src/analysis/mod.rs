@@ -5,12 +5,12 @@
 //! (`abs(eps sigma)` small), for motions with two symmetric impacts per period. Lengths are over
 //! the clearance. Nothing here simulates.
 
-pub mod areas;
+mod areas;
 pub mod boundaries;
-pub mod curve;
-pub mod fixed_points;
+mod curve;
+pub(crate) mod fixed_points;
 pub mod frequency_response;
-pub mod manifold;
+mod manifold;
 pub mod motion;
 pub mod slow_motion;
 
@@ -19,8 +19,8 @@ use serde::Serialize;
 use crate::system::System;
 
 pub use areas::{Area, Strip, Zone};
-pub use boundaries::{Boundaries, SaddleNode};
-pub use curve::FixedPointCurve;
+pub use boundaries::{Boundaries, CodimensionTwo, SaddleNode};
+pub use curve::{Amplitude, FixedPointCurve};
 pub use fixed_points::{FixedPoint, Kind};
 pub use manifold::{Branch, Manifold, ManifoldPoint};
 

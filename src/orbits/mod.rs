@@ -8,36 +8,36 @@
 //! follow them, [`boundaries`]. Nothing here knows of the
 //! asymptotic theory, or of simulation.
 
-pub mod admissibility;
+mod admissibility;
 pub mod boundaries;
 pub mod branch;
 pub mod equations;
 pub mod flight;
-pub mod full_system;
-pub mod impact_map;
-pub mod limits;
+mod full_system;
+mod impact_map;
+mod limits;
 mod locate;
-pub mod measures;
+pub(crate) mod measures;
 mod mirror;
-pub mod multipliers;
+mod multipliers;
 pub mod newton;
-pub mod orbit;
+mod orbit;
 pub mod switching;
 pub mod symmetric;
 mod tracer;
 
 pub use crate::bifurcation::Bifurcation;
-pub use admissibility::Admissibility;
+pub use admissibility::{Admissibility, Narrowest};
 pub use boundaries::{AsymmetricOrbits, Boundaries};
 pub use branch::{Branch, BranchEnd, BranchPoint, SpecialPoint};
 pub use full_system::{BestClearance, FullSystem};
-pub use impact_map::{AfterImpact, ImpactMap, Wall};
+pub use impact_map::{AfterImpact, ImpactMap, Leg, Step, Wall};
 pub use limits::{Limit, StableStretch, SymmetricFamily};
 pub use measures::{EnergyPerPeriod, Measures, Peaks};
 pub use multipliers::{Leading, Multipliers};
 pub use newton::Convergence;
 pub use orbit::{Closure, Cycle, Orbit, Origin};
-pub use symmetric::{SymmetricOrbit, attracting_orbit, symmetric_orbits};
+pub use symmetric::{SymmetricCurve, SymmetricOrbit, attracting_orbit, symmetric_orbits};
 
 /// Why an orbit is not returned.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -8,18 +8,18 @@
 pub mod batch;
 mod certificate;
 pub mod contact;
-pub mod events;
+mod events;
 pub mod flow;
-pub mod history;
+mod history;
 mod integrals;
 mod panels;
 mod peaks;
 mod phasor;
-pub mod run;
+mod run;
 mod small;
-pub mod statistics;
+mod statistics;
 mod steps;
-pub mod tangent;
+mod tangent;
 pub mod trust;
 mod walls;
 
