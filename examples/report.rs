@@ -34,12 +34,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     store::replace_folder(Path::new(&folder), &files, render::is_of_report)?;
     println!("{}: {} files in {folder}", case.title, files.len());
     for found in &study.motions.attractors {
-        let (peak, impacts) =
-            (found.attractor.statistics.peak(), found.attractor.statistics.impacts_per_period());
-        println!(
-            "  peak {:.3} mm, {impacts:.2} impacts per period",
-            1e3 * case.scales().length(peak)
-        );
+        let peak_mm = 1e3 * case.scales().length(found.attractor.peak);
+        let impacts = found.attractor.impacts_per_period;
+        println!("  peak {peak_mm:.3} mm, {impacts:.2} impacts per period");
     }
     Ok(())
 }

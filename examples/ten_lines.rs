@@ -7,7 +7,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let system = System::new(Parameters {
         mass_ratio: 0.032 / 4.168,     // 32 g in 4.168 kg
         damping: 1.799,                // 3.02 N s/m at 32 g and a natural frequency of 8.349 Hz
-        restitution: 0.6,              // hardened steel
+        restitution: 0.6,              // of the relative velocity, at an impact
         frequency_ratio: 8.0 / 8.349,  // driven at 8 Hz
         forcing_per_clearance: 4.3417, // the base moves by 0.25 mm, b = 7.5 mm
         excitation: Excitation::BaseDisplacement,

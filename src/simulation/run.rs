@@ -69,6 +69,33 @@ pub(super) enum Mode {
 }
 
 /// A trajectory that can be continued.
+///
+/// Without excitation and damping an absorber that flies at the velocity 0.1 needs a time of 10 to the wall, where it
+/// hands over momentum:
+///
+/// ```
+/// use vinesink::simulation::{Simulation, Stop};
+/// use vinesink::system::{Excitation, Parameters, State, System};
+///
+/// let (mass_ratio, restitution) = (0.01, 0.6);
+/// let system = System::new(Parameters {
+///     mass_ratio,
+///     restitution,
+///     damping: 0.0,
+///     frequency_ratio: 0.5, // one period is 4 pi = 12.6
+///     forcing_per_clearance: 0.0,
+///     excitation: Excitation::Force,
+/// })?;
+/// let start = State { y_velocity: 0.1, ..State::AT_REST };
+/// let mut simulation = Simulation::new(&system, start, 0.0)?;
+/// assert_eq!(simulation.run(1, u64::MAX, &mut ()), Stop::EndTime);
+/// assert_eq!(simulation.impacts(), 1);
+/// let speed = 0.1 * (mass_ratio - restitution) / (1.0 + mass_ratio);
+/// assert!((simulation.state().y_velocity - speed).abs() < 1e-15);
+/// // A start outside of the cavity is refused.
+/// assert!(Simulation::new(&system, State { y: 1.5, ..start }, 0.0).is_err());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct Simulation {
     pub(super) system: System,
@@ -144,6 +171,11 @@ impl Simulation {
     /// Where the trajectory stands.
     pub fn state(&self) -> State {
         self.at.state
+    }
+
+    /// Phase of the excitation, 0 to 2 pi: 0 after a run to the end of a period.
+    pub fn phase(&self) -> f64 {
+        self.at.phase
     }
 
     /// Whole excitation periods since the start of the trajectory.
