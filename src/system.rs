@@ -44,6 +44,7 @@ pub struct Parameters {
 /// A parameter that no physical system can have.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("{name} is {value}, expected {expected}")]
+#[non_exhaustive]
 pub struct InvalidParameter {
     /// The parameter's name as in [`Parameters`].
     pub name: &'static str,

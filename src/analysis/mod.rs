@@ -61,6 +61,7 @@ pub struct AnalysisError;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone, Serialize)]
+#[non_exhaustive]
 pub struct Analysis {
     /// The system.
     pub system: System,

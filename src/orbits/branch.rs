@@ -47,6 +47,7 @@ pub enum Direction {
 
 /// An orbit of a branch.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct BranchPoint {
     /// Value of the parameter.
     pub value: f64,
@@ -58,6 +59,7 @@ pub struct BranchPoint {
 
 /// A located bifurcation on a branch.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct SpecialPoint {
     /// Which.
     pub kind: Bifurcation,
@@ -81,6 +83,7 @@ pub struct SpecialPoint {
 /// Why a branch ends, and where.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case", tag = "why")]
+#[non_exhaustive]
 pub enum BranchEnd {
     /// The end of the range was reached.
     Range {

@@ -2,9 +2,9 @@
 //!
 //! Nothing is expanded in the mass ratio and nothing is integrated step by step. Between impacts the
 //! motion is closed form ([`flight`]); from one impact to the next it is a map with an exact Jacobian
-//! ([`impact_map`]). Its symmetric two-impact cycles solve one quadratic ([`symmetric`], [`equations`]); all others
+//! ([`ImpactMap`]). Its symmetric two-impact cycles solve one quadratic ([`symmetric`], [`equations`]); all others
 //! are found by Newton's method ([`newton`]) and followed by continuation ([`branch`]), with their
-//! bifurcations. Where the symmetric ones begin and end is [`limits`]; with the asymmetric ones that
+//! bifurcations. Where the symmetric ones begin and end is [`SymmetricFamily`]; with the asymmetric ones that
 //! follow them, [`boundaries`]. Nothing here knows of the
 //! asymptotic theory, or of simulation.
 
@@ -41,6 +41,7 @@ pub use symmetric::{SymmetricCurve, SymmetricOrbit, attracting_orbit, symmetric_
 
 /// Why an orbit is not returned.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum OrbitError {
     /// The steady motion between impacts does not exist.
     #[error(

@@ -70,6 +70,7 @@ pub struct SymmetricCurve {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct SymmetricOrbit {
     /// `beta`, the amplitude of the absorber's sawtooth; the exact counterpart of `B/b`.
     pub absorber_amplitude: f64,

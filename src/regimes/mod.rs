@@ -39,6 +39,7 @@ pub use transient::Transient;
 /// The regimes of section 3.1, and rest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum Regime {
     /// More than two impacts per period, Fig. 4a.
     AboveTwo,
@@ -135,6 +136,7 @@ pub mod thresholds {
 
 /// The numbers that a regime was decided by.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Evidence {
     /// `z`.
     pub impacts_per_period: f64,
@@ -163,6 +165,7 @@ pub struct Evidence {
 
 /// A regime with its evidence.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Classification {
     /// The name: what the impacts do.
     pub regime: Regime,

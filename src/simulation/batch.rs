@@ -1,4 +1,4 @@
-//! Many trajectories at a time, [`LANES`] side by side: [`run`].
+//! Many trajectories at a time, sixteen side by side: [`run`].
 //!
 //! Each lane flies its own trajectory of its own system by the formulas of `phasor`, in the
 //! same order and with the same rounding as [`Simulation::run`], so that the bits agree. Panels are

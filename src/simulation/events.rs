@@ -8,6 +8,7 @@ use crate::system::State;
 
 /// A start that no motion can have.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum StartError {
     /// The absorber would start outside its cavity.
     #[error(

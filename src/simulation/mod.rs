@@ -2,7 +2,7 @@
 //!
 //! Between events the motion is closed form ([`flow`]); events are found by a search that cannot
 //! step over one, in panels of two phasors (`phasor`) or step by step
-//! ([`crate::numerics::crossing`]); what happens at a wall is in [`contact`]; [`run`]
+//! (`numerics/crossing.rs`); what happens at a wall is in [`contact`]; [`Simulation`]
 //! strings it together and tells observers. Nothing here knows of the asymptotic theory.
 
 pub mod batch;

@@ -26,6 +26,7 @@ const FLIGHT: u64 = 240;
 /// Why a run ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum Stop {
     /// All periods asked for were simulated.
     EndTime,
