@@ -46,13 +46,14 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let mut walls = Walls::default();
         let periods = 500;
         simulation.run(periods, u64::MAX, &mut walls);
+        let unit = clearance * natural; // of velocities, m/s
         let seconds = periods as f64 / frequency;
         println!(
             "{:6.1} mm   {:18.2}   {:10.3} m/s   {:12.2} mW",
             1e3 * clearance,
             f64::from(walls.count) / periods as f64,
-            walls.fastest * clearance * natural,
-            1e3 * walls.lost * mass * (clearance * natural).powi(2) / seconds,
+            walls.fastest * unit,
+            1e3 * walls.lost * mass * unit * unit / seconds,
         );
     }
     Ok(())

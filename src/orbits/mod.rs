@@ -2,7 +2,7 @@
 //!
 //! Nothing is expanded in the mass ratio and nothing is integrated step by step. Between impacts the
 //! motion is closed form ([`flight`]); from one impact to the next it is a map with an exact Jacobian
-//! ([`ImpactMap`]). Its symmetric two-impact cycles solve one quadratic ([`symmetric`], [`equations`]); all others
+//! ([`ImpactMap`]). Its symmetric two-impact cycles solve one quadratic ([`symmetric_orbits`], [`equations`]); all others
 //! are found by Newton's method ([`newton`]) and followed by continuation ([`branch`]), with their
 //! bifurcations. Where the symmetric ones begin and end is [`SymmetricFamily`]; with the asymmetric ones that
 //! follow them, [`boundaries`]. Nothing here knows of the
@@ -23,7 +23,7 @@ mod multipliers;
 pub mod newton;
 mod orbit;
 pub mod switching;
-pub mod symmetric;
+mod symmetric;
 mod tracer;
 
 pub use crate::bifurcation::Bifurcation;
