@@ -3,9 +3,6 @@
 //!
 //! The lines printed are the ratios. Nothing here asserts a time.
 
-#[path = "../tests/common/mod.rs"]
-mod common;
-
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
@@ -18,6 +15,7 @@ use vinesink::orbits::attracting_orbit;
 use vinesink::regimes::long_term::motions;
 use vinesink::regimes::{Effort, starts};
 use vinesink::system::{State, System};
+use vinesink_benches as common;
 
 /// Places of a scan whose share is good to a thousandth.
 const SCANNED: u32 = 1001;

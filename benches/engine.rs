@@ -5,9 +5,6 @@
 //! The first lines printed are the ratio of the two and the impacts per second; then criterion's own
 //! report. Nothing here asserts a time.
 
-#[path = "../tests/common/mod.rs"]
-mod common;
-
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
@@ -16,6 +13,7 @@ use vinesink::analysis::Analysis;
 use vinesink::evidence::tradeoff::by_hand::{ByHand, Locate};
 use vinesink::simulation::{Measurement, Simulation, Stop, batch};
 use vinesink::system::{State, System};
+use vinesink_benches as common;
 
 const PERIODS: u64 = 200;
 /// Clearances in mm: strongly modulated, and two impacts per period.

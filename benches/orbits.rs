@@ -2,9 +2,6 @@
 //!
 //! The first lines printed are the ratios; then criterion's own report. Nothing here asserts a time.
 
-#[path = "../tests/common/mod.rs"]
-mod common;
-
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
@@ -13,6 +10,7 @@ use vinesink::orbits::branch::{Direction, Settings, follow};
 use vinesink::orbits::{Branch, SymmetricFamily, symmetric_orbits};
 use vinesink::simulation::Simulation;
 use vinesink::system::{Parameter, State, System};
+use vinesink_benches as common;
 
 /// Periods in which the transient of a 1:1 motion dies out to 1e-10.
 const TRANSIENT: u64 = 400;

@@ -1,6 +1,6 @@
 //! vinesink's own engines.
 
-use vinesink::simulation::{Impact, Observer, Simulation, Stop, batch};
+use vinesink::simulation::{Detail, Impact, Observer, Simulation, Stop, batch};
 use vinesink::system::{State, System};
 
 use crate::{Failure, Hit, Run, START, Tool, timed};
@@ -79,8 +79,8 @@ fn together(system: &System) -> Vec<Simulation> {
 struct Hits(Vec<Hit>);
 
 impl Observer for Hits {
-    fn flights(&self) -> bool {
-        false
+    fn detail(&self) -> Detail {
+        Detail::Events
     }
     fn impact(&mut self, impact: &Impact) {
         self.0.push(Hit {

@@ -2,7 +2,7 @@
 //! flight by flight against the exact next impact.
 
 use vinesink::simulation::flow::Oscillator;
-use vinesink::simulation::{Impact, Observer, Simulation};
+use vinesink::simulation::{Detail, Impact, Observer, Simulation};
 use vinesink::system::{State, System};
 
 use crate::reference::{Moment, Reference};
@@ -55,8 +55,8 @@ pub struct Flights {
 struct Next(Option<Impact>);
 
 impl Observer for Next {
-    fn flights(&self) -> bool {
-        false
+    fn detail(&self) -> Detail {
+        Detail::Events
     }
     fn impact(&mut self, impact: &Impact) {
         self.0.get_or_insert(*impact);

@@ -41,7 +41,8 @@ impl RungeKutta {
             let (mut time, mut left) = (k as f64 * h, h);
             loop {
                 let next = step(&force, time, &state, left);
-                let outwards = next.relative_displacement() * (next.x_velocity - next.y_velocity) > 0.0;
+                let outwards =
+                    next.relative_displacement() * (next.x_velocity - next.y_velocity) > 0.0;
                 if next.relative_displacement().abs() <= 1.0 || !outwards {
                     state = next;
                     break;

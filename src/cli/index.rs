@@ -61,10 +61,10 @@ pub fn add_to_report(reports: &Path, case: &Path, files: &Files) -> Result<()> {
     refresh(reports)
 }
 
-/// Writes a page beside the reports of a folder.
+/// Writes a page beside the reports of a folder, which is made where there is none.
 pub fn write_page(reports: &Path, name: &str, text: &str) -> Result<()> {
     let path = reports.join(name);
-    store::write_file(&path, text.as_bytes())?;
+    store::write_file_and_folder(&path, text.as_bytes())?;
     output::print_path(&path)?;
     refresh(reports)
 }

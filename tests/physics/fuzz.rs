@@ -3,7 +3,7 @@
 //! next impact as the slow search's.
 //!
 //! What comes is decided by a number, the same everywhere. Without a word from the caller a small
-//! part of it runs; `VINESINK_FUZZ_SECONDS=600 cargo test --release --test fuzz` goes on from there
+//! part of it runs; `VINESINK_FUZZ_SECONDS=600 cargo test --release --test physics fuzz::` goes on from there
 //! for ten minutes with each target, and `VINESINK_FUZZ_CASE=NUMBER` runs one again.
 
 use std::env;

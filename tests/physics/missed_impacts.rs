@@ -3,7 +3,7 @@
 //!
 //! Starts that graze, and absorbers that cross their cavity within a panel, are aimed at.
 //!
-//! `VINESINK_FLIGHTS=100000000 cargo test --release --test missed_impacts` checks as many flights.
+//! `VINESINK_FLIGHTS=100000000 cargo test --release --test physics missed_impacts::` checks as many flights.
 
 use crate::common;
 use std::env;
