@@ -35,7 +35,7 @@
 //!
 //! # Example
 //!
-//! The absorber of the paper's Table 1, by theory, by an exact orbit and by simulation:
+//! Table 1 of the paper at 8 Hz by theory, by an exact orbit and by simulation (the base's amplitude is inferred):
 //!
 //! ```
 #![doc = include_str!("../examples/ten_lines.rs")]

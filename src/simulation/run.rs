@@ -206,7 +206,8 @@ impl Simulation {
     }
 
     /// Continues to the end of the `periods`-th excitation period from here, or until
-    /// `impact_limit` further impacts have happened.
+    /// `impact_limit` further impacts have happened (`u64::MAX` for no limit); says which. `&mut ()` observes
+    /// nothing. What was measured of a run that did not reach its [`Stop::EndTime`] is that of a part.
     pub fn run(&mut self, periods: u64, impact_limit: u64, observer: &mut dyn Observer) -> Stop {
         let limits = Limits::of(self, periods, impact_limit);
         loop {
