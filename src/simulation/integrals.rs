@@ -48,6 +48,11 @@ impl<R: Real> Turning<R> {
             im: self.re * factor.im + self.im * factor.re,
         }
     }
+    /// The real part of the product.
+    #[inline(always)]
+    fn real(self, factor: Phasor) -> R {
+        self.re * factor.re - self.im * factor.im
+    }
     #[inline(always)]
     fn size(self) -> R {
         self.re * self.re + self.im * self.im
@@ -132,12 +137,11 @@ impl Product {
 
     #[inline(always)]
     pub(super) fn over<R: Real>(&self, five: &Five<R>) -> R {
-        let real = |a: Turning<R>, c: Phasor| a.re * c.re - a.im * c.im;
-        real(five.zz, self.zz)
+        five.zz.real(self.zz)
             + five.size * self.size
-            + real(five.ze, self.ze)
-            + real(five.ze_conj, self.ze_conj)
-            + real(five.ee, self.ee)
+            + five.ze.real(self.ze)
+            + five.ze_conj.real(self.ze_conj)
+            + five.ee.real(self.ee)
             + five.duration * self.duration
     }
 }
@@ -190,7 +194,8 @@ impl Ringing {
     /// The excitation at either end of flights.
     #[inline(always)]
     pub(super) fn excitation<R: Real, S: Simd>(&self, simd: S, ends: &Ends<R>) -> [Turning<R>; 2] {
-        angles(simd, ends.phase).map(|(im, re)| Turning { re, im })
+        let [begin, end] = angles(simd, ends.phase);
+        [Turning { re: begin.1, im: begin.0 }, Turning { re: end.1, im: end.0 }]
     }
 
     /// The integrals over flights, whose motion at the end is not used.

@@ -136,7 +136,9 @@ impl Simulation {
                 }
             } else {
                 (at.state, at.phase, at.turns) = (before, 0.0, at.turns + 1);
-                observer.period(&before);
+                if detail > Detail::Nothing {
+                    observer.period(&before);
+                }
             }
             leaves = wall.is_some();
             if limits.reached(&at) {

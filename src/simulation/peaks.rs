@@ -5,7 +5,7 @@
 use fearless_simd::{Level, Simd, dispatch};
 
 use super::certificate::{Quintic, Slack};
-use super::integrals::{Ends, Integrals, Ringing};
+use super::integrals::{Ends, Integrals, Ringing, Turning};
 use super::phasor::{At, Line, Rates, Steady};
 use crate::numerics::lanes::{LANES, Mask, Real, Wide};
 
@@ -50,26 +50,33 @@ fn side_by_side<S: Simd>(
                 #[inline(always)]
                 |rate| Wide::splat(simd, rate(&ringing.rates)),
             );
-            let [begin, end] = [0, 1].map(
-                #[inline(always)]
-                |k| {
-                    let steady = excitation[k].scaled(ringing.steady);
-                    let v = -(steady.im * ringing.rates.frequency);
-                    Moment { x: ends.x[k], v: ends.v[k], steady: Steady { x: steady.re, v } }
-                },
-            );
+            let begin = ringing.moment(&ends, &excitation, 0);
+            let end = ringing.moment(&ends, &excitation, 1);
             let duration = (ends.phase[1] - ends.phase[0]) * rates.inverse_frequency;
             let peaks = highest(simd, &rates, &begin, duration, &end);
-            let integrals = integrals.then(
-                #[inline(always)]
-                || ringing.over(simd, &ends, excitation),
-            );
-            std::array::from_fn(|lane| Measured {
-                peak: peaks[lane],
-                integrals: integrals.map(|of| of.at(lane)),
-            })
+            let mut measured = [Measured::default(); LANES];
+            for (lane, one) in measured.iter_mut().enumerate() {
+                one.peak = peaks[lane];
+            }
+            if integrals {
+                let integrals = ringing.over(simd, &ends, excitation);
+                for (lane, one) in measured.iter_mut().enumerate() {
+                    one.integrals = Some(integrals.at(lane));
+                }
+            }
+            measured
         },
     )
+}
+
+impl Ringing {
+    /// The oscillator at either end of flights.
+    #[inline(always)]
+    fn moment<R: Real>(&self, ends: &Ends<R>, excitation: &[Turning<R>; 2], k: usize) -> Moment<R> {
+        let steady = excitation[k].scaled(self.steady);
+        let v = -(steady.im * self.rates.frequency);
+        Moment { x: ends.x[k], v: ends.v[k], steady: Steady { x: steady.re, v } }
+    }
 }
 
 /// Flights side by side; the lanes that are left have a flight of no duration.
@@ -97,8 +104,8 @@ impl<S: Simd> Integrals<Wide<S>> {
             displacement_squared: self.displacement_squared[lane],
             velocity_squared: self.velocity_squared[lane],
             work: self.work[lane],
-            oscillator: self.oscillator.map(|one| one[lane]),
-            absorber: self.absorber.map(|one| one[lane]),
+            oscillator: [self.oscillator[0][lane], self.oscillator[1][lane]],
+            absorber: [self.absorber[0][lane], self.absorber[1][lane]],
         }
     }
 }

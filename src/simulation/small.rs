@@ -81,17 +81,13 @@ const LARGEST_REDUCED: f64 = 100.0;
 pub(super) fn angles<R: Real, S: Simd>(simd: S, of: [R; 2]) -> [(R, R); 2] {
     const QUARTER: [f64; 3] =
         [1.570_796_326_734_125_6, 6.077_100_506_303_966e-11, 2.022_266_248_795_950_7e-21];
-    let quarters = of.map(
-        #[inline(always)]
-        |angle| nearest_integer(angle * std::f64::consts::FRAC_2_PI),
-    );
-    let reduced = [0, 1].map(
-        #[inline(always)]
-        |k| {
-            let [first, second, third] = QUARTER;
-            of[k] - quarters[k] * first - quarters[k] * second - quarters[k] * third
-        },
-    );
+    let [first, second, third] = QUARTER;
+    // Loops: a closure would not be compiled for the vector instructions.
+    let (mut quarters, mut reduced) = (of, of);
+    for k in 0..2 {
+        quarters[k] = nearest_integer(of[k] * std::f64::consts::FRAC_2_PI);
+        reduced[k] = of[k] - quarters[k] * first - quarters[k] * second - quarters[k] * third;
+    }
     let [a, b] = small_angles(simd, reduced);
     [turned(a, quarters[0]), turned(b, quarters[1])]
 }
