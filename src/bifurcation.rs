@@ -5,6 +5,7 @@ use serde::Serialize;
 /// What happens to a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum Bifurcation {
     /// Two orbits collide and vanish: a multiplier passes +1 where the branch turns back.
     SaddleNode,

@@ -1,4 +1,6 @@
 //! SHA-256 in hexadecimal: what names a case's text, a sweep and its files.
+//!
+//! For the program itself: this module may change at any time.
 
 use std::fmt::Write as _;
 

@@ -5,6 +5,7 @@ use serde::Serialize;
 /// What gave a number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum Method {
     /// The case file.
     Given,

@@ -7,6 +7,8 @@
 //! instructions; `vinesink tradeoff` shows the time that an operation took beside it.
 //!
 //! Counts are kept for each thread and only ever grow: what is computed does not depend on them.
+//!
+//! For the program itself: this module may change at any time.
 
 use std::cell::Cell;
 

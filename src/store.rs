@@ -1,4 +1,6 @@
 //! The one place that touches the file system. Files and folders appear whole or not at all.
+//!
+//! For the program itself: this module may change at any time.
 
 use std::io::ErrorKind;
 use std::path::Path;

@@ -44,6 +44,7 @@ pub struct Parameters {
 /// A parameter that no physical system can have.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("{name} is {value}, expected {expected}")]
+#[non_exhaustive]
 pub struct InvalidParameter {
     /// The parameter's name as in [`Parameters`].
     pub name: &'static str,
@@ -54,6 +55,29 @@ pub struct InvalidParameter {
 }
 
 /// A dimensionless system whose parameters have been proven valid once, here.
+///
+/// [`System::new`] checks every number and names the one that no system can have.
+///
+/// ```
+/// use vinesink::system::{Excitation, Parameters, System};
+///
+/// let parameters = Parameters {
+///     mass_ratio: 0.01,
+///     damping: 2.0, // over the absorber's mass: the damping ratio is 0.01 * 2.0 / 2 = 1 %
+///     restitution: 0.6,
+///     frequency_ratio: 1.0,
+///     forcing_per_clearance: 3.0,
+///     excitation: Excitation::Force,
+/// };
+/// let system = System::new(parameters)?;
+/// // At resonance the damper alone holds the force: an amplitude of gamma / lambda clearances.
+/// let bare = system.linear_response().expect("damped").amplitude();
+/// assert!((bare - 3.0 / 2.0).abs() < 1e-14);
+///
+/// let refused = System::new(Parameters { restitution: 1.2, ..parameters }).unwrap_err();
+/// assert_eq!(refused.to_string(), "restitution is 1.2, expected a number from 0 to 1");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(into = "Parameters")]
 pub struct System {

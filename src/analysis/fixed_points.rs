@@ -62,6 +62,7 @@ impl Kind {
 
 /// A fixed point: a steady 1:1 motion as the theory sees it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct FixedPoint {
     /// `B/b`.
     #[serde(rename = "B")]

@@ -5,12 +5,12 @@
 //! (`abs(eps sigma)` small), for motions with two symmetric impacts per period. Lengths are over
 //! the clearance. Nothing here simulates.
 
-pub mod areas;
+mod areas;
 pub mod boundaries;
-pub mod curve;
-pub mod fixed_points;
+mod curve;
+pub(crate) mod fixed_points;
 pub mod frequency_response;
-pub mod manifold;
+mod manifold;
 pub mod motion;
 pub mod slow_motion;
 
@@ -19,8 +19,8 @@ use serde::Serialize;
 use crate::system::System;
 
 pub use areas::{Area, Strip, Zone};
-pub use boundaries::{Boundaries, SaddleNode};
-pub use curve::FixedPointCurve;
+pub use boundaries::{Boundaries, CodimensionTwo, SaddleNode};
+pub use curve::{Amplitude, FixedPointCurve};
 pub use fixed_points::{FixedPoint, Kind};
 pub use manifold::{Branch, Manifold, ManifoldPoint};
 
@@ -33,7 +33,35 @@ pub use manifold::{Branch, Manifold, ManifoldPoint};
 pub struct AnalysisError;
 
 /// Everything that the theory says of one system.
+///
+/// With Table 1 of Li, Seguy, Berlioz (2016) at 8 Hz, whose base moves by 0.25 mm, the clearances at the boundaries
+/// are published:
+///
+/// ```
+/// # use vinesink::system::{Excitation, Parameters, System};
+/// # let system = System::new(Parameters {
+/// #     mass_ratio: 0.032 / 4.168, damping: 1.799, restitution: 0.6, frequency_ratio: 8.0 / 8.349,
+/// #     forcing_per_clearance: 4.3417, excitation: Excitation::BaseDisplacement,
+/// # })?;
+/// use vinesink::analysis::{Analysis, Area};
+///
+/// let analysis = Analysis::of(&system)?;
+/// // The base's 0.25 mm over the mass ratio is the reduced forcing G; a boundary is at G / b.
+/// let clearance_mm = |gamma: f64| 0.25 * 4.168 / 0.032 / gamma;
+/// let boundaries = &analysis.boundaries;
+/// assert!((clearance_mm(boundaries.symmetry_breaking) - 4.687).abs() < 0.01);
+/// assert!((clearance_mm(boundaries.hopf) - 15.346).abs() < 0.01);
+/// let collision = boundaries.saddle_node.expect("two fixed points").forcing_over_clearance;
+/// assert!((clearance_mm(collision) - 16.259).abs() < 0.01);
+///
+/// // At 7.5 mm there is a stable fixed point, the steady 1:1 motion.
+/// assert_eq!(analysis.zone.area, Some(Area::Z3));
+/// let point = analysis.stable_points().next().expect("one");
+/// assert!((point.oscillator_amplitude - 0.470).abs() < 1e-3);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, Serialize)]
+#[non_exhaustive]
 pub struct Analysis {
     /// The system.
     pub system: System,

@@ -24,6 +24,7 @@ const SETTLED: f64 = 1e-9;
 
 /// What the slow motion came to.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub enum SlowEnd {
     /// It settled at a point.
     Settles(SlowVariables),

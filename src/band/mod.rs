@@ -2,7 +2,7 @@
 //!
 //! The paper's criterion (section 3.4 of Li, Seguy, Berlioz 2016) is to have as much of a target band
 //! as possible in area Z3. Where areas begin and end along a band are roots, not samples
-//! ([`crate::numerics::scan`]): of the theory's boundaries ([`theory`]), and of the stability of exact orbits
+//! (`numerics/scan.rs`): of the theory's boundaries ([`theory`]), and of the stability of exact orbits
 //! ([`exact`]). What starts lead to is simulated at places that are added until the worst value is known
 //! ([`simulated`]), and an absorber that never wakes is a motion in closed form ([`inactive`]). [`survey`]
 //! puts them together: every command takes the worst of a band from there. Beside the absorber stand its

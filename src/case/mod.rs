@@ -54,6 +54,36 @@ use crate::system::System;
 use reader::{Reader, Table};
 
 /// A design case: what its file says, and the system that follows from it.
+///
+/// ```
+/// use vinesink::case::Case;
+///
+/// let case = Case::parse("damper.toml", r#"
+/// title = "Damper at 8 Hz"
+/// source = "Li, Seguy, Berlioz 2016, Table 1"
+///
+/// [oscillator]
+/// mass = "4.168 kg"
+/// stiffness = "11.47 kN/m"
+/// damping = "3.02 N s/m"
+///
+/// [absorber]
+/// mass = "32 g"
+/// clearance = "7.5 mm"
+/// restitution = 0.6
+///
+/// [excitation]
+/// kind = "base-displacement"
+/// amplitude = "0.25 mm"
+/// frequency = "8 Hz"
+/// "#)?;
+/// assert!((case.system().mass_ratio() - 0.032 / 4.168).abs() < 1e-15);
+/// // Results are over the clearance; the case's scales make metres of them.
+/// assert!((case.scales().length(0.475) - 3.5625e-3).abs() < 1e-12);
+/// // What is wrong is said all at once, with the line.
+/// assert!(Case::parse("damper.toml", "title = 7").is_err());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Case {
     /// What the case is, in a line.

@@ -8,6 +8,7 @@ use crate::system::Parameter;
 
 /// Why a case file cannot be rewritten.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum RewriteError {
     /// The text is not that of the case.
     #[error("the case file cannot be changed: its text is not the one that was read")]

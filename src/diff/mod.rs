@@ -2,6 +2,8 @@
 //! beyond their errors, figures; what moved within them is counted. Reports that are out of date are named.
 //!
 //! Pure: documents and figures come in as they were read, [`markdown`] writes down what comes out.
+//!
+//! For the program itself: this module may change at any time.
 
 mod compare;
 mod criteria;

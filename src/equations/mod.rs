@@ -5,6 +5,8 @@
 //! What follows from the paper is derived in each file's head, and `tests/equations.rs` proves it against
 //! the paper's equations. [`crate::orbits::equations`] holds such motions exactly, at any mass ratio and
 //! frequency.
+//!
+//! For the program itself: this module may change at any time.
 
 #![allow(non_snake_case)]
 

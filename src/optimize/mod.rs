@@ -5,6 +5,8 @@
 //! disposes: every absorber that is shown was judged as `check` judges it ([`design`]), criteria included,
 //! and the best of those whose criteria hold wins. The same once more for what is expected where parameters
 //! are uncertain ([`robust`]).
+//!
+//! For the program itself: this module may change at any time.
 
 pub mod chart;
 pub mod claim;

@@ -47,6 +47,7 @@ pub enum Direction {
 
 /// An orbit of a branch.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct BranchPoint {
     /// Value of the parameter.
     pub value: f64,
@@ -58,6 +59,7 @@ pub struct BranchPoint {
 
 /// A located bifurcation on a branch.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct SpecialPoint {
     /// Which.
     pub kind: Bifurcation,
@@ -81,6 +83,7 @@ pub struct SpecialPoint {
 /// Why a branch ends, and where.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case", tag = "why")]
+#[non_exhaustive]
 pub enum BranchEnd {
     /// The end of the range was reached.
     Range {
@@ -152,6 +155,34 @@ const FEWEST_AROUND: usize = 3;
 const BESIDE: f64 = 2.0;
 
 /// Follows the branch through `start`, an orbit of `base`, in one direction.
+///
+/// From 7.5 mm, the clearance of the crate page, upwards and downwards to the two bifurcations that bound the
+/// symmetric orbit at 8 Hz. The theory has them at 4.687 mm and 16.259 mm:
+///
+/// ```
+/// # use vinesink::system::{Excitation, Parameters, System};
+/// # let system = System::new(Parameters {
+/// #     mass_ratio: 0.032 / 4.168, damping: 1.799, restitution: 0.6, frequency_ratio: 8.0 / 8.349,
+/// #     forcing_per_clearance: 4.3417, excitation: Excitation::BaseDisplacement,
+/// # })?;
+/// use vinesink::bifurcation::Bifurcation;
+/// use vinesink::orbits::attracting_orbit;
+/// use vinesink::orbits::branch::{Direction, Settings, follow};
+/// use vinesink::system::Parameter;
+///
+/// let start = attracting_orbit(&system).expect("one attracts").orbit;
+/// let clearance_mm = |direction, wanted| {
+///     let settings = Settings::within([0.3, 3.0]); // over the clearance of the start
+///     let branch = follow(&system, &start, Parameter::Clearance, direction, &settings)?;
+///     let found = branch.specials.iter().find(|special| special.kind == wanted);
+///     Ok::<f64, Box<dyn std::error::Error>>(7.5 * found.ok_or("no such bifurcation")?.value)
+/// };
+/// let breaking = clearance_mm(Direction::Down, Bifurcation::SymmetryBreaking)?;
+/// assert!((breaking / 4.687 - 1.0).abs() < 0.04, "{breaking} mm");
+/// let collision = clearance_mm(Direction::Up, Bifurcation::SaddleNode)?;
+/// assert!((collision / 16.259 - 1.0).abs() < 0.04, "{collision} mm");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 ///
 /// # Errors
 /// [`OrbitError`] when `start` itself is not on a branch.

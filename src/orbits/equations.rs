@@ -10,6 +10,8 @@
 //! expanded in the mass ratio. Valid where a steady motion exists, and a motion only if the absorber stays
 //! between the walls from impact to impact. `tests/orbit_equations.rs` proves what is derived against what is
 //! stated.
+//!
+//! For the program itself: this module may change at any time.
 
 #![allow(non_snake_case)]
 

@@ -26,6 +26,7 @@ const STEPS: [f64; 2] = [2.0, 2000.0];
 
 /// The exact layer of one system.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct FullSystem {
     /// The system.
     pub system: System,

@@ -1,7 +1,7 @@
 //! Where symmetric 1:1 orbits begin and end: the stability limits of the full system at one
 //! frequency, over all clearances and forcings at once.
 //!
-//! Each value of `beta` belongs to one forcing per clearance ([`super::symmetric`]), so that the whole
+//! Each value of `beta` belongs to one forcing per clearance (`symmetric.rs`), so that the whole
 //! family is a curve over `beta`. Its bifurcations need no scan:
 //!
 //! * The saddle-node is explicit, and so is the place from which the absorber stays on the wall.

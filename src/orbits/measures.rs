@@ -50,6 +50,7 @@ impl Peaks {
 
 /// Energy per excitation period, per unit of the oscillator's mass, over the squared clearance.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct EnergyPerPeriod {
     /// Work of the excitation.
     pub input: f64,
@@ -63,6 +64,7 @@ pub struct EnergyPerPeriod {
 
 /// Averages along an orbit; lengths over the clearance, fast time.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Measures {
     /// Largest values.
     pub peaks: Peaks,

@@ -2,45 +2,46 @@
 //!
 //! Nothing is expanded in the mass ratio and nothing is integrated step by step. Between impacts the
 //! motion is closed form ([`flight`]); from one impact to the next it is a map with an exact Jacobian
-//! ([`impact_map`]). Its symmetric two-impact cycles solve one quadratic ([`symmetric`], [`equations`]); all others
+//! ([`ImpactMap`]). Its symmetric two-impact cycles solve one quadratic ([`symmetric_orbits`], [`equations`]); all others
 //! are found by Newton's method ([`newton`]) and followed by continuation ([`branch`]), with their
-//! bifurcations. Where the symmetric ones begin and end is [`limits`]; with the asymmetric ones that
+//! bifurcations. Where the symmetric ones begin and end is [`SymmetricFamily`]; with the asymmetric ones that
 //! follow them, [`boundaries`]. Nothing here knows of the
 //! asymptotic theory, or of simulation.
 
-pub mod admissibility;
+mod admissibility;
 pub mod boundaries;
 pub mod branch;
 pub mod equations;
 pub mod flight;
-pub mod full_system;
-pub mod impact_map;
-pub mod limits;
+mod full_system;
+mod impact_map;
+mod limits;
 mod locate;
-pub mod measures;
+pub(crate) mod measures;
 mod mirror;
-pub mod multipliers;
+mod multipliers;
 pub mod newton;
-pub mod orbit;
+mod orbit;
 pub mod switching;
-pub mod symmetric;
+mod symmetric;
 mod tracer;
 
 pub use crate::bifurcation::Bifurcation;
-pub use admissibility::Admissibility;
+pub use admissibility::{Admissibility, Narrowest};
 pub use boundaries::{AsymmetricOrbits, Boundaries};
 pub use branch::{Branch, BranchEnd, BranchPoint, SpecialPoint};
 pub use full_system::{BestClearance, FullSystem};
-pub use impact_map::{AfterImpact, ImpactMap, Wall};
+pub use impact_map::{AfterImpact, ImpactMap, Leg, Step, Wall};
 pub use limits::{Limit, StableStretch, SymmetricFamily};
 pub use measures::{EnergyPerPeriod, Measures, Peaks};
 pub use multipliers::{Leading, Multipliers};
 pub use newton::Convergence;
 pub use orbit::{Closure, Cycle, Orbit, Origin};
-pub use symmetric::{SymmetricOrbit, attracting_orbit, symmetric_orbits};
+pub use symmetric::{SymmetricCurve, SymmetricOrbit, attracting_orbit, symmetric_orbits};
 
 /// Why an orbit is not returned.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum OrbitError {
     /// The steady motion between impacts does not exist.
     #[error(

@@ -78,6 +78,7 @@ impl Multipliers {
 /// The kind of the largest multiplier: through which it is that stability is, or would be, lost.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum Leading {
     /// Real and positive: towards +1, a saddle-node.
     Positive,

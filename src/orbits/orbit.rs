@@ -72,8 +72,8 @@ impl Cycle {
         }
     }
 
-    /// The whole orbit's sequence of walls over one repetition, as `+-`, in the canonical form
-    /// of a [`crate::numerics::cyclic_word`], so that one motion has one name.
+    /// The whole orbit's sequence of walls over one repetition, as `+-`; of its rotations always the
+    /// same one, so that one motion has one name.
     pub fn sequence(&self) -> String {
         let whole = self.unfolded();
         let minus: Vec<bool> =
@@ -237,6 +237,7 @@ fn apart(a: &AfterImpact, b: &AfterImpact) -> f64 {
 /// How an orbit was found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum Origin {
     /// From the quadratic of the symmetric orbits.
     ClosedForm,
@@ -250,6 +251,7 @@ pub enum Origin {
 
 /// A periodic orbit with its evidence.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Orbit {
     /// The impacts.
     pub cycle: Cycle,

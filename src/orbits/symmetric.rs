@@ -44,7 +44,33 @@ pub struct SymmetricCurve {
 }
 
 /// A symmetric 1:1 orbit. Lengths over the clearance, fast time, angles in radians.
+///
+/// With the system of the crate page:
+///
+/// ```
+/// # use vinesink::system::{Excitation, Parameters, System};
+/// # let system = System::new(Parameters {
+/// #     mass_ratio: 0.032 / 4.168, damping: 1.799, restitution: 0.6, frequency_ratio: 8.0 / 8.349,
+/// #     forcing_per_clearance: 4.3417, excitation: Excitation::BaseDisplacement,
+/// # })?;
+/// use vinesink::analysis::Analysis;
+/// use vinesink::orbits::{Measures, symmetric_orbits};
+///
+/// let orbits = symmetric_orbits(&system)?;
+/// assert_eq!(orbits.len(), 2);
+/// let steady = orbits.iter().find(|one| one.orbit.attracts()).expect("one attracts");
+/// assert_eq!(steady.orbit.cycle.sequence(), "+-");
+/// assert!((steady.impact_displacement - (1.0 - steady.absorber_amplitude)).abs() < 1e-12);
+/// // Work, damper and impacts balance over a period.
+/// let energy = Measures::of(&system, &steady.orbit.cycle)?.energy;
+/// assert!(energy.relative_residual < 1e-12);
+/// // The theory has the same motion to first order in the mass ratio of 0.77 %.
+/// let theory = Analysis::of(&system)?.stable_points().next().expect("one").absorber_amplitude;
+/// assert!((theory / steady.absorber_amplitude - 1.0).abs() < 0.01);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct SymmetricOrbit {
     /// `beta`, the amplitude of the absorber's sawtooth; the exact counterpart of `B/b`.
     pub absorber_amplitude: f64,

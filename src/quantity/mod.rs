@@ -1,5 +1,7 @@
 //! Numbers with their meaning: what a number is stands once in the [`catalogue`], how it is written in
 //! [`units`]. Pages, tables, axes, criteria and files take name, symbol, unit and digits from there.
+//!
+//! For the program itself: this module may change at any time.
 
 pub mod catalogue;
 pub mod numbers;

@@ -29,6 +29,7 @@ pub struct Window {
 
 /// A motion measured in full over a window; as a [`Motion`] it has peak, root mean square and the rest.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Attractor {
     /// The motion.
     pub motion: Motion,

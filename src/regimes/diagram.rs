@@ -45,6 +45,7 @@ pub struct DiagramPoint {
 
 /// Why a diagram cannot be drawn.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum DiagramError {
     /// A value that the parameter cannot have.
     #[error(transparent)]

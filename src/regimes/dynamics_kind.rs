@@ -7,6 +7,7 @@ use super::{Evidence, Exponent};
 /// What kind of dynamics a motion is; the regime says what its impacts do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum DynamicsKind {
     /// No impacts, and every period like the one before.
     AtRest,

@@ -61,6 +61,24 @@ impl Default for Effort {
 
 /// The distinct motions that the starts of each system lead to, in the order in which starts led to them.
 ///
+/// What eight starts of the system of the crate page lead to, the one from rest first:
+///
+/// ```
+/// # use vinesink::system::{Excitation, Parameters, System};
+/// # let system = System::new(Parameters {
+/// #     mass_ratio: 0.032 / 4.168, damping: 1.799, restitution: 0.6, frequency_ratio: 8.0 / 8.349,
+/// #     forcing_per_clearance: 4.3417, excitation: Excitation::BaseDisplacement,
+/// # })?;
+/// use vinesink::regimes::{Effort, Regime, motions, starts};
+///
+/// let places = [(system, starts::of(&system, 8).collect())];
+/// let found = &motions(&places, &Effort::over(100))?[0];
+/// let steady = found.iter().max_by_key(|motion| motion.starts).expect("at least one");
+/// assert_eq!((steady.regime, steady.repeats_after), (Regime::TwoSymmetric, Some(1)));
+/// assert!((steady.peak - 0.475).abs() < 1e-3); // over the clearance
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// [`StartError`] where a start is outside the cavity or not finite.
 pub fn motions(

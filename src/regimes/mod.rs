@@ -3,19 +3,19 @@
 //! `z` is the number of impacts per excitation period (section 3.1 of Li, Seguy, Berlioz 2016).
 //! Every name comes with the numbers that decided it.
 
-pub mod attractor;
+mod attractor;
 pub mod basins;
 pub mod diagram;
-pub mod dynamics_kind;
-pub mod energetics;
+mod dynamics_kind;
+mod energetics;
 pub mod long_term;
 pub mod lyapunov;
-pub mod modulation;
-pub mod motion;
-pub mod periodicity;
+pub(crate) mod modulation;
+pub(crate) mod motion;
+mod periodicity;
 pub mod return_map;
 pub mod search;
-pub mod sequence;
+mod sequence;
 pub mod share;
 pub mod starts;
 pub mod transient;
@@ -27,7 +27,7 @@ use crate::simulation::{Impact, Statistics};
 pub use attractor::{Attractor, Window};
 pub use dynamics_kind::DynamicsKind;
 pub use energetics::Energetics;
-pub use long_term::{Effort, long_term};
+pub use long_term::{Effort, long_term, motions};
 pub use lyapunov::{Exponent, Lyapunov};
 pub use modulation::{AbsorberAmplitude, Amplitudes, Captures};
 pub use motion::Motion;
@@ -39,6 +39,7 @@ pub use transient::Transient;
 /// The regimes of section 3.1, and rest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum Regime {
     /// More than two impacts per period, Fig. 4a.
     AboveTwo,
@@ -135,6 +136,7 @@ pub mod thresholds {
 
 /// The numbers that a regime was decided by.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Evidence {
     /// `z`.
     pub impacts_per_period: f64,
@@ -163,6 +165,7 @@ pub struct Evidence {
 
 /// A regime with its evidence.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Classification {
     /// The name: what the impacts do.
     pub regime: Regime,

@@ -17,6 +17,7 @@ const TWO: f64 = 2.0;
 
 /// A long-term motion that was simulated. Lengths over the clearance, fast time.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Motion {
     /// Largest absolute displacement of the oscillator that was seen.
     pub peak: f64,

@@ -5,6 +5,8 @@
 //! the quantities of `report.json`. Lengths named `_over_clearance`, and `B` and `C`, are over the clearance;
 //! other lengths are in metres for a physical case and in the case's own unit for a reduced one. Energies are in
 //! joules, or per `m1 omega0^2` in the case's own unit of length squared. Angles are in radians.
+//!
+//! For the program itself: this module may change at any time.
 
 use serde_json::{Value, json};
 

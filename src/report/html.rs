@@ -1,5 +1,7 @@
 //! An HTML page from its Markdown: one file that needs nothing from outside, with the drawings inline, formulas
 //! as MathML, a table of contents and tables that scroll.
+//!
+//! For the program itself: this module may change at any time.
 
 use std::collections::{BTreeMap, HashMap};
 

@@ -1,5 +1,7 @@
 //! The index of a folder of reports: every case with its verdict and its main numbers, and the cases side by
 //! side. Made from the `report.json` of each, not from the cases.
+//!
+//! For the program itself: this module may change at any time.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;

@@ -1,4 +1,6 @@
 //! LaTeX to MathML, for documents that must show formulas without any script.
+//!
+//! For the program itself: this module may change at any time.
 
 use pulldown_latex::config::{DisplayMode, RenderConfig};
 use pulldown_latex::{Event, Parser, ParserError, Storage, push_mathml};

@@ -37,6 +37,7 @@ pub fn is_of_report(file: &Path) -> bool {
 
 /// Why a report cannot be rendered.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum RenderError {
     /// A template does not fit the report.
     #[error("a template cannot be filled in: {0}")]

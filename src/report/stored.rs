@@ -1,4 +1,6 @@
 //! A `report.json` that is read back: its format is checked here, for whoever reads one.
+//!
+//! For the program itself: this module may change at any time.
 
 use serde_json::Value;
 

@@ -1,4 +1,4 @@
-//! Many trajectories at a time, [`LANES`] side by side: [`run`].
+//! Many trajectories at a time, sixteen side by side: [`run`].
 //!
 //! Each lane flies its own trajectory of its own system by the formulas of `phasor`, in the
 //! same order and with the same rounding as [`Simulation::run`], so that the bits agree. Panels are
@@ -37,6 +37,30 @@ pub struct Extent {
 /// Continues every trajectory by `periods` excitation periods, or until `impact_limit` further impacts
 /// of its own; `observers[k]` is told of `simulations[k]`. The result is that of [`Simulation::run`]
 /// for each, to the bit.
+///
+/// Three clearances side by side, and one of them alone:
+///
+/// ```
+/// # use vinesink::system::{Excitation, Parameters, System};
+/// # let system = System::new(Parameters {
+/// #     mass_ratio: 0.032 / 4.168, damping: 1.799, restitution: 0.6, frequency_ratio: 8.0 / 8.349,
+/// #     forcing_per_clearance: 4.3417, excitation: Excitation::BaseDisplacement,
+/// # })?;
+/// use vinesink::simulation::{Simulation, batch};
+/// use vinesink::system::State;
+///
+/// let start = State { y: 0.5, ..State::AT_REST };
+/// let wider = [1.0, 1.2, 1.4].map(|factor| system.with_clearance_scaled(factor).expect("positive"));
+/// let mut together = Vec::new();
+/// for system in &wider {
+///     together.push(Simulation::new(system, start, 0.0)?);
+/// }
+/// let mut alone = together[1].clone();
+/// batch::run(&mut together, 200, u64::MAX, &mut [(); 3]);
+/// alone.run(200, u64::MAX, &mut ());
+/// assert_eq!(together[1].state(), alone.state());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 ///
 /// # Panics
 /// If there are not as many observers as trajectories.

@@ -6,6 +6,8 @@
 //! sequence is over after `2 u / (a (1 - r))`, and the gap never opens further than `u^2 / (2 a)`.
 //! Once that excursion is below a named tolerance and the acceleration cannot change noticeably
 //! before the sequence is over, the rest of it is replaced by its end: the absorber sticks.
+//!
+//! For the program itself: this module may change at any time.
 
 use serde::Serialize;
 

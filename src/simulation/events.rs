@@ -8,6 +8,7 @@ use crate::system::State;
 
 /// A start that no motion can have.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum StartError {
     /// The absorber would start outside its cavity.
     #[error(
@@ -141,6 +142,39 @@ pub enum Detail {
 }
 
 /// Receives what happens, in order.
+///
+/// With the system of the crate page, whose steady motion has two impacts per period, half a period apart:
+///
+/// ```
+/// # use vinesink::system::{Excitation, Parameters, System};
+/// # let system = System::new(Parameters {
+/// #     mass_ratio: 0.032 / 4.168, damping: 1.799, restitution: 0.6, frequency_ratio: 8.0 / 8.349,
+/// #     forcing_per_clearance: 4.3417, excitation: Excitation::BaseDisplacement,
+/// # })?;
+/// use std::f64::consts::PI;
+/// use vinesink::orbits::attracting_orbit;
+/// use vinesink::simulation::{Detail, Impact, Observer, Simulation};
+///
+/// #[derive(Default)]
+/// struct Phases(Vec<f64>);
+///
+/// impl Observer for Phases {
+///     fn detail(&self) -> Detail {
+///         Detail::Events // flights need not be described
+///     }
+///     fn impact(&mut self, impact: &Impact) {
+///         self.0.push(impact.phase);
+///     }
+/// }
+///
+/// // From the exact orbit, right after an impact.
+/// let after = attracting_orbit(&system).expect("one attracts").orbit.cycle.impacts[0];
+/// let mut simulation = Simulation::new(&system, after.state(), after.phase)?;
+/// let mut phases = Phases::default();
+/// simulation.run(10, u64::MAX, &mut phases);
+/// assert!(phases.0.windows(2).all(|pair| ((pair[1] - pair[0]).abs() - PI).abs() < 1e-9));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub trait Observer {
     /// What it needs; it may be told of more. The same at any time.
     fn detail(&self) -> Detail {

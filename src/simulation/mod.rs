@@ -2,24 +2,24 @@
 //!
 //! Between events the motion is closed form ([`flow`]); events are found by a search that cannot
 //! step over one, in panels of two phasors (`phasor`) or step by step
-//! ([`crate::numerics::crossing`]); what happens at a wall is in [`contact`]; [`run`]
+//! (`numerics/crossing.rs`); what happens at a wall is in [`contact`]; [`Simulation`]
 //! strings it together and tells observers. Nothing here knows of the asymptotic theory.
 
 pub mod batch;
 mod certificate;
 pub mod contact;
-pub mod events;
+mod events;
 pub mod flow;
-pub mod history;
+mod history;
 mod integrals;
 mod panels;
 mod peaks;
 mod phasor;
-pub mod run;
+mod run;
 mod small;
-pub mod statistics;
+mod statistics;
 mod steps;
-pub mod tangent;
+mod tangent;
 pub mod trust;
 mod walls;
 

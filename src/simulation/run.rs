@@ -26,6 +26,7 @@ const FLIGHT: u64 = 240;
 /// Why a run ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum Stop {
     /// All periods asked for were simulated.
     EndTime,
@@ -69,6 +70,33 @@ pub(super) enum Mode {
 }
 
 /// A trajectory that can be continued.
+///
+/// Without excitation and damping an absorber that flies at the velocity 0.1 needs a time of 10 to the wall, where it
+/// hands over momentum:
+///
+/// ```
+/// use vinesink::simulation::{Simulation, Stop};
+/// use vinesink::system::{Excitation, Parameters, State, System};
+///
+/// let (mass_ratio, restitution) = (0.01, 0.6);
+/// let system = System::new(Parameters {
+///     mass_ratio,
+///     restitution,
+///     damping: 0.0,
+///     frequency_ratio: 0.5, // one period is 4 pi = 12.6
+///     forcing_per_clearance: 0.0,
+///     excitation: Excitation::Force,
+/// })?;
+/// let start = State { y_velocity: 0.1, ..State::AT_REST };
+/// let mut simulation = Simulation::new(&system, start, 0.0)?;
+/// assert_eq!(simulation.run(1, u64::MAX, &mut ()), Stop::EndTime);
+/// assert_eq!(simulation.impacts(), 1);
+/// let speed = 0.1 * (mass_ratio - restitution) / (1.0 + mass_ratio);
+/// assert!((simulation.state().y_velocity - speed).abs() < 1e-15);
+/// // A start outside of the cavity is refused.
+/// assert!(Simulation::new(&system, State { y: 1.5, ..start }, 0.0).is_err());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct Simulation {
     pub(super) system: System,
@@ -146,6 +174,11 @@ impl Simulation {
         self.at.state
     }
 
+    /// Phase of the excitation, 0 to 2 pi: 0 after a run to the end of a period.
+    pub fn phase(&self) -> f64 {
+        self.at.phase
+    }
+
     /// Whole excitation periods since the start of the trajectory.
     pub fn periods(&self) -> u64 {
         self.at.turns
@@ -173,7 +206,8 @@ impl Simulation {
     }
 
     /// Continues to the end of the `periods`-th excitation period from here, or until
-    /// `impact_limit` further impacts have happened.
+    /// `impact_limit` further impacts have happened (`u64::MAX` for no limit); says which. `&mut ()` observes
+    /// nothing. What was measured of a run that did not reach its [`Stop::EndTime`] is that of a part.
     pub fn run(&mut self, periods: u64, impact_limit: u64, observer: &mut dyn Observer) -> Stop {
         let limits = Limits::of(self, periods, impact_limit);
         loop {

@@ -40,6 +40,7 @@ pub struct SustainedContact {
 
 /// What one excitation period looked like.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+#[non_exhaustive]
 pub struct PeriodRecord {
     /// Impacts on the `+b` and on the `-b` side.
     pub impacts: [u32; 2],

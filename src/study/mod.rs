@@ -36,6 +36,7 @@ pub use proofs::{LongTermMotions, Proof};
 
 /// Why a case cannot be studied.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum StudyError {
     /// The theory cannot be evaluated.
     #[error(transparent)]

@@ -1,5 +1,7 @@
 //! Many systems at once: a grid over parameters of a case, cut into chunks with fixed numbers, so that any of
 //! them can be worked out anywhere and at any time, with the same bytes.
+//!
+//! For the program itself: this module may change at any time.
 
 pub mod columns;
 pub mod csv;

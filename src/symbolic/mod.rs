@@ -5,6 +5,8 @@
 //! printed, with symbols or with a case's numbers. So what is printed is what is evaluated, operation by
 //! operation, and evaluating costs what the expression costs. Nothing here rearranges an expression: what
 //! follows from the paper's equations is derived by hand and proven by the tests, against those equations.
+//!
+//! For the program itself: this module may change at any time.
 
 mod equation;
 mod expr;

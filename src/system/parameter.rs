@@ -14,6 +14,7 @@ names! { key:
     /// A number of a case, or of a start, that an axis varies; every other number of the case stays. A
     /// design's own are in SI units, or plain numbers of a reduced design.
     #[derive(Serialize)]
+    #[non_exhaustive]
     pub enum Parameter {
         /// Clearances.
         Clearance = "clearance",

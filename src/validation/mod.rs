@@ -6,6 +6,8 @@
 //! proportion to the mass ratio, and the tolerance of each claim says how. A refuted claim is a
 //! result, not an error. Only claims that the case raises are checked. Their words are in
 //! `templates/components.tera`.
+//!
+//! For the program itself: this module may change at any time.
 
 pub mod asymptotic_error;
 pub mod boundaries;
@@ -15,7 +17,7 @@ pub mod orbits;
 pub mod tolerance;
 
 pub use asymptotic_error::AsymptoticError;
-pub use claim::{Claim, Finding, Reached, Reason, Statement, Verdict};
+pub use claim::{Claim, Finding, NearBoundary, Reached, Reason, Statement, Verdict};
 
 use crate::analysis::Analysis;
 use crate::orbits::FullSystem;

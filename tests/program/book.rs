@@ -358,6 +358,7 @@ fn options(command: &str) -> Vec<String> {
 fn every_page_is_listed_short_and_says_what_it_is_for() {
     let pages = pages();
     let summary = &pages["SUMMARY.md"];
+    let generated = Regex::new(r"(?s)<!-- equations:.*?<!-- end -->").expect("a pattern");
     for (name, text) in &pages {
         if name == "SUMMARY.md" {
             continue;
@@ -366,7 +367,6 @@ fn every_page_is_listed_short_and_says_what_it_is_for() {
         let first = text.lines().skip(1).find(|line| !line.is_empty() && !line.starts_with("<!--"));
         let first = first.unwrap_or_default();
         assert!(first.starts_with("After this page you "), "{name} begins with: {first}");
-        let generated = Regex::new(r"(?s)<!-- equations:.*?<!-- end -->").expect("a pattern");
         let written = generated.replace_all(text, "");
         let lines = fenced(&written).filter(|(line, inside)| !inside && !line.is_empty()).count();
         // The case file has a line for each key.

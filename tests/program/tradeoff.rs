@@ -53,7 +53,8 @@ fn the_mean_square_of_a_fixed_point_is_that_of_its_motion() {
         for k in 0..parts {
             // A later phase of the excitation is an earlier one of the motion.
             let turn = std::f64::consts::TAU * f64::from(k) / f64::from(parts);
-            let later = FixedPoint { eta: point.eta - turn, ..point };
+            let mut later: FixedPoint = point;
+            later.eta -= turn;
             let x = state_of(&later, &system).x;
             sum += x * x;
         }

@@ -9,6 +9,8 @@
 //!                       └── names without ──┘     └─> text (all words)
 //!                           a place go to a legend
 //! ```
+//!
+//! For the program itself: this module may change at any time.
 
 mod candidates;
 mod colors;

@@ -25,6 +25,30 @@ const LEAST_DAMPING: f64 = 1e-4;
 const INTEGRALS: u64 = 5 * operation_count::ELEMENTARY + 300;
 
 /// An [`Observer`] that measures [`Statistics`] over whole excitation periods.
+///
+/// With the system of the crate page, once its transient is over:
+///
+/// ```
+/// # use vinesink::system::{Excitation, Parameters, System};
+/// # let system = System::new(Parameters {
+/// #     mass_ratio: 0.032 / 4.168, damping: 1.799, restitution: 0.6, frequency_ratio: 8.0 / 8.349,
+/// #     forcing_per_clearance: 4.3417, excitation: Excitation::BaseDisplacement,
+/// # })?;
+/// use vinesink::simulation::{Measurement, Simulation};
+/// use vinesink::system::State;
+///
+/// let mut simulation = Simulation::new(&system, State { y: 0.5, ..State::AT_REST }, 0.0)?;
+/// simulation.run(1000, u64::MAX, &mut ());
+/// let mut measured = Measurement::begin(&system, simulation.state());
+/// simulation.run(100, u64::MAX, &mut measured);
+///
+/// let statistics = measured.statistics();
+/// assert_eq!(statistics.impacts_per_period(), 2.0);
+/// assert!((statistics.peak() - 0.475).abs() < 1e-3); // over the clearance
+/// // Work and losses are integrated apart from the energy that is stored: the balance is a check.
+/// assert!(statistics.energy().relative_residual < 1e-12);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct Measurement {
     statistics: Statistics,

@@ -1,0 +1,113 @@
+#!/usr/bin/env python3
+"""Compares the public interface of the physics with docs/public-api.txt.
+
+Run it after `cargo doc --no-deps --no-default-features`; with `--update` it writes the list.
+"""
+
+import argparse
+import difflib
+import os
+import re
+import sys
+from html.parser import HTMLParser
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+LIST = ROOT / "docs" / "public-api.txt"
+CRATE = "vinesink"
+# Ids on the page of an item; a field of a variant is `variant.NAME.field.NAME`.
+MEMBER = re.compile(
+    r"(method|tymethod|variant|structfield|associatedconstant|associatedtype)\.\w+(\.field\.\w+)?"
+)
+# Sections that list what every type has, or what other crates' traits add.
+FOREIGN = {"trait-implementations-list", "synthetic-implementations-list", "blanket-implementations-list"}
+VOID = {"area", "base", "br", "col", "embed", "hr", "img", "input", "link", "meta", "source", "wbr"}
+
+
+class Links(HTMLParser):
+    """The items of all.html."""
+
+    def __init__(self):
+        super().__init__()
+        self.found = []
+
+    def handle_starttag(self, tag, attributes):
+        href = dict(attributes).get("href") or ""
+        if tag == "a" and re.fullmatch(r"(?:[\w]+/)*\w+\.\w+\.html", href):
+            self.found.append(href)
+
+
+class Members(HTMLParser):
+    """Methods, fields, variants and constants on the page of an item, but for those of trait implementations."""
+
+    def __init__(self):
+        super().__init__()
+        self.open = []
+        self.found = set()
+        self.non_exhaustive = False
+
+    def handle_starttag(self, tag, attributes):
+        attributes = dict(attributes)
+        name = attributes.get("id") or ""
+        if not any(one in FOREIGN for one in self.open) and MEMBER.fullmatch(name):
+            self.found.add(name)
+        if name.endswith("non-exhaustive") or "non-exhaustive" in (attributes.get("class") or "").split():
+            self.non_exhaustive = True
+        if tag not in VOID:
+            self.open.append(name)
+
+    def handle_endtag(self, tag):
+        if tag not in VOID and self.open:
+            self.open.pop()
+
+
+def parsed(parser, path):
+    parser.feed(path.read_text(encoding="utf-8"))
+    parser.close()
+    return parser
+
+
+def item_lines(folder, href):
+    """`struct system::System`, then its members."""
+    *modules, file = href.split("/")
+    kind, name, _ = file.split(".")
+    path = "::".join([*modules, name])
+    page = parsed(Members(), folder / href)
+    yield f"{kind} {path}" + (" non_exhaustive" if page.non_exhaustive else "")
+    for member in page.found:
+        member_kind, rest = member.split(".", 1)
+        member_kind = "method" if member_kind == "tymethod" else member_kind
+        yield f"{member_kind} {path}::{rest.replace('.field.', '::')}"
+
+
+def main():
+    arguments = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    arguments.add_argument("--update", action="store_true", help="write the list")
+    target = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
+    arguments.add_argument("--doc", type=Path, default=target / "doc", help="folder of cargo doc")
+    given = arguments.parse_args()
+    folder = given.doc / CRATE
+    if not (folder / "all.html").is_file():
+        sys.exit(f"{folder / 'all.html'} is missing: run `cargo doc --no-deps --no-default-features`")
+    if (folder / "case" / "index.html").is_file() and "case/" in "".join(parsed(Links(), folder / "all.html").found):
+        sys.exit("the documentation is of all features: run `cargo doc --no-deps --no-default-features`")
+    links = parsed(Links(), folder / "all.html").found
+    lines = sorted({line for href in links for line in item_lines(folder, href)})
+    now = "".join(f"{line}\n" for line in lines)
+    if given.update:
+        LIST.write_text(now, encoding="utf-8")
+        print(f"{LIST.relative_to(ROOT)}: {len(lines)} items")
+        return
+    before = LIST.read_text(encoding="utf-8") if LIST.is_file() else ""
+    if before == now:
+        print(f"{len(lines)} public items, as in {LIST.relative_to(ROOT)}")
+        return
+    changes = difflib.unified_diff(
+        before.splitlines(), now.splitlines(), "docs/public-api.txt", "this version", lineterm="", n=0
+    )
+    print("\n".join(changes))
+    sys.exit("the public interface changed; if that is meant, run `python3 docs/public-api.py --update`")
+
+
+if __name__ == "__main__":
+    main()
