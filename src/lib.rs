@@ -57,7 +57,7 @@
 //!
 //! | feature | adds | crates |
 //! | --- | --- | --- |
-//! | none | the layers above: no files, threads or C code; WebAssembly too | `fearless_simd`, `libm`, `nalgebra`, `roots`, `serde`, `thiserror` |
+//! | none | the layers above: no files, threads or C code | `fearless_simd`, `libm`, `nalgebra`, `roots`, `serde`, `thiserror` |
 //! | `case` | case files with units, bands, criteria, optimisation, studies | `argmin`, `miette`, `rand_xoshiro`, `schemars`, `serde_json`, `sha2`, `strsim`, `toml` |
 //! | `report` | reports with figures, comparisons of reports, the evidence | `astro-float`, `base64`, `plotters`, `png`, `pulldown-cmark`, `pulldown-latex`, `tempfile`, `tera` |
 //! | `sweep` | grids of systems in Parquet files | `csv`, `parquet` |
