@@ -1,8 +1,8 @@
 //! What a tool's impacts are worth: against the reference of 77 digits over the first periods, and
 //! flight by flight against the exact next impact.
 
+use vinesink::simulation::Simulation;
 use vinesink::simulation::flow::Oscillator;
-use vinesink::simulation::{Detail, Impact, Observer, Simulation};
 use vinesink::system::{State, System};
 
 use crate::reference::{Moment, Reference};
@@ -51,18 +51,6 @@ pub struct Flights {
     pub deepest: f64,
 }
 
-#[derive(Default)]
-struct Next(Option<Impact>);
-
-impl Observer for Next {
-    fn detail(&self) -> Detail {
-        Detail::Events
-    }
-    fn impact(&mut self, impact: &Impact) {
-        self.0.get_or_insert(*impact);
-    }
-}
-
 fn state(hit: &Hit) -> State {
     State { x: hit.x, x_velocity: hit.x_velocity, y: hit.x - hit.side, y_velocity: hit.y_velocity }
 }
@@ -77,11 +65,10 @@ pub fn flights(system: &System, hits: &[Hit]) -> Flights {
         let Ok(simulation) = Simulation::new(system, state(from), phase) else { continue };
         let mut simulation = simulation.step_by_step();
         let begin = simulation_phase(phase) / system.frequency_ratio();
-        let mut next = Next::default();
-        simulation.run(PATIENCE, 1, &mut (&mut next, &mut ()));
+        let next = simulation.next_impact(PATIENCE);
         flights.checked += 1;
         let taken = to.time - from.time;
-        match next.0 {
+        match next {
             Some(impact) => {
                 let exact = impact.tau - begin;
                 if taken < exact - SAME {

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::events::{Impact, Observer, Segment};
+use super::events::{Detail, Impact, Observer, Segment};
 use crate::system::State;
 
 /// Keeps impacts: all of them, or the last ones.
@@ -27,6 +27,9 @@ impl ImpactLog {
 }
 
 impl Observer for ImpactLog {
+    fn detail(&self) -> Detail {
+        Detail::Events
+    }
     fn impact(&mut self, impact: &Impact) {
         if self.impacts.len() >= 2 * self.kept {
             self.impacts.drain(..self.kept);

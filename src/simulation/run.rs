@@ -11,6 +11,7 @@ use serde::Serialize;
 use super::contact::{AtWall, ContactTolerance, Rebound};
 use super::events::{Absorber, Impact, Observer, Segment, Side, StartError};
 use super::flow::{Kinematics, Oscillator};
+use super::history::ImpactLog;
 use super::panels::{FlightEnd, Limits};
 use super::phasor::{Line, Rates, Steady};
 use super::walls::{Sticking, TOUCH_ULPS};
@@ -218,6 +219,13 @@ impl Simulation {
                 return stop;
             }
         }
+    }
+
+    /// Continues to the next impact, which is returned, or by so many excitation periods if there is none.
+    pub fn next_impact(&mut self, periods: u64) -> Option<Impact> {
+        let mut seen = ImpactLog::default();
+        self.run(periods, 1, &mut seen);
+        seen.impacts.first().copied()
     }
 
     /// Continues by one impact, release or end of a period, or several within the limits.

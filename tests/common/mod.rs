@@ -62,3 +62,25 @@ pub fn caption_is_short(figure: &Figure) {
     assert!(caption.ends_with('.'), "{}: {caption}", figure.name);
     assert!(figure.alt.len() > 30 && figure.alt != figure.caption, "{}", figure.name);
 }
+
+/// A footbridge whose mode lies in the middle of its band.
+pub const BRIDGE: &str = r#"title = "Footbridge mode 1, 2.1 Hz"
+source = "made up for this test"
+
+[oscillator]
+mass = "1200 kg"
+frequency = "2.1 Hz"
+damping_ratio = "0.4 %"
+
+[absorber]
+mass_ratio = "1.5 %"
+clearance = "50 mm"
+restitution = 0.6
+
+[excitation]
+kind = "force"
+amplitude = "250 N"
+frequency = "2.1 Hz"
+"#;
+/// A band around it.
+pub const BAND: &str = "\n[band]\nfrom = \"1.9 Hz\"\nto = \"2.3 Hz\"\n";

@@ -13,7 +13,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use vinesink::case::Case;
-use vinesink::simulation::{Detail, Impact, Measurement, Observer, Segment, Simulation, Stop};
+use vinesink::simulation::{Impact, Measurement, Observer, Segment, Simulation, Stop};
 use vinesink::system::{Excitation, Parameters, State, System};
 
 /// Cases of each target that always run.
@@ -248,18 +248,6 @@ fn bounded(what: &str, simulation: &Simulation, sticks: u64) {
     assert!(evaluations as f64 <= most, "{what}: {evaluations} evaluations of {most}");
 }
 
-#[derive(Default)]
-struct Next(Option<Impact>);
-
-impl Observer for Next {
-    fn detail(&self) -> Detail {
-        Detail::Events
-    }
-    fn impact(&mut self, impact: &Impact) {
-        self.0.get_or_insert(*impact);
-    }
-}
-
 fn same_as_the_slow_search(what: &str, system: &System, impacts: &[Impact]) {
     // Accelerations, from the motion's size.
     let fastest = system.frequency_ratio().max(1.0);
@@ -275,9 +263,7 @@ fn same_as_the_slow_search(what: &str, system: &System, impacts: &[Impact]) {
         let next = |slowly: bool| {
             let simulation = Simulation::new(system, after, from.phase).expect("on a wall");
             let mut simulation = if slowly { simulation.step_by_step() } else { simulation };
-            let mut next = Next::default();
-            simulation.run(3, 1, &mut next);
-            next.0
+            simulation.next_impact(3)
         };
         let (fast, slow) = (next(false), next(true));
         let (Some(fast), Some(slow)) = (fast, slow) else {

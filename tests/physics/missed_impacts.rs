@@ -8,7 +8,7 @@
 use crate::common;
 use std::env;
 
-use vinesink::simulation::{Detail, Impact, Observer, Simulation, Stop};
+use vinesink::simulation::{Impact, Simulation};
 use vinesink::system::{Excitation, Parameters, State, System};
 
 /// Flights without a word from the caller: a second or two.
@@ -18,27 +18,9 @@ const EACH: u64 = 2_000;
 /// Periods after which a flight without impact is given up by both searches.
 const PATIENCE: u64 = 50;
 
-#[derive(Default)]
-struct Next(Option<Impact>);
-
-impl Observer for Next {
-    fn detail(&self) -> Detail {
-        Detail::Events
-    }
-    fn impact(&mut self, impact: &Impact) {
-        self.0.get_or_insert(*impact);
-    }
-}
-
 /// The next impact after a state.
 fn next(mut simulation: Simulation) -> Option<Impact> {
-    let mut seen = Next::default();
-    for _ in 0..PATIENCE {
-        if simulation.run(1, 1, &mut seen) == Stop::NotFinite || seen.0.is_some() {
-            break;
-        }
-    }
-    seen.0
+    simulation.next_impact(PATIENCE)
 }
 
 /// Numbers in `0..1` that fill the unit cube evenly: multiples of roots of primes.
@@ -86,11 +68,7 @@ fn no_impact_is_missed() {
         let start = State { x: 0.0, x_velocity: 0.1, y: 0.0, y_velocity: 1.0 };
         let mut simulation = Simulation::new(&system, start, 0.0).expect("inside the cavity");
         for _ in 0..EACH {
-            let mut seen = Next::default();
-            if simulation.run(PATIENCE, 1, &mut seen) == Stop::NotFinite {
-                break;
-            }
-            let Some(here) = seen.0 else { break };
+            let Some(here) = simulation.next_impact(PATIENCE) else { break };
             // An absorber that leaves its wall more slowly than rounding can tell may as well be
             // said to touch it once more; whether it does, no search can know.
             let speeds = here.x_velocity_after.abs() + here.y_velocity_after.abs();

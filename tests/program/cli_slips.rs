@@ -11,26 +11,8 @@ use assert_cmd::Command;
 use tempfile::TempDir;
 use vinesink::case::Case;
 
-/// A footbridge whose mode lies in the middle of its band.
-const BRIDGE: &str = r#"title = "Footbridge mode 1, 2.1 Hz"
-source = "made up for this test"
+use crate::common::{BAND, BRIDGE};
 
-[oscillator]
-mass = "1200 kg"
-frequency = "2.1 Hz"
-damping_ratio = "0.4 %"
-
-[absorber]
-mass_ratio = "1.5 %"
-clearance = "50 mm"
-restitution = 0.6
-
-[excitation]
-kind = "force"
-amplitude = "250 N"
-frequency = "2.1 Hz"
-"#;
-const BAND: &str = "\n[band]\nfrom = \"1.9 Hz\"\nto = \"2.3 Hz\"\n";
 const CRITERIA: &str = "\n[criteria]\npeak_displacement = \"<= 8 mm\"\n";
 /// Hooke's way to the same structure: 4 pi^2 2.1^2 1200 N/m.
 const BY_STIFFNESS: [&str; 2] = ["frequency = \"2.1 Hz\"\nd", "stiffness = \"208.9 kN/m\"\nd"];

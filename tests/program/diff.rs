@@ -9,6 +9,8 @@ use std::sync::OnceLock;
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
+use crate::common::{BAND, BRIDGE};
+
 /// A motion that repeats, one that is chaotic.
 const STEADY: &str = "li2016-8p5hz-fig4c";
 const CHAOTIC: &str = "li2016-8p5hz-fig4d";
@@ -538,30 +540,8 @@ fn one_side_without_reports_makes_all_of_the_other_new() {
     assert!(printed.contains("1 report added") && printed.contains(STEADY), "{printed}");
 }
 
-/// A case with a band and criteria that takes a moment.
-const BAND: &str = r#"
-title = "Beam"
-source = "made up"
-
-[oscillator]
-mass = "1200 kg"
-frequency = "2.1 Hz"
-damping_ratio = "0.4 %"
-
-[absorber]
-mass_ratio = "1.5 %"
-clearance = "50 mm"
-restitution = 0.6
-
-[excitation]
-kind = "force"
-amplitude = "250 N"
-frequency = "2.1 Hz"
-
-[band]
-from = "1.9 Hz"
-to = "2.3 Hz"
-
+/// What makes of a footbridge a case with a band and criteria that takes a moment.
+const JUDGED: &str = r#"
 [simulation]
 starts = 2
 periods = 50
@@ -577,7 +557,7 @@ reduction_db_tmd = ">= -3 dB"
 /// Writes `cases/beam.toml` and, into `reports`, its report.
 fn beam(folder: &Path, clearance: &str, reports: &str) {
     fs::create_dir_all(folder.join("cases")).expect("a folder");
-    let case = BAND.replace("50 mm", clearance);
+    let case = format!("{BRIDGE}{BAND}{JUDGED}").replace("50 mm", clearance);
     fs::write(folder.join("cases/beam.toml"), case).expect("written");
     let output = vinesink(folder, &["report", "cases/beam.toml", "--out", reports]);
     assert!(output.status.success(), "{}", text(&output.stderr));

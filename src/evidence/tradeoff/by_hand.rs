@@ -8,7 +8,7 @@
 use serde::Serialize;
 
 use crate::operation_count::{self, ELEMENTARY};
-use crate::simulation::{Impact, ImpactLog, Side, Simulation, StartError, Stop};
+use crate::simulation::{Impact, Side, Simulation, StartError};
 use crate::system::{State, System};
 
 /// Halvings of a step that locate an impact to rounding.
@@ -212,12 +212,6 @@ impl Flights {
 fn next(system: &System, state: State, phase: f64) -> Result<Option<Impact>, StartError> {
     let mut simulation = Simulation::new(system, state, phase)?;
     let turned = phase.rem_euclid(std::f64::consts::TAU) / system.frequency_ratio();
-    let mut seen = ImpactLog::default();
-    for _ in 0..PATIENCE {
-        if simulation.run(1, 1, &mut seen) == Stop::NotFinite || !seen.impacts.is_empty() {
-            break;
-        }
-    }
-    let first = seen.impacts.first();
-    Ok(first.map(|impact| Impact { tau: impact.tau - turned, ..*impact }))
+    let next = simulation.next_impact(PATIENCE);
+    Ok(next.map(|impact| Impact { tau: impact.tau - turned, ..impact }))
 }

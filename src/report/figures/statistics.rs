@@ -15,6 +15,7 @@ use crate::study::plots::{MotionExponents, StartPlane, drawn};
 
 use super::Scene;
 use super::chart::{Chart, FITTED};
+use super::regimes::tint;
 
 /// At most so many points of a return map, the last ones.
 const POINTS: usize = 600;
@@ -87,14 +88,13 @@ fn return_facts(all: &[[f64; 2]], distinct: &[[f64; 2]], index: usize) -> Value 
     })
 }
 
-/// The tint of each motion, of lightnesses of their own so that a print in grey tells them apart; the last
-/// stands for all further ones.
+/// The tint of each motion in turn, whatever its regime; the last stands for all further ones.
 const TINTS: [Tint; 5] = [
-    Tint([0x53, 0xAC, 0xDB]),
-    Tint([0xF1, 0xAA, 0x63]),
-    Tint([0x8F, 0xE2, 0xC0]),
-    Tint([0xBE, 0x74, 0x9D]),
-    Tint([0xF2, 0xEB, 0x99]),
+    tint(Regime::TwoAsymmetric),
+    tint(Regime::StronglyModulated),
+    tint(Regime::TwoSymmetric),
+    tint(Regime::AboveTwo),
+    tint(Regime::BelowTwo),
 ];
 
 /// Which starts lead to which long-term motion.
