@@ -128,13 +128,22 @@ pub enum Design {
 
 /// A design of a vibro-impact nonlinear energy sink: either the tables oscillator, absorber and
 /// excitation, or the table reduced.
-#[derive(Deserialize, JsonSchema)]
+#[derive(JsonSchema)]
 #[expect(
     dead_code,
     reason = "each table is read by itself, so that one that is wrong hides no other"
 )]
 #[schemars(title = "vinesink case", deny_unknown_fields, extend("oneOf" = one_design()))]
 struct CaseFile {
+    #[schemars(flatten)]
+    heading: Heading,
+    #[schemars(flatten)]
+    tables: Tables,
+}
+
+/// What stands before the first table.
+#[derive(Deserialize, JsonSchema)]
+struct Heading {
     /// What this case is, in a line.
     #[schemars(pattern(r"\S"), example = "what this case is, in a line")]
     title: String,
@@ -142,6 +151,14 @@ struct CaseFile {
     #[schemars(pattern(r"\S"))]
     #[schemars(example = "where the numbers come from: a publication, a measurement, a guess")]
     source: String,
+}
+
+#[derive(Deserialize, JsonSchema)]
+#[expect(
+    dead_code,
+    reason = "each table is read by itself, so that one that is wrong hides no other"
+)]
+struct Tables {
     oscillator: Option<physical::OscillatorTable>,
     absorber: Option<physical::AbsorberTable>,
     excitation: Option<physical::ExcitationTable>,
@@ -223,8 +240,8 @@ fn read(reader: &mut Reader, document: &DeTable, text_hash: String) -> Option<Ca
         );
         return None;
     }
-    let root = reader.root::<CaseFile>(&schema::SCHEMA, document);
-    let file = reader.read::<CaseFile>(&root);
+    let root = reader.root::<Heading, Tables>(document);
+    let heading = reader.read::<Heading>(&root);
     let design = read_design(reader, &root);
     reader.design = design;
     let simulation = reader.settings::<SimulationSettings>(&root, "simulation");
@@ -235,11 +252,11 @@ fn read(reader: &mut Reader, document: &DeTable, text_hash: String) -> Option<Ca
     let optimize = optimize::read(reader, &root);
     let uncertainty = uncertainty::read(reader, &root);
     let sweep = sweep::read(reader, &root);
-    let (file, design) = (file?, design?);
+    let (heading, design) = (heading?, design?);
     let system = system_of(reader, &root, &design)?;
     Some(Case {
-        title: file.title,
-        source: file.source,
+        title: heading.title,
+        source: heading.source,
         text_hash,
         design,
         simulation: simulation.unwrap_or_default(),

@@ -4,7 +4,9 @@ use serde_json::Value;
 
 use super::Design;
 use super::number::Form;
-use super::schema::SCHEMA;
+use super::physical::{AbsorberTable, ExcitationTable, OscillatorTable};
+use super::reduced::Reduced;
+use super::schema::of_table;
 use crate::quantity::catalogue as of;
 use crate::quantity::{Dimension, Kind};
 use crate::system::{Excitation, Parameter};
@@ -148,22 +150,26 @@ impl Design {
 
     /// The key in which a design has a parameter; `None` where it has no such number.
     fn schema(&self, parameter: Parameter) -> Option<&'static Value> {
-        let properties = |table: &str| &SCHEMA["properties"][table]["properties"];
+        let reduced = || &of_table::<Reduced>()["properties"];
         match (parameter, self) {
-            (Parameter::AbsorberMass, Self::Physical(_)) => properties("absorber").get("mass"),
+            (Parameter::AbsorberMass, Self::Physical(_)) => {
+                of_table::<AbsorberTable>()["properties"].get("mass")
+            }
             (Parameter::Amplitude, Self::Physical(physical)) => {
                 let branch = usize::from(physical.excitation == Excitation::Force);
-                let branch = &SCHEMA["properties"]["excitation"]["oneOf"][branch];
+                let branch = &of_table::<ExcitationTable>()["oneOf"][branch];
                 branch["properties"].get(parameter.key())
             }
-            (Parameter::Frequency, Self::Reduced(_)) => {
-                properties("reduced").get("frequency_ratio")
-            }
-            (Parameter::Amplitude, Self::Reduced(_)) => properties("reduced").get("forcing"),
-            (_, Self::Reduced(_)) => properties("reduced").get(parameter.key()),
+            (Parameter::Frequency, Self::Reduced(_)) => reduced().get("frequency_ratio"),
+            (Parameter::Amplitude, Self::Reduced(_)) => reduced().get("forcing"),
+            (_, Self::Reduced(_)) => reduced().get(parameter.key()),
             (_, Self::Physical(_)) => {
-                let mut tables = super::physical::TABLES.map(properties).into_iter();
-                tables.find_map(|table| table.get(parameter.key()))
+                let tables = [
+                    of_table::<OscillatorTable>,
+                    of_table::<AbsorberTable>,
+                    of_table::<ExcitationTable>,
+                ];
+                tables.iter().find_map(|table| table()["properties"].get(parameter.key()))
             }
         }
     }

@@ -4,6 +4,7 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
+use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
 use toml::Spanned;
@@ -12,6 +13,7 @@ use toml::de::{DeTable, DeValue};
 use super::Design;
 use super::error::Problem;
 use super::inputs::Input;
+use super::schema::{SCHEMA, of_table};
 use super::value::nearest;
 
 /// The text being read, with what was found wrong and what was read so far.
@@ -45,17 +47,18 @@ impl<'t> Reader<'t> {
         self.text[span].trim_matches(['"', '\'']).to_owned()
     }
 
-    /// Opens the top level, reporting every unknown key in it.
-    pub fn root<'d, T: DeserializeOwned>(
+    /// Opens the top level, which has keys and tables, reporting every unknown one in it.
+    pub fn root<'d, Keys: DeserializeOwned + JsonSchema, Tables: DeserializeOwned>(
         &mut self,
-        schema: &'static Value,
         entries: &'d DeTable<'d>,
     ) -> Table<'d> {
-        self.open::<T>(String::new(), schema, 0..self.first_line(), entries)
+        let keys = [fields::<Keys>(), fields::<Tables>()].concat();
+        self.open(String::new(), of_table::<Keys>(), keys, 0..self.first_line(), entries)
     }
 
-    /// Opens a table, reporting every unknown key in it; `None` when there is no such table.
-    pub fn table<'d, T: DeserializeOwned>(
+    /// Opens a table, reporting every unknown key in it; `None` when there is no such table. It is read by its
+    /// parent's schema, which may say more of it, if that knows it, else by its own.
+    pub fn table<'d, T: DeserializeOwned + JsonSchema>(
         &mut self,
         parent: &Table<'d>,
         name: &str,
@@ -66,8 +69,8 @@ impl<'t> Reader<'t> {
             parent => format!("{parent}.{name}"),
         };
         if let DeValue::Table(entries) = value.get_ref() {
-            let schema = &parent.schema["properties"][name];
-            return Some(self.open::<T>(path, schema, key.span(), entries));
+            let schema = parent.schema["properties"].get(name).unwrap_or_else(of_table::<T>);
+            return Some(self.open(path, schema, fields::<T>().to_vec(), key.span(), entries));
         }
         let message = format!("`{name}` is {}, but it must be a table", kind(value.get_ref()));
         let help = format!("write [{path}] on a line of its own and the table's keys below it");
@@ -75,14 +78,14 @@ impl<'t> Reader<'t> {
         None
     }
 
-    fn open<'d, T: DeserializeOwned>(
+    fn open<'d>(
         &mut self,
         path: String,
         schema: &'static Value,
+        mut keys: Vec<&'static str>,
         span: Range<usize>,
         entries: &'d DeTable<'d>,
     ) -> Table<'d> {
-        let mut keys = fields::<T>().to_vec();
         keys.extend(schema["x-keys"].as_array().into_iter().flatten().filter_map(Value::as_str));
         let mut table = Table { path, schema, keys, entries, span, misspelled: Vec::new() };
         let known = |key: &str| table.keys.contains(&key);
@@ -115,7 +118,7 @@ impl<'t> Reader<'t> {
     }
 
     /// Reads a table that may be missing.
-    pub fn optional<'d, T: DeserializeOwned>(
+    pub fn optional<'d, T: DeserializeOwned + JsonSchema>(
         &mut self,
         root: &Table<'d>,
         name: &str,
@@ -126,7 +129,11 @@ impl<'t> Reader<'t> {
     }
 
     /// The same without its places.
-    pub fn settings<T: DeserializeOwned>(&mut self, root: &Table, name: &str) -> Option<T> {
+    pub fn settings<T: DeserializeOwned + JsonSchema>(
+        &mut self,
+        root: &Table,
+        name: &str,
+    ) -> Option<T> {
         self.optional(root, name).map(|(_, read)| read)
     }
 
@@ -253,12 +260,12 @@ pub(super) fn kind(value: &DeValue) -> &'static str {
 
 /// The tables that a key belongs in.
 fn homes_of(key: &str) -> String {
-    let root = &super::schema::SCHEMA["properties"];
+    let root = &SCHEMA["properties"];
     let mut homes = Vec::new();
     if root.get(key).is_some() {
         homes.push("the lines before the first table".to_owned());
     }
-    for name in fields::<super::CaseFile>() {
+    for name in fields::<super::Tables>() {
         let keys = &root[name]["properties"];
         if keys.get(key).is_some() {
             homes.push(format!("[{name}]"));

@@ -5,7 +5,9 @@
 //! `x-measurand` what a text with a unit measures, `x-parameter` whose units the case's design decides,
 //! `x-symbol` the symbol in LaTeX, `x-plain` an example beside `[reduced]`, `x-keys` the order of keys.
 
-use std::sync::LazyLock;
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::sync::{LazyLock, Mutex, PoisonError};
 
 use schemars::generate::SchemaSettings;
 use schemars::transform::RecursiveTransform;
@@ -17,8 +19,16 @@ use crate::quantity::Dimension;
 /// The name under which a case's first line refers to its schema.
 pub const FILE_NAME: &str = "vinesink.schema.json";
 
-/// The schema by which a case is read.
+/// The schema of a whole case file.
 pub(super) static SCHEMA: LazyLock<Value> = LazyLock::new(schema_of::<super::CaseFile>);
+
+/// The schema by which a table is read, derived when it is first asked for: a case has four or five of a
+/// dozen.
+pub(super) fn of_table<T: JsonSchema>() -> &'static Value {
+    static DERIVED: Mutex<BTreeMap<Cow<str>, &'static Value>> = Mutex::new(BTreeMap::new());
+    let mut derived = DERIVED.lock().unwrap_or_else(PoisonError::into_inner);
+    derived.entry(T::schema_id()).or_insert_with(|| Box::leak(Box::new(schema_of::<T>())))
+}
 
 /// The schema that is derived from a type.
 pub(super) fn schema_of<T: JsonSchema>() -> Value {
@@ -98,14 +108,15 @@ fn without_null(schema: &mut Schema) {
         schema.insert("type".to_owned(), first);
     }
     // `anyOf: [X, null]` becomes `X`.
-    let alternatives = schema.get("anyOf").and_then(Value::as_array).cloned().unwrap_or_default();
-    if let [Value::Object(only), null] = alternatives.as_slice()
+    let Some(Value::Array(alternatives)) = schema.get_mut("anyOf") else { return };
+    if let [Value::Object(only), null] = alternatives.as_mut_slice()
         && null["type"] == "null"
     {
+        let only = std::mem::take(only);
         let object = schema.ensure_object();
         object.remove("anyOf");
         for (key, value) in only {
-            object.entry(key).or_insert_with(|| value.clone());
+            object.entry(key).or_insert(value);
         }
     }
 }

@@ -7,9 +7,11 @@
 use serde::Serialize;
 
 use super::OrbitError;
-use super::branch::{BranchEnd, Settings, SpecialPoint};
+use super::branch::{BranchEnd, Settings, SpecialPoint, trace};
 use super::limits::{Limit, SymmetricFamily};
+use super::orbit::Origin;
 use super::switching::leave;
+use super::tracer::{Point, Tracer};
 use crate::bifurcation::Bifurcation;
 use crate::system::{Parameter, System};
 
@@ -88,11 +90,20 @@ pub fn over_frequency(system: &System, frequency_ratios: &[f64]) -> Vec<Boundari
 fn asymmetric(system: &System, limit: &Limit) -> Result<AsymmetricOrbits, OrbitError> {
     let settings = Settings::within(RANGE.map(|factor| factor * limit.clearance));
     let cycle = limit.cycle(system)?;
-    let branch = leave(system, Parameter::Clearance, limit.clearance, &cycle, &settings)?;
+    let tracer = Tracer::new(system, Parameter::Clearance);
+    let first = leave(&tracer, limit.clearance, &cycle)?;
+    let attracts =
+        |point: &Point| point.orbit(Origin::Switching).is_ok_and(|orbit| orbit.attracts());
+    let mut seen = 1;
+    let mut attracting = attracts(&first);
+    let branch = trace(&tracer, first, &settings, |point, _| {
+        attracting = attracting || seen < ENTRY_POINTS && attracts(point);
+        seen += 1;
+        Ok(())
+    });
     let first = |kind| branch.specials.iter().find(|special| special.kind == kind);
     let value = |special: &SpecialPoint| special.value;
     let grazing = first(Bifurcation::Grazing);
-    let attracting = branch.points.iter().take(ENTRY_POINTS).any(|point| point.orbit.attracts());
     Ok(AsymmetricOrbits {
         symmetry_breaking: limit.clearance,
         period_doubling: first(Bifurcation::PeriodDoubling).map(value),

@@ -9,7 +9,7 @@ use serde::Serialize;
 use super::OrbitError;
 use super::locate::located;
 use super::newton::PARAMETER;
-use super::orbit::Orbit;
+use super::orbit::{Orbit, Origin};
 use super::tracer::{Point, Tracer};
 use crate::bifurcation::Bifurcation;
 use crate::system::{Parameter, System};
@@ -199,48 +199,81 @@ pub fn follow(
         Direction::Down => -Vector5::from(PARAMETER),
     };
     let scaled = parameter.of(base) / tracer.scale;
-    let mut first = tracer.correct(start.cycle.clone(), scaled, &along, &along)?;
-    first.orbit.origin = start.origin;
-    Ok(trace(&tracer, first, settings))
+    let first = tracer.correct(start.cycle.clone(), scaled, &along, &along)?;
+    collected(&tracer, first, start.origin, settings)
 }
 
-/// Follows a branch from a point on it, along its tangent.
-pub(super) fn trace(tracer: &Tracer, first: Point, settings: &Settings) -> Branch {
+/// The branch from a point on it, whose orbit was found in a way of its own, along its tangent.
+///
+/// # Errors
+/// [`OrbitError::Singular`] where the first point is no orbit.
+pub(super) fn collected(
+    tracer: &Tracer,
+    first: Point,
+    origin: Origin,
+    settings: &Settings,
+) -> Result<Branch, OrbitError> {
+    let (parameter, value) = (tracer.parameter, tracer.value(&first));
+    let mut points = vec![BranchPoint { value, orbit: first.orbit(origin)?, passed: 0 }];
+    let Trace { specials, end } = trace(tracer, first, settings, |point, passed| {
+        let (value, orbit) = (tracer.value(point), point.orbit(Origin::Continuation)?);
+        points.push(BranchPoint { value, orbit, passed });
+        Ok(())
+    });
+    Ok(Branch { parameter, points, specials, end })
+}
+
+/// What lies along a branch, without its points.
+pub(super) struct Trace {
+    /// The bifurcations, in order.
+    pub specials: Vec<SpecialPoint>,
+    /// Why it ends.
+    pub end: BranchEnd,
+}
+
+/// Follows a branch from a point on it, along its tangent; `visit` gets each point after the first, with
+/// the number of bifurcations before it.
+pub(super) fn trace(
+    tracer: &Tracer,
+    first: Point,
+    settings: &Settings,
+    mut visit: impl FnMut(&Point, usize) -> Result<(), OrbitError>,
+) -> Trace {
     let begin = tracer.value(&first);
-    let mut branch = Branch {
-        parameter: tracer.parameter,
-        points: vec![BranchPoint { value: begin, orbit: first.orbit.clone(), passed: 0 }],
-        specials: Vec::new(),
-        end: BranchEnd::PointLimit { value: begin },
-    };
+    let mut specials = Vec::new();
     let mut here = first.clone();
     let mut step = settings.first_step;
-    let mut radians = 0.0;
-    while branch.points.len() < settings.most_points && radians < MOST_RADIANS {
+    let (mut radians, mut count) = (0.0, 1);
+    while count < settings.most_points && radians < MOST_RADIANS {
         radians += tracer.radians(&here);
         let (there, taken, last) = match tracer.at_edge(&here, step, settings.range) {
             Some((there, edge)) => (there, step, Some(BranchEnd::Range { value: edge })),
             None => match tracer.next(&here, step) {
                 Ok((there, taken)) => (there, taken, None),
-                Err(reason) => {
-                    let value = tracer.value(&here);
-                    branch.end = BranchEnd::NotConverged { value, reason: reason.to_string() };
-                    return branch;
-                }
+                Err(reason) => return Trace { specials, end: failed(tracer, &here, &reason) },
             },
         };
-        let met = returns(&first, &here, &there, branch.points.len());
+        let met = returns(&first, &here, &there, count);
         let last = last.or(met.then_some(BranchEnd::Closed { value: begin }));
-        if let Some(end) = record(tracer, &here, &there, taken, settings, &mut branch).or(last) {
-            branch.end = end;
-            return branch;
+        if let Some(end) = pass(tracer, &here, &there, taken, settings, &mut specials) {
+            return Trace { specials, end };
         }
-        let factor = if there.orbit.convergence.iterations <= EASY { LONGER } else { SHORTER };
+        if let Err(reason) = visit(&there, specials.len()) {
+            return Trace { specials, end: failed(tracer, &here, &reason) };
+        }
+        if let Some(end) = last {
+            return Trace { specials, end };
+        }
+        count += 1;
+        let factor = if there.iterations() <= EASY { LONGER } else { SHORTER };
         step = (taken * factor).min(settings.largest_step);
         here = there;
     }
-    branch.end = BranchEnd::PointLimit { value: tracer.value(&here) };
-    branch
+    Trace { specials, end: BranchEnd::PointLimit { value: tracer.value(&here) } }
+}
+
+fn failed(tracer: &Tracer, last: &Point, reason: &OrbitError) -> BranchEnd {
+    BranchEnd::NotConverged { value: tracer.value(last), reason: reason.to_string() }
 }
 
 /// Whether the stretch from `here` to `there` passes the branch's first point, along its tangent.
@@ -253,26 +286,21 @@ fn returns(first: &Point, here: &Point, there: &Point, passed: usize) -> bool {
     passed > FEWEST_AROUND && near && side(here) < 0.0 && side(there) >= 0.0
 }
 
-/// Takes a new point into the branch, with the bifurcations before it; says whether the branch ends.
-fn record(
+/// Takes the bifurcations before a new point into the branch; says whether it ends at one of them.
+fn pass(
     tracer: &Tracer,
     here: &Point,
     there: &Point,
     step: f64,
     settings: &Settings,
-    branch: &mut Branch,
+    specials: &mut Vec<SpecialPoint>,
 ) -> Option<BranchEnd> {
     let mut found = located(tracer, here, there, step);
     let [low, high] = settings.range;
     found.retain(|special| (low..=high).contains(&special.value));
     let end = found.iter().position(|special| special.kind.ends_motion());
     found.truncate(end.map_or(found.len(), |index| index + 1));
-    let stops = end.map(|index| found[index].value);
-    branch.specials.extend(found);
-    if let Some(value) = stops {
-        return Some(BranchEnd::Grazing { value });
-    }
-    let (value, passed) = (tracer.value(there), branch.specials.len());
-    branch.points.push(BranchPoint { value, orbit: there.orbit.clone(), passed });
-    None
+    let stops = end.map(|index| BranchEnd::Grazing { value: found[index].value });
+    specials.extend(found);
+    stops
 }

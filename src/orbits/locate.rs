@@ -4,7 +4,7 @@
 use super::branch::SpecialPoint;
 use super::mirror;
 use super::multipliers::{minus_one, plus_one, unit_product};
-use super::orbit::Closure;
+use super::orbit::{Closure, Origin};
 use super::switching;
 use super::tracer::{Point, Tracer};
 use crate::bifurcation::Bifurcation;
@@ -33,20 +33,17 @@ fn tests(closure: Closure) -> [Test; 7] {
     };
     [
         Test { kind: Bifurcation::SaddleNode, value: |point| point.tangent[4] },
-        Test { kind: Bifurcation::BranchPoint, value: |point| plus_one(&point.jacobian) },
-        Test { kind: minus, value: |point| minus_one(&point.jacobian) },
-        Test { kind: Bifurcation::NeimarkSacker, value: |point| unit_product(&point.jacobian) },
-        Test {
-            kind: Bifurcation::Grazing,
-            value: |point| point.orbit.admissibility.min_wall_distance,
-        },
+        Test { kind: Bifurcation::BranchPoint, value: |point| plus_one(point.jacobian()) },
+        Test { kind: minus, value: |point| minus_one(point.jacobian()) },
+        Test { kind: Bifurcation::NeimarkSacker, value: |point| unit_product(point.jacobian()) },
+        Test { kind: Bifurcation::Grazing, value: |point| point.admissibility().min_wall_distance },
         Test {
             kind: Bifurcation::Sticking,
-            value: |point| point.orbit.admissibility.slowest_departure.unwrap_or(f64::NAN),
+            value: |point| point.admissibility().slowest_departure.unwrap_or(f64::NAN),
         },
         Test {
             kind: Bifurcation::VanishingImpact,
-            value: |point| point.orbit.admissibility.slowest_impact,
+            value: |point| point.admissibility().slowest_impact,
         },
     ]
 }
@@ -59,7 +56,7 @@ pub(super) fn located(
     step: f64,
 ) -> Vec<SpecialPoint> {
     let mut found: Vec<(f64, SpecialPoint)> = Vec::new();
-    for test in tests(here.orbit.cycle.closure) {
+    for test in tests(here.cycle().closure) {
         let (before, after) = ((test.value)(here), (test.value)(there));
         let changes = before.is_finite() && after.is_finite() && before * after < 0.0;
         if !changes {
@@ -111,7 +108,7 @@ fn locate(
     let root = brent(0.0, step, LOCATED * step, value)?;
     let point = at(root.at).ok()?;
     let value = tracer.value(&point);
-    let orbit = point.orbit;
+    let orbit = point.orbit(Origin::Continuation).ok()?;
     // Two real reciprocal multipliers are no bifurcation.
     let kind = test.kind;
     if kind == Bifurcation::NeimarkSacker && !orbit.multipliers.has_pair_on_circle() {
@@ -122,7 +119,7 @@ fn locate(
     let (left, right) = (near((root.at - width).max(0.0)), near((root.at + width).min(step)));
     let grazes = kind == Bifurcation::Grazing && orbit.admissibility.narrowest.is_some();
     let sequence_beyond =
-        if grazes { switching::beyond_grazing(tracer, point.parameter, &orbit) } else { None };
+        if grazes { switching::beyond_grazing(tracer, point.parameter(), &orbit) } else { None };
     let bracket = [left.min(right).min(value), left.max(right).max(value)];
     Some((
         root.at,

@@ -21,13 +21,13 @@ const DOUBLINGS: u32 = 12;
 /// The place between two neighbouring points at which the branch is its own mirror image, as a part
 /// of the way, and the symmetry breaking there; `None` if the asymmetry does not change its sign.
 pub(super) fn met(tracer: &Tracer, here: &Point, there: &Point) -> Option<(f64, SpecialPoint)> {
-    let (before, after) = (asymmetry(&here.orbit.cycle)?, asymmetry(&there.orbit.cycle)?);
+    let (before, after) = (asymmetry(here.cycle())?, asymmetry(there.cycle())?);
     if before * after >= 0.0 {
         return None;
     }
     let share = before / (before - after);
-    let half = symmetrised(&between(&here.orbit.cycle, &there.orbit.cycle, share));
-    let guess = here.parameter + share * (there.parameter - here.parameter);
+    let half = symmetrised(&between(here.cycle(), there.cycle(), share));
+    let guess = here.parameter() + share * (there.parameter() - here.parameter());
     let test = |scaled: f64| {
         let found = tracer.at(&half, scaled);
         found.and_then(|orbit| minus_one_of(tracer, scaled, &orbit)).unwrap_or(f64::NAN)

@@ -9,6 +9,7 @@ use nalgebra::{Matrix4, Matrix5, Vector4, Vector5};
 use serde::Serialize;
 
 use super::OrbitError;
+use super::admissibility::Admissibility;
 use super::impact_map::{ImpactMap, Step};
 use super::orbit::{Cycle, Orbit, Origin};
 use crate::system::System;
@@ -39,6 +40,7 @@ pub struct Convergence {
 }
 
 /// The defects of a cycle and its linearisation, condensed to its first state.
+#[derive(Debug, Clone)]
 pub(super) struct Linearised {
     steps: Vec<Step>,
     defects: Vec<Vector4<f64>>,
@@ -159,6 +161,7 @@ pub(super) fn converge(map: &ImpactMap, start: &Cycle) -> Result<Converged, Orbi
 pub(super) const PARAMETER: [f64; 5] = [0.0, 0.0, 0.0, 0.0, 1.0];
 
 /// A cycle that closes, with what it was last linearised to.
+#[derive(Debug, Clone)]
 pub(super) struct Converged {
     pub cycle: Cycle,
     pub parameter: f64,
@@ -173,7 +176,9 @@ impl Converged {
     /// # Errors
     /// As [`Orbit::measured`].
     pub fn orbit(self, origin: Origin) -> Result<Orbit, OrbitError> {
-        Orbit::measured(&self.map, self.cycle, &self.linear.jacobian, self.convergence, origin)
+        let admissibility = Admissibility::of(&self.map, &self.cycle);
+        let jacobian = &self.linear.jacobian;
+        Orbit::measured(self.cycle, jacobian, self.convergence, admissibility, origin)
     }
 }
 

@@ -272,14 +272,13 @@ impl Orbit {
     /// # Errors
     /// [`OrbitError::Singular`] where its multipliers do not exist: at a grazing impact.
     pub(super) fn measured(
-        map: &ImpactMap,
         cycle: Cycle,
         jacobian: &Matrix4<f64>,
         convergence: Convergence,
+        admissibility: Admissibility,
         origin: Origin,
     ) -> Result<Self, OrbitError> {
         let multipliers = Multipliers::of(jacobian).ok_or(OrbitError::Singular)?;
-        let admissibility = Admissibility::of(map, &cycle);
         Ok(Self { cycle, convergence, multipliers, admissibility, origin })
     }
 

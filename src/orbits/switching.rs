@@ -4,12 +4,12 @@ use nalgebra::linalg::SVD;
 use nalgebra::{Matrix4, Vector4, Vector5};
 
 use super::OrbitError;
-use super::branch::{Branch, Settings, SpecialPoint, trace};
+use super::branch::{Branch, Settings, SpecialPoint, collected};
 use super::impact_map::AfterImpact;
 use super::multipliers::LARGEST_SWEEPS;
 use super::newton::{Linearised, PARAMETER};
 use super::orbit::{Closure, Cycle, Orbit, Origin};
-use super::tracer::Tracer;
+use super::tracer::{Point, Tracer};
 use crate::bifurcation::Bifurcation;
 use crate::system::{Parameter, System};
 
@@ -43,22 +43,17 @@ pub fn branch_off(
     if !fits {
         return Err(OrbitError::NotACycle { reason: "no branch leaves there" });
     }
-    leave(base, parameter, special.value, &special.orbit.cycle, settings)
+    let tracer = Tracer::new(base, parameter);
+    let first = leave(&tracer, special.value, &special.orbit.cycle)?;
+    collected(&tracer, first, Origin::Switching, settings)
 }
 
-/// The branch that leaves the orbit `cycle` at `value` of the parameter, where its map has the
-/// multiplier -1.
+/// The first point of the branch that leaves the orbit `cycle` at `value` of the parameter, where its map
+/// has the multiplier -1.
 ///
 /// # Errors
 /// [`OrbitError`] where Newton's method does not find the branch.
-pub(super) fn leave(
-    base: &System,
-    parameter: Parameter,
-    value: f64,
-    cycle: &Cycle,
-    settings: &Settings,
-) -> Result<Branch, OrbitError> {
-    let tracer = Tracer::new(base, parameter);
+pub(super) fn leave(tracer: &Tracer, value: f64, cycle: &Cycle) -> Result<Point, OrbitError> {
     let doubled = match cycle.closure {
         Closure::Mirrors { .. } => cycle.unfolded(),
         Closure::Repeats { .. } => twice(cycle),
@@ -69,7 +64,7 @@ pub(super) fn leave(
         kernel(&(cycle.jacobian(&map) + Matrix4::identity())).ok_or(OrbitError::Singular)?;
     let along = direction.push(0.0);
     let start = Linearised::of(&map, &doubled, [0.0; 3]).moved(&doubled, &(along * ENTRY));
-    enter(&tracer, start, scaled, &along, settings)
+    tracer.correct(start, scaled, &along, &along)
 }
 
 /// The cycle traversed twice.
@@ -113,20 +108,8 @@ pub fn continue_beyond(
     let found = across(&tracer, scaled, &special.orbit).ok_or(OrbitError::Singular)?;
     let (orbit, there) = found;
     let along = Vector5::from(PARAMETER) * (there - scaled).signum();
-    enter(&tracer, orbit.cycle, there, &along, settings)
-}
-
-/// The branch through the orbit near `start`, which sets out along a direction.
-fn enter(
-    tracer: &Tracer,
-    start: Cycle,
-    scaled: f64,
-    along: &Vector5<f64>,
-    settings: &Settings,
-) -> Result<Branch, OrbitError> {
-    let mut first = tracer.correct(start, scaled, along, along)?;
-    first.orbit.origin = Origin::Switching;
-    Ok(trace(tracer, first, settings))
+    let first = tracer.correct(orbit.cycle, there, &along, &along)?;
+    collected(&tracer, first, Origin::Switching, settings)
 }
 
 /// The sequence of walls of the orbit that goes on beyond a grazing, if Newton's method finds it.

@@ -12,6 +12,7 @@ use nalgebra::Vector2;
 use serde::Serialize;
 
 use super::OrbitError;
+use super::admissibility::Admissibility;
 use super::equations as formulas;
 use super::flight::Flight;
 use super::impact_map::{AfterImpact, ImpactMap, Wall};
@@ -265,7 +266,9 @@ fn symmetric_orbit(
     let convergence = Convergence { residual: linear.residual / cycle.size(), iterations: 0 };
     let peaks = Peaks::of(map, &cycle);
     let origin = Origin::ClosedForm;
-    let orbit = Orbit::measured(map, cycle, &linear.jacobian, convergence, origin).ok()?;
+    let admissibility = Admissibility::of(map, &cycle);
+    let orbit =
+        Orbit::measured(cycle, &linear.jacobian, convergence, admissibility, origin).ok()?;
     let (eps, r) = (system.mass_ratio(), system.restitution());
     Some(SymmetricOrbit {
         absorber_amplitude: beta,

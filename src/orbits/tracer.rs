@@ -1,11 +1,14 @@
 //! From one orbit of a branch to the next: pseudo-arclength continuation in one parameter (Keller
 //! 1977). A predictor along the tangent, Newton's method on the plane across it.
 
+use std::cell::OnceCell;
+
 use nalgebra::{Matrix4, Vector4, Vector5};
 
 use super::OrbitError;
+use super::admissibility::Admissibility;
 use super::impact_map::ImpactMap;
-use super::newton::{Linearised, PARAMETER, converge, corrected};
+use super::newton::{Converged, PARAMETER, converge, corrected};
 use super::orbit::{Cycle, Orbit, Origin};
 use crate::system::{Parameter, System};
 
@@ -22,23 +25,55 @@ const LARGEST_TURN: f64 = 0.9;
 /// along this one it is a step away, and a little more where the branch is curved.
 const SAME_BRANCH: f64 = 2.0;
 
-/// A point while a branch is followed.
+/// A point while a branch is followed: a cycle that closes. What it is as an orbit is measured only
+/// where somebody asks, as most points serve to locate a bifurcation.
 #[derive(Debug, Clone)]
 pub(super) struct Point {
-    /// The orbit.
-    pub orbit: Orbit,
-    /// The parameter over its scale.
-    pub parameter: f64,
+    found: Converged,
     /// Unit tangent of the branch in first state and scaled parameter.
     pub tangent: Vector5<f64>,
-    /// Jacobian of the map around the cycle.
-    pub jacobian: Matrix4<f64>,
+    admissibility: OnceCell<Admissibility>,
 }
 
 impl Point {
+    /// The cycle.
+    pub fn cycle(&self) -> &Cycle {
+        &self.found.cycle
+    }
+
+    /// The parameter over its scale.
+    pub fn parameter(&self) -> f64 {
+        self.found.parameter
+    }
+
+    /// Jacobian of the map around the cycle.
+    pub fn jacobian(&self) -> &Matrix4<f64> {
+        &self.found.linear.jacobian
+    }
+
+    /// Newton steps that led to it.
+    pub fn iterations(&self) -> u32 {
+        self.found.convergence.iterations
+    }
+
+    /// Whether it is a motion, with the distances that say so.
+    pub fn admissibility(&self) -> &Admissibility {
+        self.admissibility.get_or_init(|| Admissibility::of(&self.found.map, self.cycle()))
+    }
+
+    /// The orbit with its evidence.
+    ///
+    /// # Errors
+    /// As [`Orbit::measured`].
+    pub fn orbit(&self, origin: Origin) -> Result<Orbit, OrbitError> {
+        let Converged { cycle, linear, convergence, .. } = &self.found;
+        let admissibility = *self.admissibility();
+        Orbit::measured(cycle.clone(), &linear.jacobian, *convergence, admissibility, origin)
+    }
+
     /// First state and scaled parameter, as the arclength measures them.
     pub fn place(&self) -> Vector5<f64> {
-        self.orbit.cycle.impacts[0].vector().push(self.parameter)
+        self.cycle().impacts[0].vector().push(self.parameter())
     }
 }
 
@@ -60,13 +95,13 @@ impl<'a> Tracer<'a> {
 
     /// The parameter at a point.
     pub fn value(&self, point: &Point) -> f64 {
-        point.parameter * self.scale
+        point.parameter() * self.scale
     }
 
     /// How long a point's flights take, in radians of the faster of structure and excitation.
     pub fn radians(&self, point: &Point) -> f64 {
         let frequency = self.base.frequency_ratio().max(1.0);
-        frequency * point.orbit.cycle.durations.iter().sum::<f64>()
+        frequency * point.cycle().durations.iter().sum::<f64>()
     }
 
     /// The impact map at a scaled parameter, and the derivatives of `gamma`, `Omega` and `r` by it.
@@ -101,19 +136,13 @@ impl<'a> Tracer<'a> {
     ) -> Result<Point, OrbitError> {
         let found = corrected(|scaled| self.map(scaled), cycle, scaled, normal)?;
         let tangent = found.linear.solve(along, Vector4::zeros(), 1.0)?;
-        Ok(Point {
-            parameter: found.parameter,
-            tangent: tangent / tangent.norm(),
-            jacobian: found.linear.jacobian,
-            orbit: found.orbit(Origin::Continuation)?,
-        })
+        let tangent = tangent / tangent.norm();
+        Ok(Point { found, tangent, admissibility: OnceCell::new() })
     }
 
     /// `point`'s cycle moved along the branch's tangent by `step`.
-    fn predicted(&self, point: &Point, step: f64) -> Option<Cycle> {
-        let (map, weights) = self.map(point.parameter)?;
-        let linear = Linearised::of(&map, &point.orbit.cycle, weights);
-        Some(linear.moved(&point.orbit.cycle, &(point.tangent * step)))
+    fn predicted(point: &Point, step: f64) -> Cycle {
+        point.found.linear.moved(point.cycle(), &(point.tangent * step))
     }
 
     /// The point an arclength `step` along the branch from `point`.
@@ -122,8 +151,12 @@ impl<'a> Tracer<'a> {
     /// As [`Tracer::correct`].
     pub fn advance(&self, point: &Point, step: f64) -> Result<Point, OrbitError> {
         let ahead = step * point.tangent[4];
-        let cycle = self.predicted(point, step).ok_or(OrbitError::Singular)?;
-        self.correct(cycle, point.parameter + ahead, &point.tangent, &point.tangent)
+        self.correct(
+            Self::predicted(point, step),
+            point.parameter() + ahead,
+            &point.tangent,
+            &point.tangent,
+        )
     }
 
     /// The next point, with the step that reached it: halved until the corrector converges and the
@@ -151,7 +184,7 @@ impl<'a> Tracer<'a> {
     /// step would leave it: parameters need not exist beyond (a restitution above 1).
     pub fn at_edge(&self, here: &Point, step: f64, range: [f64; 2]) -> Option<(Point, f64)> {
         let [low, high] = range.map(|edge| edge / self.scale);
-        let ahead = here.parameter + step * here.tangent[4];
+        let ahead = here.parameter() + step * here.tangent[4];
         let edge = if ahead > high {
             high
         } else if ahead < low {
@@ -159,10 +192,11 @@ impl<'a> Tracer<'a> {
         } else {
             return None;
         };
-        let change = edge - here.parameter;
+        let change = edge - here.parameter();
         let share = change / here.tangent[4];
-        let cycle = self.predicted(here, share)?;
-        let there = self.correct(cycle, edge, &PARAMETER.into(), &here.tangent).ok()?;
+        let there = self
+            .correct(Self::predicted(here, share), edge, &PARAMETER.into(), &here.tangent)
+            .ok()?;
         // A branch that turns back before the edge must not be left for another one.
         let distance = (there.place() - here.place()).norm();
         let same = distance <= SAME_BRANCH * step.max(share.abs())
