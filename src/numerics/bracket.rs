@@ -41,8 +41,21 @@ pub fn brent(from: f64, to: f64, width: f64, mut function: impl FnMut(f64) -> f6
     if at_from.is_nan() || at_to.is_nan() || (at_from > 0.0) == (at_to > 0.0) {
         return None;
     }
-    let at = find_root_brent(from, to, &mut function, &mut BracketWidth { width }).ok()?;
-    Some(Root { at, residual: function(at) })
+    // The ends are known, and of the places in between that of the smallest value is usually the root.
+    let mut best = Root { at: f64::NAN, residual: f64::INFINITY };
+    let known = |at: f64| match at {
+        _ if at == from => at_from,
+        _ if at == to => at_to,
+        _ => {
+            let residual = function(at);
+            if residual.abs() < best.residual.abs() {
+                best = Root { at, residual };
+            }
+            residual
+        }
+    };
+    let at = find_root_brent(from, to, known, &mut BracketWidth { width }).ok()?;
+    Some(if at == best.at { best } else { Root { at, residual: function(at) } })
 }
 
 /// Where `function` changes between above 0 and not above 0, from the side on which it is at `from`, to

@@ -10,6 +10,7 @@
 
 use serde::Serialize;
 
+use super::flight::Motion;
 use super::impact_map::{ImpactMap, Leg, Wall};
 use super::orbit::Cycle;
 use crate::numerics::bracket::brent;
@@ -70,22 +71,33 @@ impl Admissibility {
 
     /// Of the flights of a cycle.
     pub fn of(map: &ImpactMap, cycle: &Cycle) -> Self {
+        Self::unproven(map, cycle).proven(map, cycle)
+    }
+
+    /// With the proof that the cycle that was measured is a motion, if there is one.
+    pub(super) fn proven(self, map: &ImpactMap, cycle: &Cycle) -> Self {
+        let proven =
+            |leg: &Leg| approach(leg) > 0.0 && free_of_contact(map, leg, &Departure::of(leg));
+        Self { admissible: cycle.flights(map).iter().all(proven), ..self }
+    }
+
+    /// The distances and speeds alone: not admissible, as nothing is proven.
+    pub(super) fn unproven(map: &ImpactMap, cycle: &Cycle) -> Self {
         let mut found = Self {
-            admissible: true,
+            admissible: false,
             min_wall_distance: FULL_WIDTH,
             narrowest: None,
             slowest_impact: f64::INFINITY,
             slowest_departure: None,
         };
         for (flight, leg) in cycle.flights(map).iter().enumerate() {
-            let approach = leg.to.sign() * leg.relative(leg.duration).v;
+            let approach = approach(leg);
             let departure = Departure::of(leg);
             if departure.is_still() {
                 let slowest = found.slowest_departure.unwrap_or(f64::INFINITY);
                 found.slowest_departure = Some(slowest.min(departure.acceleration));
             }
             found.slowest_impact = found.slowest_impact.min(approach);
-            found.admissible &= approach > 0.0 && free_of_contact(map, leg, &departure);
             for at in turning_points(map, leg, &departure) {
                 let value = leg.relative(at).x;
                 let wall = if value > 0.0 { Wall::Plus } else { Wall::Minus };
@@ -98,6 +110,11 @@ impl Admissibility {
         }
         found
     }
+}
+
+/// Speed at which a flight meets its wall.
+fn approach(leg: &Leg) -> f64 {
+    leg.to.sign() * leg.relative(leg.duration).v
 }
 
 /// How the absorber and a wall part after an impact; lengths over the clearance, fast time.
@@ -177,41 +194,45 @@ fn free_of_contact(map: &ImpactMap, leg: &Leg, departure: &Departure) -> bool {
 
 /// Times at which the relative displacement turns within a flight.
 fn turning_points(map: &ImpactMap, leg: &Leg, departure: &Departure) -> Vec<f64> {
-    zeros(leg.duration, map.flight.frequency(), |s| {
-        let at = leg.relative(s);
+    zeros(leg, map.flight.frequency(), |s, oscillator| {
         // Where nothing but the acceleration parts the two, the velocity at the very beginning is
         // rounding.
         if s == 0.0 && departure.is_still() {
             let rate = -leg.start.wall.sign() * departure.acceleration;
             [rate.signum() * f64::MIN_POSITIVE, rate]
         } else {
-            [at.v, at.a]
+            [oscillator.v - leg.start.y_velocity, oscillator.a]
         }
     })
 }
 
-/// Places within `(0, duration)` at which a rate of the motion vanishes, by its value and slope: every
-/// change of sign between neighbouring pieces, and every pair of changes around a flattest place.
-pub(super) fn zeros(duration: f64, frequency: f64, rate: impl Fn(f64) -> [f64; 2]) -> Vec<f64> {
+/// Places within a flight at which a rate of the motion vanishes, by its value and slope at a time, where
+/// the oscillator's motion is given: every change of sign between neighbouring pieces, and every pair of
+/// changes around a flattest place.
+pub(super) fn zeros(leg: &Leg, frequency: f64, rate: impl Fn(f64, Motion) -> [f64; 2]) -> Vec<f64> {
+    let duration = leg.duration;
     let pieces =
         (duration * frequency.max(1.0) * PIECES_PER_RADIAN).ceil().clamp(PIECES[0], PIECES[1]);
     let step = duration / pieces;
     let width = TURNED * duration;
-    let value = |s: f64| rate(s)[0];
+    let exact = |s: f64| rate(s, leg.oscillator(s));
+    let value = |s: f64| exact(s)[0];
     let mut found = Vec::new();
     let mut between = |low: f64, high: f64| {
-        let root = brent(low, high, width, value).map(|root| root.at);
-        found.extend(root.filter(|at| 0.0 < *at && *at < duration));
+        // Where the exact values do not differ in sign, the zero is at an end, but for rounding.
+        let nearest = || if value(low).abs() < value(high).abs() { low } else { high };
+        let at = brent(low, high, width, value).map_or_else(nearest, |root| root.at);
+        found.extend(Some(at).filter(|at| 0.0 < *at && *at < duration));
     };
-    let mut before = rate(0.0);
-    for k in 0..pieces as u32 {
+    let mut before = exact(0.0);
+    for (k, oscillator) in (0..pieces as u32).zip(leg.oscillator_at_steps(step, pieces as u32)) {
         let (low, high) = (f64::from(k) * step, f64::from(k + 1) * step);
-        let after = rate(high);
+        let after = rate(high, oscillator);
         if (before[0] > 0.0) != (after[0] > 0.0) {
             between(low, high);
         } else if before[0] * before[1] < 0.0
             && after[0] * after[1] > 0.0
-            && let Some(flattest) = brent(low, high, width, |s| rate(s)[1])
+            && let Some(flattest) = brent(low, high, width, |s| exact(s)[1])
             && (value(flattest.at) > 0.0) != (before[0] > 0.0)
         {
             // It turns and turns back within one piece, as it does after a weak rebound.

@@ -202,21 +202,11 @@ impl Flight {
     fn turned(&self, steady: Vector2<f64>) -> Vector2<f64> {
         Vector2::new(steady.y / self.frequency, -self.frequency * steady.x)
     }
-}
 
-impl Course {
-    /// The motion after a time `s`, by equation (1).
-    pub fn at(&self, s: f64) -> Motion {
-        self.motion(
-            self.flight.steady_at(self.phase + self.flight.frequency * s),
-            self.flight.free(s),
-        )
-    }
-
-    fn motion(&self, steady: Vector2<f64>, propagator: Matrix2<f64>) -> Motion {
+    /// The motion of which the steady and the free part are known.
+    fn motion(&self, steady: Vector2<f64>, free: Vector2<f64>) -> Motion {
         operation_count::note(22);
-        let free = propagator * self.deviation;
-        let (omega, damping) = (self.flight.frequency, self.flight.damping());
+        let (omega, damping) = (self.frequency, self.damping());
         let free_a = -damping * free.y - free.x;
         Motion {
             x: steady.x + free.x,
@@ -225,7 +215,34 @@ impl Course {
             jerk: -damping * free_a - free.y - omega * omega * steady.y,
         }
     }
+}
 
+impl Course {
+    /// The motion after a time `s`, by equation (1).
+    pub fn at(&self, s: f64) -> Motion {
+        let steady = self.flight.steady_at(self.phase + self.flight.frequency * s);
+        self.flight.motion(steady, self.flight.free(s) * self.deviation)
+    }
+
+    /// The motion after each of `count` steps of equal length, with one sine, cosine and exponential for
+    /// all: rounding grows by a unit in the last place with each.
+    pub fn at_steps(&self, step: f64, count: u32) -> impl Iterator<Item = Motion> + use<> {
+        let Self { flight, phase, mut deviation } = *self;
+        let propagator = flight.free(step);
+        operation_count::note(2 * ELEMENTARY);
+        let (sin, cos) = libm::sincos(flight.frequency * step);
+        let omega = flight.frequency;
+        let mut steady = flight.steady_at(phase);
+        (0..count).map(move |_| {
+            operation_count::note(14);
+            deviation = propagator * deviation;
+            steady = Vector2::new(
+                cos * steady.x + sin / omega * steady.y,
+                cos * steady.y - omega * sin * steady.x,
+            );
+            flight.motion(steady, deviation)
+        })
+    }
     /// Where the course leads in a time `s`, with all derivatives.
     pub fn arrival(&self, s: f64) -> Arrival {
         operation_count::note(48);
@@ -235,7 +252,7 @@ impl Course {
         let [before, after] = [*phase, end].map(|phase| flight.steady_at(phase));
         let forced = after - by_start * before;
         Arrival {
-            at: self.motion(after, by_start),
+            at: flight.motion(after, by_start * self.deviation),
             by_phase: flight.turned(after) - by_start * flight.turned(before),
             by_start,
             by_forcing: if flight.forcing > 0.0 {

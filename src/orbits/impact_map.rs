@@ -120,6 +120,15 @@ impl Leg {
         self.relative_of(self.oscillator(s), s)
     }
 
+    /// The oscillator after each of `count` steps of equal length; see [`Course::at_steps`].
+    pub(super) fn oscillator_at_steps(
+        &self,
+        step: f64,
+        count: u32,
+    ) -> impl Iterator<Item = Motion> + use<> {
+        self.course.at_steps(step, count)
+    }
+
     /// The same, the oscillator's motion being known.
     pub fn relative_of(&self, at: Motion, s: f64) -> Motion {
         let x = at.x - self.start.x + self.start.wall.sign() - self.start.y_velocity * s;

@@ -36,14 +36,14 @@ fn tests(closure: Closure) -> [Test; 7] {
         Test { kind: Bifurcation::BranchPoint, value: |point| plus_one(point.jacobian()) },
         Test { kind: minus, value: |point| minus_one(point.jacobian()) },
         Test { kind: Bifurcation::NeimarkSacker, value: |point| unit_product(point.jacobian()) },
-        Test { kind: Bifurcation::Grazing, value: |point| point.admissibility().min_wall_distance },
+        Test { kind: Bifurcation::Grazing, value: |point| point.distances().min_wall_distance },
         Test {
             kind: Bifurcation::Sticking,
-            value: |point| point.admissibility().slowest_departure.unwrap_or(f64::NAN),
+            value: |point| point.distances().slowest_departure.unwrap_or(f64::NAN),
         },
         Test {
             kind: Bifurcation::VanishingImpact,
-            value: |point| point.admissibility().slowest_impact,
+            value: |point| point.distances().slowest_impact,
         },
     ]
 }

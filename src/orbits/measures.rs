@@ -36,7 +36,7 @@ impl Peaks {
         for leg in cycle.flights(map) {
             let frequency = map.flight.frequency();
             let zeros = |rates: fn(Motion) -> [f64; 2]| {
-                zeros(leg.duration, frequency, |s| rates(leg.oscillator(s)))
+                zeros(&leg, frequency, |_, oscillator| rates(oscillator))
             };
             let turns = zeros(|at| [at.v, at.a]).into_iter().chain(zeros(|at| [at.a, at.jerk]));
             for at in [0.0, leg.duration].into_iter().chain(turns).map(|s| leg.oscillator(s)) {

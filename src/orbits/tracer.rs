@@ -32,7 +32,7 @@ pub(super) struct Point {
     found: Converged,
     /// Unit tangent of the branch in first state and scaled parameter.
     pub tangent: Vector5<f64>,
-    admissibility: OnceCell<Admissibility>,
+    distances: OnceCell<Admissibility>,
 }
 
 impl Point {
@@ -56,9 +56,9 @@ impl Point {
         self.found.convergence.iterations
     }
 
-    /// Whether it is a motion, with the distances that say so.
-    pub fn admissibility(&self) -> &Admissibility {
-        self.admissibility.get_or_init(|| Admissibility::of(&self.found.map, self.cycle()))
+    /// How close it comes to the walls and how slowly to impacts; whether it is a motion is not proven.
+    pub fn distances(&self) -> &Admissibility {
+        self.distances.get_or_init(|| Admissibility::unproven(&self.found.map, self.cycle()))
     }
 
     /// The orbit with its evidence.
@@ -66,8 +66,8 @@ impl Point {
     /// # Errors
     /// As [`Orbit::measured`].
     pub fn orbit(&self, origin: Origin) -> Result<Orbit, OrbitError> {
-        let Converged { cycle, linear, convergence, .. } = &self.found;
-        let admissibility = *self.admissibility();
+        let Converged { cycle, map, linear, convergence, .. } = &self.found;
+        let admissibility = self.distances().proven(map, cycle);
         Orbit::measured(cycle.clone(), &linear.jacobian, *convergence, admissibility, origin)
     }
 
@@ -137,7 +137,7 @@ impl<'a> Tracer<'a> {
         let found = corrected(|scaled| self.map(scaled), cycle, scaled, normal)?;
         let tangent = found.linear.solve(along, Vector4::zeros(), 1.0)?;
         let tangent = tangent / tangent.norm();
-        Ok(Point { found, tangent, admissibility: OnceCell::new() })
+        Ok(Point { found, tangent, distances: OnceCell::new() })
     }
 
     /// `point`'s cycle moved along the branch's tangent by `step`.
