@@ -21,6 +21,8 @@ MEMBER = re.compile(
 )
 # Sections that list what every type has, or what other crates' traits add.
 FOREIGN = {"trait-implementations-list", "synthetic-implementations-list", "blanket-implementations-list"}
+# Kinds of items whose declaration has no members of its own.
+TYPED = {"fn", "constant", "static", "type"}
 VOID = {"area", "base", "br", "col", "embed", "hr", "img", "input", "link", "meta", "source", "wbr"}
 
 
@@ -38,19 +40,29 @@ class Links(HTMLParser):
 
 
 class Members(HTMLParser):
-    """Methods, fields, variants and constants on the page of an item, but for those of trait implementations."""
+    """Methods, fields, variants and constants on the page of an item, but for those of trait implementations:
+    each by its id with its declaration; the item's own declaration under "".
+    """
 
     def __init__(self):
         super().__init__()
         self.open = []
-        self.found = set()
+        self.found = {}
         self.non_exhaustive = False
+        # The id whose declaration comes next, and how many elements are open where it stands.
+        self.declared = ""
+        self.depth = None
 
     def handle_starttag(self, tag, attributes):
         attributes = dict(attributes)
         name = attributes.get("id") or ""
         if not any(one in FOREIGN for one in self.open) and MEMBER.fullmatch(name):
-            self.found.add(name)
+            self.found[name] = ""
+            self.declared = name
+        elif self.depth is None and self.declared is not None and (
+            tag == "code" or "code-header" in (attributes.get("class") or "").split()
+        ):
+            self.depth = len(self.open)
         if name.endswith("non-exhaustive") or "non-exhaustive" in (attributes.get("class") or "").split():
             self.non_exhaustive = True
         if tag not in VOID:
@@ -59,6 +71,12 @@ class Members(HTMLParser):
     def handle_endtag(self, tag):
         if tag not in VOID and self.open:
             self.open.pop()
+            if len(self.open) == self.depth:
+                self.declared = self.depth = None
+
+    def handle_data(self, text):
+        if self.depth is not None:
+            self.found[self.declared] = self.found.get(self.declared, "") + text
 
 
 def parsed(parser, path):
@@ -68,16 +86,25 @@ def parsed(parser, path):
 
 
 def item_lines(folder, href):
-    """`struct system::System`, then its members."""
+    """`struct system::System`, then its members; functions, constants and fields with their types."""
     *modules, file = href.split("/")
     kind, name, _ = file.split(".")
     path = "::".join([*modules, name])
     page = parsed(Members(), folder / href)
-    yield f"{kind} {path}" + (" non_exhaustive" if page.non_exhaustive else "")
-    for member in page.found:
+    own = page.found.pop("", "")
+    yield with_type(f"{kind} {path}", own if kind in TYPED else "") + (" non_exhaustive" if page.non_exhaustive else "")
+    for member, declaration in page.found.items():
         member_kind, rest = member.split(".", 1)
         member_kind = "method" if member_kind == "tymethod" else member_kind
-        yield f"{member_kind} {path}::{rest.replace('.field.', '::')}"
+        yield with_type(f"{member_kind} {path}::{rest.replace('.field.', '::')}", declaration)
+
+
+def with_type(line, declaration):
+    """The line with what follows the name in a declaration: arguments and results, or a type."""
+    name = re.escape(line.rsplit("::", 1)[-1].split(" ")[-1])
+    words = " ".join(declaration.split()).replace("( ", "(").replace(", )", ")")
+    rest = re.search(rf"\b{name}\b(.*)", words)
+    return line + (rest.group(1).rstrip(",; ") if rest else "")
 
 
 def main():

@@ -67,6 +67,9 @@
 //! vinesink = { path = "vinesink", default-features = false }
 //! ```
 //!
+//! Without features the crate compiles for `wasm32-unknown-unknown` as well; build it with
+//! `-C target-feature=+simd128`, as the engine for many runs at once works with vectors.
+//!
 //! # Further
 //!
 //! Programs to start from are in `examples/`. The book is in `docs/src/`: `model.md` has every equation with
