@@ -2,12 +2,12 @@
 //! reports, checks, bands, sweeps, diagrams and basins.
 //!
 //! A transient is left out by the rule of [`super::transient`]. A motion that is seen to repeat by then is measured
-//! over its last repetition, any other over a window; one that is still settling is followed on.
+//! over its last repetition, any other over a window or until it repeats; one that is still settling is followed on.
 
+use super::Motion;
 use super::motion::distinct;
 use super::transient::{self, Transient};
 use super::watch::Watch;
-use super::{Motion, periodicity};
 use crate::operation_count;
 use crate::simulation::batch::{self, Extent};
 use crate::simulation::{Observer, Simulation, StartError, Stop};
@@ -171,17 +171,45 @@ impl Group {
         each.map(|((one, far), observer)| one.run(far.periods, far.impacts, observer)).collect()
     }
 
-    fn measured(mut self, extents: &[Extent]) -> Vec<(Ended, Watch)> {
-        let mut watches: Vec<Watch> = self.simulations.iter().map(Watch::begin).collect();
+    /// Goes on with its watches.
+    fn watched(mut self, extents: &[Extent], mut watches: Vec<Watch>) -> Vec<(Ended, Watch)> {
         let stops = self.run(extents, &mut watches);
         let simulations = self.indices.into_iter().zip(self.simulations).zip(stops);
         let ended = |((index, simulation), stop)| Ended { index, simulation, stop };
         simulations.map(ended).zip(watches).collect()
     }
+
+    /// Measures each over a window of so many periods, in stretches that grow: what repeats at the end of one
+    /// needs no more.
+    fn measured(mut self, mut windows: Vec<u64>, effort: &Effort) -> Vec<(Ended, Watch)> {
+        let mut watches: Vec<Watch> = self.simulations.iter().map(Watch::begin).collect();
+        let mut done = Vec::new();
+        let mut stretch = 2 * WATCHED;
+        while !self.indices.is_empty() {
+            let each = self.simulations.iter().zip(&windows);
+            let extents: Vec<Extent> =
+                each.map(|(one, left)| effort.extent(one.system(), stretch.min(*left))).collect();
+            let ended = self.watched(&extents, watches);
+            (self, watches) = (Self::default(), Vec::new());
+            let mut further = Vec::new();
+            for ((one, mut watch), left) in ended.into_iter().zip(windows) {
+                if left <= stretch || one.stop != Stop::EndTime || watch.repeats() {
+                    done.push((one, watch));
+                } else {
+                    self.add(one.index, one.simulation);
+                    watches.push(watch);
+                    further.push(left - stretch);
+                }
+            }
+            windows = further;
+            stretch *= 2;
+        }
+        done
+    }
 }
 
 /// Leaves out a transient of so many periods for each start, watches its last periods, and measures what has
-/// not repeated by then over a window.
+/// not repeated by then over a window, or until it repeats.
 fn measured(mut all: Group, transients: &[u64], effort: &Effort) -> Vec<(Ended, Option<Motion>)> {
     let last = |system: &System| transient::window(system, WATCHED);
     let watched = all.extents(effort, |_, system| last(system));
@@ -190,28 +218,31 @@ fn measured(mut all: Group, transients: &[u64], effort: &Effort) -> Vec<(Ended, 
     all.run(&faded, &mut nobody);
     let mut done = Vec::with_capacity(all.indices.len());
     let (mut going, mut windows) = (Group::default(), Vec::new());
-    for (one, mut watch) in all.measured(&watched) {
+    let each = all.simulations.iter().zip(&watched);
+    let watches = each.map(|(one, far)| Watch::of_repetition(one, far.periods)).collect();
+    for (one, mut watch) in all.watched(&watched, watches) {
         let simulation = &one.simulation;
         if let Some(state) = transient::inactive(simulation.system(), &simulation.state()) {
             let followed = simulation.periods();
             let motion = Motion::inactive(simulation.system(), state, followed);
             done.push((one, Some(motion)));
-        } else if one.stop != Stop::EndTime
-            || periodicity::find(watch.statistics().records()).is_some()
-        {
+        } else if one.stop != Stop::ImpactLimit && (one.stop != Stop::EndTime || watch.repeats()) {
             let motion = watch.motion(simulation, one.stop);
             done.push((one, motion));
         } else {
             // Without an impact yet a window holds some flights, but is no longer than the transient.
             let silent = watch.statistics().impacts() == 0;
             let flown = if silent { periods_of_flights(simulation) } else { 0 };
-            let periods = effort.periods.max(flown.min(transients[one.index]));
-            let system = simulation.system();
-            windows.push(effort.extent(system, transient::window(system, periods)));
+            let periods = match one.stop {
+                // Many impacts are a regime already.
+                Stop::ImpactLimit => WATCHED,
+                _ => effort.periods.max(flown.min(transients[one.index])),
+            };
+            windows.push(transient::window(simulation.system(), periods));
             going.add(one.index, one.simulation);
         }
     }
-    done.extend(going.measured(&windows).into_iter().map(|(one, mut watch)| {
+    done.extend(going.measured(windows, effort).into_iter().map(|(one, mut watch)| {
         let motion = watch.motion(&one.simulation, one.stop);
         (one, motion)
     }));

@@ -37,6 +37,11 @@ pub fn last_repetition(found: Periodicity, impacts: &[Impact]) -> Option<&[Impac
     impacts.get(impacts.len().checked_sub(found.impacts as usize)?..)
 }
 
+/// The longest repetition that so many periods can show.
+pub fn longest_within(periods: u64) -> u64 {
+    (periods / (REPETITIONS as u64 + 1)).min(LONGEST as u64)
+}
+
 /// The shortest repetition at the end of `records`, if there is one.
 pub fn find(records: &[PeriodRecord]) -> Option<Periodicity> {
     (1..=LONGEST).find_map(|periods| repeats_after(records, periods))

@@ -1,6 +1,6 @@
 //! What watches a trajectory side by side with others.
 
-use super::{Evidence, Motion};
+use super::{Evidence, Motion, periodicity};
 use crate::simulation::{
     Detail, Impact, ImpactLog, Measurement, Observer, Segment, Simulation, Statistics, Stop,
 };
@@ -36,10 +36,26 @@ impl Observer for Watch {
 
 impl Watch {
     pub fn begin(simulation: &Simulation) -> Self {
+        Self::after(0, simulation)
+    }
+
+    /// Sees whether a motion repeats in so many periods, of which it measures flights in no more than the longest
+    /// repetition that they can show: a motion that does not repeat then has no size.
+    pub fn of_repetition(simulation: &Simulation, periods: u64) -> Self {
+        Self::after(periods - periodicity::longest_within(periods), simulation)
+    }
+
+    fn after(periods: u64, simulation: &Simulation) -> Self {
+        let (system, state) = (simulation.system(), simulation.state());
         Self {
-            measurement: Measurement::of_impacts(simulation.system(), simulation.state()),
+            measurement: Measurement::of_impacts_after(periods, system, state),
             log: ImpactLog::of_the_last(KEPT_IMPACTS),
         }
+    }
+
+    /// Whether what has been seen so far repeats.
+    pub fn repeats(&mut self) -> bool {
+        periodicity::find(self.statistics().records()).is_some()
     }
 
     /// What has been measured so far; without harmonics and work.
