@@ -10,6 +10,9 @@ const LONGEST: usize = 24;
 /// same, over the size of the motion: far above the rounding of a simulation and far below the
 /// distance between distinct orbits.
 const CLOSURE: f64 = 1e-6;
+/// Distance over the size of the motion between states a shorter repetition apart, up to which that one may be
+/// settling from alternate sides: [`CLOSURE`] where a thousandth of it fades in each period.
+const SETTLING: f64 = 1e-3;
 /// Repetitions that must be seen.
 const REPETITIONS: usize = 4;
 
@@ -25,6 +28,13 @@ pub struct Periodicity {
 }
 
 impl Periodicity {
+    /// Whether it is no shorter repetition that is still settling: a motion that comes to its orbit from
+    /// alternate sides repeats after twice its periods long before it does after once.
+    pub fn is_shortest(self, records: &[PeriodRecord]) -> bool {
+        let parts = (1..self.periods as usize).filter(|part| self.periods as usize % part == 0);
+        parts.filter_map(|part| closure(records, part)).all(|closure| closure > SETTLING)
+    }
+
     /// The records of the last repetition.
     pub fn last(self, records: &[PeriodRecord]) -> &[PeriodRecord] {
         &records[records.len().saturating_sub(self.periods as usize)..]
@@ -48,21 +58,21 @@ pub fn find(records: &[PeriodRecord]) -> Option<Periodicity> {
 }
 
 fn repeats_after(records: &[PeriodRecord], periods: usize) -> Option<Periodicity> {
-    let needed = (REPETITIONS + 1) * periods;
-    if records.len() < needed {
-        return None;
-    }
-    let tail = &records[records.len() - needed..];
-    let size = tail.iter().map(|record| record.end.size()).fold(0.0, f64::max);
-    let closure = tail
-        .iter()
-        .zip(&tail[periods..])
-        .map(|(before, after)| before.end.distance(&after.end))
-        .fold(0.0, f64::max)
-        / size.max(f64::MIN_POSITIVE);
-    let last = &tail[tail.len() - periods..];
+    let closure = closure(records, periods).filter(|closure| *closure <= CLOSURE)?;
+    let last = &records[records.len() - periods..];
     let impacts = last.iter().flat_map(|record| record.impacts).sum();
-    (closure <= CLOSURE).then_some(Periodicity { impacts, periods: periods as u32, closure })
+    Some(Periodicity { impacts, periods: periods as u32, closure })
+}
+
+/// Largest distance between states so many periods apart in the last repetitions, over the size of the motion;
+/// `None` where there are too few.
+fn closure(records: &[PeriodRecord], periods: usize) -> Option<f64> {
+    let needed = (REPETITIONS + 1) * periods;
+    let tail = &records[records.len().checked_sub(needed)?..];
+    let size = tail.iter().map(|record| record.end.size()).fold(0.0, f64::max);
+    let pairs = tail.iter().zip(&tail[periods..]);
+    let distance = pairs.map(|(before, after)| before.end.distance(&after.end)).fold(0.0, f64::max);
+    Some(distance / size.max(f64::MIN_POSITIVE))
 }
 
 /// Mean absolute difference of successive impact intervals over the excitation period; 0 for
@@ -82,6 +92,28 @@ pub fn asymmetry(impacts: &[Impact], period: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::simulation::Side;
+    use crate::system::State;
+
+    /// `x = 1 + offset (-0.98)^k` after period `k`: a repetition after 1 period that settles from alternate
+    /// sides, or with a constant offset one after 2.
+    #[test]
+    fn what_settles_from_alternate_sides_is_no_longer_repetition() {
+        let records = |offset: f64, factor: f64| -> Vec<PeriodRecord> {
+            let x = (0..40).map(|k| 1.0 + offset * libm::pow(-factor, f64::from(k)));
+            x.map(|x| PeriodRecord {
+                end: State { x, ..State::AT_REST },
+                ..PeriodRecord::default()
+            })
+            .collect()
+        };
+        let settling = records(2e-5, 0.98);
+        let found = find(&settling).expect("two periods apart it is within the closure");
+        assert_eq!(found.periods, 2);
+        assert!(!found.is_shortest(&settling));
+        let doubled = records(0.1, 1.0);
+        let found = find(&doubled).expect("it repeats");
+        assert!(found.periods == 2 && found.is_shortest(&doubled));
+    }
 
     #[test]
     fn the_last_repetition_is_at_the_end() {

@@ -53,9 +53,10 @@ impl Watch {
         }
     }
 
-    /// Whether what has been seen so far repeats.
+    /// Whether what has been seen so far repeats, and is no longer settling.
     pub fn repeats(&mut self) -> bool {
-        periodicity::find(self.statistics().records()).is_some()
+        let records = self.statistics().records();
+        periodicity::find(records).is_some_and(|found| found.is_shortest(records))
     }
 
     /// What has been measured so far; without harmonics and work.
