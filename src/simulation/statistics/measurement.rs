@@ -270,4 +270,28 @@ mod tests {
         }
         assert!(in_contact > 0 && without == 1, "{in_contact} {without}");
     }
+
+    /// What is asked for on the way leaves the flight under way as it is.
+    #[test]
+    fn statistics_may_be_asked_for_on_the_way() {
+        for system in systems() {
+            let run = |parts: u64| {
+                let mut measurement = Measurement::begin(&system, START);
+                let mut simulation = Simulation::new(&system, START, 0.0).expect("inside");
+                for _ in 0..parts {
+                    // Several flights wait then, seldom as many as are measured together.
+                    simulation.run(60 / parts, u64::MAX, &mut measurement);
+                    measurement.statistics();
+                }
+                measurement.statistics().clone()
+            };
+            let (once, often) = (run(1), run(60));
+            assert_eq!(once.impacts(), often.impacts());
+            // Exponentials of flights side by side are halved alike: rounding.
+            assert!((often.rms() / once.rms() - 1.0).abs() < 1e-13, "{system:?}");
+            assert!((often.peak() / once.peak() - 1.0).abs() < 1e-13, "{system:?}");
+            let (a, b) = (often.energy().input, once.energy().input);
+            assert!((a - b).abs() <= 1e-12 * once.largest_energy.max(b.abs()), "{system:?}");
+        }
+    }
 }
