@@ -121,7 +121,7 @@ fn impacts(criterion: &mut Criterion) {
         let alone = || engine(&system, PERIODS);
         println!(
             "b = {clearance} mm, per impact and relative to one trajectory: {TRAJECTORIES} side by side \
-             {:.2}, with all statistics {:.1}",
+             {:.2}, with all statistics {:.2}",
             per_impact(compare(alone, || side_by_side(&system, PERIODS))),
             per_impact(compare(alone, || measured(&system, PERIODS))),
         );

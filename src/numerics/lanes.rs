@@ -134,6 +134,24 @@ impl<S: Simd> Wide<S> {
         Self([f64x8::splat(simd, number); VECTORS])
     }
 
+    /// Those of an array.
+    #[inline(always)]
+    pub fn load(simd: S, numbers: &[f64; LANES]) -> Self {
+        let mut all = Self::splat(simd, 0.0);
+        for k in 0..VECTORS {
+            all.0[k] = f64x8::from_slice(simd, &numbers[WIDTH * k..WIDTH * (k + 1)]);
+        }
+        all
+    }
+
+    /// Into an array.
+    #[inline(always)]
+    pub fn store(self, numbers: &mut [f64; LANES]) {
+        for k in 0..VECTORS {
+            self.0[k].store_slice(&mut numbers[WIDTH * k..WIDTH * (k + 1)]);
+        }
+    }
+
     /// Where the number is neither infinite nor not a number.
     #[inline(always)]
     pub fn is_finite(self) -> WideMask<S> {

@@ -9,7 +9,7 @@ use crate::system::State;
 /// Impacts that are kept to tell a regime by: their intervals are averaged.
 const KEPT_IMPACTS: usize = 1000;
 
-/// Measures one trajectory from its impacts.
+/// Measures one trajectory and keeps its last impacts.
 pub(super) struct Watch {
     measurement: Measurement,
     pub log: ImpactLog,
@@ -48,7 +48,7 @@ impl Watch {
     fn after(periods: u64, simulation: &Simulation) -> Self {
         let (system, state) = (simulation.system(), simulation.state());
         Self {
-            measurement: Measurement::of_impacts_after(periods, system, state),
+            measurement: Measurement::after(periods, system, state),
             log: ImpactLog::of_the_last(KEPT_IMPACTS),
         }
     }
@@ -59,7 +59,7 @@ impl Watch {
         periodicity::find(records).is_some_and(|found| found.is_shortest(records))
     }
 
-    /// What has been measured so far; without harmonics and work.
+    /// What has been measured so far.
     pub fn statistics(&mut self) -> &Statistics {
         self.measurement.statistics()
     }

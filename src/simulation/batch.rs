@@ -13,7 +13,7 @@ use fearless_simd::{Level, Simd, dispatch};
 
 use self::queue::{Queue, Task};
 use super::certificate::{Hull, Slack};
-use super::events::Observer;
+use super::events::{Detail, Observer};
 use super::panels::Limits;
 use super::phasor::{At, Line, Rates, Steady};
 use super::run::{Moment, Simulation, Stop};
@@ -116,6 +116,8 @@ struct Lanes<S: Simd> {
     simd: S,
     /// Which task each lane flies; none where the queue has run dry.
     task: [Option<usize>; LANES],
+    /// Lanes whose observers need to be told of something.
+    observed: u64,
     rates: Rates<Wide<S>>,
     mass_ratio: Wide<S>,
     restitution: Wide<S>,
@@ -150,6 +152,7 @@ impl<S: Simd> Lanes<S> {
         Self {
             simd,
             task: [None; LANES],
+            observed: 0,
             rates: Rates::gathered(|_| one),
             mass_ratio: zero,
             restitution: zero,
@@ -200,9 +203,9 @@ impl<S: Simd> Lanes<S> {
             if active == 0 {
                 return;
             }
-            let (flying, clear) = self.fly_panels(active);
+            let Flown { flying, clear, there } = self.fly_panels(active);
             let resumed;
-            (fresh, resumed) = self.deal_with(active & !flying, clear, queue);
+            (fresh, resumed) = self.deal_with(active & !flying, clear, there, queue);
             active = flying | resumed;
         }
     }
@@ -254,10 +257,9 @@ impl<S: Simd> Lanes<S> {
         }
     }
 
-    /// Flies until enough lanes wait at an event; those that fly on, and those of the others that wait
-    /// because their period ends in a panel without impact.
+    /// Flies until enough lanes wait at an event.
     #[inline(always)]
-    fn fly_panels(&mut self, active: u64) -> (u64, u64) {
+    fn fly_panels(&mut self, active: u64) -> Flown<S> {
         let all = active.count_ones();
         let enough = ENOUGH.min(all);
         let Self { simd, rates, line, slack, left, .. } = *self;
@@ -275,7 +277,7 @@ impl<S: Simd> Lanes<S> {
                 (self.here, self.time) =
                     (At::choose(flying, &there, &here), Wide::choose(flying, reach, time));
                 self.panels = Wide::choose(flying, panels + 1.0, panels);
-                return (flying.bits(), ended.bits());
+                return Flown { flying: flying.bits(), clear: ended.bits(), there };
             }
             here = At::choose(flying, &there, &here);
             time = Wide::choose(flying, reach, time);
@@ -331,10 +333,12 @@ impl<S: Simd> Lanes<S> {
                 all
             },
         );
-        let Some(Task { simulation, limits, .. }) = self.task[lane].map(|index| &tasks[index])
+        let Some(Task { simulation, limits, detail, .. }) =
+            self.task[lane].map(|index| &tasks[index])
         else {
             return;
         };
+        self.observed = self.observed & !(1 << lane) | u64::from(*detail > Detail::Nothing) << lane;
         self.mass_ratio[lane] = simulation.system.mass_ratio();
         self.restitution[lane] = simulation.system.restitution();
         let sticking = Sticking::of(simulation);
@@ -361,6 +365,16 @@ impl<S: Simd> Lanes<S> {
         self.impacts[lane] = departure.impacts as f64;
         self.evaluations[lane] = departure.evaluations as f64;
     }
+}
+
+/// What flying through panels comes to.
+struct Flown<S: Simd> {
+    /// The lanes that fly on.
+    flying: u64,
+    /// Those of the others that wait because their period ends in a panel without impact.
+    clear: u64,
+    /// The ends of the panels in which those others wait.
+    there: At<Wide<S>>,
 }
 
 /// The slack of some lanes replaced.

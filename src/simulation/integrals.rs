@@ -17,7 +17,7 @@ use super::flow::Oscillator;
 use super::phasor::Rates;
 use super::small::{angles, exponential_minus_one};
 use crate::numerics::bracket::brent;
-use crate::numerics::lanes::Real;
+use crate::numerics::lanes::{LANES, Real};
 use crate::numerics::quadrature;
 use crate::operation_count;
 use crate::system::{State, System};
@@ -156,12 +156,24 @@ pub(super) struct Ringing {
     pub steady: Phasor,
     /// `i Omega`.
     pub turn: Phasor,
+    pub over: Quotients,
     /// Of `x^2`, `x'^2` and the excitation's work.
     squares: [Product; 3],
 }
 
-/// One flight, or several.
+/// The inverse rates by which four of the five grow, and `E` itself.
 #[derive(Debug, Clone, Copy)]
+pub(super) struct Quotients {
+    pub zz: Phasor,
+    pub ze: Phasor,
+    /// Not finite without damping and at resonance.
+    pub ze_conj: Phasor,
+    pub ee: Phasor,
+    e: Phasor,
+}
+
+/// One flight, or several.
+#[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Ends<R> {
     /// The excitation's phase at either end.
     pub phase: [R; 2],
@@ -171,6 +183,17 @@ pub(super) struct Ends<R> {
     /// The absorber's displacement at the beginning, and its velocity.
     pub y: R,
     pub y_velocity: R,
+}
+
+impl Ends<[f64; LANES]> {
+    /// Begins the flight of a lane where that of another does.
+    pub(super) fn begin_like(&mut self, other: usize, lane: usize) {
+        for all in
+            [&mut self.phase[0], &mut self.x[0], &mut self.v[0], &mut self.y, &mut self.y_velocity]
+        {
+            all[lane] = all[other];
+        }
+    }
 }
 
 impl Ringing {
@@ -188,7 +211,14 @@ impl Ringing {
             Product::of(velocity, velocity),
             Product::of(velocity, [zero, Phasor::new(cosine, -sine)]),
         ];
-        Some(Self { rates, pole, steady, turn, squares })
+        let over = Quotients {
+            zz: one / (pole * 2.0),
+            ze: one / (pole + turn),
+            ze_conj: one / (pole - turn),
+            ee: one / (turn * 2.0),
+            e: one / turn,
+        };
+        Some(Self { rates, pole, steady, turn, over, squares })
     }
 
     /// The excitation at either end of flights.
@@ -222,31 +252,30 @@ impl Ringing {
             re: lost - half.0 * half.0 * envelope * 2.0,
             im: half.0 * half.1 * envelope * 2.0,
         };
-        let one = Phasor::new(1.0, 0.0);
-        let slip = self.pole - self.turn;
+        let over = &self.over;
         // Without damping and at resonance the last two quotients are 0/0, and their limit the duration.
         let fading =
             if decay > 0.0 { (lost * lost + lost * 2.0) * (-0.5 / decay) } else { duration };
-        let beating = if slip == Phasor::new(0.0, 0.0) {
+        let beating = if self.pole == self.turn {
             Turning { re: duration, im: duration.like(0.0) }
         } else {
-            beat.scaled(one / slip)
+            beat.scaled(over.ze_conj)
         };
         let five = Five {
-            zz: (z_end * z_end - z * z).scaled(one / (self.pole * 2.0)),
+            zz: (z_end * z_end - z * z).scaled(over.zz),
             size: z.size() * fading,
-            ze: (z_end * end - z * begin).scaled(one / (self.pole + self.turn)),
+            ze: (z_end * end - z * begin).scaled(over.ze),
             ze_conj: z * begin.conj() * beating,
-            ee: (end * end - begin * begin).scaled(one / (self.turn * 2.0)),
+            ee: (end * end - begin * begin).scaled(over.ee),
             duration,
         };
         let alone = five.ee.scaled(self.steady)
             + Turning { re: duration, im: duration.like(0.0) }.scaled(self.steady.conj());
         let oscillator = (five.ze + five.ze_conj.conj() + alone).times(duration.like(0.5));
-        let once = (end - begin).scaled(one / self.turn);
+        let once = (end - begin).scaled(over.e);
         let absorber =
             (end.times(y + y_velocity * duration) - begin.times(y) - once.times(y_velocity))
-                .scaled(one / self.turn);
+                .scaled(over.e);
         let [displacement_squared, velocity_squared, work] = &self.squares;
         Integrals {
             displacement_squared: displacement_squared.over(&five),

@@ -17,30 +17,25 @@ struct Moment<R> {
     steady: Steady<R>,
 }
 
-/// What a flight adds to what is measured.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+/// What flights add to what is measured.
+#[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Measured {
-    pub peak: f64,
-    /// None where they are not asked for.
-    pub integrals: Option<Integrals<f64>>,
+    pub peaks: [f64; LANES],
+    pub integrals: Integrals<[f64; LANES]>,
 }
 
-/// Measures up to [`LANES`] flights; more are left out.
-pub(super) fn together(
-    ringing: &Ringing,
-    flights: &[Ends<f64>],
-    integrals: bool,
-) -> [Measured; LANES] {
-    dispatch!(Level::new(), simd => side_by_side(simd, ringing, flights, integrals))
+/// Measures [`LANES`] flights.
+pub(super) fn together(ringing: &Ringing, flights: &Ends<[f64; LANES]>, measured: &mut Measured) {
+    dispatch!(Level::new(), simd => side_by_side(simd, ringing, flights, measured));
 }
 
 #[inline(always)]
 fn side_by_side<S: Simd>(
     simd: S,
     ringing: &Ringing,
-    flights: &[Ends<f64>],
-    integrals: bool,
-) -> [Measured; LANES] {
+    flights: &Ends<[f64; LANES]>,
+    measured: &mut Measured,
+) {
     simd.vectorize(
         #[inline(always)]
         || {
@@ -53,20 +48,10 @@ fn side_by_side<S: Simd>(
             let begin = ringing.moment(&ends, &excitation, 0);
             let end = ringing.moment(&ends, &excitation, 1);
             let duration = (ends.phase[1] - ends.phase[0]) * rates.inverse_frequency;
-            let peaks = highest(simd, &rates, &begin, duration, &end);
-            let mut measured = [Measured::default(); LANES];
-            for (lane, one) in measured.iter_mut().enumerate() {
-                one.peak = peaks[lane];
-            }
-            if integrals {
-                let integrals = ringing.over(simd, &ends, excitation);
-                for (lane, one) in measured.iter_mut().enumerate() {
-                    one.integrals = Some(integrals.at(lane));
-                }
-            }
-            measured
+            highest(simd, &rates, &begin, duration, &end).store(&mut measured.peaks);
+            ringing.over(simd, &ends, excitation).store(&mut measured.integrals);
         },
-    )
+    );
 }
 
 impl Ringing {
@@ -79,27 +64,35 @@ impl Ringing {
     }
 }
 
-/// Flights side by side; the lanes that are left have a flight of no duration.
+/// Flights side by side.
 #[inline(always)]
-fn gathered<S: Simd>(simd: S, flights: &[Ends<f64>]) -> Ends<Wide<S>> {
-    let zero = Wide::splat(simd, 0.0);
-    let mut all = Ends { phase: [zero; 2], x: [zero; 2], v: [zero; 2], y: zero, y_velocity: zero };
-    for (lane, flight) in flights.iter().enumerate().take(LANES) {
-        for k in 0..2 {
-            all.phase[k][lane] = flight.phase[k];
-            all.x[k][lane] = flight.x[k];
-            all.v[k][lane] = flight.v[k];
-        }
-        all.y[lane] = flight.y;
-        all.y_velocity[lane] = flight.y_velocity;
+fn gathered<S: Simd>(simd: S, flights: &Ends<[f64; LANES]>) -> Ends<Wide<S>> {
+    let Ends { phase, x, v, y, y_velocity } = flights;
+    Ends {
+        phase: [Wide::load(simd, &phase[0]), Wide::load(simd, &phase[1])],
+        x: [Wide::load(simd, &x[0]), Wide::load(simd, &x[1])],
+        v: [Wide::load(simd, &v[0]), Wide::load(simd, &v[1])],
+        y: Wide::load(simd, y),
+        y_velocity: Wide::load(simd, y_velocity),
     }
-    all
 }
 
 impl<S: Simd> Integrals<Wide<S>> {
-    /// Those of one flight.
     #[inline(always)]
-    fn at(&self, lane: usize) -> Integrals<f64> {
+    fn store(&self, to: &mut Integrals<[f64; LANES]>) {
+        self.displacement_squared.store(&mut to.displacement_squared);
+        self.velocity_squared.store(&mut to.velocity_squared);
+        self.work.store(&mut to.work);
+        for k in 0..2 {
+            self.oscillator[k].store(&mut to.oscillator[k]);
+            self.absorber[k].store(&mut to.absorber[k]);
+        }
+    }
+}
+
+impl Integrals<[f64; LANES]> {
+    /// Those of one flight.
+    pub(super) fn at(&self, lane: usize) -> Integrals<f64> {
         Integrals {
             displacement_squared: self.displacement_squared[lane],
             velocity_squared: self.velocity_squared[lane],
@@ -118,6 +111,36 @@ impl<R: Real> Moment<R> {
     }
 }
 
+/// A panel at whose ends the velocity differs in sign.
+#[derive(Debug, Clone, Copy)]
+struct Turn<R> {
+    here: At<R>,
+    there: At<R>,
+    length: R,
+}
+
+impl<R: Real> Turn<R> {
+    /// The largest displacement known, and what some flights reach where they turn.
+    #[inline(always)]
+    fn highest<S: Simd>(
+        &self,
+        simd: S,
+        rates: &Rates<R>,
+        slack: &Slack<R>,
+        lanes: R::Mask,
+        known: R,
+    ) -> R {
+        let Self { here, there, length } = self;
+        let turn = Quintic::through(here, there, *length).turning_point();
+        let open = lanes & !turn.highest(slack).at_most(known);
+        if !open.any() {
+            return known;
+        }
+        let height = rates.turning_point(simd, here, turn.at * *length, *length, open);
+        R::choose(open, known.larger(height.abs()), known)
+    }
+}
+
 /// The largest absolute displacement in a flight.
 #[inline(always)]
 fn highest<R: Real, S: Simd>(
@@ -132,11 +155,10 @@ fn highest<R: Real, S: Simd>(
     let (mut here, slack) = begin.seen(rates, base);
     let (end, _) = end.seen(rates, base);
     let (mut left, mut peak) = (duration, here.gap.abs());
+    // Most flights turn once: where, is kept until one of them turns again, and looked at together.
+    let (mut turn, mut turned) = (Turn { here, there: here, length: left }, zero.less(zero));
     loop {
         let flying = zero.less(left);
-        if !flying.any() {
-            return peak;
-        }
         let last = left.less(rates.step);
         let length = rates.step.smaller(left);
         let mut there = rates.next(&here, base);
@@ -145,14 +167,19 @@ fn highest<R: Real, S: Simd>(
         }
         peak = R::choose(flying, peak.larger(there.gap.abs()), peak);
         let turns = flying & (here.slope * there.slope).less(zero);
+        let over = !flying.any();
+        if over || (turns & turned).any() {
+            peak = turn.highest(simd, rates, &slack, turned, peak);
+            turned = zero.less(zero);
+        }
+        if over {
+            return peak;
+        }
         if turns.any() {
-            let turn = Quintic::through(&here, &there, length).turning_point();
-            let open = turns & !turn.highest(&slack).at_most(peak);
-            if open.any() {
-                let guess = turn.at * length;
-                let height = rates.turning_point(simd, &here, guess, length, open);
-                peak = R::choose(open, peak.larger(height.abs()), peak);
-            }
+            turn.here = At::choose(turns, &here, &turn.here);
+            turn.there = At::choose(turns, &there, &turn.there);
+            turn.length = R::choose(turns, length, turn.length);
+            turned = turned | turns;
         }
         (here, left) = (there, left - rates.step);
     }

@@ -8,7 +8,7 @@ mod measurement;
 use serde::Serialize;
 
 use super::events::{Impact, Side};
-use super::peaks::Measured;
+use super::integrals::Integrals;
 use crate::numerics::scatter::{error_of_largest, twice_standard_error};
 use crate::system::{State, System};
 
@@ -239,46 +239,36 @@ impl Statistics {
         mean
     }
 
-    /// The record of a period, the number of whole periods before which is given; none if it is not kept.
-    fn record(&mut self, period: u64) -> Option<&mut PeriodRecord> {
-        if period == self.periods {
-            return Some(&mut self.current);
-        }
-        let at = self.records.len().checked_sub((self.periods - period) as usize)?;
-        self.records.get_mut(at)
-    }
-
-    /// Adds a flight or another stretch in a period, the number of whole periods before which is given.
-    fn add(&mut self, period: u64, Measured { peak, integrals }: &Measured) {
-        if period < self.periods {
-            self.peak = self.peak.max(*peak);
-        }
-        if let Some(record) = self.record(period) {
-            record.peak = record.peak.max(*peak);
-        }
-        let Some(sums) = integrals else { return };
-        self.add_squares(period, [sums.displacement_squared, sums.velocity_squared]);
-        self.input += sums.work;
+    /// Adds flights or another stretch in a period, the number of whole periods before which is given: their
+    /// peaks and integrals.
+    fn add(&mut self, period: u64, stretches: impl Iterator<Item = (f64, Integrals<f64>)>) {
         let scale = self.system.frequency_ratio() / std::f64::consts::PI;
-        let Some(record) = self.record(period) else { return };
-        for k in 0..2 {
-            record.oscillator_harmonic[k] += scale * sums.oscillator[k];
-            record.absorber_harmonic[k] += scale * sums.absorber[k];
-        }
-    }
-
-    /// Adds integrals of the squared displacement and velocity in a period.
-    fn add_squares(&mut self, period: u64, [displacement, velocity]: [f64; 2]) {
-        let lost = self.system.mass_ratio() * self.system.damping() * velocity;
-        self.squared += displacement;
-        self.damper += lost;
-        let mean = displacement / self.system.period();
-        if let Some(record) = self.record(period) {
-            record.mean_square += mean;
-        }
-        let since = self.records.len().saturating_sub((self.periods - period) as usize);
-        for record in &mut self.records[since..] {
-            record.lost[0] += lost;
+        let (duration, damping) =
+            (self.system.period(), self.system.mass_ratio() * self.system.damping());
+        let since = self.records.len().checked_sub((self.periods - period) as usize);
+        let later = &mut self.records[since.unwrap_or(0)..];
+        let mut not_kept = PeriodRecord::default();
+        for (peak, sums) in stretches {
+            let record = match since {
+                Some(_) => later.first_mut().unwrap_or(&mut self.current),
+                None => &mut not_kept,
+            };
+            record.peak = record.peak.max(peak);
+            if period < self.periods {
+                self.peak = self.peak.max(peak);
+            }
+            self.squared += sums.displacement_squared;
+            record.mean_square += sums.displacement_squared / duration;
+            self.input += sums.work;
+            for k in 0..2 {
+                record.oscillator_harmonic[k] += scale * sums.oscillator[k];
+                record.absorber_harmonic[k] += scale * sums.absorber[k];
+            }
+            let lost = damping * sums.velocity_squared;
+            self.damper += lost;
+            for record in &mut *later {
+                record.lost[0] += lost;
+            }
         }
     }
 

@@ -16,16 +16,17 @@ use crate::system::State;
 const HALVINGS: u32 = 3;
 
 impl<S: Simd> Lanes<S> {
-    /// Deals with the lanes that wait, in some of them with a panel that is clear: those that begin
+    /// Deals with the lanes that wait in panels that end `there`, some of which are clear: those that begin
     /// another flight, and those that fly on after a shorter panel.
     #[inline(always)]
     pub(super) fn deal_with(
         &mut self,
         events: u64,
         clear: u64,
+        there: At<Wide<S>>,
         queue: &mut Queue<'_>,
     ) -> (u64, u64) {
-        let panel = self.narrowed(events, clear);
+        let panel = self.narrowed(events, clear, there);
         let end = self.end(&panel);
         let event = self.event(&panel, &end);
         self.tell(&event, &end, queue);
@@ -59,12 +60,11 @@ impl<S: Simd> Lanes<S> {
 
     /// The panels of the waiting lanes, halved where nothing is proven about them and they are not `clear`.
     #[inline(always)]
-    fn narrowed(&mut self, events: u64, clear: u64) -> Panel<S> {
+    fn narrowed(&mut self, events: u64, clear: u64, mut there: At<Wide<S>>) -> Panel<S> {
         let (simd, rates) = (self.simd, self.rates);
         let waiting = WideMask::from_bits(simd, events);
         let mut clear = WideMask::from_bits(simd, clear);
         let mut length = rates.step;
-        let mut there = rates.next(&self.here, self.line.from(self.time + length));
         let mut slack = self.slack;
         let mut wall = nearest(&there);
         let hull = Hull::of(&self.here, &there, length, &slack);
@@ -184,13 +184,10 @@ impl<S: Simd> Lanes<S> {
     /// Tells observers of what has happened to their lanes.
     #[inline(always)]
     fn tell(&self, event: &Event<S>, end: &End<S>, queue: &mut Queue<'_>) {
-        let (good, impact) = (event.good.bits(), event.impact.bits());
+        let (good, impact) = (event.good.bits() & self.observed, event.impact.bits());
         for lane in (0..LANES).filter(|lane| good >> lane & 1 == 1) {
             let Some(index) = self.task[lane] else { continue };
             let Task { simulation, observer, detail, .. } = &mut queue.tasks[index];
-            if *detail == Detail::Nothing {
-                continue;
-            }
             let flight = event.flight[lane];
             if flight > 0.0 && *detail == Detail::Flights {
                 observer.segment(&simulation.flown(&self.moment(lane), flight));

@@ -1,3 +1,4 @@
+use crate::numerics::lanes::LANES;
 use crate::simulation::events::{Absorber, Observer, Segment};
 use crate::simulation::integrals::{Ends, Quadrature, Ringing};
 use crate::simulation::{Simulation, Stop, peaks};
@@ -17,15 +18,22 @@ impl Observer for Comparison {
         let Some(ringing) = &self.ringing else { return };
         let (begin, end) = (segment.at(0.0), segment.at(segment.duration));
         let over = segment.phase + self.system.frequency_ratio() * segment.duration;
-        let ends = Ends {
-            phase: [segment.phase, over],
-            x: [begin.x, end.x],
-            v: [begin.x_velocity, end.x_velocity],
-            y,
-            y_velocity,
+        // One flight; the others have no duration.
+        let alone = |number| {
+            let mut lanes = [0.0; LANES];
+            lanes[0] = number;
+            lanes
         };
-        let [measured, ..] = peaks::together(ringing, &[ends], true);
-        let closed = measured.integrals.expect("asked for");
+        let ends = Ends {
+            phase: [segment.phase, over].map(alone),
+            x: [begin.x, end.x].map(alone),
+            v: [begin.x_velocity, end.x_velocity].map(alone),
+            y: alone(y),
+            y_velocity: alone(y_velocity),
+        };
+        let mut measured = peaks::Measured::default();
+        peaks::together(ringing, &ends, &mut measured);
+        let closed = measured.integrals.at(0);
         let sampled = self.quadrature.over(segment);
         self.compared += 1;
         // Either is rounded some fifty times at the size of the motion, or of its free and steady
@@ -49,7 +57,7 @@ impl Observer for Comparison {
         for (one, other) in pairs {
             assert!((one - other).abs() < 1e-14 * scale, "{closed:?} {sampled:?} {scale}");
         }
-        let peak = measured.peak;
+        let peak = measured.peaks[0];
         let mut largest = 0.0_f64;
         for k in 0..=400 {
             let at = segment.at(segment.duration * f64::from(k) / 400.0);
