@@ -128,7 +128,6 @@ mod tests {
             y_velocity_after: 0.0,
             loss: 0.0,
             penetration: 0.0,
-            steady: None,
         };
         let all: Vec<Impact> = (0..5).map(|k| impact(f64::from(k))).collect();
         let found = |impacts| Periodicity { impacts, periods: 1, closure: 0.0 };

@@ -69,9 +69,6 @@ pub struct Impact {
     pub loss: f64,
     /// How far past the wall the search stopped: rounding, over the clearance.
     pub penetration: f64,
-    /// Displacement and velocity of the oscillator's steady motion there, if they are at hand.
-    #[serde(skip)]
-    pub(crate) steady: Option<[f64; 2]>,
 }
 
 impl Impact {

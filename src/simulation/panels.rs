@@ -146,7 +146,7 @@ impl Simulation {
         observer: &mut dyn Observer,
         detail: Detail,
     ) {
-        let Landing { wall, time, steady, .. } = landing;
+        let Landing { wall, time, .. } = landing;
         if time > 0.0 && detail == Detail::Flights {
             observer.segment(&self.flown(&at, time));
         }
@@ -157,7 +157,7 @@ impl Simulation {
         let (eps, r) = (self.system.mass_ratio(), self.system.restitution());
         let after = rebound(eps, r, before.x_velocity, before.y_velocity);
         let when = (at.turns, at.phase + self.alone.frequency * time);
-        observer.impact(&self.impact(&before, side, &after, when, Some(steady)));
+        observer.impact(&self.impact(&before, side, &after, when));
     }
 }
 

@@ -274,7 +274,6 @@ impl Simulation {
         side: Side,
         after: &Rebound,
         (turns, phase): (u64, f64),
-        steady: Option<Steady<f64>>,
     ) -> Impact {
         Impact {
             tau: (turns as f64 * TAU + phase) / self.system.frequency_ratio(),
@@ -287,7 +286,6 @@ impl Simulation {
             y_velocity_after: after.y_velocity,
             loss: after.loss,
             penetration: (before.relative_displacement().abs() - 1.0).max(0.0),
-            steady: steady.map(|Steady { x, v }| [x, v]),
         }
     }
 

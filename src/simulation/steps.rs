@@ -93,9 +93,8 @@ impl Simulation {
         let (eps, r) = (self.system.mass_ratio(), self.system.restitution());
         let after = rebound(eps, r, before.x_velocity, before.y_velocity);
         self.at.impacts += 1;
-        let steady = self.rates.map(|_| self.at.steady);
         let when = (self.at.turns, self.at.phase);
-        observer.impact(&self.impact(&before, side, &after, when, steady));
+        observer.impact(&self.impact(&before, side, &after, when));
         self.at.state = self.rebounded(&before, side, &after);
         self.perhaps_stick(side, observer);
     }

@@ -192,7 +192,6 @@ mod tests {
             y_velocity_after: 0.0,
             loss: 0.0,
             penetration: 0.0,
-            steady: None,
         });
         assert!(same(kept(struck.change), kept(change)), "{struck:?}");
         // The gap's change is reversed and shrinks by r.

@@ -29,7 +29,7 @@ impl<S: Simd> Lanes<S> {
         let panel = self.narrowed(events, clear, there);
         let end = self.end(&panel);
         let event = self.event(&panel, &end);
-        self.tell(&event, &end, queue);
+        self.tell(&event, queue);
         self.stand(&event, &end);
         let stuck = event.impact & self.sticking.possible(self.x, self.v, self.line, panel.wall);
         let through = self.last_turn.at_most(self.turns) | self.last_impact.at_most(self.impacts);
@@ -183,7 +183,7 @@ impl<S: Simd> Lanes<S> {
 
     /// Tells observers of what has happened to their lanes.
     #[inline(always)]
-    fn tell(&self, event: &Event<S>, end: &End<S>, queue: &mut Queue<'_>) {
+    fn tell(&self, event: &Event<S>, queue: &mut Queue<'_>) {
         let (good, impact) = (event.good.bits() & self.observed, event.impact.bits());
         for lane in (0..LANES).filter(|lane| good >> lane & 1 == 1) {
             let Some(index) = self.task[lane] else { continue };
@@ -208,9 +208,8 @@ impl<S: Simd> Lanes<S> {
                 loss: event.after.loss[lane],
             };
             let when = (self.turns[lane] as u64, event.phase[lane]);
-            let steady = Some(Steady { x: end.steady.x[lane], v: end.steady.v[lane] });
             let side = side(event.wall[lane]);
-            observer.impact(&simulation.impact(&at, side, &after, when, steady));
+            observer.impact(&simulation.impact(&at, side, &after, when));
         }
     }
 }
