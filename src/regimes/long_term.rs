@@ -6,6 +6,7 @@
 
 use super::Motion;
 use super::motion::distinct;
+use super::periodicity::Periodicity;
 use super::transient::{self, Transient};
 use super::watch::Watch;
 use crate::operation_count;
@@ -179,7 +180,7 @@ impl Group {
         simulations.map(ended).zip(watches).collect()
     }
 
-    /// Measures each over a window of so many periods, in stretches that grow: what repeats at the end of one
+    /// Measures each over a window of so many periods, in stretches that grow: what has settled at the end of one
     /// needs no more.
     fn measured(mut self, mut windows: Vec<u64>, effort: &Effort) -> Vec<(Ended, Watch)> {
         let mut watches: Vec<Watch> = self.simulations.iter().map(Watch::begin).collect();
@@ -193,7 +194,8 @@ impl Group {
             (self, watches) = (Self::default(), Vec::new());
             let mut further = Vec::new();
             for ((one, mut watch), left) in ended.into_iter().zip(windows) {
-                if left <= stretch || one.stop != Stop::EndTime || watch.repeats() {
+                let settled = watch.repetition().is_some_and(Periodicity::has_settled);
+                if left <= stretch || one.stop != Stop::EndTime || settled {
                     done.push((one, watch));
                 } else {
                     self.add(one.index, one.simulation);
@@ -226,7 +228,9 @@ fn measured(mut all: Group, transients: &[u64], effort: &Effort) -> Vec<(Ended, 
             let followed = simulation.periods();
             let motion = Motion::inactive(simulation.system(), state, followed);
             done.push((one, Some(motion)));
-        } else if one.stop != Stop::ImpactLimit && (one.stop != Stop::EndTime || watch.repeats()) {
+        } else if one.stop != Stop::ImpactLimit
+            && (one.stop != Stop::EndTime || watch.repetition().is_some())
+        {
             let motion = watch.motion(simulation, one.stop);
             done.push((one, motion));
         } else {

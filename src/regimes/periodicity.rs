@@ -10,9 +10,9 @@ const LONGEST: usize = 24;
 /// same, over the size of the motion: far above the rounding of a simulation and far below the
 /// distance between distinct orbits.
 const CLOSURE: f64 = 1e-6;
-/// Distance over the size of the motion between states a shorter repetition apart, up to which that one may be
-/// settling from alternate sides: [`CLOSURE`] where a thousandth of it fades in each period.
-const SETTLING: f64 = 1e-3;
+/// The same for a motion that has settled: what is left of its transient shows in no digit of a report, nor does
+/// a motion that settles from alternate sides, and repeats after twice its periods first, pass for that.
+const SETTLED: f64 = 1e-8;
 /// Repetitions that must be seen.
 const REPETITIONS: usize = 4;
 
@@ -28,11 +28,9 @@ pub struct Periodicity {
 }
 
 impl Periodicity {
-    /// Whether it is no shorter repetition that is still settling: a motion that comes to its orbit from
-    /// alternate sides repeats after twice its periods long before it does after once.
-    pub fn is_shortest(self, records: &[PeriodRecord]) -> bool {
-        let parts = (1..self.periods as usize).filter(|part| self.periods as usize % part == 0);
-        parts.filter_map(|part| closure(records, part)).all(|closure| closure > SETTLING)
+    /// Whether watching it any longer changes nothing.
+    pub fn has_settled(self) -> bool {
+        self.closure <= SETTLED
     }
 
     /// The records of the last repetition.
@@ -58,21 +56,21 @@ pub fn find(records: &[PeriodRecord]) -> Option<Periodicity> {
 }
 
 fn repeats_after(records: &[PeriodRecord], periods: usize) -> Option<Periodicity> {
-    let closure = closure(records, periods).filter(|closure| *closure <= CLOSURE)?;
-    let last = &records[records.len() - periods..];
-    let impacts = last.iter().flat_map(|record| record.impacts).sum();
-    Some(Periodicity { impacts, periods: periods as u32, closure })
-}
-
-/// Largest distance between states so many periods apart in the last repetitions, over the size of the motion;
-/// `None` where there are too few.
-fn closure(records: &[PeriodRecord], periods: usize) -> Option<f64> {
     let needed = (REPETITIONS + 1) * periods;
-    let tail = &records[records.len().checked_sub(needed)?..];
+    if records.len() < needed {
+        return None;
+    }
+    let tail = &records[records.len() - needed..];
     let size = tail.iter().map(|record| record.end.size()).fold(0.0, f64::max);
-    let pairs = tail.iter().zip(&tail[periods..]);
-    let distance = pairs.map(|(before, after)| before.end.distance(&after.end)).fold(0.0, f64::max);
-    Some(distance / size.max(f64::MIN_POSITIVE))
+    let closure = tail
+        .iter()
+        .zip(&tail[periods..])
+        .map(|(before, after)| before.end.distance(&after.end))
+        .fold(0.0, f64::max)
+        / size.max(f64::MIN_POSITIVE);
+    let last = &tail[tail.len() - periods..];
+    let impacts = last.iter().flat_map(|record| record.impacts).sum();
+    (closure <= CLOSURE).then_some(Periodicity { impacts, periods: periods as u32, closure })
 }
 
 /// Mean absolute difference of successive impact intervals over the excitation period; 0 for
@@ -106,13 +104,10 @@ mod tests {
             })
             .collect()
         };
-        let settling = records(2e-5, 0.98);
-        let found = find(&settling).expect("two periods apart it is within the closure");
-        assert_eq!(found.periods, 2);
-        assert!(!found.is_shortest(&settling));
-        let doubled = records(0.1, 1.0);
-        let found = find(&doubled).expect("it repeats");
-        assert!(found.periods == 2 && found.is_shortest(&doubled));
+        let found = find(&records(2e-5, 0.98)).expect("two periods apart it is within the closure");
+        assert!(found.periods == 2 && !found.has_settled());
+        let found = find(&records(0.1, 1.0)).expect("it repeats");
+        assert!(found.periods == 2 && found.has_settled());
     }
 
     #[test]

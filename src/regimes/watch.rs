@@ -1,6 +1,7 @@
 //! What watches a trajectory side by side with others.
 
-use super::{Evidence, Motion, periodicity};
+use super::periodicity::{self, Periodicity};
+use super::{Evidence, Motion};
 use crate::simulation::{
     Detail, Impact, ImpactLog, Measurement, Observer, Segment, Simulation, Statistics, Stop,
 };
@@ -53,10 +54,9 @@ impl Watch {
         }
     }
 
-    /// Whether what has been seen so far repeats, and is no longer settling.
-    pub fn repeats(&mut self) -> bool {
-        let records = self.statistics().records();
-        periodicity::find(records).is_some_and(|found| found.is_shortest(records))
+    /// How what has been seen so far repeats.
+    pub fn repetition(&mut self) -> Option<Periodicity> {
+        periodicity::find(self.statistics().records())
     }
 
     /// What has been measured so far.
