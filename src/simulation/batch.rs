@@ -107,8 +107,14 @@ fn run_at<O: Observer>(
         })
         .collect();
     let mut queue = Queue { tasks, next: 0 };
-    dispatch!(level, simd => Lanes::new(simd).run(&mut queue));
+    fly(level, &mut queue);
     queue.tasks.into_iter().map(|task| task.stop.unwrap_or(Stop::EndTime)).collect()
+}
+
+/// Flies all of a queue. It does not depend on the type of observers: there is one copy for each set of
+/// instructions, and none in a crate that uses this one.
+fn fly(level: Level, queue: &mut Queue<'_>) {
+    dispatch!(level, simd => Lanes::new(simd).run(queue));
 }
 
 /// Flights side by side.
