@@ -11,6 +11,7 @@
 #![allow(non_snake_case)]
 
 pub mod fixed_points;
+pub mod free_decay;
 pub mod manifold;
 pub mod slow_flow;
 pub mod stated;
@@ -19,7 +20,7 @@ use crate::symbolic::{Group, Symbol, Values};
 use crate::system::{Excitation, System};
 
 /// All equations of the theory in reading order: what is assumed, the manifold, the fixed points, the
-/// boundaries, the slow flow.
+/// boundaries, the slow flow. [`free_decay`], without excitation, stands apart.
 pub fn groups(excitation: Excitation) -> impl Iterator<Item = &'static Group> + Clone {
     let motion = match excitation {
         Excitation::BaseDisplacement => stated::MOTION_OF_BASE_GROUP,

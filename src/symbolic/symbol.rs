@@ -96,6 +96,17 @@ symbol_table! {
     f_2: "f_2", "1", "detunings of a fixed point: coefficient of sigma^2";
     tr_J: r"\mathrm{tr} J", "1", "trace of the slow flow's Jacobian";
     det_J: r"\det J", "1", "determinant of the slow flow's Jacobian";
+    ell: r"\ell", "1", "energy that two impacts per cycle take, over beta^2, as a rate of c_2";
+    Lambda: r"\Lambda", "1", "coefficient of beta^2 in the rate of a free decay";
+    q: "q", "1", "root of a discriminant in a free decay";
+    Q: "Q", "1", "rate at which c_2 falls in a free decay";
+    Q_i: r"Q_{\mathrm{i}}", "1", "Q at the beginning of a decay";
+    Q_f: r"Q_{\mathrm{f}}", "1", "Q at the end of a decay";
+    beta_i: r"\beta_{\mathrm{i}}", "1", "beta at the beginning of a decay";
+    beta_f: r"\beta_{\mathrm{f}}", "1", "beta at the end of a decay";
+    Psi: r"\Psi", "1", "difference of two arctangents over q in a free decay";
+    s: "s", "1", "constant part of a quotient in the energy of a free decay";
+    W: "W", "1", "fall of c_2 that impacts take in a free decay";
     kappa: r"\kappa", "1", "dynamic stiffness of the oscillator, 1 - Omega^2";
     delta: r"\delta", "1", "damping force of the oscillator per displacement, epsilon lambda Omega";
     P_s: "P_s", "length", "coefficient of sin in the excitation";
@@ -137,6 +148,7 @@ symbol_table! {
     eta: r"\eta", "rad", "phase of the excitation against the oscillator";
     phi: r"\varphi", "rad", "phase Omega tau of the excitation at an impact on the wall +b";
     tau: r"\tau", "1", "fast time, omega0 t";
+    tau_1: r"\tau_1", "1", "slow time, epsilon tau";
 }
 
 impl std::fmt::Display for Symbol {

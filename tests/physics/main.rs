@@ -15,6 +15,7 @@ mod diagrams;
 mod dynamics_kind;
 mod equations;
 mod fixed_point_curve;
+mod free_decay;
 mod fuzz;
 mod impact_times;
 mod limits;
