@@ -10,6 +10,7 @@
 
 #![allow(non_snake_case)]
 
+pub mod dissipation;
 pub mod fixed_points;
 pub mod free_decay;
 pub mod manifold;
@@ -20,7 +21,8 @@ use crate::symbolic::{Group, Symbol, Values};
 use crate::system::{Excitation, System};
 
 /// All equations of the theory in reading order: what is assumed, the manifold, the fixed points, the
-/// boundaries, the slow flow. [`free_decay`], without excitation, stands apart.
+/// boundaries, the slow flow. [`free_decay`], without excitation, and
+/// [`dissipation`], beyond two symmetric impacts, stand apart.
 pub fn groups(excitation: Excitation) -> impl Iterator<Item = &'static Group> + Clone {
     let motion = match excitation {
         Excitation::BaseDisplacement => stated::MOTION_OF_BASE_GROUP,
