@@ -51,6 +51,7 @@ pub struct EnergyShares {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FreeDecay {
     manifold: Manifold,
+    largest: f64,
     damping: f64,
     impact_coefficient: f64,
     rate_coefficient: f64,
@@ -73,6 +74,7 @@ impl FreeDecay {
         let given = [damping, manifold.curvature, impact_coefficient];
         Self {
             manifold,
+            largest: manifold.largest_stable_motion(),
             damping,
             impact_coefficient,
             rate_coefficient: RATE_COEFFICIENT.at(given),
@@ -80,9 +82,9 @@ impl FreeDecay {
         }
     }
 
-    /// The largest amplitude `C/b` of the stable branch: two symmetric impacts per cycle break their symmetry above.
+    /// The largest amplitude `C/b` that this holds for: two symmetric impacts per cycle break their symmetry above.
     pub fn largest_amplitude(&self) -> f64 {
-        self.manifold.symmetry_breaking.oscillator_amplitude
+        self.largest
     }
 
     /// The amplitude `C/b` at which capture ends, the manifold's fold.

@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::branch::Branch;
 use super::pair::Point;
-use crate::analysis::{Manifold, ManifoldPoint};
+use crate::analysis::Manifold;
 use crate::equations::dissipation::{REACTANCE, RESISTANCE};
 use crate::regimes::Regime;
 
@@ -52,7 +52,7 @@ impl DissipationCurve {
     /// absorber at rest are there in full.
     pub fn of(restitution: f64, [from, to]: [f64; 2]) -> Self {
         let closed = closed_form(restitution);
-        let steps = ((to - from) / STEP).ceil().max(1.0) as usize;
+        let steps = ((to - from) / STEP).ceil() as usize;
         let mut search = Search {
             restitution,
             amplitudes: (0..=steps).map(|k| from + STEP * k as f64).collect(),
@@ -104,25 +104,20 @@ fn at_rest() -> Branch {
 /// The manifold's stable branch, as far as its points are motions.
 fn closed_form(restitution: f64) -> Branch {
     let manifold = Manifold::of(restitution);
-    let rho = manifold.restitution_ratio;
-    let [from, to] =
-        [manifold.fold, manifold.symmetry_breaking].map(|end| end.oscillator_amplitude);
+    let fold = manifold.fold;
+    let [from, to] = [fold.oscillator_amplitude, manifold.largest_stable_motion()];
     let point = |k: u32| {
         let part = f64::from(k) / f64::from(CLOSED_POINTS);
         let amplitude = if k == CLOSED_POINTS { to } else { from + (to - from) * part * part };
-        let lowest = manifold.fold.absorber_amplitude;
-        let absorber =
-            manifold.stable_absorber(amplitude).map_or(lowest, |ratio| ratio.max(lowest));
-        let shift = if k == 0 { manifold.fold_shift } else { absorber - 1.0 };
-        let at = ManifoldPoint { absorber_amplitude: absorber, oscillator_amplitude: amplitude };
-        let phase = manifold.absorber_phase(absorber, shift);
-        let resistance = RESISTANCE.at([rho, absorber, amplitude]);
-        let reactance = REACTANCE.at([absorber, shift, amplitude]);
-        let admissible = Manifold::largest_relative_displacement(at, phase) <= 1.0 + 1e-12;
-        (admissible && amplitude > 0.0)
-            .then(|| Point::symmetric(amplitude, [resistance, reactance]))
+        let ratio = manifold.stable_absorber(amplitude).filter(|_| k > 0);
+        let ratio = ratio.unwrap_or(fold.absorber_amplitude);
+        let shift = if k == 0 { manifold.fold_shift } else { ratio - 1.0 };
+        let resistance = RESISTANCE.at([manifold.restitution_ratio, ratio, amplitude]);
+        Point::symmetric(amplitude, [resistance, REACTANCE.at([ratio, shift, amplitude])])
     };
-    Branch { points: (0..=CLOSED_POINTS).map_while(point).collect(), closed_form: true }
+    // For elastic impacts the fold is at 0, where no phase is.
+    let points = (0..=CLOSED_POINTS).map(point).filter(|point| point.amplitude > 0.0);
+    Branch { points: points.collect(), closed_form: true }
 }
 
 /// Motions at even amplitudes.

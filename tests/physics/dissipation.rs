@@ -88,29 +88,24 @@ fn stepped(restitution: f64, c: f64, [w, velocity]: [f64; 2]) -> [f64; 2] {
 #[test]
 fn averages_are_the_closed_form_on_the_stable_branch() {
     for restitution in [0.0, 0.3, 0.6, 0.9] {
-        let manifold = Manifold::of(restitution);
-        let [fold, end] =
-            [manifold.fold, manifold.symmetry_breaking].map(|at| at.oscillator_amplitude);
-        for part in [0.1, 0.5, 0.9] {
-            let c = fold + part * (end.min(1.0) - fold);
+        let curve = DissipationCurve::of(restitution, [0.5, 0.5]);
+        let closed = curve.branches.iter().find(|branch| branch.closed_form).expect("one");
+        assert_eq!(closed.range()[0], Manifold::of(restitution).fold.oscillator_amplitude);
+        for place in [16, 64, 112] {
+            let point = &closed.points[place];
+            let c = point.amplitude;
             let (forces, state) = by_hand(restitution, c);
             let found = Point::measured(restitution, c, state).expect("a motion");
-            assert_eq!(
-                (found.regime, found.repeats_after),
-                (Regime::TwoSymmetric, Some(1)),
-                "{found:?}"
-            );
-            let curve = DissipationCurve::of(restitution, [c, c]);
-            let closed = curve.branches.iter().find(|branch| branch.closed_form).expect("one");
-            let (interpolated, errors) = closed.forces(c).expect("on it");
+            let kind = (found.regime, found.repeats_after);
+            assert_eq!(kind, (Regime::TwoSymmetric, Some(1)), "{restitution} {c}: {found:?}");
+            let between = 0.5 * (c + closed.points[place + 1].amplitude);
+            let (interpolated, errors) = closed.forces(between).expect("on it");
             for k in 0..2 {
                 // Rounding of some hundred flights that a multiplier below 1 forgets.
-                assert!(
-                    (found.forces()[k] - forces[k]).abs() < 1e-12,
-                    "{restitution} {c}: {found:?} {forces:?}"
-                );
-                let apart = (interpolated[k] - forces[k]).abs();
-                assert!(apart <= errors[k] && errors[k] < 1e-2, "{apart} {errors:?}");
+                assert!((found.forces()[k] - forces[k]).abs() < 1e-12, "{found:?} {forces:?}");
+                assert!((point.forces()[k] - forces[k]).abs() < 1e-14, "{point:?} {forces:?}");
+                let apart = (interpolated[k] - by_hand(restitution, between).0[k]).abs();
+                assert!(apart <= errors[k] && errors[k] < 1e-3, "{c}: {apart} {errors:?}");
             }
         }
     }
@@ -160,10 +155,9 @@ fn averages_are_those_of_a_pair_stepped_by_hand() {
         assert!(found.repeats_after.is_some() && found.regime != Regime::TwoSymmetric, "{found:?}");
         let by_steps = stepped(restitution, c, start);
         for k in 0..2 {
-            // Sums over a window miss what its ends hold, y and y' over 300 periods.
-            assert!((found.forces()[k] - by_steps[k]).abs() < 0.01, "{found:?} {by_steps:?}");
+            // 300 periods are whole repetitions, whose ends are alike; what is left of transients of two ways.
+            assert!((found.forces()[k] - by_steps[k]).abs() < 1e-7, "{found:?} {by_steps:?}");
         }
-        // What impacts lose is the work of the force: pi C S per period.
     }
 }
 
@@ -301,8 +295,8 @@ fn free_decay_from_three_clearances_passes_all_regimes() {
     let begin = 2.9;
     for level in [2.0, 1.5, 1.0, 0.72, 0.5, 0.3, 0.2] {
         let (found, simulated) = (theory(level) - theory(begin), when(level) - when(begin));
-        println!("{level}: {found} {simulated} {}", found / simulated - 1.0);
-        assert!((found / simulated - 1.0).abs() < 0.09, "{level}: {found} {simulated}");
+        // 5 to 9 % were found with another program, which began elsewhere; here it is 2 % and less.
+        assert!((found / simulated - 1.0).abs() < 0.05, "{level}: {found} {simulated}");
     }
 }
 
@@ -324,8 +318,55 @@ fn the_forced_amplitude_of_three_impacts_is_the_simulated_one() {
     let found = &motions(&places, &Effort::over(200)).expect("inside")[0];
     let simulated = found.iter().find(|one| one.impacts_per_period == 3.0).expect("three impacts");
     let amplitude = std::f64::consts::SQRT_2 * simulated.rms;
-    println!("{states:?} {amplitude}");
     let theory =
         states.iter().find(|state| state.stable && state.impacts_per_period == 3.0).expect("one");
     assert!((theory.amplitude / amplitude - 1.0).abs() < 0.01, "{theory:?} {amplitude}");
+}
+
+/// Numbers from 0 to 1 that are evenly spread: multiples of roots of primes, modulo 1.
+fn spread(index: u32) -> [f64; 5] {
+    [2.0_f64, 3.0, 5.0, 7.0, 11.0].map(|prime| (0.5 + prime.sqrt() * f64::from(index)).fract())
+}
+
+/// Twenty systems in the areas Z2 and Z1, beyond symmetry breaking, as a fixed sequence has them, each as four starts
+/// find it: every motion with impacts is one of the flow's stable amplitudes. With curves to three clearances the
+/// flow had no answer for two of them, whose amplitudes are 3.26 and 3.32; none is left without one to four.
+#[test]
+fn forced_amplitudes_of_twenty_systems_are_the_simulated_ones() {
+    /// Restitutions, few because each has its curve.
+    const RESTITUTIONS: [f64; 3] = [0.45, 0.6, 0.75];
+    const LARGEST_BARE: f64 = 3.0;
+    let curves = RESTITUTIONS.map(|r| DissipationCurve::of(r, [0.5, 4.0]));
+    let mut judged = 0;
+    for index in 1.. {
+        let [a, b, c, d, e] = spread(index);
+        let (mass_ratio, damping) = (0.002 * libm::pow(10.0, a), 0.3 + 2.7 * b);
+        let (sigma, gamma) = (4.0 * c - 2.0, 1.0 + 8.0 * d);
+        let curve = &curves[(3.0 * e) as usize];
+        let system = system(mass_ratio, damping, curve.restitution, sigma, gamma);
+        let analysis = Analysis::of(&system).expect("analysable");
+        let beyond = analysis.zone.area.is_none() && gamma > analysis.boundaries.symmetry_breaking;
+        if !beyond || gamma > LARGEST_BARE * libm::hypot(damping, 2.0 * sigma) {
+            continue;
+        }
+        // What the theory of first order neglects, three times.
+        let tolerance = 3.0 * mass_ratio * (2.0 + sigma.abs() + damping);
+        let states = AveragedFlow::of(&system, curve).steady_states().expect("analysable");
+        let places = [(system, starts::of(&system, 4).collect())];
+        let found = &motions(&places, &Effort::over(300)).expect("inside")[0];
+        assert!(found.iter().any(|motion| !motion.is_inactive()), "{system:?}");
+        for motion in found.iter().filter(|motion| !motion.is_inactive()) {
+            let amplitude = std::f64::consts::SQRT_2 * motion.rms;
+            let stable =
+                states.iter().filter(|state| state.stable && state.regime != Regime::AtRest);
+            let error = stable
+                .map(|state| (state.amplitude / amplitude - 1.0).abs())
+                .fold(f64::INFINITY, f64::min);
+            assert!(error < tolerance, "{error} {tolerance} {motion:?} {system:?} {states:?}");
+        }
+        judged += 1;
+        if judged == 20 {
+            return;
+        }
+    }
 }

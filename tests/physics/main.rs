@@ -12,6 +12,7 @@ mod batch;
 mod coexistence;
 mod contact;
 mod diagrams;
+mod dissipation;
 mod dynamics_kind;
 mod equations;
 mod fixed_point_curve;
