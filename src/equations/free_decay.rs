@@ -7,7 +7,7 @@
 //! two arctangents over `q`, `q^2 = lambda (Lambda - lambda)`. Both arguments are positive on the stable
 //! branch, where `Lambda beta - lambda >= ell/(1 + R)`, so that the difference is one arctangent, which loses
 //! nothing as `lambda` vanishes. Impacts take the integral of `ell beta^2` over time; division by `Q` leaves
-//! `(1 + R) beta/Lambda + s` and a remainder with the factor `lambda`.
+//! `(1 + R) beta/Lambda + s_d` and a remainder with the factor `lambda`.
 //!
 //! At first order in the mass ratio, energy is `c_2` in units of that of the oscillator at an amplitude of
 //! one clearance. Valid on the stable branch, from symmetry breaking down to the fold, where capture ends.
@@ -40,10 +40,10 @@ equations! {
     }
     "Energy that impacts take", "their part of the fall of the square of the amplitude; the rest is the damper's",
     DERIVED => {
-        QUOTIENT(lambda, R, Lambda): [s] = (2.0 * lambda * (1.0 + R) / Lambda - 1.0) / Lambda;
-        IMPACT_ENERGY(lambda, R, ell, Lambda, s, Psi, beta_i, beta_f, Q_i, Q_f): [W]
-            = 2.0 * ell * ((beta_i - beta_f) * ((1.0 + R) / (2.0 * Lambda) * (beta_i + beta_f) + s)
-                + lambda / Lambda * (s - (1.0 + R) / (2.0 * Lambda)) * ln(Q_i / Q_f)
-                - lambda * (s - lambda / Lambda * (2.0 * s - (1.0 + R) / Lambda)) * Psi);
+        QUOTIENT(lambda, R, Lambda): [s_d] = (2.0 * lambda * (1.0 + R) / Lambda - 1.0) / Lambda;
+        IMPACT_ENERGY(lambda, R, ell, Lambda, s_d, Psi, beta_i, beta_f, Q_i, Q_f): [W]
+            = 2.0 * ell * ((beta_i - beta_f) * ((1.0 + R) / (2.0 * Lambda) * (beta_i + beta_f) + s_d)
+                + lambda / Lambda * (s_d - (1.0 + R) / (2.0 * Lambda)) * ln(Q_i / Q_f)
+                - lambda * (s_d - lambda / Lambda * (2.0 * s_d - (1.0 + R) / Lambda)) * Psi);
     }
 }

@@ -105,7 +105,7 @@ symbol_table! {
     beta_i: r"\beta_{\mathrm{i}}", "1", "beta at the beginning of a decay";
     beta_f: r"\beta_{\mathrm{f}}", "1", "beta at the end of a decay";
     Psi: r"\Psi", "1", "difference of two arctangents over q in a free decay";
-    s: "s", "1", "constant part of a quotient in the energy of a free decay";
+    s_d: r"s_{\mathrm{d}}", "1", "constant part of a quotient in the energy of a free decay";
     W: "W", "1", "fall of c_2 that impacts take in a free decay";
     c: "c", "1", "slow amplitude of the oscillator over clearance, C/b";
     S: "S", "1", "mean force of the absorber that takes energy, E sin(Theta) over clearance";

@@ -139,7 +139,7 @@ fn values_are_the_known_ones() {
         };
         let found = at(&CURVE, c);
         assert!(
-            found.iter().any(|branch| matches(branch)),
+            found.iter().any(matches),
             "{c}: {:?}",
             found.iter().map(|branch| (branch.forces(c), nearest(branch, c))).collect::<Vec<_>>()
         );
