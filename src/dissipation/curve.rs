@@ -24,7 +24,8 @@ const CLOSED_POINTS: u32 = 128;
 /// Halvings of a step in which the end of a branch is located.
 const HALVINGS: u32 = 4;
 
-/// `S` and `K` over the amplitude for one restitution.
+/// `S` and `K` over the amplitude for one restitution. Elastic impacts, `r = 1`, forget nothing: no motion attracts, and
+/// what the curve then has beyond the closed form are averages of single starts.
 ///
 /// ```
 /// use vinesink::dissipation::DissipationCurve;
