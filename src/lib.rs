@@ -50,6 +50,7 @@
 //! | [`orbits`] | exact periodic orbits at any `ε`, their bifurcations and branches | [`symmetric_orbits`](orbits::symmetric_orbits), [`branch::follow`](orbits::branch::follow) |
 //! | [`simulation`] | one trajectory, or many side by side, from event to event | [`Simulation::new`](simulation::Simulation::new) |
 //! | [`regimes`] | what trajectories become in the long run, and what to call it | [`motions`](regimes::motions) |
+//! | [`dissipation`] | what the absorber takes in every regime, and the slow flow with it | [`DissipationCurve::of`](dissipation::DissipationCurve::of) |
 //!
 //! `analysis`, `orbits` and `simulation` do not use one another: that they agree is evidence.
 //!
@@ -92,6 +93,7 @@ pub mod criteria;
 pub mod diff;
 #[cfg(feature = "case")]
 pub mod digest;
+pub mod dissipation;
 pub mod equations;
 #[cfg(feature = "report")]
 pub mod evidence;

@@ -10,16 +10,13 @@ use serde::Serialize;
 
 use super::AnalysisError;
 use super::curve::{Amplitude, FixedPointCurve};
-use super::manifold::{Branch, Manifold, ManifoldPoint};
+use super::manifold::{Branch, CAVITY_ROUNDING, Manifold, ManifoldPoint};
 use crate::equations::fixed_points::{COSINE_SIDE, SINE_SIDE};
 use crate::equations::manifold::MANIFOLD_SQUARE;
 use crate::equations::slow_flow::{DETERMINANT, TRACE};
 use crate::equations::stated::FIRST_HARMONIC;
 use crate::operation_count;
 use crate::system::System;
-
-/// Rounding allowed to a motion that touches the wall between impacts.
-const CAVITY_ROUNDING: f64 = 1e-12;
 
 /// What the linearised slow flow does around a fixed point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]

@@ -10,7 +10,11 @@ use crate::equations::manifold::{
     MANIFOLD_SQUARE, STABLE_RATIO, STABLE_ROOT,
 };
 use crate::equations::stated::{CURVATURE, RESTITUTION_RATIO};
+use crate::numerics::bracket::bisected;
 use crate::operation_count;
+
+/// Rounding allowed to a motion that touches the wall between impacts.
+pub(super) const CAVITY_ROUNDING: f64 = 1e-12;
 
 /// A part of the manifold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -120,6 +124,20 @@ impl Manifold {
         } else {
             Branch::Right
         }
+    }
+
+    /// The largest amplitude `C/b` of the stable branch whose points are motions: that of symmetry breaking, except
+    /// for almost plastic impacts, `r` below a few hundredths, after which the absorber would leave its cavity.
+    pub fn largest_stable_motion(&self) -> f64 {
+        let [from, to] = [self.fold, self.symmetry_breaking].map(|end| end.oscillator_amplitude);
+        let beyond = |oscillator: f64| {
+            let ratio = self.stable_absorber(oscillator).unwrap_or(self.fold.absorber_amplitude);
+            let point =
+                ManifoldPoint { absorber_amplitude: ratio, oscillator_amplitude: oscillator };
+            let phase = self.absorber_phase(ratio, ratio - 1.0);
+            Self::largest_relative_displacement(point, phase) - 1.0 - CAVITY_ROUNDING
+        };
+        bisected([from, to], beyond).unwrap_or(to)
     }
 
     /// `Theta`, the phase of the absorber against the oscillator, from (14) and (15), at `B = b

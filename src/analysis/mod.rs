@@ -8,6 +8,7 @@
 mod areas;
 pub mod boundaries;
 mod curve;
+mod decay;
 pub(crate) mod fixed_points;
 pub mod frequency_response;
 mod manifold;
@@ -21,6 +22,7 @@ use crate::system::System;
 pub use areas::{Area, Strip, Zone};
 pub use boundaries::{Boundaries, CodimensionTwo, SaddleNode};
 pub use curve::{Amplitude, FixedPointCurve};
+pub use decay::{EnergyShares, FreeDecay};
 pub use fixed_points::{FixedPoint, Kind};
 pub use manifold::{Branch, Manifold, ManifoldPoint};
 

@@ -10,7 +10,9 @@
 
 #![allow(non_snake_case)]
 
+pub mod dissipation;
 pub mod fixed_points;
+pub mod free_decay;
 pub mod manifold;
 pub mod slow_flow;
 pub mod stated;
@@ -19,7 +21,8 @@ use crate::symbolic::{Group, Symbol, Values};
 use crate::system::{Excitation, System};
 
 /// All equations of the theory in reading order: what is assumed, the manifold, the fixed points, the
-/// boundaries, the slow flow.
+/// boundaries, the slow flow. See also
+/// [`groups_beyond`].
 pub fn groups(excitation: Excitation) -> impl Iterator<Item = &'static Group> + Clone {
     let motion = match excitation {
         Excitation::BaseDisplacement => stated::MOTION_OF_BASE_GROUP,
@@ -28,6 +31,11 @@ pub fn groups(excitation: Excitation) -> impl Iterator<Item = &'static Group> + 
     [motion, stated::GROUPS, manifold::GROUPS, fixed_points::GROUPS, slow_flow::GROUPS]
         .into_iter()
         .flatten()
+}
+
+/// The equations beyond steady 1:1 resonance, in reading order: free decay, and the slow flow in any regime.
+pub fn groups_beyond() -> impl Iterator<Item = &'static Group> + Clone {
+    free_decay::GROUPS.iter().chain(dissipation::GROUPS)
 }
 
 /// `epsilon`, `lambda`, `r`, `Omega`, `sigma`, `gamma` of a system.

@@ -88,7 +88,7 @@ pub struct Group {
 }
 
 /// Operations in the text of an expression, as [`operation_count`] counts them: one for each sign and
-/// root, [`ELEMENTARY`] for each sine, cosine and arctangent.
+/// root, [`ELEMENTARY`] for each sine, cosine, logarithm and arctangent.
 pub const fn operations(text: &str) -> u64 {
     let text = text.as_bytes();
     let (mut count, mut place) = (0, 0);
@@ -96,7 +96,7 @@ pub const fn operations(text: &str) -> u64 {
         let opens = place + 1 < text.len() && text[place + 1] == b'(';
         count += match text[place] {
             b'+' | b'-' | b'*' | b'/' => 1,
-            // `sqrt(`, `square(`; `cube(` is one more; `sin(`, `cos(`; `atan2(`.
+            // `sqrt(`, `square(`; `cube(` is one more; `sin(`, `ln(`, `cos(`; `atan2(`.
             b't' | b'e' if opens => 1,
             b'n' | b's' | b'2' if opens => ELEMENTARY,
             _ => 0,

@@ -6,12 +6,13 @@ use super::{MissingValue, Symbol, Values};
 type Named = (&'static str, fn(&[f64]) -> f64);
 
 /// The functions of expressions.
-const FUNCTIONS: [Named; 6] = [
+const FUNCTIONS: [Named; 7] = [
     ("sqrt", |x| sqrt(x[0])),
     ("sin", |x| sin(x[0])),
     ("cos", |x| cos(x[0])),
     ("square", |x| square(x[0])),
     ("cube", |x| cube(x[0])),
+    ("ln", |x| ln(x[0])),
     ("atan2", |x| atan2(x[0], x[1])),
 ];
 
@@ -38,6 +39,11 @@ pub fn square(x: f64) -> f64 {
 /// The third power.
 pub fn cube(x: f64) -> f64 {
     x * x * x
+}
+
+/// Natural logarithm.
+pub fn ln(x: f64) -> f64 {
+    libm::log(x)
 }
 
 /// The angle from -pi to pi whose sine and cosine are as `y` and `x`.

@@ -16,7 +16,7 @@ mod values;
 
 pub(crate) use equation::equations;
 pub use equation::{Equation, Formula, Group, operations};
-pub use expr::{Expr, atan2, cos, cube, sin, sqrt, square};
+pub use expr::{Expr, atan2, cos, cube, ln, sin, sqrt, square};
 pub use latex::format_number;
 pub use symbol::{Symbol, SymbolEntry};
 pub use values::{MissingValue, Values};

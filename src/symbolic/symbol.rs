@@ -96,6 +96,25 @@ symbol_table! {
     f_2: "f_2", "1", "detunings of a fixed point: coefficient of sigma^2";
     tr_J: r"\mathrm{tr} J", "1", "trace of the slow flow's Jacobian";
     det_J: r"\det J", "1", "determinant of the slow flow's Jacobian";
+    ell: r"\ell", "1", "energy that two impacts per cycle take, over beta^2, as a rate of c_2";
+    Lambda: r"\Lambda", "1", "coefficient of beta^2 in the rate of a free decay";
+    q: "q", "1", "root of a discriminant in a free decay";
+    Q: "Q", "1", "rate at which c_2 falls in a free decay";
+    Q_i: r"Q_{\mathrm{i}}", "1", "Q at the beginning of a decay";
+    Q_f: r"Q_{\mathrm{f}}", "1", "Q at the end of a decay";
+    beta_i: r"\beta_{\mathrm{i}}", "1", "beta at the beginning of a decay";
+    beta_f: r"\beta_{\mathrm{f}}", "1", "beta at the end of a decay";
+    Psi: r"\Psi", "1", "difference of two arctangents over q in a free decay";
+    s_d: r"s_{\mathrm{d}}", "1", "constant part of a quotient in the energy of a free decay";
+    W: "W", "1", "fall of c_2 that impacts take in a free decay";
+    c: "c", "1", "slow amplitude of the oscillator over clearance, C/b";
+    S: "S", "1", "mean force of the absorber that takes energy, E sin(Theta) over clearance";
+    K: "K", "1", "mean force of the absorber in phase with the displacement, E cos(Theta) over clearance";
+    S_prime: "S'", "1", "derivative of S by c along a branch";
+    K_prime: "K'", "1", "derivative of K by c along a branch";
+    h_r: r"h_{\mathrm{r}}", "1", "half the distance of two detunings of one amplitude, times 2 c";
+    sigma_1: r"\sigma_1", "1", "smaller detuning of an amplitude";
+    sigma_2: r"\sigma_2", "1", "larger detuning of an amplitude";
     kappa: r"\kappa", "1", "dynamic stiffness of the oscillator, 1 - Omega^2";
     delta: r"\delta", "1", "damping force of the oscillator per displacement, epsilon lambda Omega";
     P_s: "P_s", "length", "coefficient of sin in the excitation";
@@ -130,6 +149,7 @@ symbol_table! {
     dw: r"\mathrm{d}w", "length", "small change of the relative displacement at the end of a flight";
     dtau: r"\mathrm{d}\tau", "1", "small change of the length of a flight in fast time";
     D1_C: r"\mathrm{D}_1 C", "length", "slow rate of the oscillator's amplitude";
+    D1_c: r"\mathrm{D}_1 c", "1", "slow rate of the oscillator's amplitude over clearance";
     D1_eta: r"\mathrm{D}_1 \eta", "1", "slow rate of the excitation's phase";
     D1_c_2: r"\mathrm{D}_1 c_2", "1", "slow rate of the square of the oscillator's amplitude over b^2";
     D1_beta: r"\mathrm{D}_1 \beta", "1", "slow rate of the absorber's amplitude over clearance";
@@ -137,6 +157,7 @@ symbol_table! {
     eta: r"\eta", "rad", "phase of the excitation against the oscillator";
     phi: r"\varphi", "rad", "phase Omega tau of the excitation at an impact on the wall +b";
     tau: r"\tau", "1", "fast time, omega0 t";
+    tau_1: r"\tau_1", "1", "slow time, epsilon tau";
 }
 
 impl std::fmt::Display for Symbol {

@@ -619,7 +619,8 @@ fn the_main_formulas_read_as_on_paper() {
 fn every_formula_of_the_report_converts_with_and_without_numbers() {
     let values = CASES[0].at(0.2).with(Symbol::eta, 0.3);
     for excitation in [Excitation::BaseDisplacement, Excitation::Force] {
-        let groups: Vec<_> = equations::groups(excitation).collect();
+        let groups: Vec<_> =
+            equations::groups(excitation).chain(equations::groups_beyond()).collect();
         let list = groups.iter().flat_map(|group| group.equations);
         assert!(list.clone().count() > 40);
         for equation in list {

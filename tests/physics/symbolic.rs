@@ -87,7 +87,9 @@ fn same_bits<const N: usize>(formula: &Formula<N>) {
 /// What a page prints, evaluated as it is printed, has the bits of what analysis and orbits compute with.
 #[test]
 fn the_printed_formulas_are_the_compiled_ones() {
-    use vinesink::equations::{fixed_points as f, manifold as m, slow_flow as s, stated};
+    use vinesink::equations::{
+        dissipation as a, fixed_points as f, free_decay as d, manifold as m, slow_flow as s, stated,
+    };
     use vinesink::orbits::equations as o;
     same_bits(&stated::RESTITUTION_RATIO);
     same_bits(&stated::CURVATURE);
@@ -113,6 +115,12 @@ fn the_printed_formulas_are_the_compiled_ones() {
     same_bits(&s::SQUARE_RATE);
     same_bits(&s::PHASE_RATE);
     same_bits(&s::TRACE);
+    same_bits(&d::ARCTANGENT);
+    same_bits(&d::DECAY_TIME);
+    same_bits(&d::IMPACT_ENERGY);
+    same_bits(&a::RESISTANCE);
+    same_bits(&a::RESPONSE_ROOT);
+    same_bits(&a::DETERMINANT);
     same_bits(&o::REPEATED_VELOCITY);
     same_bits(&o::VELOCITY_LOSS);
     same_bits(&o::BASE_GAIN);

@@ -434,6 +434,7 @@ fn equations_are_those_that_are_evaluated() {
     for kind in [Excitation::BaseDisplacement, Excitation::Force] {
         vinesink::equations::groups(kind).for_each(|group| add("", group, kind));
         vinesink::orbits::equations::groups(kind).for_each(|group| add("orbit: ", group, kind));
+        vinesink::equations::groups_beyond().for_each(|group| add("", group, kind));
     }
     let mut left: BTreeSet<&str> = groups.keys().map(String::as_str).collect();
     let mark =

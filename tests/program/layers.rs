@@ -63,6 +63,7 @@ const ROOMS: &[(&str, &[&str])] = &[
         ],
     ),
     ("regimes", &["numerics", "orbits", "simulation", "system", "operation_count"]),
+    ("dissipation", &["analysis", "equations", "numerics", "regimes", "simulation", "system"]),
     (
         "validation",
         &[
@@ -157,13 +158,14 @@ const ROOMS: &[(&str, &[&str])] = &[
 
 /// Rooms in which there is physics and nothing else: no files, no clock, no printing, no threads, no
 /// randomness.
-const PURE: [&str; 21] = [
+const PURE: [&str; 22] = [
     "analysis",
     "band",
     "bifurcation",
     "criteria",
     "diff",
     "digest",
+    "dissipation",
     "equations",
     "evidence",
     "evidence/reference",
@@ -387,6 +389,8 @@ fn made_up_sources_are_refused() {
         ("symbolic/expr.rs", "use crate::numerics::bracket;"),
         ("validation/mod.rs", "use crate::study::CaseStudy;"),
         ("regimes/mod.rs", "use crate::analysis::Analysis;"),
+        ("dissipation/flow.rs", "use crate::orbits::Orbit;"),
+        ("analysis/mod.rs", "use crate::dissipation::DissipationCurve;"),
         ("case/mod.rs", "use crate::report::numbers;"),
         ("study/mod.rs", "use crate::store;"),
         ("report/mod.rs", "let x = crate::store::read_text(path);"),

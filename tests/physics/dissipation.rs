@@ -1,0 +1,372 @@
+//! The dissipation curve: against closed form, an impact pair stepped by hand, known values; and the slow flow on
+//! it against the theory of two impacts, its own Jacobian, and simulation of the full system.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::sync::LazyLock;
+
+use vinesink::analysis::{Analysis, Manifold};
+use vinesink::dissipation::{AveragedFlow, Branch, DissipationCurve, Point};
+use vinesink::equations::dissipation as formulas;
+use vinesink::regimes::{Effort, Regime, motions, starts};
+use vinesink::simulation::{Measurement, PeriodRecord, Simulation};
+use vinesink::system::{Excitation, Parameters, State, System};
+
+/// Table 1 of Li, Seguy, Berlioz (2016).
+const MASS_RATIO: f64 = 0.032 / 4.168;
+const DAMPING: f64 = 1.799;
+
+/// That of Table 1, which several tests ask.
+static CURVE: LazyLock<DissipationCurve> = LazyLock::new(|| DissipationCurve::of(0.6, [0.1, 3.2]));
+
+fn system(mass_ratio: f64, damping: f64, restitution: f64, sigma: f64, gamma: f64) -> System {
+    System::new(Parameters {
+        mass_ratio,
+        damping,
+        restitution,
+        frequency_ratio: 1.0,
+        forcing_per_clearance: gamma,
+        excitation: Excitation::BaseDisplacement,
+    })
+    .and_then(|system| system.with_detuning(sigma))
+    .expect("valid")
+}
+
+/// The branches with impacts at an amplitude.
+fn at(curve: &DissipationCurve, amplitude: f64) -> Vec<&Branch> {
+    let moving = |branch: &&Branch| branch.points[0].regime != Regime::AtRest;
+    curve.branches.iter().filter(|branch| branch.covers(amplitude)).filter(moving).collect()
+}
+
+fn nearest(branch: &Branch, amplitude: f64) -> &Point {
+    let apart = |point: &&Point| (point.amplitude - amplitude).abs();
+    branch.points.iter().min_by(|a, b| apart(a).total_cmp(&apart(b))).expect("points")
+}
+
+/// `S` and `K` by (14), (15) and the sawtooth's first harmonic, and the pair's state where `x` is lowest.
+fn by_hand(restitution: f64, c: f64) -> ([f64; 2], [f64; 2]) {
+    let rho = (1.0 - restitution) / (1.0 + restitution);
+    let curvature = 4.0 * rho * rho / (PI * PI);
+    let b = (1.0 + ((1.0 + curvature) * c * c - curvature).max(0.0).sqrt()) / (1.0 + curvature);
+    let (sine, cosine) = (2.0 / PI * rho * b / c, (1.0 - b) / c);
+    let e = 8.0 * b / (PI * PI);
+    let turned = libm::atan2(sine, cosine) - FRAC_PI_2;
+    let w = -c + 2.0 / PI * b * libm::asin(libm::sin(turned));
+    ([e * sine, e * cosine], [w, -2.0 / PI * b * libm::cos(turned).signum()])
+}
+
+/// The pair's averages by steps of a thousandth of a radian and bisection, from impulses instead of displacements:
+/// the first harmonic of `y` is that of `-y''`. Of 300 periods after as many.
+fn stepped(restitution: f64, c: f64, [w, velocity]: [f64; 2]) -> [f64; 2] {
+    const PERIODS: f64 = 300.0;
+    let x = |t: f64| -c * libm::cos(t);
+    let (mut from, mut y, mut v) = (0.0, x(0.0) - w, velocity);
+    let (mut sums, mut t) = ([0.0; 2], 0.0);
+    while t < 2.0 * PERIODS * TAU {
+        let out = |s: f64| (x(s) - (y + v * (s - from))).abs() - 1.0 > 1e-14;
+        if !out(t + 1e-3) {
+            t += 1e-3;
+            continue;
+        }
+        let (mut low, mut high) = (t, t + 1e-3);
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            if out(middle) { high = middle } else { low = middle }
+        }
+        let wall = (x(high) - (y + v * (high - from))).signum();
+        let after = (1.0 + restitution) * c * libm::sin(high) - restitution * v;
+        if high > PERIODS * TAU {
+            // psi = t - pi/2.
+            sums[0] += (after - v) * libm::sin(high) / (PI * PERIODS);
+            sums[1] -= (after - v) * libm::cos(high) / (PI * PERIODS);
+        }
+        (y, v, from, t) = (x(high) - wall, after, high, high);
+    }
+    sums
+}
+
+/// On the stable branch, for every restitution: the engine's averages are the closed form.
+#[test]
+fn averages_are_the_closed_form_on_the_stable_branch() {
+    for restitution in [0.0, 0.3, 0.6, 0.9] {
+        let curve = DissipationCurve::of(restitution, [0.5, 0.5]);
+        let closed = curve.branches.iter().find(|branch| branch.closed_form).expect("one");
+        assert_eq!(closed.range()[0], Manifold::of(restitution).fold.oscillator_amplitude);
+        for place in [16, 64, 112] {
+            let point = &closed.points[place];
+            let c = point.amplitude;
+            let (forces, state) = by_hand(restitution, c);
+            let found = Point::measured(restitution, c, state).expect("a motion");
+            let kind = (found.regime, found.repeats_after);
+            assert_eq!(kind, (Regime::TwoSymmetric, Some(1)), "{restitution} {c}: {found:?}");
+            let between = 0.5 * (c + closed.points[place + 1].amplitude);
+            let (interpolated, errors) = closed.forces(between).expect("on it");
+            for k in 0..2 {
+                // Rounding of some hundred flights that a multiplier below 1 forgets.
+                assert!((found.forces()[k] - forces[k]).abs() < 1e-12, "{found:?} {forces:?}");
+                assert!((point.forces()[k] - forces[k]).abs() < 1e-14, "{point:?} {forces:?}");
+                let apart = (interpolated[k] - by_hand(restitution, between).0[k]).abs();
+                assert!(apart <= errors[k] && errors[k] < 1e-3, "{c}: {apart} {errors:?}");
+            }
+        }
+    }
+}
+
+/// Values of the derivation, to their printed digits; those of chaos within the errors of the averages.
+#[test]
+fn values_are_the_known_ones() {
+    let known = [
+        (0.2, 0.777, -0.433, 2.0),
+        (0.5, 0.538, -1.040, 2.0),
+        (0.7, 0.501, -1.239, 2.0),
+        (0.9, 0.538, -1.233, 2.0),
+        (1.2, 0.554, -1.686, 3.0),
+        (1.6, 0.552, -2.041, 2.77),
+        (2.2, 0.599, -2.561, 3.05),
+        (3.0, 0.676, -3.556, 4.0),
+    ];
+    for (c, resistance, reactance, impacts) in known {
+        let matches = |branch: &&Branch| {
+            let ([s, k], errors) = branch.forces(c).expect("covered");
+            let point = nearest(branch, c);
+            let repeats = point.repeats_after.is_some();
+            // Half a printed digit; chaos was averaged by the other program too, for no longer.
+            let error = |k: usize| 5.1e-4 + if repeats { 0.0 } else { 2.0 * errors[k] };
+            let apart = (point.impacts_per_period - impacts).abs();
+            (s - resistance).abs() <= error(0)
+                && (k - reactance).abs() <= error(1)
+                && apart <= if repeats { 0.0 } else { 0.1 }
+                && error(1) < 0.02
+        };
+        let found = at(&CURVE, c);
+        assert!(
+            found.iter().any(matches),
+            "{c}: {:?}",
+            found.iter().map(|branch| (branch.forces(c), nearest(branch, c))).collect::<Vec<_>>()
+        );
+    }
+}
+
+/// Impacts of motions beyond the closed form, found and averaged in another way.
+#[test]
+fn averages_are_those_of_a_pair_stepped_by_hand() {
+    for (restitution, c) in [(0.6, 0.9), (0.6, 1.2), (0.6, 3.0), (0.75, 2.6), (0.3, 1.0)] {
+        let start = [0.3, 1.4 * c];
+        let found = Point::measured(restitution, c, start).expect("a motion");
+        assert!(found.repeats_after.is_some() && found.regime != Regime::TwoSymmetric, "{found:?}");
+        let by_steps = stepped(restitution, c, start);
+        for k in 0..2 {
+            // 300 periods are whole repetitions, whose ends are alike; what is left of transients of two ways.
+            assert!((found.forces()[k] - by_steps[k]).abs() < 1e-7, "{found:?} {by_steps:?}");
+        }
+    }
+}
+
+/// Branches end and begin where the closed form says.
+#[test]
+fn fold_and_symmetry_breaking_are_where_the_closed_form_has_them() {
+    for restitution in [0.3, 0.6, 0.8] {
+        let manifold = Manifold::of(restitution);
+        let [fold, end] =
+            [manifold.fold, manifold.symmetry_breaking].map(|at| at.oscillator_amplitude);
+        let from = |c: f64, of: f64| {
+            Point::measured(restitution, c, by_hand(restitution, of).1).expect("a motion")
+        };
+        assert_eq!(from(1.02 * fold, 1.02 * fold).regime, Regime::TwoSymmetric);
+        assert_ne!(from(0.98 * fold, 1.001 * fold).regime, Regime::TwoSymmetric);
+        assert_eq!(from(0.98 * end, 0.98 * end).regime, Regime::TwoSymmetric);
+        let beyond = from(1.02 * end, 0.98 * end);
+        assert_eq!((beyond.regime, beyond.impacts_per_period), (Regime::TwoAsymmetric, 2.0));
+    }
+    let closed = CURVE.branches.iter().find(|branch| branch.closed_form).expect("one");
+    let manifold = Manifold::of(0.6);
+    let ends = [manifold.fold, manifold.symmetry_breaking].map(|at| at.oscillator_amplitude);
+    assert_eq!(closed.range(), ends);
+    let asymmetric = at(&CURVE, 0.9);
+    assert_eq!(asymmetric.len(), 1);
+    // Ends are located within a sixteenth of a step of 0.02.
+    let gap = asymmetric[0].range()[0] - ends[1];
+    assert!((0.0..0.02 / 16.0).contains(&gap), "{gap}");
+}
+
+#[test]
+fn motions_of_two_and_three_impacts_coexist() {
+    for c in [1.02, 1.04, 1.06] {
+        let found = at(&CURVE, c);
+        let impacts: Vec<f64> =
+            found.iter().map(|branch| nearest(branch, c).impacts_per_period).collect();
+        assert!(impacts.iter().any(|z| (z - 2.0).abs() < 0.1), "{c}: {impacts:?}");
+        assert!(impacts.contains(&3.0), "{c}: {impacts:?}");
+    }
+    assert!(at(&CURVE, 0.9).len() == 1 && at(&CURVE, 1.15).len() == 1);
+}
+
+/// Trace and determinant are those of the rates (18) differentiated numerically, and on the closed form those of
+/// the theory of two impacts.
+#[test]
+fn the_jacobian_is_that_of_the_rates() {
+    let (lambda, sigma, gamma_sine) = (0.7, -0.4, 1.3);
+    let force = |c: f64| [0.5 + 0.3 * c - 0.1 * c * c, -0.2 - 1.1 * c];
+    let c = 0.8;
+    let [s, k] = force(c);
+    assert!((0.0..gamma_sine).contains(&s));
+    let sides = [lambda * c + s, k - 2.0 * sigma * c];
+    let (gamma, eta) = (libm::hypot(sides[0], sides[1]), libm::atan2(sides[0], sides[1]));
+    assert!((formulas::FORCING_SQUARED.at([lambda, sigma, s, k, c]).sqrt() - gamma).abs() < 1e-15);
+    let rates = |c: f64, eta: f64| {
+        let [s, k] = force(c);
+        [
+            (-lambda * c - s + gamma * libm::sin(eta)) / 2.0,
+            sigma + (gamma * libm::cos(eta) - k) / (2.0 * c),
+        ]
+    };
+    rates(c, eta).iter().for_each(|rate| assert!(rate.abs() < 1e-15, "{rate}"));
+    let step = 1e-5;
+    let by = |d: [f64; 2]| {
+        let [plus, minus] =
+            [1.0, -1.0].map(|sign| rates(c + sign * step * d[0], eta + sign * step * d[1]));
+        [0, 1].map(|k| (plus[k] - minus[k]) / (2.0 * step))
+    };
+    let [of_c, of_eta] = [by([1.0, 0.0]), by([0.0, 1.0])];
+    let [s_prime, k_prime] = [0.3 - 0.2 * c, -1.1];
+    let trace = formulas::TRACE.at([lambda, s, s_prime, c]);
+    let determinant = formulas::DETERMINANT.at([lambda, sigma, s, k, s_prime, k_prime, c]);
+    // Central differences: step^2, and rounding over the step.
+    assert!((trace - of_c[0] - of_eta[1]).abs() < 1e-9);
+    assert!((determinant - (of_c[0] * of_eta[1] - of_eta[0] * of_c[1])).abs() < 1e-9);
+    // The two detunings of the response hold this amplitude.
+    let root = formulas::RESPONSE_ROOT.at([lambda, gamma, s, c]);
+    let both =
+        [formulas::LOWER_DETUNING.at([k, c, root]), formulas::UPPER_DETUNING.at([k, c, root])];
+    assert!(both.iter().any(|found| (found - sigma).abs() < 1e-14), "{both:?}");
+}
+
+#[test]
+fn on_the_stable_branch_it_is_the_theory_of_two_impacts() {
+    let system = system(MASS_RATIO, DAMPING, 0.6, -0.2, 1.7);
+    let analysis = Analysis::of(&system).expect("analysable");
+    let point = analysis.stable_points().next().expect("one");
+    let states = AveragedFlow::of(&system, &CURVE).steady_states().expect("analysable");
+    let state = states.iter().find(|state| state.regime == Regime::TwoSymmetric).expect("one");
+    assert_eq!(
+        (state.amplitude, state.eta, state.stable),
+        (point.oscillator_amplitude, point.eta, true)
+    );
+    // Trace and determinant by the general formula, with derivatives of the closed form.
+    let c = state.amplitude;
+    let ([s, k], _) = by_hand(0.6, c);
+    let slope = |of: usize| (by_hand(0.6, c + 1e-5).0[of] - by_hand(0.6, c - 1e-5).0[of]) / 2e-5;
+    let trace = formulas::TRACE.at([DAMPING, s, slope(0), c]);
+    let determinant = formulas::DETERMINANT.at([DAMPING, -0.2, s, k, slope(0), slope(1), c]);
+    assert!(
+        (trace - point.trace).abs() < 1e-8 && (determinant - point.determinant).abs() < 1e-8,
+        "{trace} {determinant} {point:?}"
+    );
+}
+
+fn harmonic(record: &PeriodRecord, mass_ratio: f64) -> f64 {
+    let [sine, cosine] =
+        [0, 1].map(|k| record.oscillator_harmonic[k] + mass_ratio * record.absorber_harmonic[k]);
+    libm::hypot(sine, cosine)
+}
+
+/// Through four and three impacts per period, chaos, asymmetric and symmetric 1:1 down to the fold.
+#[test]
+fn free_decay_from_three_clearances_passes_all_regimes() {
+    let system = system(MASS_RATIO, DAMPING, 0.6, 0.0, 0.0);
+    let path = AveragedFlow::of(&system, &CURVE).decay(3.0, 0.16);
+    assert!(path.windows(2).all(
+        |pair| pair[1].slow_time >= pair[0].slow_time && pair[1].amplitude <= pair[0].amplitude
+    ));
+    let start = State { x: 0.0, x_velocity: 3.0, y: 0.3, y_velocity: 1.0 };
+    let mut simulation = Simulation::new(&system, start, 0.0).expect("inside");
+    let mut measured = Measurement::begin(&system, start);
+    simulation.run(200, u64::MAX, &mut measured);
+    let amplitudes: Vec<f64> =
+        measured.statistics().records().iter().map(|one| harmonic(one, MASS_RATIO)).collect();
+    let when = |level: f64| {
+        let after = amplitudes.iter().position(|amplitude| *amplitude < level).expect("it decays");
+        after as f64 + 0.5
+            - (level - amplitudes[after]) / (amplitudes[after - 1] - amplitudes[after])
+    };
+    let theory = |level: f64| {
+        let after = path.iter().position(|point| point.amplitude <= level).expect("on the path");
+        path[after].slow_time / MASS_RATIO / TAU
+    };
+    let begin = 2.9;
+    for level in [2.0, 1.5, 1.0, 0.72, 0.5, 0.3, 0.2] {
+        let (found, simulated) = (theory(level) - theory(begin), when(level) - when(begin));
+        // 5 to 9 % were found with another program, which began elsewhere; here it is 2 % and less.
+        assert!((found / simulated - 1.0).abs() < 0.05, "{level}: {found} {simulated}");
+    }
+}
+
+/// The amplitude of the simulated motion with three impacts at 8.35 Hz, 11.5 mm and a base that moves by 0.25 mm.
+#[test]
+fn the_forced_amplitude_of_three_impacts_is_the_simulated_one() {
+    let omega_0 = (11.47e3_f64 / 4.168).sqrt();
+    let system = System::new(Parameters {
+        mass_ratio: MASS_RATIO,
+        damping: 3.02 / (0.032 * omega_0),
+        restitution: 0.6,
+        frequency_ratio: 8.35 * TAU / omega_0,
+        forcing_per_clearance: 0.25 / MASS_RATIO / 11.5,
+        excitation: Excitation::BaseDisplacement,
+    })
+    .expect("valid");
+    let states = AveragedFlow::of(&system, &CURVE).steady_states().expect("analysable");
+    let places = [(system, starts::of(&system, 8).collect())];
+    let found = &motions(&places, &Effort::over(200)).expect("inside")[0];
+    let simulated = found.iter().find(|one| one.impacts_per_period == 3.0).expect("three impacts");
+    let amplitude = std::f64::consts::SQRT_2 * simulated.rms;
+    let theory =
+        states.iter().find(|state| state.stable && state.impacts_per_period == 3.0).expect("one");
+    assert!((theory.amplitude / amplitude - 1.0).abs() < 0.01, "{theory:?} {amplitude}");
+}
+
+/// Numbers from 0 to 1 that are evenly spread: multiples of roots of primes, modulo 1.
+fn spread(index: u32) -> [f64; 5] {
+    [2.0_f64, 3.0, 5.0, 7.0, 11.0].map(|prime| (0.5 + prime.sqrt() * f64::from(index)).fract())
+}
+
+/// Twenty systems in the areas Z2 and Z1, beyond symmetry breaking, as a fixed sequence has them, each as four starts
+/// find it: every motion with impacts is one of the flow's stable amplitudes. With curves to three clearances the
+/// flow had no answer for two of them, whose amplitudes are 3.26 and 3.32; none is left without one to four.
+#[test]
+fn forced_amplitudes_of_twenty_systems_are_the_simulated_ones() {
+    /// Restitutions, few because each has its curve.
+    const RESTITUTIONS: [f64; 3] = [0.45, 0.6, 0.75];
+    const LARGEST_BARE: f64 = 3.0;
+    let curves = RESTITUTIONS.map(|r| DissipationCurve::of(r, [0.5, 4.0]));
+    let mut judged = 0;
+    for index in 1.. {
+        let [a, b, c, d, e] = spread(index);
+        let (mass_ratio, damping) = (0.002 * libm::pow(10.0, a), 0.3 + 2.7 * b);
+        let (sigma, gamma) = (4.0 * c - 2.0, 1.0 + 8.0 * d);
+        let curve = &curves[(3.0 * e) as usize];
+        let system = system(mass_ratio, damping, curve.restitution, sigma, gamma);
+        let analysis = Analysis::of(&system).expect("analysable");
+        let beyond = analysis.zone.area.is_none() && gamma > analysis.boundaries.symmetry_breaking;
+        if !beyond || gamma > LARGEST_BARE * libm::hypot(damping, 2.0 * sigma) {
+            continue;
+        }
+        // What the theory of first order neglects, three times.
+        let tolerance = 3.0 * mass_ratio * (2.0 + sigma.abs() + damping);
+        let states = AveragedFlow::of(&system, curve).steady_states().expect("analysable");
+        let places = [(system, starts::of(&system, 4).collect())];
+        let found = &motions(&places, &Effort::over(300)).expect("inside")[0];
+        assert!(found.iter().any(|motion| !motion.is_inactive()), "{system:?}");
+        for motion in found.iter().filter(|motion| !motion.is_inactive()) {
+            let amplitude = std::f64::consts::SQRT_2 * motion.rms;
+            let stable =
+                states.iter().filter(|state| state.stable && state.regime != Regime::AtRest);
+            let error = stable
+                .map(|state| (state.amplitude / amplitude - 1.0).abs())
+                .fold(f64::INFINITY, f64::min);
+            assert!(error < tolerance, "{error} {tolerance} {motion:?} {system:?} {states:?}");
+        }
+        judged += 1;
+        if judged == 20 {
+            return;
+        }
+    }
+}
