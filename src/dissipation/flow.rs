@@ -12,7 +12,7 @@ use super::curve::DissipationCurve;
 use super::pair::Point;
 use crate::analysis::{self, Analysis, AnalysisError, FreeDecay};
 use crate::equations::dissipation::{
-    DETERMINANT, LOWER_DETUNING, RESPONSE_ROOT, TRACE, UPPER_DETUNING,
+    DECAY, DETERMINANT, LOWER_DETUNING, RESPONSE_ROOT, TRACE, UPPER_DETUNING,
 };
 use crate::regimes::Regime;
 use crate::system::System;
@@ -161,13 +161,13 @@ impl<'a> AveragedFlow<'a> {
         }
         let rate = |amplitude: f64| {
             let force = branch.forces(amplitude).map_or(f64::NAN, |(forces, _)| forces[0]);
-            self.system.damping() * amplitude + force
+            DECAY.at([self.system.damping(), force, amplitude])
         };
         // The rate is linear in between: its logarithmic mean counts.
         let [fast, slow] = [from, to].map(rate);
         let relative = (fast - slow) / slow;
         let mean = if relative == 0.0 { 1.0 } else { libm::log1p(relative) / relative };
-        2.0 * (from - to) / slow * mean
+        (to - from) / slow * mean
     }
 
     /// The branch on which a decay goes on below the end of another, and where.

@@ -71,20 +71,38 @@ impl Admissibility {
 
     /// Of the flights of a cycle.
     pub fn of(map: &ImpactMap, cycle: &Cycle) -> Self {
-        Self::unproven(map, cycle).proven(map, cycle)
+        Distances::of(map, cycle).proven(map, cycle)
     }
+}
 
-    /// With the proof that the cycle that was measured is a motion, if there is one.
-    pub(super) fn proven(self, map: &ImpactMap, cycle: &Cycle) -> Self {
+/// How close a cycle comes to the walls and how slowly to impacts, as in [`Admissibility`], without the proof that it is a
+/// motion.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Distances {
+    pub min_wall_distance: f64,
+    pub narrowest: Option<Narrowest>,
+    pub slowest_impact: f64,
+    pub slowest_departure: Option<f64>,
+}
+
+impl Distances {
+    /// With the proof for the cycle that was measured, if there is one.
+    pub fn proven(self, map: &ImpactMap, cycle: &Cycle) -> Admissibility {
         let proven =
             |leg: &Leg| approach(leg) > 0.0 && free_of_contact(map, leg, &Departure::of(leg));
-        Self { admissible: cycle.flights(map).iter().all(proven), ..self }
+        let Self { min_wall_distance, narrowest, slowest_impact, slowest_departure } = self;
+        Admissibility {
+            admissible: cycle.flights(map).iter().all(proven),
+            min_wall_distance,
+            narrowest,
+            slowest_impact,
+            slowest_departure,
+        }
     }
 
-    /// The distances and speeds alone: not admissible, as nothing is proven.
-    pub(super) fn unproven(map: &ImpactMap, cycle: &Cycle) -> Self {
+    /// Of the flights of a cycle.
+    pub fn of(map: &ImpactMap, cycle: &Cycle) -> Self {
         let mut found = Self {
-            admissible: false,
             min_wall_distance: FULL_WIDTH,
             narrowest: None,
             slowest_impact: f64::INFINITY,

@@ -226,7 +226,7 @@ impl Course {
 
     /// The motion after each of `count` steps of equal length, with one sine, cosine and exponential for
     /// all: rounding grows by a unit in the last place with each.
-    pub fn at_steps(&self, step: f64, count: u32) -> impl Iterator<Item = Motion> + use<> {
+    pub(super) fn at_steps(&self, step: f64, count: u32) -> impl Iterator<Item = Motion> + use<> {
         let Self { flight, phase, mut deviation } = *self;
         let propagator = flight.free(step);
         operation_count::note(2 * ELEMENTARY);
@@ -280,4 +280,39 @@ fn steady_by_frequency(system: &System, [s, c]: [f64; 2]) -> [f64; 2] {
     let top = [-(s * re_rate - c * im_rate), forcing_rate - (c * re_rate + s * im_rate)];
     let scale = re * re + im * im;
     [(top[0] * re + top[1] * im) / scale, (top[1] * re - top[0] * im) / scale]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::system::{Excitation, Parameters};
+
+    #[test]
+    fn steps_lead_where_the_closed_form_does() {
+        for (damping, frequency_ratio) in [(1.8, 0.96), (0.0, 3.0), (400.0, 0.2)] {
+            let system = System::new(Parameters {
+                mass_ratio: 0.01,
+                damping,
+                restitution: 0.6,
+                frequency_ratio,
+                forcing_per_clearance: 3.0,
+                excitation: Excitation::BaseDisplacement,
+            });
+            let flight = Flight::of(&system.expect("valid")).expect("a steady motion");
+            let course = flight.course(0.7, Vector2::new(-0.4, 0.9));
+            for (k, found) in course.at_steps(0.05, 400).enumerate() {
+                let exact = course.at(0.05 * (k + 1) as f64);
+                // Each step rounds a few times, and what has gone wrong is carried on.
+                let rounding = 1e-15 * (k + 1) as f64 * (1.0 + damping);
+                for (a, b) in [
+                    (found.x, exact.x),
+                    (found.v, exact.v),
+                    (found.a, exact.a),
+                    (found.jerk, exact.jerk),
+                ] {
+                    assert!((a - b).abs() < rounding, "{damping} {k}: {a} {b}");
+                }
+            }
+        }
+    }
 }

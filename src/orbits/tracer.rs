@@ -6,7 +6,7 @@ use std::cell::OnceCell;
 use nalgebra::{Matrix4, Vector4, Vector5};
 
 use super::OrbitError;
-use super::admissibility::Admissibility;
+use super::admissibility::Distances;
 use super::impact_map::ImpactMap;
 use super::newton::{Converged, PARAMETER, converge, corrected};
 use super::orbit::{Cycle, Orbit, Origin};
@@ -32,7 +32,7 @@ pub(super) struct Point {
     found: Converged,
     /// Unit tangent of the branch in first state and scaled parameter.
     pub tangent: Vector5<f64>,
-    distances: OnceCell<Admissibility>,
+    distances: OnceCell<Distances>,
 }
 
 impl Point {
@@ -57,8 +57,8 @@ impl Point {
     }
 
     /// How close it comes to the walls and how slowly to impacts; whether it is a motion is not proven.
-    pub fn distances(&self) -> &Admissibility {
-        self.distances.get_or_init(|| Admissibility::unproven(&self.found.map, self.cycle()))
+    pub fn distances(&self) -> &Distances {
+        self.distances.get_or_init(|| Distances::of(&self.found.map, self.cycle()))
     }
 
     /// The orbit with its evidence.

@@ -2,7 +2,8 @@
 #![allow(dead_code)]
 
 use vinesink::report::figure::{Figure, PlacedText, Rect};
-use vinesink::system::{Excitation, Parameters, System};
+use vinesink::simulation::{Measurement, PeriodRecord, Simulation};
+use vinesink::system::{Excitation, Parameters, State, System};
 
 /// Table 1 of Li, Seguy, Berlioz (2016): `eps = m2 / m1`.
 pub const MASS_RATIO: f64 = 0.032 / 4.168;
@@ -40,6 +41,26 @@ pub fn table_1(frequency_hz: f64, clearance_mm: f64) -> System {
         excitation: Excitation::BaseDisplacement,
     })
     .expect("Table 1 is a valid system")
+}
+
+/// Amplitude of `v = x + eps y`, the slow amplitude `C`, in each of so many periods: that of its first harmonic.
+pub fn slow_amplitudes(system: &System, start: State, periods: u64) -> Vec<f64> {
+    let mut simulation = Simulation::new(system, start, 0.0).expect("inside");
+    let mut measured = Measurement::begin(system, start);
+    simulation.run(periods, u64::MAX, &mut measured);
+    let amplitude = |one: &PeriodRecord| {
+        let part =
+            |k: usize| one.oscillator_harmonic[k] + system.mass_ratio() * one.absorber_harmonic[k];
+        libm::hypot(part(0), part(1))
+    };
+    measured.statistics().records().iter().map(amplitude).collect()
+}
+
+/// Periods after which falling amplitudes, each given to the middle of its period, reach a level.
+pub fn periods_to(amplitudes: &[f64], level: f64) -> f64 {
+    let after = amplitudes.iter().position(|amplitude| *amplitude < level).expect("it decays");
+    let part = (amplitudes[after - 1] - level) / (amplitudes[after - 1] - amplitudes[after]);
+    after as f64 - 0.5 + part
 }
 
 /// The words of a figure neither touch nor are cut.

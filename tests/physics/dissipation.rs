@@ -8,11 +8,11 @@ use vinesink::analysis::{Analysis, Manifold};
 use vinesink::dissipation::{AveragedFlow, Branch, DissipationCurve, Point};
 use vinesink::equations::dissipation as formulas;
 use vinesink::regimes::{Effort, Regime, motions, starts};
-use vinesink::simulation::{Measurement, PeriodRecord, Simulation};
 use vinesink::system::{Excitation, Parameters, State, System};
 
-/// Table 1 of Li, Seguy, Berlioz (2016).
-const MASS_RATIO: f64 = 0.032 / 4.168;
+use crate::common::{MASS_RATIO, periods_to, slow_amplitudes, table_1};
+
+/// `lambda` of Table 1, rounded.
 const DAMPING: f64 = 1.799;
 
 /// That of Table 1, which several tests ask.
@@ -263,12 +263,6 @@ fn on_the_stable_branch_it_is_the_theory_of_two_impacts() {
     );
 }
 
-fn harmonic(record: &PeriodRecord, mass_ratio: f64) -> f64 {
-    let [sine, cosine] =
-        [0, 1].map(|k| record.oscillator_harmonic[k] + mass_ratio * record.absorber_harmonic[k]);
-    libm::hypot(sine, cosine)
-}
-
 /// Through four and three impacts per period, chaos, asymmetric and symmetric 1:1 down to the fold.
 #[test]
 fn free_decay_from_three_clearances_passes_all_regimes() {
@@ -278,16 +272,8 @@ fn free_decay_from_three_clearances_passes_all_regimes() {
         |pair| pair[1].slow_time >= pair[0].slow_time && pair[1].amplitude <= pair[0].amplitude
     ));
     let start = State { x: 0.0, x_velocity: 3.0, y: 0.3, y_velocity: 1.0 };
-    let mut simulation = Simulation::new(&system, start, 0.0).expect("inside");
-    let mut measured = Measurement::begin(&system, start);
-    simulation.run(200, u64::MAX, &mut measured);
-    let amplitudes: Vec<f64> =
-        measured.statistics().records().iter().map(|one| harmonic(one, MASS_RATIO)).collect();
-    let when = |level: f64| {
-        let after = amplitudes.iter().position(|amplitude| *amplitude < level).expect("it decays");
-        after as f64 + 0.5
-            - (level - amplitudes[after]) / (amplitudes[after - 1] - amplitudes[after])
-    };
+    let amplitudes = slow_amplitudes(&system, start, 200);
+    let when = |level: f64| periods_to(&amplitudes, level);
     let theory = |level: f64| {
         let after = path.iter().position(|point| point.amplitude <= level).expect("on the path");
         path[after].slow_time / MASS_RATIO / TAU
@@ -303,16 +289,7 @@ fn free_decay_from_three_clearances_passes_all_regimes() {
 /// The amplitude of the simulated motion with three impacts at 8.35 Hz, 11.5 mm and a base that moves by 0.25 mm.
 #[test]
 fn the_forced_amplitude_of_three_impacts_is_the_simulated_one() {
-    let omega_0 = (11.47e3_f64 / 4.168).sqrt();
-    let system = System::new(Parameters {
-        mass_ratio: MASS_RATIO,
-        damping: 3.02 / (0.032 * omega_0),
-        restitution: 0.6,
-        frequency_ratio: 8.35 * TAU / omega_0,
-        forcing_per_clearance: 0.25 / MASS_RATIO / 11.5,
-        excitation: Excitation::BaseDisplacement,
-    })
-    .expect("valid");
+    let system = table_1(8.35, 11.5);
     let states = AveragedFlow::of(&system, &CURVE).steady_states().expect("analysable");
     let places = [(system, starts::of(&system, 8).collect())];
     let found = &motions(&places, &Effort::over(200)).expect("inside")[0];

@@ -4,11 +4,11 @@
 use std::f64::consts::{PI, TAU};
 
 use vinesink::analysis::{FreeDecay, Manifold};
-use vinesink::simulation::{Measurement, PeriodRecord, Simulation};
 use vinesink::system::{Excitation, Parameters, State, System};
 
-/// Table 1 of Li, Seguy, Berlioz (2016).
-const MASS_RATIO: f64 = 0.0076775;
+use crate::common::{MASS_RATIO, periods_to, slow_amplitudes};
+
+/// `lambda` of Table 1, rounded.
 const DAMPING: f64 = 1.799;
 
 fn system(mass_ratio: f64, damping: f64, restitution: f64) -> System {
@@ -134,8 +134,7 @@ fn amplitude_over_time_is_the_root_and_ends_with_capture() {
     assert!((decay(DAMPING, 0.6).residual_amplitude() - 0.157).abs() < 5e-4);
 }
 
-/// Natural periods from 0.70 down to 0.20 clearances as the full system takes them. The amplitude is that of the
-/// first harmonic over a period, given to its middle.
+/// Natural periods from 0.70 down to 0.20 clearances as the full system takes them.
 fn simulated(mass_ratio: f64) -> f64 {
     let system = system(mass_ratio, DAMPING, 0.6);
     let manifold = Manifold::of(0.6);
@@ -148,20 +147,7 @@ fn simulated(mass_ratio: f64) -> f64 {
     let x = mass_ratio * w / (1.0 + mass_ratio);
     let x_velocity = (0.7 + mass_ratio * w_velocity) / (1.0 + mass_ratio);
     let start = State { x, x_velocity, y: x - w, y_velocity: x_velocity - w_velocity };
-    let mut simulation = Simulation::new(&system, start, 0.0).expect("inside");
-    let mut measured = Measurement::begin(&system, start);
-    simulation.run((0.2 / mass_ratio) as u64, u64::MAX, &mut measured);
-    let records = measured.statistics().records();
-    // C is the amplitude of v = x + eps y.
-    let amplitude = |one: &PeriodRecord| {
-        let [sine, cosine] =
-            [0, 1].map(|k| one.oscillator_harmonic[k] + mass_ratio * one.absorber_harmonic[k]);
-        libm::hypot(sine, cosine)
-    };
-    let amplitudes: Vec<f64> = records.iter().map(amplitude).collect();
-    let after = amplitudes.iter().position(|amplitude| *amplitude < 0.2).expect("it decays");
-    let part = (amplitudes[after - 1] - 0.2) / (amplitudes[after - 1] - amplitudes[after]);
-    after as f64 - 0.5 + part
+    periods_to(&slow_amplitudes(&system, start, (0.2 / mass_ratio) as u64), 0.2)
 }
 
 /// The error is of first order in the mass ratio: a quarter of it, a quarter of the error.
