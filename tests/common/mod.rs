@@ -51,7 +51,7 @@ pub fn slow_amplitudes(system: &System, start: State, periods: u64) -> Vec<f64> 
     let amplitude = |one: &PeriodRecord| {
         let part =
             |k: usize| one.oscillator_harmonic[k] + system.mass_ratio() * one.absorber_harmonic[k];
-        libm::hypot(part(0), part(1))
+        (part(0) * part(0) + part(1) * part(1)).sqrt()
     };
     measured.statistics().records().iter().map(amplitude).collect()
 }
