@@ -126,4 +126,6 @@ pub mod sweep;
 pub mod symbolic;
 pub mod system;
 #[cfg(feature = "case")]
+pub mod transient;
+#[cfg(feature = "case")]
 pub mod validation;

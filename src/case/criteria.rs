@@ -38,6 +38,8 @@ names! { key:
         ImpactsPerPeriod = "impacts_per_period",
         /// Whether every start leads to the same long-term motion.
         NoCoexistence = "no_coexistence",
+        /// Time in which a released structure comes down to `decay_level`, from the worst place of the absorber.
+        DecayTime = "decay_time",
     }
 }
 
@@ -71,9 +73,18 @@ impl Subject {
         !matches!(self, Self::Z3Share | Self::StableShare | Self::MarginClearance)
     }
 
+    /// Whether it makes sense of a structure that is released or struck, and of one that is driven steadily.
+    pub fn is_for(self, released: bool) -> bool {
+        match self {
+            Self::DecayTime => released,
+            Self::PeakDisplacement | Self::ImpactVelocity => true,
+            _ => !released,
+        }
+    }
+
     /// Whether it is the largest of something that was seen.
     pub fn is_largest(self) -> bool {
-        matches!(self, Self::PeakDisplacement | Self::ImpactVelocity)
+        matches!(self, Self::PeakDisplacement | Self::ImpactVelocity | Self::DecayTime)
     }
 
     /// Whether it compares the largest displacement with another.
@@ -93,6 +104,7 @@ impl Subject {
             Self::MarginClearance => &of::GAP,
             Self::ImpactVelocity => &of::IMPACT_SPEED,
             Self::ImpactsPerPeriod => &of::IMPACTS_PER_PERIOD,
+            Self::DecayTime => &of::DECAY_TIME,
             Self::NoCoexistence => return None,
         })
     }
@@ -106,7 +118,20 @@ pub(super) struct CriteriaTable {
     /// unless given. False for a device in which it cannot rest there.
     #[schemars(example = false)]
     count_inactive: Option<bool>,
+    /// Share of its first amplitude at which a released structure has come to rest, below 1; a tenth unless given.
+    #[schemars(extend("x-measurand" = "a share", "exclusiveMinimum" = 0, "maximum" = 0.99), example = 0.1, example = "10 %")]
+    decay_level: Option<f64>,
 }
+
+/// The table as it was read.
+pub(super) struct Criteria {
+    pub all: Vec<Criterion>,
+    pub count_inactive: bool,
+    pub decay_level: f64,
+}
+
+/// Where the table does not say when a released structure has come to rest.
+const DECAY_LEVEL: f64 = 0.1;
 
 fn with_subjects(schema: &mut Schema) {
     add_names::<Subject>(schema, |key| {
@@ -115,6 +140,7 @@ fn with_subjects(schema: &mut Schema) {
             _ if subject == Subject::MarginClearance => (json!(">= 10 %"), Value::Null),
             Some(Dimension::Length) => (json!("<= 3 mm"), json!("<= 0.3")),
             Some(Dimension::Velocity) => (json!("<= 0.5 m/s"), json!("<= 1.5")),
+            Some(Dimension::Time) => (json!("<= 5 s"), json!("<= 100")),
             Some(Dimension::Level) => (json!(">= 12"), Value::Null),
             Some(Dimension::Number) => (json!(2), Value::Null),
             Some(_) => (json!(">= 80 %"), Value::Null),
@@ -129,16 +155,16 @@ fn with_subjects(schema: &mut Schema) {
     });
 }
 
-/// Reads the table, and whether an inactive absorber counts, which it does unless the table says
-/// otherwise. Empty where there is none, or no design whose units it could be in.
-pub(super) fn read(reader: &mut Reader, root: &Table) -> (Vec<Criterion>, bool) {
+/// Reads the table. No criteria where there is none, or no design whose units they could be in.
+pub(super) fn read(reader: &mut Reader, root: &Table) -> Criteria {
     let read = reader.optional::<CriteriaTable>(root, "criteria");
-    let (Some((table, read)), Some(design)) = (read, reader.design) else {
-        return (Vec::new(), true);
-    };
+    let mut found = Criteria { all: Vec::new(), count_inactive: true, decay_level: DECAY_LEVEL };
+    let (Some((table, read)), Some(design)) = (read, reader.design) else { return found };
     let read_one = |subject| criterion(reader, &table, subject, &design);
-    let found = Subject::ALL.into_iter().filter_map(read_one).collect();
-    (found, read.count_inactive.unwrap_or(true))
+    found.all = Subject::ALL.into_iter().filter_map(read_one).collect();
+    found.count_inactive = read.count_inactive.unwrap_or(true);
+    found.decay_level = read.decay_level.unwrap_or(DECAY_LEVEL);
+    found
 }
 
 fn criterion(
@@ -148,6 +174,16 @@ fn criterion(
     design: &Design,
 ) -> Option<Criterion> {
     let (key, value) = (subject.key(), table.value(subject.key())?);
+    let released = design.release().is_some();
+    if !subject.is_for(released) {
+        let kinds = ["driven steadily", "released or struck"];
+        let [what, other] = if released { [kinds[1], kinds[0]] } else { kinds };
+        let message = format!("`{key}` has no meaning for a structure that is {what}");
+        let expected = format!("expected criteria of a structure that is {what}");
+        let help = format!("remove the line: `{key}` is for one that is {other}");
+        reader.report(table.span_of(key), message, expected, help);
+        return None;
+    }
     let as_written = reader.as_written(value.span());
     let place = Place { alone: false, ..reader.place(table, key, value) };
     let found = match (value.get_ref(), subject.kind().map(|kind| kind.dimension)) {
@@ -178,7 +214,7 @@ fn criterion(
 fn form(of: Dimension, design: &Design) -> Form {
     let measured = match (of, design) {
         (Dimension::Number, _) => None,
-        (Dimension::Length | Dimension::Velocity, Design::Reduced(_)) => None,
+        (Dimension::Length | Dimension::Velocity | Dimension::Time, Design::Reduced(_)) => None,
         _ => Some(of),
     };
     let plain = measured.is_none() || matches!(of, Dimension::Share | Dimension::Level);
@@ -211,7 +247,9 @@ fn possible(limit: f64, written: &str, of: Dimension) -> Result<(), String> {
         Dimension::Share if !(0.0..=1.0).contains(&limit) => {
             "a share lies between 0 and 100 %".to_owned()
         }
-        Dimension::Length | Dimension::Velocity if limit < 0.0 => "it is never below 0".to_owned(),
+        Dimension::Length | Dimension::Velocity | Dimension::Time if limit < 0.0 => {
+            "it is never below 0".to_owned()
+        }
         _ => return Ok(()),
     };
     Err(format!("asks for {number}, and {why}"))

@@ -106,6 +106,9 @@ pub struct Case {
     pub criteria: Vec<Criterion>,
     /// Whether the motion of an absorber that never wakes counts (`count_inactive` in `[criteria]`).
     pub count_inactive: bool,
+    /// Share of its first amplitude at which a released structure counts as come to rest (`decay_level` in
+    /// `[criteria]`).
+    pub decay_level: f64,
     /// The table `[optimize]`; its defaults where there is none.
     pub optimize: OptimizeSettings,
     /// The table `[uncertainty]`; nothing is uncertain where there is none.
@@ -181,6 +184,9 @@ fn one_design() -> Value {
     ])
 }
 
+/// Tables that are about steady vibration alone.
+const STEADY_TABLES: [&str; 4] = ["accuracy", "band", "sweep", "uncertainty"];
+
 const STARTING_CASE: &str = include_str!("starting_case.toml");
 
 impl Case {
@@ -244,11 +250,20 @@ fn read(reader: &mut Reader, document: &DeTable, text_hash: String) -> Option<Ca
     let heading = reader.read::<Heading>(&root);
     let design = read_design(reader, &root);
     reader.design = design;
+    if design.is_some_and(|design| design.release().is_some()) {
+        for name in STEADY_TABLES.into_iter().filter(|name| root.has(name)) {
+            let message =
+                format!("[{name}] has no meaning for a structure that is released or struck");
+            let expected = "expected tables that are about what it does then";
+            let help = "remove the table: it is about steady vibration";
+            reader.report(root.span_of(name), message, expected, help);
+        }
+    }
     let simulation = reader.settings::<SimulationSettings>(&root, "simulation");
     let report = reader.settings::<ReportSettings>(&root, "report");
     let accuracy = reader.settings::<AccuracySettings>(&root, "accuracy");
     let band = band::read(reader, &root);
-    let (criteria, count_inactive) = criteria::read(reader, &root);
+    let criteria = criteria::read(reader, &root);
     let optimize = optimize::read(reader, &root);
     let uncertainty = uncertainty::read(reader, &root);
     let sweep = sweep::read(reader, &root);
@@ -263,8 +278,9 @@ fn read(reader: &mut Reader, document: &DeTable, text_hash: String) -> Option<Ca
         report: report.unwrap_or_default(),
         accuracy,
         band,
-        criteria,
-        count_inactive,
+        criteria: criteria.all,
+        count_inactive: criteria.count_inactive,
+        decay_level: criteria.decay_level,
         optimize,
         uncertainty,
         sweep,

@@ -36,6 +36,11 @@ pub struct OptimizeSettings {
     #[schemars(with = "Option<[Value; 2]>", extend("x-plain" = [[0.5, 2.0]], "x-ascending" = true))]
     #[schemars(extend("items" = in_design("clearance")), example = vec!["5 mm", "40 mm"])]
     pub clearance: Option<[f64; 2]>,
+    /// Releases that the clearance must serve, over the case's own: from a weaker to a stronger one; the case's own
+    /// alone unless given.
+    #[schemars(extend("items" = { "type": "number", "exclusiveMinimum": 0 }, "x-ascending" = true))]
+    #[schemars(example = vec![0.5, 2.0])]
+    pub releases: Option<[f64; 2]>,
     /// Bounds of the restitution, from 0 to 1; the case's own value unless given.
     #[schemars(extend("items" = { "type": "number", "minimum": 0, "maximum": 1 }, "x-ascending" = true))]
     #[schemars(example = vec![0.4, 0.8])]
@@ -58,6 +63,16 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> OptimizeSettings {
             "expected `mass` beside [oscillator], [absorber] and [excitation] only",
             "remove the line, or describe the design in physical units",
         );
+    }
+    let released = reader.design.is_some_and(|design| design.release().is_some());
+    let other: &[&str] =
+        if released { &["objective", "restitution", "mass"] } else { &["releases"] };
+    for key in other.iter().filter(|key| table.has(key)) {
+        let what = if released { "released or struck" } else { "driven steadily" };
+        let message =
+            format!("`{key}` has no meaning in [optimize] for a structure that is {what}");
+        let help = "a released structure has one objective, to come to rest first, and one choice, the clearance";
+        reader.report(table.span_of(key), message, "expected other keys", help);
     }
     settings
 }

@@ -9,8 +9,10 @@ use serde_json::{Value, json};
 
 use super::reader::{Reader, Table};
 use super::schema::one_of;
+use crate::names::names;
 use crate::quantity::Dimension;
 use crate::system::Excitation;
+use crate::transient::Release;
 
 /// The linear oscillator whose vibration is to be reduced.
 #[derive(Deserialize, JsonSchema)]
@@ -56,33 +58,85 @@ pub(super) struct AbsorberTable {
     restitution: f64,
 }
 
-/// What drives the oscillator harmonically.
-#[derive(Deserialize, JsonSchema)]
-#[schemars(deny_unknown_fields, extend("oneOf" = amplitude_by_kind()))]
-pub(super) struct ExcitationTable {
-    /// "base-displacement" shakes the base, "force" pushes the oscillator.
-    kind: Excitation,
-    /// F, the displacement amplitude of the base, or P, the amplitude of the force; 0 or more.
-    #[schemars(with = "String", example = "0.25 mm")]
-    amplitude: f64,
-    /// f, the excitation frequency, above 0.
-    #[schemars(extend("x-measurand" = "a frequency", "exclusiveMinimum" = 0, "x-symbol" = "f"))]
-    frequency: f64,
+names! { name:
+    /// How the oscillator is set in motion.
+    pub(super) enum ExcitationKind {
+        /// The base moves by F sin(omega t).
+        BaseDisplacement = "base-displacement",
+        /// A force P sin(omega t) acts on the oscillator.
+        Force = "force",
+        /// The oscillator is let go, and nothing drives it.
+        Free = "free",
+        /// A shock: a force too short to be followed, or a sudden velocity of the base.
+        Impulse = "impulse",
+    }
 }
 
-/// For each kind of excitation how its amplitude is written.
-fn amplitude_by_kind() -> Value {
-    let case = |kind: Excitation, example: &str, measures: &str, symbol: &str| {
+/// What drives the oscillator, or sets it in motion.
+#[derive(Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields, extend("oneOf" = keys_by_kind()))]
+pub(super) struct ExcitationTable {
+    /// "base-displacement" shakes the base, "force" pushes the oscillator; "free" lets it go, "impulse" strikes it.
+    kind: ExcitationKind,
+    /// F, the displacement amplitude of the base, or P, the amplitude of the force; 0 or more.
+    #[schemars(with = "Option<String>", example = "0.25 mm")]
+    amplitude: Option<f64>,
+    /// f, the excitation frequency, above 0.
+    #[schemars(extend("x-measurand" = "a frequency", "exclusiveMinimum" = 0, "x-symbol" = "f"))]
+    frequency: Option<f64>,
+    /// Displacement from which the oscillator is let go, its velocity, or both; 0 or more.
+    #[schemars(extend("x-measurand" = "a length", "minimum" = 0, "x-symbol" = "x_0"), example = "5 mm")]
+    displacement: Option<f64>,
+    /// Velocity of the oscillator when it is let go, or that which a shock gives the base; 0 or more.
+    #[schemars(extend("x-measurand" = "a velocity", "minimum" = 0, "x-symbol" = r"\dot{x}_0"), example = "0.2 m/s")]
+    velocity: Option<f64>,
+    /// Impulse on the oscillator, above 0; or give the velocity of the base.
+    #[schemars(extend("x-measurand" = "an impulse", "exclusiveMinimum" = 0, "x-symbol" = "J"), example = "2 N s")]
+    impulse: Option<f64>,
+}
+
+/// For each kind of excitation the keys that it has, and how its amplitude is written.
+fn keys_by_kind() -> Value {
+    let harmonic = |kind: Excitation, example: &str, measures: &str, symbol: &str| {
         let amplitude = json!({
             "type": "number", "examples": [example], "minimum": 0,
             "x-measurand": measures, "x-symbol": symbol,
         });
-        json!({ "properties": { "kind": { "const": kind }, "amplitude": amplitude } })
+        json!({
+            "properties": { "kind": { "const": kind }, "amplitude": amplitude, "frequency": true },
+            "required": ["amplitude", "frequency"],
+        })
+    };
+    let own = |kind: &str, keys: [&str; 2], how: &str| {
+        let properties = json!({ "kind": { "const": kind }, keys[0]: true, keys[1]: true });
+        json!({ "properties": properties, how: one_of(keys[0], keys[1]) })
     };
     json!([
-        case(Excitation::BaseDisplacement, "0.25 mm", "a length", "F"),
-        case(Excitation::Force, "2.9 N", "a force", "P"),
+        harmonic(Excitation::BaseDisplacement, "0.25 mm", "a length", "F"),
+        harmonic(Excitation::Force, "2.9 N", "a force", "P"),
+        own("free", ["displacement", "velocity"], "anyOf"),
+        own("impulse", ["impulse", "velocity"], "oneOf"),
     ])
+}
+
+impl ExcitationTable {
+    /// How the oscillator is set in motion, if nothing drives it; `None` for harmonic excitation.
+    fn release(&self, mass: f64) -> Option<Release> {
+        let [displacement, velocity, impulse] =
+            [self.displacement, self.velocity, self.impulse].map(Option::unwrap_or_default);
+        match self.kind {
+            ExcitationKind::BaseDisplacement | ExcitationKind::Force => None,
+            ExcitationKind::Free => {
+                Some(Release { displacement, velocity, absorber_velocity: 0.0 })
+            }
+            // The base comes to move: so do structure and absorber against it, the other way.
+            ExcitationKind::Impulse => Some(Release {
+                displacement: 0.0,
+                velocity: velocity + impulse / mass,
+                absorber_velocity: velocity,
+            }),
+        }
+    }
 }
 
 /// A design in SI units. [`Case::parse`](super::Case::parse) proves every value finite, masses,
@@ -105,8 +159,10 @@ pub struct Physical {
     pub excitation: Excitation,
     /// `F` in m, the base's displacement, or `P` in N, the force on the oscillator's mass.
     pub amplitude: f64,
-    /// `f`, the excitation frequency.
+    /// `f`, the excitation frequency; the natural one where nothing drives the oscillator.
     pub frequency_hz: f64,
+    /// How the oscillator is set in motion where nothing drives it.
+    pub release: Option<Release>,
 }
 
 impl Physical {
@@ -135,7 +191,14 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Physical> {
         (Some(stiffness), _) => stiffness,
         (None, frequency) => stiffness_of(reader, &table, frequency?, oscillator.mass)?,
     };
-    let ((_, absorber), (_, excitation)) = (absorber?, excitation?);
+    let ((_, absorber), (place, excitation)) = (absorber?, excitation?);
+    let release = excitation.release(oscillator.mass);
+    if release.is_some_and(|release| release.displacement == 0.0 && release.velocity == 0.0) {
+        let help = "give displacement = \"5 mm\", velocity = \"0.2 m/s\" or, for a shock, impulse = \"2 N s\"";
+        let expected = "expected a displacement, a velocity or an impulse above 0";
+        reader.report(place.span.clone(), "nothing sets the oscillator in motion", expected, help);
+        return None;
+    }
     let mut physical = Physical {
         mass_kg: oscillator.mass,
         stiffness_n_per_m,
@@ -146,9 +209,17 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Physical> {
         },
         clearance_m: absorber.clearance,
         restitution: absorber.restitution,
-        excitation: excitation.kind,
-        amplitude: excitation.amplitude,
-        frequency_hz: excitation.frequency,
+        excitation: match excitation.kind {
+            ExcitationKind::Force => Excitation::Force,
+            _ => Excitation::BaseDisplacement,
+        },
+        amplitude: excitation.amplitude.unwrap_or_default(),
+        frequency_hz: 0.0,
+        release,
+    };
+    physical.frequency_hz = match release {
+        Some(_) => physical.natural_frequency_rad_per_s() / TAU,
+        None => excitation.frequency?,
     };
     physical.damping_n_s_per_m = match (oscillator.damping, oscillator.damping_ratio) {
         (Some(damping), _) => damping,

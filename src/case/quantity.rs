@@ -22,7 +22,7 @@ pub struct QuantityError {
 }
 
 /// What a case gives with a unit: its name with its article, and an example.
-const MEASURED: [(Dimension, &str, &str); 9] = [
+const MEASURED: [(Dimension, &str, &str); 11] = [
     (Dimension::Length, "a length", "7.5 mm"),
     (Dimension::Mass, "a mass", "32 g"),
     (Dimension::Stiffness, "a stiffness", "11.47 kN/m"),
@@ -30,6 +30,8 @@ const MEASURED: [(Dimension, &str, &str); 9] = [
     (Dimension::Frequency, "a frequency", "8 Hz"),
     (Dimension::Force, "a force", "2.9 N"),
     (Dimension::Velocity, "a velocity", "0.5 m/s"),
+    (Dimension::Impulse, "an impulse", "2 N s"),
+    (Dimension::Time, "a time", "5 s"),
     (Dimension::Share, "a share", "1 %"),
     (Dimension::Level, "a level", "12 dB"),
 ];

@@ -146,6 +146,17 @@ impl<'t> Reader<'t> {
         let mut found = Map::new();
         for key in table.keys.iter().copied() {
             let Some(value) = table.value(key) else { continue };
+            if let Some(chosen) = table.is_of_another_branch(key) {
+                let message = format!("`{key}` has no meaning{} with {chosen}", table.place());
+                let expected = format!("expected only keys that go with {chosen}");
+                self.report(
+                    table.span_of(key),
+                    message,
+                    expected,
+                    format!("remove `{key}`, or write another kind"),
+                );
+                continue;
+            }
             let read = self.item(self.place(table, key, value), table.schema_of(key));
             found.extend(read.map(|read| (key.to_owned(), read)));
         }
@@ -215,21 +226,40 @@ impl<'t> Table<'t> {
     /// What the schema says about a key, which may depend on what another one holds: the amplitude on the
     /// kind of excitation.
     pub fn schema_of(&self, key: &str) -> &'static Value {
+        let own = self.branch().and_then(|branch| branch["properties"].get(key));
+        let own = own.filter(|own| own.is_object() && own["const"].is_null());
+        own.unwrap_or(&self.schema["properties"][key])
+    }
+
+    /// What the schema says beside what one of the keys holds.
+    fn branch(&self) -> Option<&'static Value> {
         let says = |(key, schema): (&String, &Value)| {
             let written = self.value(key).and_then(|value| value.get_ref().as_str());
             schema["const"].as_str().is_some_and(|name| Some(name) == written)
         };
-        let mut branches = list(&self.schema["oneOf"]).map(|branch| &branch["properties"]);
-        let chosen = branches.find(|keys| keys.as_object().into_iter().flatten().any(says));
-        let own = chosen.and_then(|keys| keys.get(key)).filter(|own| own["const"].is_null());
-        own.unwrap_or(&self.schema["properties"][key])
+        let mut branches = list(&self.schema["oneOf"]);
+        branches.find(|branch| branch["properties"].as_object().into_iter().flatten().any(says))
+    }
+
+    /// What was chosen, `kind = "free"`, where a key goes with other choices only.
+    fn is_of_another_branch(&self, key: &str) -> Option<String> {
+        let branch = self.branch()?["properties"].as_object()?;
+        let known = |branch: &Value| branch["properties"].get(key).is_some();
+        if branch.contains_key(key) || !list(&self.schema["oneOf"]).any(known) {
+            return None;
+        }
+        let (chosen, value) = branch.iter().find(|(_, schema)| !schema["const"].is_null())?;
+        Some(format!("{chosen} = {}", value["const"]))
     }
 
     /// Keys of which exactly one must be there: those that are required, and pairs of alternatives.
     pub fn groups(&self) -> impl Iterator<Item = Vec<&'static str>> + use<> {
-        let required =
-            list(&self.schema["required"]).filter_map(Value::as_str).map(|one| vec![one]);
-        let pairs = list(&self.schema["allOf"]).chain([self.schema]).filter_map(|group| {
+        let branch = self.branch();
+        let all = std::iter::once(self.schema).chain(branch);
+        let required = all.flat_map(|schema| list(&schema["required"]));
+        let required = required.filter_map(Value::as_str).map(|one| vec![one]);
+        let groups = list(&self.schema["allOf"]).chain([self.schema]).chain(branch);
+        let pairs = groups.filter_map(|group| {
             // Nothing but the one key.
             let key = |branch: &'static Value| {
                 branch["required"][0]

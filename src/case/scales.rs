@@ -11,6 +11,7 @@ use std::f64::consts::TAU;
 use super::Design;
 use crate::quantity::Dimension;
 use crate::system::{Excitation, InvalidParameter, Parameters, System};
+use crate::transient::Release;
 
 /// What turns dimensionless results back into the design's units: SI, or for a reduced design those of an
 /// oscillator with m1 = k1 = 1, lengths in the unit of its own clearance.
@@ -117,6 +118,14 @@ impl Design {
                     _ => Ok(system),
                 }
             }
+        }
+    }
+
+    /// How the oscillator is set in motion, where nothing drives it.
+    pub fn release(&self) -> Option<Release> {
+        match self {
+            Self::Physical(physical) => physical.release,
+            Self::Reduced(_) => None,
         }
     }
 

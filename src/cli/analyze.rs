@@ -12,7 +12,7 @@ use vinesink::study::{StudyEffort, settle_area};
 use super::budget::{ANALYSIS, Work};
 use super::case_file::{self, OneCase};
 use super::progress::Progress;
-use super::simulate;
+use super::{release, simulate};
 
 /// Print what the theory and the exact orbits say of a case
 ///
@@ -40,6 +40,9 @@ Examples:
 pub fn run(arguments: Arguments) -> Result<bool> {
     let OneCase { path, long, .. } = &arguments.one;
     let case = case_file::read(path)?;
+    if let Some(done) = release::analyze(&arguments.one, &case)? {
+        return Ok(done);
+    }
     let plan = case_file::plan(&case, arguments.fidelity)?;
     let theory = Work::trajectory(&case, ANALYSIS);
     let progress = Progress::estimated("analysis", theory.seconds());

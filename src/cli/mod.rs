@@ -15,6 +15,7 @@ mod output;
 mod paper;
 mod parallel;
 mod progress;
+mod release;
 mod report;
 mod schema;
 mod simulate;

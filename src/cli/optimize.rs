@@ -13,7 +13,7 @@ use vinesink::store;
 use super::budget::Work;
 use super::case_file::{self, Format, OneCase};
 use super::parallel::Parallel;
-use super::{index, output};
+use super::{index, output, release};
 
 /// Choose the clearance, and on request restitution and mass, that serve a case best
 ///
@@ -83,6 +83,10 @@ pub fn run(arguments: Arguments) -> Result<bool> {
             "nothing in {} is uncertain, so that there is no robust optimum",
             path.display()
         ));
+    }
+    if let Some(done) = release::optimize(&arguments.one, &case, &text, arguments.write.as_deref())?
+    {
+        return Ok(done);
     }
     let task = Task::of(&case, arguments.objective).map_err(|error| {
         miette!(help = "give the excitation an amplitude above 0", "{}: {error}", path.display())

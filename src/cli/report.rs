@@ -21,7 +21,7 @@ use vinesink::study::{CaseStudy, StudyEffort};
 use super::budget::{Long, Work};
 use super::parallel::Parallel;
 use super::progress::Progress;
-use super::{case_file, index, output};
+use super::{case_file, index, output, release};
 
 /// Write the design report of each case
 ///
@@ -139,6 +139,9 @@ fn check(path: &Path, name: &str, folder: &Path, arguments: &Arguments) -> Resul
 /// The files of a report, and whether it is exact enough and to be trusted.
 fn rendered(path: &Path, name: &str, arguments: &Arguments) -> Result<(Files, bool)> {
     let case = case_file::read(path)?;
+    if let Some(files) = release::report(&case, name)? {
+        return Ok((files, true));
+    }
     let effort = StudyEffort::of(&case.simulation);
     let plan = case_file::plan(&case, arguments.fidelity)?;
     let simulates = plan.as_ref().is_none_or(Plan::needs_simulation);

@@ -18,6 +18,7 @@ use super::budget::Work;
 use super::case_file::{self, OneCase};
 use super::output;
 use super::progress::Progress;
+use super::release;
 
 /// Simulate a case directly, impact by impact
 ///
@@ -60,6 +61,9 @@ const IMPACT_LIMIT: u64 = 200_000_000;
 pub fn run(arguments: Arguments) -> Result<bool> {
     let OneCase { path, long, .. } = &arguments.one;
     let case = case_file::read(path)?;
+    if let Some(done) = release::simulate(&arguments.one, &case)? {
+        return Ok(done);
+    }
     let effort = arguments.effort(&case);
     let mut work = vec![trajectory(&case, &effort)];
     if arguments.initial.is_none() {

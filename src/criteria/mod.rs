@@ -6,6 +6,7 @@
 //! and that of an absorber which never wakes. What is found is the worst of all with its error, whatever the
 //! limit is: two designs, or two limits, can be compared.
 
+mod release;
 mod scope;
 
 use crate::band::rivals::reduction_db;
@@ -15,6 +16,7 @@ use crate::case::{Case, Criterion, Relation, Scales, Subject};
 use crate::method::Method;
 use crate::regimes::Motion;
 
+pub use release::judge_release;
 use scope::Scope;
 
 /// Distance from a count that still is that count: as regimes are told apart.
@@ -187,6 +189,7 @@ fn of_motion(subject: Subject, seen: &Seen, rivals: &Rivals, scales: &Scales) ->
         Subject::Z3Share
         | Subject::StableShare
         | Subject::MarginClearance
-        | Subject::NoCoexistence => return None,
+        | Subject::NoCoexistence
+        | Subject::DecayTime => return None,
     })
 }

@@ -124,13 +124,16 @@ impl<'a> AveragedFlow<'a> {
 
     /// The fall of the amplitude without excitation from `C/b` to a smaller one: on each branch as far as it goes,
     /// then on the one whose force is nearest; the absorber is at rest where there is none. The first is the branch
-    /// that comes from the largest amplitude. Ends early where nothing takes energy.
+    /// that comes from the largest amplitude, one on which the absorber moves if there is any. Ends early where nothing takes energy.
     pub fn decay(&self, from: f64, to: f64) -> Vec<DecayPoint> {
         let mut path = Vec::new();
         let branches = self.curve.branches.iter().enumerate();
         let begins = |(_, branch): &(usize, &Branch)| branch.covers(from);
-        let highest =
-            |a: &(usize, &Branch), b: &(usize, &Branch)| a.1.range()[1].total_cmp(&b.1.range()[1]);
+        let moves = |branch: &Branch| branch.points[0].regime != Regime::AtRest;
+        let highest = |a: &(usize, &Branch), b: &(usize, &Branch)| {
+            let by_end = a.1.range()[1].total_cmp(&b.1.range()[1]);
+            moves(a.1).cmp(&moves(b.1)).then(by_end)
+        };
         let mut next = branches.filter(begins).max_by(highest).map(|(index, _)| (index, from));
         let mut slow_time = 0.0;
         while let Some((index, top)) = next {

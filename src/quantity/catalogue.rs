@@ -187,6 +187,17 @@ catalogue! {
     INITIAL_VELOCITY = "initial_velocity", "ẋ", "initial velocity", Velocity, Significant(3), Interval;
     INITIAL_ABSORBER_DISPLACEMENT = "initial_absorber_displacement", "y", "initial displacement of the absorber", Length, Significant(3), Interval;
     INITIAL_ABSORBER_VELOCITY = "initial_absorber_velocity", "ẏ", "initial velocity of the absorber", Velocity, Significant(3), Interval;
+    DECAY_TIME = "decay_time", "", "time to come to rest", Time, Significant(3), Bound;
+    BARE_DECAY_TIME = "bare_decay_time", "", "time to come to rest without absorber", Time, Significant(3), Interval;
+    DAMPER_DECAY_TIME = "damper_decay_time", "", "time to come to rest with a tuned mass damper", Time, Significant(3), Interval;
+    THEORY_DECAY_TIME = "theory_decay_time", "", "time to come to rest by theory", Time, Significant(3), Interval;
+    ACTIVE_DECAY_TIME = "active_decay_time", "", "time to come to rest where the absorber wakes", Time, Significant(3), Bound;
+    FASTEST_DECAY_TIME = "fastest_decay_time", "", "shortest time to come to rest from any place of the absorber", Time, Significant(3), Interval;
+    DECAY_LEVEL = "decay_level", "", "amplitude that counts as rest", Length, Significant(3), Interval;
+    RESIDUAL_AMPLITUDE = "residual_amplitude", "", "amplitude at which capture ends", Length, Significant(3), Interval;
+    INITIAL_AMPLITUDE = "initial_amplitude", "", "amplitude at the start", Length, Significant(3), Interval;
+    IMPACT_ENERGY_SHARE = "impact_energy_share", "", "share of the energy that impacts take", Share, Significant(2), Interval;
+    IMPACT_COUNT = "impact_count", "", "number of impacts", Count, Decimals(0), Interval;
     RELATIVE_CHANGE = "relative_change", "", "relative change", Change, Significant(2), Interval;
 }
 

@@ -93,6 +93,7 @@ impl Dimension {
                 }
             }
             Self::Force => const { &[unit("uN", -6), unit("nN", -9)] },
+            Self::Impulse => const { &[unit("Ns", 0), unit("kNs", 3)] },
             _ => &[],
         }
     }

@@ -89,20 +89,21 @@ pub fn files(
     Ok(files)
 }
 
-/// The files of another command's page in a case's folder: `NAME.md` by the template of that name, which gets the
-/// figures beside its facts, their drawings, and where a tone is told `NAME.html`.
+/// The files of a page in a case's folder: `NAME.md` by a template, which gets the figures beside its facts, their
+/// drawings, and where a tone is told `NAME.html`.
 ///
 /// # Errors
 /// [`RenderError`] says which part cannot be rendered.
 pub(crate) fn page_files(
     name: &str,
+    template: &str,
     tone: Option<&str>,
     units: &Units,
     mut facts: Value,
     figures: &[Figure],
 ) -> Result<Files, RenderError> {
     facts["figures"] = figures.iter().map(figure_row).collect();
-    let markdown = template::render(&format!("{name}.md"), units, &facts)?;
+    let markdown = template::render(template, units, &facts)?;
     let drawings = drawings(figures)?;
     let html = tone.map(|tone| html::page(tone, &markdown, &drawings)).transpose()?;
     let mut files = figure_files(drawings);
@@ -121,7 +122,7 @@ fn texts(
 const LINE: usize = 120;
 
 /// JSON with each quantity on a line of its own: a number that changes is a line that changes.
-fn in_lines(value: &Value, indent: usize) -> String {
+pub(super) fn in_lines(value: &Value, indent: usize) -> String {
     let line = value.to_string();
     let inner = indent + 2;
     let (parts, [open, close]): (Vec<String>, _) = match value {

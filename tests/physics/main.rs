@@ -26,6 +26,7 @@ mod orbit_equations;
 mod orbits;
 mod published;
 mod regimes;
+mod release;
 mod simulation_properties;
 mod symbolic;
 mod tangent;

@@ -83,7 +83,7 @@ impl Page<'_> {
         let units = Scale::of(self.case).units();
         let figures = worded(vec![super::figure(self)], &units)?;
         let facts = json!({ "page": self.document(), "version": env!("CARGO_PKG_VERSION") });
-        page_files("tradeoff", None, &units, facts, &figures)
+        page_files("tradeoff", "tradeoff.md", None, &units, facts, &figures)
     }
 
     /// What the terminal shows: the page's words and every method with the time that it took.

@@ -62,6 +62,11 @@ impl Scale {
         Quantity::new(kind, factor * value, method).with_error(factor * error)
     }
 
+    /// A fast time.
+    pub fn time(&self, tau: f64) -> f64 {
+        self.scales.time(tau)
+    }
+
     /// An energy per unit of the oscillator's mass, over the squared clearance, in fast time.
     pub fn energy(&self, kind: &'static Kind, value: f64, method: Method) -> Quantity {
         Quantity::new(kind, self.scales.energy(value), method)

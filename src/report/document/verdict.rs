@@ -89,7 +89,8 @@ pub fn verdict(study: &CaseStudy, judged: &[Judged]) -> Value {
 }
 
 impl Word {
-    fn tone(self) -> Tone {
+    /// Whether that is good news.
+    pub fn tone(self) -> Tone {
         match self {
             Self::Holds | Self::Works => Tone::Good,
             Self::TooCloseToCall | Self::Mixed => Tone::Mixed,

@@ -162,7 +162,7 @@ pub fn files(case: &Case, found: &Optimization) -> Result<Files, RenderError> {
     let units = Scale::of(case).units();
     let tone = if found.succeeds() { "good" } else { "bad" };
     let figures = worded(figures(case, found), &units)?;
-    page_files("optimize", Some(tone), &units, context(case, found), &figures)
+    page_files("optimize", "optimize.md", Some(tone), &units, context(case, found), &figures)
 }
 
 /// What the terminal shows.

@@ -107,7 +107,8 @@ impl Swept<'_> {
         let document = facts::document(self);
         let json = serde_json::to_string_pretty(&document).map_err(RenderError::from)? + "\n";
         let facts = json!({ "page": document });
-        let mut files = page_files("sweep", Some(""), &self.units(), facts, &self.figures()?)?;
+        let mut files =
+            page_files("sweep", "sweep.md", Some(""), &self.units(), facts, &self.figures()?)?;
         files.insert("sweep.json".into(), json.into_bytes());
         Ok(files)
     }

@@ -1,0 +1,86 @@
+//! Commands on a structure that is released or struck.
+
+use std::path::Path;
+
+use miette::{IntoDiagnostic, Result, miette};
+use vinesink::case::{Case, Rounding};
+use vinesink::criteria::{self, Judged};
+use vinesink::report::release as page;
+use vinesink::report::render::Files;
+use vinesink::store;
+use vinesink::transient::{DecayStudy, best_clearance};
+
+use super::case_file::{self, Format, OneCase};
+use super::output;
+use super::parallel::Parallel;
+
+/// Refuses a case that is released where a command is about steady vibration.
+pub fn steady(case: &Case, path: &Path, what: &str) -> Result<()> {
+    match case.design.release() {
+        None => Ok(()),
+        Some(_) => Err(miette!(
+            help = "name a case whose excitation is base-displacement or force",
+            "{}: nothing drives its structure steadily, which {what} is about",
+            path.display()
+        )),
+    }
+}
+
+/// The study of a case that is released; none for another.
+pub fn studied(case: &Case) -> Result<Option<DecayStudy>> {
+    DecayStudy::of_case(case).transpose().into_diagnostic()
+}
+
+/// What theory says.
+pub fn analyze(one: &OneCase, case: &Case) -> Result<Option<bool>> {
+    let study = DecayStudy::without_simulation(case).transpose().into_diagnostic()?;
+    study.map(|study| printed(one, case, &study)).transpose()
+}
+
+/// What simulation says.
+pub fn simulate(one: &OneCase, case: &Case) -> Result<Option<bool>> {
+    studied(case)?.map(|study| printed(one, case, &study)).transpose()
+}
+
+fn printed(one: &OneCase, case: &Case, study: &DecayStudy) -> Result<bool> {
+    let document = page::document(&case_file::name(&one.path)?, case, study, &[]);
+    one.print(|| page::text(case, &document), || &document)?;
+    Ok(true)
+}
+
+/// Its criteria.
+pub fn judged(case: &Case) -> Result<Option<Vec<Judged>>> {
+    Ok(studied(case)?.map(|study| criteria::judge_release(case, &study)))
+}
+
+/// Its report.
+pub fn report(case: &Case, name: &str) -> Result<Option<Files>> {
+    let Some(study) = studied(case)? else { return Ok(None) };
+    let judged = criteria::judge_release(case, &study);
+    page::files(name, case, &study, &judged).into_diagnostic().map(Some)
+}
+
+/// The clearance with which it comes to rest first, written into a new file where that is asked for.
+pub fn optimize(
+    one: &OneCase,
+    case: &Case,
+    text: &str,
+    new: Option<&Path>,
+) -> Result<Option<bool>> {
+    let Some(best) = best_clearance(case, &Parallel) else { return Ok(None) };
+    let name = one.path.display().to_string();
+    let written = case.rewritten(&name, text, &best.design, Rounding::Nearest).into_diagnostic()?;
+    let judged = judged(&written.case)?.unwrap_or_default();
+    let document = page::optimum(case, &best, &judged);
+    one.print(|| page::optimum_text(case, &document), || &document)?;
+    let found = document["answer"] == "found";
+    if let Some(new) = new.filter(|_| found) {
+        store::write_new(new, written.text.as_bytes())?;
+        let line = format!("written: {}", new.display());
+        match one.format {
+            Format::Text => output::print(format!("{line}\n"))?,
+            Format::Json => output::complain(&line),
+        }
+    }
+    Ok(Some(found && criteria::all_hold(&judged)))
+}

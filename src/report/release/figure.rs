@@ -1,0 +1,78 @@
+//! The amplitude on its way to rest.
+
+use std::f64::consts::TAU;
+
+use serde_json::Value;
+
+use crate::case::Case;
+use crate::quantity::{Dimension, catalogue as of};
+use crate::report::document::Scale;
+use crate::report::figure::{Axis, Color, Dash, Figure, Layer, Panel, Role, Rule, Style};
+use crate::transient::{DecayStudy, STEPS};
+
+/// Points of a line: as many as there are pixels.
+const POINTS: usize = 700;
+const DAMPER: Style = Style::new(Color::Orange, 1.6, Dash::LongDashed);
+const THEORY: Style = Style::new(Color::Blue, 2.0, Dash::Dashed);
+
+/// All figures.
+pub fn figures(case: &Case, study: &DecayStudy, facts: &Value) -> Vec<Figure> {
+    let figure = envelope(case, study).into_iter();
+    figure.map(|one| one.with_facts("captions/release", facts.clone())).collect()
+}
+
+fn envelope(case: &Case, study: &DecayStudy) -> Option<Figure> {
+    let (scale, scales) = (Scale::of(case), case.scales());
+    let units = scale.units();
+    let (_, worst, found) = study.worst()?;
+    let shown = [worst.oscillations, study.bare.min(3.0 * worst.oscillations)]
+        .into_iter()
+        .filter(|one| one.is_finite())
+        .fold(0.0, f64::max);
+    let shown =
+        if shown > 0.0 { 1.05 * shown } else { found.amplitudes.len() as f64 / f64::from(STEPS) };
+    let seconds = |oscillations: f64| scales.time(TAU * oscillations);
+    let time_unit = units.axis_unit(&of::TIME, seconds(shown)).size;
+    let length_unit = units.unit(Dimension::Length, scales.length(study.from)).size;
+    let at = |[oscillations, amplitude]: [f64; 2]| {
+        [seconds(oscillations) / time_unit, scales.length(amplitude) / length_unit]
+    };
+    let lowest = 0.5 * study.level;
+    let line = |points: Vec<[f64; 2]>| -> Vec<[f64; 2]> {
+        let visible = |one: &&[f64; 2]| one[0] <= shown && one[1] >= lowest;
+        points.iter().filter(visible).map(|one| at(*one)).collect()
+    };
+    let sampled = |amplitudes: &[f64]| {
+        let step = (shown * f64::from(STEPS)) as usize / POINTS + 1;
+        let points = amplitudes.iter().enumerate().step_by(step);
+        line(points.map(|(k, one)| [k as f64 / f64::from(STEPS), *one]).collect())
+    };
+    let decay = -libm::log(study.level / study.from) / study.bare;
+    let alone = (0..=POINTS).map(|k| {
+        let time = shown * k as f64 / POINTS as f64;
+        [time, study.from * libm::exp(-decay * time)]
+    });
+    let x = Axis::linear(units.axis_label(&of::TIME, seconds(shown)));
+    let x = x.with_range(0.0, seconds(shown) / time_unit);
+    let [bottom, top] = [lowest, 1.2 * study.from].map(|one| at([0.0, one])[1]);
+    let y = Axis::log(units.axis_label(&of::OSCILLATOR_AMPLITUDE, scales.length(study.from)));
+    let level = |value: f64| Rule::Horizontal(at([0.0, value])[1]);
+    let mut panel = Panel::new(x, y.with_range(bottom, top))
+        .with(Layer::rule(level(study.level), Role::Guide).labelled("at rest"))
+        .with(
+            Layer::curve(Role::BareOscillator, line(alone.collect())).labelled("without absorber"),
+        )
+        .with(
+            Layer::curve(DAMPER, sampled(&study.damped.1.amplitudes)).labelled("tuned mass damper"),
+        )
+        .with(
+            Layer::curve(Role::Simulation, sampled(&found.amplitudes))
+                .labelled("absorber, slowest start"),
+        )
+        .with(Layer::curve(THEORY, line(study.predicted.path.clone())).labelled("theory"));
+    if study.predicted.residual > study.level {
+        let end = Layer::rule(level(study.predicted.residual), Role::Hopf);
+        panel = panel.with(end.labelled("capture ends"));
+    }
+    Some(Figure::new("decay", "").with_panel(panel))
+}

@@ -1,0 +1,107 @@
+//! What does not rattle: the structure alone, and with a tuned mass damper of the absorber's mass, released as the
+//! structure with the absorber is. A step of time is a matrix exponential, so there is no error of integration.
+
+use std::f64::consts::TAU;
+
+use nalgebra::{Matrix4, Vector4};
+
+use super::{STEPS, amplitude};
+use crate::band::rivals::TunedMassDamper;
+use crate::system::{State, System};
+
+/// A linear structure on its way to rest, per step as [`super::Ringdown`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct Linear {
+    /// Amplitude of the structure.
+    pub amplitudes: Vec<f64>,
+    /// Largest displacement of the structure.
+    pub peak: f64,
+    /// Largest displacement of the damper's mass against the structure.
+    pub stroke: f64,
+}
+
+impl TunedMassDamper {
+    /// The damper with which an undamped structure comes to rest fastest: its four roots are a double pair, at
+    /// tuning `1/(1 + mu)` and damping ratio `sqrt(mu/(1 + mu))` (Nishihara and Matsuhisa 1997, maximum stability).
+    pub fn for_free_decay(mass_ratio: f64) -> Self {
+        let total = 1.0 + mass_ratio;
+        Self { tuning: 1.0 / total, damping_ratio: (mass_ratio / total).sqrt() }
+    }
+}
+
+/// The structure with a damper, or alone, from a state, over so many oscillations or until its amplitude has
+/// stayed below a level for one. The damper's mass begins in the middle of its travel.
+pub fn released(
+    system: &System,
+    damper: Option<&TunedMassDamper>,
+    start: State,
+    level: f64,
+    oscillations: u64,
+) -> Linear {
+    let step = exponential(matrix(system, damper) * (TAU / f64::from(STEPS)));
+    let mut state = Vector4::new(start.x, start.x_velocity, start.x, start.y_velocity);
+    let mut found = Linear { amplitudes: Vec::new(), peak: 0.0, stroke: 0.0 };
+    let mut below = 0;
+    let note = |found: &mut Linear, state: &Vector4<f64>| {
+        let now = amplitude(&State { x: state[0], x_velocity: state[1], ..start });
+        found.amplitudes.push(now);
+        found.peak = found.peak.max(state[0].abs());
+        found.stroke = found.stroke.max((state[0] - state[2]).abs());
+        now
+    };
+    note(&mut found, &state);
+    for _ in 0..oscillations.saturating_mul(STEPS.into()) {
+        state = step * state;
+        below = if note(&mut found, &state) <= level { below + 1 } else { 0 };
+        if below > BEAT * STEPS {
+            break;
+        }
+    }
+    found
+}
+
+/// Oscillations that a structure stays below a level before it counts as calm: a damper may give energy back.
+const BEAT: u32 = 20;
+
+/// Terms of the series, whose argument is halved until its norm is below 1: the rest is below rounding.
+const TERMS: u32 = 20;
+
+/// The exponential of a matrix, by its series at a fraction of it and squaring (nalgebra's needs the system's
+/// mathematical library).
+fn exponential(of: Matrix4<f64>) -> Matrix4<f64> {
+    let halvings = libm::ceil(libm::log2(of.norm())).max(0.0) as u32;
+    let part = of / libm::pow(2.0, f64::from(halvings));
+    // 1 + A (1 + A/2 (1 + A/3 (...))).
+    let series = (1..=TERMS)
+        .rev()
+        .fold(Matrix4::identity(), |inner, k| Matrix4::identity() + part * inner / f64::from(k));
+    (0..halvings).fold(series, |power, _| power * power)
+}
+
+/// The derivative of displacement and velocity of structure and damper.
+fn matrix(system: &System, damper: Option<&TunedMassDamper>) -> Matrix4<f64> {
+    let mu = system.mass_ratio();
+    let loss = mu * system.damping();
+    let [spring, dashpot] = damper.map_or([0.0; 2], |damper| {
+        [damper.tuning * damper.tuning, 2.0 * damper.damping_ratio * damper.tuning]
+    });
+    let [pull, drag] = [mu * spring, mu * dashpot];
+    Matrix4::new(
+        0.0,
+        1.0,
+        0.0,
+        0.0,
+        -1.0 - pull,
+        -loss - drag,
+        pull,
+        drag,
+        0.0,
+        0.0,
+        0.0,
+        1.0,
+        spring,
+        dashpot,
+        -spring,
+        -dashpot,
+    )
+}

@@ -1,0 +1,96 @@
+//! What is not steady harmonic motion: a structure that is released or struck, and comes to rest.
+//!
+//! Lengths over the clearance, fast time `tau = omega0 t`, as everywhere. The *amplitude* of the structure at a
+//! time is `sqrt(x^2 + x'^2)`, the root of its own energy: that of the vibration that it would go on with alone.
+//! What it does depends on where in its cavity the absorber is at the beginning, which nobody knows: it is
+//! simulated from places all over the cavity ([`Ringdown`]), and the worst counts. Beside it stand the structure
+//! alone and a tuned mass damper of the same mass ([`linear`]), and theory ([`Predicted`]).
+
+mod clearance;
+pub mod linear;
+mod ringdown;
+mod study;
+mod theory;
+
+pub use clearance::{Best, best_clearance};
+pub use ringdown::{Ringdown, STEPS};
+pub use study::{Decay, DecayStudy, Start};
+pub use theory::Predicted;
+
+use crate::case::Scales;
+use crate::system::{InvalidParameter, Parameters, State, System};
+
+/// How a structure is set in motion, in SI or the units of a reduced case; the absorber's place is open.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Release {
+    /// Displacement of the structure.
+    pub displacement: f64,
+    /// Its velocity.
+    pub velocity: f64,
+    /// Velocity of the absorber: that of the structure where the base was set in motion, else 0.
+    pub absorber_velocity: f64,
+}
+
+impl Release {
+    /// The same, so many times as strong.
+    #[must_use]
+    pub fn scaled(&self, factor: f64) -> Self {
+        let Self { displacement, velocity, absorber_velocity } = *self;
+        Self {
+            displacement: factor * displacement,
+            velocity: factor * velocity,
+            absorber_velocity: factor * absorber_velocity,
+        }
+    }
+
+    /// Whether an absorber at rest may be where no wall ever reaches it.
+    fn may_not_wake(&self, system: &System, scales: &Scales) -> bool {
+        study::inactive(system, &self.state(scales, 0.0)) > 0.0
+    }
+
+    /// The state in which an absorber at a relative displacement `w` begins.
+    fn state(&self, scales: &Scales, w: f64) -> State {
+        let [displacement, velocity, absorber_velocity] =
+            [self.displacement, self.velocity, self.absorber_velocity];
+        let x = scales.over_clearance(displacement);
+        let speed = scales.velocity(1.0);
+        State { x, x_velocity: velocity / speed, y: x - w, y_velocity: absorber_velocity / speed }
+    }
+}
+
+/// The amplitude of a structure in a state.
+fn amplitude(state: &State) -> f64 {
+    libm::hypot(state.x, state.x_velocity)
+}
+
+/// A system without excitation, whose "period" is a step of time.
+fn unforced(system: &System, step: f64) -> Result<System, InvalidParameter> {
+    System::new(Parameters {
+        forcing_per_clearance: 0.0,
+        frequency_ratio: std::f64::consts::TAU / step,
+        ..system.parameters()
+    })
+}
+
+/// The time, in steps, after which values given at equal steps stay at a level or below it: on an exponential
+/// between two of them. None where the last is above.
+fn settles(values: &[f64], level: f64) -> Option<f64> {
+    let Some(last) = values.iter().rposition(|value| *value > level) else { return Some(0.0) };
+    let (before, after) = (values[last], *values.get(last + 1)?);
+    let part = libm::log(before / level) / libm::log(before / after);
+    Some(last as f64 + if part.is_finite() { part } else { 1.0 })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::settles;
+
+    #[test]
+    fn the_last_crossing_counts() {
+        let values: Vec<f64> = [0.0, 1.0, 2.0, 1.0, 3.0, 4.0].map(|power| libm::exp(-power)).into();
+        let time = settles(&values, libm::exp(-2.5)).expect("below in the end");
+        assert!((time - 3.75).abs() < 1e-12, "{time}");
+        assert_eq!(settles(&values, 2.0), Some(0.0));
+        assert_eq!(settles(&values, 1e-3), None);
+    }
+}

@@ -1,0 +1,101 @@
+//! A structure with its absorber on the way to rest, impact by impact.
+
+use std::f64::consts::TAU;
+
+use super::{amplitude, unforced};
+use crate::simulation::{Detail, Impact, Observer, Simulation, StartError, Stop};
+use crate::system::{State, System};
+
+/// Steps in an oscillation of the structure: between two of them its amplitude moves by impacts alone.
+pub const STEPS: u32 = 16;
+/// Impacts per oscillation after which a run is given up: chattering ends in contact long before.
+const MOST_IMPACTS: u64 = 1000;
+
+/// What became of one start. Values per step, the start first.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ringdown {
+    /// Amplitude of the structure.
+    pub amplitudes: Vec<f64>,
+    /// Energy that impacts have taken, as a share of that at the start.
+    pub taken: Vec<f64>,
+    /// Impacts so far.
+    pub impacts: Vec<u64>,
+    /// Largest relative speed of an impact so far, over the clearance in fast time.
+    pub impact_speeds: Vec<f64>,
+    /// Largest displacement of the structure at a step.
+    pub peak: f64,
+}
+
+struct Log {
+    found: Ringdown,
+    energy: f64,
+    lost: f64,
+    impacts: u64,
+    speed: f64,
+}
+
+impl Observer for Log {
+    fn detail(&self) -> Detail {
+        Detail::Events
+    }
+
+    fn impact(&mut self, impact: &Impact) {
+        self.lost += impact.loss;
+        self.impacts += 1;
+        self.speed = self.speed.max((impact.x_velocity_before - impact.y_velocity_before).abs());
+        self.found.peak = self.found.peak.max(impact.x.abs());
+    }
+
+    fn sticks(&mut self, loss: f64) {
+        self.lost += loss;
+    }
+
+    fn period(&mut self, state: &State) {
+        let found = &mut self.found;
+        found.amplitudes.push(amplitude(state));
+        found.taken.push(self.lost / self.energy);
+        found.impacts.push(self.impacts);
+        found.impact_speeds.push(self.speed);
+        found.peak = found.peak.max(state.x.abs());
+    }
+}
+
+impl Ringdown {
+    /// Follows a start until the amplitude has come down to a level, for so many oscillations at the most. The
+    /// excitation of the system does not matter.
+    ///
+    /// # Errors
+    /// [`StartError`] for a start outside of the cavity, or so large that rounding hides the walls.
+    pub fn follow(
+        system: &System,
+        start: State,
+        level: f64,
+        oscillations: u64,
+    ) -> Result<Self, StartError> {
+        let step = TAU / f64::from(STEPS);
+        let free = unforced(system, step).map_err(|_| StartError::NotFinite { state: start })?;
+        let mut simulation = Simulation::new(&free, start, 0.0)?;
+        let found = Self {
+            amplitudes: Vec::new(),
+            taken: Vec::new(),
+            impacts: Vec::new(),
+            impact_speeds: Vec::new(),
+            peak: 0.0,
+        };
+        let energy = start.energy(system.mass_ratio());
+        let mut log = Log { found, energy, lost: 0.0, impacts: 0, speed: 0.0 };
+        log.period(&start);
+        for _ in 0..oscillations {
+            let stop = simulation.run(STEPS.into(), MOST_IMPACTS, &mut log);
+            // Below the level for a whole oscillation: the absorber's own energy cannot lift it back.
+            let latest = &log.found.amplitudes[log.found.amplitudes.len() - STEPS as usize..];
+            if stop != Stop::EndTime || latest.iter().all(|one| *one <= ENOUGH * level) {
+                break;
+            }
+        }
+        Ok(log.found)
+    }
+}
+
+/// Share of a level below which the structure stays below it.
+const ENOUGH: f64 = 0.9;

@@ -1,0 +1,203 @@
+//! A released structure with everything that is known of it: from all places of the absorber, beside its
+//! alternatives and theory.
+
+use std::f64::consts::{PI, TAU};
+
+use super::linear::{Linear, released};
+use super::{Predicted, Release, Ringdown, STEPS, amplitude, settles};
+use crate::band::rivals::TunedMassDamper;
+use crate::case::{Case, Scales};
+use crate::simulation::StartError;
+use crate::system::{State, System};
+
+/// How fast a structure comes to a level.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Decay {
+    /// Oscillations of the structure; infinite where it did not get there.
+    pub oscillations: f64,
+    /// Impacts until then.
+    pub impacts: u64,
+    /// Largest relative speed of one of them, over the clearance in fast time.
+    pub impact_speed: f64,
+    /// Share of the energy that they took.
+    pub impact_share: f64,
+}
+
+/// A structure that was released.
+#[derive(Debug, Clone)]
+pub struct DecayStudy {
+    /// The system; its excitation does not matter.
+    pub system: System,
+    /// Amplitude at the start and the level that is asked for, over the clearance.
+    pub from: f64,
+    /// See [`Self::from`].
+    pub level: f64,
+    /// Every start: relative displacement of the absorber, decay, and what it did.
+    pub starts: Vec<Start>,
+    /// The structure alone: decay in closed form.
+    pub bare: f64,
+    /// Share of the absorber's resting places at which no wall ever reaches it, so that the structure is as good
+    /// as alone; 0 for an absorber that does not rest.
+    pub inactive: f64,
+    /// Whether such a start counts.
+    pub count_inactive: bool,
+    /// The structure with the tuned mass damper, and its oscillations to the level.
+    pub damped: (TunedMassDamper, Linear, f64),
+    /// Theory.
+    pub predicted: Predicted,
+}
+
+/// Oscillations after which a decay is given up whose structure has hardly any damping of its own.
+const LONGEST: f64 = 20_000.0;
+/// Places of the absorber unless the case says how many: none is the middle, which theory looks after.
+const STARTS: u32 = 32;
+
+/// The absorber's relative displacement at a start, the decay from there, and what happened.
+pub type Start = (f64, Decay, Ringdown);
+
+impl DecayStudy {
+    /// Studies a release down to a share of its amplitude, the absorber at so many even places of its cavity.
+    ///
+    /// # Errors
+    /// [`StartError`] where the motion is so large that rounding hides the walls.
+    pub fn of(
+        system: &System,
+        scales: &Scales,
+        release: &Release,
+        share: f64,
+        starts: u32,
+    ) -> Result<Self, StartError> {
+        let middle = release.state(scales, 0.0);
+        let from = amplitude(&middle);
+        let level = share * from;
+        let bare = bare(system, share);
+        let damper = TunedMassDamper::for_free_decay(system.mass_ratio());
+        let linear = released(system, Some(&damper), middle, level, longest(bare));
+        let inactive = inactive(system, &middle);
+        let steps = settles(&linear.amplitudes, level).unwrap_or(f64::INFINITY);
+        Ok(Self {
+            system: *system,
+            from,
+            level,
+            starts: Self::starts(system, scales, release, share, starts)?,
+            bare,
+            inactive,
+            count_inactive: true,
+            damped: (damper, linear, steps / f64::from(STEPS)),
+            predicted: Predicted::of(system, from, level),
+        })
+    }
+
+    /// The same for a case that is released; none for another.
+    ///
+    /// # Errors
+    /// As [`Self::of`].
+    pub fn of_case(case: &Case) -> Option<Result<Self, StartError>> {
+        let starts = case.simulation.starts.and_then(|starts| u32::try_from(starts).ok());
+        Self::of_case_with(case, starts.unwrap_or(STARTS))
+    }
+
+    /// The same by theory alone.
+    ///
+    /// # Errors
+    /// None: nothing is simulated.
+    pub fn without_simulation(case: &Case) -> Option<Result<Self, StartError>> {
+        Self::of_case_with(case, 0)
+    }
+
+    fn of_case_with(case: &Case, starts: u32) -> Option<Result<Self, StartError>> {
+        let study =
+            |release| Self::of(&case.system(), &case.scales(), &release, case.decay_level, starts);
+        let counted = |study: Self| Self { count_inactive: case.count_inactive, ..study };
+        case.design.release().map(|release| study(release).map(counted))
+    }
+
+    /// Every start by itself.
+    pub(super) fn starts(
+        system: &System,
+        scales: &Scales,
+        release: &Release,
+        share: f64,
+        count: u32,
+    ) -> Result<Vec<Start>, StartError> {
+        let level = share * amplitude(&release.state(scales, 0.0));
+        let longest = longest(bare(system, share));
+        let each = (0..count).map(|k| {
+            let w = f64::from(2 * k + 1) / f64::from(count) - 1.0;
+            let found = Ringdown::follow(system, release.state(scales, w), level, longest)?;
+            Ok((w, Decay::of(&found, level), found))
+        });
+        each.collect()
+    }
+
+    /// The start that takes longest; none where nothing was simulated.
+    pub fn worst(&self) -> Option<&Start> {
+        let later = |a: &&Start, b: &&Start| a.1.oscillations.total_cmp(&b.1.oscillations);
+        self.starts.iter().max_by(later)
+    }
+
+    /// Oscillations of the slowest start, that of an absorber which never wakes included where it counts.
+    pub fn slowest(&self) -> f64 {
+        let worst = self.worst().map_or(f64::NAN, |(_, worst, _)| worst.oscillations);
+        if self.decides_inactive() { worst.max(self.bare) } else { worst }
+    }
+
+    /// Whether an absorber that never wakes is among the starts that count.
+    pub fn decides_inactive(&self) -> bool {
+        self.count_inactive && self.inactive > 0.0
+    }
+
+    /// Oscillations of the start that comes to rest first.
+    pub fn fastest(&self) -> f64 {
+        self.starts.iter().map(|start| start.1.oscillations).fold(f64::INFINITY, f64::min)
+    }
+}
+
+impl Decay {
+    fn of(found: &Ringdown, level: f64) -> Self {
+        let time = settles(&found.amplitudes, level);
+        let at = time
+            .map_or(usize::MAX, |steps| libm::ceil(steps) as usize)
+            .min(found.impacts.len() - 1);
+        Self {
+            oscillations: time.map_or(f64::INFINITY, |steps| steps / f64::from(STEPS)),
+            impacts: found.impacts[at],
+            impact_speed: found.impact_speeds[at],
+            impact_share: found.taken[at],
+        }
+    }
+}
+
+/// Largest damping ratio of a structure that swings.
+const SWINGS: f64 = 0.9999;
+
+/// Share of the places of a resting absorber, even over its cavity, that no wall reaches while the structure swings
+/// alone: what its first swing to either side leaves. 0 for an absorber that does not rest.
+pub(super) fn inactive(system: &System, start: &State) -> f64 {
+    if start.y_velocity != 0.0 {
+        return 0.0;
+    }
+    // x = exp(-zeta tau) (x0 cos(nu tau) + (v0 + zeta x0)/nu sin(nu tau)) has its extremes half an oscillation apart.
+    let (x, v) = (start.x, start.x_velocity);
+    let zeta = (0.5 * system.mass_ratio() * system.damping()).min(SWINGS);
+    let frequency = (1.0 - zeta * zeta).sqrt();
+    let at = |tau: f64| {
+        let (sine, cosine) = libm::sincos(frequency * tau);
+        libm::exp(-zeta * tau) * (x * cosine + (v + zeta * x) / frequency * sine)
+    };
+    let first = libm::atan2(v * frequency, x + zeta * v).rem_euclid(PI) / frequency;
+    let seen = [x, at(first), at(first + PI / frequency)];
+    let [most, least] = [seen.into_iter().fold(x, f64::max), seen.into_iter().fold(x, f64::min)];
+    (1.0 - 0.5 * (most - least)).max(0.0)
+}
+
+/// Oscillations in which the structure alone comes to a share of its amplitude; infinite without damping.
+pub(super) fn bare(system: &System, share: f64) -> f64 {
+    // C = C0 exp(-eps lambda tau/2).
+    -2.0 * libm::log(share) / (system.mass_ratio() * system.damping() * TAU)
+}
+
+/// Oscillations that a decay is followed for.
+fn longest(bare: f64) -> u64 {
+    libm::ceil((1.5 * bare).min(LONGEST)) as u64 + 20
+}

@@ -1,0 +1,193 @@
+//! A structure that is released or struck, against energy, closed form and what a person would do by hand.
+
+use vinesink::case::{Case, Subject};
+use vinesink::criteria::judge_release;
+use vinesink::executor::Serial;
+use vinesink::method::Method;
+use vinesink::system::{Excitation, Parameters, State, System};
+use vinesink::transient::linear::released;
+use vinesink::transient::{DecayStudy, Predicted, Release, Ringdown, STEPS, best_clearance};
+
+fn system(mass_ratio: f64, damping: f64, restitution: f64) -> System {
+    System::new(Parameters {
+        mass_ratio,
+        damping,
+        restitution,
+        frequency_ratio: 1.0,
+        forcing_per_clearance: 0.0,
+        excitation: Excitation::Force,
+    })
+    .expect("valid")
+}
+
+const PLUCKED: State = State { x: 2.0, x_velocity: 0.0, y: 1.7, y_velocity: 0.0 };
+
+/// Without damping what impacts have not taken is in the structure, but for the absorber's own energy, at most
+/// `eps (1 + |x'|)^2/2`.
+#[test]
+fn what_impacts_take_is_what_the_structure_loses() {
+    let system = system(0.01, 0.0, 0.6);
+    let found = Ringdown::follow(&system, PLUCKED, 0.4, 400).expect("a start");
+    let first = 0.5 * PLUCKED.x * PLUCKED.x;
+    let mut taken = 0.0;
+    for (amplitude, share) in found.amplitudes.iter().zip(&found.taken) {
+        let left = 0.5 * amplitude * amplitude;
+        let absorber = first * (1.0 - share) - left;
+        let most = 0.5 * system.mass_ratio() * (2.0 * amplitude + 1.0).powi(2);
+        assert!((-1e-12..=most).contains(&absorber), "{amplitude} {share} {absorber}");
+        assert!(*share >= taken);
+        taken = *share;
+    }
+    assert!(taken > 0.9, "{taken}");
+    assert!((found.peak - 2.0).abs() < 1e-12);
+    assert!(found.impacts.last() > Some(&40), "{:?}", found.impacts.last());
+}
+
+/// The structure alone: `C = C0 exp(-zeta tau)` but for the ripple of a damped oscillation, of order `zeta`.
+#[test]
+fn the_structure_alone_decays_exponentially() {
+    let zeta = 0.004;
+    let system = system(0.01, 2.0 * zeta / 0.01, 0.6);
+    let found = released(&system, None, PLUCKED, 0.2, 1000);
+    for (step, amplitude) in found.amplitudes.iter().enumerate() {
+        let tau = std::f64::consts::TAU * step as f64 / f64::from(STEPS);
+        let exact = 2.0 * (-zeta * tau).exp();
+        assert!((amplitude / exact - 1.0).abs() < 1.01 * zeta, "{step}");
+    }
+}
+
+const FOOTBRIDGE: &str = include_str!("../../cases/footbridge-jump.toml");
+
+fn footbridge(clearance: &str) -> Case {
+    let text = FOOTBRIDGE.replace("clearance = \"3 mm\"", &format!("clearance = \"{clearance}\""));
+    Case::parse("footbridge-jump.toml", &text).expect("a case")
+}
+
+/// An impulse `J` gives the velocity `J/m1`, so the amplitude `J/(m1 omega0)`; without absorber it is at a tenth after
+/// `ln 10/(zeta omega0)`.
+#[test]
+fn an_impulse_is_a_velocity() {
+    let case = footbridge("3 mm");
+    let study = DecayStudy::of_case(&case).expect("released").expect("studied");
+    let omega = std::f64::consts::TAU * 2.0;
+    let amplitude = case.scales().length(study.from);
+    assert!((amplitude - 150.0 / 4000.0 / omega).abs() < 1e-12, "{amplitude}");
+    let alone = case.scales().time(std::f64::consts::TAU * study.bare);
+    assert!((alone - 10_f64.ln() / (0.005 * omega)).abs() < 1e-9, "{alone}");
+    // What `check` says is the worst of the starts; an absorber that no wall reaches leaves the structure alone.
+    let judged = |case: &Case, study: &DecayStudy| {
+        let all = judge_release(case, study);
+        let of_time = all.into_iter().find(|one| one.criterion.subject == Subject::DecayTime);
+        of_time.expect("asked")
+    };
+    let found = judged(&case, &study);
+    assert_eq!((found.found, found.inactive), (Some(alone), Some(study.inactive)));
+    let case = footbridge("2.9 mm");
+    let study = DecayStudy::of_case(&case).expect("released").expect("studied");
+    assert_eq!(study.inactive, 0.0);
+    let worst = study.worst().expect("simulated").1.oscillations;
+    assert!((judged(&case, &study).found.expect("a time") - 0.5 * worst).abs() < 1e-9);
+    assert!(study.fastest() < worst && worst < 0.5 * study.bare);
+}
+
+/// Places just inside of the closed form's bound never wake, places just outside of it do.
+#[test]
+fn an_absorber_that_no_wall_reaches_never_wakes() {
+    let system = system(0.01, 1.0, 0.6);
+    for (x, v) in [(0.7, 0.0), (0.0, 0.9), (0.3, -0.4)] {
+        let swing = |w: f64| State { x, x_velocity: v, y: x - w, y_velocity: 0.0 };
+        let impacts = |w: f64| {
+            let found = Ringdown::follow(&system, swing(w), 0.0, 3).expect("a start");
+            found.impacts.last().copied().expect("followed")
+        };
+        // From one wall to the other, where it wakes and where it does not.
+        let places: Vec<f64> = (0..4000).map(|k| f64::from(2 * k + 1) / 4000.0 - 1.0).collect();
+        let quiet = places.iter().filter(|w| impacts(**w) == 0).count();
+        let scales = footbridge("3 mm").scales();
+        let release = Release {
+            displacement: scales.length(x),
+            velocity: scales.velocity(v),
+            absorber_velocity: 0.0,
+        };
+        let study = DecayStudy::of(&system, &scales, &release, 0.5, 1).expect("studied");
+        let share = quiet as f64 / places.len() as f64;
+        assert!((study.inactive - share).abs() < 5e-4, "{x} {v}: {} {share}", study.inactive);
+    }
+}
+
+/// The shock of a base that comes to move is, seen from the base, a start of structure and absorber together.
+#[test]
+fn a_base_that_comes_to_move_takes_the_absorber_along() {
+    let text = FOOTBRIDGE.replace("impulse = \"150 N s\"", "velocity = \"37.5 mm/s\"");
+    let base = Case::parse("base.toml", &text).expect("a case");
+    let release = base.design.release().expect("released");
+    assert_eq!(release.absorber_velocity, release.velocity);
+    let [of_base, of_force] = [&base, &footbridge("3 mm")].map(|case| {
+        let study = DecayStudy::of_case(case).expect("released").expect("studied");
+        assert!((case.scales().length(study.from) - 2.984e-3).abs() < 1e-6);
+        study.worst().expect("simulated").1.oscillations
+    });
+    // As hard a shock: the absorber is caught either way, within the time of a few impacts.
+    assert!((of_base / of_force - 1.0).abs() < 0.2, "{of_base} {of_force}");
+}
+
+/// Theory against simulation from the middle of the stable branch, first order in the mass ratio.
+#[test]
+fn prediction_and_simulation_agree_to_first_order() {
+    let mut errors = Vec::new();
+    for factor in [1.0, 4.0, 16.0] {
+        let system = system(0.0076775 / factor, 1.799, 0.6);
+        let predicted = Predicted::of(&system, 0.7, 0.2);
+        assert_eq!(predicted.method, Method::ClosedForm);
+        let start = State { x: 0.7, x_velocity: 0.0, y: 0.7 - 0.999, y_velocity: -0.5 };
+        let found = Ringdown::follow(&system, start, 0.2, 1000).expect("a start");
+        let last = found.amplitudes.iter().rposition(|one| *one > 0.2).expect("above");
+        let simulated = last as f64 / f64::from(STEPS);
+        errors.push((simulated / predicted.oscillations - 1.0).abs());
+    }
+    // The start is no point of the manifold: some oscillations until it is captured, whatever the mass ratio.
+    assert!(errors[0] < 0.1 && errors[1] < 0.04 && errors[2] < 0.015, "{errors:?}");
+}
+
+/// From beyond 1:1 resonance and down below the fold, by the flow on the dissipation curve. PHYSICS.md: through all
+/// regimes within 5 to 9 % at eps = 0.0077. Below the fold impacts are few and irregular, starts differ by 10 % among
+/// one another, and which of them are captured again is chance: within 20 %.
+#[test]
+fn the_prediction_goes_on_above_and_below_the_closed_form() {
+    let mut errors = Vec::new();
+    for (eps, from, level) in [(0.0076775, 2.0, 0.2), (0.0076775, 0.99, 0.06), (0.0019, 0.99, 0.06)]
+    {
+        let system = system(eps, 0.0138 / eps, 0.6);
+        let predicted = Predicted::of(&system, from, level);
+        assert_eq!(predicted.method, Method::Theory);
+        let falls = |two: &[[f64; 2]]| two[1][0] >= two[0][0] && two[1][1] <= two[0][1];
+        assert!(predicted.path.windows(2).all(falls));
+        for w in [0.2, 0.5, -0.7] {
+            let start = State { x: from, x_velocity: 0.0, y: from - w, y_velocity: 0.0 };
+            let found = Ringdown::follow(&system, start, level, 1000).expect("a start");
+            let last = found.amplitudes.iter().rposition(|one| *one > level).expect("above");
+            let error = last as f64 / f64::from(STEPS) / predicted.oscillations - 1.0;
+            errors.push((error, if level < predicted.residual { 0.2 } else { 0.05 }));
+        }
+    }
+    assert!(errors.iter().all(|(error, most)| error.abs() < *most), "{errors:?}");
+}
+
+/// The best clearance, against clearances that nobody chose.
+#[test]
+fn no_other_clearance_is_better() {
+    let case = footbridge("3 mm");
+    let best = best_clearance(&case, &Serial).expect("released");
+    assert!((best.oscillations / best.checked - 1.0).abs() < 0.1, "{best:?}");
+    assert!(best.checked <= best.own);
+    for clearance in ["1.3 mm", "2.1 mm", "4.4 mm", "7.7 mm"] {
+        let slowest = [0.5, 0.9, 1.3, 2.0].map(|factor: f64| {
+            let other = footbridge(clearance);
+            let release = other.design.release().expect("released").scaled(factor);
+            let study = DecayStudy::of(&other.system(), &other.scales(), &release, 0.1, 20);
+            study.expect("studied").worst().expect("simulated").1.oscillations
+        });
+        let slowest = slowest.into_iter().fold(0.0, f64::max);
+        assert!(slowest > 0.97 * best.checked, "{clearance}: {slowest} {}", best.checked);
+    }
+}
