@@ -73,12 +73,14 @@ impl Subject {
         !matches!(self, Self::Z3Share | Self::StableShare | Self::MarginClearance)
     }
 
-    /// Whether it makes sense of a structure that is released or struck, and of one that is driven steadily.
-    pub fn is_for(self, released: bool) -> bool {
+    /// Whether it makes sense of a design, which may be driven steadily, released or struck, or driven by a record.
+    pub fn is_for(self, design: &Design) -> bool {
+        let released = design.release().is_some();
         match self {
             Self::DecayTime => released,
             Self::PeakDisplacement | Self::ImpactVelocity => true,
-            _ => !released,
+            Self::RmsDisplacement | Self::ReductionDb | Self::ReductionDbTmd => !released,
+            _ => design.transient().is_none(),
         }
     }
 
@@ -174,10 +176,10 @@ fn criterion(
     design: &Design,
 ) -> Option<Criterion> {
     let (key, value) = (subject.key(), table.value(subject.key())?);
-    let released = design.release().is_some();
-    if !subject.is_for(released) {
-        let kinds = ["driven steadily", "released or struck"];
-        let [what, other] = if released { [kinds[1], kinds[0]] } else { kinds };
+    if !subject.is_for(design) {
+        let what = design.transient().unwrap_or("driven steadily");
+        let released = subject == Subject::DecayTime;
+        let other = if released { "released or struck" } else { "driven steadily" };
         let message = format!("`{key}` has no meaning for a structure that is {what}");
         let expected = format!("expected criteria of a structure that is {what}");
         let help = format!("remove the line: `{key}` is for one that is {other}");

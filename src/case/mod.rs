@@ -19,6 +19,7 @@ mod parameter;
 mod physical;
 mod quantity;
 mod reader;
+mod record;
 mod reduced;
 mod rewrite;
 mod scales;
@@ -41,6 +42,7 @@ pub use inputs::Input;
 pub use optimize::{Objective, OptimizeSettings};
 pub use physical::Physical;
 pub use quantity::QuantityError;
+pub use record::{RecordSource, Recording};
 pub use reduced::Reduced;
 pub use rewrite::{RewriteError, Rewritten, Rounding};
 pub use scales::Scales;
@@ -94,6 +96,8 @@ pub struct Case {
     pub text_hash: String,
     /// The design.
     pub design: Design,
+    /// What drives it, where that is a record or noise.
+    pub recording: Option<Recording>,
     /// The table `[simulation]`.
     pub simulation: SimulationSettings,
     /// The table `[report]`.
@@ -200,8 +204,13 @@ impl Case {
         let visible = text.strip_prefix('\u{feff}').unwrap_or(text);
         let refused = |problems| CaseError::new(name, visible, problems);
         let document = document::parse(visible).map_err(refused)?;
-        let mut reader =
-            Reader { text: visible, problems: Vec::new(), inputs: Vec::new(), design: None };
+        let mut reader = Reader {
+            text: visible,
+            problems: Vec::new(),
+            inputs: Vec::new(),
+            design: None,
+            recording: None,
+        };
         match read(&mut reader, &document, sha256(text.as_bytes())) {
             Some(mut case) if reader.problems.is_empty() => {
                 case.warnings = warnings::of(visible, &case);
@@ -250,12 +259,17 @@ fn read(reader: &mut Reader, document: &DeTable, text_hash: String) -> Option<Ca
     let heading = reader.read::<Heading>(&root);
     let design = read_design(reader, &root);
     reader.design = design;
-    if design.is_some_and(|design| design.release().is_some()) {
-        for name in STEADY_TABLES.into_iter().filter(|name| root.has(name)) {
-            let message =
-                format!("[{name}] has no meaning for a structure that is released or struck");
+    if let Some(what) = design.and_then(|design| design.transient()) {
+        let recorded = reader.recording.is_some().then_some("optimize");
+        for name in STEADY_TABLES.into_iter().chain(recorded).filter(|name| root.has(name)) {
+            let message = format!("[{name}] has no meaning for a structure that is {what}");
             let expected = "expected tables that are about what it does then";
-            let help = "remove the table: it is about steady vibration";
+            let help = match name {
+                "optimize" => {
+                    "remove the table: the best clearance is looked for by hand, with `check`"
+                }
+                _ => "remove the table: it is about steady vibration",
+            };
             reader.report(root.span_of(name), message, expected, help);
         }
     }
@@ -274,6 +288,7 @@ fn read(reader: &mut Reader, document: &DeTable, text_hash: String) -> Option<Ca
         source: heading.source,
         text_hash,
         design,
+        recording: reader.recording.take(),
         simulation: simulation.unwrap_or_default(),
         report: report.unwrap_or_default(),
         accuracy,

@@ -8,11 +8,12 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 
 use super::reader::{Reader, Table};
+use super::record;
 use super::schema::one_of;
 use crate::names::names;
 use crate::quantity::Dimension;
 use crate::system::Excitation;
-use crate::transient::Release;
+use crate::transient::{RecordQuantity, Release};
 
 /// The linear oscillator whose vibration is to be reduced.
 #[derive(Deserialize, JsonSchema)]
@@ -69,6 +70,8 @@ names! { name:
         Free = "free",
         /// A shock: a force too short to be followed, or a sudden velocity of the base.
         Impulse = "impulse",
+        /// A record of the base's motion or of a force, or noise of a given spectrum.
+        Record = "record",
     }
 }
 
@@ -76,8 +79,29 @@ names! { name:
 #[derive(Deserialize, JsonSchema)]
 #[schemars(deny_unknown_fields, extend("oneOf" = keys_by_kind()))]
 pub(super) struct ExcitationTable {
-    /// "base-displacement" shakes the base, "force" pushes the oscillator; "free" lets it go, "impulse" strikes it.
+    /// "base-displacement" shakes the base, "force" pushes the oscillator; "free" lets it go, "impulse" strikes it;
+    /// "record" drives it as a file or a spectrum says.
     kind: ExcitationKind,
+    /// What a record, or a spectrum, is of.
+    #[schemars(example = "base-acceleration")]
+    pub(super) quantity: Option<RecordQuantity>,
+    /// The record: a CSV file beside the case, a time and a value a line below a head that names the units.
+    #[schemars(example = "quake.csv")]
+    pub(super) file: Option<String>,
+    /// One-sided power spectral density instead of a file: frequencies in Hz that ascend, each with the density there
+    /// in the squared SI unit of the quantity per Hz; straight in between on logarithmic scales, nothing outside.
+    #[schemars(extend("minItems" = 2, "x-ascending" = true, "items" = corner()))]
+    #[schemars(example = [[0.5, 0.02], [5.0, 0.02]])]
+    pub(super) spectrum: Option<Vec<[f64; 2]>>,
+    /// How long each record of a spectrum is, above 0.
+    #[schemars(extend("x-measurand" = "a time", "exclusiveMinimum" = 0, "x-symbol" = "T"), example = "60 s")]
+    pub(super) duration: Option<f64>,
+    /// What the random numbers of a spectrum begin with: the same seed gives the same records.
+    #[schemars(range(min = 0, max = 1_000_000_000), example = 1)]
+    pub(super) seed: Option<u64>,
+    /// How many records are made of a spectrum, 20 unless given.
+    #[schemars(range(min = 2, max = 1000), extend("x-symbol" = r"N_\mathrm{records}"), example = 20)]
+    pub(super) realisations: Option<u64>,
     /// F, the displacement amplitude of the base, or P, the amplitude of the force; 0 or more.
     #[schemars(with = "Option<String>", example = "0.25 mm")]
     amplitude: Option<f64>,
@@ -93,6 +117,14 @@ pub(super) struct ExcitationTable {
     /// Impulse on the oscillator, above 0; or give the velocity of the base.
     #[schemars(extend("x-measurand" = "an impulse", "exclusiveMinimum" = 0, "x-symbol" = "J"), example = "2 N s")]
     impulse: Option<f64>,
+}
+
+/// A frequency and a density.
+fn corner() -> Value {
+    json!({
+        "type": "array", "minItems": 2, "maxItems": 2,
+        "items": { "type": "number", "exclusiveMinimum": 0 },
+    })
 }
 
 /// For each kind of excitation the keys that it has, and how its amplitude is written.
@@ -116,6 +148,18 @@ fn keys_by_kind() -> Value {
         harmonic(Excitation::Force, "2.9 N", "a force", "P"),
         own("free", ["displacement", "velocity"], "anyOf"),
         own("impulse", ["impulse", "velocity"], "oneOf"),
+        {
+            "properties": {
+                "kind": { "const": "record" }, "quantity": true, "file": true, "spectrum": true,
+                "duration": true, "seed": true, "realisations": true,
+            },
+            "required": ["quantity"],
+            "oneOf": one_of("file", "spectrum"),
+            "dependentRequired": {
+                "spectrum": ["duration", "seed"], "duration": ["spectrum"], "seed": ["spectrum"],
+                "realisations": ["spectrum"],
+            },
+        },
     ])
 }
 
@@ -125,7 +169,9 @@ impl ExcitationTable {
         let [displacement, velocity, impulse] =
             [self.displacement, self.velocity, self.impulse].map(Option::unwrap_or_default);
         match self.kind {
-            ExcitationKind::BaseDisplacement | ExcitationKind::Force => None,
+            ExcitationKind::BaseDisplacement | ExcitationKind::Force | ExcitationKind::Record => {
+                None
+            }
             ExcitationKind::Free => {
                 Some(Release { displacement, velocity, absorber_velocity: 0.0 })
             }
@@ -163,6 +209,8 @@ pub struct Physical {
     pub frequency_hz: f64,
     /// How the oscillator is set in motion where nothing drives it.
     pub release: Option<Release>,
+    /// What is recorded, where a record drives it ([`Case::recording`](super::Case::recording)).
+    pub record: Option<RecordQuantity>,
 }
 
 impl Physical {
@@ -209,22 +257,27 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Physical> {
         },
         clearance_m: absorber.clearance,
         restitution: absorber.restitution,
-        excitation: match excitation.kind {
-            ExcitationKind::Force => Excitation::Force,
+        excitation: match (excitation.kind, excitation.quantity) {
+            (ExcitationKind::Force, _) | (_, Some(RecordQuantity::Force)) => Excitation::Force,
             _ => Excitation::BaseDisplacement,
         },
         amplitude: excitation.amplitude.unwrap_or_default(),
         frequency_hz: 0.0,
         release,
+        record: None,
     };
-    physical.frequency_hz = match release {
-        Some(_) => physical.natural_frequency_rad_per_s() / TAU,
-        None => excitation.frequency?,
+    physical.frequency_hz = match excitation.kind {
+        ExcitationKind::BaseDisplacement | ExcitationKind::Force => excitation.frequency?,
+        _ => physical.natural_frequency_rad_per_s() / TAU,
     };
     physical.damping_n_s_per_m = match (oscillator.damping, oscillator.damping_ratio) {
         (Some(damping), _) => damping,
         (None, ratio) => ratio? * physical.critical_damping_n_s_per_m(),
     };
+    if excitation.kind == ExcitationKind::Record {
+        reader.recording = Some(record::read(reader, &place, excitation)?);
+        physical.record = reader.recording.as_ref().map(|recording| recording.quantity);
+    }
     Some(physical)
 }
 

@@ -22,7 +22,7 @@ pub struct QuantityError {
 }
 
 /// What a case gives with a unit: its name with its article, and an example.
-const MEASURED: [(Dimension, &str, &str); 11] = [
+const MEASURED: [(Dimension, &str, &str); 12] = [
     (Dimension::Length, "a length", "7.5 mm"),
     (Dimension::Mass, "a mass", "32 g"),
     (Dimension::Stiffness, "a stiffness", "11.47 kN/m"),
@@ -30,6 +30,7 @@ const MEASURED: [(Dimension, &str, &str); 11] = [
     (Dimension::Frequency, "a frequency", "8 Hz"),
     (Dimension::Force, "a force", "2.9 N"),
     (Dimension::Velocity, "a velocity", "0.5 m/s"),
+    (Dimension::Acceleration, "an acceleration", "2 m/s²"),
     (Dimension::Impulse, "an impulse", "2 N s"),
     (Dimension::Time, "a time", "5 s"),
     (Dimension::Share, "a share", "1 %"),
@@ -123,6 +124,26 @@ impl Dimension {
             self.accepted_units().map(|unit| plain_spelling(unit.symbol)).collect();
         format!("{} is accepted in {}", self.words().0, symbols.join(", "))
     }
+}
+
+/// The unit that stands between brackets in the head of a column; else what is wrong with it, and what to do.
+pub(super) fn unit_in_brackets(
+    of: Dimension,
+    head: &str,
+) -> Result<&'static Unit, (String, String)> {
+    let inner = head.trim_end().strip_suffix(')').and_then(|head| head.rsplit_once('('));
+    let Some((_, written)) = inner else { return Err(("has no unit".to_owned(), of.accepted())) };
+    of.unit_of(written).ok_or_else(|| of.unsuitable(written.trim()))
+}
+
+/// A number in a unit; `None` where it is none, or none that can be held.
+pub(super) fn number_in(text: &str, unit: &Unit) -> Option<f64> {
+    let (sign, rest) = match text.trim().strip_prefix('-') {
+        Some(rest) => (-1.0, rest),
+        None => (1.0, text.trim()),
+    };
+    let number = leading_number(rest).filter(|number| *number == (0..rest.len()))?;
+    scaled(&rest[number], unit).ok().map(|value| sign * value)
 }
 
 fn no_number(text: &str) -> String {

@@ -10,11 +10,11 @@ use serde_json::{Map, Value};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::Design;
 use super::error::Problem;
 use super::inputs::Input;
 use super::schema::{SCHEMA, of_table};
 use super::value::nearest;
+use super::{Design, Recording};
 
 /// The text being read, with what was found wrong and what was read so far.
 pub(super) struct Reader<'t> {
@@ -23,6 +23,8 @@ pub(super) struct Reader<'t> {
     pub inputs: Vec<Input>,
     /// The design, once it is read: it decides the units of the optional tables.
     pub design: Option<Design>,
+    /// What drives the design, where that is a record.
+    pub recording: Option<Recording>,
 }
 
 impl<'t> Reader<'t> {

@@ -8,7 +8,7 @@
 
 use std::f64::consts::TAU;
 
-use super::Design;
+use super::{Design, Physical};
 use crate::quantity::Dimension;
 use crate::system::{Excitation, InvalidParameter, Parameters, System};
 use crate::transient::Release;
@@ -126,6 +126,15 @@ impl Design {
         match self {
             Self::Physical(physical) => physical.release,
             Self::Reduced(_) => None,
+        }
+    }
+
+    /// What the structure is where it is not driven steadily, as the end of a sentence.
+    pub fn transient(&self) -> Option<&'static str> {
+        match self {
+            Self::Physical(Physical { release: Some(_), .. }) => Some("released or struck"),
+            Self::Physical(Physical { record: Some(_), .. }) => Some("driven by a record"),
+            _ => None,
         }
     }
 

@@ -31,6 +31,8 @@ const fn unit(symbol: &'static str, exponent: i32) -> Unit {
 
 const RADIANS_PER_SECOND: Unit =
     Unit { symbol: "rad/s", size: 1.0 / TAU, exponent: 0, quotient: [1.0, TAU] };
+const STANDARD_GRAVITY: Unit =
+    Unit { symbol: "g", size: 9.80665, exponent: 0, quotient: [9.80665, 1.0] };
 
 impl Dimension {
     /// Its units in SI, from the largest to the smallest.
@@ -93,6 +95,17 @@ impl Dimension {
                 }
             }
             Self::Force => const { &[unit("uN", -6), unit("nN", -9)] },
+            Self::Acceleration => {
+                const {
+                    &[
+                        unit("m/s^2", 0),
+                        unit("m/s2", 0),
+                        unit("mm/s^2", -3),
+                        unit("cm/s²", -2),
+                        STANDARD_GRAVITY,
+                    ]
+                }
+            }
             Self::Impulse => const { &[unit("Ns", 0), unit("kNs", 3)] },
             _ => &[],
         }

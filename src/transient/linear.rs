@@ -1,10 +1,12 @@
-//! What does not rattle: the structure alone, and with a tuned mass damper of the absorber's mass, released as the
-//! structure with the absorber is. A step of time is a matrix exponential, so there is no error of integration.
+//! What does not rattle: the structure alone, and with a tuned mass damper of the absorber's mass, released or driven
+//! as the structure with the absorber is. A step of time is a matrix exponential, so there is no error of integration.
 
 use std::f64::consts::TAU;
 
-use nalgebra::{Matrix4, Vector4};
+use nalgebra::{Matrix4, SMatrix, SVector, Vector4};
 
+use super::driven::{Meter, Response};
+use super::record::Piece;
 use super::{STEPS, amplitude};
 use crate::band::rivals::TunedMassDamper;
 use crate::system::{State, System};
@@ -60,6 +62,37 @@ pub fn released(
     found
 }
 
+/// The structure with a damper, or alone, at rest until it is driven. A straight line of the excitation is a state
+/// of its own, with which a step is a matrix exponential.
+pub fn driven(system: &System, damper: Option<&TunedMassDamper>, pieces: &[Piece]) -> Response {
+    let mass_ratio = damper.map_or(0.0, |_| system.mass_ratio());
+    let mut meter = Meter::new(mass_ratio, system.mass_ratio() * system.damping());
+    let mut state = State::AT_REST;
+    let mut of_duration = (0.0, SMatrix::<f64, 6, 6>::identity());
+    for piece in pieces {
+        meter.jump(piece, &mut state);
+        if of_duration.0 != piece.duration {
+            let mut rates = SMatrix::<f64, 6, 6>::zeros();
+            rates.fixed_view_mut::<4, 4>(0, 0).copy_from(&matrix(system, damper));
+            // The force acts on the structure, that of a base which shakes on both masses; and it grows.
+            rates[(1, 4)] = 1.0;
+            rates[(3, 4)] = f64::from(u8::from(piece.shakes));
+            rates[(4, 5)] = 1.0;
+            of_duration = (piece.duration, exponential(rates * piece.duration));
+        }
+        let State { x, x_velocity, y, y_velocity } = state;
+        let [force, slope] = piece.force;
+        let at_end =
+            of_duration.1 * SVector::<f64, 6>::from([x, x_velocity, y, y_velocity, force, slope]);
+        let end =
+            State { x: at_end[0], x_velocity: at_end[1], y: at_end[2], y_velocity: at_end[3] };
+        meter.moved(piece, [0.0, piece.duration], [&state, &end]);
+        meter.passed(piece, &end);
+        state = end;
+    }
+    meter.finished()
+}
+
 /// Oscillations that a structure stays below a level before it counts as calm: a damper may give energy back.
 const BEAT: u32 = 20;
 
@@ -68,13 +101,13 @@ const TERMS: u32 = 20;
 
 /// The exponential of a matrix, by its series at a fraction of it and squaring (nalgebra's needs the system's
 /// mathematical library).
-fn exponential(of: Matrix4<f64>) -> Matrix4<f64> {
+fn exponential<const D: usize>(of: SMatrix<f64, D, D>) -> SMatrix<f64, D, D> {
     let halvings = libm::ceil(libm::log2(of.norm())).max(0.0) as u32;
     let part = of / libm::pow(2.0, f64::from(halvings));
     // 1 + A (1 + A/2 (1 + A/3 (...))).
     let series = (1..=TERMS)
         .rev()
-        .fold(Matrix4::identity(), |inner, k| Matrix4::identity() + part * inner / f64::from(k));
+        .fold(SMatrix::identity(), |inner, k| SMatrix::identity() + part * inner / f64::from(k));
     (0..halvings).fold(series, |power, _| power * power)
 }
 

@@ -1,4 +1,5 @@
-//! What is not steady harmonic motion: a structure that is released or struck, and comes to rest.
+//! What is not steady harmonic motion: a structure that is released or struck, and comes to rest, or that is driven
+//! by a record or by noise.
 //!
 //! Lengths over the clearance, fast time `tau = omega0 t`, as everywhere. The *amplitude* of the structure at a
 //! time is `sqrt(x^2 + x'^2)`, the root of its own energy: that of the vibration that it would go on with alone.
@@ -7,17 +8,24 @@
 //! alone and a tuned mass damper of the same mass ([`linear`]), and theory ([`Predicted`]).
 
 mod clearance;
+mod driven;
 pub mod linear;
+mod record;
+mod record_study;
 mod ringdown;
 mod study;
 mod theory;
 
 pub use clearance::{Best, best_clearance};
+pub use driven::{DrivenError, Response, follow};
+pub use record::{Piece, Record, RecordQuantity, Spectrum};
+pub use record_study::{Measured, Realisation, RecordStudy, SpectrumPoint};
 pub use ringdown::{Ringdown, STEPS};
 pub use study::{Decay, DecayStudy, Start};
 pub use theory::Predicted;
 
 use crate::case::Scales;
+use crate::numerics::scatter::error_of_largest;
 use crate::system::{InvalidParameter, Parameters, State, System};
 
 /// How a structure is set in motion, in SI or the units of a reduced case; the absorber's place is open.
@@ -56,6 +64,18 @@ impl Release {
         let speed = scales.velocity(1.0);
         State { x, x_velocity: velocity / speed, y: x - w, y_velocity: absorber_velocity / speed }
     }
+}
+
+/// Neighbouring starts whose worst is one value of those that tell how much worse others may be.
+const TOGETHER: usize = 4;
+
+/// The largest of the values that belong to even places of the absorber, and by how much those of other places may
+/// exceed it.
+pub fn worst_of_places(values: &[f64]) -> [f64; 2] {
+    let largest = |some: &[f64]| some.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let worst = largest(values);
+    let blocks: Vec<f64> = values.chunks_exact(TOGETHER).map(largest).collect();
+    [worst, if worst.is_finite() { error_of_largest(&blocks) } else { 0.0 }]
 }
 
 /// The amplitude of a structure in a state.

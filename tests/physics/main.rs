@@ -25,6 +25,7 @@ mod orbit_branches;
 mod orbit_equations;
 mod orbits;
 mod published;
+mod record;
 mod regimes;
 mod release;
 mod simulation_properties;

@@ -30,7 +30,7 @@ prop_compose! {
         let excitation = if force { Excitation::Force } else { Excitation::BaseDisplacement };
         Physical {
             mass_kg, stiffness_n_per_m, damping_n_s_per_m, absorber_mass_kg, clearance_m,
-            restitution, excitation, amplitude, frequency_hz, release: None,
+            restitution, excitation, amplitude, frequency_hz, release: None, record: None,
         }
     }
 }
@@ -164,6 +164,7 @@ fn restored(scales: &Scales, system: &System) -> Design {
         },
         frequency_hz: scales.frequency(system.frequency_ratio()),
         release: None,
+        record: None,
     })
 }
 

@@ -1,0 +1,236 @@
+//! What a case that is driven by a record says of it, and the samples in its file.
+
+use super::Case;
+use super::error::{CaseError, Problem};
+use super::physical::ExcitationTable;
+use super::quantity::{number_in, unit_in_brackets};
+use super::reader::{Reader, Table};
+use crate::digest::sha256;
+use crate::quantity::Dimension;
+use crate::quantity::units::Unit;
+use crate::transient::{Record, RecordQuantity, Spectrum};
+
+/// What drives the oscillator, where that is a record or noise.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Recording {
+    /// What it is of.
+    pub quantity: RecordQuantity,
+    /// Where the values come from.
+    pub source: RecordSource,
+}
+
+/// Where the values of a record come from.
+#[derive(Debug, Clone, PartialEq)]
+pub enum RecordSource {
+    /// A file of two columns.
+    File {
+        /// Its path, relative to the case file.
+        path: String,
+        /// SHA-256 of its text, and its samples in SI; none until [`Case::with_record`] has been given them.
+        read: Option<(String, Record)>,
+    },
+    /// Random numbers.
+    Spectrum(Spectrum),
+}
+
+impl Recording {
+    /// The path of the file that must be read, relative to the case file.
+    pub fn file(&self) -> Option<&str> {
+        match &self.source {
+            RecordSource::File { path, .. } => Some(path),
+            RecordSource::Spectrum(_) => None,
+        }
+    }
+
+    /// The records; none of a file that was not read.
+    pub fn records(&self) -> Vec<Record> {
+        match &self.source {
+            RecordSource::File { read, .. } => {
+                read.iter().map(|(_, record)| record.clone()).collect()
+            }
+            RecordSource::Spectrum(spectrum) => spectrum.records(self.quantity).collect(),
+        }
+    }
+}
+
+impl Case {
+    /// The case with the samples of its record; `name`, usually the path of the file, is for messages only. A case
+    /// that names no file stays as it is.
+    ///
+    /// The text has a head, `time (s),acceleration (m/s²)`, and then a sample a line, the times ascending. Lines that
+    /// begin with `#` are passed over.
+    ///
+    /// # Errors
+    /// [`CaseError`] with the lines that are wrong: a head without units or with those of something else, values that
+    /// are no numbers, times that do not ascend.
+    pub fn with_record(mut self, name: &str, text: &str) -> Result<Self, CaseError> {
+        let visible = text.strip_prefix('\u{feff}').unwrap_or(text);
+        if let Some(Recording { quantity, source: RecordSource::File { read, .. } }) =
+            &mut self.recording
+        {
+            let samples = samples(visible, *quantity)
+                .map_err(|problems| CaseError::new(name, visible, problems))?;
+            let record = Record { quantity: *quantity, samples };
+            *read = Some((sha256(text.as_bytes()), record));
+        }
+        Ok(self)
+    }
+}
+
+impl RecordQuantity {
+    fn dimension(self) -> Dimension {
+        match self {
+            Self::BaseAcceleration => Dimension::Acceleration,
+            Self::BaseDisplacement => Dimension::Length,
+            Self::Force => Dimension::Force,
+        }
+    }
+
+    /// A head of a file.
+    fn head(self) -> &'static str {
+        match self {
+            Self::BaseAcceleration => "time (s),acceleration (m/s²)",
+            Self::BaseDisplacement => "time (s),displacement (mm)",
+            Self::Force => "time (s),force (N)",
+        }
+    }
+}
+
+/// Problems after which a file is not read further: who took the wrong file has one in every line.
+const MOST_PROBLEMS: usize = 5;
+
+/// A problem with a part of the text.
+fn problem(text: &str, part: &str, message: String, expected: &str, help: &str) -> Problem {
+    let start = part.as_ptr() as usize - text.as_ptr() as usize;
+    Problem::new(text, start..start + part.len(), message, expected).help(help)
+}
+
+/// The two cells of a line.
+fn cells(line: &str) -> Option<(&str, &str)> {
+    line.split_once(',').filter(|(_, value)| !value.contains(','))
+}
+
+fn samples(text: &str, quantity: RecordQuantity) -> Result<Vec<[f64; 2]>, Vec<Problem>> {
+    let mut lines =
+        text.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
+    // An empty text has no line: its beginning.
+    let head = lines.next().unwrap_or(&text[..0]);
+    let help = format!("begin the file with {}", quantity.head());
+    let Some((time, value)) = cells(head) else {
+        let message = "the head of the record does not name two columns".to_owned();
+        return Err(vec![problem(text, head, message, "expected time and value", &help)]);
+    };
+    let unit = |dimension: Dimension, column: &'static str, cell| {
+        let wrong = |(what, accepted): (String, String)| {
+            let message = format!("the {column} of the record {what}");
+            let help = format!("{accepted}; {help}");
+            problem(text, cell, message, "expected a unit between brackets", &help)
+        };
+        unit_in_brackets(dimension, cell).map_err(wrong)
+    };
+    let units =
+        match (unit(Dimension::Time, "time", time), unit(quantity.dimension(), "value", value)) {
+            (Ok(time), Ok(value)) => [time, value],
+            (time, value) => return Err(time.err().into_iter().chain(value.err()).collect()),
+        };
+    let (mut samples, mut problems): (Vec<[f64; 2]>, Vec<Problem>) = (Vec::new(), Vec::new());
+    for line in lines {
+        match sample(text, line, units, samples.last()) {
+            Ok(sample) => samples.push(sample),
+            Err(found) => problems.push(found),
+        }
+        if problems.len() >= MOST_PROBLEMS {
+            break;
+        }
+    }
+    if problems.is_empty() && samples.len() < 2 {
+        let message = "the record has fewer than two samples".to_owned();
+        problems.push(problem(text, head, message, "expected at least two lines below", &help));
+    }
+    if problems.is_empty() { Ok(samples) } else { Err(problems) }
+}
+
+/// A line with a time later than the last one.
+fn sample(
+    text: &str,
+    line: &str,
+    units: [&Unit; 2],
+    last: Option<&[f64; 2]>,
+) -> Result<[f64; 2], Problem> {
+    let Some((time, value)) = cells(line) else {
+        let message = "a line of the record does not have two values".to_owned();
+        let help = "separate two numbers by a comma; the decimal point is a point";
+        return Err(problem(text, line, message, "expected time and value", help));
+    };
+    let number = |cell: &str, unit| {
+        number_in(cell, unit).ok_or_else(|| {
+            let message = format!("\"{}\" is no number", cell.trim());
+            let help = "write numbers such as 0.25 or 2.5e-1";
+            problem(text, cell, message, "expected a number", help)
+        })
+    };
+    let found = [number(time, units[0])?, number(value, units[1])?];
+    match last {
+        Some(last) if last[0] >= found[0] => {
+            let message = "the times of the record do not ascend".to_owned();
+            let help = "sort the lines, and keep one of each time";
+            Err(problem(text, time, message, "expected a later time than above", help))
+        }
+        _ => Ok(found),
+    }
+}
+
+/// Records of a spectrum unless the case says how many, the fewest lines that make noise, and the most samples of all
+/// records together.
+const REALISATIONS: u64 = 20;
+const FEWEST_LINES: u64 = 10;
+const MOST_SAMPLES: u64 = 20_000_000;
+
+/// What an excitation of the kind "record" says; none where something was reported.
+pub(super) fn read(
+    reader: &mut Reader,
+    table: &Table,
+    excitation: ExcitationTable,
+) -> Option<Recording> {
+    let quantity = excitation.quantity?;
+    let Some(corners) = excitation.spectrum else {
+        for key in ["duration", "seed", "realisations"].into_iter().filter(|key| table.has(key)) {
+            let message = format!("`{key}` has no meaning beside `file`");
+            let help = "remove the line: it is for a spectrum";
+            reader.report(table.span_of(key), message, "expected a file alone", help);
+        }
+        let source = RecordSource::File { path: excitation.file?, read: None };
+        return Some(Recording { quantity, source });
+    };
+    for key in ["duration", "seed"].into_iter().filter(|key| !table.has(key)) {
+        let message = format!("`{key}` is missing beside `spectrum`");
+        let help = format!("add the line {}", reader.line(table, key));
+        reader.report(table.span_of("spectrum"), message, "expected both", help);
+    }
+    let spectrum = Spectrum {
+        corners,
+        duration: excitation.duration?,
+        seed: excitation.seed?,
+        realisations: excitation.realisations.unwrap_or(REALISATIONS),
+    };
+    let lines = spectrum.lines();
+    let lines = lines.end().saturating_sub(*lines.start()).saturating_add(1);
+    let samples = spectrum.samples().saturating_mul(spectrum.realisations);
+    if lines < FEWEST_LINES || samples > MOST_SAMPLES {
+        let (message, help) = match lines < FEWEST_LINES {
+            true => (
+                format!("a record of that duration has {lines} lines of the spectrum"),
+                "lines are one over the duration apart: make it longer, or the spectrum wider",
+            ),
+            false => (
+                format!("the records have {samples} samples together"),
+                "make them shorter or fewer, or end the spectrum at a lower frequency",
+            ),
+        };
+        let expected =
+            format!("expected at least {FEWEST_LINES} lines and at most {MOST_SAMPLES} samples");
+        reader.report(table.span_of("duration"), message, expected, help);
+        return None;
+    }
+    Some(Recording { quantity, source: RecordSource::Spectrum(spectrum) })
+}

@@ -1,0 +1,293 @@
+//! A structure with its absorber that is driven piece by piece, with exact flights by the event engine.
+//!
+//! In a piece the excitation is linear. Seen from a frame that moves at the velocity that the base has at the
+//! beginning of the piece, the structure obeys `x'' + eps lambda x' + x = g`, with `g = f` where a force acts, and
+//! `g = d + eps lambda d'` where the base has moved by `d` and `d'' = -f`; an absorber in flight obeys `y'' = 0`.
+//! For `g = c0 + c1 s` the particular solution `c1 s + c0 - eps lambda c1` is linear. Without it, subtracted from `x`
+//! and `y`, the system is the unforced one: `x - y`, differences of velocities, and so impacts, are the same, and so
+//! is sustained contact, whose mass `1 + eps` has no part in a solution without acceleration. For a base that shakes
+//! `g` is a cubic, of which the nearest straight line (least squares over the piece) is taken: the rest is orthogonal
+//! to straight lines, so that the motion at the end of a piece of length `h` is off by `h^5`.
+
+use super::record::Piece;
+use super::unforced;
+use crate::simulation::{Detail, Impact, Observer, Simulation, StartError, Stop};
+use crate::system::{InvalidParameter, State, System};
+
+/// Impacts in a piece after which a run is given up: chattering ends in contact long before.
+const MOST_IMPACTS: u64 = 100_000;
+
+/// Why a driven structure could not be followed.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum DrivenError {
+    /// The motion is so large that rounding hides the walls, or is not finite.
+    #[error(transparent)]
+    Start(#[from] StartError),
+    /// A flight ended before its time.
+    #[error("the simulation of the record met {}", .0.words())]
+    Stopped(Stop),
+    /// A case names a file, and nobody has handed in what it holds.
+    #[error("the samples of the record are missing: hand them in by `Case::with_record`")]
+    NoRecord,
+    /// A piece is too short or too long for a number.
+    #[error(transparent)]
+    Piece(#[from] InvalidParameter),
+}
+
+/// What a driven structure did. Lengths over the clearance and relative to the base, fast time; energies per unit of
+/// the oscillator's mass.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Response {
+    /// Largest displacement of the structure.
+    pub peak: f64,
+    /// Root mean square displacement over the whole record.
+    pub rms: f64,
+    /// Largest displacement of absorber or damper against the structure.
+    pub stroke: f64,
+    /// Impacts.
+    pub impacts: u64,
+    /// Largest relative speed of one of them.
+    pub impact_speed: f64,
+    /// Work of the excitation.
+    pub work: f64,
+    /// Energy that the structure's own damping took.
+    pub damping_loss: f64,
+    /// Energy that impacts took.
+    pub impact_loss: f64,
+    /// Energy of structure and absorber, or mass of the damper, at the end; its spring's not included.
+    pub stored: f64,
+    /// Time and displacement at the end of every piece.
+    pub trace: Vec<[f64; 2]>,
+}
+
+/// Measures a motion between states that are so near that it is a cubic in between.
+pub(super) struct Meter {
+    pub(super) found: Response,
+    /// Mass of the absorber or damper over the structure's, and `eps lambda`.
+    mass_ratio: f64,
+    damping: f64,
+    time: f64,
+    square: f64,
+}
+
+impl Meter {
+    pub(super) fn new(mass_ratio: f64, damping: f64) -> Self {
+        let mut found = Response::default();
+        found.trace.push([0.0, 0.0]);
+        Self { found, mass_ratio, damping, time: 0.0, square: 0.0 }
+    }
+
+    /// The base changes its velocity.
+    pub(super) fn jump(&mut self, piece: &Piece, state: &mut State) {
+        let before = state.energy(self.mass_ratio);
+        state.x_velocity += piece.jump;
+        state.y_velocity += piece.jump;
+        self.found.work += state.energy(self.mass_ratio) - before;
+    }
+
+    /// The motion between two times of a piece.
+    pub(super) fn moved(&mut self, piece: &Piece, [from, to]: [f64; 2], states: [&State; 2]) {
+        let duration = to - from;
+        let x = Cubic::of(duration, states.map(|state| [state.x, state.x_velocity]));
+        let against =
+            |state: &State| [state.relative_displacement(), state.x_velocity - state.y_velocity];
+        let w = Cubic::of(duration, states.map(against));
+        let found = &mut self.found;
+        found.peak = found.peak.max(x.largest());
+        found.stroke = found.stroke.max(w.largest());
+        self.square += x.square();
+        found.damping_loss += self.damping * x.square_of_slope();
+        // The integral of f q', by parts.
+        let moved = if piece.shakes { self.mass_ratio } else { 0.0 };
+        let q = |state: &State| {
+            [state.x + moved * state.y, state.x_velocity + moved * state.y_velocity]
+        };
+        let [force, slope] = piece.force;
+        let ends = states.map(q);
+        found.work += (force + slope * to) * ends[1][0] - (force + slope * from) * ends[0][0];
+        found.work -= slope * Cubic::of(duration, ends).integral();
+    }
+
+    /// A piece has come to its end.
+    pub(super) fn passed(&mut self, piece: &Piece, state: &State) {
+        self.time += piece.duration;
+        self.found.trace.push([self.time, state.x]);
+        self.found.stored = state.energy(self.mass_ratio);
+    }
+
+    pub(super) fn finished(mut self) -> Response {
+        self.found.rms = if self.time > 0.0 { (self.square / self.time).sqrt() } else { 0.0 };
+        self.found
+    }
+}
+
+/// The cubic with the values and slopes of a motion at two times.
+struct Cubic {
+    duration: f64,
+    ends: [[f64; 2]; 2],
+}
+
+impl Cubic {
+    fn of(duration: f64, ends: [[f64; 2]; 2]) -> Self {
+        Self { duration, ends }
+    }
+
+    /// Largest absolute value.
+    fn largest(&self) -> f64 {
+        let h = self.duration;
+        let [[x0, v0], [x1, v1]] = self.ends;
+        let at_ends = x0.abs().max(x1.abs());
+        if v0 * v1 >= 0.0 {
+            return at_ends;
+        }
+        // x = x0 + h v0 p + c p^2 + d p^3; its slope is 0 once between ends of opposite slope.
+        let d = h * (v0 + v1) - 2.0 * (x1 - x0);
+        let c = 3.0 * (x1 - x0) - h * (2.0 * v0 + v1);
+        let root = (c * c - 3.0 * d * h * v0).max(0.0).sqrt();
+        let p = -h * v0 / (c + root.copysign(-v0));
+        let p = if p.is_finite() { p.clamp(0.0, 1.0) } else { 0.0 };
+        at_ends.max((x0 + p * (h * v0 + p * (c + p * d))).abs())
+    }
+
+    fn integral(&self) -> f64 {
+        let h = self.duration;
+        let [[x0, v0], [x1, v1]] = self.ends;
+        0.5 * h * (x0 + x1) + h * h / 12.0 * (v0 - v1)
+    }
+
+    /// Integral of its square: the mass matrix of a beam.
+    fn square(&self) -> f64 {
+        let h = self.duration;
+        let [[x0, v0], [x1, v1]] = self.ends;
+        let [v0, v1] = [h * v0, h * v1];
+        let own = 156.0 * (x0 * x0 + x1 * x1) + 4.0 * (v0 * v0 + v1 * v1);
+        let mixed = 44.0 * (x0 * v0 - x1 * v1) + 26.0 * (x1 * v0 - x0 * v1);
+        h / 420.0 * (own + mixed + 108.0 * x0 * x1 - 6.0 * v0 * v1)
+    }
+
+    /// Integral of the square of its slope: the matrix of a beam under tension.
+    fn square_of_slope(&self) -> f64 {
+        let h = self.duration;
+        let [[x0, v0], [x1, v1]] = self.ends;
+        let (rise, [v0, v1]) = (x1 - x0, [h * v0, h * v1]);
+        let of_rise = 36.0 * rise * rise - 6.0 * rise * (v0 + v1);
+        (of_rise + 4.0 * (v0 * v0 + v1 * v1) - 2.0 * v0 * v1) / (30.0 * h)
+    }
+}
+
+/// From what is seen from the base to what the unforced system does in a piece.
+struct Frame {
+    shift: f64,
+    slope: f64,
+    /// Acceleration of the base at the beginning of the piece, and its slope.
+    base: [f64; 2],
+}
+
+impl Frame {
+    fn of(piece: &Piece, damping: f64) -> Self {
+        let (h, [force, slope]) = (piece.duration, piece.force);
+        if !piece.shakes {
+            return Self { shift: force - damping * slope, slope, base: [0.0; 2] };
+        }
+        let [a, b] = [-force, -slope];
+        // g = damping a s + (a + damping b)/2 s^2 + b/6 s^3; the nearest lines to s^2 and s^3 are h s - h^2/6 and
+        // 9/10 h^2 s - h^3/5.
+        let bend = 0.5 * (a + damping * b);
+        let rise = damping * a + bend * h + 0.15 * b * h * h;
+        let level = -bend * h * h / 6.0 - b * h * h * h / 30.0;
+        Self { shift: level - damping * rise, slope: rise, base: [a, b] }
+    }
+
+    fn enter(&self, state: &State) -> State {
+        let x = state.x - self.shift;
+        State {
+            x,
+            x_velocity: state.x_velocity - self.slope,
+            // The absorber on a wall stays on it to the last digit.
+            y: x - state.relative_displacement(),
+            y_velocity: state.y_velocity - self.slope,
+        }
+    }
+
+    fn leave(&self, s: f64, state: &State) -> State {
+        let [a, b] = self.base;
+        let x = state.x + self.shift + s * (self.slope - s * (0.5 * a + s * b / 6.0));
+        let velocity = self.slope - s * (a + 0.5 * s * b);
+        State {
+            x,
+            x_velocity: state.x_velocity + velocity,
+            y: x - state.relative_displacement(),
+            y_velocity: state.y_velocity + velocity,
+        }
+    }
+}
+
+/// Hears of the unforced system, and measures what is seen from the base.
+struct Log<'a> {
+    meter: &'a mut Meter,
+    piece: Piece,
+    frame: Frame,
+    /// Where the motion was measured last: time in the piece, and what was seen from the base.
+    last: (f64, State),
+}
+
+impl Log<'_> {
+    fn seen(&mut self, s: f64, state: &State) -> State {
+        let now = self.frame.leave(s, state);
+        self.meter.moved(&self.piece, [self.last.0, s], [&self.last.1, &now]);
+        now
+    }
+}
+
+impl Observer for Log<'_> {
+    fn detail(&self) -> Detail {
+        Detail::Events
+    }
+
+    fn impact(&mut self, impact: &Impact) {
+        let before = impact.state_before();
+        let mut after = self.seen(impact.tau, &before);
+        after.x_velocity += impact.x_velocity_after - impact.x_velocity_before;
+        after.y_velocity += impact.y_velocity_after - impact.y_velocity_before;
+        self.last = (impact.tau, after);
+        let found = &mut self.meter.found;
+        found.impacts += 1;
+        found.impact_loss += impact.loss;
+        let speed = (impact.x_velocity_before - impact.y_velocity_before).abs();
+        found.impact_speed = found.impact_speed.max(speed);
+    }
+
+    fn sticks(&mut self, loss: f64) {
+        self.meter.found.impact_loss += loss;
+    }
+
+    fn period(&mut self, state: &State) {
+        let now = self.seen(self.piece.duration, state);
+        self.last = (self.piece.duration, now);
+    }
+}
+
+/// Follows a structure at rest whose absorber is at a relative displacement `w`, over the clearance.
+///
+/// # Errors
+/// [`DrivenError`] where the engine cannot resolve the motion.
+pub fn follow(system: &System, pieces: &[Piece], w: f64) -> Result<Response, DrivenError> {
+    let damping = system.mass_ratio() * system.damping();
+    let mut meter = Meter::new(system.mass_ratio(), damping);
+    let mut state = State { y: -w, ..State::AT_REST };
+    for piece in pieces {
+        meter.jump(piece, &mut state);
+        let free = unforced(system, piece.duration)?;
+        let frame = Frame::of(piece, damping);
+        let mut simulation = Simulation::new(&free, frame.enter(&state), 0.0)?;
+        let mut log = Log { meter: &mut meter, piece: *piece, frame, last: (0.0, state) };
+        let stop = simulation.run(1, MOST_IMPACTS, &mut log);
+        state = log.last.1;
+        if stop != Stop::EndTime {
+            return Err(DrivenError::Stopped(stop));
+        }
+        meter.passed(piece, &state);
+    }
+    Ok(meter.finished())
+}

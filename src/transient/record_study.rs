@@ -1,0 +1,215 @@
+//! A structure that is driven by a record, or by several records of one spectrum: from all places of the absorber,
+//! beside its alternatives, and for other natural frequencies.
+
+use super::linear::driven;
+use super::record::{Piece, Record};
+use super::{DrivenError, Response, follow, worst_of_places};
+use crate::band::rivals::{TunedMassDamper, reduction_db};
+use crate::case::{Case, Scales};
+use crate::executor::{Executor, map};
+use crate::numerics::scatter::twice_standard_error;
+use crate::system::System;
+
+/// A value and its error: of one record how much worse other places of the absorber may be, of several twice the
+/// standard error of the mean over records.
+pub type Measured = [f64; 2];
+
+/// What becomes of the structure under one record.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Realisation {
+    /// The structure alone.
+    pub bare: Response,
+    /// With the tuned mass damper of Den Hartog.
+    pub damped: Response,
+    /// Every place of the absorber, over the clearance, and what it did from there. The trace is kept of the first
+    /// record alone.
+    pub places: Vec<(f64, Response)>,
+}
+
+/// Peak displacements of a structure of another natural frequency, mean over records. Its mass, damping ratio,
+/// absorber and clearance are the same; the damper is tuned to it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SpectrumPoint {
+    /// Natural frequency over the case's own.
+    pub ratio: f64,
+    /// The structure alone, over the clearance.
+    pub bare: f64,
+    /// With the absorber, at its worst place.
+    pub absorber: f64,
+    /// With the damper.
+    pub damped: f64,
+}
+
+/// A driven structure with everything that is known of it.
+#[derive(Debug, Clone)]
+pub struct RecordStudy {
+    /// The system; its excitation does not matter.
+    pub system: System,
+    /// The damper.
+    pub damper: TunedMassDamper,
+    /// Largest value of each record, in SI.
+    pub input_peaks: Vec<f64>,
+    /// Length of the records in seconds, and their samples.
+    pub length: (f64, usize),
+    /// One for each record.
+    pub realisations: Vec<Realisation>,
+    /// Response spectrum, ascending.
+    pub spectrum: Vec<SpectrumPoint>,
+    /// Whether places count from which the absorber never touches a wall.
+    pub count_inactive: bool,
+}
+
+/// Places of the absorber under one record, and under each of several, unless the case says how many.
+const PLACES: u64 = 32;
+const PLACES_OF_MANY: u64 = 8;
+/// The response spectrum: frequencies, the furthest over the structure's own, places, and the most records.
+const FREQUENCIES: u32 = 31;
+const FURTHEST: f64 = 4.0;
+const PLACES_OF_SPECTRUM: u64 = 8;
+const RECORDS_OF_SPECTRUM: usize = 4;
+
+impl RecordStudy {
+    /// Studies a case that is driven by a record; none for another.
+    ///
+    /// # Errors
+    /// [`DrivenError`] where the motion cannot be followed, or where nobody has handed in the samples.
+    pub fn of_case(case: &Case, executor: &dyn Executor) -> Option<Result<Self, DrivenError>> {
+        let recording = case.recording.as_ref()?;
+        let records = recording.records();
+        let default = if records.len() > 1 { PLACES_OF_MANY } else { PLACES };
+        let places = case.simulation.starts.unwrap_or(default);
+        let study = Self::of(&case.system(), &case.scales(), &records, places, executor);
+        Some(study.map(|study| Self { count_inactive: case.count_inactive, ..study }))
+    }
+
+    /// Studies a system under records, the absorber at so many even places of its cavity.
+    ///
+    /// # Errors
+    /// As [`Self::of_case`].
+    pub fn of(
+        system: &System,
+        scales: &Scales,
+        records: &[Record],
+        places: u64,
+        executor: &dyn Executor,
+    ) -> Result<Self, DrivenError> {
+        let first = records.first().ok_or(DrivenError::NoRecord)?;
+        let [from, to] = [first.samples.first(), first.samples.last()]
+            .map(|sample| sample.map_or(0.0, |sample| sample[0]));
+        let point = |k: usize| {
+            let part = 2.0 * k as f64 / f64::from(FREQUENCIES - 1) - 1.0;
+            spectrum_point(system, scales, records, libm::pow(FURTHEST, part))
+        };
+        let spectrum = map(executor, "frequencies", FREQUENCIES as usize, point);
+        Ok(Self {
+            system: *system,
+            damper: TunedMassDamper::den_hartog(system.mass_ratio()),
+            input_peaks: records.iter().map(Record::peak).collect(),
+            length: (to - from, first.samples.len()),
+            realisations: realisations(system, scales, records, places, executor)?,
+            spectrum: spectrum.into_iter().collect::<Result<_, _>>()?,
+            count_inactive: true,
+        })
+    }
+
+    /// Places that count: where none wakes, all.
+    fn counted<'a>(&self, one: &'a Realisation) -> Vec<&'a Response> {
+        let all = || one.places.iter().map(|(_, response)| response);
+        let awake: Vec<&Response> =
+            all().filter(|response| self.count_inactive || response.impacts > 0).collect();
+        if awake.is_empty() { all().collect() } else { awake }
+    }
+
+    /// The largest value over the places of the absorber, mean over records.
+    pub fn worst(&self, value: impl Fn(&Realisation, &Response) -> f64) -> Measured {
+        let of_places = |one: &Realisation| -> Measured {
+            let values: Vec<f64> =
+                self.counted(one).into_iter().map(|place| value(one, place)).collect();
+            worst_of_places(&values)
+        };
+        match self.realisations.as_slice() {
+            [only] => of_places(only),
+            _ => self.mean(|one| of_places(one)[0]),
+        }
+    }
+
+    /// The mean over records of what each has for itself; without error where there is only one.
+    pub fn mean(&self, value: impl Fn(&Realisation) -> f64) -> Measured {
+        let values: Vec<f64> = self.realisations.iter().map(value).collect();
+        let mean = values.iter().sum::<f64>() / values.len() as f64;
+        [mean, if values.len() > 1 { twice_standard_error(&values) } else { 0.0 }]
+    }
+
+    /// The least reduction of the largest displacement against another, in decibels.
+    pub fn reduction_db(&self, against: impl Fn(&Realisation) -> f64) -> Measured {
+        let [increase, error] = self.worst(|one, place| -reduction_db(place.peak, against(one)));
+        [-increase, error]
+    }
+
+    /// What happened under the first record from the place with the largest displacement.
+    pub fn shown(&self) -> Option<(&Realisation, &Response)> {
+        let first = self.realisations.first()?;
+        let places = self.counted(first).into_iter();
+        Some((first, places.max_by(|a, b| a.peak.total_cmp(&b.peak))?))
+    }
+}
+
+/// A place of the absorber among so many even ones.
+fn place(k: u64, of: u64) -> f64 {
+    (2 * k + 1) as f64 / of as f64 - 1.0
+}
+
+fn realisations(
+    system: &System,
+    scales: &Scales,
+    records: &[Record],
+    places: u64,
+    executor: &dyn Executor,
+) -> Result<Vec<Realisation>, DrivenError> {
+    let damper = TunedMassDamper::den_hartog(system.mass_ratio());
+    let pieces: Vec<Vec<Piece>> =
+        records.iter().map(|record| record.pieces(scales, Record::LONGEST)).collect();
+    let each = places as usize;
+    let kept = |k: usize, response: Response| match k {
+        0 => response,
+        _ => Response { trace: Vec::new(), ..response },
+    };
+    let flown = map(executor, "places", records.len() * each, |k| {
+        let w = place((k % each) as u64, places);
+        follow(system, &pieces[k / each], w).map(|found| (w, kept(k / each, found)))
+    });
+    let mut flown = flown.into_iter();
+    let one = |(k, pieces): (usize, &Vec<Piece>)| {
+        Ok(Realisation {
+            bare: kept(k, driven(system, None, pieces)),
+            damped: kept(k, driven(system, Some(&damper), pieces)),
+            places: flown.by_ref().take(each).collect::<Result<_, _>>()?,
+        })
+    };
+    pieces.iter().enumerate().map(one).collect()
+}
+
+fn spectrum_point(
+    system: &System,
+    scales: &Scales,
+    records: &[Record],
+    ratio: f64,
+) -> Result<SpectrumPoint, DrivenError> {
+    let scales = Scales { natural_frequency: ratio * scales.natural_frequency, ..*scales };
+    let damper = TunedMassDamper::den_hartog(system.mass_ratio());
+    let records = &records[..records.len().min(RECORDS_OF_SPECTRUM)];
+    let mut sums = [0.0; 3];
+    for record in records {
+        let pieces = record.pieces(&scales, Record::LONGEST);
+        let mut worst = 0.0_f64;
+        for k in 0..PLACES_OF_SPECTRUM {
+            worst = worst.max(follow(system, &pieces, place(k, PLACES_OF_SPECTRUM))?.peak);
+        }
+        let linear = |damper| driven(system, damper, &pieces).peak;
+        for (sum, peak) in sums.iter_mut().zip([linear(None), worst, linear(Some(&damper))]) {
+            *sum += peak;
+        }
+    }
+    let [bare, absorber, damped] = sums.map(|sum| sum / records.len() as f64);
+    Ok(SpectrumPoint { ratio, bare, absorber, damped })
+}
