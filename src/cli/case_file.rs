@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
-use miette::{IntoDiagnostic, NamedSource, Report, Result, miette};
+use miette::{IntoDiagnostic, NamedSource, Report, Result, WrapErr, miette};
 use serde::Serialize;
-use vinesink::case::Case;
+use vinesink::case::{Case, Recording};
 use vinesink::method::Method;
 use vinesink::store;
 use vinesink::study::fidelity::{AccuracyTarget, Plan};
@@ -57,7 +57,14 @@ pub fn read(path: &Path) -> Result<Case> {
 pub fn read_with_text(path: &Path) -> Result<(Case, String)> {
     let text = store::read_text(path)?;
     let name = path.display().to_string();
-    let case = Case::parse(&name, &text)?;
+    let mut case = Case::parse(&name, &text)?;
+    if let Some(file) = case.recording.as_ref().and_then(Recording::file) {
+        let record = path.with_file_name(file);
+        let text = store::read_text(&record).wrap_err_with(|| {
+            format!("{}: the record of its excitation cannot be read", path.display())
+        })?;
+        case = case.with_record(&record.display().to_string(), &text)?;
+    }
     let visible = text.strip_prefix('\u{feff}').unwrap_or(&text);
     for warning in case.warnings() {
         let source = NamedSource::new(&name, visible.to_owned());

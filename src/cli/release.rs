@@ -1,22 +1,22 @@
-//! Commands on a structure that is released or struck.
+//! Commands on a structure that is not driven steadily: released or struck, or driven by a record.
 
 use std::path::Path;
 
 use miette::{IntoDiagnostic, Result, miette};
 use vinesink::case::{Case, Rounding};
 use vinesink::criteria::{self, Judged};
-use vinesink::report::release as page;
 use vinesink::report::render::Files;
+use vinesink::report::{record, release as page};
 use vinesink::store;
-use vinesink::transient::{DecayStudy, best_clearance};
+use vinesink::transient::{DecayStudy, RecordStudy, best_clearance};
 
 use super::case_file::{self, Format, OneCase};
 use super::output;
 use super::parallel::Parallel;
 
-/// Refuses a case that is released where a command is about steady vibration.
+/// Refuses a case that is not driven steadily where a command is about steady vibration.
 pub fn steady(case: &Case, path: &Path, what: &str) -> Result<()> {
-    match case.design.release() {
+    match case.design.transient() {
         None => Ok(()),
         Some(_) => Err(miette!(
             help = "name a case whose excitation is base-displacement or force",
@@ -26,6 +26,23 @@ pub fn steady(case: &Case, path: &Path, what: &str) -> Result<()> {
     }
 }
 
+/// Refuses a case that a record drives where a command has no answer for it.
+fn not_recorded(case: &Case, path: &Path, what: &str) -> Result<()> {
+    match case.recording {
+        None => Ok(()),
+        Some(_) => Err(miette!(
+            help = "`simulate`, `check` and `report` say what becomes of it",
+            "{}: a record drives its structure, for which there is no {what}",
+            path.display()
+        )),
+    }
+}
+
+/// The study of a case that a record drives; none for another.
+fn recorded(case: &Case) -> Result<Option<RecordStudy>> {
+    RecordStudy::of_case(case, &Parallel).transpose().into_diagnostic()
+}
+
 /// The study of a case that is released; none for another.
 pub fn studied(case: &Case) -> Result<Option<DecayStudy>> {
     DecayStudy::of_case(case).transpose().into_diagnostic()
@@ -33,12 +50,18 @@ pub fn studied(case: &Case) -> Result<Option<DecayStudy>> {
 
 /// What theory says.
 pub fn analyze(one: &OneCase, case: &Case) -> Result<Option<bool>> {
+    not_recorded(case, &one.path, "theory")?;
     let study = DecayStudy::without_simulation(case).transpose().into_diagnostic()?;
     study.map(|study| printed(one, case, &study)).transpose()
 }
 
 /// What simulation says.
 pub fn simulate(one: &OneCase, case: &Case) -> Result<Option<bool>> {
+    if let Some(study) = recorded(case)? {
+        let document = record::document(&case_file::name(&one.path)?, case, &study, &[]);
+        one.print(|| record::text(case, &document), || &document)?;
+        return Ok(Some(true));
+    }
     studied(case)?.map(|study| printed(one, case, &study)).transpose()
 }
 
@@ -50,11 +73,18 @@ fn printed(one: &OneCase, case: &Case, study: &DecayStudy) -> Result<bool> {
 
 /// Its criteria.
 pub fn judged(case: &Case) -> Result<Option<Vec<Judged>>> {
+    if let Some(study) = recorded(case)? {
+        return Ok(Some(criteria::judge_record(case, &study)));
+    }
     Ok(studied(case)?.map(|study| criteria::judge_release(case, &study)))
 }
 
 /// Its report.
 pub fn report(case: &Case, name: &str) -> Result<Option<Files>> {
+    if let Some(study) = recorded(case)? {
+        let judged = criteria::judge_record(case, &study);
+        return record::files(name, case, &study, &judged).into_diagnostic().map(Some);
+    }
     let Some(study) = studied(case)? else { return Ok(None) };
     let judged = criteria::judge_release(case, &study);
     page::files(name, case, &study, &judged).into_diagnostic().map(Some)
@@ -67,6 +97,7 @@ pub fn optimize(
     text: &str,
     new: Option<&Path>,
 ) -> Result<Option<bool>> {
+    not_recorded(case, &one.path, "best clearance yet")?;
     let Some(best) = best_clearance(case, &Parallel) else { return Ok(None) };
     let name = one.path.display().to_string();
     let written = case.rewritten(&name, text, &best.design, Rounding::Nearest).into_diagnostic()?;

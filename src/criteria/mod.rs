@@ -6,6 +6,7 @@
 //! and that of an absorber which never wakes. What is found is the worst of all with its error, whatever the
 //! limit is: two designs, or two limits, can be compared.
 
+mod record;
 mod release;
 mod scope;
 
@@ -16,6 +17,7 @@ use crate::case::{Case, Criterion, Relation, Scales, Subject};
 use crate::method::Method;
 use crate::regimes::Motion;
 
+pub use record::judge_record;
 pub use release::judge_release;
 use scope::Scope;
 

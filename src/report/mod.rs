@@ -10,6 +10,7 @@ pub mod html;
 pub mod index;
 pub mod mathml;
 pub mod optimize;
+pub mod record;
 pub mod release;
 pub mod render;
 pub mod stored;

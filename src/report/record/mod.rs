@@ -1,0 +1,146 @@
+//! A structure that a record or noise drives: its report, and what `simulate` prints of it. The sentences are in
+//! `templates/`.
+
+mod figure;
+
+use serde_json::{Value, json};
+
+use super::document::criteria::badge;
+use super::document::{Scale, Word, units};
+use super::release::{heading, page};
+use super::render::{Files, RenderError};
+use super::template::render;
+use crate::case::{Case, Design, RecordSource};
+use crate::criteria::Judged;
+use crate::method::Method;
+use crate::quantity::catalogue as of;
+use crate::quantity::{Kind, Quantity};
+use crate::transient::{Measured, RecordQuantity, RecordStudy, Response};
+
+/// Relative change of the displacement that is worth calling one.
+const NOTICEABLE: f64 = 0.02;
+
+/// The files of a report's folder.
+///
+/// # Errors
+/// [`RenderError`] says which part cannot be rendered.
+pub fn files(
+    name: &str,
+    case: &Case,
+    study: &RecordStudy,
+    judged: &[Judged],
+) -> Result<Files, RenderError> {
+    let facts = document(name, case, study, judged);
+    let figures = figure::figures(case, study, &facts);
+    page("record.md", case, facts, figures)
+}
+
+/// What a terminal shows.
+///
+/// # Errors
+/// [`RenderError::Template`] if the template does not fit.
+pub fn text(case: &Case, document: &Value) -> Result<String, RenderError> {
+    render("record.txt", &units(case), document)
+}
+
+/// A report as data. Quantities are in SI.
+pub fn document(name: &str, case: &Case, study: &RecordStudy, judged: &[Judged]) -> Value {
+    let quantities = quantities(case, study);
+    let word = badge(judged).unwrap_or_else(|| word(study));
+    let scale = Scale::of(case);
+    let mut facts = heading(name, case, word, &quantities, judged);
+    facts["verdict"]["headline"] = "record".into();
+    let places = study.realisations.first().map_or(&[][..], |first| &first.places);
+    let place = |(w, found): &(f64, Response)| {
+        json!({
+            "absorber": scale.length(&of::RELATIVE_DISPLACEMENT, *w, Method::Given),
+            "peak": scale.length(&of::PEAK, found.peak, Method::Simulation),
+            "rms": scale.length(&of::RMS, found.rms, Method::Simulation),
+            "impacts": Quantity::new(&of::IMPACT_COUNT, found.impacts as f64, Method::Simulation),
+            "impact_speed": scale.velocity(&of::IMPACT_SPEED, [found.impact_speed, 0.0], Method::Simulation),
+        })
+    };
+    facts["records"] = study.realisations.len().into();
+    // Under the first record.
+    facts["places"] = places.iter().map(place).collect();
+    facts["input"] = input(case, study);
+    facts
+}
+
+/// What drives the structure.
+fn input(case: &Case, study: &RecordStudy) -> Value {
+    let source = case.recording.as_ref().map(|recording| match &recording.source {
+        RecordSource::File { path, read } => {
+            json!({ "file": path, "sha256": read.as_ref().map(|(digest, _)| digest) })
+        }
+        RecordSource::Spectrum(spectrum) => json!({
+            "corners": spectrum.corners,
+            "seed": spectrum.seed,
+        }),
+    });
+    let quantity = case.recording.as_ref().map(|recording| recording.quantity);
+    let kind = match quantity {
+        Some(RecordQuantity::BaseDisplacement) => &of::DISPLACEMENT,
+        Some(RecordQuantity::Force) => &of::FORCE_AMPLITUDE,
+        _ => &of::ACCELERATION,
+    };
+    let peak = study.input_peaks.iter().copied().fold(0.0, f64::max);
+    json!({
+        "source": source,
+        "quantity": quantity.map(RecordQuantity::name),
+        // The largest value of all records.
+        "peak": Quantity::new(kind, peak, Method::Given),
+        "duration": Quantity::new(&of::TIME, study.length.0, Method::Given),
+        "samples": study.length.1,
+    })
+}
+
+fn quantities(case: &Case, study: &RecordStudy) -> Vec<Quantity> {
+    let scale = Scale::of(case);
+    let given = |kind, value| Quantity::new(kind, value, Method::Given);
+    let (simulated, exact) = (Method::Simulation, Method::ClosedForm);
+    let length =
+        |kind: &'static Kind, value: Measured, method| scale.length_with(kind, value, method);
+    let level = |kind: &'static Kind, [value, error]: Measured| {
+        Quantity::new(kind, value, simulated).with_error(error)
+    };
+    let plain = |kind: &'static Kind, value| Quantity::new(kind, value, simulated);
+    let shown = study.shown().map(|(_, worst)| worst);
+    let mut all = vec![
+        scale.length(&of::CLEARANCE, 1.0, Method::Given),
+        given(&of::RESTITUTION, study.system.restitution()),
+        given(&of::MASS_RATIO, study.system.mass_ratio()),
+        length(&of::PEAK, study.worst(|_, place| place.peak), simulated),
+        length(&of::RMS, study.worst(|_, place| place.rms), simulated),
+        length(&of::BARE_PEAK, study.mean(|one| one.bare.peak), exact),
+        length(&of::BARE_RMS, study.mean(|one| one.bare.rms), exact),
+        length(&of::DAMPER_PEAK, study.mean(|one| one.damped.peak), exact),
+        length(&of::DAMPER_RMS, study.mean(|one| one.damped.rms), exact),
+        length(&of::DAMPER_STROKE, study.mean(|one| one.damped.stroke), exact),
+        level(&of::REDUCTION_DB, study.reduction_db(|one| one.bare.peak)),
+        level(&of::REDUCTION_DB_TMD, study.reduction_db(|one| one.damped.peak)),
+        scale.velocity(&of::IMPACT_SPEED, study.worst(|_, place| place.impact_speed), simulated),
+        given(&of::DAMPER_FREQUENCY_RATIO, study.damper.tuning),
+        given(&of::DAMPER_DAMPING_RATIO, study.damper.damping_ratio),
+    ];
+    if let Some(worst) = shown {
+        all.push(plain(&of::IMPACT_COUNT, worst.impacts as f64));
+        all.push(plain(&of::IMPACT_ENERGY_SHARE, worst.impact_loss / worst.work));
+    }
+    if let Design::Physical(physical) = &case.design {
+        all.push(given(&of::ABSORBER_MASS, physical.absorber_mass_kg));
+    }
+    all
+}
+
+/// The answer where there are no criteria.
+fn word(study: &RecordStudy) -> Word {
+    let [peak, _] = study.worst(|one, place| place.peak / one.bare.peak);
+    let [rms, _] = study.worst(|one, place| place.rms / one.bare.rms);
+    match (peak, rms) {
+        (peak, rms) if peak.max(rms) < 1.0 - NOTICEABLE => Word::Works,
+        (peak, rms) if peak.min(rms) < 1.0 - NOTICEABLE => Word::Mixed,
+        (peak, _) if peak > 1.0 + NOTICEABLE => Word::MakesItWorse,
+        _ => Word::DoesNothing,
+    }
+}
