@@ -71,7 +71,7 @@ pub fn driven(system: &System, damper: Option<&TunedMassDamper>, pieces: &[Piece
     let mut of_duration = (0.0, SMatrix::<f64, 6, 6>::identity());
     for piece in pieces {
         meter.jump(piece, &mut state);
-        if of_duration.0 != piece.duration {
+        if (of_duration.0 - piece.duration).abs() > SAME * piece.duration {
             let mut rates = SMatrix::<f64, 6, 6>::zeros();
             rates.fixed_view_mut::<4, 4>(0, 0).copy_from(&matrix(system, damper));
             // The force acts on the structure, that of a base which shakes on both masses; and it grows.
@@ -92,6 +92,9 @@ pub fn driven(system: &System, damper: Option<&TunedMassDamper>, pieces: &[Piece
     }
     meter.finished()
 }
+
+/// Relative difference of steps that are one: even times of a record are rounded.
+const SAME: f64 = 1e-12;
 
 /// Oscillations that a structure stays below a level before it counts as calm: a damper may give energy back.
 const BEAT: u32 = 20;

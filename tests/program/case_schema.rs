@@ -53,6 +53,14 @@ fn holds(keyword: &str, expected: &Value, schema: &Value, value: &Value) -> bool
             other => panic!("unknown type {other}"),
         },
         "const" => value == expected,
+        "dependentRequired" => {
+            let has = |key: &str| value.get(key).is_some();
+            let all = |keys: &Value| {
+                keys.as_array().expect("a list").iter().all(|key| has(key.as_str().expect("a key")))
+            };
+            let mut each = expected.as_object().expect("an object").iter();
+            each.all(|(key, needed)| !has(key) || all(needed))
+        }
         "enum" => list().contains(value),
         "pattern" => {
             let pattern = Regex::new(expected.as_str().expect("text")).expect("a pattern");

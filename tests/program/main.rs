@@ -26,6 +26,7 @@ mod layers;
 mod optimize;
 mod paper;
 mod readers;
+mod record;
 mod report;
 #[cfg(unix)]
 mod review;

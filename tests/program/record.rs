@@ -1,0 +1,156 @@
+//! A case that a record drives: its commands, and what is said of a record that is wrong.
+
+use std::fs;
+use std::process::Output;
+
+use assert_cmd::Command;
+use serde_json::Value;
+use tempfile::TempDir;
+use vinesink::case::{Case, CaseError};
+
+const CASE: &str = include_str!("../../cases/tower-record.toml");
+const HEAD: &str = "time (s),acceleration (m/s²)\n";
+
+/// Half a second of a sine at a second each, after which the structure swings on.
+fn short() -> String {
+    let value = |k: u32| (0.5 * f64::from(k)).sin();
+    (0..=24).map(|k| format!("{:.2},{:.4}\n", 0.2 * f64::from(k), value(k))).collect()
+}
+
+fn vinesink(folder: &TempDir, arguments: &[&str]) -> Output {
+    let mut command = Command::cargo_bin("vinesink").expect("the program");
+    command.current_dir(folder.path()).args(arguments).output().expect("it runs")
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).expect("UTF-8")
+}
+
+fn of_case(record: Option<&str>, case: &str) -> TempDir {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    fs::write(folder.path().join("tower.toml"), case).expect("written");
+    if let Some(record) = record {
+        fs::write(folder.path().join("tower-record.csv"), record).expect("written");
+    }
+    folder
+}
+
+#[test]
+fn simulate_check_and_report_answer_and_others_say_why_not() {
+    let folder = of_case(Some(&format!("{HEAD}{}", short())), CASE);
+    let run = |arguments: &[&str]| {
+        let output = vinesink(&folder, arguments);
+        (output.status.code(), text(&output.stdout), text(&output.stderr))
+    };
+    let (code, printed, said) = run(&["simulate", "tower.toml", "--format", "json"]);
+    assert_eq!((code, said.as_str()), (Some(0), ""));
+    let printed: Value = serde_json::from_str(&printed).expect("JSON");
+    let number = |id: &str| printed["quantities"][id]["value"].as_f64().expect("a number");
+    // With and without, the same peak but for what a mass of 3 % can do within two swings.
+    assert!((number("peak_displacement") / number("bare_peak") - 1.0).abs() < 0.2);
+    let (code, printed, _) = run(&["check", "tower.toml"]);
+    assert!(code == Some(0) && printed.contains("impact velocity"), "{printed}");
+    let (code, ..) = run(&["report", "tower.toml", "--out", "out"]);
+    assert_eq!(code, Some(0));
+    let read = |name: &str| fs::read_to_string(folder.path().join("out/tower").join(name));
+    let page = read("report.md").expect("a page");
+    assert!(page.contains("> **HOLDS.** The structure moves by at most"), "{page}");
+    for periodic in ["Z3", "orbit", "per period", "excitation frequency"] {
+        assert!(!page.contains(periodic), "{periodic}");
+    }
+    for drawing in ["history", "response-spectrum"] {
+        assert!(read(&format!("figures/{drawing}.svg")).expect("a figure").contains("</svg>"));
+    }
+    assert_eq!(run(&["report", "tower.toml", "--out", "out", "--check"]).0, Some(0));
+    for command in ["analyze", "optimize", "tradeoff"] {
+        let (code, printed, said) = run(&[command, "tower.toml"]);
+        assert_eq!((code, printed.as_str()), (Some(2), ""), "{command}");
+        assert!(said.contains("record") || said.contains("steadily"), "{command}: {said}");
+    }
+}
+
+#[test]
+fn a_spectrum_is_told_with_its_scatter() {
+    let noise =
+        "spectrum = [[0.2, 0.02], [1.0, 0.02]]\nduration = \"20 s\"\nseed = 3\nrealisations = 3\n";
+    let case = CASE.replace(
+        "file = \"tower-record.csv\"     # beside this file: time and acceleration\n",
+        noise,
+    );
+    let case = case.replace("[criteria]", "[simulation]\nstarts = 4\n\n[criteria]");
+    let folder = of_case(None, &case);
+    let run = || vinesink(&folder, &["simulate", "tower.toml", "--format", "json"]);
+    let output = run();
+    assert_eq!(text(&output.stderr), "");
+    let printed: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let peak = &printed["quantities"]["bare_peak"];
+    assert!(
+        peak["error"].as_f64() > Some(0.01 * peak["value"].as_f64().expect("a number")),
+        "{peak}"
+    );
+    assert_eq!(run().stdout, output.stdout);
+}
+
+#[test]
+fn a_record_that_is_wrong_is_shown_where_it_is() {
+    let none = vinesink(&of_case(None, CASE), &["simulate", "tower.toml"]);
+    let said = text(&none.stderr);
+    assert_eq!(none.status.code(), Some(2));
+    assert!(said.contains("tower.toml") && said.contains("tower-record.csv"), "{said}");
+    let refused = |record: &str| -> CaseError {
+        let case = Case::parse("tower.toml", CASE).expect("a case");
+        case.with_record("tower-record.csv", record).expect_err("wrong")
+    };
+    let good = format!("{HEAD}{}", short());
+    for (from, to, line, words) in [
+        ("0.40,", "0.40;", 4, "does not have two values"),
+        ("0.40,0.8415", "0.40,high", 4, "\"high\" is no number"),
+        ("0.40,", "0.20,", 4, "do not ascend"),
+        ("(m/s²)", "(mm)", 1, "`mm` is the unit of a length"),
+        ("(m/s²)", "", 1, "has no unit"),
+        ("(m/s²)", "(m/ss)", 1, "unknown unit `m/ss`"),
+        ("time (s)", "time (Hz)", 1, "`Hz` is the unit of a frequency"),
+        ("time (s),", "", 1, "does not name two columns"),
+    ] {
+        assert!(good.contains(from), "{from}");
+        let error = refused(&good.replacen(from, to, 1));
+        let problems: Vec<_> = error.problems().collect();
+        let [problem] = problems.as_slice() else { panic!("{to}: {problems:?}") };
+        assert_eq!((error.name(), problem.line), ("tower-record.csv", line), "{to}");
+        assert!(problem.message.contains(words), "{to}: {}", problem.message);
+    }
+    assert!(refused("").problems().count() == 1 && refused(HEAD).problems().count() == 1);
+    // Who took the wrong file is not told of every line.
+    assert_eq!(refused(&format!("{HEAD}{}", "a,b\n".repeat(90))).problems().count(), 5);
+    // Units are converted, comments and blank lines passed over.
+    let read = |record: &str| {
+        let case = Case::parse("tower.toml", CASE).expect("a case");
+        let case = case.with_record("record.csv", record).expect("a record");
+        case.recording.expect("recorded").records()[0].samples.clone()
+    };
+    let read = read("\u{feff}# a comment\n\ntime (ms), acceleration (g)\r\n0,1\r\n5, -2e-1\r\n");
+    assert_eq!(read, [[0.0, 9.80665], [0.005, -0.2 * 9.80665]]);
+}
+
+#[test]
+fn what_does_not_go_with_a_record_is_refused() {
+    let file = "file = \"tower-record.csv\"";
+    for (from, to, words) in [
+        (file, "file = \"a.csv\"\nseed = 1", "`seed` has no meaning beside `file`"),
+        (file, "spectrum = [[1, 1], [2, 1]]\nseed = 1", "`duration` is missing"),
+        (file, "", "`file` or `spectrum` is missing"),
+        (file, "file = \"a.csv\"\nspectrum = [[1, 1], [2, 1]]", "say the same thing twice"),
+        (file, "spectrum = [[2, 1], [1, 1]]\nseed = 1\nduration = \"60 s\"", "do not rise"),
+        (file, "spectrum = [[1, 1], [2, 1]]\nseed = 1\nduration = \"2 s\"", "has 3 lines"),
+        (file, "spectrum = [[1, 1], [1e12, 1]]\nseed = 1\nduration = \"9 s\"", "samples together"),
+        (file, "file = \"a.csv\"\nfrequency = \"2 Hz\"", "`frequency` has no meaning"),
+        ("rms_displacement = \"<= 55 mm\"", "z3_share = \">= 80 %\"", "driven by a record"),
+        ("[criteria]", "[band]\nover = \"frequency\"\n[criteria]", "[band] has no meaning"),
+        ("[criteria]", "[optimize]\n[criteria]", "[optimize] has no meaning"),
+    ] {
+        assert!(CASE.contains(from), "{from}");
+        let error = Case::parse("tower.toml", &CASE.replacen(from, to, 1)).expect_err(to);
+        let messages: Vec<&str> = error.problems().map(|one| one.message.as_str()).collect();
+        assert!(messages.iter().any(|message| message.contains(words)), "{to}: {messages:?}");
+    }
+}
