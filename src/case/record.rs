@@ -100,9 +100,9 @@ impl RecordQuantity {
 const MOST_PROBLEMS: usize = 5;
 
 /// A problem with a part of the text.
-fn problem(text: &str, part: &str, message: String, expected: &str, help: &str) -> Problem {
+fn problem(text: &str, part: &str, message: String, expected: &str, help: &str) -> Box<Problem> {
     let start = part.as_ptr() as usize - text.as_ptr() as usize;
-    Problem::new(text, start..start + part.len(), message, expected).help(help)
+    Box::new(Problem::new(text, start..start + part.len(), message, expected).help(help))
 }
 
 /// The two cells of a line.
@@ -118,7 +118,7 @@ fn samples(text: &str, quantity: RecordQuantity) -> Result<Vec<[f64; 2]>, Vec<Pr
     let help = format!("begin the file with {}", quantity.head());
     let Some((time, value)) = cells(head) else {
         let message = "the head of the record does not name two columns".to_owned();
-        return Err(vec![problem(text, head, message, "expected time and value", &help)]);
+        return Err(vec![*problem(text, head, message, "expected time and value", &help)]);
     };
     let unit = |dimension: Dimension, column: &'static str, cell| {
         let wrong = |(what, accepted): (String, String)| {
@@ -131,13 +131,15 @@ fn samples(text: &str, quantity: RecordQuantity) -> Result<Vec<[f64; 2]>, Vec<Pr
     let units =
         match (unit(Dimension::Time, "time", time), unit(quantity.dimension(), "value", value)) {
             (Ok(time), Ok(value)) => [time, value],
-            (time, value) => return Err(time.err().into_iter().chain(value.err()).collect()),
+            (time, value) => {
+                return Err(time.err().into_iter().chain(value.err()).map(|one| *one).collect());
+            }
         };
     let (mut samples, mut problems): (Vec<[f64; 2]>, Vec<Problem>) = (Vec::new(), Vec::new());
     for line in lines {
         match sample(text, line, units, samples.last()) {
             Ok(sample) => samples.push(sample),
-            Err(found) => problems.push(found),
+            Err(found) => problems.push(*found),
         }
         if problems.len() >= MOST_PROBLEMS {
             break;
@@ -145,7 +147,7 @@ fn samples(text: &str, quantity: RecordQuantity) -> Result<Vec<[f64; 2]>, Vec<Pr
     }
     if problems.is_empty() && samples.len() < 2 {
         let message = "the record has fewer than two samples".to_owned();
-        problems.push(problem(text, head, message, "expected at least two lines below", &help));
+        problems.push(*problem(text, head, message, "expected at least two lines below", &help));
     }
     if problems.is_empty() { Ok(samples) } else { Err(problems) }
 }
@@ -156,7 +158,7 @@ fn sample(
     line: &str,
     units: [&Unit; 2],
     last: Option<&[f64; 2]>,
-) -> Result<[f64; 2], Problem> {
+) -> Result<[f64; 2], Box<Problem>> {
     let Some((time, value)) = cells(line) else {
         let message = "a line of the record does not have two values".to_owned();
         let help = "separate two numbers by a comma; the decimal point is a point";

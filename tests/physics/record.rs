@@ -43,8 +43,8 @@ fn record(quantity: RecordQuantity, step: f64, count: u32, value: impl Fn(f64) -
 /// A few swings of several frequencies, which grow and fade.
 fn quake(tau: f64) -> f64 {
     let swings = [(0.31, 0.2), (0.83, 1.1), (1.02, 0.4), (1.9, 2.0), (3.3, 0.9)];
-    let sum: f64 = swings.iter().map(|(rate, phase)| (rate * tau + phase).sin()).sum();
-    sum * 0.25 * tau * (-tau / 12.0).exp()
+    let sum: f64 = swings.iter().map(|(rate, phase)| libm::sin(rate * tau + phase)).sum();
+    sum * 0.25 * tau * libm::exp(-tau / 12.0)
 }
 
 const WALLS: System3 = System3 { eps: 0.05, lambda: 0.4, r: 0.6 };
@@ -235,14 +235,16 @@ fn a_sudden_force_swings_to_twice_its_displacement() {
         None,
         &record.pieces(&UNITS, Record::LONGEST),
     );
-    let exact = 0.3 * (1.0 + (-PI * zeta / (1.0 - zeta * zeta).sqrt()).exp());
+    let exact = 0.3 * (1.0 + libm::exp(-PI * zeta / (1.0 - zeta * zeta).sqrt()));
     assert!((found.peak / exact - 1.0).abs() < 5e-6, "{} {exact}", found.peak);
     // The mean square of the same over 14, from its antiderivative by Simpson's rule.
     let nu = (1.0 - zeta * zeta).sqrt();
-    let x =
-        |t: f64| 0.3 * (1.0 - (-zeta * t).exp() * ((nu * t).cos() + zeta / nu * (nu * t).sin()));
+    let x = |t: f64| {
+        0.3 * (1.0 - libm::exp(-zeta * t) * (libm::cos(nu * t) + zeta / nu * libm::sin(nu * t)))
+    };
     let weight = |k: u32| if k == 0 || k == 2000 { 1.0 } else { f64::from(2 + 2 * (k % 2)) };
-    let square: f64 = (0..=2000).map(|k| weight(k) * x(0.007 * f64::from(k)).powi(2)).sum();
+    let squared = |t: f64| x(t) * x(t);
+    let square: f64 = (0..=2000).map(|k| weight(k) * squared(0.007 * f64::from(k))).sum();
     let rms = (square * 0.007 / 3.0 / 14.0).sqrt();
     assert!((found.rms / rms - 1.0).abs() < 5e-6, "{} {rms}", found.rms);
 }
@@ -254,7 +256,7 @@ fn a_sampled_sine_is_the_harmonic_drive() {
     let (omega, amplitude, periods, samples) = (0.97, 0.6, 6, 400);
     let period = TAU / omega;
     let part = PI / f64::from(samples);
-    let kept = (part.sin() / part).powi(2);
+    let kept = libm::sin(part) / part * (libm::sin(part) / part);
     let eps = 0.05;
     for excitation in [Excitation::Force, Excitation::BaseDisplacement] {
         let base = excitation == Excitation::BaseDisplacement;
@@ -278,7 +280,7 @@ fn a_sampled_sine_is_the_harmonic_drive() {
         };
         let step = period / f64::from(samples);
         let count = samples * u32::try_from(periods).expect("few");
-        let record = record(quantity, step, count, |t| factor * amplitude * (omega * t).sin());
+        let record = record(quantity, step, count, |t| factor * amplitude * libm::sin(omega * t));
         let found = follow(&WALLS.system(), &record.pieces(&UNITS, Record::LONGEST), 0.2);
         let found = found.expect("followed");
         assert_eq!(found.impacts, simulation.impacts());
@@ -322,8 +324,8 @@ fn shorter_pieces_change_nothing_and_no_energy_is_lost() {
 #[test]
 fn acceleration_and_displacement_say_the_same() {
     let (rate, height) = (0.9, 1.5);
-    let shift = |t: f64| height * (1.0 - (rate * t).cos());
-    let push = |t: f64| height * rate * rate * (rate * t).cos();
+    let shift = |t: f64| height * (1.0 - libm::cos(rate * t));
+    let push = |t: f64| height * rate * rate * libm::cos(rate * t);
     let of = WALLS.system();
     let flown = |record: Record| {
         follow(&of, &record.pieces(&UNITS, Record::LONGEST), 0.3).expect("followed")
@@ -362,7 +364,8 @@ fn noise_of_a_spectrum_shakes_as_it_must() {
     for (found, exact) in [(&inputs, 0.3 * 0.99), (&squares, 0.3 / (8.0 * zeta) * built_up)] {
         let count = found.len() as f64;
         let mean = found.iter().sum::<f64>() / count;
-        let scatter = found.iter().map(|one| (one - mean).powi(2)).sum::<f64>() / (count - 1.0);
+        let scatter =
+            found.iter().map(|one| (one - mean) * (one - mean)).sum::<f64>() / (count - 1.0);
         let error = 3.0 * (scatter / count).sqrt();
         assert!(error < 0.1 * exact, "{error} {exact}");
         assert!((mean - exact).abs() < error + 0.02 * exact, "{mean} {exact} {error}");
@@ -400,7 +403,7 @@ fn the_worst_place_counts() {
     let own = study.spectrum.iter().find(|point| point.ratio == 1.0).expect("its own frequency");
     assert_eq!((own.bare, own.absorber), (bare, worst[0]));
     let reduction = study.reduction_db(|one| one.bare.peak)[0];
-    assert!((reduction - 20.0 * (bare / worst[0]).log10()).abs() < 1e-12);
+    assert!((reduction - 20.0 * libm::log10(bare / worst[0])).abs() < 1e-12);
     // Twice as stiff a structure in the same units of SI: time runs sqrt(2) times as fast.
     let stiff = Scales { natural_frequency: study.spectrum[20].ratio, ..UNITS };
     let stiff = driven(&of, None, &record.pieces(&stiff, Record::LONGEST)).peak;

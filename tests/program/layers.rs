@@ -40,6 +40,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "simulation",
             "study",
             "system",
+            "transient",
             "validation",
         ],
     ),
@@ -96,7 +97,22 @@ const ROOMS: &[(&str, &[&str])] = &[
             "validation",
         ],
     ),
-    ("case", &["digest", "names", "numerics", "quantity", "system"]),
+    ("case", &["digest", "names", "numerics", "quantity", "system", "transient"]),
+    (
+        "transient",
+        &[
+            "analysis",
+            "band",
+            "case",
+            "dissipation",
+            "executor",
+            "method",
+            "names",
+            "numerics",
+            "simulation",
+            "system",
+        ],
+    ),
     (
         "optimize",
         &[
@@ -135,6 +151,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "sweep",
             "symbolic",
             "system",
+            "transient",
             "validation",
         ],
     ),
@@ -158,7 +175,7 @@ const ROOMS: &[(&str, &[&str])] = &[
 
 /// Rooms in which there is physics and nothing else: no files, no clock, no printing, no threads, no
 /// randomness.
-const PURE: [&str; 22] = [
+const PURE: [&str; 23] = [
     "analysis",
     "band",
     "bifurcation",
@@ -180,6 +197,7 @@ const PURE: [&str; 22] = [
     "symbolic",
     "system",
     "operation_count",
+    "transient",
     "validation",
 ];
 
