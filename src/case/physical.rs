@@ -97,7 +97,7 @@ pub(super) struct ExcitationTable {
     #[schemars(extend("x-measurand" = "a time", "exclusiveMinimum" = 0, "x-symbol" = "T"), example = "60 s")]
     pub(super) duration: Option<f64>,
     /// What the random numbers of a spectrum begin with: the same seed gives the same records.
-    #[schemars(range(min = 0, max = 1_000_000_000), example = 1)]
+    #[schemars(range(min = 0, max = 1_000_000_000), extend("x-symbol" = r"\mathrm{seed}"), example = 1)]
     pub(super) seed: Option<u64>,
     /// How many records are made of a spectrum, 20 unless given.
     #[schemars(range(min = 2, max = 1000), extend("x-symbol" = r"N_\mathrm{records}"), example = 20)]

@@ -198,6 +198,9 @@ catalogue! {
     INITIAL_AMPLITUDE = "initial_amplitude", "", "amplitude at the start", Length, Significant(3), Interval;
     IMPACT_ENERGY_SHARE = "impact_energy_share", "", "share of the energy that impacts take", Share, Significant(2), Interval;
     IMPACT_COUNT = "impact_count", "", "number of impacts", Count, Decimals(0), Interval;
+    LARGEST_RMS = "largest_rms", "", "largest rms displacement", Length, Significant(3), Bound;
+    MEAN_PEAK = "mean_peak", "", "mean peak displacement", Length, Significant(3), Interval;
+    MEAN_IMPACT_SPEED = "mean_impact_speed", "", "mean of the largest impact speeds", Velocity, Significant(3), Interval;
     BARE_RMS = "bare_rms", "", "rms displacement without absorber", Length, Significant(3), Interval;
     DAMPER_RMS = "damper_rms", "", "rms displacement with a tuned mass damper", Length, Significant(3), Interval;
     STRUCTURE_FREQUENCY = "structure_frequency", "f₀", "natural frequency of the structure", Frequency, Significant(4), Interval;

@@ -62,10 +62,11 @@ pub struct RecordStudy {
 /// Places of the absorber under one record, and under each of several, unless the case says how many.
 const PLACES: u64 = 32;
 const PLACES_OF_MANY: u64 = 8;
-/// The response spectrum: frequencies, the furthest over the structure's own, places, and the most records.
+/// The response spectrum: frequencies, the furthest over the structure's own, places times records, and the most
+/// records.
 const FREQUENCIES: u32 = 31;
 const FURTHEST: f64 = 4.0;
-const PLACES_OF_SPECTRUM: u64 = 8;
+const FLIGHTS_OF_SPECTRUM: usize = 8;
 const RECORDS_OF_SPECTRUM: usize = 4;
 
 impl RecordStudy {
@@ -198,12 +199,13 @@ fn spectrum_point(
     let scales = Scales { natural_frequency: ratio * scales.natural_frequency, ..*scales };
     let damper = TunedMassDamper::den_hartog(system.mass_ratio());
     let records = &records[..records.len().min(RECORDS_OF_SPECTRUM)];
+    let places = (FLIGHTS_OF_SPECTRUM / records.len()) as u64;
     let mut sums = [0.0; 3];
     for record in records {
         let pieces = record.pieces(&scales, Record::LONGEST);
         let mut worst = 0.0_f64;
-        for k in 0..PLACES_OF_SPECTRUM {
-            worst = worst.max(follow(system, &pieces, place(k, PLACES_OF_SPECTRUM))?.peak);
+        for k in 0..places {
+            worst = worst.max(follow(system, &pieces, place(k, places))?.peak);
         }
         let linear = |damper| driven(system, damper, &pieces).peak;
         for (sum, peak) in sums.iter_mut().zip([linear(None), worst, linear(Some(&damper))]) {

@@ -60,6 +60,8 @@ pub fn document(name: &str, case: &Case, study: &RecordStudy, judged: &[Judged])
             "impact_speed": scale.velocity(&of::IMPACT_SPEED, [found.impact_speed, 0.0], Method::Simulation),
         })
     };
+    let [peak, rms, speed] = worst(&scale, study).map(|one| json!(one));
+    (facts["peak"], facts["rms"], facts["impact_speed"]) = (peak, rms, speed);
     facts["records"] = study.realisations.len().into();
     // Under the first record.
     facts["places"] = places.iter().map(place).collect();
@@ -95,6 +97,20 @@ fn input(case: &Case, study: &RecordStudy) -> Value {
     })
 }
 
+/// Peak, rms and impact speed from the worst place: of one record bounds, of several means.
+fn worst(scale: &Scale, study: &RecordStudy) -> [Quantity; 3] {
+    let kinds = match study.realisations.len() {
+        1 => [&of::PEAK, &of::LARGEST_RMS, &of::IMPACT_SPEED],
+        _ => [&of::MEAN_PEAK, &of::RMS, &of::MEAN_IMPACT_SPEED],
+    };
+    let simulated = Method::Simulation;
+    [
+        scale.length_with(kinds[0], study.worst(|_, place| place.peak), simulated),
+        scale.length_with(kinds[1], study.worst(|_, place| place.rms), simulated),
+        scale.velocity(kinds[2], study.worst(|_, place| place.impact_speed), simulated),
+    ]
+}
+
 fn quantities(case: &Case, study: &RecordStudy) -> Vec<Quantity> {
     let scale = Scale::of(case);
     let given = |kind, value| Quantity::new(kind, value, Method::Given);
@@ -106,12 +122,11 @@ fn quantities(case: &Case, study: &RecordStudy) -> Vec<Quantity> {
     };
     let plain = |kind: &'static Kind, value| Quantity::new(kind, value, simulated);
     let shown = study.shown().map(|(_, worst)| worst);
-    let mut all = vec![
+    let mut all = worst(&scale, study).to_vec();
+    all.extend([
         scale.length(&of::CLEARANCE, 1.0, Method::Given),
         given(&of::RESTITUTION, study.system.restitution()),
         given(&of::MASS_RATIO, study.system.mass_ratio()),
-        length(&of::PEAK, study.worst(|_, place| place.peak), simulated),
-        length(&of::RMS, study.worst(|_, place| place.rms), simulated),
         length(&of::BARE_PEAK, study.mean(|one| one.bare.peak), exact),
         length(&of::BARE_RMS, study.mean(|one| one.bare.rms), exact),
         length(&of::DAMPER_PEAK, study.mean(|one| one.damped.peak), exact),
@@ -119,10 +134,9 @@ fn quantities(case: &Case, study: &RecordStudy) -> Vec<Quantity> {
         length(&of::DAMPER_STROKE, study.mean(|one| one.damped.stroke), exact),
         level(&of::REDUCTION_DB, study.reduction_db(|one| one.bare.peak)),
         level(&of::REDUCTION_DB_TMD, study.reduction_db(|one| one.damped.peak)),
-        scale.velocity(&of::IMPACT_SPEED, study.worst(|_, place| place.impact_speed), simulated),
         given(&of::DAMPER_FREQUENCY_RATIO, study.damper.tuning),
         given(&of::DAMPER_DAMPING_RATIO, study.damper.damping_ratio),
-    ];
+    ]);
     if let Some(worst) = shown {
         all.push(plain(&of::IMPACT_COUNT, worst.impacts as f64));
         all.push(plain(&of::IMPACT_ENERGY_SHARE, worst.impact_loss / worst.work));
