@@ -86,9 +86,11 @@ impl Point {
             }
             let found =
                 classify(measured.statistics(), &log.impacts, None, TAU).evidence.periodicity;
-            let enough = round >= ROUNDS[0] && measured.statistics().impacts() >= IMPACTS;
-            let repeats = found.is_some_and(|found| found.closure <= REPEATED);
-            if enough || repeats || round == ROUNDS[1] {
+            let enough = match found {
+                Some(found) => found.closure <= REPEATED,
+                None => round >= ROUNDS[0] && measured.statistics().impacts() >= IMPACTS,
+            };
+            if enough || round == ROUNDS[1] {
                 break;
             }
         }
@@ -103,8 +105,11 @@ impl Point {
         let periodicity = named.evidence.periodicity;
         let (averages, errors) = match periodicity {
             Some(found) => {
-                // What a transient has left is seen from some repetitions back.
-                let back = (records.len() / 2).next_multiple_of(found.periods as usize);
+                // What a transient has left is seen from some repetitions back, where any is left.
+                let ended = found.closure <= REPEATED;
+                let back = if ended { 0 } else { records.len() / 2 };
+                let back =
+                    back.next_multiple_of(found.periods as usize).max(found.periods as usize);
                 let earlier = &records[..records.len().saturating_sub(back)];
                 let averages = averages(found.last(records));
                 let before = self::averages(found.last(earlier));

@@ -200,6 +200,51 @@ fn motions_of_two_and_three_impacts_coexist() {
     assert!(at(&CURVE, 0.9).len() == 1 && at(&CURVE, 1.15).len() == 1);
 }
 
+/// Elastic impacts forget nothing and take nothing: averages depend on the start, and there is no curve beyond the
+/// closed form. At the largest restitution of which motions are followed, what does not repeat is one motion.
+#[test]
+fn elastic_impacts_have_no_curve_because_averages_depend_on_the_start() {
+    const C: f64 = 2.2;
+    let starts = [[0.3, 1.4], [-0.8, -0.6], [0.1, 0.5], [-0.3, -2.0], [0.0, 3.2], [-0.6, 4.0]];
+    // The largest difference of K, over what both averages are known to.
+    let apart = |restitution: f64| {
+        let found: Vec<Point> = starts
+            .iter()
+            .filter_map(|[w, speed]| Point::measured(restitution, C, [*w, speed * C]))
+            .filter(|point| point.repeats_after.is_none())
+            .collect();
+        assert!(found.len() > 3, "{found:?}");
+        if restitution == 1.0 {
+            // Energy that is not lost is not taken; what an average of some thousand impacts leaves of that.
+            assert!(found.iter().all(|point| point.resistance.abs() < 5e-3), "{found:?}");
+        }
+        let pairs = found.iter().flat_map(|a| found.iter().map(move |b| (a, b)));
+        let pairs =
+            pairs.map(|(a, b)| (a.reactance - b.reactance).abs() / (a.errors[1] + b.errors[1]));
+        pairs.fold(0.0, f64::max)
+    };
+    let [elastic, almost] = [1.0, 0.995].map(apart);
+    assert!(elastic > 3.0 && almost < 1.5, "{elastic} {almost}");
+    for restitution in [1.0, 0.999] {
+        let curve = DissipationCurve::of(restitution, [0.1, 3.2]);
+        assert!(curve.depends_on_start && curve.branches.len() == 2, "{}", curve.branches.len());
+        assert!(curve.branches[0].points.iter().all(|point| point.regime == Regime::AtRest));
+        assert!(curve.branches[1].closed_form);
+    }
+    assert!(!CURVE.depends_on_start);
+    let curve = DissipationCurve::of(1.0, [0.1, 3.2]);
+    assert!(curve.branches[1].points.iter().all(|point| point.resistance == 0.0));
+}
+
+/// Motions that repeat are followed until nothing of the transient is left, also where chaos comes before.
+#[test]
+fn averages_of_motions_that_repeat_are_known_to_rounding() {
+    for start in [[0.3, 1.4], [0.7, 2.5], [-0.3, -2.0], [-0.6, 4.0]] {
+        let found = Point::measured(0.95, 3.0, [start[0], 3.0 * start[1]]).expect("a motion");
+        assert!(found.repeats_after.is_some() && found.errors[1] < 1e-9, "{found:?}");
+    }
+}
+
 /// Trace and determinant are those of the rates (18) differentiated numerically, and on the closed form those of
 /// the theory of two impacts.
 #[test]
