@@ -108,8 +108,9 @@ impl DissipationCurve {
 
 /// The absorber at rest in the middle, which no wall reaches.
 fn at_rest() -> Branch {
-    let point = |amplitude| Point::still(amplitude);
-    Branch { points: vec![point(0.0), point(1.0)], closed_form: false }
+    let count = (1.0 / STEP).round() as u32;
+    let points = (0..=count).map(|k| Point::still(f64::from(k) / f64::from(count)));
+    Branch { points: points.collect(), closed_form: false }
 }
 
 /// The manifold's stable branch, as far as its points are motions.

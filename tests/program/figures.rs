@@ -32,7 +32,10 @@ fn changed(changes: &[(&str, &str)]) -> Case {
 }
 
 fn figures(case: &Case) -> Vec<Figure> {
-    let study = CaseStudy::of(&case.system(), QUICK, &mut |_| {}).expect("can be studied");
+    let mut study = CaseStudy::of(&case.system(), QUICK, &mut |_| {}).expect("can be studied");
+    if case.report.figures.contains(&ExtraFigure::Dissipation) {
+        study = study.with_averages().expect("can be averaged");
+    }
     of_study(case, &study)
 }
 

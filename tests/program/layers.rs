@@ -69,6 +69,7 @@ const ROOMS: &[(&str, &[&str])] = &[
         &[
             "analysis",
             "bifurcation",
+            "dissipation",
             "equations",
             "method",
             "numerics",
@@ -85,6 +86,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "band",
             "bifurcation",
             "case",
+            "dissipation",
             "equations",
             "method",
             "numerics",
@@ -123,6 +125,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "bifurcation",
             "case",
             "criteria",
+            "dissipation",
             "equations",
             "method",
             "numerics",
