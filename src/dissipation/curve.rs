@@ -38,7 +38,7 @@ const MOST_ELASTIC: f64 = 0.995;
 /// let ([resistance, reactance], _) = stable.forces(0.5).expect("between fold and symmetry breaking");
 /// assert!((resistance - 0.538).abs() < 1e-3 && (reactance + 1.040).abs() < 1e-3);
 /// // What a designer remembers: the absorber takes half a clearance off the reduced forcing at any amplitude.
-/// let [least, most] = curve.resistance_range([0.4, 1.2]).expect("motions with impacts");
+/// let [least, most] = curve.resistance_range([0.4, 1.2]).expect("motions of two impacts or more");
 /// assert!(least > 0.49 && most < 0.60);
 /// ```
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -93,11 +93,12 @@ impl DissipationCurve {
         Self { restitution, branches, depends_on_start }
     }
 
-    /// The smallest and the largest `S` over a range of amplitudes, of all motions with impacts: what the absorber
-    /// takes off the reduced forcing, over the clearance. None where there are no such motions.
+    /// The smallest and the largest `S` over a range of amplitudes, of all motions with two impacts per period or
+    /// more: what the absorber takes off the reduced forcing, over the clearance. None where there are no such motions.
     pub fn resistance_range(&self, [from, to]: [f64; 2]) -> Option<[f64; 2]> {
+        let captured = [Regime::TwoSymmetric, Regime::TwoAsymmetric, Regime::AboveTwo];
         let moving = self.branches.iter().flat_map(|branch| &branch.points).filter(|point| {
-            point.regime != Regime::AtRest && (from..=to).contains(&point.amplitude)
+            captured.contains(&point.regime) && (from..=to).contains(&point.amplitude)
         });
         moving.map(|point| point.resistance).fold(None, |range: Option<[f64; 2]>, value| {
             let [least, most] = range.unwrap_or([value; 2]);

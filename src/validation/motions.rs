@@ -175,22 +175,25 @@ fn near_boundary(analysis: &Analysis) -> Option<NearBoundary> {
 }
 
 /// Of each simulated motion with impacts that is neither modulated nor a fixed point's, the nearest stable amplitude
-/// of the averaged flow in its regime. The amplitude is that of a sine with the same root mean square.
+/// of the averaged flow in its regime. The amplitude is that of a sine with the same root mean square; there is a claim
+/// where it is within the amplitudes that the flow knows.
 pub fn averaged(
     system: &System,
     states: &[SteadyState],
+    [least, most]: [f64; 2],
     attractors: &[FoundAttractor],
 ) -> Vec<Claim> {
     let tolerance = AVERAGES * asymptotic_error(system);
     let reason = Reason::Averages { says_nothing: tolerance > SAYS_NOTHING };
     let has_amplitude = [Regime::AboveTwo, Regime::TwoAsymmetric, Regime::BelowTwo];
-    let moving = attractors.iter().enumerate();
-    let moving = moving.filter(|(_, found)| has_amplitude.contains(&found.regime()));
-    moving
+    let observed = |found: &FoundAttractor| SQRT_2 * found.attractor.rms;
+    let known = attractors.iter().enumerate().filter(|(_, found)| {
+        has_amplitude.contains(&found.regime()) && (least..=most).contains(&observed(found))
+    });
+    known
         .map(|(index, found)| {
-            let regime = found.regime();
+            let (regime, observed) = (found.regime(), observed(found));
             let statement = Statement::Averaged { motion: index + 1, regime };
-            let observed = SQRT_2 * found.attractor.rms;
             let stable = states.iter().filter(|state| state.stable && state.regime == regime);
             let apart = |state: &SteadyState| (state.amplitude / observed - 1.0).abs();
             match stable.min_by(|a, b| apart(a).total_cmp(&apart(b))) {

@@ -5,10 +5,12 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::sync::LazyLock;
 
 use vinesink::analysis::{Analysis, Manifold};
-use vinesink::dissipation::{AveragedFlow, Branch, DissipationCurve, Point};
+use vinesink::dissipation::{AveragedFlow, Branch, DissipationCurve, Point, SteadyState};
 use vinesink::equations::dissipation as formulas;
 use vinesink::regimes::{Effort, Regime, motions, starts};
+use vinesink::study::{CaseStudy, StudyEffort};
 use vinesink::system::{Excitation, Parameters, State, System};
+use vinesink::validation::{Claim, Finding, Verdict, motions as motions_claims};
 
 use crate::common::{MASS_RATIO, periods_to, slow_amplitudes, table_1};
 
@@ -306,6 +308,72 @@ fn on_the_stable_branch_it_is_the_theory_of_two_impacts() {
         (trace - point.trace).abs() < 1e-8 && (determinant - point.determinant).abs() < 1e-8,
         "{trace} {determinant} {point:?}"
     );
+}
+
+/// A point of the response is a steady amplitude of the system with that detuning, as stable there as here.
+#[test]
+fn the_response_holds_the_steady_amplitudes_of_every_detuning() {
+    let system = table_1(8.35, 11.5);
+    let flow = AveragedFlow::of(&system, &CURVE);
+    let (mut stable, mut unstable) = (0, 0);
+    for branch in &CURVE.branches {
+        for pair in branch.points.windows(2).skip(1).step_by(9) {
+            let mut point = pair[0];
+            if !branch.closed_form {
+                // Within a piece: rounding may put a root at its end into neither of two.
+                point.amplitude = 0.7 * pair[0].amplitude + 0.3 * pair[1].amplitude;
+                [point.resistance, point.reactance] =
+                    branch.forces(point.amplitude).expect("on it").0;
+            }
+            let repeats = pair.iter().all(|point| point.repeats_after.is_some());
+            let repeats = repeats && point.regime != Regime::AtRest;
+            let Some(both) = flow.stability(branch, &point).filter(|_| repeats) else { continue };
+            for (sigma, is_stable) in both {
+                let there = system.with_detuning(sigma).expect("valid");
+                let states = AveragedFlow::of(&there, &CURVE).steady_states().expect("analysable");
+                let apart = |state: &SteadyState| (state.amplitude - point.amplitude).abs();
+                let near = states.iter().filter(|state| state.regime == point.regime);
+                let near = near.min_by(|a, b| apart(a).total_cmp(&apart(b))).expect("a state");
+                // Amplitude and detuning are roots of one equation; half the digits are left where two meet.
+                assert!(apart(near) < 1e-7, "{sigma} {point:?} {near:?}");
+                assert_eq!(near.stable, is_stable, "{sigma} {point:?} {near:?}");
+                if is_stable { stable += 1 } else { unstable += 1 }
+            }
+        }
+    }
+    assert!(stable > 20 && unstable > 0, "{stable} {unstable}");
+}
+
+/// Three impacts per period in simulation are the flow's, and would not be if its amplitude were a tenth off.
+#[test]
+fn a_claim_of_the_averaged_flow_is_confirmed_by_simulation_and_refuted_where_it_is_wrong() {
+    let system = table_1(8.35, 11.5);
+    let effort = StudyEffort { starts: 4, discard: Some(300), periods: 200 };
+    let study = CaseStudy::of(&system, effort, &mut |_| ()).expect("studied");
+    assert!(study.averages.is_none());
+    let study = study.with_averages().expect("analysable");
+    let judged = |claims: &[Claim]| {
+        let mut found = claims.iter().filter(|claim| claim.id.starts_with("averaged-motion-"));
+        let claim = found.next().expect("one").clone();
+        assert!(found.next().is_none());
+        claim
+    };
+    let claim = judged(&study.claims);
+    assert_eq!(claim.verdict, Verdict::Confirmed, "{claim:?}");
+    assert!(claim.difference.expect("a number").abs() < 0.01, "{claim:?}");
+    // Three times 0.77 % of (2 + 1.8) and the detuning.
+    assert!((claim.tolerance - 0.088).abs() < 1e-3, "{claim:?}");
+    let averages = study.averages.expect("asked for");
+    let of = |states: &[SteadyState], range| {
+        motions_claims::averaged(&system, states, range, &study.motions.attractors)
+    };
+    let mut wrong = averages.states.clone();
+    wrong.iter_mut().for_each(|state| state.amplitude *= 1.1);
+    assert_eq!(judged(&of(&wrong, averages.range)).verdict, Verdict::Refuted);
+    let none = judged(&of(&[], averages.range));
+    assert_eq!((none.verdict, none.predicted), (Verdict::Refuted, Finding::NoAmplitude));
+    // What the curve does not reach it says nothing of.
+    assert!(of(&averages.states, [0.1, 0.9]).is_empty());
 }
 
 /// Through four and three impacts per period, chaos, asymmetric and symmetric 1:1 down to the fold.

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use crate::dissipation::SteadyState;
 use crate::quantity::catalogue as of;
-use crate::regimes::Regime;
+use crate::regimes::{FoundAttractor, Regime};
 use crate::report::figure::{
     Color, Dash, Figure, Layer, Layout, Marker, Panel, Role, Shape, Style,
 };
@@ -46,28 +46,36 @@ pub(super) fn figure(scene: &Scene, data: &Dissipation) -> Figure {
 
 /// Amplitudes over the frequency, with those of this case and of its simulated motions.
 fn response(scene: &Scene, data: &Dissipation) -> Panel {
-    let [_, top] = data.averages.range;
+    let [_, most] = data.averages.range;
+    let seen = scene.study.motions.attractors.iter().map(|found| (found, amplitude(found)));
+    let seen: Vec<_> = seen.filter(|(_, amplitude)| *amplitude < most).collect();
+    let held = data.response.values().flatten().map(|at| at[1]);
+    let highest = held.chain(seen.iter().map(|(_, at)| *at)).filter(|value| value.is_finite());
+    let top = 1.08 * highest.fold(0.1, f64::max);
     let kinds = [&of::EXCITATION_FREQUENCY, &of::OSCILLATOR_AMPLITUDE_RATIO];
     let chart = Chart::new(scene, kinds, [data.window, [0.0, top]]);
     let ratio = scene.system().frequency_ratio();
-    let mut panel = chart.panel().with_heading("response: stable parts thick");
+    let mut panel = chart.panel().with_heading("response: unstable parts dashed");
     panel = panel.with(chart.vertical(ratio, Role::Guide));
     panel.layers.extend(layers(&data.response, &chart, false));
     panel.layers.extend(marks(scene, data, &chart, &|state| Some([ratio, state.amplitude])));
-    let seen = scene.study.motions.attractors.iter().filter(|found| found.attractor.rms < top);
-    let seen = seen.map(|found| {
-        let at = [ratio, SQRT_2 * found.attractor.rms];
-        scene.mark(&chart, at, &format!("simulated, {}", found.regime().words()))
+    let seen = seen.into_iter().map(|(found, amplitude)| {
+        scene.mark(&chart, [ratio, amplitude], &format!("simulated, {}", found.regime().words()))
     });
     let cross = Marker::filled(Shape::Cross).sized(8.0);
     panel.with(Layer::marked(cross, Role::Simulation.color(), seen).labelled("simulated"))
+}
+
+/// That of a sine with the same root mean square.
+fn amplitude(found: &FoundAttractor) -> f64 {
+    SQRT_2 * found.attractor.rms
 }
 
 /// From below all values to above them, zero included.
 fn range(looks: &Looks) -> [f64; 2] {
     let values = || looks.values().flatten().map(|at| at[1]).filter(|value| value.is_finite());
     let (low, high) = (values().fold(0.0, f64::min), values().fold(0.0, f64::max));
-    [1.1 * low, (1.1 * high).max(-0.05 * low).max(1e-3)]
+    [1.1 * low, (1.1 * high).max(-0.05 * low).max(0.1)]
 }
 
 /// Lines of what repeats, thick where it is a closed form, and points of what does not; thin and dashed, or hollow,
@@ -88,11 +96,15 @@ fn layers(looks: &Looks, chart: &Chart, named: bool) -> Vec<Layer> {
         let marker = Marker { filled: look.stable, ..marker.sized(3.2) };
         Layer::marked(marker, color, points)
     };
-    let mut last = None;
+    // The longest line of a regime has its name.
+    let longest = |regime: Regime| {
+        let alike = looks.iter().filter(|(look, _)| look.regime() == regime);
+        alike.max_by_key(|(_, line)| line.len()).map(|(look, _)| look)
+    };
     let named = |(look, line): (&Look, &Line)| {
         let (regime, layer) = (look.regime(), layer(look, line));
-        let first = last.replace(regime) != Some(regime);
-        if named && first { layer.labelled(regime.short()) } else { layer }
+        let named = named && longest(regime) == Some(look);
+        if named { layer.labelled(regime.short()) } else { layer }
     };
     looks.iter().map(named).collect()
 }
