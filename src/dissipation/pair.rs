@@ -9,6 +9,7 @@ use std::f64::consts::TAU;
 use serde::Serialize;
 
 use crate::numerics::scatter::twice_standard_error;
+use crate::operation_count;
 use crate::regimes::{Regime, classify};
 use crate::simulation::{ImpactLog, Measurement, PeriodRecord, Simulation, Statistics, Stop};
 use crate::system::{Excitation, Parameters, State, System};
@@ -82,6 +83,7 @@ impl Point {
         for round in 1.. {
             let stop = simulation.run(ROUND, ROUND * MOST_IMPACTS, &mut (&mut measured, &mut log));
             if stop != Stop::EndTime {
+                operation_count::note(simulation.operations());
                 return None;
             }
             let found =
@@ -94,6 +96,7 @@ impl Point {
                 break;
             }
         }
+        operation_count::note(simulation.operations());
         let State { x, y, y_velocity, .. } = simulation.state();
         let state = [(x - y).clamp(-1.0, 1.0), y_velocity];
         Some(Self { state, ..Self::of(amplitude, measured.statistics(), &log) })

@@ -63,7 +63,18 @@ const ROOMS: &[(&str, &[&str])] = &[
         ],
     ),
     ("regimes", &["numerics", "orbits", "simulation", "system", "operation_count"]),
-    ("dissipation", &["analysis", "equations", "numerics", "regimes", "simulation", "system"]),
+    (
+        "dissipation",
+        &[
+            "analysis",
+            "equations",
+            "numerics",
+            "operation_count",
+            "regimes",
+            "simulation",
+            "system",
+        ],
+    ),
     (
         "validation",
         &[
