@@ -84,8 +84,11 @@ impl Dissipation {
     }
 }
 
-/// What is drawn of a branch: where a point of it lies, and whether it is stable there.
-fn draw(branch: &Branch, place: &dyn Fn(&Point) -> Option<([f64; 2], bool)>, drawn: &mut Looks) {
+/// Where a point lies, and whether it is stable there.
+type Place<'a> = &'a dyn Fn(&Point) -> Option<([f64; 2], bool)>;
+
+/// What is drawn of a branch.
+fn draw(branch: &Branch, place: Place, drawn: &mut Looks) {
     let known = |point: &Point| match (branch.closed_form, point.repeats_after) {
         (true, _) => Known::ClosedForm,
         (false, Some(_)) => Known::Repeating,
