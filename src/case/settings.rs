@@ -47,6 +47,9 @@ names! { name:
         Modulation = "modulation",
         /// The manifold, and what it takes from the oscillator, for five restitutions (Fig. 9).
         Restitutions = "restitutions",
+        /// What the absorber takes at any amplitude of the oscillator, in every regime, and the frequency response
+        /// that follows; with it the report holds the steady amplitudes of the averaged flow against simulation.
+        Dissipation = "dissipation",
         /// What simulation finds at many clearances, on the manifold and by its peak (Figs. 11g and 4).
         Clearances = "clearances",
         /// The amplitudes C and E of (17) in every period, in captures and between them (section 4.2).

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use miette::{IntoDiagnostic, Result, miette};
 use vinesink::band::{Survey, SurveySettings};
-use vinesink::case::Case;
+use vinesink::case::{Case, ExtraFigure};
 use vinesink::criteria;
 use vinesink::method::Method;
 use vinesink::report::document::{self, Source};
@@ -160,6 +160,9 @@ fn rendered(path: &Path, name: &str, arguments: &Arguments) -> Result<(Files, bo
         false => CaseStudy::without_simulation(&case.system(), effort),
     };
     let mut study = study.into_diagnostic()?;
+    if simulates && case.report.figures.contains(&ExtraFigure::Dissipation) {
+        study = study.with_averages().into_diagnostic()?;
+    }
     if case.band.is_some() {
         // Simulated if the study is, and also with the structure detuned.
         let mut settings = criteria::settings(&case);

@@ -23,9 +23,11 @@ const STEEPEST: f64 = 4.0;
 const CLOSED_POINTS: u32 = 128;
 /// Halvings of a step in which the end of a branch is located.
 const HALVINGS: u32 = 4;
+/// Largest restitution of which motions are followed: up to it less than a hundredth of a start is left, `r^n`, after
+/// the thousand impacts over which a motion is averaged at least.
+const MOST_ELASTIC: f64 = 0.995;
 
-/// `S` and `K` over the amplitude for one restitution. Elastic impacts, `r = 1`, forget nothing: no motion attracts, and
-/// what the curve then has beyond the closed form are averages of single starts.
+/// `S` and `K` over the amplitude for one restitution.
 ///
 /// ```
 /// use vinesink::dissipation::DissipationCurve;
@@ -36,7 +38,7 @@ const HALVINGS: u32 = 4;
 /// let ([resistance, reactance], _) = stable.forces(0.5).expect("between fold and symmetry breaking");
 /// assert!((resistance - 0.538).abs() < 1e-3 && (reactance + 1.040).abs() < 1e-3);
 /// // What a designer remembers: the absorber takes half a clearance off the reduced forcing at any amplitude.
-/// let [least, most] = curve.resistance_range([0.4, 1.2]).expect("motions with impacts");
+/// let [least, most] = curve.resistance_range([0.4, 1.2]).expect("motions of two impacts or more");
 /// assert!(least > 0.49 && most < 0.60);
 /// ```
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -46,6 +48,10 @@ pub struct DissipationCurve {
     pub restitution: f64,
     /// By ascending smallest amplitude; the absorber at rest, `S = K = 0` up to one clearance, is the first.
     pub branches: Vec<Branch>,
+    /// Whether impacts are so elastic, `r` above 0.995, that averages depend on the start for longer than one is
+    /// followed. Beside the closed form there is no curve then; elastic impacts, `r = 1`, forget nothing, and take
+    /// nothing: whatever the motion, its `S` is 0 in the mean.
+    pub depends_on_start: bool,
 }
 
 impl DissipationCurve {
@@ -53,6 +59,10 @@ impl DissipationCurve {
     /// absorber at rest are there in full.
     pub fn of(restitution: f64, [from, to]: [f64; 2]) -> Self {
         let closed = closed_form(restitution);
+        let depends_on_start = restitution > MOST_ELASTIC;
+        if depends_on_start {
+            return Self { restitution, branches: vec![at_rest(), closed], depends_on_start };
+        }
         let steps = ((to - from) / STEP).ceil() as usize;
         let mut search = Search {
             restitution,
@@ -80,14 +90,15 @@ impl DissipationCurve {
         branches.retain(|branch| branch.points.len() > 1);
         branches.extend([closed, at_rest()]);
         branches.sort_by(|a, b| a.range()[0].total_cmp(&b.range()[0]));
-        Self { restitution, branches }
+        Self { restitution, branches, depends_on_start }
     }
 
-    /// The smallest and the largest `S` over a range of amplitudes, of all motions with impacts: what the absorber
-    /// takes off the reduced forcing, over the clearance. None where there are no such motions.
+    /// The smallest and the largest `S` over a range of amplitudes, of all motions with two impacts per period or
+    /// more: what the absorber takes off the reduced forcing, over the clearance. None where there are no such motions.
     pub fn resistance_range(&self, [from, to]: [f64; 2]) -> Option<[f64; 2]> {
+        let captured = [Regime::TwoSymmetric, Regime::TwoAsymmetric, Regime::AboveTwo];
         let moving = self.branches.iter().flat_map(|branch| &branch.points).filter(|point| {
-            point.regime != Regime::AtRest && (from..=to).contains(&point.amplitude)
+            captured.contains(&point.regime) && (from..=to).contains(&point.amplitude)
         });
         moving.map(|point| point.resistance).fold(None, |range: Option<[f64; 2]>, value| {
             let [least, most] = range.unwrap_or([value; 2]);
@@ -98,8 +109,9 @@ impl DissipationCurve {
 
 /// The absorber at rest in the middle, which no wall reaches.
 fn at_rest() -> Branch {
-    let point = |amplitude| Point::still(amplitude);
-    Branch { points: vec![point(0.0), point(1.0)], closed_form: false }
+    let count = (1.0 / STEP).round() as u32;
+    let points = (0..=count).map(|k| Point::still(f64::from(k) / f64::from(count)));
+    Branch { points: points.collect(), closed_form: false }
 }
 
 /// The manifold's stable branch, as far as its points are motions.

@@ -122,6 +122,23 @@ impl<'a> AveragedFlow<'a> {
         both.iter().all(|detuning| detuning.is_finite()).then_some(both)
     }
 
+    /// The same with whether the motion, on its branch, is stable at each of the two.
+    pub fn stability(&self, branch: &Branch, point: &Point) -> Option<[(f64, bool); 2]> {
+        let slopes = branch.slopes(point.amplitude);
+        let stable = |sigma: f64| {
+            let [trace, determinant] =
+                self.jacobian(sigma, point.amplitude, point.forces(), slopes);
+            (sigma, trace < 0.0 && determinant > 0.0)
+        };
+        self.detunings(point).map(|both| both.map(stable))
+    }
+
+    /// Trace and determinant at a detuning, with `S` and `K` and their slopes.
+    fn jacobian(&self, sigma: f64, c: f64, [s, k]: [f64; 2], [ds, dk]: [f64; 2]) -> [f64; 2] {
+        let lambda = self.system.damping();
+        [TRACE.at([lambda, s, ds, c]), DETERMINANT.at([lambda, sigma, s, k, ds, dk, c])]
+    }
+
     /// The fall of the amplitude without excitation from `C/b` to a smaller one: on each branch as far as it goes,
     /// then on the one whose force is nearest; the absorber is at rest where there is none. The first is the branch
     /// that comes from the largest amplitude, one on which the absorber moves if there is any. Ends early where nothing takes energy.
@@ -245,11 +262,9 @@ impl<'a> AveragedFlow<'a> {
         let (lambda, sigma) = (self.system.damping(), self.system.detuning());
         let unknown = ([f64::NAN; 2], [f64::NAN; 2]);
         let ([resistance, reactance], errors) = branch.forces(c).unwrap_or(unknown);
-        let [slope, reactance_slope] = branch.slopes(c);
         let sides = [lambda * c + resistance, reactance - 2.0 * sigma * c];
-        let trace = TRACE.at([lambda, resistance, slope, c]);
-        let determinant =
-            DETERMINANT.at([lambda, sigma, resistance, reactance, slope, reactance_slope, c]);
+        let [trace, determinant] =
+            self.jacobian(sigma, c, [resistance, reactance], branch.slopes(c));
         // d(gamma^2)/dc is 8 c times the determinant.
         let moved = sides[0].abs() * errors[0] + sides[1].abs() * errors[1];
         SteadyState {

@@ -9,6 +9,7 @@ use std::f64::consts::TAU;
 use serde::Serialize;
 
 use crate::numerics::scatter::twice_standard_error;
+use crate::operation_count;
 use crate::regimes::{Regime, classify};
 use crate::simulation::{ImpactLog, Measurement, PeriodRecord, Simulation, Statistics, Stop};
 use crate::system::{Excitation, Parameters, State, System};
@@ -82,16 +83,20 @@ impl Point {
         for round in 1.. {
             let stop = simulation.run(ROUND, ROUND * MOST_IMPACTS, &mut (&mut measured, &mut log));
             if stop != Stop::EndTime {
+                operation_count::note(simulation.operations());
                 return None;
             }
             let found =
                 classify(measured.statistics(), &log.impacts, None, TAU).evidence.periodicity;
-            let enough = round >= ROUNDS[0] && measured.statistics().impacts() >= IMPACTS;
-            let repeats = found.is_some_and(|found| found.closure <= REPEATED);
-            if enough || repeats || round == ROUNDS[1] {
+            let enough = match found {
+                Some(found) => found.closure <= REPEATED,
+                None => round >= ROUNDS[0] && measured.statistics().impacts() >= IMPACTS,
+            };
+            if enough || round == ROUNDS[1] {
                 break;
             }
         }
+        operation_count::note(simulation.operations());
         let State { x, y, y_velocity, .. } = simulation.state();
         let state = [(x - y).clamp(-1.0, 1.0), y_velocity];
         Some(Self { state, ..Self::of(amplitude, measured.statistics(), &log) })
@@ -103,8 +108,11 @@ impl Point {
         let periodicity = named.evidence.periodicity;
         let (averages, errors) = match periodicity {
             Some(found) => {
-                // What a transient has left is seen from some repetitions back.
-                let back = (records.len() / 2).next_multiple_of(found.periods as usize);
+                // What a transient has left is seen from some repetitions back, where any is left.
+                let ended = found.closure <= REPEATED;
+                let back = if ended { 0 } else { records.len() / 2 };
+                let back =
+                    back.next_multiple_of(found.periods as usize).max(found.periods as usize);
                 let earlier = &records[..records.len().saturating_sub(back)];
                 let averages = averages(found.last(records));
                 let before = self::averages(found.last(earlier));

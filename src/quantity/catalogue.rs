@@ -164,6 +164,8 @@ catalogue! {
     OSCILLATOR_AMPLITUDE_RATIO = "oscillator_amplitude_over_clearance", "C/b", "oscillator amplitude", Number, Significant(3), Interval;
     HARMONIC_AMPLITUDE = "harmonic_amplitude", "E", "first harmonic of the absorber", Length, Significant(3), Interval;
     HARMONIC_AMPLITUDE_RATIO = "harmonic_amplitude_over_clearance", "E/b", "first harmonic of the absorber", Number, Significant(3), Interval;
+    RESISTANCE = "resistance", "S", "force against the velocity", Number, Significant(3), Interval;
+    REACTANCE = "reactance", "K", "force along the displacement", Number, Significant(3), Interval;
     TIME = "time", "t", "time", Time, Significant(4), Interval;
     DISPLACEMENT = "displacement", "x", "displacement", Length, Significant(3), Interval;
     RELATIVE_DISPLACEMENT = "relative_displacement", "w", "relative displacement", Length, Significant(3), Interval;

@@ -1,11 +1,14 @@
 //! What the layers answer about one motion: the root mean square of the oscillator's displacement, the
 //! impacts per period, the regime, and how far the first two may be off.
 
+use std::f64::consts::FRAC_1_SQRT_2;
+
 use serde::Serialize;
 
-use super::{Proof, StudyError};
+use super::{Averages, Proof, StudyError};
 use crate::analysis::motion::root_mean_square;
 use crate::analysis::{FixedPoint, Manifold, fixed_points};
+use crate::dissipation::SteadyState;
 use crate::numerics::scatter::twice_standard_error;
 use crate::orbits::{Measures, attracting_orbit};
 use crate::regimes::{Regime, classify};
@@ -43,6 +46,8 @@ pub enum WhyNot {
     NoStablePoint,
     /// No symmetric orbit is stable and admissible.
     NoStableOrbit,
+    /// The averaged flow has no stable amplitude with impacts, or none that is followed.
+    NoStableAmplitude,
     /// The slow flow has no stable branch to begin on.
     NoMiddle,
     /// The slow flow settles beyond symmetry breaking, where the branch is unstable.
@@ -130,6 +135,27 @@ pub fn closed_form(system: &System) -> Result<Answer, StudyError> {
     };
     Ok(stable
         .map_or_else(|| Answer::none(WhyNot::NoStablePoint), |point| Answer::steady(rms(point))))
+}
+
+/// That of the averaged flow's largest stable amplitude with impacts, in any regime: the first harmonic of `v - eps y`.
+///
+/// # Errors
+/// [`StudyError::Analysis`] where the theory cannot be evaluated.
+pub fn averaged_flow(system: &System) -> Result<Answer, StudyError> {
+    let Averages { curve, states, .. } = Averages::of(system)?;
+    let moving = |state: &&SteadyState| state.stable && state.regime != Regime::AtRest;
+    let answer = states.iter().rfind(moving).and_then(|state| {
+        let ([resistance, reactance], _) = curve.branches[state.branch].forces(state.amplitude)?;
+        let eps = system.mass_ratio();
+        let [sine, cosine] = [state.amplitude + eps * reactance, eps * resistance];
+        Some(Answer {
+            rms: Some(libm::hypot(sine, cosine) * FRAC_1_SQRT_2),
+            impacts_per_period: Some(state.impacts_per_period),
+            regime: Some(state.regime),
+            ..Answer::default()
+        })
+    });
+    Ok(answer.unwrap_or_else(|| Answer::none(WhyNot::NoStableAmplitude)))
 }
 
 /// That of the exact symmetric orbit that attracts, to [`ORBIT_ROUNDING`].

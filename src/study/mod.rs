@@ -2,6 +2,7 @@
 //! the nearest boundaries are.
 
 pub mod answer;
+pub mod averages;
 pub mod confirmations;
 pub mod diagrams;
 pub mod exact_branches;
@@ -30,6 +31,7 @@ use crate::validation::asymptotic_error::asymptotic_errors;
 use crate::validation::{self, AsymptoticError, Claim};
 
 pub use crate::regimes::search::SearchEffort as StudyEffort;
+pub use averages::Averages;
 pub use confirmations::Confirmations;
 pub use margins::Margins;
 pub use proofs::{LongTermMotions, Proof};
@@ -100,6 +102,8 @@ pub struct CaseStudy {
     pub effort: StudyEffort,
     /// What is known along the case's band; none without one.
     pub band: Option<Survey>,
+    /// The averaged flow; none where nobody asked for it.
+    pub averages: Option<Averages>,
     /// Whether anything was simulated; if not, `motions` is empty.
     pub simulated: bool,
     /// The bare oscillator and a tuned mass damper at the case's own excitation.
@@ -164,6 +168,7 @@ impl CaseStudy {
             confirmations: Confirmations::default(),
             effort,
             band: None,
+            averages: None,
             simulated: false,
             rivals: Rivals::along(&Band::point(system)),
             inactive: Inactive::of(system),
@@ -176,6 +181,21 @@ impl CaseStudy {
     #[must_use]
     pub fn along(self, survey: Survey) -> Self {
         Self { band: Some(survey), ..self }
+    }
+
+    /// The same with the averaged flow, and its claims about the motions that were simulated.
+    ///
+    /// # Errors
+    /// [`StudyError`] where the theory cannot be carried out.
+    pub fn with_averages(mut self) -> Result<Self, StudyError> {
+        let system = &self.analysis.system;
+        let averages = Averages::of(system)?;
+        let found = &self.motions.attractors;
+        if !averages.curve.depends_on_start {
+            let Averages { states, range, .. } = &averages;
+            self.claims.extend(validation::motions::averaged(system, states, *range, found));
+        }
+        Ok(Self { averages: Some(averages), ..self })
     }
 
     /// What was simulated, if anything was.

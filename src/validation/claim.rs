@@ -39,6 +39,8 @@ pub enum Statement {
     FixedPoint { point: usize, symbol: &'static str },
     /// Clearance of a boundary of steady 1:1 resonance.
     Boundary { bifurcation: Bifurcation },
+    /// The amplitude of a simulated motion, numbered from 1, is one of the averaged flow's in its regime.
+    Averaged { motion: usize, regime: Regime },
     /// The absorber rests, and the oscillator vibrates as if alone.
     Rest,
     /// Where the case lies.
@@ -59,6 +61,7 @@ impl Statement {
             Self::Stability { point, .. } => format!("fixed-point-{point}-stability"),
             Self::FixedPoint { point, symbol } => format!("fixed-point-{point}-{symbol}"),
             Self::Boundary { bifurcation } => format!("boundary-{}", key(bifurcation)),
+            Self::Averaged { motion, .. } => format!("averaged-motion-{motion}"),
             Self::Rest => "rest".into(),
             Self::Area { .. } => "area".into(),
             Self::Repeats { orbit } => format!("orbit-{orbit}-repeats"),
@@ -133,6 +136,8 @@ pub enum Finding {
     StronglyModulated,
     /// No steady 1:1 resonance.
     NotSteady,
+    /// No stable amplitude in a regime.
+    NoAmplitude,
     /// Regimes with the share of starts that lead to each.
     Regimes { shares: Vec<(Regime, f64)> },
 }
@@ -150,6 +155,8 @@ pub enum Reason {
     NeglectedTerms { says_nothing: bool },
     /// Twice that: at a boundary two conditions meet, each with that error.
     TwoConditions { says_nothing: bool },
+    /// Three times `eps (2 + abs(sigma) + lambda)`, of averages in place of one motion.
+    Averages { says_nothing: bool },
     /// A closed form of the full system: rounding.
     Rounding,
     /// A part of the motion's size, times the growth of a disturbance in a period.

@@ -5,10 +5,12 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::sync::LazyLock;
 
 use vinesink::analysis::{Analysis, Manifold};
-use vinesink::dissipation::{AveragedFlow, Branch, DissipationCurve, Point};
+use vinesink::dissipation::{AveragedFlow, Branch, DissipationCurve, Point, SteadyState};
 use vinesink::equations::dissipation as formulas;
 use vinesink::regimes::{Effort, Regime, motions, starts};
+use vinesink::study::{CaseStudy, StudyEffort};
 use vinesink::system::{Excitation, Parameters, State, System};
+use vinesink::validation::{Claim, Finding, Verdict, motions as motions_claims};
 
 use crate::common::{MASS_RATIO, periods_to, slow_amplitudes, table_1};
 
@@ -200,6 +202,60 @@ fn motions_of_two_and_three_impacts_coexist() {
     assert!(at(&CURVE, 0.9).len() == 1 && at(&CURVE, 1.15).len() == 1);
 }
 
+/// Elastic impacts forget nothing and take nothing: averages depend on the start, and there is no curve beyond the
+/// closed form. At the largest restitution of which motions are followed, what does not repeat is one motion.
+#[test]
+fn elastic_impacts_have_no_curve_because_averages_depend_on_the_start() {
+    const C: f64 = 2.2;
+    let starts = [[0.3, 1.4], [-0.8, -0.6], [0.1, 0.5], [-0.3, -2.0], [0.0, 3.2], [-0.6, 4.0]];
+    // The largest difference of K, over what both averages are known to.
+    let apart = |restitution: f64| {
+        let found: Vec<Point> = starts
+            .iter()
+            .filter_map(|[w, speed]| Point::measured(restitution, C, [*w, speed * C]))
+            .filter(|point| point.repeats_after.is_none())
+            .collect();
+        assert!(found.len() > 3, "{found:?}");
+        if restitution == 1.0 {
+            // Energy that is not lost is not taken; what an average of some thousand impacts leaves of that.
+            assert!(found.iter().all(|point| point.resistance.abs() < 5e-3), "{found:?}");
+        }
+        let pairs = found.iter().flat_map(|a| found.iter().map(move |b| (a, b)));
+        let pairs =
+            pairs.map(|(a, b)| (a.reactance - b.reactance).abs() / (a.errors[1] + b.errors[1]));
+        pairs.fold(0.0, f64::max)
+    };
+    let [elastic, almost] = [1.0, 0.995].map(apart);
+    assert!(elastic > 3.0 && almost < 1.5, "{elastic} {almost}");
+    for restitution in [1.0, 0.999] {
+        let curve = DissipationCurve::of(restitution, [0.1, 3.2]);
+        assert!(curve.depends_on_start && curve.branches.len() == 2, "{}", curve.branches.len());
+        assert!(curve.branches[0].points.iter().all(|point| point.regime == Regime::AtRest));
+        assert!(curve.branches[1].closed_form);
+    }
+    assert!(!CURVE.depends_on_start);
+    let curve = DissipationCurve::of(1.0, [0.1, 3.2]);
+    assert!(curve.branches[1].points.iter().all(|point| point.resistance == 0.0));
+}
+
+/// Motions that repeat are followed until nothing of the transient is left, also where chaos comes before.
+#[test]
+fn averages_of_motions_that_repeat_are_known_to_rounding() {
+    let starts =
+        [[0.3, 1.4], [-0.8, -0.6], [0.7, 2.5], [0.1, 0.5], [-0.3, -2.0], [0.0, 3.2], [-0.6, 4.0]];
+    let mut repeat = 0;
+    for [w, speed] in starts {
+        for c in [0.5, 3.0] {
+            let found = Point::measured(0.97, c, [w, c * speed]).expect("a motion");
+            if found.repeats_after.is_some() {
+                repeat += 1;
+                assert!(found.errors.iter().all(|error| *error < 1e-6), "{found:?}");
+            }
+        }
+    }
+    assert!(repeat > 6, "{repeat}");
+}
+
 /// Trace and determinant are those of the rates (18) differentiated numerically, and on the closed form those of
 /// the theory of two impacts.
 #[test]
@@ -261,6 +317,72 @@ fn on_the_stable_branch_it_is_the_theory_of_two_impacts() {
         (trace - point.trace).abs() < 1e-8 && (determinant - point.determinant).abs() < 1e-8,
         "{trace} {determinant} {point:?}"
     );
+}
+
+/// A point of the response is a steady amplitude of the system with that detuning, as stable there as here.
+#[test]
+fn the_response_holds_the_steady_amplitudes_of_every_detuning() {
+    let system = table_1(8.35, 11.5);
+    let flow = AveragedFlow::of(&system, &CURVE);
+    let (mut stable, mut unstable) = (0, 0);
+    for branch in &CURVE.branches {
+        for pair in branch.points.windows(2).skip(1).step_by(9) {
+            let mut point = pair[0];
+            if !branch.closed_form {
+                // Within a piece: rounding may put a root at its end into neither of two.
+                point.amplitude = 0.7 * pair[0].amplitude + 0.3 * pair[1].amplitude;
+                [point.resistance, point.reactance] =
+                    branch.forces(point.amplitude).expect("on it").0;
+            }
+            let repeats = pair.iter().all(|point| point.repeats_after.is_some());
+            let repeats = repeats && point.regime != Regime::AtRest;
+            let Some(both) = flow.stability(branch, &point).filter(|_| repeats) else { continue };
+            for (sigma, is_stable) in both {
+                let there = system.with_detuning(sigma).expect("valid");
+                let states = AveragedFlow::of(&there, &CURVE).steady_states().expect("analysable");
+                let apart = |state: &SteadyState| (state.amplitude - point.amplitude).abs();
+                let near = states.iter().filter(|state| state.regime == point.regime);
+                let near = near.min_by(|a, b| apart(a).total_cmp(&apart(b))).expect("a state");
+                // Amplitude and detuning are roots of one equation; half the digits are left where two meet.
+                assert!(apart(near) < 1e-7, "{sigma} {point:?} {near:?}");
+                assert_eq!(near.stable, is_stable, "{sigma} {point:?} {near:?}");
+                if is_stable { stable += 1 } else { unstable += 1 }
+            }
+        }
+    }
+    assert!(stable > 20 && unstable > 0, "{stable} {unstable}");
+}
+
+/// Three impacts per period in simulation are the flow's, and would not be if its amplitude were a tenth off.
+#[test]
+fn a_claim_of_the_averaged_flow_is_confirmed_by_simulation_and_refuted_where_it_is_wrong() {
+    let system = table_1(8.35, 11.5);
+    let effort = StudyEffort { starts: 4, discard: Some(300), periods: 200 };
+    let study = CaseStudy::of(&system, effort, &mut |_| ()).expect("studied");
+    assert!(study.averages.is_none());
+    let study = study.with_averages().expect("analysable");
+    let judged = |claims: &[Claim]| {
+        let mut found = claims.iter().filter(|claim| claim.id.starts_with("averaged-motion-"));
+        let claim = found.next().expect("one").clone();
+        assert!(found.next().is_none());
+        claim
+    };
+    let claim = judged(&study.claims);
+    assert_eq!(claim.verdict, Verdict::Confirmed, "{claim:?}");
+    assert!(claim.difference.expect("a number").abs() < 0.01, "{claim:?}");
+    // Three times 0.77 % of (2 + 1.8) and the detuning.
+    assert!((claim.tolerance - 0.088).abs() < 1e-3, "{claim:?}");
+    let averages = study.averages.expect("asked for");
+    let of = |states: &[SteadyState], range| {
+        motions_claims::averaged(&system, states, range, &study.motions.attractors)
+    };
+    let mut wrong = averages.states.clone();
+    wrong.iter_mut().for_each(|state| state.amplitude *= 1.1);
+    assert_eq!(judged(&of(&wrong, averages.range)).verdict, Verdict::Refuted);
+    let none = judged(&of(&[], averages.range));
+    assert_eq!((none.verdict, none.predicted), (Verdict::Refuted, Finding::NoAmplitude));
+    // What the curve does not reach it says nothing of.
+    assert!(of(&averages.states, [0.1, 0.9]).is_empty());
 }
 
 /// Through four and three impacts per period, chaos, asymmetric and symmetric 1:1 down to the fold.

@@ -555,7 +555,8 @@ fn tradeoff_prints_the_same_bytes_and_leaves_seconds_out_unless_asked() {
     assert_eq!(document["format"], "vinesink/tradeoff@3");
     assert_eq!(document["best"]["layer"], "exact-orbit");
     let methods = document["methods"].as_array().expect("a list");
-    let layers = ["closed-form", "slow-flow", "exact-orbit", "simulation", "fixed-step"];
+    let layers =
+        ["closed-form", "slow-flow", "averaged-flow", "exact-orbit", "simulation", "fixed-step"];
     for layer in layers {
         assert!(methods.iter().any(|method| method["layer"] == layer), "{layer}");
     }

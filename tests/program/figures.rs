@@ -32,7 +32,10 @@ fn changed(changes: &[(&str, &str)]) -> Case {
 }
 
 fn figures(case: &Case) -> Vec<Figure> {
-    let study = CaseStudy::of(&case.system(), QUICK, &mut |_| {}).expect("can be studied");
+    let mut study = CaseStudy::of(&case.system(), QUICK, &mut |_| {}).expect("can be studied");
+    if case.report.figures.contains(&ExtraFigure::Dissipation) {
+        study = study.with_averages().expect("can be averaged");
+    }
     of_study(case, &study)
 }
 
@@ -195,6 +198,9 @@ fn further_captions_say_what_to_see() {
     assert!(caption("areas").contains("collide at 16.3 mm"), "{}", caption("areas"));
     assert!(caption("bifurcations").contains("8.304 Hz, γ = 1.119"), "{}", caption("bifurcations"));
     assert!(caption("clearances").contains("Without absorber the peak is 3.01 mm"));
+    assert!(
+        caption("dissipation").contains("clearances off the reduced forcing of 2.17 clearances")
+    );
     assert!(caption("restitutions").contains("E is largest for r = 1.0"));
     assert!(caption("forcing-responses").contains("0 % for b = 36.0 mm"));
     // The exact orbit's largest multiplier is 0.931 per period, its logarithm -0.071.
@@ -209,6 +215,41 @@ fn further_captions_say_what_to_see() {
     assert!(diagram.contains("to 16.5 mm: two symmetric impacts per period"), "{diagram}");
     assert!(caption("diagram-frequency").contains("from 7.948 Hz (saddle-node)"));
     assert!(caption("diagram-forcing").contains("from 0.225 mm (saddle-node) to 0.774 mm"));
+}
+
+/// What a designer remembers, and nothing drawn through what is not known: the closed form is the thickest line, no
+/// line but that of its error holds an average of a motion that does not repeat.
+#[test]
+fn the_dissipation_figure_draws_no_line_through_scattered_averages() {
+    let mut case = shipped("li2016-8hz-b7p5mm");
+    case.report.figures = vec![ExtraFigure::Dissipation];
+    let study = CaseStudy::of(&case.system(), QUICK, &mut |_| {}).expect("can be studied");
+    assert!(!of_study(&case, &study).iter().any(|figure| figure.name == "dissipation"));
+    let study = study.with_averages().expect("can be averaged");
+    let figures = of_study(&case, &study);
+    let figure = figures.iter().find(|figure| figure.name == "dissipation").expect("is there");
+    let caption = &figure.caption;
+    assert!(
+        caption.contains("Between C = 1.2 mm and 18 mm the absorber takes 0.50 to 0.82"),
+        "{caption}"
+    );
+    assert!(caption.contains("forcing of 4.34 clearances (11 % to 19 %)"), "{caption}");
+    assert!(caption.contains("stable at C = 3.52 mm (symmetric 1:1)"), "{caption}");
+    let curve = &study.averages.as_ref().expect("asked for").curve;
+    let (mut scattered, mut thickest) = (0, 0.0_f64);
+    for layer in &figure.panels[0].layers {
+        let Layer::Curve { points, style, .. } = layer else { continue };
+        thickest = thickest.max(style.width);
+        for branch in &curve.branches {
+            for point in &branch.points {
+                let drawn = points.contains(&[point.amplitude, point.resistance]);
+                assert!(!drawn || point.repeats_after.is_some(), "{point:?}");
+                scattered += usize::from(point.repeats_after.is_none());
+                assert!(!branch.closed_form || !drawn || style.width > 3.0, "{style:?}");
+            }
+        }
+    }
+    assert!(scattered > 20 && thickest > 3.0, "{scattered} {thickest}");
 }
 
 #[test]

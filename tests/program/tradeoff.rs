@@ -17,7 +17,7 @@ use vinesink::operation_count::{self, ELEMENTARY};
 use vinesink::orbits::{Measures, symmetric_orbits};
 use vinesink::regimes::Regime;
 use vinesink::simulation::{Measurement, Simulation};
-use vinesink::study::answer::measured;
+use vinesink::study::answer::{WhyNot, measured};
 use vinesink::study::fidelity::{AccuracyTarget, Answers, KnownBy, Plan, Question};
 use vinesink::study::{CaseStudy, StudyEffort, StudyError};
 use vinesink::symbolic::Symbol;
@@ -213,6 +213,27 @@ fn the_closed_form_is_the_cheapest_row() {
     }
 }
 
+/// Three impacts per period, of which the closed form knows nothing, at a cost far above it.
+#[test]
+fn the_averaged_flow_answers_beyond_symmetry_breaking() {
+    let system = common::table_1(8.35, 11.5);
+    let (averaged, cost) = Method::AveragedFlow.run(&system, START).expect("analysable");
+    let (closed, cheap) = Method::FixedPoints.run(&system, START).expect("analysable");
+    assert_eq!(closed.why_not, Some(WhyNot::NoStablePoint));
+    assert_eq!((averaged.regime, averaged.impacts_per_period), (Some(Regime::AboveTwo), Some(3.0)));
+    let run = Method::Simulation { periods: 400, search: Search::Panels, excursion: None };
+    let (simulated, _) = run.run(&system, START).expect("simulated");
+    assert_eq!(simulated.regime, Some(Regime::AboveTwo));
+    let error = averaged.rms.expect("an answer") / simulated.rms.expect("an answer") - 1.0;
+    // eps (2 + abs(sigma) + lambda) is 2.9 %.
+    assert!(error.abs() < 0.02, "{error}");
+    assert!(cost > 1000 * cheap, "{cost} {cheap}");
+    // Rest at 8.5 Hz and 28 mm is no answer to what the absorber does.
+    let modulated =
+        Method::AveragedFlow.run(&common::table_1(8.5, 28.0), START).expect("analysable");
+    assert_eq!(modulated.0.why_not, Some(WhyNot::NoStableAmplitude));
+}
+
 #[test]
 fn a_steady_case_is_answered_by_its_orbit_and_every_error_is_what_it_should_be() {
     let system = common::table_1(8.0, 7.5);
@@ -237,6 +258,9 @@ fn a_steady_case_is_answered_by_its_orbit_and_every_error_is_what_it_should_be()
     assert!(short.value > 1e-6 && !short.below, "{short:?}");
     let slow = error(|method| matches!(method, Method::SlowFlow { periods: 1000 }));
     assert!((slow.value - closed.value).abs() < 1e-6, "{slow:?} {closed:?}");
+    let averaged = error(|method| method == Method::AveragedFlow);
+    // One amplitude; first harmonics, of which the square of the mass ratio is left out.
+    assert!((averaged.value - closed.value).abs() < 3e-4, "{averaged:?} {closed:?}");
     let steps = |steps| {
         let wanted = |method: Method| matches!(method, Method::FixedStep { steps: n, locate: Locate::Bisection, .. } if n == steps);
         let trial = found.trials.iter().find(|trial| wanted(trial.method)).expect("tried");

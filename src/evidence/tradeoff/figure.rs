@@ -15,7 +15,7 @@ use crate::report::figure::{
 type Series = (&'static str, Marker, Color, Option<Dash>, fn(&Method) -> bool);
 
 /// From the back to the front.
-fn series() -> [Series; 7] {
+fn series() -> [Series; 8] {
     use Color::{Black, Blue, BluishGreen, Orange, ReddishPurple, Vermillion};
     let (hollow, filled) = (Marker::hollow, Marker::filled);
     [
@@ -35,6 +35,9 @@ fn series() -> [Series; 7] {
         ),
         ("slow flow", hollow(Shape::Triangle), BluishGreen, None, |one| {
             one.layer() == Layer::SlowFlow
+        }),
+        ("averaged flow", filled(Shape::Triangle), BluishGreen, None, |one| {
+            one.layer() == Layer::AveragedFlow
         }),
         ("closed form", filled(Shape::Square), Blue, None, |one| one.layer() == Layer::ClosedForm),
         ("exact orbit", hollow(Shape::Circle).sized(10.0), Black, None, |one| {

@@ -35,6 +35,8 @@ pub enum Method {
         /// Excitation periods.
         periods: u64,
     },
+    /// The dissipation curve, and the steady amplitudes of the slow flow on it, in any regime.
+    AveragedFlow,
     /// The symmetric orbit of the full system, in closed form.
     SymmetricOrbit,
     /// Any other orbit: a simulation of so many periods gives its impacts, Newton's method the orbit.
@@ -72,6 +74,8 @@ pub enum Layer {
     ClosedForm,
     /// Slow flow in time.
     SlowFlow,
+    /// Slow flow with averages over the motion of the impact pair.
+    AveragedFlow,
     /// Exact periodic orbit.
     ExactOrbit,
     /// Event-driven simulation.
@@ -86,6 +90,7 @@ impl Method {
         match self {
             Self::FixedPoints => Layer::ClosedForm,
             Self::SlowFlow { .. } => Layer::SlowFlow,
+            Self::AveragedFlow => Layer::AveragedFlow,
             Self::SymmetricOrbit | Self::OrbitFromSimulation { .. } => Layer::ExactOrbit,
             Self::Simulation { .. } => Layer::Simulation,
             Self::FixedStep { .. } => Layer::FixedStep,
@@ -124,6 +129,7 @@ impl Method {
         match self {
             Self::FixedPoints => answer::closed_form(system),
             Self::SlowFlow { periods } => slow_flow(system, periods),
+            Self::AveragedFlow => answer::averaged_flow(system),
             Self::SymmetricOrbit => Ok(answer::symmetric_orbit(system)),
             Self::OrbitFromSimulation { periods } => orbit_near(system, start, periods),
             Self::Simulation { periods, search, excursion } => {

@@ -275,7 +275,7 @@ fn best(
 fn methods(best: &Best, rests: bool, effort: &TradeoffEffort) -> Vec<Method> {
     let mut all = vec![Method::FixedPoints];
     all.extend(effort.lengths.iter().map(|periods| Method::SlowFlow { periods: *periods }));
-    all.push(Method::SymmetricOrbit);
+    all.extend([Method::AveragedFlow, Method::SymmetricOrbit]);
     if best.layer == Layer::ExactOrbit && best.regime != Regime::TwoSymmetric {
         all.push(Method::OrbitFromSimulation { periods: BEFORE_NEWTON });
     }

@@ -15,8 +15,8 @@ use crate::report::template::{render, worded};
 pub const USUAL: f64 = 0.01;
 
 /// Layers that compete, from the cheapest; the baseline is compared with them.
-const COMPETING: [Layer; 4] =
-    [Layer::ClosedForm, Layer::SlowFlow, Layer::ExactOrbit, Layer::Simulation];
+const COMPETING: [Layer; 5] =
+    [Layer::ClosedForm, Layer::SlowFlow, Layer::AveragedFlow, Layer::ExactOrbit, Layer::Simulation];
 
 /// The page of a case.
 #[derive(Debug, Clone, Copy)]

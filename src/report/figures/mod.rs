@@ -7,6 +7,7 @@ pub(super) mod borders;
 mod boundaries;
 mod chart;
 mod diagram;
+mod dissipation;
 mod motions;
 mod over_time;
 mod parts;
@@ -131,6 +132,7 @@ impl<'a> Scene<'a> {
             Plot::Bifurcations(data) => Some(boundaries::bifurcations(self, data)),
             Plot::Modulation(data) => Some(motions::modulation(self, data)),
             Plot::Restitutions(data) => Some(motions::restitutions(self, data)),
+            Plot::Dissipation(data) => Some(dissipation::figure(self, data)),
             Plot::Basins(data) => Some(statistics::basins(self, data)),
             Plot::Captures => over_time::captures(self),
             Plot::Exponents(data) => statistics::exponents(self, data),

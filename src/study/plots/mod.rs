@@ -6,6 +6,7 @@ pub mod amplitude;
 pub mod areas;
 pub mod band;
 pub mod borders;
+pub mod dissipation;
 pub mod ranges;
 pub mod responses;
 pub mod restitutions;
@@ -31,6 +32,7 @@ pub use amplitude::Amplitude;
 pub use areas::{Areas, Levels};
 pub use band::BandCurves;
 pub use borders::{Bifurcations, Borders};
+pub use dissipation::Dissipation;
 pub use ranges::Ranges;
 pub use responses::Responses;
 pub use restitutions::Restitutions;
@@ -44,9 +46,10 @@ const MOTIONS: usize = 3;
 pub type Line = Vec<[f64; 2]>;
 
 /// What there is without forcing has no boundaries, and nothing to sweep.
-const NEED_FORCING: [ExtraFigure; 7] = [
+const NEED_FORCING: [ExtraFigure; 8] = [
     ExtraFigure::Areas,
     ExtraFigure::Bifurcations,
+    ExtraFigure::Dissipation,
     ExtraFigure::ForcingResponses,
     ExtraFigure::Clearances,
     ExtraFigure::DiagramClearance,
@@ -81,6 +84,8 @@ pub enum Plot {
     Modulation(Modulation),
     /// The manifold at several restitutions.
     Restitutions(Restitutions),
+    /// What the absorber takes in every regime, and the response.
+    Dissipation(Dissipation),
     /// Which starts lead to which motion.
     Basins(StartPlane),
     /// Captures of the first motion in 1:1 resonance.
@@ -144,6 +149,7 @@ impl Plot {
             ExtraFigure::ForcingResponses => Responses::across(study).map(Self::Responses),
             ExtraFigure::Modulation => Modulation::of(study)?.map(Self::Modulation),
             ExtraFigure::Restitutions => Restitutions::of(study).map(Self::Restitutions),
+            ExtraFigure::Dissipation => Dissipation::of(study).map(Self::Dissipation),
             ExtraFigure::Basins => Some(Self::Basins(StartPlane::of(study)?)),
             ExtraFigure::Captures => Some(Self::Captures),
             ExtraFigure::Exponents => Some(Self::Exponents(MotionExponents::of(study)?)),
