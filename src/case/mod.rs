@@ -51,6 +51,7 @@ pub use uncertainty::{Distribution, Uncertainty};
 
 use crate::digest::sha256;
 use crate::system::System;
+use crate::transient::Scene;
 use reader::{Reader, Table};
 
 /// A design case: what its file says, and the system that follows from it.
@@ -184,8 +185,8 @@ fn one_design() -> Value {
     ])
 }
 
-/// Tables that are about steady vibration alone.
-const STEADY_TABLES: [&str; 4] = ["accuracy", "band", "sweep", "uncertainty"];
+/// Tables that are about steady vibration alone; the first about released structures as well.
+const STEADY_TABLES: [&str; 5] = ["optimize", "accuracy", "band", "sweep", "uncertainty"];
 
 const STARTING_CASE: &str = include_str!("starting_case.toml");
 
@@ -250,14 +251,17 @@ fn read(reader: &mut Reader, document: &DeTable, text_hash: String) -> Option<Ca
     let heading = reader.read::<Heading>(&root);
     let design = read_design(reader, &root);
     reader.design = design;
-    if design.is_some_and(|design| design.release().is_some()) {
-        for name in STEADY_TABLES.into_iter().filter(|name| root.has(name)) {
-            let message =
-                format!("[{name}] has no meaning for a structure that is released or struck");
-            let expected = "expected tables that are about what it does then";
-            let help = "remove the table: it is about steady vibration";
-            reader.report(root.span_of(name), message, expected, help);
-        }
+    let scene = design.map_or(Scene::Steady, |design| design.scene());
+    let unfit: &[&str] = match scene {
+        Scene::Steady => &[],
+        Scene::Release => &STEADY_TABLES[1..],
+        Scene::Sweep => &STEADY_TABLES,
+    };
+    for name in unfit.iter().filter(|name| root.has(name)) {
+        let message = format!("[{name}] has no meaning for a structure that is {}", scene.words());
+        let expected = "expected tables that are about what it does then";
+        let help = "remove the table: it is about steady vibration";
+        reader.report(root.span_of(name), message, expected, help);
     }
     let simulation = reader.settings::<SimulationSettings>(&root, "simulation");
     let report = reader.settings::<ReportSettings>(&root, "report");

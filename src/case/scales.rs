@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 use super::Design;
 use crate::quantity::Dimension;
 use crate::system::{Excitation, InvalidParameter, Parameters, System};
-use crate::transient::Release;
+use crate::transient::{Release, Scene, SineSweep, Transient};
 
 /// What turns dimensionless results back into the design's units: SI, or for a reduced design those of an
 /// oscillator with m1 = k1 = 1, lengths in the unit of its own clearance.
@@ -121,11 +121,36 @@ impl Design {
         }
     }
 
+    /// What is not steady vibration in it.
+    pub fn transient(&self) -> Option<Transient> {
+        match self {
+            Self::Physical(physical) => physical.transient,
+            Self::Reduced(_) => None,
+        }
+    }
+
     /// How the oscillator is set in motion, where nothing drives it.
     pub fn release(&self) -> Option<Release> {
-        match self {
-            Self::Physical(physical) => physical.release,
-            Self::Reduced(_) => None,
+        match self.transient()? {
+            Transient::Release(release) => Some(release),
+            Transient::Sweep(_) => None,
+        }
+    }
+
+    /// The sweep of its excitation's frequency.
+    pub fn sine_sweep(&self) -> Option<SineSweep> {
+        match self.transient()? {
+            Transient::Sweep(sweep) => Some(sweep),
+            Transient::Release(_) => None,
+        }
+    }
+
+    /// What the structure is subjected to.
+    pub fn scene(&self) -> Scene {
+        match self.transient() {
+            None => Scene::Steady,
+            Some(Transient::Release(_)) => Scene::Release,
+            Some(Transient::Sweep(_)) => Scene::Sweep,
         }
     }
 

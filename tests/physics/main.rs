@@ -28,6 +28,7 @@ mod published;
 mod regimes;
 mod release;
 mod simulation_properties;
+mod sine_sweep;
 mod symbolic;
 mod tangent;
 mod transients;
