@@ -8,22 +8,28 @@ use vinesink::criteria::{self, Judged};
 use vinesink::report::release as page;
 use vinesink::report::render::Files;
 use vinesink::store;
-use vinesink::transient::{DecayStudy, best_clearance};
+use vinesink::transient::{DecayStudy, Scene, best_clearance};
 
 use super::case_file::{self, Format, OneCase};
 use super::output;
 use super::parallel::Parallel;
 
-/// Refuses a case that is released where a command is about steady vibration.
+/// Refuses a case that is not driven steadily where a command is about steady vibration.
 pub fn steady(case: &Case, path: &Path, what: &str) -> Result<()> {
-    match case.design.release() {
-        None => Ok(()),
-        Some(_) => Err(miette!(
+    match case.design.scene() {
+        Scene::Steady => Ok(()),
+        other => Err(miette!(
             help = "name a case whose excitation is base-displacement or force",
-            "{}: nothing drives its structure steadily, which {what} is about",
-            path.display()
+            "{}: its structure is {}, and {what} is about one that is driven steadily",
+            path.display(),
+            other.words()
         )),
     }
+}
+
+/// Refuses a case that is swept where a command is about structures that are driven steadily or released.
+pub fn not_swept(case: &Case, path: &Path, what: &str) -> Result<()> {
+    if case.design.scene() == Scene::Sweep { steady(case, path, what) } else { Ok(()) }
 }
 
 /// The study of a case that is released; none for another.

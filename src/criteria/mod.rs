@@ -16,7 +16,7 @@ use crate::case::{Case, Criterion, Relation, Scales, Subject};
 use crate::method::Method;
 use crate::regimes::Motion;
 
-pub use release::judge_release;
+pub use release::{judge_release, judge_sweep};
 use scope::Scope;
 
 /// Distance from a count that still is that count: as regimes are told apart.

@@ -1,13 +1,13 @@
-//! Criteria of a structure that is released or struck: the worst place of the absorber counts.
+//! Criteria of a structure that is released, struck or swept: the worst place of the absorber counts.
 
 use std::f64::consts::TAU;
 
 use super::Judged;
+use crate::band::rivals::reduction_db;
 use crate::case::{Case, Criterion, Subject};
 use crate::method::Method;
 use crate::numerics::scatter::error_of_largest;
-use crate::transient::DecayStudy;
-use crate::transient::Start;
+use crate::transient::{DecayStudy, Start, SweepStart, SweepStudy};
 
 /// Neighbouring starts whose worst is one value of those that tell how much worse others may be.
 const TOGETHER: usize = 4;
@@ -23,17 +23,47 @@ pub fn judge_release(case: &Case, study: &DecayStudy) -> Vec<Judged> {
     let judge = |criterion: &Criterion| {
         let values: Vec<f64> =
             study.starts.iter().map(|start| of_start(criterion.subject, start)).collect();
-        let largest = |some: &[f64]| some.iter().copied().fold(0.0, f64::max);
-        let worst = largest(&values);
+        let (worst, error) = worst(&values);
         let alone = scales.time(TAU * study.bare);
         if criterion.subject == Subject::DecayTime && study.decides_inactive() && alone > worst {
             let judged = criterion.judged(Some(alone), 0.0, Method::ClosedForm);
             return Judged { inactive: Some(study.inactive), ..judged };
         }
-        // Places in between may be worse.
-        let blocks: Vec<f64> = values.chunks_exact(TOGETHER).map(largest).collect();
-        let error = if worst.is_finite() { error_of_largest(&blocks) } else { 0.0 };
         criterion.judged(Some(worst), error, Method::Simulation)
     };
     case.criteria.iter().map(judge).collect()
+}
+
+/// Judges every criterion of a case that is swept through resonance.
+pub fn judge_sweep(case: &Case, study: &SweepStudy) -> Vec<Judged> {
+    let scales = case.scales();
+    let of_starts = |of: &dyn Fn(&SweepStart) -> f64| -> (f64, f64) {
+        worst(&study.starts.iter().map(of).collect::<Vec<f64>>())
+    };
+    let peak = || of_starts(&|(_, found)| scales.length(found.peak()[1]));
+    let judge = |criterion: &Criterion| {
+        let rival = match criterion.subject {
+            Subject::ReductionDb => &study.alone,
+            _ => &study.damped.1,
+        };
+        let (found, error) = match criterion.subject {
+            Subject::PeakDisplacement => peak(),
+            Subject::ReductionDb | Subject::ReductionDbTmd => {
+                let ((peak, error), rival) = (peak(), scales.length(rival.peak()[1]));
+                let found = reduction_db(peak, rival);
+                (found, found - reduction_db(peak + error, rival))
+            }
+            _ => of_starts(&|(_, found)| scales.velocity(found.impact_speed)),
+        };
+        criterion.judged(Some(found), error, Method::Simulation)
+    };
+    case.criteria.iter().map(judge).collect()
+}
+
+/// The largest of some starts, and how much worse places in between may be.
+fn worst(values: &[f64]) -> (f64, f64) {
+    let largest = |some: &[f64]| some.iter().copied().fold(0.0, f64::max);
+    let worst = largest(values);
+    let blocks: Vec<f64> = values.chunks_exact(TOGETHER).map(largest).collect();
+    (worst, if worst.is_finite() { error_of_largest(&blocks) } else { 0.0 })
 }

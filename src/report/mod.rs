@@ -12,6 +12,7 @@ pub mod mathml;
 pub mod optimize;
 pub mod release;
 pub mod render;
+pub mod sine_sweep;
 pub mod stored;
 #[cfg(feature = "sweep")]
 pub mod sweep;

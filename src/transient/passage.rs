@@ -101,15 +101,12 @@ impl SweepStudy {
             Ok((w, found))
         };
         let flown = map(executor, "passages", all.len() * starts as usize, passage);
-        let mut flown = flown.into_iter().collect::<Result<Vec<SweepStart>, StartError>>()?;
+        let flown = flown.into_iter().collect::<Result<Vec<SweepStart>, StartError>>()?;
         // Starts that do not count are left out, unless there are no others.
-        if flown.iter().any(|(_, passage)| counted(passage)) {
-            // Every sweep keeps its starts together.
-            flown.iter_mut().filter(|one| !counted(&one.1)).for_each(|one| one.0 = f64::NAN);
-        }
         let of = |n: usize| {
-            let some = &flown[n * starts as usize..(n + 1) * starts as usize];
-            some.iter().filter(|one| !one.0.is_nan()).cloned().collect::<Vec<SweepStart>>()
+            let all = &flown[n * starts as usize..(n + 1) * starts as usize];
+            let none = !all.iter().any(|one| counted(&one.1));
+            all.iter().filter(|one| none || counted(&one.1)).cloned().collect::<Vec<SweepStart>>()
         };
         let damper = TunedMassDamper::den_hartog(system.mass_ratio());
         let linear = |damper: Option<&TunedMassDamper>, sweep: &SineSweep| {

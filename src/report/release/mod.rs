@@ -10,6 +10,7 @@ use serde_json::{Value, json};
 
 use super::document::criteria::{badge, criteria};
 use super::document::{FORMAT, Scale, Word, figure_row, units};
+use super::figure::Figure;
 use super::render::{Files, RenderError, in_lines, page_files};
 use super::template::{render, worded};
 use crate::case::{Case, Design};
@@ -20,7 +21,7 @@ use crate::quantity::{Kind, Quantity};
 use crate::transient::{Best, Decay, DecayStudy, Start};
 
 /// Relative change of the time that is worth calling one.
-const NOTICEABLE: f64 = 0.02;
+pub(super) const NOTICEABLE: f64 = 0.02;
 
 /// The files of a report's folder.
 ///
@@ -32,13 +33,24 @@ pub fn files(
     study: &DecayStudy,
     judged: &[Judged],
 ) -> Result<Files, RenderError> {
+    let facts = document(name, case, study, judged);
+    let figures = figure::figures(case, study, &facts);
+    written("release.md", case, facts, figures)
+}
+
+/// The files of a page by a template, with its facts and figures.
+pub(super) fn written(
+    template: &str,
+    case: &Case,
+    mut facts: Value,
+    figures: Vec<Figure>,
+) -> Result<Files, RenderError> {
     let units = units(case);
-    let mut facts = document(name, case, study, judged);
-    let figures = worded(figure::figures(case, study, &facts), &units)?;
+    let figures = worded(figures, &units)?;
     facts["figures"] = figures.iter().map(figure_row).collect();
     let json = format!("{}\n", in_lines(&facts, 0));
     let tone = facts["verdict"]["tone"].as_str().unwrap_or_default().to_owned();
-    let mut files = page_files("report", "release.md", Some(&tone), &units, facts, &figures)?;
+    let mut files = page_files("report", template, Some(&tone), &units, facts, &figures)?;
     files.insert("report.json".into(), json.into_bytes());
     Ok(files)
 }
@@ -53,26 +65,41 @@ pub fn text(case: &Case, document: &Value) -> Result<String, RenderError> {
 
 /// A report as data. Quantities are in SI.
 pub fn document(name: &str, case: &Case, study: &DecayStudy, judged: &[Judged]) -> Value {
-    let quantities = quantities(case, study);
-    let word = badge(judged).unwrap_or_else(|| word(study));
-    let all: BTreeMap<&str, Quantity> = quantities.iter().map(|one| (one.kind.id, *one)).collect();
     let scale = Scale::of(case);
     let start = |(w, decay, _): &Start| row(&scale, *w, decay);
+    let word = badge(judged).unwrap_or_else(|| word(study));
+    let mut document = head(name, case, (word, "release"), &quantities(case, study), judged);
+    document["notes"].as_array_mut().into_iter().for_each(|all| all.extend(notes(study)));
+    // One for each place of the absorber.
+    document["starts"] = study.starts.iter().map(start).collect();
+    document["count_inactive"] = study.count_inactive.into();
+    // Share of the first amplitude that counts as rest.
+    document["share"] = case.decay_level.into();
+    document
+}
+
+/// What every page of a transient has.
+pub(super) fn head(
+    name: &str,
+    case: &Case,
+    (word, headline): (Word, &str),
+    quantities: &[Quantity],
+    judged: &[Judged],
+) -> Value {
+    let all: BTreeMap<&str, Quantity> = quantities.iter().map(|one| (one.kind.id, *one)).collect();
+    let warnings = case.warnings().iter();
+    let warnings =
+        warnings.map(|one| json!({ "kind": "warning", "line": one.line, "message": one.message }));
     json!({
         "format": FORMAT,
         "name": name,
         "title": case.title,
         "source": case.source,
         "units": "si",
-        "verdict": { "tone": word.tone(), "word": word, "headline": "release" },
+        "verdict": { "tone": word.tone(), "word": word, "headline": headline },
         "quantities": all,
         "criteria": criteria(case, judged),
-        "notes": notes(case, study),
-        // One for each place of the absorber.
-        "starts": study.starts.iter().map(start).collect::<Vec<_>>(),
-        "count_inactive": study.count_inactive,
-        // Share of the first amplitude that counts as rest.
-        "share": case.decay_level,
+        "notes": warnings.collect::<Vec<_>>(),
         "band": null,
         "inputs": case.inputs(),
         "derived": case.derived(),
@@ -150,11 +177,8 @@ fn word(study: &DecayStudy) -> Word {
     }
 }
 
-fn notes(case: &Case, study: &DecayStudy) -> Vec<Value> {
-    let warnings = case.warnings().iter();
-    let mut notes: Vec<Value> = warnings
-        .map(|one| json!({ "kind": "warning", "line": one.line, "message": one.message }))
-        .collect();
+fn notes(study: &DecayStudy) -> Vec<Value> {
+    let mut notes = Vec::new();
     if study.system.restitution() == 1.0 {
         notes.push(json!({ "kind": "elastic" }));
     }
