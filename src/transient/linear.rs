@@ -77,7 +77,7 @@ pub fn swept(
         let Ok(piece) = system.with_frequency_ratio(ratio) else { break };
         let step = exponential(matrix(&piece, damper) * (piece.period() / f64::from(SWEPT_STEPS)));
         (state[4], state[5]) = (0.0, 1.0);
-        let mut peak = 0.0_f64;
+        let mut peak = state[0].abs();
         for _ in 0..SWEPT_STEPS {
             state = step * state;
             peak = peak.max(state[0].abs());
