@@ -29,6 +29,7 @@ mod readers;
 mod report;
 #[cfg(unix)]
 mod review;
+mod sine_sweep;
 mod sweep;
 mod sweep_page;
 #[cfg(unix)]
