@@ -1,6 +1,8 @@
 //! A structure that is swept through resonance, against an independent integration, energy, the steady motions and
 //! what a person would do by hand.
 
+#![allow(clippy::disallowed_methods, reason = "a test may use the platform's functions")]
+
 use std::f64::consts::{PI, TAU};
 
 use vinesink::case::{Case, Subject};
