@@ -13,6 +13,7 @@ use super::value::Place;
 use crate::names::names;
 use crate::quantity::catalogue as of;
 use crate::quantity::{Dimension, Kind};
+use crate::transient::Scene;
 
 names! { key:
     /// What a criterion is about. Over a band the worst place of it counts.
@@ -73,14 +74,14 @@ impl Subject {
         !matches!(self, Self::Z3Share | Self::StableShare | Self::MarginClearance)
     }
 
-    /// Whether it makes sense of a design, which may be driven steadily, released or struck, or driven by a record.
-    pub fn is_for(self, design: &Design) -> bool {
-        let released = design.release().is_some();
+    /// Whether it makes sense of a structure that is subjected to this.
+    pub fn is_for(self, scene: Scene) -> bool {
         match self {
-            Self::DecayTime => released,
+            Self::DecayTime => scene == Scene::Release,
             Self::PeakDisplacement | Self::ImpactVelocity => true,
-            Self::RmsDisplacement | Self::ReductionDb | Self::ReductionDbTmd => !released,
-            _ => design.transient().is_none(),
+            Self::RmsDisplacement => matches!(scene, Scene::Steady | Scene::Record),
+            Self::ReductionDb | Self::ReductionDbTmd => scene != Scene::Release,
+            _ => scene == Scene::Steady,
         }
     }
 
@@ -176,10 +177,11 @@ fn criterion(
     design: &Design,
 ) -> Option<Criterion> {
     let (key, value) = (subject.key(), table.value(subject.key())?);
-    if !subject.is_for(design) {
-        let what = design.transient().unwrap_or("driven steadily");
-        let released = subject == Subject::DecayTime;
-        let other = if released { "released or struck" } else { "driven steadily" };
+    let scene = design.scene();
+    if !subject.is_for(scene) {
+        let what = scene.words();
+        let other = [Scene::Steady, Scene::Release].into_iter().find(|one| subject.is_for(*one));
+        let other = other.unwrap_or(Scene::Steady).words();
         let message = format!("`{key}` has no meaning for a structure that is {what}");
         let expected = format!("expected criteria of a structure that is {what}");
         let help = format!("remove the line: `{key}` is for one that is {other}");

@@ -53,6 +53,7 @@ pub use uncertainty::{Distribution, Uncertainty};
 
 use crate::digest::sha256;
 use crate::system::System;
+use crate::transient::Scene;
 use reader::{Reader, Table};
 
 /// A design case: what its file says, and the system that follows from it.
@@ -188,10 +189,32 @@ fn one_design() -> Value {
     ])
 }
 
-/// Tables that are about steady vibration alone.
-const STEADY_TABLES: [&str; 4] = ["accuracy", "band", "sweep", "uncertainty"];
+/// Tables that are about steady vibration alone; the first about released structures as well.
+const STEADY_TABLES: [&str; 5] = ["optimize", "accuracy", "band", "sweep", "uncertainty"];
 
 const STARTING_CASE: &str = include_str!("starting_case.toml");
+
+/// The excitation of the starting case.
+const STEADY_KEYS: &str = "kind = \"base-displacement\"    # or \"force\" on the oscillator, with an amplitude such as \
+    \"2.9 N\"\namplitude = \"0.25 mm\"\nfrequency = \"8.5 Hz\"\n";
+
+/// Other kinds of excitation that a case may begin with, and the lines of each.
+pub const STARTING_KINDS: [(&str, &str); 5] = [
+    ("force", "amplitude = \"2.9 N\"\nfrequency = \"8.5 Hz\""),
+    ("free", "displacement = \"15 mm\"        # and velocity, or one of both"),
+    ("impulse", "impulse = \"3 N s\"             # or the velocity that the base gets at once"),
+    (
+        "sine-sweep",
+        "of = \"base-displacement\"      # or \"force\"\namplitude = \"0.25 mm\"\nfrom = \"7.5 Hz\"\nto = \"9 Hz\"\n\
+         rate = \"0.1 Hz/s\"            # or \"1 oct/min\"",
+    ),
+    (
+        "record",
+        "quantity = \"base-acceleration\" # or \"base-displacement\", \"force\"\n\
+         spectrum = [[5, 0.02], [12, 0.02]] # (m/s²)²/Hz over Hz; or a file = \"quake.csv\" and none of what follows\n\
+         duration = \"60 s\"\nseed = 1",
+    ),
+];
 
 impl Case {
     /// Reads a case from its text; `name`, usually the file's path, is for messages only.
@@ -241,6 +264,18 @@ impl Case {
         let quoted = toml::Value::from(title).to_string();
         STARTING_CASE.replacen("\"TITLE\"", &quoted, 1)
     }
+
+    /// The same with another kind of excitation, one of [`STARTING_KINDS`]; as it is for any other name.
+    pub fn starting_text_of(title: &str, kind: &str) -> String {
+        let text = Self::starting_text(title);
+        let keys = STARTING_KINDS.into_iter().find(|(name, _)| *name == kind);
+        match (keys, text.split_once(STEADY_KEYS)) {
+            (Some((name, keys)), Some((before, after))) => {
+                format!("{before}kind = \"{name}\"\n{keys}\n{after}")
+            }
+            _ => text,
+        }
+    }
 }
 
 fn read(reader: &mut Reader, document: &DeTable, text_hash: String) -> Option<Case> {
@@ -259,19 +294,22 @@ fn read(reader: &mut Reader, document: &DeTable, text_hash: String) -> Option<Ca
     let heading = reader.read::<Heading>(&root);
     let design = read_design(reader, &root);
     reader.design = design;
-    if let Some(what) = design.and_then(|design| design.transient()) {
-        let recorded = reader.recording.is_some().then_some("optimize");
-        for name in STEADY_TABLES.into_iter().chain(recorded).filter(|name| root.has(name)) {
-            let message = format!("[{name}] has no meaning for a structure that is {what}");
-            let expected = "expected tables that are about what it does then";
-            let help = match name {
-                "optimize" => {
-                    "remove the table: the best clearance is looked for by hand, with `check`"
-                }
-                _ => "remove the table: it is about steady vibration",
-            };
-            reader.report(root.span_of(name), message, expected, help);
-        }
+    let scene = design.map_or(Scene::Steady, |design| design.scene());
+    let unfit: &[&str] = match scene {
+        Scene::Steady => &[],
+        Scene::Release => &STEADY_TABLES[1..],
+        Scene::Sweep | Scene::Record => &STEADY_TABLES,
+    };
+    for name in unfit.iter().filter(|name| root.has(name)) {
+        let message = format!("[{name}] has no meaning for a structure that is {}", scene.words());
+        let expected = "expected tables that are about what it does then";
+        let help = match *name {
+            "optimize" => {
+                "remove the table: the best clearance is looked for by hand, with `check`"
+            }
+            _ => "remove the table: it is about steady vibration",
+        };
+        reader.report(root.span_of(name), message, expected, help);
     }
     let simulation = reader.settings::<SimulationSettings>(&root, "simulation");
     let report = reader.settings::<ReportSettings>(&root, "report");

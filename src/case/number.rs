@@ -125,6 +125,9 @@ pub(super) fn toml(value: &Value) -> String {
 impl Reader<'_> {
     /// A number, in SI units, which is kept as an input of the case.
     pub fn number(&mut self, place: &Place, form: &Form) -> Option<f64> {
+        let text = place.value.get_ref().as_str().unwrap_or_default();
+        let dimension = form.dimension.map(|one| one.of_namesake(text));
+        let form = &Form { dimension, ..form.clone() };
         let number = match place.value.get_ref() {
             DeValue::Integer(_) if form.plain => plain_number(place.value.get_ref()),
             DeValue::Float(_) if form.plain && !form.whole => plain_number(place.value.get_ref()),

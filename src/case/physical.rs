@@ -13,7 +13,7 @@ use super::schema::one_of;
 use crate::names::names;
 use crate::quantity::Dimension;
 use crate::system::Excitation;
-use crate::transient::{RecordQuantity, Release};
+use crate::transient::{RecordQuantity, Release, SineSweep, SweepRate, Transient};
 
 /// The linear oscillator whose vibration is to be reduced.
 #[derive(Deserialize, JsonSchema)]
@@ -70,6 +70,8 @@ names! { name:
         Free = "free",
         /// A shock: a force too short to be followed, or a sudden velocity of the base.
         Impulse = "impulse",
+        /// The frequency of a harmonic excitation goes evenly through a range.
+        SineSweep = "sine-sweep",
         /// A record of the base's motion or of a force, or noise of a given spectrum.
         Record = "record",
     }
@@ -80,7 +82,7 @@ names! { name:
 #[schemars(deny_unknown_fields, extend("oneOf" = keys_by_kind()))]
 pub(super) struct ExcitationTable {
     /// "base-displacement" shakes the base, "force" pushes the oscillator; "free" lets it go, "impulse" strikes it;
-    /// "record" drives it as a file or a spectrum says.
+    /// "sine-sweep" goes through a range of frequencies; "record" drives it as a file or a spectrum says.
     kind: ExcitationKind,
     /// What a record, or a spectrum, is of.
     #[schemars(example = "base-acceleration")]
@@ -108,6 +110,17 @@ pub(super) struct ExcitationTable {
     /// f, the excitation frequency, above 0.
     #[schemars(extend("x-measurand" = "a frequency", "exclusiveMinimum" = 0, "x-symbol" = "f"))]
     frequency: Option<f64>,
+    /// What is swept: "base-displacement" or "force".
+    of: Option<Excitation>,
+    /// Frequency at which a sweep begins, from rest, above 0; with one above `to` it goes down.
+    #[schemars(extend("x-measurand" = "a frequency", "exclusiveMinimum" = 0, "x-symbol" = "f_1"), example = "7.5 Hz")]
+    from: Option<f64>,
+    /// Frequency at which it ends, above 0.
+    #[schemars(extend("x-measurand" = "a frequency", "exclusiveMinimum" = 0, "x-symbol" = "f_2"), example = "9 Hz")]
+    to: Option<f64>,
+    /// How fast the frequency changes, above 0: by so many hertz or octaves in a time.
+    #[schemars(extend("x-measurand" = "a sweep rate", "exclusiveMinimum" = 0, "x-symbol" = r"\dot{f}"), example = "0.1 Hz/s")]
+    rate: Option<f64>,
     /// Displacement from which the oscillator is let go, its velocity, or both; 0 or more.
     #[schemars(extend("x-measurand" = "a length", "minimum" = 0, "x-symbol" = "x_0"), example = "5 mm")]
     displacement: Option<f64>,
@@ -129,14 +142,29 @@ fn corner() -> Value {
 
 /// For each kind of excitation the keys that it has, and how its amplitude is written.
 fn keys_by_kind() -> Value {
-    let harmonic = |kind: Excitation, example: &str, measures: &str, symbol: &str| {
-        let amplitude = json!({
+    let amplitude = |of: Excitation| {
+        let (example, measures, symbol) = match of {
+            Excitation::BaseDisplacement => ("0.25 mm", "a length", "F"),
+            Excitation::Force => ("2.9 N", "a force", "P"),
+        };
+        json!({
             "type": "number", "examples": [example], "minimum": 0,
             "x-measurand": measures, "x-symbol": symbol,
-        });
+        })
+    };
+    let harmonic = |kind: Excitation| {
         json!({
-            "properties": { "kind": { "const": kind }, "amplitude": amplitude, "frequency": true },
+            "properties": { "kind": { "const": kind }, "amplitude": amplitude(kind), "frequency": true },
             "required": ["amplitude", "frequency"],
+        })
+    };
+    let swept = |of: Excitation| {
+        json!({
+            "properties": {
+                "kind": { "const": "sine-sweep" }, "of": { "const": of }, "amplitude": amplitude(of),
+                "from": true, "to": true, "rate": true,
+            },
+            "required": ["of", "amplitude", "from", "to", "rate"],
         })
     };
     let own = |kind: &str, keys: [&str; 2], how: &str| {
@@ -144,8 +172,10 @@ fn keys_by_kind() -> Value {
         json!({ "properties": properties, how: one_of(keys[0], keys[1]) })
     };
     json!([
-        harmonic(Excitation::BaseDisplacement, "0.25 mm", "a length", "F"),
-        harmonic(Excitation::Force, "2.9 N", "a force", "P"),
+        harmonic(Excitation::BaseDisplacement),
+        harmonic(Excitation::Force),
+        swept(Excitation::BaseDisplacement),
+        swept(Excitation::Force),
         own("free", ["displacement", "velocity"], "anyOf"),
         own("impulse", ["impulse", "velocity"], "oneOf"),
         {
@@ -164,14 +194,27 @@ fn keys_by_kind() -> Value {
 }
 
 impl ExcitationTable {
-    /// How the oscillator is set in motion, if nothing drives it; `None` for harmonic excitation.
+    /// What is not steady in it; `None` for harmonic excitation of one frequency, or where something is missing.
+    fn transient(&self, mass: f64, rate_in: Option<Dimension>) -> Option<Transient> {
+        if self.kind != ExcitationKind::SineSweep {
+            return self.release(mass).map(Transient::Release);
+        }
+        let rate = match rate_in {
+            Some(Dimension::OctaveRate) => SweepRate::Octaves(self.rate?),
+            _ => SweepRate::Linear(self.rate?),
+        };
+        Some(Transient::Sweep(SineSweep { from: self.from?, to: self.to?, rate }))
+    }
+
+    /// How the oscillator is set in motion, if nothing drives it.
     fn release(&self, mass: f64) -> Option<Release> {
         let [displacement, velocity, impulse] =
             [self.displacement, self.velocity, self.impulse].map(Option::unwrap_or_default);
         match self.kind {
-            ExcitationKind::BaseDisplacement | ExcitationKind::Force | ExcitationKind::Record => {
-                None
-            }
+            ExcitationKind::BaseDisplacement
+            | ExcitationKind::Force
+            | ExcitationKind::SineSweep
+            | ExcitationKind::Record => None,
             ExcitationKind::Free => {
                 Some(Release { displacement, velocity, absorber_velocity: 0.0 })
             }
@@ -205,12 +248,11 @@ pub struct Physical {
     pub excitation: Excitation,
     /// `F` in m, the base's displacement, or `P` in N, the force on the oscillator's mass.
     pub amplitude: f64,
-    /// `f`, the excitation frequency; the natural one where nothing drives the oscillator.
+    /// `f`, the excitation frequency; that at which a sweep begins, the natural one where nothing drives the
+    /// oscillator.
     pub frequency_hz: f64,
-    /// How the oscillator is set in motion where nothing drives it.
-    pub release: Option<Release>,
-    /// What is recorded, where a record drives it ([`Case::recording`](super::Case::recording)).
-    pub record: Option<RecordQuantity>,
+    /// What is not steady harmonic excitation.
+    pub transient: Option<Transient>,
 }
 
 impl Physical {
@@ -240,11 +282,10 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Physical> {
         (None, frequency) => stiffness_of(reader, &table, frequency?, oscillator.mass)?,
     };
     let ((_, absorber), (place, excitation)) = (absorber?, excitation?);
-    let release = excitation.release(oscillator.mass);
-    if release.is_some_and(|release| release.displacement == 0.0 && release.velocity == 0.0) {
-        let help = "give displacement = \"5 mm\", velocity = \"0.2 m/s\" or, for a shock, impulse = \"2 N s\"";
-        let expected = "expected a displacement, a velocity or an impulse above 0";
-        reader.report(place.span.clone(), "nothing sets the oscillator in motion", expected, help);
+    let written = place.value("rate").and_then(|rate| rate.get_ref().as_str());
+    let transient = excitation.transient(oscillator.mass, written.and_then(Dimension::of));
+    if let Some((message, expected, help)) = impossible(transient.as_ref()) {
+        reader.report(place.span.clone(), message, expected, help);
         return None;
     }
     let mut physical = Physical {
@@ -259,15 +300,15 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Physical> {
         restitution: absorber.restitution,
         excitation: match (excitation.kind, excitation.quantity) {
             (ExcitationKind::Force, _) | (_, Some(RecordQuantity::Force)) => Excitation::Force,
-            _ => Excitation::BaseDisplacement,
+            _ => excitation.of.unwrap_or_default(),
         },
         amplitude: excitation.amplitude.unwrap_or_default(),
         frequency_hz: 0.0,
-        release,
-        record: None,
+        transient,
     };
-    physical.frequency_hz = match excitation.kind {
-        ExcitationKind::BaseDisplacement | ExcitationKind::Force => excitation.frequency?,
+    physical.frequency_hz = match (transient, excitation.kind) {
+        (Some(Transient::Sweep(sweep)), _) => sweep.from,
+        (_, ExcitationKind::BaseDisplacement | ExcitationKind::Force) => excitation.frequency?,
         _ => physical.natural_frequency_rad_per_s() / TAU,
     };
     physical.damping_n_s_per_m = match (oscillator.damping, oscillator.damping_ratio) {
@@ -276,9 +317,35 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Physical> {
     };
     if excitation.kind == ExcitationKind::Record {
         reader.recording = Some(record::read(reader, &place, excitation)?);
-        physical.record = reader.recording.as_ref().map(|recording| recording.quantity);
+        let quantity = reader.recording.as_ref().map(|recording| recording.quantity);
+        physical.transient = quantity.map(Transient::Record);
     }
     Some(physical)
+}
+
+/// Why an excitation whose numbers are each valid cannot be: message, what was expected, help.
+fn impossible(transient: Option<&Transient>) -> Option<(String, String, &'static str)> {
+    match transient? {
+        Transient::Release(release) if release.displacement == 0.0 && release.velocity == 0.0 => {
+            Some((
+                "nothing sets the oscillator in motion".into(),
+                "expected a displacement, a velocity or an impulse above 0".into(),
+                "give displacement = \"5 mm\", velocity = \"0.2 m/s\" or, for a shock, impulse = \"2 N s\"",
+            ))
+        }
+        Transient::Release(_) => None,
+        Transient::Sweep(sweep) if sweep.fastest_change() > SineSweep::LARGEST_CHANGE => Some((
+            format!("the frequency changes by {:.3} % in a period", 100.0 * sweep.fastest_change()),
+            format!("expected at most {} %", 100.0 * SineSweep::LARGEST_CHANGE),
+            "choose a lower `rate`: so fast a change is a shock, not a sweep",
+        )),
+        Transient::Sweep(sweep) if sweep.count() < SineSweep::FEWEST => Some((
+            format!("the sweep has {} whole periods", sweep.count()),
+            format!("expected at least {}", SineSweep::FEWEST),
+            "choose `from` and `to` further apart, or a lower `rate`",
+        )),
+        Transient::Sweep(_) | Transient::Record(_) => None,
+    }
 }
 
 fn report_missing(reader: &mut Reader, root: &Table) {

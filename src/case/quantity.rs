@@ -22,7 +22,7 @@ pub struct QuantityError {
 }
 
 /// What a case gives with a unit: its name with its article, and an example.
-const MEASURED: [(Dimension, &str, &str); 12] = [
+const MEASURED: [(Dimension, &str, &str); 14] = [
     (Dimension::Length, "a length", "7.5 mm"),
     (Dimension::Mass, "a mass", "32 g"),
     (Dimension::Stiffness, "a stiffness", "11.47 kN/m"),
@@ -33,6 +33,8 @@ const MEASURED: [(Dimension, &str, &str); 12] = [
     (Dimension::Acceleration, "an acceleration", "2 m/s²"),
     (Dimension::Impulse, "an impulse", "2 N s"),
     (Dimension::Time, "a time", "5 s"),
+    (Dimension::FrequencyRate, "a sweep rate", "0.1 Hz/s"),
+    (Dimension::OctaveRate, "a sweep rate", "1 oct/min"),
     (Dimension::Share, "a share", "1 %"),
     (Dimension::Level, "a level", "12 dB"),
 ];
@@ -47,6 +49,18 @@ impl Dimension {
     pub(super) fn words(self) -> (&'static str, &'static str) {
         let found = MEASURED.into_iter().find(|(one, ..)| *one == self);
         found.map_or(("a number", "1"), |(_, name, example)| (name, example))
+    }
+
+    /// It and what has the same name: a sweep rate is in hertz or in octaves.
+    pub(super) fn namesakes(self) -> impl Iterator<Item = Self> {
+        let name = self.words().0;
+        MEASURED.into_iter().filter(move |(_, other, _)| *other == name).map(|(one, ..)| one)
+    }
+
+    /// That of its name which the unit of a text belongs to.
+    pub(super) fn of_namesake(self, text: &str) -> Self {
+        let written = Self::of(text);
+        self.namesakes().find(|one| Some(*one) == written).unwrap_or(self)
     }
 
     /// What a text that begins with a number and a known unit measures, a share excepted.
@@ -113,15 +127,20 @@ impl Dimension {
             let message = format!("is {own}, but `{written}` is the unit of {other}");
             return (message, self.accepted());
         }
-        let symbols: Vec<&str> = self.accepted_units().map(|unit| unit.symbol).collect();
+        let symbols: Vec<&str> = self.all_units().map(|unit| unit.symbol).collect();
         let near = nearest(&plain_spelling(written), &symbols);
         let near = near.map(|near| format!("did you mean `{near}`? ")).unwrap_or_default();
         (format!("has the unknown unit `{written}`"), near + &self.accepted())
     }
 
+    /// The units of all that has its name.
+    pub(super) fn all_units(self) -> impl Iterator<Item = &'static Unit> {
+        self.namesakes().flat_map(Self::accepted_units)
+    }
+
     fn accepted(self) -> String {
         let symbols: Vec<String> =
-            self.accepted_units().map(|unit| plain_spelling(unit.symbol)).collect();
+            self.all_units().map(|unit| plain_spelling(unit.symbol)).collect();
         format!("{} is accepted in {}", self.words().0, symbols.join(", "))
     }
 }

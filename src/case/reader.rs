@@ -239,8 +239,13 @@ impl<'t> Table<'t> {
             let written = self.value(key).and_then(|value| value.get_ref().as_str());
             schema["const"].as_str().is_some_and(|name| Some(name) == written)
         };
-        let mut branches = list(&self.schema["oneOf"]);
-        branches.find(|branch| branch["properties"].as_object().into_iter().flatten().any(says))
+        let keys = |branch: &&'static Value| {
+            let keys = branch["properties"].as_object().into_iter().flatten();
+            keys.filter(|(_, schema)| schema["const"].is_string())
+        };
+        let mut branches = list(&self.schema["oneOf"]).filter(|branch| keys(branch).any(says));
+        let whole = branches.clone().find(|branch| keys(branch).all(says));
+        whole.or_else(|| branches.next())
     }
 
     /// What was chosen, `kind = "free"`, where a key goes with other choices only.
@@ -274,7 +279,7 @@ impl<'t> Table<'t> {
     }
 }
 
-fn list(value: &'static Value) -> impl Iterator<Item = &'static Value> {
+fn list(value: &'static Value) -> impl Iterator<Item = &'static Value> + Clone {
     value.as_array().into_iter().flatten()
 }
 

@@ -8,10 +8,10 @@
 
 use std::f64::consts::TAU;
 
-use super::{Design, Physical};
+use super::Design;
 use crate::quantity::Dimension;
 use crate::system::{Excitation, InvalidParameter, Parameters, System};
-use crate::transient::Release;
+use crate::transient::{Release, Scene, SineSweep, Transient};
 
 /// What turns dimensionless results back into the design's units: SI, or for a reduced design those of an
 /// oscillator with m1 = k1 = 1, lengths in the unit of its own clearance.
@@ -121,20 +121,37 @@ impl Design {
         }
     }
 
-    /// How the oscillator is set in motion, where nothing drives it.
-    pub fn release(&self) -> Option<Release> {
+    /// What is not steady vibration in it.
+    pub fn transient(&self) -> Option<Transient> {
         match self {
-            Self::Physical(physical) => physical.release,
+            Self::Physical(physical) => physical.transient,
             Self::Reduced(_) => None,
         }
     }
 
-    /// What the structure is where it is not driven steadily, as the end of a sentence.
-    pub fn transient(&self) -> Option<&'static str> {
-        match self {
-            Self::Physical(Physical { release: Some(_), .. }) => Some("released or struck"),
-            Self::Physical(Physical { record: Some(_), .. }) => Some("driven by a record"),
+    /// How the oscillator is set in motion, where nothing drives it.
+    pub fn release(&self) -> Option<Release> {
+        match self.transient()? {
+            Transient::Release(release) => Some(release),
             _ => None,
+        }
+    }
+
+    /// The sweep of its excitation's frequency.
+    pub fn sine_sweep(&self) -> Option<SineSweep> {
+        match self.transient()? {
+            Transient::Sweep(sweep) => Some(sweep),
+            _ => None,
+        }
+    }
+
+    /// What the structure is subjected to.
+    pub fn scene(&self) -> Scene {
+        match self.transient() {
+            None => Scene::Steady,
+            Some(Transient::Release(_)) => Scene::Release,
+            Some(Transient::Sweep(_)) => Scene::Sweep,
+            Some(Transient::Record(_)) => Scene::Record,
         }
     }
 

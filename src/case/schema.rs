@@ -90,8 +90,7 @@ pub(super) const NUMBER: &str = r"\+?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)
 
 /// A regular expression for what [`Dimension::parse`] accepts, if it is not negative.
 fn pattern(dimension: Dimension) -> String {
-    let units: Vec<String> =
-        dimension.accepted_units().map(|unit| unit_pattern(unit.symbol)).collect();
+    let units: Vec<String> = dimension.all_units().map(|unit| unit_pattern(unit.symbol)).collect();
     format!(r"^\s*{NUMBER}\s*({})\s*$", units.join("|"))
 }
 

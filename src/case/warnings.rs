@@ -52,7 +52,7 @@ impl Read<'_> {
 
     /// Frequencies of the drive, its own and the band's, that are far from the structure's.
     fn frequencies(&self) -> Vec<Problem> {
-        let own = self.input(2, &["frequency", "frequency_ratio", "detuning"]);
+        let own = self.input(2, &["frequency", "frequency_ratio", "detuning", "from"]);
         let mut drives = vec![(own, self.case.system.frequency_ratio())];
         if let Some(BandSettings { over: BandOver::Frequency, range, .. }) = &self.case.band {
             let ends = ["from", "to"].map(|key| {

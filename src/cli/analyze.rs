@@ -40,6 +40,7 @@ Examples:
 pub fn run(arguments: Arguments) -> Result<bool> {
     let OneCase { path, long, .. } = &arguments.one;
     let case = case_file::read(path)?;
+    release::not_driven(&case, path, "an analysis")?;
     if let Some(done) = release::analyze(&arguments.one, &case)? {
         return Ok(done);
     }

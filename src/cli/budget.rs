@@ -12,6 +12,7 @@ use vinesink::regimes::Transient;
 use vinesink::study::StudyEffort;
 use vinesink::sweep::Plan;
 use vinesink::system::System;
+use vinesink::transient::SineSweep;
 
 use super::progress::duration;
 
@@ -105,6 +106,12 @@ impl Work {
     /// One trajectory.
     pub fn trajectory(case: &Case, periods: u64) -> Self {
         Self::alone(case, vec![(1, "trajectory")], periods)
+    }
+
+    /// Sweeps through resonance: both ways, and at a quarter to four times the rate, nine times as long as one.
+    pub fn passages(case: &Case, sweep: &SineSweep) -> Self {
+        let starts = case.simulation.starts.unwrap_or(16);
+        Self::alone(case, vec![(9, "sweeps"), (starts, "starts")], sweep.count())
     }
 
     /// A case's criteria, over its band if it has one.

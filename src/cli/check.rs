@@ -14,7 +14,7 @@ use vinesink::report::render::RenderError;
 
 use super::budget::{Long, Work};
 use super::parallel::Parallel;
-use super::{case_file, output, release};
+use super::{case_file, output, release, sine_sweep};
 
 /// Hold each case against its criteria
 ///
@@ -104,6 +104,9 @@ fn checked(path: &Path, long: Long, failures: &mut Vec<Report>) -> Checked {
 
 fn judged(path: &Path, long: Long) -> Result<(Case, Vec<Judged>)> {
     let case = case_file::read(path)?;
+    if let Some(judged) = sine_sweep::judged(&case, path, long)? {
+        return Ok((case, judged));
+    }
     if let Some(judged) = release::judged(&case)? {
         return Ok((case, judged));
     }

@@ -19,6 +19,7 @@ mod release;
 mod report;
 mod schema;
 mod simulate;
+mod sine_sweep;
 mod sweep;
 mod tradeoff;
 

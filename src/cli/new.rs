@@ -3,8 +3,9 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use clap::builder::PossibleValuesParser;
 use miette::{Result, miette};
-use vinesink::case::Case;
+use vinesink::case::{Case, STARTING_KINDS};
 use vinesink::store;
 
 use super::output;
@@ -19,11 +20,15 @@ pub struct Arguments {
     /// Name or path of the case, with or without `.toml`
     #[arg(value_name = "NAME")]
     path: PathBuf,
+    /// What drives the structure, or sets it in motion [default: base-displacement]
+    #[arg(long, value_name = "KIND", value_parser = PossibleValuesParser::new(STARTING_KINDS.map(|(kind, _)| kind)))]
+    kind: Option<String>,
 }
 
 const EXAMPLES: &str = "\
 Examples:
   vinesink new damper                write damper.toml
+  vinesink new jump --kind impulse   the same for a structure that is struck
   vinesink new cases/footbridge      write cases/footbridge.toml; the folder must exist";
 
 pub fn run(arguments: Arguments) -> Result<bool> {
@@ -39,7 +44,8 @@ pub fn run(arguments: Arguments) -> Result<bool> {
             arguments.path.display()
         )
     })?;
-    let text = Case::starting_text(&title.to_string_lossy());
+    let kind = arguments.kind.as_deref().unwrap_or_default();
+    let text = Case::starting_text_of(&title.to_string_lossy(), kind);
     store::write_new(&path, text.as_bytes())?;
     output::print_path(&path)?;
     Ok(true)

@@ -84,6 +84,7 @@ pub fn run(arguments: Arguments) -> Result<bool> {
             path.display()
         ));
     }
+    release::not_driven(&case, path, "an optimisation")?;
     if let Some(done) = release::optimize(&arguments.one, &case, &text, arguments.write.as_deref())?
     {
         return Ok(done);

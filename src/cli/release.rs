@@ -8,7 +8,7 @@ use vinesink::criteria::{self, Judged};
 use vinesink::report::render::Files;
 use vinesink::report::{record, release as page};
 use vinesink::store;
-use vinesink::transient::{DecayStudy, RecordStudy, best_clearance};
+use vinesink::transient::{DecayStudy, RecordStudy, Scene, best_clearance};
 
 use super::case_file::{self, Format, OneCase};
 use super::output;
@@ -16,25 +16,22 @@ use super::parallel::Parallel;
 
 /// Refuses a case that is not driven steadily where a command is about steady vibration.
 pub fn steady(case: &Case, path: &Path, what: &str) -> Result<()> {
-    match case.design.transient() {
-        None => Ok(()),
-        Some(_) => Err(miette!(
+    match case.design.scene() {
+        Scene::Steady => Ok(()),
+        other => Err(miette!(
             help = "name a case whose excitation is base-displacement or force",
-            "{}: nothing drives its structure steadily, which {what} is about",
-            path.display()
+            "{}: its structure is {}, and {what} is about one that is driven steadily",
+            path.display(),
+            other.words()
         )),
     }
 }
 
-/// Refuses a case that a record drives where a command has no answer for it.
-fn not_recorded(case: &Case, path: &Path, what: &str) -> Result<()> {
-    match case.recording {
-        None => Ok(()),
-        Some(_) => Err(miette!(
-            help = "`simulate`, `check` and `report` say what becomes of it",
-            "{}: a record drives its structure, for which there is no {what}",
-            path.display()
-        )),
+/// Refuses a case that is swept or that a record drives where a command has an answer for releases alone.
+pub fn not_driven(case: &Case, path: &Path, what: &str) -> Result<()> {
+    match case.design.scene() {
+        Scene::Steady | Scene::Release => Ok(()),
+        _ => steady(case, path, what),
     }
 }
 
@@ -50,7 +47,6 @@ pub fn studied(case: &Case) -> Result<Option<DecayStudy>> {
 
 /// What theory says.
 pub fn analyze(one: &OneCase, case: &Case) -> Result<Option<bool>> {
-    not_recorded(case, &one.path, "theory")?;
     let study = DecayStudy::without_simulation(case).transpose().into_diagnostic()?;
     study.map(|study| printed(one, case, &study)).transpose()
 }
@@ -97,7 +93,6 @@ pub fn optimize(
     text: &str,
     new: Option<&Path>,
 ) -> Result<Option<bool>> {
-    not_recorded(case, &one.path, "best clearance yet")?;
     let Some(best) = best_clearance(case, &Parallel) else { return Ok(None) };
     let name = one.path.display().to_string();
     let written = case.rewritten(&name, text, &best.design, Rounding::Nearest).into_diagnostic()?;

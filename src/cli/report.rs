@@ -21,7 +21,7 @@ use vinesink::study::{CaseStudy, StudyEffort};
 use super::budget::{Long, Work};
 use super::parallel::Parallel;
 use super::progress::Progress;
-use super::{case_file, index, output, release};
+use super::{case_file, index, output, release, sine_sweep};
 
 /// Write the design report of each case
 ///
@@ -139,6 +139,9 @@ fn check(path: &Path, name: &str, folder: &Path, arguments: &Arguments) -> Resul
 /// The files of a report, and whether it is exact enough and to be trusted.
 fn rendered(path: &Path, name: &str, arguments: &Arguments) -> Result<(Files, bool)> {
     let case = case_file::read(path)?;
+    if let Some(files) = sine_sweep::report(&case, path, name, arguments.long)? {
+        return Ok((files, true));
+    }
     if let Some(files) = release::report(&case, name)? {
         return Ok((files, true));
     }

@@ -18,7 +18,7 @@ use super::budget::Work;
 use super::case_file::{self, OneCase};
 use super::output;
 use super::progress::Progress;
-use super::release;
+use super::{release, sine_sweep};
 
 /// Simulate a case directly, impact by impact
 ///
@@ -61,6 +61,9 @@ const IMPACT_LIMIT: u64 = 200_000_000;
 pub fn run(arguments: Arguments) -> Result<bool> {
     let OneCase { path, long, .. } = &arguments.one;
     let case = case_file::read(path)?;
+    if let Some(done) = sine_sweep::simulate(&arguments.one, &case)? {
+        return Ok(done);
+    }
     if let Some(done) = release::simulate(&arguments.one, &case)? {
         return Ok(done);
     }

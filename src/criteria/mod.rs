@@ -18,7 +18,7 @@ use crate::method::Method;
 use crate::regimes::Motion;
 
 pub use record::judge_record;
-pub use release::judge_release;
+pub use release::{judge_release, judge_sweep};
 use scope::Scope;
 
 /// Distance from a count that still is that count: as regimes are told apart.

@@ -26,6 +26,10 @@ pub enum Dimension {
     Time,
     /// Hz
     Frequency,
+    /// Hz/s
+    FrequencyRate,
+    /// octaves per minute
+    OctaveRate,
     /// m/s
     Velocity,
     /// m/s²
@@ -206,6 +210,17 @@ catalogue! {
     BARE_RMS = "bare_rms", "", "rms displacement without absorber", Length, Significant(3), Interval;
     DAMPER_RMS = "damper_rms", "", "rms displacement with a tuned mass damper", Length, Significant(3), Interval;
     STRUCTURE_FREQUENCY = "structure_frequency", "f₀", "natural frequency of the structure", Frequency, Significant(4), Interval;
+    SWEEP_RATE = "sweep_rate", "", "rate of the sweep", FrequencyRate, Significant(3), Interval;
+    OCTAVE_RATE = "octave_rate", "", "rate of the sweep", OctaveRate, Significant(3), Interval;
+    SWEEP_FROM = "sweep_from", "", "frequency at which the sweep begins", Frequency, Significant(4), Interval;
+    SWEEP_TO = "sweep_to", "", "frequency at which the sweep ends", Frequency, Significant(4), Interval;
+    SWEEP_TIME = "sweep_time", "", "duration of the sweep", Time, Significant(3), Interval;
+    PEAK_FREQUENCY = "peak_frequency", "", "frequency of the largest displacement", Frequency, Significant(4), Interval;
+    BARE_PEAK_FREQUENCY = "bare_peak_frequency", "", "frequency of the largest displacement without absorber", Frequency, Significant(4), Interval;
+    DAMPER_PEAK_FREQUENCY = "damper_peak_frequency", "", "frequency of the largest displacement with a tuned mass damper", Frequency, Significant(4), Interval;
+    RETURN_PEAK = "return_peak", "", "peak displacement of the sweep in the other direction", Length, Significant(3), Bound;
+    RETURN_PEAK_FREQUENCY = "return_peak_frequency", "", "frequency of the largest displacement in the other direction", Frequency, Significant(4), Interval;
+    LEAST_PEAK = "least_peak", "", "peak displacement from the best place of the absorber", Length, Significant(3), Interval;
     RELATIVE_CHANGE = "relative_change", "", "relative change", Change, Significant(2), Interval;
 }
 

@@ -29,6 +29,10 @@ const fn unit(symbol: &'static str, exponent: i32) -> Unit {
     Unit { symbol, size, exponent, quotient: [1.0, 1.0] }
 }
 
+const HERTZ_PER_MINUTE: Unit =
+    Unit { symbol: "Hz/min", size: 1.0 / 60.0, exponent: 0, quotient: [1.0, 60.0] };
+const OCTAVES_PER_SECOND: Unit =
+    Unit { symbol: "oct/s", size: 60.0, exponent: 0, quotient: [60.0, 1.0] };
 const RADIANS_PER_SECOND: Unit =
     Unit { symbol: "rad/s", size: 1.0 / TAU, exponent: 0, quotient: [1.0, TAU] };
 const STANDARD_GRAVITY: Unit =
@@ -43,6 +47,8 @@ impl Dimension {
             }
             Self::Time => const { &[unit("s", 0), unit("ms", -3), unit("µs", -6)] },
             Self::Frequency => const { &[unit("kHz", 3), unit("Hz", 0), unit("mHz", -3)] },
+            Self::FrequencyRate => const { &[unit("Hz/s", 0), unit("mHz/s", -3)] },
+            Self::OctaveRate => const { &[unit("oct/min", 0)] },
             Self::Velocity => {
                 const { &[unit("km/s", 3), unit("m/s", 0), unit("mm/s", -3), unit("µm/s", -6)] }
             }
@@ -69,6 +75,8 @@ impl Dimension {
             Self::Length => const { &[unit("cm", -2)] },
             Self::Mass => const { &[unit("ug", -9)] },
             Self::Frequency => const { &[unit("MHz", 6), RADIANS_PER_SECOND] },
+            Self::FrequencyRate => const { &[HERTZ_PER_MINUTE] },
+            Self::OctaveRate => const { &[OCTAVES_PER_SECOND] },
             Self::Velocity => const { &[unit("cm/s", -2)] },
             Self::Stiffness => {
                 const {

@@ -13,6 +13,7 @@ pub mod optimize;
 pub mod record;
 pub mod release;
 pub mod render;
+pub mod sine_sweep;
 pub mod stored;
 #[cfg(feature = "sweep")]
 pub mod sweep;

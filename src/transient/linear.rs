@@ -1,14 +1,16 @@
-//! What does not rattle: the structure alone, and with a tuned mass damper of the absorber's mass, released or driven
-//! as the structure with the absorber is. A step of time is a matrix exponential, so there is no error of integration.
+//! What does not rattle: the structure alone, and with a tuned mass damper of the absorber's mass, released, swept or
+//! driven as the structure with the absorber is. A step of time is a matrix exponential, so there is no error of
+//! integration.
 
 use std::f64::consts::TAU;
 
-use nalgebra::{Matrix4, SMatrix, SVector, Vector4};
+use nalgebra::{SMatrix, SVector};
 
 use super::driven::{Meter, Response};
 use super::record::Piece;
-use super::{STEPS, amplitude};
+use super::{Passage, STEPS, SineSweep, amplitude};
 use crate::band::rivals::TunedMassDamper;
+use crate::case::Scales;
 use crate::system::{State, System};
 
 /// A linear structure on its way to rest, per step as [`super::Ringdown`].
@@ -41,10 +43,10 @@ pub fn released(
     oscillations: u64,
 ) -> Linear {
     let step = exponential(matrix(system, damper) * (TAU / f64::from(STEPS)));
-    let mut state = Vector4::new(start.x, start.x_velocity, start.x, start.y_velocity);
+    let mut state: Motion = [start.x, start.x_velocity, start.x, start.y_velocity, 0.0, 0.0].into();
     let mut found = Linear { amplitudes: Vec::new(), peak: 0.0, stroke: 0.0 };
     let mut below = 0;
-    let note = |found: &mut Linear, state: &Vector4<f64>| {
+    let note = |found: &mut Linear, state: &Motion| {
         let now = amplitude(&State { x: state[0], x_velocity: state[1], ..start });
         found.amplitudes.push(now);
         found.peak = found.peak.max(state[0].abs());
@@ -68,12 +70,13 @@ pub fn driven(system: &System, damper: Option<&TunedMassDamper>, pieces: &[Piece
     let mass_ratio = damper.map_or(0.0, |_| system.mass_ratio());
     let mut meter = Meter::new(mass_ratio, system.mass_ratio() * system.damping());
     let mut state = State::AT_REST;
-    let mut of_duration = (0.0, SMatrix::<f64, 6, 6>::identity());
+    let mut of_duration = (0.0, Square::identity());
     for piece in pieces {
         meter.jump(piece, &mut state);
         if (of_duration.0 - piece.duration).abs() > SAME * piece.duration {
-            let mut rates = SMatrix::<f64, 6, 6>::zeros();
-            rates.fixed_view_mut::<4, 4>(0, 0).copy_from(&matrix(system, damper));
+            let mut rates = Square::zeros();
+            let free = matrix(system, damper);
+            rates.fixed_view_mut::<4, 4>(0, 0).copy_from(&free.fixed_view::<4, 4>(0, 0));
             // The force acts on the structure, that of a base which shakes on both masses; and it grows.
             rates[(1, 4)] = 1.0;
             rates[(3, 4)] = f64::from(u8::from(piece.shakes));
@@ -82,8 +85,7 @@ pub fn driven(system: &System, damper: Option<&TunedMassDamper>, pieces: &[Piece
         }
         let State { x, x_velocity, y, y_velocity } = state;
         let [force, slope] = piece.force;
-        let at_end =
-            of_duration.1 * SVector::<f64, 6>::from([x, x_velocity, y, y_velocity, force, slope]);
+        let at_end = of_duration.1 * Motion::from([x, x_velocity, y, y_velocity, force, slope]);
         let end =
             State { x: at_end[0], x_velocity: at_end[1], y: at_end[2], y_velocity: at_end[3] };
         meter.moved(piece, [0.0, piece.duration], [&state, &end]);
@@ -96,6 +98,33 @@ pub fn driven(system: &System, damper: Option<&TunedMassDamper>, pieces: &[Piece
 /// Relative difference of steps that are one: even times of a record are rounded.
 const SAME: f64 = 1e-12;
 
+/// Steps in a period of a sweep: between two of them a displacement is at most 3e-4 of itself larger.
+const SWEPT_STEPS: u32 = 128;
+
+/// The structure with a damper, or alone, from rest through a sweep.
+pub fn swept(
+    system: &System,
+    damper: Option<&TunedMassDamper>,
+    scales: &Scales,
+    sweep: &SineSweep,
+) -> Passage {
+    let mut found = Passage::new(sweep.count(), 0.0);
+    let mut state = Motion::zeros();
+    for ratio in sweep.frequencies(scales) {
+        let Ok(piece) = system.with_frequency_ratio(ratio) else { break };
+        let step = exponential(matrix(&piece, damper) * (piece.period() / f64::from(SWEPT_STEPS)));
+        (state[4], state[5]) = (0.0, 1.0);
+        let mut peak = state[0].abs();
+        for _ in 0..SWEPT_STEPS {
+            state = step * state;
+            peak = peak.max(state[0].abs());
+            found.stroke = found.stroke.max((state[0] - state[2]).abs());
+        }
+        found.envelope.push([ratio, peak]);
+    }
+    found
+}
+
 /// Oscillations that a structure stays below a level before it counts as calm: a damper may give energy back.
 const BEAT: u32 = 20;
 
@@ -104,40 +133,39 @@ const TERMS: u32 = 20;
 
 /// The exponential of a matrix, by its series at a fraction of it and squaring (nalgebra's needs the system's
 /// mathematical library).
-fn exponential<const D: usize>(of: SMatrix<f64, D, D>) -> SMatrix<f64, D, D> {
+fn exponential(of: Square) -> Square {
     let halvings = libm::ceil(libm::log2(of.norm())).max(0.0) as u32;
     let part = of / libm::pow(2.0, f64::from(halvings));
     // 1 + A (1 + A/2 (1 + A/3 (...))).
     let series = (1..=TERMS)
         .rev()
-        .fold(SMatrix::identity(), |inner, k| SMatrix::identity() + part * inner / f64::from(k));
+        .fold(Square::identity(), |inner, k| Square::identity() + part * inner / f64::from(k));
     (0..halvings).fold(series, |power, _| power * power)
 }
 
-/// The derivative of displacement and velocity of structure and damper.
-fn matrix(system: &System, damper: Option<&TunedMassDamper>) -> Matrix4<f64> {
+/// Displacement and velocity of the structure, the same of the damper, sine and cosine of the excitation's phase.
+type Motion = SVector<f64, 6>;
+type Square = SMatrix<f64, 6, 6>;
+
+/// The derivative of a [`Motion`].
+fn matrix(system: &System, damper: Option<&TunedMassDamper>) -> Square {
     let mu = system.mass_ratio();
     let loss = mu * system.damping();
     let [spring, dashpot] = damper.map_or([0.0; 2], |damper| {
         [damper.tuning * damper.tuning, 2.0 * damper.damping_ratio * damper.tuning]
     });
     let [pull, drag] = [mu * spring, mu * dashpot];
-    Matrix4::new(
-        0.0,
-        1.0,
-        0.0,
-        0.0,
-        -1.0 - pull,
-        -loss - drag,
-        pull,
-        drag,
-        0.0,
-        0.0,
-        0.0,
-        1.0,
-        spring,
-        dashpot,
-        -spring,
-        -dashpot,
+    let (sine, cosine) = system.excitation_amplitudes();
+    let omega = system.frequency_ratio();
+    Square::from_row_slice(
+        &[
+            [0.0, 1.0, 0.0, 0.0, 0.0, 0.0],
+            [-1.0 - pull, -loss - drag, pull, drag, sine, cosine],
+            [0.0, 0.0, 0.0, 1.0, 0.0, 0.0],
+            [spring, dashpot, -spring, -dashpot, 0.0, 0.0],
+            [0.0, 0.0, 0.0, 0.0, 0.0, omega],
+            [0.0, 0.0, 0.0, 0.0, -omega, 0.0],
+        ]
+        .concat(),
     )
 }

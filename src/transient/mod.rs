@@ -1,5 +1,5 @@
-//! What is not steady harmonic motion: a structure that is released or struck, and comes to rest, or that is driven
-//! by a record or by noise.
+//! What is not steady harmonic motion: a structure that is released or struck, and comes to rest; one that is swept
+//! through its resonance ([`SweepStudy`]); one that a record or noise drives ([`RecordStudy`]).
 //!
 //! Lengths over the clearance, fast time `tau = omega0 t`, as everywhere. The *amplitude* of the structure at a
 //! time is `sqrt(x^2 + x'^2)`, the root of its own energy: that of the vibration that it would go on with alone.
@@ -10,23 +10,63 @@
 mod clearance;
 mod driven;
 pub mod linear;
+mod passage;
 mod record;
 mod record_study;
 mod ringdown;
 mod study;
+mod sweep;
 mod theory;
 
 pub use clearance::{Best, best_clearance};
 pub use driven::{DrivenError, Response, follow};
+pub use passage::{ByRate, Jump, SweepStart, SweepStudy};
 pub use record::{Piece, Record, RecordQuantity, Spectrum};
 pub use record_study::{Measured, Realisation, RecordStudy, SpectrumPoint};
 pub use ringdown::{Ringdown, STEPS};
 pub use study::{Decay, DecayStudy, Start};
+pub use sweep::{Passage, SineSweep, SweepRate};
 pub use theory::Predicted;
 
 use crate::case::Scales;
 use crate::numerics::scatter::error_of_largest;
 use crate::system::{InvalidParameter, Parameters, State, System};
+
+/// What a structure is subjected to that is not steady harmonic excitation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Transient {
+    /// It is let go or struck.
+    Release(Release),
+    /// The frequency of its excitation is swept.
+    Sweep(SineSweep),
+    /// A record or noise drives it, whose values are of this quantity.
+    Record(RecordQuantity),
+}
+
+/// What a structure is subjected to: which criteria, tables and commands make sense of it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Scene {
+    /// Harmonic excitation.
+    Steady,
+    /// None: it is let go or struck.
+    Release,
+    /// Harmonic excitation whose frequency changes.
+    Sweep,
+    /// A record or noise.
+    Record,
+}
+
+impl Scene {
+    /// "a structure that is ...".
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::Steady => "driven steadily",
+            Self::Release => "released or struck",
+            Self::Sweep => "swept through resonance",
+            Self::Record => "driven by a record",
+        }
+    }
+}
 
 /// How a structure is set in motion, in SI or the units of a reduced case; the absorber's place is open.
 #[derive(Debug, Clone, Copy, PartialEq)]

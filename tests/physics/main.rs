@@ -29,6 +29,7 @@ mod record;
 mod regimes;
 mod release;
 mod simulation_properties;
+mod sine_sweep;
 mod symbolic;
 mod tangent;
 mod transients;

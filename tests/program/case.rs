@@ -1,13 +1,15 @@
 //! What a case file means, and what is said about one that is wrong.
 
 use vinesink::case::{
-    BandOver, Case, CaseError, Design, ExtraFigure, Objective, Physical, Rounding, Subject,
+    BandOver, Case, CaseError, Design, ExtraFigure, Objective, Physical, Rounding, STARTING_KINDS,
+    Subject,
 };
 use vinesink::quantity::catalogue::{
     ABSORBER_MASS, DAMPING, EXCITATION_FREQUENCY, IMPACT_SPEED, PEAK, STIFFNESS,
 };
 use vinesink::quantity::{Dimension, Units};
 use vinesink::system::{Excitation, Parameter};
+use vinesink::transient::Scene;
 
 const PHYSICAL: &str = r#"title = "Li 2016, 8 Hz, b = 7.5 mm"
 source = "Li, Seguy, Berlioz 2016, Table 1"
@@ -767,7 +769,8 @@ fn the_starting_case_shows_every_optional_key_and_parses_without_its_comment_sig
     let lines: Vec<&str> = text.lines().map(|line| uncommented(line).unwrap_or(line)).collect();
     let full = lines.join("\n");
     let case = parsed(&full);
-    assert_eq!(case.criteria.len(), Subject::ALL.len());
+    let steady = Subject::ALL.into_iter().filter(|subject| subject.is_for(Scene::Steady));
+    assert_eq!(case.criteria.len(), steady.count());
     assert_eq!(case.uncertainty.parameters().count(), 4);
     let band = case.band.expect("a band");
     assert_eq!((band.over, band.spectrum.len()), (BandOver::Frequency, 2));
@@ -796,6 +799,20 @@ fn the_starting_case_shows_every_optional_key_and_parses_without_its_comment_sig
         assert!(full.contains(&format!("\"{}\"", objective.name())), "{objective:?}");
     }
     assert!(full.contains("of = \"frequency\"") && full.contains("or \"amplitude\""));
+}
+
+/// Each kind of excitation that a case may begin with can be read as it is.
+#[test]
+fn a_starting_case_of_any_kind_is_valid() {
+    let mut scenes = std::collections::BTreeSet::new();
+    for (kind, _) in STARTING_KINDS {
+        let text = Case::starting_text_of("x", kind);
+        assert!(text.contains(&format!("\nkind = \"{kind}\"\n")), "{text}");
+        assert!(!text.contains("kind = \"base-displacement\""), "{text}");
+        scenes.insert(parsed(&text).design.scene().words());
+    }
+    assert_eq!(scenes.len(), 4, "{scenes:?}");
+    assert_eq!(Case::starting_text_of("x", "base-displacement"), Case::starting_text("x"));
 }
 
 #[test]

@@ -30,7 +30,7 @@ prop_compose! {
         let excitation = if force { Excitation::Force } else { Excitation::BaseDisplacement };
         Physical {
             mass_kg, stiffness_n_per_m, damping_n_s_per_m, absorber_mass_kg, clearance_m,
-            restitution, excitation, amplitude, frequency_hz, release: None, record: None,
+            restitution, excitation, amplitude, frequency_hz, transient: None,
         }
     }
 }
@@ -163,8 +163,7 @@ fn restored(scales: &Scales, system: &System) -> Design {
             Excitation::Force => displacement * stiffness_n_per_m,
         },
         frequency_hz: scales.frequency(system.frequency_ratio()),
-        release: None,
-        record: None,
+        transient: None,
     })
 }
 

@@ -30,6 +30,7 @@ mod record;
 mod report;
 #[cfg(unix)]
 mod review;
+mod sine_sweep;
 mod sweep;
 mod sweep_page;
 #[cfg(unix)]

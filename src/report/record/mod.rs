@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 
 use super::document::criteria::badge;
 use super::document::{Scale, Word, units};
-use super::release::{heading, page};
+use super::release::{head, written};
 use super::render::{Files, RenderError};
 use super::template::render;
 use crate::case::{Case, Design, RecordSource};
@@ -32,7 +32,7 @@ pub fn files(
 ) -> Result<Files, RenderError> {
     let facts = document(name, case, study, judged);
     let figures = figure::figures(case, study, &facts);
-    page("record.md", case, facts, figures)
+    written("record.md", case, facts, figures)
 }
 
 /// What a terminal shows.
@@ -48,7 +48,7 @@ pub fn document(name: &str, case: &Case, study: &RecordStudy, judged: &[Judged])
     let quantities = quantities(case, study);
     let word = badge(judged).unwrap_or_else(|| word(study));
     let scale = Scale::of(case);
-    let mut facts = heading(name, case, word, &quantities, judged);
+    let mut facts = head(name, case, (word, "record"), &quantities, judged);
     facts["verdict"]["headline"] = "record".into();
     let places = study.realisations.first().map_or(&[][..], |first| &first.places);
     let place = |(w, found): &(f64, Response)| {

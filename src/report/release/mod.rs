@@ -21,7 +21,7 @@ use crate::quantity::{Kind, Quantity};
 use crate::transient::{Best, Decay, DecayStudy, Start};
 
 /// Relative change of the time that is worth calling one.
-const NOTICEABLE: f64 = 0.02;
+pub(super) const NOTICEABLE: f64 = 0.02;
 
 /// The files of a report's folder.
 ///
@@ -35,11 +35,11 @@ pub fn files(
 ) -> Result<Files, RenderError> {
     let facts = document(name, case, study, judged);
     let figures = figure::figures(case, study, &facts);
-    page("release.md", case, facts, figures)
+    written("release.md", case, facts, figures)
 }
 
-/// The files of a report: a page by a template and `report.json` of the same facts.
-pub(super) fn page(
+/// The files of a page by a template, with its facts and figures.
+pub(super) fn written(
     template: &str,
     case: &Case,
     mut facts: Value,
@@ -65,25 +65,24 @@ pub fn text(case: &Case, document: &Value) -> Result<String, RenderError> {
 
 /// A report as data. Quantities are in SI.
 pub fn document(name: &str, case: &Case, study: &DecayStudy, judged: &[Judged]) -> Value {
-    let quantities = quantities(case, study);
-    let word = badge(judged).unwrap_or_else(|| word(study));
     let scale = Scale::of(case);
     let start = |(w, decay, _): &Start| row(&scale, *w, decay);
-    let mut facts = heading(name, case, word, &quantities, judged);
-    facts["verdict"]["headline"] = "release".into();
-    facts["notes"].as_array_mut().into_iter().for_each(|all| all.extend(notes(study)));
+    let word = badge(judged).unwrap_or_else(|| word(study));
+    let mut document = head(name, case, (word, "release"), &quantities(case, study), judged);
+    document["notes"].as_array_mut().into_iter().for_each(|all| all.extend(notes(study)));
     // One for each place of the absorber.
-    facts["starts"] = study.starts.iter().map(start).collect();
+    document["starts"] = study.starts.iter().map(start).collect();
+    document["count_inactive"] = study.count_inactive.into();
     // Share of the first amplitude that counts as rest.
-    facts["share"] = case.decay_level.into();
-    facts
+    document["share"] = case.decay_level.into();
+    document
 }
 
-/// What the report of every structure that is not driven steadily says.
-pub(super) fn heading(
+/// What every page of a transient has.
+pub(super) fn head(
     name: &str,
     case: &Case,
-    word: Word,
+    (word, headline): (Word, &str),
     quantities: &[Quantity],
     judged: &[Judged],
 ) -> Value {
@@ -97,7 +96,7 @@ pub(super) fn heading(
         "title": case.title,
         "source": case.source,
         "units": "si",
-        "verdict": { "tone": word.tone(), "word": word },
+        "verdict": { "tone": word.tone(), "word": word, "headline": headline },
         "quantities": all,
         "criteria": criteria(case, judged),
         "notes": warnings.collect::<Vec<_>>(),

@@ -1,0 +1,242 @@
+//! A sweep through resonance with everything that is known of it: from all places of the absorber and in both
+//! directions, at other rates, beside its alternatives and the steady motions.
+
+use std::f64::consts::TAU;
+
+use super::linear::swept;
+use super::sweep::{Passage, SineSweep};
+use crate::band::rivals::{TunedMassDamper, bare_amplitude};
+use crate::case::{Case, Scales};
+use crate::executor::{Executor, map};
+use crate::orbits::attracting_orbit;
+use crate::simulation::StartError;
+use crate::system::{State, System};
+
+/// Places of the absorber unless the case says how many.
+const STARTS: u32 = 16;
+/// Rates over the case's own.
+pub const RATES: [f64; 5] = [0.25, 0.5, 1.0, 2.0, 4.0];
+/// Frequencies at which steady motions are known.
+const PLACES: u32 = 300;
+
+/// The absorber's relative displacement at a start, and what happened.
+pub type SweepStart = (f64, Passage);
+
+/// A passage at some rate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ByRate {
+    /// The sweep.
+    pub sweep: SineSweep,
+    /// Frequency ratio and size of the largest displacement: with absorber from the worst start, alone, with the
+    /// damper.
+    pub peaks: [[f64; 2]; 3],
+}
+
+/// A sudden change of the envelope.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Jump {
+    /// Frequency ratio.
+    pub at: f64,
+    /// The largest displacement before, and after.
+    pub levels: [f64; 2],
+}
+
+/// A structure that was swept through its resonance.
+#[derive(Debug, Clone)]
+pub struct SweepStudy {
+    /// The system; its frequency is that of the start.
+    pub system: System,
+    /// The sweep.
+    pub sweep: SineSweep,
+    /// Every start.
+    pub starts: Vec<SweepStart>,
+    /// The worst of the starts in the other direction.
+    pub back: Passage,
+    /// The structure alone.
+    pub alone: Passage,
+    /// With the tuned mass damper of Den Hartog.
+    pub damped: (TunedMassDamper, Passage),
+    /// Frequency ratio, amplitude of the structure alone, peak of the symmetric 1:1 orbit, NaN where none attracts: of
+    /// steady motion.
+    pub steady: Vec<[f64; 3]>,
+    /// Where the envelope jumps, in the case's own direction and in the other.
+    pub jumps: [Vec<Jump>; 2],
+    /// Lowest and highest frequency ratio at which the directions differ.
+    pub differ: Option<[f64; 2]>,
+    /// Other rates, and the own one.
+    pub by_rate: Vec<ByRate>,
+}
+
+impl SweepStudy {
+    /// Studies a case that is swept; none for another.
+    ///
+    /// # Errors
+    /// [`StartError`] where the motion is so large that rounding hides the walls.
+    pub fn of_case(case: &Case, executor: &dyn Executor) -> Option<Result<Self, StartError>> {
+        let sweep = case.design.sine_sweep()?;
+        let starts = case.simulation.starts.and_then(|starts| u32::try_from(starts).ok());
+        let counted = |passage: &Passage| case.count_inactive || passage.impacts > 0;
+        Some(Self::of(case, &sweep, starts.unwrap_or(STARTS), &counted, executor))
+    }
+
+    fn of(
+        case: &Case,
+        sweep: &SineSweep,
+        starts: u32,
+        counted: &dyn Fn(&Passage) -> bool,
+        executor: &dyn Executor,
+    ) -> Result<Self, StartError> {
+        let (system, scales) = (case.system(), case.scales());
+        let rates: Vec<SineSweep> = RATES
+            .into_iter()
+            .map(|factor| sweep.faster(factor))
+            .filter(|other| other.fastest_change() <= SineSweep::LARGEST_CHANGE)
+            .filter(|other| other.count() >= SineSweep::FEWEST)
+            .collect();
+        let all: Vec<SineSweep> = [sweep.reversed()].into_iter().chain(rates.clone()).collect();
+        let passage = |k: usize| {
+            let (n, w) = (k / starts as usize, place(k % starts as usize, starts));
+            let start = State { y: -w, ..State::AT_REST };
+            let found = Passage::follow(&system, &scales, &all[n], start)?;
+            Ok((w, found))
+        };
+        let flown = map(executor, "passages", all.len() * starts as usize, passage);
+        let flown = flown.into_iter().collect::<Result<Vec<SweepStart>, StartError>>()?;
+        // Starts that do not count are left out, unless there are no others.
+        let of = |n: usize| {
+            let all = &flown[n * starts as usize..(n + 1) * starts as usize];
+            let none = !all.iter().any(|one| counted(&one.1));
+            all.iter().filter(|one| none || counted(&one.1)).cloned().collect::<Vec<SweepStart>>()
+        };
+        let damper = TunedMassDamper::den_hartog(system.mass_ratio());
+        let linear = |damper: Option<&TunedMassDamper>, sweep: &SineSweep| {
+            swept(&system, damper, &scales, sweep)
+        };
+        let by_rate = rates.iter().enumerate().map(|(n, sweep)| ByRate {
+            sweep: *sweep,
+            peaks: [
+                worst(&of(n + 1)).map_or([f64::NAN; 2], |(_, found)| found.peak()),
+                linear(None, sweep).peak(),
+                linear(Some(&damper), sweep).peak(),
+            ],
+        });
+        let own = rates.iter().position(|other| other == sweep).map_or(0, |n| n + 1);
+        let (starts, back) = (of(own), of(0));
+        let [there, back] = [&starts, &back].map(|some| worst(some).map(|(_, one)| one.clone()));
+        let none = || Passage::new(0, 0.0);
+        let (there, back) = (there.unwrap_or_else(none), back.unwrap_or_else(none));
+        let window = window(&system);
+        Ok(Self {
+            system,
+            sweep: *sweep,
+            alone: linear(None, sweep),
+            damped: (damper, linear(Some(&damper), sweep)),
+            steady: steady(&system, &scales, sweep),
+            jumps: [&there, &back].map(|passage| jumps(&passage.envelope, window)),
+            differ: differ(&there.envelope, &back.envelope, window),
+            by_rate: by_rate.collect(),
+            starts,
+            back,
+        })
+    }
+
+    /// The start with the largest displacement.
+    pub fn worst(&self) -> Option<&SweepStart> {
+        worst(&self.starts)
+    }
+
+    /// The smallest of the starts' largest displacements.
+    pub fn least(&self) -> f64 {
+        self.starts.iter().map(|(_, found)| found.peak()[1]).fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// Even places of the cavity, none of which is the middle.
+fn place(k: usize, starts: u32) -> f64 {
+    (2 * k + 1) as f64 / f64::from(starts) - 1.0
+}
+
+fn worst(starts: &[SweepStart]) -> Option<&SweepStart> {
+    starts.iter().max_by(|a, b| a.1.peak()[1].total_cmp(&b.1.peak()[1]))
+}
+
+/// Amplitudes of steady motion along the range.
+fn steady(system: &System, scales: &Scales, sweep: &SineSweep) -> Vec<[f64; 3]> {
+    let place = |k: u32| {
+        let part = f64::from(k) / f64::from(PLACES);
+        let ratio = scales.frequency_ratio(sweep.from + part * (sweep.to - sweep.from));
+        let there = system.with_frequency_ratio(ratio).ok()?;
+        let orbit = attracting_orbit(&there).map_or(f64::NAN, |orbit| orbit.peaks.displacement);
+        Some([ratio, bare_amplitude(&there), orbit])
+    };
+    (0..=PLACES).filter_map(place).collect()
+}
+
+/// Periods whose largest displacement is a level: as many as the absorber needs to take the structure's energy, about
+/// `1/(2 pi eps)`, in which it may be caught and lost again, and as the structure's damping needs, so that beating is
+/// no change of level; not more than that is of an absorber of a thousandth of the mass.
+fn window(system: &System) -> usize {
+    let eps = system.mass_ratio();
+    let damping = 0.5 * eps * system.damping();
+    let periods = 1.0 / (TAU * eps.max(1e-3)) + 1.0 / (TAU * damping.max(1e-3));
+    libm::ceil(periods) as usize
+}
+
+/// A level that changes by more from one window to the next: where the response has the width of the structure's
+/// resonance and the sweep is slow, its flanks rise by less.
+const JUMP: f64 = 1.6;
+
+/// Where the level of an envelope changes by the factor [`JUMP`] from the window before to that behind: the place of
+/// the largest change among all within a window.
+fn jumps(envelope: &[[f64; 2]], window: usize) -> Vec<Jump> {
+    let level = |some: &[[f64; 2]]| some.iter().map(|one| one[1]).fold(0.0, f64::max);
+    // From rest a structure first has to come to its motion.
+    let places = 3 * window..envelope.len().saturating_sub(window);
+    let change = |k: usize| {
+        let levels = [level(&envelope[k - window..k]), level(&envelope[k..k + window])];
+        (k, levels, libm::fabs(libm::log(levels[1] / levels[0])))
+    };
+    let mut found: Vec<(usize, [f64; 2], f64)> = Vec::new();
+    for one in places.map(change).filter(|one| one.2 > libm::log(JUMP)) {
+        match found.last_mut() {
+            Some(last) if one.0 - last.0 <= window => {
+                if one.2 > last.2 {
+                    *last = one;
+                }
+            }
+            _ => found.push(one),
+        }
+    }
+    found.iter().map(|(k, levels, _)| Jump { at: envelope[*k][0], levels: *levels }).collect()
+}
+
+/// Relative difference of two levels that is one.
+const DIFFERENT: f64 = 0.05;
+
+/// Lowest and highest frequency at which the levels of two directions differ, without what either needs to begin.
+fn differ(there: &[[f64; 2]], back: &[[f64; 2]], window: usize) -> Option<[f64; 2]> {
+    let settled = |some: &[[f64; 2]]| some.get(3 * window..).unwrap_or_default().to_vec();
+    let level = |some: &[[f64; 2]], k: usize| {
+        let part = &some[k.saturating_sub(window / 2)..(k + window / 2).min(some.len())];
+        part.iter().map(|one| one[1]).fold(0.0, f64::max)
+    };
+    let (there, mut back) = (settled(there), settled(back));
+    let rises = |some: &[[f64; 2]]| Some(some.last()?[0] > some.first()?[0]);
+    if rises(&there)? == rises(&back)? {
+        return None;
+    }
+    back.reverse();
+    let rising = rises(&back)?;
+    let apart = |k: &usize| {
+        let frequency = there[*k][0];
+        let other = back.partition_point(|one| (one[0] < frequency) == rising);
+        let within = other > 0 && other < back.len();
+        let [own, other] = [level(&there, *k), level(&back, other)];
+        within && (own / other - 1.0).abs() > DIFFERENT
+    };
+    let all = (0..there.len()).filter(apart).map(|k| there[k][0]);
+    all.fold(None, |range, at| {
+        let [low, high] = range.unwrap_or([at, at]);
+        Some([at.min(low), at.max(high)])
+    })
+}

@@ -1,0 +1,96 @@
+//! Commands on a structure that is swept through resonance.
+
+use std::process::Output;
+
+use assert_cmd::Command;
+use serde_json::Value;
+
+const CASE: &str = "cases/sweep-fast.toml";
+
+fn vinesink(arguments: &[&str]) -> Output {
+    let mut command = Command::cargo_bin("vinesink").expect("the program");
+    command.args(arguments).output().expect("it runs")
+}
+
+fn message(arguments: &[&str]) -> String {
+    let output = vinesink(arguments);
+    assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+    let text = String::from_utf8_lossy(&output.stderr).into_owned();
+    text.split(['\n', '│', ' ']).filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ")
+}
+
+#[test]
+fn commands_answer_or_say_that_they_are_about_something_else() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let folder = folder.path();
+    let text = std::fs::read_to_string(CASE).expect("the case");
+    // Fewer starts, and criteria of which one cannot hold.
+    let quick = "\n[simulation]\nstarts = 2\n[criteria]\npeak_displacement = \"<= 1 mm\"\n";
+    let path = folder.join("quick.toml");
+    std::fs::write(&path, format!("{text}{quick}")).expect("written");
+    let path = path.to_str().expect("UTF-8");
+
+    let simulated = vinesink(&["simulate", path, "--format", "json"]);
+    assert_eq!(simulated.status.code(), Some(0), "{simulated:?}");
+    let found: Value = serde_json::from_slice(&simulated.stdout).expect("JSON");
+    let value = |id: &str| found["quantities"][id]["value"].as_f64().expect(id);
+    assert!(value("peak_displacement") < value("bare_peak"));
+    assert!((value("sweep_time") - 15.0).abs() < 0.2);
+    assert_eq!(found["by_rate"].as_array().map(Vec::len), Some(5));
+
+    let checked = vinesink(&["check", path, "--format", "json"]);
+    assert_eq!(checked.status.code(), Some(1), "{checked:?}");
+    let checked: Value = serde_json::from_slice(&checked.stdout).expect("JSON");
+    assert_eq!(checked["cases"][0]["criteria"][0]["found"], value("peak_displacement"));
+
+    let out = folder.join("reports");
+    let out = out.to_str().expect("UTF-8");
+    assert_eq!(vinesink(&["report", path, "--out", out]).status.code(), Some(0));
+    let page = std::fs::read_to_string(format!("{out}/quick/report.md")).expect("a page");
+    assert!(page.contains("## Rates") && page.contains("100 mHz/s (this case)"), "{page}");
+    for name in ["report.html", "report.json", "figures/envelope.svg", "figures/rates.svg"] {
+        assert!(std::fs::exists(format!("{out}/quick/{name}")).is_ok_and(|there| there), "{name}");
+    }
+
+    for command in ["analyze", "optimize", "tradeoff"] {
+        let message = message(&[command, CASE]);
+        assert!(message.contains("swept through resonance"), "{command}: {message}");
+    }
+}
+
+#[test]
+fn what_a_sweep_cannot_be_is_said() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let text = std::fs::read_to_string(CASE).expect("the case");
+    let refused = |from: &str, to: &str| {
+        assert!(text.contains(from), "{from}");
+        let path = folder.path().join("case.toml");
+        std::fs::write(&path, text.replace(from, to)).expect("written");
+        message(&["simulate", path.to_str().expect("UTF-8")])
+    };
+    for (from, to, said) in [
+        ("\"0.1 Hz/s\"", "\"5 Hz/s\"", "changes by 8.889 % in a period"),
+        ("\"9 Hz\"", "\"7.51 Hz\"", "0 whole periods"),
+        ("\"0.1 Hz/s\"", "\"0.1 Hz\"", "`Hz` is the unit of a frequency"),
+        (
+            "\"0.1 Hz/s\"",
+            "\"0.1 oct/minute\"",
+            "did you mean `oct/min`? a sweep rate is accepted in Hz/s, mHz/s",
+        ),
+        ("\"0.1 Hz/s\"", "\"0.1 Hz/s\"\nfrequency = \"8 Hz\"", "`frequency` has no meaning"),
+        ("\"0.25 mm\"", "\"2.9 N\"", "`N` is the unit of a force"),
+        (
+            "[excitation]",
+            "[uncertainty]\nclearance = \"1 %\"\n[excitation]",
+            "[uncertainty] has no meaning",
+        ),
+        (
+            "[excitation]",
+            "[criteria]\ndecay_time = \"<= 1 s\"\n[excitation]",
+            "`decay_time` has no meaning",
+        ),
+    ] {
+        let message = refused(from, to);
+        assert!(message.contains(said), "{to}: {message}");
+    }
+}
