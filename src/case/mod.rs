@@ -202,7 +202,7 @@ const STEADY_KEYS: &str = "kind = \"base-displacement\"    # or \"force\" on the
 pub const STARTING_KINDS: [(&str, &str); 5] = [
     ("force", "amplitude = \"2.9 N\"\nfrequency = \"8.5 Hz\""),
     ("free", "displacement = \"15 mm\"        # and velocity, or one of both"),
-    ("impulse", "impulse = \"3 N s\"             # or the velocity that the base gets at once"),
+    ("impulse", "impulse = \"6 N s\"             # or the velocity that the base gets at once"),
     (
         "sine-sweep",
         "of = \"base-displacement\"      # or \"force\"\namplitude = \"0.25 mm\"\nfrom = \"7.5 Hz\"\nto = \"9 Hz\"\n\

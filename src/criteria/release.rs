@@ -6,7 +6,7 @@ use super::Judged;
 use crate::band::rivals::reduction_db;
 use crate::case::{Case, Criterion, Subject};
 use crate::method::Method;
-use crate::transient::{DecayStudy, Start, SweepStart, SweepStudy, worst_of_places};
+use crate::transient::{DecayStudy, Start, SweepStart, SweepStudy, awake, worst_of_places};
 
 /// Judges every criterion of a case that is released.
 pub fn judge_release(case: &Case, study: &DecayStudy) -> Vec<Judged> {
@@ -18,10 +18,11 @@ pub fn judge_release(case: &Case, study: &DecayStudy) -> Vec<Judged> {
     };
     let judge = |criterion: &Criterion| {
         let values: Vec<f64> =
-            study.starts.iter().map(|start| of_start(criterion.subject, start)).collect();
+            awake(&study.starts).map(|start| of_start(criterion.subject, start)).collect();
         let [worst, error] = worst_of_places(&values);
         let alone = scales.time(TAU * study.bare);
-        if criterion.subject == Subject::DecayTime && study.decides_inactive() && alone > worst {
+        let inactive = study.decides_inactive() || values.is_empty();
+        if criterion.subject == Subject::DecayTime && inactive && alone > worst {
             let judged = criterion.judged(Some(alone), 0.0, Method::ClosedForm);
             return Judged { inactive: Some(study.inactive), ..judged };
         }

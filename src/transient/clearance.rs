@@ -1,7 +1,7 @@
 //! The clearance with which a released structure comes to rest first, from the worst place of the absorber, for a
 //! range of releases.
 
-use super::study::bare;
+use super::study::{awake, bare};
 use super::{DecayStudy, Release};
 use crate::case::{Case, Design};
 use crate::executor::{Executor, map};
@@ -81,10 +81,10 @@ fn slowest(case: &Case, release: &Release, clearance: f64, starts: u32) -> f64 {
         if case.count_inactive && release.may_not_wake(&system, &scales) {
             return bare(&system, case.decay_level);
         }
-        DecayStudy::starts(&system, &scales, &release, case.decay_level, starts)
-            .map_or(f64::INFINITY, |found| {
-                found.iter().map(|start| start.1.oscillations).fold(0.0, f64::max)
-            })
+        let found = DecayStudy::starts(&system, &scales, &release, case.decay_level, starts);
+        let Ok(found) = found else { return f64::INFINITY };
+        let times = awake(&found).map(|start| start.1.oscillations);
+        times.reduce(f64::max).unwrap_or_else(|| bare(&system, case.decay_level))
     };
     factors.iter().map(time).fold(0.0, f64::max)
 }

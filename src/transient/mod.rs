@@ -24,6 +24,7 @@ pub use passage::{ByRate, Jump, SweepStart, SweepStudy};
 pub use record::{Piece, Record, RecordQuantity, Spectrum};
 pub use record_study::{Measured, Realisation, RecordStudy, SpectrumPoint};
 pub use ringdown::{Ringdown, STEPS};
+pub(crate) use study::awake;
 pub use study::{Decay, DecayStudy, Start};
 pub use sweep::{Passage, SineSweep, SweepRate};
 pub use theory::Predicted;

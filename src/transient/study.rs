@@ -130,10 +130,11 @@ impl DecayStudy {
         each.collect()
     }
 
-    /// The start that takes longest; none where nothing was simulated.
+    /// The start that takes longest among those that wake the absorber, any where none does; none where nothing was
+    /// simulated.
     pub fn worst(&self) -> Option<&Start> {
         let later = |a: &&Start, b: &&Start| a.1.oscillations.total_cmp(&b.1.oscillations);
-        self.starts.iter().max_by(later)
+        awake(&self.starts).max_by(later).or(self.starts.first())
     }
 
     /// Oscillations of the slowest start, that of an absorber which never wakes included where it counts.
@@ -151,6 +152,11 @@ impl DecayStudy {
     pub fn fastest(&self) -> f64 {
         self.starts.iter().map(|start| start.1.oscillations).fold(f64::INFINITY, f64::min)
     }
+}
+
+/// The starts that wake the absorber.
+pub(crate) fn awake(starts: &[Start]) -> impl Iterator<Item = &Start> {
+    starts.iter().filter(|(_, _, found)| found.impacts.last().is_some_and(|count| *count > 0))
 }
 
 impl Decay {

@@ -191,3 +191,26 @@ fn no_other_clearance_is_better() {
         assert!(slowest > 0.97 * best.checked, "{clearance}: {slowest} {}", best.checked);
     }
 }
+
+/// Starts that no wall ever reaches are none of those that are told of the absorber; they count by their share.
+#[test]
+fn starts_that_never_wake_count_by_their_share_alone() {
+    let study = |extra: &str| {
+        let text = FOOTBRIDGE.replace("clearance = \"3 mm\"", "clearance = \"6 mm\"");
+        let case =
+            Case::parse("f.toml", &text.replace("[criteria]", &format!("[criteria]\n{extra}")));
+        let case = case.expect("a case");
+        let study = DecayStudy::of_case(&case).expect("released").expect("studied");
+        let judged = judge_release(&case, &study);
+        let time = judged.iter().find(|one| one.criterion.subject == Subject::DecayTime);
+        (study, time.expect("asked").clone())
+    };
+    let (counted, of_all) = study("");
+    let (left_out, of_awake) = study("count_inactive = false");
+    assert!((counted.inactive - 0.5).abs() < 0.01, "{}", counted.inactive);
+    assert_eq!((counted.slowest(), of_all.inactive), (counted.bare, Some(counted.inactive)));
+    let (_, slowest, found) = left_out.worst().expect("simulated");
+    assert!(found.impacts.last() > Some(&0) && slowest.oscillations < left_out.bare);
+    assert_eq!((left_out.slowest(), of_awake.inactive), (slowest.oscillations, None));
+    assert!(of_awake.found < of_all.found);
+}

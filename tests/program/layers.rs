@@ -116,6 +116,7 @@ const ROOMS: &[(&str, &[&str])] = &[
         &[
             "analysis",
             "band",
+            "orbits",
             "case",
             "dissipation",
             "executor",
