@@ -93,7 +93,7 @@ pub(super) struct ExcitationTable {
     /// One-sided power spectral density instead of a file: frequencies in Hz that ascend, each with the density there
     /// in the squared SI unit of the quantity per Hz; straight in between on logarithmic scales, nothing outside.
     #[schemars(extend("minItems" = 2, "x-ascending" = true, "items" = corner()))]
-    #[schemars(example = [[0.5, 0.02], [5.0, 0.02]])]
+    #[schemars(example = vec![[0.5, 0.02], [5.0, 0.02]])]
     pub(super) spectrum: Option<Vec<[f64; 2]>>,
     /// How long each record of a spectrum is, above 0.
     #[schemars(extend("x-measurand" = "a time", "exclusiveMinimum" = 0, "x-symbol" = "T"), example = "60 s")]
