@@ -85,6 +85,9 @@ pub fn run(arguments: Arguments) -> Result<bool> {
         ));
     }
     release::not_driven(&case, path, "an optimisation")?;
+    let given =
+        [("--objective", arguments.objective.is_some()), ("--out", arguments.out.is_some())];
+    release::without(&case, path, &given)?;
     if let Some(done) = release::optimize(&arguments.one, &case, &text, arguments.write.as_deref())?
     {
         return Ok(done);

@@ -35,6 +35,20 @@ pub fn not_driven(case: &Case, path: &Path, what: &str) -> Result<()> {
     }
 }
 
+/// Refuses options that are about steady vibration for a case that is not, by their names where they were given.
+pub fn without(case: &Case, path: &Path, given: &[(&str, bool)]) -> Result<()> {
+    let option = given.iter().find(|(_, given)| *given);
+    match (case.design.scene(), option) {
+        (Scene::Steady, _) | (_, None) => Ok(()),
+        (other, Some((option, _))) => Err(miette!(
+            help = format!("leave out {option}: the case itself says what becomes of it"),
+            "{}: {option} has no meaning for a structure that is {}",
+            path.display(),
+            other.words()
+        )),
+    }
+}
+
 /// The study of a case that a record drives; none for another.
 fn recorded(case: &Case) -> Result<Option<RecordStudy>> {
     RecordStudy::of_case(case, &Parallel).transpose().into_diagnostic()
@@ -95,7 +109,8 @@ pub fn optimize(
 ) -> Result<Option<bool>> {
     let Some(best) = best_clearance(case, &Parallel) else { return Ok(None) };
     let name = one.path.display().to_string();
-    let written = case.rewritten(&name, text, &best.design, Rounding::Nearest).into_diagnostic()?;
+    // A larger one might leave the absorber where no wall reaches it.
+    let written = case.rewritten(&name, text, &best.design, Rounding::Down).into_diagnostic()?;
     let judged = judged(&written.case)?.unwrap_or_default();
     let document = page::optimum(case, &best, &judged);
     one.print(|| page::optimum_text(case, &document), || &document)?;

@@ -61,6 +61,14 @@ const IMPACT_LIMIT: u64 = 200_000_000;
 pub fn run(arguments: Arguments) -> Result<bool> {
     let OneCase { path, long, .. } = &arguments.one;
     let case = case_file::read(path)?;
+    let Arguments { periods, discard, initial, impacts, .. } = &arguments;
+    let given = [
+        ("--periods", periods.is_some()),
+        ("--discard", discard.is_some()),
+        ("--initial", initial.is_some()),
+        ("--impacts", impacts.is_some()),
+    ];
+    release::without(&case, path, &given)?;
     if let Some(done) = sine_sweep::simulate(&arguments.one, &case)? {
         return Ok(done);
     }

@@ -185,7 +185,7 @@ fn no_other_clearance_is_better() {
             let other = footbridge(clearance);
             let release = other.design.release().expect("released").scaled(factor);
             let study = DecayStudy::of(&other.system(), &other.scales(), &release, 0.1, 20);
-            study.expect("studied").worst().expect("simulated").1.oscillations
+            study.expect("studied").slowest()
         });
         let slowest = slowest.into_iter().fold(0.0, f64::max);
         assert!(slowest > 0.97 * best.checked, "{clearance}: {slowest} {}", best.checked);
@@ -207,7 +207,8 @@ fn starts_that_never_wake_count_by_their_share_alone() {
     };
     let (counted, of_all) = study("");
     let (left_out, of_awake) = study("count_inactive = false");
-    assert!((counted.inactive - 0.5).abs() < 0.01, "{}", counted.inactive);
+    // The first swing goes to 2.961 mm and back to -2.914 mm, exp(-0.005 pi/2) and exp(-0.005 3 pi/2) of 2.984 mm.
+    assert!((counted.inactive - 0.5104).abs() < 1e-4, "{}", counted.inactive);
     assert_eq!((counted.slowest(), of_all.inactive), (counted.bare, Some(counted.inactive)));
     let (_, slowest, found) = left_out.worst().expect("simulated");
     assert!(found.impacts.last() > Some(&0) && slowest.oscillations < left_out.bare);

@@ -27,6 +27,7 @@ mod optimize;
 mod paper;
 mod readers;
 mod record;
+mod release;
 mod report;
 #[cfg(unix)]
 mod review;

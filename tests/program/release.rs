@@ -1,0 +1,116 @@
+//! Commands on a structure that is released or struck.
+
+use std::fs;
+use std::process::Output;
+
+use assert_cmd::Command;
+use serde_json::Value;
+
+const CASE: &str = "cases/footbridge-jump.toml";
+
+fn vinesink(arguments: &[&str]) -> Output {
+    let mut command = Command::cargo_bin("vinesink").expect("the program");
+    command.args(arguments).output().expect("it runs")
+}
+
+fn json(arguments: &[&str], code: i32) -> Value {
+    let output = vinesink(arguments);
+    assert_eq!(output.status.code(), Some(code), "{arguments:?}: {output:?}");
+    serde_json::from_slice(&output.stdout).expect("JSON")
+}
+
+fn message(arguments: &[&str]) -> String {
+    let output = vinesink(arguments);
+    assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+    let text = String::from_utf8_lossy(&output.stderr).into_owned();
+    text.split(['\n', '│', ' ']).filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ")
+}
+
+/// One number for one question, whichever command is asked: without absorber `ln 10/(zeta omega0)`, 36.6 s, which an
+/// absorber in the very middle of a cavity wider than the swing leaves as it is.
+#[test]
+fn all_commands_say_the_same() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = folder.path().to_str().expect("UTF-8");
+    let simulated = json(&["simulate", CASE, "--format", "json"], 0);
+    let theory = json(&["analyze", CASE, "--format", "json"], 0);
+    let checked = json(&["check", CASE, "--format", "json"], 1);
+    assert_eq!(vinesink(&["report", CASE, "--out", out]).status.code(), Some(0));
+    let folder = format!("{out}/footbridge-jump");
+    let text = fs::read_to_string(format!("{folder}/report.json")).expect("a report");
+    let report: Value = serde_json::from_str(&text).expect("JSON");
+    let time = |of: &Value, id: &str| of["quantities"][id]["value"].as_f64().expect("a number");
+    let alone = std::f64::consts::LN_10 / (0.005 * std::f64::consts::TAU * 2.0);
+    assert!((time(&theory, "bare_decay_time") / alone - 1.0).abs() < 1e-12);
+    assert_eq!(report["quantities"], simulated["quantities"]);
+    for id in ["decay_time", "bare_decay_time"] {
+        assert!((time(&report, id) / alone - 1.0).abs() < 1e-12, "{id}");
+    }
+    let criteria = checked["cases"][0]["criteria"].as_array().expect("criteria");
+    let asked = criteria.iter().find(|one| one["name"] == "decay_time").expect("asked");
+    assert_eq!(asked["found"], report["quantities"]["decay_time"]["value"]);
+    assert!(time(&report, "active_decay_time") < 0.35 * alone);
+    let page = fs::read_to_string(format!("{folder}/report.md")).expect("a page");
+    let first: Vec<&str> = page.lines().take(6).collect();
+    assert!(
+        first[2].contains("FAILS (1 of 2)") && first[2].contains("instead of 36.6 s"),
+        "{page}"
+    );
+}
+
+/// The case that `optimize` writes does what it says, by `check`.
+#[test]
+fn the_best_clearance_is_checked_and_written() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let [case, better] = ["case.toml", "better.toml"].map(|name| folder.path().join(name));
+    let text = fs::read_to_string(CASE).expect("the case").replace("\"<= 10 s\"", "\"<= 20 s\"");
+    fs::write(&case, text.replace("releases", "# releases")).expect("written");
+    let [case, better] = [&case, &better].map(|path| path.to_str().expect("UTF-8"));
+    let found = json(&["optimize", case, "--write", better, "--format", "json"], 0);
+    let [claimed, checked] = ["claimed", "checked"].map(|id| found[id]["value"].as_f64());
+    let (claimed, checked) = (claimed.expect("a time"), checked.expect("a time"));
+    assert!((claimed / checked - 1.0).abs() < 0.1, "{claimed} {checked}");
+    let judged = json(&["check", better, "--format", "json"], 0);
+    let time = &judged["cases"][0]["criteria"].as_array().expect("criteria")[1]["found"];
+    assert!((time.as_f64().expect("a time") / checked - 1.0).abs() < 0.1, "{time} {checked}");
+}
+
+#[test]
+fn what_has_no_meaning_is_refused() {
+    let told = message(&["tradeoff", CASE]);
+    assert!(told.contains("released or struck"), "{told}");
+    let told = message(&["simulate", CASE, "--periods", "10"]);
+    assert!(told.contains("--periods has no meaning for a structure that is released"), "{told}");
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("case.toml");
+    let text = fs::read_to_string(CASE).expect("the case");
+    for (from, to, says) in [
+        ("impulse = \"150 N s\"", "impulse = \"150 N\"", "is the unit of a force"),
+        (
+            "impulse = \"150 N s\"",
+            "frequency = \"2 Hz\"",
+            "no meaning in [excitation] with kind = \"impulse\"",
+        ),
+        ("impulse = \"150 N s\"", "velocity = \"0 m/s\"", "nothing sets the oscillator in motion"),
+        ("impulse = \"150 N s\"", "", "`impulse` or `velocity` is missing"),
+        (
+            "decay_time = \"<= 10 s\"",
+            "z3_share = \">= 80 %\"",
+            "has no meaning for a structure that is released",
+        ),
+        (
+            "[criteria]",
+            "[band]\nfrom = \"1 Hz\"\nto = \"2 Hz\"\n[criteria]",
+            "[band] has no meaning",
+        ),
+        (
+            "releases",
+            "objective = \"margin\"\nreleases",
+            "`objective` has no meaning in [optimize]",
+        ),
+    ] {
+        fs::write(&path, text.replace(from, to)).expect("written");
+        let told = message(&["analyze", path.to_str().expect("UTF-8")]);
+        assert!(told.contains(says), "{to}: {told}");
+    }
+}
