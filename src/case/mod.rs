@@ -190,7 +190,7 @@ fn one_design() -> Value {
 }
 
 /// Tables that are about steady vibration alone; the first about released structures as well.
-const STEADY_TABLES: [&str; 5] = ["optimize", "accuracy", "band", "sweep", "uncertainty"];
+const STEADY_TABLES: [&str; 6] = ["optimize", "accuracy", "band", "report", "sweep", "uncertainty"];
 
 const STARTING_CASE: &str = include_str!("starting_case.toml");
 
@@ -295,22 +295,7 @@ fn read(reader: &mut Reader, document: &DeTable, text_hash: String) -> Option<Ca
     let design = read_design(reader, &root);
     reader.design = design;
     let scene = design.map_or(Scene::Steady, |design| design.scene());
-    let unfit: &[&str] = match scene {
-        Scene::Steady => &[],
-        Scene::Release => &STEADY_TABLES[1..],
-        Scene::Sweep | Scene::Record => &STEADY_TABLES,
-    };
-    for name in unfit.iter().filter(|name| root.has(name)) {
-        let message = format!("[{name}] has no meaning for a structure that is {}", scene.words());
-        let expected = "expected tables that are about what it does then";
-        let help = match *name {
-            "optimize" => {
-                "remove the table: the best clearance is looked for by hand, with `check`"
-            }
-            _ => "remove the table: it is about steady vibration",
-        };
-        reader.report(root.span_of(name), message, expected, help);
-    }
+    refuse_steady(reader, &root, scene);
     let simulation = reader.settings::<SimulationSettings>(&root, "simulation");
     let report = reader.settings::<ReportSettings>(&root, "report");
     let accuracy = reader.settings::<AccuracySettings>(&root, "accuracy");
@@ -341,6 +326,33 @@ fn read(reader: &mut Reader, document: &DeTable, text_hash: String) -> Option<Ca
         warnings: Vec::new(),
         system,
     })
+}
+
+/// Reports what a case says of steady vibration where its structure is not driven steadily.
+fn refuse_steady(reader: &mut Reader, root: &Table, scene: Scene) {
+    let tables: &[&str] = match scene {
+        Scene::Steady => return,
+        Scene::Release => &STEADY_TABLES[1..],
+        Scene::Sweep | Scene::Record => &STEADY_TABLES,
+    };
+    for name in tables.iter().filter(|name| root.has(name)) {
+        let message = format!("[{name}] has no meaning for a structure that is {}", scene.words());
+        let expected = "expected tables that are about what it does then";
+        let help = match *name {
+            "optimize" => {
+                "remove the table: the best clearance is looked for by hand, with `check`"
+            }
+            _ => "remove the table: it is about steady vibration",
+        };
+        reader.report(root.span_of(name), message, expected, help);
+    }
+    let Some(simulation) = root.value("simulation") else { return };
+    for key in ["periods", "discard"] {
+        let Some(value) = simulation.get_ref().get(key) else { continue };
+        let message = format!("`{key}` has no meaning for a structure that is {}", scene.words());
+        let help = "remove the line: it is about steady vibration";
+        reader.report(value.span(), message, "expected `starts` alone", help);
+    }
 }
 
 fn read_design(reader: &mut Reader, root: &Table) -> Option<Design> {

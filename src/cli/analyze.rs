@@ -12,7 +12,7 @@ use vinesink::study::{StudyEffort, settle_area};
 use super::budget::{ANALYSIS, Work};
 use super::case_file::{self, OneCase};
 use super::progress::Progress;
-use super::{release, simulate};
+use super::{simulate, transient};
 
 /// Print what the theory and the exact orbits say of a case
 ///
@@ -40,8 +40,8 @@ Examples:
 pub fn run(arguments: Arguments) -> Result<bool> {
     let OneCase { path, long, .. } = &arguments.one;
     let case = case_file::read(path)?;
-    release::not_driven(&case, path, "an analysis")?;
-    if let Some(done) = release::analyze(&arguments.one, &case)? {
+    transient::not_driven(&case, path, "an analysis")?;
+    if let Some(done) = transient::analyze(&arguments.one, &case)? {
         return Ok(done);
     }
     let plan = case_file::plan(&case, arguments.fidelity)?;

@@ -12,7 +12,6 @@ use vinesink::regimes::Transient;
 use vinesink::study::StudyEffort;
 use vinesink::sweep::Plan;
 use vinesink::system::System;
-use vinesink::transient::SineSweep;
 
 use super::progress::duration;
 
@@ -108,10 +107,16 @@ impl Work {
         Self::alone(case, vec![(1, "trajectory")], periods)
     }
 
-    /// Sweeps through resonance: both ways, and at a quarter to four times the rate, nine times as long as one.
-    pub fn passages(case: &Case, sweep: &SineSweep) -> Self {
-        let starts = case.simulation.starts.unwrap_or(16);
-        Self::alone(case, vec![(9, "sweeps"), (starts, "starts")], sweep.count())
+    /// What a case needs that is not driven steadily; none for another. A sweep is flown both ways, and at a quarter
+    /// to four times the rate, nine times as long as one; pieces of a record are so short that one takes two flights.
+    pub fn transient(case: &Case) -> Option<Self> {
+        let starts = |usual: u64| (case.simulation.starts.unwrap_or(usual), "starts");
+        if let Some(sweep) = case.design.sine_sweep() {
+            return Some(Self::alone(case, vec![(9, "sweeps"), starts(16)], sweep.count()));
+        }
+        let records = case.recording.as_ref()?.records();
+        let pieces = records.iter().map(|record| record.count(&case.scales())).sum::<u64>();
+        Some(Self::alone(case, vec![(2, "flights"), starts(32)], pieces))
     }
 
     /// A case's criteria, over its band if it has one.

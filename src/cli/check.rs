@@ -14,7 +14,7 @@ use vinesink::report::render::RenderError;
 
 use super::budget::{Long, Work};
 use super::parallel::Parallel;
-use super::{case_file, output, release, sine_sweep};
+use super::{case_file, output, transient};
 
 /// Hold each case against its criteria
 ///
@@ -104,10 +104,7 @@ fn checked(path: &Path, long: Long, failures: &mut Vec<Report>) -> Checked {
 
 fn judged(path: &Path, long: Long) -> Result<(Case, Vec<Judged>)> {
     let case = case_file::read(path)?;
-    if let Some(judged) = sine_sweep::judged(&case, path, long)? {
-        return Ok((case, judged));
-    }
-    if let Some(judged) = release::judged(&case)? {
+    if let Some(judged) = transient::judged(&case, path, long)? {
         return Ok((case, judged));
     }
     if !case.criteria.is_empty() {

@@ -15,13 +15,12 @@ mod output;
 mod paper;
 mod parallel;
 mod progress;
-mod release;
 mod report;
 mod schema;
 mod simulate;
-mod sine_sweep;
 mod sweep;
 mod tradeoff;
+mod transient;
 
 use std::process::ExitCode;
 

@@ -13,7 +13,7 @@ use vinesink::store;
 use super::budget::Work;
 use super::case_file::{self, Format, OneCase};
 use super::parallel::Parallel;
-use super::{index, output, release};
+use super::{index, output, transient};
 
 /// Choose the clearance, and on request restitution and mass, that serve a case best
 ///
@@ -84,11 +84,12 @@ pub fn run(arguments: Arguments) -> Result<bool> {
             path.display()
         ));
     }
-    release::not_driven(&case, path, "an optimisation")?;
+    transient::not_driven(&case, path, "an optimisation")?;
     let given =
         [("--objective", arguments.objective.is_some()), ("--out", arguments.out.is_some())];
-    release::without(&case, path, &given)?;
-    if let Some(done) = release::optimize(&arguments.one, &case, &text, arguments.write.as_deref())?
+    transient::without(&case, path, &given)?;
+    if let Some(done) =
+        transient::optimize(&arguments.one, &case, &text, arguments.write.as_deref())?
     {
         return Ok(done);
     }

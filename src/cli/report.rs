@@ -21,7 +21,7 @@ use vinesink::study::{CaseStudy, StudyEffort};
 use super::budget::{Long, Work};
 use super::parallel::Parallel;
 use super::progress::Progress;
-use super::{case_file, index, output, release, sine_sweep};
+use super::{case_file, index, output, transient};
 
 /// Write the design report of each case
 ///
@@ -139,10 +139,7 @@ fn check(path: &Path, name: &str, folder: &Path, arguments: &Arguments) -> Resul
 /// The files of a report, and whether it is exact enough and to be trusted.
 fn rendered(path: &Path, name: &str, arguments: &Arguments) -> Result<(Files, bool)> {
     let case = case_file::read(path)?;
-    if let Some(files) = sine_sweep::report(&case, path, name, arguments.long)? {
-        return Ok((files, true));
-    }
-    if let Some(files) = release::report(&case, name)? {
+    if let Some(files) = transient::report(&case, path, name, arguments.long)? {
         return Ok((files, true));
     }
     let effort = StudyEffort::of(&case.simulation);

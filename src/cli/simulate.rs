@@ -18,7 +18,7 @@ use super::budget::Work;
 use super::case_file::{self, OneCase};
 use super::output;
 use super::progress::Progress;
-use super::{release, sine_sweep};
+use super::transient;
 
 /// Simulate a case directly, impact by impact
 ///
@@ -68,11 +68,8 @@ pub fn run(arguments: Arguments) -> Result<bool> {
         ("--initial", initial.is_some()),
         ("--impacts", impacts.is_some()),
     ];
-    release::without(&case, path, &given)?;
-    if let Some(done) = sine_sweep::simulate(&arguments.one, &case)? {
-        return Ok(done);
-    }
-    if let Some(done) = release::simulate(&arguments.one, &case)? {
+    transient::without(&case, path, &given)?;
+    if let Some(done) = transient::simulate(&arguments.one, &case)? {
         return Ok(done);
     }
     let effort = arguments.effort(&case);

@@ -15,7 +15,7 @@ use super::budget::{BEST_ANSWER, Work};
 use super::case_file::{self, Format, OneCase};
 use super::index;
 use super::progress::Progress;
-use super::release;
+use super::transient;
 
 /// Measure how much accuracy each layer gives for how much work
 ///
@@ -50,7 +50,7 @@ const LONG_ENOUGH: f64 = 0.2;
 pub fn run(arguments: Arguments) -> Result<bool> {
     let OneCase { path, format, long } = &arguments.one;
     let case = case_file::read(path)?;
-    release::steady(&case, path, "a trade-off")?;
+    transient::steady(&case, path, "a trade-off")?;
     let system = case.system();
     let effort =
         TradeoffEffort { study: StudyEffort::of(&case.simulation), ..TradeoffEffort::default() };

@@ -6,9 +6,8 @@
 //! and that of an absorber which never wakes. What is found is the worst of all with its error, whatever the
 //! limit is: two designs, or two limits, can be compared.
 
-mod record;
-mod release;
 mod scope;
+mod transient;
 
 use crate::band::rivals::reduction_db;
 use crate::band::simulated::Sampling;
@@ -17,9 +16,8 @@ use crate::case::{Case, Criterion, Relation, Scales, Subject};
 use crate::method::Method;
 use crate::regimes::Motion;
 
-pub use record::judge_record;
-pub use release::{judge_release, judge_sweep};
 use scope::Scope;
+pub use transient::{judge_release, judge_sweep, judge_transient};
 
 /// Distance from a count that still is that count: as regimes are told apart.
 const SAME_COUNT: f64 = 0.01;

@@ -10,13 +10,11 @@ pub mod html;
 pub mod index;
 pub mod mathml;
 pub mod optimize;
-pub mod record;
-pub mod release;
 pub mod render;
-pub mod sine_sweep;
 pub mod stored;
 #[cfg(feature = "sweep")]
 pub mod sweep;
 pub mod template;
+pub mod transient;
 
 pub mod equations;

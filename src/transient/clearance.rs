@@ -83,7 +83,7 @@ fn slowest(case: &Case, release: &Release, clearance: f64, starts: u32) -> f64 {
         }
         let found = DecayStudy::starts(&system, &scales, &release, case.decay_level, starts);
         let Ok(found) = found else { return f64::INFINITY };
-        let times = awake(&found).map(|start| start.1.oscillations);
+        let times = awake(&found).map(|start| start.oscillations);
         times.reduce(f64::max).unwrap_or_else(|| bare(&system, case.decay_level))
     };
     factors.iter().map(time).fold(0.0, f64::max)

@@ -25,12 +25,14 @@ pub use record::{Piece, Record, RecordQuantity, Spectrum};
 pub use record_study::{Measured, Realisation, RecordStudy, SpectrumPoint};
 pub use ringdown::{Ringdown, STEPS};
 pub(crate) use study::awake;
-pub use study::{Decay, DecayStudy, Start};
+pub use study::{Decay, DecayStudy};
 pub use sweep::{Passage, SineSweep, SweepRate};
 pub use theory::Predicted;
 
-use crate::case::Scales;
+use crate::case::{Case, Scales};
+use crate::executor::Executor;
 use crate::numerics::scatter::error_of_largest;
+use crate::simulation::StartError;
 use crate::system::{InvalidParameter, Parameters, State, System};
 
 /// What a structure is subjected to that is not steady harmonic excitation.
@@ -65,6 +67,35 @@ impl Scene {
             Self::Release => "released or struck",
             Self::Sweep => "swept through resonance",
             Self::Record => "driven by a record",
+        }
+    }
+}
+
+/// What became of a structure that is not driven steadily.
+#[derive(Debug, Clone)]
+pub enum Study {
+    /// One that was released or struck.
+    Release(Box<DecayStudy>),
+    /// One that was swept through resonance.
+    Sweep(Box<SweepStudy>),
+    /// One that a record drove.
+    Record(Box<RecordStudy>),
+}
+
+impl Study {
+    /// Studies a case that is not driven steadily; none for another.
+    ///
+    /// # Errors
+    /// [`DrivenError`] where the motion is so large that rounding hides the walls, or samples are missing.
+    pub fn of_case(case: &Case, executor: &dyn Executor) -> Option<Result<Self, DrivenError>> {
+        let boxed = |done: Result<Self, StartError>| done.map_err(DrivenError::from);
+        match case.design.transient()? {
+            Transient::Release(_) => DecayStudy::of_case(case)
+                .map(|done| boxed(done.map(|study| Self::Release(Box::new(study))))),
+            Transient::Sweep(_) => SweepStudy::of_case(case, executor)
+                .map(|done| boxed(done.map(|study| Self::Sweep(Box::new(study))))),
+            Transient::Record(_) => RecordStudy::of_case(case, executor)
+                .map(|done| done.map(|study| Self::Record(Box::new(study)))),
         }
     }
 }
@@ -105,6 +136,12 @@ impl Release {
         let speed = scales.velocity(1.0);
         State { x, x_velocity: velocity / speed, y: x - w, y_velocity: absorber_velocity / speed }
     }
+}
+
+/// So many even places of the absorber, as relative displacements; an even number has not the middle, which theory
+/// looks after.
+fn places(count: u64) -> impl ExactSizeIterator<Item = f64> + Clone {
+    (0..count as usize).map(move |k| (2 * k + 1) as f64 / count as f64 - 1.0)
 }
 
 /// Neighbouring starts whose worst is one value of those that tell how much worse others may be.

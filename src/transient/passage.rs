@@ -4,6 +4,7 @@
 use std::f64::consts::TAU;
 
 use super::linear::swept;
+use super::places;
 use super::sweep::{Passage, SineSweep};
 use crate::band::rivals::{TunedMassDamper, bare_amplitude};
 use crate::case::{Case, Scales};
@@ -94,8 +95,9 @@ impl SweepStudy {
             .filter(|other| other.count() >= SineSweep::FEWEST)
             .collect();
         let all: Vec<SineSweep> = [sweep.reversed()].into_iter().chain(rates.clone()).collect();
+        let at: Vec<f64> = places(starts.into()).collect();
         let passage = |k: usize| {
-            let (n, w) = (k / starts as usize, place(k % starts as usize, starts));
+            let (n, w) = (k / at.len(), at[k % at.len()]);
             let start = State { y: -w, ..State::AT_REST };
             let found = Passage::follow(&system, &scales, &all[n], start)?;
             Ok((w, found))
@@ -149,11 +151,6 @@ impl SweepStudy {
     pub fn least(&self) -> f64 {
         self.starts.iter().map(|(_, found)| found.peak()[1]).fold(f64::INFINITY, f64::min)
     }
-}
-
-/// Even places of the cavity, none of which is the middle.
-fn place(k: usize, starts: u32) -> f64 {
-    (2 * k + 1) as f64 / f64::from(starts) - 1.0
 }
 
 fn worst(starts: &[SweepStart]) -> Option<&SweepStart> {

@@ -79,6 +79,13 @@ impl Record {
         pieces
     }
 
+    /// How many pieces of at most [`Self::LONGEST`] the record has.
+    pub fn count(&self, scales: &Scales) -> u64 {
+        let longest = scales.time(Self::LONGEST);
+        let pieces = |two: &[[f64; 2]]| libm::ceil((two[1][0] - two[0][0]) / longest).max(1.0);
+        self.samples.windows(2).map(pieces).sum::<f64>() as u64
+    }
+
     /// A value, dimensionless: displacement of the base, else `f` of [`Piece`].
     fn reduced(&self, scales: &Scales, value: f64) -> f64 {
         let acceleration = scales.acceleration(1.0);

@@ -155,11 +155,6 @@ impl RecordStudy {
     }
 }
 
-/// A place of the absorber among so many even ones.
-fn place(k: u64, of: u64) -> f64 {
-    (2 * k + 1) as f64 / of as f64 - 1.0
-}
-
 fn realisations(
     system: &System,
     scales: &Scales,
@@ -170,13 +165,14 @@ fn realisations(
     let damper = TunedMassDamper::den_hartog(system.mass_ratio());
     let pieces: Vec<Vec<Piece>> =
         records.iter().map(|record| record.pieces(scales, Record::LONGEST)).collect();
-    let each = places as usize;
+    let at: Vec<f64> = super::places(places).collect();
+    let each = at.len();
     let kept = |k: usize, response: Response| match k {
         0 => response,
         _ => Response { trace: Vec::new(), ..response },
     };
     let flown = map(executor, "places", records.len() * each, |k| {
-        let w = place((k % each) as u64, places);
+        let w = at[k % each];
         follow(system, &pieces[k / each], w).map(|found| (w, kept(k / each, found)))
     });
     let mut flown = flown.into_iter();
@@ -204,8 +200,8 @@ fn spectrum_point(
     for record in records {
         let pieces = record.pieces(&scales, Record::LONGEST);
         let mut worst = 0.0_f64;
-        for k in 0..places {
-            worst = worst.max(follow(system, &pieces, place(k, places))?.peak);
+        for w in super::places(places) {
+            worst = worst.max(follow(system, &pieces, w)?.peak);
         }
         let linear = |damper| driven(system, damper, &pieces).peak;
         for (sum, peak) in sums.iter_mut().zip([linear(None), worst, linear(Some(&damper))]) {

@@ -4,15 +4,17 @@
 use std::f64::consts::{PI, TAU};
 
 use super::linear::{Linear, released};
-use super::{Predicted, Release, Ringdown, STEPS, amplitude, settles};
+use super::{Predicted, Release, Ringdown, STEPS, amplitude, places, settles};
 use crate::band::rivals::TunedMassDamper;
 use crate::case::{Case, Scales};
 use crate::simulation::StartError;
 use crate::system::{State, System};
 
-/// How fast a structure comes to a level.
+/// How fast a structure comes to a level from one place of the absorber.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Decay {
+    /// Relative displacement of the absorber at the start, over the clearance.
+    pub place: f64,
     /// Oscillations of the structure; infinite where it did not get there.
     pub oscillations: f64,
     /// Impacts until then.
@@ -21,6 +23,10 @@ pub struct Decay {
     pub impact_speed: f64,
     /// Share of the energy that they took.
     pub impact_share: f64,
+    /// Largest displacement of the structure.
+    pub peak: f64,
+    /// Whether there was any impact, then or later.
+    pub wakes: bool,
 }
 
 /// A structure that was released.
@@ -32,8 +38,10 @@ pub struct DecayStudy {
     pub from: f64,
     /// See [`Self::from`].
     pub level: f64,
-    /// Every start: relative displacement of the absorber, decay, and what it did.
-    pub starts: Vec<Start>,
+    /// Every start.
+    pub starts: Vec<Decay>,
+    /// What happened from the slowest of them.
+    pub slowest_start: Option<Ringdown>,
     /// The structure alone: decay in closed form.
     pub bare: f64,
     /// Share of the absorber's resting places at which no wall ever reaches it, so that the structure is as good
@@ -49,11 +57,8 @@ pub struct DecayStudy {
 
 /// Oscillations after which a decay is given up whose structure has hardly any damping of its own.
 const LONGEST: f64 = 20_000.0;
-/// Places of the absorber unless the case says how many: none is the middle, which theory looks after.
+/// Places of the absorber unless the case says how many.
 const STARTS: u32 = 32;
-
-/// The absorber's relative displacement at a start, the decay from there, and what happened.
-pub type Start = (f64, Decay, Ringdown);
 
 impl DecayStudy {
     /// Studies a release down to a share of its amplitude, the absorber at so many even places of its cavity.
@@ -75,11 +80,16 @@ impl DecayStudy {
         let linear = released(system, Some(&damper), middle, level, longest(bare));
         let inactive = inactive(system, &middle);
         let steps = settles(&linear.amplitudes, level).unwrap_or(f64::INFINITY);
+        let starts = Self::starts(system, scales, release, share, starts)?;
+        let follow = |worst: &Decay| {
+            Ringdown::follow(system, release.state(scales, worst.place), level, longest(bare))
+        };
         Ok(Self {
             system: *system,
             from,
             level,
-            starts: Self::starts(system, scales, release, share, starts)?,
+            slowest_start: worst(&starts).map(follow).transpose()?,
+            starts,
             bare,
             inactive,
             count_inactive: true,
@@ -94,22 +104,18 @@ impl DecayStudy {
     /// As [`Self::of`].
     pub fn of_case(case: &Case) -> Option<Result<Self, StartError>> {
         let starts = case.simulation.starts.and_then(|starts| u32::try_from(starts).ok());
-        Self::of_case_with(case, starts.unwrap_or(STARTS))
+        Self::of_case_from(case, starts.unwrap_or(STARTS))
     }
 
-    /// The same by theory alone.
-    ///
-    /// # Errors
-    /// None: nothing is simulated.
-    pub fn without_simulation(case: &Case) -> Option<Result<Self, StartError>> {
-        Self::of_case_with(case, 0)
+    /// The same by theory alone: nothing is simulated.
+    pub fn by_theory(case: &Case) -> Option<Self> {
+        Self::of_case_from(case, 0)?.ok()
     }
 
-    fn of_case_with(case: &Case, starts: u32) -> Option<Result<Self, StartError>> {
-        let study =
-            |release| Self::of(&case.system(), &case.scales(), &release, case.decay_level, starts);
-        let counted = |study: Self| Self { count_inactive: case.count_inactive, ..study };
-        case.design.release().map(|release| study(release).map(counted))
+    fn of_case_from(case: &Case, starts: u32) -> Option<Result<Self, StartError>> {
+        let release = case.design.release()?;
+        let study = Self::of(&case.system(), &case.scales(), &release, case.decay_level, starts);
+        Some(study.map(|study| Self { count_inactive: case.count_inactive, ..study }))
     }
 
     /// Every start by itself.
@@ -119,27 +125,25 @@ impl DecayStudy {
         release: &Release,
         share: f64,
         count: u32,
-    ) -> Result<Vec<Start>, StartError> {
+    ) -> Result<Vec<Decay>, StartError> {
         let level = share * amplitude(&release.state(scales, 0.0));
         let longest = longest(bare(system, share));
-        let each = (0..count).map(|k| {
-            let w = f64::from(2 * k + 1) / f64::from(count) - 1.0;
+        let each = places(count.into()).map(|w| {
             let found = Ringdown::follow(system, release.state(scales, w), level, longest)?;
-            Ok((w, Decay::of(&found, level), found))
+            Ok(Decay::of(w, &found, level))
         });
         each.collect()
     }
 
     /// The start that takes longest among those that wake the absorber, any where none does; none where nothing was
     /// simulated.
-    pub fn worst(&self) -> Option<&Start> {
-        let later = |a: &&Start, b: &&Start| a.1.oscillations.total_cmp(&b.1.oscillations);
-        awake(&self.starts).max_by(later).or(self.starts.first())
+    pub fn worst(&self) -> Option<&Decay> {
+        worst(&self.starts)
     }
 
     /// Oscillations of the slowest start, that of an absorber which never wakes included where it counts.
     pub fn slowest(&self) -> f64 {
-        let worst = self.worst().map_or(f64::NAN, |(_, worst, _)| worst.oscillations);
+        let worst = self.worst().map_or(f64::NAN, |worst| worst.oscillations);
         if self.decides_inactive() { worst.max(self.bare) } else { worst }
     }
 
@@ -148,28 +152,40 @@ impl DecayStudy {
         self.count_inactive && self.inactive > 0.0
     }
 
+    /// The largest of a value of all starts that wake the absorber; 0 where none does.
+    pub fn largest(&self, value: impl Fn(&Decay) -> f64) -> f64 {
+        awake(&self.starts).map(value).fold(0.0, f64::max)
+    }
+
     /// Oscillations of the start that comes to rest first.
     pub fn fastest(&self) -> f64 {
-        self.starts.iter().map(|start| start.1.oscillations).fold(f64::INFINITY, f64::min)
+        self.starts.iter().map(|start| start.oscillations).fold(f64::INFINITY, f64::min)
     }
 }
 
 /// The starts that wake the absorber.
-pub(crate) fn awake(starts: &[Start]) -> impl Iterator<Item = &Start> {
-    starts.iter().filter(|(_, _, found)| found.impacts.last().is_some_and(|count| *count > 0))
+pub(crate) fn awake(starts: &[Decay]) -> impl Iterator<Item = &Decay> {
+    starts.iter().filter(|start| start.wakes)
+}
+
+fn worst(starts: &[Decay]) -> Option<&Decay> {
+    let later = |a: &&Decay, b: &&Decay| a.oscillations.total_cmp(&b.oscillations);
+    awake(starts).max_by(later).or(starts.first())
 }
 
 impl Decay {
-    fn of(found: &Ringdown, level: f64) -> Self {
+    fn of(place: f64, found: &Ringdown, level: f64) -> Self {
         let time = settles(&found.amplitudes, level);
-        let at = time
-            .map_or(usize::MAX, |steps| libm::ceil(steps) as usize)
-            .min(found.impacts.len() - 1);
+        let last = found.impacts.len() - 1;
+        let at = time.map_or(last, |steps| (libm::ceil(steps) as usize).min(last));
         Self {
+            place,
             oscillations: time.map_or(f64::INFINITY, |steps| steps / f64::from(STEPS)),
             impacts: found.impacts[at],
             impact_speed: found.impact_speeds[at],
             impact_share: found.taken[at],
+            peak: found.peak,
+            wakes: found.impacts[last] > 0,
         }
     }
 }

@@ -13,8 +13,9 @@ use crate::system::System;
 pub struct Predicted {
     /// Oscillations since the start, and the amplitude over the clearance, falling.
     pub path: Vec<[f64; 2]>,
-    /// Oscillations until the amplitude is at the level; infinite where nothing takes the energy.
-    pub oscillations: f64,
+    /// Oscillations until the amplitude is at the level; infinite where nothing takes the energy, none from beyond
+    /// [`Predicted::LARGEST`].
+    pub oscillations: Option<f64>,
     /// The amplitude at which capture ends, over the clearance: below it impacts are few.
     pub residual: f64,
     /// The closed form, or the slow flow on the dissipation curve.
@@ -27,32 +28,65 @@ const POINTS: u32 = 60;
 const BEYOND: f64 = 0.02;
 
 impl Predicted {
+    /// Largest amplitude that a decay is predicted from, over the clearance: the curve takes a second up to there, and
+    /// its impacts per oscillation grow with the amplitude.
+    pub const LARGEST: f64 = 12.0;
+
+    /// Amplitude, over the clearance, below which impacts are so rare that no average knows them.
+    pub const SMALLEST: f64 = 0.05;
+
     /// The decay from an amplitude down to a level, both over the clearance.
     pub fn of(system: &System, from: f64, level: f64) -> Self {
         let decay = FreeDecay::of(system);
         let residual = decay.residual_amplitude();
-        let oscillation = system.mass_ratio() * TAU;
-        let closed = from <= decay.largest_amplitude() && level >= residual;
-        let path: Vec<[f64; 2]> = if closed {
-            let place = |k: u32| {
-                let amplitude = from * libm::pow(level / from, f64::from(k) / f64::from(POINTS));
-                let time = decay.time(from, amplitude.clamp(level, from))?;
-                Some([time / oscillation, amplitude])
-            };
-            (0..=POINTS).filter_map(place).collect()
-        } else {
-            let range = [(1.0 - BEYOND) * level, (1.0 + BEYOND) * from];
-            let curve = DissipationCurve::of(system.restitution(), range);
-            let path = AveragedFlow::of(system, &curve).decay(from, level);
-            path.iter().map(|at| [at.slow_time / oscillation, at.amplitude]).collect()
-        };
-        let there = path
-            .last()
-            .filter(|[time, reached]| time.is_finite() && *reached <= level * (1.0 + END));
-        let oscillations = there.map_or(f64::INFINITY, |[time, _]| *time);
+        let closed = from <= decay.largest_amplitude() && level >= residual || from <= residual;
         let method = if closed { Method::ClosedForm } else { Method::Theory };
+        if from > Self::LARGEST {
+            return Self { path: Vec::new(), oscillations: None, residual, method };
+        }
+        // An absorber that is not caught leaves the structure to its own damping.
+        let active = if from <= residual { from } else { level.max(Self::SMALLEST.min(residual)) };
+        let mut path = active_decay(system, &decay, [from, active], closed);
+        let there = path.last().filter(|[_, reached]| *reached <= active * (1.0 + END));
+        let oscillations = there.map_or(f64::INFINITY, |[time, _]| *time);
+        if active > level && oscillations.is_finite() {
+            let rate = 0.5 * system.damping() * system.mass_ratio() * TAU;
+            let alone = |k: u32| {
+                let part = f64::from(k) / f64::from(POINTS) * libm::log(active / level);
+                [oscillations + part / rate, active * libm::exp(-part)]
+            };
+            path.extend((1..=POINTS).map(alone));
+        }
+        let there = path.last().filter(|[_, reached]| *reached <= level * (1.0 + END));
+        let oscillations = Some(there.map_or(f64::INFINITY, |[time, _]| *time));
+        path.retain(|[time, _]| time.is_finite());
         Self { path, oscillations, residual, method }
     }
+}
+
+/// Oscillations and amplitudes while the absorber is caught, or its impacts are known on average.
+fn active_decay(
+    system: &System,
+    decay: &FreeDecay,
+    [from, to]: [f64; 2],
+    closed: bool,
+) -> Vec<[f64; 2]> {
+    let oscillation = system.mass_ratio() * TAU;
+    if from == to {
+        return vec![[0.0, from]];
+    }
+    if closed {
+        let place = |k: u32| {
+            let amplitude = from * libm::pow(to / from, f64::from(k) / f64::from(POINTS));
+            let time = decay.time(from, amplitude.clamp(to, from))?;
+            Some([time / oscillation, amplitude])
+        };
+        return (0..=POINTS).filter_map(place).collect();
+    }
+    let range = [(1.0 - BEYOND) * to, (1.0 + BEYOND) * from];
+    let curve = DissipationCurve::of(system.restitution(), range);
+    let path = AveragedFlow::of(system, &curve).decay(from, to);
+    path.iter().map(|at| [at.slow_time / oscillation, at.amplitude]).collect()
 }
 
 /// How near to the level, relatively, a path in steps of amplitude ends.

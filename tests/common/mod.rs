@@ -43,6 +43,19 @@ pub fn table_1(frequency_hz: f64, clearance_mm: f64) -> System {
     .expect("Table 1 is a valid system")
 }
 
+/// A system that nothing drives.
+pub fn unforced(mass_ratio: f64, damping: f64, restitution: f64) -> System {
+    System::new(Parameters {
+        mass_ratio,
+        damping,
+        restitution,
+        frequency_ratio: 1.0,
+        forcing_per_clearance: 0.0,
+        excitation: Excitation::Force,
+    })
+    .expect("valid")
+}
+
 /// Amplitude of `v = x + eps y`, the slow amplitude `C`, in each of so many periods: that of its first harmonic.
 pub fn slow_amplitudes(system: &System, start: State, periods: u64) -> Vec<f64> {
     let mut simulation = Simulation::new(system, start, 0.0).expect("inside");

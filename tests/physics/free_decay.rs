@@ -4,24 +4,12 @@
 use std::f64::consts::{PI, TAU};
 
 use vinesink::analysis::{FreeDecay, Manifold};
-use vinesink::system::{Excitation, Parameters, State, System};
+use vinesink::system::State;
 
-use crate::common::{MASS_RATIO, periods_to, slow_amplitudes};
+use crate::common::{MASS_RATIO, periods_to, slow_amplitudes, unforced as system};
 
 /// `lambda` of Table 1, rounded.
 const DAMPING: f64 = 1.799;
-
-fn system(mass_ratio: f64, damping: f64, restitution: f64) -> System {
-    System::new(Parameters {
-        mass_ratio,
-        damping,
-        restitution,
-        frequency_ratio: 1.0,
-        forcing_per_clearance: 0.0,
-        excitation: Excitation::Force,
-    })
-    .expect("valid")
-}
 
 fn decay(damping: f64, restitution: f64) -> FreeDecay {
     FreeDecay::of(&system(MASS_RATIO, damping, restitution))

@@ -13,17 +13,7 @@ use vinesink::transient::{
     Record, RecordQuantity, RecordStudy, Response, Spectrum, follow, worst_of_places,
 };
 
-fn system(mass_ratio: f64, damping: f64, restitution: f64) -> System {
-    System::new(Parameters {
-        mass_ratio,
-        damping,
-        restitution,
-        frequency_ratio: 1.0,
-        forcing_per_clearance: 0.0,
-        excitation: Excitation::Force,
-    })
-    .expect("valid")
-}
+use crate::common::unforced as system;
 
 /// A unit of everything: SI is dimensionless.
 const UNITS: Scales = Scales {

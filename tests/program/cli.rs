@@ -16,11 +16,6 @@ use vinesink::case::Case;
 /// A short run from one start.
 const QUICK: [&str; 6] = ["--initial", "0.1,0.2,0,0.5", "--periods", "30", "--discard", "20"];
 
-fn vinesink(arguments: &[&str]) -> Output {
-    let mut command = Command::cargo_bin("vinesink").expect("the program");
-    command.args(arguments).output().expect("it runs")
-}
-
 fn text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).expect("UTF-8")
 }
@@ -107,6 +102,8 @@ enum Holds {
     List,
 }
 use Holds::{Count, Flag, List, Number, Text, TextOrNull};
+
+use super::run::vinesink;
 
 #[track_caller]
 fn has(document: &Value, keys: &[(&str, Holds)]) {

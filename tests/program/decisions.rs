@@ -4,13 +4,9 @@
 use std::path::Path;
 use std::process::Output;
 
-use assert_cmd::Command;
 use serde_json::Value;
 
-fn vinesink(arguments: &[&str]) -> Output {
-    let mut command = Command::cargo_bin("vinesink").expect("the program");
-    command.args(arguments).output().expect("it runs")
-}
+use super::run::vinesink;
 
 fn json(output: &Output) -> Value {
     serde_json::from_slice(&output.stdout).unwrap_or_else(|error| panic!("{error}: {output:?}"))

@@ -31,6 +31,7 @@ mod release;
 mod report;
 #[cfg(unix)]
 mod review;
+mod run;
 mod sine_sweep;
 mod sweep;
 mod sweep_page;

@@ -1,29 +1,17 @@
 //! Commands on a structure that is released or struck.
 
 use std::fs;
-use std::process::Output;
 
-use assert_cmd::Command;
 use serde_json::Value;
 
-const CASE: &str = "cases/footbridge-jump.toml";
+use super::run::{message, refused, vinesink};
 
-fn vinesink(arguments: &[&str]) -> Output {
-    let mut command = Command::cargo_bin("vinesink").expect("the program");
-    command.args(arguments).output().expect("it runs")
-}
+const CASE: &str = "cases/footbridge-jump.toml";
 
 fn json(arguments: &[&str], code: i32) -> Value {
     let output = vinesink(arguments);
     assert_eq!(output.status.code(), Some(code), "{arguments:?}: {output:?}");
     serde_json::from_slice(&output.stdout).expect("JSON")
-}
-
-fn message(arguments: &[&str]) -> String {
-    let output = vinesink(arguments);
-    assert_eq!(output.status.code(), Some(2), "{arguments:?}");
-    let text = String::from_utf8_lossy(&output.stderr).into_owned();
-    text.split(['\n', '│', ' ']).filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ")
 }
 
 /// One number for one question, whichever command is asked: without absorber `ln 10/(zeta omega0)`, 36.6 s, which an
@@ -81,10 +69,8 @@ fn what_has_no_meaning_is_refused() {
     assert!(told.contains("released or struck"), "{told}");
     let told = message(&["simulate", CASE, "--periods", "10"]);
     assert!(told.contains("--periods has no meaning for a structure that is released"), "{told}");
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join("case.toml");
     let text = fs::read_to_string(CASE).expect("the case");
-    for (from, to, says) in [
+    let changes = [
         ("impulse = \"150 N s\"", "impulse = \"150 N\"", "is the unit of a force"),
         (
             "impulse = \"150 N s\"",
@@ -103,14 +89,13 @@ fn what_has_no_meaning_is_refused() {
             "[band]\nfrom = \"1 Hz\"\nto = \"2 Hz\"\n[criteria]",
             "[band] has no meaning",
         ),
+        ("[criteria]", "[simulation]\nperiods = 3\n[criteria]", "`periods` has no meaning"),
+        ("[criteria]", "[report]\n[criteria]", "[report] has no meaning"),
         (
             "releases",
             "objective = \"margin\"\nreleases",
             "`objective` has no meaning in [optimize]",
         ),
-    ] {
-        fs::write(&path, text.replace(from, to)).expect("written");
-        let told = message(&["analyze", path.to_str().expect("UTF-8")]);
-        assert!(told.contains(says), "{to}: {told}");
-    }
+    ];
+    refused("analyze", &text, &changes);
 }

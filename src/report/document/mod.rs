@@ -34,7 +34,7 @@ pub use verdict::{Tone, Word};
 pub const FORMAT: &str = "vinesink/report@2";
 
 /// Relative change of the vibration that is worth calling a change.
-const NOTICEABLE: f64 = 0.02;
+pub(super) const NOTICEABLE: f64 = 0.02;
 
 /// What a report is made from.
 pub struct Source<'a> {

@@ -6,11 +6,11 @@ use crate::case::Case;
 use crate::quantity::{Dimension, catalogue as of};
 use crate::report::document::Scale;
 use crate::report::figure::{Axis, Color, Dash, Figure, Layer, Panel, Role, Rule, Style};
+use crate::report::transient::DAMPER;
 use crate::transient::{RecordStudy, SpectrumPoint};
 
 /// Stretches of a line: of each its least and its largest value are drawn.
 const STRETCHES: usize = 350;
-const DAMPER: Style = Style::new(Color::Orange, 1.6, Dash::LongDashed);
 const ABSORBER: Style = Style::new(Color::ReddishPurple, 1.8, Dash::Solid);
 
 /// All figures.

@@ -8,11 +8,11 @@ use crate::case::Case;
 use crate::quantity::{Dimension, catalogue as of};
 use crate::report::document::Scale;
 use crate::report::figure::{Axis, Color, Dash, Figure, Layer, Panel, Role, Rule, Style};
+use crate::report::transient::DAMPER;
 use crate::transient::{DecayStudy, STEPS};
 
 /// Points of a line: as many as there are pixels.
 const POINTS: usize = 700;
-const DAMPER: Style = Style::new(Color::Orange, 1.6, Dash::LongDashed);
 const THEORY: Style = Style::new(Color::Blue, 2.0, Dash::Dashed);
 
 /// All figures.
@@ -24,7 +24,7 @@ pub fn figures(case: &Case, study: &DecayStudy, facts: &Value) -> Vec<Figure> {
 fn envelope(case: &Case, study: &DecayStudy) -> Option<Figure> {
     let (scale, scales) = (Scale::of(case), case.scales());
     let units = scale.units();
-    let (_, worst, found) = study.worst()?;
+    let (worst, found) = (study.worst()?, study.slowest_start.as_ref()?);
     let shown = [worst.oscillations, study.bare.min(3.0 * worst.oscillations)]
         .into_iter()
         .filter(|one| one.is_finite())

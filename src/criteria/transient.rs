@@ -1,4 +1,5 @@
-//! Criteria of a structure that is released, struck or swept: the worst place of the absorber counts.
+//! Criteria of a structure that is not driven steadily: the worst place of the absorber counts; of several records the
+//! mean.
 
 use std::f64::consts::TAU;
 
@@ -6,15 +7,26 @@ use super::Judged;
 use crate::band::rivals::reduction_db;
 use crate::case::{Case, Criterion, Subject};
 use crate::method::Method;
-use crate::transient::{DecayStudy, Start, SweepStart, SweepStudy, awake, worst_of_places};
+use crate::transient::{
+    Decay, DecayStudy, RecordStudy, Study, SweepStart, SweepStudy, awake, worst_of_places,
+};
 
-/// Judges every criterion of a case that is released.
+/// Judges every criterion of a case that is not driven steadily.
+pub fn judge_transient(case: &Case, study: &Study) -> Vec<Judged> {
+    match study {
+        Study::Release(study) => judge_release(case, study),
+        Study::Sweep(study) => judge_sweep(case, study),
+        Study::Record(study) => judge_record(case, study),
+    }
+}
+
+/// Those of one that is released.
 pub fn judge_release(case: &Case, study: &DecayStudy) -> Vec<Judged> {
     let scales = case.scales();
-    let of_start = |subject: Subject, (_, decay, found): &Start| match subject {
-        Subject::DecayTime => scales.time(TAU * decay.oscillations),
-        Subject::PeakDisplacement => scales.length(found.peak),
-        _ => scales.velocity(decay.impact_speed),
+    let of_start = |subject: Subject, start: &Decay| match subject {
+        Subject::DecayTime => scales.time(TAU * start.oscillations),
+        Subject::PeakDisplacement => scales.length(start.peak),
+        _ => scales.velocity(start.impact_speed),
     };
     let judge = |criterion: &Criterion| {
         let values: Vec<f64> =
@@ -31,7 +43,7 @@ pub fn judge_release(case: &Case, study: &DecayStudy) -> Vec<Judged> {
     case.criteria.iter().map(judge).collect()
 }
 
-/// Judges every criterion of a case that is swept through resonance.
+/// Those of one that is swept through resonance.
 pub fn judge_sweep(case: &Case, study: &SweepStudy) -> Vec<Judged> {
     let scales = case.scales();
     let of_starts = |of: &dyn Fn(&SweepStart) -> f64| -> [f64; 2] {
@@ -53,6 +65,26 @@ pub fn judge_sweep(case: &Case, study: &SweepStudy) -> Vec<Judged> {
             _ => of_starts(&|(_, found)| scales.velocity(found.impact_speed)),
         };
         criterion.judged(Some(found), error, Method::Simulation)
+    };
+    case.criteria.iter().map(judge).collect()
+}
+
+/// Those of one that a record drives.
+fn judge_record(case: &Case, study: &RecordStudy) -> Vec<Judged> {
+    let scales = case.scales();
+    let length = |value: [f64; 2]| value.map(|one| scales.length(one));
+    let found = |subject: Subject| match subject {
+        Subject::RmsDisplacement => length(study.worst(|_, place| place.rms)),
+        Subject::ImpactVelocity => {
+            study.worst(|_, place| place.impact_speed).map(|speed| scales.velocity(speed))
+        }
+        Subject::ReductionDb => study.reduction_db(|one| one.bare.peak),
+        Subject::ReductionDbTmd => study.reduction_db(|one| one.damped.peak),
+        _ => length(study.worst(|_, place| place.peak)),
+    };
+    let judge = |criterion: &Criterion| {
+        let [value, error] = found(criterion.subject);
+        criterion.judged(Some(value), error, Method::Simulation)
     };
     case.criteria.iter().map(judge).collect()
 }

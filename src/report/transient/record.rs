@@ -1,55 +1,22 @@
-//! A structure that a record or noise drives: its report, and what `simulate` prints of it. The sentences are in
-//! `templates/`.
+//! A structure that a record or noise drives.
 
 mod figure;
 
 use serde_json::{Value, json};
 
-use super::document::criteria::badge;
-use super::document::{Scale, Word, units};
-use super::release::{head, written};
-use super::render::{Files, RenderError};
-use super::template::render;
-use crate::case::{Case, Design, RecordSource};
-use crate::criteria::Judged;
+use super::word_of;
+use crate::case::{Case, RecordSource};
 use crate::method::Method;
 use crate::quantity::catalogue as of;
 use crate::quantity::{Kind, Quantity};
+use crate::report::document::{Scale, Word};
 use crate::transient::{Measured, RecordQuantity, RecordStudy, Response};
 
-/// Relative change of the displacement that is worth calling one.
-const NOTICEABLE: f64 = 0.02;
+pub(super) use figure::figures;
 
-/// The files of a report's folder.
-///
-/// # Errors
-/// [`RenderError`] says which part cannot be rendered.
-pub fn files(
-    name: &str,
-    case: &Case,
-    study: &RecordStudy,
-    judged: &[Judged],
-) -> Result<Files, RenderError> {
-    let facts = document(name, case, study, judged);
-    let figures = figure::figures(case, study, &facts);
-    written("record.md", case, facts, figures)
-}
-
-/// What a terminal shows.
-///
-/// # Errors
-/// [`RenderError::Template`] if the template does not fit.
-pub fn text(case: &Case, document: &Value) -> Result<String, RenderError> {
-    render("record.txt", &units(case), document)
-}
-
-/// A report as data. Quantities are in SI.
-pub fn document(name: &str, case: &Case, study: &RecordStudy, judged: &[Judged]) -> Value {
-    let quantities = quantities(case, study);
-    let word = badge(judged).unwrap_or_else(|| word(study));
+/// What its page has beside what all have.
+pub(super) fn add(case: &Case, study: &RecordStudy, facts: &mut Value) {
     let scale = Scale::of(case);
-    let mut facts = head(name, case, (word, "record"), &quantities, judged);
-    facts["verdict"]["headline"] = "record".into();
     let places = study.realisations.first().map_or(&[][..], |first| &first.places);
     let place = |(w, found): &(f64, Response)| {
         json!({
@@ -66,7 +33,6 @@ pub fn document(name: &str, case: &Case, study: &RecordStudy, judged: &[Judged])
     // Under the first record.
     facts["places"] = places.iter().map(place).collect();
     facts["input"] = input(case, study);
-    facts
 }
 
 /// What drives the structure.
@@ -111,7 +77,7 @@ fn worst(scale: &Scale, study: &RecordStudy) -> [Quantity; 3] {
     ]
 }
 
-fn quantities(case: &Case, study: &RecordStudy) -> Vec<Quantity> {
+pub(super) fn quantities(case: &Case, study: &RecordStudy) -> Vec<Quantity> {
     let scale = Scale::of(case);
     let given = |kind, value| Quantity::new(kind, value, Method::Given);
     let (simulated, exact) = (Method::Simulation, Method::ClosedForm);
@@ -124,9 +90,6 @@ fn quantities(case: &Case, study: &RecordStudy) -> Vec<Quantity> {
     let shown = study.shown().map(|(_, worst)| worst);
     let mut all = worst(&scale, study).to_vec();
     all.extend([
-        scale.length(&of::CLEARANCE, 1.0, Method::Given),
-        given(&of::RESTITUTION, study.system.restitution()),
-        given(&of::MASS_RATIO, study.system.mass_ratio()),
         length(&of::BARE_PEAK, study.mean(|one| one.bare.peak), exact),
         length(&of::BARE_RMS, study.mean(|one| one.bare.rms), exact),
         length(&of::DAMPER_PEAK, study.mean(|one| one.damped.peak), exact),
@@ -141,20 +104,11 @@ fn quantities(case: &Case, study: &RecordStudy) -> Vec<Quantity> {
         all.push(plain(&of::IMPACT_COUNT, worst.impacts as f64));
         all.push(plain(&of::IMPACT_ENERGY_SHARE, worst.impact_loss / worst.work));
     }
-    if let Design::Physical(physical) = &case.design {
-        all.push(given(&of::ABSORBER_MASS, physical.absorber_mass_kg));
-    }
     all
 }
 
-/// The answer where there are no criteria.
-fn word(study: &RecordStudy) -> Word {
+pub(super) fn word(study: &RecordStudy) -> Word {
     let [peak, _] = study.worst(|one, place| place.peak / one.bare.peak);
     let [rms, _] = study.worst(|one, place| place.rms / one.bare.rms);
-    match (peak, rms) {
-        (peak, rms) if peak.max(rms) < 1.0 - NOTICEABLE => Word::Works,
-        (peak, rms) if peak.min(rms) < 1.0 - NOTICEABLE => Word::Mixed,
-        (peak, _) if peak > 1.0 + NOTICEABLE => Word::MakesItWorse,
-        _ => Word::DoesNothing,
-    }
+    word_of(peak.max(rms), peak.min(rms))
 }

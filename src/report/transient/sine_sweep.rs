@@ -1,51 +1,24 @@
-//! A structure that is swept through resonance: its report, and what `simulate` prints of it. The sentences are in
-//! `templates/`.
+//! A structure that is swept through resonance.
 
 mod figure;
 
 use serde_json::{Value, json};
 
-use super::document::criteria::badge;
-use super::document::{Scale, Word, units};
-use super::release::{NOTICEABLE, head, written};
-use super::render::{Files, RenderError};
-use super::template::render;
-use crate::case::{Case, Design};
-use crate::criteria::Judged;
+use super::word_of;
+use crate::band::rivals::reduction_db;
+use crate::case::Case;
 use crate::method::Method;
 use crate::quantity::catalogue as of;
 use crate::quantity::{Kind, Quantity};
+use crate::report::document::{Scale, Word};
 use crate::transient::{ByRate, Jump, Passage, SweepRate, SweepStart, SweepStudy};
 
-/// The files of a report's folder.
-///
-/// # Errors
-/// [`RenderError`] says which part cannot be rendered.
-pub fn files(
-    name: &str,
-    case: &Case,
-    study: &SweepStudy,
-    judged: &[Judged],
-) -> Result<Files, RenderError> {
-    let facts = document(name, case, study, judged);
-    let figures = figure::figures(case, study, &facts);
-    written("sine-sweep.md", case, facts, figures)
-}
+pub(super) use figure::figures;
 
-/// What a terminal shows.
-///
-/// # Errors
-/// [`RenderError::Template`] if the template does not fit.
-pub fn text(case: &Case, document: &Value) -> Result<String, RenderError> {
-    render("sine-sweep.txt", &units(case), document)
-}
-
-/// A report as data. Quantities are in SI.
-pub fn document(name: &str, case: &Case, study: &SweepStudy, judged: &[Judged]) -> Value {
+/// What its page has beside what all have.
+pub(super) fn add(case: &Case, study: &SweepStudy, document: &mut Value) {
     let scale = Scale::of(case);
     let length = |kind, value| scale.length(kind, value, Method::Simulation);
-    let word = badge(judged).unwrap_or_else(|| word(study));
-    let mut document = head(name, case, (word, "sine-sweep"), &quantities(case, study), judged);
     let start = |(w, found): &SweepStart| {
         json!({
             "absorber": scale.length(&of::RELATIVE_DISPLACEMENT, *w, Method::Given),
@@ -79,7 +52,6 @@ pub fn document(name: &str, case: &Case, study: &SweepStudy, judged: &[Judged]) 
     document["differ"] =
         json!(study.differ.map(|ends| ends.map(|at| scale.frequency(at, Method::Simulation))));
     document["by_rate"] = study.by_rate.iter().map(by_rate).collect();
-    document
 }
 
 fn rate(rate: SweepRate) -> Quantity {
@@ -89,7 +61,7 @@ fn rate(rate: SweepRate) -> Quantity {
     }
 }
 
-fn quantities(case: &Case, study: &SweepStudy) -> Vec<Quantity> {
+pub(super) fn quantities(case: &Case, study: &SweepStudy) -> Vec<Quantity> {
     let scale = Scale::of(case);
     let given = |kind, value| Quantity::new(kind, value, Method::Given);
     let at = |kind: &'static Kind, passage: &Passage, method| Quantity {
@@ -100,13 +72,10 @@ fn quantities(case: &Case, study: &SweepStudy) -> Vec<Quantity> {
     let (exact, simulated) = (Method::ClosedForm, Method::Simulation);
     let (sweep, damped) = (&study.sweep, &study.damped.1);
     let mut all = vec![
-        scale.length(&of::CLEARANCE, 1.0, Method::Given),
-        given(&of::RESTITUTION, study.system.restitution()),
-        given(&of::MASS_RATIO, study.system.mass_ratio()),
         scale.amplitude(1.0, Method::Given),
         given(&of::SWEEP_FROM, sweep.from),
         given(&of::SWEEP_TO, sweep.to),
-        Quantity { kind: rate(sweep.rate).kind, ..rate(sweep.rate) },
+        rate(sweep.rate),
         Quantity::new(&of::SWEEP_TIME, sweep.time(sweep.count() as f64), exact),
         peak(&of::BARE_PEAK, &study.alone, exact),
         at(&of::BARE_PEAK_FREQUENCY, &study.alone, exact),
@@ -122,7 +91,7 @@ fn quantities(case: &Case, study: &SweepStudy) -> Vec<Quantity> {
             |of: &dyn Fn(&SweepStart) -> f64| study.starts.iter().map(of).fold(0.0, f64::max);
         let speed = largest(&|(_, found)| found.impact_speed);
         let change = |kind, rival: &Passage| {
-            let level = crate::band::rivals::reduction_db(worst.peak()[1], rival.peak()[1]);
+            let level = reduction_db(worst.peak()[1], rival.peak()[1]);
             Quantity::new(kind, level, simulated)
         };
         all.extend([
@@ -134,20 +103,11 @@ fn quantities(case: &Case, study: &SweepStudy) -> Vec<Quantity> {
             change(&of::REDUCTION_DB_TMD, damped),
         ]);
     }
-    if let Design::Physical(physical) = &case.design {
-        all.push(given(&of::ABSORBER_MASS, physical.absorber_mass_kg));
-    }
     all
 }
 
-/// The answer where there are no criteria.
-fn word(study: &SweepStudy) -> Word {
+pub(super) fn word(study: &SweepStudy) -> Word {
     let alone = study.alone.peak()[1];
     let worst = study.worst().map_or(f64::NAN, |(_, worst)| worst.peak()[1]);
-    match (worst / alone, study.least() / alone) {
-        (worst, _) if worst < 1.0 - NOTICEABLE => Word::Works,
-        (_, least) if least < 1.0 - NOTICEABLE => Word::Mixed,
-        (worst, _) if worst > 1.0 + NOTICEABLE => Word::MakesItWorse,
-        _ => Word::DoesNothing,
-    }
+    word_of(worst / alone, study.least() / alone)
 }

@@ -1,4 +1,4 @@
-//! Commands on a structure that is not driven steadily: released or struck, or driven by a record.
+//! Commands on a structure that is not driven steadily: released or struck, swept, or driven by a record.
 
 use std::path::Path;
 
@@ -6,10 +6,11 @@ use miette::{IntoDiagnostic, Result, miette};
 use vinesink::case::{Case, Rounding};
 use vinesink::criteria::{self, Judged};
 use vinesink::report::render::Files;
-use vinesink::report::{record, release as page};
+use vinesink::report::transient as page;
 use vinesink::store;
-use vinesink::transient::{DecayStudy, RecordStudy, Scene, best_clearance};
+use vinesink::transient::{DecayStudy, Scene, Study, best_clearance};
 
+use super::budget::{Long, Work};
 use super::case_file::{self, Format, OneCase};
 use super::output;
 use super::parallel::Parallel;
@@ -49,54 +50,38 @@ pub fn without(case: &Case, path: &Path, given: &[(&str, bool)]) -> Result<()> {
     }
 }
 
-/// The study of a case that a record drives; none for another.
-fn recorded(case: &Case) -> Result<Option<RecordStudy>> {
-    RecordStudy::of_case(case, &Parallel).transpose().into_diagnostic()
+/// The study of a case that is not driven steadily, unless it would take far too long; none for another.
+fn studied(case: &Case, path: &Path, long: Long) -> Result<Option<Study>> {
+    long.allows(path, case, &Vec::from_iter(Work::transient(case)))?;
+    Study::of_case(case, &Parallel).transpose().into_diagnostic()
 }
 
-/// The study of a case that is released; none for another.
-pub fn studied(case: &Case) -> Result<Option<DecayStudy>> {
-    DecayStudy::of_case(case).transpose().into_diagnostic()
+fn printed(one: &OneCase, case: &Case, study: &Study) -> Result<bool> {
+    let document = page::document(&case_file::name(&one.path)?, case, study, &[]);
+    one.print(|| page::text(case, study, &document), || &document)?;
+    Ok(true)
 }
 
-/// What theory says.
+/// What theory says of a release; none for another case.
 pub fn analyze(one: &OneCase, case: &Case) -> Result<Option<bool>> {
-    let study = DecayStudy::without_simulation(case).transpose().into_diagnostic()?;
-    study.map(|study| printed(one, case, &study)).transpose()
+    let study = DecayStudy::by_theory(case);
+    study.map(|study| printed(one, case, &Study::Release(Box::new(study)))).transpose()
 }
 
 /// What simulation says.
 pub fn simulate(one: &OneCase, case: &Case) -> Result<Option<bool>> {
-    if let Some(study) = recorded(case)? {
-        let document = record::document(&case_file::name(&one.path)?, case, &study, &[]);
-        one.print(|| record::text(case, &document), || &document)?;
-        return Ok(Some(true));
-    }
-    studied(case)?.map(|study| printed(one, case, &study)).transpose()
-}
-
-fn printed(one: &OneCase, case: &Case, study: &DecayStudy) -> Result<bool> {
-    let document = page::document(&case_file::name(&one.path)?, case, study, &[]);
-    one.print(|| page::text(case, &document), || &document)?;
-    Ok(true)
+    studied(case, &one.path, one.long)?.map(|study| printed(one, case, &study)).transpose()
 }
 
 /// Its criteria.
-pub fn judged(case: &Case) -> Result<Option<Vec<Judged>>> {
-    if let Some(study) = recorded(case)? {
-        return Ok(Some(criteria::judge_record(case, &study)));
-    }
-    Ok(studied(case)?.map(|study| criteria::judge_release(case, &study)))
+pub fn judged(case: &Case, path: &Path, long: Long) -> Result<Option<Vec<Judged>>> {
+    Ok(studied(case, path, long)?.map(|study| criteria::judge_transient(case, &study)))
 }
 
 /// Its report.
-pub fn report(case: &Case, name: &str) -> Result<Option<Files>> {
-    if let Some(study) = recorded(case)? {
-        let judged = criteria::judge_record(case, &study);
-        return record::files(name, case, &study, &judged).into_diagnostic().map(Some);
-    }
-    let Some(study) = studied(case)? else { return Ok(None) };
-    let judged = criteria::judge_release(case, &study);
+pub fn report(case: &Case, path: &Path, name: &str, long: Long) -> Result<Option<Files>> {
+    let Some(study) = studied(case, path, long)? else { return Ok(None) };
+    let judged = criteria::judge_transient(case, &study);
     page::files(name, case, &study, &judged).into_diagnostic().map(Some)
 }
 
@@ -111,7 +96,7 @@ pub fn optimize(
     let name = one.path.display().to_string();
     // A larger one might leave the absorber where no wall reaches it.
     let written = case.rewritten(&name, text, &best.design, Rounding::Down).into_diagnostic()?;
-    let judged = judged(&written.case)?.unwrap_or_default();
+    let judged = judged(&written.case, &one.path, one.long)?.unwrap_or_default();
     let document = page::optimum(case, &best, &judged);
     one.print(|| page::optimum_text(case, &document), || &document)?;
     let found = document["answer"] == "found";

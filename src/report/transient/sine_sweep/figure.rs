@@ -6,11 +6,11 @@ use crate::case::Case;
 use crate::quantity::{Dimension, catalogue as of};
 use crate::report::document::Scale;
 use crate::report::figure::{Axis, Color, Dash, Figure, Layer, MarkedPoint, Panel, Role, Style};
+use crate::report::transient::DAMPER;
 use crate::transient::{SweepRate, SweepStudy};
 
 /// Points of a line: as many as there are pixels.
 const POINTS: usize = 700;
-const DAMPER: Style = Style::new(Color::Orange, 1.6, Dash::LongDashed);
 const BACK: Style = Style::new(Color::SkyBlue, 1.1, Dash::Solid);
 
 /// All figures.

@@ -1,0 +1,131 @@
+//! A structure that is released or struck.
+
+mod figure;
+
+use std::f64::consts::TAU;
+
+use serde_json::{Value, json};
+
+use super::word_of;
+use crate::case::Case;
+use crate::criteria::Judged;
+use crate::method::Method;
+use crate::quantity::catalogue as of;
+use crate::quantity::{Kind, Quantity};
+use crate::report::document::criteria::criteria;
+use crate::report::document::{Scale, Word, units};
+use crate::report::render::RenderError;
+use crate::report::template::render;
+use crate::transient::{Best, Decay, DecayStudy};
+
+pub(super) use figure::figures;
+
+/// What its page has beside what all have.
+pub(super) fn add(case: &Case, study: &DecayStudy, document: &mut Value) {
+    let scale = Scale::of(case);
+    document["notes"].as_array_mut().into_iter().for_each(|all| all.extend(notes(study)));
+    // One for each place of the absorber.
+    document["starts"] = study.starts.iter().map(|start| row(&scale, start)).collect();
+    // Share of the first amplitude that counts as rest.
+    document["share"] = case.decay_level.into();
+}
+
+fn row(scale: &Scale, decay: &Decay) -> Value {
+    json!({
+        "absorber": scale.length(&of::RELATIVE_DISPLACEMENT, decay.place, Method::Given),
+        "time": time(scale, &of::DECAY_TIME, decay.oscillations, Method::Simulation),
+        "impacts": Quantity::new(&of::IMPACT_COUNT, decay.impacts as f64, Method::Simulation),
+        "impact_speed": scale.velocity(&of::IMPACT_SPEED, [decay.impact_speed, 0.0], Method::Simulation),
+        "impact_share": Quantity::new(&of::IMPACT_ENERGY_SHARE, decay.impact_share, Method::Simulation),
+    })
+}
+
+/// A time in oscillations of the structure.
+fn time(scale: &Scale, kind: &'static Kind, oscillations: f64, method: Method) -> Quantity {
+    Quantity::new(kind, scale.time(TAU * oscillations), method)
+}
+
+pub(super) fn quantities(case: &Case, study: &DecayStudy) -> Vec<Quantity> {
+    let scale = Scale::of(case);
+    let theory = &study.predicted;
+    let (_, damped, damper_time) = &study.damped;
+    let simulated = Method::Simulation;
+    let mut all = vec![
+        scale.length(&of::INITIAL_AMPLITUDE, study.from, Method::Given),
+        scale.length(&of::DECAY_LEVEL, study.level, Method::Given),
+        time(&scale, &of::BARE_DECAY_TIME, study.bare, Method::ClosedForm),
+        time(&scale, &of::DAMPER_DECAY_TIME, *damper_time, Method::ClosedForm),
+        scale.length(&of::DAMPER_STROKE, damped.stroke, Method::ClosedForm),
+        scale.length(&of::RESIDUAL_AMPLITUDE, theory.residual, Method::ClosedForm),
+    ];
+    if let Some(oscillations) = theory.oscillations {
+        all.push(time(&scale, &of::THEORY_DECAY_TIME, oscillations, theory.method));
+    }
+    let decided = if study.decides_inactive() { Method::ClosedForm } else { simulated };
+    if study.inactive > 0.0 {
+        all.push(Quantity::new(&of::INACTIVE_SHARE, study.inactive, Method::ClosedForm));
+    }
+    if let Some(worst) = study.worst() {
+        let fastest = study.largest(|start| start.impact_speed);
+        all.extend([
+            scale.length(&of::PEAK, study.largest(|start| start.peak), simulated),
+            time(&scale, &of::DECAY_TIME, study.slowest(), decided),
+            time(&scale, &of::ACTIVE_DECAY_TIME, worst.oscillations, simulated),
+            time(&scale, &of::FASTEST_DECAY_TIME, study.fastest(), simulated),
+            scale.velocity(&of::IMPACT_SPEED, [fastest, 0.0], simulated),
+            Quantity::new(&of::IMPACT_COUNT, worst.impacts as f64, simulated),
+            Quantity::new(&of::IMPACT_ENERGY_SHARE, worst.impact_share, simulated),
+        ]);
+    }
+    all
+}
+
+pub(super) fn word(study: &DecayStudy) -> Word {
+    word_of(study.slowest() / study.bare, study.fastest() / study.bare)
+}
+
+fn notes(study: &DecayStudy) -> Vec<Value> {
+    let mut notes = Vec::new();
+    if study.system.restitution() == 1.0 {
+        notes.push(json!({ "kind": "elastic" }));
+    }
+    if study.level < study.predicted.residual {
+        notes.push(json!({ "kind": "below-capture" }));
+    }
+    notes
+}
+
+/// What `optimize` found: `vinesink/optimization@3`.
+pub fn optimum(case: &Case, best: &Best, judged: &[Judged]) -> Value {
+    let (scale, scales) = (Scale::of(case), case.scales());
+    let clearance = |length| Quantity::new(&of::CLEARANCE, length, Method::Given);
+    let time = |oscillations| time(&scale, &of::DECAY_TIME, oscillations, Method::Simulation);
+    let reached = best.checked.is_finite();
+    let improves = reached && best.checked < best.own;
+    json!({
+        "format": "vinesink/optimization@3",
+        "title": case.title,
+        "objective": "decay-time",
+        "answer": if !reached { "not-reached" } else if improves { "found" } else { "own-is-best" },
+        "optimum": { "clearance": best.design.clearance() },
+        "claimed": { "value": scales.time(TAU * best.oscillations), "error": 0.0 },
+        // From other places of the absorber.
+        "checked": { "value": scales.time(TAU * best.checked), "error": 0.0 },
+        "feasible": judged.iter().all(|one| one.holds == Some(true)),
+        "clearance": clearance(best.design.clearance()),
+        "time": time(best.checked),
+        "own": { "clearance": clearance(case.design.clearance()), "time": time(best.own) },
+        "releases": case.optimize.releases,
+        "share": case.decay_level,
+        "criteria": criteria(case, judged),
+        "landscape": best.landscape.iter().map(|[at, value]| [*at, scales.time(TAU * value)]).collect::<Vec<_>>(),
+    })
+}
+
+/// The sentences of an optimisation.
+///
+/// # Errors
+/// [`RenderError::Template`] if the template does not fit.
+pub fn optimum_text(case: &Case, document: &Value) -> Result<String, RenderError> {
+    render("release-optimum.txt", &units(case), document)
+}
