@@ -34,7 +34,7 @@ impl TunedMassDamper {
 }
 
 /// The structure with a damper, or alone, from a state, over so many oscillations or until its amplitude has
-/// stayed below a level for [`BEAT`]. The damper's mass begins in the middle of its travel.
+/// stayed below a level for twenty. The damper's mass begins in the middle of its travel.
 pub fn released(
     system: &System,
     damper: Option<&TunedMassDamper>,
