@@ -183,8 +183,8 @@ fn window(system: &System) -> usize {
 /// resonance and the sweep is slow, its flanks rise by less.
 const JUMP: f64 = 1.6;
 
-/// Where the level of an envelope changes by the factor [`JUMP`] from the window before to that behind: the place of
-/// the largest change among all within a window.
+/// Where the level of an envelope changes by the factor [`JUMP`] from the window before to that behind: the
+/// largest change among all within a window.
 fn jumps(envelope: &[[f64; 2]], window: usize) -> Vec<Jump> {
     let level = |some: &[[f64; 2]]| some.iter().map(|one| one[1]).fold(0.0, f64::max);
     // From rest a structure first has to come to its motion.
@@ -204,10 +204,20 @@ fn jumps(envelope: &[[f64; 2]], window: usize) -> Vec<Jump> {
             _ => found.push(one),
         }
     }
-    found.iter().map(|(k, levels, _)| Jump { at: envelope[*k][0], levels: *levels }).collect()
+    // A level knows its change to a window; the envelope is steepest where it jumps.
+    let steepness = |k: &usize| libm::fabs(libm::log(envelope[*k][1] / envelope[*k - 1][1]));
+    let place = |k: usize| {
+        let near = k - window..(k + window).min(envelope.len());
+        near.max_by(|a, b| steepness(a).total_cmp(&steepness(b))).unwrap_or(k)
+    };
+    found
+        .iter()
+        .map(|(k, levels, _)| Jump { at: envelope[place(*k)][0], levels: *levels })
+        .collect()
 }
 
-/// Relative difference of two levels that is one.
+/// Difference of two levels that is one, over the largest displacement of all: irregular motion on the flanks of a
+/// resonance differs by more of itself in any two sweeps.
 const DIFFERENT: f64 = 0.05;
 
 /// Lowest and highest frequency at which the levels of two directions differ, without what either needs to begin.
@@ -224,16 +234,68 @@ fn differ(there: &[[f64; 2]], back: &[[f64; 2]], window: usize) -> Option<[f64; 
     }
     back.reverse();
     let rising = rises(&back)?;
+    let largest = there.iter().chain(&back).map(|one| one[1]).fold(0.0, f64::max);
     let apart = |k: &usize| {
         let frequency = there[*k][0];
         let other = back.partition_point(|one| (one[0] < frequency) == rising);
         let within = other > 0 && other < back.len();
         let [own, other] = [level(&there, *k), level(&back, other)];
-        within && (own / other - 1.0).abs() > DIFFERENT
+        within && (own - other).abs() > DIFFERENT * largest
     };
     let all = (0..there.len()).filter(apart).map(|k| there[k][0]);
     all.fold(None, |range, at| {
         let [low, high] = range.unwrap_or([at, at]);
         Some([at.min(low), at.max(high)])
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{differ, jumps};
+
+    const WINDOW: usize = 20;
+
+    /// An envelope over 2000 periods from one frequency to another, whose size follows the frequency.
+    fn envelope([from, to]: [f64; 2], size: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
+        let place = |k: i32| from + (to - from) * f64::from(k) / 1999.0;
+        (0..2000).map(|k| [place(k), size(place(k))]).collect()
+    }
+
+    /// A resonance that is followed up to 1.02 on the way up and is left from above at 0.99 on the way down.
+    fn hysteresis(up: bool) -> Vec<[f64; 2]> {
+        let resonance = |f: f64| 1.0 / (0.05 + (f - 1.0).abs());
+        let upper = move |f: f64| if f < if up { 1.02 } else { 0.99 } { resonance(f) } else { 2.0 };
+        envelope(if up { [0.9, 1.1] } else { [1.1, 0.9] }, upper)
+    }
+
+    #[test]
+    fn a_jump_is_where_the_envelope_jumps() {
+        // A period is 1e-4 of frequency, a window 2e-3.
+        for (up, at, levels) in [(true, 1.02, [1.0 / 0.068, 2.0]), (false, 0.99, [2.0, 1.0 / 0.06])]
+        {
+            let found = jumps(&hysteresis(up), WINDOW);
+            assert_eq!(found.len(), 1, "{found:?}");
+            assert!((found[0].at - at).abs() < 2e-4, "{found:?}");
+            assert!(
+                found[0].levels.iter().zip(levels).all(|(a, b)| (a / b - 1.0).abs() < 0.1),
+                "{found:?}"
+            );
+        }
+        let smooth = envelope([0.9, 1.1], |f| 1.0 / (0.05 + (f - 1.0).abs()));
+        assert_eq!(jumps(&smooth, WINDOW), []);
+    }
+
+    #[test]
+    fn directions_differ_where_only_one_follows_the_resonance() {
+        let [low, high] =
+            differ(&hysteresis(true), &hysteresis(false), WINDOW).expect("between the jumps");
+        assert!((low - 0.99).abs() < 2e-3 && (high - 1.02).abs() < 2e-3, "{low} {high}");
+        // Eight per cent of a flank are three of the largest displacement, and no difference.
+        let with_flanks = |range: [f64; 2], factor: f64| {
+            let flank = move |f: f64| if (f - 1.0).abs() > 0.08 { factor } else { 1.0 };
+            envelope(range, move |f| flank(f) / (0.05 + (f - 1.0).abs()))
+        };
+        let (up, down) = (with_flanks([0.9, 1.1], 1.0), with_flanks([1.1, 0.9], 1.08));
+        assert_eq!(differ(&up, &down, WINDOW), None);
+    }
 }
