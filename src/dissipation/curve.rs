@@ -25,7 +25,7 @@ const CLOSED_POINTS: u32 = 128;
 const HALVINGS: u32 = 4;
 /// Largest restitution of which motions are followed: up to it less than a hundredth of a start is left, `r^n`, after
 /// the thousand impacts over which a motion is averaged at least.
-const MOST_ELASTIC: f64 = 0.995;
+pub(super) const MOST_ELASTIC: f64 = 0.995;
 
 /// `S` and `K` over the amplitude for one restitution.
 ///
@@ -123,14 +123,24 @@ fn closed_form(restitution: f64) -> Branch {
         let part = f64::from(k) / f64::from(CLOSED_POINTS);
         let amplitude = if k == CLOSED_POINTS { to } else { from + (to - from) * part * part };
         let ratio = manifold.stable_absorber(amplitude).filter(|_| k > 0);
+        let shift = ratio.map_or(manifold.fold_shift, |ratio| ratio - 1.0);
         let ratio = ratio.unwrap_or(fold.absorber_amplitude);
-        let shift = if k == 0 { manifold.fold_shift } else { ratio - 1.0 };
-        let resistance = RESISTANCE.at([manifold.restitution_ratio, ratio, amplitude]);
-        Point::symmetric(amplitude, [resistance, REACTANCE.at([ratio, shift, amplitude])])
+        Point::symmetric(amplitude, symmetric_forces(&manifold, amplitude, ratio, shift))
     };
     // For elastic impacts the fold is at 0, where no phase is.
     let points = (0..=CLOSED_POINTS).map(point).filter(|point| point.amplitude > 0.0);
     Branch { points: points.collect(), closed_form: true }
+}
+
+/// `S` and `K` of the symmetric motion with two impacts per period, whose absorber has the amplitude `1 + shift`.
+pub(super) fn symmetric_forces(
+    manifold: &Manifold,
+    amplitude: f64,
+    ratio: f64,
+    shift: f64,
+) -> [f64; 2] {
+    let resistance = RESISTANCE.at([manifold.restitution_ratio, ratio, amplitude]);
+    [resistance, REACTANCE.at([ratio, shift, amplitude])]
 }
 
 /// Motions at even amplitudes.

@@ -64,19 +64,8 @@ impl Point {
     /// The motion that the pair comes to at an amplitude, above 0, from a relative displacement `w` and an absorber
     /// velocity at the oscillator's lowest place. None where a number is out of range, or impacts crowd without end.
     pub fn measured(restitution: f64, amplitude: f64, state: [f64; 2]) -> Option<Self> {
-        let system = System::new(Parameters {
-            mass_ratio: MASS_RATIO,
-            damping: 1.0 / MASS_RATIO,
-            restitution,
-            frequency_ratio: 1.0,
-            forcing_per_clearance: amplitude / MASS_RATIO,
-            excitation: Excitation::Force,
-        });
-        let system = system.ok()?;
-        let [w, y_velocity] = state;
-        let lowest = -amplitude;
-        let start = State { x: lowest, x_velocity: 0.0, y: lowest - w, y_velocity };
-        let mut simulation = Simulation::new(&system, start, 0.0).ok()?;
+        let mut simulation = simulation(restitution, amplitude, state)?;
+        let system = *simulation.system();
         simulation.run(ROUND, ROUND * MOST_IMPACTS, &mut ());
         let mut measured = Measurement::begin(&system, simulation.state());
         let mut log = ImpactLog::of_the_last(KEPT);
@@ -97,8 +86,7 @@ impl Point {
             }
         }
         operation_count::note(simulation.operations());
-        let State { x, y, y_velocity, .. } = simulation.state();
-        let state = [(x - y).clamp(-1.0, 1.0), y_velocity];
+        let state = pair_state(&simulation.state());
         Some(Self { state, ..Self::of(amplitude, measured.statistics(), &log) })
     }
 
@@ -187,8 +175,30 @@ impl Point {
     }
 }
 
+/// The pair at an amplitude, above 0, from a relative displacement and an absorber velocity at the oscillator's lowest
+/// place. None where a number is out of range.
+pub(super) fn simulation(restitution: f64, amplitude: f64, state: [f64; 2]) -> Option<Simulation> {
+    let system = System::new(Parameters {
+        mass_ratio: MASS_RATIO,
+        damping: 1.0 / MASS_RATIO,
+        restitution,
+        frequency_ratio: 1.0,
+        forcing_per_clearance: amplitude / MASS_RATIO,
+        excitation: Excitation::Force,
+    });
+    let [w, y_velocity] = state;
+    let lowest = -amplitude;
+    let start = State { x: lowest, x_velocity: 0.0, y: lowest - w, y_velocity };
+    Simulation::new(&system.ok()?, start, 0.0).ok()
+}
+
+/// Relative displacement and absorber velocity.
+pub(super) fn pair_state(state: &State) -> [f64; 2] {
+    [(state.x - state.y).clamp(-1.0, 1.0), state.y_velocity]
+}
+
 /// Means of `S` and `K`: `y = a sin + b cos` of the excitation's phase is `-b sin(psi) + a cos(psi)`.
-fn averages(records: &[PeriodRecord]) -> [f64; 2] {
+pub(super) fn averages(records: &[PeriodRecord]) -> [f64; 2] {
     let count = records.len().max(1) as f64;
     let mean = |k: usize| records.iter().map(|one| one.absorber_harmonic[k]).sum::<f64>() / count;
     [-mean(0), mean(1)]

@@ -22,7 +22,11 @@ equations! {
         RESISTANCE(rho, beta, c): [S] = 16.0 / cube(PI) * rho * square(beta) / c;
         REACTANCE(beta, u, c): [K] = -(8.0 / square(PI)) * beta * u / c;
     }
-    "Slow flow in any regime", "rate of the amplitude without excitation, over the clearance", DERIVED => {
+    "Slow flow in any regime", "rates of z_c + i z_s = c exp(i eta), and of the amplitude without excitation, over the clearance", DERIVED => {
+        COSINE_RATE(lambda, sigma, S, K, c, z_c, z_s): [D1_z_c]
+            = -(lambda * z_c + (S * z_c - K * z_s) / c) / 2.0 - sigma * z_s;
+        SINE_RATE(lambda, sigma, gamma, S, K, c, z_c, z_s): [D1_z_s]
+            = (gamma - lambda * z_s - (S * z_s + K * z_c) / c) / 2.0 + sigma * z_c;
         DECAY(lambda, S, c): [D1_c] = -(lambda * c + S) / 2.0;
     }
     "Steady amplitude in any regime", "the forcing that holds an amplitude", DERIVED => {

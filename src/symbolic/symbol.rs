@@ -110,6 +110,8 @@ symbol_table! {
     c: "c", "1", "slow amplitude of the oscillator over clearance, C/b";
     S: "S", "1", "mean force of the absorber that takes energy, E sin(Theta) over clearance";
     K: "K", "1", "mean force of the absorber in phase with the displacement, E cos(Theta) over clearance";
+    z_c: "z_c", "1", "in-phase part of the slow motion, c cos(eta)";
+    z_s: "z_s", "1", "quadrature part of the slow motion, c sin(eta)";
     S_prime: "S'", "1", "derivative of S by c along a branch";
     K_prime: "K'", "1", "derivative of K by c along a branch";
     h_r: r"h_{\mathrm{r}}", "1", "half the distance of two detunings of one amplitude, times 2 c";
@@ -151,6 +153,8 @@ symbol_table! {
     D1_C: r"\mathrm{D}_1 C", "length", "slow rate of the oscillator's amplitude";
     D1_c: r"\mathrm{D}_1 c", "1", "slow rate of the oscillator's amplitude over clearance";
     D1_eta: r"\mathrm{D}_1 \eta", "1", "slow rate of the excitation's phase";
+    D1_z_c: r"\mathrm{D}_1 z_c", "1", "slow rate of z_c";
+    D1_z_s: r"\mathrm{D}_1 z_s", "1", "slow rate of z_s";
     D1_c_2: r"\mathrm{D}_1 c_2", "1", "slow rate of the square of the oscillator's amplitude over b^2";
     D1_beta: r"\mathrm{D}_1 \beta", "1", "slow rate of the absorber's amplitude over clearance";
     Theta: r"\Theta", "rad", "phase of the absorber against the oscillator";
