@@ -13,6 +13,8 @@ pub enum Method {
     ClosedForm,
     /// The slow flow on the slow invariant manifold, at leading order in the mass ratio.
     Theory,
+    /// The slow flow with averages over the absorber's motion, in every regime.
+    AveragedFlow,
     /// An exact periodic orbit of the full system.
     ExactOrbit,
     /// Event-driven simulation of the full system.
@@ -28,6 +30,7 @@ impl Method {
             Self::Given => "given",
             Self::ClosedForm => "closed form",
             Self::Theory => "theory",
+            Self::AveragedFlow => "averaged flow",
             Self::ExactOrbit => "exact orbit",
             Self::Simulation => "simulation",
             Self::Reference => "reference",

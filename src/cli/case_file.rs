@@ -87,6 +87,7 @@ pub enum Format {
 pub fn layer() -> impl TypedValueParser<Value = Method> {
     one_of([
         ("manifold", Method::Theory, "Manifold and fixed points, in closed form"),
+        ("averaged-flow", Method::AveragedFlow, "The slow flow with averages, in every regime"),
         ("orbit", Method::ExactOrbit, "The exact symmetric orbit"),
         ("simulation", Method::Simulation, "Event-driven simulation"),
     ])

@@ -137,12 +137,13 @@ pub fn closed_form(system: &System) -> Result<Answer, StudyError> {
         .map_or_else(|| Answer::none(WhyNot::NoStablePoint), |point| Answer::steady(rms(point))))
 }
 
-/// That of the averaged flow's largest stable amplitude with impacts, in any regime: the first harmonic of `v - eps y`.
+/// That of the averaged flow's largest stable amplitude with impacts, in any regime: the first harmonic of `v - eps y`; or
+/// else of its modulated cycle, whose scatter is what is not known of the averages between captures.
 ///
 /// # Errors
 /// [`StudyError::Analysis`] where the theory cannot be evaluated.
 pub fn averaged_flow(system: &System) -> Result<Answer, StudyError> {
-    let Averages { curve, states, .. } = Averages::of(system)?;
+    let Averages { curve, states, cycle, .. } = Averages::of(system)?;
     let moving = |state: &&SteadyState| state.stable && state.regime != Regime::AtRest;
     let answer = states.iter().rfind(moving).and_then(|state| {
         let ([resistance, reactance], _) = curve.branches[state.branch].forces(state.amplitude)?;
@@ -155,7 +156,15 @@ pub fn averaged_flow(system: &System) -> Result<Answer, StudyError> {
             ..Answer::default()
         })
     });
-    Ok(answer.unwrap_or_else(|| Answer::none(WhyNot::NoStableAmplitude)))
+    // A capture that lasts ends the modulation.
+    let cycle = cycle.filter(|cycle| cycle.lasting_share == 0.0).map(|cycle| Answer {
+        rms: Some(cycle.rms),
+        scatter: Some(cycle.rms_error / cycle.rms),
+        impacts_per_period: Some(cycle.impacts_per_period),
+        regime: Some(Regime::StronglyModulated),
+        ..Answer::default()
+    });
+    Ok(answer.or(cycle).unwrap_or_else(|| Answer::none(WhyNot::NoStableAmplitude)))
 }
 
 /// That of the exact symmetric orbit that attracts, to [`ORBIT_ROUNDING`].

@@ -1,7 +1,7 @@
 //! The averaged flow of a case: what the absorber takes in every regime, and the steady amplitudes that follow.
 
 use super::StudyError;
-use crate::dissipation::{AveragedFlow, DissipationCurve, SteadyState};
+use crate::dissipation::{AveragedFlow, DissipationCurve, ModulatedCycle, Recapture, SteadyState};
 use crate::system::System;
 
 /// Smallest amplitude of the curve, over the clearance: below, motions with impacts are rare and slow.
@@ -18,6 +18,8 @@ pub struct Averages {
     pub range: [f64; 2],
     /// All steady amplitudes within, ascending.
     pub states: Vec<SteadyState>,
+    /// The modulated cycle, where the flow has one.
+    pub cycle: Option<ModulatedCycle>,
 }
 
 impl Averages {
@@ -33,6 +35,8 @@ impl Averages {
         let range = [LEAST, bound.max(least).min(most)];
         let curve = DissipationCurve::of(system.restitution(), range);
         let states = AveragedFlow::of(system, &curve).steady_states()?;
-        Ok(Self { curve, range, states })
+        let recapture = Recapture::of(system.restitution());
+        let cycle = recapture.and_then(|recapture| ModulatedCycle::of(system, &recapture));
+        Ok(Self { curve, range, states, cycle })
     }
 }

@@ -16,7 +16,7 @@ use crate::operation_count;
 use crate::regimes::{FoundAttractor, Regime};
 use crate::simulation::{Doubt, Simulation};
 use crate::system::System;
-use crate::validation::tolerance::asymptotic_error;
+use crate::validation::tolerance::{asymptotic_error, averages_error};
 
 /// How exact the answers must be.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -69,6 +69,8 @@ pub enum Question {
 pub enum KnownBy {
     /// The exact orbit beside it.
     ExactOrbit,
+    /// Three times those and the randomness of captures, see [`averages_error`].
+    Averages,
     /// Neglected terms, `eps (2 + abs(sigma) + lambda)`; no orbit was there to measure it.
     Asymptotics,
     /// Closure of the orbit: rounding.
@@ -117,6 +119,8 @@ pub struct Plan {
     pub closed_form: (Answer, u64),
     /// The same for the symmetric orbit.
     pub orbit: (Answer, u64),
+    /// The same for the averaged flow where it was insisted on: it is never the cheapest that is exact enough.
+    pub averaged_flow: Option<(Answer, u64)>,
 }
 
 /// Everything that was asked, answered.
@@ -130,7 +134,8 @@ pub struct Answers {
     pub answers: Vec<Answered>,
     /// Relative error of the closed form, where the exact orbit measures it.
     pub error_of_closed_form: Option<f64>,
-    /// Operations of closed form, exact orbit and simulation; `None` for what was not done.
+    /// Operations of closed form, exact orbit and simulation, `None` for what was not done; of the averaged flow where
+    /// it was insisted on.
     pub operations: BTreeMap<Method, Option<u64>>,
     /// Whether other motions were looked for.
     pub coexistence_looked_for: bool,
@@ -159,8 +164,14 @@ impl Plan {
         let (closed_form, cost) = operation_count::counted(|| answer::closed_form(system));
         let closed_form = (closed_form?, cost);
         let orbit = operation_count::counted(|| answer::symmetric_orbit(system));
+        let averaged_flow = (forced == Some(Method::AveragedFlow)).then(|| {
+            let (answer, cost) = operation_count::counted(|| answer::averaged_flow(system));
+            answer.map(|answer| (answer, cost))
+        });
+        let averaged_flow = averaged_flow.transpose()?;
+        let layer = Method::Simulation;
         let mut plan =
-            Self { system: *system, demand, forced, layer: Method::Simulation, closed_form, orbit };
+            Self { system: *system, demand, forced, layer, closed_form, orbit, averaged_flow };
         plan.layer = match forced {
             Some(layer) => layer,
             None if plan.error_of_closed_form().is_some_and(|e| e.abs() <= demand.amplitude) => {
@@ -180,6 +191,11 @@ impl Plan {
                 "no stable fixed point: the theory has no steady amplitude",
                 "the exact orbit or simulation may have one",
             ),
+            Method::AveragedFlow => {
+                let why = "the averaged flow has no stable amplitude with impacts";
+                let (answer, _) = self.averaged_flow.as_ref().ok_or(StudyError::NoMotion)?;
+                (answer, why, "simulation has one")
+            }
             Method::ExactOrbit => {
                 let why = "no symmetric orbit is stable and admissible";
                 (&self.orbit.0, why, "simulation has one")
@@ -233,17 +249,20 @@ impl Plan {
         if !doubts.is_empty() {
             answers.iter_mut().for_each(|answer| answer.enough = false);
         }
+        let mut operations = BTreeMap::from([
+            (Method::Theory, compared.then_some(self.closed_form.1)),
+            (Method::ExactOrbit, compared.then_some(self.orbit.1)),
+            (Method::Simulation, cost),
+        ]);
+        let averaged_flow = self.averaged_flow.iter();
+        operations.extend(averaged_flow.map(|(_, cost)| (Method::AveragedFlow, Some(*cost))));
         Ok(Answers {
             doubts,
             demand: self.demand,
             forced: self.forced,
             answers,
             error_of_closed_form: self.error_of_closed_form(),
-            operations: BTreeMap::from([
-                (Method::Theory, compared.then_some(self.closed_form.1)),
-                (Method::ExactOrbit, compared.then_some(self.orbit.1)),
-                (Method::Simulation, cost),
-            ]),
+            operations,
             coexistence_looked_for: simulated.is_some(),
         })
     }
@@ -256,6 +275,10 @@ impl Plan {
             }
             (Method::Theory, None) => {
                 (&self.closed_form.0, asymptotic_error(&self.system), KnownBy::Asymptotics)
+            }
+            (Method::AveragedFlow, _) if let Some((answer, _)) = &self.averaged_flow => {
+                let error = averages_error(&self.system, answer.regime);
+                (answer, error + answer.scatter.unwrap_or(0.0), KnownBy::Averages)
             }
             _ => (&self.orbit.0, ORBIT_ROUNDING, KnownBy::Closure),
         };
@@ -292,7 +315,7 @@ impl Plan {
         let AccuracyTarget { amplitude, impacts_per_period, .. } = self.demand;
         let impacts = answer.impacts_per_period;
         let impacts = number(Question::ImpactsPerPeriod, impacts, errors[1], impacts_per_period);
-        let certain = known_by != KnownBy::Asymptotics;
+        let certain = !matches!(known_by, KnownBy::Asymptotics | KnownBy::Averages);
         vec![
             number(Question::Amplitude, answer.rms, errors[0], amplitude),
             Answered { enough: certain && impacts.enough, ..impacts },

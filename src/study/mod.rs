@@ -192,8 +192,10 @@ impl CaseStudy {
         let averages = Averages::of(system)?;
         let found = &self.motions.attractors;
         if !averages.curve.depends_on_start {
-            let Averages { states, range, .. } = &averages;
-            self.claims.extend(validation::motions::averaged(system, states, *range, found));
+            let Averages { states, cycle, range, .. } = &averages;
+            let claims =
+                validation::motions::averaged(system, states, cycle.as_ref(), *range, found);
+            self.claims.extend(claims);
         }
         Ok(Self { averages: Some(averages), ..self })
     }

@@ -155,8 +155,8 @@ pub enum Reason {
     NeglectedTerms { says_nothing: bool },
     /// Twice that: at a boundary two conditions meet, each with that error.
     TwoConditions { says_nothing: bool },
-    /// Three times `eps (2 + abs(sigma) + lambda)`, of averages in place of one motion.
-    Averages { says_nothing: bool },
+    /// Three times `eps (2 + abs(sigma) + lambda)`, of averages in place of one motion; of a modulated one more.
+    Averages { says_nothing: bool, modulated: bool },
     /// A closed form of the full system: rounding.
     Rounding,
     /// A part of the motion's size, times the growth of a disturbance in a period.

@@ -4,11 +4,11 @@ use std::f64::consts::SQRT_2;
 
 use super::boundaries::clearances;
 use super::claim::NearBoundary;
-use super::tolerance::{SAYS_NOTHING, asymptotic_error};
+use super::tolerance::{SAYS_NOTHING, asymptotic_error, averages_error};
 use super::{Claim, Finding, Reason, Statement, Verdict};
 use crate::analysis::motion::read_off;
 use crate::analysis::{Analysis, Area, FixedPoint, Strip};
-use crate::dissipation::SteadyState;
+use crate::dissipation::{ModulatedCycle, SteadyState};
 use crate::orbits::{FullSystem, Measures, SymmetricOrbit};
 use crate::regimes::{Attractor, DynamicsKind, FoundAttractor, Regime, Window};
 use crate::simulation::StartError;
@@ -88,11 +88,6 @@ fn amplitudes(
     })
     .to_vec()
 }
-
-/// Errors of the asymptotics that the averaged flow may have: the terms that any slow flow neglects; averages that take
-/// some periods to settle, in which the amplitude moves by as much; and the next harmonics of a motion that does
-/// not repeat after one period. Twenty systems stay within (test `forced_amplitudes_of_twenty_systems`).
-const AVERAGES: f64 = 3.0;
 
 /// Relative error of a closed form of the full system, which only rounding separates from simulation.
 const ROUNDING: f64 = 1e-9;
@@ -174,31 +169,42 @@ fn near_boundary(analysis: &Analysis) -> Option<NearBoundary> {
         .filter(|near| near.distance < error)
 }
 
-/// Of each simulated motion with impacts that is neither modulated nor a fixed point's, the nearest stable amplitude
-/// of the averaged flow in its regime. The amplitude is that of a sine with the same root mean square; there is a claim
+/// Of each simulated motion with impacts that is not a fixed point's, the nearest stable amplitude of the averaged flow in
+/// its regime, or its modulated cycle. The amplitude is that of a sine with the same root mean square; there is a claim
 /// where it is within the amplitudes that the flow knows.
 pub fn averaged(
     system: &System,
     states: &[SteadyState],
+    cycle: Option<&ModulatedCycle>,
     [least, most]: [f64; 2],
     attractors: &[FoundAttractor],
 ) -> Vec<Claim> {
-    let tolerance = AVERAGES * asymptotic_error(system);
-    let reason = Reason::Averages { says_nothing: tolerance > SAYS_NOTHING };
-    let has_amplitude = [Regime::AboveTwo, Regime::TwoAsymmetric, Regime::BelowTwo];
+    let has_amplitude =
+        [Regime::AboveTwo, Regime::TwoAsymmetric, Regime::BelowTwo, Regime::StronglyModulated];
     let observed = |found: &FoundAttractor| SQRT_2 * found.attractor.rms;
     let known = attractors.iter().enumerate().filter(|(_, found)| {
-        has_amplitude.contains(&found.regime()) && (least..=most).contains(&observed(found))
+        // A cycle has its own range.
+        let modulated = cycle.is_some() && found.regime() == Regime::StronglyModulated;
+        let within = modulated || (least..=most).contains(&observed(found));
+        has_amplitude.contains(&found.regime()) && within
     });
     known
         .map(|(index, found)| {
             let (regime, observed) = (found.regime(), observed(found));
             let statement = Statement::Averaged { motion: index + 1, regime };
+            let modulated = regime == Regime::StronglyModulated;
             let stable = states.iter().filter(|state| state.stable && state.regime == regime);
-            let apart = |state: &SteadyState| (state.amplitude / observed - 1.0).abs();
-            match stable.min_by(|a, b| apart(a).total_cmp(&apart(b))) {
-                Some(state) => {
-                    Claim::of_number(statement, [state.amplitude, observed], tolerance, reason)
+            let cycle = cycle.filter(|_| modulated);
+            let amplitudes = stable.map(|state| state.amplitude);
+            let amplitudes = amplitudes.chain(cycle.map(|cycle| SQRT_2 * cycle.rms));
+            let apart = |amplitude: f64| (amplitude / observed - 1.0).abs();
+            let nearest = amplitudes.min_by(|a, b| apart(*a).total_cmp(&apart(*b)));
+            let scatter = cycle.map_or(0.0, |cycle| cycle.rms_error / cycle.rms);
+            let tolerance = averages_error(system, Some(regime)) + scatter;
+            let reason = Reason::Averages { says_nothing: tolerance > SAYS_NOTHING, modulated };
+            match nearest {
+                Some(amplitude) => {
+                    Claim::of_number(statement, [amplitude, observed], tolerance, reason)
                 }
                 None => {
                     let findings = [Finding::NoAmplitude, Finding::Length(observed)];

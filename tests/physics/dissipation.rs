@@ -5,9 +5,11 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::sync::LazyLock;
 
 use vinesink::analysis::{Analysis, Manifold};
-use vinesink::dissipation::{AveragedFlow, Branch, DissipationCurve, Point, SteadyState};
+use vinesink::dissipation::{
+    AveragedFlow, Branch, DissipationCurve, ModulatedCycle, Point, Recapture, SteadyState,
+};
 use vinesink::equations::dissipation as formulas;
-use vinesink::regimes::{Effort, Regime, motions, starts};
+use vinesink::regimes::{Attractor, Effort, Regime, Window, motions, starts};
 use vinesink::study::{CaseStudy, StudyEffort};
 use vinesink::system::{Excitation, Parameters, State, System};
 use vinesink::validation::{Claim, Finding, Verdict, motions as motions_claims};
@@ -374,7 +376,7 @@ fn a_claim_of_the_averaged_flow_is_confirmed_by_simulation_and_refuted_where_it_
     assert!((claim.tolerance - 0.088).abs() < 1e-3, "{claim:?}");
     let averages = study.averages.expect("asked for");
     let of = |states: &[SteadyState], range| {
-        motions_claims::averaged(&system, states, range, &study.motions.attractors)
+        motions_claims::averaged(&system, states, None, range, &study.motions.attractors)
     };
     let mut wrong = averages.states.clone();
     wrong.iter_mut().for_each(|state| state.amplitude *= 1.1);
@@ -468,4 +470,88 @@ fn forced_amplitudes_of_twenty_systems_are_the_simulated_ones() {
             return;
         }
     }
+}
+
+/// What a start leads to, measured over some hundred modulations.
+fn simulated(system: &System) -> Attractor {
+    let slow = (3.0 / system.mass_ratio()) as u64;
+    let window = Window { discard: slow, periods: 8 * slow, impact_limit: u64::MAX };
+    let start = State { x: 0.1, x_velocity: 0.0, y: -0.3, y_velocity: 0.1 };
+    Attractor::reach(system, start, &window).expect("inside")
+}
+
+/// Twenty systems whose simulated motion is strongly modulated, as a fixed sequence has them: the flow has a cycle for each,
+/// as large as the simulated motion, and as long captured. A capture in simulation begins and ends some
+/// periods beside the flow's: the absorber stays for them with two impacts per period after the fold.
+#[test]
+fn modulated_cycles_are_the_simulated_ones() {
+    const RESTITUTIONS: [f64; 3] = [0.5, 0.6, 0.75];
+    let recaptures = RESTITUTIONS.map(|r| Recapture::of(r).expect("forgets its start"));
+    let mut judged = 0;
+    for index in 1.. {
+        let [a, b, c, d, e] = spread(index);
+        let (mass_ratio, damping) = (0.001 * libm::pow(10.0, a), 0.3 + 2.0 * b);
+        let sigma = 6.0 * c - 3.0;
+        let (recapture, restitution) =
+            (&recaptures[(3.0 * e) as usize], RESTITUTIONS[(3.0 * e) as usize]);
+        let bare = Manifold::of(restitution).fold.oscillator_amplitude * (1.2 + 1.6 * d);
+        let gamma = bare * libm::hypot(damping, 2.0 * sigma);
+        let system = system(mass_ratio, damping, restitution, sigma, gamma);
+        let found = simulated(&system);
+        if found.classification.regime != Regime::StronglyModulated {
+            continue;
+        }
+        let cycle = ModulatedCycle::of(&system, recapture).expect("a cycle");
+        // First order in the mass ratio, three times; and a twentieth for captures whose rate depends on how the
+        // absorber left, of which the flow knows the average.
+        let tolerance = 0.05 + 3.0 * mass_ratio * (2.0 + sigma.abs() + damping);
+        let error = cycle.rms / found.rms - 1.0;
+        assert!(error.abs() < tolerance, "{error} {tolerance} {system:?} {cycle:?}");
+        let captures = found.classification.evidence.captures;
+        let apart = cycle.captured_share - captures.share;
+        assert!(apart.abs() < 0.2, "{apart} {system:?} {cycle:?} {captures:?}");
+        judged += 1;
+        if judged == 20 {
+            return;
+        }
+    }
+}
+
+/// The flow's share of the time in captures approaches the simulated one as the mass ratio falls; the amplitude is within
+/// what random captures leave open at any.
+#[test]
+fn a_modulated_cycle_is_the_limit_of_small_mass_ratios() {
+    let recapture = Recapture::of(0.6).expect("forgets its start");
+    let missing: Vec<f64> = [1.0, 4.0, 16.0]
+        .into_iter()
+        .map(|part| {
+            let system = system(MASS_RATIO / part, DAMPING, 0.6, 2.36, 1.16);
+            let (cycle, found) =
+                (ModulatedCycle::of(&system, &recapture).expect("a cycle"), simulated(&system));
+            let error = cycle.rms / found.rms - 1.0;
+            assert!(error.abs() < 0.05, "{error} {cycle:?}");
+            found.classification.evidence.captures.share - cycle.captured_share
+        })
+        .collect();
+    assert!(missing.windows(2).all(|pair| pair[1] < pair[0]), "{missing:?}");
+    assert!(missing[0] < 0.15 && missing[2].abs() < 0.06, "{missing:?}");
+}
+
+/// Nothing captures an absorber below the fold; far above it the symmetric motion does within a period or two. Where the
+/// forcing holds a fixed point every capture lasts, and where the oscillator stays below the fold there is none.
+#[test]
+fn an_absorber_is_captured_above_the_fold_alone() {
+    let recapture = Recapture::of(0.6).expect("forgets its start");
+    let fold = Manifold::of(0.6).fold.oscillator_amplitude;
+    for part in [0.1, 0.5, 1.0] {
+        assert_eq!(recapture.rate(part * fold), Some([0.0; 2]));
+    }
+    let [rate, error] = recapture.rate(2.8 * fold).expect("within");
+    assert!(rate - error > 0.5, "{rate} {error}");
+    assert_eq!(recapture.rate(1.1), None);
+    assert!(Recapture::of(0.999).is_none());
+    // Table 1 at 8 Hz and 7.5 mm is in area Z3; a forcing of a tenth leaves the absorber below the fold.
+    assert_eq!(ModulatedCycle::of(&table_1(8.0, 7.5), &recapture), None);
+    let weak = system(MASS_RATIO, DAMPING, 0.6, 2.36, 0.116);
+    assert_eq!(ModulatedCycle::of(&weak, &recapture), None);
 }

@@ -51,6 +51,8 @@ fn response(scene: &Scene, data: &Dissipation) -> Panel {
     let seen: Vec<_> = seen.filter(|(_, amplitude)| *amplitude < most).collect();
     let held = data.response.values().flatten().map(|at| at[1]);
     let highest = held.chain(seen.iter().map(|(_, at)| *at)).filter(|value| value.is_finite());
+    let cycle = data.averages.cycle.map(|cycle| cycle.amplitudes);
+    let highest = highest.chain(cycle.map(|[_, largest]| largest));
     let top = 1.08 * highest.fold(0.1, f64::max);
     let kinds = [&of::EXCITATION_FREQUENCY, &of::OSCILLATOR_AMPLITUDE_RATIO];
     let chart = Chart::new(scene, kinds, [data.window, [0.0, top]]);
@@ -59,6 +61,11 @@ fn response(scene: &Scene, data: &Dissipation) -> Panel {
     panel = panel.with(chart.vertical(ratio, Role::Guide));
     panel.layers.extend(layers(&data.response, &chart, false));
     panel.layers.extend(marks(scene, data, &chart, &|state| Some([ratio, state.amplitude])));
+    if let Some(ends) = cycle {
+        let style = Style::new(mark(Regime::StronglyModulated).1, 5.0, Dash::Solid);
+        let bar = chart.curve(style, &ends.map(|amplitude| [ratio, amplitude]).to_vec());
+        panel = panel.with(bar.labelled("modulated cycle"));
+    }
     let seen = seen.into_iter().map(|(found, amplitude)| {
         scene.mark(&chart, [ratio, amplitude], &format!("simulated, {}", found.regime().words()))
     });
@@ -146,5 +153,6 @@ fn facts(scene: &Scene, data: &Dissipation) -> Value {
         "depends_on_start": averages.curve.depends_on_start,
         "restitution": averages.curve.restitution,
         "stable": stable,
+        "cycle": averages.cycle,
     })
 }
