@@ -228,10 +228,12 @@ fn the_averaged_flow_answers_beyond_symmetry_breaking() {
     // eps (2 + abs(sigma) + lambda) is 2.9 %.
     assert!(error.abs() < 0.02, "{error}");
     assert!(cost > 1000 * cheap, "{cost} {cheap}");
-    // Rest at 8.5 Hz and 28 mm is no answer to what the absorber does.
-    let modulated =
-        Method::AveragedFlow.run(&common::table_1(8.5, 28.0), START).expect("analysable");
-    assert_eq!(modulated.0.why_not, Some(WhyNot::NoStableAmplitude));
+    // At 8.5 Hz and 28 mm it is modulated; an absorber at rest, at 100 mm, is no answer to what it does.
+    let [modulated, rests] = [28.0, 100.0].map(|clearance| {
+        Method::AveragedFlow.run(&common::table_1(8.5, clearance), START).expect("analysable").0
+    });
+    assert_eq!(modulated.regime, Some(Regime::StronglyModulated));
+    assert_eq!(rests.why_not, Some(WhyNot::NoStableAmplitude));
 }
 
 #[test]
@@ -479,4 +481,37 @@ fn what_an_orbit_answers_is_not_simulated() {
     let known: Vec<_> = full.claims.iter().map(|claim| &claim.id).collect();
     assert!(claims.clone().count() > 5 && claims.clone().all(|id| known.contains(&id)));
     assert_eq!(cheap.margins, full.margins);
+}
+
+/// Where an orbit is there it measures the averaged flow's error; else the error is estimated, and never enough for the
+/// number of impacts. The layer answers where it was asked to alone.
+#[test]
+fn the_averaged_flow_answers_where_it_is_asked_to() {
+    let demand = AccuracyTarget { amplitude: 0.2, impacts_per_period: 1.0, coexistence: false };
+    let answered = |system: &System| {
+        let plan = Plan::of(system, demand, Some(Known::AveragedFlow)).expect("an answer");
+        let answers = plan.answers(None).expect("answers").answers;
+        let [amplitude, impacts, regime] = <[_; 3]>::try_from(answers).expect("three");
+        (plan, amplitude, impacts, regime)
+    };
+    let steady = common::table_1(8.0, 7.5);
+    let (plan, amplitude, impacts, regime) = answered(&steady);
+    assert_eq!(regime.regime, Some(Regime::TwoSymmetric));
+    assert!(amplitude.enough && impacts.enough && amplitude.known_by == KnownBy::ExactOrbit);
+    let error = amplitude.value.expect("a number") / plan.orbit.0.rms.expect("an orbit") - 1.0;
+    assert_eq!(amplitude.error, Some(error.abs()));
+
+    let modulated = common::table_1(8.5, 28.0);
+    let (_, amplitude, impacts, regime) = answered(&modulated);
+    assert_eq!(regime.regime, Some(Regime::StronglyModulated));
+    assert!(!impacts.enough && !regime.enough && amplitude.known_by == KnownBy::Averages);
+    // 5 % and three times 0.77 % of (2 + 1.8) and the detuning of 2.4; the averages are known better.
+    let error = amplitude.error.expect("estimated");
+    assert!((0.19..0.23).contains(&error), "{error}");
+    let mut simulation = Simulation::new(&modulated, START, 0.0).expect("inside");
+    let measured = measured(&mut simulation, 8000).expect("measured").rms.expect("a number");
+    let off = amplitude.value.expect("a number") / measured - 1.0;
+    assert!(off.abs() < error, "{off} {error}");
+    let chosen = Plan::of(&modulated, demand, None).expect("simulated");
+    assert_eq!((chosen.layer, chosen.averaged_flow), (Known::Simulation, None));
 }
