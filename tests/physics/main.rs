@@ -32,5 +32,6 @@ mod simulation_properties;
 mod sine_sweep;
 mod symbolic;
 mod tangent;
+mod transient_times;
 mod transients;
 mod validation;

@@ -7,7 +7,7 @@ use std::cell::RefCell;
 
 pub use vinesink::evidence::reference::real::Real;
 use vinesink::evidence::reference::real::{BITS, Consts, ROUND};
-use vinesink::system::System;
+use vinesink::system::{Parameters, System};
 
 /// Distance from a wall, over the clearance, that no motion here crosses and comes back within one
 /// step: an eighth of its square times accelerations of some clearances.
@@ -57,9 +57,19 @@ pub struct Reference {
     decay: Real,
     ringing: Real,
     steady: [Real; 2],
+    /// Displacement that the oscillator is pushed to, and its rate.
+    line: [Real; 2],
 }
 
 impl Reference {
+    /// Under a force `f + g tau` over the clearance and the oscillator's stiffness, instead of the excitation.
+    pub fn pushed(system: &System, [f, g]: [f64; 2]) -> Self {
+        let none = Parameters { forcing_per_clearance: 0.0, ..system.parameters() };
+        let without = Self::new(&System::new(none).expect("valid"));
+        let lag = &(&Real::of(2.0) * &without.decay) * &Real::of(g);
+        Self { line: [&Real::of(f) - &lag, Real::of(g)], ..without }
+    }
+
     pub fn new(system: &System) -> Self {
         let p = system.parameters();
         let (eps, lambda, omega) =
@@ -77,14 +87,24 @@ impl Reference {
             &(&(&sine * &reactance) + &(&cosine * &loss)) / &scale,
             &(&(&cosine * &reactance) - &(&sine * &loss)) / &scale,
         ];
-        Self { eps, restitution: Real::of(p.restitution), omega, decay, ringing, steady }
+        Self {
+            eps,
+            restitution: Real::of(p.restitution),
+            omega,
+            decay,
+            ringing,
+            steady,
+            line: [0.0; 2].map(Real::of),
+        }
     }
 
     fn forced(&self, tau: &Real) -> [Real; 2] {
         let phase = &self.omega * tau;
         let (sin, cos) = sincos(&phase);
         let [p, q] = &self.steady;
-        [&(p * &sin) + &(q * &cos), &self.omega * &(&(p * &cos) - &(q * &sin))]
+        let [level, rate] = &self.line;
+        let x = &(&(p * &sin) + &(q * &cos)) + &(level + &(rate * tau));
+        [x, &(&self.omega * &(&(p * &cos) - &(q * &sin))) + rate]
     }
 
     fn flight(&self, start: Real, state: &[Real; 4]) -> Flight<'_> {
@@ -119,18 +139,21 @@ impl Flight<'_> {
     }
 
     /// First time at which `abs(x - y)` reaches 1, and the wall, by steps of `step`, and of the
-    /// 64th part of that near a wall, where a whole one could pass over a graze.
-    fn first_impact(&self, step: f64) -> (Real, f64) {
-        let mut s = step;
+    /// 64th part of that near a wall, where a whole one could pass over a graze; none after the latest.
+    fn first_impact(&self, step: f64, latest: f64) -> Option<(Real, f64)> {
+        let mut s = step.min(latest);
         loop {
             let [x, _, y, _] = self.at(&Real::of(s));
             let gap = &x - &y;
             let side = if gap.is_negative() { -1.0 } else { 1.0 };
             let excess = &(&Real::of(side) * &gap) - &Real::of(1.0);
             if !excess.is_negative() {
-                return (self.impact_near(Real::of(s), side, 9), side);
+                return Some((self.impact_near(Real::of(s), side, 9), side));
             }
-            s += if excess.to_f64() > -NEAR { step / 64.0 } else { step };
+            if s >= latest {
+                return None;
+            }
+            s = latest.min(s + if excess.to_f64() > -NEAR { step / 64.0 } else { step });
         }
     }
 
@@ -169,8 +192,23 @@ impl Reference {
     /// The next impact, searched in steps of `step`.
     pub fn next(&self, from: &Moment, step: f64) -> Moment {
         let flight = self.flight(from.time.clone(), &from.state);
-        let (after, side) = flight.first_impact(step);
+        let (after, side) = flight.first_impact(step, f64::INFINITY).expect("an impact");
         self.struck(&flight, after, side)
+    }
+
+    /// The impacts from a moment up to a time, and the moment then.
+    pub fn until(&self, mut from: Moment, end: f64, step: f64) -> (Vec<Moment>, Moment) {
+        let mut impacts = Vec::new();
+        loop {
+            let flight = self.flight(from.time.clone(), &from.state);
+            let left = &Real::of(end) - &from.time;
+            let Some((after, side)) = flight.first_impact(step, left.to_f64()) else {
+                let state = flight.at(&left);
+                return (impacts, Moment { time: Real::of(end), state, side: 0.0, approach: 0.0 });
+            };
+            from = self.struck(&flight, after, side);
+            impacts.push(from.clone());
+        }
     }
 
     /// The impact of a motion next to one that meets the wall `side` about `after` later, within
