@@ -205,6 +205,13 @@ impl ExcitationTable {
                 Transient::Sweep(SineSweep { from: self.from?, to: self.to?, rate, turn })
             }
             ExcitationKind::Free | ExcitationKind::Impulse => {
+                let keys = ["displacement", "velocity", "impulse"];
+                let values = [self.displacement, self.velocity, self.impulse];
+                // A number that could not be read was reported.
+                let unread = |(key, value): (&str, Option<f64>)| value.is_none() && place.has(key);
+                if keys.into_iter().zip(values).any(unread) {
+                    return None;
+                }
                 Transient::Release(self.release(mass))
             }
         };
