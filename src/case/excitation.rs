@@ -205,11 +205,10 @@ impl ExcitationTable {
                 Transient::Sweep(SineSweep { from: self.from?, to: self.to?, rate, turn })
             }
             ExcitationKind::Free | ExcitationKind::Impulse => {
-                let keys = ["displacement", "velocity", "impulse"];
-                let values = [self.displacement, self.velocity, self.impulse];
+                let given = [self.displacement, self.velocity, self.impulse];
                 // A number that could not be read was reported.
                 let unread = |(key, value): (&str, Option<f64>)| value.is_none() && place.has(key);
-                if keys.into_iter().zip(values).any(unread) {
+                if ["displacement", "velocity", "impulse"].into_iter().zip(given).any(unread) {
                     return None;
                 }
                 Transient::Release(self.release(mass))
@@ -224,15 +223,9 @@ impl ExcitationTable {
     fn release(&self, mass: f64) -> Release {
         let [displacement, velocity, impulse] =
             [self.displacement, self.velocity, self.impulse].map(Option::unwrap_or_default);
-        if self.kind == ExcitationKind::Free {
-            return Release { displacement, velocity, absorber_velocity: 0.0 };
-        }
         // The base comes to move: so do structure and absorber against it, the other way.
-        Release {
-            displacement: 0.0,
-            velocity: velocity + impulse / mass,
-            absorber_velocity: velocity,
-        }
+        let absorber_velocity = if self.kind == ExcitationKind::Free { 0.0 } else { velocity };
+        Release { displacement, velocity: velocity + impulse / mass, absorber_velocity }
     }
 }
 
@@ -246,7 +239,6 @@ fn impossible(transient: &Transient) -> Option<(String, String, &'static str)> {
                 "to let it go takes `displacement` or `velocity` above 0, a shock `impulse` or `velocity`",
             ))
         }
-        Transient::Release(_) => None,
         Transient::Sweep(sweep) if sweep.fastest_change() > SineSweep::LARGEST_CHANGE => Some((
             format!("the frequency changes by {:.3} % in a period", 100.0 * sweep.fastest_change()),
             format!("expected at most {} %", 100.0 * SineSweep::LARGEST_CHANGE),
@@ -257,6 +249,6 @@ fn impossible(transient: &Transient) -> Option<(String, String, &'static str)> {
             format!("expected at least {}", SineSweep::FEWEST),
             "choose `from` and `to` further apart, or a lower `rate`",
         )),
-        Transient::Sweep(_) | Transient::Record(_) => None,
+        Transient::Release(_) | Transient::Sweep(_) | Transient::Record(_) => None,
     }
 }

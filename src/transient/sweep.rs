@@ -84,11 +84,10 @@ impl SineSweep {
 
     /// Phase over `2 pi` of the excitation at a time.
     pub fn turns(&self, time: f64) -> f64 {
-        let turned = match self.signed() {
-            SweepRate::Linear(k) => time * (self.from + 0.5 * k * time),
-            SweepRate::Octaves(a) => self.from * (exp(a * time) - 1.0) / a,
-        };
-        turned / self.turn
+        match self.signed() {
+            SweepRate::Linear(k) => time * (self.from + 0.5 * k * time) / self.turn,
+            SweepRate::Octaves(a) => self.from * (exp(a * time) - 1.0) / a / self.turn,
+        }
     }
 
     /// Whole periods of the excitation.
@@ -105,11 +104,10 @@ impl SineSweep {
     /// Largest relative change of the frequency in a period: where it is lowest.
     pub fn fastest_change(&self) -> f64 {
         let lowest = self.from.min(self.to);
-        let change = match self.signed() {
-            SweepRate::Linear(k) => k.abs() / (lowest * lowest),
-            SweepRate::Octaves(a) => a.abs() / lowest,
-        };
-        self.turn * change
+        match self.signed() {
+            SweepRate::Linear(k) => self.turn * k.abs() / (lowest * lowest),
+            SweepRate::Octaves(a) => self.turn * a.abs() / lowest,
+        }
     }
 
     /// The frequency ratio of each period: that which it has on average.
