@@ -12,6 +12,7 @@ mod band;
 mod criteria;
 mod document;
 mod error;
+mod excitation;
 mod inputs;
 mod number;
 mod optimize;
@@ -169,8 +170,8 @@ struct Heading {
 struct Tables {
     oscillator: Option<physical::OscillatorTable>,
     absorber: Option<physical::AbsorberTable>,
-    excitation: Option<physical::ExcitationTable>,
-    reduced: Option<Reduced>,
+    excitation: Option<excitation::ExcitationTable>,
+    reduced: Option<reduced::ReducedTable>,
     simulation: Option<SimulationSettings>,
     report: Option<ReportSettings>,
     accuracy: Option<AccuracySettings>,

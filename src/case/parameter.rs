@@ -3,9 +3,10 @@
 use serde_json::Value;
 
 use super::Design;
+use super::excitation::ExcitationTable;
 use super::number::Form;
-use super::physical::{AbsorberTable, ExcitationTable, OscillatorTable};
-use super::reduced::Reduced;
+use super::physical::{AbsorberTable, OscillatorTable};
+use super::reduced::ReducedTable;
 use super::schema::of_table;
 use crate::quantity::catalogue as of;
 use crate::quantity::{Dimension, Kind};
@@ -150,7 +151,7 @@ impl Design {
 
     /// The key in which a design has a parameter; `None` where it has no such number.
     fn schema(&self, parameter: Parameter) -> Option<&'static Value> {
-        let reduced = || &of_table::<Reduced>()["properties"];
+        let reduced = || &of_table::<ReducedTable>()["properties"];
         match (parameter, self) {
             (Parameter::AbsorberMass, Self::Physical(_)) => {
                 of_table::<AbsorberTable>()["properties"].get("mass")

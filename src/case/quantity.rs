@@ -145,13 +145,15 @@ impl Dimension {
     }
 }
 
-/// The unit that stands between brackets in the head of a column; else what is wrong with it, and what to do.
+/// The unit that stands between brackets in the head of a column, a number's without; else what is wrong with it, and
+/// what to do.
 pub(super) fn unit_in_brackets(
     of: Dimension,
     head: &str,
 ) -> Result<&'static Unit, (String, String)> {
     let inner = head.trim_end().strip_suffix(')').and_then(|head| head.rsplit_once('('));
-    let Some((_, written)) = inner else { return Err(("has no unit".to_owned(), of.accepted())) };
+    let none = || ("has no unit".to_owned(), of.accepted());
+    let Some((_, written)) = inner else { return of.unit_of("").ok_or_else(none) };
     of.unit_of(written).ok_or_else(|| of.unsuitable(written.trim()))
 }
 

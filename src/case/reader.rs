@@ -236,7 +236,8 @@ impl<'t> Table<'t> {
     /// What the schema says beside what one of the keys holds.
     fn branch(&self) -> Option<&'static Value> {
         let says = |(key, schema): (&String, &Value)| {
-            let written = self.value(key).and_then(|value| value.get_ref().as_str());
+            let default = self.schema["properties"][key]["default"].as_str();
+            let written = self.value(key).map_or(default, |value| value.get_ref().as_str());
             schema["const"].as_str().is_some_and(|name| Some(name) == written)
         };
         let keys = |branch: &&'static Value| {

@@ -2,7 +2,7 @@
 
 use super::Case;
 use super::error::{CaseError, Problem};
-use super::physical::ExcitationTable;
+use super::excitation::ExcitationTable;
 use super::quantity::{number_in, unit_in_brackets};
 use super::reader::{Reader, Table};
 use crate::digest::sha256;
@@ -57,8 +57,8 @@ impl Case {
     /// The case with the samples of its record; `name`, usually the path of the file, is for messages only. A case
     /// that names no file stays as it is.
     ///
-    /// The text has a head, `time (s),acceleration (m/s²)`, and then a sample a line, the times ascending. Lines that
-    /// begin with `#` are passed over.
+    /// The text has a head, `time (s),acceleration (m/s²)`, without units beside `[reduced]`, and then a sample a line,
+    /// the times ascending. Lines that begin with `#` are passed over.
     ///
     /// # Errors
     /// [`CaseError`] with the lines that are wrong: a head without units or with those of something else, values that
@@ -68,7 +68,7 @@ impl Case {
         if let Some(Recording { quantity, source: RecordSource::File { read, .. } }) =
             &mut self.recording
         {
-            let samples = samples(visible, *quantity)
+            let samples = samples(visible, *quantity, self.design.scales().physical)
                 .map_err(|problems| CaseError::new(name, visible, problems))?;
             let record = Record { quantity: *quantity, samples };
             *read = Some((sha256(text.as_bytes()), record));
@@ -87,8 +87,9 @@ impl RecordQuantity {
     }
 
     /// A head of a file.
-    fn head(self) -> &'static str {
+    fn head(self, physical: bool) -> &'static str {
         match self {
+            _ if !physical => "time,value",
             Self::BaseAcceleration => "time (s),acceleration (m/s²)",
             Self::BaseDisplacement => "time (s),displacement (mm)",
             Self::Force => "time (s),force (N)",
@@ -110,12 +111,16 @@ fn cells(line: &str) -> Option<(&str, &str)> {
     line.split_once(',').filter(|(_, value)| !value.contains(','))
 }
 
-fn samples(text: &str, quantity: RecordQuantity) -> Result<Vec<[f64; 2]>, Vec<Problem>> {
+fn samples(
+    text: &str,
+    quantity: RecordQuantity,
+    physical: bool,
+) -> Result<Vec<[f64; 2]>, Vec<Problem>> {
     let mut lines =
         text.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
     // An empty text has no line: its beginning.
     let head = lines.next().unwrap_or(&text[..0]);
-    let help = format!("begin the file with {}", quantity.head());
+    let help = format!("begin the file with {}", quantity.head(physical));
     let Some((time, value)) = cells(head) else {
         let message = "the head of the record does not name two columns".to_owned();
         return Err(vec![*problem(text, head, message, "expected time and value", &help)]);
@@ -123,9 +128,13 @@ fn samples(text: &str, quantity: RecordQuantity) -> Result<Vec<[f64; 2]>, Vec<Pr
     let unit = |dimension: Dimension, column: &'static str, cell| {
         let wrong = |(what, accepted): (String, String)| {
             let message = format!("the {column} of the record {what}");
-            let help = format!("{accepted}; {help}");
-            problem(text, cell, message, "expected a unit between brackets", &help)
+            let (expected, help) = match physical {
+                true => ("expected a unit between brackets", &format!("{accepted}; {help}")),
+                false => ("expected a name without a unit", &help),
+            };
+            problem(text, cell, message, expected, help)
         };
+        let dimension = if physical { dimension } else { Dimension::Number };
         unit_in_brackets(dimension, cell).map_err(wrong)
     };
     let units =
@@ -192,16 +201,16 @@ const MOST_SAMPLES: u64 = 20_000_000;
 pub(super) fn read(
     reader: &mut Reader,
     table: &Table,
-    excitation: ExcitationTable,
+    excitation: &ExcitationTable,
 ) -> Option<Recording> {
     let quantity = excitation.quantity?;
-    let Some(corners) = excitation.spectrum else {
+    let Some(corners) = excitation.spectrum.clone() else {
         for key in ["duration", "seed", "realisations"].into_iter().filter(|key| table.has(key)) {
             let message = format!("`{key}` has no meaning beside `file`");
             let help = "remove the line: it is for a spectrum";
             reader.report(table.span_of(key), message, "expected a file alone", help);
         }
-        let source = RecordSource::File { path: excitation.file?, read: None };
+        let source = RecordSource::File { path: excitation.file.clone()?, read: None };
         return Some(Recording { quantity, source });
     };
     for key in ["duration", "seed"].into_iter().filter(|key| !table.has(key)) {

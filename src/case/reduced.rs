@@ -1,45 +1,97 @@
 //! The table `[reduced]`: a dimensionless design, lengths in a unit of its own.
 
+use std::f64::consts::TAU;
+
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::excitation::{ExcitationKind, ExcitationTable, keys_by_kind};
 use super::reader::{Reader, Table};
-use super::schema::one_of;
 use crate::system::Excitation;
+use crate::transient::{RecordQuantity, Transient};
 
-// `Case::parse` proves every value finite and in its range, and one of the two frequencies given.
 /// A dimensionless design, lengths in a unit of its own.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
-#[schemars(deny_unknown_fields, extend("oneOf" = one_of("frequency_ratio", "detuning")))]
-pub struct Reduced {
+#[derive(Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields, extend("oneOf" = keys_by_kind(true)))]
+pub(super) struct ReducedTable {
     /// epsilon = m2 / m1, above 0.
     #[schemars(extend("exclusiveMinimum" = 0, "x-symbol" = r"\varepsilon"), example = 0.0076775)]
-    pub mass_ratio: f64,
+    mass_ratio: f64,
     /// lambda = c1 / (m2 omega0), 0 or more.
     #[schemars(extend("minimum" = 0, "x-symbol" = r"\lambda"), example = 1.799)]
-    pub damping: f64,
+    damping: f64,
     /// r, the coefficient of restitution, from 0 to 1.
     #[schemars(range(min = 0.0, max = 1.0), extend("x-symbol" = "r"), example = 0.6)]
-    pub restitution: f64,
+    restitution: f64,
     /// b, the clearance, above 0.
     #[schemars(extend("exclusiveMinimum" = 0, "x-symbol" = "b"), example = 1.0)]
-    pub clearance: f64,
+    clearance: f64,
     /// G = F / epsilon, the reduced forcing in the unit of the clearance, 0 or more.
     #[schemars(extend("minimum" = 0, "x-symbol" = "G"), example = 4.342)]
-    pub forcing: f64,
+    forcing: Option<f64>,
     /// Omega = omega / omega0, above 0; or give detuning.
     #[schemars(extend("exclusiveMinimum" = 0, "x-symbol" = r"\Omega"), example = 0.95818)]
-    pub frequency_ratio: Option<f64>,
+    frequency_ratio: Option<f64>,
     /// sigma, where Omega = 1 + epsilon sigma; or give frequency_ratio.
     #[schemars(extend("x-symbol" = r"\sigma"), example = -5.446)]
+    detuning: Option<f64>,
+    /// How the oscillator is set in motion; base-displacement unless given.
+    #[serde(default)]
+    kind: ExcitationKind,
+    /// What is swept: "base-displacement" or "force".
+    of: Option<Excitation>,
+    /// Frequency ratio at which a sweep begins, from rest, above 0; with one above `to` it goes down.
+    #[schemars(extend("exclusiveMinimum" = 0, "x-symbol" = r"\Omega_1"), example = 0.9)]
+    from: Option<f64>,
+    /// Frequency ratio at which it ends, above 0.
+    #[schemars(extend("exclusiveMinimum" = 0, "x-symbol" = r"\Omega_2"), example = 1.1)]
+    to: Option<f64>,
+    /// Change of the frequency ratio in a fast time tau = omega0 t, above 0.
+    #[schemars(extend("exclusiveMinimum" = 0, "x-symbol" = r"\dot{\Omega}"), example = 0.0002)]
+    rate: Option<f64>,
+    /// Displacement from which the oscillator is let go, in the unit of the clearance, 0 or more.
+    #[schemars(extend("minimum" = 0, "x-symbol" = "x_0"), example = 5.0)]
+    displacement: Option<f64>,
+    /// Velocity when it is let go, or that which a shock gives the base, in that unit times omega0; 0 or more.
+    #[schemars(extend("minimum" = 0, "x-symbol" = r"\dot{x}_0"), example = 5.0)]
+    velocity: Option<f64>,
+    /// Impulse on the oscillator over m1 omega0, in that unit, above 0; or give the velocity of the base.
+    #[schemars(extend("exclusiveMinimum" = 0, "x-symbol" = "J"), example = 5.0)]
+    impulse: Option<f64>,
+    /// What a record is of: in the unit of the clearance, times omega0^2 an acceleration, times k1 a force.
+    #[schemars(example = "base-acceleration")]
+    quantity: Option<RecordQuantity>,
+    /// The record: a CSV file beside the case, a fast time and a value a line below a head without units.
+    #[schemars(example = "quake.csv")]
+    file: Option<String>,
+}
+
+// `Case::parse` proves every value finite and in its range.
+/// A dimensionless design, lengths in a unit of its own.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reduced {
+    /// `epsilon = m2/m1`.
+    pub mass_ratio: f64,
+    /// `lambda = c1/(m2 omega0)`.
+    pub damping: f64,
+    /// `r`, the coefficient of restitution.
+    pub restitution: f64,
+    /// `b`, the clearance.
+    pub clearance: f64,
+    /// `G = F/epsilon`, the reduced forcing in the unit of the clearance; 0 where nothing drives steadily.
+    pub forcing: f64,
+    /// `Omega = omega/omega0`, or that at which a sweep begins; none where there is a detuning or no excitation.
+    pub frequency_ratio: Option<f64>,
+    /// `sigma`, where `Omega = 1 + epsilon sigma`.
     pub detuning: Option<f64>,
-    /// Where the excitation enters; base-displacement unless given.
-    #[serde(rename = "kind", default)]
+    /// Where the excitation enters.
     pub excitation: Excitation,
+    /// What is not steady harmonic excitation.
+    pub transient: Option<Transient>,
 }
 
 impl Reduced {
-    /// `Omega = omega/omega0`, however its author gave it.
+    /// `Omega = omega/omega0`, however its author gave it; 1 where nothing drives the oscillator.
     pub fn frequency_ratio(&self) -> f64 {
         let detuned = libm::fma(self.mass_ratio, self.detuning.unwrap_or_default(), 1.0);
         self.frequency_ratio.unwrap_or(detuned)
@@ -50,7 +102,36 @@ pub(super) const TABLE: &str = "reduced";
 
 /// Reads the table; `None` when there is none or something was reported.
 pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Reduced> {
-    let (table, read) = reader.optional::<Reduced>(root, TABLE)?;
+    let (table, read) = reader.optional::<ReducedTable>(root, TABLE)?;
+    let excitation = ExcitationTable {
+        kind: read.kind,
+        quantity: read.quantity,
+        file: read.file,
+        of: read.of,
+        from: read.from,
+        to: read.to,
+        rate: read.rate,
+        displacement: read.displacement,
+        velocity: read.velocity,
+        impulse: read.impulse,
+        ..ExcitationTable::default()
+    };
+    // Frequency ratios over the fast time are angles.
+    let transient = excitation.transient(reader, &table, [1.0, TAU])?;
+    let read = Reduced {
+        mass_ratio: read.mass_ratio,
+        damping: read.damping,
+        restitution: read.restitution,
+        clearance: read.clearance,
+        forcing: match transient {
+            None | Some(Transient::Sweep(_)) => read.forcing?,
+            _ => 0.0,
+        },
+        frequency_ratio: read.from.or(read.frequency_ratio),
+        detuning: read.detuning,
+        excitation: excitation.enters(),
+        transient,
+    };
     let ratio = read.frequency_ratio();
     if ratio > 0.0 && ratio.is_finite() {
         return Some(read);

@@ -125,7 +125,7 @@ impl Design {
     pub fn transient(&self) -> Option<Transient> {
         match self {
             Self::Physical(physical) => physical.transient,
-            Self::Reduced(_) => None,
+            Self::Reduced(reduced) => reduced.transient,
         }
     }
 

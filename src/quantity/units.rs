@@ -141,6 +141,7 @@ impl Dimension {
             Self::Time => Some(unit("/ω₀", 0)),
             // A frequency is a ratio to the natural one.
             Self::Frequency => Some(unit("f₀", 0)),
+            Self::FrequencyRate => Some(unit("f₀ω₀", 0)),
             Self::Velocity => Some(unit("ω₀ units", 0)),
             Self::Acceleration => Some(unit("ω₀² units", 0)),
             Self::Energy => Some(unit("m₁ω₀² units²", 0)),

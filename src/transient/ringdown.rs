@@ -86,10 +86,14 @@ impl Ringdown {
         let mut log = Log { found, energy, lost: 0.0, impacts: 0, speed: 0.0 };
         log.period(&start);
         for _ in 0..oscillations {
-            let stop = simulation.run(STEPS.into(), MOST_IMPACTS, &mut log);
+            match simulation.run(STEPS.into(), MOST_IMPACTS, &mut log) {
+                Stop::EndTime => {}
+                Stop::ImpactLimit => break,
+                _ => return Err(StartError::NotFinite { state: start }),
+            }
             // Below the level for a whole oscillation: the absorber's own energy cannot lift it back.
             let latest = &log.found.amplitudes[log.found.amplitudes.len() - STEPS as usize..];
-            if stop != Stop::EndTime || latest.iter().all(|one| *one <= ENOUGH * level) {
+            if latest.iter().all(|one| *one <= ENOUGH * level) {
                 break;
             }
         }

@@ -17,18 +17,20 @@ use crate::system::{State, System};
 /// A range of frequencies and how fast it is gone through.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SineSweep {
-    /// Frequency at the start, in Hz.
+    /// Frequency at the start, in Hz; a frequency ratio in a reduced case, whose time is `tau`.
     pub from: f64,
-    /// Frequency at the end, in Hz.
+    /// Frequency at the end.
     pub to: f64,
     /// How fast it changes, above 0.
     pub rate: SweepRate,
+    /// Frequency times time of a period: 1 of Hz and s, `2 pi` of a reduced case.
+    pub turn: f64,
 }
 
 /// How fast a frequency changes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SweepRate {
-    /// Hz/s.
+    /// Hz/s; frequency ratio in a fast time.
     Linear(f64),
     /// Octaves in a minute.
     Octaves(f64),
@@ -67,23 +69,24 @@ impl SineSweep {
         }
     }
 
-    /// The time in s after which so many periods of the excitation are over.
+    /// The time after which so many periods of the excitation are over.
     pub fn time(&self, periods: f64) -> f64 {
+        let n = self.turn * periods;
         match self.signed() {
             // f1 t + k t^2/2 = n
             SweepRate::Linear(k) => {
-                2.0 * periods / (self.from + (self.from * self.from + 2.0 * k * periods).sqrt())
+                2.0 * n / (self.from + (self.from * self.from + 2.0 * k * n).sqrt())
             }
             // f1 (exp(a t) - 1)/a = n
-            SweepRate::Octaves(a) => log1p(a * periods / self.from) / a,
+            SweepRate::Octaves(a) => log1p(a * n / self.from) / a,
         }
     }
 
-    /// Phase over `2 pi` of the excitation at a time in s.
+    /// Phase over `2 pi` of the excitation at a time.
     pub fn turns(&self, time: f64) -> f64 {
         match self.signed() {
-            SweepRate::Linear(k) => time * (self.from + 0.5 * k * time),
-            SweepRate::Octaves(a) => self.from * (exp(a * time) - 1.0) / a,
+            SweepRate::Linear(k) => time * (self.from + 0.5 * k * time) / self.turn,
+            SweepRate::Octaves(a) => self.from * (exp(a * time) - 1.0) / a / self.turn,
         }
     }
 
@@ -95,15 +98,15 @@ impl SineSweep {
             SweepRate::Octaves(a) => (to - from) / a,
         };
         // Rounding takes no period away.
-        (turns * (1.0 + 1e-12)) as u64
+        (turns / self.turn * (1.0 + 1e-12)) as u64
     }
 
     /// Largest relative change of the frequency in a period: where it is lowest.
     pub fn fastest_change(&self) -> f64 {
         let lowest = self.from.min(self.to);
         match self.signed() {
-            SweepRate::Linear(k) => k.abs() / (lowest * lowest),
-            SweepRate::Octaves(a) => a.abs() / lowest,
+            SweepRate::Linear(k) => self.turn * k.abs() / (lowest * lowest),
+            SweepRate::Octaves(a) => self.turn * a.abs() / lowest,
         }
     }
 
@@ -112,7 +115,7 @@ impl SineSweep {
         let (sweep, scales) = (*self, *scales);
         (0..self.count()).map(move |n| {
             let [begin, end] = [n as f64, (n + 1) as f64].map(|periods| sweep.time(periods));
-            scales.frequency_ratio(1.0 / (end - begin))
+            scales.frequency_ratio(sweep.turn / (end - begin))
         })
     }
 }

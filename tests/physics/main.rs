@@ -26,6 +26,7 @@ mod orbit_equations;
 mod orbits;
 mod published;
 mod record;
+mod reduced;
 mod regimes;
 mod release;
 mod simulation_properties;

@@ -191,7 +191,7 @@ fn a_slow_sweep_follows_the_exact_orbit_and_loses_no_energy() {
 fn time_and_phase_belong_together() {
     for rate in [SweepRate::Linear(0.3), SweepRate::Octaves(2.0)] {
         for (from, to) in [(5.0, 9.0), (9.0, 5.0)] {
-            let sweep = SineSweep { from, to, rate };
+            let sweep = SineSweep { from, to, rate, turn: 1.0 };
             for n in [0.0, 1.0, 17.3, sweep.count() as f64] {
                 assert!((sweep.turns(sweep.time(n)) - n).abs() < 1e-9, "{sweep:?} {n}");
             }

@@ -49,7 +49,7 @@ prop_compose! {
         force in any::<bool>(),
     ) -> Reduced {
         let excitation = if force { Excitation::Force } else { Excitation::BaseDisplacement };
-        Reduced { mass_ratio, damping, restitution, clearance, forcing, excitation, frequency_ratio, detuning }
+        Reduced { mass_ratio, damping, restitution, clearance, forcing, excitation, frequency_ratio, detuning, transient: None }
     }
 }
 
@@ -144,6 +144,7 @@ fn restored(scales: &Scales, system: &System) -> Design {
             excitation,
             frequency_ratio,
             detuning,
+            transient: None,
         });
     }
     let (mass_kg, omega0) = (scales.oscillator_mass, scales.natural_frequency);

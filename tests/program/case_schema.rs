@@ -174,6 +174,9 @@ fn parser_and_schema_accept_the_same_keys() {
     }
 }
 
+/// A sweep in place of a frequency ratio.
+const SWEPT: &str = "kind = \"sine-sweep\"\nof = \"force\"\nfrom = 0.9\nto = 1.1\nrate = 0.0002\n#";
+
 /// Changes to a case, which parser and schema must both accept or both refuse.
 #[test]
 fn parser_and_schema_agree_on_changes_to_a_case() {
@@ -183,6 +186,8 @@ fn parser_and_schema_agree_on_changes_to_a_case() {
         .find(|(path, _)| path.ends_with("reduced-unit-clearance.toml"))
         .map(|(_, text)| text)
         .expect("the reduced case");
+    let (design, _) = reduced.split_once("forcing").expect("the design alone");
+    let free = format!("{design}kind = \"free\"\ndisplacement = 2\n");
     let schema = schema();
     let mut accepted = 0;
     for (text, from, to) in [
@@ -253,6 +258,16 @@ fn parser_and_schema_agree_on_changes_to_a_case() {
         (&reduced, "clearance = 1.0", "clearance = 1"),
         (&reduced, "clearance = 1.0", "clearance = 0"),
         (&reduced, "forcing = 4.342", "forcing = -1"),
+        (&reduced, "frequency_ratio = 0.95818", SWEPT),
+        (&reduced, "frequency_ratio = 0.95818", &SWEPT.replace("of = \"force\"\n", "")),
+        (&reduced, "frequency_ratio = 0.95818", &SWEPT.replace("0.9\n", "\"7 Hz\"\n")),
+        (&reduced, "frequency_ratio = 0.95818", &SWEPT.replace("rate = ", "rate = -")),
+        (&free, "displacement = 2", "displacement = 2\nvelocity = 1"),
+        (&free, "displacement = 2", "displacement = -2"),
+        (&free, "displacement = 2", ""),
+        (&free, "\"free\"", "\"impulse\""),
+        (&free, "\"free\"\ndisplacement", "\"impulse\"\nvelocity"),
+        (&free, "kind = \"free\"", ""),
     ] {
         assert!(text.contains(from), "{from:?} is not in the case");
         let changed = text.replacen(from, to, 1);
@@ -260,7 +275,7 @@ fn parser_and_schema_agree_on_changes_to_a_case() {
         assert_eq!(valid(&schema, &toml(&changed)), parses, "{from:?} -> {to:?}");
         accepted += usize::from(parses);
     }
-    assert_eq!(accepted, 21, "of the changes above");
+    assert_eq!(accepted, 24, "of the changes above");
 }
 
 fn patterns_agree(dimension: Dimension, schema: &Value) {

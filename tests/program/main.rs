@@ -27,6 +27,7 @@ mod optimize;
 mod paper;
 mod readers;
 mod record;
+mod reduced;
 mod release;
 mod report;
 #[cfg(unix)]

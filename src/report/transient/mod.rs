@@ -16,11 +16,12 @@ use super::document::{FORMAT, NOTICEABLE, Scale, Word, figure_row, units};
 use super::figure::{Color, Dash, Style};
 use super::render::{Files, RenderError, in_lines, page_files};
 use super::template::{render, worded};
-use crate::case::{Case, Design};
+use crate::case::Case;
 use crate::criteria::Judged;
 use crate::method::Method;
 use crate::quantity::Quantity;
 use crate::quantity::catalogue as of;
+use crate::system::Parameter;
 use crate::transient::Study;
 
 /// The line of a tuned mass damper.
@@ -70,7 +71,7 @@ pub fn text(case: &Case, study: &Study, document: &Value) -> Result<String, Rend
     render(&format!("{}.txt", name_of(study)), &units(case), document)
 }
 
-/// A report as data. Quantities are in SI.
+/// A report as data. Quantities are in SI, or in the units of a reduced case.
 pub fn document(name: &str, case: &Case, study: &Study, judged: &[Judged]) -> Value {
     let (mut quantities, word) = match study {
         Study::Release(study) => (release::quantities(case, study), release::word(study)),
@@ -88,7 +89,7 @@ pub fn document(name: &str, case: &Case, study: &Study, judged: &[Judged]) -> Va
         "name": name,
         "title": case.title,
         "source": case.source,
-        "units": "si",
+        "units": if units(case).physical { "si" } else { "reduced" },
         "verdict": { "tone": word.tone(), "word": word, "headline": name_of(study) },
         "quantities": all,
         "criteria": criteria(case, judged),
@@ -116,15 +117,14 @@ pub fn document(name: &str, case: &Case, study: &Study, judged: &[Judged]) -> Va
 fn given(case: &Case) -> Vec<Quantity> {
     let system = case.system();
     let given = |kind, value| Quantity::new(kind, value, Method::Given);
-    let mut all = vec![
+    let mass = case.design.value(Parameter::AbsorberMass);
+    vec![
         Scale::of(case).length(&of::CLEARANCE, 1.0, Method::Given),
         given(&of::RESTITUTION, system.restitution()),
         given(&of::MASS_RATIO, system.mass_ratio()),
-    ];
-    if let Design::Physical(physical) = &case.design {
-        all.push(given(&of::ABSORBER_MASS, physical.absorber_mass_kg));
-    }
-    all
+        // A reduced design's is over the structure's.
+        given(&of::ABSORBER_MASS, mass.unwrap_or(system.mass_ratio())),
+    ]
 }
 
 /// The answer where there are no criteria, from the worst and the best of what counts over the structure alone.
