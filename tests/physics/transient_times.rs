@@ -60,7 +60,7 @@ fn a_sweep_has_the_references_impact_times() {
     const DISPLACED: f64 = 1e-12;
     let system = table_1(8.0, 7.5);
     let scales = Scales { natural_frequency: TAU * 8.349, ..UNIT };
-    let sweep = SineSweep { from: 8.0, to: 8.7, rate: SweepRate::Linear(0.1) };
+    let sweep = SineSweep { from: 8.0, to: 8.7, rate: SweepRate::Linear(0.1), turn: 1.0 };
     let mut state = State { x: 0.25, x_velocity: 0.3, y: -0.4, y_velocity: 0.6 };
     let mut moments = [first(state), first(state)];
     let (mut impacts, mut worst, mut displaced) = (0, 0.0_f64, 0.0_f64);
