@@ -1,15 +1,18 @@
 //! What a parameter is in a design: its value, the quantity that it is, and how it is written.
 
+use std::f64::consts::TAU;
+
 use serde_json::Value;
 
 use super::Design;
 use super::number::Form;
-use super::physical::{AbsorberTable, ExcitationTable, OscillatorTable};
+use super::physical::{AbsorberTable, ExcitationTable, OscillatorTable, impossible};
 use super::reduced::Reduced;
 use super::schema::of_table;
 use crate::quantity::catalogue as of;
 use crate::quantity::{Dimension, Kind};
-use crate::system::{Excitation, Parameter};
+use crate::system::{Excitation, Parameter, System};
+use crate::transient::{Scene, Transient};
 
 impl Design {
     /// The value of a parameter in SI, or a plain number of a reduced design; `None` for a part of the start,
@@ -21,7 +24,13 @@ impl Design {
                 let of_ratio = || (r.frequency_ratio() - 1.0) / r.mass_ratio;
                 Some(r.detuning.unwrap_or_else(of_ratio))
             }
-            _ => self.clone().number(parameter).map(|(number, over)| *number / over),
+            _ => {
+                let mut own = *self;
+                let of_transient = own.transient_mut().and_then(|of| of.numbers(parameter).pop());
+                of_transient
+                    .copied()
+                    .or_else(|| self.clone().number(parameter).map(|(number, over)| *number / over))
+            }
         }
     }
 
@@ -40,9 +49,39 @@ impl Design {
                 if let Some((number, over)) = changed.number(parameter) {
                     *number = value * over;
                 }
+                let numbers = changed.transient_mut().map(|of| of.numbers(parameter));
+                numbers.into_iter().flatten().for_each(|number| *number = value);
             }
         }
+        // What has no frequency of its own is counted in the structure's.
+        if let (Scene::Release | Scene::Record, Self::Physical(p)) = (self.scene(), &mut self) {
+            p.frequency_hz = p.natural_frequency_rad_per_s() / TAU;
+        }
         self
+    }
+
+    /// The system; none where values that are each valid leave none, or nothing that could happen to it.
+    pub fn possible_system(&self) -> Option<System> {
+        let possible = impossible(self.transient().as_ref()).is_none();
+        possible.then(|| self.system().ok())?
+    }
+
+    fn transient_mut(&mut self) -> Option<&mut Transient> {
+        match self {
+            Self::Physical(physical) => physical.transient.as_mut(),
+            Self::Reduced(_) => None,
+        }
+    }
+
+    /// Whether a parameter has a meaning for what the structure is subjected to.
+    fn scene_has(&self, parameter: Parameter) -> bool {
+        use Parameter as P;
+        let Some(mut transient) = self.transient() else { return parameter != P::Rate };
+        let of_system = match parameter {
+            P::Amplitude => self.scene() == Scene::Sweep,
+            other => !matches!(other, P::Frequency | P::Detuning | P::Rate) && !other.is_initial(),
+        };
+        of_system || !transient.numbers(parameter).is_empty()
     }
 
     /// The same with errors added to some parameters; a restitution stays between 0 and 1, an amplitude at 0
@@ -69,7 +108,11 @@ impl Design {
     /// frequency of a reduced design.
     fn number(&mut self, parameter: Parameter) -> Option<(&mut f64, f64)> {
         use Parameter as P;
+        if !self.scene_has(parameter) {
+            return None;
+        }
         let number = match (parameter, self) {
+            (P::Amplitude, changed) if changed.scene() == Scene::Release => return None,
             (P::MassRatio, Self::Physical(p)) => {
                 return Some((&mut p.absorber_mass_kg, p.mass_kg));
             }
@@ -96,10 +139,19 @@ impl Design {
     }
 
     /// The quantity that a parameter is beside this design.
-    pub const fn kind(&self, parameter: Parameter) -> &'static Kind {
+    pub fn kind(&self, parameter: Parameter) -> &'static Kind {
         use Parameter as P;
+        match (parameter, self.transient()) {
+            (P::Amplitude, Some(Transient::Release(shock))) if shock.impulse > 0.0 => {
+                return &of::IMPULSE;
+            }
+            (P::Amplitude, Some(Transient::Release(_))) => return &of::INITIAL_VELOCITY,
+            (P::Rate, Some(Transient::Sweep(sweep))) => return sweep.rate.kind(),
+            _ => {}
+        }
         match (parameter, self) {
             (P::Clearance, _) => &of::CLEARANCE,
+            (P::Rate, _) => &of::SWEEP_RATE,
             (P::Frequency, Self::Physical(_)) => &of::EXCITATION_FREQUENCY,
             (P::Frequency, Self::Reduced(_)) => &of::FREQUENCY_RATIO,
             (P::Detuning, _) => &of::DETUNING,
@@ -131,8 +183,17 @@ impl Design {
     /// How values of a parameter are written beside this design: as the design's own; `None` where it has no
     /// such number.
     pub(super) fn form(&self, parameter: Parameter) -> Option<Form> {
-        if !parameter.is_initial() {
-            return Form::of(self.schema(parameter)?);
+        if !self.scene_has(parameter) {
+            return None;
+        }
+        if self.scene() != Scene::Steady || !parameter.is_initial() {
+            let form = Form::of(self.schema(parameter)?)?;
+            if parameter != Parameter::Rate {
+                return Some(form);
+            }
+            let dimension = self.kind(parameter).dimension;
+            let example = format!("\"{}\"", dimension.words().1);
+            return Some(Form { dimension: Some(dimension), exact: true, example, ..form });
         }
         let symbol = match parameter {
             Parameter::InitialDisplacement => "x_0",
@@ -151,10 +212,18 @@ impl Design {
     /// The key in which a design has a parameter; `None` where it has no such number.
     fn schema(&self, parameter: Parameter) -> Option<&'static Value> {
         let reduced = || &of_table::<Reduced>()["properties"];
+        let excitation = || &of_table::<ExcitationTable>()["properties"];
         match (parameter, self) {
             (Parameter::AbsorberMass, Self::Physical(_)) => {
                 of_table::<AbsorberTable>()["properties"].get("mass")
             }
+            (Parameter::Amplitude | Parameter::InitialVelocity, Self::Physical(_))
+                if self.scene() == Scene::Release =>
+            {
+                let struck = self.kind(parameter).dimension == Dimension::Impulse;
+                excitation().get(if struck { "impulse" } else { "velocity" })
+            }
+            (Parameter::InitialDisplacement, Self::Physical(_)) => excitation().get("displacement"),
             (Parameter::Amplitude, Self::Physical(physical)) => {
                 let branch = usize::from(physical.excitation == Excitation::Force);
                 let branch = &of_table::<ExcitationTable>()["oneOf"][branch];

@@ -195,9 +195,9 @@ fn keys_by_kind() -> Value {
 
 impl ExcitationTable {
     /// What is not steady in it; `None` for harmonic excitation of one frequency, or where something is missing.
-    fn transient(&self, mass: f64, rate_in: Option<Dimension>) -> Option<Transient> {
+    fn transient(&self, rate_in: Option<Dimension>) -> Option<Transient> {
         if self.kind != ExcitationKind::SineSweep {
-            return self.release(mass).map(Transient::Release);
+            return self.release().map(Transient::Release);
         }
         let rate = match rate_in {
             Some(Dimension::OctaveRate) => SweepRate::Octaves(self.rate?),
@@ -207,7 +207,7 @@ impl ExcitationTable {
     }
 
     /// How the oscillator is set in motion, if nothing drives it.
-    fn release(&self, mass: f64) -> Option<Release> {
+    fn release(&self) -> Option<Release> {
         let [displacement, velocity, impulse] =
             [self.displacement, self.velocity, self.impulse].map(Option::unwrap_or_default);
         match self.kind {
@@ -216,14 +216,12 @@ impl ExcitationTable {
             | ExcitationKind::SineSweep
             | ExcitationKind::Record => None,
             ExcitationKind::Free => {
-                Some(Release { displacement, velocity, absorber_velocity: 0.0 })
+                Some(Release { displacement, velocity, absorber_velocity: 0.0, impulse: 0.0 })
             }
             // The base comes to move: so do structure and absorber against it, the other way.
-            ExcitationKind::Impulse => Some(Release {
-                displacement: 0.0,
-                velocity: velocity + impulse / mass,
-                absorber_velocity: velocity,
-            }),
+            ExcitationKind::Impulse => {
+                Some(Release { displacement: 0.0, velocity, absorber_velocity: velocity, impulse })
+            }
         }
     }
 }
@@ -283,7 +281,7 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Physical> {
     };
     let ((_, absorber), (place, excitation)) = (absorber?, excitation?);
     let written = place.value("rate").and_then(|rate| rate.get_ref().as_str());
-    let transient = excitation.transient(oscillator.mass, written.and_then(Dimension::of));
+    let transient = excitation.transient(written.and_then(Dimension::of));
     if let Some((message, expected, help)) = impossible(transient.as_ref()) {
         reader.report(place.span.clone(), message, expected, help);
         return None;
@@ -324,9 +322,11 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Physical> {
 }
 
 /// Why an excitation whose numbers are each valid cannot be: message, what was expected, help.
-fn impossible(transient: Option<&Transient>) -> Option<(String, String, &'static str)> {
+pub(super) fn impossible(transient: Option<&Transient>) -> Option<(String, String, &'static str)> {
     match transient? {
-        Transient::Release(release) if release.displacement == 0.0 && release.velocity == 0.0 => {
+        Transient::Release(Release { displacement, velocity, impulse, .. })
+            if [*displacement, *velocity, *impulse] == [0.0; 3] =>
+        {
             Some((
                 "nothing sets the oscillator in motion".into(),
                 "expected a displacement, a velocity or an impulse above 0".into(),

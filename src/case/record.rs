@@ -42,6 +42,19 @@ impl Recording {
         }
     }
 
+    /// Whether it is more than one record.
+    pub fn has_several(&self) -> bool {
+        matches!(&self.source, RecordSource::Spectrum(spectrum) if spectrum.realisations > 1)
+    }
+
+    /// SHA-256 of the file's text; none until it is read.
+    pub fn digest(&self) -> Option<&str> {
+        match &self.source {
+            RecordSource::File { read, .. } => read.as_ref().map(|(digest, _)| digest.as_str()),
+            RecordSource::Spectrum(_) => None,
+        }
+    }
+
     /// The records; none of a file that was not read.
     pub fn records(&self) -> Vec<Record> {
         match &self.source {

@@ -246,7 +246,8 @@ fn estimate(sweep: &Sweep) -> Result<bool> {
     let plan = &sweep.plan;
     let points = plan.points();
     // Whole chunks where a motion is followed, else a part of them.
-    let stretch = if plan.settings.follow { plan.points_per_chunk() } else { SAMPLE };
+    let chunk = plan.points_per_chunk();
+    let stretch = if plan.settings.follow { chunk } else { SAMPLE.min(chunk) };
     let stretches = if plan.settings.follow { 1 } else { STRETCHES };
     let begin = Instant::now();
     let progress = Progress::new("sample", stretches);

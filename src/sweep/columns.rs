@@ -1,7 +1,7 @@
 //! What is recorded of points, as columns with names and units.
 
-use super::Plan;
 use super::facts::{Facts, Found};
+use super::{Plan, Point};
 use crate::analysis::{Area, Strip, Zone};
 use crate::case::{Design, Recorded};
 use crate::quantity::catalogue as of;
@@ -113,6 +113,18 @@ pub const fn kind(recorded: Recorded) -> Option<&'static Kind> {
         Recorded::ShareOfStarts => &of::START_SHARE,
         Recorded::LargestPeak => &of::LARGEST_PEAK,
         Recorded::Motions => &of::MOTIONS,
+        Recorded::BareDecayTime => &of::BARE_DECAY_TIME,
+        Recorded::DamperDecayTime => &of::DAMPER_DECAY_TIME,
+        Recorded::TheoryDecayTime => &of::THEORY_DECAY_TIME,
+        Recorded::InactiveShare => &of::INACTIVE_SHARE,
+        Recorded::BarePeak => &of::BARE_PEAK,
+        Recorded::DamperPeak => &of::DAMPER_PEAK,
+        Recorded::BareRms => &of::BARE_RMS,
+        Recorded::DamperRms => &of::DAMPER_RMS,
+        Recorded::DecayTime => &of::DECAY_TIME,
+        Recorded::PeakFrequency => &of::PEAK_FREQUENCY,
+        Recorded::Impacts => &of::IMPACT_COUNT,
+        Recorded::ReductionDbTmd => &of::REDUCTION_DB_TMD,
         Recorded::Area | Recorded::Regime | Recorded::OrbitReached => return None,
     })
 }
@@ -182,6 +194,17 @@ pub(super) fn push(plan: &Plan, columns: &mut [Column], facts: &Facts) {
             other => cells.push(number(other, facts, found).map(Cell::Number)),
         }
     }
+    push_cells(columns, cells);
+}
+
+/// Adds a point whose recorded columns are numbers.
+pub(super) fn push_numbers(columns: &mut [Column], point: &Point, numbers: Vec<Option<f64>>) {
+    let known = [point.number as f64].into_iter().chain(point.coordinates.iter().copied());
+    let cells = known.map(Some).chain(numbers).map(|value| value.map(Cell::Number));
+    push_cells(columns, cells);
+}
+
+fn push_cells(columns: &mut [Column], cells: impl IntoIterator<Item = Option<Cell>>) {
     let known = |cell: &Cell| cell.number().is_none_or(f64::is_finite);
     for (column, cell) in columns.iter_mut().zip(cells) {
         column.cells.push(cell.filter(known));
@@ -220,7 +243,7 @@ fn number(recorded: Recorded, facts: &Facts, found: &Found) -> Option<f64> {
             motions.iter().map(|motion| motion.peak).max_by(f64::total_cmp).map(length)
         }
         Recorded::Motions => Some(motions.len() as f64).filter(|count| *count > 0.0),
-        Recorded::Area | Recorded::Regime | Recorded::Section => None,
+        _ => None,
     }
 }
 

@@ -20,20 +20,21 @@ mod theory;
 
 pub use clearance::{Best, best_clearance};
 pub use driven::{DrivenError, Response, follow};
+pub(crate) use passage::worst as worst_passage;
 pub use passage::{ByRate, Jump, SweepStart, SweepStudy};
 pub use record::{Piece, Record, RecordQuantity, Spectrum};
 pub use record_study::{Measured, Realisation, RecordStudy, SpectrumPoint};
 pub use ringdown::{Ringdown, STEPS};
-pub(crate) use study::awake;
 pub use study::{Decay, DecayStudy};
+pub(crate) use study::{awake, bare, inactive, largest, longest, slowest, with_damper, worst};
 pub use sweep::{Passage, SineSweep, SweepRate};
 pub use theory::Predicted;
 
-use crate::case::{Case, Scales};
+use crate::case::{Case, Recording, Scales};
 use crate::executor::Executor;
 use crate::numerics::scatter::error_of_largest;
 use crate::simulation::StartError;
-use crate::system::{InvalidParameter, Parameters, State, System};
+use crate::system::{InvalidParameter, Parameter, Parameters, State, System};
 
 /// What a structure is subjected to that is not steady harmonic excitation.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,6 +45,51 @@ pub enum Transient {
     Sweep(SineSweep),
     /// A record or noise drives it, whose values are of this quantity.
     Record(RecordQuantity),
+}
+
+impl Transient {
+    /// The numbers that a parameter is in it: how far and how fast a structure is let go, how hard it is struck, how
+    /// fast it is swept.
+    pub(crate) fn numbers(&mut self, parameter: Parameter) -> Vec<&mut f64> {
+        use Parameter as P;
+        match self {
+            Self::Release(release) => {
+                let (struck, shock) = (release.impulse > 0.0, release.is_shock());
+                match parameter {
+                    P::Amplitude if struck => vec![&mut release.impulse],
+                    P::Amplitude if shock => {
+                        vec![&mut release.velocity, &mut release.absorber_velocity]
+                    }
+                    P::InitialDisplacement if !shock => vec![&mut release.displacement],
+                    P::InitialVelocity if !shock => vec![&mut release.velocity],
+                    _ => Vec::new(),
+                }
+            }
+            Self::Sweep(sweep) if parameter == P::Rate => match &mut sweep.rate {
+                SweepRate::Linear(rate) | SweepRate::Octaves(rate) => vec![rate],
+            },
+            _ => Vec::new(),
+        }
+    }
+
+    /// Places of the absorber that are simulated unless a case says how many: of several records fewer of each.
+    pub fn places(self, recording: Option<&Recording>) -> u32 {
+        match self {
+            Self::Release(_) => study::STARTS,
+            Self::Sweep(_) => passage::STARTS,
+            Self::Record(_) if recording.is_some_and(Recording::has_several) => {
+                record_study::PLACES_OF_MANY
+            }
+            Self::Record(_) => record_study::PLACES,
+        }
+    }
+}
+
+/// Places of the absorber from which a case is simulated; none where it is driven steadily.
+fn places_of(case: &Case) -> Option<u32> {
+    let usual = case.design.transient()?.places(case.recording.as_ref());
+    let own = case.simulation.starts.and_then(|starts| u32::try_from(starts).ok());
+    Some(own.unwrap_or(usual))
 }
 
 /// What a structure is subjected to: which criteria, tables and commands make sense of it.
@@ -109,18 +155,26 @@ pub struct Release {
     pub velocity: f64,
     /// Velocity of the absorber: that of the structure where the base was set in motion, else 0.
     pub absorber_velocity: f64,
+    /// Impulse on the structure, which adds to its velocity.
+    pub impulse: f64,
 }
 
 impl Release {
     /// The same, so many times as strong.
     #[must_use]
     pub fn scaled(&self, factor: f64) -> Self {
-        let Self { displacement, velocity, absorber_velocity } = *self;
+        let Self { displacement, velocity, absorber_velocity, impulse } = *self;
         Self {
             displacement: factor * displacement,
             velocity: factor * velocity,
             absorber_velocity: factor * absorber_velocity,
+            impulse: factor * impulse,
         }
+    }
+
+    /// Whether it is a shock: the structure is struck, or its base set in motion.
+    pub fn is_shock(&self) -> bool {
+        self.impulse > 0.0 || self.absorber_velocity > 0.0
     }
 
     /// Whether an absorber at rest may be where no wall ever reaches it.
@@ -129,12 +183,12 @@ impl Release {
     }
 
     /// The state in which an absorber at a relative displacement `w` begins.
-    fn state(&self, scales: &Scales, w: f64) -> State {
-        let [displacement, velocity, absorber_velocity] =
-            [self.displacement, self.velocity, self.absorber_velocity];
-        let x = scales.over_clearance(displacement);
+    pub(crate) fn state(&self, scales: &Scales, w: f64) -> State {
+        let x = scales.over_clearance(self.displacement);
+        let velocity = self.velocity + self.impulse / scales.oscillator_mass;
         let speed = scales.velocity(1.0);
-        State { x, x_velocity: velocity / speed, y: x - w, y_velocity: absorber_velocity / speed }
+        let y_velocity = self.absorber_velocity / speed;
+        State { x, x_velocity: velocity / speed, y: x - w, y_velocity }
     }
 }
 
@@ -157,7 +211,7 @@ pub fn worst_of_places(values: &[f64]) -> [f64; 2] {
 }
 
 /// The amplitude of a structure in a state.
-fn amplitude(state: &State) -> f64 {
+pub(crate) fn amplitude(state: &State) -> f64 {
     libm::hypot(state.x, state.x_velocity)
 }
 

@@ -4,8 +4,8 @@
 use std::f64::consts::TAU;
 
 use super::linear::swept;
-use super::places;
 use super::sweep::{Passage, SineSweep};
+use super::{places, places_of};
 use crate::band::rivals::{TunedMassDamper, bare_amplitude};
 use crate::case::{Case, Scales};
 use crate::executor::{Executor, map};
@@ -14,7 +14,7 @@ use crate::simulation::StartError;
 use crate::system::{State, System};
 
 /// Places of the absorber unless the case says how many.
-const STARTS: u32 = 16;
+pub(super) const STARTS: u32 = 16;
 /// Rates over the case's own.
 pub const RATES: [f64; 5] = [0.25, 0.5, 1.0, 2.0, 4.0];
 /// Frequencies at which steady motions are known.
@@ -75,16 +75,30 @@ impl SweepStudy {
     /// [`StartError`] where the motion is so large that rounding hides the walls.
     pub fn of_case(case: &Case, executor: &dyn Executor) -> Option<Result<Self, StartError>> {
         let sweep = case.design.sine_sweep()?;
-        let starts = case.simulation.starts.and_then(|starts| u32::try_from(starts).ok());
-        let counted = |passage: &Passage| case.count_inactive || passage.impacts > 0;
-        Some(Self::of(case, &sweep, starts.unwrap_or(STARTS), &counted, executor))
+        Some(Self::of(case, &sweep, places_of(case)?, executor))
+    }
+
+    /// A sweep from every place of the absorber; without those from which it never wakes where they do not count,
+    /// unless there are no others.
+    ///
+    /// # Errors
+    /// As [`Self::of_case`].
+    pub(crate) fn starts(
+        system: &System,
+        scales: &Scales,
+        sweep: &SineSweep,
+        count: u32,
+        count_inactive: bool,
+    ) -> Result<Vec<SweepStart>, StartError> {
+        let flown = places(count.into()).map(|w| passage(system, scales, sweep, w));
+        let flown = flown.collect::<Result<Vec<SweepStart>, StartError>>()?;
+        Ok(counted(&flown, count_inactive))
     }
 
     fn of(
         case: &Case,
         sweep: &SineSweep,
         starts: u32,
-        counted: &dyn Fn(&Passage) -> bool,
         executor: &dyn Executor,
     ) -> Result<Self, StartError> {
         let (system, scales) = (case.system(), case.scales());
@@ -96,20 +110,10 @@ impl SweepStudy {
             .collect();
         let all: Vec<SineSweep> = [sweep.reversed()].into_iter().chain(rates.clone()).collect();
         let at: Vec<f64> = places(starts.into()).collect();
-        let passage = |k: usize| {
-            let (n, w) = (k / at.len(), at[k % at.len()]);
-            let start = State { y: -w, ..State::AT_REST };
-            let found = Passage::follow(&system, &scales, &all[n], start)?;
-            Ok((w, found))
-        };
-        let flown = map(executor, "passages", all.len() * starts as usize, passage);
+        let one = |k: usize| passage(&system, &scales, &all[k / at.len()], at[k % at.len()]);
+        let flown = map(executor, "passages", all.len() * starts as usize, one);
         let flown = flown.into_iter().collect::<Result<Vec<SweepStart>, StartError>>()?;
-        // Starts that do not count are left out, unless there are no others.
-        let of = |n: usize| {
-            let all = &flown[n * starts as usize..(n + 1) * starts as usize];
-            let none = !all.iter().any(|one| counted(&one.1));
-            all.iter().filter(|one| none || counted(&one.1)).cloned().collect::<Vec<SweepStart>>()
-        };
+        let of = |n: usize| counted(&flown[n * at.len()..][..at.len()], case.count_inactive);
         let damper = TunedMassDamper::den_hartog(system.mass_ratio());
         let linear = |damper: Option<&TunedMassDamper>, sweep: &SineSweep| {
             swept(&system, damper, &scales, sweep)
@@ -153,7 +157,26 @@ impl SweepStudy {
     }
 }
 
-fn worst(starts: &[SweepStart]) -> Option<&SweepStart> {
+/// A sweep with the absorber at a relative displacement `w` in the beginning.
+fn passage(
+    system: &System,
+    scales: &Scales,
+    sweep: &SineSweep,
+    w: f64,
+) -> Result<SweepStart, StartError> {
+    let start = State { y: -w, ..State::AT_REST };
+    Ok((w, Passage::follow(system, scales, sweep, start)?))
+}
+
+/// The starts that count; all where none does.
+fn counted(starts: &[SweepStart], count_inactive: bool) -> Vec<SweepStart> {
+    let wakes = |one: &SweepStart| one.1.impacts > 0;
+    let all = count_inactive || !starts.iter().any(wakes);
+    starts.iter().filter(|one| all || wakes(one)).cloned().collect()
+}
+
+/// See [`SweepStudy::worst`].
+pub(crate) fn worst(starts: &[SweepStart]) -> Option<&SweepStart> {
     starts.iter().max_by(|a, b| a.1.peak()[1].total_cmp(&b.1.peak()[1]))
 }
 

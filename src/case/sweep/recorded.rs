@@ -1,10 +1,27 @@
 //! What a sweep records of each point.
 
 use crate::names::names;
+use crate::transient::Scene;
 
 names! { key:
     /// Something that is recorded of each point.
     pub enum Recorded {
+        /// Time in which a structure that is released or struck comes to rest without absorber.
+        BareDecayTime = "bare_decay_time",
+        /// The same with a tuned mass damper of the absorber's mass.
+        DamperDecayTime = "damper_decay_time",
+        /// The same with the absorber, by theory.
+        TheoryDecayTime = "theory_decay_time",
+        /// Share of the absorber's resting places from which no wall ever reaches it.
+        InactiveShare = "inactive_share",
+        /// Largest displacement without absorber in a sweep through resonance or under a record; mean over records.
+        BarePeak = "bare_peak",
+        /// The same with a tuned mass damper of the absorber's mass.
+        DamperPeak = "damper_peak",
+        /// Root mean square displacement without absorber under a record.
+        BareRms = "bare_rms",
+        /// The same with a tuned mass damper.
+        DamperRms = "damper_rms",
         /// Area Z1 to Z4 of the theory, and the strip A1 or A2 within it.
         Area = "area",
         /// Smallest amplitude of a stable fixed point of the slow flow.
@@ -45,8 +62,49 @@ names! { key:
         Motions = "motions",
         /// Whether a start leads to the exact symmetric orbit that attracts; nothing where none does.
         OrbitReached = "orbit_reached",
+        /// Time in which a structure that is released or struck comes to rest, from the worst place of the absorber.
+        DecayTime = "decay_time",
+        /// Frequency of the largest displacement in a sweep through resonance.
+        PeakFrequency = "peak_frequency",
+        /// Impacts of the absorber from its worst place; of several records under the first.
+        Impacts = "impacts",
+        /// Reduction of the peak against a tuned mass damper of the absorber's mass.
+        ReductionDbTmd = "reduction_db_tmd",
     }
 }
+
+const RELEASE: [Recorded; 8] = [
+    Recorded::DecayTime,
+    Recorded::BareDecayTime,
+    Recorded::DamperDecayTime,
+    Recorded::TheoryDecayTime,
+    Recorded::InactiveShare,
+    Recorded::Peak,
+    Recorded::ImpactSpeed,
+    Recorded::Impacts,
+];
+const SWEEP: [Recorded; 8] = [
+    Recorded::Peak,
+    Recorded::PeakFrequency,
+    Recorded::BarePeak,
+    Recorded::DamperPeak,
+    Recorded::ReductionDb,
+    Recorded::ReductionDbTmd,
+    Recorded::ImpactSpeed,
+    Recorded::Impacts,
+];
+const RECORD: [Recorded; 10] = [
+    Recorded::Peak,
+    Recorded::Rms,
+    Recorded::BarePeak,
+    Recorded::BareRms,
+    Recorded::DamperPeak,
+    Recorded::DamperRms,
+    Recorded::ReductionDb,
+    Recorded::ReductionDbTmd,
+    Recorded::ImpactSpeed,
+    Recorded::Impacts,
+];
 
 impl Recorded {
     /// Whether only simulation knows it: what is recorded stands in the order of layers, those of formulas
@@ -60,8 +118,28 @@ impl Recorded {
         matches!(self, Self::ShareOfStarts | Self::LargestPeak | Self::Motions)
     }
 
-    /// What is recorded where the case does not say.
-    pub const USUAL: [Self; 12] = [
+    /// What may be recorded of a structure that is subjected to something.
+    pub fn of(scene: Scene) -> Vec<Self> {
+        let steady = |one: &Self| (Self::Area..=Self::OrbitReached).contains(one);
+        match scene {
+            Scene::Steady => Self::ALL.into_iter().filter(steady).collect(),
+            Scene::Release => RELEASE.into(),
+            Scene::Sweep => SWEEP.into(),
+            Scene::Record => RECORD.into(),
+        }
+    }
+
+    /// What is recorded where the case does not say: what costs little beside simulation.
+    pub fn usual(scene: Scene) -> Vec<Self> {
+        match scene {
+            Scene::Steady => Self::USUAL.into(),
+            other => {
+                Self::of(other).into_iter().filter(|one| *one != Self::TheoryDecayTime).collect()
+            }
+        }
+    }
+
+    const USUAL: [Self; 12] = [
         Self::Area,
         Self::BareAmplitude,
         Self::OrbitPeak,
