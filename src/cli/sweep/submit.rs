@@ -5,8 +5,11 @@
 
 mod job;
 
+use std::path::{Component, Path};
+
 use clap::{Args, ValueEnum};
-use miette::Result;
+use miette::{Result, miette};
+use vinesink::case::{Case, Recording};
 use vinesink::store;
 
 use super::{Long, Sweep, Where, output, shown};
@@ -107,6 +110,7 @@ pub fn run(arguments: &Arguments) -> Result<bool> {
         return Ok(true);
     }
     store::write_file_and_folder(&job.case, sweep.case_text.as_bytes())?;
+    copy_record(&sweep.case, &at.case, &job.case)?;
     for (file, text) in &job.files {
         store::write_file(file, text.as_bytes())?;
     }
@@ -124,6 +128,22 @@ pub fn run(arguments: &Arguments) -> Result<bool> {
         by_hand("merge"),
     ))?;
     Ok(true)
+}
+
+/// Copies the record that drives a case beside the copy of the case.
+fn copy_record(case: &Case, from: &Path, to: &Path) -> Result<()> {
+    let Some(file) = case.recording.as_ref().and_then(Recording::file) else { return Ok(()) };
+    if Path::new(file).is_absolute() {
+        return Ok(());
+    }
+    if Path::new(file).components().any(|one| one == Component::ParentDir) {
+        return Err(miette!(
+            help = "name it by its whole path, or put it beside the case",
+            "tasks work on a copy of the case, beside which they would not find the record {file}"
+        ));
+    }
+    let text = store::read_text(&from.with_file_name(file))?;
+    Ok(store::write_file_and_folder(&to.with_file_name(file), text.as_bytes())?)
 }
 
 #[cfg(test)]
