@@ -12,7 +12,7 @@ use super::schema::of_table;
 use crate::quantity::catalogue as of;
 use crate::quantity::{Dimension, Kind};
 use crate::system::{Excitation, Parameter, System};
-use crate::transient::{Scene, Transient};
+use crate::transient::{Scene, SweepRate, Transient};
 
 impl Design {
     /// The value of a parameter in SI, or a plain number of a reduced design; `None` for a part of the start,
@@ -146,12 +146,14 @@ impl Design {
                 return &of::IMPULSE;
             }
             (P::Amplitude, Some(Transient::Release(_))) => return &of::INITIAL_VELOCITY,
-            (P::Rate, Some(Transient::Sweep(sweep))) => return sweep.rate.kind(),
             _ => {}
         }
         match (parameter, self) {
             (P::Clearance, _) => &of::CLEARANCE,
-            (P::Rate, _) => &of::SWEEP_RATE,
+            (P::Rate, _) => match self.sine_sweep().map(|sweep| sweep.rate) {
+                Some(SweepRate::Octaves(_)) => &of::OCTAVE_RATE,
+                _ => &of::SWEEP_RATE,
+            },
             (P::Frequency, Self::Physical(_)) => &of::EXCITATION_FREQUENCY,
             (P::Frequency, Self::Reduced(_)) => &of::FREQUENCY_RATIO,
             (P::Detuning, _) => &of::DETUNING,

@@ -42,16 +42,11 @@ impl Recording {
         }
     }
 
-    /// Whether it is more than one record.
-    pub fn has_several(&self) -> bool {
-        matches!(&self.source, RecordSource::Spectrum(spectrum) if spectrum.realisations > 1)
-    }
-
-    /// SHA-256 of the file's text; none until it is read.
-    pub fn digest(&self) -> Option<&str> {
+    /// How many records it is.
+    pub fn count(&self) -> usize {
         match &self.source {
-            RecordSource::File { read, .. } => read.as_ref().map(|(digest, _)| digest.as_str()),
-            RecordSource::Spectrum(_) => None,
+            RecordSource::File { .. } => 1,
+            RecordSource::Spectrum(spectrum) => spectrum.realisations as usize,
         }
     }
 

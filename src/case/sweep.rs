@@ -184,21 +184,17 @@ fn check_axes(reader: &mut Reader, table: &Table, axes: &[SweepAxis]) -> Option<
 
 /// Reports what is about steady vibration where the structure is not driven steadily, and the other way round.
 fn check_scene(reader: &mut Reader, table: &Table, asked: &[Recorded], scene: Scene) -> Option<()> {
-    let possible = Recorded::of(scene);
-    let mut unsuited = asked.iter().filter(|one| !possible.contains(one)).map(|one| one.key());
-    let steady = ["periods", "follow"].into_iter();
-    let mut steady = steady.filter(|key| scene != Scene::Steady && table.has(key));
-    let (key, at, expected) = match (unsuited.next(), steady.next()) {
-        (Some(key), _) => {
-            let keys: Vec<String> =
-                possible.iter().map(|one| format!("\"{}\"", one.key())).collect();
-            (key, table.span_of_value("record"), or(&keys))
-        }
-        (None, Some(key)) => (key, table.span_of(key), "axes, `starts` and `record`".to_owned()),
-        (None, None) => return Some(()),
+    let of = Recorded::ALL.into_iter().filter(|one| one.is_of(scene));
+    let of: Vec<String> = of.map(|one| format!("\"{}\"", one.key())).collect();
+    let unsuited = asked.iter().find(|one| !one.is_of(scene)).map(|one| ("record", one.key()));
+    let settings = ["periods", "follow"].into_iter();
+    let mut settings = settings.filter(|key| scene != Scene::Steady && table.has(key));
+    let Some((place, key)) = unsuited.or_else(|| settings.next().map(|key| (key, key))) else {
+        return Some(());
     };
     let message = format!("`{key}` has no meaning for a structure that is {}", scene.words());
-    reader.report(at, message, format!("expected {expected}"), "leave it out");
+    let expected = format!("expected a record of {}", or(&of));
+    reader.report(table.span_of_value(place), message, expected, "leave it out");
     None
 }
 

@@ -84,7 +84,7 @@ impl Plan {
         };
         let [name, version] = [env!("CARGO_PKG_NAME"), env!("CARGO_PKG_VERSION")];
         let mut named = format!("{name} {version} {} {}", plan.points_per_chunk, case.text_hash);
-        named.extend(plan.subject.as_ref().and_then(Subject::digest));
+        named.extend(plan.subject.iter().filter_map(Subject::digest));
         plan.identity = sha256(named.as_bytes());
         Some(plan)
     }

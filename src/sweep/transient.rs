@@ -1,18 +1,17 @@
-//! What is recorded of structures that are not driven steadily: each number is that of the case's own study at the
-//! point, and only what is recorded is computed. A motion that cannot be followed has no number.
+//! What is recorded of structures that are not driven steadily: numbers of the study that a case of the point has,
+//! without what costs more and is not recorded. A motion that cannot be followed has none.
 
-use std::cell::LazyCell;
 use std::f64::consts::TAU;
 use std::sync::OnceLock;
 
 use super::{Plan, Point};
 use crate::band::rivals::{TunedMassDamper, reduction_db};
-use crate::case::{Case, Recorded, Recording};
+use crate::case::{Case, RecordSource, Recorded, Recording, Scales};
 use crate::executor::Serial;
-use crate::system::System;
 use crate::transient::linear::swept;
 use crate::transient::{
-    self, DecayStudy, Predicted, Record, RecordStudy, Release, SineSweep, SweepStudy, Transient,
+    DecayStudy, Predicted, Record, RecordStudy, SweepStart, SweepStudy, Transient, bare, longest,
+    worst,
 };
 
 /// Seconds for an oscillation on the way to rest, a period of a sweep and a piece of a record from one place of the
@@ -35,8 +34,16 @@ pub(super) struct Subject {
     records: OnceLock<Vec<Record>>,
 }
 
-/// A number for what is recorded.
-type Numbers<'a> = Box<dyn Fn(Recorded) -> Option<f64> + 'a>;
+/// What is found at a point.
+enum Found {
+    Release(DecayStudy),
+    /// Largest displacement without absorber and with the damper.
+    Sweep {
+        starts: Vec<SweepStart>,
+        peaks: [f64; 2],
+    },
+    Record(RecordStudy),
+}
 
 impl Subject {
     /// None for a structure that is driven steadily.
@@ -51,7 +58,10 @@ impl Subject {
 
     /// SHA-256 of the file that drives the structure.
     pub fn digest(&self) -> Option<&str> {
-        self.recording.as_ref().and_then(Recording::digest)
+        match &self.recording.as_ref()?.source {
+            RecordSource::File { read, .. } => read.as_ref().map(|(digest, _)| digest.as_str()),
+            RecordSource::Spectrum(_) => None,
+        }
     }
 
     fn records(&self) -> &[Record] {
@@ -60,112 +70,33 @@ impl Subject {
 
     /// What is recorded of a point, in the order of the settings.
     pub fn numbers(&self, plan: &Plan, point: &Point) -> Vec<Option<f64>> {
-        let numbers = point.system.as_ref().and_then(|system| {
-            Some(match point.design.transient()? {
-                Transient::Release(release) => self.released(plan, point, system, release),
-                Transient::Sweep(sweep) => self.swept(plan, point, system, sweep),
-                Transient::Record(_) => self.driven(plan, point, system)?,
-            })
-        });
-        let record = plan.settings.record.iter();
-        record.map(|of| numbers.as_ref().and_then(|numbers| numbers(*of))).collect()
+        let study = self.study(plan, point);
+        let number = |of: &Recorded| number(*of, study.as_ref()?, &point.scales);
+        plan.settings.record.iter().map(number).collect()
     }
 
-    fn released<'a>(
-        &self,
-        plan: &Plan,
-        point: &'a Point,
-        system: &'a System,
-        release: Release,
-    ) -> Numbers<'a> {
-        let (scales, share) = (&point.scales, self.decay_level);
-        let start = release.state(scales, 0.0);
-        let from = transient::amplitude(&start);
-        let [alone, inactive] =
-            [transient::bare(system, share), transient::inactive(system, &start)];
-        let decides = self.count_inactive && inactive > 0.0;
-        let starts =
-            || DecayStudy::starts(system, scales, &release, share, plan.settings.starts).ok();
-        let starts = plan.needs_simulation().then(starts).flatten();
-        let time = |oscillations: f64| scales.time(TAU * oscillations);
-        let level = share * from;
-        Box::new(move |of| match of {
-            Recorded::BareDecayTime => Some(time(alone)),
-            Recorded::DamperDecayTime => {
-                let most = transient::longest(alone);
-                Some(time(transient::with_damper(system, start, level, most).2))
+    fn study(&self, plan: &Plan, point: &Point) -> Option<Found> {
+        let (system, scales, inactive) = (point.system?, &point.scales, self.count_inactive);
+        let places = places(plan);
+        Some(match point.design.transient()? {
+            Transient::Release(release) => {
+                let share = self.decay_level;
+                let study = DecayStudy::without_theory(&system, scales, &release, share, places);
+                Found::Release(DecayStudy { count_inactive: inactive, ..study.ok()? })
             }
-            Recorded::TheoryDecayTime => Predicted::of(system, from, level).oscillations.map(time),
-            Recorded::InactiveShare => Some(inactive),
-            Recorded::DecayTime => Some(time(transient::slowest(starts.as_ref()?, alone, decides))),
-            Recorded::Peak => {
-                Some(scales.length(transient::largest(starts.as_ref()?, |start| start.peak)))
+            Transient::Sweep(sweep) => {
+                let starts = SweepStudy::starts(&system, scales, &sweep, places, inactive).ok()?;
+                let damper = TunedMassDamper::den_hartog(system.mass_ratio());
+                let peak = |damper| swept(&system, damper, scales, &sweep).peak()[1];
+                Found::Sweep { starts, peaks: [None, Some(&damper)].map(peak) }
             }
-            Recorded::ImpactSpeed => {
-                let speed = transient::largest(starts.as_ref()?, |start| start.impact_speed);
-                Some(scales.velocity(1.0) * speed)
+            Transient::Record(_) => {
+                let (records, places) = (self.records(), places.into());
+                let study =
+                    RecordStudy::without_spectrum(&system, scales, records, places, &Serial);
+                Found::Record(RecordStudy { count_inactive: inactive, ..study.ok()? })
             }
-            Recorded::Impacts => Some(transient::worst(starts.as_ref()?)?.impacts as f64),
-            _ => None,
         })
-    }
-
-    fn swept<'a>(
-        &self,
-        plan: &Plan,
-        point: &'a Point,
-        system: &'a System,
-        sweep: SineSweep,
-    ) -> Numbers<'a> {
-        let scales = &point.scales;
-        let starts = || {
-            let places = plan.settings.starts;
-            SweepStudy::starts(system, scales, &sweep, places, self.count_inactive).ok()
-        };
-        let starts = plan.needs_simulation().then(starts).flatten().unwrap_or_default();
-        let worst = transient::worst_passage(&starts).map(|(_, worst)| worst.clone());
-        let damper = TunedMassDamper::den_hartog(system.mass_ratio());
-        let alone = LazyCell::new(move || swept(system, None, scales, &sweep).peak()[1]);
-        let damped = LazyCell::new(move || swept(system, Some(&damper), scales, &sweep).peak()[1]);
-        Box::new(move |of| match of {
-            Recorded::BarePeak => Some(scales.length(*alone)),
-            Recorded::DamperPeak => Some(scales.length(*damped)),
-            Recorded::Peak => Some(scales.length(worst.as_ref()?.peak()[1])),
-            Recorded::PeakFrequency => Some(scales.frequency(worst.as_ref()?.peak()[0])),
-            Recorded::ReductionDb => Some(reduction_db(worst.as_ref()?.peak()[1], *alone)),
-            Recorded::ReductionDbTmd => Some(reduction_db(worst.as_ref()?.peak()[1], *damped)),
-            Recorded::ImpactSpeed => {
-                let speeds = starts.iter().map(|(_, found)| found.impact_speed);
-                Some(scales.velocity(1.0) * speeds.reduce(f64::max)?)
-            }
-            Recorded::Impacts => Some(worst.as_ref()?.impacts as f64),
-            _ => None,
-        })
-    }
-
-    fn driven<'a>(&self, plan: &Plan, point: &'a Point, system: &System) -> Option<Numbers<'a>> {
-        let (scales, count_inactive) = (&point.scales, self.count_inactive);
-        let places = if plan.needs_simulation() { plan.settings.starts } else { 0 };
-        let study =
-            RecordStudy::without_spectrum(system, scales, self.records(), places.into(), &Serial);
-        let study = RecordStudy { count_inactive, ..study.ok()? };
-        let length = |[value, _]: [f64; 2]| Some(scales.length(value));
-        Some(Box::new(move |of| match of {
-            Recorded::BarePeak => length(study.mean(|one| one.bare.peak)),
-            Recorded::BareRms => length(study.mean(|one| one.bare.rms)),
-            Recorded::DamperPeak => length(study.mean(|one| one.damped.peak)),
-            Recorded::DamperRms => length(study.mean(|one| one.damped.rms)),
-            Recorded::Peak => length(study.worst(|_, place| place.peak)),
-            Recorded::Rms => length(study.worst(|_, place| place.rms)),
-            Recorded::ReductionDb => Some(study.reduction_db(|one| one.bare.peak)[0]),
-            Recorded::ReductionDbTmd => Some(study.reduction_db(|one| one.damped.peak)[0]),
-            Recorded::ImpactSpeed => {
-                let [speed, _] = study.worst(|_, place| place.impact_speed);
-                Some(scales.velocity(1.0) * speed)
-            }
-            Recorded::Impacts => Some(study.shown()?.1.impacts as f64),
-            _ => None,
-        }))
     }
 
     /// About how many seconds a point takes.
@@ -173,18 +104,17 @@ impl Subject {
         let (Some(system), Some(of)) = (&point.system, point.design.transient()) else {
             return 0.0;
         };
-        let places = f64::from(if plan.needs_simulation() { plan.settings.starts } else { 0 });
-        let scales = &point.scales;
+        let (places, scales) = (f64::from(places(plan)), &point.scales);
         match of {
             Transient::Release(release) => {
-                let alone = transient::bare(system, self.decay_level);
-                let from = transient::amplitude(&release.state(scales, 0.0));
+                let alone = bare(system, self.decay_level);
+                let flown = places * alone.min(longest(alone) as f64) * OSCILLATION;
+                let from = release.amplitude(scales);
                 let asked = plan.settings.record.contains(&Recorded::TheoryDecayTime);
-                let theory = match asked && from <= Predicted::LARGEST {
-                    true => THEORY[0] + THEORY[1] * from * from * from,
-                    false => 0.0,
-                };
-                places * alone.min(transient::longest(alone) as f64) * OSCILLATION + theory
+                match asked && from <= Predicted::LARGEST {
+                    true => flown + THEORY[0] + THEORY[1] * from * from * from,
+                    false => flown,
+                }
             }
             Transient::Sweep(sweep) => (places + ALTERNATIVES) * sweep.count() as f64 * PERIOD,
             Transient::Record(_) => {
@@ -193,4 +123,57 @@ impl Subject {
             }
         }
     }
+}
+
+/// Places of the absorber that are simulated; none where nothing asks for it.
+fn places(plan: &Plan) -> u32 {
+    if plan.needs_simulation() { plan.settings.starts } else { 0 }
+}
+
+/// A number of what was found.
+fn number(of: Recorded, found: &Found, scales: &Scales) -> Option<f64> {
+    let time = |oscillations: f64| scales.time(TAU * oscillations);
+    let length = |over_clearance: f64| scales.length(over_clearance);
+    let speed = |over_clearance: f64| scales.velocity(1.0) * over_clearance;
+    Some(match found {
+        Found::Release(study) => match of {
+            Recorded::DecayTime => time(study.slowest()),
+            Recorded::BareDecayTime => time(study.bare),
+            Recorded::DamperDecayTime => time(study.damped.2),
+            Recorded::TheoryDecayTime => {
+                time(Predicted::of(&study.system, study.from, study.level).oscillations?)
+            }
+            Recorded::InactiveShare => study.inactive,
+            Recorded::Peak => length(study.largest(|start| start.peak)),
+            Recorded::ImpactSpeed => speed(study.largest(|start| start.impact_speed)),
+            Recorded::Impacts => study.worst()?.impacts as f64,
+            _ => return None,
+        },
+        Found::Sweep { starts, peaks } => match (of, worst(starts).map(|(_, worst)| worst)) {
+            (Recorded::BarePeak, _) => length(peaks[0]),
+            (Recorded::DamperPeak, _) => length(peaks[1]),
+            (Recorded::Peak, Some(worst)) => length(worst.peak()[1]),
+            (Recorded::PeakFrequency, Some(worst)) => scales.frequency(worst.peak()[0]),
+            (Recorded::ReductionDb, Some(worst)) => reduction_db(worst.peak()[1], peaks[0]),
+            (Recorded::ReductionDbTmd, Some(worst)) => reduction_db(worst.peak()[1], peaks[1]),
+            (Recorded::ImpactSpeed, _) => {
+                speed(starts.iter().map(|(_, one)| one.impact_speed).reduce(f64::max)?)
+            }
+            (Recorded::Impacts, Some(worst)) => worst.impacts as f64,
+            _ => return None,
+        },
+        Found::Record(study) => match of {
+            Recorded::BarePeak => length(study.mean(|one| one.bare.peak)[0]),
+            Recorded::BareRms => length(study.mean(|one| one.bare.rms)[0]),
+            Recorded::DamperPeak => length(study.mean(|one| one.damped.peak)[0]),
+            Recorded::DamperRms => length(study.mean(|one| one.damped.rms)[0]),
+            Recorded::Peak => length(study.worst(|_, place| place.peak)[0]),
+            Recorded::Rms => length(study.worst(|_, place| place.rms)[0]),
+            Recorded::ReductionDb => study.reduction_db(|one| one.bare.peak)[0],
+            Recorded::ReductionDbTmd => study.reduction_db(|one| one.damped.peak)[0],
+            Recorded::ImpactSpeed => speed(study.worst(|_, place| place.impact_speed)[0]),
+            Recorded::Impacts => study.shown()?.1.impacts as f64,
+            _ => return None,
+        },
+    })
 }

@@ -20,13 +20,13 @@ mod theory;
 
 pub use clearance::{Best, best_clearance};
 pub use driven::{DrivenError, Response, follow};
-pub(crate) use passage::worst as worst_passage;
+pub(crate) use passage::worst;
 pub use passage::{ByRate, Jump, SweepStart, SweepStudy};
 pub use record::{Piece, Record, RecordQuantity, Spectrum};
 pub use record_study::{Measured, Realisation, RecordStudy, SpectrumPoint};
 pub use ringdown::{Ringdown, STEPS};
 pub use study::{Decay, DecayStudy};
-pub(crate) use study::{awake, bare, inactive, largest, longest, slowest, with_damper, worst};
+pub(crate) use study::{awake, bare, longest};
 pub use sweep::{Passage, SineSweep, SweepRate};
 pub use theory::Predicted;
 
@@ -52,20 +52,18 @@ impl Transient {
     /// fast it is swept.
     pub(crate) fn numbers(&mut self, parameter: Parameter) -> Vec<&mut f64> {
         use Parameter as P;
-        match self {
-            Self::Release(release) => {
-                let (struck, shock) = (release.impulse > 0.0, release.is_shock());
-                match parameter {
-                    P::Amplitude if struck => vec![&mut release.impulse],
-                    P::Amplitude if shock => {
-                        vec![&mut release.velocity, &mut release.absorber_velocity]
-                    }
-                    P::InitialDisplacement if !shock => vec![&mut release.displacement],
-                    P::InitialVelocity if !shock => vec![&mut release.velocity],
-                    _ => Vec::new(),
-                }
+        let (struck, shock) = match self {
+            Self::Release(of) => (of.impulse > 0.0, of.impulse > 0.0 || of.absorber_velocity > 0.0),
+            _ => (false, false),
+        };
+        match (self, parameter, struck, shock) {
+            (Self::Release(of), P::Amplitude, true, _) => vec![&mut of.impulse],
+            (Self::Release(of), P::Amplitude, _, true) => {
+                vec![&mut of.velocity, &mut of.absorber_velocity]
             }
-            Self::Sweep(sweep) if parameter == P::Rate => match &mut sweep.rate {
+            (Self::Release(of), P::InitialDisplacement, _, false) => vec![&mut of.displacement],
+            (Self::Release(of), P::InitialVelocity, _, false) => vec![&mut of.velocity],
+            (Self::Sweep(of), P::Rate, ..) => match &mut of.rate {
                 SweepRate::Linear(rate) | SweepRate::Octaves(rate) => vec![rate],
             },
             _ => Vec::new(),
@@ -75,21 +73,11 @@ impl Transient {
     /// Places of the absorber that are simulated unless a case says how many: of several records fewer of each.
     pub fn places(self, recording: Option<&Recording>) -> u32 {
         match self {
-            Self::Release(_) => study::STARTS,
-            Self::Sweep(_) => passage::STARTS,
-            Self::Record(_) if recording.is_some_and(Recording::has_several) => {
-                record_study::PLACES_OF_MANY
-            }
-            Self::Record(_) => record_study::PLACES,
+            Self::Release(_) => DecayStudy::STARTS,
+            Self::Sweep(_) => SweepStudy::STARTS,
+            Self::Record(_) => RecordStudy::usual_places(recording.map_or(1, Recording::count)),
         }
     }
-}
-
-/// Places of the absorber from which a case is simulated; none where it is driven steadily.
-fn places_of(case: &Case) -> Option<u32> {
-    let usual = case.design.transient()?.places(case.recording.as_ref());
-    let own = case.simulation.starts.and_then(|starts| u32::try_from(starts).ok());
-    Some(own.unwrap_or(usual))
 }
 
 /// What a structure is subjected to: which criteria, tables and commands make sense of it.
@@ -172,9 +160,9 @@ impl Release {
         }
     }
 
-    /// Whether it is a shock: the structure is struck, or its base set in motion.
-    pub fn is_shock(&self) -> bool {
-        self.impulse > 0.0 || self.absorber_velocity > 0.0
+    /// The amplitude with which the structure begins, over the clearance.
+    pub(crate) fn amplitude(&self, scales: &Scales) -> f64 {
+        amplitude(&self.state(scales, 0.0))
     }
 
     /// Whether an absorber at rest may be where no wall ever reaches it.
@@ -183,7 +171,7 @@ impl Release {
     }
 
     /// The state in which an absorber at a relative displacement `w` begins.
-    pub(crate) fn state(&self, scales: &Scales, w: f64) -> State {
+    fn state(&self, scales: &Scales, w: f64) -> State {
         let x = scales.over_clearance(self.displacement);
         let velocity = self.velocity + self.impulse / scales.oscillator_mass;
         let speed = scales.velocity(1.0);
@@ -196,6 +184,12 @@ impl Release {
 /// looks after.
 fn places(count: u64) -> impl ExactSizeIterator<Item = f64> + Clone {
     (0..count as usize).map(move |k| (2 * k + 1) as f64 / count as f64 - 1.0)
+}
+
+/// Starts that count: where `inactive` is false those alone in which the absorber hits a wall, unless it never does.
+fn counted<T>(starts: &[T], inactive: bool, impacts: impl Fn(&T) -> u64) -> Vec<&T> {
+    let awake: Vec<&T> = starts.iter().filter(|start| inactive || impacts(start) > 0).collect();
+    if awake.is_empty() { starts.iter().collect() } else { awake }
 }
 
 /// Neighbouring starts whose worst is one value of those that tell how much worse others may be.
@@ -211,7 +205,7 @@ pub fn worst_of_places(values: &[f64]) -> [f64; 2] {
 }
 
 /// The amplitude of a structure in a state.
-pub(crate) fn amplitude(state: &State) -> f64 {
+fn amplitude(state: &State) -> f64 {
     libm::hypot(state.x, state.x_velocity)
 }
 

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use super::linear::swept;
 use super::sweep::{Passage, SineSweep};
-use super::{places, places_of};
+use super::{counted, places};
 use crate::band::rivals::{TunedMassDamper, bare_amplitude};
 use crate::case::{Case, Scales};
 use crate::executor::{Executor, map};
@@ -13,8 +13,6 @@ use crate::orbits::attracting_orbit;
 use crate::simulation::StartError;
 use crate::system::{State, System};
 
-/// Places of the absorber unless the case says how many.
-pub(super) const STARTS: u32 = 16;
 /// Rates over the case's own.
 pub const RATES: [f64; 5] = [0.25, 0.5, 1.0, 2.0, 4.0];
 /// Frequencies at which steady motions are known.
@@ -69,30 +67,41 @@ pub struct SweepStudy {
 }
 
 impl SweepStudy {
+    /// Places of the absorber unless the case says how many.
+    pub const STARTS: u32 = 16;
+
     /// Studies a case that is swept; none for another.
     ///
     /// # Errors
     /// [`StartError`] where the motion is so large that rounding hides the walls.
     pub fn of_case(case: &Case, executor: &dyn Executor) -> Option<Result<Self, StartError>> {
         let sweep = case.design.sine_sweep()?;
-        Some(Self::of(case, &sweep, places_of(case)?, executor))
+        let starts = case.simulation.starts.and_then(|starts| u32::try_from(starts).ok());
+        Some(Self::of(case, &sweep, starts.unwrap_or(Self::STARTS), executor))
     }
 
-    /// A sweep from every place of the absorber; without those from which it never wakes where they do not count,
-    /// unless there are no others.
-    ///
-    /// # Errors
-    /// As [`Self::of_case`].
+    /// From rest, the absorber at a relative displacement `w`.
+    pub(super) fn start(
+        system: &System,
+        scales: &Scales,
+        sweep: &SineSweep,
+        w: f64,
+    ) -> Result<SweepStart, StartError> {
+        let start = State { y: -w, ..State::AT_REST };
+        Passage::follow(system, scales, sweep, start).map(|found| (w, found))
+    }
+
+    /// From every place of the absorber, without those that do not count.
     pub(crate) fn starts(
         system: &System,
         scales: &Scales,
         sweep: &SineSweep,
         count: u32,
-        count_inactive: bool,
+        inactive: bool,
     ) -> Result<Vec<SweepStart>, StartError> {
-        let flown = places(count.into()).map(|w| passage(system, scales, sweep, w));
+        let flown = places(count.into()).map(|w| Self::start(system, scales, sweep, w));
         let flown = flown.collect::<Result<Vec<SweepStart>, StartError>>()?;
-        Ok(counted(&flown, count_inactive))
+        Ok(counted(&flown, inactive, |(_, found)| found.impacts).into_iter().cloned().collect())
     }
 
     fn of(
@@ -110,10 +119,15 @@ impl SweepStudy {
             .collect();
         let all: Vec<SineSweep> = [sweep.reversed()].into_iter().chain(rates.clone()).collect();
         let at: Vec<f64> = places(starts.into()).collect();
-        let one = |k: usize| passage(&system, &scales, &all[k / at.len()], at[k % at.len()]);
-        let flown = map(executor, "passages", all.len() * starts as usize, one);
+        let passage =
+            |k: usize| Self::start(&system, &scales, &all[k / at.len()], at[k % at.len()]);
+        let flown = map(executor, "passages", all.len() * starts as usize, passage);
         let flown = flown.into_iter().collect::<Result<Vec<SweepStart>, StartError>>()?;
-        let of = |n: usize| counted(&flown[n * at.len()..][..at.len()], case.count_inactive);
+        let of = |n: usize| {
+            let all = &flown[n * starts as usize..(n + 1) * starts as usize];
+            let counted = counted(all, case.count_inactive, |(_, found)| found.impacts);
+            counted.into_iter().cloned().collect::<Vec<SweepStart>>()
+        };
         let damper = TunedMassDamper::den_hartog(system.mass_ratio());
         let linear = |damper: Option<&TunedMassDamper>, sweep: &SineSweep| {
             swept(&system, damper, &scales, sweep)
@@ -157,25 +171,6 @@ impl SweepStudy {
     }
 }
 
-/// A sweep with the absorber at a relative displacement `w` in the beginning.
-fn passage(
-    system: &System,
-    scales: &Scales,
-    sweep: &SineSweep,
-    w: f64,
-) -> Result<SweepStart, StartError> {
-    let start = State { y: -w, ..State::AT_REST };
-    Ok((w, Passage::follow(system, scales, sweep, start)?))
-}
-
-/// The starts that count; all where none does.
-fn counted(starts: &[SweepStart], count_inactive: bool) -> Vec<SweepStart> {
-    let wakes = |one: &SweepStart| one.1.impacts > 0;
-    let all = count_inactive || !starts.iter().any(wakes);
-    starts.iter().filter(|one| all || wakes(one)).cloned().collect()
-}
-
-/// See [`SweepStudy::worst`].
 pub(crate) fn worst(starts: &[SweepStart]) -> Option<&SweepStart> {
     starts.iter().max_by(|a, b| a.1.peak()[1].total_cmp(&b.1.peak()[1]))
 }

@@ -3,7 +3,7 @@
 
 use super::linear::driven;
 use super::record::{Piece, Record};
-use super::{DrivenError, Response, follow, places_of, worst_of_places};
+use super::{DrivenError, Response, follow, worst_of_places};
 use crate::band::rivals::{TunedMassDamper, reduction_db};
 use crate::case::{Case, Scales};
 use crate::executor::{Executor, map};
@@ -59,9 +59,9 @@ pub struct RecordStudy {
     pub count_inactive: bool,
 }
 
-/// Places of the absorber under one record, and under each of several, unless the case says how many.
-pub(super) const PLACES: u32 = 32;
-pub(super) const PLACES_OF_MANY: u32 = 8;
+/// Places of the absorber under one record, and under each of several.
+const PLACES: u32 = 32;
+const PLACES_OF_MANY: u32 = 8;
 /// The response spectrum: frequencies, the furthest over the structure's own, places times records, and the most
 /// records.
 const FREQUENCIES: u32 = 31;
@@ -70,6 +70,11 @@ const FLIGHTS_OF_SPECTRUM: usize = 8;
 const RECORDS_OF_SPECTRUM: usize = 4;
 
 impl RecordStudy {
+    /// Places of the absorber under each of so many records, unless the case says how many.
+    pub const fn usual_places(records: usize) -> u32 {
+        if records > 1 { PLACES_OF_MANY } else { PLACES }
+    }
+
     /// Studies a case that is driven by a record; none for another.
     ///
     /// # Errors
@@ -77,7 +82,8 @@ impl RecordStudy {
     pub fn of_case(case: &Case, executor: &dyn Executor) -> Option<Result<Self, DrivenError>> {
         let recording = case.recording.as_ref()?;
         let records = recording.records();
-        let places = places_of(case)?.into();
+        let usual = Self::usual_places(records.len());
+        let places = case.simulation.starts.unwrap_or(usual.into());
         let study = Self::of(&case.system(), &case.scales(), &records, places, executor);
         Some(study.map(|study| Self { count_inactive: case.count_inactive, ..study }))
     }
@@ -93,16 +99,16 @@ impl RecordStudy {
         places: u64,
         executor: &dyn Executor,
     ) -> Result<Self, DrivenError> {
-        let without = Self::without_spectrum(system, scales, records, places, executor)?;
+        let study = Self::without_spectrum(system, scales, records, places, executor)?;
         let point = |k: usize| {
             let part = 2.0 * k as f64 / f64::from(FREQUENCIES - 1) - 1.0;
             spectrum_point(system, scales, records, libm::pow(FURTHEST, part))
         };
         let spectrum = map(executor, "frequencies", FREQUENCIES as usize, point);
-        Ok(Self { spectrum: spectrum.into_iter().collect::<Result<_, _>>()?, ..without })
+        Ok(Self { spectrum: spectrum.into_iter().collect::<Result<_, _>>()?, ..study })
     }
 
-    /// The same without the response spectrum, which costs most.
+    /// The same without the response spectrum.
     pub(crate) fn without_spectrum(
         system: &System,
         scales: &Scales,

@@ -4,7 +4,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::linear::{Linear, released};
-use super::{Predicted, Release, Ringdown, STEPS, amplitude, places, places_of, settles};
+use super::{Predicted, Release, Ringdown, STEPS, amplitude, places, settles};
 use crate::band::rivals::TunedMassDamper;
 use crate::case::{Case, Scales};
 use crate::simulation::StartError;
@@ -57,10 +57,11 @@ pub struct DecayStudy {
 
 /// Oscillations after which a decay is given up whose structure has hardly any damping of its own.
 const LONGEST: f64 = 20_000.0;
-/// Places of the absorber unless the case says how many.
-pub(super) const STARTS: u32 = 32;
 
 impl DecayStudy {
+    /// Places of the absorber unless the case says how many.
+    pub const STARTS: u32 = 32;
+
     /// Studies a release down to a share of its amplitude, the absorber at so many even places of its cavity.
     ///
     /// # Errors
@@ -72,11 +73,26 @@ impl DecayStudy {
         share: f64,
         starts: u32,
     ) -> Result<Self, StartError> {
+        let study = Self::without_theory(system, scales, release, share, starts)?;
+        Ok(Self { predicted: Predicted::of(system, study.from, study.level), ..study })
+    }
+
+    /// The same without what theory predicts, which may take longer than all starts.
+    pub(crate) fn without_theory(
+        system: &System,
+        scales: &Scales,
+        release: &Release,
+        share: f64,
+        starts: u32,
+    ) -> Result<Self, StartError> {
         let middle = release.state(scales, 0.0);
         let from = amplitude(&middle);
         let level = share * from;
         let bare = bare(system, share);
+        let damper = TunedMassDamper::for_free_decay(system.mass_ratio());
+        let linear = released(system, Some(&damper), middle, level, longest(bare));
         let inactive = inactive(system, &middle);
+        let steps = settles(&linear.amplitudes, level).unwrap_or(f64::INFINITY);
         let starts = Self::starts(system, scales, release, share, starts)?;
         let follow = |worst: &Decay| {
             Ringdown::follow(system, release.state(scales, worst.place), level, longest(bare))
@@ -90,8 +106,8 @@ impl DecayStudy {
             bare,
             inactive,
             count_inactive: true,
-            damped: with_damper(system, middle, level, longest(bare)),
-            predicted: Predicted::of(system, from, level),
+            damped: (damper, linear, steps / f64::from(STEPS)),
+            predicted: Predicted::none(system),
         })
     }
 
@@ -100,7 +116,8 @@ impl DecayStudy {
     /// # Errors
     /// As [`Self::of`].
     pub fn of_case(case: &Case) -> Option<Result<Self, StartError>> {
-        Self::of_case_from(case, places_of(case)?)
+        let starts = case.simulation.starts.and_then(|starts| u32::try_from(starts).ok());
+        Self::of_case_from(case, starts.unwrap_or(Self::STARTS))
     }
 
     /// The same by theory alone: nothing is simulated.
@@ -115,7 +132,7 @@ impl DecayStudy {
     }
 
     /// Every start by itself.
-    pub(crate) fn starts(
+    pub(super) fn starts(
         system: &System,
         scales: &Scales,
         release: &Release,
@@ -139,7 +156,8 @@ impl DecayStudy {
 
     /// Oscillations of the slowest start, that of an absorber which never wakes included where it counts.
     pub fn slowest(&self) -> f64 {
-        slowest(&self.starts, self.bare, self.decides_inactive())
+        let worst = self.worst().map_or(f64::NAN, |worst| worst.oscillations);
+        if self.decides_inactive() { worst.max(self.bare) } else { worst }
     }
 
     /// Whether an absorber that never wakes is among the starts that count.
@@ -149,7 +167,7 @@ impl DecayStudy {
 
     /// The largest of a value of all starts that wake the absorber; 0 where none does.
     pub fn largest(&self, value: impl Fn(&Decay) -> f64) -> f64 {
-        largest(&self.starts, value)
+        awake(&self.starts).map(value).fold(0.0, f64::max)
     }
 
     /// Oscillations of the start that comes to rest first.
@@ -163,19 +181,7 @@ pub(crate) fn awake(starts: &[Decay]) -> impl Iterator<Item = &Decay> {
     starts.iter().filter(|start| start.wakes)
 }
 
-/// See [`DecayStudy::largest`].
-pub(crate) fn largest(starts: &[Decay], value: impl Fn(&Decay) -> f64) -> f64 {
-    awake(starts).map(value).fold(0.0, f64::max)
-}
-
-/// See [`DecayStudy::slowest`].
-pub(crate) fn slowest(starts: &[Decay], bare: f64, inactive: bool) -> f64 {
-    let worst = worst(starts).map_or(f64::NAN, |worst| worst.oscillations);
-    if inactive { worst.max(bare) } else { worst }
-}
-
-/// See [`DecayStudy::worst`].
-pub(crate) fn worst(starts: &[Decay]) -> Option<&Decay> {
+fn worst(starts: &[Decay]) -> Option<&Decay> {
     let later = |a: &&Decay, b: &&Decay| a.oscillations.total_cmp(&b.oscillations);
     awake(starts).max_by(later).or(starts.first())
 }
@@ -197,25 +203,12 @@ impl Decay {
     }
 }
 
-/// The structure with the tuned mass damper, and its oscillations to a level.
-pub(crate) fn with_damper(
-    system: &System,
-    start: State,
-    level: f64,
-    most: u64,
-) -> (TunedMassDamper, Linear, f64) {
-    let damper = TunedMassDamper::for_free_decay(system.mass_ratio());
-    let linear = released(system, Some(&damper), start, level, most);
-    let steps = settles(&linear.amplitudes, level).unwrap_or(f64::INFINITY);
-    (damper, linear, steps / f64::from(STEPS))
-}
-
 /// Largest damping ratio of a structure that swings.
 const SWINGS: f64 = 0.9999;
 
 /// Share of the places of a resting absorber, even over its cavity, that no wall reaches while the structure swings
 /// alone: what its first swing to either side leaves. 0 for an absorber that does not rest.
-pub(crate) fn inactive(system: &System, start: &State) -> f64 {
+pub(super) fn inactive(system: &System, start: &State) -> f64 {
     if start.y_velocity != 0.0 {
         return 0.0;
     }

@@ -11,8 +11,6 @@
 use libm::{exp, log1p};
 
 use crate::case::Scales;
-use crate::quantity::Kind;
-use crate::quantity::catalogue::{OCTAVE_RATE, SWEEP_RATE};
 use crate::simulation::{Measurement, Simulation, StartError, Stop};
 use crate::system::{State, System};
 
@@ -34,16 +32,6 @@ pub enum SweepRate {
     Linear(f64),
     /// Octaves in a minute.
     Octaves(f64),
-}
-
-impl SweepRate {
-    /// The quantity that it is.
-    pub fn kind(self) -> &'static Kind {
-        match self {
-            Self::Linear(_) => &SWEEP_RATE,
-            Self::Octaves(_) => &OCTAVE_RATE,
-        }
-    }
 }
 
 impl SineSweep {

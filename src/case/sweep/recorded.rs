@@ -73,39 +73,6 @@ names! { key:
     }
 }
 
-const RELEASE: [Recorded; 8] = [
-    Recorded::DecayTime,
-    Recorded::BareDecayTime,
-    Recorded::DamperDecayTime,
-    Recorded::TheoryDecayTime,
-    Recorded::InactiveShare,
-    Recorded::Peak,
-    Recorded::ImpactSpeed,
-    Recorded::Impacts,
-];
-const SWEEP: [Recorded; 8] = [
-    Recorded::Peak,
-    Recorded::PeakFrequency,
-    Recorded::BarePeak,
-    Recorded::DamperPeak,
-    Recorded::ReductionDb,
-    Recorded::ReductionDbTmd,
-    Recorded::ImpactSpeed,
-    Recorded::Impacts,
-];
-const RECORD: [Recorded; 10] = [
-    Recorded::Peak,
-    Recorded::Rms,
-    Recorded::BarePeak,
-    Recorded::BareRms,
-    Recorded::DamperPeak,
-    Recorded::DamperRms,
-    Recorded::ReductionDb,
-    Recorded::ReductionDbTmd,
-    Recorded::ImpactSpeed,
-    Recorded::Impacts,
-];
-
 impl Recorded {
     /// Whether only simulation knows it: what is recorded stands in the order of layers, those of formulas
     /// and exact orbits before it.
@@ -118,24 +85,31 @@ impl Recorded {
         matches!(self, Self::ShareOfStarts | Self::LargestPeak | Self::Motions)
     }
 
-    /// What may be recorded of a structure that is subjected to something.
-    pub fn of(scene: Scene) -> Vec<Self> {
-        let steady = |one: &Self| (Self::Area..=Self::OrbitReached).contains(one);
-        match scene {
-            Scene::Steady => Self::ALL.into_iter().filter(steady).collect(),
-            Scene::Release => RELEASE.into(),
-            Scene::Sweep => SWEEP.into(),
-            Scene::Record => RECORD.into(),
+    /// Whether it is known of a structure that is subjected to something.
+    pub fn is_of(self, scene: Scene) -> bool {
+        let (release, sweep) = (scene == Scene::Release, scene == Scene::Sweep);
+        match self {
+            Self::BareDecayTime | Self::DamperDecayTime | Self::TheoryDecayTime => release,
+            Self::InactiveShare | Self::DecayTime => release,
+            Self::PeakFrequency => sweep,
+            Self::BareRms | Self::DamperRms => scene == Scene::Record,
+            Self::BarePeak | Self::DamperPeak | Self::ReductionDbTmd => {
+                sweep || scene == Scene::Record
+            }
+            Self::Impacts => scene != Scene::Steady,
+            Self::Peak | Self::ImpactSpeed => true,
+            Self::ReductionDb => !release,
+            Self::Rms => !release && !sweep,
+            _ => scene == Scene::Steady,
         }
     }
 
-    /// What is recorded where the case does not say: what costs little beside simulation.
+    /// What is recorded where the case does not say: theory of a decay may cost more than simulation.
     pub fn usual(scene: Scene) -> Vec<Self> {
+        let cheap = |one: &Self| *one != Self::TheoryDecayTime && one.is_of(scene);
         match scene {
             Scene::Steady => Self::USUAL.into(),
-            other => {
-                Self::of(other).into_iter().filter(|one| *one != Self::TheoryDecayTime).collect()
-            }
+            _ => Self::ALL.into_iter().filter(cheap).collect(),
         }
     }
 

@@ -5,10 +5,10 @@
 
 mod job;
 
-use std::path::{Component, Path};
+use std::path::Path;
 
 use clap::{Args, ValueEnum};
-use miette::{Result, miette};
+use miette::Result;
 use vinesink::case::{Case, Recording};
 use vinesink::store;
 
@@ -130,18 +130,10 @@ pub fn run(arguments: &Arguments) -> Result<bool> {
     Ok(true)
 }
 
-/// Copies the record that drives a case beside the copy of the case.
+/// Copies the record that drives a case to where its copy looks for it.
 fn copy_record(case: &Case, from: &Path, to: &Path) -> Result<()> {
-    let Some(file) = case.recording.as_ref().and_then(Recording::file) else { return Ok(()) };
-    if Path::new(file).is_absolute() {
-        return Ok(());
-    }
-    if Path::new(file).components().any(|one| one == Component::ParentDir) {
-        return Err(miette!(
-            help = "name it by its whole path, or put it beside the case",
-            "tasks work on a copy of the case, beside which they would not find the record {file}"
-        ));
-    }
+    let file = case.recording.as_ref().and_then(Recording::file);
+    let Some(file) = file.filter(|file| Path::new(file).is_relative()) else { return Ok(()) };
     let text = store::read_text(&from.with_file_name(file))?;
     Ok(store::write_file_and_folder(&to.with_file_name(file), text.as_bytes())?)
 }

@@ -55,8 +55,10 @@ pub(super) fn add(case: &Case, study: &SweepStudy, document: &mut Value) {
 }
 
 fn rate(rate: SweepRate) -> Quantity {
-    let (SweepRate::Linear(value) | SweepRate::Octaves(value)) = rate;
-    Quantity::new(rate.kind(), value, Method::Given)
+    match rate {
+        SweepRate::Linear(rate) => Quantity::new(&of::SWEEP_RATE, rate, Method::Given),
+        SweepRate::Octaves(rate) => Quantity::new(&of::OCTAVE_RATE, rate, Method::Given),
+    }
 }
 
 pub(super) fn quantities(case: &Case, study: &SweepStudy) -> Vec<Quantity> {

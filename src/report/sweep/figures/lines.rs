@@ -32,20 +32,16 @@ pub(super) fn all(swept: &Swept, axis: &AxisShown) -> Vec<Figure> {
     figures
 }
 
-/// A line beside what was simulated.
-type Beside = (Recorded, Style, &'static str);
-
-/// What else a structure could have that comes to rest.
-const DECAYS: [Beside; 3] = [
-    (Recorded::BareDecayTime, Role::BareOscillator.style(), "without absorber"),
-    (Recorded::DamperDecayTime, DAMPER, "tuned mass damper"),
-    (Recorded::TheoryDecayTime, THEORY, "theory"),
-];
-/// What else a structure could have that vibrates.
-const PEAKS: [Beside; 3] = [
-    (Recorded::BareAmplitude, Role::BareOscillator.style(), "without absorber"),
-    (Recorded::BarePeak, Role::BareOscillator.style(), "without absorber"),
-    (Recorded::DamperPeak, DAMPER, "tuned mass damper"),
+/// A quantity, and what else a structure could have, as a line beside it.
+type Beside = (Recorded, Recorded, Style, &'static str);
+const BARE: Style = Role::BareOscillator.style();
+const BESIDE: [Beside; 6] = [
+    (Recorded::DecayTime, Recorded::BareDecayTime, BARE, "without absorber"),
+    (Recorded::DecayTime, Recorded::DamperDecayTime, DAMPER, "tuned mass damper"),
+    (Recorded::DecayTime, Recorded::TheoryDecayTime, THEORY, "theory"),
+    (Recorded::Peak, Recorded::BareAmplitude, BARE, "without absorber"),
+    (Recorded::Peak, Recorded::BarePeak, BARE, "without absorber"),
+    (Recorded::Peak, Recorded::DamperPeak, DAMPER, "tuned mass damper"),
 ];
 
 struct Diagram<'a> {
@@ -77,7 +73,7 @@ impl Diagram<'_> {
     /// A quantity of the main motion over the axis.
     fn values(&self, name: &str, of: Recorded) -> Option<Figure> {
         let all = self.swept.in_directions(of);
-        let beside = if of == Recorded::DecayTime { self.beside(&DECAYS) } else { Vec::new() };
+        let beside = self.beside(of);
         let columns = all.iter().map(|(_, one)| one).chain(beside.iter().map(|(one, _)| one));
         let measure = Measure::of(&self.swept.units(), kind(of)?, columns);
         let mut layers = self.lines(&measure, &beside);
@@ -86,14 +82,13 @@ impl Diagram<'_> {
         self.figure(name, kind(of)?.id, measure.label.clone(), layers)
     }
 
-    /// The columns among some that there are.
-    fn beside<'b>(&self, some: &'b [Beside]) -> Vec<(Numbers, &'b Beside)> {
-        let column = |one: &'b Beside| Some((self.swept.numbers(one.0, Direction::Single)?, one));
-        some.iter().filter_map(column).collect()
+    fn beside(&self, of: Recorded) -> Vec<(Numbers, Beside)> {
+        let all = BESIDE.into_iter().filter(|one| one.0 == of);
+        all.filter_map(|one| Some((self.swept.numbers(one.1, Direction::Single)?, one))).collect()
     }
 
-    fn lines(&self, measure: &Measure, beside: &[(Numbers, &Beside)]) -> Vec<Layer> {
-        let line = |(values, (_, style, name)): &(Numbers, &Beside)| {
+    fn lines(&self, measure: &Measure, beside: &[(Numbers, Beside)]) -> Vec<Layer> {
+        let line = |(values, (.., style, name)): &(Numbers, Beside)| {
             Layer::curve(*style, self.line(&measure.shown(values))).labelled(*name)
         };
         beside.iter().map(line).collect()
@@ -104,7 +99,7 @@ impl Diagram<'_> {
     fn peaks(&self) -> Option<Figure> {
         let of = |recorded| self.swept.numbers(recorded, Direction::Single);
         let [orbit, largest] = [Recorded::OrbitPeak, Recorded::LargestPeak].map(of);
-        let beside = self.beside(&PEAKS);
+        let beside = self.beside(Recorded::Peak);
         let peaks = self.swept.in_directions(Recorded::Peak);
         let all = peaks.iter().map(|(_, one)| one).chain(beside.iter().map(|(one, _)| one));
         let measure = Measure::of(&self.swept.units(), &PEAK, all.chain(&orbit));
