@@ -24,13 +24,7 @@ impl Design {
                 let of_ratio = || (r.frequency_ratio() - 1.0) / r.mass_ratio;
                 Some(r.detuning.unwrap_or_else(of_ratio))
             }
-            _ => {
-                let mut own = *self;
-                let of_transient = own.transient_mut().and_then(|of| of.numbers(parameter).pop());
-                of_transient
-                    .copied()
-                    .or_else(|| self.clone().number(parameter).map(|(number, over)| *number / over))
-            }
+            _ => self.clone().numbers(parameter).pop().map(|(number, over)| *number / over),
         }
     }
 
@@ -46,11 +40,9 @@ impl Design {
                 (r.frequency_ratio, r.detuning) = (None, Some(value));
             }
             (_, changed) => {
-                if let Some((number, over)) = changed.number(parameter) {
+                for (number, over) in changed.numbers(parameter) {
                     *number = value * over;
                 }
-                let numbers = changed.transient_mut().map(|of| of.numbers(parameter));
-                numbers.into_iter().flatten().for_each(|number| *number = value);
             }
         }
         // What has no frequency of its own is counted in the structure's.
@@ -73,15 +65,15 @@ impl Design {
         }
     }
 
-    /// Whether a parameter has a meaning for what the structure is subjected to.
-    fn scene_has(&self, parameter: Parameter) -> bool {
+    /// Whether a parameter is a number of the structure and its absorber, or of steady excitation.
+    fn is_of_system(&self, parameter: Parameter) -> bool {
         use Parameter as P;
-        let Some(mut transient) = self.transient() else { return parameter != P::Rate };
-        let of_system = match parameter {
-            P::Amplitude => self.scene() == Scene::Sweep,
-            other => !matches!(other, P::Frequency | P::Detuning | P::Rate) && !other.is_initial(),
-        };
-        of_system || !transient.numbers(parameter).is_empty()
+        match (self.scene(), parameter) {
+            (Scene::Steady, other) => other != P::Rate,
+            (scene, P::Amplitude) => scene == Scene::Sweep,
+            (_, P::Frequency | P::Detuning | P::Rate) => false,
+            (_, other) => !other.is_initial(),
+        }
     }
 
     /// The same with errors added to some parameters; a restitution stays between 0 and 1, an amplitude at 0
@@ -104,21 +96,21 @@ impl Design {
         self.scales().clearance
     }
 
-    /// The number of a design that says it, and what it is over where it is a ratio; none for a detuning or the
+    /// The numbers of a design that say it, and what each is over where it is a ratio; none for a detuning or the
     /// frequency of a reduced design.
-    fn number(&mut self, parameter: Parameter) -> Option<(&mut f64, f64)> {
+    fn numbers(&mut self, parameter: Parameter) -> Vec<(&mut f64, f64)> {
         use Parameter as P;
-        if !self.scene_has(parameter) {
-            return None;
+        if !self.is_of_system(parameter) {
+            let numbers = self.transient_mut().map(|of| of.numbers(parameter));
+            return numbers.into_iter().flatten().map(|number| (number, 1.0)).collect();
         }
         let number = match (parameter, self) {
-            (P::Amplitude, changed) if changed.scene() == Scene::Release => return None,
             (P::MassRatio, Self::Physical(p)) => {
-                return Some((&mut p.absorber_mass_kg, p.mass_kg));
+                return vec![(&mut p.absorber_mass_kg, p.mass_kg)];
             }
             (P::DampingRatio, Self::Physical(p)) => {
                 let critical = p.critical_damping_n_s_per_m();
-                return Some((&mut p.damping_n_s_per_m, critical));
+                return vec![(&mut p.damping_n_s_per_m, critical)];
             }
             (P::Clearance, Self::Physical(p)) => &mut p.clearance_m,
             (P::Frequency, Self::Physical(p)) => &mut p.frequency_hz,
@@ -133,9 +125,9 @@ impl Design {
             (P::Restitution, Self::Reduced(r)) => &mut r.restitution,
             (P::MassRatio, Self::Reduced(r)) => &mut r.mass_ratio,
             (P::Damping, Self::Reduced(r)) => &mut r.damping,
-            _ => return None,
+            _ => return Vec::new(),
         };
-        Some((number, 1.0))
+        vec![(number, 1.0)]
     }
 
     /// The quantity that a parameter is beside this design.
@@ -185,10 +177,11 @@ impl Design {
     /// How values of a parameter are written beside this design: as the design's own; `None` where it has no
     /// such number.
     pub(super) fn form(&self, parameter: Parameter) -> Option<Form> {
-        if !self.scene_has(parameter) {
+        let of_system = self.is_of_system(parameter);
+        if !of_system && self.clone().numbers(parameter).is_empty() {
             return None;
         }
-        if self.scene() != Scene::Steady || !parameter.is_initial() {
+        if !of_system || !parameter.is_initial() {
             let form = Form::of(self.schema(parameter)?)?;
             if parameter != Parameter::Rate {
                 return Some(form);

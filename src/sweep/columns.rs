@@ -170,12 +170,21 @@ pub fn names(recorded: Recorded) -> Vec<String> {
     }
 }
 
-/// Adds a point to the columns of its sweep.
-pub(super) fn push(plan: &Plan, columns: &mut [Column], facts: &Facts) {
+/// Adds a point and what is recorded of it to the columns of its sweep.
+pub(super) fn push(columns: &mut [Column], point: &Point, recorded: Vec<Option<Cell>>) {
+    let place = [point.number as f64].into_iter().chain(point.coordinates.iter().copied());
+    let cells = place.map(|value| Some(Cell::Number(value))).chain(recorded);
+    let known = |cell: &Cell| cell.number().is_none_or(f64::is_finite);
+    for (column, cell) in columns.iter_mut().zip(cells) {
+        column.cells.push(cell.filter(known));
+    }
+}
+
+/// What is recorded of a point.
+pub(super) fn cells(plan: &Plan, facts: &Facts) -> Vec<Option<Cell>> {
     let nothing = Found::default();
     let point = facts.point;
-    let mut cells = vec![Some(Cell::Number(point.number as f64))];
-    cells.extend(point.coordinates.iter().map(|value| Some(Cell::Number(*value))));
+    let mut cells = Vec::new();
     for (recorded, direction) in recorded(plan) {
         let found = facts.found.get(usize::from(direction == Direction::Down)).unwrap_or(&nothing);
         match recorded {
@@ -194,21 +203,7 @@ pub(super) fn push(plan: &Plan, columns: &mut [Column], facts: &Facts) {
             other => cells.push(number(other, facts, found).map(Cell::Number)),
         }
     }
-    push_cells(columns, cells);
-}
-
-/// Adds a point whose recorded columns are numbers.
-pub(super) fn push_numbers(columns: &mut [Column], point: &Point, numbers: Vec<Option<f64>>) {
-    let known = [point.number as f64].into_iter().chain(point.coordinates.iter().copied());
-    let cells = known.map(Some).chain(numbers).map(|value| value.map(Cell::Number));
-    push_cells(columns, cells);
-}
-
-fn push_cells(columns: &mut [Column], cells: impl IntoIterator<Item = Option<Cell>>) {
-    let known = |cell: &Cell| cell.number().is_none_or(f64::is_finite);
-    for (column, cell) in columns.iter_mut().zip(cells) {
-        column.cells.push(cell.filter(known));
-    }
+    cells
 }
 
 /// The value of what fills one column of numbers, whole numbers or flags.

@@ -4,6 +4,7 @@
 use std::f64::consts::TAU;
 use std::sync::OnceLock;
 
+use super::columns::Cell;
 use super::{Plan, Point};
 use crate::band::rivals::{TunedMassDamper, reduction_db};
 use crate::case::{Case, RecordSource, Recorded, Recording, Scales};
@@ -69,10 +70,10 @@ impl Subject {
     }
 
     /// What is recorded of a point, in the order of the settings.
-    pub fn numbers(&self, plan: &Plan, point: &Point) -> Vec<Option<f64>> {
+    pub fn cells(&self, plan: &Plan, point: &Point) -> Vec<Option<Cell>> {
         let study = self.study(plan, point);
         let number = |of: &Recorded| number(*of, study.as_ref()?, &point.scales);
-        plan.settings.record.iter().map(number).collect()
+        plan.settings.record.iter().map(|of| number(of).map(Cell::Number)).collect()
     }
 
     fn study(&self, plan: &Plan, point: &Point) -> Option<Found> {

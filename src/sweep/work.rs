@@ -26,7 +26,7 @@ pub fn points(plan: &Plan, numbers: Range<u64>) -> Result<Vec<Column>, StartErro
     let mut results = columns::empty(plan);
     if let Some(subject) = &plan.subject {
         for point in numbers.map(|number| plan.point(number)) {
-            columns::push_numbers(&mut results, &point, subject.numbers(plan, &point));
+            columns::push(&mut results, &point, subject.cells(plan, &point));
         }
         return Ok(results);
     }
@@ -43,7 +43,7 @@ pub fn points(plan: &Plan, numbers: Range<u64>) -> Result<Vec<Column>, StartErro
             false => vec![Vec::new(); some.len()],
         };
         for (point, found) in some.iter().zip(found) {
-            columns::push(plan, &mut results, &Facts::of(point, found));
+            columns::push(&mut results, point, columns::cells(plan, &Facts::of(point, found)));
         }
         begin = end;
     }

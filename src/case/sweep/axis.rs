@@ -56,24 +56,19 @@ pub(super) fn read(reader: &mut Reader, sweep: &Table, parameter: Parameter) -> 
     let (name, design) = (parameter.key(), reader.design?);
     let table = reader.table::<AxisTable>(sweep, name)?;
     if design.form(parameter).is_none() {
-        let (why, other) = match (design.scene(), design) {
-            (Scene::Steady, Design::Physical(_)) => (
-                format!(
-                    "a design in [oscillator], [absorber] and [excitation] has no `{name}` to vary"
-                ),
-                "frequency",
-            ),
+        let structure = format!("a structure that is {}", design.scene().words());
+        let (this, other) = match (design.scene(), design) {
+            (Scene::Steady, Design::Physical(_)) => {
+                ("a design in [oscillator], [absorber] and [excitation]", "frequency")
+            }
             (Scene::Steady, Design::Reduced(_)) => {
-                (format!("a design in [reduced] has no `{name}` to vary"), "mass_ratio or damping")
+                ("a design in [reduced]", "mass_ratio or damping")
             }
-            (other, _) => {
-                let what = other.words();
-                (format!("`{name}` has no meaning for a structure that is {what}"), "clearance")
-            }
+            _ => (structure.as_str(), "clearance"),
         };
         reader.report(
             table.span_of(""),
-            why,
+            format!("{this} has no `{name}` to vary"),
             "expected a number that the design has",
             format!("vary {other} instead, or remove the axis"),
         );
