@@ -160,7 +160,8 @@ fn an_axis_is_what_the_case_would_say() {
         (&jump, "amplitude", "impulse = \"150 N s\"", "impulse = \"200 N s\""),
         (&jump, "mass", "mass = \"4 t\"", "mass = \"4.7 t\""),
         (&shaken, "amplitude", "velocity = \"37.5 mm/s\"", "velocity = \"50 mm/s\""),
-        (&shaken, "stiffness", "stiffness = \"630 kN/m\"", "stiffness = \"700 kN/m\""),
+        // So much softer that the natural frequency decides how a matrix exponential is rounded.
+        (&shaken, "stiffness", "stiffness = \"630 kN/m\"", "stiffness = \"50 kN/m\""),
         (&free, "initial_displacement", "displacement = \"3 mm\"", "displacement = \"5 mm\""),
         (&sweep, "amplitude", "amplitude = \"0.25 mm\"", "amplitude = \"0.5 mm\""),
         (&sweep, "rate", "rate = \"0.1 Hz/s\"", "rate = \"0.15 Hz/s\""),
