@@ -183,12 +183,12 @@ impl ExcitationTable {
     }
 
     /// What is not steady in it, none of harmonic excitation of one frequency. `None` where something is missing or
-    /// was reported. With the oscillator's mass, and the phase of a period in the unit of frequencies.
+    /// was reported. With the phase of a period in the unit of frequencies.
     pub(super) fn transient(
         &self,
         reader: &mut Reader,
         place: &Table,
-        [mass, turn]: [f64; 2],
+        turn: f64,
     ) -> Option<Option<Transient>> {
         let found = match self.kind {
             ExcitationKind::BaseDisplacement | ExcitationKind::Force => return Some(None),
@@ -211,7 +211,7 @@ impl ExcitationTable {
                 if ["displacement", "velocity", "impulse"].into_iter().zip(given).any(unread) {
                     return None;
                 }
-                Transient::Release(self.release(mass))
+                Transient::Release(self.release())
             }
         };
         let Some((message, expected, help)) = impossible(&found) else { return Some(Some(found)) };
@@ -220,19 +220,21 @@ impl ExcitationTable {
     }
 
     /// How the oscillator is set in motion where nothing drives it.
-    fn release(&self, mass: f64) -> Release {
+    fn release(&self) -> Release {
         let [displacement, velocity, impulse] =
             [self.displacement, self.velocity, self.impulse].map(Option::unwrap_or_default);
         // The base comes to move: so do structure and absorber against it, the other way.
         let absorber_velocity = if self.kind == ExcitationKind::Free { 0.0 } else { velocity };
-        Release { displacement, velocity: velocity + impulse / mass, absorber_velocity }
+        Release { displacement, velocity, absorber_velocity, impulse }
     }
 }
 
 /// Why an excitation whose numbers are each valid cannot be: message, what was expected, help.
-fn impossible(transient: &Transient) -> Option<(String, String, &'static str)> {
+pub(super) fn impossible(transient: &Transient) -> Option<(String, String, &'static str)> {
     match transient {
-        Transient::Release(release) if release.displacement == 0.0 && release.velocity == 0.0 => {
+        Transient::Release(Release { displacement, velocity, impulse, .. })
+            if [*displacement, *velocity, *impulse] == [0.0; 3] =>
+        {
             Some((
                 "nothing sets the oscillator in motion".into(),
                 "expected a displacement, a velocity or an impulse above 0".into(),

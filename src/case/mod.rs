@@ -191,7 +191,7 @@ fn one_design() -> Value {
 }
 
 /// Tables that are about steady vibration alone; the first about released structures as well.
-const STEADY_TABLES: [&str; 6] = ["optimize", "accuracy", "band", "report", "sweep", "uncertainty"];
+const STEADY_TABLES: [&str; 5] = ["optimize", "accuracy", "band", "report", "uncertainty"];
 
 const STARTING_CASE: &str = include_str!("starting_case.toml");
 
@@ -304,7 +304,8 @@ fn read(reader: &mut Reader, document: &DeTable, text_hash: String) -> Option<Ca
     let criteria = criteria::read(reader, &root);
     let optimize = optimize::read(reader, &root);
     let uncertainty = uncertainty::read(reader, &root);
-    let sweep = sweep::read(reader, &root);
+    let starts = simulation.as_ref().and_then(|settings| settings.starts);
+    let sweep = sweep::read(reader, &root, starts);
     let (heading, design) = (heading?, design?);
     let system = system_of(reader, &root, &design)?;
     Some(Case {

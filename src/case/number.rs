@@ -16,6 +16,8 @@ use crate::quantity::Dimension;
 pub(super) struct Form {
     /// What it measures; a plain number where there is none.
     pub dimension: Option<Dimension>,
+    /// Whether its unit is one of that dimension alone, not of another that has the same name.
+    pub exact: bool,
     /// Whether it may also be a plain number.
     pub plain: bool,
     /// Whether it is a whole number.
@@ -39,6 +41,7 @@ impl Form {
         }
         Some(Self {
             dimension,
+            exact: false,
             plain: dimension.is_none() || schema["anyOf"].is_array(),
             whole,
             bound: Bound::of(schema),
@@ -52,7 +55,7 @@ impl Form {
     pub fn free(dimension: Option<Dimension>, example: &str, symbol: &str) -> Self {
         let [example, symbol] = [example, symbol].map(str::to_owned);
         let (plain, bound, share) = (dimension.is_none(), Bound::default(), String::new());
-        Self { dimension, plain, whole: false, bound, example, share, symbol }
+        Self { dimension, exact: false, plain, whole: false, bound, example, share, symbol }
     }
 
     /// The unit that values are held in; "1" for a plain number.
@@ -126,7 +129,8 @@ impl Reader<'_> {
     /// A number, in SI units, which is kept as an input of the case.
     pub fn number(&mut self, place: &Place, form: &Form) -> Option<f64> {
         let text = place.value.get_ref().as_str().unwrap_or_default();
-        let dimension = form.dimension.map(|one| one.of_namesake(text));
+        let of_text = |one: Dimension| if form.exact { one } else { one.of_namesake(text) };
+        let dimension = form.dimension.map(of_text);
         let form = &Form { dimension, ..form.clone() };
         let number = match place.value.get_ref() {
             DeValue::Integer(_) if form.plain => plain_number(place.value.get_ref()),

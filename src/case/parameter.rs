@@ -1,16 +1,19 @@
 //! What a parameter is in a design: its value, the quantity that it is, and how it is written.
 
+use std::f64::consts::TAU;
+
 use serde_json::Value;
 
 use super::Design;
-use super::excitation::ExcitationTable;
+use super::excitation::{ExcitationTable, impossible};
 use super::number::Form;
 use super::physical::{AbsorberTable, OscillatorTable};
 use super::reduced::ReducedTable;
 use super::schema::of_table;
 use crate::quantity::catalogue as of;
 use crate::quantity::{Dimension, Kind};
-use crate::system::{Excitation, Parameter};
+use crate::system::{Excitation, Parameter, System};
+use crate::transient::{Scene, SweepRate, Transient};
 
 impl Design {
     /// The value of a parameter in SI, or a plain number of a reduced design; `None` for a part of the start,
@@ -22,7 +25,7 @@ impl Design {
                 let of_ratio = || (r.frequency_ratio() - 1.0) / r.mass_ratio;
                 Some(r.detuning.unwrap_or_else(of_ratio))
             }
-            _ => self.clone().number(parameter).map(|(number, over)| *number / over),
+            _ => self.clone().numbers(parameter).pop().map(|(number, over)| *number / over),
         }
     }
 
@@ -38,12 +41,40 @@ impl Design {
                 (r.frequency_ratio, r.detuning) = (None, Some(value));
             }
             (_, changed) => {
-                if let Some((number, over)) = changed.number(parameter) {
+                for (number, over) in changed.numbers(parameter) {
                     *number = value * over;
                 }
             }
         }
+        // What has no frequency of its own is counted in the structure's.
+        if let (Scene::Release | Scene::Record, Self::Physical(p)) = (self.scene(), &mut self) {
+            p.frequency_hz = p.natural_frequency_rad_per_s() / TAU;
+        }
         self
+    }
+
+    /// The system; none where values that are each valid leave none, or nothing that could happen to it.
+    pub fn possible_system(&self) -> Option<System> {
+        let possible = self.transient().is_none_or(|of| impossible(&of).is_none());
+        possible.then(|| self.system().ok())?
+    }
+
+    fn transient_mut(&mut self) -> Option<&mut Transient> {
+        match self {
+            Self::Physical(physical) => physical.transient.as_mut(),
+            Self::Reduced(reduced) => reduced.transient.as_mut(),
+        }
+    }
+
+    /// Whether a parameter is a number of the structure and its absorber, or of steady excitation.
+    fn is_of_system(&self, parameter: Parameter) -> bool {
+        use Parameter as P;
+        match (self.scene(), parameter) {
+            (Scene::Steady, other) => other != P::Rate,
+            (scene, P::Amplitude) => scene == Scene::Sweep,
+            (_, P::Frequency | P::Detuning | P::Rate) => false,
+            (_, other) => !other.is_initial(),
+        }
     }
 
     /// The same with errors added to some parameters; a restitution stays between 0 and 1, an amplitude at 0
@@ -66,17 +97,21 @@ impl Design {
         self.scales().clearance
     }
 
-    /// The number of a design that says it, and what it is over where it is a ratio; none for a detuning or the
+    /// The numbers of a design that say it, and what each is over where it is a ratio; none for a detuning or the
     /// frequency of a reduced design.
-    fn number(&mut self, parameter: Parameter) -> Option<(&mut f64, f64)> {
+    fn numbers(&mut self, parameter: Parameter) -> Vec<(&mut f64, f64)> {
         use Parameter as P;
+        if !self.is_of_system(parameter) {
+            let numbers = self.transient_mut().map(|of| of.numbers(parameter));
+            return numbers.into_iter().flatten().map(|number| (number, 1.0)).collect();
+        }
         let number = match (parameter, self) {
             (P::MassRatio, Self::Physical(p)) => {
-                return Some((&mut p.absorber_mass_kg, p.mass_kg));
+                return vec![(&mut p.absorber_mass_kg, p.mass_kg)];
             }
             (P::DampingRatio, Self::Physical(p)) => {
                 let critical = p.critical_damping_n_s_per_m();
-                return Some((&mut p.damping_n_s_per_m, critical));
+                return vec![(&mut p.damping_n_s_per_m, critical)];
             }
             (P::Clearance, Self::Physical(p)) => &mut p.clearance_m,
             (P::Frequency, Self::Physical(p)) => &mut p.frequency_hz,
@@ -91,16 +126,27 @@ impl Design {
             (P::Restitution, Self::Reduced(r)) => &mut r.restitution,
             (P::MassRatio, Self::Reduced(r)) => &mut r.mass_ratio,
             (P::Damping, Self::Reduced(r)) => &mut r.damping,
-            _ => return None,
+            _ => return Vec::new(),
         };
-        Some((number, 1.0))
+        vec![(number, 1.0)]
     }
 
     /// The quantity that a parameter is beside this design.
-    pub const fn kind(&self, parameter: Parameter) -> &'static Kind {
+    pub fn kind(&self, parameter: Parameter) -> &'static Kind {
         use Parameter as P;
+        match (parameter, self.transient()) {
+            (P::Amplitude, Some(Transient::Release(shock))) if shock.impulse > 0.0 => {
+                return &of::IMPULSE;
+            }
+            (P::Amplitude, Some(Transient::Release(_))) => return &of::INITIAL_VELOCITY,
+            _ => {}
+        }
         match (parameter, self) {
             (P::Clearance, _) => &of::CLEARANCE,
+            (P::Rate, _) => match self.sine_sweep().map(|sweep| sweep.rate) {
+                Some(SweepRate::Octaves(_)) => &of::OCTAVE_RATE,
+                _ => &of::SWEEP_RATE,
+            },
             (P::Frequency, Self::Physical(_)) => &of::EXCITATION_FREQUENCY,
             (P::Frequency, Self::Reduced(_)) => &of::FREQUENCY_RATIO,
             (P::Detuning, _) => &of::DETUNING,
@@ -132,8 +178,18 @@ impl Design {
     /// How values of a parameter are written beside this design: as the design's own; `None` where it has no
     /// such number.
     pub(super) fn form(&self, parameter: Parameter) -> Option<Form> {
-        if !parameter.is_initial() {
-            return Form::of(self.schema(parameter)?);
+        let of_system = self.is_of_system(parameter);
+        if !of_system && self.clone().numbers(parameter).is_empty() {
+            return None;
+        }
+        if !of_system || !parameter.is_initial() {
+            let form = Form::of(self.schema(parameter)?)?;
+            if parameter != Parameter::Rate || matches!(self, Self::Reduced(_)) {
+                return Some(form);
+            }
+            let dimension = self.kind(parameter).dimension;
+            let example = format!("\"{}\"", dimension.words().1);
+            return Some(Form { dimension: Some(dimension), exact: true, example, ..form });
         }
         let symbol = match parameter {
             Parameter::InitialDisplacement => "x_0",
@@ -152,10 +208,21 @@ impl Design {
     /// The key in which a design has a parameter; `None` where it has no such number.
     fn schema(&self, parameter: Parameter) -> Option<&'static Value> {
         let reduced = || &of_table::<ReducedTable>()["properties"];
+        let excitation = match self {
+            Self::Physical(_) => &of_table::<ExcitationTable>()["properties"],
+            Self::Reduced(_) => reduced(),
+        };
         match (parameter, self) {
             (Parameter::AbsorberMass, Self::Physical(_)) => {
                 of_table::<AbsorberTable>()["properties"].get("mass")
             }
+            (Parameter::Amplitude | Parameter::InitialVelocity, _)
+                if self.scene() == Scene::Release =>
+            {
+                let struck = self.kind(parameter).dimension == Dimension::Impulse;
+                excitation.get(if struck { "impulse" } else { "velocity" })
+            }
+            (Parameter::InitialDisplacement, _) => excitation.get("displacement"),
             (Parameter::Amplitude, Self::Physical(physical)) => {
                 let branch = usize::from(physical.excitation == Excitation::Force);
                 let branch = &of_table::<ExcitationTable>()["oneOf"][branch];

@@ -112,7 +112,7 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Physical> {
         (None, frequency) => stiffness_of(reader, &table, frequency?, oscillator.mass)?,
     };
     let ((_, absorber), (place, excitation)) = (absorber?, excitation?);
-    let transient = excitation.transient(reader, &place, [oscillator.mass, 1.0])?;
+    let transient = excitation.transient(reader, &place, 1.0)?;
     let mut physical = Physical {
         mass_kg: oscillator.mass,
         stiffness_n_per_m,

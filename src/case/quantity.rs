@@ -123,7 +123,11 @@ impl Dimension {
     /// What is wrong with a unit that is none of its own, and what to do.
     fn unsuitable(self, written: &str) -> (String, String) {
         if let Some(other) = Self::of_unit(written) {
-            let (own, other) = (self.words().0, other.words().0);
+            let ((own, example), (other, _)) = (self.words(), other.words());
+            if own == other {
+                let message = format!("is in `{written}`, and the case's own is not");
+                return (message, format!("write all of them in units as in \"{example}\""));
+            }
             let message = format!("is {own}, but `{written}` is the unit of {other}");
             return (message, self.accepted());
         }

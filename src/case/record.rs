@@ -42,6 +42,14 @@ impl Recording {
         }
     }
 
+    /// How many records it is.
+    pub fn count(&self) -> usize {
+        match &self.source {
+            RecordSource::File { .. } => 1,
+            RecordSource::Spectrum(spectrum) => spectrum.realisations as usize,
+        }
+    }
+
     /// The records; none of a file that was not read.
     pub fn records(&self) -> Vec<Record> {
         match &self.source {

@@ -117,7 +117,7 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Reduced> {
         ..ExcitationTable::default()
     };
     // Frequency ratios over the fast time are angles.
-    let transient = excitation.transient(reader, &table, [1.0, TAU])?;
+    let transient = excitation.transient(reader, &table, TAU)?;
     let read = Reduced {
         mass_ratio: read.mass_ratio,
         damping: read.damping,

@@ -11,6 +11,7 @@ use super::reader::{Reader, Table};
 use super::schema::{add_names, in_design, schema_of};
 use super::value::or;
 use crate::system::Parameter;
+use crate::transient::Scene;
 
 pub use axis::SweepAxis;
 pub use recorded::Recorded;
@@ -21,7 +22,7 @@ pub struct SweepSettings {
     /// The axes in the order of the file, but for that which is followed: it is the last. The last
     /// varies fastest.
     pub axes: Vec<SweepAxis>,
-    /// Starts at each point, that from rest among them; 1 where starts are an axis, or motions are
+    /// Starts at each point, that from rest among them, or places of the absorber; 1 where starts are an axis, or motions are
     /// followed.
     pub starts: u32,
     /// Excitation periods measured where a motion is not seen to repeat.
@@ -44,7 +45,8 @@ impl SweepSettings {
 #[derive(Deserialize, JsonSchema)]
 #[schemars(extend("additionalProperties" = false), transform = with_axes)]
 pub(super) struct SweepTable {
-    /// Starts at each point, that from rest among them; 4 unless given.
+    /// Starts at each point, that from rest among them; 4 unless given. Places of the absorber where the structure is
+    /// not driven steadily; as many as for the case itself unless given.
     #[schemars(range(min = 1, max = 1000), extend("x-symbol" = "N"), example = 4)]
     starts: Option<u32>,
     /// Excitation periods measured where a motion is not seen to repeat; 250 unless given.
@@ -87,17 +89,24 @@ const RIVALS: [(Parameter, Parameter); 3] = [
 ];
 
 /// Reads the table, which may be missing.
-pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<SweepSettings> {
+pub(super) fn read(
+    reader: &mut Reader,
+    root: &Table,
+    of_case: Option<u64>,
+) -> Option<SweepSettings> {
     let (table, read) = reader.optional::<SweepTable>(root, "sweep")?;
     let mut axes = read_axes(reader, &table)?;
     check_axes(reader, &table, &axes)?;
+    let scene = reader.design?.scene();
+    check_scene(reader, &table, read.record.as_deref().unwrap_or_default(), scene)?;
     let follow = match &read.follow {
         Some(followed) => Some(find_followed(reader, &table, &axes, followed)?),
         None => None,
     };
-    let alone = match axes.iter().find(|axis| axis.parameter.is_initial()) {
-        Some(_) => Some("the start is an axis itself"),
-        None => follow.map(|_| "a motion is followed from point to point"),
+    let is_start = |axis: &SweepAxis| scene == Scene::Steady && axis.parameter.is_initial();
+    let alone = match axes.iter().any(is_start) {
+        true => Some("the start is an axis itself"),
+        false => follow.map(|_| "a motion is followed from point to point"),
     };
     if let (Some(why), Some(_)) = (alone, read.starts) {
         let message = format!("`starts` has no meaning where {why}");
@@ -105,11 +114,10 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<SweepSettings> {
         reader.report(table.span_of("starts"), message, "expected no `starts`", help);
         return None;
     }
-    let asked = read.record.as_deref().unwrap_or(&Recorded::USUAL);
     let mut record: Vec<Recorded> = Vec::new();
-    for one in asked {
-        if !record.contains(one) {
-            record.push(*one);
+    for one in read.record.clone().unwrap_or_else(|| Recorded::usual(scene)) {
+        if !record.contains(&one) {
+            record.push(one);
         }
     }
     if let Some(index) = follow {
@@ -124,7 +132,12 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<SweepSettings> {
         }
         record.retain(|one| !one.is_of_starts());
     }
-    let starts = if alone.is_some() { 1 } else { read.starts.unwrap_or(DEFAULT_STARTS) };
+    let of_case = of_case.and_then(|starts| u32::try_from(starts).ok());
+    let usual = match reader.design?.transient() {
+        Some(transient) => of_case.unwrap_or(transient.places(reader.recording.as_ref())),
+        None => DEFAULT_STARTS,
+    };
+    let starts = if alone.is_some() { 1 } else { read.starts.unwrap_or(usual) };
     let periods = read.periods.unwrap_or(DEFAULT_PERIODS);
     Some(SweepSettings { axes, starts, periods, follow: follow.is_some(), record })
 }
@@ -167,6 +180,22 @@ fn check_axes(reader: &mut Reader, table: &Table, axes: &[SweepAxis]) -> Option<
         return None;
     }
     Some(())
+}
+
+/// Reports what is about steady vibration where the structure is not driven steadily, and the other way round.
+fn check_scene(reader: &mut Reader, table: &Table, asked: &[Recorded], scene: Scene) -> Option<()> {
+    let of = Recorded::ALL.into_iter().filter(|one| one.is_of(scene));
+    let of: Vec<String> = of.map(|one| format!("\"{}\"", one.key())).collect();
+    let unsuited = asked.iter().find(|one| !one.is_of(scene)).map(|one| ("record", one.key()));
+    let settings = ["periods", "follow"].into_iter();
+    let mut settings = settings.filter(|key| scene != Scene::Steady && table.has(key));
+    let Some((place, key)) = unsuited.or_else(|| settings.next().map(|key| (key, key))) else {
+        return Some(());
+    };
+    let message = format!("`{key}` has no meaning for a structure that is {}", scene.words());
+    let expected = format!("expected a record of {}", or(&of));
+    reader.report(table.span_of_value(place), message, expected, "leave it out");
+    None
 }
 
 /// Which axis is followed.

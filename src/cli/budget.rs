@@ -10,7 +10,7 @@ use vinesink::band::simulated::Sampling;
 use vinesink::case::Case;
 use vinesink::regimes::Transient;
 use vinesink::study::StudyEffort;
-use vinesink::sweep::Plan;
+use vinesink::sweep::{Plan, Point};
 use vinesink::system::System;
 
 use super::progress::duration;
@@ -110,13 +110,14 @@ impl Work {
     /// What a case needs that is not driven steadily; none for another. A sweep is flown both ways, and at a quarter
     /// to four times the rate, nine times as long as one; pieces of a record are so short that one takes two flights.
     pub fn transient(case: &Case) -> Option<Self> {
-        let starts = |usual: u64| (case.simulation.starts.unwrap_or(usual), "starts");
+        let usual = case.design.transient()?.places(case.recording.as_ref()).into();
+        let starts = (case.simulation.starts.unwrap_or(usual), "starts");
         if let Some(sweep) = case.design.sine_sweep() {
-            return Some(Self::alone(case, vec![(9, "sweeps"), starts(16)], sweep.count()));
+            return Some(Self::alone(case, vec![(9, "sweeps"), starts], sweep.count()));
         }
         let records = case.recording.as_ref()?.records();
         let pieces = records.iter().map(|record| record.count(&case.scales())).sum::<u64>();
-        Some(Self::alone(case, vec![(2, "flights"), starts(32)], pieces))
+        Some(Self::alone(case, vec![(2, "flights"), starts], pieces))
     }
 
     /// A case's criteria, over its band if it has one.
@@ -139,10 +140,17 @@ impl Work {
     /// Some points of a sweep.
     pub fn points(plan: &Plan) -> Self {
         let count = POINTS.min(plan.points());
-        let numbers = (0..count).map(|k| plan.points() / count * k);
-        let systems: Vec<System> = numbers.filter_map(|number| plan.point(number).system).collect();
-        let counts =
-            vec![(count, "points (of each sixty)"), (plan.settings.starts.into(), "starts")];
+        let points = (0..count).map(|k| plan.point(plan.points() / count * k));
+        let starts = plan.settings.starts;
+        let counts = vec![(count, "points (of each sixty)"), (starts.into(), "starts")];
+        let points: Vec<Point> = points.collect();
+        let seconds = points.iter().map(|point| plan.seconds(point)).sum::<Option<f64>>();
+        if let Some(seconds) = seconds {
+            // What takes longer than a flight, or is done but once, is told as flights.
+            let periods = seconds / (count * u64::from(starts)) as f64 / ALONE;
+            return Self { trajectories: counts, periods, oscillations: 1.0, each: ALONE };
+        }
+        let systems: Vec<System> = points.iter().filter_map(|point| point.system).collect();
         Self::side_by_side(&systems, counts, plan.settings.periods)
     }
 

@@ -13,6 +13,7 @@ use rayon::iter::{IndexedParallelIterator as _, IntoParallelIterator as _, Paral
 use vinesink::case::Case;
 use vinesink::store::Shards;
 use vinesink::sweep::{Plan, parquet, work};
+use vinesink::transient::Scene;
 
 use super::budget::{Long, Work};
 use super::progress::{Progress, duration};
@@ -158,7 +159,7 @@ impl Sweep {
 
     /// Whether each point takes as long as is ordinary, or more is asked for.
     fn is_ordinary(&self, path: &Path, long: Long) -> Result<()> {
-        match self.plan.needs_simulation() {
+        match self.plan.needs_simulation() || self.case.design.scene() != Scene::Steady {
             true => long.allows(path, &self.case, &[Work::points(&self.plan)]),
             false => Ok(()),
         }
@@ -246,13 +247,15 @@ fn estimate(sweep: &Sweep) -> Result<bool> {
     let plan = &sweep.plan;
     let points = plan.points();
     // Whole chunks where a motion is followed, else a part of them.
-    let stretch = if plan.settings.follow { plan.points_per_chunk() } else { SAMPLE };
-    let stretches = if plan.settings.follow { 1 } else { STRETCHES };
+    let chunk = plan.points_per_chunk();
+    let stretch = if plan.settings.follow { chunk } else { SAMPLE.min(chunk) };
+    let most = if plan.settings.follow { 1 } else { STRETCHES };
+    let stretches = most.min(points.div_ceil(stretch));
     let begin = Instant::now();
     let progress = Progress::new("sample", stretches);
     let mut worked = 0;
     for k in 0..stretches {
-        let from = (points - stretch.min(points)) * k / (STRETCHES - 1);
+        let from = (points - stretch.min(points)) * k / (stretches - 1).max(1);
         let range = from..from + stretch.min(points);
         worked += range.end - range.start;
         work::points(plan, range).into_diagnostic()?;

@@ -1,7 +1,7 @@
 //! What is recorded of points, as columns with names and units.
 
-use super::Plan;
 use super::facts::{Facts, Found};
+use super::{Plan, Point};
 use crate::analysis::{Area, Strip, Zone};
 use crate::case::{Design, Recorded};
 use crate::quantity::catalogue as of;
@@ -113,6 +113,18 @@ pub const fn kind(recorded: Recorded) -> Option<&'static Kind> {
         Recorded::ShareOfStarts => &of::START_SHARE,
         Recorded::LargestPeak => &of::LARGEST_PEAK,
         Recorded::Motions => &of::MOTIONS,
+        Recorded::BareDecayTime => &of::BARE_DECAY_TIME,
+        Recorded::DamperDecayTime => &of::DAMPER_DECAY_TIME,
+        Recorded::TheoryDecayTime => &of::THEORY_DECAY_TIME,
+        Recorded::InactiveShare => &of::INACTIVE_SHARE,
+        Recorded::BarePeak => &of::BARE_PEAK,
+        Recorded::DamperPeak => &of::DAMPER_PEAK,
+        Recorded::BareRms => &of::BARE_RMS,
+        Recorded::DamperRms => &of::DAMPER_RMS,
+        Recorded::DecayTime => &of::DECAY_TIME,
+        Recorded::PeakFrequency => &of::PEAK_FREQUENCY,
+        Recorded::Impacts => &of::IMPACT_COUNT,
+        Recorded::ReductionDbTmd => &of::REDUCTION_DB_TMD,
         Recorded::Area | Recorded::Regime | Recorded::OrbitReached => return None,
     })
 }
@@ -158,12 +170,21 @@ pub fn names(recorded: Recorded) -> Vec<String> {
     }
 }
 
-/// Adds a point to the columns of its sweep.
-pub(super) fn push(plan: &Plan, columns: &mut [Column], facts: &Facts) {
+/// Adds a point and what is recorded of it to the columns of its sweep.
+pub(super) fn push(columns: &mut [Column], point: &Point, recorded: Vec<Option<Cell>>) {
+    let place = [point.number as f64].into_iter().chain(point.coordinates.iter().copied());
+    let cells = place.map(|value| Some(Cell::Number(value))).chain(recorded);
+    let known = |cell: &Cell| cell.number().is_none_or(f64::is_finite);
+    for (column, cell) in columns.iter_mut().zip(cells) {
+        column.cells.push(cell.filter(known));
+    }
+}
+
+/// What is recorded of a point.
+pub(super) fn cells(plan: &Plan, facts: &Facts) -> Vec<Option<Cell>> {
     let nothing = Found::default();
     let point = facts.point;
-    let mut cells = vec![Some(Cell::Number(point.number as f64))];
-    cells.extend(point.coordinates.iter().map(|value| Some(Cell::Number(*value))));
+    let mut cells = Vec::new();
     for (recorded, direction) in recorded(plan) {
         let found = facts.found.get(usize::from(direction == Direction::Down)).unwrap_or(&nothing);
         match recorded {
@@ -182,10 +203,7 @@ pub(super) fn push(plan: &Plan, columns: &mut [Column], facts: &Facts) {
             other => cells.push(number(other, facts, found).map(Cell::Number)),
         }
     }
-    let known = |cell: &Cell| cell.number().is_none_or(f64::is_finite);
-    for (column, cell) in columns.iter_mut().zip(cells) {
-        column.cells.push(cell.filter(known));
-    }
+    cells
 }
 
 /// The value of what fills one column of numbers, whole numbers or flags.
@@ -220,7 +238,7 @@ fn number(recorded: Recorded, facts: &Facts, found: &Found) -> Option<f64> {
             motions.iter().map(|motion| motion.peak).max_by(f64::total_cmp).map(length)
         }
         Recorded::Motions => Some(motions.len() as f64).filter(|count| *count > 0.0),
-        Recorded::Area | Recorded::Regime | Recorded::Section => None,
+        _ => None,
     }
 }
 

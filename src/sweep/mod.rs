@@ -9,6 +9,7 @@ mod facts;
 mod follow;
 pub mod limits;
 pub mod parquet;
+mod transient;
 pub mod work;
 
 use std::ops::Range;
@@ -16,10 +17,13 @@ use std::ops::Range;
 use crate::case::{Case, Design, Scales, SweepSettings};
 use crate::digest::sha256;
 use crate::system::{Parameter, State, System};
+use transient::Subject;
 
 /// Points of a chunk, at least: about half a second's work, so that little is lost with one, and a file of some
 /// hundred kilobytes, so that there are not too many of them.
 const FEWEST_POINTS: u64 = 1024;
+/// Seconds that a chunk of dearer points takes, about, at least.
+const CHUNK: f64 = 0.5;
 /// Points of a chunk, at most: about half a minute's work.
 const MOST_POINTS: u64 = 65_536;
 /// Lines of a chunk, at least, along which motions are followed.
@@ -35,10 +39,12 @@ pub struct Plan {
     pub design: Design,
     /// Axes, starts, periods, and what is recorded.
     pub settings: SweepSettings,
-    /// Names the results: of the case's text, the program and its version, and the size of a chunk.
+    /// Names the results: of the case's text and its record, the program and its version, and the size of a chunk.
     pub identity: String,
     /// Points of a chunk.
     points_per_chunk: u64,
+    /// What else the case says where its structure is not driven steadily.
+    subject: Option<Subject>,
 }
 
 /// A point of the grid.
@@ -48,11 +54,13 @@ pub struct Point {
     pub number: u64,
     /// Its place on each axis, in the units of [`SweepAxis::values`](crate::case::SweepAxis::values).
     pub coordinates: Vec<f64>,
+    /// Its design.
+    pub design: Design,
     /// Its system; `None` where the values together leave none.
     pub system: Option<System>,
     /// What turns the system's numbers into the case's units.
     pub scales: Scales,
-    /// Where its motion starts, over its clearance; `None` where no axis says.
+    /// Where its motion starts, over its clearance; `None` where no axis says, or nothing drives it steadily.
     pub start: Option<State>,
 }
 
@@ -60,10 +68,14 @@ impl Plan {
     /// That of a case; `None` where it has no table `[sweep]`.
     pub fn of(case: &Case) -> Option<Self> {
         let settings = case.sweep.clone()?;
+        let (identity, subject) = (String::new(), Subject::of(case));
+        let mut plan =
+            Self { design: case.design, settings, identity, points_per_chunk: 1, subject };
+        let settings = &plan.settings;
         let size = settings.points().div_ceil(MANY_CHUNKS).next_power_of_two();
-        let size = size.clamp(FEWEST_POINTS, MOST_POINTS);
+        let size = size.clamp(plan.fewest_points(), MOST_POINTS);
         // A motion is followed along whole lines, as many of them side by side as a batch has lanes.
-        let points_per_chunk = match settings.axes.last() {
+        plan.points_per_chunk = match settings.axes.last() {
             Some(axis) if settings.follow => {
                 let line = axis.values.len() as u64;
                 line * (size / line).max(LINES)
@@ -71,9 +83,26 @@ impl Plan {
             _ => size,
         };
         let [name, version] = [env!("CARGO_PKG_NAME"), env!("CARGO_PKG_VERSION")];
-        let named = format!("{name} {version} {points_per_chunk} {}", case.text_hash);
-        let identity = sha256(named.as_bytes());
-        Some(Self { design: case.design, settings, identity, points_per_chunk })
+        let mut named = format!("{name} {version} {} {}", plan.points_per_chunk, case.text_hash);
+        named.extend(plan.subject.iter().filter_map(Subject::digest));
+        plan.identity = sha256(named.as_bytes());
+        Some(plan)
+    }
+
+    /// Points of a chunk, at least: fewer of dearer ones.
+    fn fewest_points(&self) -> u64 {
+        let last = self.points().saturating_sub(1);
+        let some = [0, last / 2, last].map(|number| self.seconds(&self.point(number)));
+        let mean = some.into_iter().flatten().sum::<f64>() / some.len() as f64;
+        match self.subject {
+            Some(_) => ((CHUNK / mean) as u64).clamp(1, FEWEST_POINTS).next_power_of_two(),
+            None => FEWEST_POINTS,
+        }
+    }
+
+    /// About how many seconds a point takes where the structure is not driven steadily; none where it is.
+    pub fn seconds(&self, point: &Point) -> Option<f64> {
+        self.subject.as_ref().map(|subject| subject.seconds(self, point))
     }
 
     /// Names the chunks: as [`Self::identity`], and of the sources that the program was built from. Two
@@ -118,8 +147,9 @@ impl Plan {
             |design: Design, (parameter, value): &(Parameter, f64)| design.with(*parameter, *value);
         let design = values.iter().fold(self.design, applied);
         let scales = design.scales();
-        let start = follow::start(values.into_iter(), &scales);
-        Point { number, system: design.system().ok(), scales, start, coordinates }
+        let steady = self.subject.is_none();
+        let start = follow::start(values.into_iter().filter(|_| steady), &scales);
+        Point { number, design, system: design.possible_system(), scales, start, coordinates }
     }
 
     /// Whether anything is recorded that only simulation knows.

@@ -24,6 +24,12 @@ const MOST_IMPACTS: u64 = 1000;
 /// [`StartError`] where a start is not finite.
 pub fn points(plan: &Plan, numbers: Range<u64>) -> Result<Vec<Column>, StartError> {
     let mut results = columns::empty(plan);
+    if let Some(subject) = &plan.subject {
+        for point in numbers.map(|number| plan.point(number)) {
+            columns::push(&mut results, &point, subject.cells(plan, &point));
+        }
+        return Ok(results);
+    }
     let at_once = match plan.settings.follow {
         true => numbers.end.saturating_sub(numbers.start).max(1),
         false => (TRAJECTORIES / u64::from(plan.settings.starts.max(1))).max(1),
@@ -37,7 +43,7 @@ pub fn points(plan: &Plan, numbers: Range<u64>) -> Result<Vec<Column>, StartErro
             false => vec![Vec::new(); some.len()],
         };
         for (point, found) in some.iter().zip(found) {
-            columns::push(plan, &mut results, &Facts::of(point, found));
+            columns::push(&mut results, point, columns::cells(plan, &Facts::of(point, found)));
         }
         begin = end;
     }

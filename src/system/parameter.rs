@@ -22,8 +22,11 @@ names! { key:
         Frequency = "frequency",
         /// Detunings sigma, beside [reduced].
         Detuning = "detuning",
-        /// Amplitudes of the excitation, as in [excitation]; the reduced forcing G beside [reduced].
+        /// Amplitudes of the excitation, as in [excitation]; the reduced forcing G beside [reduced]; impulses of a
+        /// shock, or velocities that it gives the base.
         Amplitude = "amplitude",
+        /// Rates of a sweep through resonance, in hertz or in octaves as in [excitation].
+        Rate = "rate",
         /// Restitutions.
         Restitution = "restitution",
         /// Masses of the absorber, with a unit.

@@ -20,20 +20,21 @@ mod theory;
 
 pub use clearance::{Best, best_clearance};
 pub use driven::{DrivenError, Response, follow};
+pub(crate) use passage::worst;
 pub use passage::{ByRate, Jump, SweepStart, SweepStudy};
 pub use record::{Piece, Record, RecordQuantity, Spectrum};
 pub use record_study::{Measured, Realisation, RecordStudy, SpectrumPoint};
 pub use ringdown::{Ringdown, STEPS};
-pub(crate) use study::awake;
 pub use study::{Decay, DecayStudy};
+pub(crate) use study::{awake, bare, longest};
 pub use sweep::{Passage, SineSweep, SweepRate};
 pub use theory::Predicted;
 
-use crate::case::{Case, Scales};
+use crate::case::{Case, Recording, Scales};
 use crate::executor::Executor;
 use crate::numerics::scatter::error_of_largest;
 use crate::simulation::StartError;
-use crate::system::{InvalidParameter, Parameters, State, System};
+use crate::system::{InvalidParameter, Parameter, Parameters, State, System};
 
 /// What a structure is subjected to that is not steady harmonic excitation.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,6 +45,39 @@ pub enum Transient {
     Sweep(SineSweep),
     /// A record or noise drives it, whose values are of this quantity.
     Record(RecordQuantity),
+}
+
+impl Transient {
+    /// The numbers that a parameter is in it: how far and how fast a structure is let go, how hard it is struck, how
+    /// fast it is swept.
+    pub(crate) fn numbers(&mut self, parameter: Parameter) -> Vec<&mut f64> {
+        use Parameter as P;
+        let (struck, shock) = match self {
+            Self::Release(of) => (of.impulse > 0.0, of.impulse > 0.0 || of.absorber_velocity > 0.0),
+            _ => (false, false),
+        };
+        match (self, parameter, struck, shock) {
+            (Self::Release(of), P::Amplitude, true, _) => vec![&mut of.impulse],
+            (Self::Release(of), P::Amplitude, _, true) => {
+                vec![&mut of.velocity, &mut of.absorber_velocity]
+            }
+            (Self::Release(of), P::InitialDisplacement, _, false) => vec![&mut of.displacement],
+            (Self::Release(of), P::InitialVelocity, _, false) => vec![&mut of.velocity],
+            (Self::Sweep(of), P::Rate, ..) => match &mut of.rate {
+                SweepRate::Linear(rate) | SweepRate::Octaves(rate) => vec![rate],
+            },
+            _ => Vec::new(),
+        }
+    }
+
+    /// Places of the absorber that are simulated unless a case says how many: of several records fewer of each.
+    pub fn places(self, recording: Option<&Recording>) -> u32 {
+        match self {
+            Self::Release(_) => DecayStudy::STARTS,
+            Self::Sweep(_) => SweepStudy::STARTS,
+            Self::Record(_) => RecordStudy::usual_places(recording.map_or(1, Recording::count)),
+        }
+    }
 }
 
 /// What a structure is subjected to: which criteria, tables and commands make sense of it.
@@ -109,18 +143,26 @@ pub struct Release {
     pub velocity: f64,
     /// Velocity of the absorber: that of the structure where the base was set in motion, else 0.
     pub absorber_velocity: f64,
+    /// Impulse on the structure, which adds to its velocity.
+    pub impulse: f64,
 }
 
 impl Release {
     /// The same, so many times as strong.
     #[must_use]
     pub fn scaled(&self, factor: f64) -> Self {
-        let Self { displacement, velocity, absorber_velocity } = *self;
+        let Self { displacement, velocity, absorber_velocity, impulse } = *self;
         Self {
             displacement: factor * displacement,
             velocity: factor * velocity,
             absorber_velocity: factor * absorber_velocity,
+            impulse: factor * impulse,
         }
+    }
+
+    /// The amplitude with which the structure begins, over the clearance.
+    pub(crate) fn amplitude(&self, scales: &Scales) -> f64 {
+        amplitude(&self.state(scales, 0.0))
     }
 
     /// Whether an absorber at rest may be where no wall ever reaches it.
@@ -130,11 +172,11 @@ impl Release {
 
     /// The state in which an absorber at a relative displacement `w` begins.
     fn state(&self, scales: &Scales, w: f64) -> State {
-        let [displacement, velocity, absorber_velocity] =
-            [self.displacement, self.velocity, self.absorber_velocity];
-        let x = scales.over_clearance(displacement);
+        let x = scales.over_clearance(self.displacement);
+        let velocity = self.velocity + self.impulse / scales.oscillator_mass;
         let speed = scales.velocity(1.0);
-        State { x, x_velocity: velocity / speed, y: x - w, y_velocity: absorber_velocity / speed }
+        let y_velocity = self.absorber_velocity / speed;
+        State { x, x_velocity: velocity / speed, y: x - w, y_velocity }
     }
 }
 
@@ -142,6 +184,12 @@ impl Release {
 /// looks after.
 fn places(count: u64) -> impl ExactSizeIterator<Item = f64> + Clone {
     (0..count as usize).map(move |k| (2 * k + 1) as f64 / count as f64 - 1.0)
+}
+
+/// Starts that count: where `inactive` is false those alone in which the absorber hits a wall, unless it never does.
+fn counted<T>(starts: &[T], inactive: bool, impacts: impl Fn(&T) -> u64) -> Vec<&T> {
+    let awake: Vec<&T> = starts.iter().filter(|start| inactive || impacts(start) > 0).collect();
+    if awake.is_empty() { starts.iter().collect() } else { awake }
 }
 
 /// Neighbouring starts whose worst is one value of those that tell how much worse others may be.

@@ -59,9 +59,9 @@ pub struct RecordStudy {
     pub count_inactive: bool,
 }
 
-/// Places of the absorber under one record, and under each of several, unless the case says how many.
-const PLACES: u64 = 32;
-const PLACES_OF_MANY: u64 = 8;
+/// Places of the absorber under one record, and under each of several.
+const PLACES: u32 = 32;
+const PLACES_OF_MANY: u32 = 8;
 /// The response spectrum: frequencies, the furthest over the structure's own, places times records, and the most
 /// records.
 const FREQUENCIES: u32 = 31;
@@ -70,6 +70,11 @@ const FLIGHTS_OF_SPECTRUM: usize = 8;
 const RECORDS_OF_SPECTRUM: usize = 4;
 
 impl RecordStudy {
+    /// Places of the absorber under each of so many records, unless the case says how many.
+    pub const fn usual_places(records: usize) -> u32 {
+        if records > 1 { PLACES_OF_MANY } else { PLACES }
+    }
+
     /// Studies a case that is driven by a record; none for another.
     ///
     /// # Errors
@@ -77,8 +82,8 @@ impl RecordStudy {
     pub fn of_case(case: &Case, executor: &dyn Executor) -> Option<Result<Self, DrivenError>> {
         let recording = case.recording.as_ref()?;
         let records = recording.records();
-        let default = if records.len() > 1 { PLACES_OF_MANY } else { PLACES };
-        let places = case.simulation.starts.unwrap_or(default);
+        let usual = Self::usual_places(records.len());
+        let places = case.simulation.starts.unwrap_or(usual.into());
         let study = Self::of(&case.system(), &case.scales(), &records, places, executor);
         Some(study.map(|study| Self { count_inactive: case.count_inactive, ..study }))
     }
@@ -94,21 +99,33 @@ impl RecordStudy {
         places: u64,
         executor: &dyn Executor,
     ) -> Result<Self, DrivenError> {
-        let first = records.first().ok_or(DrivenError::NoRecord)?;
-        let [from, to] = [first.samples.first(), first.samples.last()]
-            .map(|sample| sample.map_or(0.0, |sample| sample[0]));
+        let study = Self::without_spectrum(system, scales, records, places, executor)?;
         let point = |k: usize| {
             let part = 2.0 * k as f64 / f64::from(FREQUENCIES - 1) - 1.0;
             spectrum_point(system, scales, records, libm::pow(FURTHEST, part))
         };
         let spectrum = map(executor, "frequencies", FREQUENCIES as usize, point);
+        Ok(Self { spectrum: spectrum.into_iter().collect::<Result<_, _>>()?, ..study })
+    }
+
+    /// The same without the response spectrum.
+    pub(crate) fn without_spectrum(
+        system: &System,
+        scales: &Scales,
+        records: &[Record],
+        places: u64,
+        executor: &dyn Executor,
+    ) -> Result<Self, DrivenError> {
+        let first = records.first().ok_or(DrivenError::NoRecord)?;
+        let [from, to] = [first.samples.first(), first.samples.last()]
+            .map(|sample| sample.map_or(0.0, |sample| sample[0]));
         Ok(Self {
             system: *system,
             damper: TunedMassDamper::den_hartog(system.mass_ratio()),
             input_peaks: records.iter().map(Record::peak).collect(),
             length: (to - from, first.samples.len()),
             realisations: realisations(system, scales, records, places, executor)?,
-            spectrum: spectrum.into_iter().collect::<Result<_, _>>()?,
+            spectrum: Vec::new(),
             count_inactive: true,
         })
     }

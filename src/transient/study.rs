@@ -57,15 +57,28 @@ pub struct DecayStudy {
 
 /// Oscillations after which a decay is given up whose structure has hardly any damping of its own.
 const LONGEST: f64 = 20_000.0;
-/// Places of the absorber unless the case says how many.
-const STARTS: u32 = 32;
 
 impl DecayStudy {
+    /// Places of the absorber unless the case says how many.
+    pub const STARTS: u32 = 32;
+
     /// Studies a release down to a share of its amplitude, the absorber at so many even places of its cavity.
     ///
     /// # Errors
     /// [`StartError`] where the motion is so large that rounding hides the walls.
     pub fn of(
+        system: &System,
+        scales: &Scales,
+        release: &Release,
+        share: f64,
+        starts: u32,
+    ) -> Result<Self, StartError> {
+        let study = Self::without_theory(system, scales, release, share, starts)?;
+        Ok(Self { predicted: Predicted::of(system, study.from, study.level), ..study })
+    }
+
+    /// The same without what theory predicts, which may take longer than all starts.
+    pub(crate) fn without_theory(
         system: &System,
         scales: &Scales,
         release: &Release,
@@ -94,7 +107,7 @@ impl DecayStudy {
             inactive,
             count_inactive: true,
             damped: (damper, linear, steps / f64::from(STEPS)),
-            predicted: Predicted::of(system, from, level),
+            predicted: Predicted::none(system),
         })
     }
 
@@ -104,7 +117,7 @@ impl DecayStudy {
     /// As [`Self::of`].
     pub fn of_case(case: &Case) -> Option<Result<Self, StartError>> {
         let starts = case.simulation.starts.and_then(|starts| u32::try_from(starts).ok());
-        Self::of_case_from(case, starts.unwrap_or(STARTS))
+        Self::of_case_from(case, starts.unwrap_or(Self::STARTS))
     }
 
     /// The same by theory alone: nothing is simulated.
@@ -214,12 +227,12 @@ pub(super) fn inactive(system: &System, start: &State) -> f64 {
 }
 
 /// Oscillations in which the structure alone comes to a share of its amplitude; infinite without damping.
-pub(super) fn bare(system: &System, share: f64) -> f64 {
+pub(crate) fn bare(system: &System, share: f64) -> f64 {
     // C = C0 exp(-eps lambda tau/2).
     -2.0 * libm::log(share) / (system.mass_ratio() * system.damping() * TAU)
 }
 
 /// Oscillations that a decay is followed for.
-fn longest(bare: f64) -> u64 {
+pub(crate) fn longest(bare: f64) -> u64 {
     libm::ceil((1.5 * bare).min(LONGEST)) as u64 + 20
 }

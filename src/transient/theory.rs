@@ -35,6 +35,12 @@ impl Predicted {
     /// Amplitude, over the clearance, below which impacts are so rare that no average knows them.
     pub const SMALLEST: f64 = 0.05;
 
+    /// No prediction.
+    pub(super) fn none(system: &System) -> Self {
+        let residual = FreeDecay::of(system).residual_amplitude();
+        Self { path: Vec::new(), oscillations: None, residual, method: Method::Theory }
+    }
+
     /// The decay from an amplitude down to a level, both over the clearance.
     pub fn of(system: &System, from: f64, level: f64) -> Self {
         let decay = FreeDecay::of(system);
@@ -42,7 +48,7 @@ impl Predicted {
         let closed = from <= decay.largest_amplitude() && level >= residual || from <= residual;
         let method = if closed { Method::ClosedForm } else { Method::Theory };
         if from > Self::LARGEST {
-            return Self { path: Vec::new(), oscillations: None, residual, method };
+            return Self { method, ..Self::none(system) };
         }
         // An absorber that is not caught leaves the structure to its own damping.
         let active = if from <= residual { from } else { level.max(Self::SMALLEST.min(residual)) };

@@ -98,6 +98,7 @@ fn an_absorber_that_no_wall_reaches_never_wakes() {
             displacement: scales.length(x),
             velocity: scales.velocity(v),
             absorber_velocity: 0.0,
+            impulse: 0.0,
         };
         let study = DecayStudy::of(&system, &scales, &release, 0.5, 1).expect("studied");
         let share = quiet as f64 / places.len() as f64;

@@ -38,5 +38,6 @@ mod sweep;
 mod sweep_page;
 #[cfg(unix)]
 mod sweep_submit;
+mod sweep_transient;
 mod templates;
 mod tradeoff;

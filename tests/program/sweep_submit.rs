@@ -327,6 +327,24 @@ fn tasks_work_on_the_case_as_it_was_submitted() {
     assert!(merged == fs::read(wanted.path("sweeps/map/sweep.parquet")).expect("merged"));
 }
 
+/// A record lies beside the case, and so a copy of it beside the copy.
+#[test]
+fn tasks_find_the_record_of_the_case() {
+    let place = Place::new();
+    place.program("sbatch", "echo 17");
+    let record = read(Path::new("cases/tower-record.csv"));
+    fs::write(place.path("tower-record.csv"), &record).expect("written");
+    let sweep = "[sweep]\nclearance = { values = [\"50 mm\"] }\n";
+    let case = format!("{}{sweep}", read(Path::new("cases/tower-record.toml")));
+    fs::write(place.path("map.toml"), case).expect("written");
+    place.done(&["submit", "map.toml", "--engine", "slurm"]);
+    fs::remove_file(place.path("tower-record.csv")).expect("removed");
+    let copy = &place.submitted()[0];
+    assert_eq!(read(&copy.join("tower-record.csv")), record);
+    let planned = place.done(&["plan", copy.join("map.toml").to_str().expect("UTF-8")]);
+    assert_eq!(planned, "1 = 1 points, 32 starts each, in 1 chunk (0)\n");
+}
+
 /// A task that fails waits and begins again, and says so; after as many times as it may it fails.
 #[test]
 fn a_task_that_fails_begins_again() {

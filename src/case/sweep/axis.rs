@@ -8,6 +8,7 @@ use super::super::Design;
 use super::super::reader::{Reader, Table};
 use crate::names::names;
 use crate::system::Parameter;
+use crate::transient::Scene;
 
 /// A parameter and its values, ascending, in SI units or as plain numbers.
 #[derive(Debug, Clone, PartialEq)]
@@ -55,13 +56,19 @@ pub(super) fn read(reader: &mut Reader, sweep: &Table, parameter: Parameter) -> 
     let (name, design) = (parameter.key(), reader.design?);
     let table = reader.table::<AxisTable>(sweep, name)?;
     if design.form(parameter).is_none() {
-        let (this, other) = match design {
-            Design::Physical(_) => ("[oscillator], [absorber] and [excitation]", "frequency"),
-            Design::Reduced(_) => ("[reduced]", "mass_ratio or damping"),
+        let structure = format!("a structure that is {}", design.scene().words());
+        let (this, other) = match (design.scene(), design) {
+            (Scene::Steady, Design::Physical(_)) => {
+                ("a design in [oscillator], [absorber] and [excitation]", "frequency")
+            }
+            (Scene::Steady, Design::Reduced(_)) => {
+                ("a design in [reduced]", "mass_ratio or damping")
+            }
+            _ => (structure.as_str(), "clearance"),
         };
         reader.report(
             table.span_of(""),
-            format!("a design in {this} has no `{name}` to vary"),
+            format!("{this} has no `{name}` to vary"),
             "expected a number that the design has",
             format!("vary {other} instead, or remove the axis"),
         );

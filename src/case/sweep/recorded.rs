@@ -1,10 +1,27 @@
 //! What a sweep records of each point.
 
 use crate::names::names;
+use crate::transient::Scene;
 
 names! { key:
     /// Something that is recorded of each point.
     pub enum Recorded {
+        /// Time in which a structure that is released or struck comes to rest without absorber.
+        BareDecayTime = "bare_decay_time",
+        /// The same with a tuned mass damper of the absorber's mass.
+        DamperDecayTime = "damper_decay_time",
+        /// The same with the absorber, by theory.
+        TheoryDecayTime = "theory_decay_time",
+        /// Share of the absorber's resting places from which no wall ever reaches it.
+        InactiveShare = "inactive_share",
+        /// Largest displacement without absorber in a sweep through resonance or under a record; mean over records.
+        BarePeak = "bare_peak",
+        /// The same with a tuned mass damper of the absorber's mass.
+        DamperPeak = "damper_peak",
+        /// Root mean square displacement without absorber under a record.
+        BareRms = "bare_rms",
+        /// The same with a tuned mass damper.
+        DamperRms = "damper_rms",
         /// Area Z1 to Z4 of the theory, and the strip A1 or A2 within it.
         Area = "area",
         /// Smallest amplitude of a stable fixed point of the slow flow.
@@ -45,6 +62,14 @@ names! { key:
         Motions = "motions",
         /// Whether a start leads to the exact symmetric orbit that attracts; nothing where none does.
         OrbitReached = "orbit_reached",
+        /// Time in which a structure that is released or struck comes to rest, from the worst place of the absorber.
+        DecayTime = "decay_time",
+        /// Frequency of the largest displacement in a sweep through resonance.
+        PeakFrequency = "peak_frequency",
+        /// Impacts of the absorber from its worst place; of several records under the first.
+        Impacts = "impacts",
+        /// Reduction of the peak against a tuned mass damper of the absorber's mass.
+        ReductionDbTmd = "reduction_db_tmd",
     }
 }
 
@@ -60,8 +85,35 @@ impl Recorded {
         matches!(self, Self::ShareOfStarts | Self::LargestPeak | Self::Motions)
     }
 
-    /// What is recorded where the case does not say.
-    pub const USUAL: [Self; 12] = [
+    /// Whether it is known of a structure that is subjected to something.
+    pub fn is_of(self, scene: Scene) -> bool {
+        let (release, sweep) = (scene == Scene::Release, scene == Scene::Sweep);
+        match self {
+            Self::BareDecayTime | Self::DamperDecayTime | Self::TheoryDecayTime => release,
+            Self::InactiveShare | Self::DecayTime => release,
+            Self::PeakFrequency => sweep,
+            Self::BareRms | Self::DamperRms => scene == Scene::Record,
+            Self::BarePeak | Self::DamperPeak | Self::ReductionDbTmd => {
+                sweep || scene == Scene::Record
+            }
+            Self::Impacts => scene != Scene::Steady,
+            Self::Peak | Self::ImpactSpeed => true,
+            Self::ReductionDb => !release,
+            Self::Rms => !release && !sweep,
+            _ => scene == Scene::Steady,
+        }
+    }
+
+    /// What is recorded where the case does not say: theory of a decay may cost more than simulation.
+    pub fn usual(scene: Scene) -> Vec<Self> {
+        let cheap = |one: &Self| *one != Self::TheoryDecayTime && one.is_of(scene);
+        match scene {
+            Scene::Steady => Self::USUAL.into(),
+            _ => Self::ALL.into_iter().filter(cheap).collect(),
+        }
+    }
+
+    const USUAL: [Self; 12] = [
         Self::Area,
         Self::BareAmplitude,
         Self::OrbitPeak,

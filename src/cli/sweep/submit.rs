@@ -5,8 +5,11 @@
 
 mod job;
 
+use std::path::Path;
+
 use clap::{Args, ValueEnum};
 use miette::Result;
+use vinesink::case::{Case, Recording};
 use vinesink::store;
 
 use super::{Long, Sweep, Where, output, shown};
@@ -107,6 +110,7 @@ pub fn run(arguments: &Arguments) -> Result<bool> {
         return Ok(true);
     }
     store::write_file_and_folder(&job.case, sweep.case_text.as_bytes())?;
+    copy_record(&sweep.case, &at.case, &job.case)?;
     for (file, text) in &job.files {
         store::write_file(file, text.as_bytes())?;
     }
@@ -124,6 +128,14 @@ pub fn run(arguments: &Arguments) -> Result<bool> {
         by_hand("merge"),
     ))?;
     Ok(true)
+}
+
+/// Copies the record that drives a case to where its copy looks for it.
+fn copy_record(case: &Case, from: &Path, to: &Path) -> Result<()> {
+    let file = case.recording.as_ref().and_then(Recording::file);
+    let Some(file) = file.filter(|file| Path::new(file).is_relative()) else { return Ok(()) };
+    let text = store::read_text(&from.with_file_name(file))?;
+    Ok(store::write_file_and_folder(&to.with_file_name(file), text.as_bytes())?)
 }
 
 #[cfg(test)]

@@ -24,7 +24,8 @@ const NO_REDUCTION: f64 = 0.005;
 const MOST_STRETCHES: usize = 24;
 const MOST_TOLD: usize = 3;
 /// What is told of the motions of a regime.
-const RANGED: [Recorded; 3] = [Recorded::ImpactsPerPeriod, Recorded::Peak, Recorded::ReductionDb];
+const RANGED: [Recorded; 4] =
+    [Recorded::ImpactsPerPeriod, Recorded::Peak, Recorded::ReductionDb, Recorded::DecayTime];
 
 /// `vinesink/sweep@2`: counts, and quantities in SI or in a reduced case's units. `at` and `ends` are places on
 /// the axes, each with the digits that tell it from its neighbours.
@@ -124,7 +125,7 @@ impl<'a> Counted<'a> {
 
     fn motions(&self) -> Value {
         let stretches = self.stretches();
-        json!({
+        let mut facts = json!({
             "direction": self.direction,
             "worked_out": self.worked_out(),
             // Quantities of which each regime and stretch has a smallest and a largest value.
@@ -138,7 +139,11 @@ impl<'a> Counted<'a> {
             "groups": self.groups(),
             "theory": self.theory(),
             "orbit": self.orbit(),
-        })
+        });
+        if let Some(decay) = self.decay() {
+            facts["decay"] = decay;
+        }
+        facts
     }
 
     /// Points with a motion.
@@ -189,6 +194,12 @@ impl<'a> Counted<'a> {
         let (point, value) =
             there.reduce(|best, one| if sign * one.1 > sign * best.1 { one } else { best })?;
         Some(json!({ "of": quantity(of, value), "at": self.swept.place(point) }))
+    }
+
+    /// Where a structure comes to rest first, and where last.
+    fn decay(&self) -> Option<Value> {
+        let [first, last] = [-1.0, 1.0].map(|sign| self.extreme(Recorded::DecayTime, sign));
+        Some(json!({ "first": first?, "last": last? }))
     }
 
     /// Against the oscillator alone: where it is best and worst, whether the worst is an increase, and at how many

@@ -9,6 +9,7 @@ use crate::report::document;
 use crate::sweep::columns::{Cell, Column, Direction};
 use crate::sweep::indices;
 use crate::system::Parameter;
+use crate::transient::Scene;
 
 /// What a panel or a mark of a direction is called.
 pub(super) const fn words(direction: Direction) -> &'static str {
@@ -66,7 +67,11 @@ impl Swept<'_> {
 
     /// Whether the axes are starts of one system.
     pub(super) fn is_basin(&self) -> bool {
-        self.axes.iter().any(|axis| axis.parameter.is_initial())
+        self.is_steady() && self.axes.iter().any(|axis| axis.parameter.is_initial())
+    }
+
+    pub(super) fn is_steady(&self) -> bool {
+        self.case.design.scene() == Scene::Steady
     }
 
     /// Up and down where a motion was followed.

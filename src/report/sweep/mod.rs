@@ -106,7 +106,7 @@ impl Swept<'_> {
     pub fn files(&self) -> Result<Files, SweptError> {
         let document = facts::document(self);
         let json = serde_json::to_string_pretty(&document).map_err(RenderError::from)? + "\n";
-        let facts = json!({ "page": document });
+        let facts = json!({ "page": document, "steady": self.is_steady() });
         let mut files =
             page_files("sweep", "sweep.md", Some(""), &self.units(), facts, &self.figures()?)?;
         files.insert("sweep.json".into(), json.into_bytes());

@@ -25,7 +25,9 @@ use crate::system::Parameter;
 use crate::transient::Study;
 
 /// The line of a tuned mass damper.
-const DAMPER: Style = Style::new(Color::Orange, 1.6, Dash::LongDashed);
+pub(super) const DAMPER: Style = Style::new(Color::Orange, 1.6, Dash::LongDashed);
+/// The line of a predicted decay.
+pub(super) const THEORY: Style = Style::new(Color::Blue, 2.0, Dash::Dashed);
 
 /// The name of a study's templates.
 const fn name_of(study: &Study) -> &'static str {

@@ -14,6 +14,7 @@ use crate::report::figure::{
     Style, Tick,
 };
 use crate::report::figures::regimes::{mark, tint};
+use crate::report::transient::{DAMPER, THEORY};
 use crate::sweep::columns::{self, Direction, kind};
 
 /// The template of the figures' words.
@@ -21,11 +22,27 @@ const WORDS: &str = "captions/sweep-line";
 
 pub(super) fn all(swept: &Swept, axis: &AxisShown) -> Vec<Figure> {
     let diagram = Diagram { swept, axis, directions: swept.directions() };
-    let mut figures: Vec<Figure> = diagram.peaks().into_iter().chain(diagram.section()).collect();
-    let others = QUANTITIES.iter().filter(|(_, of, _)| *of != Recorded::Peak);
-    figures.extend(others.filter_map(|(name, of, _)| diagram.values(name, *of)));
+    let values = |of: fn(Recorded) -> bool| {
+        let some = QUANTITIES.iter().filter(move |(_, one, _)| of(*one));
+        some.filter_map(|(name, one, _)| diagram.values(name, *one))
+    };
+    let mut figures: Vec<Figure> = values(|one| one == Recorded::DecayTime).collect();
+    figures.extend(diagram.peaks().into_iter().chain(diagram.section()));
+    figures.extend(values(|one| !matches!(one, Recorded::DecayTime | Recorded::Peak)));
     figures
 }
+
+/// A quantity, and what else a structure could have, as a line beside it.
+type Beside = (Recorded, Recorded, Style, &'static str);
+const BARE: Style = Role::BareOscillator.style();
+const BESIDE: [Beside; 6] = [
+    (Recorded::DecayTime, Recorded::BareDecayTime, BARE, "without absorber"),
+    (Recorded::DecayTime, Recorded::DamperDecayTime, DAMPER, "tuned mass damper"),
+    (Recorded::DecayTime, Recorded::TheoryDecayTime, THEORY, "theory"),
+    (Recorded::Peak, Recorded::BareAmplitude, BARE, "without absorber"),
+    (Recorded::Peak, Recorded::BarePeak, BARE, "without absorber"),
+    (Recorded::Peak, Recorded::DamperPeak, DAMPER, "tuned mass damper"),
+];
 
 struct Diagram<'a> {
     swept: &'a Swept<'a>,
@@ -47,7 +64,7 @@ impl Diagram<'_> {
         }));
         let facts = json!({
             "of": of, "x": self.axis.kind.id, "x_ends": self.axis.ends(),
-            "followed": self.directions.len() > 1,
+            "followed": self.directions.len() > 1, "steady": self.swept.is_steady(),
             "simulated": self.directions.iter().any(|way| self.swept.cells(Recorded::Peak.key(), *way).is_some())
         });
         Some(Figure::new(name, "").with_panel(panel).with_facts(WORDS, facts))
@@ -56,25 +73,37 @@ impl Diagram<'_> {
     /// A quantity of the main motion over the axis.
     fn values(&self, name: &str, of: Recorded) -> Option<Figure> {
         let all = self.swept.in_directions(of);
-        let measure = Measure::of(&self.swept.units(), kind(of)?, all.iter().map(|(_, one)| one));
-        let all = all.iter().flat_map(|(way, values)| self.marks(*way, &measure.shown(values)));
-        self.figure(name, kind(of)?.id, measure.label.clone(), all.collect())
+        let beside = self.beside(of);
+        let columns = all.iter().map(|(_, one)| one).chain(beside.iter().map(|(one, _)| one));
+        let measure = Measure::of(&self.swept.units(), kind(of)?, columns);
+        let mut layers = self.lines(&measure, &beside);
+        layers
+            .extend(all.iter().flat_map(|(way, values)| self.marks(*way, &measure.shown(values))));
+        self.figure(name, kind(of)?.id, measure.label.clone(), layers)
+    }
+
+    fn beside(&self, of: Recorded) -> Vec<(Numbers, Beside)> {
+        let all = BESIDE.into_iter().filter(|one| one.0 == of);
+        all.filter_map(|one| Some((self.swept.numbers(one.1, Direction::Single)?, one))).collect()
+    }
+
+    fn lines(&self, measure: &Measure, beside: &[(Numbers, Beside)]) -> Vec<Layer> {
+        let line = |(values, (.., style, name)): &(Numbers, Beside)| {
+            Layer::curve(*style, self.line(&measure.shown(values))).labelled(*name)
+        };
+        beside.iter().map(line).collect()
     }
 
     /// The peak over the axis, with exact orbit and bare oscillator as lines; a strip of regimes below where the
     /// way up and the way down are both drawn.
     fn peaks(&self) -> Option<Figure> {
         let of = |recorded| self.swept.numbers(recorded, Direction::Single);
-        let [bare, orbit, largest] =
-            [Recorded::BareAmplitude, Recorded::OrbitPeak, Recorded::LargestPeak].map(of);
+        let [orbit, largest] = [Recorded::OrbitPeak, Recorded::LargestPeak].map(of);
+        let beside = self.beside(Recorded::Peak);
         let peaks = self.swept.in_directions(Recorded::Peak);
-        let all = peaks.iter().map(|(_, one)| one).chain(&bare).chain(&orbit);
-        let measure = Measure::of(&self.swept.units(), &PEAK, all);
-        let mut layers = Vec::new();
-        layers.extend(bare.map(|bare| {
-            let line = self.line(&measure.shown(&bare));
-            Layer::curve(Role::BareOscillator, line).labelled("without absorber")
-        }));
+        let all = peaks.iter().map(|(_, one)| one).chain(beside.iter().map(|(one, _)| one));
+        let measure = Measure::of(&self.swept.units(), &PEAK, all.chain(&orbit));
+        let mut layers = self.lines(&measure, &beside);
         if let (Some(largest), [(Direction::Single, main)]) = (largest, peaks.as_slice()) {
             layers.extend(self.others(&measure, &largest, main));
         }

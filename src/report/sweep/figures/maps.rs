@@ -177,7 +177,7 @@ impl Panels<'_> {
         }
         figure.keys.clone_from(&map.keys);
         let facts = json!({
-            "of": map.of, "basin": self.swept.is_basin(), "lines": lines,
+            "of": map.of, "steady": self.swept.is_steady(), "basin": self.swept.is_basin(), "lines": lines,
             "x": self.plane.x.kind.id, "y": self.plane.y.kind.id,
             "x_ends": self.plane.x.ends(), "y_ends": self.plane.y.ends(),
             "cut": map.bar.as_ref().is_some_and(|(_, cut)| *cut),

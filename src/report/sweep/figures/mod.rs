@@ -10,9 +10,13 @@ use crate::case::Recorded;
 use crate::report::figure::{Figure, Ramp};
 
 /// What has a map, or a diagram over one axis, of its own: the figure's name, the quantity, the colours.
-const QUANTITIES: [(&str, Recorded, Ramp); 4] = [
+const QUANTITIES: [(&str, Recorded, Ramp); 8] = [
+    ("sweep-decay-time", Recorded::DecayTime, Ramp::Sequential),
     ("sweep-reduction", Recorded::ReductionDb, Ramp::Diverging),
     ("sweep-amplitude", Recorded::Peak, Ramp::Sequential),
+    ("sweep-reduction-tmd", Recorded::ReductionDbTmd, Ramp::Diverging),
+    ("sweep-peak-frequency", Recorded::PeakFrequency, Ramp::Sequential),
+    ("sweep-impacts", Recorded::Impacts, Ramp::Sequential),
     ("sweep-efficiency", Recorded::Efficiency, Ramp::Sequential),
     ("sweep-lyapunov", Recorded::Lyapunov, Ramp::Diverging),
 ];

@@ -7,13 +7,12 @@ use serde_json::Value;
 use crate::case::Case;
 use crate::quantity::{Dimension, catalogue as of};
 use crate::report::document::Scale;
-use crate::report::figure::{Axis, Color, Dash, Figure, Layer, Panel, Role, Rule, Style};
-use crate::report::transient::DAMPER;
+use crate::report::figure::{Axis, Figure, Layer, Panel, Role, Rule};
+use crate::report::transient::{DAMPER, THEORY};
 use crate::transient::{DecayStudy, STEPS};
 
 /// Points of a line: as many as there are pixels.
 const POINTS: usize = 700;
-const THEORY: Style = Style::new(Color::Blue, 2.0, Dash::Dashed);
 
 /// All figures.
 pub fn figures(case: &Case, study: &DecayStudy, facts: &Value) -> Vec<Figure> {
