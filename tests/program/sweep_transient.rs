@@ -309,3 +309,39 @@ fn a_page_of_decays_has_no_regimes() {
         assert_eq!(there, name == "sweep-decay-time", "{name}");
     }
 }
+
+/// A design without units has the same axes, in its own: how far it is let go, how hard it is struck, how fast it is swept.
+#[test]
+fn a_reduced_case_is_swept_as_a_physical_one() {
+    let case = |kind: &str| {
+        format!(
+            "title = \"t\"\nsource = \"s\"\n[reduced]\nmass_ratio = 0.015\ndamping = 0.67\nrestitution = 0.6\n\
+             clearance = 1.0\n{kind}\n[simulation]\nstarts = 3\n"
+        )
+    };
+    let swept_from =
+        "kind = \"sine-sweep\"\nof = \"force\"\nforcing = 2.0\nfrom = 0.95\nto = 1.05\n";
+    let kinds = [
+        ("kind = \"free\"\n", "displacement", "initial_displacement", ["3", "5"], "decay_time"),
+        ("kind = \"impulse\"\n", "impulse", "amplitude", ["3", "5"], "decay_time"),
+        ("kind = \"impulse\"\n", "velocity", "amplitude", ["3", "5"], "decay_time"),
+        (swept_from, "rate", "rate", ["0.0001", "0.0002"], "peak"),
+    ];
+    for (kind, key, axis, values, recorded) in kinds {
+        let folder = folder();
+        let own = |value: &str| case(&format!("{kind}{key} = {value}"));
+        let [first, last] = values;
+        let table = format!(
+            "[sweep]\n{axis} = {{ values = [{first}, {last}] }}\nrecord = [\"{recorded}\"]\n"
+        );
+        let (heads, rows) = swept(folder.path(), &(own(first) + &table));
+        assert_eq!(heads, ["point", axis, recorded]);
+        assert_ne!(rows[0][2], rows[1][2], "{axis}");
+        let id = if recorded == "peak" { "peak_displacement" } else { recorded };
+        for (value, row) in values.iter().zip(&rows) {
+            let found: f64 = row[2].parse().expect("a number");
+            let wanted = simulated(folder.path(), &own(value));
+            assert_eq!(Some(found), wanted[id]["value"].as_f64(), "{key} {value}");
+        }
+    }
+}
