@@ -85,11 +85,6 @@ impl Subject {
         }
     }
 
-    /// Whether it is the largest of something that was seen.
-    pub fn is_largest(self) -> bool {
-        matches!(self, Self::PeakDisplacement | Self::ImpactVelocity | Self::DecayTime)
-    }
-
     /// Whether it compares the largest displacement with another.
     pub fn is_reduction(self) -> bool {
         matches!(self, Self::ReductionDb | Self::ReductionDbTmd)

@@ -40,7 +40,7 @@ Examples:
 pub fn run(arguments: Arguments) -> Result<bool> {
     let OneCase { path, long, .. } = &arguments.one;
     let case = case_file::read(path)?;
-    transient::not_driven(&case, path, "an analysis")?;
+    transient::not_driven(&case, path)?;
     if let Some(done) = transient::analyze(&arguments.one, &case)? {
         return Ok(done);
     }

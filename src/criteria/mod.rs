@@ -14,10 +14,11 @@ use crate::band::simulated::Sampling;
 use crate::band::{Band, Inactive, Rivals, Survey, SurveySettings};
 use crate::case::{Case, Criterion, Relation, Scales, Subject};
 use crate::method::Method;
+use crate::quantity::{ErrorKind, Kind};
 use crate::regimes::Motion;
 
 use scope::Scope;
-pub use transient::{judge_release, judge_sweep, judge_transient};
+pub use transient::{judge_release, judge_sweep, judge_transient, of_records};
 
 /// Distance from a count that still is that count: as regimes are told apart.
 const SAME_COUNT: f64 = 0.01;
@@ -27,6 +28,8 @@ const SAME_COUNT: f64 = 0.01;
 pub struct Judged {
     /// What was asked.
     pub criterion: Criterion,
+    /// The kind of what was found, which says what its error means; none where it is yes or no.
+    pub kind: Option<&'static Kind>,
     /// What was found, in the criterion's unit; none where nothing could be measured.
     pub found: Option<f64>,
     /// How far that may be off by what the deciding layer neglects: the theory's boundaries by its own
@@ -124,13 +127,13 @@ impl Criterion {
         }
     }
 
-    /// Whether the error could turn what holds or not. A largest value may be larger than what was seen of
-    /// it, and not smaller.
-    fn is_open(&self, room: f64, error: f64) -> bool {
+    /// Whether the error could turn what holds or not. The worst value seen may be worse, and not better.
+    fn is_open(&self, room: f64, error: f64, kind: Option<&Kind>) -> bool {
         let within = error > 0.0 && room.abs() <= error;
-        let of_largest = self.subject.is_largest() && self.relation == Relation::AtMost;
-        let of_least = self.subject.is_reduction() && self.relation == Relation::AtLeast;
-        within && (room >= 0.0 || !(of_largest || of_least))
+        let worst = kind.is_some_and(|kind| kind.error == ErrorKind::Bound);
+        let against =
+            if self.subject.is_reduction() { Relation::AtLeast } else { Relation::AtMost };
+        within && (room >= 0.0 || !(worst && self.relation == against))
     }
 
     /// Whether it is the harder to meet, the further the oscillator moves.
@@ -144,16 +147,28 @@ impl Criterion {
 
     /// A value that is known of the whole range, or of a motion that has settled.
     fn judged(&self, found: Option<f64>, error: f64, decided_by: Method) -> Judged {
+        self.judged_as(self.subject.kind(), found, error, decided_by)
+    }
+
+    /// The same of a value of this kind.
+    fn judged_as(
+        &self,
+        kind: Option<&'static Kind>,
+        found: Option<f64>,
+        error: f64,
+        decided_by: Method,
+    ) -> Judged {
         // What is about motions holds if it does so with its error.
         let counts = self.subject.is_of_motions() && self.relation != Relation::Equal;
         let margin = found.map(|found| self.room(found));
         Judged {
             criterion: self.clone(),
+            kind,
             found,
             error,
             margin,
             holds: margin.map(|room| room >= if counts { error } else { 0.0 }),
-            near_limit: margin.is_some_and(|room| self.is_open(room, error)),
+            near_limit: margin.is_some_and(|room| self.is_open(room, error, kind)),
             at: None,
             inactive: None,
             settled: true,

@@ -18,7 +18,7 @@ mod study;
 mod sweep;
 mod theory;
 
-pub use clearance::{Best, best_clearance};
+pub use clearance::{Best, best_clearance, looked_at};
 pub use driven::{DrivenError, Response, follow};
 pub use passage::{ByRate, Jump, SweepStart, SweepStudy};
 pub use record::{Piece, Record, RecordQuantity, Spectrum};
@@ -142,6 +142,12 @@ impl Release {
 /// looks after.
 fn places(count: u64) -> impl ExactSizeIterator<Item = f64> + Clone {
     (0..count as usize).map(move |k| (2 * k + 1) as f64 / count as f64 - 1.0)
+}
+
+/// Starts that count: where `inactive` is false those alone in which the absorber hits a wall, unless it never does.
+fn counted<T>(starts: &[T], inactive: bool, impacts: impl Fn(&T) -> u64) -> Vec<&T> {
+    let awake: Vec<&T> = starts.iter().filter(|start| inactive || impacts(start) > 0).collect();
+    if awake.is_empty() { starts.iter().collect() } else { awake }
 }
 
 /// Neighbouring starts whose worst is one value of those that tell how much worse others may be.

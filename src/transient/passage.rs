@@ -4,8 +4,8 @@
 use std::f64::consts::TAU;
 
 use super::linear::swept;
-use super::places;
 use super::sweep::{Passage, SineSweep};
+use super::{counted, places};
 use crate::band::rivals::{TunedMassDamper, bare_amplitude};
 use crate::case::{Case, Scales};
 use crate::executor::{Executor, map};
@@ -13,8 +13,6 @@ use crate::orbits::attracting_orbit;
 use crate::simulation::StartError;
 use crate::system::{State, System};
 
-/// Places of the absorber unless the case says how many.
-const STARTS: u32 = 16;
 /// Rates over the case's own.
 pub const RATES: [f64; 5] = [0.25, 0.5, 1.0, 2.0, 4.0];
 /// Frequencies at which steady motions are known.
@@ -69,6 +67,9 @@ pub struct SweepStudy {
 }
 
 impl SweepStudy {
+    /// Places of the absorber unless the case says how many.
+    pub const STARTS: u32 = 16;
+
     /// Studies a case that is swept; none for another.
     ///
     /// # Errors
@@ -76,15 +77,24 @@ impl SweepStudy {
     pub fn of_case(case: &Case, executor: &dyn Executor) -> Option<Result<Self, StartError>> {
         let sweep = case.design.sine_sweep()?;
         let starts = case.simulation.starts.and_then(|starts| u32::try_from(starts).ok());
-        let counted = |passage: &Passage| case.count_inactive || passage.impacts > 0;
-        Some(Self::of(case, &sweep, starts.unwrap_or(STARTS), &counted, executor))
+        Some(Self::of(case, &sweep, starts.unwrap_or(Self::STARTS), executor))
+    }
+
+    /// From rest, the absorber at a relative displacement `w`.
+    pub(super) fn start(
+        system: &System,
+        scales: &Scales,
+        sweep: &SineSweep,
+        w: f64,
+    ) -> Result<SweepStart, StartError> {
+        let start = State { y: -w, ..State::AT_REST };
+        Passage::follow(system, scales, sweep, start).map(|found| (w, found))
     }
 
     fn of(
         case: &Case,
         sweep: &SineSweep,
         starts: u32,
-        counted: &dyn Fn(&Passage) -> bool,
         executor: &dyn Executor,
     ) -> Result<Self, StartError> {
         let (system, scales) = (case.system(), case.scales());
@@ -96,19 +106,14 @@ impl SweepStudy {
             .collect();
         let all: Vec<SineSweep> = [sweep.reversed()].into_iter().chain(rates.clone()).collect();
         let at: Vec<f64> = places(starts.into()).collect();
-        let passage = |k: usize| {
-            let (n, w) = (k / at.len(), at[k % at.len()]);
-            let start = State { y: -w, ..State::AT_REST };
-            let found = Passage::follow(&system, &scales, &all[n], start)?;
-            Ok((w, found))
-        };
+        let passage =
+            |k: usize| Self::start(&system, &scales, &all[k / at.len()], at[k % at.len()]);
         let flown = map(executor, "passages", all.len() * starts as usize, passage);
         let flown = flown.into_iter().collect::<Result<Vec<SweepStart>, StartError>>()?;
-        // Starts that do not count are left out, unless there are no others.
         let of = |n: usize| {
             let all = &flown[n * starts as usize..(n + 1) * starts as usize];
-            let none = !all.iter().any(|one| counted(&one.1));
-            all.iter().filter(|one| none || counted(&one.1)).cloned().collect::<Vec<SweepStart>>()
+            let counted = counted(all, case.count_inactive, |(_, found)| found.impacts);
+            counted.into_iter().cloned().collect::<Vec<SweepStart>>()
         };
         let damper = TunedMassDamper::den_hartog(system.mass_ratio());
         let linear = |damper: Option<&TunedMassDamper>, sweep: &SineSweep| {
