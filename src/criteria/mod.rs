@@ -14,7 +14,6 @@ use crate::band::simulated::Sampling;
 use crate::band::{Band, Inactive, Rivals, Survey, SurveySettings};
 use crate::case::{Case, Criterion, Relation, Scales, Subject};
 use crate::method::Method;
-use crate::quantity::{ErrorKind, Kind};
 use crate::regimes::Motion;
 
 use scope::Scope;
@@ -28,8 +27,8 @@ const SAME_COUNT: f64 = 0.01;
 pub struct Judged {
     /// What was asked.
     pub criterion: Criterion,
-    /// The kind of what was found, which says what its error means; none where it is yes or no.
-    pub kind: Option<&'static Kind>,
+    /// Records that it is about; 0 where none drives the structure.
+    pub records: usize,
     /// What was found, in the criterion's unit; none where nothing could be measured.
     pub found: Option<f64>,
     /// How far that may be off by what the deciding layer neglects: the theory's boundaries by its own
@@ -128,9 +127,9 @@ impl Criterion {
     }
 
     /// Whether the error could turn what holds or not. The worst value seen may be worse, and not better.
-    fn is_open(&self, room: f64, error: f64, kind: Option<&Kind>) -> bool {
+    fn is_open(&self, room: f64, error: f64, records: usize) -> bool {
         let within = error > 0.0 && room.abs() <= error;
-        let worst = kind.is_some_and(|kind| kind.error == ErrorKind::Bound);
+        let worst = self.subject.is_worst(records);
         let against =
             if self.subject.is_reduction() { Relation::AtLeast } else { Relation::AtMost };
         within && (room >= 0.0 || !(worst && self.relation == against))
@@ -147,13 +146,13 @@ impl Criterion {
 
     /// A value that is known of the whole range, or of a motion that has settled.
     fn judged(&self, found: Option<f64>, error: f64, decided_by: Method) -> Judged {
-        self.judged_as(self.subject.kind(), found, error, decided_by)
+        self.judged_under(0, found, error, decided_by)
     }
 
-    /// The same of a value of this kind.
-    fn judged_as(
+    /// The same under so many records.
+    fn judged_under(
         &self,
-        kind: Option<&'static Kind>,
+        records: usize,
         found: Option<f64>,
         error: f64,
         decided_by: Method,
@@ -163,12 +162,12 @@ impl Criterion {
         let margin = found.map(|found| self.room(found));
         Judged {
             criterion: self.clone(),
-            kind,
+            records,
             found,
             error,
             margin,
             holds: margin.map(|room| room >= if counts { error } else { 0.0 }),
-            near_limit: margin.is_some_and(|room| self.is_open(room, error, kind)),
+            near_limit: margin.is_some_and(|room| self.is_open(room, error, records)),
             at: None,
             inactive: None,
             settled: true,

@@ -7,7 +7,6 @@ use super::Judged;
 use crate::band::rivals::reduction_db;
 use crate::case::{Case, Criterion, Scales, Subject};
 use crate::method::Method;
-use crate::quantity::{Quantity, catalogue as of};
 use crate::transient::{
     Decay, DecayStudy, Measured, RecordStudy, Study, SweepStart, SweepStudy, awake, worst_of_places,
 };
@@ -73,34 +72,25 @@ pub fn judge_sweep(case: &Case, study: &SweepStudy) -> Vec<Judged> {
 /// Those of one that a record drives.
 fn judge_record(case: &Case, study: &RecordStudy) -> Vec<Judged> {
     let scales = case.scales();
+    let records = study.realisations.len();
     let judge = |criterion: &Criterion| {
-        let Quantity { kind, value, error, method } = of_records(&scales, study, criterion.subject);
-        criterion.judged_as(Some(kind), Some(value), error, method)
+        let [value, error] = of_records(&scales, study, criterion.subject);
+        criterion.judged_under(records, Some(value), error, Method::Simulation)
     };
     case.criteria.iter().map(judge).collect()
 }
 
-/// What becomes of a subject under one record, as a bound, or the mean of several.
-pub fn of_records(scales: &Scales, study: &RecordStudy, subject: Subject) -> Quantity {
+/// What becomes of a subject from the worst place of the absorber: of one record with how much worse others may be, of
+/// several the mean with two standard errors.
+pub fn of_records(scales: &Scales, study: &RecordStudy, subject: Subject) -> Measured {
     let length = |value: Measured| value.map(|one| scales.length(one));
-    let speed = |value: Measured| value.map(|one| scales.velocity(one));
-    let (kinds, [value, error]) = match subject {
-        Subject::RmsDisplacement => {
-            ([&of::LARGEST_RMS, &of::RMS], length(study.worst(|_, place| place.rms)))
+    match subject {
+        Subject::RmsDisplacement => length(study.worst(|_, place| place.rms)),
+        Subject::ImpactVelocity => {
+            study.worst(|_, place| place.impact_speed).map(|speed| scales.velocity(speed))
         }
-        Subject::ImpactVelocity => (
-            [&of::IMPACT_SPEED, &of::MEAN_IMPACT_SPEED],
-            speed(study.worst(|_, place| place.impact_speed)),
-        ),
-        Subject::ReductionDb => {
-            ([&of::REDUCTION_DB, &of::MEAN_REDUCTION_DB], study.reduction_db(|one| one.bare.peak))
-        }
-        Subject::ReductionDbTmd => (
-            [&of::REDUCTION_DB_TMD, &of::MEAN_REDUCTION_DB_TMD],
-            study.reduction_db(|one| one.damped.peak),
-        ),
-        _ => ([&of::PEAK, &of::MEAN_PEAK], length(study.worst(|_, place| place.peak))),
-    };
-    let kind = kinds[usize::from(study.realisations.len() > 1)];
-    Quantity::new(kind, value, Method::Simulation).with_error(error)
+        Subject::ReductionDb => study.reduction_db(|one| one.bare.peak),
+        Subject::ReductionDbTmd => study.reduction_db(|one| one.damped.peak),
+        _ => length(study.worst(|_, place| place.peak)),
+    }
 }

@@ -72,7 +72,7 @@ pub fn criterion(case: &Case, judged: &Judged) -> Value {
             (_, Relation::Equal) => "equal",
         },
         "limit": kind.map(|kind| Quantity::new(kind, *limit, Method::Given)),
-        "found": judged.found.zip(judged.kind).map(|(value, kind)| {
+        "found": judged.found.zip(subject.kind_under(judged.records)).map(|(value, kind)| {
             Quantity::new(kind, value, judged.decided_by).with_error(error)
         }),
         // For one without a number.

@@ -41,7 +41,7 @@ pub fn optimum(case: &Case, best: &Best, written: &Value) -> Value {
         "claimed": simulated(best.claimed),
         // From so many other places of the absorber.
         "checked": simulated(best.checked),
-        "places": looked_at(1)[1][1],
+        "places": looked_at(1)[2][1],
         "records": records,
         "feasible": written["criteria"].is_null() || written["criteria"]["failing"] == 0,
         "clearance": clearance(best.design.clearance()),

@@ -28,8 +28,8 @@ pub(super) fn add(case: &Case, study: &RecordStudy, facts: &mut Value) {
             "impact_speed": scale.velocity(&of::IMPACT_SPEED, [found.impact_speed, 0.0], Method::Simulation),
         })
     };
-    for (name, subject) in TOLD {
-        facts[name] = json!(of_records(&case.scales(), study, subject));
+    for (name, told) in told(case, study) {
+        facts[name] = json!(told);
     }
     facts["records"] = study.realisations.len().into();
     // Under the first record.
@@ -74,6 +74,17 @@ const TOLD: [(&str, Subject); 5] = [
     ("reduction_db_tmd", Subject::ReductionDbTmd),
 ];
 
+fn told<'a>(
+    case: &'a Case,
+    study: &'a RecordStudy,
+) -> impl Iterator<Item = (&'static str, Quantity)> + 'a {
+    TOLD.into_iter().filter_map(|(name, subject)| {
+        let kind = subject.kind_under(study.realisations.len())?;
+        let [value, error] = of_records(&case.scales(), study, subject);
+        Some((name, Quantity::new(kind, value, Method::Simulation).with_error(error)))
+    })
+}
+
 pub(super) fn quantities(case: &Case, study: &RecordStudy) -> Vec<Quantity> {
     let scale = Scale::of(case);
     let given = |kind, value| Quantity::new(kind, value, Method::Given);
@@ -82,8 +93,7 @@ pub(super) fn quantities(case: &Case, study: &RecordStudy) -> Vec<Quantity> {
         |kind: &'static Kind, value: Measured, method| scale.length_with(kind, value, method);
     let plain = |kind: &'static Kind, value| Quantity::new(kind, value, simulated);
     let shown = study.shown().map(|(_, worst)| worst);
-    let told = TOLD.iter().map(|(_, subject)| of_records(&case.scales(), study, *subject));
-    let mut all: Vec<Quantity> = told.collect();
+    let mut all: Vec<Quantity> = told(case, study).map(|(_, told)| told).collect();
     all.extend([
         length(&of::BARE_PEAK, study.mean(|one| one.bare.peak), exact),
         length(&of::BARE_RMS, study.mean(|one| one.bare.rms), exact),
