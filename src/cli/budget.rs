@@ -108,30 +108,26 @@ impl Work {
         Self::alone(case, vec![(1, "trajectory")], periods)
     }
 
-    /// What a case needs that is swept or that records drive; nothing for another. A sweep is flown both ways, and at
-    /// a quarter to four times the rate, nine times as long as one; a record for other structures as well.
-    pub fn transient(case: &Case) -> Vec<Self> {
-        let Some((records, periods)) = flown(case) else { return Vec::new() };
-        let starts = case.simulation.starts;
-        if records == 0 {
-            let starts = starts.unwrap_or(SweepStudy::STARTS.into());
-            return vec![Self::alone(case, vec![(9, "sweeps"), (starts, "starts")], periods)];
-        }
-        let starts = starts.unwrap_or(RecordStudy::usual_places(records as usize).into());
-        vec![
-            Self::alone(case, vec![(starts, "starts")], periods),
-            Self::alone(
-                case,
-                vec![(RecordStudy::FLIGHTS_OF_SPECTRUM, "flights of a spectrum")],
-                periods / records,
-            ),
-        ]
+    /// What a case needs that is swept or that records drive; none for another. A sweep is flown both ways, and at a
+    /// quarter to four times the rate, nine times as long as one; some records for other structures as well.
+    pub fn transient(case: &Case) -> Option<Self> {
+        let (records, periods) = flown(case)?;
+        let given = case.simulation.starts;
+        let factors = match records {
+            0 => vec![(9, "sweeps"), (given.unwrap_or(SweepStudy::STARTS.into()), "starts")],
+            _ => {
+                let usual = RecordStudy::usual_places(records).into();
+                let spectrum = RecordStudy::FLIGHTS_OF_SPECTRUM / records as u64;
+                vec![(given.unwrap_or(usual) + spectrum, "flights")]
+            }
+        };
+        Some(Self::alone(case, factors, periods))
     }
 
     /// The search for the best clearance of such a case, and the study of the one that is found.
     pub fn clearances(case: &Case) -> Vec<Self> {
         let Some((records, periods)) = flown(case) else { return Vec::new() };
-        let each = looked_at(records as usize).map(|[clearances, starts]| {
+        let each = looked_at(records).map(|[clearances, starts]| {
             let factors = vec![(clearances.into(), "clearances"), (starts.into(), "starts")];
             Self::alone(case, factors, periods)
         });
@@ -208,13 +204,13 @@ impl Work {
 
 /// Records that drive a case, none where it is swept, and what is flown from one place of the absorber: periods of the
 /// sweep, pieces of all records.
-fn flown(case: &Case) -> Option<(u64, u64)> {
+fn flown(case: &Case) -> Option<(usize, u64)> {
     if let Some(sweep) = case.design.sine_sweep() {
         return Some((0, sweep.count()));
     }
     let records = case.recording.as_ref()?.records();
     let pieces = records.iter().map(|record| record.count(&case.scales())).sum();
-    Some((records.len().max(1) as u64, pieces))
+    Some((records.len().max(1), pieces))
 }
 
 /// Oscillations of the structure in an excitation period, or 1 where it has less.

@@ -28,14 +28,6 @@ pub fn steady(case: &Case, path: &Path, what: &str) -> Result<()> {
     }
 }
 
-/// Refuses a case that is swept or that a record drives, for which an analysis has no answer.
-pub fn not_driven(case: &Case, path: &Path) -> Result<()> {
-    match case.design.scene() {
-        Scene::Steady | Scene::Release => Ok(()),
-        _ => steady(case, path, "an analysis"),
-    }
-}
-
 /// Refuses options that are about steady vibration for a case that is not, by their names where they were given.
 pub fn without(case: &Case, path: &Path, given: &[(&str, bool)]) -> Result<()> {
     let option = given.iter().find(|(_, given)| *given);
@@ -52,7 +44,7 @@ pub fn without(case: &Case, path: &Path, given: &[(&str, bool)]) -> Result<()> {
 
 /// The study of a case that is not driven steadily, unless it would take far too long; none for another.
 fn studied(case: &Case, path: &Path, long: Long) -> Result<Option<Study>> {
-    long.allows(path, case, &Work::transient(case))?;
+    long.allows(path, case, &Vec::from_iter(Work::transient(case)))?;
     Study::of_case(case, &Parallel).transpose().into_diagnostic()
 }
 
@@ -85,11 +77,6 @@ pub fn report(case: &Case, path: &Path, name: &str, long: Long) -> Result<Option
     page::files(name, case, &study, &judged).into_diagnostic().map(Some)
 }
 
-/// How the best clearance is rounded when it is written. With a larger one a released structure may leave an absorber
-/// where no wall reaches it; and in a sweep, or under a record, the absorber is lost: the displacement falls slowly with
-/// the clearance and then rises to that of the structure alone, in `cases/sweep-slow.toml` by a quarter from 14.6 mm on.
-const ROUNDING: Rounding = Rounding::Down;
-
 /// The clearance that serves it best, written into a new file where that is asked for.
 pub fn optimize(
     one: &OneCase,
@@ -100,7 +87,9 @@ pub fn optimize(
     one.long.allows(&one.path, case, &Work::clearances(case))?;
     let Some(best) = best_clearance(case, &Parallel) else { return Ok(None) };
     let name = one.path.display().to_string();
-    let written = case.rewritten(&name, text, &best.design, ROUNDING).into_diagnostic()?;
+    // A larger one might leave the absorber of a released structure where no wall reaches it; and in a sweep, or under a
+    // record, the absorber is lost above the best, where the displacement rises to that of the structure alone.
+    let written = case.rewritten(&name, text, &best.design, Rounding::Down).into_diagnostic()?;
     let Some(study) = studied(&written.case, &one.path, one.long)? else { return Ok(None) };
     let judged = criteria::judge_transient(&written.case, &study);
     let name = case_file::name(&one.path)?;

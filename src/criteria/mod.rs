@@ -146,33 +146,30 @@ impl Criterion {
 
     /// A value that is known of the whole range, or of a motion that has settled.
     fn judged(&self, found: Option<f64>, error: f64, decided_by: Method) -> Judged {
-        self.judged_under(0, found, error, decided_by)
-    }
-
-    /// The same under so many records.
-    fn judged_under(
-        &self,
-        records: usize,
-        found: Option<f64>,
-        error: f64,
-        decided_by: Method,
-    ) -> Judged {
         // What is about motions holds if it does so with its error.
         let counts = self.subject.is_of_motions() && self.relation != Relation::Equal;
         let margin = found.map(|found| self.room(found));
         Judged {
             criterion: self.clone(),
-            records,
+            records: 0,
             found,
             error,
             margin,
             holds: margin.map(|room| room >= if counts { error } else { 0.0 }),
-            near_limit: margin.is_some_and(|room| self.is_open(room, error, records)),
+            near_limit: margin.is_some_and(|room| self.is_open(room, error, 0)),
             at: None,
             inactive: None,
             settled: true,
             decided_by,
         }
+    }
+}
+
+impl Judged {
+    /// The same of a value under so many records, whose error may mean something else.
+    fn under(self, records: usize) -> Self {
+        let open = |room| self.criterion.is_open(room, self.error, records);
+        Self { records, near_limit: self.margin.is_some_and(open), ..self }
     }
 }
 

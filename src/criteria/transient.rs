@@ -75,7 +75,7 @@ fn judge_record(case: &Case, study: &RecordStudy) -> Vec<Judged> {
     let records = study.realisations.len();
     let judge = |criterion: &Criterion| {
         let [value, error] = of_records(&scales, study, criterion.subject);
-        criterion.judged_under(records, Some(value), error, Method::Simulation)
+        criterion.judged(Some(value), error, Method::Simulation).under(records)
     };
     case.criteria.iter().map(judge).collect()
 }

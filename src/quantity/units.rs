@@ -405,5 +405,7 @@ mod tests {
         assert_eq!(units.with_error(&of::PEAK, 0.1223, 1e-6, digits), "122 mm");
         let level = |error: f64| units.with_error(&of::CHANGE_DB, 1.98, error, Digits::Decimals(1));
         assert_eq!([0.002, 2.04].map(level), ["+2.0 dB", "+2.0 ± 2.0 dB"]);
+        let least = units.with_error(&of::REDUCTION_DB, 2.0, 0.8, Digits::Decimals(1));
+        assert_eq!(least, "+2.0 dB (\u{2212}0.8 dB)");
     }
 }

@@ -7,12 +7,12 @@ use std::f64::consts::TAU;
 use super::record_study::over_records;
 use super::study::{awake, bare};
 use super::{
-    DecayStudy, Measured, Record, RecordStudy, Release, Response, SineSweep, SweepStart,
-    SweepStudy, Transient, counted, follow, places, worst_of_places,
+    DecayStudy, Measured, Passage, Record, RecordStudy, Release, Response, SineSweep, Transient,
+    counted, follow, places, worst_of_places,
 };
 use crate::case::{Case, Design, Recording};
 use crate::executor::{Executor, map};
-use crate::system::Parameter;
+use crate::system::{Parameter, State};
 
 /// Clearances of a round, rounds, and the releases looked at where there is a range of them.
 const PLACES: u32 = 32;
@@ -26,10 +26,9 @@ const CHECKED_STARTS: u32 = 50;
 /// Bounds where the case has none, over its own clearance.
 const CLEARANCES: [f64; 2] = [0.2, 5.0];
 
-/// The best clearance that was found. What it is chosen by, in SI or the units of a reduced case, the smaller the
-/// better: the time to come to rest of the slowest release, or the largest displacement, mean over records; from the
-/// worst place of the absorber, with how much worse others may be or the error of the mean. Infinite where a
-/// structure does not come to rest, or its motion cannot be followed.
+/// The best clearance that was found. Values are in SI, from the worst place of the absorber, with how much worse others
+/// may be: the time to come to rest of the slowest release, or the largest displacement, mean over records; infinite
+/// where a structure does not come to rest, or cannot be followed.
 #[derive(Debug, Clone)]
 pub struct Best {
     /// The design with it.
@@ -133,10 +132,11 @@ fn slowest(case: &Case, release: &Release, design: &Design, starts: u32) -> Opti
 /// Largest displacement of the passage from the worst start.
 fn swept(case: &Case, sweep: &SineSweep, design: &Design, starts: u32) -> Option<Measured> {
     let (system, scales) = (design.system().ok()?, design.scales());
-    let start = |w| SweepStudy::start(&system, &scales, sweep, w).ok();
-    let found = places(starts.into()).map(start).collect::<Option<Vec<SweepStart>>>()?;
-    let counted = counted(&found, case.count_inactive, |(_, found)| found.impacts);
-    let peaks: Vec<f64> = counted.iter().map(|(_, found)| found.peak()[1]).collect();
+    let start =
+        |w: f64| Passage::follow(&system, &scales, sweep, State { y: -w, ..State::AT_REST }).ok();
+    let found = places(starts.into()).map(start).collect::<Option<Vec<Passage>>>()?;
+    let counted = counted(&found, case.count_inactive, |found| found.impacts);
+    let peaks: Vec<f64> = counted.iter().map(|found| found.peak()[1]).collect();
     Some(worst_of_places(&peaks).map(|peak| scales.length(peak)))
 }
 

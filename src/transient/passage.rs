@@ -80,17 +80,6 @@ impl SweepStudy {
         Some(Self::of(case, &sweep, starts.unwrap_or(Self::STARTS), executor))
     }
 
-    /// From rest, the absorber at a relative displacement `w`.
-    pub(super) fn start(
-        system: &System,
-        scales: &Scales,
-        sweep: &SineSweep,
-        w: f64,
-    ) -> Result<SweepStart, StartError> {
-        let start = State { y: -w, ..State::AT_REST };
-        Passage::follow(system, scales, sweep, start).map(|found| (w, found))
-    }
-
     fn of(
         case: &Case,
         sweep: &SineSweep,
@@ -106,8 +95,11 @@ impl SweepStudy {
             .collect();
         let all: Vec<SineSweep> = [sweep.reversed()].into_iter().chain(rates.clone()).collect();
         let at: Vec<f64> = places(starts.into()).collect();
-        let passage =
-            |k: usize| Self::start(&system, &scales, &all[k / at.len()], at[k % at.len()]);
+        let passage = |k: usize| {
+            let (n, w) = (k / at.len(), at[k % at.len()]);
+            let start = State { y: -w, ..State::AT_REST };
+            Ok((w, Passage::follow(&system, &scales, &all[n], start)?))
+        };
         let flown = map(executor, "passages", all.len() * starts as usize, passage);
         let flown = flown.into_iter().collect::<Result<Vec<SweepStart>, StartError>>()?;
         let of = |n: usize| {
