@@ -12,7 +12,7 @@ use super::schema::add_names;
 use super::value::Place;
 use crate::names::names;
 use crate::quantity::catalogue as of;
-use crate::quantity::{Dimension, Kind};
+use crate::quantity::{Dimension, ErrorKind, Kind};
 use crate::transient::Scene;
 
 names! { key:
@@ -85,11 +85,6 @@ impl Subject {
         }
     }
 
-    /// Whether it is the largest of something that was seen.
-    pub fn is_largest(self) -> bool {
-        matches!(self, Self::PeakDisplacement | Self::ImpactVelocity | Self::DecayTime)
-    }
-
     /// Whether it compares the largest displacement with another.
     pub fn is_reduction(self) -> bool {
         matches!(self, Self::ReductionDb | Self::ReductionDbTmd)
@@ -110,6 +105,23 @@ impl Subject {
             Self::DecayTime => &of::DECAY_TIME,
             Self::NoCoexistence => return None,
         })
+    }
+
+    /// The same under so many records: of one the worst place of the absorber decides, of several the mean.
+    pub fn kind_under(self, records: usize) -> Option<&'static Kind> {
+        Some(match (self, records) {
+            (Self::RmsDisplacement, 1) => &of::LARGEST_RMS,
+            (Self::PeakDisplacement, 2..) => &of::MEAN_PEAK,
+            (Self::ReductionDb, 2..) => &of::MEAN_REDUCTION_DB,
+            (Self::ReductionDbTmd, 2..) => &of::MEAN_REDUCTION_DB_TMD,
+            (Self::ImpactVelocity, 2..) => &of::MEAN_IMPACT_SPEED,
+            _ => return self.kind(),
+        })
+    }
+
+    /// Whether it is then the worst of what was seen, which may be worse and not better.
+    pub fn is_worst(self, records: usize) -> bool {
+        self.kind_under(records).is_some_and(|kind| kind.error == ErrorKind::Bound)
     }
 }
 

@@ -190,8 +190,8 @@ fn one_design() -> Value {
     ])
 }
 
-/// Tables that are about steady vibration alone; the first about released structures as well.
-const STEADY_TABLES: [&str; 5] = ["optimize", "accuracy", "band", "report", "uncertainty"];
+/// Tables that are about steady vibration alone.
+const STEADY_TABLES: [&str; 4] = ["accuracy", "band", "report", "uncertainty"];
 
 const STARTING_CASE: &str = include_str!("starting_case.toml");
 
@@ -332,20 +332,13 @@ fn read(reader: &mut Reader, document: &DeTable, text_hash: String) -> Option<Ca
 
 /// Reports what a case says of steady vibration where its structure is not driven steadily.
 fn refuse_steady(reader: &mut Reader, root: &Table, scene: Scene) {
-    let tables: &[&str] = match scene {
-        Scene::Steady => return,
-        Scene::Release => &STEADY_TABLES[1..],
-        Scene::Sweep | Scene::Record => &STEADY_TABLES,
-    };
-    for name in tables.iter().filter(|name| root.has(name)) {
+    if scene == Scene::Steady {
+        return;
+    }
+    for name in STEADY_TABLES.iter().filter(|name| root.has(name)) {
         let message = format!("[{name}] has no meaning for a structure that is {}", scene.words());
         let expected = "expected tables that are about what it does then";
-        let help = match *name {
-            "optimize" => {
-                "remove the table: the best clearance is looked for by hand, with `check`"
-            }
-            _ => "remove the table: it is about steady vibration",
-        };
+        let help = "remove the table: it is about steady vibration";
         reader.report(root.span_of(name), message, expected, help);
     }
     let Some(simulation) = root.value("simulation") else { return };

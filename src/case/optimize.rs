@@ -8,6 +8,7 @@ use super::Design;
 use super::reader::{Reader, Table};
 use super::schema::in_design;
 use crate::names::names;
+use crate::transient::Scene;
 
 names! { name:
     /// What a design is chosen for, over the case's band if it has one.
@@ -29,7 +30,9 @@ names! { name:
 #[derive(Debug, Clone, Copy, Default, PartialEq, Deserialize, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub struct OptimizeSettings {
-    /// What is looked for; the largest share of the band in area Z3 unless given.
+    /// What is looked for; the largest share of the band in area Z3 unless given. Not for a structure that is not
+    /// driven steadily: released or struck it shall come to rest first, swept or driven by a record it shall have the
+    /// smallest largest displacement.
     pub objective: Option<Objective>,
     /// Bounds of the clearance; a fifth to five times the case's own unless given. Plain numbers
     /// beside [reduced].
@@ -37,7 +40,7 @@ pub struct OptimizeSettings {
     #[schemars(extend("items" = in_design("clearance")), example = vec!["5 mm", "40 mm"])]
     pub clearance: Option<[f64; 2]>,
     /// Releases that the clearance must serve, over the case's own: from a weaker to a stronger one; the case's own
-    /// alone unless given.
+    /// alone unless given. For a structure that is released or struck alone.
     #[schemars(extend("items" = { "type": "number", "exclusiveMinimum": 0 }, "x-ascending" = true))]
     #[schemars(example = vec![0.5, 2.0])]
     pub releases: Option<[f64; 2]>,
@@ -64,14 +67,17 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> OptimizeSettings {
             "remove the line, or describe the design in physical units",
         );
     }
-    let released = reader.design.is_some_and(|design| design.release().is_some());
-    let other: &[&str] =
-        if released { &["objective", "restitution", "mass"] } else { &["releases"] };
+    let scene = reader.design.map_or(Scene::Steady, |design| design.scene());
+    let other: &[&str] = match scene {
+        Scene::Steady => &["releases"],
+        Scene::Release => &["objective", "restitution", "mass"],
+        Scene::Sweep | Scene::Record => &["objective", "restitution", "mass", "releases"],
+    };
     for key in other.iter().filter(|key| table.has(key)) {
-        let what = if released { "released or struck" } else { "driven steadily" };
+        let words = scene.words();
         let message =
-            format!("`{key}` has no meaning in [optimize] for a structure that is {what}");
-        let help = "a released structure has one objective, to come to rest first, and one choice, the clearance";
+            format!("`{key}` has no meaning in [optimize] for a structure that is {words}");
+        let help = "where nothing drives a structure steadily the clearance alone is chosen: that with which it comes to rest first where it is released, else the one with the smallest largest displacement";
         reader.report(table.span_of(key), message, "expected other keys", help);
     }
     settings

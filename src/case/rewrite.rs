@@ -109,6 +109,8 @@ impl Case {
             }
         }
         let case = Self::parse(name, &text).map_err(Box::new)?;
+        // What drives it has not changed, nor what its record holds.
+        let case = Self { recording: self.recording.clone(), ..case };
         Ok(Rewritten { text, case })
     }
 }

@@ -40,10 +40,10 @@ Examples:
 pub fn run(arguments: Arguments) -> Result<bool> {
     let OneCase { path, long, .. } = &arguments.one;
     let case = case_file::read(path)?;
-    transient::not_driven(&case, path, "an analysis")?;
     if let Some(done) = transient::analyze(&arguments.one, &case)? {
         return Ok(done);
     }
+    transient::steady(&case, path, "an analysis")?;
     let plan = case_file::plan(&case, arguments.fidelity)?;
     let theory = Work::trajectory(&case, ANALYSIS);
     let progress = Progress::estimated("analysis", theory.seconds());

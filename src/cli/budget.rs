@@ -12,6 +12,7 @@ use vinesink::regimes::Transient;
 use vinesink::study::StudyEffort;
 use vinesink::sweep::{Plan, Point};
 use vinesink::system::System;
+use vinesink::transient::{RecordStudy, SweepStudy, looked_at};
 
 use super::progress::duration;
 
@@ -107,17 +108,30 @@ impl Work {
         Self::alone(case, vec![(1, "trajectory")], periods)
     }
 
-    /// What a case needs that is not driven steadily; none for another. A sweep is flown both ways, and at a quarter
-    /// to four times the rate, nine times as long as one; pieces of a record are so short that one takes two flights.
+    /// What a case needs that is swept or that records drive; none for another. A sweep is flown both ways, and at a
+    /// quarter to four times the rate, nine times as long as one; some records for other structures as well.
     pub fn transient(case: &Case) -> Option<Self> {
-        let usual = case.design.transient()?.places(case.recording.as_ref()).into();
-        let starts = (case.simulation.starts.unwrap_or(usual), "starts");
-        if let Some(sweep) = case.design.sine_sweep() {
-            return Some(Self::alone(case, vec![(9, "sweeps"), starts], sweep.count()));
-        }
-        let records = case.recording.as_ref()?.records();
-        let pieces = records.iter().map(|record| record.count(&case.scales())).sum::<u64>();
-        Some(Self::alone(case, vec![(2, "flights"), starts], pieces))
+        let (records, periods) = flown(case)?;
+        let given = case.simulation.starts;
+        let factors = match records {
+            0 => vec![(9, "sweeps"), (given.unwrap_or(SweepStudy::STARTS.into()), "starts")],
+            _ => {
+                let usual = RecordStudy::usual_places(records).into();
+                let spectrum = RecordStudy::FLIGHTS_OF_SPECTRUM / records as u64;
+                vec![(given.unwrap_or(usual) + spectrum, "flights")]
+            }
+        };
+        Some(Self::alone(case, factors, periods))
+    }
+
+    /// The search for the best clearance of such a case, and the study of the one that is found.
+    pub fn clearances(case: &Case) -> Vec<Self> {
+        let Some((records, periods)) = flown(case) else { return Vec::new() };
+        let each = looked_at(records).map(|[clearances, starts]| {
+            let factors = vec![(clearances.into(), "clearances"), (starts.into(), "starts")];
+            Self::alone(case, factors, periods)
+        });
+        each.into_iter().chain(Self::transient(case)).collect()
     }
 
     /// A case's criteria, over its band if it has one.
@@ -195,6 +209,17 @@ impl Work {
     }
 }
 
+/// Records that drive a case, none where it is swept, and what is flown from one place of the absorber: periods of the
+/// sweep, pieces of all records.
+fn flown(case: &Case) -> Option<(usize, u64)> {
+    if let Some(sweep) = case.design.sine_sweep() {
+        return Some((0, sweep.count()));
+    }
+    let records = case.recording.as_ref()?.records();
+    let pieces = records.iter().map(|record| record.count(&case.scales())).sum();
+    Some((records.len().max(1), pieces))
+}
+
 /// Oscillations of the structure in an excitation period, or 1 where it has less.
 fn oscillations(system: &System) -> f64 {
     (1.0 / system.frequency_ratio()).max(1.0)
@@ -227,9 +252,10 @@ mod tests {
     fn all(case: &Case) -> [f64; 4] {
         let motions = seconds(&Work::motions(case, &StudyEffort::of(&case.simulation)));
         let report = motions + seconds(&[Work::criteria(case), Work::figures(case)]);
+        let designs = Work::designs(case).seconds().max(seconds(&Work::clearances(case)));
         let tradeoff = motions + Work::trajectory(case, BEST_ANSWER).seconds();
         let sweep = Plan::of(case).map_or(0.0, |plan| Work::points(&plan).seconds());
-        [report, tradeoff, Work::designs(case).seconds(), sweep]
+        [report, tradeoff, designs, sweep]
     }
 
     /// Nothing that is shipped comes within a factor of three.

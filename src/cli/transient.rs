@@ -28,14 +28,6 @@ pub fn steady(case: &Case, path: &Path, what: &str) -> Result<()> {
     }
 }
 
-/// Refuses a case that is swept or that a record drives where a command has an answer for releases alone.
-pub fn not_driven(case: &Case, path: &Path, what: &str) -> Result<()> {
-    match case.design.scene() {
-        Scene::Steady | Scene::Release => Ok(()),
-        _ => steady(case, path, what),
-    }
-}
-
 /// Refuses options that are about steady vibration for a case that is not, by their names where they were given.
 pub fn without(case: &Case, path: &Path, given: &[(&str, bool)]) -> Result<()> {
     let option = given.iter().find(|(_, given)| *given);
@@ -85,19 +77,24 @@ pub fn report(case: &Case, path: &Path, name: &str, long: Long) -> Result<Option
     page::files(name, case, &study, &judged).into_diagnostic().map(Some)
 }
 
-/// The clearance with which it comes to rest first, written into a new file where that is asked for.
+/// The clearance that serves it best, written into a new file where that is asked for.
 pub fn optimize(
     one: &OneCase,
     case: &Case,
     text: &str,
     new: Option<&Path>,
 ) -> Result<Option<bool>> {
+    one.long.allows(&one.path, case, &Work::clearances(case))?;
     let Some(best) = best_clearance(case, &Parallel) else { return Ok(None) };
     let name = one.path.display().to_string();
-    // A larger one might leave the absorber where no wall reaches it.
+    // A larger one might leave the absorber of a released structure where no wall reaches it; and in a sweep, or under a
+    // record, the absorber is lost above the best, where the displacement rises to that of the structure alone.
     let written = case.rewritten(&name, text, &best.design, Rounding::Down).into_diagnostic()?;
-    let judged = judged(&written.case, &one.path, one.long)?.unwrap_or_default();
-    let document = page::optimum(case, &best, &judged);
+    let Some(study) = studied(&written.case, &one.path, one.long)? else { return Ok(None) };
+    let judged = criteria::judge_transient(&written.case, &study);
+    let name = case_file::name(&one.path)?;
+    let judgement = page::document(&name, &written.case, &study, &judged);
+    let document = page::optimum(case, &best, &judgement);
     one.print(|| page::optimum_text(case, &document), || &document)?;
     let found = document["answer"] == "found";
     if let Some(new) = new.filter(|_| found) {

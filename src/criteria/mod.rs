@@ -17,7 +17,7 @@ use crate::method::Method;
 use crate::regimes::Motion;
 
 use scope::Scope;
-pub use transient::{judge_release, judge_sweep, judge_transient};
+pub use transient::{judge_release, judge_sweep, judge_transient, of_records};
 
 /// Distance from a count that still is that count: as regimes are told apart.
 const SAME_COUNT: f64 = 0.01;
@@ -27,6 +27,8 @@ const SAME_COUNT: f64 = 0.01;
 pub struct Judged {
     /// What was asked.
     pub criterion: Criterion,
+    /// Records that it is about; 0 where none drives the structure.
+    pub records: usize,
     /// What was found, in the criterion's unit; none where nothing could be measured.
     pub found: Option<f64>,
     /// How far that may be off by what the deciding layer neglects: the theory's boundaries by its own
@@ -124,13 +126,13 @@ impl Criterion {
         }
     }
 
-    /// Whether the error could turn what holds or not. A largest value may be larger than what was seen of
-    /// it, and not smaller.
-    fn is_open(&self, room: f64, error: f64) -> bool {
+    /// Whether the error could turn what holds or not. The worst value seen may be worse, and not better.
+    fn is_open(&self, room: f64, error: f64, records: usize) -> bool {
         let within = error > 0.0 && room.abs() <= error;
-        let of_largest = self.subject.is_largest() && self.relation == Relation::AtMost;
-        let of_least = self.subject.is_reduction() && self.relation == Relation::AtLeast;
-        within && (room >= 0.0 || !(of_largest || of_least))
+        let worst = self.subject.is_worst(records);
+        let against =
+            if self.subject.is_reduction() { Relation::AtLeast } else { Relation::AtMost };
+        within && (room >= 0.0 || !(worst && self.relation == against))
     }
 
     /// Whether it is the harder to meet, the further the oscillator moves.
@@ -149,16 +151,25 @@ impl Criterion {
         let margin = found.map(|found| self.room(found));
         Judged {
             criterion: self.clone(),
+            records: 0,
             found,
             error,
             margin,
             holds: margin.map(|room| room >= if counts { error } else { 0.0 }),
-            near_limit: margin.is_some_and(|room| self.is_open(room, error)),
+            near_limit: margin.is_some_and(|room| self.is_open(room, error, 0)),
             at: None,
             inactive: None,
             settled: true,
             decided_by,
         }
+    }
+}
+
+impl Judged {
+    /// The same of a value under so many records, whose error may mean something else.
+    fn under(self, records: usize) -> Self {
+        let open = |room| self.criterion.is_open(room, self.error, records);
+        Self { records, near_limit: self.margin.is_some_and(open), ..self }
     }
 }
 

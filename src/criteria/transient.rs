@@ -5,10 +5,10 @@ use std::f64::consts::TAU;
 
 use super::Judged;
 use crate::band::rivals::reduction_db;
-use crate::case::{Case, Criterion, Subject};
+use crate::case::{Case, Criterion, Scales, Subject};
 use crate::method::Method;
 use crate::transient::{
-    Decay, DecayStudy, RecordStudy, Study, SweepStart, SweepStudy, awake, worst_of_places,
+    Decay, DecayStudy, Measured, RecordStudy, Study, SweepStart, SweepStudy, awake, worst_of_places,
 };
 
 /// Judges every criterion of a case that is not driven steadily.
@@ -72,8 +72,19 @@ pub fn judge_sweep(case: &Case, study: &SweepStudy) -> Vec<Judged> {
 /// Those of one that a record drives.
 fn judge_record(case: &Case, study: &RecordStudy) -> Vec<Judged> {
     let scales = case.scales();
-    let length = |value: [f64; 2]| value.map(|one| scales.length(one));
-    let found = |subject: Subject| match subject {
+    let records = study.realisations.len();
+    let judge = |criterion: &Criterion| {
+        let [value, error] = of_records(&scales, study, criterion.subject);
+        criterion.judged(Some(value), error, Method::Simulation).under(records)
+    };
+    case.criteria.iter().map(judge).collect()
+}
+
+/// What becomes of a subject from the worst place of the absorber: of one record with how much worse others may be, of
+/// several the mean with two standard errors.
+pub fn of_records(scales: &Scales, study: &RecordStudy, subject: Subject) -> Measured {
+    let length = |value: Measured| value.map(|one| scales.length(one));
+    match subject {
         Subject::RmsDisplacement => length(study.worst(|_, place| place.rms)),
         Subject::ImpactVelocity => {
             study.worst(|_, place| place.impact_speed).map(|speed| scales.velocity(speed))
@@ -81,10 +92,5 @@ fn judge_record(case: &Case, study: &RecordStudy) -> Vec<Judged> {
         Subject::ReductionDb => study.reduction_db(|one| one.bare.peak),
         Subject::ReductionDbTmd => study.reduction_db(|one| one.damped.peak),
         _ => length(study.worst(|_, place| place.peak)),
-    };
-    let judge = |criterion: &Criterion| {
-        let [value, error] = found(criterion.subject);
-        criterion.judged(Some(value), error, Method::Simulation)
-    };
-    case.criteria.iter().map(judge).collect()
+    }
 }

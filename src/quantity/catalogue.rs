@@ -76,7 +76,7 @@ pub enum Digits {
 pub enum ErrorKind {
     /// The value of an average: it may be off either way.
     Interval,
-    /// The largest value seen: the true one may be larger by the error.
+    /// The worst value seen: the true one may be worse by the error, a reduction smaller, anything else larger.
     Bound,
 }
 
@@ -164,7 +164,7 @@ catalogue! {
     A1_SHARE = "a1_share", "", "share in strip A1", Share, Significant(3), Interval;
     A2_SHARE = "a2_share", "", "share in strip A2", Share, Significant(3), Interval;
     STABLE_SHARE = "stable_share", "", "share with a stable 1:1 orbit", Share, Significant(3), Interval;
-    REDUCTION_DB = "reduction_db", "", "reduction against the structure without absorber", Level, Decimals(1), Interval;
+    REDUCTION_DB = "reduction_db", "", "reduction against the structure without absorber", Level, Decimals(1), Bound;
     OSCILLATOR_AMPLITUDE_RATIO = "oscillator_amplitude_over_clearance", "C/b", "oscillator amplitude", Number, Significant(3), Interval;
     HARMONIC_AMPLITUDE = "harmonic_amplitude", "E", "first harmonic of the absorber", Length, Significant(3), Interval;
     HARMONIC_AMPLITUDE_RATIO = "harmonic_amplitude_over_clearance", "E/b", "first harmonic of the absorber", Number, Significant(3), Interval;
@@ -180,7 +180,7 @@ catalogue! {
     NEXT_INTERVAL = "next_impact_interval", "Δtₖ₊₁/T", "the next one", Number, Significant(3), Interval;
     WINDOW = "window", "", "window in excitation periods", Number, Significant(3), Interval;
     SMALLEST_MARGIN = "smallest_margin", "", "smallest margin in clearance", Share, Significant(3), Interval;
-    REDUCTION_DB_TMD = "reduction_db_tmd", "", "reduction against a tuned mass damper", Level, Decimals(1), Interval;
+    REDUCTION_DB_TMD = "reduction_db_tmd", "", "reduction against a tuned mass damper", Level, Decimals(1), Bound;
     POINT_SHARE = "point_share", "", "share of the points", Share, Significant(3), Interval;
     THEORY_PEAK = "theory_peak", "", "smallest amplitude of a stable fixed point", Length, Significant(3), Interval;
     BOUNDARY_DISTANCE = "boundary_distance", "", "change of the excitation that leads to the nearest boundary of the theory", Change, Significant(2), Interval;
@@ -206,6 +206,8 @@ catalogue! {
     IMPACT_COUNT = "impact_count", "", "number of impacts", Count, Decimals(0), Interval;
     LARGEST_RMS = "largest_rms", "", "largest rms displacement", Length, Significant(3), Bound;
     MEAN_PEAK = "mean_peak", "", "mean peak displacement", Length, Significant(3), Interval;
+    MEAN_REDUCTION_DB = "mean_reduction_db", "", "mean reduction against the structure without absorber", Level, Decimals(1), Interval;
+    MEAN_REDUCTION_DB_TMD = "mean_reduction_db_tmd", "", "mean reduction against a tuned mass damper", Level, Decimals(1), Interval;
     MEAN_IMPACT_SPEED = "mean_impact_speed", "", "mean of the largest impact speeds", Velocity, Significant(3), Interval;
     BARE_RMS = "bare_rms", "", "rms displacement without absorber", Length, Significant(3), Interval;
     DAMPER_RMS = "damper_rms", "", "rms displacement with a tuned mass damper", Length, Significant(3), Interval;

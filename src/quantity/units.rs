@@ -273,8 +273,8 @@ impl Units {
         text(value, if value == other { 0 } else { (0..=13).find(differ).unwrap_or(0) })
     }
 
-    /// A number with its error: `0.68 ± 0.10`, or `3.56 mm (+0.12 mm)` for a largest value. An error that does
-    /// not change a digit is left out.
+    /// A number with its error: `0.68 ± 0.10`, or `3.56 mm (+0.12 mm)` for a largest value, `5.0 dB (−0.2 dB)` for a
+    /// least reduction. An error that does not change a digit is left out.
     pub fn with_error(&self, kind: &Kind, value: f64, error: f64, digits: Digits) -> String {
         let text = self.with_digits(kind, value, digits);
         if error <= 1e-3 * value.abs() || !error.is_finite() {
@@ -283,7 +283,11 @@ impl Units {
         if kind.dimension == Dimension::Level {
             let error = fixed(error, 1);
             let number = text.trim_end_matches(" dB");
-            return if error == "0.0" { text } else { format!("{number} ± {error} dB") };
+            return match kind.error {
+                _ if error == "0.0" => text,
+                ErrorKind::Bound => format!("{text} (\u{2212}{error} dB)"),
+                ErrorKind::Interval => format!("{number} ± {error} dB"),
+            };
         }
         match kind.error {
             ErrorKind::Bound => {
@@ -402,5 +406,7 @@ mod tests {
         assert_eq!(units.with_error(&of::PEAK, 0.1223, 1e-6, digits), "122 mm");
         let level = |error: f64| units.with_error(&of::CHANGE_DB, 1.98, error, Digits::Decimals(1));
         assert_eq!([0.002, 2.04].map(level), ["+2.0 dB", "+2.0 ± 2.0 dB"]);
+        let least = units.with_error(&of::REDUCTION_DB, 2.0, 0.8, Digits::Decimals(1));
+        assert_eq!(least, "+2.0 dB (\u{2212}0.8 dB)");
     }
 }

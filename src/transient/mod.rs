@@ -18,7 +18,7 @@ mod study;
 mod sweep;
 mod theory;
 
-pub use clearance::{Best, best_clearance};
+pub use clearance::{Best, best_clearance, looked_at};
 pub use driven::{DrivenError, Response, follow};
 pub(crate) use passage::worst;
 pub use passage::{ByRate, Jump, SweepStart, SweepStudy};

@@ -3,7 +3,7 @@
 
 use super::linear::driven;
 use super::record::{Piece, Record};
-use super::{DrivenError, Response, follow, worst_of_places};
+use super::{DrivenError, Response, counted, follow, worst_of_places};
 use crate::band::rivals::{TunedMassDamper, reduction_db};
 use crate::case::{Case, Scales};
 use crate::executor::{Executor, map};
@@ -66,10 +66,13 @@ const PLACES_OF_MANY: u32 = 8;
 /// records.
 const FREQUENCIES: u32 = 31;
 const FURTHEST: f64 = 4.0;
-const FLIGHTS_OF_SPECTRUM: usize = 8;
+const FLIGHTS_OF_FREQUENCY: usize = 8;
 const RECORDS_OF_SPECTRUM: usize = 4;
 
 impl RecordStudy {
+    /// Flights of one record for its response spectrum.
+    pub const FLIGHTS_OF_SPECTRUM: u64 = FREQUENCIES as u64 * FLIGHTS_OF_FREQUENCY as u64;
+
     /// Places of the absorber under each of so many records, unless the case says how many.
     pub const fn usual_places(records: usize) -> u32 {
         if records > 1 { PLACES_OF_MANY } else { PLACES }
@@ -130,32 +133,23 @@ impl RecordStudy {
         })
     }
 
-    /// Places that count: where none wakes, all.
-    fn counted<'a>(&self, one: &'a Realisation) -> Vec<&'a Response> {
-        let all = || one.places.iter().map(|(_, response)| response);
-        let awake: Vec<&Response> =
-            all().filter(|response| self.count_inactive || response.impacts > 0).collect();
-        if awake.is_empty() { all().collect() } else { awake }
+    fn counted<'a>(&self, one: &'a Realisation) -> Vec<&'a (f64, Response)> {
+        counted(&one.places, self.count_inactive, |(_, response)| response.impacts)
     }
 
     /// The largest value over the places of the absorber, mean over records.
     pub fn worst(&self, value: impl Fn(&Realisation, &Response) -> f64) -> Measured {
         let of_places = |one: &Realisation| -> Measured {
-            let values: Vec<f64> =
-                self.counted(one).into_iter().map(|place| value(one, place)).collect();
-            worst_of_places(&values)
+            let counted = self.counted(one).into_iter();
+            worst_of_places(&counted.map(|(_, place)| value(one, place)).collect::<Vec<f64>>())
         };
-        match self.realisations.as_slice() {
-            [only] => of_places(only),
-            _ => self.mean(|one| of_places(one)[0]),
-        }
+        over_records(&self.realisations.iter().map(of_places).collect::<Vec<Measured>>())
     }
 
     /// The mean over records of what each has for itself; without error where there is only one.
     pub fn mean(&self, value: impl Fn(&Realisation) -> f64) -> Measured {
-        let values: Vec<f64> = self.realisations.iter().map(value).collect();
-        let mean = values.iter().sum::<f64>() / values.len() as f64;
-        [mean, if values.len() > 1 { twice_standard_error(&values) } else { 0.0 }]
+        let values = self.realisations.iter().map(|one| [value(one), 0.0]);
+        over_records(&values.collect::<Vec<Measured>>())
     }
 
     /// The least reduction of the largest displacement against another, in decibels.
@@ -167,9 +161,18 @@ impl RecordStudy {
     /// What happened under the first record from the place with the largest displacement.
     pub fn shown(&self) -> Option<(&Realisation, &Response)> {
         let first = self.realisations.first()?;
-        let places = self.counted(first).into_iter();
+        let places = self.counted(first).into_iter().map(|(_, place)| place);
         Some((first, places.max_by(|a, b| a.peak.total_cmp(&b.peak))?))
     }
+}
+
+/// What is known of all records: of one its own, of several the mean.
+pub(super) fn over_records(each: &[Measured]) -> Measured {
+    if let [only] = each {
+        return *only;
+    }
+    let values: Vec<f64> = each.iter().map(|[value, _]| *value).collect();
+    [values.iter().sum::<f64>() / values.len() as f64, twice_standard_error(&values)]
 }
 
 fn realisations(
@@ -212,7 +215,7 @@ fn spectrum_point(
     let scales = Scales { natural_frequency: ratio * scales.natural_frequency, ..*scales };
     let damper = TunedMassDamper::den_hartog(system.mass_ratio());
     let records = &records[..records.len().min(RECORDS_OF_SPECTRUM)];
-    let places = (FLIGHTS_OF_SPECTRUM / records.len()) as u64;
+    let places = (FLIGHTS_OF_FREQUENCY / records.len()) as u64;
     let mut sums = [0.0; 3];
     for record in records {
         let pieces = record.pieces(&scales, Record::LONGEST);

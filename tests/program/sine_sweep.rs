@@ -39,10 +39,49 @@ fn commands_answer_or_say_that_they_are_about_something_else() {
         assert!(std::fs::exists(format!("{out}/quick/{name}")).is_ok_and(|there| there), "{name}");
     }
 
-    for command in ["analyze", "optimize", "tradeoff"] {
+    for command in ["analyze", "tradeoff"] {
         let message = message(&[command, CASE]);
         assert!(message.contains("swept through resonance"), "{command}: {message}");
     }
+}
+
+/// The case that `optimize` writes does what it says, by `check`: its clearance is within the bounds that are asked for,
+/// and not above the best.
+#[test]
+fn the_best_clearance_is_checked_and_written() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let [case, better] = ["case.toml", "better.toml"].map(|name| folder.path().join(name));
+    let text = std::fs::read_to_string(CASE).expect("the case");
+    let text = text.replace("\"7.5 Hz\"", "\"8 Hz\"").replace("\"0.1 Hz/s\"", "\"0.4 Hz/s\"");
+    let asked = "\n[criteria]\npeak_displacement = \"<= 20 mm\"\n[optimize]\nclearance = [\"3 mm\", \"30 mm\"]\n";
+    std::fs::write(&case, format!("{text}{asked}").replace("\"7.5 mm\"", "\"2 mm\""))
+        .expect("written");
+    let [case, better] = [&case, &better].map(|path| path.to_str().expect("UTF-8"));
+    let json = |arguments: &[&str]| -> Value {
+        let output = vinesink(arguments);
+        assert_eq!(output.status.code(), Some(0), "{arguments:?}: {output:?}");
+        serde_json::from_slice(&output.stdout).expect("JSON")
+    };
+    let found = json(&["optimize", case, "--write", better, "--format", "json"]);
+    let number = |of: &Value| of["value"].as_f64().expect("a number");
+    let (checked, error) = (number(&found["checked"]), found["checked"]["error"].as_f64());
+    assert!(checked < number(&found["own"]["value"]) && checked < number(&found["alone"]));
+    assert!(number(&found["damper"]) < number(&found["alone"]));
+    let places = found["landscape"].as_array().expect("clearances");
+    let ends = [places.first(), places.last()].map(|one| one.and_then(|one| one[0].as_f64()));
+    for (end, bound) in ends.iter().zip([0.003, 0.03]) {
+        assert!((end.expect("a number") / bound - 1.0).abs() < 1e-12, "{found}");
+    }
+    let written = std::fs::read_to_string(better).expect("written");
+    let written = vinesink::case::Case::parse(better, &written).expect("a case").design.clearance();
+    let best = number(&found["clearance"]);
+    assert!(written <= best && written > 0.999 * best, "{written} {best}");
+    let judged = json(&["check", better, "--format", "json"]);
+    for (k, one) in found["criteria"]["all"].as_array().expect("criteria").iter().enumerate() {
+        assert_eq!(judged["cases"][0]["criteria"][k]["found"], one["found"]["value"]);
+    }
+    let peak = judged["cases"][0]["criteria"][0]["found"].as_f64().expect("a number");
+    assert!(peak <= checked + error.expect("a number") && peak > 0.9 * checked, "{peak} {found}");
 }
 
 #[test]
@@ -63,6 +102,11 @@ fn what_a_sweep_cannot_be_is_said() {
             "[excitation]",
             "[uncertainty]\nclearance = \"1 %\"\n[excitation]",
             "[uncertainty] has no meaning",
+        ),
+        (
+            "[excitation]",
+            "[optimize]\nreleases = [0.5, 2]\n[excitation]",
+            "`releases` has no meaning in [optimize] for a structure that is swept",
         ),
         (
             "[excitation]",

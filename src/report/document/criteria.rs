@@ -72,7 +72,9 @@ pub fn criterion(case: &Case, judged: &Judged) -> Value {
             (_, Relation::Equal) => "equal",
         },
         "limit": kind.map(|kind| Quantity::new(kind, *limit, Method::Given)),
-        "found": judged.found.and_then(quantity).map(|found| found.with_error(error)),
+        "found": judged.found.zip(subject.kind_under(judged.records)).map(|(value, kind)| {
+            Quantity::new(kind, value, judged.decided_by).with_error(error)
+        }),
         // For one without a number.
         "found_flag": judged.found.filter(|_| kind.is_none()).map(|found| found > 0.5),
         // Room that is left; negative where it does not hold.

@@ -1,6 +1,7 @@
 //! A structure that is not driven steadily: its report, and what `analyze`, `simulate` and `optimize` print of it. The
 //! sentences are in `templates/`, a page and a text for each kind.
 
+mod optimum;
 mod record;
 mod release;
 mod sine_sweep;
@@ -9,7 +10,7 @@ use std::collections::BTreeMap;
 
 use serde_json::{Value, json};
 
-pub use release::{optimum, optimum_text};
+pub use optimum::{optimum, optimum_text};
 
 use super::document::criteria::{badge, criteria};
 use super::document::{FORMAT, NOTICEABLE, Scale, Word, figure_row, units};

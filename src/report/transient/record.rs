@@ -5,7 +5,8 @@ mod figure;
 use serde_json::{Value, json};
 
 use super::word_of;
-use crate::case::{Case, RecordSource};
+use crate::case::{Case, RecordSource, Subject};
+use crate::criteria::of_records;
 use crate::method::Method;
 use crate::quantity::catalogue as of;
 use crate::quantity::{Kind, Quantity};
@@ -27,8 +28,9 @@ pub(super) fn add(case: &Case, study: &RecordStudy, facts: &mut Value) {
             "impact_speed": scale.velocity(&of::IMPACT_SPEED, [found.impact_speed, 0.0], Method::Simulation),
         })
     };
-    let [peak, rms, speed] = worst(&scale, study).map(|one| json!(one));
-    (facts["peak"], facts["rms"], facts["impact_speed"]) = (peak, rms, speed);
+    for (name, told) in told(case, study) {
+        facts[name] = json!(told);
+    }
     facts["records"] = study.realisations.len().into();
     // Under the first record.
     facts["places"] = places.iter().map(place).collect();
@@ -63,18 +65,24 @@ fn input(case: &Case, study: &RecordStudy) -> Value {
     })
 }
 
-/// Peak, rms and impact speed from the worst place: of one record bounds, of several means.
-fn worst(scale: &Scale, study: &RecordStudy) -> [Quantity; 3] {
-    let kinds = match study.realisations.len() {
-        1 => [&of::PEAK, &of::LARGEST_RMS, &of::IMPACT_SPEED],
-        _ => [&of::MEAN_PEAK, &of::RMS, &of::MEAN_IMPACT_SPEED],
-    };
-    let simulated = Method::Simulation;
-    [
-        scale.length_with(kinds[0], study.worst(|_, place| place.peak), simulated),
-        scale.length_with(kinds[1], study.worst(|_, place| place.rms), simulated),
-        scale.velocity(kinds[2], study.worst(|_, place| place.impact_speed), simulated),
-    ]
+/// What is said of the absorber, by the names that pages use.
+const TOLD: [(&str, Subject); 5] = [
+    ("peak", Subject::PeakDisplacement),
+    ("rms", Subject::RmsDisplacement),
+    ("impact_speed", Subject::ImpactVelocity),
+    ("reduction_db", Subject::ReductionDb),
+    ("reduction_db_tmd", Subject::ReductionDbTmd),
+];
+
+fn told<'a>(
+    case: &'a Case,
+    study: &'a RecordStudy,
+) -> impl Iterator<Item = (&'static str, Quantity)> + 'a {
+    TOLD.into_iter().filter_map(|(name, subject)| {
+        let kind = subject.kind_under(study.realisations.len())?;
+        let [value, error] = of_records(&case.scales(), study, subject);
+        Some((name, Quantity::new(kind, value, Method::Simulation).with_error(error)))
+    })
 }
 
 pub(super) fn quantities(case: &Case, study: &RecordStudy) -> Vec<Quantity> {
@@ -83,20 +91,15 @@ pub(super) fn quantities(case: &Case, study: &RecordStudy) -> Vec<Quantity> {
     let (simulated, exact) = (Method::Simulation, Method::ClosedForm);
     let length =
         |kind: &'static Kind, value: Measured, method| scale.length_with(kind, value, method);
-    let level = |kind: &'static Kind, [value, error]: Measured| {
-        Quantity::new(kind, value, simulated).with_error(error)
-    };
     let plain = |kind: &'static Kind, value| Quantity::new(kind, value, simulated);
     let shown = study.shown().map(|(_, worst)| worst);
-    let mut all = worst(&scale, study).to_vec();
+    let mut all: Vec<Quantity> = told(case, study).map(|(_, told)| told).collect();
     all.extend([
         length(&of::BARE_PEAK, study.mean(|one| one.bare.peak), exact),
         length(&of::BARE_RMS, study.mean(|one| one.bare.rms), exact),
         length(&of::DAMPER_PEAK, study.mean(|one| one.damped.peak), exact),
         length(&of::DAMPER_RMS, study.mean(|one| one.damped.rms), exact),
         length(&of::DAMPER_STROKE, study.mean(|one| one.damped.stroke), exact),
-        level(&of::REDUCTION_DB, study.reduction_db(|one| one.bare.peak)),
-        level(&of::REDUCTION_DB_TMD, study.reduction_db(|one| one.damped.peak)),
         given(&of::DAMPER_FREQUENCY_RATIO, study.damper.tuning),
         given(&of::DAMPER_DAMPING_RATIO, study.damper.damping_ratio),
     ]);

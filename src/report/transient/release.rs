@@ -8,15 +8,11 @@ use serde_json::{Value, json};
 
 use super::word_of;
 use crate::case::Case;
-use crate::criteria::Judged;
 use crate::method::Method;
 use crate::quantity::catalogue as of;
 use crate::quantity::{Kind, Quantity};
-use crate::report::document::criteria::criteria;
-use crate::report::document::{Scale, Word, units};
-use crate::report::render::RenderError;
-use crate::report::template::render;
-use crate::transient::{Best, Decay, DecayStudy};
+use crate::report::document::{Scale, Word};
+use crate::transient::{Decay, DecayStudy};
 
 pub(super) use figure::figures;
 
@@ -93,39 +89,4 @@ fn notes(study: &DecayStudy) -> Vec<Value> {
         notes.push(json!({ "kind": "below-capture" }));
     }
     notes
-}
-
-/// What `optimize` found: `vinesink/optimization@3`.
-pub fn optimum(case: &Case, best: &Best, judged: &[Judged]) -> Value {
-    let (scale, scales) = (Scale::of(case), case.scales());
-    let clearance = |length| Quantity::new(&of::CLEARANCE, length, Method::Given);
-    let time = |oscillations| time(&scale, &of::DECAY_TIME, oscillations, Method::Simulation);
-    let reached = best.checked.is_finite();
-    let improves = reached && best.checked < best.own;
-    json!({
-        "format": "vinesink/optimization@3",
-        "title": case.title,
-        "objective": "decay-time",
-        "answer": if !reached { "not-reached" } else if improves { "found" } else { "own-is-best" },
-        "optimum": { "clearance": best.design.clearance() },
-        "claimed": { "value": scales.time(TAU * best.oscillations), "error": 0.0 },
-        // From other places of the absorber.
-        "checked": { "value": scales.time(TAU * best.checked), "error": 0.0 },
-        "feasible": judged.iter().all(|one| one.holds == Some(true)),
-        "clearance": clearance(best.design.clearance()),
-        "time": time(best.checked),
-        "own": { "clearance": clearance(case.design.clearance()), "time": time(best.own) },
-        "releases": case.optimize.releases,
-        "share": case.decay_level,
-        "criteria": criteria(case, judged),
-        "landscape": best.landscape.iter().map(|[at, value]| [*at, scales.time(TAU * value)]).collect::<Vec<_>>(),
-    })
-}
-
-/// The sentences of an optimisation.
-///
-/// # Errors
-/// [`RenderError::Template`] if the template does not fit.
-pub fn optimum_text(case: &Case, document: &Value) -> Result<String, RenderError> {
-    render("release-optimum.txt", &units(case), document)
 }

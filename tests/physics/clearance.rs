@@ -1,0 +1,97 @@
+//! The best clearance of a structure that is swept or that a record drives, against studies of clearances and places of
+//! the absorber that the search has not looked at.
+
+use std::f64::consts::{PI, TAU};
+
+use vinesink::case::Case;
+use vinesink::executor::Serial;
+use vinesink::system::Parameter;
+use vinesink::transient::{RecordStudy, SweepStudy, best_clearance};
+
+const SWEPT: &str = include_str!("../../cases/sweep-fast.toml");
+const TOWER: &str = include_str!("../../cases/tower-record.toml");
+
+/// From an odd number of places, which has the middle and others that no search and no check has looked at.
+const PLACES: &str = "\n[simulation]\nstarts = 41\n";
+
+/// Largest displacement and that of the structure alone, by the study.
+fn peaks_of_sweep(text: &str, clearance: f64) -> [f64; 2] {
+    let text = text.replace("\"7.5 mm\"", &format!("\"{clearance} m\""));
+    let case = Case::parse("sweep.toml", &format!("{text}{PLACES}")).expect("a case");
+    let study = SweepStudy::of_case(&case, &Serial).expect("swept").expect("flown");
+    let (_, worst) = study.worst().expect("a start");
+    [worst.peak()[1], study.alone.peak()[1]].map(|peak| case.scales().length(peak))
+}
+
+/// What drives the structure is the same for every clearance: so is what it does alone. Clearances to either side of the
+/// best, from the lower to the upper bound, leave more; in between, three per cent are what other places may add.
+#[test]
+fn no_other_clearance_leaves_less_of_a_sweep() {
+    let text = SWEPT.replace("\"0.1 Hz/s\"", "\"0.4 Hz/s\"");
+    let case = Case::parse("sweep.toml", &text).expect("a case");
+    let best = best_clearance(&case, &Serial).expect("not steady");
+    let own = case.design.clearance();
+    let [checked, error] = best.checked;
+    assert!(checked < best.own[0], "{best:?}");
+    let [found, alone] = peaks_of_sweep(&text, best.design.clearance());
+    assert!(found <= checked + error && found > 0.9 * checked, "{found} {best:?}");
+    let [of_own, alone_with_own] = peaks_of_sweep(&text, own);
+    assert!((alone / alone_with_own - 1.0).abs() < 1e-12, "{alone} {alone_with_own}");
+    assert!((of_own / best.own[0] - 1.0).abs() < 0.03, "{of_own} {best:?}");
+    for factor in [0.2, 0.4, 0.7, 1.3, 2.0, 4.0] {
+        let clearance = factor * best.design.clearance();
+        let [other, _] = peaks_of_sweep(&text, clearance);
+        assert!(other > 0.97 * checked, "{clearance}: {other} {best:?}");
+    }
+}
+
+/// The tower under a base acceleration of these values every 0.1 s.
+fn tower(clearance: &str, count: u32, value: impl Fn(f64) -> f64) -> Case {
+    let text = TOWER.replace("\"100 mm\"", &format!("\"{clearance}\""));
+    let rows =
+        (0..=count).map(|k| format!("{},{}\n", 0.1 * f64::from(k), value(0.1 * f64::from(k))));
+    let record = format!("time (s),acceleration (m/s²)\n{}", rows.collect::<String>());
+    let case = Case::parse("tower.toml", &format!("{text}{PLACES}")).expect("a case");
+    case.with_record("tower.csv", &record).expect("a record")
+}
+
+fn peaks_of_record(case: &Case, clearance: f64) -> [f64; 2] {
+    let design = case.design.with(Parameter::Clearance, clearance);
+    let (system, scales) = (design.system().expect("a system"), design.scales());
+    let records = case.recording.as_ref().expect("recorded").records();
+    let study = RecordStudy::of(&system, &scales, &records, 41, &Serial);
+    let study = study.expect("studied");
+    [study.worst(|_, place| place.peak)[0], study.mean(|one| one.bare.peak)[0]]
+        .map(|peak| scales.length(peak))
+}
+
+/// Twenty periods of a sine at the tower's own frequency.
+#[test]
+fn no_other_clearance_leaves_less_of_a_record() {
+    let case = tower("20 mm", 400, |t| 0.05 * libm::sin(PI * t));
+    let best = best_clearance(&case, &Serial).expect("not steady");
+    let [checked, error] = best.checked;
+    let [found, alone] = peaks_of_record(&case, best.design.clearance());
+    assert!(checked < 0.97 * best.own[0] && checked < 0.9 * alone, "{alone} {best:?}");
+    assert!(found <= checked + error && found > 0.9 * checked, "{found} {best:?}");
+    let [_, alone_with_own] = peaks_of_record(&case, 0.02);
+    assert!((alone / alone_with_own - 1.0).abs() < 1e-9, "{alone} {alone_with_own}");
+    for factor in [0.2, 0.4, 0.7, 1.3, 2.0, 4.0] {
+        let clearance = factor * best.design.clearance();
+        let [other, _] = peaks_of_record(&case, clearance);
+        assert!(other > 0.97 * checked, "{clearance}: {other} {best:?}");
+    }
+}
+
+/// A blow of a tenth of a period: the largest displacement is that of the first swing, before the absorber, which the
+/// base has set in motion as it has the tower, can have taken anything.
+#[test]
+fn a_blow_leaves_an_absorber_no_time() {
+    let blow = |t: f64| if t <= 0.2 { 5.0 * libm::sin(0.5 * TAU * t / 0.2) } else { 0.0 };
+    let case = tower("100 mm", 100, blow);
+    let best = best_clearance(&case, &Serial).expect("not steady");
+    for clearance in [0.02, 0.07, 0.2, 0.5] {
+        let [other, alone] = peaks_of_record(&case, clearance);
+        assert!(other > 0.98 * alone && best.checked[0] > 0.98 * alone, "{other} {alone} {best:?}");
+    }
+}
