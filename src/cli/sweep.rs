@@ -249,13 +249,12 @@ fn estimate(sweep: &Sweep) -> Result<bool> {
     // Whole chunks where a motion is followed, else a part of them.
     let chunk = plan.points_per_chunk();
     let stretch = if plan.settings.follow { chunk } else { SAMPLE.min(chunk) };
-    let most = if plan.settings.follow { 1 } else { STRETCHES };
-    let stretches = most.min(points.div_ceil(stretch));
+    let stretches = if plan.settings.follow { 1 } else { STRETCHES };
     let begin = Instant::now();
     let progress = Progress::new("sample", stretches);
     let mut worked = 0;
     for k in 0..stretches {
-        let from = (points - stretch.min(points)) * k / (stretches - 1).max(1);
+        let from = (points - stretch.min(points)) * k / (STRETCHES - 1);
         let range = from..from + stretch.min(points);
         worked += range.end - range.start;
         work::points(plan, range).into_diagnostic()?;
