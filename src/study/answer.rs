@@ -143,7 +143,8 @@ pub fn closed_form(system: &System) -> Result<Answer, StudyError> {
 /// # Errors
 /// [`StudyError::Analysis`] where the theory cannot be evaluated.
 pub fn averaged_flow(system: &System) -> Result<Answer, StudyError> {
-    let Averages { curve, states, cycle, .. } = Averages::of(system)?;
+    let averages = Averages::of(system)?;
+    let Averages { curve, states, .. } = &averages;
     let moving = |state: &&SteadyState| state.stable && state.regime != Regime::AtRest;
     let answer = states.iter().rfind(moving).and_then(|state| {
         let ([resistance, reactance], _) = curve.branches[state.branch].forces(state.amplitude)?;
@@ -156,15 +157,21 @@ pub fn averaged_flow(system: &System) -> Result<Answer, StudyError> {
             ..Answer::default()
         })
     });
+    if let Some(answer) = answer {
+        return Ok(answer);
+    }
     // A capture that lasts ends the modulation.
-    let cycle = cycle.filter(|cycle| cycle.lasting_share == 0.0).map(|cycle| Answer {
-        rms: Some(cycle.rms),
-        scatter: Some(cycle.rms_error / cycle.rms),
-        impacts_per_period: Some(cycle.impacts_per_period),
-        regime: Some(Regime::StronglyModulated),
-        ..Answer::default()
-    });
-    Ok(answer.or(cycle).unwrap_or_else(|| Answer::none(WhyNot::NoStableAmplitude)))
+    let cycle =
+        averages.with_cycle(system).cycle.filter(|cycle| cycle.lasting_share == 0.0).map(|cycle| {
+            Answer {
+                rms: Some(cycle.rms),
+                scatter: Some(cycle.rms_error / cycle.rms),
+                impacts_per_period: Some(cycle.impacts_per_period),
+                regime: Some(Regime::StronglyModulated),
+                ..Answer::default()
+            }
+        });
+    Ok(cycle.unwrap_or_else(|| Answer::none(WhyNot::NoStableAmplitude)))
 }
 
 /// That of the exact symmetric orbit that attracts, to [`ORBIT_ROUNDING`].

@@ -18,7 +18,7 @@ pub struct Averages {
     pub range: [f64; 2],
     /// All steady amplitudes within, ascending.
     pub states: Vec<SteadyState>,
-    /// The modulated cycle, where the flow has one.
+    /// The modulated cycle, where it was asked for and the flow has one.
     pub cycle: Option<ModulatedCycle>,
 }
 
@@ -35,8 +35,14 @@ impl Averages {
         let range = [LEAST, bound.max(least).min(most)];
         let curve = DissipationCurve::of(system.restitution(), range);
         let states = AveragedFlow::of(system, &curve).steady_states()?;
+        Ok(Self { curve, range, states, cycle: None })
+    }
+
+    /// The same with the modulated cycle, which costs some times as much as the curve.
+    #[must_use]
+    pub fn with_cycle(self, system: &System) -> Self {
         let recapture = Recapture::of(system.restitution());
         let cycle = recapture.and_then(|recapture| ModulatedCycle::of(system, &recapture));
-        Ok(Self { curve, range, states, cycle })
+        Self { cycle, ..self }
     }
 }

@@ -189,7 +189,7 @@ impl CaseStudy {
     /// [`StudyError`] where the theory cannot be carried out.
     pub fn with_averages(mut self) -> Result<Self, StudyError> {
         let system = &self.analysis.system;
-        let averages = Averages::of(system)?;
+        let averages = Averages::of(system)?.with_cycle(system);
         let found = &self.motions.attractors;
         if !averages.curve.depends_on_start {
             let Averages { states, cycle, range, .. } = &averages;
