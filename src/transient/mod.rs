@@ -20,13 +20,16 @@ mod theory;
 
 pub use clearance::{Best, best_clearance, looked_at};
 pub use driven::{DrivenError, Response, follow};
+#[cfg(feature = "sweep")]
 pub(crate) use passage::worst;
 pub use passage::{ByRate, Jump, SweepStart, SweepStudy};
 pub use record::{Piece, Record, RecordQuantity, Spectrum};
 pub use record_study::{Measured, Realisation, RecordStudy, SpectrumPoint};
 pub use ringdown::{Ringdown, STEPS};
+pub(crate) use study::awake;
 pub use study::{Decay, DecayStudy};
-pub(crate) use study::{awake, bare, longest};
+#[cfg(feature = "sweep")]
+pub(crate) use study::{bare, longest};
 pub use sweep::{Passage, SineSweep, SweepRate};
 pub use theory::Predicted;
 
@@ -161,6 +164,7 @@ impl Release {
     }
 
     /// The amplitude with which the structure begins, over the clearance.
+    #[cfg(feature = "sweep")]
     pub(crate) fn amplitude(&self, scales: &Scales) -> f64 {
         amplitude(&self.state(scales, 0.0))
     }

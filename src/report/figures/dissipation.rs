@@ -63,7 +63,8 @@ fn response(scene: &Scene, data: &Dissipation) -> Panel {
     panel.layers.extend(marks(scene, data, &chart, &|state| Some([ratio, state.amplitude])));
     if let Some(ends) = cycle {
         let style = Style::new(mark(Regime::StronglyModulated).1, 5.0, Dash::Solid);
-        let bar = chart.curve(style, &ends.map(|amplitude| [ratio, amplitude]).to_vec());
+        let ends: Line = ends.map(|amplitude| [ratio, amplitude]).into();
+        let bar = chart.curve(style, &ends);
         panel = panel.with(bar.labelled("modulated cycle"));
     }
     let seen = seen.into_iter().map(|(found, amplitude)| {
