@@ -9,6 +9,7 @@ mod reference;
 
 mod asymptotic_error;
 mod batch;
+mod cavity;
 mod coexistence;
 mod contact;
 mod diagrams;
