@@ -9,7 +9,9 @@
 
 use super::Cavity;
 use super::motion::Shape;
+use crate::operation_count;
 
+/// By phase and velocity.
 type Matrix = [[f64; 2]; 2];
 
 /// Trace and determinant over a cycle, from after the first impact; `velocities` are the absorber's after the impacts.
@@ -23,6 +25,7 @@ pub(super) fn trace_and_determinant(
     let [t1, t2] = shape.times;
     let there = flight([v1, v2], -x2, u1, [t1, a - f, r2]);
     let back = flight([v2, v1], -x1, u2, [t2, a + f, r1]);
+    operation_count::note(50 + operation_count::ELEMENTARY);
     let product = |i: usize, j: usize| back[i][0] * there[0][j] + back[i][1] * there[1][j];
     [product(0, 0) + product(1, 1), r1 * r1 * r2 * r2]
 }

@@ -64,6 +64,13 @@ impl Cavity {
         self.motions_where(|shape| shape.amplitude - oscillator)
     }
 
+    /// All motions at which the amplitude of the oscillator is smallest or largest along the manifold, by ascending absorber
+    /// amplitude, inadmissible ones included: folds, at which a multiplier of the impact pair is 1 and two motions begin
+    /// or end; in a symmetric cavity symmetry breaking as well.
+    pub fn folds(&self) -> Vec<Motion> {
+        self.motions_where(|shape| self.direction(shape).amplitude)
+    }
+
     /// All motions at which `f` changes its sign, by ascending absorber amplitude.
     pub(super) fn motions_where(&self, f: impl Fn(&Shape) -> f64) -> Vec<Motion> {
         let mut found = Vec::new();

@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use serde::Serialize;
 
 use super::Cavity;
-use super::linear_map;
+use super::linear_map::trace_and_determinant;
 use crate::equations::cavity::{
     ABSORBER, AMPLITUDE, CONTACT, DRIFT, FACTOR, IMPULSE, IN_PHASE, QUADRATURE, REACTANCE,
     RESISTANCE, SIDE, TIME_1, TIME_2, VELOCITY_1, VELOCITY_2,
@@ -70,6 +70,14 @@ pub(super) struct Shape {
     pub(super) forces: [f64; 2],
 }
 
+/// Changes of parts of a [`Shape`] along the manifold.
+pub(super) struct Direction {
+    parts: [f64; 2],
+    impulse: f64,
+    contact: f64,
+    pub(super) amplitude: f64,
+}
+
 impl Cavity {
     /// The motion whose flight from `w = b` to `w = -b` takes the phase `pi + 2 deviation`, by its closed form. In a
     /// symmetric cavity it is the asymmetric one, which ends at symmetry breaking, where `deviation` is 0. `None` beyond
@@ -129,12 +137,11 @@ impl Cavity {
     }
 
     pub(super) fn complete(&self, shape: &Shape) -> Motion {
-        operation_count::note(60 + 2 * operation_count::ELEMENTARY);
-        let (a, f) = (self.acceleration, self.friction);
-        let [t1, t2] = shape.times;
+        operation_count::note(50 + 2 * operation_count::ELEMENTARY);
+        let (a, f, [t1, t2]) = (self.acceleration, self.friction, shape.times);
         let velocities =
             [VELOCITY_1.at([a, f, t1, shape.absorber]), VELOCITY_2.at([a, f, t2, shape.absorber])];
-        let [trace, determinant] = linear_map::trace_and_determinant(self, shape, velocities);
+        let [trace, determinant] = trace_and_determinant(self, shape, velocities);
         let [in_phase, quadrature] = shape.parts;
         Motion {
             deviation: shape.nu,
@@ -153,29 +160,40 @@ impl Cavity {
         }
     }
 
-    /// Derivatives of `S` and `K` by `C` along the manifold, `d_c(nu) c_c = n_c(nu)`, whose direction is
-    /// `d nu = d_c`, `d c_c = n_c' - c_c d_c'`.
-    fn slopes(&self, shape: &Shape) -> [f64; 2] {
+    /// The direction of the manifold `d_c(nu) c_c = n_c(nu)`: `d nu = d_c`, `d c_c = n_c' - c_c d_c'`.
+    pub(super) fn direction(&self, shape: &Shape) -> Direction {
+        operation_count::note(60 + operation_count::ELEMENTARY);
         let (a, f, [mean, difference]) = (self.acceleration, self.friction, self.ratios);
-        let Shape { nu, times: [t1, t2], drift, absorber, parts: [p, q], .. } = *shape;
+        let Shape { nu, times: [t1, t2], absorber, parts: [p, q], .. } = *shape;
         let (sine, cosine) = libm::sincos(nu);
         let product = t1 * t2;
         let side = 4.0 - mean * f * product - 8.0 * nu * mean * (0.5 * PI * a - f * nu);
         let factor = cosine * (product - 4.0) - (4.0 * nu + PI * difference) * sine;
         let [_, d_nu] = self.equation(nu);
         let dp = side - p * factor;
-        let d_product = -8.0 * nu * d_nu;
         let d_absorber = cosine * dp - p * sine * d_nu;
-        let relative = (d_absorber - absorber * d_product / product) / product;
-        let dq = (4.0 * PI * mean * relative + (difference * f - 2.0 * a + 2.0 * q * sine) * d_nu)
+        let d_ratio = (d_absorber + 8.0 * nu * absorber * d_nu / product) / product;
+        let dq = (4.0 * PI * mean * d_ratio + (difference * f - 2.0 * a + 2.0 * q * sine) * d_nu)
             / (2.0 * cosine);
-        let d_impulse = 8.0 * PI * (relative * cosine - absorber * sine * d_nu / product);
-        let d_contact = -drift * cosine * d_nu;
-        let (m, n, c) = (shape.impulse, shape.contact, shape.amplitude);
-        let d_amplitude = (p * dp + q * dq) / c;
-        let d_resistance = dq * m + q * d_impulse - dp * n - p * d_contact;
-        let d_reactance = -(dp * m + p * d_impulse + dq * n + q * d_contact);
-        let slope = |k: usize, d: f64| (d / (PI * d_amplitude) - shape.forces[k]) / c;
+        let d_impulse = 8.0 * PI * (d_ratio * cosine - absorber * sine * d_nu / product);
+        let d_contact = -shape.drift * cosine * d_nu;
+        let d_amplitude = (p * dp + q * dq) / shape.amplitude;
+        Direction {
+            parts: [dp, dq],
+            impulse: d_impulse,
+            contact: d_contact,
+            amplitude: d_amplitude,
+        }
+    }
+
+    /// Derivatives of `S` and `K` by `C` along the manifold.
+    fn slopes(&self, shape: &Shape) -> [f64; 2] {
+        let (d, c) = (self.direction(shape), shape.amplitude);
+        let ([p, q], [dp, dq]) = (shape.parts, d.parts);
+        let (m, n) = (shape.impulse, shape.contact);
+        let d_resistance = dq * m + q * d.impulse - dp * n - p * d.contact;
+        let d_reactance = -(dp * m + p * d.impulse + dq * n + q * d.contact);
+        let slope = |k: usize, by: f64| (by / (PI * d.amplitude) - shape.forces[k]) / c;
         [slope(0, d_resistance), slope(1, d_reactance)]
     }
 

@@ -10,6 +10,7 @@ mod reference;
 mod asymptotic_error;
 mod batch;
 mod cavity;
+mod cavity_pair;
 mod coexistence;
 mod contact;
 mod diagrams;
