@@ -19,7 +19,8 @@ use crate::numerics::scan::sign_changes;
 
 /// An amplitude beyond which there is no motion; see the head of this file.
 const LARGEST: f64 = 47.0;
-/// Distance from `pi/2` up to which `nu` is looked at: `c_c` there is above [`LARGEST`] for every pair of ends.
+/// Distance from `pi/2` up to which `nu` is looked at: `c_c` there is above 300 for every pair of ends, unless tilt or
+/// friction are as large.
 const MARGIN: f64 = 1e-3;
 /// Distance from symmetry breaking from which the asymmetric motions are looked at: its square is rounding.
 const SMALLEST: f64 = 1e-8;
@@ -97,8 +98,9 @@ impl Cavity {
         let terms = 4.0 * zero.abs() + 5.0 * (self.acceleration.abs() + self.friction) + 4.0;
         let slope = (factor(zero + MARGIN) - factor(zero - MARGIN)) / (2.0 * MARGIN);
         let symmetric = side.abs() <= ROUNDING * terms && (side == 0.0 || self.ratios[1] != 0.0);
-        // At half of this distance `c_c` is twice the largest.
+        // At this distance `c_c` is four times the largest.
         let nearest = if symmetric { SMALLEST } else { 0.25 * side.abs() / (slope * LARGEST) };
+        let nearest = nearest.max(f64::MIN_POSITIVE);
         let sides = [-1.0, 1.0].into_iter().filter_map(|sign| {
             let range = [sign * nearest, sign * end - zero];
             (range[1] / range[0] > 1.0).then_some(Stretch::Side(zero, range))

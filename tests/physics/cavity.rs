@@ -4,7 +4,9 @@ use std::f64::consts::PI;
 
 use vinesink::analysis::{Analysis, Manifold};
 use vinesink::cavity::{Cavity, FixedPoint, Forcing, Motion};
+use vinesink::dissipation::Point;
 use vinesink::equations::cavity as formulas;
+use vinesink::regimes::Regime;
 use vinesink::system::{Excitation, Parameters, System};
 
 fn cavity(a: f64, f: f64, restitutions: [f64; 2]) -> Cavity {
@@ -90,7 +92,8 @@ fn the_limit_is_the_theory_without_options() {
     }
 }
 
-/// The asymmetric motion of the dissipation curve, whose averages were known from simulation only.
+/// The asymmetric motion of the dissipation curve, whose averages were known from simulation only: those that were
+/// printed, and those of the engine's impact pair.
 #[test]
 fn the_asymmetric_motion_has_the_known_averages() {
     let motions = cavity(0.0, 0.0, [0.6, 0.6]).motions_at(0.9);
@@ -102,6 +105,15 @@ fn the_asymmetric_motion_has_the_known_averages() {
         "{one:?}"
     );
     assert!((one.deviation + other.deviation).abs() < 1e-12);
+    for c in [0.8, 0.9, 0.97] {
+        let point = Point::measured(0.6, c, [0.5, 0.3]).expect("a motion");
+        assert_eq!((point.regime, point.repeats_after), (Regime::TwoAsymmetric, Some(1)), "{c}");
+        let motions = cavity(0.0, 0.0, [0.6, 0.6]).motions_at(c);
+        let motion = motions.iter().find(|one| one.stable && one.admissible).expect("one");
+        // It repeats to 1e-12 when it is measured.
+        let apart = [point.resistance - motion.resistance, point.reactance - motion.reactance];
+        assert!(apart.iter().all(|one| one.abs() < 1e-10), "{c} {apart:?}");
+    }
     assert!((one.resistance - other.resistance).abs() < 1e-12);
     assert!((one.reactance - other.reactance).abs() < 1e-12);
 }
