@@ -290,7 +290,7 @@ impl LinearResponse {
     }
 }
 
-fn check(
+pub(crate) fn check(
     name: &'static str,
     value: f64,
     within: bool,

@@ -10,6 +10,7 @@
 
 #![allow(non_snake_case)]
 
+pub mod cavity;
 pub mod dissipation;
 pub mod fixed_points;
 pub mod free_decay;
@@ -33,9 +34,10 @@ pub fn groups(excitation: Excitation) -> impl Iterator<Item = &'static Group> + 
         .flatten()
 }
 
-/// The equations beyond steady 1:1 resonance, in reading order: free decay, and the slow flow in any regime.
+/// The equations beyond steady 1:1 resonance, in reading order: free decay, the slow flow in any regime, and cavities
+/// with tilt, friction and unequal ends.
 pub fn groups_beyond() -> impl Iterator<Item = &'static Group> + Clone {
-    free_decay::GROUPS.iter().chain(dissipation::GROUPS)
+    [free_decay::GROUPS, dissipation::GROUPS, cavity::GROUPS].into_iter().flatten()
 }
 
 /// `epsilon`, `lambda`, `r`, `Omega`, `sigma`, `gamma` of a system.

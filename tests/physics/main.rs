@@ -9,6 +9,8 @@ mod reference;
 
 mod asymptotic_error;
 mod batch;
+mod cavity;
+mod cavity_pair;
 mod clearance;
 mod coexistence;
 mod contact;

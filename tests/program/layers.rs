@@ -26,6 +26,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("system", &["names"]),
     ("equations", &["symbolic", "system"]),
     ("analysis", &["bifurcation", "equations", "numerics", "system", "operation_count"]),
+    ("cavity", &["analysis", "equations", "numerics", "system", "operation_count"]),
     ("orbits", &["bifurcation", "numerics", "symbolic", "system", "operation_count"]),
     ("simulation", &["numerics", "system", "operation_count"]),
     ("evidence/reference", &["system"]),
