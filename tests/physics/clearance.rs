@@ -51,7 +51,8 @@ fn tower(clearance: &str, count: u32, value: impl Fn(f64) -> f64) -> Case {
     let rows =
         (0..=count).map(|k| format!("{},{}\n", 0.1 * f64::from(k), value(0.1 * f64::from(k))));
     let record = format!("time (s),acceleration (m/s²)\n{}", rows.collect::<String>());
-    let case = Case::parse("tower.toml", &format!("{text}{PLACES}")).expect("a case");
+    let bounds = "\n[optimize]\nclearance = [\"10 mm\", \"80 mm\"]\n";
+    let case = Case::parse("tower.toml", &format!("{text}{PLACES}{bounds}")).expect("a case");
     case.with_record("tower.csv", &record).expect("a record")
 }
 
@@ -65,7 +66,9 @@ fn peaks_of_record(case: &Case, clearance: f64) -> [f64; 2] {
         .map(|peak| scales.length(peak))
 }
 
-/// Twenty periods of a sine at the tower's own frequency.
+/// Twenty periods of a sine at the tower's own frequency, and clearances from which the absorber is not lost: a larger one
+/// leaves less, as it takes more from a large motion, so that the best is near the upper bound: places of the absorber differ
+/// there by as much as the last tenth of the clearance brings.
 #[test]
 fn no_other_clearance_leaves_less_of_a_record() {
     let case = tower("20 mm", 400, |t| 0.05 * libm::sin(PI * t));
@@ -76,10 +79,10 @@ fn no_other_clearance_leaves_less_of_a_record() {
     assert!(found <= checked + error && found > 0.9 * checked, "{found} {best:?}");
     let [_, alone_with_own] = peaks_of_record(&case, 0.02);
     assert!((alone / alone_with_own - 1.0).abs() < 1e-9, "{alone} {alone_with_own}");
-    for factor in [0.2, 0.4, 0.7, 1.3, 2.0, 4.0] {
-        let clearance = factor * best.design.clearance();
+    assert!((0.072..=0.08 * (1.0 + 1e-12)).contains(&best.design.clearance()), "{best:?}");
+    for clearance in [0.01, 0.02, 0.04, 0.06] {
         let [other, _] = peaks_of_record(&case, clearance);
-        assert!(other > 0.97 * checked, "{clearance}: {other} {best:?}");
+        assert!(other > checked, "{clearance}: {other} {best:?}");
     }
 }
 
