@@ -424,6 +424,38 @@ fn the_forced_amplitude_of_three_impacts_is_the_simulated_one() {
     assert!((theory.amplitude / amplitude - 1.0).abs() < 0.01, "{theory:?} {amplitude}");
 }
 
+/// Amplitudes of asymmetric impacts and of three per period, where the forcing holds a point of the curve exactly, so that
+/// no interpolation is in them: the error falls with the mass ratio, in proportion to it, and is within
+/// `eps (2 + abs(sigma) + lambda)`.
+#[test]
+fn forced_amplitudes_are_of_first_order_in_the_mass_ratio() {
+    let wanted = [(0.85, Regime::TwoAsymmetric, 4.0, 1), (1.1, Regime::AboveTwo, 3.0, 0)];
+    for (amplitude, regime, gamma, side) in wanted {
+        let forced = |mass_ratio, sigma| system(mass_ratio, DAMPING, 0.6, sigma, gamma);
+        let branches = at(&CURVE, amplitude).into_iter();
+        let near = branches.map(|branch| (branch, nearest(branch, amplitude)));
+        let (branch, point) =
+            near.into_iter().find(|(_, point)| point.regime == regime).expect("on a branch");
+        let flow_of = forced(MASS_RATIO, 0.0);
+        let both = AveragedFlow::of(&flow_of, &CURVE).stability(branch, point).expect("held");
+        let (sigma, stable) = both[side];
+        assert!(stable && point.repeats_after.is_some(), "{both:?} {point:?}");
+        let error = |part: f64| {
+            let system = forced(MASS_RATIO / part, sigma);
+            let places = [(system, starts::of(&system, 8).collect())];
+            let found = &motions(&places, &Effort::over(200)).expect("inside")[0];
+            let one = found.iter().find(|one| one.regime == regime).expect("simulated");
+            let error = point.amplitude / (std::f64::consts::SQRT_2 * one.rms) - 1.0;
+            assert!(error.abs() < MASS_RATIO / part * (2.0 + sigma.abs() + DAMPING), "{error}");
+            error
+        };
+        let errors = [1.0, 4.0, 16.0].map(error);
+        // A quarter, but for terms of second order and the rounding of repetitions.
+        let falls = errors.windows(2).map(|pair| pair[1] / pair[0]);
+        assert!(falls.into_iter().all(|fall| (0.2..0.35).contains(&fall)), "{errors:?}");
+    }
+}
+
 /// Numbers from 0 to 1 that are evenly spread: multiples of roots of primes, modulo 1.
 fn spread(index: u32) -> [f64; 5] {
     [2.0_f64, 3.0, 5.0, 7.0, 11.0].map(|prime| (0.5 + prime.sqrt() * f64::from(index)).fract())
