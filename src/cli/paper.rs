@@ -5,16 +5,18 @@ use std::path::PathBuf;
 use clap::Args;
 use miette::{IntoDiagnostic, Result};
 use vinesink::case::Case;
-use vinesink::evidence::paper::{CASES, CaseReport, TRANSFER, page};
+use vinesink::evidence::paper::{CASES, CaseReport, SETS, TRANSFER, page};
+use vinesink::store;
 use vinesink::study::{CaseStudy, StudyEffort};
 
+use super::parallel::Parallel;
 use super::progress::Progress;
-use super::{case_file, index, report};
+use super::{case_file, index, output, report};
 
 /// Compare every figure of the paper with what the program finds
 ///
-/// Writes OUT/paper.md from the shipped cases. Its images are those of the cases' reports, which
-/// `vinesink report` writes into the same folder.
+/// Writes OUT/paper.md and OUT/figures/*.svg from the shipped cases. Its other images are those of the cases'
+/// reports, which `vinesink report` writes into the same folder.
 #[derive(Debug, Args)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Arguments {
@@ -32,7 +34,7 @@ Examples:
   vinesink paper --cases cases --out /somewhere/else";
 
 pub fn run(arguments: Arguments) -> Result<bool> {
-    let names: Vec<&'static str> = CASES.into_iter().chain([TRANSFER]).collect();
+    let names: Vec<&'static str> = CASES.into_iter().chain([TRANSFER]).chain(SETS).collect();
     let read = |name: &str| case_file::read(&arguments.cases.join(format!("{name}.toml")));
     let cases: Vec<Case> = names.iter().map(|name| read(name)).collect::<Result<_>>()?;
     let steps = cases.iter().map(|case| CaseStudy::steps(&StudyEffort::of(&case.simulation)));
@@ -45,7 +47,10 @@ pub fn run(arguments: Arguments) -> Result<bool> {
         let figures = report::drawn(&case, &study)?;
         members.push(CaseReport { name, case, study, figures });
     }
-    let text = page(&members).into_diagnostic()?;
-    index::write_page(&arguments.out, "paper.md", &text)?;
+    drop(progress);
+    let files = page(&members, &Parallel).into_diagnostic()?;
+    store::add_to_folder(&arguments.out, &files)?;
+    output::print_path(&arguments.out.join("paper.md"))?;
+    index::refresh(&arguments.out)?;
     Ok(true)
 }

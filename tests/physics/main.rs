@@ -24,6 +24,7 @@ mod fuzz;
 mod impact_times;
 mod limits;
 mod missed_impacts;
+mod nearer_resonance;
 mod orbit_branches;
 mod orbit_equations;
 mod orbits;

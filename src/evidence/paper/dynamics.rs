@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::{CaseSet, HYSTERESIS, PaperError, Section, TRANSFER};
+use super::{CaseReport, CaseSet, HYSTERESIS, PaperError, Section, TRANSFER};
 use crate::analysis::Manifold;
 use crate::regimes::Regime;
 use crate::study::plots::restitutions::Strongest;
@@ -50,7 +50,11 @@ pub(super) fn figure_9(cases: &CaseSet) -> Result<Section, PaperError> {
 }
 
 pub(super) fn figure_12(cases: &CaseSet) -> Result<Section, PaperError> {
-    let (member, measured) = (cases.case(TRANSFER)?, cases.case("li2016-8hz-b15mm")?);
+    transfer(cases.case(TRANSFER)?, cases.case(HYSTERESIS)?)
+}
+
+/// Fig. 12 as a case shows it, beside what one with the paper's own frequency and clearance is.
+pub(super) fn transfer(member: &CaseReport, measured: &CaseReport) -> Result<Section, PaperError> {
     let transfer = member.needs(Transfer::of(&member.case, &member.study)?, "stretches")?;
     let ([weak, falls, sparse], searched) = (transfer.parts, Transfer::PERIODS);
     let scales = member.case.scales();

@@ -5,7 +5,9 @@
 //! decide them. The verdict follows from the checks.
 
 mod boundaries;
+mod detuning;
 mod dynamics;
+mod map;
 mod regimes;
 
 use std::collections::BTreeMap;
@@ -15,14 +17,17 @@ use serde_json::{Value, json};
 
 use crate::analysis::Branch;
 use crate::case::Case;
+use crate::executor::Executor;
 use crate::orbits::Bifurcation;
 use crate::quantity::Units;
 use crate::regimes::{FoundAttractor, Regime};
 use crate::report::figure::Figure;
-use crate::report::render::RenderError;
-use crate::report::template;
+use crate::report::render::{Files, RenderError, page_files};
+use crate::report::template::worded;
 use crate::study::{CaseStudy, StudyError};
 use crate::validation::boundaries::clearances;
+
+pub use detuning::SETS;
 
 /// The cases that the page is made from, as their files are called.
 pub const CASES: [&str; 12] = [
@@ -210,11 +215,11 @@ impl Section {
     }
 }
 
-/// The page as Markdown, from studies of [`CASES`] and [`TRANSFER`].
+/// The page `paper.md` and its own figures, from studies of [`CASES`], [`TRANSFER`] and [`SETS`].
 ///
 /// # Errors
 /// [`PaperError`] names what is missing.
-pub fn page(members: &[CaseReport]) -> Result<String, PaperError> {
+pub fn page(members: &[CaseReport], executor: &dyn Executor) -> Result<Files, PaperError> {
     let cases = CaseSet(members);
     let mut sections = BTreeMap::from([
         ("3", boundaries::figure_3(&cases)?),
@@ -231,149 +236,14 @@ pub fn page(members: &[CaseReport]) -> Result<String, PaperError> {
         let image = cases.case(case)?.image(name, width)?;
         sections.entry(number).and_modify(|section| section.images.push(image));
     }
-    let [steady_8, steady_85] = STEADY.map(|name| boundaries::steady(&cases, name));
-    let context = json!({ "figures": sections, "steady": [steady_8?, steady_85?] });
+    let (nearer, figures) = detuning::section(&cases, executor)?;
+    let steady = STEADY.map(|name| boundaries::steady(&cases, name));
+    let steady = steady.into_iter().collect::<Result<Vec<_>, _>>()?;
+    let context = json!({ "sections": sections, "nearer": nearer, "steady": steady });
     let units = Units::physical(cases.case(STEADY[0])?.length(1.0));
-    Ok(template::render("paper.md", &units, &context)?)
+    let figures = worded(figures, &units)?;
+    Ok(page_files("paper", "paper.md", None, &units, context, &figures)?)
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_verdict_follows_from_the_checks() {
-        let outcome = |holds: &[(&'static str, bool)]| {
-            Section::new(holds.iter().copied(), Value::Null).verdict
-        };
-        assert_eq!(outcome(&[("a", true), ("b", true)]), Outcome::Reproduced);
-        assert_eq!(outcome(&[("a", true), ("b", false)]), Outcome::WithDifference);
-        assert_eq!(outcome(&[("a", false), ("b", false)]), Outcome::Differs);
-    }
-
-    /// Every field that the template reads, with made-up numbers.
-    #[test]
-    fn the_template_fits_what_the_figures_tell() {
-        let at = json!({ "clearance": 0.01, "peak": 0.003, "share": 0.4 });
-        let stretch = json!({ "change": 0.2, "periods": 5, "impacts": 7, "impulse": 2.5 });
-        let panel = json!({
-            "letter": "a", "expected": "above-two", "found": "above-two", "clearance": 3e-4,
-            "impacts_per_period": 3.0, "rms": 0.002,
-        });
-        let image = json!({
-            "case": "c", "title": "t_t", "name": "n", "caption": "what", "alt": "see", "width": 720,
-        });
-        let section = |names: &[&'static str], facts: Value| {
-            let checks = names.iter().map(|name| (*name, *name != "least_at_the_end"));
-            Section { images: vec![image.clone()], ..Section::new(checks, facts) }
-        };
-        let figures = BTreeMap::from([
-            (
-                "3",
-                section(
-                    &["one_stable_branch", "on_the_branch"],
-                    json!({
-                        "fold": { "B": 1.05, "C": 0.2 }, "breaking": { "B": 1.6812, "C": 0.4 },
-                        "away": 0.01, "allowed": 0.03,
-                    }),
-                ),
-            ),
-            (
-                "4",
-                section(
-                    &["a", "impacts_fall", "valley"],
-                    json!({
-                        "panels": [panel], "breaking": 0.01, "doubling": 0.008, "grazing": 0.007,
-                    }),
-                ),
-            ),
-            (
-                "5",
-                section(
-                    &["hopf_first", "modulated", "collide", "side_by_side"],
-                    json!({
-                        "hopf": 0.0265, "collision": 0.0349, "modulated": 0.028,
-                        "slow_hopf": 0.0155, "slow_collision": 0.0163, "hysteresis": 0.015,
-                    }),
-                ),
-            ),
-            (
-                "6",
-                section(
-                    &["branches", "one_meeting", "least_at_the_end"],
-                    json!({
-                        "frequency": 8.3036, "detuning": -0.7096, "forcing": 1.119,
-                        "clearance": 0.02, "least": at, "last": at, "before": 0.2, "lower": 0.05,
-                    }),
-                ),
-            ),
-            ("7", section(&["widest", "none_whole"], json!({ "responses": [at, at, at, at] }))),
-            ("8", section(&["modulated", "follows"], json!({ "clearance": 0.028, "away": 0.05 }))),
-            (
-                "9",
-                section(
-                    &["lifts_the_fold", "harmonic", "damping", "one_amplitude"],
-                    json!({
-                        "harmonic": [0.9, 1.0], "damping": [0.4, 0.5], "elastic": 0.5, "dull": 0.4,
-                    }),
-                ),
-            ),
-            (
-                "11",
-                section(
-                    &["a", "irregular", "three"],
-                    json!({ "panels": [panel], "forcing": {
-                        "amplitude": 2.5e-4, "steady_to": 0.0158, "asymmetric": 0.004,
-                        "modulated": 0.0115, "least": 2.1e-4, "alone": 1.8e-4, "beside": 2e-4,
-                        "missed_by": 0.05, "for_three": 1.9e-4,
-                    } }),
-                ),
-            ),
-            (
-                "12",
-                section(
-                    &[
-                        "papers_own",
-                        "captures",
-                        "falls",
-                        "sparse",
-                        "correlation",
-                        "weak",
-                        "stronger",
-                    ],
-                    json!({
-                        "papers_own": 0.015, "papers_regime": null, "clearance": 0.028,
-                        "captured": 0.6, "longest": 40, "falls": stretch, "sparse": stretch,
-                        "correlation": -0.5, "searched": 400,
-                    }),
-                ),
-            ),
-        ]);
-        let steady = json!({
-            "clearance": 0.0075, "peak": 0.00356, "bare": 0.00301, "change_db": 1.45,
-            "breaking": 0.0051, "hopf": 0.0155, "collision": 0.0163, "ends_by_collision": true,
-            "exact": [0.005, 0.0158], "exact_end": "fold", "simulated": null,
-        });
-        let context = json!({ "figures": figures, "steady": [steady, steady] });
-        let text = template::render("paper.md", &Units::physical(0.0075), &context);
-        let text = text.unwrap_or_else(|error| panic!("{error}"));
-        for part in [
-            "| [5](#fig-5): areas Z1 to Z4, and the two ways out of Z3 | reproduced |",
-            "| [6](#fig-6): saddle-node and Hopf boundary, and the regions A1 and A2 | reproduced with a difference |",
-            "3.56 mm instead of 3.01 mm (+1.4 dB)",
-            "- holds: (a) more than two impacts per period in the paper; found at b = 0.300 mm:",
-            "- **does not hold**: The vibration is smallest",
-            "8.3036 Hz, $\\sigma = -0.7096$, $\\gamma = 1.119$",
-            "[t\\_t](c/report.md): what\n\nChecked:\n\n- holds: One stable branch",
-            "(Hopf, 26.5 mm), then two unstable points meet on the left branch and vanish (34.9 mm).",
-        ] {
-            assert!(text.contains(part), "{part} in\n{text}");
-        }
-    }
-
-    #[test]
-    fn a_case_that_is_not_there_is_named() {
-        let error = page(&[]).expect_err("needs cases");
-        assert!(error.to_string().contains("`li2016-8p5hz-fig4c`"), "{error}");
-    }
-}
+mod tests;

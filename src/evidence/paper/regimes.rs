@@ -3,10 +3,7 @@
 use serde_json::{Value, json};
 
 use super::{CaseSet, PaperError, Section, TRANSFER};
-use crate::orbits::Bifurcation;
 use crate::regimes::Regime;
-use crate::study::exact_branches::ExactBranches;
-use crate::system::{Parameter, System};
 
 /// The cases of Fig. 4 with the regime that the paper shows.
 const FIGURE_4: [(&str, &str, Regime); 5] = [
@@ -18,7 +15,7 @@ const FIGURE_4: [(&str, &str, Regime); 5] = [
 ];
 
 /// The cases of Fig. 11 with the regime that the experiment shows.
-const FIGURE_11: [(&str, &str, Regime); 6] = [
+pub(super) const FIGURE_11: [(&str, &str, Regime); 6] = [
     ("a", "li2016-8hz-b0p3mm", Regime::AboveTwo),
     ("b", "li2016-8hz-b2p5mm", Regime::AboveTwo),
     ("c", "li2016-8hz-b4mm", Regime::TwoAsymmetric),
@@ -98,8 +95,6 @@ fn forcing(cases: &CaseSet) -> Result<Value, PaperError> {
     let moved = |boundary: f64, to: f64| amplitude * to / boundary;
     let least = moved(breaking, asymmetric);
     let beside = moved(lost.unwrap_or(last), modulated);
-    let three = clearance("li2016-8hz-b2p5mm")?;
-    let enough = birth_of_three(system).map(|birth| moved(member.length(birth), three));
     Ok(json!({
         "amplitude": amplitude,
         "steady_to": last,
@@ -110,16 +105,5 @@ fn forcing(cases: &CaseSet) -> Result<Value, PaperError> {
         "alone": moved(last, modulated),
         "beside": beside,
         "missed_by": (least / beside - 1.0).abs(),
-        "for_three": enough,
     }))
-}
-
-/// The largest clearance, over the system's own, with an orbit of more than two impacts that attracts
-/// or turns there: where the one with three is born.
-fn birth_of_three(system: &System) -> Option<f64> {
-    let exact = ExactBranches::over(system, Parameter::Clearance, [0.2, 1.0]);
-    let born = exact.marks.iter().filter(|mark| {
-        !mark.symmetric && mark.kind == Bifurcation::SaddleNode && mark.at.cycle.impact_count() == 3
-    });
-    born.map(|mark| mark.at.value).reduce(f64::max)
 }
