@@ -89,10 +89,10 @@ fn ratios(set: Set) -> [f64; 2] {
     let curvature = 4.0 * rho * rho / (PI * PI);
     let q = [
         4.0 * s,
-        -8.0 * s - 32.0 * sigma / PI.powi(2),
+        -8.0 * s - 32.0 * sigma / libm::pow(PI, 2.0),
         4.0 * s * (1.0 + curvature)
-            + 32.0 * (sigma / PI.powi(2) + lambda * rho / PI.powi(3))
-            + 64.0 / PI.powi(4),
+            + 32.0 * (sigma / libm::pow(PI, 2.0) + lambda * rho / libm::pow(PI, 3.0))
+            + 64.0 / libm::pow(PI, 4.0),
     ];
     let gamma = |beta: f64| (q[0] + q[1] * beta + q[2] * beta * beta).sqrt();
     let breaking = PI * PI / (PI * PI - 4.0);
@@ -109,8 +109,8 @@ fn ratios(set: Set) -> [f64; 2] {
     // The oscillator alone, of which the second ratio asks that it reaches the fold.
     let (eps, omega) = (system.mass_ratio(), system.frequency_ratio());
     let loss = eps * lambda * omega;
-    let bare = eps * (1.0 + (eps * lambda * omega).powi(2)).sqrt()
-        / ((1.0 - omega * omega).powi(2) + loss * loss).sqrt();
+    let bare =
+        eps * libm::hypot(1.0, eps * lambda * omega) / libm::hypot(1.0 - omega * omega, loss);
     let fold = (curvature / (1.0 + curvature)).sqrt();
     [gamma(breaking) / gamma(end), gamma(end) * bare / fold]
 }
