@@ -68,7 +68,7 @@ impl Scales {
 
     /// The velocity of one in clearances per fast time.
     pub fn velocity(&self, dimensionless: f64) -> f64 {
-        dimensionless * self.clearance * self.natural_frequency
+        dimensionless * (self.clearance * self.natural_frequency)
     }
 
     /// The acceleration of one in clearances per fast time squared.

@@ -135,7 +135,7 @@ fn places(plan: &Plan) -> u32 {
 fn number(of: Recorded, found: &Found, scales: &Scales) -> Option<f64> {
     let time = |oscillations: f64| scales.time(TAU * oscillations);
     let length = |over_clearance: f64| scales.length(over_clearance);
-    let speed = |over_clearance: f64| scales.velocity(1.0) * over_clearance;
+    let speed = |over_clearance: f64| scales.velocity(over_clearance);
     Some(match found {
         Found::Release(study) => match of {
             Recorded::DecayTime => time(study.slowest()),

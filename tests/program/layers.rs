@@ -52,6 +52,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "bifurcation",
             "case",
             "evidence/reference",
+            "executor",
             "method",
             "operation_count",
             "orbits",

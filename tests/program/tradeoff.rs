@@ -312,6 +312,11 @@ fn a_modulated_case_is_known_no_better_than_it_scatters() {
                 let own = trial.answer.scatter.expect("a scatter");
                 assert!(error >= own && error >= found.best.rms_error, "{trial:?}");
             }
+            // A modulated cycle, whose captures at random leave a twentieth open.
+            Layer::AveragedFlow => {
+                let error = trial.rms_error.expect("an answer").value;
+                assert!(error < 0.05 && trial.answer.regime == Some(Regime::StronglyModulated));
+            }
             _ => {
                 assert!(trial.answer.rms.is_none() && trial.answer.why_not.is_some(), "{trial:?}");
             }

@@ -58,8 +58,8 @@ impl Scale {
         [value, error]: [f64; 2],
         method: Method,
     ) -> Quantity {
-        let factor = self.scales.velocity(1.0);
-        Quantity::new(kind, factor * value, method).with_error(factor * error)
+        let [value, error] = [value, error].map(|speed| self.scales.velocity(speed));
+        Quantity::new(kind, value, method).with_error(error)
     }
 
     /// A fast time.
