@@ -51,6 +51,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "bifurcation",
             "case",
             "evidence/reference",
+            "executor",
             "method",
             "operation_count",
             "orbits",
