@@ -15,8 +15,8 @@ use super::{case_file, index, output, report};
 
 /// Compare every figure of the paper with what the program finds
 ///
-/// Writes OUT/paper.md and OUT/figures/*.svg from the shipped cases. Its other images are those of the cases'
-/// reports, which `vinesink report` writes into the same folder.
+/// Writes OUT/paper.md and OUT/li2016-8hz-set-a/figures/nearer-resonance.svg from the shipped cases. Its other
+/// images are those of the cases' reports, which `vinesink report` writes into the same folder.
 #[derive(Debug, Args)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Arguments {

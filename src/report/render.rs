@@ -16,8 +16,12 @@ use crate::quantity::Units;
 pub type Files = BTreeMap<PathBuf, Vec<u8>>;
 
 /// The drawings that belong to pages of other commands, in the folder of a report.
-const FIGURES_OF_OTHERS: [&str; 3] =
-    ["figures/tradeoff.svg", "figures/optimize-landscape.svg", "figures/optimize-chart.svg"];
+const FIGURES_OF_OTHERS: [&str; 4] = [
+    "figures/tradeoff.svg",
+    "figures/optimize-landscape.svg",
+    "figures/optimize-chart.svg",
+    "figures/nearer-resonance.svg",
+];
 /// How the names of a sweep's drawings begin, of which there are more or fewer.
 const FIGURES_OF_SWEEP: &str = "figures/sweep-";
 

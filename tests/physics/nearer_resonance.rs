@@ -87,12 +87,13 @@ fn ratios(set: Set) -> [f64; 2] {
     let (lambda, sigma, r) = (system.damping(), system.detuning(), system.restitution());
     let (rho, s) = ((1.0 - r) / (1.0 + r), sigma * sigma + lambda * lambda / 4.0);
     let curvature = 4.0 * rho * rho / (PI * PI);
+    let square = PI * PI;
     let q = [
         4.0 * s,
-        -8.0 * s - 32.0 * sigma / libm::pow(PI, 2.0),
+        -8.0 * s - 32.0 * sigma / square,
         4.0 * s * (1.0 + curvature)
-            + 32.0 * (sigma / libm::pow(PI, 2.0) + lambda * rho / libm::pow(PI, 3.0))
-            + 64.0 / libm::pow(PI, 4.0),
+            + 32.0 / square * (sigma + lambda * rho / PI)
+            + 64.0 / (square * square),
     ];
     let gamma = |beta: f64| (q[0] + q[1] * beta + q[2] * beta * beta).sqrt();
     let breaking = PI * PI / (PI * PI - 4.0);
@@ -108,9 +109,8 @@ fn ratios(set: Set) -> [f64; 2] {
     assert!((found.symmetry_breaking / gamma(breaking) - 1.0).abs() < 1e-12);
     // The oscillator alone, of which the second ratio asks that it reaches the fold.
     let (eps, omega) = (system.mass_ratio(), system.frequency_ratio());
-    let loss = eps * lambda * omega;
-    let bare =
-        eps * libm::hypot(1.0, eps * lambda * omega) / libm::hypot(1.0 - omega * omega, loss);
+    let (loss, stiff) = (eps * lambda * omega, 1.0 - omega * omega);
+    let bare = eps * (1.0 + loss * loss).sqrt() / (stiff * stiff + loss * loss).sqrt();
     let fold = (curvature / (1.0 + curvature)).sqrt();
     [gamma(breaking) / gamma(end), gamma(end) * bare / fold]
 }

@@ -11,6 +11,7 @@ mod map;
 mod regimes;
 
 use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -215,7 +216,7 @@ impl Section {
     }
 }
 
-/// The page `paper.md` and its own figures, from studies of [`CASES`], [`TRANSFER`] and [`SETS`].
+/// The page `paper.md` and its own figure, in the folder of set A's report, from studies of [`CASES`], [`TRANSFER`] and [`SETS`].
 ///
 /// # Errors
 /// [`PaperError`] names what is missing.
@@ -242,7 +243,10 @@ pub fn page(members: &[CaseReport], executor: &dyn Executor) -> Result<Files, Pa
     let context = json!({ "sections": sections, "nearer": nearer, "steady": steady });
     let units = Units::physical(cases.case(STEADY[0])?.length(1.0));
     let figures = worded(figures, &units)?;
-    Ok(page_files("paper", "paper.md", None, &units, context, &figures)?)
+    let files = page_files("paper", "paper.md", None, &units, context, &figures)?;
+    let drawing = |path: &Path| path.extension().is_some_and(|kind| kind == "svg");
+    let placed = |path: PathBuf| if drawing(&path) { Path::new(SETS[0]).join(path) } else { path };
+    Ok(files.into_iter().map(|(path, bytes)| (placed(path), bytes)).collect())
 }
 
 #[cfg(test)]
