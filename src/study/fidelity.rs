@@ -232,6 +232,7 @@ impl Plan {
                 answers?
             }
             (Method::Simulation, None) => return Err(StudyError::NoMotion),
+            (Method::AveragedFlow, _) => self.by_averaged_flow()?,
             (layer, _) => self.by_closed_form_or_orbit(layer),
         };
         if self.demand.coexistence {
@@ -269,11 +270,6 @@ impl Plan {
 
     fn by_closed_form_or_orbit(&self, layer: Method) -> Vec<Answered> {
         // Two impacts a period are what both mean by the motion; they are as certain as it is.
-        if let Some((answer, _)) =
-            self.averaged_flow.as_ref().filter(|_| layer == Method::AveragedFlow)
-        {
-            return self.by_averaged_flow(answer);
-        }
         let (answer, error, known_by) = match (layer, self.error_of_closed_form()) {
             (Method::Theory, Some(error)) => {
                 (&self.closed_form.0, error.abs(), KnownBy::ExactOrbit)
@@ -286,16 +282,17 @@ impl Plan {
         self.told(layer, known_by, answer, [error, 0.0])
     }
 
-    fn by_averaged_flow(&self, answer: &Answer) -> Vec<Answered> {
+    fn by_averaged_flow(&self) -> Result<Vec<Answered>, StudyError> {
+        let (answer, _) = self.averaged_flow.as_ref().ok_or(StudyError::NoMotion)?;
         let symmetric = answer.regime == Some(Regime::TwoSymmetric);
         let orbit = self.orbit.0.rms.filter(|_| symmetric);
         if let Some((rms, orbit)) = answer.rms.zip(orbit) {
             let errors = [(rms / orbit - 1.0).abs(), 0.0];
-            return self.told(Method::AveragedFlow, KnownBy::ExactOrbit, answer, errors);
+            return Ok(self.told(Method::AveragedFlow, KnownBy::ExactOrbit, answer, errors));
         }
         let error = averages_error(&self.system, answer.regime) + answer.scatter.unwrap_or(0.0);
         // How far averages of impacts are off nobody has estimated.
-        self.told(Method::AveragedFlow, KnownBy::Averages, answer, [error, f64::INFINITY])
+        Ok(self.told(Method::AveragedFlow, KnownBy::Averages, answer, [error, f64::INFINITY]))
     }
 
     fn by_simulation(&self, simulated: &LongTermMotions) -> Result<Vec<Answered>, StudyError> {

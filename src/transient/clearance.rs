@@ -5,14 +5,14 @@
 use std::f64::consts::TAU;
 
 use super::record_study::over_records;
-use super::study::{awake, bare};
+use super::study::{bare, slowest_of};
 use super::{
-    DecayStudy, Measured, Passage, Record, RecordStudy, Release, Response, SineSweep, Transient,
+    DecayStudy, Measured, Record, RecordStudy, Release, Response, SineSweep, SweepStudy, Transient,
     counted, follow, places, worst_of_places,
 };
 use crate::case::{Case, Design, Recording};
 use crate::executor::{Executor, map};
-use crate::system::{Parameter, State};
+use crate::system::Parameter;
 
 /// Clearances of a round, rounds, and the releases looked at where there is a range of them.
 const PLACES: u32 = 32;
@@ -114,15 +114,15 @@ fn slowest(case: &Case, release: &Release, design: &Design, starts: u32) -> Opti
             (0..RELEASES).map(|k| from * libm::pow(to / from, part(k))).collect()
         }
     };
-    let alone = [bare(&system, case.decay_level), 0.0];
+    let alone = bare(&system, case.decay_level);
     let time = |factor: &f64| {
         let release = release.scaled(*factor);
-        if case.count_inactive && release.may_not_wake(&system, &scales) {
-            return Some(alone);
+        let inactive = case.count_inactive && release.may_not_wake(&system, &scales);
+        if inactive && alone.is_infinite() {
+            return Some([alone, 0.0]);
         }
         let found = DecayStudy::starts(&system, &scales, &release, case.decay_level, starts);
-        let times: Vec<f64> = awake(&found.ok()?).map(|start| start.oscillations).collect();
-        Some(if times.is_empty() { alone } else { worst_of_places(&times) })
+        Some(slowest_of(&found.ok()?, alone, inactive))
     };
     let times = factors.iter().map(time).collect::<Option<Vec<Measured>>>()?;
     let slowest = times.into_iter().max_by(|a, b| a[0].total_cmp(&b[0]))?;
@@ -132,11 +132,8 @@ fn slowest(case: &Case, release: &Release, design: &Design, starts: u32) -> Opti
 /// Largest displacement of the passage from the worst start.
 fn swept(case: &Case, sweep: &SineSweep, design: &Design, starts: u32) -> Option<Measured> {
     let (system, scales) = (design.system().ok()?, design.scales());
-    let start =
-        |w: f64| Passage::follow(&system, &scales, sweep, State { y: -w, ..State::AT_REST }).ok();
-    let found = places(starts.into()).map(start).collect::<Option<Vec<Passage>>>()?;
-    let counted = counted(&found, case.count_inactive, |found| found.impacts);
-    let peaks: Vec<f64> = counted.iter().map(|found| found.peak()[1]).collect();
+    let counted = SweepStudy::starts(&system, &scales, sweep, starts, case.count_inactive).ok()?;
+    let peaks: Vec<f64> = counted.iter().map(|(_, found)| found.peak()[1]).collect();
     Some(worst_of_places(&peaks).map(|peak| scales.length(peak)))
 }
 

@@ -92,7 +92,6 @@ impl SweepStudy {
     }
 
     /// From every place of the absorber, without those that do not count.
-    #[cfg(feature = "sweep")]
     pub(crate) fn starts(
         system: &System,
         scales: &Scales,

@@ -4,7 +4,9 @@
 use std::f64::consts::{PI, TAU};
 
 use super::linear::{Linear, released};
-use super::{Predicted, Release, Ringdown, STEPS, amplitude, places, settles};
+use super::{
+    Measured, Predicted, Release, Ringdown, STEPS, amplitude, places, settles, worst_of_places,
+};
 use crate::band::rivals::TunedMassDamper;
 use crate::case::{Case, Scales};
 use crate::simulation::StartError;
@@ -156,8 +158,7 @@ impl DecayStudy {
 
     /// Oscillations of the slowest start, that of an absorber which never wakes included where it counts.
     pub fn slowest(&self) -> f64 {
-        let worst = self.worst().map_or(f64::NAN, |worst| worst.oscillations);
-        if self.decides_inactive() { worst.max(self.bare) } else { worst }
+        slowest_of(&self.starts, self.bare, self.decides_inactive())[0]
     }
 
     /// Whether an absorber that never wakes is among the starts that count.
@@ -179,6 +180,15 @@ impl DecayStudy {
 /// The starts that wake the absorber.
 pub(crate) fn awake(starts: &[Decay]) -> impl Iterator<Item = &Decay> {
     starts.iter().filter(|start| start.wakes)
+}
+
+/// Oscillations of the slowest start and by how much those of others may exceed them; those of the structure alone where
+/// it is slower and an absorber that never wakes counts, or none wakes.
+pub(crate) fn slowest_of(starts: &[Decay], alone: f64, inactive: bool) -> Measured {
+    let times: Vec<f64> = awake(starts).map(|start| start.oscillations).collect();
+    let [slowest, error] = worst_of_places(&times);
+    let alone_counts = inactive || times.is_empty();
+    if alone_counts && alone > slowest { [alone, 0.0] } else { [slowest, error] }
 }
 
 fn worst(starts: &[Decay]) -> Option<&Decay> {
@@ -235,4 +245,24 @@ pub(crate) fn bare(system: &System, share: f64) -> f64 {
 /// Oscillations that a decay is followed for.
 pub(crate) fn longest(bare: f64) -> u64 {
     libm::ceil((1.5 * bare).min(LONGEST)) as u64 + 20
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Decay, slowest_of};
+
+    fn start(oscillations: f64, wakes: bool) -> Decay {
+        let (place, impacts, impact_speed, impact_share, peak) = (0.0, 1, 1.0, 0.5, 1.0);
+        Decay { place, oscillations, impacts, impact_speed, impact_share, peak, wakes }
+    }
+
+    /// An absorber may also hold a structure up: then its slowest start counts, not the structure alone.
+    #[test]
+    fn the_structure_alone_counts_where_it_is_slower() {
+        let starts = [start(8.0, true), start(12.0, true), start(99.0, false)];
+        assert_eq!(slowest_of(&starts, 10.0, true)[0], 12.0);
+        assert_eq!(slowest_of(&starts, 20.0, true), [20.0, 0.0]);
+        assert_eq!(slowest_of(&starts, 20.0, false)[0], 12.0);
+        assert_eq!(slowest_of(&starts[2..], 20.0, false), [20.0, 0.0]);
+    }
 }
