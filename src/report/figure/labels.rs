@@ -137,10 +137,12 @@ fn occupied(panel: &Panel, frame: &Frame, shapes: &[Shape]) -> Raster {
 /// All words of a panel with the places that they could take.
 fn requests(panel: &Panel, frame: &Frame, shapes: &[Shape]) -> Vec<Request> {
     let mut all = Vec::new();
-    // Words keep off all data but areas, so only the lines in these can run through them.
-    let hatched =
-        |layer: &Layer| matches!(layer, Layer::Band { fill, .. } if fill.hatch != Hatch::None);
-    let halo = panel.layers.iter().any(hatched);
+    // Words keep off all data but areas and images: the lines in these run through them, and their colours may be dark.
+    let crossed = |layer: &Layer| match layer {
+        Layer::Band { fill, .. } => fill.hatch != Hatch::None,
+        other => matches!(other, Layer::Image(_)),
+    };
+    let halo = panel.layers.iter().any(crossed);
     for (layer, (data, shape)) in panel.layers.iter().zip(shapes).enumerate() {
         let color = data.text_color();
         let words =
