@@ -5,7 +5,7 @@
 use vinesink::orbits::attracting_orbit;
 use vinesink::orbits::branch::{Direction, Settings, follow};
 use vinesink::orbits::{Measures, OrbitError};
-use vinesink::system::{Excitation, Parameter, Parameters, System};
+use vinesink::system::{Cavity, Excitation, Parameter, Parameters, System};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let clearance_mm = 10.0;
@@ -17,6 +17,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         frequency_ratio: 8.0 / 8.349,
         forcing_per_clearance: 0.25 * 4.168 / 0.032 / clearance_mm,
         excitation: Excitation::BaseDisplacement,
+        cavity: Cavity::IDEAL,
     })?;
     let start = attracting_orbit(&system).ok_or("no symmetric orbit attracts")?;
     for direction in [Direction::Down, Direction::Up] {

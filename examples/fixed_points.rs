@@ -5,7 +5,7 @@
 use std::f64::consts::TAU;
 
 use vinesink::analysis::Analysis;
-use vinesink::system::{Excitation, Parameters, System};
+use vinesink::system::{Cavity, Excitation, Parameters, System};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     // An oscillator of 4.168 kg on 11.47 kN/m and 3.02 N s/m; the absorber has 32 g and 20 mm to either side.
@@ -24,6 +24,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             frequency_ratio: frequency * TAU / natural,
             forcing_per_clearance: base_amplitude / (mass_ratio * clearance),
             excitation: Excitation::BaseDisplacement,
+            cavity: Cavity::IDEAL,
         })?;
         let analysis = Analysis::of(&system)?;
         let area = analysis.zone.area.map_or("?".to_owned(), |area| format!("{area:?}"));

@@ -5,7 +5,7 @@
 use std::f64::consts::TAU;
 
 use vinesink::simulation::{Detail, Impact, Observer, Simulation};
-use vinesink::system::{Excitation, Parameters, State, System};
+use vinesink::system::{Cavity, Excitation, Parameters, State, System};
 
 /// What is kept of the impacts; lengths over the clearance, fast time.
 #[derive(Default)]
@@ -40,6 +40,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             frequency_ratio: frequency * TAU / natural,
             forcing_per_clearance: 0.25e-3 * mass / 0.032 / clearance,
             excitation: Excitation::BaseDisplacement,
+            cavity: Cavity::IDEAL,
         })?;
         let mut simulation = Simulation::new(&system, State { y: 0.5, ..State::AT_REST }, 0.0)?;
         simulation.run(1000, u64::MAX, &mut ()); // the transient, which nobody observes

@@ -4,7 +4,7 @@
 
 use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
 use vinesink::regimes::{Effort, Regime, motions, starts};
-use vinesink::system::{Excitation, Parameters, System};
+use vinesink::system::{Cavity, Excitation, Parameters, System};
 
 /// The regime that most of eight starts lead to, at a frequency in Hz and a clearance in mm.
 fn regime(frequency: f64, clearance: f64) -> Option<Regime> {
@@ -16,6 +16,7 @@ fn regime(frequency: f64, clearance: f64) -> Option<Regime> {
         frequency_ratio: frequency / 8.349,
         forcing_per_clearance: 0.25 * 4.168 / 0.032 / clearance,
         excitation: Excitation::BaseDisplacement,
+        cavity: Cavity::IDEAL,
     })
     .ok()?;
     let places = [(system, starts::of(&system, 8).collect())];

@@ -1,7 +1,7 @@
 use vinesink::analysis::Analysis;
 use vinesink::orbits::attracting_orbit;
 use vinesink::simulation::{Measurement, Simulation};
-use vinesink::system::{Excitation, Parameters, State, System};
+use vinesink::system::{Cavity, Excitation, Parameters, State, System};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let system = System::new(Parameters {
@@ -11,6 +11,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         frequency_ratio: 8.0 / 8.349,  // driven at 8 Hz
         forcing_per_clearance: 4.3417, // the base moves by 0.25 mm, b = 7.5 mm
         excitation: Excitation::BaseDisplacement,
+        cavity: Cavity::IDEAL,
     })?;
     for point in Analysis::of(&system)?.stable_points() {
         println!("fixed point of the slow flow: amplitude {:.4} b", point.oscillator_amplitude);

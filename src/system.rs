@@ -39,6 +39,45 @@ pub struct Parameters {
     pub forcing_per_clearance: f64,
     /// Where the excitation enters.
     pub excitation: Excitation,
+    /// What the cavity has beyond two equal walls.
+    #[serde(flatten, skip_serializing_if = "Cavity::is_ideal")]
+    pub cavity: Cavity,
+}
+
+/// What a real cavity has beyond two equal walls; all 0 in the paper's, [`Cavity::IDEAL`].
+///
+/// Between impacts the absorber has `y'' = a + s f`, `s` the sign of `w' = x' - y'`, and the oscillator takes
+/// `-eps s f`. Displacements are those from the rest of the oscillator without absorber, gravity included.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct Cavity {
+    /// `a = g sin(inclination)/(b omega0^2)`, the absorber's acceleration along the cavity, towards the wall at
+    /// `x - y = -b` where it is positive.
+    pub gravity_along: f64,
+    /// `f = mu g cos(inclination)/(b omega0^2)`, sliding friction over the absorber's mass, at least 0.
+    pub friction_acceleration: f64,
+    /// Restitution at the wall `x - y = +b` less that at `x - y = -b`; [`Parameters::restitution`] is their mean.
+    pub restitution_difference: f64,
+}
+
+impl Cavity {
+    /// Level, without friction, its ends alike.
+    pub const IDEAL: Self =
+        Self { gravity_along: 0.0, friction_acceleration: 0.0, restitution_difference: 0.0 };
+
+    /// Whether it is level, without friction, and its ends are alike.
+    pub fn is_ideal(&self) -> bool {
+        *self == Self::IDEAL
+    }
+
+    /// The same accelerations over a `b omega0^2` that is `factor` times as large.
+    #[must_use]
+    pub fn with_clearance_scaled(self, factor: f64) -> Self {
+        Self {
+            gravity_along: self.gravity_along / factor,
+            friction_acceleration: self.friction_acceleration / factor,
+            ..self
+        }
+    }
 }
 
 /// A parameter that no physical system can have.
@@ -59,7 +98,7 @@ pub struct InvalidParameter {
 /// [`System::new`] checks every number and names the one that no system can have.
 ///
 /// ```
-/// use vinesink::system::{Excitation, Parameters, System};
+/// use vinesink::system::{Cavity, Excitation, Parameters, System};
 ///
 /// let parameters = Parameters {
 ///     mass_ratio: 0.01,
@@ -68,6 +107,7 @@ pub struct InvalidParameter {
 ///     frequency_ratio: 1.0,
 ///     forcing_per_clearance: 3.0,
 ///     excitation: Excitation::Force,
+///     cavity: Cavity::IDEAL,
 /// };
 /// let system = System::new(parameters)?;
 /// // At resonance the damper alone holds the force: an amplitude of gamma / lambda clearances.
@@ -107,6 +147,12 @@ impl System {
         not_negative("damping", p.damping)?;
         let within = (0.0..=1.0).contains(&p.restitution);
         check("restitution", p.restitution, within, "a number from 0 to 1")?;
+        let Cavity { gravity_along, friction_acceleration, restitution_difference } = p.cavity;
+        check("gravity_along", gravity_along, true, "a finite number")?;
+        not_negative("friction_acceleration", friction_acceleration)?;
+        let within = within_one(p.restitution, restitution_difference);
+        let expected = "a difference that leaves both restitutions from 0 to 1";
+        check("restitution_difference", restitution_difference, within, expected)?;
         positive("frequency_ratio", p.frequency_ratio)?;
         not_negative("forcing_per_clearance", p.forcing_per_clearance)?;
         let detuning = (p.frequency_ratio - 1.0) / p.mass_ratio;
@@ -124,7 +170,18 @@ impl System {
         self.parameters.damping
     }
 
-    /// `r`, the coefficient of restitution.
+    /// What the cavity has beyond two equal walls.
+    pub fn cavity(&self) -> Cavity {
+        self.parameters.cavity
+    }
+
+    /// Coefficients of restitution at the walls `x - y = +b` and `x - y = -b`.
+    pub fn restitutions(&self) -> [f64; 2] {
+        let half = 0.5 * self.parameters.cavity.restitution_difference;
+        [half, -half].map(|half| (self.parameters.restitution + half).clamp(0.0, 1.0))
+    }
+
+    /// `r`, the coefficient of restitution; the mean where the walls differ.
     pub fn restitution(&self) -> f64 {
         self.parameters.restitution
     }
@@ -166,7 +223,8 @@ impl System {
     pub fn with_clearance_scaled(&self, factor: f64) -> Result<Self, InvalidParameter> {
         check("clearance factor", factor, factor > 0.0, "a finite number above 0")?;
         let forcing_per_clearance = self.parameters.forcing_per_clearance / factor;
-        let scaled = Self::new(Parameters { forcing_per_clearance, ..self.parameters })?;
+        let cavity = self.parameters.cavity.with_clearance_scaled(factor);
+        let scaled = Self::new(Parameters { forcing_per_clearance, cavity, ..self.parameters })?;
         Ok(Self { detuning: self.detuning, ..scaled })
     }
 
@@ -288,6 +346,11 @@ impl LinearResponse {
         let x_velocity = system.frequency_ratio() * self.sine;
         State { x: self.cosine, x_velocity, y: 0.0, y_velocity: 0.0 }
     }
+}
+
+/// Whether both restitutions are from 0 to 1, but for the rounding of their mean.
+fn within_one(mean: f64, difference: f64) -> bool {
+    0.5 * difference.abs() <= mean.min(1.0 - mean) + f64::EPSILON
 }
 
 pub(crate) fn check(

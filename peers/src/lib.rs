@@ -13,7 +13,7 @@ mod reference;
 use std::time::Duration;
 
 use rustix::time::{ClockId, clock_gettime};
-use vinesink::system::{Excitation, Parameters, State, System};
+use vinesink::system::{Cavity, Excitation, Parameters, State, System};
 
 /// Clearances in mm: periodic with three impacts per period, and chaotic.
 pub const CLEARANCES: [f64; 2] = [11.5, 7.5];
@@ -30,6 +30,7 @@ pub fn system(clearance_mm: f64) -> System {
         frequency_ratio: 1.0,
         forcing_per_clearance: 0.25 / mass_ratio / clearance_mm,
         excitation: Excitation::BaseDisplacement,
+        cavity: Cavity::IDEAL,
     })
     .expect("Table 1 is a valid system")
 }

@@ -32,10 +32,11 @@ pub struct EnergyShares {
 /// Table 1 of Li, Seguy, Berlioz (2016), from 0.7 to 0.2 clearances:
 ///
 /// ```
-/// # use vinesink::system::{Excitation, Parameters, System};
+/// # use vinesink::system::{Cavity, Excitation, Parameters, System};
 /// # let system = System::new(Parameters {
 /// #     mass_ratio: 0.0076775, damping: 1.799, restitution: 0.6, frequency_ratio: 1.0,
 /// #     forcing_per_clearance: 0.0, excitation: Excitation::BaseDisplacement,
+/// #     cavity: Cavity::IDEAL,
 /// # })?;
 /// use vinesink::analysis::FreeDecay;
 ///

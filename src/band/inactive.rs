@@ -84,7 +84,7 @@ pub fn largest_by(band: &Band, value: impl FnMut(f64) -> Option<f64>) -> Option<
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::system::{Excitation, Parameters};
+    use crate::system::{Cavity, Excitation, Parameters};
 
     /// Largest displacement of the structure alone from rest, by steps of Runge and Kutta: 2 pi/0.02 steps
     /// a period, an error of 1e-6.
@@ -128,6 +128,7 @@ mod tests {
                 frequency_ratio: omega,
                 forcing_per_clearance: 1e-3,
                 excitation,
+                cavity: Cavity::IDEAL,
             };
             let system = System::new(parameters).expect("valid");
             let half =

@@ -108,6 +108,7 @@ impl Band {
             damping: parameters.damping / factor,
             frequency_ratio: parameters.frequency_ratio / factor,
             forcing_per_clearance: parameters.forcing_per_clearance / over_stiffness,
+            cavity: parameters.cavity.with_clearance_scaled(factor * factor),
             ..parameters
         });
         let mut band = self.with_base(base.ok()?);

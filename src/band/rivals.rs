@@ -210,7 +210,7 @@ pub fn reduction_db(amplitude: f64, against: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::system::{Excitation, Parameters};
+    use crate::system::{Cavity, Excitation, Parameters};
 
     fn system(mass_ratio: f64, zeta: f64, excitation: Excitation) -> System {
         System::new(Parameters {
@@ -221,6 +221,7 @@ mod tests {
             // A static displacement of 1: eps gamma = 1.
             forcing_per_clearance: 1.0 / mass_ratio,
             excitation,
+            cavity: Cavity::IDEAL,
         })
         .expect("valid")
     }

@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 
 use super::Design;
 use crate::quantity::Dimension;
-use crate::system::{Excitation, InvalidParameter, Parameters, System};
+use crate::system::{Cavity, Excitation, InvalidParameter, Parameters, System};
 use crate::transient::{Release, Scene, SineSweep, Transient};
 
 /// What turns dimensionless results back into the design's units: SI, or for a reduced design those of an
@@ -102,6 +102,7 @@ impl Design {
                 frequency_ratio: scales.frequency_ratio(p.frequency_hz),
                 forcing_per_clearance,
                 excitation: p.excitation,
+                cavity: Cavity::IDEAL,
             }),
             Self::Reduced(r) => {
                 let system = System::new(Parameters {
@@ -111,6 +112,7 @@ impl Design {
                     frequency_ratio: r.frequency_ratio.unwrap_or(1.0),
                     forcing_per_clearance,
                     excitation: r.excitation,
+                    cavity: Cavity::IDEAL,
                 })?;
                 // A small detuning would be lost in a ratio near 1.
                 match (r.frequency_ratio, r.detuning) {

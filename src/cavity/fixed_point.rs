@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{Cavity, Motion};
+use super::{CavityTheory, Motion};
 use crate::equations::dissipation::{DETERMINANT, FORCING_SQUARED, TRACE};
 
 /// What the slow flow depends on besides the cavity.
@@ -32,7 +32,7 @@ pub struct FixedPoint {
     pub stable: bool,
 }
 
-impl Cavity {
+impl CavityTheory {
     /// All fixed points of the slow flow, by ascending absorber amplitude, inadmissible ones included: the roots of
     /// `gamma^2 = (lambda c + S)^2 + (2 sigma c - K)^2` along the motions.
     pub fn fixed_points(&self, forcing: &Forcing) -> Vec<FixedPoint> {

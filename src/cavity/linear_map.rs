@@ -7,7 +7,7 @@
 //! this is `-r` times the relative velocity after the first impact over that before the second, of the cycle
 //! `r_1^2 r_2^2`.
 
-use super::Cavity;
+use super::CavityTheory;
 use super::motion::Shape;
 use crate::operation_count;
 
@@ -16,7 +16,7 @@ type Matrix = [[f64; 2]; 2];
 
 /// Trace and determinant over a cycle, from after the first impact; `velocities` are the absorber's after the impacts.
 pub(super) fn trace_and_determinant(
-    cavity: &Cavity,
+    cavity: &CavityTheory,
     shape: &Shape,
     [u1, u2]: [f64; 2],
 ) -> [f64; 2] {

@@ -11,7 +11,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::Cavity;
+use super::CavityTheory;
 use super::motion::{Motion, Shape};
 use crate::equations::cavity::IN_PHASE;
 use crate::numerics::bracket::bisected;
@@ -41,7 +41,7 @@ enum Stretch {
 
 impl Stretch {
     /// `nu` and `c_c`.
-    fn place(&self, cavity: &Cavity, part: f64) -> [f64; 2] {
+    fn place(&self, cavity: &CavityTheory, part: f64) -> [f64; 2] {
         match *self {
             Self::Line(nu) => [nu, (LARGEST + 1.0) * part - 1.0 / libm::cos(nu)],
             Self::Side(zero, [from, to]) => {
@@ -59,7 +59,7 @@ impl Stretch {
     }
 }
 
-impl Cavity {
+impl CavityTheory {
     /// All motions at an amplitude `C/b` of the oscillator, by ascending absorber amplitude, inadmissible ones included.
     pub fn motions_at(&self, oscillator: f64) -> Vec<Motion> {
         self.motions_where(|shape| shape.amplitude - oscillator)

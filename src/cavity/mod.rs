@@ -31,11 +31,11 @@ pub use motion::Motion;
 /// A cavity with a tilt, friction and a restitution for each end.
 ///
 /// ```
-/// use vinesink::cavity::{Cavity, Forcing};
+/// use vinesink::cavity::{CavityTheory, Forcing};
 ///
 /// // Table 1 of Li, Seguy, Berlioz (2016) at 8 Hz and b = 7.5 mm, where gravity is 0.4753 b omega0^2: a tilt of
 /// // 1 degree, a friction coefficient of 0.05.
-/// let cavity = Cavity::new(0.4753 * 0.017452, 0.4753 * 0.05, [0.6, 0.6])?;
+/// let cavity = CavityTheory::new(0.4753 * 0.017452, 0.4753 * 0.05, [0.6, 0.6])?;
 /// let forcing = Forcing { damping: 1.799, detuning: -5.445, forcing_per_clearance: 4.3417 };
 /// let points = cavity.fixed_points(&forcing);
 /// let steady = points.iter().find(|point| point.stable).expect("one");
@@ -43,12 +43,12 @@ pub use motion::Motion;
 /// let [there, back] = steady.motion.times;
 /// assert!((back - there - 0.0765).abs() < 1e-4);
 /// assert!((steady.motion.oscillator_amplitude - 0.4635).abs() < 1e-4);
-/// let refused = Cavity::new(0.0, -0.1, [0.6, 0.6]).unwrap_err();
+/// let refused = CavityTheory::new(0.0, -0.1, [0.6, 0.6]).unwrap_err();
 /// assert_eq!(refused.to_string(), "friction is -0.1, expected a finite number, 0 or more");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Cavity {
+pub struct CavityTheory {
     acceleration: f64,
     friction: f64,
     restitutions: [f64; 2],
@@ -57,7 +57,7 @@ pub struct Cavity {
     ratios: [f64; 2],
 }
 
-impl Cavity {
+impl CavityTheory {
     /// A cavity with `acceleration` `a` of any sign and `friction` `f`, both over `b omega0^2`, and the restitutions at
     /// `w = b` and `w = -b`.
     ///

@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use serde::Serialize;
 
-use super::Cavity;
+use super::CavityTheory;
 use super::linear_map::trace_and_determinant;
 use crate::equations::cavity::{
     ABSORBER, AMPLITUDE, CONTACT, DRIFT, FACTOR, IMPULSE, IN_PHASE, QUADRATURE, REACTANCE,
@@ -78,7 +78,7 @@ pub(super) struct Direction {
     pub(super) amplitude: f64,
 }
 
-impl Cavity {
+impl CavityTheory {
     /// The motion whose flight from `w = b` to `w = -b` takes the phase `pi + 2 deviation`, by its closed form. In a
     /// symmetric cavity it is the asymmetric one, which ends at symmetry breaking, where `deviation` is 0. `None` beyond
     /// `pi/2` either way, where the equation has no solution, and where the absorber would not go from wall to wall.

@@ -65,10 +65,11 @@ pub struct DecayPoint {
 /// Table 1 of Li, Seguy, Berlioz (2016) at 8.35 Hz with a clearance of 11.5 mm, whose base moves by 0.25 mm:
 ///
 /// ```
-/// # use vinesink::system::{Excitation, Parameters, System};
+/// # use vinesink::system::{Cavity, Excitation, Parameters, System};
 /// # let system = System::new(Parameters {
 /// #     mass_ratio: 0.032 / 4.168, damping: 1.799, restitution: 0.6, frequency_ratio: 8.35 / 8.349,
 /// #     forcing_per_clearance: 0.25 * 4.168 / 0.032 / 11.5, excitation: Excitation::BaseDisplacement,
+/// #     cavity: Cavity::IDEAL,
 /// # })?;
 /// use vinesink::dissipation::{AveragedFlow, DissipationCurve};
 ///

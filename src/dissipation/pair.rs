@@ -12,7 +12,7 @@ use crate::numerics::scatter::twice_standard_error;
 use crate::operation_count;
 use crate::regimes::{Regime, classify};
 use crate::simulation::{ImpactLog, Measurement, PeriodRecord, Simulation, Statistics, Stop};
-use crate::system::{Excitation, Parameters, State, System};
+use crate::system::{Cavity, Excitation, Parameters, State, System};
 
 /// Mass ratio, and the reciprocal of its `lambda`: powers of two, whose product is exactly 1.
 const MASS_RATIO: f64 = 1.0 / (1_u64 << 60) as f64;
@@ -185,6 +185,7 @@ pub(super) fn simulation(restitution: f64, amplitude: f64, state: [f64; 2]) -> O
         frequency_ratio: 1.0,
         forcing_per_clearance: amplitude / MASS_RATIO,
         excitation: Excitation::Force,
+        cavity: Cavity::IDEAL,
     });
     let [w, y_velocity] = state;
     let lowest = -amplitude;

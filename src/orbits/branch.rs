@@ -160,10 +160,11 @@ const BESIDE: f64 = 2.0;
 /// symmetric orbit at 8 Hz. The theory has them at 4.687 mm and 16.259 mm:
 ///
 /// ```
-/// # use vinesink::system::{Excitation, Parameters, System};
+/// # use vinesink::system::{Cavity, Excitation, Parameters, System};
 /// # let system = System::new(Parameters {
 /// #     mass_ratio: 0.032 / 4.168, damping: 1.799, restitution: 0.6, frequency_ratio: 8.0 / 8.349,
 /// #     forcing_per_clearance: 4.3417, excitation: Excitation::BaseDisplacement,
+/// #     cavity: Cavity::IDEAL,
 /// # })?;
 /// use vinesink::bifurcation::Bifurcation;
 /// use vinesink::orbits::attracting_orbit;

@@ -285,7 +285,7 @@ fn steady_by_frequency(system: &System, [s, c]: [f64; 2]) -> [f64; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::system::{Excitation, Parameters};
+    use crate::system::{Cavity, Excitation, Parameters};
 
     #[test]
     fn steps_lead_where_the_closed_form_does() {
@@ -297,6 +297,7 @@ mod tests {
                 frequency_ratio,
                 forcing_per_clearance: 3.0,
                 excitation: Excitation::BaseDisplacement,
+                cavity: Cavity::IDEAL,
             });
             let flight = Flight::of(&system.expect("valid")).expect("a steady motion");
             let course = flight.course(0.7, Vector2::new(-0.4, 0.9));

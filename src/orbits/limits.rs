@@ -267,7 +267,7 @@ impl Family {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::system::Excitation;
+    use crate::system::{Cavity, Excitation};
     use proptest::prelude::*;
 
     fn families() -> impl Strategy<Value = Family> {
@@ -280,6 +280,7 @@ mod tests {
                     frequency_ratio,
                     forcing_per_clearance: 1.0,
                     excitation: Excitation::BaseDisplacement,
+                    cavity: Cavity::IDEAL,
                 };
                 Family::of(&System::new(parameters).expect("valid")).expect("steady")
             },

@@ -49,10 +49,11 @@ pub struct SymmetricCurve {
 /// With the system of the crate page:
 ///
 /// ```
-/// # use vinesink::system::{Excitation, Parameters, System};
+/// # use vinesink::system::{Cavity, Excitation, Parameters, System};
 /// # let system = System::new(Parameters {
 /// #     mass_ratio: 0.032 / 4.168, damping: 1.799, restitution: 0.6, frequency_ratio: 8.0 / 8.349,
 /// #     forcing_per_clearance: 4.3417, excitation: Excitation::BaseDisplacement,
+/// #     cavity: Cavity::IDEAL,
 /// # })?;
 /// use vinesink::analysis::Analysis;
 /// use vinesink::orbits::{Measures, symmetric_orbits};

@@ -208,7 +208,7 @@ impl<'a> Tracer<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::system::{Excitation, Parameters};
+    use crate::system::{Cavity, Excitation, Parameters};
 
     /// Against central differences of the systems themselves.
     #[test]
@@ -220,6 +220,7 @@ mod tests {
             frequency_ratio: 0.95,
             forcing_per_clearance: 3.0,
             excitation: Excitation::BaseDisplacement,
+            cavity: Cavity::IDEAL,
         })
         .expect("valid");
         for parameter in Parameter::OF_SYSTEM {

@@ -180,7 +180,7 @@ fn correlation(numbers: &[f64], mean: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::system::{Excitation, Parameters};
+    use crate::system::{Cavity, Excitation, Parameters};
 
     fn fed(growth: impl Fn(u32) -> f64, count: u32) -> Exponent {
         let system = System::new(Parameters {
@@ -190,6 +190,7 @@ mod tests {
             frequency_ratio: 1.0,
             forcing_per_clearance: 0.0,
             excitation: Excitation::Force,
+            cavity: Cavity::IDEAL,
         });
         let mut lyapunov = Lyapunov::begin(&system.expect("valid"));
         (0..count).for_each(|k| lyapunov.record(growth(k)));

@@ -67,7 +67,7 @@ impl StartBox {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::system::{Excitation, Parameters};
+    use crate::system::{Cavity, Excitation, Parameters};
 
     #[test]
     fn starts_are_inside_the_cavity_and_spread_evenly() {
@@ -91,6 +91,7 @@ mod tests {
             frequency_ratio: 1.0,
             forcing_per_clearance: 3.0,
             excitation: Excitation::BaseDisplacement,
+            cavity: Cavity::IDEAL,
         };
         let system = System::new(parameters).expect("valid");
         let starts: Vec<State> = of(&system, 5).collect();

@@ -182,7 +182,7 @@ mod tests {
     use super::*;
     use crate::simulation::flow::Oscillator;
     use crate::simulation::phasor::{Line, Rates};
-    use crate::system::{Excitation, Parameters, System};
+    use crate::system::{Cavity, Excitation, Parameters, System};
 
     fn oscillator(mass_ratio: f64, damping: f64, frequency_ratio: f64) -> Oscillator {
         let parameters = Parameters {
@@ -192,6 +192,7 @@ mod tests {
             frequency_ratio,
             forcing_per_clearance: 0.7 / mass_ratio,
             excitation: Excitation::Force,
+            cavity: Cavity::IDEAL,
         };
         Oscillator::alone(&System::new(parameters).expect("valid"))
     }

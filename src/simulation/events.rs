@@ -143,10 +143,11 @@ pub enum Detail {
 /// With the system of the crate page, whose steady motion has two impacts per period, half a period apart:
 ///
 /// ```
-/// # use vinesink::system::{Excitation, Parameters, System};
+/// # use vinesink::system::{Cavity, Excitation, Parameters, System};
 /// # let system = System::new(Parameters {
 /// #     mass_ratio: 0.032 / 4.168, damping: 1.799, restitution: 0.6, frequency_ratio: 8.0 / 8.349,
 /// #     forcing_per_clearance: 4.3417, excitation: Excitation::BaseDisplacement,
+/// #     cavity: Cavity::IDEAL,
 /// # })?;
 /// use std::f64::consts::PI;
 /// use vinesink::orbits::attracting_orbit;

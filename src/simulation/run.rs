@@ -77,7 +77,7 @@ pub(super) enum Mode {
 ///
 /// ```
 /// use vinesink::simulation::{Simulation, Stop};
-/// use vinesink::system::{Excitation, Parameters, State, System};
+/// use vinesink::system::{Cavity, Excitation, Parameters, State, System};
 ///
 /// let (mass_ratio, restitution) = (0.01, 0.6);
 /// let system = System::new(Parameters {
@@ -87,6 +87,7 @@ pub(super) enum Mode {
 ///     frequency_ratio: 0.5, // one period is 4 pi = 12.6
 ///     forcing_per_clearance: 0.0,
 ///     excitation: Excitation::Force,
+///     cavity: Cavity::IDEAL,
 /// })?;
 /// let start = State { y_velocity: 0.1, ..State::AT_REST };
 /// let mut simulation = Simulation::new(&system, start, 0.0)?;

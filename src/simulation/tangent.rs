@@ -158,7 +158,7 @@ impl Observer for Tangent {
 mod tests {
     use super::*;
     use crate::simulation::Side;
-    use crate::system::{Excitation, Parameters};
+    use crate::system::{Cavity, Excitation, Parameters};
 
     /// No force between the masses changes the centre of mass or its momentum, whose rate of change
     /// holds `-eps lambda x'`: what a wall does to a change of state leaves both.
@@ -172,6 +172,7 @@ mod tests {
             frequency_ratio: 1.1,
             forcing_per_clearance: 2.0,
             excitation: Excitation::Force,
+            cavity: Cavity::IDEAL,
         })
         .expect("valid");
         let kept = |change: State| {

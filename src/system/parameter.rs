@@ -151,7 +151,7 @@ impl Parameter {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::system::Excitation;
+    use crate::system::{Cavity, Excitation};
 
     fn base() -> System {
         // So light an absorber that the frequency ratio cannot hold the detuning.
@@ -162,6 +162,7 @@ mod tests {
             frequency_ratio: 1.0,
             forcing_per_clearance: 3.0,
             excitation: Excitation::BaseDisplacement,
+            cavity: Cavity::IDEAL,
         })
         .and_then(|system| system.with_detuning(0.3))
         .expect("valid")

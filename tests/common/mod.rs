@@ -3,7 +3,7 @@
 
 use vinesink::report::figure::{Figure, PlacedText, Rect};
 use vinesink::simulation::{Measurement, PeriodRecord, Simulation};
-use vinesink::system::{Excitation, Parameters, State, System};
+use vinesink::system::{Cavity, Excitation, Parameters, State, System};
 
 /// Table 1 of Li, Seguy, Berlioz (2016): `eps = m2 / m1`.
 pub const MASS_RATIO: f64 = 0.032 / 4.168;
@@ -39,6 +39,7 @@ pub fn table_1(frequency_hz: f64, clearance_mm: f64) -> System {
         frequency_ratio: frequency_hz * std::f64::consts::TAU / natural_frequency(),
         forcing_per_clearance: forcing_mm() / clearance_mm,
         excitation: Excitation::BaseDisplacement,
+        cavity: Cavity::IDEAL,
     })
     .expect("Table 1 is a valid system")
 }
@@ -52,6 +53,7 @@ pub fn unforced(mass_ratio: f64, damping: f64, restitution: f64) -> System {
         frequency_ratio: 1.0,
         forcing_per_clearance: 0.0,
         excitation: Excitation::Force,
+        cavity: Cavity::IDEAL,
     })
     .expect("valid")
 }

@@ -2,7 +2,7 @@
 
 use crate::common;
 use vinesink::simulation::{Impact, Measurement, Observer, Segment, Simulation, Stop, batch};
-use vinesink::system::{Excitation, Parameters, State, System};
+use vinesink::system::{Cavity, Excitation, Parameters, State, System};
 
 /// Everything that an observer is told.
 #[derive(Default, Debug, PartialEq)]
@@ -68,6 +68,7 @@ fn system(index: u64) -> System {
         },
         forcing_per_clearance: log(0.1, 1e4, spread(index, 11.0)),
         excitation: Excitation::BaseDisplacement,
+        cavity: Cavity::IDEAL,
     })
     .expect("in range")
 }

@@ -3,14 +3,14 @@
 use std::f64::consts::PI;
 
 use vinesink::analysis::{Analysis, Manifold};
-use vinesink::cavity::{Cavity, FixedPoint, Forcing, Motion};
+use vinesink::cavity::{CavityTheory, FixedPoint, Forcing, Motion};
 use vinesink::dissipation::Point;
 use vinesink::equations::cavity as formulas;
 use vinesink::regimes::Regime;
-use vinesink::system::{Excitation, Parameters, System};
+use vinesink::system::{Cavity, Excitation, Parameters, System};
 
-fn cavity(a: f64, f: f64, restitutions: [f64; 2]) -> Cavity {
-    Cavity::new(a, f, restitutions).expect("valid")
+fn cavity(a: f64, f: f64, restitutions: [f64; 2]) -> CavityTheory {
+    CavityTheory::new(a, f, restitutions).expect("valid")
 }
 
 fn system(restitution: f64, forcing: &Forcing) -> System {
@@ -21,6 +21,7 @@ fn system(restitution: f64, forcing: &Forcing) -> System {
         frequency_ratio: 1.0,
         forcing_per_clearance: forcing.forcing_per_clearance,
         excitation: Excitation::Force,
+        cavity: Cavity::IDEAL,
     });
     system.and_then(|system| system.with_detuning(forcing.detuning)).expect("valid")
 }
@@ -267,7 +268,7 @@ fn friction_alone_leaves_the_fixed_points_a_quadratic() {
 }
 
 /// Rates of `C` and `eta`, the motion being the one nearest to another.
-fn rates(cavity: &Cavity, forcing: &Forcing, [c, eta]: [f64; 2], near: &Motion) -> [f64; 2] {
+fn rates(cavity: &CavityTheory, forcing: &Forcing, [c, eta]: [f64; 2], near: &Motion) -> [f64; 2] {
     let motions = cavity.motions_at(c);
     let apart = |one: &&Motion| {
         (one.absorber_amplitude - near.absorber_amplitude).abs()
@@ -343,7 +344,7 @@ fn fixed_points_are_those_of_the_slow_flow() {
 
 #[test]
 fn what_no_cavity_can_be_is_refused() {
-    let text = |a, f, r| Cavity::new(a, f, r).unwrap_err().to_string();
+    let text = |a, f, r| CavityTheory::new(a, f, r).unwrap_err().to_string();
     assert_eq!(text(f64::NAN, 0.0, [0.6; 2]), "acceleration is NaN, expected a finite number");
     assert_eq!(text(0.0, -1.0, [0.6; 2]), "friction is -1, expected a finite number, 0 or more");
     assert_eq!(

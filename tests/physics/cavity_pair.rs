@@ -3,16 +3,16 @@
 
 use std::f64::consts::{PI, TAU};
 
-use vinesink::cavity::{Cavity, Motion};
+use vinesink::cavity::{CavityTheory, Motion};
 
-fn cavity(a: f64, f: f64, restitutions: [f64; 2]) -> Cavity {
-    Cavity::new(a, f, restitutions).expect("valid")
+fn cavity(a: f64, f: f64, restitutions: [f64; 2]) -> CavityTheory {
+    CavityTheory::new(a, f, restitutions).expect("valid")
 }
 
 /// An absorber in a cavity that moves by `C sin(t)`: `y'' = a + s f`, `s` the sign of `w'`, 0 while it sticks.
 #[derive(Clone, Copy)]
 struct Pair {
-    cavity: Cavity,
+    cavity: CavityTheory,
     c: f64,
     t: f64,
     y: f64,
@@ -33,7 +33,7 @@ struct Period {
 
 impl Pair {
     /// Right after an impact at `w = 1` with the absorber's velocity `v`.
-    fn after_first_impact(cavity: &Cavity, c: f64, t: f64, v: f64) -> Self {
+    fn after_first_impact(cavity: &CavityTheory, c: f64, t: f64, v: f64) -> Self {
         Self { cavity: *cavity, c, t, y: c * libm::sin(t) - 1.0, v, s: -1.0 }
     }
 
@@ -129,7 +129,7 @@ impl Pair {
 }
 
 /// A period of the pair from a motion's first impact.
-fn one_period(cavity: &Cavity, motion: &Motion) -> Period {
+fn one_period(cavity: &CavityTheory, motion: &Motion) -> Period {
     let (c, [u1, _]) = (motion.oscillator_amplitude, motion.velocities);
     Pair::after_first_impact(cavity, c, motion.impact_phase, u1).period()
 }
@@ -153,7 +153,7 @@ const TILTS: [f64; 4] = [-0.2, 0.0, 0.04, 0.3];
 const FRICTIONS: [f64; 3] = [0.0, 0.05, 0.25];
 const ENDS: [[f64; 2]; 4] = [[0.6, 0.6], [0.55, 0.7], [0.9, 0.8], [0.2, 0.5]];
 
-fn cavities() -> impl Iterator<Item = Cavity> {
+fn cavities() -> impl Iterator<Item = CavityTheory> {
     TILTS.into_iter().flat_map(|a| {
         FRICTIONS.into_iter().flat_map(move |f| ENDS.into_iter().map(move |r| cavity(a, f, r)))
     })

@@ -11,7 +11,7 @@ use vinesink::evidence::extremes::contact_costs;
 use vinesink::simulation::{
     Absorber, Impact, Measurement, Observer, Segment, Simulation, StartError, Stop,
 };
-use vinesink::system::{Excitation, Parameters, State, System};
+use vinesink::system::{Cavity, Excitation, Parameters, State, System};
 
 /// What happened first.
 #[derive(Default)]
@@ -44,6 +44,7 @@ fn swinging(restitution: f64) -> System {
         frequency_ratio: 1.0,
         forcing_per_clearance: 0.0,
         excitation: Excitation::Force,
+        cavity: Cavity::IDEAL,
     })
     .expect("valid")
 }

@@ -11,7 +11,7 @@ use vinesink::dissipation::{
 use vinesink::equations::dissipation as formulas;
 use vinesink::regimes::{Attractor, Effort, Regime, Window, motions, starts};
 use vinesink::study::{CaseStudy, StudyEffort};
-use vinesink::system::{Excitation, Parameters, State, System};
+use vinesink::system::{Cavity, Excitation, Parameters, State, System};
 use vinesink::validation::{Claim, Finding, Verdict, motions as motions_claims};
 
 use crate::common::{MASS_RATIO, periods_to, slow_amplitudes, table_1};
@@ -30,6 +30,7 @@ fn system(mass_ratio: f64, damping: f64, restitution: f64, sigma: f64, gamma: f6
         frequency_ratio: 1.0,
         forcing_per_clearance: gamma,
         excitation: Excitation::BaseDisplacement,
+        cavity: Cavity::IDEAL,
     })
     .and_then(|system| system.with_detuning(sigma))
     .expect("valid")

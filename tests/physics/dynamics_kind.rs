@@ -6,7 +6,7 @@
 
 use crate::common;
 use vinesink::regimes::{Attractor, DynamicsKind, Regime, Window};
-use vinesink::system::{Excitation, Parameters, State, System};
+use vinesink::system::{Cavity, Excitation, Parameters, State, System};
 
 const START: State = State { x: 0.3, x_velocity: 0.2, y: 0.1, y_velocity: 0.8 };
 
@@ -98,6 +98,7 @@ fn a_modulation_that_never_repeats_nor_parts_neighbours_is_quasi_periodic() {
         frequency_ratio: 0.966,
         forcing_per_clearance: 0.7276,
         excitation: Excitation::Force,
+        cavity: Cavity::IDEAL,
     })
     .expect("valid");
     let found = reached(&system, 2000, 16_000);
@@ -124,6 +125,7 @@ fn linear_drift_of_a_motion_without_losses_is_not_chaos() {
         frequency_ratio: 1.2,
         forcing_per_clearance: 0.0,
         excitation: Excitation::Force,
+        cavity: Cavity::IDEAL,
     })
     .expect("valid");
     // The oscillator hardly moves: the absorber flies to and fro at nearly constant speed.

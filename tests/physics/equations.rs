@@ -8,7 +8,7 @@ use vinesink::report::mathml::to_mathml;
 use vinesink::simulation::contact::rebound;
 use vinesink::simulation::flow::Oscillator;
 use vinesink::symbolic::{Equation, Formula, Symbol, Values};
-use vinesink::system::{Excitation, Parameters, System};
+use vinesink::system::{Cavity, Excitation, Parameters, System};
 
 /// A few dozen operations on numbers of order 1: a hundred units in the last place.
 const ROUNDING: f64 = 2e-14;
@@ -475,6 +475,7 @@ impl TableOne {
             frequency_ratio: frequency / self.frequency,
             forcing_per_clearance: 1.0,
             excitation: Excitation::BaseDisplacement,
+            cavity: Cavity::IDEAL,
         });
         completed(equations::values_of(&system.expect("a physical system")))
     }
@@ -649,6 +650,7 @@ fn what_the_report_prints_is_what_is_evaluated() {
         frequency_ratio: 0.993,
         forcing_per_clearance: 3.0,
         excitation: Excitation::BaseDisplacement,
+        cavity: Cavity::IDEAL,
     });
     let system = system.expect("valid");
     let analysis = vinesink::analysis::Analysis::of(&system).expect("analysable");
@@ -687,6 +689,7 @@ fn the_simulated_motion_satisfies_the_stated_equations() {
             frequency_ratio: 1.1,
             forcing_per_clearance: 3.0,
             excitation: kind,
+            cavity: Cavity::IDEAL,
         };
         let system = System::new(parameters).expect("valid");
         let motion = match kind {

@@ -9,7 +9,7 @@ use proptest::test_runner::RngSeed;
 use vinesink::analysis::{Analysis, Branch, FixedPoint, Strip, boundaries};
 use vinesink::analysis::{Area, FixedPointCurve};
 use vinesink::bifurcation::Bifurcation;
-use vinesink::system::{Excitation, Parameters, System};
+use vinesink::system::{Cavity, Excitation, Parameters, System};
 
 /// Amplitudes at which the conditions are evaluated; denser where the manifold turns.
 const SCAN: u32 = 20_000;
@@ -109,6 +109,7 @@ fn systems() -> impl Strategy<Value = System> {
                 frequency_ratio: 1.0,
                 forcing_per_clearance: libm::exp10(log_gamma),
                 excitation: Excitation::Force,
+                cavity: Cavity::IDEAL,
             };
             let system = System::new(parameters).expect("valid");
             system.with_detuning(detuning).expect("a positive frequency")

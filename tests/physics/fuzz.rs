@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 
 use vinesink::case::Case;
 use vinesink::simulation::{Impact, Measurement, Observer, Segment, Simulation, Stop};
-use vinesink::system::{Excitation, Parameters, State, System};
+use vinesink::system::{Cavity, Excitation, Parameters, State, System};
 
 /// Cases of each target that always run.
 const ALWAYS: u64 = 400;
@@ -131,6 +131,7 @@ fn system(dice: &mut Dice) -> System {
         } else {
             Excitation::Force
         },
+        cavity: Cavity::IDEAL,
     })
     .expect("in range")
 }

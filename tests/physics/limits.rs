@@ -12,7 +12,7 @@ use vinesink::simulation::{
     Impact, ImpactLog, Measurement, Observer, Segment, Simulation, Statistics, Stop, Trace,
     TracePoint,
 };
-use vinesink::system::{Excitation, Parameters, State, System};
+use vinesink::system::{Cavity, Excitation, Parameters, State, System};
 
 /// Some dozen operations on numbers of order one.
 const ROUNDING: f64 = 1e-14;
@@ -26,6 +26,7 @@ const TABLE: Parameters = Parameters {
     frequency_ratio: 0.99,
     forcing_per_clearance: 1.5,
     excitation: Excitation::BaseDisplacement,
+    cavity: Cavity::IDEAL,
 };
 
 fn system(parameters: Parameters) -> System {
@@ -348,6 +349,7 @@ fn the_bare_oscillator_follows_its_linear_response() {
                     frequency_ratio,
                     forcing_per_clearance,
                     excitation,
+                    cavity: Cavity::IDEAL,
                 })
             };
             // Half the clearance, so that no wall is reached.

@@ -9,7 +9,7 @@ use crate::common;
 use std::env;
 
 use vinesink::simulation::{Impact, Simulation};
-use vinesink::system::{Excitation, Parameters, State, System};
+use vinesink::system::{Cavity, Excitation, Parameters, State, System};
 
 /// Flights without a word from the caller: a second or two.
 const FLIGHTS: u64 = 200_000;
@@ -43,6 +43,7 @@ fn system(index: u64) -> System {
         frequency_ratio: log(0.2, 5.0, spread(index, 7.0)),
         forcing_per_clearance: log(0.1, 1e4, spread(index, 11.0)),
         excitation: Excitation::BaseDisplacement,
+        cavity: Cavity::IDEAL,
     })
     .expect("in range")
 }
@@ -140,6 +141,7 @@ fn mild(index: u64) -> System {
         frequency_ratio: log(0.3, 3.0, spread(index, 7.0)),
         forcing_per_clearance: spread(index, 11.0) / mass_ratio,
         excitation: Excitation::BaseDisplacement,
+        cavity: Cavity::IDEAL,
     })
     .expect("in range")
 }

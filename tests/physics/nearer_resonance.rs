@@ -7,7 +7,7 @@ use crate::common;
 use vinesink::analysis::{Analysis, Branch};
 use vinesink::regimes::starts::StartBox;
 use vinesink::regimes::{Effort, Motion, Regime, long_term};
-use vinesink::system::{Excitation, Parameters, State, System};
+use vinesink::system::{Cavity, Excitation, Parameters, State, System};
 
 /// Natural frequency over that of Table 1, restitution, `F` in mm: inferred from the regimes.
 type Set = (f64, f64, f64);
@@ -36,6 +36,7 @@ fn system((natural, restitution, amplitude): Set, clearance: f64) -> System {
         frequency_ratio: 8.0 * TAU / omega_0,
         forcing_per_clearance: amplitude / common::MASS_RATIO / clearance,
         excitation: Excitation::BaseDisplacement,
+        cavity: Cavity::IDEAL,
     })
     .expect("valid")
 }

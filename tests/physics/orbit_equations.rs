@@ -9,7 +9,7 @@ use vinesink::orbits::flight::Flight;
 use vinesink::orbits::{ImpactMap, SymmetricCurve, SymmetricOrbit, Wall, symmetric_orbits};
 use vinesink::report::mathml::to_mathml;
 use vinesink::symbolic::{Equation, Expr, Formula, Symbol, Values};
-use vinesink::system::{Excitation, Parameters, System};
+use vinesink::system::{Cavity, Excitation, Parameters, System};
 
 /// Left less right: what vanishes where the equation holds.
 fn residual(equation: &Equation, values: &Values) -> f64 {
@@ -34,6 +34,7 @@ fn system(eps: f64, damping: f64, restitution: f64, frequency_ratio: f64, forcin
         frequency_ratio,
         forcing_per_clearance: forcing,
         excitation: Excitation::BaseDisplacement,
+        cavity: Cavity::IDEAL,
     })
     .expect("a physical system")
 }
@@ -86,6 +87,7 @@ fn systems() -> impl Strategy<Value = System> {
                 frequency_ratio,
                 forcing_per_clearance,
                 excitation,
+                cavity: Cavity::IDEAL,
             };
             System::new(parameters).expect("a physical system")
         },

@@ -11,7 +11,7 @@ use vinesink::orbits::{
     symmetric_orbits,
 };
 use vinesink::simulation::{Measurement, Simulation};
-use vinesink::system::{Excitation, Parameters, System};
+use vinesink::system::{Cavity, Excitation, Parameters, System};
 
 /// Half a unit of the last printed digit.
 fn agrees(printed: f64, digits: i32, value: f64) -> bool {
@@ -178,6 +178,7 @@ fn any_system() -> impl Strategy<Value = System> {
                 frequency_ratio,
                 forcing_per_clearance: libm::pow(10.0, forcing),
                 excitation: if base { Excitation::BaseDisplacement } else { Excitation::Force },
+                cavity: Cavity::IDEAL,
             })
             .expect("valid")
         })
@@ -363,6 +364,7 @@ proptest! {
             frequency_ratio,
             forcing_per_clearance: 1.0,
             excitation: Excitation::BaseDisplacement,
+            cavity: Cavity::IDEAL,
         })
         .expect("valid");
         let family = SymmetricFamily::of(&system).expect("never exactly at resonance");

@@ -7,7 +7,7 @@ use vinesink::band::rivals::TunedMassDamper;
 use vinesink::case::Scales;
 use vinesink::executor::Serial;
 use vinesink::simulation::Simulation;
-use vinesink::system::{Excitation, Parameters, State, System};
+use vinesink::system::{Cavity, Excitation, Parameters, State, System};
 use vinesink::transient::linear::driven;
 use vinesink::transient::{
     Record, RecordQuantity, RecordStudy, Response, Spectrum, follow, worst_of_places,
@@ -257,6 +257,7 @@ fn a_sampled_sine_is_the_harmonic_drive() {
             frequency_ratio: omega,
             forcing_per_clearance: amplitude * kept / eps,
             excitation,
+            cavity: Cavity::IDEAL,
         });
         // Structure and absorber begin with the velocity of the base, which is against it none.
         let velocity = if base { amplitude * kept * omega } else { 0.0 };

@@ -14,7 +14,7 @@ use vinesink::simulation::Absorber;
 use vinesink::simulation::{
     Impact, ImpactLog, Measurement, Observer, Segment, Side, Simulation, StartError, Stop, Trace,
 };
-use vinesink::system::{Excitation, Parameters, State, System};
+use vinesink::system::{Cavity, Excitation, Parameters, State, System};
 
 /// Largest number of impacts of one random run; chattering near r = 1 may use it up.
 const IMPACT_LIMIT: u64 = 30_000;
@@ -221,6 +221,7 @@ fn systems() -> impl Strategy<Value = System> {
                 frequency_ratio,
                 forcing_per_clearance: libm::exp10(log_gamma),
                 excitation,
+                cavity: Cavity::IDEAL,
             })
             .expect("valid")
         },
@@ -368,6 +369,7 @@ fn a_sine_that_grazes_the_wall_by_a_hair_is_told_from_one_that_does_not() {
         frequency_ratio: 0.7,
         forcing_per_clearance: 0.0,
         excitation: Excitation::BaseDisplacement,
+        cavity: Cavity::IDEAL,
     })
     .expect("valid");
     for exponent in 3..=12 {

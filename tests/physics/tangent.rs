@@ -9,7 +9,7 @@ use vinesink::regimes::diagram::carried_over;
 use vinesink::regimes::lyapunov::{Exponent, Lyapunov};
 use vinesink::regimes::starts::StartBox;
 use vinesink::simulation::{Measurement, Observer, Simulation, Tangent};
-use vinesink::system::{Excitation, Parameters, State, System};
+use vinesink::system::{Cavity, Excitation, Parameters, State, System};
 
 const UNIT: [[f64; 4]; 4] =
     [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
@@ -83,6 +83,7 @@ fn the_tangent_map_is_the_derivative_of_the_simulated_flow() {
         frequency_ratio: 1.1,
         forcing_per_clearance: 2.0,
         excitation: Excitation::BaseDisplacement,
+        cavity: Cavity::IDEAL,
     })
     .expect("valid");
     let start = State { x: 0.3, x_velocity: 0.2, y: 0.1, y_velocity: 0.8 };
@@ -141,6 +142,7 @@ fn volume_shrinks_by_damping_and_by_r_squared_at_each_impact() {
             frequency_ratio: 1.1,
             forcing_per_clearance: 1.0,
             excitation: Excitation::Force,
+            cavity: Cavity::IDEAL,
         })
         .expect("valid");
         let start = State { x: 0.3, x_velocity: 0.9, y: 0.1, y_velocity: 0.4 };
@@ -173,6 +175,7 @@ fn volume_shrinks_as_it_must_in_every_system() {
             frequency_ratio: 0.6 + place(k, 7.0),
             forcing_per_clearance: 4.0 * place(k, 11.0),
             excitation: Excitation::BaseDisplacement,
+            cavity: Cavity::IDEAL,
         })
         .expect("valid");
         let start = StartBox::around(&system).start(k);

@@ -13,7 +13,7 @@ use vinesink::regimes::{
     transient,
 };
 use vinesink::simulation::Simulation;
-use vinesink::system::{Excitation, Parameters, State, System};
+use vinesink::system::{Cavity, Excitation, Parameters, State, System};
 
 /// A footbridge, 1200 kg at 2.1 Hz with 0.4 % of damping under 250 N, and 1.5 % of its mass in a cavity.
 fn bridge(clearance: f64, hertz: f64) -> System {
@@ -25,6 +25,7 @@ fn bridge(clearance: f64, hertz: f64) -> System {
         frequency_ratio: hertz / 2.1,
         forcing_per_clearance: 250.0 / stiffness / 0.015 / clearance,
         excitation: Excitation::Force,
+        cavity: Cavity::IDEAL,
     })
     .expect("valid")
 }

@@ -7,7 +7,7 @@ use vinesink::method::Method;
 use vinesink::orbits::FullSystem;
 use vinesink::regimes::{DynamicsKind, FoundAttractor, Regime};
 use vinesink::study::{CaseStudy, StudyEffort, long_term_motions};
-use vinesink::system::{Excitation, Parameters, System};
+use vinesink::system::{Cavity, Excitation, Parameters, System};
 use vinesink::validation::{Finding, Reached, Reason, Verdict, motions, orbits};
 
 #[test]
@@ -129,6 +129,7 @@ fn a_small_torus_beyond_a_limit_is_no_steady_motion() {
         frequency_ratio: 8.0 * std::f64::consts::TAU / (30_320.0_f64 / 12.0).sqrt(),
         forcing_per_clearance: 0.01 / 0.02,
         excitation: Excitation::BaseDisplacement,
+        cavity: Cavity::IDEAL,
     };
     let exact = FullSystem::of(&System::new(parameters).expect("valid"));
     let claims = orbits::limits(&exact).expect("simulated");

@@ -8,7 +8,7 @@ use vinesink::band::{Band, exact, margin, theory};
 use vinesink::case::BandOver;
 use vinesink::orbits::symmetric_orbits;
 use vinesink::regimes::{Effort, long_term, starts};
-use vinesink::system::{Excitation, Parameters, System};
+use vinesink::system::{Cavity, Excitation, Parameters, System};
 
 /// Table 1 of Li, Seguy, Berlioz (2016) at resonance, at a clearance in millimetres.
 fn li(clearance_mm: f64) -> System {
@@ -30,6 +30,7 @@ fn bands() -> Vec<Band> {
             frequency_ratio: 1.0,
             forcing_per_clearance: gamma,
             excitation,
+            cavity: Cavity::IDEAL,
         })
         .expect("valid")
     };

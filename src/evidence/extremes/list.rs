@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use serde::Serialize;
 
-use crate::system::{Excitation, InvalidParameter, Parameters, State, System};
+use crate::system::{Cavity, Excitation, InvalidParameter, Parameters, State, System};
 
 /// Excitation periods of a run, unless it says otherwise.
 const PERIODS: u64 = 200;
@@ -120,6 +120,7 @@ pub fn table_1(varied: &[(Varied, f64)]) -> Parameters {
         frequency_ratio: 8.0 * TAU / natural,
         forcing_per_clearance: forcing(7.5),
         excitation: Excitation::BaseDisplacement,
+        cavity: Cavity::IDEAL,
     };
     for (number, value) in varied {
         match number {

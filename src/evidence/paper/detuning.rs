@@ -55,6 +55,7 @@ impl Set {
             restitution: self.restitution,
             frequency_ratio: parameters.frequency_ratio * softer,
             forcing_per_clearance: parameters.forcing_per_clearance * forcing,
+            cavity: parameters.cavity.with_clearance_scaled(1.0 / (narrower * softer * softer)),
             ..parameters
         });
         system.map_err(|error| PaperError::Missing(error.to_string()))

@@ -1,6 +1,6 @@
 use super::*;
 use crate::simulation::{Impact, ImpactLog};
-use crate::system::{Excitation, Parameters, System};
+use crate::system::{Cavity, Excitation, Parameters, System};
 
 fn simulations() -> Vec<Simulation> {
     (0..40)
@@ -13,6 +13,7 @@ fn simulations() -> Vec<Simulation> {
                 frequency_ratio: 0.7 + part,
                 forcing_per_clearance: 20.0,
                 excitation: Excitation::BaseDisplacement,
+                cavity: Cavity::IDEAL,
             })
             .expect("valid");
             let start = State { x: part, x_velocity: 0.3, y: 0.2, y_velocity: -0.5 * part };

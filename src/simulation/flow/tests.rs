@@ -1,5 +1,5 @@
 use super::*;
-use crate::system::{Excitation, Parameters};
+use crate::system::{Cavity, Excitation, Parameters};
 
 fn oscillator(eps: f64, lambda: f64, frequency_ratio: f64) -> Oscillator {
     let parameters = Parameters {
@@ -9,6 +9,7 @@ fn oscillator(eps: f64, lambda: f64, frequency_ratio: f64) -> Oscillator {
         frequency_ratio,
         forcing_per_clearance: 2.0,
         excitation: Excitation::BaseDisplacement,
+        cavity: Cavity::IDEAL,
     };
     Oscillator::alone(&System::new(parameters).expect("valid"))
 }

@@ -20,10 +20,11 @@ const INTEGRALS: u64 = 5 * operation_count::ELEMENTARY + 300;
 /// With the system of the crate page, once its transient is over:
 ///
 /// ```
-/// # use vinesink::system::{Excitation, Parameters, System};
+/// # use vinesink::system::{Cavity, Excitation, Parameters, System};
 /// # let system = System::new(Parameters {
 /// #     mass_ratio: 0.032 / 4.168, damping: 1.799, restitution: 0.6, frequency_ratio: 8.0 / 8.349,
 /// #     forcing_per_clearance: 4.3417, excitation: Excitation::BaseDisplacement,
+/// #     cavity: Cavity::IDEAL,
 /// # })?;
 /// use vinesink::simulation::{Measurement, Simulation};
 /// use vinesink::system::State;

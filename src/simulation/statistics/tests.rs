@@ -2,7 +2,7 @@ use crate::numerics::lanes::LANES;
 use crate::simulation::events::{Absorber, Observer, Segment};
 use crate::simulation::integrals::{Ends, Quadrature, Ringing};
 use crate::simulation::{Simulation, Stop, peaks};
-use crate::system::{Excitation, Parameters, State, System};
+use crate::system::{Cavity, Excitation, Parameters, State, System};
 
 /// Compares closed forms with quadrature and, for peaks, with samples, flight by flight.
 struct Comparison {
@@ -93,6 +93,7 @@ pub(super) fn systems() -> impl Iterator<Item = System> {
             frequency_ratio: omega,
             forcing_per_clearance: gamma,
             excitation: Excitation::BaseDisplacement,
+            cavity: Cavity::IDEAL,
         })
     };
     all.map(|one| system(one).expect("valid")).into_iter()
