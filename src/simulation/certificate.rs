@@ -14,6 +14,8 @@
 //! `w` at which the slope `v` satisfies `v^2 > 4 M S/14340`, `|w''| <= M`, is the first: between an earlier
 //! one and it `w` would fall by `v^2/(2 M)`, and the outer quintic back inside.
 //!
+//! Where the absorber rubs a panel also has to keep the sign of `w'`: [`Hull::rises`].
+//!
 //! Any other panel is halved, which divides `S` by 64; below a thousandth of a panel the search of
 //! [`crate::numerics::crossing`] takes over.
 
@@ -155,6 +157,21 @@ impl<R: Real> Hull<R> {
         highest.at_most(one) & (-one).at_most(lowest) & self.last.abs().at_most(one)
     }
 
+    /// Where `w'`, with these values at the ends, is proven to keep the sign `sense` in between: the derivative's
+    /// coefficients in Bernstein's form are differences, and `w'` differs from it by at most `S u^2 (1-u)^2/120` over
+    /// the length of the panel, which its middle one takes up.
+    #[inline(always)]
+    pub(super) fn rises(&self, sense: R, begin: R, end: R) -> R::Mask {
+        let [b1, b2, b3, b4] = self.inner;
+        let zero = b1.like(0.0);
+        let keeps = [(b2 - b1) * sense, (b4 - b3) * sense, begin * sense, end * sense];
+        (self.slack * 2.0).at_most((b3 - b2) * sense)
+            & zero.at_most(keeps[0])
+            & zero.at_most(keeps[1])
+            & zero.at_most(keeps[2])
+            & zero.less(keeps[3])
+    }
+
     /// Where it leaves the band through the wall nearest to its end, `wall`, and not before through
     /// the other: once, if the slope at the root is steep enough.
     #[inline(always)]
@@ -181,7 +198,7 @@ mod tests {
 
     use super::*;
     use crate::simulation::flow::Oscillator;
-    use crate::simulation::phasor::{Line, Rates};
+    use crate::simulation::phasor::{Line, Path, Rates};
     use crate::system::{Cavity, Excitation, Parameters, System};
 
     fn oscillator(mass_ratio: f64, damping: f64, frequency_ratio: f64) -> Oscillator {

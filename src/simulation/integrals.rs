@@ -15,6 +15,7 @@ use nalgebra::Complex;
 use super::events::Segment;
 use super::flow::Oscillator;
 use super::phasor::Rates;
+use super::sliding::Sliding;
 use super::small::{angles, exponential_minus_one};
 use crate::numerics::bracket::brent;
 use crate::numerics::lanes::{LANES, Real};
@@ -197,8 +198,11 @@ impl Ends<[f64; LANES]> {
 }
 
 impl Ringing {
-    /// None where [`Rates::of`] has none.
+    /// None where [`Rates::of`] has none, or the absorber's flights are not straight.
     pub(super) fn of(system: &System) -> Option<Self> {
+        if !Sliding::of(system).none() {
+            return None;
+        }
         let rates = Rates::of(&Oscillator::alone(system))?;
         let (sine, cosine) = system.excitation_amplitudes();
         let (zero, one) = (Phasor::new(0.0, 0.0), Phasor::new(1.0, 0.0));

@@ -6,8 +6,9 @@ use fearless_simd::{Level, Simd, dispatch};
 use super::certificate::{Hull, Slack};
 use super::contact::rebound;
 use super::events::{Detail, Observer, Side};
-use super::phasor::{At, Corrected, Line, Rates, Steady};
+use super::phasor::{At, Corrected, Line, Path, Rates, Steady};
 use super::run::{Moment, Simulation, Stop};
+use super::sliding::{Course, Straight};
 use super::walls::{self, Sticking};
 use crate::numerics::lanes::Real;
 use crate::system::State;
@@ -70,43 +71,49 @@ impl Simulation {
         observer: &mut dyn Observer,
     ) -> FlightEnd {
         let Some(rates) = self.rates else { return FlightEnd::Doubt };
-        let (moment, end) = dispatch!(level, simd => self.fly_by(simd, &rates, limits, observer));
+        let (moment, end) = if self.sliding.none() {
+            dispatch!(level, simd => self.fly_by(simd, Straight, &rates, limits, observer))
+        } else {
+            let sliding = self.sliding;
+            dispatch!(level, simd => self.fly_by(simd, sliding, &rates, limits, observer))
+        };
         self.at = moment;
         end
     }
 
     /// By the instructions that `simd` stands for.
     #[inline(always)]
-    fn fly_by<S: Simd>(
+    fn fly_by<S: Simd, C: Course>(
         &self,
         simd: S,
+        course: C,
         rates: &Rates<f64>,
         limits: Limits,
         observer: &mut dyn Observer,
     ) -> (Moment, FlightEnd) {
-        let (eps, r) = (self.system.mass_ratio(), self.system.restitution());
-        let sticking = Sticking::of(self);
+        let eps = self.system.mass_ratio();
+        let sticking = [Side::Plus, Side::Minus].map(|side| Sticking::of(self, side));
         let detail = observer.detail();
         let mut at = self.at;
         // What has just been thrown back leaves its wall.
         let mut leaves = false;
         loop {
-            let Moment { state: State { x, x_velocity: v, y, y_velocity }, steady, .. } = at;
-            let line = Line { y, velocity: y_velocity };
-            if !leaves && walls::blocked(x, v, line) {
+            let Moment { state: State { x, x_velocity: v, y, y_velocity }, steady, sense, .. } = at;
+            if !leaves && walls::blocked(x, v, Line { y, velocity: y_velocity }) {
                 return (at, FlightEnd::Doubt);
             }
-            let (here, slack) = rates.begin(x, v, steady, line);
+            let (x, path) = course.depart(&at);
+            let (here, slack) = rates.begin(x, v, steady, path);
             if rates.short(&here) {
                 return (at, FlightEnd::Doubt);
             }
-            let left = rates.left(at.phase);
-            let Some(landing) = rates.fly(simd, here, slack, line, left, &mut at.evaluations)
-            else {
+            let flight = Flight { course, sense, path, left: rates.left(at.phase) };
+            let Some(landing) = rates.fly(simd, here, slack, &flight, &mut at.evaluations) else {
                 return (at, FlightEnd::Doubt);
             };
             let Landing { wall, time, x, v, steady } = landing;
-            let y = y + y_velocity * time;
+            let Line { y, velocity: y_velocity } = path.from(time).line();
+            let (x, y) = (course.arrive(sense, x), course.arrive(sense, y));
             if !(x.abs() <= f64::MAX && y.abs() <= f64::MAX) {
                 return (at, FlightEnd::Doubt);
             }
@@ -118,10 +125,12 @@ impl Simulation {
             if let Some(side) = wall {
                 at.phase += rates.frequency * time;
                 at.impacts += 1;
-                let after = rebound(eps, r, v, y_velocity);
+                let after = rebound(eps, self.restitution(side), v, y_velocity);
                 at.state = self.rebounded(&before, side, &after);
+                at.sense = -side.sign();
                 let State { x, x_velocity: v, y, y_velocity } = at.state;
                 let line = Line { y, velocity: y_velocity };
+                let sticking = &sticking[usize::from(side == Side::Minus)];
                 if sticking.possible(x, v, line, side.sign()) {
                     return (at, FlightEnd::MayStick(side));
                 }
@@ -154,7 +163,7 @@ impl Simulation {
             observer.period(&before);
             return;
         };
-        let (eps, r) = (self.system.mass_ratio(), self.system.restitution());
+        let (eps, r) = (self.system.mass_ratio(), self.restitution(side));
         let after = rebound(eps, r, before.x_velocity, before.y_velocity);
         let when = (at.turns, at.phase + self.alone.frequency * time);
         observer.impact(&self.impact(&before, side, &after, when));
@@ -177,32 +186,33 @@ impl Rates<f64> {
     /// Flies to the first impact or the end of the period; none where nothing is proven.
     /// Evaluations of the motion are added to `evaluations`.
     #[inline(always)]
-    fn fly<S: Simd>(
+    fn fly<S: Simd, C: Course>(
         &self,
         simd: S,
         mut here: At<f64>,
         slack: Slack<f64>,
-        line: Line<f64>,
-        left: f64,
+        flight: &Flight<C>,
         evaluations: &mut u64,
     ) -> Option<Landing> {
+        let Flight { course, sense, path, left } = *flight;
         let mut time = 0.0;
         loop {
-            // The panels until one may hold an impact.
+            // The panels until one may hold an event.
             let there = loop {
                 let reach = time + self.step;
-                let there = self.next(&here, line.from(reach));
+                let there = self.next(&here, path.from(reach));
                 *evaluations += 1;
-                if !Hull::of(&here, &there, self.step, &slack).clear() {
+                let hull = Hull::of(&here, &there, self.step, &slack);
+                if !(hull.clear() && course.one_way(sense, &hull, [&here, &there])) {
                     break there;
                 }
                 if left <= reach {
-                    return Some(self.ended(simd, &here, time, line, left, evaluations));
+                    return Some(self.ended(simd, &here, time, path, left, evaluations));
                 }
                 (here, time) = (there, reach);
             };
-            let panel = Panel { here, there, time, slack, line, left };
-            match self.look_into(simd, &panel, evaluations)? {
+            let panel = Panel { here, there, time, slack };
+            match self.look_into(simd, &panel, flight, evaluations)? {
                 Found::Landing(landing) => return Some(landing),
                 Found::Nothing { until, there } => (here, time) = (there, until),
             }
@@ -216,7 +226,7 @@ impl Rates<f64> {
         simd: S,
         here: &At<f64>,
         time: f64,
-        line: Line<f64>,
+        path: impl Path<f64>,
         left: f64,
         evaluations: &mut u64,
     ) -> Landing {
@@ -224,35 +234,43 @@ impl Rates<f64> {
             #[inline(always)]
             || {
                 *evaluations += 1;
-                let (x, v) = self.oscillator(&self.after(simd, here, left - time, line.from(time)));
+                let (x, v) = self.oscillator(&self.after(simd, here, left - time, path.from(time)));
                 Landing { wall: None, time: left, x, v, steady: self.origin }
             },
         )
     }
 
     /// Looks for an impact in a panel that is not proven to be clear, or in the first part of it about
-    /// which something is; none where nothing is.
+    /// which something is; none where nothing is, or where sliding ends before.
     #[inline(always)]
-    fn look_into<S: Simd>(&self, simd: S, panel: &Panel, evaluations: &mut u64) -> Option<Found> {
-        let Panel { here, mut there, time, mut slack, line, left } = *panel;
-        let (line_here, rest) = (line.from(time), left - time);
+    fn look_into<S: Simd, C: Course>(
+        &self,
+        simd: S,
+        panel: &Panel,
+        flight: &Flight<C>,
+        evaluations: &mut u64,
+    ) -> Option<Found> {
+        let Panel { here, mut there, time, mut slack } = *panel;
+        let Flight { course, sense, path, left } = *flight;
+        let (path_here, rest) = (path.from(time), left - time);
         let mut length = self.step;
         let mut hull = Hull::of(&here, &there, length, &slack);
         loop {
             let side = if there.gap > 0.0 { Side::Plus } else { Side::Minus };
-            if hull.meets(side.sign()) {
+            let one_way = course.one_way(sense, &hull, [&here, &there]);
+            if one_way && hull.meets(side.sign()) {
                 let guess = Self::guess(&here, &there, length, side.sign(), true);
                 let guess = guess.larger(0.0).smaller(length);
                 if rest < guess {
                     *evaluations += 1;
-                    let at = self.moment(simd, &here, rest, line_here);
+                    let at = self.moment(simd, &here, rest, path_here);
                     if slack.before(&at, side.sign()) {
                         let (x, v) = self.oscillator(&at);
                         let end = Landing { wall: None, time: left, x, v, steady: self.origin };
                         return Some(Found::Landing(end));
                     }
                 }
-                let guess = Guess { time: guess, length, side, line: line_here };
+                let guess = Guess { time: guess, length, side, path: path_here };
                 if let Some(found) = self.root(simd, &here, guess, &slack, evaluations) {
                     if rest < found.time {
                         break;
@@ -263,20 +281,21 @@ impl Rates<f64> {
                     return Some(Found::Landing(impact));
                 }
             }
-            if length < SHORTEST * self.step {
+            let turned = !one_way && there.slope * sense <= 0.0 && there.gap.abs() <= 1.0;
+            if turned || length < SHORTEST * self.step {
                 return None;
             }
             (length, slack) = (length * 0.5, slack.halved());
-            there = self.moment(simd, &here, length, line_here);
+            there = self.moment(simd, &here, length, path_here);
             *evaluations += 1;
             hull = Hull::of(&here, &there, length, &slack);
-            if hull.clear() {
+            if hull.clear() && course.one_way(sense, &hull, [&here, &there]) {
                 break;
             }
         }
         let until = time + length;
         if left <= until {
-            let end = self.ended(simd, &here, time, line, left, evaluations);
+            let end = self.ended(simd, &here, time, path, left, evaluations);
             return Some(Found::Landing(end));
         }
         Some(Found::Nothing { until, there })
@@ -284,10 +303,10 @@ impl Rates<f64> {
 
     /// As [`Self::after`], for what is rare.
     #[inline(never)]
-    fn moment<S: Simd>(&self, simd: S, here: &At<f64>, s: f64, line: Line<f64>) -> At<f64> {
+    fn moment<S: Simd>(&self, simd: S, here: &At<f64>, s: f64, path: impl Path<f64>) -> At<f64> {
         simd.vectorize(
             #[inline(always)]
-            || self.after(simd, here, s, line),
+            || self.after(simd, here, s, path),
         )
     }
 
@@ -297,15 +316,15 @@ impl Rates<f64> {
         &self,
         simd: S,
         here: &At<f64>,
-        guess: Guess,
+        guess: Guess<impl Path<f64>>,
         slack: &Slack<f64>,
         evaluations: &mut u64,
     ) -> Option<Corrected<f64>> {
-        let Guess { mut time, length, side, line } = guess;
+        let Guess { mut time, length, side, path } = guess;
         for _ in 0..CORRECTIONS {
             *evaluations += 1;
             let inside = time.larger(0.0).smaller(length);
-            let found = self.corrected(simd, here, inside, line, side.sign(), slack);
+            let found = self.corrected(simd, here, inside, path, side.sign(), slack);
             if found.exact {
                 return Some(found);
             }
@@ -322,8 +341,14 @@ struct Panel {
     /// Time from the flight's beginning to its own.
     time: f64,
     slack: Slack<f64>,
-    /// The flight.
-    line: Line<f64>,
+}
+
+/// A flight under way.
+struct Flight<C: Course> {
+    course: C,
+    /// Sign of `x' - y'`, where it has to stay.
+    sense: f64,
+    path: C::Path,
     /// Time from its beginning until the period is over.
     left: f64,
 }
@@ -338,9 +363,9 @@ enum Found {
 
 /// Roughly when and where a flight ends in a panel.
 #[derive(Debug, Clone, Copy)]
-struct Guess {
+struct Guess<P> {
     time: f64,
     length: f64,
     side: Side,
-    line: Line<f64>,
+    path: P,
 }

@@ -35,6 +35,7 @@ mod regimes;
 mod release;
 mod simulation_properties;
 mod sine_sweep;
+mod sliding;
 mod symbolic;
 mod tangent;
 mod transient_times;

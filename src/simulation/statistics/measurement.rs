@@ -164,6 +164,7 @@ impl Observer for Measurement {
         }
         let (peak, integrals) = (self.quadrature.peak(segment), self.quadrature.over(segment));
         self.statistics.add(self.statistics.periods, std::iter::once((peak, integrals)));
+        self.statistics.slides(segment);
         if !carried {
             return;
         }

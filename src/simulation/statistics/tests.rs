@@ -14,7 +14,7 @@ struct Comparison {
 
 impl Observer for Comparison {
     fn segment(&mut self, segment: &Segment) {
-        let Absorber::Flying { y, y_velocity } = segment.absorber else { return };
+        let Absorber::Flying { y, y_velocity, .. } = segment.absorber else { return };
         let Some(ringing) = &self.ringing else { return };
         let (begin, end) = (segment.at(0.0), segment.at(segment.duration));
         let over = segment.phase + self.system.frequency_ratio() * segment.duration;
