@@ -18,6 +18,9 @@ const SHORTEST: f64 = 1e-3;
 /// Corrections of a root before the slow search takes over; from the quintic's root one suffices.
 pub(super) const CORRECTIONS: u32 = 6;
 
+/// Fast time to which the end of sliding is found: what `w'` leaves is then below rounding.
+const TURNED: f64 = 1e-15;
+
 /// How far flights may go on.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Limits {
@@ -60,6 +63,8 @@ pub(super) enum FlightEnd {
     Doubt,
     /// The last impact, on this wall, may be the end of a chattering sequence.
     MayStick(Side),
+    /// The absorber has ceased to slide.
+    Turned,
 }
 
 impl Simulation {
@@ -111,7 +116,7 @@ impl Simulation {
             let Some(landing) = rates.fly(simd, here, slack, &flight, &mut at.evaluations) else {
                 return (at, FlightEnd::Doubt);
             };
-            let Landing { wall, time, x, v, steady } = landing;
+            let Landing { end, time, x, v, steady } = landing;
             let Line { y, velocity: y_velocity } = path.from(time).line();
             let (x, y) = (course.arrive(sense, x), course.arrive(sense, y));
             if !(x.abs() <= f64::MAX && y.abs() <= f64::MAX) {
@@ -122,7 +127,7 @@ impl Simulation {
                 self.tell(at, landing, before, observer, detail);
             }
             at.steady = steady;
-            if let Some(side) = wall {
+            if let Ending::Wall(side) = end {
                 at.phase += rates.frequency * time;
                 at.impacts += 1;
                 let after = rebound(eps, self.restitution(side), v, y_velocity);
@@ -134,10 +139,13 @@ impl Simulation {
                 if sticking.possible(x, v, line, side.sign()) {
                     return (at, FlightEnd::MayStick(side));
                 }
+            } else if let Ending::Turn = end {
+                (at.state, at.phase) = (before, at.phase + rates.frequency * time);
+                return (at, FlightEnd::Turned);
             } else {
                 (at.state, at.phase, at.turns) = (before, 0.0, at.turns + 1);
             }
-            leaves = wall.is_some();
+            leaves = matches!(end, Ending::Wall(_));
             if limits.reached(&at) {
                 return (at, FlightEnd::Limit);
             }
@@ -155,13 +163,14 @@ impl Simulation {
         observer: &mut dyn Observer,
         detail: Detail,
     ) {
-        let Landing { wall, time, .. } = landing;
+        let Landing { end, time, .. } = landing;
         if time > 0.0 && detail == Detail::Flights {
             observer.segment(&self.flown(&at, time));
         }
-        let Some(side) = wall else {
-            observer.period(&before);
-            return;
+        let side = match end {
+            Ending::Wall(side) => side,
+            Ending::Turn => return,
+            Ending::Period => return observer.period(&before),
         };
         let (eps, r) = (self.system.mass_ratio(), self.restitution(side));
         let after = rebound(eps, r, before.x_velocity, before.y_velocity);
@@ -170,11 +179,21 @@ impl Simulation {
     }
 }
 
+/// What a flight ends with.
+#[derive(Debug, Clone, Copy)]
+enum Ending {
+    /// An impact on this wall.
+    Wall(Side),
+    /// The end of sliding.
+    Turn,
+    /// The end of the period.
+    Period,
+}
+
 /// Where a flight ends.
 #[derive(Debug, Clone, Copy)]
 struct Landing {
-    /// On which wall; none where the period is over first.
-    wall: Option<Side>,
+    end: Ending,
     /// Time since it began.
     time: f64,
     x: f64,
@@ -235,13 +254,13 @@ impl Rates<f64> {
             || {
                 *evaluations += 1;
                 let (x, v) = self.oscillator(&self.after(simd, here, left - time, path.from(time)));
-                Landing { wall: None, time: left, x, v, steady: self.origin }
+                Landing { end: Ending::Period, time: left, x, v, steady: self.origin }
             },
         )
     }
 
     /// Looks for an impact in a panel that is not proven to be clear, or in the first part of it about
-    /// which something is; none where nothing is, or where sliding ends before.
+    /// which something is; none where nothing is.
     #[inline(always)]
     fn look_into<S: Simd, C: Course>(
         &self,
@@ -266,7 +285,8 @@ impl Rates<f64> {
                     let at = self.moment(simd, &here, rest, path_here);
                     if slack.before(&at, side.sign()) {
                         let (x, v) = self.oscillator(&at);
-                        let end = Landing { wall: None, time: left, x, v, steady: self.origin };
+                        let end =
+                            Landing { end: Ending::Period, time: left, x, v, steady: self.origin };
                         return Some(Found::Landing(end));
                     }
                 }
@@ -277,12 +297,19 @@ impl Rates<f64> {
                     }
                     let Corrected { x, v, steady, .. } = found;
                     let time = time + found.time;
-                    let impact = Landing { wall: Some(side), time, x, v, steady };
+                    let impact = Landing { end: Ending::Wall(side), time, x, v, steady };
                     return Some(Found::Landing(impact));
                 }
             }
-            let turned = !one_way && there.slope * sense <= 0.0 && there.gap.abs() <= 1.0;
-            if turned || length < SHORTEST * self.step {
+            let ends = [&here, &there];
+            if !one_way && hull.clear() && course.turns(sense, &hull, ends) {
+                let found = self.turn(simd, ends, length, path_here, &slack, evaluations)?;
+                if rest < found.time {
+                    break;
+                }
+                return Some(Found::Landing(Landing { time: time + found.time, ..found }));
+            }
+            if length < SHORTEST * self.step {
                 return None;
             }
             (length, slack) = (length * 0.5, slack.halved());
@@ -299,6 +326,35 @@ impl Rates<f64> {
             return Some(Found::Landing(end));
         }
         Some(Found::Nothing { until, there })
+    }
+
+    /// When sliding ends in a panel in which it is proven to; none where the moment is not sharp.
+    #[inline(never)]
+    fn turn<S: Simd>(
+        &self,
+        simd: S,
+        [here, there]: [&At<f64>; 2],
+        length: f64,
+        path: impl Path<f64>,
+        slack: &Slack<f64>,
+        evaluations: &mut u64,
+    ) -> Option<Landing> {
+        let sense = -there.slope.signum();
+        // From rest it does not turn where it begins.
+        let first = if here.slope == 0.0 { 0.5 } else { here.slope / (here.slope - there.slope) };
+        let mut time = first * length;
+        for _ in 0..CORRECTIONS {
+            *evaluations += 1;
+            let at = self.moment(simd, here, time, path);
+            let ahead = -at.slope / at.a;
+            let sharp = slack.bend_squared(self.fastest, length) < at.a * at.a;
+            if sharp && at.a * sense < 0.0 && ahead.abs() * self.fastest <= TURNED {
+                let (x, v) = self.oscillator(&at);
+                return Some(Landing { end: Ending::Turn, time, x, v, steady: at.steady });
+            }
+            time = (time + ahead).clamp(0.0, length);
+        }
+        None
     }
 
     /// As [`Self::after`], for what is rare.

@@ -263,18 +263,18 @@ impl<R: Real> At<R> {
 
 impl<R: Real> Rates<R> {
     /// The displacement at which the velocity vanishes in a panel between velocities of either sign,
-    /// seen from a line at rest; `time` is roughly when. Only `lanes` matter.
+    /// seen from a base at rest; `time` is roughly when. Only `lanes` matter.
     #[inline(always)]
     pub(super) fn turning_point<S: Simd>(
         &self,
         simd: S,
         here: &At<R>,
+        base: Line<R>,
         mut time: R,
         length: R,
         lanes: R::Mask,
     ) -> R {
         let zero = time.like(0.0);
-        let base = Line { y: zero, velocity: zero };
         let (mut open, mut height) = (lanes, here.gap);
         for _ in 0..TURNING_STEPS {
             let at = self.after(simd, here, time.larger(zero).smaller(length), base);

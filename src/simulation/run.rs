@@ -262,6 +262,7 @@ impl Simulation {
         match self.fly_in_panels(self.level, limits, observer) {
             FlightEnd::Limit => {}
             FlightEnd::MayStick(side) => self.perhaps_stick(side, observer),
+            FlightEnd::Turned => self.reverse(observer),
             FlightEnd::Doubt => self.fly_step_by_step(observer)?,
         }
         Ok(())

@@ -7,7 +7,7 @@
 
 use super::certificate::Hull;
 use super::events::{Observer, Reversal, Side};
-use super::flow::Kinematics;
+use super::flow::{Kinematics, Oscillator};
 use super::phasor::At;
 use super::phasor::{Line, Parabola, Path};
 use super::run::{Mode, Moment, Simulation};
@@ -32,6 +32,17 @@ impl Sliding {
             friction: cavity.friction_acceleration,
             mass_ratio: system.mass_ratio(),
         }
+    }
+
+    /// The sign of `w'` in a first flight from a state at phase 0; where friction holds the absorber there is none.
+    pub(super) fn first_sense(system: &System, start: &State) -> f64 {
+        let slope = start.x_velocity - start.y_velocity;
+        if slope == 0.0 {
+            let at = Kinematics { x: start.x, v: start.x_velocity };
+            let pull = Oscillator::alone(system).acceleration(0.0, at);
+            return (pull - system.cavity().gravity_along).signum();
+        }
+        slope.signum()
     }
 
     /// Whether flights are straight lines.
@@ -75,6 +86,8 @@ pub(super) trait Course: Copy {
     fn arrive(&self, sense: f64, seen: f64) -> f64;
     /// Whether `w'` is proven to keep its sign in a panel, if that matters.
     fn one_way(&self, sense: f64, hull: &Hull<f64>, ends: [&At<f64>; 2]) -> bool;
+    /// Whether it matters, and `w'` is proven to change its sign once.
+    fn turns(&self, sense: f64, hull: &Hull<f64>, ends: [&At<f64>; 2]) -> bool;
 }
 
 /// A straight flight.
@@ -95,6 +108,10 @@ impl Course for Straight {
     fn one_way(&self, _: f64, _: &Hull<f64>, _: [&At<f64>; 2]) -> bool {
         true
     }
+    #[inline(always)]
+    fn turns(&self, _: f64, _: &Hull<f64>, _: [&At<f64>; 2]) -> bool {
+        false
+    }
 }
 
 impl Course for Sliding {
@@ -111,6 +128,10 @@ impl Course for Sliding {
     #[inline(always)]
     fn one_way(&self, sense: f64, hull: &Hull<f64>, [here, there]: [&At<f64>; 2]) -> bool {
         self.friction == 0.0 || hull.rises(sense, here.slope, there.slope)
+    }
+    #[inline(always)]
+    fn turns(&self, sense: f64, hull: &Hull<f64>, [here, there]: [&At<f64>; 2]) -> bool {
+        self.friction > 0.0 && hull.turns(sense, here.slope, there.slope)
     }
 }
 

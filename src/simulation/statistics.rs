@@ -7,7 +7,7 @@ mod measurement;
 
 use serde::Serialize;
 
-use super::events::{Impact, Segment, Side};
+use super::events::{Impact, Side};
 use super::integrals::Integrals;
 use crate::numerics::scatter::{error_of_largest, twice_standard_error};
 use crate::system::{State, System};
@@ -327,13 +327,10 @@ impl Statistics {
         self.contact.intervals += 1;
     }
 
-    /// What friction takes in a stretch in which the absorber slides one way.
-    fn slides(&mut self, segment: &Segment) {
+    /// The absorber has slid one way, so far.
+    fn slides(&mut self, slid: f64) {
         let friction = self.system.mass_ratio() * self.system.cavity().friction_acceleration;
-        let gap = |s: f64| segment.at(s).relative_displacement();
-        if friction > 0.0 {
-            self.friction_loss += friction * (gap(segment.duration) - gap(0.0)).abs();
-        }
+        self.friction_loss += friction * slid.abs();
     }
 
     fn period(&mut self, state: &State) {

@@ -233,6 +233,76 @@ fn the_energy_balances_over_a_thousand_periods() {
     }
 }
 
+/// Closed form of whole flights against Simpson's rule over a sampled motion.
+#[test]
+fn what_is_measured_is_what_a_trace_has() {
+    let table = common::table_1(8.0, 7.5).parameters();
+    let cavity =
+        Cavity { gravity_along: 0.1, friction_acceleration: 0.25, restitution_difference: 0.1 };
+    let system = System::new(Parameters { mass_ratio: 0.2, cavity, ..table }).expect("valid");
+    let start = State { x: 0.3, x_velocity: 0.2, y: 0.1, y_velocity: 0.8 };
+    let mut simulation = Simulation::new(&system, start, 0.0).expect("inside");
+    let mut measured = Measurement::begin(&system, start);
+    let mut sums = Sums { frequency: system.frequency_ratio(), ..Sums::default() };
+    simulation.run(4, u64::MAX, &mut (&mut measured, &mut sums));
+    assert!(sums.held > 0 && sums.turned > 0, "{sums:?}");
+    let statistics = measured.statistics();
+    let duration = 4.0 * system.period();
+    // Intervals of 1/400 of a stretch: h^4/180 times a fourth derivative leaves 1e-12.
+    let close =
+        |found: f64, wanted: f64| assert!((found - wanted).abs() < 1e-9, "{found} {wanted}");
+    close(statistics.rms() * statistics.rms() * duration, sums.square);
+    // Between samples it rises by at most x'' h^2/8.
+    let missed = statistics.peak() - sums.peak;
+    assert!((-1e-13..5e-5).contains(&missed), "{missed}");
+    let (oscillator, absorber) = statistics.harmonics();
+    let scale = system.frequency_ratio() / (TAU / 2.0) / 4.0;
+    for k in 0..2 {
+        close(oscillator[k], scale * sums.harmonics[k]);
+        close(absorber[k], scale * sums.harmonics[2 + k]);
+    }
+    assert!(statistics.energy().friction > 0.0 && statistics.energy().relative_residual < 1e-13);
+}
+
+#[derive(Debug, Default)]
+struct Sums {
+    frequency: f64,
+    square: f64,
+    peak: f64,
+    harmonics: [f64; 4],
+    held: u64,
+    turned: u64,
+}
+
+impl Observer for Sums {
+    fn segment(&mut self, segment: &Segment) {
+        self.held += u64::from(matches!(segment.absorber, Absorber::Held { .. }));
+        let pieces = 400;
+        let h = segment.duration / f64::from(pieces);
+        for k in 0..=pieces {
+            let end = k == 0 || k == pieces;
+            let weight = h / 3.0
+                * if end {
+                    1.0
+                } else if k % 2 == 1 {
+                    4.0
+                } else {
+                    2.0
+                };
+            let s = f64::from(k) * h;
+            let state = segment.at(s);
+            let (sin, cos) = libm::sincos(segment.phase + self.frequency * s);
+            self.square += weight * state.x * state.x;
+            self.peak = self.peak.max(state.x.abs());
+            let products = [state.x * sin, state.x * cos, state.y * sin, state.y * cos];
+            (0..4).for_each(|j| self.harmonics[j] += weight * products[j]);
+        }
+    }
+    fn reversal(&mut self, _: &Reversal) {
+        self.turned += 1;
+    }
+}
+
 /// A motion that is not chaotic has the same impacts by either search; each is found to rounding.
 #[test]
 fn panels_and_steps_find_the_same_impacts() {

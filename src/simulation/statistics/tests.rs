@@ -30,6 +30,8 @@ impl Observer for Comparison {
             v: [begin.x_velocity, end.x_velocity].map(alone),
             y: alone(y),
             y_velocity: alone(y_velocity),
+            y_acceleration: alone(0.0),
+            rest: alone(0.0),
         };
         let mut measured = peaks::Measured::default();
         peaks::together(ringing, &ends, &mut measured);
