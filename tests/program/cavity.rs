@@ -4,7 +4,8 @@
 
 use std::f64::consts::FRAC_PI_2;
 use std::fs;
-use std::process::Command;
+use std::path::Path;
+use std::process::{Command, Output};
 
 use serde_json::Value;
 use vinesink::case::{Case, Rounding};
@@ -65,12 +66,15 @@ fn alike(one: &System, other: &System) {
     }
 }
 
+fn vinesink(folder: &Path, arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_vinesink"));
+    command.current_dir(folder).args(arguments).output().expect("it runs")
+}
+
 fn analysed(text: &str) -> Vec<u8> {
     let folder = tempfile::tempdir().expect("a folder");
     fs::write(folder.path().join("case.toml"), text).expect("written");
-    let mut command = Command::new(env!("CARGO_BIN_EXE_vinesink"));
-    let arguments = ["analyze", "case.toml", "--format", "json"];
-    let output = command.current_dir(&folder).args(arguments).output().expect("it runs");
+    let output = vinesink(folder.path(), &["analyze", "case.toml", "--format", "json"]);
     assert_eq!(output.status.code(), Some(0), "{output:?}");
     output.stdout
 }
@@ -167,6 +171,50 @@ fn analyze_gives_the_numbers_of_a_cavity() {
     assert_eq!(of("friction_acceleration"), cavity.friction_acceleration);
     assert_eq!(of("restitution_difference"), cavity.restitution_difference);
     close(of("restitution"), 0.6);
+}
+
+/// Page, document and comparison say what the case says; with an ideal cavity they say nothing of it.
+#[test]
+fn reports_say_what_the_cavity_is() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let quick = "[simulation]\nstarts = 1\nperiods = 8\ndiscard = 1\n";
+    for (of, keys) in [("old", "restitution = 0.6\n"), ("new", KEYS)] {
+        let case = folder.path().join("case.toml");
+        fs::write(case, with(keys) + quick).expect("written");
+        let output = vinesink(folder.path(), &["report", "case.toml", "--out", of]);
+        assert_eq!(output.status.code(), Some(0), "{output:?}");
+    }
+    let read = |name: &str| fs::read_to_string(folder.path().join(name)).expect(name);
+    let [old, page] = ["old", "new"].map(|of| read(&format!("{of}/case/report.md")));
+    for line in [
+        "| absorber restitution | $r$ | \\[0.65, 0.55\\] | case file |",
+        "| absorber inclination | $\\alpha$ | 0.5 deg | case file |",
+        "| absorber friction | $\\mu$ | 0.3 % | case file |",
+        // GRAVITY times sin(0.5 deg) = 0.0087265, and times 0.003.
+        "| gravity along | $a$ | 0.004146 | derived |",
+        "| friction acceleration | $f$ | 0.001425 | derived |",
+        "The cavity is inclined by 0.5 deg, with a coefficient of friction of 0.003; restitution is 0.65 at x − y = +b and 0.55 at x − y = −b.",
+    ] {
+        assert!(page.contains(line), "{line} is not in {page}");
+        assert!(!old.contains(line), "{line}");
+    }
+    assert!(
+        !page.contains("no friction") && old.contains("The model has no friction and no gravity")
+    );
+    let of = |of: &str, id: &str| -> Option<f64> {
+        let document: Value =
+            serde_json::from_str(&read(&format!("{of}/case/report.json"))).ok()?;
+        document["quantities"][id]["value"].as_f64()
+    };
+    close(of("new", "inclination").expect("there"), 0.5_f64.to_radians());
+    assert_eq!(of("new", "friction"), Some(0.003));
+    close(of("new", "restitution_at_plus_b").expect("there"), 0.65);
+    close(of("new", "restitution_at_minus_b").expect("there"), 0.55);
+    assert_eq!([of("old", "inclination"), of("old", "restitution_at_plus_b")], [None, None]);
+    let found = vinesink(folder.path(), &["diff", "old", "new"]);
+    let found = String::from_utf8(found.stdout).expect("UTF-8");
+    assert!(found.contains("| Absorber restitution | 0.6 | \\[0.65, 0.55\\] |"), "{found}");
+    assert!(found.contains("| Absorber inclination | – | 0.5 deg |"), "{found}");
 }
 
 /// Other numbers of a design leave the angle and the coefficient, whatever the scales become.
