@@ -58,7 +58,14 @@ impl Case {
                 as_written: String::new(),
                 span: 0..0,
             };
+        let cavity = system.cavity();
+        let of_cavity = [
+            ("gravity_along", "a", cavity.gravity_along, "1"),
+            ("friction_acceleration", "f", cavity.friction_acceleration, "1"),
+            ("restitution_difference", "r_1 - r_2", cavity.restitution_difference, "1"),
+        ];
         // A reduced design has no frequency but ratios.
-        numbers.into_iter().skip(usize::from(!scales.physical)).map(derived).collect()
+        let numbers = numbers.into_iter().skip(usize::from(!scales.physical));
+        numbers.chain(of_cavity.into_iter().filter(|_| !cavity.is_ideal())).map(derived).collect()
     }
 }

@@ -22,6 +22,7 @@ mod quantity;
 mod reader;
 mod record;
 mod reduced;
+mod restitution;
 mod rewrite;
 mod scales;
 mod schema;

@@ -8,6 +8,7 @@ use toml::de::DeValue;
 use super::error::Problem;
 use super::inputs::Input;
 use super::reader::{Reader, kind};
+use super::restitution::alternatives;
 use super::value::Place;
 use crate::quantity::Dimension;
 
@@ -33,7 +34,8 @@ pub(super) struct Form {
 
 impl Form {
     /// That of a schema; `None` for what is no number.
-    pub fn of(schema: &Value) -> Option<Self> {
+    pub fn of(schema: &'static Value) -> Option<Self> {
+        let schema = alternatives(schema).map_or(schema, |[number, _]| number);
         let dimension = schema["x-measurand"].as_str().and_then(Dimension::named);
         let whole = schema["type"] == "integer";
         if dimension.is_none() && !whole && schema["type"] != "number" {
@@ -63,8 +65,20 @@ impl Form {
         self.dimension.map_or("1", |dimension| dimension.symbol(true))
     }
 
+    /// What its values may be, angles in degrees.
+    fn bound(&self) -> String {
+        let Bound { least, most, .. } = self.bound;
+        match (self.dimension, least, most) {
+            (Some(Dimension::Inclination), Some(least), Some(most)) => {
+                let [least, most] = [least, most].map(|end| libm::rint(end.to_degrees()));
+                format!("from {least} deg to {most} deg")
+            }
+            _ => self.bound.words(),
+        }
+    }
+
     fn expected(&self) -> String {
-        let (words, Self { example, share, .. }) = (self.bound.words(), self);
+        let (words, Self { example, share, .. }) = (self.bound(), self);
         match self.dimension {
             None if self.whole => format!("expected a whole number {words}, without quotes"),
             None => format!("expected a number {words}, without quotes or unit"),
@@ -214,7 +228,7 @@ impl Reader<'_> {
             false if value.is_finite() => (as_written, "value"),
             false => (as_written, "finite value"),
         };
-        let expected = format!("expected a {what} {}", form.bound.words());
+        let expected = format!("expected a {what} {}", form.bound());
         let help = format!("write for example {}", place.line);
         self.refuse(place, &format!("is {shown}"), expected, help);
         None

@@ -1,6 +1,6 @@
 //! What a parameter is in a design: its value, the quantity that it is, and how it is written.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 use serde_json::Value;
 
@@ -40,6 +40,11 @@ impl Design {
             (Parameter::Detuning, Self::Reduced(r)) => {
                 (r.frequency_ratio, r.detuning) = (None, Some(value));
             }
+            (Parameter::Clearance, Self::Reduced(r)) => {
+                // Gravity and friction stay what they are, not their ratio to the clearance.
+                r.cavity = r.cavity.with_clearance_scaled(value / r.clearance);
+                r.clearance = value;
+            }
             (_, changed) => {
                 for (number, over) in changed.numbers(parameter) {
                     *number = value * over;
@@ -77,19 +82,33 @@ impl Design {
         }
     }
 
-    /// The same with errors added to some parameters; a restitution stays between 0 and 1, an amplitude at 0
-    /// or more.
+    /// The same with errors added to some parameters; restitutions stay between 0 and 1, an angle within a quarter
+    /// turn, an amplitude and friction at 0 or more.
     #[must_use]
     pub fn deviating(self, errors: &[(Parameter, f64)]) -> Self {
         errors.iter().fold(self, |design, (parameter, error)| {
             let value = design.value(*parameter).unwrap_or(f64::NAN) + error;
             let possible = match parameter {
-                Parameter::Restitution => value.clamp(0.0, 1.0),
-                Parameter::Amplitude => value.max(0.0),
+                Parameter::Restitution => {
+                    let half = 0.5 * design.restitution_difference().abs();
+                    value.max(half).min(1.0 - half)
+                }
+                Parameter::Inclination => value.clamp(-FRAC_PI_2, FRAC_PI_2),
+                Parameter::Amplitude | Parameter::Friction | Parameter::FrictionAcceleration => {
+                    value.max(0.0)
+                }
                 _ => value,
             };
             design.with(*parameter, possible)
         })
+    }
+
+    /// Restitution at the wall `x - y = +b` less that at `x - y = -b`.
+    pub(super) fn restitution_difference(&self) -> f64 {
+        match self {
+            Self::Physical(physical) => physical.restitution_difference,
+            Self::Reduced(reduced) => reduced.cavity.restitution_difference,
+        }
     }
 
     /// `b`, in metres or the design's own unit.
@@ -117,6 +136,8 @@ impl Design {
             (P::Frequency, Self::Physical(p)) => &mut p.frequency_hz,
             (P::Amplitude, Self::Physical(p)) => &mut p.amplitude,
             (P::Restitution, Self::Physical(p)) => &mut p.restitution,
+            (P::Inclination, Self::Physical(p)) => &mut p.inclination_rad,
+            (P::Friction, Self::Physical(p)) => &mut p.friction,
             (P::AbsorberMass, Self::Physical(p)) => &mut p.absorber_mass_kg,
             (P::Mass, Self::Physical(p)) => &mut p.mass_kg,
             (P::Stiffness, Self::Physical(p)) => &mut p.stiffness_n_per_m,
@@ -124,11 +145,33 @@ impl Design {
             (P::Clearance, Self::Reduced(r)) => &mut r.clearance,
             (P::Amplitude, Self::Reduced(r)) => &mut r.forcing,
             (P::Restitution, Self::Reduced(r)) => &mut r.restitution,
+            (P::GravityAlong, Self::Reduced(r)) => &mut r.cavity.gravity_along,
+            (P::FrictionAcceleration, Self::Reduced(r)) => &mut r.cavity.friction_acceleration,
             (P::MassRatio, Self::Reduced(r)) => &mut r.mass_ratio,
             (P::Damping, Self::Reduced(r)) => &mut r.damping,
             _ => return Vec::new(),
         };
         vec![(number, 1.0)]
+    }
+
+    /// What a number of the cavity that a design of the other kind has is called in this one.
+    pub(super) fn counterpart(&self, parameter: Parameter) -> Option<Parameter> {
+        use Parameter as P;
+        match (self, parameter) {
+            (Self::Reduced(_), P::Inclination) => Some(P::GravityAlong),
+            (Self::Reduced(_), P::Friction) => Some(P::FrictionAcceleration),
+            (Self::Physical(_), P::GravityAlong) => Some(P::Inclination),
+            (Self::Physical(_), P::FrictionAcceleration) => Some(P::Friction),
+            _ => None,
+        }
+    }
+
+    /// Its kind in the words of a message.
+    pub(super) fn words(&self) -> &'static str {
+        match self {
+            Self::Physical(_) => "a design in [oscillator], [absorber] and [excitation]",
+            Self::Reduced(_) => "a design in [reduced]",
+        }
     }
 
     /// The quantity that a parameter is beside this design.
@@ -156,6 +199,10 @@ impl Design {
                 Excitation::Force => &of::FORCE_AMPLITUDE,
             },
             (P::Restitution, _) => &of::RESTITUTION,
+            (P::Inclination, _) => &of::INCLINATION,
+            (P::Friction, _) => &of::FRICTION,
+            (P::GravityAlong, _) => &of::GRAVITY_ALONG,
+            (P::FrictionAcceleration, _) => &of::FRICTION_ACCELERATION,
             (P::AbsorberMass, _) => &of::ABSORBER_MASS,
             (P::MassRatio, _) => &of::MASS_RATIO,
             (P::Mass, _) => &of::OSCILLATOR_MASS,
@@ -251,6 +298,7 @@ mod tests {
     #[test]
     fn a_value_that_is_set_is_the_value_that_is_there() {
         let design = Case::parse("a case", &Case::starting_text("t")).expect("valid").design;
+        let design = design.with(Parameter::Inclination, 0.01).with(Parameter::Friction, 0.003);
         for parameter in Parameter::ALL {
             let Some(own) = design.value(parameter) else { continue };
             let other = design.with(parameter, 1.1 * own).value(parameter).expect("the same key");
@@ -262,5 +310,9 @@ mod tests {
         let built = design.deviating(&off);
         assert_eq!(built.value(Parameter::Restitution), Some(1.0));
         assert_eq!(built.value(Parameter::Amplitude), Some(0.0));
+        let off = [(Parameter::Inclination, -2.0), (Parameter::Friction, -0.1)];
+        let built = design.deviating(&off);
+        assert_eq!(built.value(Parameter::Inclination), Some(-FRAC_PI_2));
+        assert_eq!(built.value(Parameter::Friction), Some(0.0));
     }
 }

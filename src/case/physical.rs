@@ -1,14 +1,15 @@
 //! The tables `[oscillator]`, `[absorber]` and `[excitation]`: a design in physical units.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 use libm::sqrt;
 use schemars::JsonSchema;
 use serde::Deserialize;
-use serde_json::json;
+use serde_json::{Value, json};
 
 use super::excitation::ExcitationTable;
 use super::reader::{Reader, Table};
+use super::restitution::{Restitution, one_or_each};
 use super::schema::one_of;
 use crate::quantity::Dimension;
 use crate::system::Excitation;
@@ -53,9 +54,17 @@ pub(super) struct AbsorberTable {
     /// b, the free distance from the middle to either wall, above 0.
     #[schemars(extend("x-measurand" = "a length", "exclusiveMinimum" = 0, "x-symbol" = "b"))]
     clearance: f64,
-    /// r, the coefficient of restitution: 1 loses no energy at an impact, 0 does not rebound.
-    #[schemars(range(min = 0.0, max = 1.0), extend("x-symbol" = "r"), example = 0.6)]
-    restitution: f64,
+    /// r, the coefficient of restitution: 1 loses no energy at an impact, 0 does not rebound. A pair is that of the
+    /// wall at x - y = +b, x the oscillator's displacement and y the absorber's, and that of the wall at x - y = -b.
+    #[schemars(with = "Value", extend("anyOf" = one_or_each()), example = 0.6, example = [0.65, 0.55])]
+    restitution: Restitution,
+    /// Angle of the cavity against the horizontal, from -90 to 90 degrees: where it is positive gravity, 9.80665 m/s^2,
+    /// acts along positive displacements of the absorber. 0 unless given.
+    #[schemars(extend("x-measurand" = "an angle", "minimum" = -FRAC_PI_2, "maximum" = FRAC_PI_2, "x-symbol" = r"\alpha"))]
+    inclination: Option<f64>,
+    /// mu, the coefficient of sliding (Coulomb) friction between absorber and cavity, 0 or more; 0 unless given.
+    #[schemars(extend("x-measurand" = "a share", "minimum" = 0, "x-symbol" = r"\mu"), example = 0.003, example = "0.3 %")]
+    friction: Option<f64>,
 }
 
 /// A design in SI units. [`Case::parse`](super::Case::parse) proves every value finite, masses,
@@ -72,8 +81,15 @@ pub struct Physical {
     pub absorber_mass_kg: f64,
     /// `b`: the absorber is free while its displacement relative to the oscillator is below `b`.
     pub clearance_m: f64,
-    /// `r`, the coefficient of restitution, from 0 to 1.
+    /// `r`, the coefficient of restitution, from 0 to 1; the mean where the walls differ.
     pub restitution: f64,
+    /// Restitution at the wall `x - y = +b` less that at `x - y = -b`.
+    pub restitution_difference: f64,
+    /// Angle of the cavity against the horizontal in rad: gravity acts along positive displacements of the absorber
+    /// where it is positive.
+    pub inclination_rad: f64,
+    /// `mu`, the coefficient of sliding friction between absorber and cavity.
+    pub friction: f64,
     /// What drives the oscillator.
     pub excitation: Excitation,
     /// `F` in m, the base's displacement, or `P` in N, the force on the oscillator's mass.
@@ -122,7 +138,10 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Physical> {
             (None, ratio) => ratio? * oscillator.mass,
         },
         clearance_m: absorber.clearance,
-        restitution: absorber.restitution,
+        restitution: absorber.restitution.mean(),
+        restitution_difference: absorber.restitution.difference(),
+        inclination_rad: absorber.inclination.unwrap_or_default(),
+        friction: absorber.friction.unwrap_or_default(),
         excitation: excitation.enters(),
         amplitude: excitation.amplitude.unwrap_or_default(),
         frequency_hz: 0.0,

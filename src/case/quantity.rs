@@ -22,7 +22,7 @@ pub struct QuantityError {
 }
 
 /// What a case gives with a unit: its name with its article, and an example.
-const MEASURED: [(Dimension, &str, &str); 14] = [
+const MEASURED: [(Dimension, &str, &str); 15] = [
     (Dimension::Length, "a length", "7.5 mm"),
     (Dimension::Mass, "a mass", "32 g"),
     (Dimension::Stiffness, "a stiffness", "11.47 kN/m"),
@@ -35,6 +35,7 @@ const MEASURED: [(Dimension, &str, &str); 14] = [
     (Dimension::Time, "a time", "5 s"),
     (Dimension::FrequencyRate, "a sweep rate", "0.1 Hz/s"),
     (Dimension::OctaveRate, "a sweep rate", "1 oct/min"),
+    (Dimension::Inclination, "an angle", "0.5 deg"),
     (Dimension::Share, "a share", "1 %"),
     (Dimension::Level, "a level", "12 dB"),
 ];

@@ -4,10 +4,12 @@ use std::f64::consts::TAU;
 
 use schemars::JsonSchema;
 use serde::Deserialize;
+use serde_json::Value;
 
 use super::excitation::{ExcitationKind, ExcitationTable, keys_by_kind};
 use super::reader::{Reader, Table};
-use crate::system::Excitation;
+use super::restitution::{Restitution, one_or_each};
+use crate::system::{Cavity, Excitation};
 use crate::transient::{RecordQuantity, Transient};
 
 /// A dimensionless design, lengths in a unit of its own.
@@ -20,9 +22,16 @@ pub(super) struct ReducedTable {
     /// lambda = c1 / (m2 omega0), 0 or more.
     #[schemars(extend("minimum" = 0, "x-symbol" = r"\lambda"), example = 1.799)]
     damping: f64,
-    /// r, the coefficient of restitution, from 0 to 1.
-    #[schemars(range(min = 0.0, max = 1.0), extend("x-symbol" = "r"), example = 0.6)]
-    restitution: f64,
+    /// r, the coefficient of restitution, from 0 to 1; or a pair, at the walls x - y = +b and x - y = -b.
+    #[schemars(with = "Value", extend("anyOf" = one_or_each()), example = 0.6, example = [0.65, 0.55])]
+    restitution: Restitution,
+    /// a, gravity's acceleration along the cavity over b omega0^2, positive along positive displacements of the
+    /// absorber; 0 unless given.
+    #[schemars(extend("x-symbol" = "a"), example = 0.004)]
+    gravity_along: Option<f64>,
+    /// f, sliding friction over m2 b omega0^2, 0 or more; 0 unless given.
+    #[schemars(extend("minimum" = 0, "x-symbol" = "f"), example = 0.002)]
+    friction_acceleration: Option<f64>,
     /// b, the clearance, above 0.
     #[schemars(extend("exclusiveMinimum" = 0, "x-symbol" = "b"), example = 1.0)]
     clearance: f64,
@@ -74,8 +83,10 @@ pub struct Reduced {
     pub mass_ratio: f64,
     /// `lambda = c1/(m2 omega0)`.
     pub damping: f64,
-    /// `r`, the coefficient of restitution.
+    /// `r`, the coefficient of restitution; the mean where the walls differ.
     pub restitution: f64,
+    /// What the cavity has beyond two equal walls, at this clearance.
+    pub cavity: Cavity,
     /// `b`, the clearance.
     pub clearance: f64,
     /// `G = F/epsilon`, the reduced forcing in the unit of the clearance; 0 where nothing drives steadily.
@@ -121,7 +132,12 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Reduced> {
     let read = Reduced {
         mass_ratio: read.mass_ratio,
         damping: read.damping,
-        restitution: read.restitution,
+        restitution: read.restitution.mean(),
+        cavity: Cavity {
+            gravity_along: read.gravity_along.unwrap_or_default(),
+            friction_acceleration: read.friction_acceleration.unwrap_or_default(),
+            restitution_difference: read.restitution.difference(),
+        },
         clearance: read.clearance,
         forcing: match transient {
             None | Some(Transient::Sweep(_)) => read.forcing?,

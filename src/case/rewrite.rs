@@ -65,9 +65,13 @@ impl Rounding {
 /// Significant digits of a written value.
 const DIGITS: i32 = 4;
 
-/// A value as TOML, in the unit in which an input's own is written.
-fn written(input: &Input, si: f64, step: Rounding) -> String {
-    let begins = |c: char| c == '%' || c.is_alphabetic() && !matches!(c, 'e' | 'E');
+/// A value as TOML, in the unit in which an input's own is written; a pair where that is one, their difference kept.
+fn written(input: &Input, si: f64, difference: f64, step: Rounding) -> String {
+    if input.as_written.starts_with('[') {
+        let [first, second] = [0.5, -0.5].map(|half| step.of(si + half * difference));
+        return format!("[{first:?}, {second:?}]");
+    }
+    let begins = |c: char| matches!(c, '%' | '°') || c.is_alphabetic() && !matches!(c, 'e' | 'E');
     let Some(unit) = input.as_written.find(begins) else { return format!("{:?}", step.of(si)) };
     let unit = &input.as_written[unit..];
     let one = format!("1 {unit}");
@@ -97,7 +101,9 @@ impl Case {
             let parameter = input.parameter()?;
             let value = design.value(parameter)?;
             let rounding = if parameter == Parameter::Clearance { clearance } else { step };
-            (self.design.value(parameter) != Some(value)).then(|| written(input, value, rounding))
+            let difference = design.restitution_difference();
+            let changed = self.design.value(parameter) != Some(value);
+            changed.then(|| written(input, value, difference, rounding))
         };
         let mut text = text.strip_prefix('\u{feff}').unwrap_or(text).to_owned();
         let mut inputs: Vec<&Input> = self.inputs.iter().collect();

@@ -4,12 +4,14 @@
 //! energies by `m1 omega0^2 b^2`. With `eps = m2/m1`:
 //! `lambda = c1/(m2 omega0)`, `Omega = 2 pi f/omega0`, and the reduced forcing `G = F/eps` for a
 //! base displacement `F` (equation (7) of Li, Seguy, Berlioz 2016) or `G = P/(k1 eps)` for a force
-//! `P`; `gamma = G/b`.
+//! `P`; `gamma = G/b`. Accelerations are over `b omega0^2`: of a cavity's gravity `g sin(alpha)` and friction
+//! `mu g cos(alpha)`, with standard gravity `g = 9.80665 m/s^2`.
 
 use std::f64::consts::TAU;
 
-use super::Design;
+use super::{Design, Physical};
 use crate::quantity::Dimension;
+use crate::quantity::units::STANDARD_GRAVITY;
 use crate::system::{Cavity, Excitation, InvalidParameter, Parameters, System};
 use crate::transient::{Release, Scene, SineSweep, Transient};
 
@@ -102,7 +104,7 @@ impl Design {
                 frequency_ratio: scales.frequency_ratio(p.frequency_hz),
                 forcing_per_clearance,
                 excitation: p.excitation,
-                cavity: Cavity::IDEAL,
+                cavity: cavity(p, &scales),
             }),
             Self::Reduced(r) => {
                 let system = System::new(Parameters {
@@ -112,7 +114,7 @@ impl Design {
                     frequency_ratio: r.frequency_ratio.unwrap_or(1.0),
                     forcing_per_clearance,
                     excitation: r.excitation,
-                    cavity: Cavity::IDEAL,
+                    cavity: r.cavity,
                 })?;
                 // A small detuning would be lost in a ratio near 1.
                 match (r.frequency_ratio, r.detuning) {
@@ -181,5 +183,19 @@ impl Design {
                 forcing: r.forcing,
             },
         }
+    }
+}
+
+/// Gravity and friction in a cavity, over `b omega0^2`.
+fn cavity(physical: &Physical, scales: &Scales) -> Cavity {
+    let Physical { inclination_rad, friction, restitution_difference, .. } = *physical;
+    let unit = scales.acceleration(1.0);
+    // A level cavity is level even where the unit is too small for a number.
+    let over_unit =
+        |share: f64| if share == 0.0 { 0.0 } else { STANDARD_GRAVITY.size * share / unit };
+    Cavity {
+        gravity_along: over_unit(libm::sin(inclination_rad)),
+        friction_acceleration: over_unit(friction * libm::cos(inclination_rad)),
+        restitution_difference,
     }
 }

@@ -85,13 +85,14 @@ pub(super) fn in_design(parameter: &str) -> Value {
     json!({ "anyOf": [{ "type": "number" }, { "type": "string" }], "x-parameter": parameter })
 }
 
-/// A decimal number as a regular expression, without a sign: no quantity of a case may be negative.
+/// A decimal number as a regular expression, without a minus: few quantities of a case may be negative.
 pub(super) const NUMBER: &str = r"\+?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?";
 
-/// A regular expression for what [`Dimension::parse`] accepts, if it is not negative.
-fn pattern(dimension: Dimension) -> String {
+/// A regular expression for what [`Dimension::parse`] accepts; of what may not be negative, without a minus.
+fn pattern(dimension: Dimension, signed: bool) -> String {
+    let number = NUMBER.replacen(r"\+?", if signed { "[+-]?" } else { r"\+?" }, 1);
     let units: Vec<String> = dimension.all_units().map(|unit| unit_pattern(unit.symbol)).collect();
-    format!(r"^\s*{NUMBER}\s*({})\s*$", units.join("|"))
+    format!(r"^\s*{number}\s*({})\s*$", units.join("|"))
 }
 
 fn unit_pattern(symbol: &str) -> String {
@@ -129,11 +130,12 @@ fn with_unit(schema: &mut Schema) {
         return;
     };
     let object = schema.ensure_object();
+    let signed = object.get("minimum").and_then(Value::as_f64).is_some_and(|least| least < 0.0);
     object.remove("format");
     object.entry("examples").or_insert_with(|| json!([dimension.words().1]));
     let mut text = Map::new();
     text.insert("type".to_owned(), json!("string"));
-    text.insert("pattern".to_owned(), json!(pattern(dimension)));
+    text.insert("pattern".to_owned(), json!(pattern(dimension, signed)));
     if object["examples"][0].is_number() {
         object.remove("type");
         object.insert("anyOf".to_owned(), json!([{ "type": "number" }, text]));

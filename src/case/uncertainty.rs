@@ -36,6 +36,22 @@ pub struct Uncertainty {
     #[schemars(with = "Option<Value>", extend("x-signed" = "restitution", "anyOf" = plain_errors(), "minimum" = 0))]
     #[schemars(example = 0.05, example = "± 0.05")]
     pub restitution: Option<Distribution>,
+    /// Of the cavity's inclination; not beside [reduced].
+    #[schemars(with = "Option<Value>", extend("x-signed" = "inclination", "minimum" = 0))]
+    #[schemars(example = "0.2 deg", example = "± 0.5 deg")]
+    pub inclination: Option<Distribution>,
+    /// Of the coefficient of friction, which stays at 0 or more; not beside [reduced].
+    #[schemars(with = "Option<Value>", extend("x-signed" = "friction", "minimum" = 0))]
+    #[schemars(example = 0.001, example = "± 0.2 %")]
+    pub friction: Option<Distribution>,
+    /// Of gravity along the cavity, beside [reduced].
+    #[schemars(with = "Option<Value>", extend("x-signed" = "gravity_along", "anyOf" = plain_errors(), "minimum" = 0))]
+    #[schemars(example = 0.001, example = "± 0.001")]
+    pub gravity_along: Option<Distribution>,
+    /// Of the acceleration by friction, which stays at 0 or more, beside [reduced].
+    #[schemars(with = "Option<Value>", extend("x-signed" = "friction_acceleration", "anyOf" = plain_errors(), "minimum" = 0))]
+    #[schemars(example = 0.001, example = "± 0.001")]
+    pub friction_acceleration: Option<Distribution>,
     /// Of the excitation's frequency, that of a whole band included: a frequency, or a frequency ratio
     /// beside [reduced].
     #[schemars(with = "Option<Value>", extend("x-signed" = "frequency", "x-plain" = [0.005], "minimum" = 0))]
@@ -66,6 +82,10 @@ impl Uncertainty {
             (Parameter::Restitution, self.restitution),
             (Parameter::Frequency, self.frequency),
             (Parameter::Amplitude, self.amplitude),
+            (Parameter::Inclination, self.inclination),
+            (Parameter::Friction, self.friction),
+            (Parameter::GravityAlong, self.gravity_along),
+            (Parameter::FrictionAcceleration, self.friction_acceleration),
         ];
         all.into_iter().filter_map(|(parameter, errors)| Some((parameter, errors?)))
     }
@@ -104,6 +124,16 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Uncertainty {
     let (Some((table, read)), Some(design)) = (table, reader.design) else {
         return Uncertainty::default();
     };
+    for parameter in Parameter::ALL.into_iter().filter(|one| table.has(one.key())) {
+        let Some(other) = design.counterpart(parameter) else { continue };
+        let key = parameter.key();
+        reader.report(
+            table.span_of(key),
+            format!("{} has no `{key}` that could be uncertain", design.words()),
+            "expected a number that the design has",
+            format!("write {} instead, or remove the line", other.key()),
+        );
+    }
     if read.amplitude.is_some() && design.scales().forcing == 0.0 {
         reader.report(
             table.span_of_value("amplitude"),

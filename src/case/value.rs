@@ -7,6 +7,7 @@ use toml::de::{DeArray, DeValue};
 use super::Design;
 use super::number::{Bound, Form, toml};
 use super::reader::{Reader, Table, kind};
+use super::restitution::alternatives;
 use crate::quantity::Dimension;
 use crate::system::Parameter;
 
@@ -42,6 +43,9 @@ impl Reader<'_> {
 
     /// A value that its schema allows, quantities in SI units; `None` for a table, and for what was reported.
     pub fn item(&mut self, place: Place, schema: &'static Value) -> Option<Value> {
+        if let (Some(either), DeValue::Array(_)) = (alternatives(schema), place.value.get_ref()) {
+            return self.each(&place, either);
+        }
         if let Some(form) = self.form(schema) {
             if schema["x-signed"].is_string() {
                 return super::uncertainty::read_error(self, place, form);

@@ -6,6 +6,7 @@ use super::error::Problem;
 use super::inputs::Input;
 use super::{BandOver, BandSettings, Case, Design, physical, reduced};
 use crate::quantity::numbers::rounded_to;
+use crate::transient::Scene;
 
 /// Ratio of the frequencies of drive and structure from which on they have nothing to do with one another.
 const FAR_APART: f64 = 30.0;
@@ -19,6 +20,8 @@ const HEAVY_DAMPING: f64 = 0.2;
 const ROUNDING: f64 = 1e-12;
 /// Mass ratios between which an absorber is a small mass, and a mass at all.
 const MASS_RATIOS: [f64; 2] = [1e-6, 0.5];
+/// Coefficient above which nothing slides.
+const MOST_FRICTION: f64 = 1.0;
 
 /// Everything that a case with this text is warned of, in the order of the file's lines.
 pub(super) fn of(text: &str, case: &Case) -> Vec<Problem> {
@@ -26,6 +29,8 @@ pub(super) fn of(text: &str, case: &Case) -> Vec<Problem> {
     let mut found = read.frequencies();
     found.extend(read.damping());
     found.extend(read.mass_ratio());
+    found.extend(read.friction());
+    found.extend(read.gravity());
     found.sort_by_key(|warning| warning.span.start);
     found
 }
@@ -159,6 +164,42 @@ impl Read<'_> {
                 .to_owned(),
         };
         Some(self.warning(at, message, "no small mass beside a structure", meant))
+    }
+
+    fn friction(&self) -> Option<Problem> {
+        let at = self.input(1, &["friction"]).filter(|at| at.value > MOST_FRICTION)?;
+        let message = format!("`friction` = {} means {}", at.as_written, percent(at.value));
+        let part = at.value / 100.0;
+        let meant = format!("was {} ({}) meant?", percent(part), short(part));
+        Some(self.warning(at, message, "what slides has less than 1", meant))
+    }
+
+    /// That gravity holds an absorber that lies at its wall: the structure with that mass does not accelerate as much.
+    fn gravity(&self) -> Option<Problem> {
+        let Case { system, band, .. } = self.case;
+        let steady = self.case.design.scene() == Scene::Steady && band.is_none();
+        let at = self.input(1, &["inclination", "gravity_along"]).filter(|_| steady)?;
+        let (eps, omega) = (system.mass_ratio(), system.frequency_ratio());
+        let (sine, cosine) = system.excitation_amplitudes();
+        let stiffness = 1.0 - (1.0 + eps) * omega * omega;
+        let response = libm::hypot(stiffness, eps * system.damping() * omega);
+        let acceleration = omega * omega * libm::hypot(sine, cosine) / response;
+        let gravity = system.cavity().gravity_along.abs();
+        if acceleration == 0.0 || gravity <= acceleration {
+            return None;
+        }
+        let message = format!(
+            "`{}` = {}: gravity along the cavity is {}",
+            at.name,
+            at.as_written,
+            times(gravity / acceleration, "the structure's acceleration with the absorber at rest")
+        );
+        let meant = match at.name {
+            "inclination" => "it is the angle against the horizontal: 0 deg is a level cavity",
+            _ => "it is over the clearance times omega0^2: 0 is a level cavity",
+        };
+        let label = "an absorber at its lower wall stays there";
+        Some(self.warning(at, message, label, meant.to_owned()))
     }
 }
 

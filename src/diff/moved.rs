@@ -69,8 +69,8 @@ fn is_pure(dimension: Dimension) -> bool {
 
 /// Whether people subtract two of these rather than divide them.
 fn is_difference(dimension: Dimension) -> bool {
-    use Dimension::{Angle, Change, Level, Share};
-    matches!(dimension, Angle | Change | Level | Share)
+    use Dimension::{Angle, Change, Inclination, Level, Share};
+    matches!(dimension, Angle | Inclination | Change | Level | Share)
 }
 
 /// The same angle between minus and plus half a turn.

@@ -34,13 +34,13 @@ pub type Deviation = (Vec<(Parameter, f64)>, f64);
 
 /// How thoroughly the expectation of an exact objective is looked for.
 const ROBUST: Effort = Effort { pieces: 80, particles: 16, steps: 12, width: 1e-4, smooth: true };
-/// Nodes of each uncertain parameter where that many are uncertain, from none to four, for an
+/// Nodes of each uncertain parameter where that many are uncertain, from none to six, for an
 /// objective in closed form: at most 625 together. Shares have kinks, which many nodes even out.
-const CLOSED_FORM: [usize; 5] = [1, 21, 15, 7, 5];
+const CLOSED_FORM: [usize; 7] = [1, 21, 15, 7, 5, 3, 2];
 /// The same for one that needs orbits, which cost ten times as much: at most 125.
-const ORBITS: [usize; 5] = [1, 15, 7, 5, 3];
-/// The same for one that needs simulation: at most 27.
-const SIMULATED: [usize; 5] = [1, 5, 3, 3, 2];
+const ORBITS: [usize; 7] = [1, 15, 7, 5, 3, 2, 2];
+/// The same for one that needs simulation: at most 27, or two of each.
+const SIMULATED: [usize; 7] = [1, 5, 3, 3, 2, 2, 2];
 /// Corner of a normally distributed deviation, over its standard deviation.
 const SIGMAS: f64 = 2.0;
 /// Judged absorbers that are looked at under deviations.

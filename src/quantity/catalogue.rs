@@ -50,6 +50,8 @@ pub enum Dimension {
     Impulse,
     /// rad
     Angle,
+    /// rad, shown in degrees.
+    Inclination,
     /// A part of a whole, shown in per cent.
     Share,
     /// A relative change or error, shown in per cent with its sign.
@@ -108,6 +110,12 @@ catalogue! {
     MASS_RATIO = "mass_ratio", "ε", "mass ratio", Share, Significant(3), Interval;
     CLEARANCE = "clearance", "b", "clearance", Length, Significant(4), Interval;
     RESTITUTION = "restitution", "r", "restitution", Number, Significant(3), Interval;
+    RESTITUTION_PLUS = "restitution_at_plus_b", "r₁", "restitution at the wall x − y = +b", Number, Significant(3), Interval;
+    RESTITUTION_MINUS = "restitution_at_minus_b", "r₂", "restitution at the wall x − y = −b", Number, Significant(3), Interval;
+    INCLINATION = "inclination", "α", "inclination of the cavity", Inclination, Significant(3), Interval;
+    FRICTION = "friction", "μ", "friction in the cavity", Number, Significant(3), Interval;
+    GRAVITY_ALONG = "gravity_along", "a", "gravity along the cavity over bω₀²", Number, Significant(3), Interval;
+    FRICTION_ACCELERATION = "friction_acceleration", "", "friction in the cavity over m₂bω₀²", Number, Significant(3), Interval;
     BASE_AMPLITUDE = "base_amplitude", "F", "amplitude of the base", Length, Significant(4), Interval;
     FORCE_AMPLITUDE = "force_amplitude", "P", "amplitude of the force", Force, Significant(4), Interval;
     EXCITATION_FREQUENCY = "excitation_frequency", "f", "excitation frequency", Frequency, Significant(4), Interval;

@@ -1,6 +1,6 @@
 //! Units and prefixes: from a number in SI to what a reader sees.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use super::catalogue::{Digits, Dimension, ErrorKind, Kind};
 use super::numbers::{fixed, significant, with_minus};
@@ -35,8 +35,10 @@ const OCTAVES_PER_SECOND: Unit =
     Unit { symbol: "oct/s", size: 60.0, exponent: 0, quotient: [60.0, 1.0] };
 const RADIANS_PER_SECOND: Unit =
     Unit { symbol: "rad/s", size: 1.0 / TAU, exponent: 0, quotient: [1.0, TAU] };
-const STANDARD_GRAVITY: Unit =
+/// `9.80665 m/s²`.
+pub(crate) const STANDARD_GRAVITY: Unit =
     Unit { symbol: "g", size: 9.80665, exponent: 0, quotient: [9.80665, 1.0] };
+const DEGREE: Unit = Unit { symbol: "deg", size: PI / 180.0, exponent: 0, quotient: [PI, 180.0] };
 
 impl Dimension {
     /// Its units in SI, from the largest to the smallest.
@@ -63,6 +65,7 @@ impl Dimension {
             Self::Power => const { &[unit("kW", 3), unit("W", 0), unit("mW", -3), unit("µW", -6)] },
             Self::Impulse => const { &[unit("kN s", 3), unit("N s", 0), unit("mN s", -3)] },
             Self::Angle => const { &[unit("rad", 0)] },
+            Self::Inclination => const { &[DEGREE] },
             Self::Share | Self::Change => const { &[unit("%", -2)] },
             Self::Level => const { &[unit("dB", 0)] },
             Self::Number | Self::Count => const { &[unit("", 0)] },
@@ -115,6 +118,9 @@ impl Dimension {
                 }
             }
             Self::Impulse => const { &[unit("Ns", 0), unit("kNs", 3)] },
+            Self::Inclination => {
+                const { &[Unit { symbol: "°", ..DEGREE }, unit("rad", 0), unit("mrad", -3)] }
+            }
             _ => &[],
         }
     }
@@ -129,7 +135,7 @@ impl Dimension {
     pub fn symbol(self, physical: bool) -> &'static str {
         let pure = matches!(self, Self::Share | Self::Change | Self::Number | Self::Count);
         let own = !physical && self.own_unit().is_some();
-        let plain = self.units().iter().find(|one| one.size == 1.0);
+        let plain = self.accepted_units().find(|one| one.size == 1.0);
         plain.filter(|_| !pure && !own).map_or("1", |unit| unit.symbol)
     }
 

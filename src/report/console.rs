@@ -117,6 +117,12 @@ impl Analysed<'_> {
             "theory": self.theory(),
             "exact": exact,
         });
+        if !system.cavity().is_ideal()
+            && let (Value::Object(cavity), Some(reduced)) =
+                (json!(system.cavity()), document["reduced"].as_object_mut())
+        {
+            reduced.extend(cavity);
+        }
         if let Some(answers) = self.answers {
             document["answers"] = json!(answers);
         }

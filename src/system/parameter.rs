@@ -27,8 +27,16 @@ names! { key:
         Amplitude = "amplitude",
         /// Rates of a sweep through resonance, in hertz or in octaves as in [excitation].
         Rate = "rate",
-        /// Restitutions.
+        /// Restitutions; where the two walls differ their mean, and the difference stays.
         Restitution = "restitution",
+        /// Inclinations of the cavity.
+        Inclination = "inclination",
+        /// Coefficients of sliding friction in the cavity.
+        Friction = "friction",
+        /// Gravity's acceleration along the cavity over b omega0^2, beside [reduced].
+        GravityAlong = "gravity_along",
+        /// Accelerations by sliding friction in the cavity over b omega0^2, beside [reduced].
+        FrictionAcceleration = "friction_acceleration",
         /// Masses of the absorber, with a unit.
         AbsorberMass = "absorber_mass",
         /// Masses of the absorber over that of the oscillator.
@@ -64,7 +72,10 @@ impl Parameter {
 
     /// Whether it is a ratio to other numbers of a design, so that these have to be known first.
     pub fn is_ratio(self) -> bool {
-        matches!(self, Self::MassRatio | Self::DampingRatio)
+        matches!(
+            self,
+            Self::MassRatio | Self::DampingRatio | Self::GravityAlong | Self::FrictionAcceleration
+        )
     }
 
     /// Whether equal ratios of it deserve equal room, rather than equal differences.

@@ -771,7 +771,9 @@ fn the_starting_case_shows_every_optional_key_and_parses_without_its_comment_sig
     let case = parsed(&full);
     let steady = Subject::ALL.into_iter().filter(|subject| subject.is_for(Scene::Steady));
     assert_eq!(case.criteria.len(), steady.count());
-    assert_eq!(case.uncertainty.parameters().count(), 4);
+    assert_eq!(case.uncertainty.parameters().count(), 6);
+    assert!(case.system().cavity().gravity_along > 0.0);
+    assert!(case.system().cavity().friction_acceleration > 0.0);
     let band = case.band.expect("a band");
     assert_eq!((band.over, band.spectrum.len()), (BandOver::Frequency, 2));
     let optimize = case.optimize;

@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use vinesink::case::{Case, Design, Physical, Reduced, Scales};
 use vinesink::quantity::Dimension;
-use vinesink::system::{Excitation, System};
+use vinesink::system::{Cavity, Excitation, System};
 
 /// Values whose order of magnitude, not only whose size, is random.
 fn scale(low: i32, high: i32) -> impl Strategy<Value = f64> {
@@ -22,7 +22,10 @@ prop_compose! {
         damping_n_s_per_m in zero_or(scale(-6, 4)),
         absorber_mass_kg in scale(-9, 3),
         clearance_m in scale(-6, 1),
-        restitution in 0.0..=1.0,
+        (restitution, restitution_difference) in restitutions(),
+        // Upright the sine would not tell the angle.
+        inclination_rad in prop_oneof![-0.7..0.7, Just(0.0)],
+        friction in zero_or(scale(-4, 1)),
         amplitude in zero_or(scale(-6, 3)),
         force in any::<bool>(),
         frequency_hz in scale(-3, 5),
@@ -30,7 +33,8 @@ prop_compose! {
         let excitation = if force { Excitation::Force } else { Excitation::BaseDisplacement };
         Physical {
             mass_kg, stiffness_n_per_m, damping_n_s_per_m, absorber_mass_kg, clearance_m,
-            restitution, excitation, amplitude, frequency_hz, transient: None,
+            restitution, restitution_difference, inclination_rad, friction, excitation, amplitude, frequency_hz,
+            transient: None,
         }
     }
 }
@@ -39,7 +43,9 @@ prop_compose! {
     fn reduced()(
         mass_ratio in scale(-12, 1),
         damping in zero_or(scale(-4, 4)),
-        restitution in 0.0..=1.0,
+        (restitution, restitution_difference) in restitutions(),
+        gravity_along in -10.0..10.0,
+        friction_acceleration in zero_or(scale(-4, 1)),
         clearance in scale(-6, 3),
         forcing in zero_or(scale(-6, 6)),
         (frequency_ratio, detuning) in prop_oneof![
@@ -49,7 +55,25 @@ prop_compose! {
         force in any::<bool>(),
     ) -> Reduced {
         let excitation = if force { Excitation::Force } else { Excitation::BaseDisplacement };
-        Reduced { mass_ratio, damping, restitution, clearance, forcing, excitation, frequency_ratio, detuning, transient: None }
+        let cavity = Cavity { gravity_along, friction_acceleration, restitution_difference };
+        Reduced { mass_ratio, damping, restitution, cavity, clearance, forcing, excitation, frequency_ratio, detuning, transient: None }
+    }
+}
+
+/// Mean and difference: of one number, or of a pair that is exact in binary.
+fn restitutions() -> impl Strategy<Value = (f64, f64)> {
+    let end = || (0..=1024_u16).prop_map(|part| f64::from(part) / 1024.0);
+    let pair = (end(), end()).prop_map(|(one, other)| (0.5 * (one + other), one - other));
+    prop_oneof![(0.0..=1.0_f64).prop_map(|both| (both, 0.0)), pair]
+}
+
+/// One number, or the pair with that mean and difference.
+fn restitution_text(mean: f64, difference: f64) -> String {
+    let half = 0.5 * difference;
+    if difference == 0.0 {
+        format!("{mean:?}")
+    } else {
+        format!("[{:?}, {:?}]", mean + half, mean - half)
     }
 }
 
@@ -66,14 +90,16 @@ fn physical_text(p: &Physical) -> String {
     };
     format!(
         "title = 't'\nsource = 's'\n[oscillator]\nmass = {}\nstiffness = {}\ndamping = {}\n\
-         [absorber]\nmass = {}\nclearance = {}\nrestitution = {:?}\n\
-         [excitation]\nkind = '{kind}'\namplitude = {amplitude}\nfrequency = {}\n",
+         [absorber]\nmass = {}\nclearance = {}\nrestitution = {}\n\
+         inclination = {}\nfriction = {:?}\n[excitation]\nkind = '{kind}'\namplitude = {amplitude}\nfrequency = {}\n",
         quantity(Dimension::Mass, p.mass_kg),
         quantity(Dimension::Stiffness, p.stiffness_n_per_m),
         quantity(Dimension::Damping, p.damping_n_s_per_m),
         quantity(Dimension::Mass, p.absorber_mass_kg),
         quantity(Dimension::Length, p.clearance_m),
-        p.restitution,
+        restitution_text(p.restitution, p.restitution_difference),
+        quantity(Dimension::Inclination, p.inclination_rad),
+        p.friction,
         quantity(Dimension::Frequency, p.frequency_hz),
     )
 }
@@ -89,13 +115,20 @@ fn reduced_text(r: &Reduced) -> String {
     };
     format!(
         "title = 't'\nsource = 's'\n[reduced]\nmass_ratio = {:?}\ndamping = {:?}\n\
-         restitution = {:?}\nclearance = {:?}\nforcing = {:?}\nkind = '{kind}'\n{tuning}\n",
-        r.mass_ratio, r.damping, r.restitution, r.clearance, r.forcing,
+         restitution = {}\nclearance = {:?}\nforcing = {:?}\nkind = '{kind}'\n{tuning}\n\
+         gravity_along = {:?}\nfriction_acceleration = {:?}\n",
+        r.mass_ratio,
+        r.damping,
+        restitution_text(r.restitution, r.cavity.restitution_difference),
+        r.clearance,
+        r.forcing,
+        r.cavity.gravity_along,
+        r.cavity.friction_acceleration,
     )
 }
 
 /// The numbers of a design in one order, and the kind of its excitation.
-fn numbers(design: &Design) -> ([f64; 8], Excitation) {
+fn numbers(design: &Design) -> ([f64; 11], Excitation) {
     match *design {
         Design::Physical(p) => {
             let Physical {
@@ -112,6 +145,9 @@ fn numbers(design: &Design) -> ([f64; 8], Excitation) {
                 restitution,
                 amplitude,
                 frequency,
+                p.restitution_difference,
+                p.inclination_rad,
+                p.friction,
             ];
             (all, p.excitation)
         }
@@ -122,7 +158,22 @@ fn numbers(design: &Design) -> ([f64; 8], Excitation) {
             };
             let all = [r.mass_ratio, r.damping, r.restitution, r.clearance, r.forcing, detuning];
             let [mass_ratio, damping, restitution, clearance, forcing, detuning] = all;
-            let all = [mass_ratio, damping, restitution, clearance, forcing, detuning, 0.0, 0.0];
+            let of = r.cavity;
+            let cavity = [of.restitution_difference, of.gravity_along, of.friction_acceleration];
+            let [difference, gravity, friction] = cavity;
+            let all = [
+                mass_ratio,
+                damping,
+                restitution,
+                clearance,
+                forcing,
+                detuning,
+                difference,
+                gravity,
+                friction,
+                0.0,
+                0.0,
+            ];
             (all, r.excitation)
         }
     }
@@ -139,6 +190,7 @@ fn restored(scales: &Scales, system: &System) -> Design {
             mass_ratio,
             damping: system.damping(),
             restitution,
+            cavity: system.cavity(),
             clearance,
             forcing,
             excitation,
@@ -151,6 +203,9 @@ fn restored(scales: &Scales, system: &System) -> Design {
     let stiffness_n_per_m = mass_kg * omega0 * omega0;
     let absorber_mass_kg = mass_ratio * mass_kg;
     let displacement = forcing * mass_ratio;
+    let cavity = system.cavity();
+    let gravity = 9.80665 / scales.acceleration(1.0);
+    let inclination_rad = libm::asin(cavity.gravity_along / gravity);
     Design::Physical(Physical {
         mass_kg,
         stiffness_n_per_m,
@@ -158,6 +213,9 @@ fn restored(scales: &Scales, system: &System) -> Design {
         absorber_mass_kg,
         clearance_m: clearance,
         restitution,
+        restitution_difference: cavity.restitution_difference,
+        inclination_rad,
+        friction: cavity.friction_acceleration / (gravity * libm::cos(inclination_rad)),
         excitation,
         amplitude: match excitation {
             Excitation::BaseDisplacement => displacement,

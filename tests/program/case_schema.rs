@@ -199,6 +199,15 @@ fn parser_and_schema_agree_on_changes_to_a_case() {
         (&physical, "restitution = 0.6", "restitution = 1.01"),
         (&physical, "restitution = 0.6", ""),
         (&physical, "restitution = 0.6", "restitution = \"0.6\""),
+        (&physical, "restitution = 0.6", "restitution = [0.6, 0]"),
+        (&physical, "restitution = 0.6", "restitution = [0.6]"),
+        (&physical, "restitution = 0.6", "restitution = [0.6, 1.2]"),
+        (&physical, "restitution = 0.6", "restitution = [0.6, 0.5, 0.4]"),
+        (&physical, "# inclination = \"0.5 deg\"", "inclination = \"-0.5°\""),
+        (&physical, "# inclination = \"0.5 deg\"", "inclination = 0.5"),
+        (&physical, "# inclination = \"0.5 deg\"", "inclination = \"0.5 Hz\""),
+        (&physical, "# friction = 0.003", "friction = \"0.3 %\""),
+        (&physical, "# friction = 0.003", "friction = -0.003"),
         (&physical, "mass = \"32 g\"", "mass_ratio = 0.5"),
         (&physical, "mass = \"32 g\"", "mass_ratio = 0"),
         (&physical, "mass = \"32 g\"", "mass_ratio = \"3 %\""),
@@ -258,6 +267,9 @@ fn parser_and_schema_agree_on_changes_to_a_case() {
         (&reduced, "clearance = 1.0", "clearance = 1"),
         (&reduced, "clearance = 1.0", "clearance = 0"),
         (&reduced, "forcing = 4.342", "forcing = -1"),
+        (&reduced, "[reduced]", "[reduced]\ngravity_along = -0.1\nfriction_acceleration = 0.1"),
+        (&reduced, "[reduced]", "[reduced]\nfriction_acceleration = -0.1"),
+        (&reduced, "[reduced]", "[reduced]\ninclination = \"1 deg\""),
         (&reduced, "frequency_ratio = 0.95818", SWEPT),
         (&reduced, "frequency_ratio = 0.95818", &SWEPT.replace("of = \"force\"\n", "")),
         (&reduced, "frequency_ratio = 0.95818", &SWEPT.replace("0.9\n", "\"7 Hz\"\n")),
@@ -275,7 +287,7 @@ fn parser_and_schema_agree_on_changes_to_a_case() {
         assert_eq!(valid(&schema, &toml(&changed)), parses, "{from:?} -> {to:?}");
         accepted += usize::from(parses);
     }
-    assert_eq!(accepted, 24, "of the changes above");
+    assert_eq!(accepted, 28, "of the changes above");
 }
 
 fn patterns_agree(dimension: Dimension, schema: &Value) {
@@ -302,6 +314,7 @@ fn patterns_match_what_the_parser_reads() {
     patterns_agree(Dimension::Stiffness, &of("oscillator", "stiffness"));
     patterns_agree(Dimension::Damping, &of("oscillator", "damping"));
     patterns_agree(Dimension::Length, &of("absorber", "clearance"));
+    patterns_agree(Dimension::Inclination, &of("absorber", "inclination"));
     patterns_agree(Dimension::Share, &of("accuracy", "amplitude"));
     patterns_agree(Dimension::Frequency, &of("excitation", "frequency"));
     let kinds = &schema["properties"]["excitation"]["oneOf"];

@@ -134,6 +134,22 @@ fn masses_that_are_no_absorber_name_the_slip() {
     one_warning(&mass("mass = \"1 mg\""), 10, &["8.33e-10 times", "units of both masses"]);
 }
 
+/// The truth is the inclined plane and a linear oscillator with both masses.
+#[test]
+fn cavities_that_hold_the_absorber_name_the_slip() {
+    let cavity =
+        |keys: &str| slipped(BRIDGE, "restitution = 0.6", &format!("restitution = 0.6\n{keys}"));
+    one_warning(&cavity("friction = 3"), 13, &["= 3 means 300 %", "was 3 % (0.03) meant?"]);
+    one_warning(&cavity("friction = \"300 %\""), 13, &["means 300 %"]);
+    // At the natural frequency it accelerates by F/(m sqrt(eps^2 + (2 zeta)^2)) = 250/(1200 0.017) = 12.25 m/s^2.
+    assert_eq!(warnings(&cavity("friction = 1\ninclination = \"89 deg\"")), []);
+    let weak = cavity("inclination = \"-45 deg\"").replace("250 N", "100 N");
+    one_warning(&weak, 13, &["is 1.41 times", "0 deg is a level cavity"]);
+    assert_eq!(warnings(&format!("{weak}{BAND}")), []);
+    let twin = slipped(REDUCED, "clearance = 1.0", "clearance = 1.0\ngravity_along = 30");
+    one_warning(&twin, 8, &["`gravity_along` = 30", "0 is a level cavity"]);
+}
+
 fn written(folder: &TempDir, case: &str) -> String {
     let path = folder.path().join("case.toml");
     fs::write(&path, case).expect("a file");

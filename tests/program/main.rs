@@ -12,6 +12,7 @@ mod browser;
 mod case;
 mod case_properties;
 mod case_schema;
+mod cavity;
 mod check;
 mod cli;
 mod cli_case;

@@ -351,6 +351,7 @@ fn an_error_is_a_standard_deviation_or_a_range() {
         restitution: Some(Uniform(0.05)),
         frequency: Some(Uniform(0.1)),
         amplitude: Some(Normal(0.05e-3)),
+        ..Uncertainty::default()
     };
     assert_eq!(physical, expected);
     let plain = |table: &str| of(&reduced(0.6, 0.0077, 1.8, 4.3, [0.97, 1.03], table));
@@ -361,6 +362,7 @@ fn an_error_is_a_standard_deviation_or_a_range() {
         restitution: None,
         frequency: Some(Normal(0.001)),
         amplitude: Some(Uniform(0.43)),
+        ..Uncertainty::default()
     };
     assert_eq!(found, expected);
     assert!(!plain("[uncertainty]\nclearance = \"± 0\"\nrestitution = 0\n").is_any());

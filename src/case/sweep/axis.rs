@@ -57,13 +57,10 @@ pub(super) fn read(reader: &mut Reader, sweep: &Table, parameter: Parameter) -> 
     let table = reader.table::<AxisTable>(sweep, name)?;
     if design.form(parameter).is_none() {
         let structure = format!("a structure that is {}", design.scene().words());
-        let (this, other) = match (design.scene(), design) {
-            (Scene::Steady, Design::Physical(_)) => {
-                ("a design in [oscillator], [absorber] and [excitation]", "frequency")
-            }
-            (Scene::Steady, Design::Reduced(_)) => {
-                ("a design in [reduced]", "mass_ratio or damping")
-            }
+        let (this, other) = match (design.counterpart(parameter), design.scene(), design) {
+            (Some(other), ..) => (design.words(), other.key()),
+            (_, Scene::Steady, Design::Physical(_)) => (design.words(), "frequency"),
+            (_, Scene::Steady, Design::Reduced(_)) => (design.words(), "mass_ratio or damping"),
             _ => (structure.as_str(), "clearance"),
         };
         reader.report(

@@ -27,7 +27,7 @@ use crate::study::fidelity::Answers;
 
 pub(super) use band::{Absorber, damper};
 pub use notes::theory_limits;
-pub use scale::Scale;
+pub use scale::{Scale, cavity};
 pub use verdict::{Tone, Word};
 
 /// Name and version of the format of `report.json`.
@@ -141,6 +141,7 @@ fn quantities(scale: &Scale, case: &Case, study: &CaseStudy) -> BTreeMap<&'stati
     if let Design::Physical(physical) = &case.design {
         all.push(given(&of::ABSORBER_MASS, physical.absorber_mass_kg));
     }
+    all.extend(cavity(case));
     if let Some(main) = study.main_attractor() {
         all.extend(motions::headline(scale, &main.attractor).into_iter().map(|(_, one)| one));
     } else if let Some(orbit) = study.exact.attracting() {

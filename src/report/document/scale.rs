@@ -11,6 +11,27 @@ pub fn level_error(amplitude: f64, error: f64) -> f64 {
     if amplitude > 0.0 { 20.0 * std::f64::consts::LOG10_E * error / amplitude } else { error }
 }
 
+/// What a case says of its cavity; nothing of one that is level, without friction, its ends alike.
+pub fn cavity(case: &Case) -> Vec<Quantity> {
+    let (design, system) = (&case.design, case.system());
+    if system.cavity().is_ideal() {
+        return Vec::new();
+    }
+    let given = |kind, value| Quantity::new(kind, value, Method::Given);
+    let of_cavity = [
+        Parameter::Inclination,
+        Parameter::Friction,
+        Parameter::GravityAlong,
+        Parameter::FrictionAcceleration,
+    ];
+    let values = of_cavity.into_iter().filter_map(|one| Some((one, design.value(one)?)));
+    let mut all: Vec<Quantity> =
+        values.map(|(one, value)| given(design.kind(one), value)).collect();
+    let ends = [&of::RESTITUTION_PLUS, &of::RESTITUTION_MINUS];
+    all.extend(ends.into_iter().zip(system.restitutions()).map(|(kind, value)| given(kind, value)));
+    all
+}
+
 /// Makes the quantities of one case.
 #[derive(Debug, Clone, Copy)]
 pub struct Scale {

@@ -13,7 +13,7 @@ use serde_json::{Value, json};
 pub use optimum::{optimum, optimum_text};
 
 use super::document::criteria::{badge, criteria};
-use super::document::{FORMAT, NOTICEABLE, Scale, Word, figure_row, units};
+use super::document::{FORMAT, NOTICEABLE, Scale, Word, cavity, figure_row, units};
 use super::figure::{Color, Dash, Style};
 use super::render::{Files, RenderError, in_lines, page_files};
 use super::template::{render, worded};
@@ -121,13 +121,14 @@ fn given(case: &Case) -> Vec<Quantity> {
     let system = case.system();
     let given = |kind, value| Quantity::new(kind, value, Method::Given);
     let mass = case.design.value(Parameter::AbsorberMass);
-    vec![
+    let own = [
         Scale::of(case).length(&of::CLEARANCE, 1.0, Method::Given),
         given(&of::RESTITUTION, system.restitution()),
         given(&of::MASS_RATIO, system.mass_ratio()),
         // A reduced design's is over the structure's.
         given(&of::ABSORBER_MASS, mass.unwrap_or(system.mass_ratio())),
-    ]
+    ];
+    own.into_iter().chain(cavity(case)).collect()
 }
 
 /// The answer where there are no criteria, from the worst and the best of what counts over the structure alone.
