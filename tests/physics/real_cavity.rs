@@ -9,6 +9,8 @@ use vinesink::system::{Cavity, Excitation, Parameters, State, System};
 const LIGHT: f64 = 1e-60;
 /// What 77 digits lose to a light absorber, and to the 1e-40 at which chattering ends.
 const DIGITS: f64 = 1e-55;
+/// Events that no motion here has.
+const MOST: usize = 1000;
 
 /// Gravity along the cavity, friction, restitutions at `x - y = +b` and `-b`.
 fn cavity(a: f64, f: f64, [plus, minus]: [f64; 2]) -> (Cavity, f64) {
@@ -111,6 +113,7 @@ fn on_an_incline_chattering_ends_at_the_sum_of_its_series() {
         let mut reference = Reference::new(&steep, State::AT_REST, 0.0);
         let (mut impacts, mut reversals) = (0, 0);
         let end = loop {
+            assert!(reversals < MOST);
             match reference.next(100.0) {
                 Some(Event::Impact { tau, sticks: true, .. }) => break tau,
                 Some(Event::Impact { side: -1.0, .. }) => impacts += 1,
@@ -163,6 +166,23 @@ fn on_the_level_an_absorber_stops_next_to_the_wall() {
             event => panic!("{event:?}"),
         }
     }
+    // Short of it by 1e-33, and too far by as much, within a time of 1e-16.
+    let level = system(LIGHT, cavity(0.0, 0.125, [0.5; 2]), 0.0);
+    let event = Reference::new(&level, absorber(-1e-33, 0.5), 0.0).next(100.0);
+    assert!(matches!(event, Some(Event::Stick { wall: None, .. })), "{event:?}");
+    let event = Reference::new(&level, absorber(1e-33, 0.5), 0.0).next(100.0);
+    assert!(matches!(event, Some(Event::Impact { sticks: false, .. })), "{event:?}");
+}
+
+/// At rest the oscillator's spring pulls by `-x`; of the pair's, friction carries the share `1/(1 + eps)`.
+#[test]
+fn at_rest_friction_holds_up_to_its_share_of_the_force() {
+    let level = system(0.5, cavity(0.0, 0.3, [0.5; 2]), 0.0);
+    for (x, held) in [(0.44, true), (-0.44, true), (0.46, false), (-0.46, false)] {
+        let start = State { x, y: x, ..State::AT_REST };
+        let mut reference = Reference::new(&level, start, 0.0);
+        assert_eq!((reference.rests(), reference.next(10.0).is_none()), (held, held), "{x}");
+    }
 }
 
 /// The pair swings about `eps a` with the mass `1 + eps`; what holds the absorber is its acceleration less `a`.
@@ -186,6 +206,9 @@ fn friction_holds_the_absorber_until_the_pair_accelerates_too_much() {
         let [.., x_velocity, _, y_velocity] = reference.moment().map(|part| part.to_f64());
         close(x_velocity, v * libm::cos(angle));
         assert_eq!(x_velocity, y_velocity);
+        // It gets away from there.
+        let next = reference.next(100.0);
+        assert!(!matches!(next, Some(Event::Reversal { tau: again, .. }) if again - tau < 0.1));
     }
 }
 
@@ -225,7 +248,8 @@ fn energy_goes_where_friction_and_impacts_take_it() {
             &(&oscillator * &half) + &(&eps * &absorber)
         };
         let mut before = reference.moment();
-        while let Some(event) = reference.next(60.0) {
+        for _ in 0..MOST {
+            let Some(event) = reference.next(60.0) else { break };
             let after = reference.moment();
             let way = (&(&after[1] - &after[3]) - &(&before[1] - &before[3])).abs();
             let mut taken = &(&eps * &Real::of(f)) * &way;
@@ -261,7 +285,7 @@ fn the_mirrored_motion_is_the_mirror_of_the_motion() {
     let motion = |a, r, start| {
         let mut reference = Reference::new(&system(0.2, cavity(a, 0.1, r), 0.0), start, 0.0);
         let events = std::iter::from_fn(move || reference.next(40.0));
-        events.collect::<Vec<_>>()
+        events.take(MOST).collect::<Vec<_>>()
     };
     let mirrored = |event: &Event| match *event {
         Event::Impact { tau, side, x, loss, sticks } => {
@@ -324,7 +348,8 @@ fn driven_and_damped_it_follows_coulombs_law() {
         let start = State { x: 0.5, x_velocity: 0.25, y: 0.25, y_velocity: -0.5 };
         let mut reference = Reference::new(&driven, start, 0.0);
         let (mut times, mut displacements) = (Vec::new(), Vec::new());
-        while let Some(event) = reference.next(15.0) {
+        for _ in 0..MOST {
+            let Some(event) = reference.next(15.0) else { break };
             let [time, x, _, y, _] = reference.moment().map(|part| part.to_f64());
             times.push(time);
             displacements.push([x, y]);
