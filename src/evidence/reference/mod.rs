@@ -5,8 +5,8 @@
 //! its own equation, walls are looked for by a fine scan in multiple precision whose first steps are a
 //! thousand thousand million times shorter, a crossing is halved and polished by Newton's method, and
 //! chattering is followed until the gap opens by 1e-40 clearances. A constant force moves the origin that the
-//! oscillator is counted from. It costs a thousand times as much
-//! and proves nothing, but no rounding of the engine can hide behind its own.
+//! oscillator is counted from. It costs a thousand times as much and proves nothing, but no rounding of the engine
+//! can hide behind its own.
 
 mod flight;
 mod friction;
