@@ -30,6 +30,7 @@ mod orbit_equations;
 mod orbits;
 mod published;
 mod real_cavity;
+mod real_cavity_engine;
 mod record;
 mod reduced;
 mod regimes;
