@@ -22,10 +22,10 @@ const ALWAYS: u64 = 400;
 const HANGS: Duration = Duration::from_secs(60);
 
 /// Numbers from a number: splitmix64.
-struct Dice(u64);
+pub(crate) struct Dice(pub(crate) u64);
 
 impl Dice {
-    fn next(&mut self) -> u64 {
+    pub(crate) fn next(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -34,29 +34,29 @@ impl Dice {
     }
 
     /// `0 .. count`.
-    fn below(&mut self, count: usize) -> usize {
+    pub(crate) fn below(&mut self, count: usize) -> usize {
         (self.next() % count as u64) as usize
     }
 
     /// `0 .. 1`.
-    fn part(&mut self) -> f64 {
+    pub(crate) fn part(&mut self) -> f64 {
         (self.next() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    fn between(&mut self, low: f64, high: f64) -> f64 {
+    pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.part()
     }
 
     /// Every order of magnitude alike.
-    fn scale(&mut self, low: f64, high: f64) -> f64 {
+    pub(crate) fn scale(&mut self, low: f64, high: f64) -> f64 {
         low * libm::pow(high / low, self.part())
     }
 
-    fn one_of(&mut self, values: &[f64]) -> f64 {
+    pub(crate) fn one_of(&mut self, values: &[f64]) -> f64 {
         values[self.below(values.len())]
     }
 
-    fn sign(&mut self) -> f64 {
+    pub(crate) fn sign(&mut self) -> f64 {
         if self.next() & 1 == 0 { 1.0 } else { -1.0 }
     }
 }
@@ -64,8 +64,8 @@ impl Dice {
 /// Cases that fail before a target is given up.
 const FAILURES: usize = 20;
 
-/// Runs cases from 0 on, or the one that is asked for, and watches them from another thread.
-fn fuzz(target: fn(u64)) {
+/// Runs cases from 0 on, `always` so many, or the one that is asked for, and watches them from another thread.
+pub(crate) fn fuzz(always: u64, target: fn(u64)) {
     let number = |name| env::var(name).ok().and_then(|text| text.parse::<u64>().ok());
     let only = number("VINESINK_FUZZ_CASE");
     let seconds = Duration::from_secs(number("VINESINK_FUZZ_SECONDS").unwrap_or(0));
@@ -78,7 +78,7 @@ fn fuzz(target: fn(u64)) {
             if catch_unwind(|| target(case)).is_err() {
                 failed.push(case);
             }
-            let enough = only.is_some() || case >= ALWAYS && started.elapsed() >= seconds;
+            let enough = only.is_some() || case >= always && started.elapsed() >= seconds;
             if enough || failed.len() >= FAILURES {
                 return (case, failed);
             }
@@ -285,7 +285,7 @@ fn same_as_the_slow_search(what: &str, system: &System, impacts: &[Impact]) {
 
 #[test]
 fn the_engine_survives_anything() {
-    fuzz(engine);
+    fuzz(ALWAYS, engine);
 }
 
 /// Pieces of cases, right and wrong.
@@ -394,5 +394,5 @@ fn parser(case: u64) {
 
 #[test]
 fn the_case_parser_survives_anything() {
-    fuzz(parser);
+    fuzz(ALWAYS, parser);
 }

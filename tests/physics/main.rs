@@ -29,6 +29,8 @@ mod orbit_branches;
 mod orbit_equations;
 mod orbits;
 mod published;
+mod real_cavity;
+mod real_cavity_engine;
 mod record;
 mod reduced;
 mod regimes;

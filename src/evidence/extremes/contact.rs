@@ -116,7 +116,8 @@ fn exact_releases(mut reference: Reference) -> Vec<Release> {
                 found.push(Release { tau, x, loss: lost });
                 time = tau;
             }
-            None => break,
+            // Without friction there is nothing else.
+            Some(Event::Reversal { .. } | Event::Stick { .. }) | None => break,
         }
         if found.len() == RELEASES {
             break;

@@ -1,18 +1,25 @@
-//! A second opinion in 77 decimal digits: equations (1) and (2) once more, for a few dozen impacts.
+//! A second opinion in 77 decimal digits: equations (1) and (2) once more, with gravity along the cavity,
+//! friction in it and two restitutions, for a few dozen impacts.
 //!
 //! It shares no code with [`crate::simulation`] and none of its ideas: the motion is a Taylor series of
 //! its own equation, walls are looked for by a fine scan in multiple precision whose first steps are a
 //! thousand thousand million times shorter, a crossing is halved and polished by Newton's method, and
-//! chattering is followed until the gap opens by 1e-40 clearances. It costs a thousand times as much
-//! and proves nothing, but no rounding of the engine can hide behind its own.
+//! chattering is followed until the gap opens by 1e-40 clearances. A constant force moves the origin that the
+//! oscillator is counted from. It costs a thousand times as much and proves nothing, but no rounding of the engine
+//! can hide behind its own.
 
+mod flight;
+mod friction;
 mod oscillator;
 pub mod real;
+mod search;
 
-use oscillator::{LEVELS, Oscillator, Point, Vector};
+use flight::Flight;
+use oscillator::{Oscillator, Point, Vector};
 use real::Real;
+use search::{polished, scan};
 
-use crate::system::{State, System};
+use crate::system::{Cavity, State, System};
 
 /// Opening of the gap, over the clearance, below which a chattering sequence has ended.
 const EXCURSION: f64 = 1e-40;
@@ -22,10 +29,6 @@ const SHORTEST: f64 = 1e-9;
 const ROOM: f64 = 8.0;
 /// The multiples of the golden section are spread evenly and never repeat.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
-/// Corrections by Newton's method; each doubles the twelve digits that halving leaves.
-const CORRECTIONS: u32 = 12;
-/// Relative correction that ends them: from there the next would be below 77 digits.
-const CORRECTED: f64 = 1e-45;
 
 /// What happens next on a trajectory; times are fast time since the start.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,7 +46,23 @@ pub enum Event {
         /// Whether the absorber stays on the wall.
         sticks: bool,
     },
-    /// The absorber leaves a wall that it rested on, the contact force having vanished.
+    /// Friction has stopped the absorber relative to the oscillator, and it slides back.
+    Reversal {
+        /// When.
+        tau: f64,
+        /// Displacement of the oscillator over the clearance.
+        x: f64,
+    },
+    /// Friction has stopped the absorber relative to the oscillator, and holds it.
+    Stick {
+        /// When.
+        tau: f64,
+        /// Displacement of the oscillator over the clearance.
+        x: f64,
+        /// The wall that it touches, +1 or -1; `None` within the cavity.
+        wall: Option<f64>,
+    },
+    /// The absorber leaves the wall that it rested on, or the place where friction held it.
     Release {
         /// When.
         tau: f64,
@@ -55,7 +74,10 @@ pub enum Event {
 /// A trajectory in multiple precision.
 pub struct Reference {
     eps: Real,
-    restitution: Real,
+    /// At the walls `x - y = +b` and `x - y = -b`.
+    restitutions: [Real; 2],
+    gravity: Real,
+    friction: Real,
     alone: Oscillator,
     carrying: Oscillator,
     time: Real,
@@ -63,10 +85,21 @@ pub struct Reference {
     z: Vector,
     y: Real,
     y_velocity: Real,
-    /// The wall that the absorber rests on.
-    rests: Option<f64>,
+    mode: Mode,
     rounding: f64,
-    impacts: u32,
+    /// Events that may be disturbed.
+    events: u32,
+}
+
+/// What the absorber does.
+#[derive(Clone)]
+enum Mode {
+    /// Nothing but gravity acts on it.
+    Flies,
+    /// Friction acts on it; the sign of `x' - y'`.
+    Slides(f64),
+    /// It moves with the oscillator, `gap` behind it, at a wall or held by friction alone.
+    Rests { wall: Option<f64>, gap: Real },
 }
 
 impl Reference {
@@ -75,7 +108,7 @@ impl Reference {
     /// With a `rounding` above 0, over the clearance, the oscillator starts displaced by that much,
     /// and so does the absorber from the walls, from every second one in an order that never repeats
     /// and has no symmetry: how far this moves later impacts is what rounding once an event may cost,
-    /// whoever computes.
+    /// whoever computes. So does the absorber where friction stops it, and both where friction gives way.
     pub fn new(system: &System, start: State, rounding: f64) -> Self {
         let eps = Real::of(system.mass_ratio());
         let alone = Oscillator::new(system, &Real::of(0.0));
@@ -87,100 +120,109 @@ impl Reference {
         let moved = Real::of(rounding);
         // What touches is moved together.
         let y = if touches { &y + &moved } else { y };
-        let z = [&x + &moved, v, Real::of(0.0), Real::of(1.0)];
-        let closing = &alone.rate(&z)[1] * &Real::of(side);
-        let rests = (touches && closing.is_positive()).then_some(side);
-        Self {
+        let slip = &v - &u;
+        let Cavity { gravity_along, friction_acceleration, .. } = system.cavity();
+        let mut reference = Self {
             eps,
-            restitution: Real::of(system.restitution()),
+            restitutions: system.restitutions().map(Real::of),
+            gravity: Real::of(gravity_along),
+            friction: Real::of(friction_acceleration),
             alone,
             carrying,
             time: Real::of(0.0),
-            z,
+            z: [&x + &moved, v, Real::of(0.0), Real::of(1.0)],
             y,
             y_velocity: u,
-            rests,
+            mode: Mode::Flies,
             rounding,
-            impacts: 0,
-        }
+            events: 0,
+        };
+        reference.mode = match slip.is_zero() {
+            true => reference.settled(touches.then_some(side)),
+            false => reference.moving(&slip),
+        };
+        reference
     }
 
     /// The next event; `None` if there is none up to `latest`, and then the trajectory stands where
     /// it stood.
     pub fn next(&mut self, latest: f64) -> Option<Event> {
-        match self.rests {
-            Some(side) => self.release(side, latest),
-            None => self.impact(latest),
+        match self.mode.clone() {
+            Mode::Flies => self.fly(latest),
+            Mode::Slides(direction) => self.slide(direction, latest),
+            Mode::Rests { wall, gap } => self.release(wall, &gap, latest),
         }
     }
 
-    fn start(&self) -> Point {
-        Point { s: Real::of(0.0), z: self.z.clone() }
+    /// Where the trajectory stands, right after its last event: fast time, displacement and velocity of the
+    /// oscillator, and of the absorber.
+    pub fn moment(&self) -> [Real; 5] {
+        let [x, v, ..] = &self.z;
+        [&self.time, x, v, &self.y, &self.y_velocity].map(Real::clone)
     }
 
-    fn release(&mut self, side: f64, latest: f64) -> Option<Event> {
-        let carrying = &self.carrying;
-        // The wall's pull, and its rate.
-        let pull = |point: &Point| {
-            let rate = carrying.rate(&point.z);
-            [&rate[1], &carrying.rate(&rate)[1]].map(|one| &Real::of(-side) * one)
-        };
-        let before = scan(carrying, self.start(), latest - self.time.to_f64(), &pull)?;
-        let Point { s, z } = polished(carrying, before, &pull);
-        self.time = &self.time + &s;
-        self.y = &z[0] - &Real::of(side);
-        self.y_velocity = z[1].clone();
-        let event = Event::Release { tau: self.time.to_f64(), x: z[0].to_f64() };
-        self.z = z;
-        self.rests = None;
-        Some(event)
+    /// Whether the absorber moves with the oscillator.
+    pub fn rests(&self) -> bool {
+        matches!(self.mode, Mode::Rests { .. })
     }
 
-    fn impact(&mut self, latest: f64) -> Option<Event> {
-        let (alone, y, u) = (&self.alone, &self.y, &self.y_velocity);
+    /// The motion from here while `x' - y'` has that sign; 0 without friction.
+    fn flight(&self, direction: f64) -> Flight {
+        let friction = &Real::of(direction) * &self.friction;
+        let accelerations = [&self.gravity, &friction, &self.eps];
+        Flight::new(&self.z, [&self.y, &self.y_velocity], accelerations)
+    }
+
+    fn arrive(&mut self, flight: &Flight, at: &Point) {
+        self.time = &self.time + &at.s;
+        self.z = flight.z(at);
+        [self.y, self.y_velocity] = flight.absorber(at);
+    }
+
+    fn fly(&mut self, latest: f64) -> Option<Event> {
+        let (alone, flight) = (&self.alone, self.flight(0.0));
         let one = Real::of(1.0);
-        let gap = |point: &Point| &point.z[0] - &(y + &(u * &point.s));
         // How far outside the absorber is, and its rate.
         let excess = |point: &Point| {
-            let (gap, opening) = (gap(point), &point.z[1] - u);
+            let [gap, opening] = flight.gap(point);
             let rate = if gap.is_negative() { -&opening } else { opening };
             [&gap.abs() - &one, rate]
         };
         let span = latest - self.time.to_f64();
         let near = match self.short_flight() {
-            Some(s) => alone.later(&self.start(), &s),
-            None => scan(alone, self.start(), span, &excess)?,
+            Some(s) => alone.later(&flight.start(), &s),
+            None => scan(alone, flight.start(), span, &excess)?,
         };
-        let side = if gap(&near).is_negative() { -1.0 } else { 1.0 };
+        let side = if flight.gap(&near)[0].is_negative() { -1.0 } else { 1.0 };
         let at = polished(alone, near, &excess);
         if at.s.to_f64() > span {
             return None;
         }
-        self.time = &self.time + &at.s;
-        Some(self.struck(&at.z, side))
+        self.arrive(&flight, &at);
+        Some(self.struck(side))
     }
 
     /// Equation (2), and whether the absorber stays on the wall.
-    fn struck(&mut self, z: &Vector, side: f64) -> Event {
+    fn struck(&mut self, side: f64) -> Event {
         let (one, sign) = (Real::of(1.0), Real::of(side));
-        let [x, v, sin, cos] = z.clone();
+        let disturbed = self.is_disturbed();
+        let [x, v, sin, cos] = self.z.clone();
         let approach = &v - &self.y_velocity;
-        let r = &self.restitution;
+        let r = &self.restitutions[usize::from(side < 0.0)];
         let total = &one + &self.eps;
         let exchanged = &(&(&one + r) * &approach) / &total;
         let after = [&v - &(&self.eps * &exchanged), &self.y_velocity + &exchanged];
         let kept = &one - &(r * r);
         let loss = &(&(&self.eps * &kept) * &(&approach * &approach)) / &(&Real::of(2.0) * &total);
         let opening = &(&approach * r) * &sign;
-        let closing = &sign * &self.alone.rate(z)[1];
+        self.z = [x.clone(), after[0].clone(), sin, cos];
+        let closing = self.stopping(side);
         // The gap opens by u^2 / (2 a).
         let limit = &closing * &Real::of(2.0 * EXCURSION);
         let sticks = closing.is_positive() && !limit.is_below(&(&opening * &opening));
         // An excursion that rounding would fill is left to its parabola.
         let room = &(&Real::of(2.0 * ROOM * self.rounding) * &closing) - &(&opening * &opening);
-        self.impacts += 1;
-        let rounded = (GOLDEN * f64::from(self.impacts)).fract() < 0.5 && room.is_negative();
-        let rounding = if rounded { self.rounding } else { 0.0 };
+        let rounding = if disturbed && room.is_negative() { self.rounding } else { 0.0 };
         self.y = &x - &(&sign * &(&one - &Real::of(rounding)));
         let [x_velocity, y_velocity] = if sticks || r.is_zero() {
             let common = &(&after[0] + &(&self.eps * &after[1])) / &total;
@@ -190,10 +232,19 @@ impl Reference {
         };
         let (tau, loss) = (self.time.to_f64(), loss.to_f64());
         let event = Event::Impact { tau, side, x: x.to_f64(), loss, sticks };
-        self.z = [x, x_velocity, sin, cos];
+        self.z[1] = x_velocity;
         self.y_velocity = y_velocity;
-        self.rests = sticks.then_some(side);
+        self.mode = match sticks {
+            true => Mode::Rests { wall: Some(side), gap: sign },
+            false => self.moving(&-&sign),
+        };
         event
+    }
+
+    /// Whether rounding may act on this event.
+    fn is_disturbed(&mut self) -> bool {
+        self.events += 1;
+        (GOLDEN * f64::from(self.events)).fract() < 0.5
     }
 
     /// The duration of a flight so short that it is a parabola, `2 u / a`, to nine digits.
@@ -203,9 +254,9 @@ impl Reference {
         if !touching.abs().is_below(&Real::of(1e-60)) {
             return None;
         }
-        let sign = Real::of(if gap.is_negative() { -1.0 } else { 1.0 });
-        let opening = -&(&sign * &(&self.z[1] - &self.y_velocity));
-        let closing = &sign * &self.alone.rate(&self.z)[1];
+        let side = if gap.is_negative() { -1.0 } else { 1.0 };
+        let opening = -&(&Real::of(side) * &(&self.z[1] - &self.y_velocity));
+        let closing = self.stopping(side);
         if !(opening.is_positive() && closing.is_positive()) {
             return None;
         }
@@ -213,90 +264,4 @@ impl Reference {
         let short = Real::of(SHORTEST * self.alone.scan_step());
         duration.is_below(&short).then_some(duration)
     }
-}
-
-/// The last point before what is `watched`, a value with its rate, exceeds 0, to a scan step halved
-/// [`LEVELS`] times; `None` if it does not within `span`. Steps grow from that smallest one, doubling the
-/// way each time. Between two points a maximum is looked at as well: a touch may be far shorter than a
-/// step.
-fn scan(
-    oscillator: &Oscillator,
-    start: Point,
-    span: f64,
-    watched: &impl Fn(&Point) -> [Real; 2],
-) -> Option<Point> {
-    let step = oscillator.scan_step();
-    let mut rises = watched(&start)[1].is_positive();
-    let mut here = start;
-    let mut level = LEVELS;
-    let mut walked = 0.0;
-    loop {
-        let there = oscillator.step(&here, level);
-        let [value, rate] = watched(&there);
-        if value.is_positive() {
-            break;
-        }
-        if rises
-            && !rate.is_positive()
-            && let Some(before) = at_maximum(oscillator, &here, level, watched)
-        {
-            (here, level) = before;
-            break;
-        }
-        (here, rises) = (there, rate.is_positive());
-        walked += libm::scalbn(step, -(level as i32));
-        if walked > span {
-            return None;
-        }
-        // The first step is taken twice.
-        if level > 0 && walked >= libm::scalbn(step, 1 - level as i32) {
-            level -= 1;
-        }
-    }
-    for finer in level + 1..=LEVELS {
-        let there = oscillator.step(&here, finer);
-        if !watched(&there)[0].is_positive() {
-            here = there;
-        }
-    }
-    Some(here)
-}
-
-/// Halves a step towards the maximum in it; where the value exceeds 0 on the way, the point before and
-/// the halvings of the step from there.
-fn at_maximum(
-    oscillator: &Oscillator,
-    from: &Point,
-    level: usize,
-    watched: &impl Fn(&Point) -> [Real; 2],
-) -> Option<(Point, usize)> {
-    let mut here = from.clone();
-    for finer in level + 1..=LEVELS {
-        let there = oscillator.step(&here, finer);
-        let [value, rate] = watched(&there);
-        if value.is_positive() {
-            return Some((here, finer));
-        }
-        if rate.is_positive() {
-            here = there;
-        }
-    }
-    None
-}
-
-/// The zero of what is `watched` next to a point, by Newton's method.
-fn polished(oscillator: &Oscillator, near: Point, watched: &impl Fn(&Point) -> [Real; 2]) -> Point {
-    let mut at = near.clone();
-    for _ in 0..CORRECTIONS {
-        let [value, rate] = watched(&at);
-        if value.is_zero() || rate.is_zero() {
-            break;
-        }
-        let correction = &value / &rate;
-        at = oscillator.later(&near, &(&(&at.s - &near.s) - &correction));
-        if correction.abs().to_f64() <= CORRECTED * at.s.abs().to_f64() {
-            break;
-        }
-    }
-    at
 }

@@ -2,7 +2,7 @@
 //! system whose Taylor series is summed in multiple precision. No closed form is solved for, so that
 //! damping of any size and resonance without damping need no case of their own.
 
-use super::real::Real;
+use super::real::{BITS, Real};
 use crate::system::{Excitation, System};
 
 /// Halvings of the scan's step for which the way is known in advance.
@@ -77,6 +77,9 @@ impl Oscillator {
             let part = s / &Real::of(f64::from(k));
             term = self.rate(&term).map(|rate| &rate * &part);
             sum = std::array::from_fn(|j| &sum[j] + &term[j]);
+            if is_nothing(&term, &sum) {
+                break;
+            }
         }
         sum
     }
@@ -100,4 +103,12 @@ impl Oscillator {
     pub(super) fn later(&self, from: &Point, s: &Real) -> Point {
         Point { s: &from.s + s, z: self.series(&from.z, s) }
     }
+}
+
+/// Whether a term, and so those after it, is too small by far to change a sum.
+fn is_nothing(term: &Vector, sum: &Vector) -> bool {
+    let least = sum.iter().filter_map(Real::exponent).min();
+    let most = term.iter().filter_map(Real::exponent).max();
+    // As many bits again for what a large force makes of the next terms.
+    most.is_none_or(|most| least.is_some_and(|least| most < least - 2 * BITS as i32))
 }

@@ -41,6 +41,11 @@ impl Real {
         self.0.is_zero()
     }
 
+    /// The power of two next above its absolute value; `None` for 0.
+    pub fn exponent(&self) -> Option<i32> {
+        if self.0.is_zero() { None } else { self.0.exponent() }
+    }
+
     /// Whether it is below another.
     pub fn is_below(&self, other: &Self) -> bool {
         (self - other).is_negative()
