@@ -32,8 +32,9 @@ pub struct FullSystem {
     pub system: System,
     /// Its symmetric 1:1 orbits, at most two, ascending in the absorber's amplitude.
     pub orbits: Vec<SymmetricOrbit>,
-    /// The boundaries at its frequency and forcing; `None` without forcing, and for an undamped
-    /// oscillator driven at its natural frequency, which has no steady motion between impacts.
+    /// The boundaries at its frequency and forcing; `None` without forcing, for an undamped
+    /// oscillator driven at its natural frequency, which has no steady motion between impacts, and for a cavity that is
+    /// not ideal.
     pub boundaries: Option<Boundaries>,
 }
 

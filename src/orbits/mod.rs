@@ -49,6 +49,12 @@ pub enum OrbitError {
          between impacts; add damping or change the frequency"
     )]
     NoSteadyMotion,
+    /// What was asked for is known of an ideal cavity only.
+    #[error(
+        "the symmetric orbits of a cavity and their limits are known in closed form where it is level, does not rub, and \
+         its ends are alike"
+    )]
+    RealCavity,
     /// Newton's method did not converge.
     #[error(
         "Newton's method stopped after {iterations} steps with a residual of {residual:.1e}; \
