@@ -25,6 +25,7 @@ mod orbit;
 pub mod switching;
 mod symmetric;
 mod tracer;
+mod two_impact;
 
 pub use crate::bifurcation::Bifurcation;
 pub use admissibility::{Admissibility, Narrowest};
@@ -38,6 +39,7 @@ pub use multipliers::{Leading, Multipliers};
 pub use newton::Convergence;
 pub use orbit::{Closure, Cycle, Orbit, Origin};
 pub use symmetric::{SymmetricCurve, SymmetricOrbit, attracting_orbit, symmetric_orbits};
+pub use two_impact::{TwoImpactOrbits, two_impact_orbits};
 
 /// Why an orbit is not returned.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
