@@ -59,7 +59,8 @@ const SAME: f64 = 1e-6;
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct TwoImpactOrbits {
-    /// By ascending time from the impact on the `+b` wall to the other one; those that are no motions included. The
+    /// By ascending time from the impact on the `+b` wall to the other one; those that are no motions included, if both
+    /// walls are met from inside. The
     /// symmetric ones of a symmetric cavity are [`Closure::Mirrors`], the asymmetric ones come with their mirror images.
     pub orbits: Vec<Orbit>,
     /// Times between which the search cannot tell whether there are orbits; fast time.
@@ -99,7 +100,7 @@ pub fn two_impact_orbits(system: &System) -> Result<TwoImpactOrbits, OrbitError>
         roots.extend(roots.clone().iter().map(|s| -s));
         undecided.extend(undecided.clone().iter().map(|[from, to]| [-to, -from]));
     }
-    for s in roots {
+    for s in roots.into_iter().filter(|s| pair.impacts(*s).from_inside()) {
         let orbit = pair.orbit(s);
         undecided.extend(orbit.is_none().then_some([s, s]));
         orbits.extend(orbit);
@@ -129,8 +130,23 @@ struct Impacts {
     way: RowVector2<f64>,
     difference: RowVector2<f64>,
     line: RowVector2<f64>,
+    /// Changes of the absorber's velocity.
+    jumps: [RowVector2<f64>; 2],
     /// Displacement beside the steady motion, velocities of oscillator and absorber after each impact.
     after: [[RowVector2<f64>; 3]; 2],
+}
+
+impl Impacts {
+    /// `(1, eta)` by the linear equation.
+    fn solved(&self) -> Vector2<f64> {
+        Vector2::new(1.0, -self.line[0] / self.line[1])
+    }
+
+    /// Whether the walls throw the absorber back: in a cycle whose impacts come from outside they would pull it.
+    fn from_inside(&self) -> bool {
+        let [first, second] = self.jumps.map(|jump| (jump * self.solved())[0]);
+        first > 0.0 && second < 0.0
+    }
 }
 
 impl Pair {
@@ -176,6 +192,7 @@ impl Pair {
         };
         Impacts {
             durations: [t1, t2],
+            jumps,
             turn,
             way,
             difference: velocities[0] - velocities[1],
@@ -225,7 +242,7 @@ impl Pair {
         let at = self.impacts(s);
         let flight = &self.map.flight;
         let omega = flight.frequency();
-        let state = Vector2::new(1.0, -at.line[0] / at.line[1]);
+        let state = at.solved();
         let value = |row: &RowVector2<f64>| (row * state)[0];
         let [sine, cosine] = at.turn;
         let a = 0.5 * value(&at.way) / sine;
