@@ -8,8 +8,8 @@ use vinesink::cavity::{CavityTheory, Forcing};
 use vinesink::orbits::branch::{BranchPoint, Direction, Settings, follow};
 use vinesink::orbits::newton::solve;
 use vinesink::orbits::{
-    AfterImpact, Bifurcation, Closure, Cycle, ImpactMap, Measures, Orbit, OrbitError, Origin,
-    SymmetricFamily, Wall, attracting_orbit, symmetric_orbits, two_impact_orbits,
+    AfterImpact, Bifurcation, Closure, Cycle, FullSystem, ImpactMap, Measures, Orbit, OrbitError,
+    Origin, SymmetricFamily, Wall, attracting_orbit, symmetric_orbits, two_impact_orbits,
 };
 use vinesink::system::{Cavity, Excitation, Parameter, Parameters, System};
 
@@ -471,5 +471,43 @@ fn branches_lead_through_the_orbits_that_are_counted() {
                 assert!(near, "{} {direction:?}", point.value);
             }
         }
+    }
+}
+
+/// The stretch of clearances around an orbit that attracts: it attracts inside next to both ends, and not outside; with
+/// hardly any tilt, friction or difference the ends are those of the ideal cavity, but for the symmetry breaking, which
+/// becomes imperfect.
+#[test]
+fn a_stretch_of_clearances_ends_where_the_orbit_does() {
+    let ideal = table_1(8.0, 7.5);
+    let known = FullSystem::of(&ideal).stretch().expect("attracts");
+    for [a, f, d] in cavities() {
+        let system = with(&ideal, a, f, d);
+        let full = FullSystem::of(&system);
+        let stretch = full.stretch().expect("attracts");
+        let leans = |orbit: &Orbit| match orbit.cycle.durations[..] {
+            [there, back] => there > back,
+            _ => false,
+        };
+        let lean = leans(full.attracting_orbit().expect("attracts"));
+        // The other half of an imperfect pitchfork leans the other way, and attracts on its own.
+        let attracts = |clearance: f64| {
+            let there = system.with_clearance_scaled(clearance).expect("valid");
+            orbits(&there).iter().any(|orbit| orbit.attracts() && leans(orbit) == lean)
+        };
+        let [low, high] = stretch.clearance;
+        println!("{a} {f} {d} {stretch:?} {:?}", known.clearance);
+        assert!(attracts(low * 1.001) && attracts(high * 0.999) && !attracts(high * 1.001));
+        // Below a symmetry breaking the asymmetric orbits attract.
+        let broken = stretch.ends[0] == Some(Bifurcation::SymmetryBreaking);
+        assert_eq!(attracts(low * 0.999), broken, "{stretch:?}");
+        assert_eq!(broken, a == 0.0 && d == 0.0);
+        let frequencies = full.frequency_limits().map(|limit| limit.expect("ends").value);
+        let inside =
+            frequencies[0] < system.frequency_ratio() && system.frequency_ratio() < frequencies[1];
+        assert!(inside, "{frequencies:?}");
+        let hardly = with(&ideal, 1e-6 * a, 1e-6 * f, 1e-6 * d);
+        let [_, upper] = FullSystem::of(&hardly).stretch().expect("attracts").clearance;
+        assert!((upper / known.clearance[1] - 1.0).abs() < 1e-5);
     }
 }
