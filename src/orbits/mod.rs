@@ -2,7 +2,8 @@
 //!
 //! Nothing is expanded in the mass ratio and nothing is integrated step by step. Between impacts the
 //! motion is closed form ([`flight`]); from one impact to the next it is a map with an exact Jacobian
-//! ([`ImpactMap`]). Its symmetric two-impact cycles solve one quadratic ([`symmetric_orbits`], [`equations`]); all others
+//! ([`ImpactMap`]). Its symmetric two-impact cycles solve one quadratic ([`symmetric_orbits`], [`equations`]), those of a
+//! cavity of any kind are roots of one function ([`two_impact_orbits`]); all others
 //! are found by Newton's method ([`newton`]) and followed by continuation ([`branch`]), with their
 //! bifurcations. Where the symmetric ones begin and end is [`SymmetricFamily`]; with the asymmetric ones that
 //! follow them, [`boundaries`]. Nothing here knows of the

@@ -103,7 +103,7 @@ pub fn two_impact_orbits(system: &System) -> Result<TwoImpactOrbits, OrbitError>
         roots.extend(roots.clone().iter().map(|s| -s));
         undecided.extend(undecided.clone().iter().map(|[from, to]| [-to, -from]));
     }
-    for s in roots.into_iter().filter(|s| pair.impacts(*s).from_inside()) {
+    for s in roots.into_iter().filter(|s| pair.impacts(*s).meets_from_inside()) {
         let orbit = pair.orbit(s);
         undecided.extend(orbit.is_none().then_some([s, s]));
         orbits.extend(orbit);
@@ -146,7 +146,7 @@ impl Impacts {
     }
 
     /// Whether the walls throw the absorber back: in a cycle whose impacts come from outside they would pull it.
-    fn from_inside(&self) -> bool {
+    fn meets_from_inside(&self) -> bool {
         let [first, second] = self.jumps.map(|jump| (jump * self.solved())[0]);
         first > 0.0 && second < 0.0
     }

@@ -29,6 +29,7 @@ mod orbit_branches;
 mod orbit_equations;
 mod orbits;
 mod published;
+mod real_cavity_branches;
 mod real_cavity_orbits;
 mod record;
 mod reduced;
