@@ -5,13 +5,20 @@
 //! `x = Re(S e^{i Omega tau}) + Re(H e^{(i omega_d - zeta) tau})`. With `X` the largest displacement on the
 //! way, an absorber that rests within `b - X` of the middle of its cavity is never touched: a share
 //! `1 - X/b` of its resting places.
+//!
+//! In a tilted cavity, or one that rubs, an absorber at rest goes along with the structure, whose mass is then `1 + eps`,
+//! while the acceleration of both asks for no more than gravity `a` and friction `f` give: up to `f - abs(a)` anywhere, up
+//! to `f + abs(a)` at the wall that it slides down to, with which every resting place ends. Beyond that an absorber in a
+//! tilted cavity hits that wall again and again. In a level one it slides: the structure moves as under dry friction
+//! (Den Hartog, 1931, at first order in it), the absorber by `4 f/(pi Omega^2)` a quarter of a period later.
 
 use nalgebra::Complex;
 use serde::Serialize;
 
 use super::Band;
 use crate::numerics::scan::largest;
-use crate::system::System;
+use crate::simulation::{Simulation, Stop};
+use crate::system::{Cavity, State, System};
 
 /// Share of the resting places below which nobody will meet the inactive absorber.
 const NEGLIGIBLE: f64 = 0.01;
@@ -20,19 +27,71 @@ const NEGLIGIBLE: f64 = 0.01;
 const PHASES: u32 = 128;
 /// Pieces of a band in which the largest amplitude is looked for before it is narrowed down.
 const PIECES: u32 = 512;
+/// Time constants after which what is left of a transient is `e^-12`, 6e-6, and the fewest and most periods.
+const TRANSIENT: f64 = 12.0;
+const PERIODS: [f64; 2] = [50.0, 5000.0];
+/// Resting places of an absorber that slides.
+const PLACES: u32 = 8;
+/// Impacts after which an absorber counts as awake, and periods without one after which it does not.
+const MOST_IMPACTS: u64 = 20_000;
+const LAST: u64 = 20;
 
 /// The motion with an absorber that stays at rest. Lengths over the clearance.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Inactive {
     /// Amplitude of the structure.
     pub amplitude: f64,
-    /// Share of the absorber's resting places from which a start from rest stays in this motion: `1 - X/b`.
+    /// Share of the absorber's resting places from which a start from rest stays in this motion: `1 - X/b`; all where
+    /// friction or a wall hold it.
     pub share: f64,
 }
 
 impl Inactive {
     /// That of a system; `None` where every start from rest wakes the absorber, but for a negligible share.
     pub fn of(system: &System) -> Option<Self> {
+        let Cavity { gravity_along: a, friction_acceleration: f, .. } = system.cavity();
+        if a == 0.0 && f == 0.0 {
+            return Self::floating(system);
+        }
+        let held = InTow::of(system);
+        let [steady, largest] = held.accelerations;
+        // A transient may throw it off the wall that it rests on, where it comes to rest again.
+        let settles = || {
+            let after = impacts_from(system, -a.signum(), MOST_IMPACTS);
+            steady <= a.abs() + f && after.is_some_and(|impacts| impacts[1] == 0)
+        };
+        if largest <= a.abs() + f || a != 0.0 && settles() {
+            return Some(Self { amplitude: held.amplitude, share: 1.0 });
+        }
+        if a == 0.0 { Self::sliding(system, f) } else { None }
+    }
+
+    /// That of an absorber that slides in a level cavity. On its way from rest it drifts by some amplitudes of the structure
+    /// however small the friction is: which places stay is found by simulation.
+    fn sliding(system: &System, friction: f64) -> Option<Self> {
+        let omega = system.frequency_ratio();
+        let dry = 4.0 / std::f64::consts::PI * friction;
+        let (sine, cosine) = system.excitation_amplitudes();
+        let force = libm::hypot(sine, cosine);
+        let stiffness = (1.0 - omega) * (1.0 + omega);
+        let loss = system.mass_ratio() * system.damping() * omega;
+        let scale = stiffness * stiffness + loss * loss;
+        let (drag, sway) = (system.mass_ratio() * dry, stiffness * system.mass_ratio() * dry);
+        let root = (force * force * scale - sway * sway).max(0.0).sqrt();
+        let amplitude = (root - loss * drag) / scale;
+        if !(amplitude > 0.0 && libm::hypot(amplitude, dry / (omega * omega)) < 1.0) {
+            return None;
+        }
+        let stay = (0..PLACES).filter(|k| {
+            let place = (2.0 * f64::from(*k) + 1.0) / f64::from(PLACES) - 1.0;
+            impacts_from(system, place, 1) == Some([0, 0])
+        });
+        let share = stay.count() as f64 / f64::from(PLACES);
+        (share > NEGLIGIBLE).then_some(Self { amplitude, share })
+    }
+
+    /// That of an absorber that nothing moves but the walls.
+    fn floating(system: &System) -> Option<Self> {
         let steady = system.linear_response()?;
         let [zeta, omega] =
             [0.5 * system.mass_ratio() * system.damping(), system.frequency_ratio()];
@@ -52,6 +111,54 @@ impl Inactive {
         let amplitude = if zeta == 0.0 { largest } else { forced.norm() };
         let share = 1.0 - largest;
         (share > NEGLIGIBLE).then_some(Self { amplitude, share })
+    }
+}
+
+/// Impacts of a simulation from rest, the absorber at a place `x - y`, until the transient is over, and in periods after
+/// it; none where `most` are reached.
+fn impacts_from(system: &System, place: f64, most: u64) -> Option<[u64; 2]> {
+    let decay = 0.5 * system.mass_ratio() * system.damping() * system.period();
+    let periods = (TRANSIENT / decay).clamp(PERIODS[0], PERIODS[1]) as u64;
+    let start = State { y: -place, ..State::AT_REST };
+    let mut simulation = Simulation::new(system, start, 0.0).ok()?;
+    let mut impacts = [0; 2];
+    for (part, periods) in impacts.iter_mut().zip([periods, LAST]) {
+        let before = simulation.impacts();
+        if simulation.run(periods, most, &mut ()) != Stop::EndTime {
+            return None;
+        }
+        *part = simulation.impacts() - before;
+    }
+    Some(impacts)
+}
+
+/// The structure with the absorber in tow, from rest. Lengths over the clearance, fast time.
+struct InTow {
+    /// Steady amplitude.
+    amplitude: f64,
+    /// Of the acceleration: the steady amplitude, and a bound with the transient.
+    accelerations: [f64; 2],
+}
+
+impl InTow {
+    fn of(system: &System) -> Self {
+        let (eps, omega) = (system.mass_ratio(), system.frequency_ratio());
+        let mass = 1.0 + eps;
+        let (sine, cosine) = system.excitation_amplitudes();
+        let damping = eps * system.damping();
+        // (1 - mass omega^2 + i damping omega) S = cosine - i sine, x = Re(S e^{i Omega tau}).
+        let steady =
+            Complex::new(cosine, -sine) / Complex::new(1.0 - mass * omega * omega, damping * omega);
+        let (natural, decay) = ((1.0 / mass).sqrt(), 0.5 * damping / mass);
+        let ringing = (natural * natural - decay * decay).max(0.0).sqrt();
+        let (x, v) = (steady.re, -omega * steady.im);
+        let free =
+            if ringing == 0.0 { steady.norm() } else { libm::hypot(x, (decay * x - v) / ringing) };
+        // Gravity, too, begins to pull where the motion does.
+        let free = free + eps * system.cavity().gravity_along.abs();
+        let [forced, free] = [steady.norm() * omega * omega, free * natural * natural];
+        let largest = largest_from_rest(forced, free, decay, (ringing - omega).abs());
+        Self { amplitude: steady.norm(), accelerations: [forced, largest] }
     }
 }
 
@@ -84,7 +191,8 @@ pub fn largest_by(band: &Band, value: impl FnMut(f64) -> Option<f64>) -> Option<
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::system::{Cavity, Excitation, Parameters};
+    use crate::simulation::{Absorber, Measurement, Observer, Segment};
+    use crate::system::{Excitation, Parameters};
 
     /// Largest displacement of the structure alone from rest, by steps of Runge and Kutta: 2 pi/0.02 steps
     /// a period, an error of 1e-6.
@@ -142,5 +250,82 @@ mod tests {
             let narrow = half.with_clearance_scaled(0.5).expect("valid");
             assert_eq!(Inactive::of(&narrow), None, "the wall reaches every place");
         }
+    }
+
+    /// Whether an absorber stays where it is taken along.
+    #[derive(Default)]
+    struct Stays {
+        flights: u64,
+    }
+
+    impl Observer for Stays {
+        fn segment(&mut self, segment: &Segment) {
+            self.flights += u64::from(matches!(segment.absorber, Absorber::Flying { .. }));
+        }
+    }
+
+    fn in_cavity(gamma: f64, gravity_along: f64, friction_acceleration: f64) -> System {
+        System::new(Parameters {
+            mass_ratio: 0.05,
+            damping: 1.0,
+            restitution: 0.6,
+            frequency_ratio: 0.9,
+            forcing_per_clearance: gamma,
+            excitation: Excitation::Force,
+            cavity: Cavity { gravity_along, friction_acceleration, restitution_difference: 0.0 },
+        })
+        .expect("valid")
+    }
+
+    /// From the steady motion in tow, at accelerations 0.1 % below and above what holds: at the lower wall `f + abs(a)`,
+    /// elsewhere `f - abs(a)`.
+    #[test]
+    fn what_holds_an_absorber_is_what_simulation_says() {
+        let places: [(f64, f64, f64); 4] =
+            [(0.1, 0.0, -1.0), (-0.1, 0.04, 1.0), (0.03, 0.1, 0.2), (0.0, 0.1, 0.4)];
+        for (a, f, gap) in places {
+            let limit: f64 = if gap.abs() == 1.0 { f + a.abs() } else { f - a.abs() };
+            let unit = InTow::of(&in_cavity(1.0, a, f)).accelerations[0];
+            for (factor, stays) in [(0.999, true), (1.001, false)] {
+                let system = in_cavity(factor * limit / unit, a, f);
+                let (eps, omega) = (0.05, 0.9);
+                let (sine, cosine) = system.excitation_amplitudes();
+                let x = Complex::new(cosine, -sine)
+                    / Complex::new(1.0 - (1.0 + eps) * omega * omega, eps * omega);
+                let (at, v) = (x.re + eps * a, -omega * x.im);
+                let start = State { x: at, x_velocity: v, y: at - gap, y_velocity: v };
+                let mut simulation = Simulation::new(&system, start, 0.0).expect("inside");
+                let mut seen = Stays::default();
+                simulation.run(3, u64::MAX, &mut seen);
+                assert_eq!(seen.flights == 0, stays, "{a} {f} {gap} {factor}");
+            }
+        }
+    }
+
+    /// Far below what holds every place is one of rest; above, none in a tilted cavity, and some in a level one.
+    #[test]
+    fn friction_and_tilt_decide_which_places_wake() {
+        let of = |factor: f64, a: f64, f: f64| {
+            let unit = InTow::of(&in_cavity(1.0, a, f)).accelerations[0];
+            Inactive::of(&in_cavity(factor * (f + a.abs()) / unit, a, f))
+        };
+        for (a, f) in [(0.1, 0.0), (0.1, 0.04), (0.03, 0.1), (0.0, 0.1)] {
+            let held = of(0.4, a, f).expect("held");
+            assert_eq!(held.share, 1.0);
+            assert_eq!(of(1.05, a, f).is_some(), a == 0.0, "{a} {f}");
+        }
+        // Sliding: what slides against 40 times the friction moves as simulation says.
+        let (f, gamma) = (0.01, 0.8);
+        let system = in_cavity(gamma, 0.0, f);
+        let found = Inactive::of(&system).expect("slides");
+        let mut simulation = Simulation::new(&system, State::AT_REST, 0.0).expect("inside");
+        assert_eq!(simulation.run(300, u64::MAX, &mut ()), Stop::EndTime);
+        let mut measured = Measurement::begin(&system, simulation.state());
+        simulation.run(50, u64::MAX, &mut measured);
+        assert_eq!(simulation.impacts(), 0);
+        assert!(found.share > 0.2 && found.share < 0.9, "{found:?}");
+        // Second order: (4 f/(pi X))^2 is 0.4 %; without friction it would be 3 % larger.
+        let peak = measured.statistics().peak();
+        assert!((found.amplitude / peak - 1.0).abs() < 4e-3, "{found:?} {peak}");
     }
 }

@@ -4,7 +4,7 @@
 //! same order and with the same rounding as [`Simulation::run`], so that the bits agree. Panels are
 //! flown in step; a lane that has come to an event waits until enough others have, and the events are
 //! dealt with together. What is rare, a panel in doubt, sustained contact, the end of a chattering
-//! sequence, an oscillator that does not ring, is left to [`Simulation`] itself.
+//! sequence, an oscillator that does not ring, a cavity that is not ideal, is left to [`Simulation`] itself.
 
 mod events;
 mod queue;
@@ -13,9 +13,9 @@ use fearless_simd::{Level, Simd, dispatch};
 
 use self::queue::{Queue, Task};
 use super::certificate::{Hull, Slack};
-use super::events::{Detail, Observer};
+use super::events::{Detail, Observer, Side};
 use super::panels::Limits;
-use super::phasor::{At, Line, Rates, Steady};
+use super::phasor::{At, Line, Path, Rates, Steady};
 use super::run::{Moment, Simulation, Stop};
 use super::walls::{self, Sticking};
 use crate::numerics::lanes::{LANES, Real, Wide, WideMask};
@@ -304,6 +304,7 @@ impl<S: Simd> Lanes<S> {
             },
             steady: Steady { x: self.steady.x[lane], v: self.steady.v[lane] },
             phase: self.phase[lane],
+            sense: 0.0,
             turns: self.turns[lane] as u64,
             impacts: self.impacts[lane] as u64,
             evaluations: self.evaluations[lane] as u64,
@@ -348,7 +349,7 @@ impl<S: Simd> Lanes<S> {
         self.observed = self.observed & !(1 << lane) | u64::from(*detail > Detail::Nothing) << lane;
         self.mass_ratio[lane] = simulation.system.mass_ratio();
         self.restitution[lane] = simulation.system.restitution();
-        let sticking = Sticking::of(simulation);
+        let sticking = Sticking::of(simulation, Side::Plus);
         self.sticking.decay[lane] = sticking.decay;
         self.sticking.stiffness[lane] = sticking.stiffness;
         self.sticking.largest_force[lane] = sticking.largest_force;

@@ -14,6 +14,10 @@
 //! `w` at which the slope `v` satisfies `v^2 > 4 M S/14340`, `|w''| <= M`, is the first: between an earlier
 //! one and it `w` would fall by `v^2/(2 M)`, and the outer quintic back inside.
 //!
+//! Where the absorber rubs a panel also has to keep the sign of `w'`, [`Hull::rises`], or to change it once,
+//! [`Hull::turns`]. `w'` differs from the quintic's derivative by less than `S/(1920 h)`, so that a root of `w'` at which
+//! `w''^2 > 4 M' S/(960 h)`, `abs(w^(3)) <= M'`, is then the first, by the same argument.
+//!
 //! Any other panel is halved, which divides `S` by 64; below a thousandth of a panel the search of
 //! [`crate::numerics::crossing`] takes over.
 
@@ -39,6 +43,13 @@ impl<R: Real> Slack<R> {
     pub(super) fn before(&self, at: &At<R>, wall: R) -> R::Mask {
         // Twice S/14340.
         (at.gap * wall + self.coefficient * 1.005).at_most(wall.like(1.0))
+    }
+
+    /// What the square of the acceleration must exceed where the slope changes its sign in a panel: `M'` is at most the
+    /// fastest rate times `M`, and `4 M S/960` is fifteen times what the slope's square must exceed.
+    #[inline(always)]
+    pub(super) fn bend_squared(&self, fastest: R, length: R) -> R {
+        self.slope_squared * fastest * 15.0 / length
     }
 
     /// That of half a panel.
@@ -155,6 +166,35 @@ impl<R: Real> Hull<R> {
         highest.at_most(one) & (-one).at_most(lowest) & self.last.abs().at_most(one)
     }
 
+    /// Where `w'`, with these values at the ends, is proven to keep the sign `sense` in between: the derivative's
+    /// coefficients in Bernstein's form are differences, and `w'` differs from it by at most `S u^2 (1-u)^2/120` over
+    /// the length of the panel, which its middle one takes up.
+    #[inline(always)]
+    pub(super) fn rises(&self, sense: R, begin: R, end: R) -> R::Mask {
+        let [b1, b2, b3, b4] = self.inner;
+        let zero = b1.like(0.0);
+        let keeps = [(b2 - b1) * sense, (b4 - b3) * sense, begin * sense, end * sense];
+        (self.slack * 2.0).at_most((b3 - b2) * sense)
+            & zero.at_most(keeps[0])
+            & zero.at_most(keeps[1])
+            & zero.at_most(keeps[2])
+            & zero.less(keeps[3])
+    }
+
+    /// Where `w'` is proven to change its sign from `sense` once, but for a time in which it is next to 0: Descartes' rule
+    /// for the derivative, as low and as high as it may be.
+    #[inline(always)]
+    pub(super) fn turns(&self, sense: R, begin: R, end: R) -> R::Mask {
+        let [b1, b2, b3, b4] = self.inner;
+        let zero = b1.like(0.0);
+        let (d1, d2, d3) = ((b2 - b1) * sense, (b3 - b2) * sense, (b4 - b3) * sense);
+        let off = self.slack * 2.0;
+        zero.at_most(begin * sense)
+            & (end * sense).less(zero)
+            & (zero.at_most(d1) | (d2 + off).at_most(zero))
+            & (zero.at_most(d2 - off) | d3.at_most(zero))
+    }
+
     /// Where it leaves the band through the wall nearest to its end, `wall`, and not before through
     /// the other: once, if the slope at the root is steep enough.
     #[inline(always)]
@@ -181,7 +221,7 @@ mod tests {
 
     use super::*;
     use crate::simulation::flow::Oscillator;
-    use crate::simulation::phasor::{Line, Rates};
+    use crate::simulation::phasor::{Line, Path, Rates};
     use crate::system::{Cavity, Excitation, Parameters, System};
 
     fn oscillator(mass_ratio: f64, damping: f64, frequency_ratio: f64) -> Oscillator {
@@ -293,7 +333,7 @@ mod tests {
                 let turn = Quintic::through(&here, &there, rates.step).turning_point();
                 let length = rates.step;
                 let height = dispatch!(Level::baseline(), simd => {
-                    rates.turning_point(simd, &here, turn.at * length, length, true)
+                    rates.turning_point(simd, &here, base, turn.at * length, length, true)
                 })
                 .abs();
                 let above = turn.highest(&slack) - height;

@@ -101,15 +101,22 @@ pub struct Segment {
 /// How the absorber moves during a [`Segment`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Absorber {
-    /// On a straight line.
+    /// On a straight line, or on a parabola in a cavity that is tilted or rubs.
     Flying {
         /// Displacement at the beginning.
         y: f64,
-        /// Velocity.
+        /// Velocity at the beginning.
         y_velocity: f64,
+        /// Acceleration.
+        y_acceleration: f64,
     },
     /// At rest against a wall, moving with the oscillator.
     Carried(Side),
+    /// At rest in the cavity, held by friction and moving with the oscillator.
+    Held {
+        /// Where, `x - y`.
+        gap: f64,
+    },
 }
 
 impl Segment {
@@ -117,14 +124,32 @@ impl Segment {
     pub fn at(&self, s: f64) -> State {
         let Kinematics { x, v } = self.motion.at(s);
         match self.absorber {
-            Absorber::Flying { y, y_velocity } => {
-                State { x, x_velocity: v, y: y + y_velocity * s, y_velocity }
+            Absorber::Flying { y, y_velocity, y_acceleration } => {
+                let gained = y_acceleration * s;
+                let y = y + (y_velocity + 0.5 * gained) * s;
+                State { x, x_velocity: v, y, y_velocity: y_velocity + gained }
             }
             Absorber::Carried(side) => {
                 State { x, x_velocity: v, y: x - side.sign(), y_velocity: v }
             }
+            Absorber::Held { gap } => State { x, x_velocity: v, y: x - gap, y_velocity: v },
         }
     }
+}
+
+/// The absorber, sliding in a cavity that rubs, has come to rest relative to the oscillator.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Reversal {
+    /// Fast time since the start of the run.
+    pub tau: f64,
+    /// Excitation phase, `0 .. 2 pi`.
+    pub phase: f64,
+    /// The state, both velocities equal.
+    pub state: State,
+    /// The sign of `x' - y'` before.
+    pub before: f64,
+    /// That after; 0 where friction holds it.
+    pub after: f64,
 }
 
 /// What an [`Observer`] needs to be told of; to describe the rest would cost time.
@@ -185,6 +210,8 @@ pub trait Observer {
     /// A chattering sequence ended: the absorber sticks, and the rest of its relative energy is
     /// lost.
     fn sticks(&mut self, _loss: f64) {}
+    /// Sliding ended; only where there is friction.
+    fn reversal(&mut self, _reversal: &Reversal) {}
     /// An excitation period is over; the phase is 0 again.
     fn period(&mut self, _state: &State) {}
 }
@@ -211,6 +238,10 @@ impl<A: Observer, B: Observer> Observer for (&mut A, &mut B) {
     fn sticks(&mut self, loss: f64) {
         self.0.sticks(loss);
         self.1.sticks(loss);
+    }
+    fn reversal(&mut self, reversal: &Reversal) {
+        self.0.reversal(reversal);
+        self.1.reversal(reversal);
     }
     fn period(&mut self, state: &State) {
         self.0.period(state);

@@ -92,8 +92,13 @@ impl Oscillator {
     /// The motion that starts at displacement `x` and velocity `v` when the excitation's phase is
     /// `phase`.
     pub fn motion(&self, x: f64, v: f64, phase: f64) -> Motion {
+        self.motion_about(0.0, x, v, phase)
+    }
+
+    /// The same under a constant force besides, in which the oscillator would rest at `rest`.
+    pub fn motion_about(&self, rest: f64, x: f64, v: f64, phase: f64) -> Motion {
         let steady = self.forced(phase, 0.0, &Propagator::identity());
-        Motion { oscillator: *self, phase, free_x: x - steady.x, free_v: v - steady.v }
+        Motion { oscillator: *self, rest, phase, free_x: x - rest - steady.x, free_v: v - steady.v }
     }
 
     /// Free motion, `x'' + 2 d x' + k x = 0`, a time `s` after it had displacement `x` and velocity
@@ -196,6 +201,8 @@ pub struct Kinematics {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Motion {
     oscillator: Oscillator,
+    /// Where it would rest without excitation.
+    rest: f64,
     phase: f64,
     free_x: f64,
     free_v: f64,
@@ -211,7 +218,12 @@ impl Motion {
         let propagator = o.propagator(s);
         let free = propagator.carry(o, self.free_x, self.free_v);
         let forced = o.forced(self.phase, s, &propagator);
-        Kinematics { x: free.x + forced.x, v: free.v + forced.v }
+        Kinematics { x: free.x + forced.x + self.rest, v: free.v + forced.v }
+    }
+
+    /// Seen from where it would rest.
+    fn about_rest(&self, at: Kinematics) -> Kinematics {
+        Kinematics { x: at.x - self.rest, ..at }
     }
 
     /// Displacement and velocity of the free part where the stretch began.
@@ -228,7 +240,7 @@ impl Motion {
     /// Acceleration, by equation (1) from the displacement and velocity at the same time.
     pub fn acceleration(&self, s: f64, at: Kinematics) -> f64 {
         let o = &self.oscillator;
-        o.acceleration(self.phase + o.frequency * s, at)
+        o.acceleration(self.phase + o.frequency * s, self.about_rest(at))
     }
 
     /// Jerk, by the derivative of equation (1).
@@ -250,7 +262,7 @@ impl Motion {
     /// would still shorten every step, and so would the large forces of a slow excitation, which
     /// balance one another.
     pub fn bounds(&self, s: f64, at: Kinematics, horizon: f64) -> DerivativeBounds {
-        let general = derivative_bounds(&self.oscillator, at, horizon);
+        let general = derivative_bounds(&self.oscillator, self.about_rest(at), horizon);
         let parts = self.creeping_bounds(s).or_else(|| self.slow_bounds(s));
         let Some(parts) = parts else { return general };
         DerivativeBounds {

@@ -15,6 +15,7 @@ use nalgebra::Complex;
 use super::events::Segment;
 use super::flow::Oscillator;
 use super::phasor::Rates;
+use super::sliding::Sliding;
 use super::small::{angles, exponential_minus_one};
 use crate::numerics::bracket::brent;
 use crate::numerics::lanes::{LANES, Real};
@@ -149,6 +150,8 @@ impl Product {
 /// A system's oscillator between impacts, where it rings and is driven to a steady motion.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Ringing {
+    /// Gravity and friction bend no flight.
+    straight: bool,
     pub rates: Rates<f64>,
     /// `p = -d + i w`.
     pub pole: Phasor,
@@ -183,14 +186,23 @@ pub(super) struct Ends<R> {
     /// The absorber's displacement at the beginning, and its velocity.
     pub y: R,
     pub y_velocity: R,
+    /// The absorber's acceleration, and where the oscillator would rest.
+    pub y_acceleration: R,
+    pub rest: R,
 }
 
 impl Ends<[f64; LANES]> {
     /// Begins the flight of a lane where that of another does.
     pub(super) fn begin_like(&mut self, other: usize, lane: usize) {
-        for all in
-            [&mut self.phase[0], &mut self.x[0], &mut self.v[0], &mut self.y, &mut self.y_velocity]
-        {
+        for all in [
+            &mut self.phase[0],
+            &mut self.x[0],
+            &mut self.v[0],
+            &mut self.y,
+            &mut self.y_velocity,
+            &mut self.y_acceleration,
+            &mut self.rest,
+        ] {
             all[lane] = all[other];
         }
     }
@@ -218,7 +230,8 @@ impl Ringing {
             ee: one / (turn * 2.0),
             e: one / turn,
         };
-        Some(Self { rates, pole, steady, turn, over, squares })
+        let straight = Sliding::of(system).none();
+        Some(Self { straight, rates, pole, steady, turn, over, squares })
     }
 
     /// The excitation at either end of flights.
@@ -237,10 +250,10 @@ impl Ringing {
         [begin, end]: [Turning<R>; 2],
     ) -> Integrals<R> {
         let Rates { frequency, inverse_frequency, decay, ringing, .. } = self.rates;
-        let Ends { phase, x: [x, _], v: [v, _], y, y_velocity } = *ends;
+        let Ends { phase, x: [x, _], v: [v, _], y, y_velocity, rest, .. } = *ends;
         let duration = (phase[1] - phase[0]) * inverse_frequency;
         let steady = begin.scaled(self.steady);
-        let (free, velocity) = (x - steady.re, v + steady.im * frequency);
+        let (free, velocity) = (x - rest - steady.re, v + steady.im * frequency);
         let z = Turning { re: free, im: -((velocity + free * decay) * (1.0 / ringing)) };
         let [turned, half] =
             angles(simd, [duration * ringing, duration * (0.5 * (ringing - frequency))]);
@@ -277,12 +290,46 @@ impl Ringing {
             (end.times(y + y_velocity * duration) - begin.times(y) - once.times(y_velocity))
                 .scaled(over.e);
         let [displacement_squared, velocity_squared, work] = &self.squares;
-        Integrals {
+        let straight = Integrals {
             displacement_squared: displacement_squared.over(&five),
             velocity_squared: velocity_squared.over(&five),
             work: work.over(&five),
             oscillator: [oscillator.im, oscillator.re],
             absorber: [absorber.im, absorber.re],
+        };
+        if self.straight {
+            return straight;
+        }
+        let swung = (z_end - z).scaled(Phasor::new(1.0, 0.0) / self.pole);
+        let displacement = swung.re + once.scaled(self.steady).re;
+        self.bent(ends, duration, once, end, displacement, straight)
+    }
+
+    /// The integrals over flights, from those without a place of rest and an acceleration of the absorber; `once` is that
+    /// of the excitation, `displacement` that of the oscillator from its place of rest.
+    #[inline(always)]
+    fn bent<R: Real>(
+        &self,
+        ends: &Ends<R>,
+        duration: R,
+        once: Turning<R>,
+        end: Turning<R>,
+        displacement: R,
+        straight: Integrals<R>,
+    ) -> Integrals<R> {
+        let Ends { y_acceleration, rest, .. } = *ends;
+        let gained = y_acceleration * duration;
+        // By parts: `y = a s^2/2` has the slope `a s`, and that the slope `a`.
+        let slope = (end.times(gained) - once.times(y_acceleration)).scaled(self.over.e);
+        let absorber = (end.times(gained * duration * 0.5) - slope).scaled(self.over.e);
+        let [sine, cosine] = straight.oscillator;
+        let [absorber_sine, absorber_cosine] = straight.absorber;
+        Integrals {
+            displacement_squared: straight.displacement_squared
+                + rest * (displacement * 2.0 + rest * duration),
+            oscillator: [sine + rest * once.im, cosine + rest * once.re],
+            absorber: [absorber_sine + absorber.im, absorber_cosine + absorber.re],
+            ..straight
         }
     }
 }
@@ -309,6 +356,11 @@ impl Quadrature {
             first_panel: FRAC_PI_4 / decaying,
             force: Phasor::new(cosine, -sine),
         }
+    }
+
+    /// Of the excitation.
+    pub(super) fn frequency(&self) -> f64 {
+        self.frequency
     }
 
     /// The largest absolute displacement of the oscillator in a stretch: at an end, or where the velocity

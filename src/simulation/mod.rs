@@ -16,6 +16,7 @@ mod panels;
 mod peaks;
 mod phasor;
 mod run;
+mod sliding;
 mod small;
 mod statistics;
 mod steps;
@@ -24,7 +25,7 @@ pub mod trust;
 mod walls;
 
 pub use contact::ContactTolerance;
-pub use events::{Absorber, Detail, Impact, Observer, Segment, Side, StartError};
+pub use events::{Absorber, Detail, Impact, Observer, Reversal, Segment, Side, StartError};
 pub use history::{ImpactLog, Trace, TracePoint};
 pub use run::{Simulation, Stop};
 pub use statistics::{Energy, Measurement, PeriodRecord, Statistics, SustainedContact};

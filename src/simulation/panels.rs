@@ -6,8 +6,9 @@ use fearless_simd::{Level, Simd, dispatch};
 use super::certificate::{Hull, Slack};
 use super::contact::rebound;
 use super::events::{Detail, Observer, Side};
-use super::phasor::{At, Corrected, Line, Rates, Steady};
+use super::phasor::{At, Corrected, Line, Path, Rates, Steady};
 use super::run::{Moment, Simulation, Stop};
+use super::sliding::{Course, Straight};
 use super::walls::{self, Sticking};
 use crate::numerics::lanes::Real;
 use crate::system::State;
@@ -16,6 +17,9 @@ use crate::system::State;
 const SHORTEST: f64 = 1e-3;
 /// Corrections of a root before the slow search takes over; from the quintic's root one suffices.
 pub(super) const CORRECTIONS: u32 = 6;
+
+/// Fast time to which the end of sliding is found: what `w'` leaves is then below rounding.
+const TURNED: f64 = 1e-15;
 
 /// How far flights may go on.
 #[derive(Debug, Clone, Copy)]
@@ -59,6 +63,8 @@ pub(super) enum FlightEnd {
     Doubt,
     /// The last impact, on this wall, may be the end of a chattering sequence.
     MayStick(Side),
+    /// The absorber has ceased to slide.
+    Turned,
 }
 
 impl Simulation {
@@ -70,43 +76,49 @@ impl Simulation {
         observer: &mut dyn Observer,
     ) -> FlightEnd {
         let Some(rates) = self.rates else { return FlightEnd::Doubt };
-        let (moment, end) = dispatch!(level, simd => self.fly_by(simd, &rates, limits, observer));
+        let (moment, end) = if self.sliding.none() {
+            dispatch!(level, simd => self.fly_by(simd, Straight, &rates, limits, observer))
+        } else {
+            let sliding = self.sliding;
+            dispatch!(level, simd => self.fly_by(simd, sliding, &rates, limits, observer))
+        };
         self.at = moment;
         end
     }
 
     /// By the instructions that `simd` stands for.
     #[inline(always)]
-    fn fly_by<S: Simd>(
+    fn fly_by<S: Simd, C: Course>(
         &self,
         simd: S,
+        course: C,
         rates: &Rates<f64>,
         limits: Limits,
         observer: &mut dyn Observer,
     ) -> (Moment, FlightEnd) {
-        let (eps, r) = (self.system.mass_ratio(), self.system.restitution());
-        let sticking = Sticking::of(self);
+        let eps = self.system.mass_ratio();
+        let sticking = [Side::Plus, Side::Minus].map(|side| Sticking::of(self, side));
         let detail = observer.detail();
         let mut at = self.at;
         // What has just been thrown back leaves its wall.
         let mut leaves = false;
         loop {
-            let Moment { state: State { x, x_velocity: v, y, y_velocity }, steady, .. } = at;
-            let line = Line { y, velocity: y_velocity };
-            if !leaves && walls::blocked(x, v, line) {
+            let Moment { state: State { x, x_velocity: v, y, y_velocity }, steady, sense, .. } = at;
+            if !leaves && walls::blocked(x, v, Line { y, velocity: y_velocity }) {
                 return (at, FlightEnd::Doubt);
             }
-            let (here, slack) = rates.begin(x, v, steady, line);
+            let (x, path) = course.depart(&at);
+            let (here, slack) = rates.begin(x, v, steady, path);
             if rates.short(&here) {
                 return (at, FlightEnd::Doubt);
             }
-            let left = rates.left(at.phase);
-            let Some(landing) = rates.fly(simd, here, slack, line, left, &mut at.evaluations)
-            else {
+            let flight = Flight { course, sense, path, left: rates.left(at.phase) };
+            let Some(landing) = rates.fly(simd, here, slack, &flight, &mut at.evaluations) else {
                 return (at, FlightEnd::Doubt);
             };
-            let Landing { wall, time, x, v, steady } = landing;
-            let y = y + y_velocity * time;
+            let Landing { end, time, x, v, steady } = landing;
+            let Line { y, velocity: y_velocity } = path.from(time).line();
+            let (x, y) = (course.arrive(sense, x), course.arrive(sense, y));
             if !(x.abs() <= f64::MAX && y.abs() <= f64::MAX) {
                 return (at, FlightEnd::Doubt);
             }
@@ -115,20 +127,25 @@ impl Simulation {
                 self.tell(at, landing, before, observer, detail);
             }
             at.steady = steady;
-            if let Some(side) = wall {
+            if let Ending::Wall(side) = end {
                 at.phase += rates.frequency * time;
                 at.impacts += 1;
-                let after = rebound(eps, r, v, y_velocity);
+                let after = rebound(eps, self.restitution(side), v, y_velocity);
                 at.state = self.rebounded(&before, side, &after);
+                at.sense = -side.sign();
                 let State { x, x_velocity: v, y, y_velocity } = at.state;
                 let line = Line { y, velocity: y_velocity };
+                let sticking = &sticking[usize::from(side == Side::Minus)];
                 if sticking.possible(x, v, line, side.sign()) {
                     return (at, FlightEnd::MayStick(side));
                 }
+            } else if let Ending::Turn = end {
+                (at.state, at.phase) = (before, at.phase + rates.frequency * time);
+                return (at, FlightEnd::Turned);
             } else {
                 (at.state, at.phase, at.turns) = (before, 0.0, at.turns + 1);
             }
-            leaves = wall.is_some();
+            leaves = matches!(end, Ending::Wall(_));
             if limits.reached(&at) {
                 return (at, FlightEnd::Limit);
             }
@@ -146,26 +163,37 @@ impl Simulation {
         observer: &mut dyn Observer,
         detail: Detail,
     ) {
-        let Landing { wall, time, .. } = landing;
+        let Landing { end, time, .. } = landing;
         if time > 0.0 && detail == Detail::Flights {
             observer.segment(&self.flown(&at, time));
         }
-        let Some(side) = wall else {
-            observer.period(&before);
-            return;
+        let side = match end {
+            Ending::Wall(side) => side,
+            Ending::Turn => return,
+            Ending::Period => return observer.period(&before),
         };
-        let (eps, r) = (self.system.mass_ratio(), self.system.restitution());
+        let (eps, r) = (self.system.mass_ratio(), self.restitution(side));
         let after = rebound(eps, r, before.x_velocity, before.y_velocity);
         let when = (at.turns, at.phase + self.alone.frequency * time);
         observer.impact(&self.impact(&before, side, &after, when));
     }
 }
 
+/// What a flight ends with.
+#[derive(Debug, Clone, Copy)]
+enum Ending {
+    /// An impact on this wall.
+    Wall(Side),
+    /// The end of sliding.
+    Turn,
+    /// The end of the period.
+    Period,
+}
+
 /// Where a flight ends.
 #[derive(Debug, Clone, Copy)]
 struct Landing {
-    /// On which wall; none where the period is over first.
-    wall: Option<Side>,
+    end: Ending,
     /// Time since it began.
     time: f64,
     x: f64,
@@ -177,32 +205,33 @@ impl Rates<f64> {
     /// Flies to the first impact or the end of the period; none where nothing is proven.
     /// Evaluations of the motion are added to `evaluations`.
     #[inline(always)]
-    fn fly<S: Simd>(
+    fn fly<S: Simd, C: Course>(
         &self,
         simd: S,
         mut here: At<f64>,
         slack: Slack<f64>,
-        line: Line<f64>,
-        left: f64,
+        flight: &Flight<C>,
         evaluations: &mut u64,
     ) -> Option<Landing> {
+        let Flight { course, sense, path, left } = *flight;
         let mut time = 0.0;
         loop {
-            // The panels until one may hold an impact.
+            // The panels until one may hold an event.
             let there = loop {
                 let reach = time + self.step;
-                let there = self.next(&here, line.from(reach));
+                let there = self.next(&here, path.from(reach));
                 *evaluations += 1;
-                if !Hull::of(&here, &there, self.step, &slack).clear() {
+                let hull = Hull::of(&here, &there, self.step, &slack);
+                if !(hull.clear() && course.one_way(sense, &hull, [&here, &there])) {
                     break there;
                 }
                 if left <= reach {
-                    return Some(self.ended(simd, &here, time, line, left, evaluations));
+                    return Some(self.ended(simd, &here, time, path, left, evaluations));
                 }
                 (here, time) = (there, reach);
             };
-            let panel = Panel { here, there, time, slack, line, left };
-            match self.look_into(simd, &panel, evaluations)? {
+            let panel = Panel { here, there, time, slack };
+            match self.look_into(simd, &panel, flight, evaluations)? {
                 Found::Landing(landing) => return Some(landing),
                 Found::Nothing { until, there } => (here, time) = (there, until),
             }
@@ -216,7 +245,7 @@ impl Rates<f64> {
         simd: S,
         here: &At<f64>,
         time: f64,
-        line: Line<f64>,
+        path: impl Path<f64>,
         left: f64,
         evaluations: &mut u64,
     ) -> Landing {
@@ -224,8 +253,8 @@ impl Rates<f64> {
             #[inline(always)]
             || {
                 *evaluations += 1;
-                let (x, v) = self.oscillator(&self.after(simd, here, left - time, line.from(time)));
-                Landing { wall: None, time: left, x, v, steady: self.origin }
+                let (x, v) = self.oscillator(&self.after(simd, here, left - time, path.from(time)));
+                Landing { end: Ending::Period, time: left, x, v, steady: self.origin }
             },
         )
     }
@@ -233,61 +262,107 @@ impl Rates<f64> {
     /// Looks for an impact in a panel that is not proven to be clear, or in the first part of it about
     /// which something is; none where nothing is.
     #[inline(always)]
-    fn look_into<S: Simd>(&self, simd: S, panel: &Panel, evaluations: &mut u64) -> Option<Found> {
-        let Panel { here, mut there, time, mut slack, line, left } = *panel;
-        let (line_here, rest) = (line.from(time), left - time);
+    fn look_into<S: Simd, C: Course>(
+        &self,
+        simd: S,
+        panel: &Panel,
+        flight: &Flight<C>,
+        evaluations: &mut u64,
+    ) -> Option<Found> {
+        let Panel { here, mut there, time, mut slack } = *panel;
+        let Flight { course, sense, path, left } = *flight;
+        let (path_here, rest) = (path.from(time), left - time);
         let mut length = self.step;
         let mut hull = Hull::of(&here, &there, length, &slack);
         loop {
             let side = if there.gap > 0.0 { Side::Plus } else { Side::Minus };
-            if hull.meets(side.sign()) {
+            let one_way = course.one_way(sense, &hull, [&here, &there]);
+            if one_way && hull.meets(side.sign()) {
                 let guess = Self::guess(&here, &there, length, side.sign(), true);
                 let guess = guess.larger(0.0).smaller(length);
                 if rest < guess {
                     *evaluations += 1;
-                    let at = self.moment(simd, &here, rest, line_here);
+                    let at = self.moment(simd, &here, rest, path_here);
                     if slack.before(&at, side.sign()) {
                         let (x, v) = self.oscillator(&at);
-                        let end = Landing { wall: None, time: left, x, v, steady: self.origin };
+                        let end =
+                            Landing { end: Ending::Period, time: left, x, v, steady: self.origin };
                         return Some(Found::Landing(end));
                     }
                 }
-                let guess = Guess { time: guess, length, side, line: line_here };
+                let guess = Guess { time: guess, length, side, path: path_here };
                 if let Some(found) = self.root(simd, &here, guess, &slack, evaluations) {
                     if rest < found.time {
                         break;
                     }
                     let Corrected { x, v, steady, .. } = found;
                     let time = time + found.time;
-                    let impact = Landing { wall: Some(side), time, x, v, steady };
+                    let impact = Landing { end: Ending::Wall(side), time, x, v, steady };
                     return Some(Found::Landing(impact));
                 }
+            }
+            let ends = [&here, &there];
+            if !one_way && hull.clear() && course.turns(sense, &hull, ends) {
+                let found = self.turn(simd, ends, length, path_here, &slack, evaluations)?;
+                if rest < found.time {
+                    break;
+                }
+                return Some(Found::Landing(Landing { time: time + found.time, ..found }));
             }
             if length < SHORTEST * self.step {
                 return None;
             }
             (length, slack) = (length * 0.5, slack.halved());
-            there = self.moment(simd, &here, length, line_here);
+            there = self.moment(simd, &here, length, path_here);
             *evaluations += 1;
             hull = Hull::of(&here, &there, length, &slack);
-            if hull.clear() {
+            if hull.clear() && course.one_way(sense, &hull, [&here, &there]) {
                 break;
             }
         }
         let until = time + length;
         if left <= until {
-            let end = self.ended(simd, &here, time, line, left, evaluations);
+            let end = self.ended(simd, &here, time, path, left, evaluations);
             return Some(Found::Landing(end));
         }
         Some(Found::Nothing { until, there })
     }
 
+    /// When sliding ends in a panel in which it is proven to; none where the moment is not sharp.
+    #[inline(never)]
+    fn turn<S: Simd>(
+        &self,
+        simd: S,
+        [here, there]: [&At<f64>; 2],
+        length: f64,
+        path: impl Path<f64>,
+        slack: &Slack<f64>,
+        evaluations: &mut u64,
+    ) -> Option<Landing> {
+        let sense = -there.slope.signum();
+        // From rest it does not turn where it begins.
+        let first = if here.slope == 0.0 { 0.5 } else { here.slope / (here.slope - there.slope) };
+        let mut time = first * length;
+        for _ in 0..CORRECTIONS {
+            *evaluations += 1;
+            let at = self.moment(simd, here, time, path);
+            let ahead = -at.slope / at.a;
+            let sharp = slack.bend_squared(self.fastest, length) < at.a * at.a;
+            if sharp && at.a * sense < 0.0 && ahead.abs() * self.fastest <= TURNED {
+                let (x, v) = self.oscillator(&at);
+                return Some(Landing { end: Ending::Turn, time, x, v, steady: at.steady });
+            }
+            time = (time + ahead).clamp(0.0, length);
+        }
+        None
+    }
+
     /// As [`Self::after`], for what is rare.
     #[inline(never)]
-    fn moment<S: Simd>(&self, simd: S, here: &At<f64>, s: f64, line: Line<f64>) -> At<f64> {
+    fn moment<S: Simd>(&self, simd: S, here: &At<f64>, s: f64, path: impl Path<f64>) -> At<f64> {
         simd.vectorize(
             #[inline(always)]
-            || self.after(simd, here, s, line),
+            || self.after(simd, here, s, path),
         )
     }
 
@@ -297,15 +372,15 @@ impl Rates<f64> {
         &self,
         simd: S,
         here: &At<f64>,
-        guess: Guess,
+        guess: Guess<impl Path<f64>>,
         slack: &Slack<f64>,
         evaluations: &mut u64,
     ) -> Option<Corrected<f64>> {
-        let Guess { mut time, length, side, line } = guess;
+        let Guess { mut time, length, side, path } = guess;
         for _ in 0..CORRECTIONS {
             *evaluations += 1;
             let inside = time.larger(0.0).smaller(length);
-            let found = self.corrected(simd, here, inside, line, side.sign(), slack);
+            let found = self.corrected(simd, here, inside, path, side.sign(), slack);
             if found.exact {
                 return Some(found);
             }
@@ -322,8 +397,14 @@ struct Panel {
     /// Time from the flight's beginning to its own.
     time: f64,
     slack: Slack<f64>,
-    /// The flight.
-    line: Line<f64>,
+}
+
+/// A flight under way.
+struct Flight<C: Course> {
+    course: C,
+    /// Sign of `x' - y'`, where it has to stay.
+    sense: f64,
+    path: C::Path,
     /// Time from its beginning until the period is over.
     left: f64,
 }
@@ -338,9 +419,9 @@ enum Found {
 
 /// Roughly when and where a flight ends in a panel.
 #[derive(Debug, Clone, Copy)]
-struct Guess {
+struct Guess<P> {
     time: f64,
     length: f64,
     side: Side,
-    line: Line<f64>,
+    path: P,
 }

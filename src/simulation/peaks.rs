@@ -9,7 +9,7 @@ use super::integrals::{Ends, Integrals, Ringing, Turning};
 use super::phasor::{At, Line, Rates, Steady};
 use crate::numerics::lanes::{LANES, Mask, Real, Wide};
 
-/// The oscillator at one moment.
+/// The oscillator at one moment, seen from where it would rest.
 #[derive(Debug, Clone, Copy)]
 struct Moment<R> {
     x: R,
@@ -48,7 +48,8 @@ fn side_by_side<S: Simd>(
             let begin = ringing.moment(&ends, &excitation, 0);
             let end = ringing.moment(&ends, &excitation, 1);
             let duration = (ends.phase[1] - ends.phase[0]) * rates.inverse_frequency;
-            highest(simd, &rates, &begin, duration, &end).store(&mut measured.peaks);
+            let base = -ends.rest;
+            highest(simd, &rates, base, &begin, duration, &end).store(&mut measured.peaks);
             ringing.over(simd, &ends, excitation).store(&mut measured.integrals);
         },
     );
@@ -60,20 +61,23 @@ impl Ringing {
     fn moment<R: Real>(&self, ends: &Ends<R>, excitation: &[Turning<R>; 2], k: usize) -> Moment<R> {
         let steady = excitation[k].scaled(self.steady);
         let v = -(steady.im * self.rates.frequency);
-        Moment { x: ends.x[k], v: ends.v[k], steady: Steady { x: steady.re, v } }
+        let x = ends.x[k] - ends.rest;
+        Moment { x, v: ends.v[k], steady: Steady { x: steady.re, v } }
     }
 }
 
 /// Flights side by side.
 #[inline(always)]
 fn gathered<S: Simd>(simd: S, flights: &Ends<[f64; LANES]>) -> Ends<Wide<S>> {
-    let Ends { phase, x, v, y, y_velocity } = flights;
+    let Ends { phase, x, v, y, y_velocity, y_acceleration, rest } = flights;
     Ends {
         phase: [Wide::load(simd, &phase[0]), Wide::load(simd, &phase[1])],
         x: [Wide::load(simd, &x[0]), Wide::load(simd, &x[1])],
         v: [Wide::load(simd, &v[0]), Wide::load(simd, &v[1])],
         y: Wide::load(simd, y),
         y_velocity: Wide::load(simd, y_velocity),
+        y_acceleration: Wide::load(simd, y_acceleration),
+        rest: Wide::load(simd, rest),
     }
 }
 
@@ -126,6 +130,7 @@ impl<R: Real> Turn<R> {
         &self,
         simd: S,
         rates: &Rates<R>,
+        base: Line<R>,
         slack: &Slack<R>,
         lanes: R::Mask,
         known: R,
@@ -136,7 +141,7 @@ impl<R: Real> Turn<R> {
         if !open.any() {
             return known;
         }
-        let height = rates.turning_point(simd, here, turn.at * *length, *length, open);
+        let height = rates.turning_point(simd, here, base, turn.at * *length, *length, open);
         R::choose(open, known.larger(height.abs()), known)
     }
 }
@@ -146,12 +151,13 @@ impl<R: Real> Turn<R> {
 fn highest<R: Real, S: Simd>(
     simd: S,
     rates: &Rates<R>,
+    base: R,
     begin: &Moment<R>,
     duration: R,
     end: &Moment<R>,
 ) -> R {
     let zero = duration.like(0.0);
-    let base = Line { y: zero, velocity: zero };
+    let base = Line { y: base, velocity: zero };
     let (mut here, slack) = begin.seen(rates, base);
     let (end, _) = end.seen(rates, base);
     let (mut left, mut peak) = (duration, here.gap.abs());
@@ -169,7 +175,7 @@ fn highest<R: Real, S: Simd>(
         let turns = flying & (here.slope * there.slope).less(zero);
         let over = !flying.any();
         if over || (turns & turned).any() {
-            peak = turn.highest(simd, rates, &slack, turned, peak);
+            peak = turn.highest(simd, rates, base, &slack, turned, peak);
             turned = zero.less(zero);
         }
         if over {

@@ -49,11 +49,73 @@ pub(super) struct Line<R> {
     pub velocity: R,
 }
 
-impl<R: Real> Line<R> {
+/// Where the absorber is while it flies.
+pub(super) trait Path<R: Real>: Copy {
     /// The rest of it, from a time `s` on.
+    fn from(self, s: R) -> Self;
+    /// Displacement and velocity at its beginning.
+    fn line(self) -> Line<R>;
+    /// The gap's acceleration where the oscillator has the acceleration `a`.
+    fn bend(self, a: R) -> R;
+    /// The reverse.
+    fn unbend(self, bend: R) -> R;
+    /// A bound on the gap's acceleration, from one on the oscillator's.
+    fn bound(self, largest: R) -> R;
+}
+
+impl<R: Real> Path<R> for Line<R> {
     #[inline(always)]
-    pub(super) fn from(self, s: R) -> Self {
+    fn from(self, s: R) -> Self {
         Self { y: self.y + self.velocity * s, ..self }
+    }
+    #[inline(always)]
+    fn line(self) -> Self {
+        self
+    }
+    #[inline(always)]
+    fn bend(self, a: R) -> R {
+        a
+    }
+    #[inline(always)]
+    fn unbend(self, bend: R) -> R {
+        bend
+    }
+    #[inline(always)]
+    fn bound(self, largest: R) -> R {
+        largest
+    }
+}
+
+/// A flight with a constant acceleration.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Parabola {
+    pub line: Line<f64>,
+    pub acceleration: f64,
+}
+
+impl Path<f64> for Parabola {
+    #[inline(always)]
+    fn from(self, s: f64) -> Self {
+        let Line { y, velocity } = self.line;
+        let gained = self.acceleration * s;
+        let line = Line { y: y + (velocity + 0.5 * gained) * s, velocity: velocity + gained };
+        Self { line, ..self }
+    }
+    #[inline(always)]
+    fn line(self) -> Line<f64> {
+        self.line
+    }
+    #[inline(always)]
+    fn bend(self, a: f64) -> f64 {
+        a - self.acceleration
+    }
+    #[inline(always)]
+    fn unbend(self, bend: f64) -> f64 {
+        bend + self.acceleration
+    }
+    #[inline(always)]
+    fn bound(self, largest: f64) -> f64 {
+        largest + self.acceleration.abs()
     }
 }
 
@@ -63,8 +125,8 @@ pub(super) struct At<R> {
     /// Free phasor.
     pub z: [R; 2],
     pub steady: Steady<R>,
+    /// `w = x - y`, its slope and its acceleration, which is the oscillator's where the absorber has none.
     pub a: R,
-    /// `w = x - y` and its slope.
     pub gap: R,
     pub slope: R,
 }
@@ -201,18 +263,18 @@ impl<R: Real> At<R> {
 
 impl<R: Real> Rates<R> {
     /// The displacement at which the velocity vanishes in a panel between velocities of either sign,
-    /// seen from a line at rest; `time` is roughly when. Only `lanes` matter.
+    /// seen from a base at rest; `time` is roughly when. Only `lanes` matter.
     #[inline(always)]
     pub(super) fn turning_point<S: Simd>(
         &self,
         simd: S,
         here: &At<R>,
+        base: Line<R>,
         mut time: R,
         length: R,
         lanes: R::Mask,
     ) -> R {
         let zero = time.like(0.0);
-        let base = Line { y: zero, velocity: zero };
         let (mut open, mut height) = (lanes, here.gap);
         for _ in 0..TURNING_STEPS {
             let at = self.after(simd, here, time.larger(zero).smaller(length), base);
@@ -237,14 +299,20 @@ impl<R: Real> Rates<R> {
 
     /// The beginning of a flight, and how well the quintics of its panels are known.
     #[inline(always)]
-    pub(super) fn begin(&self, x: R, v: R, steady: Steady<R>, line: Line<R>) -> (At<R>, Slack<R>) {
+    pub(super) fn begin(
+        &self,
+        x: R,
+        v: R,
+        steady: Steady<R>,
+        path: impl Path<R>,
+    ) -> (At<R>, Slack<R>) {
         let z = self.free(x - steady.x, v - steady.v);
         let size = (z[0] * z[0] + z[1] * z[1]).sqrt();
         let coefficient = self.sixth_free * size + self.sixth_steady;
-        let bend = self.stiffness * size + self.second_steady;
+        let bend = path.bound(self.stiffness * size + self.second_steady);
         // 4 M S/14340 with S = 7200 times the coefficient.
         let slope_squared = bend * coefficient * 2.01;
-        (self.at(z, steady, line), Slack { coefficient, slope_squared })
+        (self.at(z, steady, path), Slack { coefficient, slope_squared })
     }
 
     /// Whether a flight comes back to the wall that it begins on within a small part of a panel, as in
@@ -258,15 +326,15 @@ impl<R: Real> Rates<R> {
         on & (here.slope.abs() * SHORT_FLIGHT).less(here.a * wall * self.step)
     }
 
-    /// A whole panel after `here`, where the absorber is at the beginning of `line`.
+    /// A whole panel after `here`, where the absorber is at the beginning of `path`.
     #[inline(always)]
-    pub(super) fn next(&self, here: &At<R>, line: Line<R>) -> At<R> {
+    pub(super) fn next(&self, here: &At<R>, path: impl Path<R>) -> At<R> {
         let [cos, fall, rise] = self.swing;
         let steady = Steady {
             x: here.steady.x * cos + here.steady.v * fall,
             v: here.steady.v * cos - here.steady.x * rise,
         };
-        self.at(multiply(here.z, self.turn), steady, line)
+        self.at(multiply(here.z, self.turn), steady, path)
     }
 
     /// Time at which a panel's gap reaches `wall`, on its quintic: by inverse interpolation with both
@@ -302,15 +370,16 @@ impl<R: Real> Rates<R> {
         simd: S,
         here: &At<R>,
         time: R,
-        line: Line<R>,
+        path: impl Path<R>,
         wall: R,
         slack: &Slack<R>,
     ) -> Corrected<R> {
-        let at = self.after(simd, here, time, line);
+        let at = self.after(simd, here, time, path);
         let (x, v) = self.oscillator(&at);
+        let a = path.unbend(at.a);
         let free_v = v - at.steady.v;
         let (twice, squared) = (self.twice_decay, self.squared);
-        let free_a = at.a + squared * at.steady.x;
+        let free_a = a + squared * at.steady.x;
         let j = -(twice * free_a) - self.stiffness * free_v - squared * at.steady.v;
         let s = -(twice * (j + squared * at.steady.v)) - self.stiffness * free_a
             + squared * squared * at.steady.x;
@@ -336,8 +405,8 @@ impl<R: Real> Rates<R> {
             at,
             steady,
             time: time + e,
-            x: x + e * (v + e * (at.a * 0.5 + e * (j * (1.0 / 6.0) + e * s * (1.0 / 24.0)))),
-            v: v + e * (at.a + e * (j * 0.5 + e * s * (1.0 / 6.0))),
+            x: x + e * (v + e * (a * 0.5 + e * (j * (1.0 / 6.0) + e * s * (1.0 / 24.0)))),
+            v: v + e * (a + e * (j * 0.5 + e * s * (1.0 / 6.0))),
             exact: near & first_root & (left * self.fastest).at_most(left.like(LEFT)),
         }
     }
@@ -361,18 +430,19 @@ impl<R: Real> Rates<R> {
     }
 
     /// Oscillator and gap where the free phasor is `z`, the steady motion `steady`, and the absorber
-    /// at the beginning of `line`.
+    /// at the beginning of `path`.
     #[inline(always)]
-    pub(super) fn at(&self, z: [R; 2], steady: Steady<R>, line: Line<R>) -> At<R> {
+    pub(super) fn at(&self, z: [R; 2], steady: Steady<R>, path: impl Path<R>) -> At<R> {
         let slowing = self.slowing(z);
         let (x, v) = (z[0] + steady.x, steady.v - slowing);
         let a = self.twice_decay * slowing - self.stiffness * z[0] - self.squared * steady.x;
-        At { z, steady, a, gap: x - line.y, slope: v - line.velocity }
+        let Line { y, velocity } = path.line();
+        At { z, steady, a: path.bend(a), gap: x - y, slope: v - velocity }
     }
 
-    /// A time `s`, less than a panel, after `here`, where the absorber's flight `line` begins.
+    /// A time `s`, less than a panel, after `here`, where the absorber's flight `path` begins.
     #[inline(always)]
-    pub(super) fn after<S: Simd>(&self, simd: S, here: &At<R>, s: R, line: Line<R>) -> At<R> {
+    pub(super) fn after<S: Simd>(&self, simd: S, here: &At<R>, s: R, path: impl Path<R>) -> At<R> {
         let [(sin, cos), (swing_sin, swing_cos)] =
             small_angles(simd, [self.ringing * s, self.frequency * s]);
         let envelope = small_exponential(-(self.decay * s));
@@ -382,7 +452,7 @@ impl<R: Real> Rates<R> {
             x: x * swing_cos + v * self.inverse_frequency * swing_sin,
             v: v * swing_cos - self.frequency * x * swing_sin,
         };
-        self.at(z, steady, line.from(s))
+        self.at(z, steady, path.from(s))
     }
 }
 

@@ -10,10 +10,11 @@ use serde::Serialize;
 
 use super::contact::{AtWall, ContactTolerance, Rebound};
 use super::events::{Absorber, Impact, Observer, Segment, Side, StartError};
-use super::flow::{Kinematics, Oscillator};
+use super::flow::Oscillator;
 use super::history::ImpactLog;
 use super::panels::{FlightEnd, Limits};
 use super::phasor::{Line, Rates, Steady};
+use super::sliding::Sliding;
 use super::walls::{Sticking, TOUCH_ULPS};
 use crate::system::{State, System};
 
@@ -58,6 +59,8 @@ pub(super) struct Moment {
     /// The oscillator's steady motion at this phase, where flights are through panels.
     pub steady: Steady<f64>,
     pub phase: f64,
+    /// Sign of `x' - y'` in the flight from here, where the absorber rubs.
+    pub sense: f64,
     pub turns: u64,
     pub impacts: u64,
     pub evaluations: u64,
@@ -68,6 +71,10 @@ pub(super) struct Moment {
 pub(super) enum Mode {
     Flight,
     Contact(Side),
+    /// Friction holds it where `x - y` is `gap`.
+    Held {
+        gap: f64,
+    },
 }
 
 /// A trajectory that can be continued.
@@ -104,6 +111,8 @@ pub struct Simulation {
     pub(super) system: System,
     pub(super) alone: Oscillator,
     pub(super) carrying: Oscillator,
+    pub(super) sliding: Sliding,
+    restitutions: [f64; 2],
     /// What turns its phasors, if it flies by any.
     pub(super) rates: Option<Rates<f64>>,
     /// The best instructions that the processor has.
@@ -137,17 +146,30 @@ impl Simulation {
             system: *system,
             alone,
             carrying: Oscillator::carrying_absorber(system),
+            sliding: Sliding::of(system),
+            restitutions: system.restitutions(),
             rates,
             level: Level::new(),
             tolerance: ContactTolerance::default(),
             mode: Mode::Flight,
-            at: Moment { state: start, steady, phase, turns: 0, impacts: 0, evaluations: 0 },
+            at: Moment {
+                state: start,
+                steady,
+                phase,
+                sense: 0.0,
+                turns: 0,
+                impacts: 0,
+                evaluations: 0,
+            },
         };
         // A start on a wall, without relative velocity, is sustained contact if the wall pushes.
         let touching = 1.0 - start.relative_displacement().abs() <= simulation.touch();
         if touching && start.x_velocity == start.y_velocity {
             let side = if start.relative_displacement() > 0.0 { Side::Plus } else { Side::Minus };
             simulation.perhaps_stick(side, &mut ());
+        }
+        if simulation.mode == Mode::Flight {
+            simulation.settle();
         }
         Ok(simulation)
     }
@@ -231,23 +253,25 @@ impl Simulation {
 
     /// Continues by one impact, release or end of a period, or several within the limits.
     pub(super) fn step(&mut self, limits: Limits, observer: &mut dyn Observer) -> Result<(), Stop> {
-        if let Mode::Contact(side) = self.mode {
-            return self.carry(side, observer);
+        if self.mode != Mode::Flight {
+            return self.tow(observer);
         }
-        if self.departure().is_none() {
+        if self.rates.is_none() {
             return self.fly_step_by_step(observer);
         }
         match self.fly_in_panels(self.level, limits, observer) {
             FlightEnd::Limit => {}
             FlightEnd::MayStick(side) => self.perhaps_stick(side, observer),
+            FlightEnd::Turned => self.reverse(observer),
             FlightEnd::Doubt => self.fly_step_by_step(observer)?,
         }
         Ok(())
     }
 
-    /// Where it stands, if its next flight can be through panels.
+    /// Where it stands, if its next flight can be beside others: straight, through panels and between walls alike.
     pub(super) fn departure(&self) -> Option<Moment> {
-        (self.rates.is_some() && self.mode == Mode::Flight).then_some(self.at)
+        let alike = self.system.cavity().is_ideal();
+        (alike && self.rates.is_some() && self.mode == Mode::Flight).then_some(self.at)
     }
 
     /// Puts it where a flight elsewhere has brought it.
@@ -258,13 +282,27 @@ impl Simulation {
     /// The flight from `begin` that lasted `duration`.
     pub(super) fn flown(&self, begin: &Moment, duration: f64) -> Segment {
         let State { x, x_velocity, y, y_velocity } = begin.state;
+        let y_acceleration = self.sliding.acceleration(begin.sense);
+        let rest = self.sliding.rest(begin.sense);
         Segment {
-            motion: self.alone.motion(x, x_velocity, begin.phase),
-            absorber: Absorber::Flying { y, y_velocity },
+            motion: self.alone.motion_about(rest, x, x_velocity, begin.phase),
+            absorber: Absorber::Flying { y, y_velocity, y_acceleration },
             turns: begin.turns,
             phase: begin.phase,
             duration,
         }
+    }
+
+    /// Fast time since the start.
+    #[inline(always)]
+    pub(super) fn tau(&self, turns: u64, phase: f64) -> f64 {
+        (turns as f64 * TAU + phase) / self.system.frequency_ratio()
+    }
+
+    /// The restitution of a wall.
+    #[inline(always)]
+    pub(super) fn restitution(&self, side: Side) -> f64 {
+        self.restitutions[usize::from(side == Side::Minus)]
     }
 
     /// An impact as observers are told of it.
@@ -277,7 +315,7 @@ impl Simulation {
         (turns, phase): (u64, f64),
     ) -> Impact {
         Impact {
-            tau: (turns as f64 * TAU + phase) / self.system.frequency_ratio(),
+            tau: self.tau(turns, phase),
             phase,
             side,
             x: before.x,
@@ -294,7 +332,7 @@ impl Simulation {
     #[inline(always)]
     pub(super) fn rebounded(&self, before: &State, side: Side, after: &Rebound) -> State {
         // With `r = 0` the relative velocity is zero, not what rounding leaves of it.
-        let follows = self.system.restitution() == 0.0;
+        let follows = self.restitution(side) == 0.0;
         State {
             x: before.x,
             x_velocity: after.x_velocity,
@@ -305,26 +343,25 @@ impl Simulation {
 
     pub(super) fn perhaps_stick(&mut self, side: Side, observer: &mut dyn Observer) {
         let State { x, x_velocity, y, y_velocity } = self.at.state;
-        let (r, line) = (self.system.restitution(), Line { y, velocity: y_velocity });
-        let sticking = Sticking::of(self);
+        let (r, line) = (self.restitution(side), Line { y, velocity: y_velocity });
+        let sticking = Sticking::of(self, side);
         if !sticking.possible(x, x_velocity, line, side.sign()) {
             return;
         }
         let excursion = sticking.tolerated(x, x_velocity, line);
         let tolerance = ContactTolerance { excursion, ..self.tolerance };
         let (alone, opening) = (&self.alone, -side.sign() * (x_velocity - y_velocity));
-        let at = Kinematics { x, v: x_velocity };
+        let [slowing, closing_acceleration] = self.closing(side);
         let wall = AtWall {
             separation_speed: opening.max(0.0),
-            closing_acceleration: side.sign() * alone.acceleration(self.at.phase, at),
+            closing_acceleration,
             speed: x_velocity.abs(),
             force_rate: alone.frequency * alone.largest_force,
             damping: 2.0 * alone.decay,
             stiffness: alone.stiffness,
         };
         // A gap that opens by less than rounding is none, elastic or not.
-        let unresolved = wall.closing_acceleration > 0.0
-            && opening * opening <= 2.0 * wall.closing_acceleration * self.touch();
+        let unresolved = slowing > 0.0 && opening * opening <= 2.0 * slowing * self.touch();
         if unresolved || tolerance.sticks(r, &wall) {
             let eps = self.system.mass_ratio();
             let common = (x_velocity + eps * y_velocity) / (1.0 + eps);

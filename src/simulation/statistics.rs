@@ -23,10 +23,17 @@ pub struct Energy {
     pub damper: f64,
     /// Lost in impacts, including the ends of chattering sequences.
     pub impact: f64,
+    /// Lost by friction in the cavity.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub friction: f64,
     /// Change of kinetic and potential energy.
     pub stored: f64,
-    /// `abs(input - damper - impact - stored)` over the largest energy that appears in the balance.
+    /// `abs(input - damper - impact - friction - stored)` over the largest energy that appears in the balance.
     pub relative_residual: f64,
+}
+
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
 }
 
 /// Time spent in sustained contact.
@@ -79,6 +86,7 @@ pub struct Statistics {
     input: f64,
     damper: f64,
     impact_loss: f64,
+    friction_loss: f64,
     contact: SustainedContact,
     penetration: f64,
     largest_energy: f64,
@@ -112,9 +120,10 @@ impl Statistics {
             input: 0.0,
             damper: 0.0,
             impact_loss: 0.0,
+            friction_loss: 0.0,
             contact: SustainedContact::default(),
             penetration: 0.0,
-            largest_energy: start.energy(system.mass_ratio()),
+            largest_energy: energy(system, &start).abs(),
             current: PeriodRecord::default(),
             periods: 0,
             records: Vec::new(),
@@ -204,15 +213,21 @@ impl Statistics {
 
     /// The energy balance over the window.
     pub fn energy(&self) -> Energy {
-        let eps = self.system.mass_ratio();
-        let stored = self.end.energy(eps) - self.start.energy(eps);
-        let gap = self.input - self.damper - self.impact_loss - stored;
-        let scale = [self.input.abs(), self.damper, self.impact_loss, self.largest_energy];
+        let stored = energy(&self.system, &self.end) - energy(&self.system, &self.start);
+        let gap = self.input - self.damper - self.impact_loss - self.friction_loss - stored;
+        let scale = [
+            self.input.abs(),
+            self.damper,
+            self.impact_loss,
+            self.friction_loss,
+            self.largest_energy,
+        ];
         let scale = scale.into_iter().fold(f64::MIN_POSITIVE, f64::max);
         Energy {
             input: self.input,
             damper: self.damper,
             impact: self.impact_loss,
+            friction: self.friction_loss,
             stored,
             relative_residual: gap.abs() / scale,
         }
@@ -222,7 +237,7 @@ impl Statistics {
     /// what becomes of it.
     pub fn efficiency(&self) -> Option<f64> {
         let energy = self.energy();
-        let work = energy.stored + energy.damper + energy.impact;
+        let work = energy.stored + energy.damper + energy.impact + energy.friction;
         (work > 0.0).then(|| energy.impact / work)
     }
 
@@ -312,12 +327,18 @@ impl Statistics {
         self.contact.intervals += 1;
     }
 
+    /// The absorber has slid one way, so far.
+    fn slides(&mut self, slid: f64) {
+        let friction = self.system.mass_ratio() * self.system.cavity().friction_acceleration;
+        self.friction_loss += friction * slid.abs();
+    }
+
     fn period(&mut self, state: &State) {
         let current = std::mem::take(&mut self.current);
         self.peak = self.peak.max(current.peak);
         self.impact_speed = self.impact_speed.max(current.impact_speed);
         self.end = *state;
-        self.largest_energy = self.largest_energy.max(state.energy(self.system.mass_ratio()));
+        self.largest_energy = self.largest_energy.max(energy(&self.system, state).abs());
         self.periods += 1;
         if self.records.len() >= 2 * KEPT {
             self.records.drain(..KEPT);
@@ -328,6 +349,12 @@ impl Statistics {
             ..current
         });
     }
+}
+
+/// Kinetic and potential energy per unit of the oscillator's mass, that of the absorber along a tilted cavity included.
+fn energy(system: &System, state: &State) -> f64 {
+    let eps = system.mass_ratio();
+    state.energy(eps) - eps * system.cavity().gravity_along * state.y
 }
 
 /// Place of a wall in a pair.

@@ -6,10 +6,11 @@ use std::f64::consts::TAU;
 use super::contact::rebound;
 use super::events::{Absorber, Observer, Segment, Side};
 use super::flow::{Kinematics, Motion};
-use super::phasor::Line;
+use super::phasor::{Line, Parabola, Path};
 use super::run::{Mode, Simulation, Stop};
+use super::sliding::Sliding;
 use super::walls::{self, TOUCH_ULPS};
-use crate::numerics::crossing::{Band, Curve, Edge, Sample, Search, first_crossing};
+use crate::numerics::crossing::{Band, Crossing, Curve, Edge, Sample, Search, first_crossing};
 use crate::system::State;
 
 /// Distance over the clearance by which rounding may move the walls before the search gives up.
@@ -17,20 +18,31 @@ const LARGEST_TOUCH: f64 = 0.1;
 /// Fast time over which one curvature bound is used; shorter bounds are tighter, longer ones save
 /// evaluations. A sixth of the natural period is a fair middle.
 const HORIZON: f64 = 1.0;
+/// Fast time for which friction holds at least: a slip that is left out in it is below `1e-27`, and where forces are
+/// just what friction gives the absorber would else be held and released without end.
+const SHORTEST_HOLD: f64 = 1e-9;
 
 impl Simulation {
-    /// Flies to the next impact or the end of the period.
+    /// Flies to the next impact, the next moment at which sliding ends, or the end of the period.
     pub(super) fn fly_step_by_step(&mut self, observer: &mut dyn Observer) -> Result<(), Stop> {
         self.resolves_walls()?;
-        let State { x, x_velocity, y, y_velocity } = self.at.state;
-        let motion = self.alone.motion(x, x_velocity, self.at.phase);
-        let touch = self.touch();
-        let remaining = self.remaining();
-        let from = self.tangential_start(&motion, touch).min(remaining);
-        let curve = Gap { motion, line: Line { y, velocity: y_velocity } };
-        let found =
-            first_crossing(&curve, from, remaining, Band { lower: -1.0, upper: 1.0, touch });
-        match self.follow(motion, Absorber::Flying { y, y_velocity }, found, observer)? {
+        let Segment { motion, absorber, .. } = self.flown(&self.at, 0.0);
+        let (touch, remaining) = (self.touch(), self.remaining());
+        let path = self.path();
+        let turns = self.turns_back(&motion, remaining)?;
+        let until = turns.map_or(remaining, |turn| turn.time);
+        let from = self.tangential_start(&motion, touch).min(until);
+        let curve = Gap { motion, path };
+        let found = first_crossing(&curve, from, until, Band { lower: -1.0, upper: 1.0, touch });
+        let (found, reverses) = match (found, turns) {
+            (Search::Clear { evaluations }, Some(turn)) => {
+                let evaluations = evaluations + turn.evaluations;
+                (Search::Crossed(Crossing { evaluations, ..turn }), true)
+            }
+            (found, _) => (found, false),
+        };
+        match self.follow(motion, absorber, found, observer)? {
+            Some(_) if reverses => self.reverse(observer),
             Some(Edge::Upper) => self.collide(Side::Plus, observer),
             Some(Edge::Lower) => self.collide(Side::Minus, observer),
             None => {}
@@ -38,17 +50,67 @@ impl Simulation {
         Ok(())
     }
 
-    /// Carries the absorber to its release or the end of the period.
-    pub(super) fn carry(&mut self, side: Side, observer: &mut dyn Observer) -> Result<(), Stop> {
+    /// The flight from here.
+    fn path(&self) -> Parabola {
+        let State { y, y_velocity, .. } = self.at.state;
+        let line = Line { y, velocity: y_velocity };
+        Parabola { line, acceleration: self.sliding.acceleration(self.at.sense) }
+    }
+
+    /// When the absorber, where it rubs, ceases to slide in a flight to come, whatever the walls are.
+    fn turns_back(&self, motion: &Motion, remaining: f64) -> Result<Option<Crossing>, Stop> {
+        if self.sliding.friction == 0.0 {
+            return Ok(None);
+        }
+        let State { x, x_velocity, y_velocity, .. } = self.at.state;
+        let speed = Slope { motion: *motion, path: self.path(), sense: self.at.sense };
+        let size = 1.0 + x.abs() + x_velocity.abs() + y_velocity.abs();
+        let touch = TOUCH_ULPS * f64::EPSILON * size;
+        let from = if x_velocity == y_velocity { self.first_slip(motion, touch) } else { 0.0 };
+        let band = Band { lower: 0.0, upper: f64::INFINITY, touch };
+        match first_crossing(&speed, from.min(remaining), remaining, band) {
+            Search::Crossed(turn) => Ok(Some(turn)),
+            Search::Clear { .. } => Ok(None),
+            Search::NotFinite(_) => Err(Stop::NotFinite),
+        }
+    }
+
+    /// How long a slip that begins now, without speed and maybe without acceleration, lasts at least: with a jerk `j`
+    /// for `3 j / snap bound`.
+    fn first_slip(&self, motion: &Motion, touch: f64) -> f64 {
+        let at = motion.at(0.0);
+        let sense = self.at.sense;
+        let slope = sense * (motion.acceleration(0.0, at) - self.sliding.acceleration(sense));
+        let jerk = sense * motion.jerk(0.0, at);
+        if slope <= touch && jerk > 0.0 {
+            (3.0 * jerk / motion.bounds(0.0, at, HORIZON).snap).min(HORIZON)
+        } else {
+            0.0
+        }
+    }
+
+    /// Takes the absorber along, at a wall or held by friction, to its release or the end of the period.
+    pub(super) fn tow(&mut self, observer: &mut dyn Observer) -> Result<(), Stop> {
         self.resolves_walls()?;
+        let Sliding { gravity, friction, .. } = self.sliding;
         let State { x, x_velocity, .. } = self.at.state;
-        let motion = self.carrying.motion(x, x_velocity, self.at.phase);
-        let scale = self.alone.largest_force + x.abs() + x_velocity.abs();
-        let band =
-            Band { lower: 0.0, upper: f64::INFINITY, touch: TOUCH_ULPS * f64::EPSILON * scale };
-        let found = first_crossing(&ContactForce { motion, side }, 0.0, self.remaining(), band);
-        if self.follow(motion, Absorber::Carried(side), found, observer)?.is_some() {
+        let touch = self.force_rounding();
+        // What is just held stays so.
+        let held = if friction > 0.0 { friction + touch } else { 0.0 };
+        let rest = self.sliding.rest_in_tow();
+        let motion = self.carrying.motion_about(rest, x, x_velocity, self.at.phase);
+        let (absorber, sign, upper) = match self.mode {
+            Mode::Contact(side) => (Absorber::Carried(side), side.sign(), f64::INFINITY),
+            Mode::Held { gap } => (Absorber::Held { gap }, 1.0, held),
+            Mode::Flight => return Ok(()),
+        };
+        let band = Band { lower: -held, upper, touch };
+        let from = if friction > 0.0 { SHORTEST_HOLD.min(self.remaining()) } else { 0.0 };
+        let force = ContactForce { motion, sign, gravity };
+        let found = first_crossing(&force, from, self.remaining(), band);
+        if let Some(edge) = self.follow(motion, absorber, found, observer)? {
             self.mode = Mode::Flight;
+            self.at.sense = if edge == Edge::Upper { sign } else { -sign };
         }
         Ok(())
     }
@@ -90,13 +152,16 @@ impl Simulation {
     /// An impact where the absorber stands, and the end of a chattering sequence if it is one.
     fn collide(&mut self, side: Side, observer: &mut dyn Observer) {
         let before = self.at.state;
-        let (eps, r) = (self.system.mass_ratio(), self.system.restitution());
+        let (eps, r) = (self.system.mass_ratio(), self.restitution(side));
         let after = rebound(eps, r, before.x_velocity, before.y_velocity);
         self.at.impacts += 1;
         let when = (self.at.turns, self.at.phase);
         observer.impact(&self.impact(&before, side, &after, when));
         self.at.state = self.rebounded(&before, side, &after);
         self.perhaps_stick(side, observer);
+        if self.mode == Mode::Flight {
+            self.settle();
+        }
     }
 
     fn remaining(&self) -> f64 {
@@ -131,7 +196,8 @@ impl Simulation {
         }
         let side = gap.signum();
         let bounds = motion.bounds(0.0, at, HORIZON);
-        let acceleration = side * motion.acceleration(0.0, at);
+        let own = self.sliding.acceleration(self.at.sense);
+        let acceleration = side * (motion.acceleration(0.0, at) - own);
         let jerk = side * motion.jerk(0.0, at);
         let by_acceleration =
             if acceleration < 0.0 { -3.0 * acceleration / bounds.jerk } else { 0.0 };
@@ -139,23 +205,26 @@ impl Simulation {
         let by_jerk =
             if acceleration <= noise && jerk < 0.0 { -4.0 * jerk / bounds.snap } else { 0.0 };
         // Neither may outrun the way to the opposite wall.
-        by_acceleration.max(by_jerk).min((2.0 / bounds.acceleration).sqrt()).min(HORIZON)
+        let largest = bounds.acceleration + own.abs();
+        by_acceleration.max(by_jerk).min((2.0 / largest).sqrt()).min(HORIZON)
     }
 }
 
 /// Relative displacement `w = x - y` during a flight.
 struct Gap {
     motion: Motion,
-    line: Line<f64>,
+    path: Parabola,
 }
 
 impl Curve for Gap {
     fn sample(&self, s: f64) -> Sample {
         let at = self.motion.at(s);
+        let Line { y, velocity } = self.path.from(s).line;
+        let largest = self.motion.bounds(s, at, HORIZON).acceleration;
         Sample {
-            value: at.x - (self.line.y + self.line.velocity * s),
-            slope: at.v - self.line.velocity,
-            curvature_bound: self.motion.bounds(s, at, HORIZON).acceleration,
+            value: at.x - y,
+            slope: at.v - velocity,
+            curvature_bound: self.path.bound(largest),
         }
     }
     fn horizon(&self) -> f64 {
@@ -163,19 +232,42 @@ impl Curve for Gap {
     }
 }
 
-/// Acceleration of the wall towards the absorber during sustained contact; the contact force is
-/// `eps` times it, and the absorber is released when it vanishes.
+/// Its derivative, positive the way that the absorber slides.
+struct Slope {
+    motion: Motion,
+    path: Parabola,
+    sense: f64,
+}
+
+impl Curve for Slope {
+    fn sample(&self, s: f64) -> Sample {
+        let at = self.motion.at(s);
+        let bend = self.path.bend(self.motion.acceleration(s, at));
+        Sample {
+            value: self.sense * (at.v - self.path.from(s).line.velocity),
+            slope: self.sense * bend,
+            curvature_bound: self.motion.bounds(s, at, HORIZON).jerk,
+        }
+    }
+    fn horizon(&self) -> f64 {
+        HORIZON
+    }
+}
+
+/// `x'' - a` of an absorber in tow, times a sign: its acceleration by the forces of wall and friction, of which friction
+/// gives up to `f` either way, and a wall any away from it.
 struct ContactForce {
     motion: Motion,
-    side: Side,
+    sign: f64,
+    gravity: f64,
 }
 
 impl Curve for ContactForce {
     fn sample(&self, s: f64) -> Sample {
         let at = self.motion.at(s);
         Sample {
-            value: self.side.sign() * self.motion.acceleration(s, at),
-            slope: self.side.sign() * self.motion.jerk(s, at),
+            value: self.sign * (self.motion.acceleration(s, at) - self.gravity),
+            slope: self.sign * self.motion.jerk(s, at),
             curvature_bound: self.motion.bounds(s, at, HORIZON).snap,
         }
     }

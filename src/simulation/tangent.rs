@@ -21,22 +21,28 @@
 //!   keep both of these; afterwards `dw = dw' = 0`. That is a projection, in which two directions
 //!   are lost for good.
 //! * **Sustained contact.** As in flight, with the mass `1 + eps`, `dy = dx`.
+//! * **Tilt and friction.** Flights stay as they are. At an impact `k = w''-/w'-`, and friction changes its direction
+//!   there, which takes `2 f dw/abs(w'-)` from `dy'+` and adds `eps` times it to `dx'+`. Where sliding ends,
+//!   `dt = -dw'/w''-`: `dx' + eps dy'` is kept, and of `dw'` the part `w''+/w''-` is left; none where friction
+//!   holds the absorber, which keeps its `dw`.
 //! * **Release.** The wall's force, `eps y''`, vanishes at this moment, so that accelerations on both
 //!   sides of it are equal, `f- = f+`, and a changed time of release changes nothing: identity.
 //!
 //! A flight that grazes a wall, and a contact that is lost or not, are the exceptions at which no
 //! derivative exists; no trajectory meets them but by choice of its start.
 
-use super::events::{Absorber, Impact, Observer, Segment};
+use super::events::{Absorber, Impact, Observer, Reversal, Segment, Side};
 use super::flow::{Kinematics, Oscillator};
+use super::sliding::Sliding;
 use crate::system::{State, System};
 
 /// A small change of state that is carried along a trajectory, an [`Observer`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tangent {
     alone: Oscillator,
+    sliding: Sliding,
     mass_ratio: f64,
-    restitution: f64,
+    restitutions: [f64; 2],
     /// `(dx, dx', dy, dy')`, on the scale of its choice: the dynamics is linear.
     pub change: State,
     /// Logarithm of the factors that [`Tangent::normalize`] has taken out, less their compensation.
@@ -53,8 +59,9 @@ impl Tangent {
     pub fn begin(system: &System, change: State) -> Self {
         Self {
             alone: Oscillator::alone(system),
+            sliding: Sliding::of(system),
             mass_ratio: system.mass_ratio(),
-            restitution: system.restitution(),
+            restitutions: system.restitutions(),
             change,
             taken: 0.0,
             compensation: 0.0,
@@ -126,23 +133,32 @@ impl Observer for Tangent {
                 State { x, x_velocity: v, y: y + y_velocity * segment.duration, y_velocity }
             }
             Absorber::Carried(_) => State { x, x_velocity: v, y: x, y_velocity: v },
+            Absorber::Held { .. } => {
+                let y = x - self.change.relative_displacement();
+                State { x, x_velocity: v, y, y_velocity: v }
+            }
         };
     }
 
     fn impact(&mut self, impact: &Impact) {
         let State { x, x_velocity, y, y_velocity } = self.change;
         let eps = self.mass_ratio;
-        let q = (1.0 + self.restitution) / (1.0 + eps);
+        let restitution = self.restitutions[usize::from(impact.side == Side::Minus)];
+        let q = (1.0 + restitution) / (1.0 + eps);
         let approach = impact.x_velocity_before - impact.y_velocity_before;
         let before = Kinematics { x: impact.x, v: impact.x_velocity_before };
         let acceleration = self.alone.acceleration(impact.phase, before);
+        let Sliding { gravity, friction, .. } = self.sliding;
+        let sense = approach.signum();
+        let bend = acceleration - gravity - sense * self.sliding.grip();
         let gap = x - y;
-        let rate = x_velocity - y_velocity - acceleration / approach * gap;
+        let rate = x_velocity - y_velocity - bend / approach * gap;
+        let turned = 2.0 * friction * gap / approach.abs();
         self.change = State {
             x: x - eps * q * gap,
-            x_velocity: x_velocity - eps * q * rate + self.damping() * eps * q * gap,
+            x_velocity: x_velocity - eps * q * rate + self.damping() * eps * q * gap + eps * turned,
             y: y + q * gap,
-            y_velocity: y_velocity + q * rate,
+            y_velocity: y_velocity + q * rate - turned,
         };
         if !COMFORTABLE.contains(&self.size()) {
             self.normalize();
@@ -151,6 +167,22 @@ impl Observer for Tangent {
 
     fn sticks(&mut self, _loss: f64) {
         self.project();
+    }
+
+    fn reversal(&mut self, reversal: &Reversal) {
+        let State { x_velocity, y_velocity, .. } = self.change;
+        let eps = self.mass_ratio;
+        let Reversal { state, before, after, phase, .. } = *reversal;
+        // Friction has no part in what both do together.
+        let common = (x_velocity + eps * y_velocity) / (1.0 + eps);
+        let slope = x_velocity - y_velocity;
+        let at = Kinematics { x: state.x, v: state.x_velocity };
+        let pull = self.alone.acceleration(phase, at) - self.sliding.gravity;
+        let grip = self.sliding.grip();
+        let left =
+            if after == 0.0 { 0.0 } else { slope * (pull - after * grip) / (pull - before * grip) };
+        self.change.x_velocity = common + eps / (1.0 + eps) * left;
+        self.change.y_velocity = common - left / (1.0 + eps);
     }
 }
 

@@ -84,12 +84,13 @@ impl Doubt {
     }
 }
 
-/// `abs(input - damper - impact - stored)` over the largest energy of the run, that at the largest
+/// `abs(input - damper - impact - friction - stored)` over the largest energy of the run, that at the largest
 /// displacement included: [`Energy::relative_residual`] knows only the energies at the ends of
 /// periods, where a slowly driven oscillator passes its middle.
 pub fn energy_residual(energy: &Energy, peak: f64) -> f64 {
-    let gap = energy.input - energy.damper - energy.impact - energy.stored;
-    let largest = [energy.input.abs(), energy.damper, energy.impact, 0.5 * peak * peak];
+    let gap = energy.input - energy.damper - energy.impact - energy.friction - energy.stored;
+    let losses = energy.damper.max(energy.impact).max(energy.friction);
+    let largest = [energy.input.abs(), losses, 0.5 * peak * peak];
     gap.abs() / largest.into_iter().fold(f64::MIN_POSITIVE, f64::max)
 }
 

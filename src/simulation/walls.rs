@@ -1,5 +1,6 @@
 //! What rounding makes of the walls: touching them, and chattering down to sustained contact.
 
+use super::events::Side;
 use super::phasor::Line;
 use super::run::Simulation;
 use crate::numerics::lanes::Real;
@@ -29,7 +30,7 @@ pub(super) fn blocked<R: Real>(x: R, v: R, line: Line<R>) -> R::Mask {
 pub(super) struct Sticking<R> {
     pub decay: R,
     pub stiffness: R,
-    /// Largest force on the oscillator without absorber.
+    /// Largest force on the oscillator without absorber, and what gravity and friction add to the gap's acceleration.
     pub largest_force: R,
     /// Tolerated opening of the gap.
     pub excursion: R,
@@ -38,13 +39,14 @@ pub(super) struct Sticking<R> {
 }
 
 impl Sticking<f64> {
-    /// That of a trajectory.
-    pub(super) fn of(simulation: &Simulation) -> Self {
-        let (alone, r) = (&simulation.alone, simulation.system.restitution());
+    /// That of a trajectory at a wall.
+    pub(super) fn of(simulation: &Simulation, side: Side) -> Self {
+        let (alone, r) = (&simulation.alone, simulation.restitution(side));
+        let sliding = &simulation.sliding;
         Self {
             decay: alone.decay,
             stiffness: alone.stiffness,
-            largest_force: alone.largest_force,
+            largest_force: alone.largest_force + sliding.gravity.abs() + sliding.grip(),
             excursion: simulation.tolerance.excursion,
             inverse_loss: 1.0 / ((1.0 - r) * (1.0 + r)),
         }

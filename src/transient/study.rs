@@ -5,11 +5,12 @@ use std::f64::consts::{PI, TAU};
 
 use super::linear::{Linear, released};
 use super::{
-    Measured, Predicted, Release, Ringdown, STEPS, amplitude, places, settles, worst_of_places,
+    Measured, Predicted, Release, Ringdown, STEPS, amplitude, places, settles, unforced,
+    worst_of_places,
 };
 use crate::band::rivals::TunedMassDamper;
 use crate::case::{Case, Scales};
-use crate::simulation::StartError;
+use crate::simulation::{Simulation, StartError, Stop};
 use crate::system::{State, System};
 
 /// How fast a structure comes to a level from one place of the absorber.
@@ -215,12 +216,27 @@ impl Decay {
 
 /// Largest damping ratio of a structure that swings.
 const SWINGS: f64 = 0.9999;
+/// Swings in which an absorber that gravity or friction moves hits a wall, if it ever does: gravity of 1e-5 of the
+/// structure's acceleration over a clearance takes it across.
+const SWINGS_WATCHED: u64 = 100;
 
 /// Share of the places of a resting absorber, even over its cavity, that no wall reaches while the structure swings
-/// alone: what its first swing to either side leaves. 0 for an absorber that does not rest.
+/// alone: what its first swing to either side leaves. 0 for an absorber that does not rest. Where gravity or friction
+/// moves it, a share of [`DecayStudy::STARTS`] places, by simulation.
 pub(super) fn inactive(system: &System, start: &State) -> f64 {
     if start.y_velocity != 0.0 {
         return 0.0;
+    }
+    let cavity = system.cavity();
+    if cavity.gravity_along != 0.0 || cavity.friction_acceleration != 0.0 {
+        let stays = |w: &f64| {
+            let from = State { y: start.x - w, ..*start };
+            let alone = unforced(system, TAU).ok();
+            let simulation = alone.and_then(|alone| Simulation::new(&alone, from, 0.0).ok());
+            simulation.is_some_and(|mut at| at.run(SWINGS_WATCHED, 1, &mut ()) == Stop::EndTime)
+        };
+        let places = places(DecayStudy::STARTS.into());
+        return places.clone().filter(stays).count() as f64 / places.len() as f64;
     }
     // x = exp(-zeta tau) (x0 cos(nu tau) + (v0 + zeta x0)/nu sin(nu tau)) has its extremes half an oscillation apart.
     let (x, v) = (start.x, start.x_velocity);

@@ -37,6 +37,7 @@ mod regimes;
 mod release;
 mod simulation_properties;
 mod sine_sweep;
+mod sliding;
 mod symbolic;
 mod tangent;
 mod transient_times;

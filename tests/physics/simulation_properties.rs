@@ -131,7 +131,7 @@ impl Inspector {
             self.check(gap <= 1.0 + rounding(size(&state) + size(&start)), || {
                 format!("abs(w) = {gap} at {s} of {segment:?}")
             });
-            let (Some(textbook), Absorber::Flying { y, y_velocity }) =
+            let (Some(textbook), Absorber::Flying { y, y_velocity, .. }) =
                 (self.textbook, segment.absorber)
             else {
                 continue;
@@ -177,6 +177,7 @@ impl Observer for Inspector {
                 self.carried += 1;
                 self.feel_the_contact(segment, side);
             }
+            Absorber::Held { .. } => panic!("held without friction: {segment:?}"),
         }
         self.look_into_the_cavity(segment);
         self.last = Some((segment.at(segment.duration), segment.absorber));

@@ -92,8 +92,14 @@ fn overdamped_and_slowly_driven_oscillators_cost_no_more_than_others() {
 
 #[test]
 fn each_reason_to_doubt_is_given_where_it_applies_and_not_elsewhere() {
-    let sound =
-        Energy { input: 2.0, damper: 1.5, impact: 0.5, stored: 0.0, relative_residual: 0.0 };
+    let sound = Energy {
+        input: 2.0,
+        damper: 1.5,
+        impact: 0.5,
+        friction: 0.0,
+        stored: 0.0,
+        relative_residual: 0.0,
+    };
     let kinds = |stop, energy: &Energy, penetration, peak| -> Vec<&'static str> {
         trust::doubts(stop, energy, penetration, peak)
             .iter()

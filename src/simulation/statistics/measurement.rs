@@ -4,9 +4,10 @@
 //! Every flight is integrated from where it began, which its end has no part in: the balance of energy is a
 //! check.
 
-use super::super::events::{Absorber, Detail, Impact, Observer, Segment};
+use super::super::events::{Absorber, Detail, Impact, Observer, Reversal, Segment};
 use super::super::integrals::{Ends, Quadrature, Ringing};
 use super::super::peaks;
+use super::super::sliding::Sliding;
 use super::Statistics;
 use crate::numerics::lanes::LANES;
 use crate::operation_count;
@@ -47,6 +48,9 @@ pub struct Measurement {
     /// Without it stretches are integrated by quadrature.
     ringing: Option<Ringing>,
     quadrature: Quadrature,
+    sliding: Sliding,
+    /// Sign of `x' - y'` in the flight under way.
+    sense: f64,
     /// Periods at the beginning in which flights are left out.
     without_flights: u64,
     /// Flights that are yet to be measured, and the whole periods before each; after them, where the flight
@@ -64,6 +68,8 @@ impl Measurement {
             statistics: Statistics::begin(system, start),
             ringing: Ringing::of(system),
             quadrature: Quadrature::of(system),
+            sliding: Sliding::of(system),
+            sense: Sliding::first_sense(system, &start),
             without_flights: 0,
             flights: Ends::default(),
             periods: [0; LANES],
@@ -98,16 +104,20 @@ impl Measurement {
         flights.v[0][lane] = from.x_velocity;
         flights.y[lane] = from.y;
         flights.y_velocity[lane] = from.y_velocity;
+        flights.y_acceleration[lane] = self.sliding.acceleration(self.sense);
+        flights.rest[lane] = self.sliding.rest(self.sense);
     }
 
     /// A flight ends in a state. It is kept to be measured.
     #[inline(always)]
     fn end_flight(&mut self, phase: f64, end: &State) {
-        let Some(ringing) = &self.ringing else { return };
         if self.leaves_flights_out() {
             return;
         }
         let (flights, lane) = (&mut self.flights, self.open);
+        let slid = end.relative_displacement() - (flights.x[0][lane] - flights.y[lane]);
+        self.statistics.slides(slid);
+        let Some(ringing) = &self.ringing else { return };
         flights.phase[1][lane] = phase;
         flights.x[1][lane] = end.x;
         flights.v[1][lane] = end.x_velocity;
@@ -158,31 +168,46 @@ impl Observer for Measurement {
     }
 
     fn segment(&mut self, segment: &Segment) {
-        let carried = matches!(segment.absorber, Absorber::Carried(_));
-        if self.leaves_flights_out() || self.ringing.is_some() && !carried {
+        let Segment { absorber, duration, .. } = *segment;
+        let flies = matches!(absorber, Absorber::Flying { .. });
+        if self.leaves_flights_out() || self.ringing.is_some() && flies {
             return;
         }
         let (peak, integrals) = (self.quadrature.peak(segment), self.quadrature.over(segment));
         self.statistics.add(self.statistics.periods, std::iter::once((peak, integrals)));
-        if !carried {
-            return;
-        }
-        self.statistics.contact.duration_tau += segment.duration;
-        let Some(ringing) = &self.ringing else { return };
-        let phase = segment.phase + ringing.rates.frequency * segment.duration;
-        self.depart(phase, &segment.at(segment.duration));
+        self.sense = match absorber {
+            Absorber::Flying { .. } => return,
+            Absorber::Carried(side) => {
+                self.statistics.contact.duration_tau += duration;
+                -side.sign()
+            }
+            Absorber::Held { .. } => {
+                let pull = segment.motion.acceleration(duration, segment.motion.at(duration));
+                (pull - self.sliding.gravity).signum()
+            }
+        };
+        let phase = segment.phase + self.quadrature.frequency() * duration;
+        self.depart(phase, &segment.at(duration));
     }
 
     fn impact(&mut self, impact: &Impact) {
         let before = impact.state_before();
         let (x_velocity, y_velocity) = (impact.x_velocity_after, impact.y_velocity_after);
         self.end_flight(impact.phase, &before);
+        self.sense = -impact.side.sign();
         self.depart(impact.phase, &State { x_velocity, y_velocity, ..before });
         self.statistics.impact(impact);
     }
 
     fn sticks(&mut self, loss: f64) {
         self.statistics.sticks(loss);
+    }
+
+    fn reversal(&mut self, reversal: &Reversal) {
+        let Reversal { phase, state, after, .. } = reversal;
+        self.end_flight(*phase, state);
+        self.sense = *after;
+        self.depart(*phase, state);
     }
 
     fn period(&mut self, state: &State) {

@@ -14,7 +14,7 @@ struct Comparison {
 
 impl Observer for Comparison {
     fn segment(&mut self, segment: &Segment) {
-        let Absorber::Flying { y, y_velocity } = segment.absorber else { return };
+        let Absorber::Flying { y, y_velocity, .. } = segment.absorber else { return };
         let Some(ringing) = &self.ringing else { return };
         let (begin, end) = (segment.at(0.0), segment.at(segment.duration));
         let over = segment.phase + self.system.frequency_ratio() * segment.duration;
@@ -30,6 +30,8 @@ impl Observer for Comparison {
             v: [begin.x_velocity, end.x_velocity].map(alone),
             y: alone(y),
             y_velocity: alone(y_velocity),
+            y_acceleration: alone(0.0),
+            rest: alone(0.0),
         };
         let mut measured = peaks::Measured::default();
         peaks::together(ringing, &ends, &mut measured);

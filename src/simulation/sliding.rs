@@ -1,0 +1,193 @@
+//! What a real cavity does to an absorber that slides along it: gravity, friction, and where friction holds it.
+//!
+//! With `s` the sign of `w' = x' - y'` the absorber has `y'' = a + s f` and the oscillator takes `-eps s f`, a constant
+//! force: flights stay closed form between walls and moments at which `w' = 0`. There the absorber would have to have
+//! `y'' - a = (x'' - a)/(1 + eps)` to go along with the oscillator, `x''` being that of the oscillator alone. Friction
+//! gives that much up to `f`, and holds it; else it slides on, the way it is left behind. A wall helps friction one way.
+
+use super::certificate::Hull;
+use super::events::{Observer, Reversal, Side};
+use super::flow::{Kinematics, Oscillator};
+use super::phasor::At;
+use super::phasor::{Line, Parabola, Path};
+use super::run::{Mode, Moment, Simulation};
+use super::walls::TOUCH_ULPS;
+use crate::system::{State, System};
+
+/// Gravity and friction as a flight needs them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Sliding {
+    /// `a`.
+    pub gravity: f64,
+    /// `f`.
+    pub friction: f64,
+    mass_ratio: f64,
+}
+
+impl Sliding {
+    pub(super) fn of(system: &System) -> Self {
+        let cavity = system.cavity();
+        Self {
+            gravity: cavity.gravity_along,
+            friction: cavity.friction_acceleration,
+            mass_ratio: system.mass_ratio(),
+        }
+    }
+
+    /// The sign of `w'` in a first flight from a state at phase 0; where friction holds the absorber there is none.
+    pub(super) fn first_sense(system: &System, start: &State) -> f64 {
+        let slope = start.x_velocity - start.y_velocity;
+        if slope == 0.0 {
+            let at = Kinematics { x: start.x, v: start.x_velocity };
+            let pull = Oscillator::alone(system).acceleration(0.0, at);
+            return (pull - system.cavity().gravity_along).signum();
+        }
+        slope.signum()
+    }
+
+    /// Whether flights are straight lines.
+    pub(super) fn none(&self) -> bool {
+        self.gravity == 0.0 && self.friction == 0.0
+    }
+
+    /// The absorber's acceleration where `w'` has a sign.
+    pub(super) fn acceleration(&self, sense: f64) -> f64 {
+        self.gravity + sense * self.friction
+    }
+
+    /// Where the oscillator alone would rest under this friction.
+    pub(super) fn rest(&self, sense: f64) -> f64 {
+        -(sense * self.mass_ratio * self.friction)
+    }
+
+    /// Where it would rest with the absorber in tow.
+    pub(super) fn rest_in_tow(&self) -> f64 {
+        self.mass_ratio * self.gravity
+    }
+
+    /// Acceleration of the oscillator alone, less `a`, up to which friction holds the absorber.
+    pub(super) fn grip(&self) -> f64 {
+        (1.0 + self.mass_ratio) * self.friction
+    }
+
+    /// The absorber's flight, seen from where the oscillator would rest.
+    fn path(&self, sense: f64, y: f64, velocity: f64) -> Parabola {
+        let line = Line { y: y - self.rest(sense), velocity };
+        Parabola { line, acceleration: self.acceleration(sense) }
+    }
+}
+
+/// How the cavity shapes flights through panels.
+pub(super) trait Course: Copy {
+    type Path: Path<f64>;
+    /// The oscillator's displacement and the absorber's flight, seen from where the oscillator would rest.
+    fn depart(&self, at: &Moment) -> (f64, Self::Path);
+    /// Both displacements, as seen from there.
+    fn arrive(&self, sense: f64, seen: f64) -> f64;
+    /// Whether `w'` is proven to keep its sign in a panel, if that matters.
+    fn one_way(&self, sense: f64, hull: &Hull<f64>, ends: [&At<f64>; 2]) -> bool;
+    /// Whether it matters, and `w'` is proven to change its sign once.
+    fn turns(&self, sense: f64, hull: &Hull<f64>, ends: [&At<f64>; 2]) -> bool;
+}
+
+/// A straight flight.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Straight;
+
+impl Course for Straight {
+    type Path = Line<f64>;
+    #[inline(always)]
+    fn depart(&self, at: &Moment) -> (f64, Line<f64>) {
+        (at.state.x, Line { y: at.state.y, velocity: at.state.y_velocity })
+    }
+    #[inline(always)]
+    fn arrive(&self, _: f64, seen: f64) -> f64 {
+        seen
+    }
+    #[inline(always)]
+    fn one_way(&self, _: f64, _: &Hull<f64>, _: [&At<f64>; 2]) -> bool {
+        true
+    }
+    #[inline(always)]
+    fn turns(&self, _: f64, _: &Hull<f64>, _: [&At<f64>; 2]) -> bool {
+        false
+    }
+}
+
+impl Course for Sliding {
+    type Path = Parabola;
+    #[inline(always)]
+    fn depart(&self, at: &Moment) -> (f64, Parabola) {
+        let State { x, y, y_velocity, .. } = at.state;
+        (x - self.rest(at.sense), self.path(at.sense, y, y_velocity))
+    }
+    #[inline(always)]
+    fn arrive(&self, sense: f64, seen: f64) -> f64 {
+        seen + self.rest(sense)
+    }
+    #[inline(always)]
+    fn one_way(&self, sense: f64, hull: &Hull<f64>, [here, there]: [&At<f64>; 2]) -> bool {
+        self.friction == 0.0 || hull.rises(sense, here.slope, there.slope)
+    }
+    #[inline(always)]
+    fn turns(&self, sense: f64, hull: &Hull<f64>, [here, there]: [&At<f64>; 2]) -> bool {
+        self.friction > 0.0 && hull.turns(sense, here.slope, there.slope)
+    }
+}
+
+impl Simulation {
+    /// `x'' - a` of the oscillator alone, without friction, where the trajectory stands.
+    pub(super) fn pull(&self) -> f64 {
+        let State { x, x_velocity, .. } = self.at.state;
+        let at = Kinematics { x, v: x_velocity };
+        self.alone.acceleration(self.at.phase, at) - self.sliding.gravity
+    }
+
+    /// What rounding may make of forces where the trajectory stands.
+    pub(super) fn force_rounding(&self) -> f64 {
+        let (State { x, x_velocity, .. }, sliding) = (self.at.state, &self.sliding);
+        let scale = self.alone.largest_force + x.abs() + x_velocity.abs();
+        TOUCH_ULPS * f64::EPSILON * (scale + sliding.gravity.abs() + sliding.friction)
+    }
+
+    /// Which way the absorber slides from here, or that friction holds it.
+    pub(super) fn settle(&mut self) {
+        let Sliding { friction, .. } = self.sliding;
+        let State { x, x_velocity, y, y_velocity } = self.at.state;
+        let slope = x_velocity - y_velocity;
+        self.at.sense = if friction == 0.0 {
+            0.0
+        } else if slope != 0.0 {
+            slope.signum()
+        } else {
+            let pull = self.pull();
+            if pull.abs() <= self.sliding.grip() + self.force_rounding() {
+                self.mode = Mode::Held { gap: x - y };
+                0.0
+            } else {
+                pull.signum()
+            }
+        };
+    }
+
+    /// The absorber has come to rest relative to the oscillator.
+    pub(super) fn reverse(&mut self, observer: &mut dyn Observer) {
+        let before = self.at.sense;
+        self.at.state.y_velocity = self.at.state.x_velocity;
+        self.settle();
+        let Moment { state, phase, turns, sense, .. } = self.at;
+        observer.reversal(&Reversal {
+            tau: self.tau(turns, phase),
+            phase,
+            state,
+            before,
+            after: sense,
+        });
+    }
+
+    /// What acts on the absorber at a wall that it leaves, and when it comes back: accelerations towards the wall.
+    pub(super) fn closing(&self, side: Side) -> [f64; 2] {
+        let (pull, grip) = (side.sign() * self.pull(), self.sliding.grip());
+        [pull + grip, pull - grip]
+    }
+}
