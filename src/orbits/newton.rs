@@ -143,12 +143,15 @@ fn parameter_influence(step: &Step, weights: [f64; 4]) -> Vector4<f64> {
     next - step.next_by_duration * (weighted(step.gap_by_parameter, weights) / step.approach)
 }
 
-/// Solves for the cycle near `start`.
+/// Solves for the cycle near `start`; half of one that equals its mirror image is written out in a cavity where no motion
+/// does.
 ///
 /// # Errors
 /// [`OrbitError`] when `start` is no cycle, or Newton's method does not converge.
 pub fn solve(system: &System, start: &Cycle, origin: Origin) -> Result<Orbit, OrbitError> {
-    converge(&ImpactMap::of(system)?, start)?.orbit(origin)
+    let map = ImpactMap::of(system)?;
+    let whole = (!map.cavity().is_symmetric()).then(|| start.unfolded());
+    converge(&map, whole.as_ref().unwrap_or(start))?.orbit(origin)
 }
 
 /// Newton's iteration at fixed parameters.

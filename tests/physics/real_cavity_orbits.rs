@@ -4,12 +4,14 @@
 //! program; closed-form identities; the theory at leading order.
 
 use crate::common::table_1;
+use crate::orbit_support::impacts_from;
 use crate::orbit_support::real_cavity::{apart, cavities, defect, fly, orbits, systems, with};
 use vinesink::cavity::{CavityTheory, Forcing};
 use vinesink::orbits::newton::solve;
 use vinesink::orbits::{
     AfterImpact, Closure, Cycle, ImpactMap, Measures, Orbit, Origin, Wall, two_impact_orbits,
 };
+use vinesink::simulation::{Impact, ImpactLog, Side, Simulation};
 use vinesink::system::{Cavity, Excitation, Parameter, Parameters, System};
 
 /// 1e-10 is what is asked of a closed orbit: rounding of 800 steps and of Newton's method are below.
@@ -257,4 +259,87 @@ fn extremes_are_searched_as_well() {
         }
     }
     assert!(seen > 400, "{seen}");
+}
+
+/// The engine shares nothing with the orbits: started after an impact it comes back to each impact of a stable orbit for 20
+/// periods, to those of an unstable one once, and leaves at once a cycle that is said to be no motion.
+#[test]
+fn the_simulation_follows_the_orbits_and_leaves_what_is_none() {
+    let (mut followed, mut left) = (0, 0);
+    for system in systems() {
+        for orbit in orbits(&system) {
+            let cycle = orbit.cycle.unfolded();
+            let distance = |count: u64| {
+                let impacts = impacts_from(&system, &cycle.impacts[0], count);
+                let expected = cycle.impacts.iter().cycle().skip(1);
+                let apart = impacts.iter().zip(expected).map(|(met, there)| {
+                    let differences = [
+                        met.x - there.x,
+                        met.x_velocity_after - there.x_velocity,
+                        met.y_velocity_after - there.y_velocity,
+                    ];
+                    differences.iter().fold(0.0_f64, |most, one| most.max(one.abs()))
+                });
+                if impacts.len() as u64 == count {
+                    apart.fold(0.0, f64::max)
+                } else {
+                    f64::INFINITY
+                }
+            };
+            if orbit.attracts() {
+                // Rounding of 40 impacts, of which each shrinks.
+                assert!(distance(40) < 1e-9, "{:e} {system:?} {orbit:?}", distance(40));
+                followed += 1;
+            } else if orbit.admissibility.admissible {
+                assert!(distance(2) < 1e-9, "{:e} {system:?} {orbit:?}", distance(2));
+                followed += 1;
+            } else if !orbit.admissibility.admissible {
+                assert!(distance(2) > 1e-6, "{system:?} {orbit:?}");
+                left += 1;
+            }
+        }
+    }
+    assert!(followed > 35 && left > 15, "{followed} {left}");
+}
+
+/// Three impacts in a period, five in two, with two of them in a row on one wall: Newton's method takes what the simulation
+/// comes to, which closes under the equation of motion. With friction the slip in between reverses: no motion of the map.
+#[test]
+fn cycles_of_more_impacts_are_exact_as_well() {
+    for ([a, f, d], count, periods) in [
+        ([0.02, 0.0, 0.0], 5, 2),
+        ([0.0, 0.0, 0.1], 3, 1),
+        ([-0.01, 0.0, 0.05], 3, 1),
+        ([0.02, 0.01, 0.0], 5, 2),
+    ] {
+        let system = with(&table_1(8.0, 2.5), a, f, d);
+        let start = system.linear_response().expect("damped").state(&system);
+        let mut simulation = Simulation::new(&system, start, 0.0).expect("inside");
+        let mut log = ImpactLog::default();
+        simulation.run(600, u64::MAX, &mut log);
+        let last = &log.impacts[log.impacts.len() - count - 1..];
+        let whole = last[count].tau - last[0].tau;
+        assert!((whole - f64::from(periods) * system.period()).abs() < 1e-6, "{a} {f} {d} {whole}");
+        let after = |impact: &Impact| AfterImpact {
+            wall: if impact.side == Side::Plus { Wall::Plus } else { Wall::Minus },
+            phase: system.frequency_ratio() * impact.tau,
+            x: impact.x,
+            x_velocity: impact.x_velocity_after,
+            y_velocity: impact.y_velocity_after,
+        };
+        let durations = last.windows(2).map(|pair| pair[1].tau - pair[0].tau).collect();
+        let closure = Closure::Repeats { periods };
+        let start =
+            Cycle { closure, impacts: last[..count].iter().map(after).collect(), durations };
+        let solved = solve(&system, &start, Origin::Simulation);
+        if f == 0.0 {
+            let orbit = solved.expect("converges");
+            assert!(orbit.attracts() && apart(&orbit.cycle, &start) < 1e-6);
+            assert!(defect(&system, &orbit.cycle).0 < 1e-10);
+        } else {
+            let reverses =
+                |orbit: Orbit| !orbit.admissibility.admissible && orbit.admissibility.reverses();
+            assert!(solved.is_ok_and(reverses));
+        }
+    }
 }
