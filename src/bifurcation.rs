@@ -24,6 +24,9 @@ pub enum Bifurcation {
     Sticking,
     /// An impact loses its speed: it disappears.
     VanishingImpact,
+    /// Where the absorber rubs, it comes to rest against the oscillator between two impacts: from there on
+    /// friction has the other sign for a while.
+    Reversal,
     /// Another branch passes through, without this one turning back.
     BranchPoint,
 }
@@ -39,6 +42,7 @@ impl Bifurcation {
             Self::Grazing => "grazing",
             Self::Sticking => "sticking",
             Self::VanishingImpact => "vanishing impact",
+            Self::Reversal => "slip reversal",
             Self::BranchPoint => "branch point",
         }
     }
@@ -50,6 +54,6 @@ impl Bifurcation {
 
     /// Whether the orbit stops being a motion there, whatever its multipliers.
     pub(crate) fn ends_motion(self) -> bool {
-        matches!(self, Self::Grazing | Self::Sticking | Self::VanishingImpact)
+        matches!(self, Self::Grazing | Self::Sticking | Self::VanishingImpact | Self::Reversal)
     }
 }

@@ -50,7 +50,7 @@
 //! | [`orbits`] | exact periodic orbits at any `ε`, their bifurcations and branches | [`symmetric_orbits`](orbits::symmetric_orbits), [`branch::follow`](orbits::branch::follow) |
 //! | [`simulation`] | one trajectory, or many side by side, from event to event | [`Simulation::new`](simulation::Simulation::new) |
 //! | [`regimes`] | what trajectories become in the long run, and what to call it | [`motions`](regimes::motions) |
-//! | [`cavity`] | the theory where the cavity is tilted, rubs, or has unequal ends | [`Cavity::new`](cavity::Cavity::new) |
+//! | [`cavity`] | the theory where the cavity is tilted, rubs, or has unequal ends | [`CavityTheory::new`](cavity::CavityTheory::new) |
 //! | [`dissipation`] | what the absorber takes in every regime, and the slow flow with it | [`DissipationCurve::of`](dissipation::DissipationCurve::of) |
 //!
 //! `analysis`, `orbits` and `simulation` do not use one another: that they agree is evidence.

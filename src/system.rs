@@ -69,6 +69,11 @@ impl Cavity {
         *self == Self::IDEAL
     }
 
+    /// Whether the mirror image of a motion is a motion: neither inclined nor with ends that differ.
+    pub fn is_symmetric(&self) -> bool {
+        self.gravity_along == 0.0 && self.restitution_difference == 0.0
+    }
+
     /// The same accelerations over a `b omega0^2` that is `factor` times as large.
     #[must_use]
     pub fn with_clearance_scaled(self, factor: f64) -> Self {

@@ -4,13 +4,16 @@
 //! Without restitution an impact leaves no relative velocity, and the absorber separates only where
 //! the wall's acceleration leaves it behind; where it does not, the absorber stays on the wall.
 //!
+//! Where it rubs it also has to slide one way from wall to wall: friction would change its sign with the relative
+//! velocity, and the flight is one of the map's only while that keeps its own.
+//!
 //! Whether it does is proven by a search that cannot step over a contact
 //! ([`crate::numerics::crossing`]); its smallest distance to a wall is measured at the turning points of the
 //! relative displacement.
 
 use serde::Serialize;
 
-use super::flight::Motion;
+use super::flight::{Flight, Motion};
 use super::impact_map::{ImpactMap, Leg, Wall};
 use super::orbit::Cycle;
 use crate::numerics::bracket::brent;
@@ -50,6 +53,10 @@ pub struct Admissibility {
     /// does not rebound; negative where the absorber stays on the wall. `None` where every impact
     /// rebounds.
     pub slowest_departure: Option<f64>,
+    /// Smallest relative speed between impacts, over the clearance, in fast time, of an absorber that rubs;
+    /// not above 0 where its slip reverses. `None` without friction.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub slowest_slip: Option<f64>,
 }
 
 /// Where an orbit comes closest to an impact that it does not have.
@@ -69,6 +76,11 @@ impl Admissibility {
         self.slowest_departure.is_some_and(|departure| departure <= 0.0)
     }
 
+    /// Whether the slip of an absorber that rubs reverses between two impacts, so that the cycle is no motion.
+    pub fn reverses(&self) -> bool {
+        self.slowest_slip.is_some_and(|slip| slip <= 0.0)
+    }
+
     /// Of the flights of a cycle.
     pub fn of(map: &ImpactMap, cycle: &Cycle) -> Self {
         Distances::of(map, cycle).proven(map, cycle)
@@ -83,20 +95,28 @@ pub(super) struct Distances {
     pub narrowest: Option<Narrowest>,
     pub slowest_impact: f64,
     pub slowest_departure: Option<f64>,
+    pub slowest_slip: Option<f64>,
 }
 
 impl Distances {
     /// With the proof for the cycle that was measured, if there is one.
     pub fn proven(self, map: &ImpactMap, cycle: &Cycle) -> Admissibility {
-        let proven =
-            |leg: &Leg| approach(leg) > 0.0 && free_of_contact(map, leg, &Departure::of(leg));
-        let Self { min_wall_distance, narrowest, slowest_impact, slowest_departure } = self;
+        let rubs = map.cavity().friction_acceleration > 0.0;
+        let proven = |leg: &Leg| {
+            let departure = Departure::of(leg);
+            approach(leg) > 0.0
+                && free_of_contact(map, leg, &departure)
+                && (!rubs || free_of_reversal(map, leg, &departure))
+        };
+        let Self { min_wall_distance, narrowest, slowest_impact, slowest_departure, slowest_slip } =
+            self;
         Admissibility {
             admissible: cycle.flights(map).iter().all(proven),
             min_wall_distance,
             narrowest,
             slowest_impact,
             slowest_departure,
+            slowest_slip,
         }
     }
 
@@ -107,6 +127,7 @@ impl Distances {
             narrowest: None,
             slowest_impact: f64::INFINITY,
             slowest_departure: None,
+            slowest_slip: None,
         };
         for (flight, leg) in cycle.flights(map).iter().enumerate() {
             let approach = approach(leg);
@@ -116,6 +137,10 @@ impl Distances {
                 found.slowest_departure = Some(slowest.min(departure.acceleration));
             }
             found.slowest_impact = found.slowest_impact.min(approach);
+            if map.cavity().friction_acceleration > 0.0 {
+                let slowest = found.slowest_slip.unwrap_or(f64::INFINITY);
+                found.slowest_slip = Some(slowest.min(slip(map, leg)));
+            }
             for at in turning_points(map, leg, &departure) {
                 let value = leg.relative(at).x;
                 let wall = if value > 0.0 { Wall::Plus } else { Wall::Minus };
@@ -135,6 +160,13 @@ fn approach(leg: &Leg) -> f64 {
     leg.to.sign() * leg.relative(leg.duration).v
 }
 
+/// Smallest relative speed of a flight away from the wall where it begins: at its end, or where it turns.
+fn slip(map: &ImpactMap, leg: &Leg) -> f64 {
+    let turns = zeros(leg, map.flight.frequency(), |_, at| [at.a - leg.acceleration, at.jerk]);
+    let speed = |s: f64| -leg.start.wall.sign() * leg.relative(s).v;
+    turns.into_iter().map(speed).fold(speed(leg.duration), f64::min)
+}
+
 /// How the absorber and a wall part after an impact; lengths over the clearance, fast time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Departure {
@@ -150,10 +182,11 @@ impl Departure {
     /// At the beginning of a flight.
     pub fn of(leg: &Leg) -> Self {
         let (inwards, at) = (-leg.start.wall.sign(), leg.oscillator(0.0));
+        let relative = leg.relative_of(at, 0.0);
         let scale = 1.0 + at.x.abs() + at.v.abs() + leg.start.y_velocity.abs();
         Self {
             speed: inwards * (leg.start.x_velocity - leg.start.y_velocity),
-            acceleration: inwards * at.a,
+            acceleration: inwards * relative.a,
             touch: TOUCH_ULPS * f64::EPSILON * scale,
         }
     }
@@ -162,22 +195,56 @@ impl Departure {
     pub fn is_still(&self) -> bool {
         self.speed <= self.touch
     }
+
+    /// When a search in the flight begins: at once, or where the two have parted.
+    fn begin(&self, duration: f64) -> f64 {
+        if self.is_still() {
+            (self.touch / self.acceleration).sqrt().min(EARLY * duration)
+        } else {
+            0.0
+        }
+    }
 }
 
 struct Gap<'a> {
     leg: &'a Leg,
-    /// `2 d`, and the largest force.
-    damping: f64,
-    force: f64,
+    flight: &'a Flight,
+}
+
+impl Gap<'_> {
+    /// The oscillator about the place of its rest, and the most of `hypot(x, v)` within the horizon: it grows no faster
+    /// than the largest force.
+    fn size(&self, oscillator: Motion) -> f64 {
+        libm::hypot(oscillator.x - self.leg.push(), oscillator.v) + self.flight.force() * HORIZON
+    }
+}
+
+/// The relative velocity of a flight, away from the wall where it begins.
+struct Slip<'a>(Gap<'a>);
+
+impl Curve for Slip<'_> {
+    fn sample(&self, s: f64) -> Sample {
+        let Gap { leg, flight } = self.0;
+        let oscillator = leg.oscillator(s);
+        let relative = leg.relative_of(oscillator, s);
+        let (away, damping) = (-leg.start.wall.sign(), flight.damping());
+        // The rate of the acceleration is that of the force less 2 d times the acceleration and the velocity.
+        let size = self.0.size(oscillator);
+        let acceleration = flight.force() + (1.0 + damping) * size;
+        let curvature_bound = flight.frequency() * flight.force() + damping * acceleration + size;
+        Sample { value: away * relative.v, slope: away * relative.a, curvature_bound }
+    }
+    fn horizon(&self) -> f64 {
+        HORIZON
+    }
 }
 
 impl Curve for Gap<'_> {
     fn sample(&self, s: f64) -> Sample {
         let oscillator = self.leg.oscillator(s);
         let relative = self.leg.relative_of(oscillator, s);
-        // The root of v^2 + x^2 grows no faster than the largest force.
-        let size = libm::hypot(oscillator.x, oscillator.v) + self.force * HORIZON;
-        let curvature_bound = self.force + (1.0 + self.damping) * size;
+        let bound = self.flight.force() + (1.0 + self.flight.damping()) * self.size(oscillator);
+        let curvature_bound = bound + self.leg.acceleration.abs();
         Sample { value: relative.x, slope: relative.v, curvature_bound }
     }
     fn horizon(&self) -> f64 {
@@ -193,21 +260,23 @@ fn free_of_contact(map: &ImpactMap, leg: &Leg, departure: &Departure) -> bool {
     if !positive || departure.is_still() && departure.acceleration <= 0.0 {
         return false;
     }
-    let touch = departure.touch;
-    let begin = if departure.is_still() {
-        (touch / departure.acceleration).sqrt().min(EARLY * duration)
-    } else {
-        0.0
-    };
-    let curve = Gap { leg, damping: map.flight.damping(), force: map.flight.force() };
-    let band = Band { lower: -1.0, upper: 1.0, touch };
-    match first_crossing(&curve, begin, duration * (1.0 + EARLY), band) {
+    let band = Band { lower: -1.0, upper: 1.0, touch: departure.touch };
+    let curve = Gap { leg, flight: &map.flight };
+    match first_crossing(&curve, departure.begin(duration), duration * (1.0 + EARLY), band) {
         Search::Crossed(contact) => {
             let wall = if contact.edge == Edge::Upper { Wall::Plus } else { Wall::Minus };
             wall == to && contact.time >= duration * (1.0 - EARLY)
         }
         Search::Clear { .. } | Search::NotFinite(_) => false,
     }
+}
+
+/// Whether the absorber slides away from the wall where a flight begins until it ends.
+fn free_of_reversal(map: &ImpactMap, leg: &Leg, departure: &Departure) -> bool {
+    let curve = Slip(Gap { leg, flight: &map.flight });
+    let band = Band { lower: 0.0, upper: f64::INFINITY, touch: departure.touch };
+    let begin = departure.begin(leg.duration);
+    matches!(first_crossing(&curve, begin, leg.duration, band), Search::Clear { .. })
 }
 
 /// Times at which the relative displacement turns within a flight.
@@ -219,7 +288,8 @@ fn turning_points(map: &ImpactMap, leg: &Leg, departure: &Departure) -> Vec<f64>
             let rate = -leg.start.wall.sign() * departure.acceleration;
             [rate.signum() * f64::MIN_POSITIVE, rate]
         } else {
-            [oscillator.v - leg.start.y_velocity, oscillator.a]
+            let relative = leg.relative_of(oscillator, s);
+            [relative.v, relative.a]
         }
     })
 }

@@ -63,7 +63,7 @@ impl Boundaries {
     /// At the frequency and forcing of `system`.
     ///
     /// # Errors
-    /// [`OrbitError::NoSteadyMotion`] for an undamped oscillator driven at its natural frequency.
+    /// As [`SymmetricFamily::of`].
     pub fn of(system: &System) -> Result<Self, OrbitError> {
         let symmetric = SymmetricFamily::of(system)?;
         let breaking = symmetric

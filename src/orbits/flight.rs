@@ -5,7 +5,7 @@
 //!
 //! `x(s) = X(phase + Omega s) + a (x - X) + g (v - V)`, `v(s) = V(phase + Omega s) - g (x - X) + g' (v - V)`,
 //!
-//! `a = g' + 2 d g`. Valid wherever a steady motion exists: everywhere but for an undamped oscillator
+//! `a = g' + 2 d g`; friction, a constant force, shifts `x` and `X`. Valid wherever a steady motion exists: everywhere but for an undamped oscillator
 //! driven exactly at its natural frequency.
 
 use nalgebra::{Matrix2, Vector2};
@@ -49,7 +49,9 @@ pub struct Motion {
 pub struct Course {
     flight: Flight,
     phase: f64,
-    /// Deviation from the steady motion at the beginning.
+    /// Constant force, which shifts the place about which the free motion is.
+    push: f64,
+    /// Deviation from the steady motion about that place at the beginning.
     deviation: Vector2<f64>,
 }
 
@@ -173,9 +175,17 @@ impl Flight {
         [REPEATED_DISPLACEMENT.at(parameters), REPEATED_VELOCITY.at(parameters)]
     }
 
+    /// `(Phi + I)^-1 (1, 0)`, the same of a jump in the displacement.
+    pub(super) fn repeated_displacement(&self) -> [f64; 2] {
+        let [impulse, rate_plus_one] = self.half_period_response();
+        let held = rate_plus_one + 2.0 * self.decay * impulse;
+        let scale = held * rate_plus_one + impulse * impulse;
+        [rate_plus_one / scale, impulse / scale]
+    }
+
     /// The course from a displacement and velocity at `phase` on.
     pub fn course(&self, phase: f64, start: Vector2<f64>) -> Course {
-        Course { flight: *self, phase, deviation: start - self.steady_at(phase) }
+        Course { flight: *self, phase, push: 0.0, deviation: start - self.steady_at(phase) }
     }
 
     /// Largest force of the excitation, per unit of mass.
@@ -217,17 +227,35 @@ impl Flight {
     }
 }
 
+impl Motion {
+    /// The same motion about another place.
+    fn shifted(self, by: f64) -> Self {
+        Self { x: self.x + by, ..self }
+    }
+}
+
 impl Course {
+    /// The same under a constant force besides, per unit of mass.
+    #[must_use]
+    pub fn pushed(self, push: f64) -> Self {
+        Self { push, deviation: self.deviation - Vector2::new(push, 0.0), ..self }
+    }
+
+    /// The constant force.
+    pub(super) fn push(&self) -> f64 {
+        self.push
+    }
+
     /// The motion after a time `s`, by equation (1).
     pub fn at(&self, s: f64) -> Motion {
         let steady = self.flight.steady_at(self.phase + self.flight.frequency * s);
-        self.flight.motion(steady, self.flight.free(s) * self.deviation)
+        self.flight.motion(steady, self.flight.free(s) * self.deviation).shifted(self.push)
     }
 
     /// The motion after each of `count` steps of equal length, with one sine, cosine and exponential for
     /// all: rounding grows by a unit in the last place with each.
     pub(super) fn at_steps(&self, step: f64, count: u32) -> impl Iterator<Item = Motion> + use<> {
-        let Self { flight, phase, mut deviation } = *self;
+        let Self { flight, phase, push, mut deviation } = *self;
         let propagator = flight.free(step);
         operation_count::note(2 * ELEMENTARY);
         let (sin, cos) = libm::sincos(flight.frequency * step);
@@ -240,7 +268,7 @@ impl Course {
                 cos * steady.x + sin / omega * steady.y,
                 cos * steady.y - omega * sin * steady.x,
             );
-            flight.motion(steady, deviation)
+            flight.motion(steady, deviation).shifted(push)
         })
     }
     /// Where the course leads in a time `s`, with all derivatives.
@@ -252,7 +280,7 @@ impl Course {
         let [before, after] = [*phase, end].map(|phase| flight.steady_at(phase));
         let forced = after - by_start * before;
         Arrival {
-            at: flight.motion(after, by_start * self.deviation),
+            at: flight.motion(after, by_start * self.deviation).shifted(self.push),
             by_phase: flight.turned(after) - by_start * flight.turned(before),
             by_start,
             by_forcing: if flight.forcing > 0.0 {

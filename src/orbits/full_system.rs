@@ -6,7 +6,9 @@ use serde::Serialize;
 use super::boundaries::Boundaries;
 use super::branch::{Direction, Settings, SpecialPoint, follow};
 use super::limits::{Limit, StableStretch};
+use super::orbit::Orbit;
 use super::symmetric::{SymmetricOrbit, attracting_orbit, symmetric_orbits};
+use super::two_impact::{TwoImpactOrbits, two_impact_orbits};
 use crate::bifurcation::Bifurcation;
 use crate::numerics::scan::largest;
 use crate::system::{Parameter, System};
@@ -14,6 +16,8 @@ use crate::system::{Parameter, System};
 /// Band of the frequency ratio, over the system's own, in which limits are looked for: one at half
 /// or twice the frequency is no neighbour.
 const FREQUENCIES: [f64; 2] = [0.5, 2.0];
+/// Clearances over the system's own between which the attracting orbit of a cavity that is not ideal is followed.
+const CLEARANCES: [f64; 2] = [0.05, 20.0];
 /// Clearances looked at per unit of their logarithm for the smallest vibration: the optimum is
 /// known to one percent.
 const CLEARANCES_PER_E_FOLD: f64 = 100.0;
@@ -32,8 +36,12 @@ pub struct FullSystem {
     pub system: System,
     /// Its symmetric 1:1 orbits, at most two, ascending in the absorber's amplitude.
     pub orbits: Vec<SymmetricOrbit>,
-    /// The boundaries at its frequency and forcing; `None` without forcing, and for an undamped
-    /// oscillator driven at its natural frequency, which has no steady motion between impacts.
+    /// All its orbits with two impacts per period, one on each wall; `None` for an ideal cavity, where the asymmetric ones
+    /// are a part of the boundaries.
+    pub two_impact: Option<TwoImpactOrbits>,
+    /// The boundaries at its frequency and forcing; `None` without forcing, for an undamped
+    /// oscillator driven at its natural frequency, which has no steady motion between impacts, and for a cavity that is
+    /// not ideal.
     pub boundaries: Option<Boundaries>,
 }
 
@@ -41,9 +49,11 @@ impl FullSystem {
     /// Solves `system`. Nothing here iterates but one-dimensional roots.
     pub fn of(system: &System) -> Self {
         let driven = system.forcing_per_clearance() > 0.0;
+        let real = driven && !system.cavity().is_ideal();
         Self {
             system: *system,
             orbits: symmetric_orbits(system).unwrap_or_default(),
+            two_impact: real.then(|| two_impact_orbits(system).ok()).flatten(),
             boundaries: driven.then(|| Boundaries::of(system).ok()).flatten(),
         }
     }
@@ -53,11 +63,27 @@ impl FullSystem {
         self.orbits.iter().find(|orbit| orbit.orbit.attracts())
     }
 
+    /// The orbit with two impacts per period that attracts: the symmetric one, or what a cavity that is not ideal has
+    /// instead.
+    pub fn attracting_orbit(&self) -> Option<&Orbit> {
+        match &self.two_impact {
+            Some(found) => found.orbits.iter().find(|orbit| orbit.attracts()),
+            None => Some(&self.attracting()?.orbit),
+        }
+    }
+
     /// The stretch of clearances, over the system's own, in which the attracting orbit of this
-    /// system persists.
-    pub fn stretch(&self) -> Option<&StableStretch> {
-        self.attracting()?;
-        self.boundaries.as_ref()?.symmetric.stretch_around(1.0)
+    /// system persists: from all limits, or in a cavity that is not ideal by continuation to
+    /// either side; `None` where that does not come to an end.
+    pub fn stretch(&self) -> Option<StableStretch> {
+        let orbit = self.attracting_orbit()?;
+        if self.two_impact.is_none() {
+            return self.boundaries.as_ref()?.symmetric.stretch_around(1.0).copied();
+        }
+        let end = |direction| self.limit(orbit, Parameter::Clearance, CLEARANCES, direction);
+        let limits = [end(Direction::Down)?, end(Direction::Up)?];
+        let clearance = [0, 1].map(|k| limits[k].value);
+        Some(StableStretch { clearance, ends: [0, 1].map(|k| Some(limits[k].kind)) })
     }
 
     /// Every stretch of clearances with an attracting symmetric orbit.
@@ -74,15 +100,22 @@ impl FullSystem {
     /// Where the attracting orbit loses stability or ends as the frequency alone is lowered and
     /// raised, by continuation; values are frequency ratios.
     pub fn frequency_limits(&self) -> [Option<SpecialPoint>; 2] {
-        [Direction::Down, Direction::Up].map(|direction| self.frequency_limit(direction))
+        let range = FREQUENCIES.map(|factor| factor * self.system.frequency_ratio());
+        [Direction::Down, Direction::Up].map(|direction| {
+            self.limit(self.attracting_orbit()?, Parameter::Frequency, range, direction)
+        })
     }
 
-    fn frequency_limit(&self, direction: Direction) -> Option<SpecialPoint> {
-        let start = self.attracting()?;
-        let range = FREQUENCIES.map(|factor| factor * self.system.frequency_ratio());
+    /// The first bifurcation on the branch of an attracting orbit.
+    fn limit(
+        &self,
+        start: &Orbit,
+        parameter: Parameter,
+        range: [f64; 2],
+        direction: Direction,
+    ) -> Option<SpecialPoint> {
         let settings = Settings::within(range);
-        let branch =
-            follow(&self.system, &start.orbit, Parameter::Frequency, direction, &settings).ok()?;
+        let branch = follow(&self.system, start, parameter, direction, &settings).ok()?;
         // The branch sets out stable: the first bifurcation ends that, but for a crossing of branches.
         branch.specials.into_iter().find(|special| special.kind != Bifurcation::BranchPoint)
     }

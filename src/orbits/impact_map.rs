@@ -5,12 +5,16 @@
 //! `y = x - s`. A flight of length `D` leads to the wall on side `s1` where `w(D) = s1`; the impact
 //! follows equation (2). The length depends on the state through that condition, so that
 //! `dD = -dw / w'` enters every derivative: the saltation of a discontinuous system. Written with `D`
+//! In a real cavity the absorber has `y'' = a - s f` and the oscillator takes `eps s f`: an absorber that leaves the
+//! wall on side `s` slides that way until the next impact, or the flight is none (`admissibility`).
+//!
+//! With `D`
 //! as an unknown of its own, the map has no event to search for, and Newton's method sees it whole.
 
 use nalgebra::{Matrix4, Vector2, Vector4};
 
 use super::flight::{Arrival, Course, Flight, Motion};
-use crate::system::{State, System};
+use crate::system::{Cavity, State, System};
 
 /// A wall of the cavity: where `x - y = +b` or `x - y = -b`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, serde::Serialize)]
@@ -106,6 +110,8 @@ pub struct Leg {
     pub to: Wall,
     /// Fast time between them.
     pub duration: f64,
+    /// Acceleration of the absorber.
+    pub(super) acceleration: f64,
     course: Course,
 }
 
@@ -131,8 +137,21 @@ impl Leg {
 
     /// The same, the oscillator's motion being known.
     pub fn relative_of(&self, at: Motion, s: f64) -> Motion {
+        let sliding = self.acceleration * s;
         let x = at.x - self.start.x + self.start.wall.sign() - self.start.y_velocity * s;
-        Motion { x, v: at.v - self.start.y_velocity, ..at }
+        let v = at.v - self.start.y_velocity - sliding;
+        Motion { x: x - 0.5 * sliding * s, v, a: at.a - self.acceleration, ..at }
+    }
+
+    /// What friction pushes the oscillator with, per unit of mass.
+    pub(super) fn push(&self) -> f64 {
+        self.course.push()
+    }
+
+    /// Displacement of the absorber a time `s` after the first impact.
+    pub(super) fn absorber(&self, s: f64) -> f64 {
+        let place = self.start.x - self.start.wall.sign();
+        place + self.start.y_velocity * s + 0.5 * self.acceleration * s * s
     }
 }
 
@@ -151,10 +170,11 @@ pub struct Step {
     pub next_by_duration: Vector4<f64>,
     /// Derivatives of `gap` by the state at fixed `D`; by `D` it is `approach`.
     pub gap_by_state: Vector4<f64>,
-    /// Derivatives of `next` by the forcing, the frequency and the restitution, in this order.
-    pub next_by_parameter: [Vector4<f64>; 3],
+    /// Derivatives of `next` by the forcing, the frequency, the restitution and the logarithm of both
+    /// accelerations of the cavity, in this order.
+    pub next_by_parameter: [Vector4<f64>; 4],
     /// The same for `gap`.
-    pub gap_by_parameter: [f64; 3],
+    pub gap_by_parameter: [f64; 4],
 }
 
 impl Step {
@@ -170,7 +190,8 @@ pub struct ImpactMap {
     /// The oscillator between impacts.
     pub flight: Flight,
     mass_ratio: f64,
-    restitution: f64,
+    restitutions: [f64; 2],
+    cavity: Cavity,
 }
 
 impl ImpactMap {
@@ -183,8 +204,25 @@ impl ImpactMap {
         Ok(Self {
             flight: Flight::of(system)?,
             mass_ratio: system.mass_ratio(),
-            restitution: system.restitution(),
+            restitutions: system.restitutions(),
+            cavity: system.cavity(),
         })
+    }
+
+    /// What the cavity has beyond two equal walls.
+    pub(super) fn cavity(&self) -> &Cavity {
+        &self.cavity
+    }
+
+    /// Restitution at a wall.
+    pub(super) fn restitution(&self, wall: Wall) -> f64 {
+        self.restitutions[usize::from(wall == Wall::Minus)]
+    }
+
+    /// After an impact on a wall: acceleration of the absorber, and what friction pushes the oscillator with.
+    pub(super) fn sliding(&self, wall: Wall) -> [f64; 2] {
+        let friction = wall.sign() * self.cavity.friction_acceleration;
+        [self.cavity.gravity_along - friction, self.mass_ratio * friction]
     }
 
     /// The map under another forcing `gamma`; the present one must not be 0.
@@ -194,18 +232,21 @@ impl ImpactMap {
 
     /// The flight for `duration` to the wall `to`.
     pub fn leg(&self, start: &AfterImpact, to: Wall, duration: f64) -> Leg {
-        Leg { start: *start, to, duration, course: start.course(&self.flight) }
+        let [acceleration, push] = self.sliding(start.wall);
+        let course = start.course(&self.flight).pushed(push);
+        Leg { start: *start, to, duration, acceleration, course }
     }
 
     /// Flies for `duration` and collides with the wall `to`.
     pub fn step(&self, start: &AfterImpact, to: Wall, duration: f64) -> Step {
+        let [acceleration, push] = self.sliding(start.wall);
         let Arrival { at, by_phase, by_start, by_forcing, by_frequency } =
-            start.course(&self.flight).arrival(duration);
-        let yv = start.y_velocity;
+            start.course(&self.flight).pushed(push).arrival(duration);
+        let yv = start.y_velocity + acceleration * duration;
         let approach = at.v - yv;
         // Equation (2): the absorber gains `gain` times the approach, the oscillator loses eps of it.
         let eps = self.mass_ratio;
-        let gain = (1.0 + self.restitution) / (1.0 + eps);
+        let gain = (1.0 + self.restitution(to)) / (1.0 + eps);
         let rebound = |dv: f64, dyv: f64| (dv - eps * gain * (dv - dyv), dyv + gain * (dv - dyv));
         let (after_v, after_yv) = rebound(at.v, yv);
         let column = |phase: f64, x: f64, dv: f64, dyv: f64| {
@@ -214,6 +255,8 @@ impl ImpactMap {
         };
         let restitution_share = approach / (1.0 + eps);
         let frequency = self.flight.frequency();
+        let fallen = 0.5 * acceleration * duration * duration;
+        let [pushed_x, pushed_v] = [push * (1.0 - by_start[(0, 0)]), -push * by_start[(1, 0)]];
         Step {
             next: AfterImpact {
                 wall: to,
@@ -222,7 +265,10 @@ impl ImpactMap {
                 x_velocity: after_v,
                 y_velocity: after_yv,
             },
-            gap: at.x - start.x + start.wall.sign() - yv * duration - to.sign(),
+            gap: at.x - start.x + start.wall.sign()
+                - start.y_velocity * duration
+                - to.sign()
+                - fallen,
             approach,
             next_by_state: Matrix4::from_columns(&[
                 column(1.0, by_phase.x, by_phase.y, 0.0),
@@ -230,7 +276,7 @@ impl ImpactMap {
                 column(0.0, by_start[(0, 1)], by_start[(1, 1)], 0.0),
                 column(0.0, 0.0, 0.0, 1.0),
             ]),
-            next_by_duration: column(frequency, at.v, at.a, 0.0),
+            next_by_duration: column(frequency, at.v, at.a, acceleration),
             gap_by_state: Vector4::new(
                 by_phase.x,
                 by_start[(0, 0)] - 1.0,
@@ -241,8 +287,9 @@ impl ImpactMap {
                 column(0.0, by_forcing.x, by_forcing.y, 0.0),
                 column(duration, by_frequency.x, by_frequency.y, 0.0),
                 Vector4::new(0.0, 0.0, -eps * restitution_share, restitution_share),
+                column(0.0, pushed_x, pushed_v, acceleration * duration),
             ],
-            gap_by_parameter: [by_forcing.x, by_frequency.x, 0.0],
+            gap_by_parameter: [by_forcing.x, by_frequency.x, 0.0, pushed_x - fallen],
         }
     }
 }

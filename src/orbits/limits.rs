@@ -1,6 +1,10 @@
 //! Where symmetric 1:1 orbits begin and end: the stability limits of the full system at one
 //! frequency, over all clearances and forcings at once.
 //!
+//! Those of an ideal cavity: with friction the forcing of an orbit is no multiple of what it is over another clearance,
+//! and a cavity that is inclined or whose ends differ has no symmetric orbits. There [`follow`](super::branch::follow)
+//! leads to the limits.
+//!
 //! Each value of `beta` belongs to one forcing per clearance (`symmetric.rs`), so that the whole
 //! family is a curve over `beta`. Its bifurcations need no scan:
 //!
@@ -90,6 +94,9 @@ struct Family {
 
 impl Family {
     fn of(system: &System) -> Result<Self, OrbitError> {
+        if !system.cavity().is_ideal() {
+            return Err(OrbitError::RealCavity);
+        }
         let unit = Parameters { forcing_per_clearance: 1.0, ..system.parameters() };
         // Every other parameter has been proven valid.
         let unit = System::new(unit).map_err(|_| OrbitError::NoSteadyMotion)?;
@@ -200,7 +207,8 @@ impl SymmetricFamily {
     /// The family of `system`'s frequency, mass ratio, damping and restitution.
     ///
     /// # Errors
-    /// [`OrbitError::NoSteadyMotion`] for an undamped oscillator driven at its natural frequency.
+    /// [`OrbitError::NoSteadyMotion`] for an undamped oscillator driven at its natural frequency,
+    /// [`OrbitError::RealCavity`] for a cavity that is not ideal.
     pub fn of(system: &System) -> Result<Self, OrbitError> {
         let family = Family::of(system)?;
         let found = family.bifurcations();

@@ -26,7 +26,7 @@ struct Test {
     value: fn(&Point) -> f64,
 }
 
-fn tests(closure: Closure) -> [Test; 7] {
+fn tests(closure: Closure) -> [Test; 8] {
     let minus = match closure {
         Closure::Repeats { .. } => Bifurcation::PeriodDoubling,
         Closure::Mirrors { .. } => Bifurcation::SymmetryBreaking,
@@ -44,6 +44,10 @@ fn tests(closure: Closure) -> [Test; 7] {
         Test {
             kind: Bifurcation::VanishingImpact,
             value: |point| point.distances().slowest_impact,
+        },
+        Test {
+            kind: Bifurcation::Reversal,
+            value: |point| point.distances().slowest_slip.unwrap_or(f64::NAN),
         },
     ]
 }
@@ -66,11 +70,13 @@ pub(super) fn located(
     }
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
     // Where the branch turns back det(J - I) vanishes as well; that is the saddle-node's own. Where
-    // the absorber begins to stay on the wall the distance jumps; that is the sticking's own.
+    // the absorber begins to stay on the wall the distance jumps; that is the sticking's own. An impact
+    // that loses its speed ends the slip as well.
     let places = |kind: Bifurcation| -> Vec<f64> {
         found.iter().filter(|one| one.1.kind == kind).map(|one| one.0).collect()
     };
     let (turns, sticking) = (places(Bifurcation::SaddleNode), places(Bifurcation::Sticking));
+    let vanishing = places(Bifurcation::VanishingImpact);
     let apart = |own: &[f64], at: f64| own.iter().all(|one| (one - at).abs() > COINCIDES * step);
     found.retain(|(at, special)| {
         // A determinant passes through a pole where an impact vanishes.
@@ -80,6 +86,7 @@ pub(super) fn located(
         match special.kind {
             Bifurcation::BranchPoint => apart(&turns, *at),
             Bifurcation::Grazing => apart(&sticking, *at),
+            Bifurcation::Reversal => apart(&vanishing, *at),
             _ => true,
         }
     });

@@ -10,7 +10,7 @@ use serde::Serialize;
 use super::OrbitError;
 use super::admissibility::zeros;
 use super::flight::Motion;
-use super::impact_map::ImpactMap;
+use super::impact_map::{ImpactMap, Step};
 use super::orbit::Cycle;
 use crate::numerics::quadrature;
 use crate::operation_count;
@@ -58,8 +58,16 @@ pub struct EnergyPerPeriod {
     pub damper: f64,
     /// Lost in impacts.
     pub impact: f64,
-    /// `abs(input - damper - impact)` over the largest of the three: rounding.
+    /// Lost by friction in the cavity.
+    #[serde(skip_serializing_if = "is_none")]
+    pub friction: f64,
+    /// `abs(input - damper - impact - friction)` over the largest of the four: rounding.
     pub relative_residual: f64,
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
+fn is_none(energy: &f64) -> bool {
+    *energy == 0.0
 }
 
 /// Averages along an orbit; lengths over the clearance, fast time.
@@ -93,8 +101,9 @@ impl Measures {
         // excitation repeat.
         let harmonic = |k: usize| omega * sums[k] / (periods * PI);
         let impact = impact_loss(system, &map, cycle) / periods;
+        let friction = friction_loss(&map, cycle) / periods;
         let (input, damper) = (sums[1] / periods, sums[2] / periods);
-        let largest = input.abs().max(damper).max(impact).max(f64::MIN_POSITIVE);
+        let largest = input.abs().max(damper).max(impact).max(friction).max(f64::MIN_POSITIVE);
         Ok(Self {
             peaks: Peaks::of(&map, cycle),
             rms: (sums[0] * omega / turn).sqrt(),
@@ -104,7 +113,8 @@ impl Measures {
                 input,
                 damper,
                 impact,
-                relative_residual: (input - damper - impact).abs() / largest,
+                friction,
+                relative_residual: (input - damper - impact - friction).abs() / largest,
             },
         })
     }
@@ -120,11 +130,10 @@ fn integrals(system: &System, map: &ImpactMap, cycle: &Cycle) -> [f64; 7] {
     let panels = [PANEL / oscillating.max(damping), PANEL / oscillating];
     let mut sums = [0.0; 7];
     for leg in cycle.flights(map) {
-        let place = leg.start.x - leg.start.wall.sign();
         quadrature::graded_nodes(leg.duration, panels[0], panels[1], |s, weight| {
             operation_count::note(2 * operation_count::ELEMENTARY + 30);
             let at = leg.oscillator(s);
-            let y = place + leg.start.y_velocity * s;
+            let y = leg.absorber(s);
             let (sin, cos) = libm::sincos(leg.start.phase + omega * s);
             let force = sine * sin + cosine * cos;
             let terms = [
@@ -146,7 +155,17 @@ fn integrals(system: &System, map: &ImpactMap, cycle: &Cycle) -> [f64; 7] {
 
 /// Each impact loses `eps (1 - r^2) w'^2 / (2 (1 + eps))`.
 fn impact_loss(system: &System, map: &ImpactMap, cycle: &Cycle) -> f64 {
-    let (eps, r) = (system.mass_ratio(), system.restitution());
-    let share = 0.5 * eps * (1.0 - r) * (1.0 + r) / (1.0 + eps);
-    cycle.steps(map).iter().map(|step| share * step.approach * step.approach).sum()
+    let eps = system.mass_ratio();
+    let loss = |step: &Step| {
+        let r = map.restitution(step.next.wall);
+        let share = 0.5 * eps * (1.0 - r) * (1.0 + r) / (1.0 + eps);
+        share * step.approach * step.approach
+    };
+    cycle.steps(map).iter().map(loss).sum()
+}
+
+/// Friction takes `eps f` from all that the absorber slides.
+fn friction_loss(map: &ImpactMap, cycle: &Cycle) -> f64 {
+    let flights = cycle.flights(map);
+    flights.iter().map(|leg| leg.push() * (leg.start.wall.sign() - leg.to.sign())).sum()
 }

@@ -2,7 +2,8 @@
 //!
 //! Nothing is expanded in the mass ratio and nothing is integrated step by step. Between impacts the
 //! motion is closed form ([`flight`]); from one impact to the next it is a map with an exact Jacobian
-//! ([`ImpactMap`]). Its symmetric two-impact cycles solve one quadratic ([`symmetric_orbits`], [`equations`]); all others
+//! ([`ImpactMap`]). Its symmetric two-impact cycles solve one quadratic ([`symmetric_orbits`], [`equations`]), those of a
+//! cavity of any kind are roots of one function ([`two_impact_orbits`]); all others
 //! are found by Newton's method ([`newton`]) and followed by continuation ([`branch`]), with their
 //! bifurcations. Where the symmetric ones begin and end is [`SymmetricFamily`]; with the asymmetric ones that
 //! follow them, [`boundaries`]. Nothing here knows of the
@@ -25,6 +26,7 @@ mod orbit;
 pub mod switching;
 mod symmetric;
 mod tracer;
+mod two_impact;
 
 pub use crate::bifurcation::Bifurcation;
 pub use admissibility::{Admissibility, Narrowest};
@@ -38,6 +40,7 @@ pub use multipliers::{Leading, Multipliers};
 pub use newton::Convergence;
 pub use orbit::{Closure, Cycle, Orbit, Origin};
 pub use symmetric::{SymmetricCurve, SymmetricOrbit, attracting_orbit, symmetric_orbits};
+pub use two_impact::{TwoImpactOrbits, two_impact_orbits};
 
 /// Why an orbit is not returned.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -49,6 +52,12 @@ pub enum OrbitError {
          between impacts; add damping or change the frequency"
     )]
     NoSteadyMotion,
+    /// What was asked for is known of an ideal cavity only.
+    #[error(
+        "the symmetric orbits of a cavity and their limits are known in closed form where it is level, does not rub, and \
+         its ends are alike"
+    )]
+    RealCavity,
     /// Newton's method did not converge.
     #[error(
         "Newton's method stopped after {iterations} steps with a residual of {residual:.1e}; \

@@ -11,7 +11,7 @@ use serde::Serialize;
 use super::OrbitError;
 use super::admissibility::Admissibility;
 use super::impact_map::{ImpactMap, Step};
-use super::orbit::{Cycle, Orbit, Origin};
+use super::orbit::{Closure, Cycle, Orbit, Origin};
 use crate::system::System;
 
 /// Steps before the iteration is given up: from a good start five are enough, and one that needs
@@ -52,14 +52,13 @@ pub(super) struct Linearised {
     pub carried: Vector4<f64>,
     /// The same for a parameter's influence.
     by_parameter: Vector4<f64>,
-    /// Derivatives of forcing, frequency and restitution by the parameter.
-    weights: [f64; 3],
+    /// Derivatives of forcing, frequency, restitution and accelerations by the parameter, as [`crate::system::Parameter::derivatives`].
+    weights: [f64; 4],
 }
 
 impl Linearised {
-    /// Linearises `cycle`; `weights` are the derivatives of forcing, frequency and restitution by
-    /// the parameter.
-    pub fn of(map: &ImpactMap, cycle: &Cycle, weights: [f64; 3]) -> Self {
+    /// Linearises `cycle`; `weights` are those of [`crate::system::Parameter::derivatives`].
+    pub fn of(map: &ImpactMap, cycle: &Cycle, weights: [f64; 4]) -> Self {
         let steps = cycle.steps(map);
         let close = cycle.closure.matrix();
         let mut product = Matrix4::identity();
@@ -134,27 +133,30 @@ fn target(cycle: &Cycle, k: usize) -> Vector4<f64> {
     }
 }
 
-fn weighted(values: [f64; 3], weights: [f64; 3]) -> f64 {
+fn weighted(values: [f64; 4], weights: [f64; 4]) -> f64 {
     values.iter().zip(weights).map(|(value, weight)| value * weight).sum()
 }
 
-fn parameter_influence(step: &Step, weights: [f64; 3]) -> Vector4<f64> {
+fn parameter_influence(step: &Step, weights: [f64; 4]) -> Vector4<f64> {
     let next: Vector4<f64> =
-        (0..3).map(|k| step.next_by_parameter[k] * weights[k]).sum::<Vector4<f64>>();
+        (0..4).map(|k| step.next_by_parameter[k] * weights[k]).sum::<Vector4<f64>>();
     next - step.next_by_duration * (weighted(step.gap_by_parameter, weights) / step.approach)
 }
 
-/// Solves for the cycle near `start`.
+/// Solves for the cycle near `start`; half of one that equals its mirror image is written out in a cavity where no motion
+/// does.
 ///
 /// # Errors
 /// [`OrbitError`] when `start` is no cycle, or Newton's method does not converge.
 pub fn solve(system: &System, start: &Cycle, origin: Origin) -> Result<Orbit, OrbitError> {
-    converge(&ImpactMap::of(system)?, start)?.orbit(origin)
+    let map = ImpactMap::of(system)?;
+    let whole = (!map.cavity().is_symmetric()).then(|| start.unfolded());
+    converge(&map, whole.as_ref().unwrap_or(start))?.orbit(origin)
 }
 
 /// Newton's iteration at fixed parameters.
 pub(super) fn converge(map: &ImpactMap, start: &Cycle) -> Result<Converged, OrbitError> {
-    corrected(|_| Some((*map, [0.0; 3])), start.clone(), 0.0, &PARAMETER.into())
+    corrected(|_| Some((*map, [0.0; 4])), start.clone(), 0.0, &PARAMETER.into())
 }
 
 /// The direction of the parameter, beside the four of the first state.
@@ -184,14 +186,14 @@ impl Converged {
 
 /// Newton's iteration from `cycle` at `parameter` on the plane `normal . (dz, dp) = 0` through them, until
 /// the change is rounding, or no longer shrinks with a residual that is. `map_at` is the map at a value of
-/// the parameter, with the derivatives of forcing, frequency and restitution by it.
+/// the parameter, with those of [`crate::system::Parameter::derivatives`].
 ///
 /// # Errors
 /// [`OrbitError::NotACycle`] if `cycle` is none, [`OrbitError::Singular`] where the equations or the system
 /// do not exist, [`OrbitError::NotConverged`] after [`LARGEST_STEPS`], where numbers are no longer finite,
 /// and where a later cycle is none.
 pub(super) fn corrected(
-    map_at: impl Fn(f64) -> Option<(ImpactMap, [f64; 3])>,
+    map_at: impl Fn(f64) -> Option<(ImpactMap, [f64; 4])>,
     mut cycle: Cycle,
     mut parameter: f64,
     normal: &Vector5<f64>,
@@ -201,6 +203,10 @@ pub(super) fn corrected(
         let left = OrbitError::NotConverged { iterations, residual };
         cycle.check().map_err(|none| if iterations == 0 { none } else { left })?;
         let (map, weights) = map_at(parameter).ok_or(OrbitError::Singular)?;
+        if matches!(cycle.closure, Closure::Mirrors { .. }) && !map.cavity().is_symmetric() {
+            let reason = "the mirror image of a motion is none in a cavity that is inclined or whose ends differ";
+            return Err(OrbitError::NotACycle { reason });
+        }
         let linear = Linearised::of(&map, &cycle, weights);
         let update = linear.solve(normal, linear.carried, 0.0)?;
         residual = linear.residual / cycle.size();

@@ -63,7 +63,7 @@ pub(super) fn leave(tracer: &Tracer, value: f64, cycle: &Cycle) -> Result<Point,
     let direction =
         kernel(&(cycle.jacobian(&map) + Matrix4::identity())).ok_or(OrbitError::Singular)?;
     let along = direction.push(0.0);
-    let start = Linearised::of(&map, &doubled, [0.0; 3]).moved(&doubled, &(along * ENTRY));
+    let start = Linearised::of(&map, &doubled, [0.0; 4]).moved(&doubled, &(along * ENTRY));
     tracer.correct(start, scaled, &along, &along)
 }
 
@@ -137,13 +137,14 @@ fn inserted(tracer: &Tracer, scaled: f64, orbit: &Orbit) -> Option<Cycle> {
     let start = cycle.impacts[at.flight];
     let duration = cycle.durations[at.flight];
     let first = at.fraction * duration;
-    let there = cycle.flights(&map)[at.flight].oscillator(first);
+    let leg = cycle.flights(&map)[at.flight];
+    let there = leg.oscillator(first);
     let contact = AfterImpact {
         wall: at.wall,
         phase: start.phase + map.flight.frequency() * first,
         x: there.x,
         x_velocity: there.v,
-        y_velocity: start.y_velocity,
+        y_velocity: start.y_velocity + leg.acceleration * first,
     };
     cycle.durations[at.flight] = first;
     cycle.durations.insert(at.flight + 1, duration - first);

@@ -7,6 +7,12 @@
 //!
 //! is the slow invariant manifold (16) and its fixed points in one, at any mass ratio. Each `beta` belongs
 //! to one forcing; each forcing to at most two orbits.
+//!
+//! Friction alone leaves a cavity its mirror image, and adds constants. With `w = 4 beta/T` the absorber leaves the wall
+//! `+b` with `w + f T/4` and arrives with `-w + f T/4`; `o = eps f` is where the oscillator rests meanwhile. With
+//! `(p_1, p_2) = (Phi + I)^-1 (1, 0)` the steady motion is `X = 1 - o (1 - 2 p_1) - A beta`,
+//! `Omega V = f T/4 + 2 o p_2 - Omega D beta`: the same quadratic with other constants. An inclined cavity, and one
+//! whose ends differ, have no symmetric orbits.
 
 use nalgebra::Vector2;
 use serde::Serialize;
@@ -42,6 +48,12 @@ pub struct SymmetricCurve {
     pub gain: f64,
     /// `T/2`, half the excitation period in fast time.
     pub half_period: f64,
+    /// What friction adds to the steady motion at an impact, displacement and velocity over `Omega`.
+    #[serde(skip)]
+    shift: [f64; 2],
+    /// What it adds to both velocities after an impact.
+    #[serde(skip)]
+    kick: f64,
 }
 
 /// A symmetric 1:1 orbit. Lengths over the clearance, fast time, angles in radians.
@@ -94,9 +106,12 @@ impl SymmetricCurve {
     /// The curve of `system`.
     ///
     /// # Errors
-    /// [`OrbitError::NoSteadyMotion`] for an undamped oscillator driven at its natural frequency.
+    /// [`OrbitError::NoSteadyMotion`] for an undamped oscillator driven at its natural frequency,
+    /// [`OrbitError::RealCavity`] for one that is inclined or whose ends differ.
     pub fn of(system: &System) -> Result<Self, OrbitError> {
-        Ok(Self::with(system, &Flight::of(system)?))
+        let symmetric = system.cavity().is_symmetric();
+        let flight = Flight::of(system)?;
+        if symmetric { Ok(Self::with(system, &flight)) } else { Err(OrbitError::RealCavity) }
     }
 
     pub(super) fn with(system: &System, flight: &Flight) -> Self {
@@ -104,6 +119,10 @@ impl SymmetricCurve {
         let omega = system.frequency_ratio();
         let period = formulas::PERIOD.at([omega]);
         let [q1, q2] = flight.repeated_impulse();
+        let friction = system.cavity().friction_acceleration;
+        let (rest, kick) = (eps * friction, 0.25 * friction * period);
+        let [p1, p2] = flight.repeated_displacement();
+        let shift = [-rest * (1.0 - 2.0 * p1), (kick + 2.0 * rest * p2) / omega];
         let rebound = formulas::VELOCITY_RATIO_AFTER.at([eps, r]);
         let stiffness = formulas::STIFFNESS.at([omega]);
         let loss = formulas::LOSS.at([eps, system.damping(), omega]);
@@ -117,29 +136,47 @@ impl SymmetricCurve {
             rebound,
             gain: gain.at([eps, stiffness, loss]),
             half_period: 0.5 * period,
+            shift,
+            kick,
         }
     }
 
     /// `gamma` at which the orbit with `beta` exists.
     pub fn forcing(&self, beta: f64) -> f64 {
-        formulas::FORCING.at([beta, self.gain, self.displacement, self.velocity])
+        if self.kick == 0.0 {
+            return formulas::FORCING.at([beta, self.gain, self.displacement, self.velocity]);
+        }
+        let [x, v] = self.steady(beta);
+        libm::hypot(x, v) / self.gain
+    }
+
+    /// `X` and `V` of the orbit with `beta`.
+    fn steady(&self, beta: f64) -> [f64; 2] {
+        [
+            formulas::DISPLACEMENT.at([1.0, beta, self.displacement]) + self.shift[0],
+            formulas::VELOCITY.at([beta, self.velocity]) + self.shift[1],
+        ]
     }
 
     /// `beta` where the two orbits collide: the saddle-node.
     pub fn turning(&self) -> f64 {
-        formulas::TURNING_RATIO.at([self.displacement, self.velocity])
+        let (a, d) = (self.displacement, self.velocity);
+        if self.kick == 0.0 {
+            return formulas::TURNING_RATIO.at([a, d]);
+        }
+        (a * (1.0 + self.shift[0]) + d * self.shift[1]) / (a * a + d * d)
     }
 
-    /// Acceleration with which the wall leaves the absorber behind after an impact, at `beta`: linear
+    /// Acceleration with which the wall of an ideal cavity leaves the absorber behind after an impact, at `beta`: linear
     /// in it, as the motion at impact and the steady motion both are.
-    pub fn departure(&self, flight: &Flight, beta: f64) -> f64 {
+    pub(super) fn departure(&self, flight: &Flight, beta: f64) -> f64 {
         let omega = flight.frequency();
         omega * omega - self.departure_slope(flight) * beta
     }
 
     /// `beta` beyond which the wall does not leave the absorber behind after an impact; of
     /// consequence where the impact leaves them no relative velocity.
-    pub fn sticking(&self, flight: &Flight) -> Option<f64> {
+    pub(super) fn sticking(&self, flight: &Flight) -> Option<f64> {
         let omega = flight.frequency();
         let beta = omega * omega / self.departure_slope(flight);
         (beta > 0.0 && beta.is_finite()).then_some(beta)
@@ -158,10 +195,10 @@ impl SymmetricCurve {
         [self.displacement - 1.0, velocity]
     }
 
-    /// `k` and its rate a time `s` after the impact on the `+b` wall: the relative displacement of the
+    /// `k` and its rate in an ideal cavity a time `s` after the impact on the `+b` wall: the relative displacement of the
     /// orbit with `beta` is `w = cos(Omega s) + beta k(s)`. Both vanish with the impacts' own wall
     /// distance: `k = 0` at either end of the flight.
-    pub fn sway(&self, flight: &Flight, s: f64) -> [f64; 2] {
+    pub(super) fn sway(&self, flight: &Flight, s: f64) -> [f64; 2] {
         let omega = flight.frequency();
         let (sin, cos) = libm::sincos(omega * s);
         let free = flight.free(s) * Vector2::from(self.deviation(omega));
@@ -175,7 +212,7 @@ impl SymmetricCurve {
 
     /// `beta` above which the absorber passes a wall between impacts: the smallest at which
     /// `w = cos(Omega s) + beta k(s)` is 1 or -1 at some `s`, so that it turns there.
-    pub fn grazing(&self, flight: &Flight) -> Option<f64> {
+    pub(super) fn grazing(&self, flight: &Flight) -> Option<f64> {
         let omega = flight.frequency();
         let range = [NEXT_TO_IMPACT, 1.0 - NEXT_TO_IMPACT].map(|part| part * self.half_period);
         let pieces = (self.half_period * omega.max(1.0) * PIECES_PER_RADIAN).ceil();
@@ -196,6 +233,9 @@ impl SymmetricCurve {
     /// `beta` of the orbits at the squared linear amplitude `squared`, ascending, positive ones only.
     pub fn absorber_amplitudes(&self, squared: f64) -> Vec<f64> {
         let (a, d) = (self.displacement, self.velocity);
+        if self.kick != 0.0 {
+            return self.rubbed_amplitudes(squared);
+        }
         let discriminant = formulas::DISCRIMINANT.at([squared, a, d]);
         if discriminant.is_nan() || discriminant < 0.0 {
             return Vec::new();
@@ -212,18 +252,33 @@ impl SymmetricCurve {
         found
     }
 
+    /// The same where friction adds constants.
+    fn rubbed_amplitudes(&self, squared: f64) -> Vec<f64> {
+        let (a, d, [x, v]) = (self.displacement, self.velocity, self.steady(0.0));
+        let (square, mixed, cross) = (a * a + d * d, a * x + d * v, a * v - d * x);
+        let discriminant = square * squared - cross * cross;
+        if discriminant.is_nan() || discriminant < 0.0 {
+            return Vec::new();
+        }
+        let far = (mixed + discriminant.sqrt().copysign(mixed)) / square;
+        let mut found = vec![far, (x * x + v * v - squared) / (square * far)];
+        found.retain(|beta| beta.is_finite() && *beta > 0.0);
+        found.sort_by(f64::total_cmp);
+        found.dedup();
+        found
+    }
+
     /// The state after the impact on the `+b` wall on the orbit with `beta`.
     pub fn after_impact(&self, flight: &Flight, beta: f64) -> AfterImpact {
         let speed = formulas::SPEED.at([2.0 * self.half_period, beta]);
         let [s, c] = flight.steady();
-        let x = formulas::DISPLACEMENT.at([1.0, beta, self.displacement]);
-        let v = formulas::VELOCITY.at([beta, self.velocity]);
+        let [x, v] = self.steady(beta);
         AfterImpact {
             wall: Wall::Plus,
             phase: formulas::PHASE.at([s, c, x, v]),
             x: 1.0 - beta,
-            x_velocity: formulas::VELOCITY_AFTER.at([self.rebound, speed]),
-            y_velocity: speed,
+            x_velocity: formulas::VELOCITY_AFTER.at([self.rebound, speed]) + self.kick,
+            y_velocity: speed + self.kick,
         }
     }
 
@@ -237,12 +292,16 @@ impl SymmetricCurve {
     }
 }
 
-/// Both symmetric 1:1 orbits of a system, or one, or none; ascending in `beta`.
+/// Both symmetric 1:1 orbits of a system, or one, or none; ascending in `beta`. A cavity that is inclined, or whose ends
+/// differ, has none: [`two_impact_orbits`](super::two_impact_orbits) are what becomes of them.
 ///
 /// # Errors
 /// [`OrbitError::NoSteadyMotion`] for an undamped oscillator driven at its natural frequency.
 pub fn symmetric_orbits(system: &System) -> Result<Vec<SymmetricOrbit>, OrbitError> {
     let map = ImpactMap::of(system)?;
+    if !system.cavity().is_symmetric() {
+        return Ok(Vec::new());
+    }
     let curve = SymmetricCurve::with(system, &map.flight);
     let [s, c] = map.flight.steady();
     let found = curve.absorber_amplitudes(formulas::STEADY_SQUARE.at([1.0, s, c]));
@@ -263,7 +322,7 @@ fn symmetric_orbit(
 ) -> Option<SymmetricOrbit> {
     let cycle = curve.cycle(&map.flight, beta);
     let after = cycle.impacts[0];
-    let linear = Linearised::of(map, &cycle, [0.0; 3]);
+    let linear = Linearised::of(map, &cycle, [0.0; 4]);
     let convergence = Convergence { residual: linear.residual / cycle.size(), iterations: 0 };
     let peaks = Peaks::of(map, &cycle);
     let origin = Origin::ClosedForm;
@@ -271,13 +330,14 @@ fn symmetric_orbit(
     let orbit =
         Orbit::measured(cycle, &linear.jacobian, convergence, admissibility, origin).ok()?;
     let (eps, r) = (system.mass_ratio(), system.restitution());
+    let speed = formulas::SPEED.at([2.0 * curve.half_period, beta]);
     Some(SymmetricOrbit {
         absorber_amplitude: beta,
         impact_displacement: after.x,
         phase: after.phase,
         peaks,
-        impulse: 2.0 * eps * after.y_velocity,
-        impact_speed: formulas::IMPACT_SPEED.at([eps, r, after.y_velocity]),
+        impulse: 2.0 * eps * speed,
+        impact_speed: formulas::IMPACT_SPEED.at([eps, r, speed]),
         orbit,
     })
 }

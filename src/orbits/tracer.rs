@@ -104,8 +104,8 @@ impl<'a> Tracer<'a> {
         frequency * point.cycle().durations.iter().sum::<f64>()
     }
 
-    /// The impact map at a scaled parameter, and the derivatives of `gamma`, `Omega` and `r` by it.
-    fn map(&self, scaled: f64) -> Option<(ImpactMap, [f64; 3])> {
+    /// The impact map at a scaled parameter, and [`Parameter::derivatives`] over its scale.
+    fn map(&self, scaled: f64) -> Option<(ImpactMap, [f64; 4])> {
         let value = scaled * self.scale;
         let system = self.parameter.applied(self.base, value).ok()?;
         let weights = self.parameter.derivatives(self.base, value).map(|w| w * self.scale);
@@ -220,14 +220,15 @@ mod tests {
             frequency_ratio: 0.95,
             forcing_per_clearance: 3.0,
             excitation: Excitation::BaseDisplacement,
-            cavity: Cavity::IDEAL,
+            cavity: Cavity { friction_acceleration: 0.02, ..Cavity::IDEAL },
         })
         .expect("valid");
         for parameter in Parameter::OF_SYSTEM {
             let (value, h) = (0.8, 1e-5);
             let at = |value| {
                 let there = parameter.applied(&base, value).expect("valid");
-                [there.forcing_per_clearance(), there.frequency_ratio(), there.restitution()]
+                let scale = libm::log(there.cavity().friction_acceleration);
+                [there.forcing_per_clearance(), there.frequency_ratio(), there.restitution(), scale]
             };
             let (up, down) = (at(value + h), at(value - h));
             for (k, weight) in parameter.derivatives(&base, value).iter().enumerate() {

@@ -101,16 +101,16 @@ impl Parameter {
         }
     }
 
-    /// Derivatives of forcing `gamma`, frequency and restitution by the parameter, at `value`: what
-    /// [`Parameter::applied`] does to them.
-    pub fn derivatives(self, base: &System, value: f64) -> [f64; 3] {
+    /// Derivatives of forcing `gamma`, frequency, restitution and the logarithm of both accelerations of the
+    /// cavity by the parameter, at `value`: what [`Parameter::applied`] does to them.
+    pub fn derivatives(self, base: &System, value: f64) -> [f64; 4] {
         let gamma = base.forcing_per_clearance();
         match self {
-            Self::Clearance => [-gamma / (value * value), 0.0, 0.0],
-            Self::Frequency => [0.0, 1.0, 0.0],
-            Self::Amplitude => [gamma, 0.0, 0.0],
-            Self::Restitution => [0.0, 0.0, 1.0],
-            _ => [0.0; 3],
+            Self::Clearance => [-gamma / (value * value), 0.0, 0.0, -1.0 / value],
+            Self::Frequency => [0.0, 1.0, 0.0, 0.0],
+            Self::Amplitude => [gamma, 0.0, 0.0, 0.0],
+            Self::Restitution => [0.0, 0.0, 1.0, 0.0],
+            _ => [0.0; 4],
         }
     }
 

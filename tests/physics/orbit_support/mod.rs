@@ -2,6 +2,8 @@
 
 #![allow(dead_code, reason = "each test file uses a part")]
 
+pub mod real_cavity;
+
 use nalgebra::Matrix4;
 use vinesink::orbits::{AfterImpact, SymmetricOrbit};
 use vinesink::simulation::{Impact, ImpactLog, Simulation, Stop};
