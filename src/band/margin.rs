@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::Band;
-use crate::orbits::SymmetricFamily;
+use crate::orbits::{FullSystem, SymmetricFamily};
 
 /// Pieces in which the smallest gap is looked for before it is narrowed down. A gap is the distance to
 /// the nearest of a few smooth boundaries, so its smallest value is at an end, at a kink or in a
@@ -13,7 +13,8 @@ const PIECES: u32 = 12;
 /// a millionth of itself.
 const HALVINGS: u32 = 7;
 
-/// Distance of the clearance from the nearest end of the stretch with a stable symmetric 1:1 orbit.
+/// Distance of the clearance from the nearest end of the stretch with a stable symmetric 1:1 orbit, or, in a cavity that
+/// is not ideal, with a stable orbit of one impact on each wall.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Gap {
     /// By which share the clearance may shrink.
@@ -28,10 +29,15 @@ impl Gap {
         self.down.min(self.up)
     }
 
-    /// At a place of a band; none where no symmetric orbit attracts.
+    /// At a place of a band; none where no such orbit attracts.
     pub fn of(band: &Band, at: f64) -> Option<Self> {
-        let family = SymmetricFamily::of(&band.system(at).ok()?).ok()?;
-        let [low, high] = family.stretch_around(1.0)?.clearance;
+        let system = band.system(at).ok()?;
+        let stretch = if system.cavity().is_ideal() {
+            *SymmetricFamily::of(&system).ok()?.stretch_around(1.0)?
+        } else {
+            FullSystem::of(&system).stretch()?
+        };
+        let [low, high] = stretch.clearance;
         Some(Self { down: 1.0 - low, up: high - 1.0 })
     }
 }

@@ -61,8 +61,8 @@ fn case_values(case: &Case, study: &CaseStudy) -> Values {
 }
 
 /// The case's numbers with those of the exact symmetric orbit: of the larger attracting one, else of
-/// the last one. Symbols of an orbit have no numbers where there is none, and those of the steady
-/// motion none where there is no such motion.
+/// the last one. Symbols of an orbit have no numbers where there is none or the cavity is not ideal, and those of
+/// the steady motion none where there is no such motion.
 fn orbit_values(case: &Case, study: &CaseStudy) -> Values {
     let system = &study.analysis.system;
     let values = case_values(case, study);
@@ -72,7 +72,7 @@ fn orbit_values(case: &Case, study: &CaseStudy) -> Values {
     let [impulse, rate_plus_one] = flight.half_period_response();
     let values = values.with(Symbol::g, impulse).with(Symbol::h, rate_plus_one);
     let shown = orbits.iter().rfind(|orbit| orbit.orbit.attracts()).or_else(|| orbits.last());
-    let Some(orbit) = shown else { return values };
+    let Some(orbit) = shown.filter(|_| system.cavity().is_ideal()) else { return values };
     values
         .with(Symbol::beta, orbit.absorber_amplitude)
         .with(Symbol::B, length(case, orbit.absorber_amplitude))
