@@ -12,7 +12,7 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use vinesink::analysis::Analysis;
 use vinesink::evidence::tradeoff::by_hand::{ByHand, Locate};
 use vinesink::simulation::{Measurement, Simulation, Stop, batch};
-use vinesink::system::{State, System};
+use vinesink::system::{Cavity, Parameters, State, System};
 use vinesink_benches as common;
 
 const PERIODS: u64 = 200;
@@ -136,6 +136,34 @@ fn impacts(criterion: &mut Criterion) {
     }
 }
 
+/// Clearances in mm: chatter, several impacts per period with ends of sliding between them, two impacts.
+const RUBBING: [f64; 3] = [0.3, 2.5, 7.5];
+/// Of 0.2 degrees.
+const SINE: f64 = 0.003_490_651;
+/// Coefficients of friction: of a good slider, and of a bad one.
+const FRICTION: [f64; 2] = [0.005, 0.05];
+
+/// The engine in a cavity inclined by 0.2 degrees that rubs, beside the ideal one.
+fn real_cavity(_: &mut Criterion) {
+    for (clearance, friction) in RUBBING.into_iter().flat_map(|b| FRICTION.map(|mu| (b, mu))) {
+        let ideal = system(clearance);
+        let omega0 = common::natural_frequency();
+        let gravity = 9.80665 / (clearance * 1e-3 * omega0 * omega0);
+        let cavity = Cavity {
+            gravity_along: gravity * SINE,
+            friction_acceleration: gravity * friction,
+            restitution_difference: 0.02,
+        };
+        let real = System::new(Parameters { cavity, ..ideal.parameters() }).expect("valid");
+        println!(
+            "b = {clearance} mm, friction {friction}: time per impact over that of the ideal cavity {:.2}, with all \
+             statistics {:.2}",
+            per_impact(compare(|| engine(&ideal, PERIODS), || engine(&real, PERIODS))),
+            per_impact(compare(|| measured(&ideal, PERIODS), || measured(&real, PERIODS))),
+        );
+    }
+}
+
 fn analysis(criterion: &mut Criterion) {
     let system = system(7.5);
     let analyse = || Analysis::of(&system).expect("analysable").fixed_points.len() as u64;
@@ -158,6 +186,6 @@ criterion_group! {
         .sample_size(10)
         .warm_up_time(Duration::from_millis(300))
         .measurement_time(Duration::from_secs(1));
-    targets = impacts, analysis
+    targets = impacts, real_cavity, analysis
 }
 criterion_main!(benches);

@@ -101,6 +101,44 @@ pub fn first_crossing(curve: &impl Curve, from: f64, until: f64, band: Band) -> 
     }
 }
 
+/// The first of two curves to leave its band, the first one where both do at once, and where; each is watched from its own
+/// time on.
+pub fn first_of_two(
+    curves: &impl Fn(f64) -> [Sample; 2],
+    horizon: f64,
+    from: [f64; 2],
+    until: f64,
+    bands: [Band; 2],
+) -> (Search, usize) {
+    let mut s = from[0].min(from[1]);
+    let mut evaluations = 0;
+    loop {
+        let samples = curves(s);
+        evaluations += 1;
+        let mut step = horizon;
+        for (k, (sample, band)) in samples.iter().zip(&bands).enumerate() {
+            if s < from[k] {
+                step = step.min(from[k] - s);
+                continue;
+            }
+            let discriminant = sample.slope * sample.slope + sample.curvature_bound * band.touch;
+            if !(sample.value.is_finite() && discriminant.is_finite()) {
+                return (Search::NotFinite(s), k);
+            }
+            if let Some(edge) = left_through(sample, band) {
+                let time = corrected(s, sample, band, edge).max(from[k]);
+                return (Search::Crossed(Crossing { time, edge, evaluations }), k);
+            }
+            step = step.min(safe_step(sample, band));
+        }
+        if s >= until {
+            return (Search::Clear { evaluations }, 0);
+        }
+        let next = s + step;
+        s = if next > s { next.min(until) } else { until.min(s.next_up()) };
+    }
+}
+
 fn left_through(sample: &Sample, band: &Band) -> Option<Edge> {
     if sample.value >= band.upper && sample.slope > 0.0 {
         Some(Edge::Upper)

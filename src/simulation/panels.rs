@@ -18,8 +18,8 @@ const SHORTEST: f64 = 1e-3;
 /// Corrections of a root before the slow search takes over; from the quintic's root one suffices.
 pub(super) const CORRECTIONS: u32 = 6;
 
-/// Fast time to which the end of sliding is found: what `w'` leaves is then below rounding.
-const TURNED: f64 = 1e-15;
+/// Fast time from the end of sliding within which one more step of Newton leaves its square, which is rounding.
+const TURNED: f64 = 1e-8;
 
 /// How far flights may go on.
 #[derive(Debug, Clone, Copy)]
@@ -348,11 +348,12 @@ impl Rates<f64> {
             let at = self.moment(simd, here, time, path);
             let ahead = -at.slope / at.a;
             let sharp = slack.bend_squared(self.fastest, length) < at.a * at.a;
+            time = (time + ahead).clamp(0.0, length);
             if sharp && at.a * sense < 0.0 && ahead.abs() * self.fastest <= TURNED {
+                let at = self.moment(simd, here, time, path);
                 let (x, v) = self.oscillator(&at);
                 return Some(Landing { end: Ending::Turn, time, x, v, steady: at.steady });
             }
-            time = (time + ahead).clamp(0.0, length);
         }
         None
     }

@@ -10,7 +10,7 @@ use super::phasor::{Line, Parabola, Path};
 use super::run::{Mode, Simulation, Stop};
 use super::sliding::Sliding;
 use super::walls::{self, TOUCH_ULPS};
-use crate::numerics::crossing::{Band, Crossing, Curve, Edge, Sample, Search, first_crossing};
+use crate::numerics::crossing::{Band, Curve, Edge, Sample, Search, first_crossing, first_of_two};
 use crate::system::State;
 
 /// Distance over the clearance by which rounding may move the walls before the search gives up.
@@ -22,27 +22,25 @@ const HORIZON: f64 = 1.0;
 /// just what friction gives the absorber would else be held and released without end.
 const SHORTEST_HOLD: f64 = 1e-9;
 
+/// Which of two curves a search found to leave its band: the gap.
+const WALL: usize = 0;
+
 impl Simulation {
     /// Flies to the next impact, the next moment at which sliding ends, or the end of the period.
     pub(super) fn fly_step_by_step(&mut self, observer: &mut dyn Observer) -> Result<(), Stop> {
         self.resolves_walls()?;
         let Segment { motion, absorber, .. } = self.flown(&self.at, 0.0);
         let (touch, remaining) = (self.touch(), self.remaining());
-        let path = self.path();
-        let turns = self.turns_back(&motion, remaining)?;
-        let until = turns.map_or(remaining, |turn| turn.time);
-        let from = self.tangential_start(&motion, touch).min(until);
-        let curve = Gap { motion, path };
-        let found = first_crossing(&curve, from, until, Band { lower: -1.0, upper: 1.0, touch });
-        let (found, reverses) = match (found, turns) {
-            (Search::Clear { evaluations }, Some(turn)) => {
-                let evaluations = evaluations + turn.evaluations;
-                (Search::Crossed(Crossing { evaluations, ..turn }), true)
-            }
-            (found, _) => (found, false),
+        let curve = Gap { motion, path: self.path() };
+        let from = self.tangential_start(&motion, touch).min(remaining);
+        let band = Band { lower: -1.0, upper: 1.0, touch };
+        let (found, which) = if self.sliding.friction == 0.0 {
+            (first_crossing(&curve, from, remaining, band), WALL)
+        } else {
+            self.first_event(&curve, from, remaining, band)
         };
         match self.follow(motion, absorber, found, observer)? {
-            Some(_) if reverses => self.reverse(observer),
+            Some(_) if which != WALL => self.reverse(observer),
             Some(Edge::Upper) => self.collide(Side::Plus, observer),
             Some(Edge::Lower) => self.collide(Side::Minus, observer),
             None => {}
@@ -50,29 +48,41 @@ impl Simulation {
         Ok(())
     }
 
+    /// What comes first where the absorber rubs: a wall, or that it ceases to slide.
+    fn first_event(&self, gap: &Gap, from: f64, remaining: f64, band: Band) -> (Search, usize) {
+        let Gap { motion, path } = gap;
+        let (sense, State { x, x_velocity, y_velocity, .. }) = (self.at.sense, self.at.state);
+        let size = 1.0 + x.abs() + x_velocity.abs() + y_velocity.abs();
+        let touch = TOUCH_ULPS * f64::EPSILON * size;
+        let slips = if x_velocity == y_velocity { self.first_slip(motion, touch) } else { 0.0 };
+        // The slope is positive the way that the absorber slides.
+        let slope = Band { lower: 0.0, upper: f64::INFINITY, touch };
+        let samples = |s: f64| {
+            let at = motion.at(s);
+            let Line { y, velocity } = path.from(s).line;
+            let bounds = motion.bounds(s, at, HORIZON);
+            let speed = at.v - velocity;
+            [
+                Sample {
+                    value: at.x - y,
+                    slope: speed,
+                    curvature_bound: path.bound(bounds.acceleration),
+                },
+                Sample {
+                    value: sense * speed,
+                    slope: sense * path.bend(motion.acceleration(s, at)),
+                    curvature_bound: bounds.jerk,
+                },
+            ]
+        };
+        first_of_two(&samples, HORIZON, [from, slips.min(remaining)], remaining, [band, slope])
+    }
+
     /// The flight from here.
     fn path(&self) -> Parabola {
         let State { y, y_velocity, .. } = self.at.state;
         let line = Line { y, velocity: y_velocity };
         Parabola { line, acceleration: self.sliding.acceleration(self.at.sense) }
-    }
-
-    /// When the absorber, where it rubs, ceases to slide in a flight to come, whatever the walls are.
-    fn turns_back(&self, motion: &Motion, remaining: f64) -> Result<Option<Crossing>, Stop> {
-        if self.sliding.friction == 0.0 {
-            return Ok(None);
-        }
-        let State { x, x_velocity, y_velocity, .. } = self.at.state;
-        let speed = Slope { motion: *motion, path: self.path(), sense: self.at.sense };
-        let size = 1.0 + x.abs() + x_velocity.abs() + y_velocity.abs();
-        let touch = TOUCH_ULPS * f64::EPSILON * size;
-        let from = if x_velocity == y_velocity { self.first_slip(motion, touch) } else { 0.0 };
-        let band = Band { lower: 0.0, upper: f64::INFINITY, touch };
-        match first_crossing(&speed, from.min(remaining), remaining, band) {
-            Search::Crossed(turn) => Ok(Some(turn)),
-            Search::Clear { .. } => Ok(None),
-            Search::NotFinite(_) => Err(Stop::NotFinite),
-        }
     }
 
     /// How long a slip that begins now, without speed and maybe without acceleration, lasts at least: with a jerk `j`
@@ -225,28 +235,6 @@ impl Curve for Gap {
             value: at.x - y,
             slope: at.v - velocity,
             curvature_bound: self.path.bound(largest),
-        }
-    }
-    fn horizon(&self) -> f64 {
-        HORIZON
-    }
-}
-
-/// Its derivative, positive the way that the absorber slides.
-struct Slope {
-    motion: Motion,
-    path: Parabola,
-    sense: f64,
-}
-
-impl Curve for Slope {
-    fn sample(&self, s: f64) -> Sample {
-        let at = self.motion.at(s);
-        let bend = self.path.bend(self.motion.acceleration(s, at));
-        Sample {
-            value: self.sense * (at.v - self.path.from(s).line.velocity),
-            slope: self.sense * bend,
-            curvature_bound: self.motion.bounds(s, at, HORIZON).jerk,
         }
     }
     fn horizon(&self) -> f64 {
