@@ -47,7 +47,7 @@ pub struct Inactive {
     /// How the absorber rests.
     #[serde(skip)]
     pub rest: Rest,
-    /// A start, at excitation phase 0, that stays in this motion; of an absorber that slides one that comes to it.
+    /// A state of this motion, at excitation phase 0.
     #[serde(skip)]
     pub start: State,
 }
@@ -75,8 +75,8 @@ impl Inactive {
         let [steady, largest] = held.accelerations;
         // A transient may throw it off the wall that it rests on, where it comes to rest again.
         let settles = || {
-            let after = impacts_from(system, -a.signum(), MOST_IMPACTS);
-            steady <= a.abs() + f && after.is_some_and(|impacts| impacts[1] == 0)
+            let after = from_rest(system, -a.signum(), MOST_IMPACTS, f64::INFINITY);
+            steady <= a.abs() + f && after.is_some_and(|(impacts, _)| impacts[1] == 0)
         };
         if largest <= a.abs() + f || a != 0.0 && settles() {
             let (amplitude, start) = (held.amplitude, held.start(system));
@@ -103,9 +103,12 @@ impl Inactive {
         }
         let places =
             (0..PLACES).map(|k| (2.0 * f64::from(k) + 1.0) / f64::from(PLACES) - 1.0);
-        let stay = places.filter(|place| impacts_from(system, *place, 1) == Some([0, 0]));
-        let stay: Vec<f64> = stay.collect();
-        let start = State { y: -*stay.first()?, ..State::AT_REST };
+        // A drift `u` meets the mean friction `2 f u/(pi Omega X)`.
+        let drift = 0.5 * dry / (omega * amplitude);
+        let stay = places.filter_map(|place| from_rest(system, place, 1, drift));
+        let stay: Vec<State> =
+            stay.filter(|(impacts, _)| *impacts == [0, 0]).map(|(_, state)| state).collect();
+        let start = *stay.first()?;
         let share = stay.len() as f64 / f64::from(PLACES);
         Some(Self { amplitude, share, rest: Rest::Sliding, start })
     }
@@ -135,10 +138,10 @@ impl Inactive {
     }
 }
 
-/// Impacts of a simulation from rest, the absorber at a place `x - y`, until the transient is over, and in periods after
-/// it; none where `most` are reached.
-fn impacts_from(system: &System, place: f64, most: u64) -> Option<[u64; 2]> {
-    let decay = 0.5 * system.mass_ratio() * system.damping() * system.period();
+/// Impacts of a simulation from rest, the absorber at a place `x - y`, until the transient is over, in which a drift of the
+/// absorber fades at a rate, and in periods after it, and the state then, at phase 0; none where `most` are reached.
+fn from_rest(system: &System, place: f64, most: u64, drift: f64) -> Option<([u64; 2], State)> {
+    let decay = (0.5 * system.mass_ratio() * system.damping()).min(drift) * system.period();
     let periods = (TRANSIENT / decay).clamp(PERIODS[0], PERIODS[1]) as u64;
     let start = State { y: -place, ..State::AT_REST };
     let mut simulation = Simulation::new(system, start, 0.0).ok()?;
@@ -150,7 +153,7 @@ fn impacts_from(system: &System, place: f64, most: u64) -> Option<[u64; 2]> {
         }
         *part = simulation.impacts() - before;
     }
-    Some(impacts)
+    Some((impacts, simulation.state()))
 }
 
 /// The structure with the absorber in tow, from rest. Lengths over the clearance, fast time.

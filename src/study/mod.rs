@@ -184,12 +184,17 @@ impl CaseStudy {
         Self { band: Some(survey), ..self }
     }
 
-    /// The same with the averaged flow, and its claims about the motions that were simulated.
+    /// The same with the averaged flow, and its claims about the motions that were simulated; none where the cavity is not
+    /// ideal.
     ///
     /// # Errors
     /// [`StudyError`] where the theory cannot be carried out.
     pub fn with_averages(mut self) -> Result<Self, StudyError> {
         let system = &self.analysis.system;
+        // The curve is that of an ideal cavity.
+        if !system.cavity().is_ideal() {
+            return Ok(self);
+        }
         let averages = Averages::of(system)?.with_cycle(system);
         let found = &self.motions.attractors;
         if !averages.curve.depends_on_start {

@@ -1,7 +1,7 @@
 //! Claims of a cavity that is not ideal: the fixed points of its theory against the exact orbits, and the absorber at rest
 //! against simulation.
 
-use std::f64::consts::{FRAC_2_PI, TAU};
+use std::f64::consts::FRAC_2_PI;
 
 use super::motions::ROUNDING;
 use super::tolerance::{SAYS_NOTHING, asymptotic_error};
@@ -59,7 +59,8 @@ impl Numbers {
 pub fn fixed_points(exact: &FullSystem) -> Vec<Claim> {
     let system = &exact.system;
     let Some(found) = &exact.two_impact else { return Vec::new() };
-    let points = CavityTheory::of(system).fixed_points(&Forcing::of(system));
+    let (theory, forcing) = (CavityTheory::of(system), Forcing::of(system));
+    let points = theory.fixed_points(&forcing);
     let numbers: Vec<Numbers> = points.iter().map(Numbers::of_point).collect();
     let orbits = found.orbits.iter();
     let orbits: Vec<(&Orbit, Numbers)> =
@@ -87,21 +88,43 @@ pub fn fixed_points(exact: &FullSystem) -> Vec<Claim> {
             Reason::NearestOrbit,
             Verdict::of(agrees),
         ));
-        let pairs = nearest.map(|(_, orbit)| numbers_claims(index + 1, [own, orbit], error));
-        claims.extend(pairs.into_iter().flatten());
+        if let Some((_, orbit)) = nearest {
+            let errors = [error, error + moved(&theory, &forcing, own, error)];
+            claims.extend(numbers_claims(index + 1, [own, orbit], errors));
+        }
     }
     claims
 }
 
-fn numbers_claims(point: usize, [theory, orbit]: [&Numbers; 2], error: f64) -> [Claim; 4] {
-    let reason = Reason::NeglectedTerms { says_nothing: error > SAYS_NOTHING };
+/// By how much the phase between the impacts moves when the forcing is off by an error: next to symmetry breaking it goes
+/// with the root of the distance.
+fn moved(theory: &CavityTheory, forcing: &Forcing, own: &Numbers, error: f64) -> f64 {
+    let there = [1.0 - error, 1.0 + error].map(|factor| {
+        let forcing_per_clearance = factor * forcing.forcing_per_clearance;
+        let points = theory.fixed_points(&Forcing { forcing_per_clearance, ..*forcing });
+        let all = points.iter().map(Numbers::of_point);
+        let nearest = all.min_by(|a, b| a.distance(own).total_cmp(&b.distance(own)));
+        nearest.map_or(0.0, |one| (one.between - own.between).abs())
+    });
+    there[0].max(there[1])
+}
+
+/// `errors` of amplitudes and phase, and of the phase between the impacts.
+fn numbers_claims(point: usize, [theory, orbit]: [&Numbers; 2], errors: [f64; 2]) -> [Claim; 4] {
     [
         ("C", [theory.oscillator_amplitude, orbit.oscillator_amplitude]),
         ("B", [theory.absorber_amplitude, orbit.absorber_amplitude]),
         ("eta", [theory.eta, orbit.eta].map(wrapped)),
-        ("t_1", [theory.between, orbit.between].map(|phase| phase.min(TAU))),
+        ("t_1", [theory.between, orbit.between]),
     ]
     .map(|(symbol, values)| {
+        let between = symbol == "t_1";
+        let error = errors[usize::from(between)];
+        let says_nothing = error > SAYS_NOTHING;
+        let reason = match between {
+            true => Reason::ForcingOff { says_nothing },
+            false => Reason::NeglectedTerms { says_nothing },
+        };
         Claim::of_number(Statement::FixedPoint { point, symbol }, values, error, reason)
     })
 }
@@ -126,7 +149,7 @@ pub fn inactive(
             (0.0, tolerance, Reason::DryFriction { says_nothing: tolerance > SAYS_NOTHING })
         }
     };
-    // What slides starts from rest.
+    // What slides was simulated from rest: of the transient the square is left, 4e-11.
     let discard = window.discard.max(Transient::of(system).periods);
     let window = Window { discard, ..*window };
     let reached = Attractor::reach(system, known.start, &window)?;

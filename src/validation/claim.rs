@@ -159,6 +159,8 @@ pub enum Reason {
     NeglectedTerms { says_nothing: bool },
     /// Twice that: at a boundary two conditions meet, each with that error.
     TwoConditions { says_nothing: bool },
+    /// The neglected terms, and what a forcing that is off by as much would change.
+    ForcingOff { says_nothing: bool },
     /// Three times `eps (2 + abs(sigma) + lambda)`, of averages in place of one motion; of a modulated one more.
     Averages { says_nothing: bool, modulated: bool },
     /// A closed form of the full system: rounding.

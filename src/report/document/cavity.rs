@@ -9,7 +9,7 @@ use super::theory::rounded;
 use crate::analysis::ManifoldPoint;
 use crate::cavity::{CavityTheory, FixedPoint, Forcing};
 use crate::method::Method::{ExactOrbit, Theory};
-use crate::orbits::{FullSystem, ImpactMap, Orbit, Peaks};
+use crate::orbits::{FullSystem, ImpactMap, Orbit, SteadyOrbit};
 use crate::quantity::Quantity;
 use crate::quantity::catalogue as of;
 
@@ -61,16 +61,14 @@ fn point(scale: &Scale, point: &FixedPoint) -> Value {
 
 fn orbit(scale: &Scale, map: &ImpactMap, orbit: &Orbit) -> Value {
     let number = |kind, value| Quantity::new(kind, value, ExactOrbit);
-    let cycle = orbit.cycle.unfolded();
-    let speeds = cycle.steps(map).into_iter().map(|step| step.approach.abs());
-    let fastest = [speeds.fold(0.0, f64::max), 0.0];
-    let peak = Peaks::of(map, &orbit.cycle).displacement;
-    let period: f64 = cycle.durations.iter().sum();
+    let SteadyOrbit { orbit, peaks, impact_speed, .. } = SteadyOrbit::of(map, orbit.clone());
+    let durations = orbit.cycle.unfolded().durations;
+    let period: f64 = durations.iter().sum();
     json!({
-        "flight_share": number(&of::FLIGHT_SHARE, cycle.durations[0] / period),
-        "peak": scale.length(&of::PEAK, peak, ExactOrbit),
+        "flight_share": number(&of::FLIGHT_SHARE, durations[0] / period),
+        "peak": scale.length(&of::PEAK, peaks.displacement, ExactOrbit),
         // The larger of both.
-        "impact_speed": scale.velocity(&of::IMPACT_SPEED, fastest, ExactOrbit),
+        "impact_speed": scale.velocity(&of::IMPACT_SPEED, [impact_speed, 0.0], ExactOrbit),
         // Over a whole period.
         "multiplier": rounded(number(&of::SPECTRAL_RADIUS, orbit.radius_per_period())),
         "leading": orbit.multipliers.leading(),
