@@ -45,11 +45,7 @@ fn strength(band: &Band, at: f64) -> f64 {
         let slip = orbit.admissibility.slowest_slip.unwrap_or(f64::INFINITY);
         let least = inside.min(room).min(slip);
         // The sign is that of the proof, whatever rounding says of the numbers.
-        if orbit.attracts() {
-            least.max(f64::MIN_POSITIVE)
-        } else {
-            least.min(-f64::MIN_POSITIVE)
-        }
+        if orbit.attracts() { least.max(f64::MIN_POSITIVE) } else { least.min(-f64::MIN_POSITIVE) }
     });
     // Where orbits meet and vanish a multiplier has come to 1.
     each.max_by(f64::total_cmp).unwrap_or(-f64::MIN_POSITIVE)

@@ -101,8 +101,7 @@ impl Inactive {
         if !(amplitude > 0.0 && libm::hypot(amplitude, dry / (omega * omega)) < 1.0) {
             return None;
         }
-        let places =
-            (0..PLACES).map(|k| (2.0 * f64::from(k) + 1.0) / f64::from(PLACES) - 1.0);
+        let places = (0..PLACES).map(|k| (2.0 * f64::from(k) + 1.0) / f64::from(PLACES) - 1.0);
         // A drift `u` meets the mean friction `2 f u/(pi Omega X)`.
         let drift = 0.5 * dry / (omega * amplitude);
         let stay = places.filter_map(|place| from_rest(system, place, 1, drift));

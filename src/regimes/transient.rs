@@ -49,8 +49,7 @@ impl Transient {
     /// That of any start of a system.
     pub fn of(system: &System) -> Self {
         let decay = decay_rate(system) * system.period();
-        let orbit =
-            steady_orbit(system).map(|found| -libm::log(found.orbit.radius_per_period()));
+        let orbit = steady_orbit(system).map(|found| -libm::log(found.orbit.radius_per_period()));
         let steady = system.linear_response().map_or(1.0, |response| response.amplitude().min(1.0));
         let beside = FADED_BESIDE_STEADY - libm::log(steady.max(f64::MIN_POSITIVE));
         // Without excitation there is nothing beside which a free vibration is large.

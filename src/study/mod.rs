@@ -137,8 +137,7 @@ impl CaseStudy {
         let (analysis, exact) = (&study.analysis, &study.exact);
         let window = effort.window(system);
         let (inactive, found) = (study.inactive.as_ref(), &motions.attractors);
-        let further =
-            validation::confront_simulation(analysis, exact, inactive, found, &window)?;
+        let further = validation::confront_simulation(analysis, exact, inactive, found, &window)?;
         let confirmations = Confirmations::of(exact, &study.margins)?;
         let mut claims = study.claims;
         claims.extend(further);

@@ -245,7 +245,8 @@ impl Claim {
         tolerance: f64,
         reason: Reason,
     ) -> Self {
-        let angle = matches!(statement, Statement::FixedPoint { symbol: "eta" | "Theta" | "t_1", .. });
+        let angle =
+            matches!(statement, Statement::FixedPoint { symbol: "eta" | "Theta" | "t_1", .. });
         let (finding, difference): (fn(f64) -> Finding, _) = match angle {
             true => (Finding::Angle, wrapped(predicted - observed)),
             false => (Finding::Length, predicted / observed - 1.0),

@@ -48,11 +48,7 @@ fn begun(system: &System, after: &AfterImpact) -> Result<Simulation, StartError>
     Ok(simulation)
 }
 
-fn repeats(
-    system: &System,
-    orbit: &Orbit,
-    number: usize,
-) -> Result<Option<Claim>, StartError> {
+fn repeats(system: &System, orbit: &Orbit, number: usize) -> Result<Option<Claim>, StartError> {
     let cycle = &orbit.cycle;
     let Ok(map) = ImpactMap::of(system) else { return Ok(None) };
     let peaks = Peaks::of(&map, cycle);
@@ -71,11 +67,7 @@ fn repeats(
     Ok(Some(Claim { difference: Some(missed), tolerance, ..claim }))
 }
 
-fn shrinks(
-    system: &System,
-    orbit: &Orbit,
-    number: usize,
-) -> Result<Option<Claim>, StartError> {
+fn shrinks(system: &System, orbit: &Orbit, number: usize) -> Result<Option<Claim>, StartError> {
     let multiplier = orbit.radius_per_period();
     let needed = (libm::log(SEEN) / libm::log(multiplier).abs()).ceil();
     // Too close to a bifurcation to be seen, or too fast to be followed.

@@ -117,9 +117,8 @@ impl Headline {
 fn word(study: &CaseStudy, headline: Headline) -> Word {
     // Two impacts per period are asymmetric where the cavity is.
     let symmetric = study.analysis.system.cavity().is_symmetric();
-    let steady = |regime| {
-        regime == Regime::TwoSymmetric || !symmetric && regime == Regime::TwoAsymmetric
-    };
+    let steady =
+        |regime| regime == Regime::TwoSymmetric || !symmetric && regime == Regime::TwoAsymmetric;
     let steady = study.main_attractor().is_some_and(|main| steady(main.regime()));
     match headline {
         Headline::UnlimitedWithout if steady => Word::Works,
@@ -133,9 +132,8 @@ fn headline(study: &CaseStudy) -> Headline {
         return Headline::NothingDrives;
     }
     let bare = study.rivals.bare.1;
-    let without_simulation = || {
-        study.exact.attracting_peak().or_else(|| stable_amplitude(&study.analysis))
-    };
+    let without_simulation =
+        || study.exact.attracting_peak().or_else(|| stable_amplitude(&study.analysis));
     let Some(main) = study.main_attractor() else {
         return match without_simulation().filter(|_| !study.simulated) {
             Some(peak) if bare.is_finite() => compared(peak / bare),
