@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::{Band, Stretch};
 use crate::numerics::quadrature::nodes;
 use crate::numerics::scan::{largest, sign_changes};
-use crate::orbits::{Orbit, SteadyOrbit, steady_orbit, symmetric_orbits, two_impact_orbits};
+use crate::orbits::{SteadyOrbit, steady_orbit, steady_orbits};
 
 /// Pieces of a band in which beginnings and ends of stability are looked for. What decides it,
 /// multipliers and room between impacts, is smooth along an orbit; pairs of changes within a piece
@@ -34,12 +34,8 @@ pub fn stability(band: &Band) -> Vec<Stretch<bool>> {
 /// change their stability, touch a wall or meet one another.
 fn strength(band: &Band, at: f64) -> f64 {
     let Ok(system) = band.system(at) else { return f64::NAN };
-    let orbits: Result<Vec<Orbit>, _> = match system.cavity().is_ideal() {
-        true => symmetric_orbits(&system).map(|all| all.into_iter().map(|one| one.orbit).collect()),
-        false => two_impact_orbits(&system).map(|found| found.orbits),
-    };
-    let Ok(orbits) = orbits else { return f64::NAN };
-    let each = orbits.iter().map(|orbit| {
+    let Ok(orbits) = steady_orbits(&system) else { return f64::NAN };
+    let each = orbits.iter().map(|SteadyOrbit { orbit, .. }| {
         let inside = 1.0 - orbit.multipliers.spectral_radius();
         let room = orbit.admissibility.min_wall_distance;
         let slip = orbit.admissibility.slowest_slip.unwrap_or(f64::INFINITY);

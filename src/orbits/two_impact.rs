@@ -135,16 +135,32 @@ impl SteadyOrbit {
     }
 }
 
+impl From<SymmetricOrbit> for SteadyOrbit {
+    fn from(found: SymmetricOrbit) -> Self {
+        let SymmetricOrbit { orbit, peaks, impact_speed, .. } = found;
+        Self { orbit, peaks, impact_speed }
+    }
+}
+
 /// The orbit with two impacts per period that attracts: in an ideal cavity the symmetric one, else the first of
 /// [`two_impact_orbits`].
 pub fn steady_orbit(system: &System) -> Option<SteadyOrbit> {
     if system.cavity().is_ideal() {
-        let SymmetricOrbit { orbit, peaks, impact_speed, .. } = attracting_orbit(system)?;
-        return Some(SteadyOrbit { orbit, peaks, impact_speed });
+        return attracting_orbit(system).map(SteadyOrbit::from);
     }
-    let found = two_impact_orbits(system).ok()?.orbits;
-    let orbit = found.into_iter().find(Orbit::attracts)?;
-    Some(SteadyOrbit::of(&ImpactMap::of(system).ok()?, orbit))
+    steady_orbits(system).ok()?.into_iter().find(|one| one.orbit.attracts())
+}
+
+/// All of them, motions or not: the symmetric ones of an ideal cavity, else those of [`two_impact_orbits`].
+///
+/// # Errors
+/// As [`two_impact_orbits`].
+pub fn steady_orbits(system: &System) -> Result<Vec<SteadyOrbit>, OrbitError> {
+    if system.cavity().is_ideal() {
+        return Ok(symmetric_orbits(system)?.into_iter().map(SteadyOrbit::from).collect());
+    }
+    let (map, found) = (ImpactMap::of(system)?, two_impact_orbits(system)?.orbits);
+    Ok(found.into_iter().map(|orbit| SteadyOrbit::of(&map, orbit)).collect())
 }
 
 /// The two impacts of a system, at any time between them.

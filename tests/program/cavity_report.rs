@@ -66,7 +66,9 @@ fn analyze_prints_what_the_library_knows_of_the_cavity() {
         let system = system(keys);
         let found: Value =
             serde_json::from_str(&printed(&with(keys), &["--format", "json"])).expect("JSON");
-        let theory = CavityTheory::of(&system);
+        let Cavity { gravity_along, friction_acceleration, .. } = system.cavity();
+        let ends = system.restitutions();
+        let theory = CavityTheory::new(gravity_along, friction_acceleration, ends).expect("valid");
         let points = theory.fixed_points(&Forcing::of(&system));
         let told = &found["theory"]["cavity"];
         let number = |of: &Value, key: &str| of[key]["value"].as_f64().expect("a number");
