@@ -1,11 +1,11 @@
-//! Where along a band an exact symmetric 1:1 orbit attracts, and what it is like there.
+//! Where along a band an exact 1:1 orbit attracts, the symmetric one or that of a cavity that is not ideal, and what it is like there.
 
 use serde::Serialize;
 
 use super::{Band, Stretch};
 use crate::numerics::quadrature::nodes;
 use crate::numerics::scan::{largest, sign_changes};
-use crate::orbits::{SymmetricOrbit, attracting_orbit, symmetric_orbits};
+use crate::orbits::{SteadyOrbit, steady_orbit, steady_orbits};
 
 /// Pieces of a band in which beginnings and ends of stability are looked for. What decides it,
 /// multipliers and room between impacts, is smooth along an orbit; pairs of changes within a piece
@@ -17,11 +17,11 @@ const VALUES: u32 = 48;
 const AVERAGED: f64 = 12.0;
 
 /// The attracting orbit at a place.
-pub fn attracting(band: &Band, at: f64) -> Option<SymmetricOrbit> {
-    attracting_orbit(&band.system(at).ok()?)
+pub fn attracting(band: &Band, at: f64) -> Option<SteadyOrbit> {
+    steady_orbit(&band.system(at).ok()?)
 }
 
-/// The band, cut where an attracting symmetric orbit begins or ends.
+/// The band, cut where an attracting 1:1 orbit begins or ends.
 pub fn stability(band: &Band) -> Vec<Stretch<bool>> {
     let mut places: Vec<f64> = band.corners().collect();
     if !band.is_point() {
@@ -34,17 +34,14 @@ pub fn stability(band: &Band) -> Vec<Stretch<bool>> {
 /// change their stability, touch a wall or meet one another.
 fn strength(band: &Band, at: f64) -> f64 {
     let Ok(system) = band.system(at) else { return f64::NAN };
-    let Ok(orbits) = symmetric_orbits(&system) else { return f64::NAN };
-    let each = orbits.iter().map(|orbit| {
-        let inside = 1.0 - orbit.orbit.multipliers.spectral_radius();
-        let room = orbit.orbit.admissibility.min_wall_distance;
-        let least = inside.min(room);
+    let Ok(orbits) = steady_orbits(&system) else { return f64::NAN };
+    let each = orbits.iter().map(|SteadyOrbit { orbit, .. }| {
+        let inside = 1.0 - orbit.multipliers.spectral_radius();
+        let room = orbit.admissibility.min_wall_distance;
+        let slip = orbit.admissibility.slowest_slip.unwrap_or(f64::INFINITY);
+        let least = inside.min(room).min(slip);
         // The sign is that of the proof, whatever rounding says of the numbers.
-        if orbit.orbit.attracts() {
-            least.max(f64::MIN_POSITIVE)
-        } else {
-            least.min(-f64::MIN_POSITIVE)
-        }
+        if orbit.attracts() { least.max(f64::MIN_POSITIVE) } else { least.min(-f64::MIN_POSITIVE) }
     });
     // Where orbits meet and vanish a multiplier has come to 1.
     each.max_by(f64::total_cmp).unwrap_or(-f64::MIN_POSITIVE)
@@ -66,7 +63,7 @@ pub struct Extreme {
 pub fn largest_value(
     band: &Band,
     stability: &[Stretch<bool>],
-    value: impl Fn(f64, &SymmetricOrbit) -> f64,
+    value: impl Fn(f64, &SteadyOrbit) -> f64,
 ) -> Option<(f64, f64)> {
     let of = |at: f64| attracting(band, at).map(|orbit| value(at, &orbit));
     let stretches = stability.iter().filter(|stretch| stretch.of);
@@ -84,7 +81,7 @@ pub fn largest_value(
 pub fn extreme(
     band: &Band,
     stability: &[Stretch<bool>],
-    value: impl Fn(f64, &SymmetricOrbit) -> f64,
+    value: impl Fn(f64, &SteadyOrbit) -> f64,
 ) -> Option<Extreme> {
     let (at, largest) = largest_value(band, stability, &value)?;
     let (mut sum, mut width) = (0.0, 0.0);

@@ -44,6 +44,24 @@ pub struct Inactive {
     /// Share of the absorber's resting places from which a start from rest stays in this motion: `1 - X/b`; all where
     /// friction or a wall hold it.
     pub share: f64,
+    /// How the absorber rests.
+    #[serde(skip)]
+    pub rest: Rest,
+    /// A state of this motion, at excitation phase 0.
+    #[serde(skip)]
+    pub start: State,
+}
+
+/// How an absorber rests.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Rest {
+    /// In the middle of its cavity, nothing moves it.
+    Floating,
+    /// It goes along with the structure, held by friction or on the wall that gravity pulls it to.
+    Held,
+    /// It slides to and fro.
+    Sliding,
 }
 
 impl Inactive {
@@ -57,11 +75,12 @@ impl Inactive {
         let [steady, largest] = held.accelerations;
         // A transient may throw it off the wall that it rests on, where it comes to rest again.
         let settles = || {
-            let after = impacts_from(system, -a.signum(), MOST_IMPACTS);
-            steady <= a.abs() + f && after.is_some_and(|impacts| impacts[1] == 0)
+            let after = from_rest(system, -a.signum(), MOST_IMPACTS, f64::INFINITY);
+            steady <= a.abs() + f && after.is_some_and(|(impacts, _)| impacts[1] == 0)
         };
         if largest <= a.abs() + f || a != 0.0 && settles() {
-            return Some(Self { amplitude: held.amplitude, share: 1.0 });
+            let (amplitude, start) = (held.amplitude, held.start(system));
+            return Some(Self { amplitude, share: 1.0, rest: Rest::Held, start });
         }
         if a == 0.0 { Self::sliding(system, f) } else { None }
     }
@@ -82,12 +101,15 @@ impl Inactive {
         if !(amplitude > 0.0 && libm::hypot(amplitude, dry / (omega * omega)) < 1.0) {
             return None;
         }
-        let stay = (0..PLACES).filter(|k| {
-            let place = (2.0 * f64::from(*k) + 1.0) / f64::from(PLACES) - 1.0;
-            impacts_from(system, place, 1) == Some([0, 0])
-        });
-        let share = stay.count() as f64 / f64::from(PLACES);
-        (share > NEGLIGIBLE).then_some(Self { amplitude, share })
+        let places = (0..PLACES).map(|k| (2.0 * f64::from(k) + 1.0) / f64::from(PLACES) - 1.0);
+        // A drift `u` meets the mean friction `2 f u/(pi Omega X)`.
+        let drift = 0.5 * dry / (omega * amplitude);
+        let stay = places.filter_map(|place| from_rest(system, place, 1, drift));
+        let stay: Vec<State> =
+            stay.filter(|(impacts, _)| *impacts == [0, 0]).map(|(_, state)| state).collect();
+        let start = *stay.first()?;
+        let share = stay.len() as f64 / f64::from(PLACES);
+        Some(Self { amplitude, share, rest: Rest::Sliding, start })
     }
 
     /// That of an absorber that nothing moves but the walls.
@@ -110,14 +132,15 @@ impl Inactive {
         // Without damping the free part stays.
         let amplitude = if zeta == 0.0 { largest } else { forced.norm() };
         let share = 1.0 - largest;
-        (share > NEGLIGIBLE).then_some(Self { amplitude, share })
+        let of = Self { amplitude, share, rest: Rest::Floating, start };
+        (share > NEGLIGIBLE).then_some(of)
     }
 }
 
-/// Impacts of a simulation from rest, the absorber at a place `x - y`, until the transient is over, and in periods after
-/// it; none where `most` are reached.
-fn impacts_from(system: &System, place: f64, most: u64) -> Option<[u64; 2]> {
-    let decay = 0.5 * system.mass_ratio() * system.damping() * system.period();
+/// Impacts of a simulation from rest, the absorber at a place `x - y`, until the transient is over, in which a drift of the
+/// absorber fades at a rate, and in periods after it, and the state then, at phase 0; none where `most` are reached.
+fn from_rest(system: &System, place: f64, most: u64, drift: f64) -> Option<([u64; 2], State)> {
+    let decay = (0.5 * system.mass_ratio() * system.damping()).min(drift) * system.period();
     let periods = (TRANSIENT / decay).clamp(PERIODS[0], PERIODS[1]) as u64;
     let start = State { y: -place, ..State::AT_REST };
     let mut simulation = Simulation::new(system, start, 0.0).ok()?;
@@ -129,13 +152,15 @@ fn impacts_from(system: &System, place: f64, most: u64) -> Option<[u64; 2]> {
         }
         *part = simulation.impacts() - before;
     }
-    Some(impacts)
+    Some((impacts, simulation.state()))
 }
 
 /// The structure with the absorber in tow, from rest. Lengths over the clearance, fast time.
 struct InTow {
     /// Steady amplitude.
     amplitude: f64,
+    /// Displacement and velocity at phase 0, without that by gravity.
+    steady: [f64; 2],
     /// Of the acceleration: the steady amplitude, and a bound with the transient.
     accelerations: [f64; 2],
 }
@@ -158,7 +183,15 @@ impl InTow {
         let free = free + eps * system.cavity().gravity_along.abs();
         let [forced, free] = [steady.norm() * omega * omega, free * natural * natural];
         let largest = largest_from_rest(forced, free, decay, (ringing - omega).abs());
-        Self { amplitude: steady.norm(), accelerations: [forced, largest] }
+        Self { amplitude: steady.norm(), steady: [x, v], accelerations: [forced, largest] }
+    }
+
+    /// The steady motion at phase 0, the absorber on the wall that gravity pulls it to, or in the middle.
+    fn start(&self, system: &System) -> State {
+        let a = system.cavity().gravity_along;
+        let (x, v) = (self.steady[0] + system.mass_ratio() * a, self.steady[1]);
+        let place = if a == 0.0 { 0.0 } else { -a.signum() };
+        State { x, x_velocity: v, y: x - place, y_velocity: v }
     }
 }
 

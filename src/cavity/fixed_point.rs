@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use super::{CavityTheory, Motion};
 use crate::equations::dissipation::{DETERMINANT, FORCING_SQUARED, TRACE};
+use crate::system::System;
 
 /// What the slow flow depends on besides the cavity.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -14,6 +15,17 @@ pub struct Forcing {
     pub detuning: f64,
     /// `gamma = G/b`.
     pub forcing_per_clearance: f64,
+}
+
+impl Forcing {
+    /// That of a system.
+    pub fn of(system: &System) -> Self {
+        Self {
+            damping: system.damping(),
+            detuning: system.detuning(),
+            forcing_per_clearance: system.forcing_per_clearance(),
+        }
+    }
 }
 
 /// A steady 1:1 motion with two impacts per cycle, as the theory sees it.

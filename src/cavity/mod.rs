@@ -23,7 +23,7 @@ use crate::equations::cavity::{
     DEVIATION, FRICTION_BREAKING, FRICTION_FOLD, FRICTION_FOLD_RATIO, RATIO_DIFFERENCE, RATIO_MEAN,
 };
 use crate::equations::stated::{CURVATURE, RESTITUTION_RATIO};
-use crate::system::{InvalidParameter, check};
+use crate::system::{Cavity, InvalidParameter, System, check};
 
 pub use fixed_point::{FixedPoint, Forcing};
 pub use motion::Motion;
@@ -73,9 +73,19 @@ impl CavityTheory {
         for (name, value) in ["first restitution", "second restitution"].iter().zip(restitutions) {
             check(name, value, (0.0..=1.0).contains(&value), "a number from 0 to 1")?;
         }
+        Ok(Self::valid(acceleration, friction, restitutions))
+    }
+
+    /// The cavity of a system.
+    pub fn of(system: &System) -> Self {
+        let Cavity { gravity_along, friction_acceleration, .. } = system.cavity();
+        Self::valid(gravity_along, friction_acceleration, system.restitutions())
+    }
+
+    fn valid(acceleration: f64, friction: f64, restitutions: [f64; 2]) -> Self {
         let at_ends = restitutions.map(|one| RESTITUTION_RATIO.at([one]));
         let ratios = [RATIO_MEAN.at(at_ends), RATIO_DIFFERENCE.at(at_ends)];
-        Ok(Self { acceleration, friction, restitutions, ratios })
+        Self { acceleration, friction, restitutions, ratios }
     }
 
     /// `a`, the absorber's acceleration along the cavity over `b omega0^2`: `g sin(tilt)`.

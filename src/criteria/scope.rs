@@ -5,7 +5,7 @@ use crate::band::exact::{self, attracting};
 use crate::band::{Inactive, Motions, Survey, inactive, theory};
 use crate::case::{Criterion, Scales, Subject};
 use crate::method::Method;
-use crate::orbits::{Measures, SymmetricOrbit};
+use crate::orbits::{Measures, SteadyOrbit};
 use crate::system::System;
 use crate::validation::tolerance::asymptotic_error;
 
@@ -105,14 +105,14 @@ impl Scope<'_> {
     /// The worst of the attracting orbit, wherever there is one.
     fn worst_orbit(&self, criterion: &Criterion) -> Option<Judged> {
         let Motions { band, stability, orbit, .. } = &self.survey.motions;
-        let value = |at: f64, orbit: &SymmetricOrbit| {
+        let value = |at: f64, orbit: &SteadyOrbit| {
             let system = band.system(at).ok()?;
             self.of_motion(criterion, &seen(&system, orbit, criterion.subject)?)
         };
         let at = if criterion.is_against_displacement() {
             orbit.as_ref()?.at
         } else {
-            let loss = |at: f64, orbit: &SymmetricOrbit| {
+            let loss = |at: f64, orbit: &SteadyOrbit| {
                 value(at, orbit).map_or(f64::NEG_INFINITY, |[found, _]| -criterion.room(found))
             };
             exact::largest_value(band, stability, loss)?.0
@@ -163,7 +163,7 @@ impl Scope<'_> {
 
 /// What a criterion needs of an orbit; the average only where it is asked for, as it takes as long as
 /// the orbit itself.
-fn seen(system: &System, orbit: &SymmetricOrbit, subject: Subject) -> Option<Seen> {
+fn seen(system: &System, orbit: &SteadyOrbit, subject: Subject) -> Option<Seen> {
     let rms = match subject {
         Subject::RmsDisplacement => Measures::of(system, &orbit.orbit.cycle).ok()?.rms,
         _ => f64::NAN,

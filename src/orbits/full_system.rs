@@ -5,7 +5,9 @@ use serde::Serialize;
 
 use super::boundaries::Boundaries;
 use super::branch::{Direction, Settings, SpecialPoint, follow};
+use super::impact_map::ImpactMap;
 use super::limits::{Limit, StableStretch};
+use super::measures::Peaks;
 use super::orbit::Orbit;
 use super::symmetric::{SymmetricOrbit, attracting_orbit, symmetric_orbits};
 use super::two_impact::{TwoImpactOrbits, two_impact_orbits};
@@ -63,13 +65,24 @@ impl FullSystem {
         self.orbits.iter().find(|orbit| orbit.orbit.attracts())
     }
 
+    /// Its orbits with two impacts per period: the symmetric ones, or all that a cavity that is not ideal has.
+    pub fn two_impact_orbits(&self) -> Vec<&Orbit> {
+        match &self.two_impact {
+            Some(found) => found.orbits.iter().collect(),
+            None => self.orbits.iter().map(|one| &one.orbit).collect(),
+        }
+    }
+
     /// The orbit with two impacts per period that attracts: the symmetric one, or what a cavity that is not ideal has
     /// instead.
     pub fn attracting_orbit(&self) -> Option<&Orbit> {
-        match &self.two_impact {
-            Some(found) => found.orbits.iter().find(|orbit| orbit.attracts()),
-            None => Some(&self.attracting()?.orbit),
-        }
+        self.two_impact_orbits().into_iter().find(|orbit| orbit.attracts())
+    }
+
+    /// Peak displacement of the oscillator on that orbit, over the clearance.
+    pub fn attracting_peak(&self) -> Option<f64> {
+        let map = ImpactMap::of(&self.system).ok()?;
+        Some(Peaks::of(&map, &self.attracting_orbit()?.cycle).displacement)
     }
 
     /// The stretch of clearances, over the system's own, in which the attracting orbit of this

@@ -40,7 +40,9 @@ pub use multipliers::{Leading, Multipliers};
 pub use newton::Convergence;
 pub use orbit::{Closure, Cycle, Orbit, Origin};
 pub use symmetric::{SymmetricCurve, SymmetricOrbit, attracting_orbit, symmetric_orbits};
-pub use two_impact::{TwoImpactOrbits, two_impact_orbits};
+pub use two_impact::{
+    SteadyOrbit, TwoImpactOrbits, steady_orbit, steady_orbits, two_impact_orbits,
+};
 
 /// Why an orbit is not returned.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

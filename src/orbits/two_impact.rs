@@ -31,9 +31,10 @@ use serde::Serialize;
 
 use super::OrbitError;
 use super::impact_map::{AfterImpact, ImpactMap, Wall};
+use super::measures::Peaks;
 use super::newton::converge;
 use super::orbit::{Closure, Cycle, Orbit, Origin};
-use super::symmetric::symmetric_orbits;
+use super::symmetric::{SymmetricOrbit, attracting_orbit, symmetric_orbits};
 use crate::numerics::bracket::bisected;
 use crate::numerics::polynomial::through;
 use crate::numerics::scan::places;
@@ -111,6 +112,55 @@ pub fn two_impact_orbits(system: &System) -> Result<TwoImpactOrbits, OrbitError>
     orbits.sort_by(|a, b| a.cycle.durations[0].total_cmp(&b.cycle.durations[0]));
     let undecided = undecided.iter().map(|piece| piece.map(|s| 0.5 * pair.period + s)).collect();
     Ok(TwoImpactOrbits { orbits, undecided })
+}
+
+/// An orbit with two impacts per period, with what a design asks of it; lengths over the clearance, fast time.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct SteadyOrbit {
+    /// The orbit.
+    pub orbit: Orbit,
+    /// Largest displacement and velocity of the oscillator.
+    pub peaks: Peaks,
+    /// Relative speed at which the walls are met, the larger of both.
+    pub impact_speed: f64,
+}
+
+impl SteadyOrbit {
+    /// An orbit, measured.
+    pub fn of(map: &ImpactMap, orbit: Orbit) -> Self {
+        let steps = orbit.cycle.steps(map);
+        let impact_speed = steps.iter().map(|step| step.approach.abs()).fold(0.0, f64::max);
+        Self { peaks: Peaks::of(map, &orbit.cycle), impact_speed, orbit }
+    }
+}
+
+impl From<SymmetricOrbit> for SteadyOrbit {
+    fn from(found: SymmetricOrbit) -> Self {
+        let SymmetricOrbit { orbit, peaks, impact_speed, .. } = found;
+        Self { orbit, peaks, impact_speed }
+    }
+}
+
+/// The orbit with two impacts per period that attracts: in an ideal cavity the symmetric one, else the first of
+/// [`two_impact_orbits`].
+pub fn steady_orbit(system: &System) -> Option<SteadyOrbit> {
+    if system.cavity().is_ideal() {
+        return attracting_orbit(system).map(SteadyOrbit::from);
+    }
+    steady_orbits(system).ok()?.into_iter().find(|one| one.orbit.attracts())
+}
+
+/// All of them, motions or not: the symmetric ones of an ideal cavity, else those of [`two_impact_orbits`].
+///
+/// # Errors
+/// As [`two_impact_orbits`].
+pub fn steady_orbits(system: &System) -> Result<Vec<SteadyOrbit>, OrbitError> {
+    if system.cavity().is_ideal() {
+        return Ok(symmetric_orbits(system)?.into_iter().map(SteadyOrbit::from).collect());
+    }
+    let (map, found) = (ImpactMap::of(system)?, two_impact_orbits(system)?.orbits);
+    Ok(found.into_iter().map(|orbit| SteadyOrbit::of(&map, orbit)).collect())
 }
 
 /// The two impacts of a system, at any time between them.

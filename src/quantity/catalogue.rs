@@ -158,6 +158,7 @@ catalogue! {
     ABOVE_COLLISION = "above_collision", "", "distance of the forcing above the collision of the fixed points", Share, Significant(2), Interval;
     IMPACT_DISPLACEMENT = "impact_displacement", "", "displacement at impact", Length, Significant(4), Interval;
     IMPACT_PHASE = "impact_phase", "", "phase of the impact", Angle, Decimals(3), Interval;
+    FLIGHT_SHARE = "flight_share", "", "share of the period from the impact at +b to that at −b", Share, Significant(4), Interval;
     SPECTRAL_RADIUS = "spectral_radius", "", "largest multiplier", Number, Significant(4), Interval;
     BOUNDARY = "boundary_clearance", "b", "clearance at the boundary", Length, Significant(4), Interval;
     THEORY_ERROR = "theory_error", "", "error of theory", Change, Significant(2), Interval;

@@ -8,7 +8,7 @@
 
 use serde::Serialize;
 
-use crate::orbits::attracting_orbit;
+use crate::orbits::steady_orbit;
 use crate::system::{State, System};
 
 /// E-folds that are left out: of a free vibration as large as the motion that remains, 6e-6 is then left.
@@ -49,8 +49,7 @@ impl Transient {
     /// That of any start of a system.
     pub fn of(system: &System) -> Self {
         let decay = decay_rate(system) * system.period();
-        let orbit =
-            attracting_orbit(system).map(|found| -libm::log(found.orbit.radius_per_period()));
+        let orbit = steady_orbit(system).map(|found| -libm::log(found.orbit.radius_per_period()));
         let steady = system.linear_response().map_or(1.0, |response| response.amplitude().min(1.0));
         let beside = FADED_BESIDE_STEADY - libm::log(steady.max(f64::MIN_POSITIVE));
         // Without excitation there is nothing beside which a free vibration is large.

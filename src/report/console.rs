@@ -16,6 +16,7 @@ use super::render::RenderError;
 use super::template;
 use crate::analysis::{Analysis, ManifoldPoint};
 use crate::case::Case;
+use crate::cavity::{CavityTheory, Forcing};
 use crate::method::Method::{ExactOrbit, Simulation, Theory};
 use crate::orbits::{FullSystem, SymmetricOrbit};
 use crate::quantity::catalogue as of;
@@ -117,6 +118,15 @@ impl Analysed<'_> {
             "theory": self.theory(),
             "exact": exact,
         });
+        if !system.cavity().is_ideal() {
+            let theory = CavityTheory::of(system);
+            document["cavity"] = json!({
+                "theory": theory,
+                "fixed_points": theory.fixed_points(&Forcing::of(system)),
+                "fold": theory.fold(),
+                "symmetry_breaking": theory.symmetry_breaking(),
+            });
+        }
         if !system.cavity().is_ideal()
             && let (Value::Object(cavity), Some(reduced)) =
                 (json!(system.cavity()), document["reduced"].as_object_mut())

@@ -8,9 +8,10 @@ use serde::Serialize;
 use super::{Averages, Proof, StudyError};
 use crate::analysis::motion::root_mean_square;
 use crate::analysis::{FixedPoint, Manifold, fixed_points};
+use crate::cavity::{CavityTheory, Forcing};
 use crate::dissipation::SteadyState;
 use crate::numerics::scatter::twice_standard_error;
-use crate::orbits::{Measures, attracting_orbit};
+use crate::orbits::{Closure, Measures, steady_orbit};
 use crate::regimes::{Regime, classify};
 use crate::simulation::{ImpactLog, Measurement, Simulation, Stop};
 use crate::system::System;
@@ -44,10 +45,12 @@ pub struct Answer {
 pub enum WhyNot {
     /// The theory has no stable fixed point, so no steady amplitude.
     NoStablePoint,
-    /// No symmetric orbit is stable and admissible.
+    /// No orbit with two impacts per period is stable and admissible.
     NoStableOrbit,
     /// The averaged flow has no stable amplitude with impacts, or none that is followed.
     NoStableAmplitude,
+    /// The averaged flow is that of an ideal cavity.
+    RealCavity,
     /// The slow flow has no stable branch to begin on.
     NoMiddle,
     /// The slow flow settles beyond symmetry breaking, where the branch is unstable.
@@ -126,6 +129,9 @@ pub const IMPACT_LIMIT: u64 = 10_000_000;
 /// # Errors
 /// [`StudyError::Analysis`] where the theory cannot be evaluated.
 pub fn closed_form(system: &System) -> Result<Answer, StudyError> {
+    if !system.cavity().is_ideal() {
+        return Ok(closed_form_of_cavity(system));
+    }
     let manifold = Manifold::of(system.restitution());
     let points = fixed_points::solve(system, &manifold)?;
     let stable = points.iter().rfind(|point| point.stable && point.admissible);
@@ -137,12 +143,33 @@ pub fn closed_form(system: &System) -> Result<Answer, StudyError> {
         .map_or_else(|| Answer::none(WhyNot::NoStablePoint), |point| Answer::steady(rms(point))))
 }
 
+/// The same by the theory of a cavity that is not ideal: the first harmonic of `v - eps y`.
+fn closed_form_of_cavity(system: &System) -> Answer {
+    let theory = CavityTheory::of(system);
+    let points = theory.fixed_points(&Forcing::of(system));
+    let Some(point) = points.iter().rfind(|point| point.stable) else {
+        return Answer::none(WhyNot::NoStablePoint);
+    };
+    let (eps, motion) = (system.mass_ratio(), &point.motion);
+    let sine = motion.oscillator_amplitude + eps * motion.reactance;
+    let regime = match theory.is_symmetric() && motion.deviation == 0.0 {
+        true => Regime::TwoSymmetric,
+        false => Regime::TwoAsymmetric,
+    };
+    let rms = libm::hypot(sine, eps * motion.resistance) * FRAC_1_SQRT_2;
+    Answer { regime: Some(regime), ..Answer::steady(rms) }
+}
+
 /// That of the averaged flow's largest stable amplitude with impacts, in any regime: the first harmonic of `v - eps y`; or
 /// else of its modulated cycle, whose scatter is what is not known of the averages between captures.
 ///
 /// # Errors
 /// [`StudyError::Analysis`] where the theory cannot be evaluated.
 pub fn averaged_flow(system: &System) -> Result<Answer, StudyError> {
+    // The curve is that of an ideal cavity.
+    if !system.cavity().is_ideal() {
+        return Ok(Answer::none(WhyNot::RealCavity));
+    }
     let averages = Averages::of(system)?;
     let Averages { curve, states, .. } = &averages;
     let moving = |state: &&SteadyState| state.stable && state.regime != Regime::AtRest;
@@ -174,11 +201,16 @@ pub fn averaged_flow(system: &System) -> Result<Answer, StudyError> {
     Ok(cycle.unwrap_or_else(|| Answer::none(WhyNot::NoStableAmplitude)))
 }
 
-/// That of the exact symmetric orbit that attracts, to [`ORBIT_ROUNDING`].
+/// That of the exact orbit with two impacts per period that attracts, to [`ORBIT_ROUNDING`].
 pub fn symmetric_orbit(system: &System) -> Answer {
-    let measures =
-        attracting_orbit(system).and_then(|found| Measures::of(system, &found.orbit.cycle).ok());
-    measures.map_or_else(|| Answer::none(WhyNot::NoStableOrbit), |found| Answer::steady(found.rms))
+    let answer = || {
+        let cycle = steady_orbit(system)?.orbit.cycle;
+        let answer = Answer::steady(Measures::of(system, &cycle).ok()?.rms);
+        let symmetric = matches!(cycle.closure, Closure::Mirrors { .. });
+        let regime = if symmetric { Regime::TwoSymmetric } else { Regime::TwoAsymmetric };
+        Some(Answer { regime: Some(regime), ..answer })
+    };
+    answer().unwrap_or_else(|| Answer::none(WhyNot::NoStableOrbit))
 }
 
 /// The averages of so many periods from here, with their scatter between blocks.

@@ -192,7 +192,10 @@ impl Plan {
                 "the exact orbit or simulation may have one",
             ),
             Method::AveragedFlow => {
-                let why = "the averaged flow has no stable amplitude with impacts";
+                let why = match self.system.cavity().is_ideal() {
+                    true => "the averaged flow has no stable amplitude with impacts",
+                    false => "the averaged flow is that of an ideal cavity",
+                };
                 let (answer, _) = self.averaged_flow.as_ref().ok_or(StudyError::NoMotion)?;
                 (answer, why, "simulation has one")
             }

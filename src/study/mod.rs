@@ -136,8 +136,8 @@ impl CaseStudy {
         let motions = long_term_motions(&study.analysis, &effort, progress)?;
         let (analysis, exact) = (&study.analysis, &study.exact);
         let window = effort.window(system);
-        let further =
-            validation::confront_simulation(analysis, exact, &motions.attractors, &window)?;
+        let (inactive, found) = (study.inactive.as_ref(), &motions.attractors);
+        let further = validation::confront_simulation(analysis, exact, inactive, found, &window)?;
         let confirmations = Confirmations::of(exact, &study.margins)?;
         let mut claims = study.claims;
         claims.extend(further);
@@ -183,12 +183,17 @@ impl CaseStudy {
         Self { band: Some(survey), ..self }
     }
 
-    /// The same with the averaged flow, and its claims about the motions that were simulated.
+    /// The same with the averaged flow, and its claims about the motions that were simulated; none where the cavity is not
+    /// ideal.
     ///
     /// # Errors
     /// [`StudyError`] where the theory cannot be carried out.
     pub fn with_averages(mut self) -> Result<Self, StudyError> {
         let system = &self.analysis.system;
+        // The curve is that of an ideal cavity.
+        if !system.cavity().is_ideal() {
+            return Ok(self);
+        }
         let averages = Averages::of(system)?.with_cycle(system);
         let found = &self.motions.attractors;
         if !averages.curve.depends_on_start {

@@ -5,7 +5,7 @@ use std::cell::OnceCell;
 
 use super::Point;
 use crate::analysis::{FixedPointCurve, Manifold, Zone, fixed_points};
-use crate::orbits::{SymmetricOrbit, attracting_orbit};
+use crate::orbits::{SteadyOrbit, steady_orbit};
 use crate::regimes::Motion;
 use crate::system::System;
 
@@ -14,7 +14,7 @@ pub(super) struct Facts<'a> {
     pub point: &'a Point,
     /// What simulation finds: from several starts; or followed upwards and downwards.
     pub found: Vec<Found>,
-    orbit: OnceCell<Option<SymmetricOrbit>>,
+    orbit: OnceCell<Option<SteadyOrbit>>,
 }
 
 /// What simulation finds, from several starts or in one direction.
@@ -84,9 +84,9 @@ impl<'a> Facts<'a> {
         self.point.system.as_ref().and_then(System::linear_response).map(|found| found.amplitude())
     }
 
-    /// The exact symmetric orbit that attracts.
-    pub fn orbit(&self) -> Option<&SymmetricOrbit> {
-        let solved = || self.point.system.as_ref().and_then(attracting_orbit);
+    /// The exact 1:1 orbit that attracts.
+    pub fn orbit(&self) -> Option<&SteadyOrbit> {
+        let solved = || self.point.system.as_ref().and_then(steady_orbit);
         self.orbit.get_or_init(solved).as_ref()
     }
 }

@@ -9,7 +9,7 @@ use super::{counted, places};
 use crate::band::rivals::{TunedMassDamper, bare_amplitude};
 use crate::case::{Case, Scales};
 use crate::executor::{Executor, map};
-use crate::orbits::attracting_orbit;
+use crate::orbits::steady_orbit;
 use crate::simulation::StartError;
 use crate::system::{State, System};
 
@@ -181,7 +181,7 @@ fn steady(system: &System, scales: &Scales, sweep: &SineSweep) -> Vec<[f64; 3]> 
         let part = f64::from(k) / f64::from(PLACES);
         let ratio = scales.frequency_ratio(sweep.from + part * (sweep.to - sweep.from));
         let there = system.with_frequency_ratio(ratio).ok()?;
-        let orbit = attracting_orbit(&there).map_or(f64::NAN, |orbit| orbit.peaks.displacement);
+        let orbit = steady_orbit(&there).map_or(f64::NAN, |orbit| orbit.peaks.displacement);
         Some([ratio, bare_amplitude(&there), orbit])
     };
     (0..=PLACES).filter_map(place).collect()

@@ -14,7 +14,7 @@ pub struct Predicted {
     /// Oscillations since the start, and the amplitude over the clearance, falling.
     pub path: Vec<[f64; 2]>,
     /// Oscillations until the amplitude is at the level; infinite where nothing takes the energy, none from beyond
-    /// [`Predicted::LARGEST`].
+    /// [`Predicted::LARGEST`] and in a cavity that is not ideal.
     pub oscillations: Option<f64>,
     /// The amplitude at which capture ends, over the clearance: below it impacts are few.
     pub residual: f64,
@@ -43,6 +43,10 @@ impl Predicted {
 
     /// The decay from an amplitude down to a level, both over the clearance.
     pub fn of(system: &System, from: f64, level: f64) -> Self {
+        // Neither theory knows of gravity, friction and ends that differ.
+        if !system.cavity().is_ideal() {
+            return Self::none(system);
+        }
         let decay = FreeDecay::of(system);
         let residual = decay.residual_amplitude();
         let closed = from <= decay.largest_amplitude() && level >= residual || from <= residual;

@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::tolerance::SAYS_NOTHING;
 use crate::analysis::motion::wrapped;
 use crate::analysis::{Area, Strip};
+use crate::band::inactive::Rest;
 use crate::method::Method;
 use crate::orbits::Bifurcation;
 use crate::regimes::Regime;
@@ -43,6 +44,8 @@ pub enum Statement {
     Averaged { motion: usize, regime: Regime },
     /// The absorber rests, and the oscillator vibrates as if alone.
     Rest,
+    /// The absorber of a cavity that is not ideal rests, and the oscillator vibrates accordingly.
+    Inactive { absorber: Rest },
     /// Where the case lies.
     Area { area: Area, strip: Option<Strip> },
     /// An exact orbit repeats after one period.
@@ -63,6 +66,7 @@ impl Statement {
             Self::Boundary { bifurcation } => format!("boundary-{}", key(bifurcation)),
             Self::Averaged { motion, .. } => format!("averaged-motion-{motion}"),
             Self::Rest => "rest".into(),
+            Self::Inactive { .. } => "inactive".into(),
             Self::Area { .. } => "area".into(),
             Self::Repeats { orbit } => format!("orbit-{orbit}-repeats"),
             Self::Disturbance { orbit, .. } => format!("orbit-{orbit}-stability"),
@@ -155,10 +159,14 @@ pub enum Reason {
     NeglectedTerms { says_nothing: bool },
     /// Twice that: at a boundary two conditions meet, each with that error.
     TwoConditions { says_nothing: bool },
+    /// The neglected terms, and what a forcing that is off by as much would change.
+    ForcingOff { says_nothing: bool },
     /// Three times `eps (2 + abs(sigma) + lambda)`, of averages in place of one motion; of a modulated one more.
     Averages { says_nothing: bool, modulated: bool },
     /// A closed form of the full system: rounding.
     Rounding,
+    /// Dry friction at first order: the square of `4 f/(pi Omega^2 X)`, the absorber's amplitude over the structure's.
+    DryFriction { says_nothing: bool },
     /// A part of the motion's size, times the growth of a disturbance in a period.
     Growth,
     /// A disturbance is followed until it should change a hundredfold.
@@ -237,7 +245,8 @@ impl Claim {
         tolerance: f64,
         reason: Reason,
     ) -> Self {
-        let angle = matches!(statement, Statement::FixedPoint { symbol: "eta" | "Theta", .. });
+        let angle =
+            matches!(statement, Statement::FixedPoint { symbol: "eta" | "Theta" | "t_1", .. });
         let (finding, difference): (fn(f64) -> Finding, _) = match angle {
             true => (Finding::Angle, wrapped(predicted - observed)),
             false => (Finding::Length, predicted / observed - 1.0),

@@ -90,7 +90,7 @@ fn amplitudes(
 }
 
 /// Relative error of a closed form of the full system, which only rounding separates from simulation.
-const ROUNDING: f64 = 1e-9;
+pub(super) const ROUNDING: f64 = 1e-9;
 
 /// Rest is a motion of the full system exactly where the bare oscillator's amplitude is below the
 /// clearance.

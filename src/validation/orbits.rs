@@ -5,7 +5,7 @@
 //! its disturbance shrink.
 
 use super::{Claim, Finding, Reached, Reason, Statement, Verdict};
-use crate::orbits::{AfterImpact, Bifurcation, FullSystem, Limit, SymmetricOrbit};
+use crate::orbits::{AfterImpact, Bifurcation, FullSystem, ImpactMap, Limit, Orbit, Peaks};
 use crate::regimes::{AbsorberAmplitude, Attractor, Window};
 use crate::simulation::{Simulation, StartError};
 use crate::system::System;
@@ -26,16 +26,16 @@ const SMALL: f64 = 1e-3;
 /// Long enough to leave an orbit one percent beyond its limit.
 const WINDOW: Window = Window { discard: 4000, periods: 100, impact_limit: 100_000 };
 
-/// For each admissible symmetric orbit: a simulation started on it repeats, and a small disturbance
+/// For each admissible orbit with two impacts per period: a simulation started on it repeats, and a small disturbance
 /// shrinks or grows as its multipliers say.
 pub fn simulated(exact: &FullSystem) -> Result<Vec<Claim>, StartError> {
     let mut claims = Vec::new();
-    for (index, orbit) in exact.orbits.iter().enumerate() {
-        if !orbit.orbit.admissibility.admissible {
+    for (index, orbit) in exact.two_impact_orbits().into_iter().enumerate() {
+        if !orbit.admissibility.admissible {
             continue;
         }
         let number = index + 1;
-        claims.push(repeats(&exact.system, orbit, number)?);
+        claims.extend(repeats(&exact.system, orbit, number)?);
         claims.extend(shrinks(&exact.system, orbit, number)?);
     }
     Ok(claims)
@@ -48,37 +48,34 @@ fn begun(system: &System, after: &AfterImpact) -> Result<Simulation, StartError>
     Ok(simulation)
 }
 
-fn repeats(system: &System, orbit: &SymmetricOrbit, number: usize) -> Result<Claim, StartError> {
-    let cycle = &orbit.orbit.cycle;
+fn repeats(system: &System, orbit: &Orbit, number: usize) -> Result<Option<Claim>, StartError> {
+    let cycle = &orbit.cycle;
+    let Ok(map) = ImpactMap::of(system) else { return Ok(None) };
+    let peaks = Peaks::of(&map, cycle);
     let mut simulation = begun(system, &cycle.impacts[0])?;
     let before = simulation.state();
     simulation.run(1, u64::MAX, &mut ());
-    let size = 1.0 + orbit.peaks.displacement + orbit.peaks.velocity;
+    let size = 1.0 + peaks.displacement + peaks.velocity;
     let missed = before.distance(&simulation.state()) / size;
-    let tolerance = CLOSES * orbit.orbit.radius_per_period().max(1.0);
+    let tolerance = CLOSES * orbit.radius_per_period().max(1.0);
     let claim = Claim::of_outcome(
         Statement::Repeats { orbit: number },
         [Finding::Repeats, Finding::Misses { by: missed }],
         Reason::Growth,
         Verdict::of(missed <= tolerance),
     );
-    Ok(Claim { difference: Some(missed), tolerance, ..claim })
+    Ok(Some(Claim { difference: Some(missed), tolerance, ..claim }))
 }
 
-fn shrinks(
-    system: &System,
-    orbit: &SymmetricOrbit,
-    number: usize,
-) -> Result<Option<Claim>, StartError> {
-    let multiplier = orbit.orbit.radius_per_period();
+fn shrinks(system: &System, orbit: &Orbit, number: usize) -> Result<Option<Claim>, StartError> {
+    let multiplier = orbit.radius_per_period();
     let needed = (libm::log(SEEN) / libm::log(multiplier).abs()).ceil();
     // Too close to a bifurcation to be seen, or too fast to be followed.
     if !(1.0..=LONGEST).contains(&needed) {
         return Ok(None);
     }
     let dies_out = multiplier < 1.0;
-    let cycle = &orbit.orbit.cycle;
-    let after = cycle.impacts[0];
+    let after = orbit.cycle.impacts[0];
     let disturbed = AfterImpact { y_velocity: after.y_velocity * (1.0 + DISTURBANCE), ..after };
     let mut reference = begun(system, &after)?;
     let mut simulation = begun(system, &disturbed)?;

@@ -201,6 +201,23 @@ fn reports_say_what_the_cavity_is() {
     assert!(
         !page.contains("no friction") && old.contains("The model has no friction and no gravity")
     );
+    // Theory, orbits and claims are of this cavity; those of an ideal one are said to be.
+    for line in [
+        "those of an ideal cavity with the mean restitution; in it the case would lie in area Z3.",
+        "Fixed points of the slow flow by the theory of this cavity",
+        "stable for clearances from 4.592 mm (slip reversal) to 16.44 mm (saddle-node)",
+        "14 of 14 claims",
+        "would, with an ideal cavity, lie in Z3",
+    ] {
+        assert!(page.contains(line), "{line} is not in {page}");
+        assert!(!old.contains(line), "{line}");
+    }
+    assert!(old.contains("The case lies in area Z3") && !page.contains("The case lies in area"));
+    let captions = page.lines().filter(|line| line.starts_with("**") && line.contains(".** "));
+    for caption in captions {
+        let said = caption.split_once(".** ").map_or("", |(_, said)| said);
+        assert!(said.matches(". ").count() <= 1, "{caption}");
+    }
     let of = |of: &str, id: &str| -> Option<f64> {
         let document: Value =
             serde_json::from_str(&read(&format!("{of}/case/report.json"))).ok()?;

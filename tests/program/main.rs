@@ -13,6 +13,7 @@ mod case;
 mod case_properties;
 mod case_schema;
 mod cavity;
+mod cavity_report;
 mod check;
 mod cli;
 mod cli_case;

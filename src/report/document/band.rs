@@ -5,6 +5,7 @@ use serde_json::{Value, json};
 use super::scale::{Scale, level_error};
 use super::theory::ROOT_OF_ROUNDING;
 use crate::analysis::Strip;
+use crate::band::inactive::Rest;
 use crate::band::rivals::DETUNED;
 use crate::band::simulated::Place;
 use crate::band::{Inactive, Rivals, Source, Survey, Worst};
@@ -18,13 +19,18 @@ const CURVE_DIGITS: usize = 7;
 
 /// A motion in which the absorber stays at rest; `within` is half the width in which it rests.
 pub fn inactive(scale: &Scale, of: &Inactive, at: Option<Quantity>, counted: bool) -> Value {
-    json!({
+    let mut told = json!({
         "peak": scale.length(&of::INACTIVE_PEAK, of.amplitude, ClosedForm),
         "at": at,
         "share": Quantity::new(&of::INACTIVE_SHARE, of.share, ClosedForm),
         "within": scale.length(&of::CLEARANCE, of.share, ClosedForm),
         "counted": counted,
-    })
+    });
+    // Held or sliding; else it floats in the middle of its cavity.
+    if of.rest != Rest::Floating {
+        told["rest"] = json!(of.rest);
+    }
+    told
 }
 
 /// What a tuned mass damper is held against along a band.

@@ -6,6 +6,7 @@ pub mod place;
 pub mod theory;
 
 mod band;
+mod cavity;
 mod claims;
 mod notes;
 mod scale;
@@ -141,11 +142,11 @@ fn quantities(scale: &Scale, case: &Case, study: &CaseStudy) -> BTreeMap<&'stati
     if let Design::Physical(physical) = &case.design {
         all.push(given(&of::ABSORBER_MASS, physical.absorber_mass_kg));
     }
-    all.extend(cavity(case));
+    all.extend(scale::cavity(case));
     if let Some(main) = study.main_attractor() {
         all.extend(motions::headline(scale, &main.attractor).into_iter().map(|(_, one)| one));
-    } else if let Some(orbit) = study.exact.attracting() {
-        let (peak, bare) = (orbit.peaks.displacement, study.rivals.bare.1);
+    } else if let Some(peak) = study.exact.attracting_peak() {
+        let bare = study.rivals.bare.1;
         let change = 20.0 * libm::log10(peak / bare);
         all.push(scale.length(&of::PEAK, peak, Method::ExactOrbit));
         all.push(Quantity::new(&of::CHANGE_DB, change, Method::ExactOrbit));

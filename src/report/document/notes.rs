@@ -62,7 +62,7 @@ pub fn notes(case: &Case, study: &CaseStudy) -> Vec<Value> {
     let limits = limits.map(|limit| noted("limit", limit));
     let points = study.analysis.fixed_points.iter().enumerate();
     let outside = points
-        .filter(|(_, point)| !point.admissible)
+        .filter(|(_, point)| !point.admissible && study.analysis.system.cavity().is_ideal())
         .map(|(point, _)| noted("not-admissible", json!({ "point": point })));
     warnings.chain(refuted).chain(runs).chain(limits).chain(outside).collect()
 }

@@ -3,6 +3,7 @@
 use serde_json::{Value, json};
 
 use super::NOTICEABLE;
+use super::cavity::cavity;
 use super::scale::Scale;
 use crate::analysis::{Analysis, FixedPoint};
 use crate::method::Method::{ExactOrbit, Simulation, Theory};
@@ -30,7 +31,7 @@ pub fn theory(scale: &Scale, analysis: &Analysis, exact: &FullSystem, area: Sett
     let errors = &asymptotic_errors(analysis, exact);
     let facts = Facts { scale, analysis, exact, errors };
     let stretches = exact.stable_stretches();
-    json!({
+    let mut told = json!({
         "area": area.area,
         "area_by": area.by,
         "strip": analysis.zone.strip,
@@ -47,7 +48,12 @@ pub fn theory(scale: &Scale, analysis: &Analysis, exact: &FullSystem, area: Sett
         "lost": null,
         "best": null,
         "amplitude_error": null,
-    })
+    });
+    // Areas, fixed points and boundaries above are then those of an ideal cavity with the mean restitution.
+    if let Some(cavity) = cavity(scale, exact) {
+        told["cavity"] = cavity;
+    }
+    told
 }
 
 /// The same of a study, with margins.
@@ -55,12 +61,13 @@ pub fn with_margins(scale: &Scale, study: &CaseStudy) -> Value {
     let (analysis, exact) = (&study.analysis, &study.exact);
     let facts = Facts { scale, analysis, exact, errors: &study.asymptotic_errors };
     // Of the amplitude of the stable fixed point.
-    let points = &analysis.fixed_points;
-    let error = points.iter().rposition(|point| point.stable).and_then(|index| {
+    let mut told = theory(scale, analysis, exact, study.area);
+    let points = told.get("cavity").unwrap_or(&told)["fixed_points"].as_array();
+    let error = points.and_then(|points| {
+        let index = points.iter().rposition(|point| point["stable"] == true)?;
         let id = format!("fixed-point-{}-C", index + 1);
         study.claims.iter().find(|claim| claim.id == id)?.difference
     });
-    let mut told = theory(scale, analysis, exact, study.area);
     told["limits"] = json!(study.margins.exact.map(|margins| facts.limits(&margins)));
     if let Some(limit) = &study.confirmations.upper_limit {
         // The largest clearance at which every simulated start keeps 1:1 resonance, and the first at which
@@ -249,7 +256,7 @@ impl Facts<'_> {
 }
 
 /// A number with the error of a minimum or a multiplier.
-fn rounded(of: Quantity) -> Quantity {
+pub(super) fn rounded(of: Quantity) -> Quantity {
     of.with_error(ROOT_OF_ROUNDING * of.value.abs())
 }
 

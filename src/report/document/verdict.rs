@@ -5,6 +5,8 @@ use serde_json::{Value, json};
 
 use super::NOTICEABLE;
 use super::criteria::badge;
+use crate::analysis::Analysis;
+use crate::cavity::{CavityTheory, Forcing};
 use crate::criteria::Judged;
 use crate::regimes::{FoundAttractor, Regime};
 use crate::study::CaseStudy;
@@ -113,7 +115,11 @@ impl Headline {
 
 /// A smaller vibration is only good news where it is steady 1:1 resonance that starts were seen to end in.
 fn word(study: &CaseStudy, headline: Headline) -> Word {
-    let steady = study.main_attractor().is_some_and(|main| main.regime() == Regime::TwoSymmetric);
+    // Two impacts per period are asymmetric where the cavity is.
+    let symmetric = study.analysis.system.cavity().is_symmetric();
+    let steady =
+        |regime| regime == Regime::TwoSymmetric || !symmetric && regime == Regime::TwoAsymmetric;
+    let steady = study.main_attractor().is_some_and(|main| steady(main.regime()));
     match headline {
         Headline::UnlimitedWithout if steady => Word::Works,
         Headline::Less if !steady => Word::Mixed,
@@ -126,11 +132,8 @@ fn headline(study: &CaseStudy) -> Headline {
         return Headline::NothingDrives;
     }
     let bare = study.rivals.bare.1;
-    let without_simulation = || {
-        let orbit = study.exact.attracting().map(|orbit| orbit.peaks.displacement);
-        let point = study.analysis.stable_points().last().map(|point| point.oscillator_amplitude);
-        orbit.or(point)
-    };
+    let without_simulation =
+        || study.exact.attracting_peak().or_else(|| stable_amplitude(&study.analysis));
     let Some(main) = study.main_attractor() else {
         return match without_simulation().filter(|_| !study.simulated) {
             Some(peak) if bare.is_finite() => compared(peak / bare),
@@ -151,6 +154,16 @@ fn headline(study: &CaseStudy) -> Headline {
         (Headline::Little, Headline::Less) => Headline::LessOnAverage,
         (found, _) => found,
     }
+}
+
+/// Amplitude of the last stable fixed point of the theory of the case's cavity.
+fn stable_amplitude(analysis: &Analysis) -> Option<f64> {
+    let system = &analysis.system;
+    if system.cavity().is_ideal() {
+        return analysis.stable_points().last().map(|point| point.oscillator_amplitude);
+    }
+    let points = CavityTheory::of(system).fixed_points(&Forcing::of(system));
+    points.iter().rfind(|point| point.stable).map(|point| point.motion.oscillator_amplitude)
 }
 
 /// Along the band, by the worst motion with its error.

@@ -85,7 +85,7 @@ fn notes(study: &DecayStudy) -> Vec<Value> {
     if study.system.restitution() == 1.0 {
         notes.push(json!({ "kind": "elastic" }));
     }
-    if study.level < study.predicted.residual {
+    if study.level < study.predicted.residual && study.system.cavity().is_ideal() {
         notes.push(json!({ "kind": "below-capture" }));
     }
     notes

@@ -5,14 +5,14 @@ use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, PI};
 use crate::analysis::Manifold;
 use crate::analysis::frequency_response::ResponsePoint;
 use crate::band::rivals::bare_amplitude;
-use crate::orbits::SymmetricOrbit;
+use crate::orbits::SteadyOrbit;
 use crate::regimes::Motion;
 use crate::simulation::Stop;
 use crate::study::scenes::visited;
 use crate::study::{CaseStudy, StudyError};
 use crate::system::System;
 
-use super::{Line, even, responses, symmetric_orbits_at, window};
+use super::{Line, even, responses, steady_orbits_at, window};
 
 /// Simulated frequencies.
 const SWEEP: u32 = 17;
@@ -32,8 +32,8 @@ pub struct Amplitude {
     pub bare: Line,
     /// The theory's 1:1 motions: the stable ones, and the others.
     pub theory: [Line; 2],
-    /// Exact symmetric orbits that are motions, with their frequency ratio.
-    pub exact: Vec<(f64, SymmetricOrbit)>,
+    /// Exact 1:1 orbits that are motions, with their frequency ratio.
+    pub exact: Vec<(f64, SteadyOrbit)>,
     /// Simulated motions with their frequency ratio.
     pub simulated: Vec<(f64, System, Motion)>,
     /// The case's main motion, where it could be followed.
@@ -68,7 +68,7 @@ impl Amplitude {
             [ratio, peak(system.mass_ratio(), manifold, point)]
         };
         let theory = responses::lines(system, manifold, 2.0 + top, &place);
-        let orbits = |ratio| symmetric_orbits_at(system.with_frequency_ratio(ratio).ok());
+        let orbits = |ratio| steady_orbits_at(system.with_frequency_ratio(ratio).ok());
         let exact = over(EXACT).flat_map(|at| orbits(at).into_iter().map(move |one| (at, one)));
         let exact = exact.filter(|(_, one)| one.orbit.admissibility.admissible).collect();
         Ok(Self { window, bare, theory, exact, simulated, here, top })

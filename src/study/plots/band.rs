@@ -5,7 +5,7 @@ use crate::band::rivals::bare_amplitude;
 use crate::study::CaseStudy;
 use crate::system::System;
 
-use super::{Line, symmetric_orbits_at};
+use super::{Line, steady_orbits_at};
 
 /// Peaks over the clearance along a band, `[place, peak]`.
 #[derive(Debug, Clone)]
@@ -42,7 +42,7 @@ impl BandCurves {
         // one of them where the other begins or ends.
         for which in 0..2 {
             for at in band.places(Self::PLACES) {
-                let found = symmetric_orbits_at(band.system(at).ok());
+                let found = steady_orbits_at(band.system(at).ok());
                 let orbit = found.iter().rev().nth(which);
                 let orbit = orbit.filter(|one| one.orbit.admissibility.admissible);
                 for (line, stable) in lines.iter_mut().zip([true, false]) {

@@ -16,7 +16,7 @@ pub mod traces;
 use crate::analysis::Branch;
 use crate::case::{Case, ExtraFigure};
 use crate::orbits::boundaries::over_frequency;
-use crate::orbits::{Boundaries, SymmetricOrbit, symmetric_orbits};
+use crate::orbits::{Boundaries, SteadyOrbit, steady_orbits};
 use crate::regimes::{FoundAttractor, Regime};
 use crate::simulation::Stop;
 use crate::system::{Parameter, System};
@@ -263,9 +263,9 @@ fn diagram(study: &CaseStudy, parameter: Parameter) -> Result<Option<Plot>, Stud
     Ok(Some(Plot::Diagram(diagram, bare)))
 }
 
-/// The exact symmetric orbits of a system, if there is one.
-fn symmetric_orbits_at(system: Option<System>) -> Vec<SymmetricOrbit> {
-    system.and_then(|system| symmetric_orbits(&system).ok()).unwrap_or_default()
+/// The exact 1:1 orbits of a system, if there is one.
+fn steady_orbits_at(system: Option<System>) -> Vec<SteadyOrbit> {
+    system.and_then(|system| steady_orbits(&system).ok()).unwrap_or_default()
 }
 
 /// Whether a fixed point where the curve of fixed points rises or falls is stable: it must lie on the stable

@@ -48,8 +48,11 @@ impl Ranges {
 fn in_clearance(study: &CaseStudy) -> Vec<(Method, Vec<Range>)> {
     let limit = study.confirmations.upper_limit;
     let simulated = limit.iter().map(|limit| [Some(1.0), Some(limit.kept)]);
+    // Of a cavity that is not ideal the case's own is known.
+    let own = study.margins.exact.filter(|_| study.exact.two_impact.is_some());
+    let own = own.map(|own| own.clearance.map(|end| end.map(|end| end.factor)));
     let exact = study.exact.stable_stretches().iter();
-    let exact = exact.map(|one| [0, 1].map(|k| one.ends[k].map(|_| one.clearance[k])));
+    let exact = exact.map(|one| [0, 1].map(|k| one.ends[k].map(|_| one.clearance[k]))).chain(own);
     let ends = study.margins.clearance.iter().map(|at| at.clearance).collect();
     let system = &study.analysis.system;
     let theory = steady_between(ends, |factor| system.with_clearance_scaled(factor).ok());

@@ -10,7 +10,7 @@ use crate::regimes::FoundAttractor;
 use crate::study::CaseStudy;
 use crate::system::{Parameters, System};
 
-use super::{Line, branches, even, first_drawn, symmetric_orbits_at};
+use super::{Line, branches, even, first_drawn, steady_orbits_at};
 
 /// Steps in restitution.
 const STEPS: u32 = 200;
@@ -113,7 +113,7 @@ fn strongest(all: &[Taken]) -> Option<Strongest> {
 fn best(system: &System) -> Option<(f64, f64)> {
     let tried = even(0.0, 1.0, TRIED).filter_map(|restitution| {
         let there = System::new(Parameters { restitution, ..system.parameters() }).ok();
-        let orbits = symmetric_orbits_at(there);
+        let orbits = steady_orbits_at(there);
         let orbit = orbits.iter().find(|orbit| orbit.orbit.attracts())?;
         Some((restitution, orbit.peaks.displacement))
     });

@@ -69,7 +69,7 @@ fn envelope(case: &Case, study: &DecayStudy) -> Option<Figure> {
                 .labelled("absorber, slowest start"),
         )
         .with(Layer::curve(THEORY, line(study.predicted.path.clone())).labelled("theory"));
-    if study.predicted.residual > study.level {
+    if study.predicted.residual > study.level && study.system.cavity().is_ideal() {
         let end = Layer::rule(level(study.predicted.residual), Role::Hopf);
         panel = panel.with(end.labelled("capture ends"));
     }

@@ -1,0 +1,82 @@
+//! What the theory of a cavity that is not ideal, and its exact orbits with two impacts per period, say.
+
+use std::f64::consts::TAU;
+
+use serde_json::{Value, json};
+
+use super::scale::Scale;
+use super::theory::rounded;
+use crate::analysis::ManifoldPoint;
+use crate::cavity::{CavityTheory, FixedPoint, Forcing};
+use crate::method::Method::{ExactOrbit, Theory};
+use crate::orbits::{FullSystem, ImpactMap, Orbit, SteadyOrbit};
+use crate::quantity::Quantity;
+use crate::quantity::catalogue as of;
+
+/// Fixed points, fold and symmetry breaking by the theory of the cavity, and exact orbits; none of an ideal cavity.
+pub fn cavity(scale: &Scale, exact: &FullSystem) -> Option<Value> {
+    let system = &exact.system;
+    if system.cavity().is_ideal() {
+        return None;
+    }
+    let theory = CavityTheory::of(system);
+    let points = theory.fixed_points(&Forcing::of(system));
+    let place = |point: ManifoldPoint| {
+        [
+            scale.length(&of::ABSORBER_AMPLITUDE, point.absorber_amplitude, Theory),
+            scale.length(&of::OSCILLATOR_AMPLITUDE, point.oscillator_amplitude, Theory),
+        ]
+    };
+    let orbits = exact.two_impact_orbits();
+    let map = ImpactMap::of(system).ok();
+    let each = orbits.iter().zip(map.iter().cycle());
+    Some(json!({
+        "fixed_points": points.iter().map(|one| point(scale, one)).collect::<Vec<_>>(),
+        // B and C; none where the cavity is not symmetric.
+        "fold": theory.fold().map(place),
+        "symmetry_breaking": theory.symmetry_breaking().map(place),
+        "orbits": each.map(|(one, map)| orbit(scale, map, one)).collect::<Vec<_>>(),
+        "attracting": orbits.iter().position(|one| one.attracts()),
+        // Places at which the search for orbits cannot tell.
+        "undecided": exact.two_impact.as_ref().map_or(0, |found| found.undecided.len()),
+    }))
+}
+
+fn point(scale: &Scale, point: &FixedPoint) -> Value {
+    let length = |kind, value| scale.length(kind, value, Theory);
+    let number = |kind, value| Quantity::new(kind, value, Theory);
+    let motion = &point.motion;
+    json!({
+        "oscillator_amplitude": length(&of::OSCILLATOR_AMPLITUDE, motion.oscillator_amplitude),
+        "absorber_amplitude": length(&of::ABSORBER_AMPLITUDE, motion.absorber_amplitude),
+        "eta": number(&of::ETA, point.eta),
+        // From the impact on the wall at +b to the other one.
+        "flight_share": number(&of::FLIGHT_SHARE, motion.times[0] / TAU),
+        "trace": number(&of::TRACE, point.trace),
+        "determinant": number(&of::DETERMINANT, point.determinant),
+        "stable": point.stable,
+        "admissible": motion.admissible,
+    })
+}
+
+fn orbit(scale: &Scale, map: &ImpactMap, orbit: &Orbit) -> Value {
+    let number = |kind, value| Quantity::new(kind, value, ExactOrbit);
+    let SteadyOrbit { orbit, peaks, impact_speed, .. } = SteadyOrbit::of(map, orbit.clone());
+    let durations = orbit.cycle.unfolded().durations;
+    let period: f64 = durations.iter().sum();
+    json!({
+        "flight_share": number(&of::FLIGHT_SHARE, durations[0] / period),
+        "peak": scale.length(&of::PEAK, peaks.displacement, ExactOrbit),
+        // The larger of both.
+        "impact_speed": scale.velocity(&of::IMPACT_SPEED, [impact_speed, 0.0], ExactOrbit),
+        // Over a whole period.
+        "multiplier": rounded(number(&of::SPECTRAL_RADIUS, orbit.radius_per_period())),
+        "leading": orbit.multipliers.leading(),
+        "admissible": orbit.admissibility.admissible,
+        "sticks": orbit.admissibility.sticks(),
+        // Whether the slip of an absorber that rubs would reverse between impacts.
+        "reverses": orbit.admissibility.reverses(),
+        "stable": orbit.multipliers.stable(),
+        "residual": orbit.convergence.residual,
+    })
+}
