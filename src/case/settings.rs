@@ -30,6 +30,10 @@ pub struct ReportSettings {
     /// Further figures, each once; the usual ones are in every report.
     #[schemars(extend("uniqueItems" = true), example = vec!["areas", "transfer"])]
     pub figures: Vec<ExtraFigure>,
+    /// Whether the report says what would spoil the design first: its largest motion in rigs that differ by a tilt,
+    /// friction, other restitutions and another natural frequency; true unless given.
+    #[schemars(example = false)]
+    pub deviations: Option<bool>,
 }
 
 names! { name:

@@ -163,6 +163,9 @@ fn rendered(path: &Path, name: &str, arguments: &Arguments) -> Result<(Files, bo
     if simulates && case.report.figures.contains(&ExtraFigure::Dissipation) {
         study = study.with_averages().into_diagnostic()?;
     }
+    if simulates && case.report.deviations != Some(false) {
+        study = study.with_deviations(&case).into_diagnostic()?;
+    }
     if case.band.is_some() {
         // Simulated if the study is, and also with the structure detuned.
         let mut settings = criteria::settings(&case);
