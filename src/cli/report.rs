@@ -150,6 +150,10 @@ fn rendered(path: &Path, name: &str, arguments: &Arguments) -> Result<(Files, bo
         work.extend(Work::motions(&case, &effort));
         work.push(Work::figures(&case));
     }
+    let deviates = simulates && case.report.deviations != Some(false);
+    if deviates {
+        work.push(Work::deviations(&case));
+    }
     if !case.criteria.is_empty() || (simulates && case.band.is_some()) {
         work.push(Work::criteria(&case));
     }
@@ -163,7 +167,7 @@ fn rendered(path: &Path, name: &str, arguments: &Arguments) -> Result<(Files, bo
     if simulates && case.report.figures.contains(&ExtraFigure::Dissipation) {
         study = study.with_averages().into_diagnostic()?;
     }
-    if simulates && case.report.deviations != Some(false) {
+    if deviates {
         study = study.with_deviations(&case).into_diagnostic()?;
     }
     if case.band.is_some() {

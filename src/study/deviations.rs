@@ -23,13 +23,13 @@ pub const RESTITUTION: f64 = 0.02;
 /// By how much a natural frequency differs, relative: 2 % of the stiffness.
 pub const FREQUENCY: f64 = 0.01;
 
-/// Evenly spread starts of each rig, the first of the report's: a motion that a quarter of all starts lead to is missed
-/// one time in ten. Those that the case itself has are followed besides.
-const STARTS: u32 = 8;
+/// Evenly spread starts of each rig, the first of the report's: a motion that half of all starts lead to is missed one
+/// time in sixteen. Those that the case itself has are followed besides; more starts would double the time of a report.
+pub const STARTS: u32 = 4;
 /// The largest motions of the case that are followed into each rig.
 const FOLLOWED: usize = 3;
 /// Excitation periods over which a motion that does not repeat is measured, as in a band.
-const PERIODS: u64 = 250;
+pub const PERIODS: u64 = 250;
 /// Periods after which a motion that does not repeat, beside one that does, is no transient: as many as the search
 /// for the motions of a report waits by default, twenty times its thousand measured ones.
 const PATIENCE: u64 = 20_000;
