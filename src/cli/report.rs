@@ -150,7 +150,7 @@ fn rendered(path: &Path, name: &str, arguments: &Arguments) -> Result<(Files, bo
         work.extend(Work::motions(&case, &effort));
         work.push(Work::figures(&case));
     }
-    let deviates = simulates && case.report.deviations != Some(false);
+    let deviates = simulates && case.report.deviations;
     if deviates {
         work.push(Work::deviations(&case));
     }
