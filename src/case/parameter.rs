@@ -111,6 +111,17 @@ impl Design {
         }
     }
 
+    /// The design with restitutions further apart, their mean as it is.
+    #[must_use]
+    pub fn with_restitutions_apart(mut self, by: f64) -> Self {
+        let difference = match &mut self {
+            Self::Physical(physical) => &mut physical.restitution_difference,
+            Self::Reduced(reduced) => &mut reduced.cavity.restitution_difference,
+        };
+        *difference += by.copysign(*difference);
+        self
+    }
+
     /// `b`, in metres or the design's own unit.
     pub fn clearance(&self) -> f64 {
         self.scales().clearance

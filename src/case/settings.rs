@@ -23,13 +23,23 @@ pub struct SimulationSettings {
 }
 
 /// What the report holds beside the usual. The table may be left out.
-#[derive(Debug, Clone, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 #[serde(default)]
 pub struct ReportSettings {
     /// Further figures, each once; the usual ones are in every report.
     #[schemars(extend("uniqueItems" = true), example = vec!["areas", "transfer"])]
     pub figures: Vec<ExtraFigure>,
+    /// Whether the report says what would spoil the design first: its largest motion in rigs that differ by a tilt,
+    /// friction, other restitutions and another natural frequency; true unless given.
+    #[schemars(example = false)]
+    pub deviations: bool,
+}
+
+impl Default for ReportSettings {
+    fn default() -> Self {
+        Self { figures: Vec::new(), deviations: true }
+    }
 }
 
 names! { name:

@@ -10,6 +10,7 @@ use vinesink::band::simulated::Sampling;
 use vinesink::case::Case;
 use vinesink::regimes::Transient;
 use vinesink::study::StudyEffort;
+use vinesink::study::deviations::{self, Deviation};
 use vinesink::sweep::{Plan, Point};
 use vinesink::system::System;
 use vinesink::transient::{RecordStudy, SweepStudy, looked_at};
@@ -142,6 +143,13 @@ impl Work {
     /// The search for the best design.
     pub fn designs(case: &Case) -> Self {
         Self::band(case, vec![(DESIGNS, "designs")])
+    }
+
+    /// The same motions in rigs that deviate.
+    pub fn deviations(case: &Case) -> Self {
+        let rigs = (Deviation::ALL.len() as u64, "rigs that deviate");
+        let starts = (u64::from(deviations::STARTS) + 1, "starts");
+        Self::side_by_side(&[case.system()], vec![rigs, starts], deviations::PERIODS)
     }
 
     /// The figures that a case asks for.

@@ -150,6 +150,10 @@ fn rendered(path: &Path, name: &str, arguments: &Arguments) -> Result<(Files, bo
         work.extend(Work::motions(&case, &effort));
         work.push(Work::figures(&case));
     }
+    let deviates = simulates && case.report.deviations;
+    if deviates {
+        work.push(Work::deviations(&case));
+    }
     if !case.criteria.is_empty() || (simulates && case.band.is_some()) {
         work.push(Work::criteria(&case));
     }
@@ -162,6 +166,9 @@ fn rendered(path: &Path, name: &str, arguments: &Arguments) -> Result<(Files, bo
     let mut study = study.into_diagnostic()?;
     if simulates && case.report.figures.contains(&ExtraFigure::Dissipation) {
         study = study.with_averages().into_diagnostic()?;
+    }
+    if deviates {
+        study = study.with_deviations(&case).into_diagnostic()?;
     }
     if case.band.is_some() {
         // Simulated if the study is, and also with the structure detuned.

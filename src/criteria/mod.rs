@@ -173,6 +173,14 @@ impl Judged {
     }
 }
 
+/// Judges the criterion on the peak, if a case has one, by one motion at the case's own excitation.
+pub fn judge_peak(case: &Case, motion: &Motion) -> Option<Judged> {
+    let asked = |one: &&Criterion| one.subject == Subject::PeakDisplacement;
+    let [peak, error] = [motion.peak, motion.peak_error].map(|one| case.scales().length(one));
+    let asked = case.criteria.iter().find(asked)?;
+    Some(asked.judged(Some(peak), error, Method::Simulation))
+}
+
 /// Whether every criterion holds; what could not be measured does not.
 pub fn all_hold(judged: &[Judged]) -> bool {
     judged.iter().all(|one| one.holds == Some(true))

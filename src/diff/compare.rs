@@ -10,7 +10,7 @@ use super::{Change, Document, Folded, ReportDifference, criteria};
 use crate::regimes::share::wilson;
 
 /// What is compared value by value; inputs, criteria, verdict and figures have their own ways.
-const COMPARED: [&str; 11] = [
+const COMPARED: [&str; 12] = [
     "units",
     "simulated",
     "quantities",
@@ -19,6 +19,7 @@ const COMPARED: [&str; 11] = [
     "damper",
     "theory",
     "band",
+    "deviations",
     "answers",
     "claims",
     "notes",
@@ -34,13 +35,14 @@ fn explains(path: &str, key: &str) -> bool {
 }
 
 /// What names an element of a list, by the list's key; elements of others are numbered.
-const NATURAL_KEYS: [(&str, &[&str]); 6] = [
+const NATURAL_KEYS: [(&str, &[&str]); 7] = [
     ("answers", &["question"]),
     ("boundaries", &["kind", "branch"]),
     ("claims", &["id"]),
     ("doubts", &["kind"]),
     ("motions", &["regime"]),
     ("notes", &["kind", "limit", "message"]),
+    ("rows", &["deviation"]),
 ];
 
 /// What changed in a report that is on both sides.
@@ -66,7 +68,11 @@ pub(super) fn reports(old: &Document, new: &Document, folder: &str) -> ReportDif
     };
     let mut comparison = Comparison { old, new, found };
     for key in COMPARED {
-        comparison.values(key, &new.report, &old.report[key], &new.report[key]);
+        match (old.report.get(key), new.report.get(key)) {
+            (Some(before), Some(after)) => comparison.values(key, &new.report, before, after),
+            // Of another version.
+            _ => comparison.found.folded.unknown += 1,
+        }
     }
     sorted(comparison.found)
 }

@@ -43,15 +43,17 @@ const STATES: [&str; 7] = [
 const FURTHER_STATES: usize = 4;
 
 /// What a reader calls the keys of a document; others are called as they are.
-const WORDS: [(&str, &str); 10] = [
+const WORDS: [(&str, &str); 12] = [
     ("answers", "answer"),
     ("boundaries", "boundary"),
     ("claims", "claim"),
+    ("deviations", "deviation"),
     ("fixed_points", "fixed point"),
     ("main", "main motion"),
     ("motions", "motion"),
     ("orbits", "exact orbit"),
     ("quantities", ""),
+    ("rows", ""),
     ("stretches", "stable range"),
     ("theory", ""),
 ];

@@ -4,6 +4,7 @@
 pub mod answer;
 pub mod averages;
 pub mod confirmations;
+pub mod deviations;
 pub mod diagrams;
 pub mod exact_branches;
 pub mod fidelity;
@@ -18,7 +19,7 @@ use serde::Serialize;
 use crate::analysis::motion::state_of;
 use crate::analysis::{Analysis, AnalysisError, Area, Branch};
 use crate::band::{Band, Inactive, Rivals, Survey};
-use crate::case::SimulationSettings;
+use crate::case::{Case, SimulationSettings};
 use crate::method::Method;
 use crate::operation_count;
 use crate::orbits::{Boundaries, FullSystem};
@@ -33,6 +34,7 @@ use crate::validation::{self, AsymptoticError, Claim};
 pub use crate::regimes::search::SearchEffort as StudyEffort;
 pub use averages::Averages;
 pub use confirmations::Confirmations;
+pub use deviations::Deviations;
 pub use margins::Margins;
 pub use proofs::{LongTermMotions, Proof};
 
@@ -110,6 +112,8 @@ pub struct CaseStudy {
     pub rivals: Rivals,
     /// What an absorber that starts from rest leaves where it stays inactive.
     pub inactive: Option<Inactive>,
+    /// What deviations of a rig make of it; none where nobody asked for it.
+    pub deviations: Option<Deviations>,
 }
 
 /// An area and which layer settled it.
@@ -172,6 +176,7 @@ impl CaseStudy {
             simulated: false,
             rivals: Rivals::along(&Band::point(system)),
             inactive: Inactive::of(system),
+            deviations: None,
             exact,
             analysis,
         })
@@ -203,6 +208,14 @@ impl CaseStudy {
             self.claims.extend(claims);
         }
         Ok(Self { averages: Some(averages), ..self })
+    }
+
+    /// The same with what would spoil it first.
+    ///
+    /// # Errors
+    /// [`StudyError`] where a motion cannot be simulated.
+    pub fn with_deviations(self, case: &Case) -> Result<Self, StudyError> {
+        Ok(Self { deviations: Deviations::of(case, &self)?, ..self })
     }
 
     /// What was simulated, if anything was.

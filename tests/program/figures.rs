@@ -116,7 +116,8 @@ fn case_is_inside(panel: &Panel) {
 
 /// The same case with every further figure asked for.
 fn with_further_figures(mut case: Case) -> Case {
-    case.report = ReportSettings { figures: ExtraFigure::ALL.to_vec() };
+    case.report =
+        ReportSettings { figures: ExtraFigure::ALL.to_vec(), ..ReportSettings::default() };
     case
 }
 
@@ -293,7 +294,10 @@ fn a_case_outside_every_range_shows_where_they_are() {
 #[test]
 fn both_ways_of_a_diagram_are_told_apart() {
     let mut case = shipped("li2016-8p5hz-fig12");
-    case.report = ReportSettings { figures: vec![ExtraFigure::DiagramClearance] };
+    case.report = ReportSettings {
+        figures: vec![ExtraFigure::DiagramClearance],
+        ..ReportSettings::default()
+    };
     let figures = figures(&case);
     let figure = figures.last().expect("some");
     assert_eq!((figure.name.as_str(), figure.panels.len()), ("diagram-clearance", 2));

@@ -19,6 +19,7 @@ mod cli;
 mod cli_case;
 mod cli_slips;
 mod decisions;
+mod deviations;
 mod diff;
 mod extremes;
 mod figure;

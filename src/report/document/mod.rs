@@ -8,6 +8,7 @@ pub mod theory;
 mod band;
 mod cavity;
 mod claims;
+mod deviations;
 mod notes;
 mod scale;
 mod verdict;
@@ -103,6 +104,8 @@ pub fn document(source: &Source) -> Value {
         "damper": band::damper(&scale, &study.rivals, None),
         "theory": theory::with_margins(&scale, study),
         "band": study.band.as_ref().map(|survey| band::band(&scale, survey)),
+        // The case in rigs that differ from it by a little, the worst first.
+        "deviations": study.deviations.as_ref().map(|one| deviations::deviations(&scale, case, one)),
         // Which layer answered what.
         "answers": source.answers,
         "claims": study.claims.iter().map(|one| claims::claim(&scale, one)).collect::<Vec<_>>(),
