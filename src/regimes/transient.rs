@@ -9,7 +9,7 @@
 use serde::Serialize;
 
 use crate::orbits::steady_orbit;
-use crate::system::{State, System};
+use crate::system::{Cavity, State, System};
 
 /// E-folds that are left out: of a free vibration as large as the motion that remains, 6e-6 is then left.
 const FADED: f64 = 12.0;
@@ -73,9 +73,13 @@ fn decay_rate(system: &System) -> f64 {
 }
 
 /// The long-term motion of an absorber at rest that no wall reaches any more, at excitation phase 0: the
-/// oscillator on its steady motion. None where the absorber moves, a wall may still reach it, or the free
-/// vibration stays.
+/// oscillator on its steady motion. None where the absorber moves, gravity or friction move it, a wall may still
+/// reach it, or the free vibration stays.
 pub fn inactive(system: &System, state: &State) -> Option<State> {
+    let Cavity { gravity_along, friction_acceleration, .. } = system.cavity();
+    if gravity_along != 0.0 || friction_acceleration != 0.0 {
+        return None;
+    }
     let linear = system.linear_response()?;
     let steady = linear.state(system);
     // The energy of a free vibration never grows.
