@@ -56,7 +56,7 @@ pub(super) struct AbsorberTable {
     clearance: f64,
     /// r, the coefficient of restitution: 1 loses no energy at an impact, 0 does not rebound. A pair is that of the
     /// wall at x - y = +b, x the oscillator's displacement and y the absorber's, and that of the wall at x - y = -b.
-    #[schemars(with = "Value", extend("anyOf" = one_or_each()), example = 0.6, example = [0.65, 0.55])]
+    #[schemars(with = "Value", extend("anyOf" = one_or_each()), example = 0.6, example = vec![0.65, 0.55])]
     restitution: Restitution,
     /// Angle of the cavity against the horizontal, from -90 to 90 degrees: where it is positive gravity, 9.80665 m/s^2,
     /// acts along positive displacements of the absorber. 0 unless given.

@@ -23,7 +23,7 @@ pub(super) struct ReducedTable {
     #[schemars(extend("minimum" = 0, "x-symbol" = r"\lambda"), example = 1.799)]
     damping: f64,
     /// r, the coefficient of restitution, from 0 to 1; or a pair, at the walls x - y = +b and x - y = -b.
-    #[schemars(with = "Value", extend("anyOf" = one_or_each()), example = 0.6, example = [0.65, 0.55])]
+    #[schemars(with = "Value", extend("anyOf" = one_or_each()), example = 0.6, example = vec![0.65, 0.55])]
     restitution: Restitution,
     /// a, gravity's acceleration along the cavity over b omega0^2, positive along positive displacements of the
     /// absorber; 0 unless given.
