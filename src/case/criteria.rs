@@ -182,6 +182,12 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Criteria {
     found
 }
 
+/// What there is to say of shares in area Z3 where the cavity is inclined, rubs or has unequal walls, and what is
+/// expected instead.
+pub(super) const AREAS_ARE_IDEAL: &str =
+    "area Z3 is of a level cavity without friction whose walls are alike";
+pub(super) const EXACT_INSTEAD: &str = "expected what exact orbits of this cavity decide";
+
 fn criterion(
     reader: &mut Reader,
     table: &Table,
@@ -198,6 +204,10 @@ fn criterion(
         let expected = format!("expected criteria of a structure that is {what}");
         let help = format!("remove the line: `{key}` is for one that is {other}");
         reader.report(table.span_of(key), message, expected, help);
+        return None;
+    }
+    if subject == Subject::Z3Share && !design.has_ideal_cavity() {
+        reader.report(table.span_of(key), AREAS_ARE_IDEAL, EXACT_INSTEAD, "ask for `stable_share`");
         return None;
     }
     let as_written = reader.as_written(value.span());

@@ -5,6 +5,7 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use super::Design;
+use super::criteria::{AREAS_ARE_IDEAL, EXACT_INSTEAD};
 use super::reader::{Reader, Table};
 use super::schema::in_design;
 use crate::names::names;
@@ -30,7 +31,8 @@ names! { name:
 #[derive(Debug, Clone, Copy, Default, PartialEq, Deserialize, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub struct OptimizeSettings {
-    /// What is looked for; the largest share of the band in area Z3 unless given. Not for a structure that is not
+    /// What is looked for; the largest share of the band in area Z3 unless given, or, where the cavity is not ideal, with
+    /// a stable 1:1 orbit. Not for a structure that is not
     /// driven steadily: released or struck it shall come to rest first, swept or driven by a record it shall have the
     /// smallest largest displacement.
     pub objective: Option<Objective>,
@@ -66,6 +68,11 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> OptimizeSettings {
             "expected `mass` beside [oscillator], [absorber] and [excitation] only",
             "remove the line, or describe the design in physical units",
         );
+    }
+    let ideal = reader.design.is_none_or(|design| design.has_ideal_cavity());
+    if !ideal && settings.objective == Some(Objective::Z3Share) {
+        let help = "ask for `objective = \"stable-share\"`, or leave it out";
+        reader.report(table.span_of("objective"), AREAS_ARE_IDEAL, EXACT_INSTEAD, help);
     }
     let scene = reader.design.map_or(Scene::Steady, |design| design.scene());
     let other: &[&str] = match scene {

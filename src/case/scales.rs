@@ -149,6 +149,11 @@ impl Design {
         }
     }
 
+    /// Whether the cavity is level, does not rub, and its ends are alike.
+    pub fn has_ideal_cavity(&self) -> bool {
+        self.system().is_ok_and(|system| system.cavity().is_ideal())
+    }
+
     /// What the structure is subjected to.
     pub fn scene(&self) -> Scene {
         match self.transient() {

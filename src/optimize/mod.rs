@@ -40,6 +40,11 @@ pub enum OptimizeError {
     /// A simulation cannot begin.
     #[error(transparent)]
     Start(#[from] StartError),
+    /// Areas are those of an ideal cavity.
+    #[error(
+        "area Z3 is of a level cavity without friction whose walls are alike; ask for stable-share"
+    )]
+    RealCavity,
     /// The objective has a value nowhere between the bounds.
     #[error("the objective cannot be evaluated anywhere between the bounds")]
     Nowhere,

@@ -58,11 +58,18 @@ impl Task {
     /// That of a case; `objective` overrides the case's own.
     ///
     /// # Errors
-    /// [`OptimizeError::NotDriven`] where every absorber is as good as any other.
+    /// [`OptimizeError::NotDriven`] where every absorber is as good as any other, [`OptimizeError::RealCavity`] where
+    /// the objective is that of another cavity.
     pub fn of(case: &Case, objective: Option<Objective>) -> Result<Self, OptimizeError> {
         let settings = &case.optimize;
         if case.system().forcing_per_clearance() == 0.0 {
             return Err(OptimizeError::NotDriven);
+        }
+        let ideal = case.design.has_ideal_cavity();
+        let usual = if ideal { Objective::Z3Share } else { Objective::StableShare };
+        let objective = objective.or(settings.objective).unwrap_or(usual);
+        if !ideal && objective == Objective::Z3Share {
+            return Err(OptimizeError::RealCavity);
         }
         let usual = CLEARANCES.map(|factor| factor * case.design.clearance());
         let given = [
@@ -75,7 +82,7 @@ impl Task {
         });
         Ok(Self {
             case: case.clone(),
-            objective: objective.or(settings.objective).unwrap_or_default(),
+            objective,
             bounds: bounds.collect(),
             sampling: criteria::sampling(case),
         })

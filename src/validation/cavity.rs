@@ -62,7 +62,8 @@ pub fn fixed_points(exact: &FullSystem) -> Vec<Claim> {
     let (theory, forcing) = (CavityTheory::of(system), Forcing::of(system));
     let points = theory.fixed_points(&forcing);
     let numbers: Vec<Numbers> = points.iter().map(Numbers::of_point).collect();
-    let orbits = found.orbits.iter();
+    // One whose flights cross a wall or slide back is no motion.
+    let orbits = found.orbits.iter().filter(|orbit| orbit.admissibility.admissible);
     let orbits: Vec<(&Orbit, Numbers)> =
         orbits.filter_map(|one| Some((one, Numbers::of_orbit(system, one)?))).collect();
     let error = asymptotic_error(system);

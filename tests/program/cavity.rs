@@ -8,7 +8,8 @@ use std::path::Path;
 use std::process::{Command, Output};
 
 use serde_json::Value;
-use vinesink::case::{Case, Rounding};
+use vinesink::case::{Case, Objective, Rounding};
+use vinesink::optimize::{OptimizeError, Task};
 use vinesink::sweep::Plan;
 use vinesink::system::{Cavity, Parameter, System};
 
@@ -396,4 +397,35 @@ fn what_is_wrong_is_said_where_it_stands() {
         assert!(found.expected.contains(expected), "{}", found.expected);
         assert!(found.help.as_ref().is_some_and(|said| said.contains(help)), "{:?}", found.help);
     }
+}
+
+/// Nothing is decided by areas that are those of another cavity.
+#[test]
+fn areas_of_an_ideal_cavity_decide_nothing() {
+    let band = "\n[band]\nfrom = \"7.9 Hz\"\nto = \"8.1 Hz\"\n";
+    for (table, key) in [
+        ("[criteria]\nz3_share = \">= 50 %\"\n", "z3_share"),
+        ("[optimize]\nobjective = \"z3-share\"\n", "objective"),
+    ] {
+        let (ideal, real) = (with("restitution = 0.6\n"), TILTED);
+        assert!(Case::parse("case.toml", &format!("{ideal}{band}{table}")).is_ok(), "{table}");
+        let text = format!("{real}{band}{table}");
+        let error = Case::parse("case.toml", &text).expect_err("refused");
+        let problems: Vec<_> = error.problems().collect();
+        assert_eq!(problems.len(), 1, "{error:?}");
+        let found = problems[0];
+        assert!(found.message.contains("area Z3 is of a level cavity"), "{}", found.message);
+        assert!(found.underlined.starts_with(key), "{}", found.underlined);
+        assert!(
+            found.help.as_ref().is_some_and(|said| said.contains("stable")),
+            "{:?}",
+            found.help
+        );
+    }
+    let task = |text: &str, objective| Task::of(&parsed(&format!("{text}{band}")), objective);
+    let refused = task(TILTED, Some(Objective::Z3Share));
+    assert!(matches!(refused, Err(OptimizeError::RealCavity)), "{refused:?}");
+    assert_eq!(task(TILTED, None).expect("driven").objective, Objective::StableShare);
+    let ideal = with("restitution = 0.6\n");
+    assert_eq!(task(&ideal, None).expect("driven").objective, Objective::Z3Share);
 }
