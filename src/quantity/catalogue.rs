@@ -145,6 +145,7 @@ catalogue! {
     LYAPUNOV_EXPONENT = "lyapunov_exponent", "", "Lyapunov exponent per period", Number, Significant(3), Interval;
     WORK = "work_per_period", "", "work of the excitation per period", Energy, Significant(3), Interval;
     DAMPER_LOSS = "damper_loss_per_period", "", "loss in the structure's damper per period", Energy, Significant(3), Interval;
+    FRICTION_LOSS = "friction_loss_per_period", "", "loss by friction in the cavity per period", Energy, Significant(3), Interval;
     IMPACT_LOSS = "impact_loss_per_period", "", "loss in impacts per period", Energy, Significant(3), Interval;
     LOSS_PER_IMPACT = "loss_per_impact", "", "loss per impact", Energy, Significant(3), Interval;
     EFFICIENCY = "transfer_efficiency", "", "share of the work that impacts dissipate", Share, Significant(2), Interval;

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::simulation::Statistics;
+use crate::simulation::{Statistics, is_zero};
 use crate::system::System;
 
 /// The energy balance of a measured window as rates, and the vibration against that of the oscillator
@@ -16,6 +16,9 @@ pub struct Energetics {
     pub damper_power: f64,
     /// Mean power lost in impacts, ends of chattering sequences included.
     pub impact_power: f64,
+    /// Mean power lost by friction in the cavity.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub friction_power: f64,
     /// Mean loss of an impact; `None` without impacts.
     pub loss_per_impact: Option<f64>,
     /// Mean loss in impacts per excitation period.
@@ -49,6 +52,7 @@ impl Energetics {
             input_power: energy.input / duration,
             damper_power: energy.damper / duration,
             impact_power: energy.impact / duration,
+            friction_power: energy.friction / duration,
             loss_per_impact: (impacts > 0).then(|| energy.impact / impacts as f64),
             loss_per_period: energy.impact / periods,
             transfer_efficiency: (energy.input > 0.0).then(|| energy.impact / energy.input),

@@ -32,7 +32,8 @@ pub struct Energy {
     pub relative_residual: f64,
 }
 
-fn is_zero(value: &f64) -> bool {
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
+pub(crate) fn is_zero(value: &f64) -> bool {
     *value == 0.0
 }
 

@@ -79,7 +79,7 @@ pub fn measured(
         "exponent": exponent,
         // Stays in 1:1 resonance, in periods.
         "captures": { "count": captures.count, "mean": captures.mean, "longest": captures.longest },
-        "energy": energy(scale, motion, system.period()),
+        "energy": energy(scale, motion, system),
         // Undamped and without impacts: its peak is that of its start.
         "keeps_its_start": motion.keeps_its_start(),
         "settled": motion.settled,
@@ -158,7 +158,8 @@ fn error_of_averages(motion: &Attractor) -> f64 {
 }
 
 /// Energies of a period of the excitation.
-fn energy(scale: &Scale, motion: &Attractor, period: f64) -> Value {
+fn energy(scale: &Scale, motion: &Attractor, system: &System) -> Value {
+    let period = system.period();
     let energetics = &motion.energetics;
     let error = error_of_averages(motion);
     let energy = |kind, value: f64| {
@@ -168,13 +169,17 @@ fn energy(scale: &Scale, motion: &Attractor, period: f64) -> Value {
     let efficiency = energetics
         .transfer_efficiency
         .map(|share| Quantity::new(&of::EFFICIENCY, share, Simulation).with_error(error * share));
-    json!({
+    let mut told = json!({
         "work": energy(&of::WORK, energetics.input_power * period),
         "damper": energy(&of::DAMPER_LOSS, energetics.damper_power * period),
         "impacts": energy(&of::IMPACT_LOSS, energetics.loss_per_period),
         "per_impact": energetics.loss_per_impact.map(|one| energy(&of::LOSS_PER_IMPACT, one)),
         "efficiency": efficiency,
-    })
+    });
+    if system.cavity().friction_acceleration > 0.0 {
+        told["friction"] = json!(energy(&of::FRICTION_LOSS, energetics.friction_power * period));
+    }
+    told
 }
 
 /// The exact orbit that a motion is: walls in the order of the impacts, largest multiplier per period.
