@@ -221,7 +221,8 @@ mod tests {
 
     use super::*;
     use crate::simulation::flow::Oscillator;
-    use crate::simulation::phasor::{Line, Path, Rates};
+    use crate::simulation::path::{Line, Path};
+    use crate::simulation::phasor::Rates;
     use crate::system::{Cavity, Excitation, Parameters, System};
 
     fn oscillator(mass_ratio: f64, damping: f64, frequency_ratio: f64) -> Oscillator {

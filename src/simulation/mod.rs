@@ -13,6 +13,7 @@ pub mod flow;
 mod history;
 mod integrals;
 mod panels;
+mod path;
 mod peaks;
 mod phasor;
 mod run;

@@ -6,7 +6,8 @@ use fearless_simd::{Level, Simd, dispatch};
 
 use super::certificate::{Quintic, Slack};
 use super::integrals::{Ends, Integrals, Ringing, Turning};
-use super::phasor::{At, Line, Rates, Steady};
+use super::path::Line;
+use super::phasor::{At, Rates, Steady};
 use crate::numerics::lanes::{LANES, Mask, Real, Wide};
 
 /// The oscillator at one moment, seen from where it would rest.

@@ -8,8 +8,8 @@
 use super::certificate::Hull;
 use super::events::{Observer, Reversal, Side};
 use super::flow::{Kinematics, Oscillator};
+use super::path::{Line, Parabola, Path};
 use super::phasor::At;
-use super::phasor::{Line, Parabola, Path};
 use super::run::{Mode, Moment, Simulation};
 use super::walls::TOUCH_ULPS;
 use crate::system::{State, System};

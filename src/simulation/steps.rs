@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use super::contact::rebound;
 use super::events::{Absorber, Observer, Segment, Side};
 use super::flow::{Kinematics, Motion};
-use super::phasor::{Line, Parabola, Path};
+use super::path::{Line, Parabola, Path};
 use super::run::{Mode, Simulation, Stop};
 use super::sliding::Sliding;
 use super::walls::{self, TOUCH_ULPS};

@@ -1,7 +1,7 @@
 //! What rounding makes of the walls: touching them, and chattering down to sustained contact.
 
 use super::events::Side;
-use super::phasor::Line;
+use super::path::Line;
 use super::run::Simulation;
 use crate::numerics::lanes::Real;
 

@@ -9,7 +9,8 @@ use crate::simulation::certificate::{Hull, Slack};
 use crate::simulation::contact::{Rebound, rebound};
 use crate::simulation::events::{Detail, Side};
 use crate::simulation::panels::CORRECTIONS;
-use crate::simulation::phasor::{At, Line, Path, Rates, Steady};
+use crate::simulation::path::{Line, Path};
+use crate::simulation::phasor::{At, Rates, Steady};
 use crate::system::State;
 
 /// Halvings of panels side by side; what needs more goes on alone.
