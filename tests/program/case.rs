@@ -772,8 +772,13 @@ fn the_starting_case_shows_every_optional_key_and_parses_without_its_comment_sig
     let steady = Subject::ALL.into_iter().filter(|subject| subject.is_for(Scene::Steady));
     assert_eq!(case.criteria.len(), steady.count());
     assert_eq!(case.uncertainty.parameters().count(), 6);
-    assert!(case.system().cavity().gravity_along > 0.0);
-    assert!(case.system().cavity().friction_acceleration > 0.0);
+    // What excludes areas of the theory stands in a comment of its own.
+    let keys = "inclination = \"0.5 deg\"\nfriction = 0.003\nrestitution = [0.65, 0.55]\n";
+    assert!(keys.lines().all(|key| text.contains(key)));
+    let restitution = text.lines().find(|line| line.starts_with("restitution = ")).expect("one");
+    let cavity = parsed(&text.replacen(restitution, keys, 1)).system().cavity();
+    assert!(cavity.gravity_along > 0.0 && cavity.friction_acceleration > 0.0, "{cavity:?}");
+    assert!(cavity.restitution_difference > 0.0, "{cavity:?}");
     let band = case.band.expect("a band");
     assert_eq!((band.over, band.spectrum.len()), (BandOver::Frequency, 2));
     let optimize = case.optimize;
