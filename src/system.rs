@@ -74,6 +74,11 @@ impl Cavity {
         self.gravity_along == 0.0 && self.restitution_difference == 0.0
     }
 
+    /// Whether gravity or friction act on an absorber between the walls.
+    pub fn moves_absorber(&self) -> bool {
+        self.gravity_along != 0.0 || self.friction_acceleration != 0.0
+    }
+
     /// The same accelerations over a `b omega0^2` that is `factor` times as large.
     #[must_use]
     pub fn with_clearance_scaled(self, factor: f64) -> Self {
@@ -255,10 +260,20 @@ impl System {
     /// that `x = re sin(Omega tau) + im cos(Omega tau)`. `None` for an undamped system driven
     /// exactly at its natural frequency, which has no steady motion.
     pub fn linear_response(&self) -> Option<LinearResponse> {
+        self.response_of(1.0)
+    }
+
+    /// The same with the absorber in tow, without what gravity displaces; the mass is then `1 + eps`.
+    pub fn response_in_tow(&self) -> Option<LinearResponse> {
+        self.response_of(1.0 + self.parameters.mass_ratio)
+    }
+
+    fn response_of(&self, mass: f64) -> Option<LinearResponse> {
         let omega = self.parameters.frequency_ratio;
         let damping = self.parameters.mass_ratio * self.parameters.damping;
         let (sine, cosine) = self.excitation_amplitudes();
-        let stiffness = (1.0 - omega) * (1.0 + omega);
+        let scaled = mass.sqrt() * omega;
+        let stiffness = (1.0 - scaled) * (1.0 + scaled);
         let loss = damping * omega;
         let scale = stiffness * stiffness + loss * loss;
         if scale == 0.0 {

@@ -18,7 +18,7 @@ use serde::Serialize;
 use super::Band;
 use crate::numerics::scan::largest;
 use crate::simulation::{Simulation, Stop};
-use crate::system::{Cavity, State, System};
+use crate::system::{Cavity, LinearResponse, State, System};
 
 /// Share of the resting places below which nobody will meet the inactive absorber.
 const NEGLIGIBLE: f64 = 0.01;
@@ -67,11 +67,11 @@ pub enum Rest {
 impl Inactive {
     /// That of a system; `None` where every start from rest wakes the absorber, but for a negligible share.
     pub fn of(system: &System) -> Option<Self> {
-        let Cavity { gravity_along: a, friction_acceleration: f, .. } = system.cavity();
-        if a == 0.0 && f == 0.0 {
+        if !system.cavity().moves_absorber() {
             return Self::floating(system);
         }
-        let held = InTow::of(system);
+        let Cavity { gravity_along: a, friction_acceleration: f, .. } = system.cavity();
+        let held = InTow::of(system)?;
         let [steady, largest] = held.accelerations;
         // A transient may throw it off the wall that it rests on, where it comes to rest again.
         let settles = || {
@@ -79,7 +79,7 @@ impl Inactive {
             steady <= a.abs() + f && after.is_some_and(|(impacts, _)| impacts[1] == 0)
         };
         if largest <= a.abs() + f || a != 0.0 && settles() {
-            let (amplitude, start) = (held.amplitude, held.start(system));
+            let (amplitude, start) = (held.steady.amplitude(), held.start(system));
             return Some(Self { amplitude, share: 1.0, rest: Rest::Held, start });
         }
         if a == 0.0 { Self::sliding(system, f) } else { None }
@@ -157,41 +157,40 @@ fn from_rest(system: &System, place: f64, most: u64, drift: f64) -> Option<([u64
 
 /// The structure with the absorber in tow, from rest. Lengths over the clearance, fast time.
 struct InTow {
-    /// Steady amplitude.
-    amplitude: f64,
-    /// Displacement and velocity at phase 0, without that by gravity.
-    steady: [f64; 2],
+    /// Its steady motion, without what gravity displaces.
+    steady: LinearResponse,
     /// Of the acceleration: the steady amplitude, and a bound with the transient.
     accelerations: [f64; 2],
 }
 
 impl InTow {
-    fn of(system: &System) -> Self {
+    /// `None` at an undamped resonance.
+    fn of(system: &System) -> Option<Self> {
         let (eps, omega) = (system.mass_ratio(), system.frequency_ratio());
-        let mass = 1.0 + eps;
-        let (sine, cosine) = system.excitation_amplitudes();
-        let damping = eps * system.damping();
-        // (1 - mass omega^2 + i damping omega) S = cosine - i sine, x = Re(S e^{i Omega tau}).
-        let steady =
-            Complex::new(cosine, -sine) / Complex::new(1.0 - mass * omega * omega, damping * omega);
-        let (natural, decay) = ((1.0 / mass).sqrt(), 0.5 * damping / mass);
+        let steady = system.response_in_tow()?;
+        let (natural, decay) =
+            ((1.0 / (1.0 + eps)).sqrt(), 0.5 * eps * system.damping() / (1.0 + eps));
         let ringing = (natural * natural - decay * decay).max(0.0).sqrt();
-        let (x, v) = (steady.re, -omega * steady.im);
-        let free =
-            if ringing == 0.0 { steady.norm() } else { libm::hypot(x, (decay * x - v) / ringing) };
+        let State { x, x_velocity: v, .. } = steady.state(system);
+        let free = if ringing == 0.0 {
+            steady.amplitude()
+        } else {
+            libm::hypot(x, (decay * x - v) / ringing)
+        };
         // Gravity, too, begins to pull where the motion does.
         let free = free + eps * system.cavity().gravity_along.abs();
-        let [forced, free] = [steady.norm() * omega * omega, free * natural * natural];
+        let [forced, free] = [steady.amplitude() * omega * omega, free * natural * natural];
         let largest = largest_from_rest(forced, free, decay, (ringing - omega).abs());
-        Self { amplitude: steady.norm(), steady: [x, v], accelerations: [forced, largest] }
+        Some(Self { steady, accelerations: [forced, largest] })
     }
 
     /// The steady motion at phase 0, the absorber on the wall that gravity pulls it to, or in the middle.
     fn start(&self, system: &System) -> State {
         let a = system.cavity().gravity_along;
-        let (x, v) = (self.steady[0] + system.mass_ratio() * a, self.steady[1]);
+        let State { x, x_velocity, .. } = self.steady.state(system);
+        let x = x + system.mass_ratio() * a;
         let place = if a == 0.0 { 0.0 } else { -a.signum() };
-        State { x, x_velocity: v, y: x - place, y_velocity: v }
+        State { x, x_velocity, y: x - place, y_velocity: x_velocity }
     }
 }
 
@@ -318,7 +317,7 @@ mod tests {
             [(0.1, 0.0, -1.0), (-0.1, 0.04, 1.0), (0.03, 0.1, 0.2), (0.0, 0.1, 0.4)];
         for (a, f, gap) in places {
             let limit: f64 = if gap.abs() == 1.0 { f + a.abs() } else { f - a.abs() };
-            let unit = InTow::of(&in_cavity(1.0, a, f)).accelerations[0];
+            let unit = InTow::of(&in_cavity(1.0, a, f)).expect("damped").accelerations[0];
             for (factor, stays) in [(0.999, true), (1.001, false)] {
                 let system = in_cavity(factor * limit / unit, a, f);
                 let (eps, omega) = (0.05, 0.9);
@@ -339,7 +338,7 @@ mod tests {
     #[test]
     fn friction_and_tilt_decide_which_places_wake() {
         let of = |factor: f64, a: f64, f: f64| {
-            let unit = InTow::of(&in_cavity(1.0, a, f)).accelerations[0];
+            let unit = InTow::of(&in_cavity(1.0, a, f)).expect("damped").accelerations[0];
             Inactive::of(&in_cavity(factor * (f + a.abs()) / unit, a, f))
         };
         for (a, f) in [(0.1, 0.0), (0.1, 0.04), (0.03, 0.1), (0.0, 0.1)] {

@@ -184,7 +184,7 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Criteria {
 
 /// What there is to say of shares in area Z3 where the cavity is inclined, rubs or has unequal walls, and what is
 /// expected instead.
-pub(super) const AREAS_ARE_IDEAL: &str =
+pub(crate) const AREAS_ARE_IDEAL: &str =
     "area Z3 is of a level cavity without friction whose walls are alike";
 pub(super) const EXACT_INSTEAD: &str = "expected what exact orbits of this cavity decide";
 

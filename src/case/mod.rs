@@ -38,6 +38,7 @@ use serde_json::{Value, json};
 use toml::de::DeTable;
 
 pub use band::{BandOver, BandSettings};
+pub(crate) use criteria::AREAS_ARE_IDEAL;
 pub use criteria::{Criterion, Relation, Subject};
 pub use error::{CaseError, Problem};
 pub use inputs::Input;

@@ -179,11 +179,8 @@ impl Read<'_> {
         let Case { system, band, .. } = self.case;
         let steady = self.case.design.scene() == Scene::Steady && band.is_none();
         let at = self.input(1, &["inclination", "gravity_along"]).filter(|_| steady)?;
-        let (eps, omega) = (system.mass_ratio(), system.frequency_ratio());
-        let (sine, cosine) = system.excitation_amplitudes();
-        let stiffness = 1.0 - (1.0 + eps) * omega * omega;
-        let response = libm::hypot(stiffness, eps * system.damping() * omega);
-        let acceleration = omega * omega * libm::hypot(sine, cosine) / response;
+        let omega = system.frequency_ratio();
+        let acceleration = omega * omega * system.response_in_tow()?.amplitude();
         let gravity = system.cavity().gravity_along.abs();
         if acceleration == 0.0 || gravity <= acceleration {
             return None;

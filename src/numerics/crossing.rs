@@ -78,39 +78,19 @@ pub enum Search {
 /// The curve may start on an edge: it has left only when it moves outwards there. Steps are never
 /// shorter than the one in which the curve can pass the edge by `touch`, so the search ends.
 pub fn first_crossing(curve: &impl Curve, from: f64, until: f64, band: Band) -> Search {
-    let mut s = from;
-    let mut evaluations = 0;
-    loop {
-        let sample = curve.sample(s);
-        evaluations += 1;
-        // Where the parabola's own numbers overflow no step is long enough to end the search.
-        let discriminant = sample.slope * sample.slope + sample.curvature_bound * band.touch;
-        if !(sample.value.is_finite() && discriminant.is_finite()) {
-            return Search::NotFinite(s);
-        }
-        if let Some(edge) = left_through(&sample, &band) {
-            let time = corrected(s, &sample, &band, edge).max(from);
-            return Search::Crossed(Crossing { time, edge, evaluations });
-        }
-        if s >= until {
-            return Search::Clear { evaluations };
-        }
-        let step = safe_step(&sample, &band).min(curve.horizon());
-        let next = s + step;
-        s = if next > s { next.min(until) } else { until.min(s.next_up()) };
-    }
+    first_of(|s| [curve.sample(s)], curve.horizon(), [from], until, [band]).0
 }
 
-/// The first of two curves to leave its band, the first one where both do at once, and where; each is watched from its own
-/// time on.
-pub fn first_of_two(
-    curves: &impl Fn(f64) -> [Sample; 2],
+/// The first of several curves to leave its band, the foremost where more do at once, and which; each is watched from
+/// its own time on.
+pub fn first_of<const N: usize>(
+    curves: impl Fn(f64) -> [Sample; N],
     horizon: f64,
-    from: [f64; 2],
+    from: [f64; N],
     until: f64,
-    bands: [Band; 2],
+    bands: [Band; N],
 ) -> (Search, usize) {
-    let mut s = from[0].min(from[1]);
+    let mut s = from.into_iter().fold(f64::INFINITY, f64::min);
     let mut evaluations = 0;
     loop {
         let samples = curves(s);
@@ -121,6 +101,7 @@ pub fn first_of_two(
                 step = step.min(from[k] - s);
                 continue;
             }
+            // Where the parabola's own numbers overflow no step is long enough to end the search.
             let discriminant = sample.slope * sample.slope + sample.curvature_bound * band.touch;
             if !(sample.value.is_finite() && discriminant.is_finite()) {
                 return (Search::NotFinite(s), k);

@@ -10,3 +10,9 @@ pub mod polynomial;
 pub mod quadrature;
 pub mod scan;
 pub mod scatter;
+
+/// Whether a number is left out where it is written.
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
+pub(crate) fn is_zero(value: &f64) -> bool {
+    *value == 0.0
+}

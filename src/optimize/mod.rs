@@ -41,9 +41,7 @@ pub enum OptimizeError {
     #[error(transparent)]
     Start(#[from] StartError),
     /// Areas are those of an ideal cavity.
-    #[error(
-        "area Z3 is of a level cavity without friction whose walls are alike; ask for stable-share"
-    )]
+    #[error("{}; ask for stable-share", crate::case::AREAS_ARE_IDEAL)]
     RealCavity,
     /// The objective has a value nowhere between the bounds.
     #[error("the objective cannot be evaluated anywhere between the bounds")]

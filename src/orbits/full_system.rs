@@ -18,7 +18,8 @@ use crate::system::{Parameter, System};
 /// Band of the frequency ratio, over the system's own, in which limits are looked for: one at half
 /// or twice the frequency is no neighbour.
 const FREQUENCIES: [f64; 2] = [0.5, 2.0];
-/// Clearances over the system's own between which the attracting orbit of a cavity that is not ideal is followed.
+/// Clearances, and forcings, over the system's own between which the attracting orbit of a cavity that is not ideal is
+/// followed.
 const CLEARANCES: [f64; 2] = [0.05, 20.0];
 /// Clearances looked at per unit of their logarithm for the smallest vibration: the optimum is
 /// known to one percent.
@@ -116,6 +117,14 @@ impl FullSystem {
         let range = FREQUENCIES.map(|factor| factor * self.system.frequency_ratio());
         [Direction::Down, Direction::Up].map(|direction| {
             self.limit(self.attracting_orbit()?, Parameter::Frequency, range, direction)
+        })
+    }
+
+    /// The same as the forcing alone is lowered and raised; values are over the system's own. In an ideal cavity they
+    /// are the reciprocals of the clearances at the ends of [`Self::stretch`].
+    pub fn forcing_limits(&self) -> [Option<SpecialPoint>; 2] {
+        [Direction::Down, Direction::Up].map(|direction| {
+            self.limit(self.attracting_orbit()?, Parameter::Amplitude, CLEARANCES, direction)
         })
     }
 

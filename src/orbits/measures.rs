@@ -12,7 +12,7 @@ use super::admissibility::zeros;
 use super::flight::Motion;
 use super::impact_map::{ImpactMap, Step};
 use super::orbit::Cycle;
-use crate::numerics::quadrature;
+use crate::numerics::{is_zero, quadrature};
 use crate::operation_count;
 use crate::system::System;
 
@@ -59,15 +59,10 @@ pub struct EnergyPerPeriod {
     /// Lost in impacts.
     pub impact: f64,
     /// Lost by friction in the cavity.
-    #[serde(skip_serializing_if = "is_none")]
+    #[serde(skip_serializing_if = "is_zero")]
     pub friction: f64,
     /// `abs(input - damper - impact - friction)` over the largest of the four: rounding.
     pub relative_residual: f64,
-}
-
-#[allow(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
-fn is_none(energy: &f64) -> bool {
-    *energy == 0.0
 }
 
 /// Averages along an orbit; lengths over the clearance, fast time.

@@ -2,7 +2,8 @@
 
 use serde::Serialize;
 
-use crate::simulation::{Statistics, is_zero};
+use crate::numerics::is_zero;
+use crate::simulation::Statistics;
 use crate::system::System;
 
 /// The energy balance of a measured window as rates, and the vibration against that of the oscillator

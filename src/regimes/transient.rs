@@ -9,7 +9,7 @@
 use serde::Serialize;
 
 use crate::orbits::steady_orbit;
-use crate::system::{Cavity, State, System};
+use crate::system::{State, System};
 
 /// E-folds that are left out: of a free vibration as large as the motion that remains, 6e-6 is then left.
 const FADED: f64 = 12.0;
@@ -76,8 +76,7 @@ fn decay_rate(system: &System) -> f64 {
 /// oscillator on its steady motion. None where the absorber moves, gravity or friction move it, a wall may still
 /// reach it, or the free vibration stays.
 pub fn inactive(system: &System, state: &State) -> Option<State> {
-    let Cavity { gravity_along, friction_acceleration, .. } = system.cavity();
-    if gravity_along != 0.0 || friction_acceleration != 0.0 {
+    if system.cavity().moves_absorber() {
         return None;
     }
     let linear = system.linear_response()?;

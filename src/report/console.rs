@@ -126,12 +126,9 @@ impl Analysed<'_> {
                 "fold": theory.fold(),
                 "symmetry_breaking": theory.symmetry_breaking(),
             });
-        }
-        if !system.cavity().is_ideal()
-            && let (Value::Object(cavity), Some(reduced)) =
-                (json!(system.cavity()), document["reduced"].as_object_mut())
-        {
-            reduced.extend(cavity);
+            for (key, value) in json!(system.cavity()).as_object().into_iter().flatten() {
+                document["reduced"][key] = value.clone();
+            }
         }
         if let Some(answers) = self.answers {
             document["answers"] = json!(answers);

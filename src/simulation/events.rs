@@ -44,6 +44,12 @@ impl Side {
             Self::Minus => -1.0,
         }
     }
+
+    /// Its place in a pair, the plus side first.
+    #[inline(always)]
+    pub(crate) fn index(self) -> usize {
+        usize::from(self == Self::Minus)
+    }
 }
 
 /// One impact.

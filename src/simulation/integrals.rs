@@ -230,7 +230,7 @@ impl Ringing {
             ee: one / (turn * 2.0),
             e: one / turn,
         };
-        let straight = Sliding::of(system).none();
+        let straight = Sliding::of(system).straight;
         Some(Self { straight, rates, pole, steady, turn, over, squares })
     }
 
@@ -356,11 +356,6 @@ impl Quadrature {
             first_panel: FRAC_PI_4 / decaying,
             force: Phasor::new(cosine, -sine),
         }
-    }
-
-    /// Of the excitation.
-    pub(super) fn frequency(&self) -> f64 {
-        self.frequency
     }
 
     /// The largest absolute displacement of the oscillator in a stretch: at an end, or where the velocity

@@ -29,7 +29,6 @@ pub use contact::ContactTolerance;
 pub use events::{Absorber, Detail, Impact, Observer, Reversal, Segment, Side, StartError};
 pub use history::{ImpactLog, Trace, TracePoint};
 pub use run::{Simulation, Stop};
-pub(crate) use statistics::is_zero;
 pub use statistics::{Energy, Measurement, PeriodRecord, Statistics, SustainedContact};
 pub use tangent::Tangent;
 pub use trust::{Doubt, doubts};

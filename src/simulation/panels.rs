@@ -77,7 +77,7 @@ impl Simulation {
         observer: &mut dyn Observer,
     ) -> FlightEnd {
         let Some(rates) = self.rates else { return FlightEnd::Doubt };
-        let (moment, end) = if self.sliding.none() {
+        let (moment, end) = if self.sliding.straight {
             dispatch!(level, simd => self.fly_by(simd, Straight, &rates, limits, observer))
         } else {
             let sliding = self.sliding;
@@ -136,7 +136,7 @@ impl Simulation {
                 at.sense = -side.sign();
                 let State { x, x_velocity: v, y, y_velocity } = at.state;
                 let line = Line { y, velocity: y_velocity };
-                let sticking = &sticking[usize::from(side == Side::Minus)];
+                let sticking = &sticking[side.index()];
                 if sticking.possible(x, v, line, side.sign()) {
                     return (at, FlightEnd::MayStick(side));
                 }

@@ -303,7 +303,7 @@ impl Simulation {
     /// The restitution of a wall.
     #[inline(always)]
     pub(super) fn restitution(&self, side: Side) -> f64 {
-        self.restitutions[usize::from(side == Side::Minus)]
+        self.restitutions[side.index()]
     }
 
     /// An impact as observers are told of it.

@@ -21,6 +21,8 @@ pub(super) struct Sliding {
     pub gravity: f64,
     /// `f`.
     pub friction: f64,
+    /// Whether there is neither, so that flights are straight lines.
+    pub straight: bool,
     mass_ratio: f64,
 }
 
@@ -30,6 +32,7 @@ impl Sliding {
         Self {
             gravity: cavity.gravity_along,
             friction: cavity.friction_acceleration,
+            straight: !cavity.moves_absorber(),
             mass_ratio: system.mass_ratio(),
         }
     }
@@ -38,16 +41,14 @@ impl Sliding {
     pub(super) fn first_sense(system: &System, start: &State) -> f64 {
         let slope = start.x_velocity - start.y_velocity;
         if slope == 0.0 {
-            let at = Kinematics { x: start.x, v: start.x_velocity };
-            let pull = Oscillator::alone(system).acceleration(0.0, at);
-            return (pull - system.cavity().gravity_along).signum();
+            return Self::of(system).pull(&Oscillator::alone(system), 0.0, start).signum();
         }
         slope.signum()
     }
 
-    /// Whether flights are straight lines.
-    pub(super) fn none(&self) -> bool {
-        self.gravity == 0.0 && self.friction == 0.0
+    /// `x'' - a` of the oscillator alone, without friction, in a state.
+    pub(super) fn pull(&self, alone: &Oscillator, phase: f64, state: &State) -> f64 {
+        alone.acceleration(phase, Kinematics { x: state.x, v: state.x_velocity }) - self.gravity
     }
 
     /// The absorber's acceleration where `w'` has a sign.
@@ -136,11 +137,8 @@ impl Course for Sliding {
 }
 
 impl Simulation {
-    /// `x'' - a` of the oscillator alone, without friction, where the trajectory stands.
-    pub(super) fn pull(&self) -> f64 {
-        let State { x, x_velocity, .. } = self.at.state;
-        let at = Kinematics { x, v: x_velocity };
-        self.alone.acceleration(self.at.phase, at) - self.sliding.gravity
+    fn pull(&self) -> f64 {
+        self.sliding.pull(&self.alone, self.at.phase, &self.at.state)
     }
 
     /// What rounding may make of forces where the trajectory stands.

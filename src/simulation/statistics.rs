@@ -9,6 +9,7 @@ use serde::Serialize;
 
 use super::events::{Impact, Side};
 use super::integrals::Integrals;
+use crate::numerics::is_zero;
 use crate::numerics::scatter::{error_of_largest, twice_standard_error};
 use crate::system::{State, System};
 
@@ -30,11 +31,6 @@ pub struct Energy {
     pub stored: f64,
     /// `abs(input - damper - impact - friction - stored)` over the largest energy that appears in the balance.
     pub relative_residual: f64,
-}
-
-#[allow(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
-pub(crate) fn is_zero(value: &f64) -> bool {
-    *value == 0.0
 }
 
 /// Time spent in sustained contact.
@@ -291,7 +287,7 @@ impl Statistics {
     /// Turns the chattering sequence that has just ended into the visit that its first impact began.
     fn close_sequence(&mut self) {
         let Some((side, length)) = self.run.take() else { return };
-        let wall = index(side);
+        let wall = side.index();
         let mut further = length.saturating_sub(1);
         self.visits -= u64::from(further);
         // The latest impacts on this wall are the sequence's; it may have lasted several periods.
@@ -312,7 +308,7 @@ impl Statistics {
         self.current.impact_speed = self.current.impact_speed.max(speed);
         self.impact_loss += impact.loss;
         self.penetration = self.penetration.max(impact.penetration);
-        let wall = index(impact.side);
+        let wall = impact.side.index();
         self.current.impacts[wall] += 1;
         self.current.visits[wall] += 1;
         self.visits += 1;
@@ -356,11 +352,6 @@ impl Statistics {
 fn energy(system: &System, state: &State) -> f64 {
     let eps = system.mass_ratio();
     state.energy(eps) - eps * system.cavity().gravity_along * state.y
-}
-
-/// Place of a wall in a pair.
-fn index(side: Side) -> usize {
-    usize::from(side == Side::Minus)
 }
 
 #[cfg(test)]

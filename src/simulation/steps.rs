@@ -10,7 +10,7 @@ use super::path::{Line, Parabola, Path};
 use super::run::{Mode, Simulation, Stop};
 use super::sliding::Sliding;
 use super::walls::{self, TOUCH_ULPS};
-use crate::numerics::crossing::{Band, Curve, Edge, Sample, Search, first_crossing, first_of_two};
+use crate::numerics::crossing::{Band, Curve, Edge, Sample, Search, first_crossing, first_of};
 use crate::system::State;
 
 /// Distance over the clearance by which rounding may move the walls before the search gives up.
@@ -75,7 +75,7 @@ impl Simulation {
                 },
             ]
         };
-        first_of_two(&samples, HORIZON, [from, slips.min(remaining)], remaining, [band, slope])
+        first_of(samples, HORIZON, [from, slips.min(remaining)], remaining, [band, slope])
     }
 
     /// The flight from here.

@@ -31,7 +31,7 @@
 //! A flight that grazes a wall, and a contact that is lost or not, are the exceptions at which no
 //! derivative exists; no trajectory meets them but by choice of its start.
 
-use super::events::{Absorber, Impact, Observer, Reversal, Segment, Side};
+use super::events::{Absorber, Impact, Observer, Reversal, Segment};
 use super::flow::{Kinematics, Oscillator};
 use super::sliding::Sliding;
 use crate::system::{State, System};
@@ -143,7 +143,7 @@ impl Observer for Tangent {
     fn impact(&mut self, impact: &Impact) {
         let State { x, x_velocity, y, y_velocity } = self.change;
         let eps = self.mass_ratio;
-        let restitution = self.restitutions[usize::from(impact.side == Side::Minus)];
+        let restitution = self.restitutions[impact.side.index()];
         let q = (1.0 + restitution) / (1.0 + eps);
         let approach = impact.x_velocity_before - impact.y_velocity_before;
         let before = Kinematics { x: impact.x, v: impact.x_velocity_before };
@@ -176,8 +176,7 @@ impl Observer for Tangent {
         // Friction has no part in what both do together.
         let common = (x_velocity + eps * y_velocity) / (1.0 + eps);
         let slope = x_velocity - y_velocity;
-        let at = Kinematics { x: state.x, v: state.x_velocity };
-        let pull = self.alone.acceleration(phase, at) - self.sliding.gravity;
+        let pull = self.sliding.pull(&self.alone, phase, &state);
         let grip = self.sliding.grip();
         let left =
             if after == 0.0 { 0.0 } else { slope * (pull - after * grip) / (pull - before * grip) };

@@ -14,7 +14,7 @@ use crate::system::{Parameter, State, System};
 
 /// A tilt of the cavity in rad: 0.2 degrees, what is left after levelling with a workshop spirit level.
 pub const TILT: f64 = 0.2 * PI / 180.0;
-/// A coefficient of friction: of a hard ball that rolls in a dry groove.
+/// A coefficient of friction: what is left of a slider on good bearings, or of a ball that is guided.
 pub const FRICTION: f64 = 0.005;
 /// By how much the restitutions of two walls of one make differ.
 pub const APART: f64 = 0.02;

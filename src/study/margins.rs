@@ -2,6 +2,7 @@
 //! forcing and frequency.
 
 use crate::analysis::Analysis;
+use crate::orbits::branch::SpecialPoint;
 use crate::orbits::{BestClearance, Bifurcation, FullSystem};
 use crate::validation::boundaries::{BoundaryAt, clearances};
 
@@ -36,11 +37,14 @@ pub struct ExactMargin {
     pub factor: f64,
 }
 
-/// How far the attracting symmetric orbit of the case persists, exactly.
+/// How far the attracting 1:1 orbit of the case persists, exactly.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ExactMargins {
-    /// Below and above in clearance; in forcing they are the reciprocals, the other way round.
+    /// Below and above in clearance.
     pub clearance: [Option<ExactMargin>; 2],
+    /// Below and above in forcing. As `gamma = G/b`, in an ideal cavity they are the reciprocals, the other way round;
+    /// gravity and friction do not scale with the forcing, and they are found by continuation.
+    pub forcing: [Option<ExactMargin>; 2],
     /// Below and above in frequency, by continuation.
     pub frequency: [Option<ExactMargin>; 2],
 }
@@ -51,18 +55,19 @@ impl ExactMargins {
         let at = |k: usize| {
             stretch.ends[k].map(|kind| ExactMargin { kind, factor: stretch.clearance[k] })
         };
-        let own = exact.system.frequency_ratio();
-        let frequency = exact.frequency_limits().map(|limit| {
-            limit.map(|special| ExactMargin { kind: special.kind, factor: special.value / own })
-        });
-        Some(Self { clearance: [at(0), at(1)], frequency })
-    }
-
-    /// Below and above in forcing: `gamma = G / b`, so a limit at `k` times the clearance is met at
-    /// `1/k` times the forcing.
-    pub fn forcing(&self) -> [Option<ExactMargin>; 2] {
+        let over = |own: f64| {
+            move |limit: Option<SpecialPoint>| {
+                limit.map(|special| ExactMargin { kind: special.kind, factor: special.value / own })
+            }
+        };
+        let clearance = [at(0), at(1)];
         let inverse = |margin: ExactMargin| ExactMargin { factor: 1.0 / margin.factor, ..margin };
-        let [below, above] = self.clearance;
-        [above.map(inverse), below.map(inverse)]
+        let forcing = if exact.system.cavity().is_ideal() {
+            [clearance[1].map(inverse), clearance[0].map(inverse)]
+        } else {
+            exact.forcing_limits().map(over(1.0))
+        };
+        let frequency = exact.frequency_limits().map(over(exact.system.frequency_ratio()));
+        Some(Self { clearance, forcing, frequency })
     }
 }

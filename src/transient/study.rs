@@ -227,8 +227,7 @@ pub(super) fn inactive(system: &System, start: &State) -> f64 {
     if start.y_velocity != 0.0 {
         return 0.0;
     }
-    let cavity = system.cavity();
-    if cavity.gravity_along != 0.0 || cavity.friction_acceleration != 0.0 {
+    if system.cavity().moves_absorber() {
         let stays = |w: &f64| {
             let from = State { y: start.x - w, ..*start };
             let alone = unforced(system, TAU).ok();

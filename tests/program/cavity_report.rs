@@ -11,9 +11,10 @@ use vinesink::analysis::Analysis;
 use vinesink::band::Inactive;
 use vinesink::case::Case;
 use vinesink::cavity::{CavityTheory, Forcing};
-use vinesink::orbits::{FullSystem, Measures, two_impact_orbits};
+use vinesink::orbits::{FullSystem, Measures, Orbit, two_impact_orbits};
 use vinesink::regimes::Window;
-use vinesink::system::{Cavity, Parameters, System};
+use vinesink::study::margins::Margins;
+use vinesink::system::{Cavity, Parameter, Parameters, System};
 use vinesink::validation::{Claim, Verdict, confront_simulation, confront_theory};
 
 const TILTED: &str = include_str!("../cavity/tilted.toml");
@@ -171,4 +172,32 @@ fn what_is_not_so_is_refuted() {
     let steep = Cavity { gravity_along: 1e-4, ..Cavity::IDEAL };
     let awake = System::new(Parameters { cavity: steep, ..base }).expect("valid");
     assert!(Inactive::of(&awake).is_none());
+}
+
+/// When the forcing alone changes, gravity and friction stay: its limits are no reciprocals of those of the clearance. Each
+/// is where the exact orbit ends, solved anew on either side.
+#[test]
+fn limits_of_the_forcing_are_those_of_the_orbit() {
+    for keys in [
+        "restitution = 0.6\ninclination = \"5 deg\"\n",
+        "restitution = 0.6\ninclination = \"2 deg\"\nfriction = \"5 %\"\n",
+    ] {
+        let system = system(keys);
+        let analysis = Analysis::of(&system).expect("theory");
+        let margins = Margins::of(&analysis, &FullSystem::of(&system)).exact.expect("attracts");
+        let attracts = |factor: f64| {
+            let there = Parameter::Amplitude.applied(&system, factor).expect("valid");
+            let found = two_impact_orbits(&there).expect("solved").orbits;
+            // The other half of an imperfect pitchfork leans the other way.
+            let leans = |one: &&Orbit| one.cycle.unfolded().durations[0] < 0.5 * there.period();
+            found.iter().filter(leans).any(Orbit::attracts)
+        };
+        assert!(attracts(1.0), "{keys}");
+        let [low, high] = margins.forcing.map(|end| end.expect("an end").factor);
+        assert!(attracts(low * 1.002) && !attracts(low * 0.998), "{keys} {low}");
+        assert!(attracts(high * 0.998) && !attracts(high * 1.002), "{keys} {high}");
+        let reciprocals = margins.clearance.map(|end| 1.0 / end.expect("an end").factor);
+        let off = (low / reciprocals[1] - 1.0).abs().max((high / reciprocals[0] - 1.0).abs());
+        assert!(off > 0.01, "{keys} {off}");
+    }
 }

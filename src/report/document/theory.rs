@@ -188,7 +188,7 @@ impl Facts<'_> {
         let clearance = |one: ExactMargin| self.end(Some(one.kind), one.factor);
         json!({
             "clearance": margins.clearance.map(|end| end.map(clearance)),
-            "forcing": margins.forcing().map(|end| end.map(force)),
+            "forcing": margins.forcing.map(|end| end.map(force)),
             "frequency": margins.frequency.map(|end| end.map(tune)),
         })
     }

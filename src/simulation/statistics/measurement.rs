@@ -186,7 +186,7 @@ impl Observer for Measurement {
                 (pull - self.sliding.gravity).signum()
             }
         };
-        let phase = segment.phase + self.quadrature.frequency() * duration;
+        let phase = segment.phase + self.statistics.system.frequency_ratio() * duration;
         self.depart(phase, &segment.at(duration));
     }
 

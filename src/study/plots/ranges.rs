@@ -26,11 +26,17 @@ impl Ranges {
     /// Those of clearance, frequency and forcing.
     pub(super) fn of(study: &CaseStudy) -> Vec<Self> {
         let clearance = in_clearance(study);
-        // The response scales with the forcing: k times the clearance does what 1/k times the forcing does.
+        // The response of an ideal cavity scales with the forcing: k times the clearance does what 1/k times the forcing
+        // does. What a cavity that is not ideal does was followed.
         let inverse = |[low, high]: &Range| [high, low].map(|end| end.map(f64::recip));
         let forcing = clearance.iter();
-        let forcing =
-            forcing.map(|(layer, ranges)| (*layer, ranges.iter().rev().map(inverse).collect()));
+        let own = study.margins.exact.filter(|_| study.exact.two_impact.is_some());
+        let forcing = forcing.map(|(layer, ranges)| match own {
+            Some(own) if *layer == Method::ExactOrbit => {
+                (*layer, vec![own.forcing.map(|end| end.map(|end| end.factor))])
+            }
+            _ => (*layer, ranges.iter().rev().map(inverse).collect()),
+        });
         let forcing = forcing.collect();
         let of = |(parameter, mut layers): (Parameter, Vec<(Method, Vec<Range>)>)| {
             layers.retain(|(_, ranges)| !ranges.is_empty());
