@@ -41,7 +41,7 @@ pub fn document(case: &Case, found: &Optimization) -> Value {
         robust
     });
     let along = Absorber { over: over(task), worst: best.worst, detuned: &[] };
-    json!({
+    let mut page = json!({
         "format": "vinesink/optimization@3",
         "title": case.title,
         "answer": match (found.reached(), best.is_feasible(), found.improves()) {
@@ -85,7 +85,11 @@ pub fn document(case: &Case, found: &Optimization) -> Value {
         "claim": found.claim,
         "chart": found.chart,
         "case_sha256": case.text_hash,
-    })
+    });
+    if !case.design.has_ideal_cavity() {
+        page["real_cavity"] = json!(true);
+    }
+    page
 }
 
 /// A parameter as templates and files call it: of masses only the absorber's is chosen.

@@ -30,11 +30,12 @@ impl Ranges {
         // does. What a cavity that is not ideal does was followed.
         let inverse = |[low, high]: &Range| [high, low].map(|end| end.map(f64::recip));
         let forcing = clearance.iter();
-        let own = study.margins.exact.filter(|_| study.exact.two_impact.is_some());
-        let forcing = forcing.map(|(layer, ranges)| match own {
-            Some(own) if *layer == Method::ExactOrbit => {
-                (*layer, vec![own.forcing.map(|end| end.map(|end| end.factor))])
-            }
+        let real = !study.analysis.system.cavity().is_ideal();
+        let followed =
+            study.margins.exact.map(|own| own.forcing.map(|end| end.map(|end| end.factor)));
+        let forcing = forcing.map(|(layer, ranges)| match layer {
+            Method::ExactOrbit if real => (*layer, followed.into_iter().collect()),
+            Method::Simulation if real => (*layer, Vec::new()),
             _ => (*layer, ranges.iter().rev().map(inverse).collect()),
         });
         let forcing = forcing.collect();
