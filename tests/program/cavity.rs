@@ -203,7 +203,8 @@ fn reports_say_what_the_cavity_is() {
         assert!(!old.contains(line), "{line}");
     }
     assert!(
-        !page.contains("no friction") && old.contains("The model has no friction and no gravity")
+        !page.contains("no friction")
+            && old.contains("The case gives its cavity no tilt and no friction.")
     );
     // Theory, orbits and claims are of this cavity; those of an ideal one are said to be.
     for line in [
