@@ -52,40 +52,27 @@ impl Strip {
     }
 }
 
-/// Where closed form puts a system. The line between Z2 and Z1 is a grazing of the absorber, which
-/// has no closed form in this theory: `area` is `None` right of symmetry breaking, to be settled by
-/// a layer that can.
+/// Where closed form puts a system.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct Zone {
-    /// Z3 or Z4; `None` for Z1 or Z2.
-    pub area: Option<Area>,
+    /// The area.
+    pub area: Area,
     /// The strip next to Z3, if in one.
     pub strip: Option<Strip>,
 }
 
 impl Zone {
-    /// The name in results of an area that is Z1 or Z2, closed form cannot tell which;
-    pub const UNSETTLED: &'static str = "Z1|Z2";
-    /// and its name in a sentence.
-    pub const UNSETTLED_WORDS: &'static str = "Z1 or Z2";
-
     /// Whether it is in Z3, strips included: where the paper wants as much of a band as possible.
     pub fn is_z3(&self) -> bool {
-        self.area == Some(Area::Z3)
-    }
-
-    /// The name of its area in results.
-    pub fn area_key(&self) -> &'static str {
-        self.area.map_or(Self::UNSETTLED, Area::key)
+        self.area == Area::Z3
     }
 
     /// What a table calls it.
     pub fn words(&self) -> &'static str {
-        match (self.area, self.strip) {
-            (_, Some(Strip::A1)) => "strip A1",
-            (_, Some(Strip::A2)) => "strip A2",
-            (Some(area @ (Area::Z3 | Area::Z4)), None) => area.key(),
-            _ => Self::UNSETTLED_WORDS,
+        match self.strip {
+            Some(Strip::A1) => "strip A1",
+            Some(Strip::A2) => "strip A2",
+            None => self.area.key(),
         }
     }
 }

@@ -11,6 +11,7 @@ use super::curve::FixedPointCurve;
 use super::frequency_response::detunings;
 use super::manifold::{Branch, Manifold};
 use crate::bifurcation::Bifurcation;
+use crate::cavity::AsymmetricLimits;
 use crate::equations::fixed_points as formulas;
 use crate::numerics::polynomial::real_roots;
 use crate::system::System;
@@ -46,6 +47,10 @@ pub struct Boundaries {
     /// The collision beyond which no fixed point is left. There is none where it would need `B < 0` or
     /// no forcing at all.
     pub saddle_node: Option<SaddleNode>,
+    /// Where the two asymmetric impacts beyond symmetry breaking double their period, if they do before they graze.
+    pub period_doubling: Option<f64>,
+    /// Where they graze a wall, the end of area Z2, if they exist.
+    pub grazing: Option<f64>,
     /// P1, which does not depend on the detuning.
     pub codimension_two: CodimensionTwo,
 }
@@ -53,6 +58,11 @@ pub struct Boundaries {
 impl Boundaries {
     /// Boundaries at the system's detuning.
     pub fn of(system: &System, manifold: &Manifold) -> Self {
+        Self::with(system, manifold, &AsymmetricLimits::of(manifold.restitution))
+    }
+
+    /// The same with the limits of the asymmetric motion, which depend on the restitution alone.
+    pub fn with(system: &System, manifold: &Manifold, asymmetric: &AsymmetricLimits) -> Self {
         let curve = FixedPointCurve::of(system, manifold);
         let Manifold { restitution_ratio, curvature, .. } = *manifold;
         let meeting =
@@ -66,6 +76,8 @@ impl Boundaries {
                 absorber_amplitude: absorber,
                 branch: manifold.branch(absorber - 1.0),
             }),
+            period_doubling: asymmetric.period_doubling.map(|one| curve.forcing_of(&one)),
+            grazing: asymmetric.grazing.map(|one| curve.forcing_of(&one)),
             codimension_two: CodimensionTwo {
                 detuning: meeting,
                 forcing_over_clearance: at_meeting.hopf(),
@@ -73,8 +85,17 @@ impl Boundaries {
         }
     }
 
-    /// All boundaries as `(kind, gamma)`.
-    pub fn all(&self) -> impl Iterator<Item = (Bifurcation, f64)> {
+    /// Ends of the two asymmetric impacts as `(kind, gamma)`.
+    pub fn of_asymmetric(&self) -> impl Iterator<Item = (Bifurcation, f64)> {
+        let both = [
+            (Bifurcation::PeriodDoubling, self.period_doubling),
+            (Bifurcation::Grazing, self.grazing),
+        ];
+        both.into_iter().filter_map(|(kind, gamma)| Some((kind, gamma?)))
+    }
+
+    /// Boundaries of the symmetric motions as `(kind, gamma)`.
+    pub fn of_symmetric(&self) -> impl Iterator<Item = (Bifurcation, f64)> {
         let node = self.saddle_node.map(|node| node.forcing_over_clearance);
         [
             (Bifurcation::SymmetryBreaking, Some(self.symmetry_breaking)),

@@ -6,6 +6,8 @@
 
 use super::areas::{Area, Strip, Zone};
 use super::manifold::{Branch, Manifold};
+use crate::cavity::{AsymmetricLimits, Motion};
+use crate::equations::dissipation::FORCING_SQUARED;
 use crate::equations::fixed_points as formulas;
 use crate::operation_count;
 use crate::system::System;
@@ -14,6 +16,8 @@ use crate::system::System;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FixedPointCurve {
     manifold: Manifold,
+    damping: f64,
+    detuning: f64,
     /// `p_0`, `p_1`, `p_2`.
     pub(super) coefficients: [f64; 3],
     collision_ratio: f64,
@@ -46,6 +50,8 @@ impl FixedPointCurve {
         let node = [formulas::NODE_CONSTANT.at([lambda, rho]), formulas::NODE_SQUARE.at([rho])];
         Self {
             manifold: *manifold,
+            damping: lambda,
+            detuning,
             coefficients: [constant, linear, square],
             collision_ratio: formulas::NODE_RATIO.at([linear, square]),
             collision_forcing: formulas::NODE_FORCING.at([detuning, square, node[0], node[1]]),
@@ -79,6 +85,13 @@ impl FixedPointCurve {
         self.symmetry_breaking
     }
 
+    /// `gamma` at which a motion of an ideal cavity is a fixed point.
+    pub fn forcing_of(&self, motion: &Motion) -> f64 {
+        let Motion { resistance, reactance, oscillator_amplitude, .. } = *motion;
+        let given = [self.damping, self.detuning, resistance, reactance, oscillator_amplitude];
+        FORCING_SQUARED.at(given).sqrt()
+    }
+
     /// The fixed points at a forcing, at most two, ascending; those with `B > 0` and `C > 0`.
     pub fn fixed_points(&self, gamma: f64) -> impl Iterator<Item = Amplitude> {
         operation_count::note(1);
@@ -106,20 +119,22 @@ impl FixedPointCurve {
         both.into_iter().flatten().filter(moves)
     }
 
-    /// Area and strip at a forcing. The line between Z2 and Z1 has no closed form.
+    /// Area and strip at a forcing. Z2 ends where the asymmetric motion grazes a wall.
     pub fn zone(&self, gamma: f64) -> Zone {
         let below_hopf = gamma < self.hopf();
         let on = |branch| {
             self.fixed_points(gamma).any(|at| self.manifold.branch(at.ratio - 1.0) == branch)
         };
         let (area, strip) = if on(Branch::Stable) {
-            (Some(Area::Z3), below_hopf.then_some(Strip::A1))
+            (Area::Z3, below_hopf.then_some(Strip::A1))
         } else if on(Branch::Right) {
-            (None, None)
+            let grazing = AsymmetricLimits::of(self.manifold.restitution).grazing;
+            let within = grazing.is_some_and(|end| gamma <= self.forcing_of(&end));
+            (if within { Area::Z2 } else { Area::Z1 }, None)
         } else if on(Branch::Left) && below_hopf {
-            (Some(Area::Z3), Some(Strip::A2))
+            (Area::Z3, Some(Strip::A2))
         } else {
-            (Some(Area::Z4), None)
+            (Area::Z4, None)
         };
         Zone { area, strip }
     }

@@ -9,8 +9,9 @@ use std::f64::consts::FRAC_2_PI;
 use serde::Serialize;
 
 use super::AnalysisError;
+use super::ManifoldPoint;
 use super::curve::{Amplitude, FixedPointCurve};
-use super::manifold::{Branch, CAVITY_ROUNDING, Manifold, ManifoldPoint};
+use super::manifold::{Branch, CAVITY_ROUNDING, Manifold};
 use crate::equations::fixed_points::{COSINE_SIDE, SINE_SIDE};
 use crate::equations::manifold::MANIFOLD_SQUARE;
 use crate::equations::slow_flow::{DETERMINANT, TRACE};

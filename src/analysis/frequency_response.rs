@@ -5,7 +5,8 @@
 
 use serde::Serialize;
 
-use super::manifold::{Branch, Manifold, ManifoldPoint};
+use super::ManifoldPoint;
+use super::manifold::{Branch, Manifold};
 use crate::equations::fixed_points::{DETUNING_0, DETUNING_1, DETUNING_2, UNTUNED};
 use crate::system::System;
 

@@ -5,6 +5,7 @@ use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, TAU};
 
 use serde::Serialize;
 
+use crate::cavity::ManifoldPoint;
 use crate::equations::manifold::{
     ABSORBER_PHASE, BREAKING_RATIO, BREAKING_SHIFT, FOLD_OSCILLATOR, FOLD_RATIO, FOLD_SHIFT,
     MANIFOLD_SQUARE, STABLE_RATIO, STABLE_ROOT,
@@ -39,17 +40,6 @@ impl Branch {
     }
 }
 
-/// A point of the manifold, over the clearance.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct ManifoldPoint {
-    /// Amplitude of the absorber's sawtooth, `B/b`.
-    #[serde(rename = "B")]
-    pub absorber_amplitude: f64,
-    /// Amplitude of the oscillator, `C/b`.
-    #[serde(rename = "C")]
-    pub oscillator_amplitude: f64,
-}
-
 /// The manifold of a restitution coefficient.
 ///
 /// ```
@@ -68,6 +58,9 @@ pub struct ManifoldPoint {
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Manifold {
+    /// `r`.
+    #[serde(skip)]
+    pub restitution: f64,
     /// `rho = (1 - r)/(1 + r)`.
     pub restitution_ratio: f64,
     /// `R = 4 rho^2/pi^2`.
@@ -87,6 +80,7 @@ impl Manifold {
         let restitution_ratio = RESTITUTION_RATIO.at([restitution]);
         let curvature = CURVATURE.at([restitution_ratio]);
         Self {
+            restitution,
             restitution_ratio,
             curvature,
             fold: ManifoldPoint {

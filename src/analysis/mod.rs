@@ -19,12 +19,14 @@ use serde::Serialize;
 
 use crate::system::System;
 
+pub use crate::cavity::{AsymmetricLimits, ManifoldPoint};
+
 pub use areas::{Area, Strip, Zone};
 pub use boundaries::{Boundaries, CodimensionTwo, SaddleNode};
 pub use curve::{Amplitude, FixedPointCurve};
 pub use decay::{EnergyShares, FreeDecay};
 pub use fixed_points::{FixedPoint, Kind};
-pub use manifold::{Branch, Manifold, ManifoldPoint};
+pub use manifold::{Branch, Manifold};
 
 /// The quadratic of the fixed points has a coefficient that is not finite.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -58,7 +60,7 @@ pub struct AnalysisError;
 /// assert!((clearance_mm(collision) - 16.259).abs() < 0.01);
 ///
 /// // At 7.5 mm there is a stable fixed point, the steady 1:1 motion.
-/// assert_eq!(analysis.zone.area, Some(Area::Z3));
+/// assert_eq!(analysis.zone.area, Area::Z3);
 /// let point = analysis.stable_points().next().expect("one");
 /// assert!((point.oscillator_amplitude - 0.470).abs() < 1e-3);
 /// # Ok::<(), Box<dyn std::error::Error>>(())

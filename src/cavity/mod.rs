@@ -12,13 +12,13 @@
 //! that goes to 0 therefore ends at admissible motions of fewer kinds than none does.
 
 mod fixed_point;
+mod limits;
 mod linear_map;
 mod manifold;
 mod motion;
 
 use serde::Serialize;
 
-use crate::analysis::ManifoldPoint;
 use crate::equations::cavity::{
     DEVIATION, FRICTION_BREAKING, FRICTION_FOLD, FRICTION_FOLD_RATIO, RATIO_DIFFERENCE, RATIO_MEAN,
 };
@@ -26,7 +26,19 @@ use crate::equations::stated::{CURVATURE, RESTITUTION_RATIO};
 use crate::system::{Cavity, InvalidParameter, System, check};
 
 pub use fixed_point::{FixedPoint, Forcing};
+pub use limits::AsymmetricLimits;
 pub use motion::Motion;
+
+/// A point of the manifold, over the clearance.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct ManifoldPoint {
+    /// Amplitude of the absorber's sawtooth, `B/b`.
+    #[serde(rename = "B")]
+    pub absorber_amplitude: f64,
+    /// Amplitude of the oscillator, `C/b`.
+    #[serde(rename = "C")]
+    pub oscillator_amplitude: f64,
+}
 
 /// A cavity with a tilt, friction and a restitution for each end.
 ///

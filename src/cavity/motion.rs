@@ -7,8 +7,8 @@ use serde::Serialize;
 use super::CavityTheory;
 use super::linear_map::trace_and_determinant;
 use crate::equations::cavity::{
-    ABSORBER, AMPLITUDE, CONTACT, DRIFT, FACTOR, IMPULSE, IN_PHASE, QUADRATURE, REACTANCE,
-    RESISTANCE, SIDE, TIME_1, TIME_2, VELOCITY_1, VELOCITY_2,
+    ABSORBER, AMPLITUDE, CONTACT, DRIFT, FACTOR, IMPULSE, IN_PHASE, PLACE_1, PLACE_2, QUADRATURE,
+    REACTANCE, RESISTANCE, SIDE, SPEED_1, SPEED_2, TIME_1, TIME_2, VELOCITY_1, VELOCITY_2,
 };
 use crate::numerics::bracket::bisected;
 use crate::operation_count;
@@ -84,14 +84,16 @@ impl CavityTheory {
     /// `pi/2` either way, where the equation has no solution, and where the absorber would not go from wall to wall.
     pub fn motion(&self, deviation: f64) -> Option<Motion> {
         let inside = deviation.abs() < FRAC_PI_2;
-        let [side, factor] = self.equation(deviation);
-        let in_phase = if side == 0.0 && factor == 0.0 {
-            self.symmetry_breaking()?.absorber_amplitude - 1.0
-        } else {
-            IN_PHASE.at([side, factor])
+        let shape = match self.equation(deviation) {
+            [0.0, 0.0] => self.shape(deviation, self.symmetry_breaking()?.absorber_amplitude - 1.0),
+            _ => self.asymmetric(deviation),
         };
-        let shape = self.shape(deviation, in_phase);
         (inside && shape.is_motion()).then(|| self.complete(&shape))
+    }
+
+    /// What a motion is made of whose flights differ.
+    pub(super) fn asymmetric(&self, nu: f64) -> Shape {
+        self.shape(nu, IN_PHASE.at(self.equation(nu)))
     }
 
     /// The motion of a symmetric cavity with impacts half a cycle apart and the absorber amplitude `B/b`; `None` where the
@@ -136,11 +138,15 @@ impl CavityTheory {
         }
     }
 
+    /// Velocities of the absorber after the two impacts.
+    pub(super) fn velocities(&self, shape: &Shape) -> [f64; 2] {
+        let (a, f, [t1, t2]) = (self.acceleration, self.friction, shape.times);
+        [VELOCITY_1.at([a, f, t1, shape.absorber]), VELOCITY_2.at([a, f, t2, shape.absorber])]
+    }
+
     pub(super) fn complete(&self, shape: &Shape) -> Motion {
         operation_count::note(50 + 2 * operation_count::ELEMENTARY);
-        let (a, f, [t1, t2]) = (self.acceleration, self.friction, shape.times);
-        let velocities =
-            [VELOCITY_1.at([a, f, t1, shape.absorber]), VELOCITY_2.at([a, f, t2, shape.absorber])];
+        let velocities = self.velocities(shape);
         let [trace, determinant] = trace_and_determinant(self, shape, velocities);
         let [in_phase, quadrature] = shape.parts;
         Motion {
@@ -148,7 +154,7 @@ impl CavityTheory {
             times: shape.times,
             oscillator_amplitude: shape.amplitude,
             absorber_amplitude: shape.absorber,
-            impact_phase: libm::atan2(quadrature, in_phase) - 0.5 * t1,
+            impact_phase: libm::atan2(quadrature, in_phase) - 0.5 * shape.times[0],
             velocities,
             resistance: shape.forces[0],
             reactance: shape.forces[1],
@@ -218,12 +224,9 @@ impl Shape {
 
     /// Displacements and velocities of the oscillator at the two impacts.
     pub(super) fn at_impacts(&self) -> [[f64; 2]; 2] {
-        let [p, q] = self.parts;
-        let (sine, cosine) = libm::sincos(self.nu);
-        [
-            [-(p * cosine + q * sine), q * cosine - p * sine],
-            [p * cosine - q * sine, -(q * cosine + p * sine)],
-        ]
+        let [in_phase, quadrature] = self.parts;
+        let given = [self.nu, in_phase, quadrature];
+        [[PLACE_1.at(given), SPEED_1.at(given)], [PLACE_2.at(given), SPEED_2.at(given)]]
     }
 }
 

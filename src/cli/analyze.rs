@@ -6,8 +6,8 @@ use vinesink::analysis::Analysis;
 use vinesink::method::Method;
 use vinesink::orbits::FullSystem;
 use vinesink::report::console::Analysed;
+use vinesink::study::StudyEffort;
 use vinesink::study::fidelity::Plan;
-use vinesink::study::{StudyEffort, settle_area};
 
 use super::budget::{ANALYSIS, Work};
 use super::case_file::{self, OneCase};
@@ -56,7 +56,6 @@ pub fn run(arguments: Arguments) -> Result<bool> {
         .into_diagnostic()
         .wrap_err_with(|| format!("{} cannot be analysed", path.display()))?;
     let exact = FullSystem::of(&case.system());
-    let area = settle_area(&analysis, &exact).into_diagnostic()?;
     drop(progress);
     let answers = match plan {
         Some(plan) if plan.needs_simulation() => {
@@ -66,13 +65,8 @@ pub fn run(arguments: Arguments) -> Result<bool> {
         Some(plan) => Some(plan.answers(None).into_diagnostic()?),
         None => None,
     };
-    let found = Analysed {
-        case: &case,
-        analysis: &analysis,
-        exact: &exact,
-        area,
-        answers: answers.as_ref(),
-    };
+    let found =
+        Analysed { case: &case, analysis: &analysis, exact: &exact, answers: answers.as_ref() };
     arguments.one.print(|| found.text(), || found.document())?;
     Ok(answers.is_none_or(|answers| answers.enough()))
 }

@@ -22,7 +22,7 @@ use crate::orbits::{FullSystem, SymmetricOrbit};
 use crate::quantity::catalogue as of;
 use crate::regimes::Attractor;
 use crate::study::fidelity::Answers;
-use crate::study::{LongTermMotions, Proof, SettledArea};
+use crate::study::{LongTermMotions, Proof};
 
 /// Theory and exact orbits of a case.
 #[derive(Debug, Clone, Copy)]
@@ -33,15 +33,13 @@ pub struct Analysed<'a> {
     pub analysis: &'a Analysis,
     /// Its exact orbits.
     pub exact: &'a FullSystem,
-    /// Its area, settled by a layer that can tell it.
-    pub area: SettledArea,
     /// Answers to what the case asks for, if anything was.
     pub answers: Option<&'a Answers>,
 }
 
 impl Analysed<'_> {
     fn theory(&self) -> Value {
-        theory::theory(&Scale::of(self.case), self.analysis, self.exact, self.area)
+        theory::theory(&Scale::of(self.case), self.analysis, self.exact)
     }
 
     /// For a person.
@@ -112,7 +110,7 @@ impl Analysed<'_> {
                 "saddle_node": nodes.collect::<Vec<_>>(),
                 "codimension_two": boundaries.codimension_two,
             },
-            "area": self.area.area,
+            "area": analysis.zone.area,
             "strip": analysis.zone.strip,
             "orbits": exact.orbits.iter().map(|one| orbit(&scale, one)).collect::<Vec<_>>(),
             "theory": self.theory(),

@@ -14,18 +14,15 @@ pub mod proofs;
 pub mod scenes;
 pub mod stretches;
 
-use serde::Serialize;
-
 use crate::analysis::motion::state_of;
-use crate::analysis::{Analysis, AnalysisError, Area, Branch};
+use crate::analysis::{Analysis, AnalysisError};
 use crate::band::{Band, Inactive, Rivals, Survey};
 use crate::case::{Case, SimulationSettings};
-use crate::method::Method;
 use crate::operation_count;
-use crate::orbits::{Boundaries, FullSystem};
+use crate::orbits::FullSystem;
+use crate::regimes::FoundAttractor;
 use crate::regimes::diagram::DiagramError;
 use crate::regimes::search;
-use crate::regimes::{Effort, FoundAttractor, Regime, long_term};
 use crate::simulation::StartError;
 use crate::system::{State, System};
 use crate::validation::asymptotic_error::asymptotic_errors;
@@ -86,8 +83,6 @@ impl StudyEffort {
 pub struct CaseStudy {
     /// The theory.
     pub analysis: Analysis,
-    /// Area, settled by simulation where closed form cannot.
-    pub area: SettledArea,
     /// Every long-term motion that was found, with its proof; none where nothing was simulated.
     pub motions: LongTermMotions,
     /// Theory against simulation.
@@ -114,16 +109,6 @@ pub struct CaseStudy {
     pub inactive: Option<Inactive>,
     /// What deviations of a rig make of it; none where nobody asked for it.
     pub deviations: Option<Deviations>,
-}
-
-/// An area and which layer settled it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-pub struct SettledArea {
-    /// Z1 to Z4.
-    pub area: Area,
-    /// What told it: closed form; the grazing of the exact asymmetric orbits, which separates Z1 from Z2; or,
-    /// where there is no such orbit, a short simulation.
-    pub by: Method,
 }
 
 impl CaseStudy {
@@ -164,7 +149,6 @@ impl CaseStudy {
         let analysis = Analysis::of(system)?;
         let exact = FullSystem::of(system);
         Ok(Self {
-            area: settle_area(&analysis, &exact)?,
             motions: LongTermMotions::default(),
             claims: validation::confront_theory(&analysis, &exact),
             asymptotic_errors: asymptotic_errors(&analysis, &exact),
@@ -255,31 +239,4 @@ fn predicted_starts(analysis: &Analysis) -> Vec<State> {
     let rest = system.linear_response().map(|linear| linear.state(system));
     let rest = rest.filter(|state| state.relative_displacement().abs() < 1.0);
     analysis.fixed_points.iter().map(|point| state_of(point, system)).chain(rest).collect()
-}
-
-/// The area of the theory; right of symmetry breaking, the grazing of the exact asymmetric orbits
-/// tells Z1 (more than two impacts per period) from Z2, and where they do not exist, what a start on
-/// the predicted motion becomes.
-///
-/// # Errors
-/// [`StartError`] if the predicted motion lies outside the cavity.
-pub fn settle_area(analysis: &Analysis, exact: &FullSystem) -> Result<SettledArea, StartError> {
-    if let Some(area) = analysis.zone.area {
-        return Ok(SettledArea { area, by: Method::Theory });
-    }
-    if let Some(grazing) = exact.boundaries.as_ref().and_then(Boundaries::grazing) {
-        let area = if grazing > 1.0 { Area::Z1 } else { Area::Z2 };
-        return Ok(SettledArea { area, by: Method::ExactOrbit });
-    }
-    let beyond = analysis.fixed_points.iter().rfind(|point| point.branch == Branch::Right);
-    let regime = match beyond {
-        Some(point) => {
-            let start = state_of(point, &analysis.system);
-            // Enough to count impacts.
-            long_term(&[(analysis.system, start)], &Effort::over(50))?[0].map(|found| found.regime)
-        }
-        None => None,
-    };
-    let area = if regime == Some(Regime::AboveTwo) { Area::Z1 } else { Area::Z2 };
-    Ok(SettledArea { area, by: Method::Simulation })
 }

@@ -2,7 +2,7 @@
 
 use super::facts::{Facts, Found};
 use super::{Plan, Point};
-use crate::analysis::{Area, Strip, Zone};
+use crate::analysis::{Area, Strip};
 use crate::case::{Design, Recorded};
 use crate::quantity::catalogue as of;
 use crate::quantity::{Dimension, Kind};
@@ -190,7 +190,7 @@ pub(super) fn cells(plan: &Plan, facts: &Facts) -> Vec<Option<Cell>> {
         match recorded {
             Recorded::Area => {
                 let zone = facts.zone();
-                cells.push(zone.map(|zone| Cell::Text(zone.area_key())));
+                cells.push(zone.map(|zone| Cell::Text(zone.area.key())));
                 cells.push(zone.and_then(|zone| zone.strip).map(Strip::key).map(Cell::Text));
             }
             Recorded::Regime => {
@@ -245,7 +245,7 @@ fn number(recorded: Recorded, facts: &Facts, found: &Found) -> Option<f64> {
 /// The word that a column of words may hold, from its bytes.
 pub(super) fn word(bytes: &[u8]) -> Option<&'static str> {
     let regimes = Regime::ALL.map(Regime::key).into_iter();
-    let areas = Area::ALL.map(Area::key).into_iter().chain([Zone::UNSETTLED]);
+    let areas = Area::ALL.map(Area::key);
     let mut all = regimes.chain(areas).chain(Strip::ALL.map(Strip::key));
     all.find(|word| word.as_bytes() == bytes)
 }

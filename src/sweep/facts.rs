@@ -4,7 +4,7 @@
 use std::cell::OnceCell;
 
 use super::Point;
-use crate::analysis::{FixedPointCurve, Manifold, Zone, fixed_points};
+use crate::analysis::{AsymmetricLimits, FixedPointCurve, Manifold, Zone, fixed_points};
 use crate::orbits::{SteadyOrbit, steady_orbit};
 use crate::regimes::Motion;
 use crate::system::System;
@@ -48,7 +48,7 @@ impl<'a> Facts<'a> {
         Some((system, Manifold::of(system.restitution())))
     }
 
-    /// The theory's area and strip; no area where closed form cannot tell Z1 from Z2.
+    /// The theory's area and strip.
     pub fn zone(&self) -> Option<Zone> {
         let (system, manifold) = self.theory()?;
         Some(FixedPointCurve::of(system, &manifold).zone(system.forcing_per_clearance()))
@@ -69,7 +69,9 @@ impl<'a> Facts<'a> {
         let gamma = system.forcing_per_clearance();
         let curve = FixedPointCurve::of(system, &manifold);
         let collision = curve.collision().map(|(gamma, _)| gamma);
-        let places = [Some(curve.hopf()), Some(curve.symmetry_breaking()), collision];
+        let grazing = AsymmetricLimits::of(manifold.restitution).grazing;
+        let grazing = grazing.map(|end| curve.forcing_of(&end));
+        let places = [Some(curve.hopf()), Some(curve.symmetry_breaking()), collision, grazing];
         let is_boundary = |at: &f64| {
             *at > 0.0 && curve.zone(at * (1.0 - BESIDE)) != curve.zone(at * (1.0 + BESIDE))
         };

@@ -133,6 +133,16 @@ symbol_table! {
     v_T: "v_T", "1", "velocity that gravity and friction give the absorber in a cycle";
     u_1: "u_1", "1", "velocity of the absorber after the impact at w = b";
     u_2: "u_2", "1", "velocity of the absorber after the impact at w = -b";
+    x_1: "x_1", "1", "displacement of the oscillator at the impact at w = b, over clearance";
+    v_1: "v_1", "1", "velocity of the oscillator at the impact at w = b, over clearance";
+    x_2: "x_2", "1", "displacement of the oscillator at the impact at w = -b, over clearance";
+    v_2: "v_2", "1", "velocity of the oscillator at the impact at w = -b, over clearance";
+    g_1: "g_1", "1", "change of the absorber's velocity by the phase of the impact at w = b, over relative velocity";
+    g_2: "g_2", "1", "change of the absorber's velocity by the phase of the impact at w = -b, over relative velocity";
+    tr_c: r"\mathrm{tr}_{\mathrm{c}}", "1", "trace of the impact pair's map over a cycle";
+    h_PD: r"h_{\mathrm{PD}}", "1", "above 0 while no multiplier is below -1";
+    x_w: "x_w", "1", "displacement of the oscillator where the absorber turns back in flight, over clearance";
+    h_g: r"h_{\mathrm{g}}", "1", "how far beyond the wall w = b the absorber turns back in flight, over clearance";
     M: "M", "1", "part of the absorber's first harmonic that impacts change sign by sign";
     N: "N", "1", "part of the absorber's first harmonic that friction and gravity make";
     c_fold: r"c_{\mathrm{fold}}", "1", "amplitude of the oscillator over clearance at the fold";

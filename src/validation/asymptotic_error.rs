@@ -3,8 +3,8 @@
 use serde::Serialize;
 
 use super::boundaries::{BoundaryAt, clearances, clearances_of};
-use crate::analysis::{self, Analysis, Manifold};
-use crate::orbits::{self, Bifurcation, FullSystem, Limit};
+use crate::analysis::{self, Analysis, AsymmetricLimits, Manifold};
+use crate::orbits::{self, Bifurcation, FullSystem};
 use crate::system::System;
 
 /// A boundary of the theory beside its exact counterpart; clearances over the case's own.
@@ -12,6 +12,8 @@ use crate::system::System;
 pub struct AsymptoticError {
     /// The bifurcation of the full system.
     pub kind: Bifurcation,
+    /// Whether it ends the two asymmetric impacts, not the symmetric ones.
+    pub of_asymmetric: bool,
     /// Where the theory puts it; `None` where it has none.
     pub theory: Option<f64>,
     /// Where it is; `None` where the full system has none.
@@ -22,10 +24,16 @@ pub struct AsymptoticError {
     pub bounds_stability: bool,
 }
 
+impl AsymptoticError {
+    /// Its clearance, the exact one where it is known.
+    pub fn place(&self) -> f64 {
+        self.exact.or(self.theory).unwrap_or(0.0)
+    }
+}
+
 /// Every boundary of the case's frequency and forcing, by theory and exactly, by ascending clearance.
 pub fn asymptotic_errors(analysis: &Analysis, exact: &FullSystem) -> Vec<AsymptoticError> {
-    let limits = exact.boundaries.as_ref().map_or(&[][..], |found| &found.symmetric.limits);
-    between(&clearances(analysis), limits)
+    between(&clearances(analysis), exact.boundaries.as_ref())
 }
 
 /// The same at each frequency at which the exact boundaries are known, with its `Omega`; the forcing
@@ -35,36 +43,48 @@ pub fn errors_over_frequency(
     manifold: &Manifold,
     exact: &[orbits::Boundaries],
 ) -> Vec<(f64, Vec<AsymptoticError>)> {
+    let asymmetric = AsymmetricLimits::of(manifold.restitution);
     let at_frequency = |at: &orbits::Boundaries| {
         let there = system.with_frequency_ratio(at.frequency_ratio).ok()?;
-        let theory = analysis::Boundaries::of(&there, manifold);
+        let theory = analysis::Boundaries::with(&there, manifold, &asymmetric);
         let theory = clearances_of(&theory, there.forcing_per_clearance());
-        Some((at.frequency_ratio, between(&theory, &at.symmetric.limits)))
+        Some((at.frequency_ratio, between(&theory, Some(at))))
     };
     exact.iter().filter_map(at_frequency).collect()
 }
 
-fn between(theory: &[BoundaryAt], limits: &[Limit]) -> Vec<AsymptoticError> {
-    let compared =
-        |limit: &&Limit| theory.iter().any(|at| at.kind == limit.kind) || limit.bounds_stability;
-    let mut errors: Vec<AsymptoticError> = limits
-        .iter()
-        .filter(compared)
-        .map(|limit| {
-            let theory = nearest(theory, limit);
-            AsymptoticError {
-                kind: limit.kind,
-                theory,
-                exact: Some(limit.clearance),
-                difference: theory.map(|at| at / limit.clearance - 1.0),
-                bounds_stability: limit.bounds_stability,
-            }
-        })
-        .collect();
-    for BoundaryAt { kind, clearance } in theory {
+fn between(theory: &[BoundaryAt], exact: Option<&orbits::Boundaries>) -> Vec<AsymptoticError> {
+    let limits = exact.into_iter().flat_map(|found| &found.symmetric.limits);
+    let symmetric =
+        limits.map(|limit| (limit.kind, false, limit.clearance, limit.bounds_stability));
+    let asymmetric = exact.and_then(|found| found.asymmetric.as_ref());
+    let ends = asymmetric.into_iter().flat_map(|found| {
+        let doubling = (Bifurcation::PeriodDoubling, found.period_doubling);
+        [doubling, (Bifurcation::Grazing, found.grazing)]
+    });
+    let ends = ends.filter_map(|(kind, at)| Some((kind, true, at?, false)));
+    let mut errors = Vec::new();
+    for (kind, of_asymmetric, clearance, bounds_stability) in symmetric.chain(ends) {
+        let same = |at: &&BoundaryAt| at.kind == kind && at.of_asymmetric == of_asymmetric;
+        let same: Vec<f64> = theory.iter().filter(same).map(|at| at.clearance).collect();
+        if same.is_empty() && !bounds_stability && !of_asymmetric {
+            continue;
+        }
+        let theory = nearest(&same, clearance);
+        errors.push(AsymptoticError {
+            kind,
+            of_asymmetric,
+            theory,
+            exact: Some(clearance),
+            difference: theory.map(|at| at / clearance - 1.0),
+            bounds_stability,
+        });
+    }
+    for BoundaryAt { kind, of_asymmetric, clearance } in theory {
         if errors.iter().all(|error| error.theory != Some(*clearance)) {
             errors.push(AsymptoticError {
                 kind: *kind,
+                of_asymmetric: *of_asymmetric,
                 theory: Some(*clearance),
                 exact: None,
                 difference: None,
@@ -72,17 +92,15 @@ fn between(theory: &[BoundaryAt], limits: &[Limit]) -> Vec<AsymptoticError> {
             });
         }
     }
-    let place = |error: &AsymptoticError| error.exact.or(error.theory).unwrap_or(0.0);
-    errors.sort_by(|a, b| place(a).total_cmp(&place(b)));
+    errors.sort_by(|a, b| a.place().total_cmp(&b.place()));
     errors
 }
 
 /// Relative distance in clearance beyond which two boundaries of one kind are not counterparts.
 const LARGEST_DISTANCE: f64 = 0.5;
 
-fn nearest(theory: &[BoundaryAt], limit: &Limit) -> Option<f64> {
-    let distance = |clearance: f64| libm::log(clearance / limit.clearance).abs();
-    let same = theory.iter().filter(|at| at.kind == limit.kind).map(|at| at.clearance);
-    let near = same.filter(|at| distance(*at) < LARGEST_DISTANCE);
+fn nearest(theory: &[f64], exact: f64) -> Option<f64> {
+    let distance = |clearance: f64| libm::log(clearance / exact).abs();
+    let near = theory.iter().copied().filter(|at| distance(*at) < LARGEST_DISTANCE);
     near.min_by(|a, b| distance(*a).total_cmp(&distance(*b)))
 }

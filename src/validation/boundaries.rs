@@ -14,6 +14,8 @@ const FAR: f64 = 3.0;
 pub struct BoundaryAt {
     /// Which one.
     pub kind: Bifurcation,
+    /// Whether it ends the two asymmetric impacts, not the symmetric ones.
+    pub of_asymmetric: bool,
     /// Its clearance over the case's.
     pub clearance: f64,
 }
@@ -25,7 +27,10 @@ pub fn clearances(analysis: &Analysis) -> Vec<BoundaryAt> {
 
 /// The same of boundaries at any frequency, for the forcing per clearance `gamma`.
 pub fn clearances_of(boundaries: &Boundaries, gamma: f64) -> Vec<BoundaryAt> {
-    let all = boundaries.all().map(|(kind, at)| BoundaryAt { kind, clearance: gamma / at });
+    let at =
+        |of_asymmetric| move |(kind, at)| BoundaryAt { kind, of_asymmetric, clearance: gamma / at };
+    let symmetric = boundaries.of_symmetric().map(at(false));
+    let all = symmetric.chain(boundaries.of_asymmetric().map(at(true)));
     let mut all: Vec<BoundaryAt> =
         all.filter(|at| at.clearance.is_finite() && at.clearance > 0.0).collect();
     all.sort_by(|a, b| a.clearance.total_cmp(&b.clearance));
@@ -36,12 +41,11 @@ pub fn clearances_of(boundaries: &Boundaries, gamma: f64) -> Vec<BoundaryAt> {
 pub fn positions(analysis: &Analysis, exact: &FullSystem) -> Vec<Claim> {
     let tolerance = 2.0 * asymptotic_error(&analysis.system);
     let reason = Reason::TwoConditions { says_nothing: tolerance > SAYS_NOTHING };
-    let near = |boundary: &AsymptoticError| {
-        boundary.exact.or(boundary.theory).is_some_and(|at| (1.0 / FAR..FAR).contains(&at))
-    };
+    let near = |boundary: &AsymptoticError| (1.0 / FAR..FAR).contains(&boundary.place());
     asymptotic_errors(analysis, exact)
         .into_iter()
-        .filter(|boundary| boundary.bounds_stability && near(boundary))
+        .filter(|boundary| boundary.bounds_stability || boundary.of_asymmetric)
+        .filter(near)
         .filter_map(|boundary| {
             let statement = Statement::Boundary { bifurcation: boundary.kind };
             let places = [boundary.theory?, boundary.exact?];

@@ -138,6 +138,10 @@ pub enum Finding {
     SteadyBesideModulated,
     /// A strongly modulated response.
     StronglyModulated,
+    /// A motion with two asymmetric impacts per period.
+    TwoAsymmetric,
+    /// A motion with more than two impacts per period.
+    AboveTwo,
     /// No steady 1:1 resonance.
     NotSteady,
     /// No stable amplitude in a regime.

@@ -123,7 +123,8 @@ pub fn area(analysis: &Analysis, attractors: &[FoundAttractor]) -> Option<Claim>
     let moving = attractors.iter().filter(|found| found.regime() != Regime::AtRest);
     let (steady, others): (Vec<_>, Vec<_>) =
         moving.partition(|found| found.regime() == Regime::TwoSymmetric);
-    let modulated = others.iter().any(|found| found.regime() == Regime::StronglyModulated);
+    let among = |regime| others.iter().any(|found| found.regime() == regime);
+    let modulated = among(Regime::StronglyModulated);
     let stays = |found: &&FoundAttractor| {
         let dynamics = found.attractor.classification.dynamics;
         matches!(dynamics, DynamicsKind::Periodic { .. } | DynamicsKind::QuasiPeriodic)
@@ -133,7 +134,7 @@ pub fn area(analysis: &Analysis, attractors: &[FoundAttractor]) -> Option<Claim>
     let ended = steady.iter().any(|found| found.late_starts > 0);
     let steady = !steady.is_empty();
     // What holds, and whether chance could have it otherwise.
-    let (area, strip) = (analysis.zone.area?, analysis.zone.strip);
+    let (area, strip) = (analysis.zone.area, analysis.zone.strip);
     let (predicted, holds, by_chance) = match (area, strip) {
         (Area::Z3, None) => {
             (Finding::OnlySteady, steady && !beside, steady && (may_end || ended && !beside))
@@ -143,7 +144,8 @@ pub fn area(analysis: &Analysis, attractors: &[FoundAttractor]) -> Option<Claim>
         }
         (Area::Z3, Some(Strip::A2)) => (Finding::StronglyModulated, modulated && !steady, false),
         (Area::Z4, _) => (Finding::NotSteady, !steady && beside, false),
-        _ => return None,
+        (Area::Z2, _) => (Finding::TwoAsymmetric, among(Regime::TwoAsymmetric), false),
+        (Area::Z1, _) => (Finding::AboveTwo, among(Regime::AboveTwo), false),
     };
     let shares = attractors.iter().map(|found| (found.regime(), found.share)).collect();
     let open = by_chance || !steady && !beside;

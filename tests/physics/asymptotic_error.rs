@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 
 use vinesink::analysis::Analysis;
 use vinesink::analysis::motion::{read_off, state_of, wrapped};
-use vinesink::orbits::{Bifurcation, Measures, SymmetricFamily, symmetric_orbits};
+use vinesink::orbits::{Bifurcation, Boundaries, Measures, symmetric_orbits};
 use vinesink::regimes::{Attractor, Regime, Window};
 use vinesink::system::{Parameters, System};
 use vinesink::validation::tolerance::asymptotic_error;
@@ -98,10 +98,17 @@ fn errors_by_exact_orbit(system: &System) -> [f64; 4] {
     ]
 }
 
-/// Relative errors of the boundaries in forcing, of those that the exact family has.
+/// Relative errors of the boundaries in forcing, of those that the exact families have.
 fn errors_of_boundaries(system: &System) -> BTreeMap<Bifurcation, f64> {
     let theory = Analysis::of(system).expect("analysable").boundaries;
-    let exact = SymmetricFamily::of(system).expect("damped");
+    let Boundaries { symmetric: exact, asymmetric, .. } = Boundaries::of(system).expect("damped");
+    let asymmetric = asymmetric.expect("beyond symmetry breaking");
+    let of_asymmetric = theory.of_asymmetric().map(|(kind, gamma)| {
+        let doubles = kind == Bifurcation::PeriodDoubling;
+        let clearance = if doubles { asymmetric.period_doubling } else { asymmetric.grazing };
+        let exact = system.forcing_per_clearance() / clearance.expect("as by theory");
+        (kind, gamma / exact - 1.0)
+    });
     let node = theory.saddle_node.expect("one").forcing_over_clearance;
     let of_theory = |kind| match kind {
         Bifurcation::SymmetryBreaking => Some(theory.symmetry_breaking),
@@ -115,6 +122,7 @@ fn errors_of_boundaries(system: &System) -> BTreeMap<Bifurcation, f64> {
             let exact = limit.forcing_over_clearance;
             Some((limit.kind, of_theory(limit.kind)? / exact - 1.0))
         })
+        .chain(of_asymmetric)
         .collect()
 }
 
@@ -158,7 +166,7 @@ fn boundaries_converge_to_exact_ones_at_first_order() {
         // At 8 Hz the theory's Hopf lies on the saddle's side of the fold; the exact family has a
         // Neimark-Sacker point there only at small mass ratios.
         let kinds: Vec<Bifurcation> = found[0].keys().copied().collect();
-        assert!(kinds.len() >= 2, "{found:?}");
+        assert!(kinds.len() >= 4, "{found:?}");
         for kind in kinds {
             let errors: Vec<f64> = found.iter().map(|errors| errors[&kind]).collect();
             first_order(&errors, &format!("{} at {frequency} Hz", kind.words()));

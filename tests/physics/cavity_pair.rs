@@ -3,7 +3,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use vinesink::cavity::{CavityTheory, Motion};
+use vinesink::cavity::{AsymmetricLimits, CavityTheory, Motion};
 
 fn cavity(a: f64, f: f64, restitutions: [f64; 2]) -> CavityTheory {
     CavityTheory::new(a, f, restitutions).expect("valid")
@@ -315,4 +315,65 @@ fn the_linear_map_is_that_of_differences() {
         }
     }
     assert!(compared > 60, "{compared}");
+}
+
+/// Whatever the restitution, two asymmetric impacts attract up to the doubling, hit a third time beyond
+/// the grazing, and are called what they are by the theory of any cavity, which shares no formula with these limits.
+#[test]
+fn asymmetric_impacts_end_where_the_limits_are() {
+    let (mut doubled, mut grazed) = (0, 0);
+    for r in (0..=25).map(|k| f64::from(k) / 25.0) {
+        let cavity = cavity(0.0, 0.0, [r, r]);
+        let limits = AsymmetricLimits::of(r);
+        let places: Vec<f64> = (1..=1250).map(|k| f64::from(k) * 1e-3).collect();
+        let first = |lost: &dyn Fn(&Motion) -> bool| {
+            let motion = |nu: &f64| cavity.motion(*nu).expect("between the walls");
+            places.iter().copied().find(|nu| lost(&motion(nu)))
+        };
+        let near = |found: Option<Motion>, seen: Option<f64>| match (found, seen) {
+            (Some(found), Some(seen)) => (seen - 1e-3..=seen).contains(&found.deviation),
+            (None, Some(_)) => true,
+            (_, None) => false,
+        };
+        let [grazes, doubles] = [
+            first(&|motion| !motion.admissible),
+            first(&|motion| motion.trace < -1.0 - motion.determinant),
+        ];
+        assert!(near(limits.grazing, grazes) && near(limits.period_doubling, doubles), "{r}");
+        assert_eq!(limits.grazing.is_none(), grazes == Some(places[0]), "{r}");
+        assert_eq!(limits.period_doubling.is_some(), grazes > doubles, "{r}");
+        // The pair itself, next to both ends. A disturbance of rounding grows a hundredfold in a period at most.
+        let next_wall = |nu: f64| {
+            let motion = cavity.motion(nu).expect("between the walls");
+            one_period(&cavity, &motion).impacts[0][1]
+        };
+        // Steps of 0.006 miss a wall that is crossed for less.
+        if let Some(end) = limits.grazing.filter(|end| end.deviation > 0.02) {
+            let walls = [-0.02, 0.02].map(|by| next_wall(end.deviation + by));
+            // An elastic pair flies back as it came, and grazes both walls.
+            assert!(r == 1.0 || walls == [-1.0, 1.0], "{r} {walls:?}");
+            grazed += 1;
+        }
+        if let Some(end) = limits.period_doubling {
+            let attracts = [-0.02, 0.02].map(|by| {
+                let motion = cavity.motion(end.deviation + by).expect("between the walls");
+                let c = motion.oscillator_amplitude;
+                let mut pair = Pair::after_first_impact(
+                    &cavity,
+                    c,
+                    motion.impact_phase,
+                    motion.velocities[0] + 1e-6,
+                );
+                (0..600).for_each(|_| drop(pair.period()));
+                let [phase, wall, _] = pair.period().impacts[0];
+                let own = motion.impact_phase + motion.times[0];
+                let apart = (phase - own + PI).rem_euclid(TAU) - PI;
+                wall == -1.0 && apart.abs() < 1e-5
+            });
+            // An elastic pair keeps its disturbance.
+            assert!(r == 1.0 || attracts == [true, false], "{r} {attracts:?}");
+            doubled += 1;
+        }
+    }
+    assert!(doubled > 12 && grazed > 20, "{doubled} {grazed}");
 }

@@ -200,13 +200,15 @@ proptest! {
         let on = |branch| theory.fixed_points.iter().any(|point| point.branch == branch);
         let below_hopf = system.forcing_per_clearance() < theory.boundaries.hopf;
         let expected = if on(Branch::Stable) {
-            (Some(Area::Z3), below_hopf.then_some(Strip::A1))
+            (Area::Z3, below_hopf.then_some(Strip::A1))
         } else if on(Branch::Right) {
-            (None, None)
+            let grazes = theory.boundaries.grazing;
+            let asymmetric = grazes.is_some_and(|gamma| system.forcing_per_clearance() <= gamma);
+            (if asymmetric { Area::Z2 } else { Area::Z1 }, None)
         } else if on(Branch::Left) && below_hopf {
-            (Some(Area::Z3), Some(Strip::A2))
+            (Area::Z3, Some(Strip::A2))
         } else {
-            (Some(Area::Z4), None)
+            (Area::Z4, None)
         };
         prop_assert_eq!((theory.zone.area, theory.zone.strip), expected);
         if let [smaller, larger] = &theory.fixed_points[..] {

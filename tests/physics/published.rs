@@ -62,14 +62,14 @@ fn areas_of_the_experiments() {
     let zone = |frequency, clearance| {
         Analysis::of(&common::table_1(frequency, clearance)).expect("analysable").zone
     };
-    let right = Zone { area: None, strip: None };
-    assert_eq!(zone(8.0, 2.5), right);
-    assert_eq!(zone(8.0, 7.5), Zone { area: Some(Area::Z3), strip: None });
-    assert_eq!(zone(8.0, 15.8), Zone { area: Some(Area::Z3), strip: Some(Strip::A1) });
-    assert_eq!(zone(8.0, 20.0), Zone { area: Some(Area::Z4), strip: None });
-    assert_eq!(zone(8.5, 20.0), Zone { area: Some(Area::Z3), strip: None });
-    assert_eq!(zone(8.5, 30.0), Zone { area: Some(Area::Z3), strip: Some(Strip::A2) });
-    assert_eq!(zone(8.5, 40.0), Zone { area: Some(Area::Z4), strip: None });
+    assert_eq!(zone(8.0, 2.5), Zone { area: Area::Z1, strip: None });
+    assert_eq!(zone(8.0, 4.0), Zone { area: Area::Z2, strip: None });
+    assert_eq!(zone(8.0, 7.5), Zone { area: Area::Z3, strip: None });
+    assert_eq!(zone(8.0, 15.8), Zone { area: Area::Z3, strip: Some(Strip::A1) });
+    assert_eq!(zone(8.0, 20.0), Zone { area: Area::Z4, strip: None });
+    assert_eq!(zone(8.5, 20.0), Zone { area: Area::Z3, strip: None });
+    assert_eq!(zone(8.5, 30.0), Zone { area: Area::Z3, strip: Some(Strip::A2) });
+    assert_eq!(zone(8.5, 40.0), Zone { area: Area::Z4, strip: None });
 }
 
 #[test]

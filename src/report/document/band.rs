@@ -111,7 +111,6 @@ pub fn band(scale: &Scale, survey: &Survey) -> Value {
     let bare_peak = scale.length(&of::BARE_PEAK, bare, ClosedForm);
     let (gap_at, gap) = survey.smallest_gap;
     let gap = Quantity::new(&of::GAP, gap, ExactOrbit).with_error(ROOT_OF_ROUNDING * gap);
-    // No area where closed form cannot tell Z1 from Z2.
     let areas = survey.zones.iter().map(|zone| {
         let (from, to) = (place(zone.from), place(zone.to));
         json!({ "from": from, "to": to, "area": zone.of.area, "strip": zone.of.strip })

@@ -11,9 +11,9 @@ use crate::orbits::{Bifurcation, FullSystem, StableStretch, SymmetricOrbit};
 use crate::quantity::catalogue as of;
 use crate::quantity::{Dimension, Quantity};
 use crate::regimes::share::wilson;
+use crate::study::CaseStudy;
 use crate::study::confirmations::{Probe, SimulatedLimit};
 use crate::study::margins::{ExactMargin, ExactMargins};
-use crate::study::{CaseStudy, SettledArea};
 use crate::validation::AsymptoticError;
 use crate::validation::asymptotic_error::asymptotic_errors;
 
@@ -27,13 +27,12 @@ pub(super) const ROOT_OF_ROUNDING: f64 = 1e-6;
 const BRACKETS: f64 = 2.0;
 
 /// Where theory and orbits place a system, without margins.
-pub fn theory(scale: &Scale, analysis: &Analysis, exact: &FullSystem, area: SettledArea) -> Value {
+pub fn theory(scale: &Scale, analysis: &Analysis, exact: &FullSystem) -> Value {
     let errors = &asymptotic_errors(analysis, exact);
     let facts = Facts { scale, analysis, exact, errors };
     let stretches = exact.stable_stretches();
     let mut told = json!({
-        "area": area.area,
-        "area_by": area.by,
+        "area": analysis.zone.area,
         "strip": analysis.zone.strip,
         "fixed_points": analysis.fixed_points.iter().map(|one| facts.point(one)).collect::<Vec<_>>(),
         "orbits": exact.orbits.iter().map(|one| facts.orbit(one)).collect::<Vec<_>>(),
@@ -61,7 +60,7 @@ pub fn with_margins(scale: &Scale, study: &CaseStudy) -> Value {
     let (analysis, exact) = (&study.analysis, &study.exact);
     let facts = Facts { scale, analysis, exact, errors: &study.asymptotic_errors };
     // Of the amplitude of the stable fixed point.
-    let mut told = theory(scale, analysis, exact, study.area);
+    let mut told = theory(scale, analysis, exact);
     let points = told.get("cavity").unwrap_or(&told)["fixed_points"].as_array();
     let error = points.and_then(|points| {
         let index = points.iter().rposition(|point| point["stable"] == true)?;
@@ -138,41 +137,21 @@ impl Facts<'_> {
         })
     }
 
-    /// Boundaries in clearance by theory and exactly, by ascending clearance; after them those of the motion
-    /// with two asymmetric impacts take their places.
+    /// Boundaries in clearance by theory and exactly, by ascending clearance.
     fn boundaries(&self) -> Vec<Value> {
         let length = |factor, method| self.scale.length(&of::BOUNDARY, factor, method);
         let node = self.analysis.boundaries.saddle_node.map(|node| node.branch);
-        let symmetric = self.errors.iter().map(|one| (false, one.clone()));
-        let asymmetric = self.exact.boundaries.iter().filter_map(|one| one.asymmetric.as_ref());
-        let asymmetric = asymmetric.flat_map(|one| {
-            let doubling = (Bifurcation::PeriodDoubling, one.period_doubling);
-            [doubling, (Bifurcation::Grazing, one.grazing)]
-        });
-        let asymmetric = asymmetric.filter(|(_, at)| at.is_some()).map(|(kind, exact)| {
-            let only = AsymptoticError {
-                kind,
-                theory: None,
-                exact,
-                difference: None,
-                bounds_stability: false,
-            };
-            (true, only)
-        });
-        let place = |one: &AsymptoticError| one.exact.or(one.theory).unwrap_or(0.0);
-        let mut all: Vec<(bool, AsymptoticError)> = symmetric.chain(asymmetric).collect();
-        all.sort_by(|a, b| place(&a.1).total_cmp(&place(&b.1)));
-        let told = all.iter().map(|(of_asymmetric, one)| {
+        let told = self.errors.iter().map(|one| {
             let of_theory = one.kind == Bifurcation::SaddleNode && one.theory.is_some();
             json!({
                 "kind": one.kind,
                 // The branch on which two fixed points of the theory meet.
                 "branch": node.filter(|_| of_theory),
-                "of_asymmetric": of_asymmetric,
+                "of_asymmetric": one.of_asymmetric,
                 "theory": one.theory.map(|at| length(at, Theory)),
                 "exact": one.exact.map(|at| length(at, ExactOrbit)),
                 "theory_error": one.difference.map(theory_error),
-                "change": change(place(one)),
+                "change": change(one.place()),
                 "bounds_stability": one.bounds_stability,
             })
         });

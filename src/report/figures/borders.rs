@@ -11,33 +11,25 @@ use super::parts;
 type Place<'a> = &'a dyn Fn(f64, f64) -> [f64; 2];
 
 impl Borders {
-    /// Areas and lines, from the back to the front. `outer` and `inner` are ordinates beyond Z4 and beyond Z1,
-    /// `grazing` the line between Z1 and Z2 on the axes, as far as it is known.
-    pub(super) fn layers(
-        &self,
-        place: Place,
-        [outer, inner]: [f64; 2],
-        grazing: &[[f64; 2]],
-    ) -> Vec<Layer> {
+    /// Areas and lines, from the back to the front. `outer` and `inner` are ordinates beyond Z4 and beyond Z1.
+    pub(super) fn layers(&self, place: Place, [outer, inner]: [f64; 2]) -> Vec<Layer> {
         let line = |value: fn(&Border) -> f64| finite(self.line(place, value));
         let to = |line: &[[f64; 2]], y: f64| line.iter().map(|at| [at[0], y]).collect::<Vec<_>>();
         let area =
             |name, a: &[[f64; 2]], b: &[[f64; 2]], fill| Layer::between(a, b, fill).labelled(name);
         let (hopf, last) = (line(|at| at.hopf), line(|at| at.last));
         // With little damping symmetry breaks before the fold is reached: no room for Z3 there.
-        let mut top = line(|at| at.breaking.max(at.hopf));
+        let top = line(|at| at.breaking.max(at.hopf));
+        // With little damping, near resonance, the asymmetric motion grazes as soon as it begins.
+        let third = line(|at| at.grazing.max(at.breaking).max(at.hopf));
         let mut layers = vec![
             area("Z4: no 1:1", &last, &to(&last, outer), parts::Z4),
             area("Z3: steady 1:1", &top, &hopf, parts::Z3),
         ];
-        if let [first, .., end] = grazing {
-            top.retain(|at| (first[0]..=end[0]).contains(&at[0]));
-            let below = to(grazing, inner);
-            layers.push(area("Z2: asymmetric", &top, grazing, parts::Z2));
-            layers.push(area("Z1: more impacts", grazing, &below, parts::Z1));
-        } else {
-            layers.push(area("Z1, Z2: not symmetric", &top, &to(&top, inner), parts::Z2));
+        if self.samples.iter().any(|at| at.grazing > at.breaking) {
+            layers.push(area("Z2: asymmetric", &top, &third, parts::Z2));
         }
+        layers.push(area("Z1: more impacts", &third, &to(&third, inner), parts::Z1));
         layers.extend(self.strip(Strip::A1, place));
         layers.extend(self.strip(Strip::A2, place));
         layers.extend(self.lines(place));

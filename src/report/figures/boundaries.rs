@@ -29,12 +29,11 @@ pub(super) fn map(scene: &Scene, data: &Map) -> Figure {
     let mut panel = chart.panel();
     let ends = heights.map(|height| chart.at([0.0, height])[1]);
     let grazing = data.exact.iter().filter_map(|at| Some([at.frequency_ratio, at.grazing()?]));
-    let grazing: Vec<[f64; 2]> = grazing.collect();
     let place =
         |detuning: f64, gamma: f64| chart.at([scene.ratio(detuning), scene.clearance(gamma)]);
-    panel.layers = data.borders.layers(&place, [ends[1], ends[0]], &chart.line(&grazing));
+    panel.layers = data.borders.layers(&place, [ends[1], ends[0]]);
     let mark = |at: [f64; 2], what: &str| scene.mark(&chart, at, what);
-    let third = grazing.iter().map(|at| chart.at(*at).into());
+    let third = grazing.map(|at| chart.at(at).into());
     let limits = data.exact.iter().flat_map(|at| {
         let bounds = at.symmetric.limits.iter().filter(|limit| limit.bounds_stability);
         bounds.map(|limit| mark([at.frequency_ratio, limit.clearance], limit.kind.words()))
@@ -122,7 +121,7 @@ pub(super) fn plane(scene: &Scene, borders: &Borders) -> Figure {
     let kinds = [&of::DETUNING, &of::FORCING_PER_CLEARANCE];
     let chart = Chart::new(scene, kinds, [borders.window(), y]).with_log([false, log]);
     let mut panel = chart.panel();
-    panel.layers = borders.layers(&|detuning, gamma| [detuning, gamma], y, &[]);
+    panel.layers = borders.layers(&|detuning, gamma| [detuning, gamma], y);
     let facts = json!({
         "here": case,
         "boundaries": scene.study.analysis.boundaries,
@@ -202,7 +201,7 @@ fn border_panel(scene: &Scene, data: &Bifurcations, y: [f64; 2]) -> Panel {
     let place =
         |detuning: f64, gamma: f64| chart.at([scene.ratio(detuning), scene.clearance(gamma)]);
     let mut panel = chart.panel().with_heading("the boundaries");
-    panel.layers = data.borders.layers(&place, [chart.at(y)[1], 0.0], &[]);
+    panel.layers = data.borders.layers(&place, [chart.at(y)[1], 0.0]);
     for (at, style) in data.conditions.iter().zip(STYLES) {
         let rule = chart.vertical(at.ratio, Style { width: 1.1, ..style });
         panel.layers.push(rule);

@@ -111,7 +111,7 @@ pub(super) fn levels(levels: &Levels, chart: &Chart) -> Vec<Layer> {
     };
     let beyond = match levels.grazing {
         Some(level) => [band("Z2", levels.breaking, level, Z2), band("Z1", level, top, Z1)],
-        None => [band("Z1, Z2", levels.breaking, top, Z2), None],
+        None => [band("Z1", levels.breaking, top, Z1), None],
     };
     let below = [band("Z4", bottom, levels.fold, Z4), band("Z3", levels.fold, levels.breaking, Z3)];
     below.into_iter().chain(beyond).flatten().collect()

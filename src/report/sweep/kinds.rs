@@ -1,23 +1,17 @@
 //! How areas and counts are coloured.
 
-use crate::analysis::{Area, Zone};
+use crate::analysis::Area;
 use crate::regimes::Regime;
 use crate::report::figure::Tint;
 use crate::report::figures::regimes::tint;
 
 /// The theory's areas as results name them, and their tints where they are all that is drawn.
-pub(super) const AREAS: [(&str, Tint); 5] = [
+pub(super) const AREAS: [(&str, Tint); 4] = [
     (Area::Z1.key(), tint(Regime::AboveTwo)),
-    (Zone::UNSETTLED, Tint([0x9A, 0x9C, 0xC4])),
     (Area::Z2.key(), tint(Regime::TwoAsymmetric)),
     (Area::Z3.key(), tint(Regime::TwoSymmetric)),
     (Area::Z4.key(), tint(Regime::StronglyModulated)),
 ];
-
-/// An area as a figure names it.
-pub(super) fn area_name(area: &str) -> &str {
-    if area == Zone::UNSETTLED { Zone::UNSETTLED_WORDS } else { area }
-}
 
 /// Tints of the number of motions found, and its name: the last stands for all larger ones.
 pub(super) const COUNTS: [(Tint, &str); 5] = [

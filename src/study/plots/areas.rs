@@ -2,8 +2,7 @@
 
 use serde::Serialize;
 
-use crate::analysis::{Branch, FixedPoint, FixedPointCurve, Manifold, fixed_points};
-use crate::orbits::Boundaries;
+use crate::analysis::{AsymmetricLimits, FixedPoint, FixedPointCurve, Manifold, fixed_points};
 use crate::study::{CaseStudy, StudyError};
 use crate::system::System;
 
@@ -17,27 +16,18 @@ pub struct Levels {
     pub fold: f64,
     /// Between Z3 and Z2.
     pub breaking: f64,
-    /// Between Z2 and Z1: where the exact orbits gain a third impact, if anywhere.
+    /// Between Z2 and Z1: where the asymmetric motion gains a third impact, if anywhere.
     pub grazing: Option<f64>,
 }
 
 impl Levels {
-    pub(super) fn of_manifold(manifold: &Manifold) -> Self {
+    pub(super) fn of(manifold: &Manifold) -> Self {
+        let grazing = AsymmetricLimits::of(manifold.restitution).grazing;
         Self {
             fold: manifold.fold.oscillator_amplitude,
             breaking: manifold.symmetry_breaking.oscillator_amplitude,
-            grazing: None,
+            grazing: grazing.map(|end| end.oscillator_amplitude),
         }
-    }
-
-    fn of(study: &CaseStudy) -> Result<Self, StudyError> {
-        let (system, manifold) = (&study.analysis.system, &study.analysis.manifold);
-        let grazing = study.exact.boundaries.as_ref().and_then(Boundaries::grazing);
-        let there = grazing.and_then(|clearance| system.with_clearance_scaled(clearance).ok());
-        let points = there.map(|there| fixed_points::solve(&there, manifold)).transpose()?;
-        let right = points.iter().flatten().rfind(|point| point.branch == Branch::Right);
-        let grazing = right.map(|point| point.oscillator_amplitude);
-        Ok(Self { grazing, ..Self::of_manifold(manifold) })
     }
 }
 
@@ -74,7 +64,7 @@ impl Areas {
             let Ok(there) = system.with_clearance_scaled(clearance) else { continue };
             chosen.push((clearance, fixed_points::solve(&there, manifold)?));
         }
-        Ok(Some(Self { levels: Levels::of(study)?, lines: lines(system, manifold), chosen }))
+        Ok(Some(Self { levels: Levels::of(manifold), lines: lines(system, manifold), chosen }))
     }
 }
 

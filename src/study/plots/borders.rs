@@ -5,7 +5,7 @@
 
 use serde::Serialize;
 
-use crate::analysis::{Boundaries, Branch, FixedPointCurve, Manifold, Strip};
+use crate::analysis::{AsymmetricLimits, Boundaries, Branch, FixedPointCurve, Manifold, Strip};
 use crate::study::CaseStudy;
 use crate::system::System;
 
@@ -23,6 +23,8 @@ pub struct Border {
     pub detuning: f64,
     /// Symmetry breaking.
     pub breaking: f64,
+    /// Grazing of the asymmetric motion, the end of Z2; NaN where there is none.
+    pub grazing: f64,
     /// Hopf.
     pub hopf: f64,
     /// NaN where no collision bounds the strip beside Z3.
@@ -46,8 +48,11 @@ pub struct Borders {
 impl Borders {
     /// Samples the boundaries from the detuning `first` to `last`.
     pub fn over(system: &System, manifold: &Manifold, (first, last): (f64, f64)) -> Self {
-        let of =
-            |detuning: f64| Some(Boundaries::of(&system.with_detuning(detuning).ok()?, manifold));
+        let asymmetric = AsymmetricLimits::of(manifold.restitution);
+        let of = |detuning: f64| {
+            let there = system.with_detuning(detuning).ok()?;
+            Some(Boundaries::with(&there, manifold, &asymmetric))
+        };
         let within = |detuning: f64| (first..=last).contains(&detuning);
         let meeting = of(f64::midpoint(first, last))
             .map(|at| [at.codimension_two.detuning, at.codimension_two.forcing_over_clearance])
@@ -92,6 +97,7 @@ impl Border {
         Self {
             detuning,
             breaking: at.symmetry_breaking,
+            grazing: at.grazing.unwrap_or(f64::NAN),
             hopf: at.hopf,
             saddle: at.saddle_node.map_or(f64::NAN, |node| node.forcing_over_clearance),
             last,

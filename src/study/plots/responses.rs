@@ -73,7 +73,7 @@ impl Responses {
             own: true,
             window: window(system),
             heights: [bottom, top],
-            levels: Levels::of_manifold(manifold),
+            levels: Levels::of(manifold),
         })
     }
 
@@ -91,7 +91,7 @@ impl Responses {
             own: false,
             window: [(1.0 - half).max(0.05), 1.0 + half],
             heights: [0.0, top],
-            levels: Levels::of_manifold(manifold),
+            levels: Levels::of(manifold),
         })
     }
 }

@@ -4,7 +4,7 @@ use serde_json::json;
 
 use super::super::Swept;
 use super::super::grid::{self, Measure, Numbers, Plane};
-use super::super::kinds::{AREAS, COUNTS, area_name};
+use super::super::kinds::{AREAS, COUNTS};
 use super::QUANTITIES;
 use super::overlay::{self, Lines};
 use crate::case::Recorded;
@@ -101,7 +101,7 @@ fn regimes(swept: &Swept) -> Option<Map> {
 fn areas(swept: &Swept) -> Option<Map> {
     let index = |name: &'static str| AREAS.iter().position(|(area, _)| *area == name);
     let indices = swept.areas()?.into_iter().map(|area| area.and_then(index)).collect();
-    let table = AREAS.map(|(area, tint)| (tint, area_name(area)));
+    let table = AREAS.map(|(area, tint)| (tint, area));
     kinds("sweep-areas", "areas", &table, vec![(swept.directions()[0], indices)])
 }
 

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::super::Swept;
 use super::super::grid::Plane;
-use super::super::kinds::{AREAS, area_name};
+use super::super::kinds::AREAS;
 use super::contours;
 use crate::analysis::Manifold;
 use crate::case::Recorded;
@@ -131,15 +131,14 @@ pub(super) fn area_names(swept: &Swept, plane: Plane, slice: usize, columns: usi
     let inside = depths(&cells, across, up);
     let size = PANEL / columns as f64;
     let named = AREAS.iter().filter_map(|(area, _)| {
-        let words = area_name(area);
         // Half of what the words take, as a part of the map.
-        let half = [0.5 * LETTER * words.len() as f64 / size, LETTER / size];
+        let half = [0.5 * LETTER * area.len() as f64 / size, LETTER / size];
         let fits = |cell: &usize| (0..2).all(|k| inside[*cell][k] > half[k]);
         let depth = |cell: usize| inside[cell][0].min(inside[cell][1]);
         let here = (0..cells.len()).filter(|cell| cells[*cell] == Some(*area)).filter(fits);
         let middle = here.max_by(|a, b| depth(*a).total_cmp(&depth(*b)).then(b.cmp(a)))?;
         let at = [plane.x.shown[middle % across], plane.y.shown[middle / across]];
-        Some(Layer::note(at, words))
+        Some(Layer::note(at, *area))
     });
     named.collect()
 }
