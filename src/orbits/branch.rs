@@ -200,7 +200,12 @@ pub fn follow(
         Direction::Down => -Vector5::from(PARAMETER),
     };
     let scaled = parameter.of(base) / tracer.scale;
-    let first = tracer.correct(start.cycle.clone(), scaled, &along, &along)?;
+    // A tilt leaves no orbit its symmetry.
+    let cycle = match parameter {
+        Parameter::GravityAlong => start.cycle.unfolded(),
+        _ => start.cycle.clone(),
+    };
+    let first = tracer.correct(cycle, scaled, &along, &along)?;
     collected(&tracer, first, start.origin, settings)
 }
 

@@ -21,6 +21,10 @@ const FREQUENCIES: [f64; 2] = [0.5, 2.0];
 /// Clearances, and forcings, over the system's own between which the attracting orbit of a cavity that is not ideal is
 /// followed.
 const CLEARANCES: [f64; 2] = [0.05, 20.0];
+
+/// Gravity along the cavity and friction, over `b omega0^2`, up to which limits are looked for: accelerations of the
+/// oscillator are about 1.
+const LARGEST_ACCELERATION: f64 = 20.0;
 /// Clearances looked at per unit of their logarithm for the smallest vibration: the optimum is
 /// known to one percent.
 const CLEARANCES_PER_E_FOLD: f64 = 100.0;
@@ -126,6 +130,21 @@ impl FullSystem {
         [Direction::Down, Direction::Up].map(|direction| {
             self.limit(self.attracting_orbit()?, Parameter::Amplitude, CLEARANCES, direction)
         })
+    }
+
+    /// The same as the cavity alone is tilted, towards `x - y = -b` and towards `x - y = b`; values are gravity's
+    /// accelerations along it over `b omega0^2`.
+    pub fn tilt_limits(&self) -> [Option<SpecialPoint>; 2] {
+        [Direction::Down, Direction::Up].map(|direction| {
+            let range = [-LARGEST_ACCELERATION, LARGEST_ACCELERATION];
+            self.limit(self.attracting_orbit()?, Parameter::GravityAlong, range, direction)
+        })
+    }
+
+    /// The same as friction alone grows; the value is its acceleration over `b omega0^2`.
+    pub fn friction_limit(&self) -> Option<SpecialPoint> {
+        let (orbit, range) = (self.attracting_orbit()?, [-1.0, LARGEST_ACCELERATION]);
+        self.limit(orbit, Parameter::FrictionAcceleration, range, Direction::Up)
     }
 
     /// The first bifurcation on the branch of an attracting orbit.

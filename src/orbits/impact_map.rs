@@ -170,11 +170,11 @@ pub struct Step {
     pub next_by_duration: Vector4<f64>,
     /// Derivatives of `gap` by the state at fixed `D`; by `D` it is `approach`.
     pub gap_by_state: Vector4<f64>,
-    /// Derivatives of `next` by the forcing, the frequency, the restitution and the logarithm of both
-    /// accelerations of the cavity, in this order.
-    pub next_by_parameter: [Vector4<f64>; 4],
+    /// Derivatives of `next` as [`crate::system::Parameter::derivatives`] has them: by the forcing, the
+    /// frequency, the restitution, gravity along the cavity and friction.
+    pub next_by_parameter: [Vector4<f64>; 5],
     /// The same for `gap`.
-    pub gap_by_parameter: [f64; 4],
+    pub gap_by_parameter: [f64; 5],
 }
 
 impl Step {
@@ -255,8 +255,11 @@ impl ImpactMap {
         };
         let restitution_share = approach / (1.0 + eps);
         let frequency = self.flight.frequency();
-        let fallen = 0.5 * acceleration * duration * duration;
-        let [pushed_x, pushed_v] = [push * (1.0 - by_start[(0, 0)]), -push * by_start[(1, 0)]];
+        let half_square = 0.5 * duration * duration;
+        // Friction slows the absorber down and pushes the oscillator.
+        let slowed = -start.wall.sign();
+        let [pushed_x, pushed_v] =
+            [1.0 - by_start[(0, 0)], -by_start[(1, 0)]].map(|by| -slowed * eps * by);
         Step {
             next: AfterImpact {
                 wall: to,
@@ -268,7 +271,7 @@ impl ImpactMap {
             gap: at.x - start.x + start.wall.sign()
                 - start.y_velocity * duration
                 - to.sign()
-                - fallen,
+                - half_square * acceleration,
             approach,
             next_by_state: Matrix4::from_columns(&[
                 column(1.0, by_phase.x, by_phase.y, 0.0),
@@ -287,9 +290,16 @@ impl ImpactMap {
                 column(0.0, by_forcing.x, by_forcing.y, 0.0),
                 column(duration, by_frequency.x, by_frequency.y, 0.0),
                 Vector4::new(0.0, 0.0, -eps * restitution_share, restitution_share),
-                column(0.0, pushed_x, pushed_v, acceleration * duration),
+                column(0.0, 0.0, 0.0, duration),
+                column(0.0, pushed_x, pushed_v, slowed * duration),
             ],
-            gap_by_parameter: [by_forcing.x, by_frequency.x, 0.0, pushed_x - fallen],
+            gap_by_parameter: [
+                by_forcing.x,
+                by_frequency.x,
+                0.0,
+                -half_square,
+                pushed_x - slowed * half_square,
+            ],
         }
     }
 }

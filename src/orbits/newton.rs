@@ -52,13 +52,13 @@ pub(super) struct Linearised {
     pub carried: Vector4<f64>,
     /// The same for a parameter's influence.
     by_parameter: Vector4<f64>,
-    /// Derivatives of forcing, frequency, restitution and accelerations by the parameter, as [`crate::system::Parameter::derivatives`].
-    weights: [f64; 4],
+    /// As [`crate::system::Parameter::derivatives`] has them.
+    weights: [f64; 5],
 }
 
 impl Linearised {
     /// Linearises `cycle`; `weights` are those of [`crate::system::Parameter::derivatives`].
-    pub fn of(map: &ImpactMap, cycle: &Cycle, weights: [f64; 4]) -> Self {
+    pub fn of(map: &ImpactMap, cycle: &Cycle, weights: [f64; 5]) -> Self {
         let steps = cycle.steps(map);
         let close = cycle.closure.matrix();
         let mut product = Matrix4::identity();
@@ -133,13 +133,13 @@ fn target(cycle: &Cycle, k: usize) -> Vector4<f64> {
     }
 }
 
-fn weighted(values: [f64; 4], weights: [f64; 4]) -> f64 {
+fn weighted(values: [f64; 5], weights: [f64; 5]) -> f64 {
     values.iter().zip(weights).map(|(value, weight)| value * weight).sum()
 }
 
-fn parameter_influence(step: &Step, weights: [f64; 4]) -> Vector4<f64> {
+fn parameter_influence(step: &Step, weights: [f64; 5]) -> Vector4<f64> {
     let next: Vector4<f64> =
-        (0..4).map(|k| step.next_by_parameter[k] * weights[k]).sum::<Vector4<f64>>();
+        (0..5).map(|k| step.next_by_parameter[k] * weights[k]).sum::<Vector4<f64>>();
     next - step.next_by_duration * (weighted(step.gap_by_parameter, weights) / step.approach)
 }
 
@@ -156,7 +156,7 @@ pub fn solve(system: &System, start: &Cycle, origin: Origin) -> Result<Orbit, Or
 
 /// Newton's iteration at fixed parameters.
 pub(super) fn converge(map: &ImpactMap, start: &Cycle) -> Result<Converged, OrbitError> {
-    corrected(|_| Some((*map, [0.0; 4])), start.clone(), 0.0, &PARAMETER.into())
+    corrected(|_| Some((*map, [0.0; 5])), start.clone(), 0.0, &PARAMETER.into())
 }
 
 /// The direction of the parameter, beside the four of the first state.
@@ -193,7 +193,7 @@ impl Converged {
 /// do not exist, [`OrbitError::NotConverged`] after [`LARGEST_STEPS`], where numbers are no longer finite,
 /// and where a later cycle is none.
 pub(super) fn corrected(
-    map_at: impl Fn(f64) -> Option<(ImpactMap, [f64; 4])>,
+    map_at: impl Fn(f64) -> Option<(ImpactMap, [f64; 5])>,
     mut cycle: Cycle,
     mut parameter: f64,
     normal: &Vector5<f64>,

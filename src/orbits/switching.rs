@@ -63,7 +63,7 @@ pub(super) fn leave(tracer: &Tracer, value: f64, cycle: &Cycle) -> Result<Point,
     let direction =
         kernel(&(cycle.jacobian(&map) + Matrix4::identity())).ok_or(OrbitError::Singular)?;
     let along = direction.push(0.0);
-    let start = Linearised::of(&map, &doubled, [0.0; 4]).moved(&doubled, &(along * ENTRY));
+    let start = Linearised::of(&map, &doubled, [0.0; 5]).moved(&doubled, &(along * ENTRY));
     tracer.correct(start, scaled, &along, &along)
 }
 

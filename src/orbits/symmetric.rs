@@ -322,7 +322,7 @@ fn symmetric_orbit(
 ) -> Option<SymmetricOrbit> {
     let cycle = curve.cycle(&map.flight, beta);
     let after = cycle.impacts[0];
-    let linear = Linearised::of(map, &cycle, [0.0; 4]);
+    let linear = Linearised::of(map, &cycle, [0.0; 5]);
     let convergence = Convergence { residual: linear.residual / cycle.size(), iterations: 0 };
     let peaks = Peaks::of(map, &cycle);
     let origin = Origin::ClosedForm;

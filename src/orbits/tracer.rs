@@ -89,7 +89,12 @@ pub(super) struct Tracer<'a> {
 impl<'a> Tracer<'a> {
     /// Over `parameter`, everything else being as in `base`.
     pub fn new(base: &'a System, parameter: Parameter) -> Self {
-        let scale = parameter.of(base).abs().max(SMALLEST_SCALE);
+        let own = parameter.of(base).abs();
+        let scale = match parameter {
+            // Accelerations that may be none, in units in which the motion's are about 1.
+            Parameter::GravityAlong | Parameter::FrictionAcceleration => own.max(1.0),
+            _ => own.max(SMALLEST_SCALE),
+        };
         Self { base, parameter, scale }
     }
 
@@ -105,7 +110,7 @@ impl<'a> Tracer<'a> {
     }
 
     /// The impact map at a scaled parameter, and [`Parameter::derivatives`] over its scale.
-    fn map(&self, scaled: f64) -> Option<(ImpactMap, [f64; 4])> {
+    fn map(&self, scaled: f64) -> Option<(ImpactMap, [f64; 5])> {
         let value = scaled * self.scale;
         let system = self.parameter.applied(self.base, value).ok()?;
         let weights = self.parameter.derivatives(self.base, value).map(|w| w * self.scale);
@@ -220,15 +225,16 @@ mod tests {
             frequency_ratio: 0.95,
             forcing_per_clearance: 3.0,
             excitation: Excitation::BaseDisplacement,
-            cavity: Cavity { friction_acceleration: 0.02, ..Cavity::IDEAL },
+            cavity: Cavity { gravity_along: 0.03, friction_acceleration: 0.02, ..Cavity::IDEAL },
         })
         .expect("valid");
         for parameter in Parameter::OF_SYSTEM {
             let (value, h) = (0.8, 1e-5);
             let at = |value| {
                 let there = parameter.applied(&base, value).expect("valid");
-                let scale = libm::log(there.cavity().friction_acceleration);
-                [there.forcing_per_clearance(), there.frequency_ratio(), there.restitution(), scale]
+                let Cavity { gravity_along: a, friction_acceleration: f, .. } = there.cavity();
+                let [gamma, omega] = [there.forcing_per_clearance(), there.frequency_ratio()];
+                [gamma, omega, there.restitution(), a, f]
             };
             let (up, down) = (at(value + h), at(value - h));
             for (k, weight) in parameter.derivatives(&base, value).iter().enumerate() {

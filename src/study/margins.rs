@@ -47,6 +47,25 @@ pub struct ExactMargins {
     pub forcing: [Option<ExactMargin>; 2],
     /// Below and above in frequency, by continuation.
     pub frequency: [Option<ExactMargin>; 2],
+    /// As the cavity alone is tilted either way, by continuation.
+    pub tilt: [Option<CavityLimit>; 2],
+    /// As friction alone grows, by continuation.
+    pub friction: Option<CavityLimit>,
+}
+
+/// A limit of the attracting exact orbit in tilt or friction of the cavity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CavityLimit {
+    /// What happens there.
+    pub kind: Bifurcation,
+    /// Gravity along the cavity, or friction's acceleration, over `b omega0^2`.
+    pub acceleration: f64,
+}
+
+impl CavityLimit {
+    fn at(limit: SpecialPoint) -> Self {
+        Self { kind: limit.kind, acceleration: limit.value }
+    }
 }
 
 impl ExactMargins {
@@ -68,6 +87,8 @@ impl ExactMargins {
             exact.forcing_limits().map(over(1.0))
         };
         let frequency = exact.frequency_limits().map(over(exact.system.frequency_ratio()));
-        Some(Self { clearance, forcing, frequency })
+        let tilt = exact.tilt_limits().map(|end| end.map(CavityLimit::at));
+        let friction = exact.friction_limit().map(CavityLimit::at);
+        Some(Self { clearance, forcing, frequency, tilt, friction })
     }
 }

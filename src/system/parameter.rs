@@ -7,7 +7,7 @@
 
 use serde::Serialize;
 
-use super::{InvalidParameter, Parameters, System};
+use super::{Cavity, InvalidParameter, Parameters, System};
 use crate::names::names;
 
 names! { key:
@@ -62,8 +62,14 @@ names! { key:
 
 impl Parameter {
     /// Those of a dimensionless system that [`Parameter::applied`] varies.
-    pub const OF_SYSTEM: [Self; 4] =
-        [Self::Clearance, Self::Frequency, Self::Amplitude, Self::Restitution];
+    pub const OF_SYSTEM: [Self; 6] = [
+        Self::Clearance,
+        Self::Frequency,
+        Self::Amplitude,
+        Self::Restitution,
+        Self::GravityAlong,
+        Self::FrictionAcceleration,
+    ];
 
     /// Whether it is a part of the start, not of the design: these are the last.
     pub fn is_initial(self) -> bool {
@@ -101,16 +107,22 @@ impl Parameter {
         }
     }
 
-    /// Derivatives of forcing `gamma`, frequency, restitution and the logarithm of both accelerations of the
-    /// cavity by the parameter, at `value`: what [`Parameter::applied`] does to them.
-    pub fn derivatives(self, base: &System, value: f64) -> [f64; 4] {
+    /// Derivatives of forcing `gamma`, frequency, restitution, gravity along the cavity and friction by the
+    /// parameter, at `value`: what [`Parameter::applied`] does to them.
+    pub fn derivatives(self, base: &System, value: f64) -> [f64; 5] {
         let gamma = base.forcing_per_clearance();
+        let Cavity { gravity_along, friction_acceleration, .. } = base.cavity();
         match self {
-            Self::Clearance => [-gamma / (value * value), 0.0, 0.0, -1.0 / value],
-            Self::Frequency => [0.0, 1.0, 0.0, 0.0],
-            Self::Amplitude => [gamma, 0.0, 0.0, 0.0],
-            Self::Restitution => [0.0, 0.0, 1.0, 0.0],
-            _ => [0.0; 4],
+            Self::Clearance => {
+                let over = -1.0 / (value * value);
+                [gamma * over, 0.0, 0.0, gravity_along * over, friction_acceleration * over]
+            }
+            Self::Frequency => [0.0, 1.0, 0.0, 0.0, 0.0],
+            Self::Amplitude => [gamma, 0.0, 0.0, 0.0, 0.0],
+            Self::Restitution => [0.0, 0.0, 1.0, 0.0, 0.0],
+            Self::GravityAlong => [0.0, 0.0, 0.0, 1.0, 0.0],
+            Self::FrictionAcceleration => [0.0, 0.0, 0.0, 0.0, 1.0],
+            _ => [0.0; 5],
         }
     }
 
@@ -121,6 +133,8 @@ impl Parameter {
             Self::Clearance | Self::Amplitude => 1.0,
             Self::Frequency => base.frequency_ratio(),
             Self::Restitution => base.restitution(),
+            Self::GravityAlong => base.cavity().gravity_along,
+            Self::FrictionAcceleration => base.cavity().friction_acceleration,
             _ => f64::NAN,
         }
     }
@@ -131,7 +145,7 @@ impl Parameter {
     ///
     /// # Errors
     /// [`InvalidParameter`] if no system has it: a clearance or frequency that is not above 0, a
-    /// forcing below 0, a restitution outside of 0 to 1, a parameter that is not varied in a system.
+    /// forcing or friction below 0, a restitution outside of 0 to 1, a parameter that is not varied in a system.
     pub fn applied(self, base: &System, value: f64) -> Result<System, InvalidParameter> {
         let parameters = base.parameters();
         // The detuning depends on the frequency alone, and 1 + eps sigma may have forgotten it.
@@ -146,8 +160,17 @@ impl Parameter {
                 tuned_alike(Parameters { forcing_per_clearance, ..parameters })
             }
             Self::Restitution => tuned_alike(Parameters { restitution: value, ..parameters }),
+            Self::GravityAlong => {
+                let cavity = Cavity { gravity_along: value, ..parameters.cavity };
+                tuned_alike(Parameters { cavity, ..parameters })
+            }
+            Self::FrictionAcceleration => {
+                let cavity = Cavity { friction_acceleration: value, ..parameters.cavity };
+                tuned_alike(Parameters { cavity, ..parameters })
+            }
             _ => {
-                let expected = "a clearance, frequency, amplitude or restitution to vary";
+                let expected = "a clearance, frequency, amplitude, restitution, or gravity or friction in the \
+                                cavity to vary";
                 Err(InvalidParameter { name: self.key(), value, expected })
             }
         }
@@ -162,7 +185,7 @@ impl Parameter {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::system::{Cavity, Excitation};
+    use crate::system::Excitation;
 
     fn base() -> System {
         // So light an absorber that the frequency ratio cannot hold the detuning.
@@ -205,7 +228,9 @@ mod tests {
     #[test]
     fn values_without_a_system_are_refused() {
         for parameter in Parameter::OF_SYSTEM {
-            assert!(parameter.applied(&base(), -1.0).is_err(), "{parameter:?}");
+            // A tilt has a sign.
+            let tilt = parameter == Parameter::GravityAlong;
+            assert_eq!(parameter.applied(&base(), -1.0).is_ok(), tilt, "{parameter:?}");
             assert!(parameter.applied(&base(), f64::NAN).is_err(), "{parameter:?}");
         }
         assert!(Parameter::Restitution.applied(&base(), 1.1).is_err());

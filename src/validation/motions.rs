@@ -135,6 +135,8 @@ pub fn area(analysis: &Analysis, attractors: &[FoundAttractor]) -> Option<Claim>
     let steady = !steady.is_empty();
     // What holds, and whether chance could have it otherwise.
     let (area, strip) = (analysis.zone.area, analysis.zone.strip);
+    let doubling = analysis.boundaries.period_doubling;
+    let beyond_doubling = doubling.is_some_and(|at| analysis.system.forcing_per_clearance() > at);
     let (predicted, holds, by_chance) = match (area, strip) {
         (Area::Z3, None) => {
             (Finding::OnlySteady, steady && !beside, steady && (may_end || ended && !beside))
@@ -143,6 +145,8 @@ pub fn area(analysis: &Analysis, attractors: &[FoundAttractor]) -> Option<Claim>
             (Finding::SteadyBesideModulated, steady && beside, ended && !beside)
         }
         (Area::Z3, Some(Strip::A2)) => (Finding::StronglyModulated, modulated && !steady, false),
+        // Two asymmetric impacts that have doubled their period are unstable.
+        (Area::Z2, _) if beyond_doubling => (Finding::NotSteady, !steady && beside, false),
         (Area::Z4, _) => (Finding::NotSteady, !steady && beside, false),
         (Area::Z2, _) => (Finding::TwoAsymmetric, among(Regime::TwoAsymmetric), false),
         (Area::Z1, _) => (Finding::AboveTwo, among(Regime::AboveTwo), false),

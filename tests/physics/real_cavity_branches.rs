@@ -9,6 +9,7 @@ use vinesink::orbits::{
     Bifurcation, Closure, Cycle, FullSystem, Orbit, OrbitError, Origin, SymmetricFamily,
     attracting_orbit, symmetric_orbits,
 };
+use vinesink::simulation::{Simulation, Stop};
 use vinesink::system::Parameter;
 
 /// As the cavity becomes ideal each orbit goes to one of the ideal cavity, symmetric and asymmetric, in proportion to
@@ -156,4 +157,51 @@ fn a_stretch_of_clearances_ends_where_the_orbit_does() {
         let [_, upper] = FullSystem::of(&hardly).stretch().expect("attracts").clearance;
         assert!((upper / known.clearance[1] - 1.0).abs() < 1e-5);
     }
+}
+
+/// Up to the tilt and the friction at which a continuation ends an orbit is counted that attracts, and simulation stays on
+/// it; beyond there is none.
+#[test]
+fn tilt_and_friction_are_borne_up_to_their_limits() {
+    let ideal = table_1(8.0, 7.5);
+    let mut kinds = Vec::new();
+    for [a, f, d] in [[0.0; 3]].into_iter().chain(cavities()) {
+        let system = with(&ideal, a, f, d);
+        let full = FullSystem::of(&system);
+        let own = full.attracting_orbit().expect("attracts").cycle.unfolded();
+        let [down, up] = full.tilt_limits();
+        let limits = [
+            (Parameter::GravityAlong, down.expect("ends"), -1.0),
+            (Parameter::GravityAlong, up.expect("ends"), 1.0),
+            (Parameter::FrictionAcceleration, full.friction_limit().expect("ends"), 1.0),
+        ];
+        for (parameter, limit, outward) in limits {
+            kinds.push(limit.kind);
+            let attracting = |share: f64| {
+                let value =
+                    limit.value + outward * share * (limit.value - parameter.of(&system)).abs();
+                let there = parameter.applied(&system, value).expect("valid");
+                let found = orbits(&there).into_iter().filter(Orbit::attracts);
+                let nearest = found.min_by(|x, y| {
+                    let [x, y] = [x, y].map(|one| apart(&one.cycle.unfolded(), &own));
+                    x.total_cmp(&y)
+                });
+                nearest.map(|orbit| (there, orbit))
+            };
+            let (there, orbit) = attracting(-0.01).expect("inside of the limit");
+            assert!(attracting(0.01).is_none(), "{a} {f} {d} {parameter:?} {limit:?}");
+            let first = orbit.cycle.unfolded().impacts[0];
+            let begin = first.phase / there.frequency_ratio();
+            let mut simulation = Simulation::new(&there, first.state(), begin).expect("inside");
+            let mut impacts = [300, 200].map(|periods| {
+                assert_eq!(simulation.run(periods, u64::MAX, &mut ()), Stop::EndTime);
+                simulation.impacts()
+            });
+            impacts[1] -= impacts[0];
+            // The first and the last may come a rounding later.
+            assert!((399..=401).contains(&impacts[1]), "{impacts:?} {parameter:?} {limit:?}");
+        }
+    }
+    let ends = [Bifurcation::PeriodDoubling, Bifurcation::SaddleNode];
+    assert!(ends.iter().all(|kind| kinds.contains(kind)), "{kinds:?}");
 }

@@ -153,8 +153,8 @@ fn a_step_knows_what_each_parameter_does_to_it() {
             let h = 1e-6;
             let (here, up, down) = (step(0.0), step(h), step(-h));
             let next: nalgebra::Vector4<f64> =
-                (0..4).map(|n| here.next_by_parameter[n] * weights[n]).sum();
-            let gap: f64 = (0..4).map(|n| here.gap_by_parameter[n] * weights[n]).sum();
+                (0..5).map(|n| here.next_by_parameter[n] * weights[n]).sum();
+            let gap: f64 = (0..5).map(|n| here.gap_by_parameter[n] * weights[n]).sum();
             let next_error = next - (up.next.vector() - down.next.vector()) / (2.0 * h);
             let gap_error = gap - (up.gap - down.gap) / (2.0 * h);
             // Near resonance the response turns within 1e-2 of the frequency: h^2 times 1e4, times values of 10.

@@ -13,7 +13,7 @@ use crate::quantity::{Dimension, Quantity};
 use crate::regimes::share::wilson;
 use crate::study::CaseStudy;
 use crate::study::confirmations::{Probe, SimulatedLimit};
-use crate::study::margins::{ExactMargin, ExactMargins};
+use crate::study::margins::{CavityLimit, ExactMargin, ExactMargins};
 use crate::validation::AsymptoticError;
 use crate::validation::asymptotic_error::asymptotic_errors;
 
@@ -165,10 +165,20 @@ impl Facts<'_> {
         let force = |one: ExactMargin| end(one, self.scale.amplitude(one.factor, ExactOrbit));
         let tune = |one: ExactMargin| end(one, self.scale.frequency(own * one.factor, ExactOrbit));
         let clearance = |one: ExactMargin| self.end(Some(one.kind), one.factor);
+        let along = self.analysis.system.cavity().gravity_along;
+        let absolute = |kind, at: Option<Quantity>| at.map(|at| json!({ "kind": kind, "at": at }));
+        let tilt =
+            |one: CavityLimit| absolute(one.kind, self.scale.tilt(one.acceleration, ExactOrbit));
+        let friction = |one: CavityLimit| {
+            absolute(one.kind, self.scale.friction([along, one.acceleration], ExactOrbit))
+        };
         json!({
             "clearance": margins.clearance.map(|end| end.map(clearance)),
             "forcing": margins.forcing.map(|end| end.map(force)),
             "frequency": margins.frequency.map(|end| end.map(tune)),
+            // Of a level cavity the tilt either way is the same.
+            "tilt": margins.tilt.map(|end| end.and_then(tilt)),
+            "friction": margins.friction.and_then(friction),
         })
     }
 
