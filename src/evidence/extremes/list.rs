@@ -32,6 +32,10 @@ pub enum Varied {
     Frequency,
     /// Clearance in mm, to which the forcing per clearance is inversely proportional.
     Clearance,
+    /// Gravity along the cavity over `b omega0^2`.
+    GravityAlong,
+    /// Friction over `b omega0^2`.
+    Friction,
 }
 
 /// Where a run starts.
@@ -78,19 +82,22 @@ pub struct Entry {
     pub impact_limit: u64,
 }
 
-const ONE: [(Varied, &[f64]); 5] = [
+const ONE: [(Varied, &[f64]); 7] = [
     (Varied::Restitution, &[0.0, 1e-9, 0.05, 0.999_999, 1.0]),
     (Varied::MassRatio, &[1e-9, 1e-6, 1e-3, 0.1, 0.9]),
     (Varied::Damping, &[0.0, 1e-3, 10.0, 100.0, 1e3]),
     (Varied::Forcing, &[1e-8, 1e-4, 1.0, 1e2, 1e4, 1e6, 1e8]),
     (Varied::Frequency, &[1e-3, 0.1, 1.0, 10.0, 1e3]),
+    // From a degree of Table 1 to more than its walls can throw the absorber against.
+    (Varied::GravityAlong, &[1e-9, 0.01, 0.5, 10.0]),
+    (Varied::Friction, &[1e-9, 0.01, 0.3, 10.0]),
 ];
 /// Excitation periods of long runs.
 const LONG: [u64; 2] = [10_000, 1_000_000];
 /// In mm: small enough for chattering and sustained contact.
 const SMALL: f64 = 0.3;
 const CHATTERING: [f64; 6] = [0.0, 0.6, 0.95, 0.99, 0.999_999, 1.0];
-const SEVERAL: [&[(Varied, f64)]; 8] = [
+const SEVERAL: [&[(Varied, f64)]; 10] = [
     // Both are powers of two: exactly critical damping.
     &[(Varied::Damping, 256.0), (Varied::MassRatio, 1.0 / 128.0)],
     &[(Varied::Frequency, 1.0), (Varied::Damping, 0.0)],
@@ -105,6 +112,8 @@ const SEVERAL: [&[(Varied, f64)]; 8] = [
     &[(Varied::MassRatio, 1e-9), (Varied::Forcing, 1e8)],
     &[(Varied::Restitution, 0.999_999), (Varied::Forcing, 1e8)],
     &[(Varied::Forcing, 1e307), (Varied::MassRatio, 0.9)],
+    &[(Varied::Restitution, 0.0), (Varied::GravityAlong, 0.2), (Varied::Friction, 0.1)],
+    &[(Varied::Clearance, 0.3), (Varied::GravityAlong, 0.2), (Varied::Friction, 0.1)],
 ];
 const STARTS: [Start; 3] = [Start::MovingOut, Start::Pushed, Start::Outside];
 
@@ -129,6 +138,8 @@ pub fn table_1(varied: &[(Varied, f64)]) -> Parameters {
             Varied::Damping => parameters.damping = *value,
             Varied::Forcing => parameters.forcing_per_clearance = *value,
             Varied::Frequency => parameters.frequency_ratio = *value,
+            Varied::GravityAlong => parameters.cavity.gravity_along = *value,
+            Varied::Friction => parameters.cavity.friction_acceleration = *value,
             Varied::Clearance => parameters.forcing_per_clearance = forcing(*value),
         }
     }

@@ -114,7 +114,7 @@ impl Witness {
 
 impl Observer for Witness {
     fn segment(&mut self, segment: &Segment) {
-        let carried = matches!(segment.absorber, Absorber::Carried(_));
+        let carried = !matches!(segment.absorber, Absorber::Flying { .. });
         if self.carried && !carried {
             let omega = segment.motion.oscillator().frequency;
             let tau = (segment.turns as f64 * TAU + segment.phase) / omega;
@@ -197,13 +197,22 @@ impl Entry {
 }
 
 /// Times of the events that the engine saw, by the reference, and whether it saw the same ones; ends
-/// where it did not.
+/// where it did not. Where friction turns or stops the absorber in flight is no event of its own: what it makes of the next
+/// one tells.
 fn follow(mut reference: Reference, seen: &[Seen]) -> (bool, Vec<f64>) {
+    let mut next = |until: f64| {
+        loop {
+            match reference.next(until) {
+                Some(Event::Reversal { .. } | Event::Stick { .. }) => {}
+                event => return event,
+            }
+        }
+    };
     let mut times = Vec::new();
     let mut resting = false;
     for event in seen {
         match *event {
-            Seen::Impact { tau, side } => match reference.next(2.0 * tau + 10.0) {
+            Seen::Impact { tau, side } => match next(2.0 * tau + 10.0) {
                 Some(Event::Impact { tau, side: found, sticks, .. }) if found == side => {
                     times.push(tau);
                     resting = sticks;
@@ -216,7 +225,7 @@ fn follow(mut reference: Reference, seen: &[Seen]) -> (bool, Vec<f64>) {
                     if resting {
                         break;
                     }
-                    match reference.next(last + 10.0) {
+                    match next(last + 10.0) {
                         Some(Event::Impact { sticks, .. }) => resting = sticks,
                         _ => return (false, times),
                     }
@@ -225,7 +234,7 @@ fn follow(mut reference: Reference, seen: &[Seen]) -> (bool, Vec<f64>) {
                     return (false, times);
                 }
             }
-            Seen::Release(Release { tau, .. }) => match reference.next(2.0 * tau + 10.0) {
+            Seen::Release(Release { tau, .. }) => match next(2.0 * tau + 10.0) {
                 Some(Event::Release { tau, .. }) => times.push(tau),
                 _ => return (false, times),
             },
