@@ -27,10 +27,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             cavity: Cavity::IDEAL,
         })?;
         let analysis = Analysis::of(&system)?;
-        let area = analysis.zone.area.map_or("?".to_owned(), |area| format!("{area:?}"));
         for point in &analysis.fixed_points {
             println!(
-                "{frequency:8.2}  {area:>6}  {:9.3} mm  {:9.3} mm  {} {}",
+                "{frequency:8.2}  {:>6}  {:9.3} mm  {:9.3} mm  {} {}",
+                analysis.zone.area.key(),
                 1e3 * clearance * point.oscillator_amplitude,
                 1e3 * clearance * point.absorber_amplitude,
                 if point.stable { "stable" } else { "unstable" },
