@@ -400,7 +400,7 @@ fn the_imports_of_the_program_are_seen() {
     };
     assert_eq!(of("simulation/steps.rs"), ["numerics", "system"]);
     assert_eq!(of("simulation/flow.rs"), ["operation_count", "system"]);
-    assert_eq!(of("analysis/mod.rs"), ["system"]);
+    assert_eq!(of("analysis/mod.rs"), ["cavity", "system"]);
     let study = of("study/mod.rs");
     assert!(study.contains(&"validation".into()) && study.contains(&"case".into()), "{study:?}");
 }
