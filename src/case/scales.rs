@@ -198,9 +198,12 @@ fn cavity(physical: &Physical, scales: &Scales) -> Cavity {
     // A level cavity is level even where the unit is too small for a number.
     let over_unit =
         |share: f64| if share == 0.0 { 0.0 } else { STANDARD_GRAVITY.size * share / unit };
+    // The cosine of a rounded quarter turn is not 0, and yet nothing presses the absorber on an upright track.
+    let normal = Some(libm::cos(inclination_rad)).filter(|share| *share > f64::EPSILON);
+    let normal = normal.unwrap_or_default();
     Cavity {
         gravity_along: over_unit(libm::sin(inclination_rad)),
-        friction_acceleration: over_unit(friction * libm::cos(inclination_rad)),
+        friction_acceleration: over_unit(friction * normal),
         restitution_difference,
     }
 }

@@ -101,7 +101,14 @@ fn accelerations_are_those_of_an_inclined_plane() {
     {
         let found = cavity(&format!("restitution = 0.6\ninclination = {one}\nfriction = 1\n"));
         near(found.gravity_along, libm::sin(other) * GRAVITY);
-        near(found.friction_acceleration, libm::cos(other) * GRAVITY);
+        if other == FRAC_PI_2 {
+            assert_eq!(
+                found.friction_acceleration, 0.0,
+                "nothing presses the absorber on its track"
+            );
+        } else {
+            near(found.friction_acceleration, libm::cos(other) * GRAVITY);
+        }
     }
     let shares =
         ["0.003", "\"0.3 %\""].map(|mu| cavity(&format!("restitution = 0.6\nfriction = {mu}\n")));
