@@ -12,6 +12,7 @@ mod events;
 pub mod flow;
 mod history;
 mod integrals;
+mod landing;
 mod panels;
 mod path;
 mod peaks;

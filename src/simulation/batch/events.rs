@@ -8,7 +8,7 @@ use crate::numerics::lanes::{LANES, Mask, Real, Wide, WideMask};
 use crate::simulation::certificate::{Hull, Slack};
 use crate::simulation::contact::{Rebound, rebound};
 use crate::simulation::events::{Detail, Side};
-use crate::simulation::panels::CORRECTIONS;
+use crate::simulation::landing::CORRECTIONS;
 use crate::simulation::path::{Line, Path};
 use crate::simulation::phasor::{At, Rates, Steady};
 use crate::system::State;
