@@ -52,6 +52,14 @@ impl<R: Real> Slack<R> {
         self.slope_squared * fastest * 15.0 / length
     }
 
+    /// That of a part of a panel.
+    #[inline(always)]
+    pub(super) fn part(self, of: R) -> Self {
+        let cube = of * of * of;
+        let part = cube * cube;
+        Self { coefficient: self.coefficient * part, slope_squared: self.slope_squared * part }
+    }
+
     /// That of half a panel.
     #[inline(always)]
     pub(super) fn halved(self) -> Self {
@@ -113,17 +121,22 @@ impl<R: Real> Quintic<R> {
         c1 + u * (c2 * 2.0 + u * (c3 * 3.0 + u * (c4 * 4.0 + u * c5 * 5.0)))
     }
 
-    /// Where it is level, if its slopes at both ends differ in sign: by Newton's iteration from where
-    /// their secant is.
+    /// Where it is level, by Newton's iteration from `u`.
+    #[inline(always)]
+    pub(super) fn level(&self, mut u: R) -> R {
+        let [_, _, c2, c3, c4, c5] = self.0;
+        for _ in 0..LEVELLING {
+            let bend = c2 * 2.0 + u * (c3 * 6.0 + u * (c4 * 12.0 + u * c5 * 20.0));
+            u = (u - self.slope(u) / bend).larger(u.like(0.0)).smaller(u.like(1.0));
+        }
+        u
+    }
+
+    /// Where it is level, if its slopes at both ends differ in sign: from where their secant is.
     #[inline(always)]
     pub(super) fn turning_point(&self) -> TurningPoint<R> {
         let [c0, c1, c2, c3, c4, c5] = self.0;
-        let (zero, one) = (c0.like(0.0), c0.like(1.0));
-        let mut u = c1 / (c1 - self.slope(one));
-        for _ in 0..LEVELLING {
-            let bend = c2 * 2.0 + u * (c3 * 6.0 + u * (c4 * 12.0 + u * c5 * 20.0));
-            u = (u - self.slope(u) / bend).larger(zero).smaller(one);
-        }
+        let u = self.level(c1 / (c1 - self.slope(c0.like(1.0))));
         let height = c0 + u * (c1 + u * (c2 + u * (c3 + u * (c4 + u * c5))));
         TurningPoint { at: u, height: height.abs(), slope: self.slope(u) }
     }

@@ -2,7 +2,7 @@
 
 use fearless_simd::Simd;
 
-use super::certificate::{Hull, Slack};
+use super::certificate::{Hull, Quintic, Slack};
 use super::events::Side;
 use super::path::Path;
 use super::phasor::{At, Corrected, Rates, Steady};
@@ -13,8 +13,6 @@ use crate::numerics::lanes::Real;
 const SHORTEST: f64 = 1e-3;
 /// Corrections of a root before the slow search takes over; from the quintic's root one suffices.
 pub(super) const CORRECTIONS: u32 = 6;
-/// Fast time from the end of sliding within which one more step of Newton leaves its square, which is rounding.
-const TURNED: f64 = 1e-8;
 
 /// What a flight ends with.
 #[derive(Debug, Clone, Copy)]
@@ -67,7 +65,20 @@ impl Rates<f64> {
                 }
                 (here, time) = (there, reach);
             };
-            let panel = Panel { here, there, time, slack };
+            let mut panel = Panel { here, there, time, length: self.step, slack };
+            if let Some(length) = course.reach(sense, &here, self.step) {
+                panel = self.first_part(simd, &panel, length, path.from(time));
+                *evaluations += 1;
+                let Panel { here: begin, there, .. } = panel;
+                let hull = Hull::of(&begin, &there, length, &panel.slack);
+                if hull.clear() && course.one_way(sense, &hull, [&begin, &there]) {
+                    if left <= time + length {
+                        return Some(self.ended(simd, &begin, time, path, left, evaluations));
+                    }
+                    (here, time) = (there, time + length);
+                    continue;
+                }
+            }
             match self.look_into(simd, &panel, flight, evaluations)? {
                 Found::Landing(landing) => return Some(landing),
                 Found::Nothing { until, there } => (here, time) = (there, until),
@@ -106,10 +117,10 @@ impl Rates<f64> {
         flight: &Flight<C>,
         evaluations: &mut u64,
     ) -> Option<Found> {
-        let Panel { here, mut there, time, mut slack } = *panel;
+        let Panel { here, mut there, time, mut length, mut slack } = *panel;
         let Flight { course, sense, path, left } = *flight;
         let (path_here, rest) = (path.from(time), left - time);
-        let mut length = self.step;
+        let shortest = SHORTEST * length;
         let mut hull = Hull::of(&here, &there, length, &slack);
         loop {
             let side = if there.gap > 0.0 { Side::Plus } else { Side::Minus };
@@ -140,13 +151,15 @@ impl Rates<f64> {
             }
             let ends = [&here, &there];
             if !one_way && hull.clear() && course.turns(sense, &hull, ends) {
-                let found = self.turn(simd, ends, length, path_here, &slack, evaluations)?;
-                if rest < found.time {
-                    break;
+                let found = self.turn(simd, ends, length, path_here, &slack, evaluations);
+                if let Some(found) = found {
+                    if rest < found.time {
+                        break;
+                    }
+                    return Some(Found::Landing(Landing { time: time + found.time, ..found }));
                 }
-                return Some(Found::Landing(Landing { time: time + found.time, ..found }));
             }
-            if length < SHORTEST * self.step {
+            if length < shortest {
                 return None;
             }
             (length, slack) = (length * 0.5, slack.halved());
@@ -177,22 +190,36 @@ impl Rates<f64> {
         evaluations: &mut u64,
     ) -> Option<Landing> {
         let sense = -there.slope.signum();
+        let bend_squared = slack.bend_squared(self.fastest, length);
         // From rest it does not turn where it begins.
         let first = if here.slope == 0.0 { 0.5 } else { here.slope / (here.slope - there.slope) };
-        let mut time = first * length;
+        let mut time = Quintic::through(here, there, length).level(first) * length;
         for _ in 0..CORRECTIONS {
             *evaluations += 1;
-            let at = self.moment(simd, here, time, path);
-            let ahead = -at.slope / at.a;
-            let sharp = slack.bend_squared(self.fastest, length) < at.a * at.a;
-            time = (time + ahead).clamp(0.0, length);
-            if sharp && at.a * sense < 0.0 && ahead.abs() * self.fastest <= TURNED {
-                let at = self.moment(simd, here, time, path);
-                let (x, v) = self.oscillator(&at);
-                return Some(Landing { end: Ending::Turn, time, x, v, steady: at.steady });
+            let found = simd.vectorize(
+                #[inline(always)]
+                || self.leveled(simd, here, time, path, sense, bend_squared),
+            );
+            let Corrected { time: at, x, v, steady, .. } = found;
+            if found.exact {
+                return Some(Landing { end: Ending::Turn, time: at, x, v, steady });
             }
+            time = at.clamp(0.0, length);
         }
         None
+    }
+
+    /// The first part of a panel.
+    #[inline(never)]
+    fn first_part<S: Simd>(
+        &self,
+        simd: S,
+        panel: &Panel,
+        length: f64,
+        path: impl Path<f64>,
+    ) -> Panel {
+        let there = self.moment(simd, &panel.here, length, path);
+        Panel { there, length, slack: panel.slack.part(length / self.step), ..*panel }
     }
 
     /// As [`Self::after`], for what is rare.
@@ -234,6 +261,7 @@ struct Panel {
     there: At<f64>,
     /// Time from the flight's beginning to its own.
     time: f64,
+    length: f64,
     slack: Slack<f64>,
 }
 

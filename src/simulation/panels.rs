@@ -55,7 +55,7 @@ pub(super) enum FlightEnd {
     Doubt,
     /// The last impact, on this wall, may be the end of a chattering sequence.
     MayStick(Side),
-    /// The absorber has ceased to slide.
+    /// The absorber has ceased to slide, and friction may hold it.
     Turned,
 }
 
@@ -100,8 +100,9 @@ impl Simulation {
                 return (at, FlightEnd::Doubt);
             }
             let (x, path) = course.depart(&at);
-            let (here, slack) = rates.begin(x, v, steady, path);
-            if rates.short(&here) {
+            let (mut here, slack) = rates.begin(x, v, steady, path);
+            here.slope = course.slope(&at, here.slope);
+            if course.short(rates, &here) {
                 return (at, FlightEnd::Doubt);
             }
             let flight = Flight { course, sense, path, left: rates.left(at.phase) };
@@ -133,7 +134,10 @@ impl Simulation {
                 }
             } else if let Ending::Turn = end {
                 (at.state, at.phase) = (before, at.phase + rates.frequency * time);
-                return (at, FlightEnd::Turned);
+                let acceleration = rates.acceleration(landing.x, v, steady);
+                if !self.slides_on(&mut at, acceleration, observer) {
+                    return (at, FlightEnd::Turned);
+                }
             } else {
                 (at.state, at.phase, at.turns) = (before, 0.0, at.turns + 1);
             }

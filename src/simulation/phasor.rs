@@ -18,7 +18,7 @@ use super::small::{LARGEST_ANGLE, small_angles, small_exponential};
 use crate::numerics::lanes::{Mask, Real};
 
 /// Part of the clearance from which on a flight begins on a wall.
-const ON_WALL: f64 = 1.0 - 1e-9;
+pub(super) const ON_WALL: f64 = 1.0 - 1e-9;
 /// A flight is short if its parabola comes back within twice this part of a panel, inverted.
 const SHORT_FLIGHT: f64 = 32.0;
 /// Most panels in a period: each may turn the steady motion too far by `1e-16` of itself.
@@ -297,7 +297,37 @@ impl<R: Real> Rates<R> {
         slack: &Slack<R>,
     ) -> Corrected<R> {
         let at = self.after(simd, here, time, path);
-        let (x, v) = self.oscillator(&at);
+        let [a, j, s] = self.derivatives(&at, path);
+        let (e, sharp) = self.reverted([wall - at.gap, at.slope, at.a, j]);
+        let slope = (at.slope + e * at.a) * wall;
+        let first_root = e.like(0.0).less(slope) & slack.slope_squared.less(slope * slope);
+        self.moved(at, [a, j, s], time, e, first_root & sharp)
+    }
+
+    /// Corrects the time at which the slope falls to 0 in the way of `sense`, as [`Self::corrected`] does that of an
+    /// impact; `bend_squared` is what the square of the gap's acceleration must exceed.
+    #[inline(always)]
+    pub(super) fn leveled<S: Simd>(
+        &self,
+        simd: S,
+        here: &At<R>,
+        time: R,
+        path: impl Path<R>,
+        sense: R,
+        bend_squared: R,
+    ) -> Corrected<R> {
+        let at = self.after(simd, here, time, path);
+        let [a, j, s] = self.derivatives(&at, path);
+        let (e, sharp) = self.reverted([-at.slope, at.a, j, s]);
+        let bend = -((at.a + e * j) * sense);
+        let first_root = e.like(0.0).less(bend) & bend_squared.less(bend * bend);
+        self.moved(at, [a, j, s], time, e, first_root & sharp)
+    }
+
+    /// The oscillator's second, third and fourth derivative.
+    #[inline(always)]
+    fn derivatives(&self, at: &At<R>, path: impl Path<R>) -> [R; 3] {
+        let (_, v) = self.oscillator(at);
         let a = path.unbend(at.a);
         let free_v = v - at.steady.v;
         let (twice, squared) = (self.twice_decay, self.squared);
@@ -305,18 +335,30 @@ impl<R: Real> Rates<R> {
         let j = -(twice * free_a) - self.stiffness * free_v - squared * at.steady.v;
         let s = -(twice * (j + squared * at.steady.v)) - self.stiffness * free_a
             + squared * squared * at.steady.x;
-        // w + w' e + w'' e^2/2 + w''' e^3/6 = 0, by the reverted series.
-        let inverse_slope = time.like(1.0) / at.slope;
-        let newton = (wall - at.gap) * inverse_slope;
-        let (p, q) = (at.a * 0.5 * inverse_slope, j * (1.0 / 6.0) * inverse_slope);
+        [a, j, s]
+    }
+
+    /// Where `f' e + f'' e^2/2 + f''' e^3/6` is `f`, by the reverted series, and whether that is near and leaves
+    /// nothing above rounding.
+    #[inline(always)]
+    fn reverted(&self, [f, first, second, third]: [R; 4]) -> (R, R::Mask) {
+        let inverse_slope = f.like(1.0) / first;
+        let newton = f * inverse_slope;
+        let (p, q) = (second * 0.5 * inverse_slope, third * (1.0 / 6.0) * inverse_slope);
         let e = newton * (-(newton * (p - newton * (p * p * 2.0 - q))) + 1.0);
         // The series' next term is five times the cube of its first; the expansion about the
         // evaluated point ends with the fourth order.
         let first = (newton * p).abs() + (newton * newton * q).abs();
         let left = newton.abs() * first * first * first;
-        let slope = (at.slope + e * at.a) * wall;
-        let first_root = e.like(0.0).less(slope) & slack.slope_squared.less(slope * slope);
         let near = (e.abs() * self.fastest).at_most(e.like(NEAR));
+        (e, near & (left * self.fastest).at_most(left.like(LEFT)))
+    }
+
+    /// The motion a time `e` after `at`, where its derivatives are known.
+    #[inline(always)]
+    fn moved(&self, at: At<R>, [a, j, s]: [R; 3], time: R, e: R, exact: R::Mask) -> Corrected<R> {
+        let (x, v) = self.oscillator(&at);
+        let squared = self.squared;
         let Steady { x: from, v: rate } = at.steady;
         let (bend, turn) = (-(squared * from), -(squared * rate));
         let steady = Steady {
@@ -329,7 +371,7 @@ impl<R: Real> Rates<R> {
             time: time + e,
             x: x + e * (v + e * (a * 0.5 + e * (j * (1.0 / 6.0) + e * s * (1.0 / 24.0)))),
             v: v + e * (a + e * (j * 0.5 + e * s * (1.0 / 6.0))),
-            exact: near & first_root & (left * self.fastest).at_most(left.like(LEFT)),
+            exact,
         }
     }
 
@@ -343,6 +385,13 @@ impl<R: Real> Rates<R> {
     #[inline(always)]
     pub(super) fn oscillator(&self, at: &At<R>) -> (R, R) {
         (at.z[0] + at.steady.x, at.steady.v - self.slowing(at.z))
+    }
+
+    /// The oscillator's acceleration, from displacement, velocity and steady motion.
+    #[inline(always)]
+    pub(super) fn acceleration(&self, x: R, v: R, steady: Steady<R>) -> R {
+        let slowing = steady.v - v;
+        self.twice_decay * slowing - self.stiffness * (x - steady.x) - self.squared * steady.x
     }
 
     /// Free motion as a phasor.
