@@ -18,6 +18,7 @@
 //! [`Hull::turns`]. `w'` differs from the quintic's derivative by less than `S/(1920 h)`, so that a root of `w'` at which
 //! `w''^2 > 4 M' S/(960 h)`, `abs(w^(3)) <= M'`, is then the first, by the same argument.
 //!
+//! Where friction turns a flight early, a panel is first cut to what its parabola says: a part `q` has `q^6 S`.
 //! Any other panel is halved, which divides `S` by 64; below a thousandth of a panel the search of
 //! [`crate::numerics::crossing`] takes over.
 

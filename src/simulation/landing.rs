@@ -5,7 +5,8 @@ use fearless_simd::Simd;
 use super::certificate::{Hull, Quintic, Slack};
 use super::events::Side;
 use super::path::Path;
-use super::phasor::{At, Corrected, Rates, Steady};
+use super::phasor::{At, Rates, Steady};
+use super::roots::Corrected;
 use super::sliding::Course;
 use crate::numerics::lanes::Real;
 
@@ -69,15 +70,6 @@ impl Rates<f64> {
             if let Some(length) = course.reach(sense, &here, self.step) {
                 panel = self.first_part(simd, &panel, length, path.from(time));
                 *evaluations += 1;
-                let Panel { here: begin, there, .. } = panel;
-                let hull = Hull::of(&begin, &there, length, &panel.slack);
-                if hull.clear() && course.one_way(sense, &hull, [&begin, &there]) {
-                    if left <= time + length {
-                        return Some(self.ended(simd, &begin, time, path, left, evaluations));
-                    }
-                    (here, time) = (there, time + length);
-                    continue;
-                }
             }
             match self.look_into(simd, &panel, flight, evaluations)? {
                 Found::Landing(landing) => return Some(landing),
@@ -107,7 +99,7 @@ impl Rates<f64> {
         )
     }
 
-    /// Looks for an impact in a panel that is not proven to be clear, or in the first part of it about
+    /// Looks for an event in a panel that is not proven to be clear, or in the first part of it about
     /// which something is; none where nothing is.
     #[inline(always)]
     fn look_into<S: Simd, C: Course>(
@@ -122,7 +114,10 @@ impl Rates<f64> {
         let (path_here, rest) = (path.from(time), left - time);
         let shortest = SHORTEST * length;
         let mut hull = Hull::of(&here, &there, length, &slack);
-        loop {
+        // The first part of a panel may be.
+        let mut clear =
+            length < self.step && hull.clear() && course.one_way(sense, &hull, [&here, &there]);
+        while !clear {
             let side = if there.gap > 0.0 { Side::Plus } else { Side::Minus };
             let one_way = course.one_way(sense, &hull, [&here, &there]);
             if one_way && hull.meets(side.sign()) {
@@ -166,9 +161,7 @@ impl Rates<f64> {
             there = self.moment(simd, &here, length, path_here);
             *evaluations += 1;
             hull = Hull::of(&here, &there, length, &slack);
-            if hull.clear() && course.one_way(sense, &hull, [&here, &there]) {
-                break;
-            }
+            clear = hull.clear() && course.one_way(sense, &hull, [&here, &there]);
         }
         let until = time + length;
         if left <= until {
@@ -198,7 +191,7 @@ impl Rates<f64> {
             *evaluations += 1;
             let found = simd.vectorize(
                 #[inline(always)]
-                || self.leveled(simd, here, time, path, sense, bend_squared),
+                || self.levelled(simd, here, time, path, sense, bend_squared),
             );
             let Corrected { time: at, x, v, steady, .. } = found;
             if found.exact {
@@ -255,7 +248,7 @@ impl Rates<f64> {
     }
 }
 
-/// A panel of a flight.
+/// A panel of a flight, or its first part.
 struct Panel {
     here: At<f64>,
     there: At<f64>,

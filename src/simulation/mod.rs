@@ -17,6 +17,7 @@ mod panels;
 mod path;
 mod peaks;
 mod phasor;
+mod roots;
 mod run;
 mod sliding;
 mod small;
