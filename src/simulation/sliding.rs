@@ -170,7 +170,7 @@ impl Course for Sliding {
             true => PAST_TURN * speed / -bend,
             false => PAST_WALL * 2.0 * room / (speed + squared.sqrt()),
         };
-        let short = self.friction > 0.0 && reach <= 0.5 * step;
+        let short = self.friction > 0.0 && 0.0 < reach && reach <= 0.5 * step;
         short.then_some(reach.max(SHORTEST_REACH * step))
     }
     #[inline(always)]
