@@ -276,17 +276,21 @@ mod tests {
             (0.1, 1.0, 1.3),
         ] {
             let rates = Rates::of(&oscillator(eps, lambda, omega)).expect("it rings");
-            for k in 0..40 {
-                let phase = TAU * k as f64 / 40.0;
+            for k in 0..80 {
+                let phase = TAU * k as f64 / 80.0;
                 let line = Line { y: 0.2, velocity: 0.3 };
                 let (x, v) = (libm::sin(3.0 * phase), 1.5 * libm::cos(5.0 * phase));
                 let (here, slack) = rates.begin(x, v, rates.steady(phase), line);
-                let (length, slack) = match k % 2 {
-                    0 => (rates.step, slack),
-                    _ => (0.6 * rates.step, slack.part(0.6)),
+                let moment = |s: f64| {
+                    dispatch!(Level::baseline(), simd => {
+                        rates.after(simd, &here, s, line)
+                    })
                 };
-                let moment = |s: f64| dispatch!(Level::baseline(), simd => rates.after(simd, &here, s, line));
-                let hull = Hull::of(&here, &moment(length), length, &slack);
+                let (length, there, slack) = match k % 2 {
+                    0 => (rates.step, rates.next(&here, line.from(rates.step)), slack),
+                    _ => (0.6 * rates.step, moment(0.6 * rates.step), slack.part(0.6)),
+                };
+                let hull = Hull::of(&here, &there, length, &slack);
                 for j in 1..20 {
                     let u = f64::from(j) / 20.0;
                     let at = moment(u * length);
