@@ -150,9 +150,10 @@ impl Course for Sliding {
         (x - self.rest(at.sense), self.path(at.sense, y, y_velocity))
     }
     #[inline(always)]
-    fn slope(&self, at: &Moment, _: f64) -> f64 {
+    fn slope(&self, at: &Moment, rounded: f64) -> f64 {
         // Of either sign, where it is none, nothing would be proven.
-        at.state.x_velocity - at.state.y_velocity
+        let exact = at.state.x_velocity - at.state.y_velocity;
+        if self.friction > 0.0 { exact } else { rounded }
     }
     #[inline(always)]
     fn arrive(&self, sense: f64, seen: f64) -> f64 {
