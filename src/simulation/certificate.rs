@@ -55,16 +55,9 @@ impl<R: Real> Slack<R> {
 
     /// That of a part of a panel.
     #[inline(always)]
-    pub(super) fn part(self, of: R) -> Self {
+    pub(super) fn part(self, of: f64) -> Self {
         let cube = of * of * of;
         let part = cube * cube;
-        Self { coefficient: self.coefficient * part, slope_squared: self.slope_squared * part }
-    }
-
-    /// That of half a panel.
-    #[inline(always)]
-    pub(super) fn halved(self) -> Self {
-        let part = 1.0 / 64.0;
         Self { coefficient: self.coefficient * part, slope_squared: self.slope_squared * part }
     }
 }

@@ -68,7 +68,9 @@ impl Rates<f64> {
             };
             let mut panel = Panel { here, there, time, length: self.step, slack };
             if let Some(length) = course.reach(sense, &here, self.step) {
-                panel = self.first_part(simd, &panel, length, path.from(time));
+                let there = self.moment(simd, &here, length, path.from(time));
+                let slack = slack.part(length / self.step);
+                panel = Panel { there, length, slack, ..panel };
                 *evaluations += 1;
             }
             match self.look_into(simd, &panel, flight, evaluations)? {
@@ -157,7 +159,7 @@ impl Rates<f64> {
             if length < shortest {
                 return None;
             }
-            (length, slack) = (length * 0.5, slack.halved());
+            (length, slack) = (length * 0.5, slack.part(0.5));
             there = self.moment(simd, &here, length, path_here);
             *evaluations += 1;
             hull = Hull::of(&here, &there, length, &slack);
@@ -200,19 +202,6 @@ impl Rates<f64> {
             time = at.clamp(0.0, length);
         }
         None
-    }
-
-    /// The first part of a panel.
-    #[inline(never)]
-    fn first_part<S: Simd>(
-        &self,
-        simd: S,
-        panel: &Panel,
-        length: f64,
-        path: impl Path<f64>,
-    ) -> Panel {
-        let there = self.moment(simd, &panel.here, length, path);
-        Panel { there, length, slack: panel.slack.part(length / self.step), ..*panel }
     }
 
     /// As [`Self::after`], for what is rare.

@@ -76,7 +76,7 @@ impl<S: Simd> Lanes<S> {
                 break;
             }
             length = Wide::choose(open, length * 0.5, length);
-            slack = tightened(open, &slack.halved(), &slack);
+            slack = tightened(open, &slack.part(0.5), &slack);
             let middle = rates.after(simd, &self.here, length, self.line.from(self.time));
             there = At::choose(open, &middle, &there);
             self.panels = Wide::choose(open, self.panels + 1.0, self.panels);
