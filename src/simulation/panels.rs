@@ -3,24 +3,15 @@
 
 use fearless_simd::{Level, Simd, dispatch};
 
-use super::certificate::{Hull, Slack};
 use super::contact::rebound;
 use super::events::{Detail, Observer, Side};
+use super::landing::{Ending, Flight, Landing};
 use super::path::{Line, Path};
-use super::phasor::{At, Corrected, Rates, Steady};
+use super::phasor::Rates;
 use super::run::{Moment, Simulation, Stop};
 use super::sliding::{Course, Straight};
 use super::walls::{self, Sticking};
-use crate::numerics::lanes::Real;
 use crate::system::State;
-
-/// Part of a panel below which it is not halved further: the slow search takes over.
-const SHORTEST: f64 = 1e-3;
-/// Corrections of a root before the slow search takes over; from the quintic's root one suffices.
-pub(super) const CORRECTIONS: u32 = 6;
-
-/// Fast time from the end of sliding within which one more step of Newton leaves its square, which is rounding.
-const TURNED: f64 = 1e-8;
 
 /// How far flights may go on.
 #[derive(Debug, Clone, Copy)]
@@ -64,7 +55,7 @@ pub(super) enum FlightEnd {
     Doubt,
     /// The last impact, on this wall, may be the end of a chattering sequence.
     MayStick(Side),
-    /// The absorber has ceased to slide.
+    /// The absorber has ceased to slide, and friction may hold it.
     Turned,
 }
 
@@ -109,8 +100,9 @@ impl Simulation {
                 return (at, FlightEnd::Doubt);
             }
             let (x, path) = course.depart(&at);
-            let (here, slack) = rates.begin(x, v, steady, path);
-            if rates.short(&here) {
+            let (mut here, slack) = rates.begin(x, v, steady, path);
+            here.slope = course.slope(&at, here.slope);
+            if course.short(rates, &here) {
                 return (at, FlightEnd::Doubt);
             }
             let flight = Flight { course, sense, path, left: rates.left(at.phase) };
@@ -142,7 +134,10 @@ impl Simulation {
                 }
             } else if let Ending::Turn = end {
                 (at.state, at.phase) = (before, at.phase + rates.frequency * time);
-                return (at, FlightEnd::Turned);
+                let acceleration = rates.acceleration(landing.x, v, steady);
+                if !self.slides_on(&mut at, acceleration, observer) {
+                    return (at, FlightEnd::Turned);
+                }
             } else {
                 (at.state, at.phase, at.turns) = (before, 0.0, at.turns + 1);
             }
@@ -178,252 +173,4 @@ impl Simulation {
         let when = (at.turns, at.phase + self.alone.frequency * time);
         observer.impact(&self.impact(&before, side, &after, when));
     }
-}
-
-/// What a flight ends with.
-#[derive(Debug, Clone, Copy)]
-enum Ending {
-    /// An impact on this wall.
-    Wall(Side),
-    /// The end of sliding.
-    Turn,
-    /// The end of the period.
-    Period,
-}
-
-/// Where a flight ends.
-#[derive(Debug, Clone, Copy)]
-struct Landing {
-    end: Ending,
-    /// Time since it began.
-    time: f64,
-    x: f64,
-    v: f64,
-    steady: Steady<f64>,
-}
-
-impl Rates<f64> {
-    /// Flies to the first impact or the end of the period; none where nothing is proven.
-    /// Evaluations of the motion are added to `evaluations`.
-    #[inline(always)]
-    fn fly<S: Simd, C: Course>(
-        &self,
-        simd: S,
-        mut here: At<f64>,
-        slack: Slack<f64>,
-        flight: &Flight<C>,
-        evaluations: &mut u64,
-    ) -> Option<Landing> {
-        let Flight { course, sense, path, left } = *flight;
-        let mut time = 0.0;
-        loop {
-            // The panels until one may hold an event.
-            let there = loop {
-                let reach = time + self.step;
-                let there = self.next(&here, path.from(reach));
-                *evaluations += 1;
-                let hull = Hull::of(&here, &there, self.step, &slack);
-                if !(hull.clear() && course.one_way(sense, &hull, [&here, &there])) {
-                    break there;
-                }
-                if left <= reach {
-                    return Some(self.ended(simd, &here, time, path, left, evaluations));
-                }
-                (here, time) = (there, reach);
-            };
-            let panel = Panel { here, there, time, slack };
-            match self.look_into(simd, &panel, flight, evaluations)? {
-                Found::Landing(landing) => return Some(landing),
-                Found::Nothing { until, there } => (here, time) = (there, until),
-            }
-        }
-    }
-
-    /// Where a flight ends that the end of the period, in the panel at `time`, comes before.
-    #[inline(never)]
-    fn ended<S: Simd>(
-        &self,
-        simd: S,
-        here: &At<f64>,
-        time: f64,
-        path: impl Path<f64>,
-        left: f64,
-        evaluations: &mut u64,
-    ) -> Landing {
-        simd.vectorize(
-            #[inline(always)]
-            || {
-                *evaluations += 1;
-                let (x, v) = self.oscillator(&self.after(simd, here, left - time, path.from(time)));
-                Landing { end: Ending::Period, time: left, x, v, steady: self.origin }
-            },
-        )
-    }
-
-    /// Looks for an impact in a panel that is not proven to be clear, or in the first part of it about
-    /// which something is; none where nothing is.
-    #[inline(always)]
-    fn look_into<S: Simd, C: Course>(
-        &self,
-        simd: S,
-        panel: &Panel,
-        flight: &Flight<C>,
-        evaluations: &mut u64,
-    ) -> Option<Found> {
-        let Panel { here, mut there, time, mut slack } = *panel;
-        let Flight { course, sense, path, left } = *flight;
-        let (path_here, rest) = (path.from(time), left - time);
-        let mut length = self.step;
-        let mut hull = Hull::of(&here, &there, length, &slack);
-        loop {
-            let side = if there.gap > 0.0 { Side::Plus } else { Side::Minus };
-            let one_way = course.one_way(sense, &hull, [&here, &there]);
-            if one_way && hull.meets(side.sign()) {
-                let guess = Self::guess(&here, &there, length, side.sign(), true);
-                let guess = guess.larger(0.0).smaller(length);
-                if rest < guess {
-                    *evaluations += 1;
-                    let at = self.moment(simd, &here, rest, path_here);
-                    if slack.before(&at, side.sign()) {
-                        let (x, v) = self.oscillator(&at);
-                        let end =
-                            Landing { end: Ending::Period, time: left, x, v, steady: self.origin };
-                        return Some(Found::Landing(end));
-                    }
-                }
-                let guess = Guess { time: guess, length, side, path: path_here };
-                if let Some(found) = self.root(simd, &here, guess, &slack, evaluations) {
-                    if rest < found.time {
-                        break;
-                    }
-                    let Corrected { x, v, steady, .. } = found;
-                    let time = time + found.time;
-                    let impact = Landing { end: Ending::Wall(side), time, x, v, steady };
-                    return Some(Found::Landing(impact));
-                }
-            }
-            let ends = [&here, &there];
-            if !one_way && hull.clear() && course.turns(sense, &hull, ends) {
-                let found = self.turn(simd, ends, length, path_here, &slack, evaluations)?;
-                if rest < found.time {
-                    break;
-                }
-                return Some(Found::Landing(Landing { time: time + found.time, ..found }));
-            }
-            if length < SHORTEST * self.step {
-                return None;
-            }
-            (length, slack) = (length * 0.5, slack.halved());
-            there = self.moment(simd, &here, length, path_here);
-            *evaluations += 1;
-            hull = Hull::of(&here, &there, length, &slack);
-            if hull.clear() && course.one_way(sense, &hull, [&here, &there]) {
-                break;
-            }
-        }
-        let until = time + length;
-        if left <= until {
-            let end = self.ended(simd, &here, time, path, left, evaluations);
-            return Some(Found::Landing(end));
-        }
-        Some(Found::Nothing { until, there })
-    }
-
-    /// When sliding ends in a panel in which it is proven to; none where the moment is not sharp.
-    #[inline(never)]
-    fn turn<S: Simd>(
-        &self,
-        simd: S,
-        [here, there]: [&At<f64>; 2],
-        length: f64,
-        path: impl Path<f64>,
-        slack: &Slack<f64>,
-        evaluations: &mut u64,
-    ) -> Option<Landing> {
-        let sense = -there.slope.signum();
-        // From rest it does not turn where it begins.
-        let first = if here.slope == 0.0 { 0.5 } else { here.slope / (here.slope - there.slope) };
-        let mut time = first * length;
-        for _ in 0..CORRECTIONS {
-            *evaluations += 1;
-            let at = self.moment(simd, here, time, path);
-            let ahead = -at.slope / at.a;
-            let sharp = slack.bend_squared(self.fastest, length) < at.a * at.a;
-            time = (time + ahead).clamp(0.0, length);
-            if sharp && at.a * sense < 0.0 && ahead.abs() * self.fastest <= TURNED {
-                let at = self.moment(simd, here, time, path);
-                let (x, v) = self.oscillator(&at);
-                return Some(Landing { end: Ending::Turn, time, x, v, steady: at.steady });
-            }
-        }
-        None
-    }
-
-    /// As [`Self::after`], for what is rare.
-    #[inline(never)]
-    fn moment<S: Simd>(&self, simd: S, here: &At<f64>, s: f64, path: impl Path<f64>) -> At<f64> {
-        simd.vectorize(
-            #[inline(always)]
-            || self.after(simd, here, s, path),
-        )
-    }
-
-    /// The first crossing in a panel that is proven to have one.
-    #[inline(always)]
-    fn root<S: Simd>(
-        &self,
-        simd: S,
-        here: &At<f64>,
-        guess: Guess<impl Path<f64>>,
-        slack: &Slack<f64>,
-        evaluations: &mut u64,
-    ) -> Option<Corrected<f64>> {
-        let Guess { mut time, length, side, path } = guess;
-        for _ in 0..CORRECTIONS {
-            *evaluations += 1;
-            let inside = time.larger(0.0).smaller(length);
-            let found = self.corrected(simd, here, inside, path, side.sign(), slack);
-            if found.exact {
-                return Some(found);
-            }
-            time = found.time;
-        }
-        None
-    }
-}
-
-/// A panel of a flight.
-struct Panel {
-    here: At<f64>,
-    there: At<f64>,
-    /// Time from the flight's beginning to its own.
-    time: f64,
-    slack: Slack<f64>,
-}
-
-/// A flight under way.
-struct Flight<C: Course> {
-    course: C,
-    /// Sign of `x' - y'`, where it has to stay.
-    sense: f64,
-    path: C::Path,
-    /// Time from its beginning until the period is over.
-    left: f64,
-}
-
-/// What is found in a panel.
-enum Found {
-    /// The flight's end.
-    Landing(Landing),
-    /// No impact until a moment.
-    Nothing { until: f64, there: At<f64> },
-}
-
-/// Roughly when and where a flight ends in a panel.
-#[derive(Debug, Clone, Copy)]
-struct Guess<P> {
-    time: f64,
-    length: f64,
-    side: Side,
-    path: P,
 }

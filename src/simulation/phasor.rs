@@ -11,28 +11,23 @@ use std::f64::consts::TAU;
 
 use fearless_simd::Simd;
 
-use super::certificate::{Quintic, Slack};
+use super::certificate::Slack;
 use super::flow::Oscillator;
 use super::path::{Line, Path};
 use super::small::{LARGEST_ANGLE, small_angles, small_exponential};
 use crate::numerics::lanes::{Mask, Real};
 
 /// Part of the clearance from which on a flight begins on a wall.
-const ON_WALL: f64 = 1.0 - 1e-9;
+pub(super) const ON_WALL: f64 = 1.0 - 1e-9;
 /// A flight is short if its parabola comes back within twice this part of a panel, inverted.
 const SHORT_FLIGHT: f64 = 32.0;
 /// Most panels in a period: each may turn the steady motion too far by `1e-16` of itself.
 const MOST_PANELS: f64 = 64.0;
 /// Distance from a root within which a correction to the fourth order is exact to rounding: the next
 /// term is below `1e-20/120`.
-const NEAR: f64 = 1e-4;
+pub(super) const NEAR: f64 = 1e-4;
 /// Steps of Newton towards a turning point; more are of no use where it hardly is one.
 const TURNING_STEPS: u32 = 8;
-/// Steps of Newton from an end of a panel in which the slope changes sign, before the one that every root
-/// gets.
-const STEPS_FROM_END: u32 = 3;
-/// What a correction may leave, over the fastest time scale: five times this is below rounding.
-const LEFT: f64 = 1e-17;
 
 /// The steady motion at one moment.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -78,19 +73,6 @@ pub(super) struct Rates<R> {
     pub swing: [R; 3],
     /// The steady motion at phase 0.
     pub origin: Steady<R>,
-}
-
-/// A root, corrected once.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Corrected<R: Real> {
-    /// Where it was evaluated.
-    pub at: At<R>,
-    pub time: R,
-    pub x: R,
-    pub v: R,
-    pub steady: Steady<R>,
-    /// Whether nothing above rounding is left, and the root is proven to be the first.
-    pub exact: R::Mask,
 }
 
 impl Rates<f64> {
@@ -259,80 +241,6 @@ impl<R: Real> Rates<R> {
         self.at(multiply(here.z, self.turn), steady, path)
     }
 
-    /// Time at which a panel's gap reaches `wall`, on its quintic: by inverse interpolation with both
-    /// slopes, or from the end where the slope is towards the wall, and Newton's iteration. Only `lanes`
-    /// matter.
-    #[inline(always)]
-    pub(super) fn guess(here: &At<R>, there: &At<R>, length: R, wall: R, lanes: R::Mask) -> R {
-        let rise = there.gap - here.gap;
-        let part = (wall - here.gap) / rise;
-        let rest = -part + 1.0;
-        let (v0, v1) = (here.slope * length, there.slope * length);
-        let mut u = part * part * (-(part * 2.0) + 3.0)
-            + rise * part * rest * (rest * v1 - part * v0) / (v0 * v1);
-        let quintic = Quintic::through(here, there, length);
-        let zero = u.like(0.0);
-        let (leaves, comes_back) = ((v0 * wall).at_most(zero), (v1 * wall).at_most(zero));
-        let turns = lanes & (leaves | comes_back);
-        if turns.any() {
-            let mut from_end = R::choose(leaves, u.like(1.0), zero);
-            for _ in 0..STEPS_FROM_END {
-                from_end = quintic.towards(wall, from_end);
-            }
-            u = R::choose(turns, from_end, u);
-        }
-        quintic.towards(wall, quintic.towards(wall, u)) * length
-    }
-
-    /// Corrects the time at which the gap reaches `wall` by one evaluation and the reverted series of
-    /// third order.
-    #[inline(always)]
-    pub(super) fn corrected<S: Simd>(
-        &self,
-        simd: S,
-        here: &At<R>,
-        time: R,
-        path: impl Path<R>,
-        wall: R,
-        slack: &Slack<R>,
-    ) -> Corrected<R> {
-        let at = self.after(simd, here, time, path);
-        let (x, v) = self.oscillator(&at);
-        let a = path.unbend(at.a);
-        let free_v = v - at.steady.v;
-        let (twice, squared) = (self.twice_decay, self.squared);
-        let free_a = a + squared * at.steady.x;
-        let j = -(twice * free_a) - self.stiffness * free_v - squared * at.steady.v;
-        let s = -(twice * (j + squared * at.steady.v)) - self.stiffness * free_a
-            + squared * squared * at.steady.x;
-        // w + w' e + w'' e^2/2 + w''' e^3/6 = 0, by the reverted series.
-        let inverse_slope = time.like(1.0) / at.slope;
-        let newton = (wall - at.gap) * inverse_slope;
-        let (p, q) = (at.a * 0.5 * inverse_slope, j * (1.0 / 6.0) * inverse_slope);
-        let e = newton * (-(newton * (p - newton * (p * p * 2.0 - q))) + 1.0);
-        // The series' next term is five times the cube of its first; the expansion about the
-        // evaluated point ends with the fourth order.
-        let first = (newton * p).abs() + (newton * newton * q).abs();
-        let left = newton.abs() * first * first * first;
-        let slope = (at.slope + e * at.a) * wall;
-        let first_root = e.like(0.0).less(slope) & slack.slope_squared.less(slope * slope);
-        let near = (e.abs() * self.fastest).at_most(e.like(NEAR));
-        let Steady { x: from, v: rate } = at.steady;
-        let (bend, turn) = (-(squared * from), -(squared * rate));
-        let steady = Steady {
-            x: from + e * (rate + e * (bend * 0.5 + e * turn * (1.0 / 6.0))),
-            v: rate + e * (bend + e * (turn * 0.5 - e * squared * bend * (1.0 / 6.0))),
-        };
-        Corrected {
-            at,
-            steady,
-            time: time + e,
-            x: x + e * (v + e * (a * 0.5 + e * (j * (1.0 / 6.0) + e * s * (1.0 / 24.0)))),
-            v: v + e * (a + e * (j * 0.5 + e * s * (1.0 / 6.0))),
-            exact: near & first_root & (left * self.fastest).at_most(left.like(LEFT)),
-        }
-    }
-
     /// The free motion's velocity, backwards.
     #[inline(always)]
     fn slowing(&self, z: [R; 2]) -> R {
@@ -343,6 +251,13 @@ impl<R: Real> Rates<R> {
     #[inline(always)]
     pub(super) fn oscillator(&self, at: &At<R>) -> (R, R) {
         (at.z[0] + at.steady.x, at.steady.v - self.slowing(at.z))
+    }
+
+    /// The oscillator's acceleration, from displacement, velocity and steady motion.
+    #[inline(always)]
+    pub(super) fn acceleration(&self, x: R, v: R, steady: Steady<R>) -> R {
+        let slowing = steady.v - v;
+        self.twice_decay * slowing - self.stiffness * (x - steady.x) - self.squared * steady.x
     }
 
     /// Free motion as a phasor.

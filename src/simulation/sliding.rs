@@ -9,10 +9,19 @@ use super::certificate::Hull;
 use super::events::{Observer, Reversal, Side};
 use super::flow::{Kinematics, Oscillator};
 use super::path::{Line, Parabola, Path};
-use super::phasor::At;
+use super::phasor::{At, ON_WALL, Rates};
 use super::run::{Mode, Moment, Simulation};
 use super::walls::TOUCH_ULPS;
 use crate::system::{State, System};
+
+/// Parts of the times after which a parabola turns or meets a wall that a panel is to end after.
+const PAST_TURN: f64 = 1.5;
+const PAST_WALL: f64 = 1.25;
+/// Part of a panel below which none is cut to measure.
+const SHORTEST_REACH: f64 = 1e-7;
+/// Opening of the gap in a flight from wall to wall that friction may turn, below which the step-by-step search takes over:
+/// rounding moves the walls by less than a thousandth of it where the motion is not hundreds of clearances large.
+const SMALL_EXCURSION: f64 = 1e-9;
 
 /// Gravity and friction as a flight needs them.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -83,10 +92,16 @@ pub(super) trait Course: Copy {
     type Path: Path<f64>;
     /// The oscillator's displacement and the absorber's flight, seen from where the oscillator would rest.
     fn depart(&self, at: &Moment) -> (f64, Self::Path);
+    /// The gap's slope at its beginning, where phasors give it with this rounding.
+    fn slope(&self, at: &Moment, rounded: f64) -> f64;
     /// Both displacements, as seen from there.
     fn arrive(&self, sense: f64, seen: f64) -> f64;
     /// Whether `w'` is proven to keep its sign in a panel, if that matters.
     fn one_way(&self, sense: f64, hull: &Hull<f64>, ends: [&At<f64>; 2]) -> bool;
+    /// Length of the first part of a panel of length `step` to look into, if not all of it.
+    fn reach(&self, sense: f64, here: &At<f64>, step: f64) -> Option<f64>;
+    /// Whether a flight from a wall is one for the step-by-step search.
+    fn short(&self, rates: &Rates<f64>, here: &At<f64>) -> bool;
     /// Whether it matters, and `w'` is proven to change its sign once.
     fn turns(&self, sense: f64, hull: &Hull<f64>, ends: [&At<f64>; 2]) -> bool;
 }
@@ -102,12 +117,24 @@ impl Course for Straight {
         (at.state.x, Line { y: at.state.y, velocity: at.state.y_velocity })
     }
     #[inline(always)]
+    fn slope(&self, _: &Moment, rounded: f64) -> f64 {
+        rounded
+    }
+    #[inline(always)]
     fn arrive(&self, _: f64, seen: f64) -> f64 {
         seen
     }
     #[inline(always)]
     fn one_way(&self, _: f64, _: &Hull<f64>, _: [&At<f64>; 2]) -> bool {
         true
+    }
+    #[inline(always)]
+    fn reach(&self, _: f64, _: &At<f64>, _: f64) -> Option<f64> {
+        None
+    }
+    #[inline(always)]
+    fn short(&self, rates: &Rates<f64>, here: &At<f64>) -> bool {
+        rates.short(here)
     }
     #[inline(always)]
     fn turns(&self, _: f64, _: &Hull<f64>, _: [&At<f64>; 2]) -> bool {
@@ -123,12 +150,35 @@ impl Course for Sliding {
         (x - self.rest(at.sense), self.path(at.sense, y, y_velocity))
     }
     #[inline(always)]
+    fn slope(&self, at: &Moment, rounded: f64) -> f64 {
+        // Of either sign, where it is none, nothing would be proven.
+        let exact = at.state.x_velocity - at.state.y_velocity;
+        if self.friction > 0.0 { exact } else { rounded }
+    }
+    #[inline(always)]
     fn arrive(&self, sense: f64, seen: f64) -> f64 {
         seen + self.rest(sense)
     }
     #[inline(always)]
     fn one_way(&self, sense: f64, hull: &Hull<f64>, [here, there]: [&At<f64>; 2]) -> bool {
         self.friction == 0.0 || hull.rises(sense, here.slope, there.slope)
+    }
+    #[inline(always)]
+    fn reach(&self, sense: f64, here: &At<f64>, step: f64) -> Option<f64> {
+        let (speed, bend, room) = (here.slope * sense, here.a * sense, 1.0 - here.gap * sense);
+        let squared = speed * speed + 2.0 * bend * room;
+        let reach = match squared < 0.0 {
+            true => PAST_TURN * speed / -bend,
+            false => PAST_WALL * 2.0 * room / (speed + squared.sqrt()),
+        };
+        let short = self.friction > 0.0 && 0.0 < reach && reach <= 0.5 * step;
+        short.then_some(reach.max(SHORTEST_REACH * step))
+    }
+    #[inline(always)]
+    fn short(&self, rates: &Rates<f64>, here: &At<f64>) -> bool {
+        let closing = here.a * here.gap.signum();
+        let slow = here.slope * here.slope < 2.0 * SMALL_EXCURSION * closing;
+        if self.friction == 0.0 { rates.short(here) } else { slow && ON_WALL <= here.gap.abs() }
     }
     #[inline(always)]
     fn turns(&self, sense: f64, hull: &Hull<f64>, [here, there]: [&At<f64>; 2]) -> bool {
@@ -142,8 +192,8 @@ impl Simulation {
     }
 
     /// What rounding may make of forces where the trajectory stands.
-    pub(super) fn force_rounding(&self) -> f64 {
-        let (State { x, x_velocity, .. }, sliding) = (self.at.state, &self.sliding);
+    pub(super) fn force_rounding(&self, state: &State) -> f64 {
+        let (State { x, x_velocity, .. }, sliding) = (state, &self.sliding);
         let scale = self.alone.largest_force + x.abs() + x_velocity.abs();
         TOUCH_ULPS * f64::EPSILON * (scale + sliding.gravity.abs() + sliding.friction)
     }
@@ -159,7 +209,7 @@ impl Simulation {
             slope.signum()
         } else {
             let pull = self.pull();
-            if pull.abs() <= self.sliding.grip() + self.force_rounding() {
+            if self.holds(&self.at.state, pull) {
                 self.mode = Mode::Held { gap: x - y };
                 0.0
             } else {
@@ -168,19 +218,43 @@ impl Simulation {
         };
     }
 
+    /// Whether friction holds an absorber at relative rest.
+    fn holds(&self, state: &State, pull: f64) -> bool {
+        pull.abs() <= self.sliding.grip() + self.force_rounding(state)
+    }
+
+    /// Whether the absorber slides on at once from where sliding has ended, the oscillator's acceleration before that
+    /// being known.
+    #[inline(never)]
+    pub(super) fn slides_on(
+        &self,
+        at: &mut Moment,
+        acceleration: f64,
+        observer: &mut dyn Observer,
+    ) -> bool {
+        // Without friction the oscillator would rest at 0.
+        let pull = acceleration - self.sliding.rest(at.sense) - self.sliding.gravity;
+        if self.holds(&at.state, pull) {
+            return false;
+        }
+        let before = at.sense;
+        at.state.y_velocity = at.state.x_velocity;
+        at.sense = pull.signum();
+        observer.reversal(&self.reversal(at, before));
+        true
+    }
+
+    fn reversal(&self, at: &Moment, before: f64) -> Reversal {
+        let Moment { state, phase, turns, sense, .. } = *at;
+        Reversal { tau: self.tau(turns, phase), phase, state, before, after: sense }
+    }
+
     /// The absorber has come to rest relative to the oscillator.
     pub(super) fn reverse(&mut self, observer: &mut dyn Observer) {
         let before = self.at.sense;
         self.at.state.y_velocity = self.at.state.x_velocity;
         self.settle();
-        let Moment { state, phase, turns, sense, .. } = self.at;
-        observer.reversal(&Reversal {
-            tau: self.tau(turns, phase),
-            phase,
-            state,
-            before,
-            after: sense,
-        });
+        observer.reversal(&self.reversal(&self.at, before));
     }
 
     /// What acts on the absorber at a wall that it leaves, and when it comes back: accelerations towards the wall.

@@ -104,7 +104,7 @@ impl Simulation {
         self.resolves_walls()?;
         let Sliding { gravity, friction, .. } = self.sliding;
         let State { x, x_velocity, .. } = self.at.state;
-        let touch = self.force_rounding();
+        let touch = self.force_rounding(&self.at.state);
         // What is just held stays so.
         let held = if friction > 0.0 { friction + touch } else { 0.0 };
         let rest = self.sliding.rest_in_tow();

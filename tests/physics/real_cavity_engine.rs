@@ -6,7 +6,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use crate::common;
 use crate::fuzz::{Dice, fuzz};
 use vinesink::evidence::reference::{Event, Reference, real::Real};
-use vinesink::simulation::{Impact, Observer, Segment, Simulation};
+use vinesink::simulation::{Impact, Observer, Reversal, Segment, Simulation};
 use vinesink::system::{Cavity, Excitation, Parameters, State, System};
 
 /// Relative speed of an impact, a rest's duration and a gap to a wall: what is smaller belongs to the end of a
@@ -292,4 +292,45 @@ fn engine_and_reference(case: u64) {
 #[test]
 fn any_real_cavity_is_the_references() {
     fuzz(16, engine_and_reference);
+}
+
+/// Ends of sliding after which friction held the absorber, and after which it did not; the first that is not what forces
+/// say: to go along, the absorber needs `(x'' - a)/(1 + eps)`, `x''` being that of the oscillator alone.
+struct Holds {
+    system: System,
+    seen: [u32; 2],
+    wrong: Option<Reversal>,
+}
+
+impl Observer for Holds {
+    fn reversal(&mut self, reversal: &Reversal) {
+        let (system, State { x, x_velocity, .. }) = (&self.system, reversal.state);
+        let Cavity { gravity_along: a, friction_acceleration: f, .. } = system.cavity();
+        let (sine, cosine) = system.excitation_amplitudes();
+        let force = sine * libm::sin(reversal.phase) + cosine * libm::cos(reversal.phase);
+        let loss = system.mass_ratio() * system.damping() * x_velocity;
+        let needed = (force - loss - x - a) / (1.0 + system.mass_ratio());
+        let after = if needed.abs() <= f { 0.0 } else { needed.signum() };
+        self.seen[usize::from(after != 0.0)] += 1;
+        // Of forces that nearly balance rounding decides.
+        let size = sine.abs() + cosine.abs() + x.abs() + x_velocity.abs() + a.abs() + f;
+        if (needed.abs() - f).abs() > 1e-12 * size && reversal.after != after {
+            self.wrong = self.wrong.or(Some(*reversal));
+        }
+    }
+}
+
+#[test]
+fn friction_holds_what_it_can_where_sliding_ends() {
+    let mut seen = [0; 2];
+    for case in 0..400 {
+        let mut dice = Dice(case);
+        let (system, start) = (real_cavity(&mut dice), start(&mut dice));
+        let mut holds = Holds { system, seen: [0; 2], wrong: None };
+        let mut simulation = Simulation::new(&system, start, 0.0).expect("inside the cavity");
+        simulation.run(20, 500, &mut holds);
+        assert!(holds.wrong.is_none(), "case {case}: {:?} {system:?}", holds.wrong);
+        (0..2).for_each(|k| seen[k] += holds.seen[k]);
+    }
+    assert!(seen.iter().all(|count| *count > 300), "{seen:?}");
 }

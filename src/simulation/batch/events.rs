@@ -8,7 +8,7 @@ use crate::numerics::lanes::{LANES, Mask, Real, Wide, WideMask};
 use crate::simulation::certificate::{Hull, Slack};
 use crate::simulation::contact::{Rebound, rebound};
 use crate::simulation::events::{Detail, Side};
-use crate::simulation::panels::CORRECTIONS;
+use crate::simulation::landing::CORRECTIONS;
 use crate::simulation::path::{Line, Path};
 use crate::simulation::phasor::{At, Rates, Steady};
 use crate::system::State;
@@ -76,7 +76,7 @@ impl<S: Simd> Lanes<S> {
                 break;
             }
             length = Wide::choose(open, length * 0.5, length);
-            slack = tightened(open, &slack.halved(), &slack);
+            slack = tightened(open, &slack.part(0.5), &slack);
             let middle = rates.after(simd, &self.here, length, self.line.from(self.time));
             there = At::choose(open, &middle, &there);
             self.panels = Wide::choose(open, self.panels + 1.0, self.panels);

@@ -1,0 +1,275 @@
+//! Where a flight ends: panel by panel until one may hold an event, and there by halving, up to what is proven.
+
+use fearless_simd::Simd;
+
+use super::certificate::{Hull, Quintic, Slack};
+use super::events::Side;
+use super::path::Path;
+use super::phasor::{At, Rates, Steady};
+use super::roots::Corrected;
+use super::sliding::Course;
+use crate::numerics::lanes::Real;
+
+/// Part of a panel below which it is not halved further: the slow search takes over.
+const SHORTEST: f64 = 1e-3;
+/// Corrections of a root before the slow search takes over; from the quintic's root one suffices.
+pub(super) const CORRECTIONS: u32 = 6;
+
+/// What a flight ends with.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Ending {
+    /// An impact on this wall.
+    Wall(Side),
+    /// The end of sliding.
+    Turn,
+    /// The end of the period.
+    Period,
+}
+
+/// Where a flight ends.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Landing {
+    pub end: Ending,
+    /// Time since it began.
+    pub time: f64,
+    pub x: f64,
+    pub v: f64,
+    pub steady: Steady<f64>,
+}
+
+impl Rates<f64> {
+    /// Flies to the first impact or the end of the period; none where nothing is proven.
+    /// Evaluations of the motion are added to `evaluations`.
+    #[inline(always)]
+    pub(super) fn fly<S: Simd, C: Course>(
+        &self,
+        simd: S,
+        mut here: At<f64>,
+        slack: Slack<f64>,
+        flight: &Flight<C>,
+        evaluations: &mut u64,
+    ) -> Option<Landing> {
+        let Flight { course, sense, path, left } = *flight;
+        let mut time = 0.0;
+        loop {
+            // The panels until one may hold an event.
+            let there = loop {
+                let reach = time + self.step;
+                let there = self.next(&here, path.from(reach));
+                *evaluations += 1;
+                let hull = Hull::of(&here, &there, self.step, &slack);
+                if !(hull.clear() && course.one_way(sense, &hull, [&here, &there])) {
+                    break there;
+                }
+                if left <= reach {
+                    return Some(self.ended(simd, &here, time, path, left, evaluations));
+                }
+                (here, time) = (there, reach);
+            };
+            let mut panel = Panel { here, there, time, length: self.step, slack };
+            if let Some(length) = course.reach(sense, &here, self.step) {
+                let there = self.moment(simd, &here, length, path.from(time));
+                let slack = slack.part(length / self.step);
+                panel = Panel { there, length, slack, ..panel };
+                *evaluations += 1;
+            }
+            match self.look_into(simd, &panel, flight, evaluations)? {
+                Found::Landing(landing) => return Some(landing),
+                Found::Nothing { until, there } => (here, time) = (there, until),
+            }
+        }
+    }
+
+    /// Where a flight ends that the end of the period, in the panel at `time`, comes before.
+    #[inline(never)]
+    fn ended<S: Simd>(
+        &self,
+        simd: S,
+        here: &At<f64>,
+        time: f64,
+        path: impl Path<f64>,
+        left: f64,
+        evaluations: &mut u64,
+    ) -> Landing {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                *evaluations += 1;
+                let (x, v) = self.oscillator(&self.after(simd, here, left - time, path.from(time)));
+                Landing { end: Ending::Period, time: left, x, v, steady: self.origin }
+            },
+        )
+    }
+
+    /// Looks for an event in a panel that is not proven to be clear, or in the first part of it about
+    /// which something is; none where nothing is.
+    #[inline(always)]
+    fn look_into<S: Simd, C: Course>(
+        &self,
+        simd: S,
+        panel: &Panel,
+        flight: &Flight<C>,
+        evaluations: &mut u64,
+    ) -> Option<Found> {
+        let Panel { here, mut there, time, mut length, mut slack } = *panel;
+        let Flight { course, sense, path, left } = *flight;
+        let (path_here, rest) = (path.from(time), left - time);
+        let shortest = SHORTEST * length;
+        let mut hull = Hull::of(&here, &there, length, &slack);
+        // The first part of a panel may be.
+        let mut clear =
+            length < self.step && hull.clear() && course.one_way(sense, &hull, [&here, &there]);
+        while !clear {
+            let side = if there.gap > 0.0 { Side::Plus } else { Side::Minus };
+            let one_way = course.one_way(sense, &hull, [&here, &there]);
+            if one_way && hull.meets(side.sign()) {
+                let guess = Self::guess(&here, &there, length, side.sign(), true);
+                let guess = guess.larger(0.0).smaller(length);
+                if rest < guess {
+                    *evaluations += 1;
+                    let at = self.moment(simd, &here, rest, path_here);
+                    if slack.before(&at, side.sign()) {
+                        let (x, v) = self.oscillator(&at);
+                        let end =
+                            Landing { end: Ending::Period, time: left, x, v, steady: self.origin };
+                        return Some(Found::Landing(end));
+                    }
+                }
+                let guess = Guess { time: guess, length, side, path: path_here };
+                if let Some(found) = self.root(simd, &here, guess, &slack, evaluations) {
+                    if rest < found.time {
+                        break;
+                    }
+                    let Corrected { x, v, steady, .. } = found;
+                    let time = time + found.time;
+                    let impact = Landing { end: Ending::Wall(side), time, x, v, steady };
+                    return Some(Found::Landing(impact));
+                }
+            }
+            let ends = [&here, &there];
+            if !one_way && hull.clear() && course.turns(sense, &hull, ends) {
+                let found = self.turn(simd, ends, length, path_here, &slack, evaluations);
+                if let Some(found) = found {
+                    if rest < found.time {
+                        break;
+                    }
+                    return Some(Found::Landing(Landing { time: time + found.time, ..found }));
+                }
+            }
+            if length < shortest {
+                return None;
+            }
+            (length, slack) = (length * 0.5, slack.part(0.5));
+            there = self.moment(simd, &here, length, path_here);
+            *evaluations += 1;
+            hull = Hull::of(&here, &there, length, &slack);
+            clear = hull.clear() && course.one_way(sense, &hull, [&here, &there]);
+        }
+        let until = time + length;
+        if left <= until {
+            let end = self.ended(simd, &here, time, path, left, evaluations);
+            return Some(Found::Landing(end));
+        }
+        Some(Found::Nothing { until, there })
+    }
+
+    /// When sliding ends in a panel in which it is proven to; none where the moment is not sharp.
+    #[inline(never)]
+    fn turn<S: Simd>(
+        &self,
+        simd: S,
+        [here, there]: [&At<f64>; 2],
+        length: f64,
+        path: impl Path<f64>,
+        slack: &Slack<f64>,
+        evaluations: &mut u64,
+    ) -> Option<Landing> {
+        let sense = -there.slope.signum();
+        let bend_squared = slack.bend_squared(self.fastest, length);
+        // From rest it does not turn where it begins.
+        let first = if here.slope == 0.0 { 0.5 } else { here.slope / (here.slope - there.slope) };
+        let mut time = Quintic::through(here, there, length).level(first) * length;
+        for _ in 0..CORRECTIONS {
+            *evaluations += 1;
+            let found = simd.vectorize(
+                #[inline(always)]
+                || self.levelled(simd, here, time, path, sense, bend_squared),
+            );
+            let Corrected { time: at, x, v, steady, .. } = found;
+            if found.exact {
+                return Some(Landing { end: Ending::Turn, time: at, x, v, steady });
+            }
+            time = at.clamp(0.0, length);
+        }
+        None
+    }
+
+    /// As [`Self::after`], for what is rare.
+    #[inline(never)]
+    fn moment<S: Simd>(&self, simd: S, here: &At<f64>, s: f64, path: impl Path<f64>) -> At<f64> {
+        simd.vectorize(
+            #[inline(always)]
+            || self.after(simd, here, s, path),
+        )
+    }
+
+    /// The first crossing in a panel that is proven to have one.
+    #[inline(always)]
+    fn root<S: Simd>(
+        &self,
+        simd: S,
+        here: &At<f64>,
+        guess: Guess<impl Path<f64>>,
+        slack: &Slack<f64>,
+        evaluations: &mut u64,
+    ) -> Option<Corrected<f64>> {
+        let Guess { mut time, length, side, path } = guess;
+        for _ in 0..CORRECTIONS {
+            *evaluations += 1;
+            let inside = time.larger(0.0).smaller(length);
+            let found = self.corrected(simd, here, inside, path, side.sign(), slack);
+            if found.exact {
+                return Some(found);
+            }
+            time = found.time;
+        }
+        None
+    }
+}
+
+/// A panel of a flight, or its first part.
+struct Panel {
+    here: At<f64>,
+    there: At<f64>,
+    /// Time from the flight's beginning to its own.
+    time: f64,
+    length: f64,
+    slack: Slack<f64>,
+}
+
+/// A flight under way.
+pub(super) struct Flight<C: Course> {
+    pub course: C,
+    /// Sign of `x' - y'`, where it has to stay.
+    pub sense: f64,
+    pub path: C::Path,
+    /// Time from its beginning until the period is over.
+    pub left: f64,
+}
+
+/// What is found in a panel.
+enum Found {
+    /// The flight's end.
+    Landing(Landing),
+    /// No impact until a moment.
+    Nothing { until: f64, there: At<f64> },
+}
+
+/// Roughly when and where a flight ends in a panel.
+#[derive(Debug, Clone, Copy)]
+struct Guess<P> {
+    time: f64,
+    length: f64,
+    side: Side,
+    path: P,
+}
