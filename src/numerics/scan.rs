@@ -1,7 +1,7 @@
 //! Functions of one variable, looked at everywhere: where they change their sign, where they are
 //! largest.
 
-use super::bracket::bisected;
+use super::bracket::narrowed;
 
 /// Golden section, and steps of it: down to 1e-8 of two pieces, where a smooth extremum is flat.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
@@ -24,7 +24,7 @@ pub fn sign_changes(range: [f64; 2], pieces: u32, mut f: impl FnMut(f64) -> f64)
     points.extend(dips);
     points.sort_by(|a, b| a.0.total_cmp(&b.0));
     let pairs = points.windows(2).filter(|pair| (pair[0].1 > 0.0) != (pair[1].1 > 0.0));
-    pairs.filter_map(|pair| bisected([pair[0].0, pair[1].0], &mut f)).collect()
+    pairs.filter_map(|pair| narrowed([pair[0].0, pair[1].0], &mut f)).collect()
 }
 
 /// A place between three neighbours on one side at which the function is on the other, if its size
