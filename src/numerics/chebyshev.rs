@@ -1,0 +1,117 @@
+//! A function of one variable on a piece, as the polynomial through its values at Chebyshev nodes: where it surely has no
+//! root, and where it surely is monotone.
+
+use std::f64::consts::FRAC_PI_2;
+use std::sync::LazyLock;
+
+/// Nodes of an interpolation.
+pub const NODES: usize = 32;
+/// What an interpolation may miss, over the most that it misses at the places between its nodes.
+const MISSED: f64 = 2.0;
+/// What is missed is a polynomial of the next degree, all but; its slope over it by Markov's inequality.
+const STEEPEST: f64 = (NODES * NODES) as f64;
+
+type Row = [f64; NODES];
+
+/// Cosines and matrices that are the same for every function.
+struct Tables {
+    /// The nodes, descending, and the places between them and at the ends.
+    nodes: Row,
+    between: [f64; NODES + 1],
+    /// Coefficients by the value at each node.
+    by_value: [Row; NODES],
+    /// Chebyshev polynomials at the places between.
+    at_between: [Row; NODES + 1],
+    /// Coefficients on the lower half of the piece, by those on the whole.
+    lower: [Row; NODES],
+}
+
+static TABLES: LazyLock<Tables> = LazyLock::new(|| {
+    // cos(k pi/(2 NODES)), reduced to one turn first.
+    let cosine = |k: usize| libm::cos(FRAC_PI_2 * (k % (4 * NODES)) as f64 / NODES as f64);
+    let weight = |j: usize| if j == 0 { 1.0 } else { 2.0 } / NODES as f64;
+    let nodes = std::array::from_fn(|k| cosine(2 * k + 1));
+    let by_value = nodes_by(|k| std::array::from_fn(|j| weight(j) * cosine(j * (2 * k + 1))));
+    let halved = |z: f64, j: usize| libm::cos(j as f64 * libm::acos(0.5 * (z - 1.0)));
+    Tables {
+        nodes,
+        between: std::array::from_fn(|k| cosine(2 * k)),
+        by_value,
+        at_between: std::array::from_fn(|k| std::array::from_fn(|j| cosine(2 * j * k))),
+        lower: nodes_by(|j| combined(&by_value, &nodes.map(|z| halved(z, j)))),
+    }
+});
+
+fn nodes_by(row: impl Fn(usize) -> Row) -> [Row; NODES] {
+    std::array::from_fn(row)
+}
+
+/// The sum of rows with these factors.
+fn combined(rows: &[Row; NODES], factors: &Row) -> Row {
+    let mut sum = [0.0; NODES];
+    for (row, factor) in rows.iter().zip(factors) {
+        sum.iter_mut().zip(row).for_each(|(sum, one)| *sum += factor * one);
+    }
+    sum
+}
+
+/// The polynomial through the values of a function at Chebyshev nodes of a piece, on the piece or on a part of it.
+#[derive(Debug, Clone)]
+pub struct Interpolant {
+    /// Coefficients of the Chebyshev polynomials of the part, none of which exceeds 1 there.
+    coefficients: Row,
+    /// Most that the polynomial misses, and the same of its slope.
+    missed: [f64; 2],
+}
+
+impl Interpolant {
+    /// That of a function of -1 to 1, held against its values at the places between the nodes.
+    pub fn of(f: impl Fn(f64) -> f64) -> Self {
+        let Tables { nodes, between, by_value, at_between, .. } = &*TABLES;
+        let coefficients = combined(by_value, &nodes.map(&f));
+        let missed = between.iter().zip(at_between).map(|(z, row)| {
+            let value: f64 = row.iter().zip(&coefficients).map(|(t, c)| t * c).sum();
+            (f(*z) - value).abs()
+        });
+        let missed = MISSED * missed.fold(0.0, f64::max);
+        Self { coefficients, missed: [missed, STEEPEST * missed] }
+    }
+
+    /// On the lower and the upper half of the part.
+    pub fn halves(&self) -> [Self; 2] {
+        let missed = [self.missed[0], 0.5 * self.missed[1]];
+        let mirrored = |mut row: Row| {
+            row.iter_mut().skip(1).step_by(2).for_each(|c| *c = -*c);
+            row
+        };
+        let lower = combined(&TABLES.lower, &self.coefficients);
+        let upper = mirrored(combined(&TABLES.lower, &mirrored(self.coefficients)));
+        [lower, upper].map(|coefficients| Self { coefficients, missed })
+    }
+
+    /// Whether what is missed is too much to tell more on halves.
+    pub fn is_exhausted(&self) -> bool {
+        self.variation() <= self.missed[1]
+    }
+
+    /// Whether the function has no root on the part.
+    pub fn has_no_root(&self) -> bool {
+        self.coefficients[0].abs() > self.variation() + self.missed[0]
+    }
+
+    /// Whether the function is monotone on the part.
+    pub fn is_monotone(&self) -> bool {
+        // `d_(j - 1) = d_(j + 1) + 2 j c_j`, and half of that for the first.
+        let mut slope = [0.0; NODES + 1];
+        for j in (1..NODES).rev() {
+            slope[j - 1] = slope[j + 1] + 2.0 * j as f64 * self.coefficients[j];
+        }
+        let others: f64 = slope[1..].iter().map(|d| d.abs()).sum();
+        0.5 * slope[0].abs() > others + self.missed[1]
+    }
+
+    /// A bound on how far the polynomial is from its constant.
+    fn variation(&self) -> f64 {
+        self.coefficients[1..].iter().map(|c| c.abs()).sum()
+    }
+}
