@@ -11,6 +11,9 @@ const MISSED: f64 = 2.0;
 /// What is missed is a polynomial of the next degree, all but; its slope over it by Markov's inequality.
 const STEEPEST: f64 = (NODES * NODES) as f64;
 
+/// What the slope of a coefficient that is left out may be, over what is missed of the slope.
+const LEFT_OUT: f64 = 1e-3;
+
 type Row = [f64; NODES];
 
 /// Cosines and matrices that are the same for every function.
@@ -22,8 +25,8 @@ struct Tables {
     by_value: [Row; NODES],
     /// Chebyshev polynomials at the places between.
     at_between: [Row; NODES + 1],
-    /// Coefficients on the lower half of the piece, by those on the whole.
-    lower: [Row; NODES],
+    /// Coefficients on the lower and the upper half of the piece, by each on the whole.
+    halves: [[Row; NODES]; 2],
 }
 
 static TABLES: LazyLock<Tables> = LazyLock::new(|| {
@@ -31,23 +34,23 @@ static TABLES: LazyLock<Tables> = LazyLock::new(|| {
     let cosine = |k: usize| libm::cos(FRAC_PI_2 * (k % (4 * NODES)) as f64 / NODES as f64);
     let weight = |j: usize| if j == 0 { 1.0 } else { 2.0 } / NODES as f64;
     let nodes = std::array::from_fn(|k| cosine(2 * k + 1));
-    let by_value = nodes_by(|k| std::array::from_fn(|j| weight(j) * cosine(j * (2 * k + 1))));
-    let halved = |z: f64, j: usize| libm::cos(j as f64 * libm::acos(0.5 * (z - 1.0)));
+    let by_value =
+        std::array::from_fn(|k| std::array::from_fn(|j| weight(j) * cosine(j * (2 * k + 1))));
+    let on_half = |side: f64| {
+        let value = |j: usize, z: f64| libm::cos(j as f64 * libm::acos(0.5 * (z + side)));
+        std::array::from_fn(|j| combined(&by_value, &nodes.map(|z| value(j, z))))
+    };
     Tables {
         nodes,
         between: std::array::from_fn(|k| cosine(2 * k)),
         by_value,
         at_between: std::array::from_fn(|k| std::array::from_fn(|j| cosine(2 * j * k))),
-        lower: nodes_by(|j| combined(&by_value, &nodes.map(|z| halved(z, j)))),
+        halves: [-1.0, 1.0].map(on_half),
     }
 });
 
-fn nodes_by(row: impl Fn(usize) -> Row) -> [Row; NODES] {
-    std::array::from_fn(row)
-}
-
 /// The sum of rows with these factors.
-fn combined(rows: &[Row; NODES], factors: &Row) -> Row {
+fn combined(rows: &[Row], factors: &Row) -> Row {
     let mut sum = [0.0; NODES];
     for (row, factor) in rows.iter().zip(factors) {
         sum.iter_mut().zip(row).for_each(|(sum, one)| *sum += factor * one);
@@ -60,6 +63,8 @@ fn combined(rows: &[Row; NODES], factors: &Row) -> Row {
 pub struct Interpolant {
     /// Coefficients of the Chebyshev polynomials of the part, none of which exceeds 1 there.
     coefficients: Row,
+    /// How many of them are not left out.
+    count: usize,
     /// Most that the polynomial misses, and the same of its slope.
     missed: [f64; 2],
 }
@@ -74,19 +79,30 @@ impl Interpolant {
             (f(*z) - value).abs()
         });
         let missed = MISSED * missed.fold(0.0, f64::max);
-        Self { coefficients, missed: [missed, STEEPEST * missed] }
+        Self { coefficients, count: NODES, missed: [missed, STEEPEST * missed] }
     }
 
     /// On the lower and the upper half of the part.
     pub fn halves(&self) -> [Self; 2] {
         let missed = [self.missed[0], 0.5 * self.missed[1]];
-        let mirrored = |mut row: Row| {
-            row.iter_mut().skip(1).step_by(2).for_each(|c| *c = -*c);
-            row
-        };
-        let lower = combined(&TABLES.lower, &self.coefficients);
-        let upper = mirrored(combined(&TABLES.lower, &mirrored(self.coefficients)));
-        [lower, upper].map(|coefficients| Self { coefficients, missed })
+        TABLES.halves.each_ref().map(|by_whole| {
+            let coefficients = combined(&by_whole[..self.count], &self.coefficients);
+            Self { coefficients, missed, ..*self }.shortened()
+        })
+    }
+
+    /// Without the last coefficients, where they are much less than what is missed anyway.
+    fn shortened(mut self) -> Self {
+        while self.count > 2 {
+            let left_out = self.coefficients[self.count - 1].abs();
+            let slope = ((self.count - 1) * (self.count - 1)) as f64 * left_out;
+            if slope > LEFT_OUT * self.missed[1] {
+                break;
+            }
+            self.missed = [self.missed[0] + left_out, self.missed[1] + slope];
+            self.count -= 1;
+        }
+        self
     }
 
     /// Whether what is missed is too much to tell more on halves.
@@ -103,15 +119,15 @@ impl Interpolant {
     pub fn is_monotone(&self) -> bool {
         // `d_(j - 1) = d_(j + 1) + 2 j c_j`, and half of that for the first.
         let mut slope = [0.0; NODES + 1];
-        for j in (1..NODES).rev() {
+        for j in (1..self.count).rev() {
             slope[j - 1] = slope[j + 1] + 2.0 * j as f64 * self.coefficients[j];
         }
-        let others: f64 = slope[1..].iter().map(|d| d.abs()).sum();
+        let others: f64 = slope[1..self.count].iter().map(|d| d.abs()).sum();
         0.5 * slope[0].abs() > others + self.missed[1]
     }
 
     /// A bound on how far the polynomial is from its constant.
     fn variation(&self) -> f64 {
-        self.coefficients[1..].iter().map(|c| c.abs()).sum()
+        self.coefficients[1..self.count].iter().map(|c| c.abs()).sum()
     }
 }

@@ -7,6 +7,10 @@ use super::bracket::narrowed;
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 /// See [`GOLDEN`].
 const NARROWINGS: u32 = 40;
+/// A golden section does not come to 0 where this many values in a row are the same to this part of the smallest: next to a
+/// root, of whatever order, they differ by parts of themselves.
+const LEVEL: usize = 4;
+const LEVEL_WITHIN: f64 = 1e-3;
 
 /// Ends of `pieces` even pieces.
 pub fn places([from, to]: [f64; 2], pieces: u32) -> impl Iterator<Item = f64> {
@@ -34,7 +38,9 @@ fn dip(three: &[(f64, f64)], f: &mut impl FnMut(f64) -> f64) -> Option<(f64, f64
     let size = |value: f64| if above { value } else { -value };
     let [left, middle, right] = [0, 1, 2].map(|k| size(three[k].1));
     let one_side = three.iter().all(|(_, value)| (*value > 0.0) == above);
-    if !(one_side && middle <= left && middle <= right) {
+    // What is the same at all three has no smallest value that could be narrowed down.
+    let lowest = middle <= left && middle <= right && (middle < left || middle < right);
+    if !(one_side && lowest) {
         return None;
     }
     let (at, height) = below(three[0].0, three[2].0, |at| size(f(at)))?;
@@ -46,12 +52,17 @@ fn dip(three: &[(f64, f64)], f: &mut impl FnMut(f64) -> f64) -> Option<(f64, f64
 pub fn below(low: f64, high: f64, mut height: impl FnMut(f64) -> f64) -> Option<(f64, f64)> {
     let not_above = |value: f64| value.is_nan() || value <= 0.0;
     let mut found = None;
+    let mut last = [f64::INFINITY; LEVEL];
     narrow([low, high], |at| {
         let value = height(at);
         if not_above(value) {
             found = Some((at, value));
         }
-        found.is_none().then_some(-value)
+        last.rotate_left(1);
+        last[LEVEL - 1] = value;
+        let [least, most] = [f64::min, f64::max].map(|of| last.into_iter().fold(value, of));
+        let ends = found.is_some() || most - least < LEVEL_WITHIN * least;
+        (!ends).then_some(-value)
     });
     found
 }
