@@ -130,4 +130,26 @@ mod tests {
         assert_eq!(brent(0.0, 1.0, 1e-15, |x| x + 1.0), None);
         assert_eq!(bisected([0.0, 1.0], |x| x + 1.0), None);
     }
+
+    /// A smooth root, one of third order, the end of a square root, a jump, and a root among huge numbers.
+    #[test]
+    fn narrowing_finds_what_bisection_does_in_hardly_ever_more_steps() {
+        let functions: [(fn(f64) -> f64, usize); 5] = [
+            (|x| libm::sin(x) - 0.3, 16),
+            (|x| (x - 0.3) * (x - 0.3) * (x - 0.3), 60),
+            (|x| if x < 0.3 { (0.3 - x).sqrt() } else { -f64::MIN_POSITIVE }, 60),
+            (|x| if x < 0.3 { 1.0 } else { f64::NAN }, 60),
+            (|x| 1e300 * (libm::exp(x) - 1.5), 16),
+        ];
+        for (k, (f, most)) in functions.into_iter().enumerate() {
+            let mut count = 0;
+            let found = narrowed([-0.5, 1.5], |x| {
+                count += 1;
+                f(x)
+            });
+            assert_eq!(found, bisected([-0.5, 1.5], f), "{k}");
+            assert!(count <= most, "{k}: {count}");
+        }
+        assert_eq!(narrowed([0.0, 1.0], |x| x + 1.0), None);
+    }
 }

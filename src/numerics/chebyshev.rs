@@ -131,3 +131,40 @@ impl Interpolant {
         self.coefficients[1..self.count].iter().map(|c| c.abs()).sum()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Interpolant;
+
+    /// Pieces with one root each, found on halves; `None` where some part stays undecided.
+    fn roots(near: &Interpolant, [low, high]: [f64; 2], f: &dyn Fn(f64) -> f64) -> Option<usize> {
+        if near.has_no_root() {
+            return Some(0);
+        }
+        if near.is_monotone() {
+            return Some(usize::from((f(low) > 0.0) != (f(high) > 0.0)));
+        }
+        if near.is_exhausted() {
+            return None;
+        }
+        let middle = 0.5 * (low + high);
+        let [lower, upper] = near.halves();
+        Some(roots(&lower, [low, middle], f)? + roots(&upper, [middle, high], f)?)
+    }
+
+    /// By hand: `cos(12 z + 0.5)` vanishes at `z = ((k + 1/2) pi - 0.5)/12`, from k = -4 to 3; a wave of 1e-4 beside a
+    /// parabola that comes to 1e-3 of 0 leaves it without roots.
+    #[test]
+    fn roots_are_counted_on_halves_of_one_interpolation() {
+        let wave = |z: f64| libm::cos(12.0 * z + 0.5);
+        assert_eq!(roots(&Interpolant::of(wave), [-1.0, 1.0], &wave), Some(8));
+        let dip = |z: f64| (z - 0.37) * (z - 0.37) + 1e-3 + 1e-4 * libm::sin(9.0 * z);
+        assert_eq!(roots(&Interpolant::of(dip), [-1.0, 1.0], &dip), Some(0));
+    }
+
+    #[test]
+    fn nothing_is_said_where_the_function_is_no_polynomial() {
+        let corner = |z: f64| (z - 0.37).abs() - 0.01;
+        assert_eq!(roots(&Interpolant::of(corner), [-1.0, 1.0], &corner), None);
+    }
+}
