@@ -134,7 +134,8 @@ mod tests {
     /// A smooth root, one of third order, the end of a square root, a jump, and a root among huge numbers.
     #[test]
     fn narrowing_finds_what_bisection_does_in_hardly_ever_more_steps() {
-        let functions: [(fn(f64) -> f64, usize); 5] = [
+        type Case = (fn(f64) -> f64, usize);
+        let functions: [Case; 5] = [
             (|x| libm::sin(x) - 0.3, 16),
             (|x| (x - 0.3) * (x - 0.3) * (x - 0.3), 60),
             (|x| if x < 0.3 { (0.3 - x).sqrt() } else { -f64::MIN_POSITIVE }, 60),

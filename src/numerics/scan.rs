@@ -135,6 +135,26 @@ mod tests {
         assert_eq!(sign_changes([0.0, 1.03], 16, |x| -f(x)), found);
     }
 
+    /// By hand: `1 - 1.1/(1 + u^2)` vanishes at `u^2 = 0.1`; in units of 3e-4 it is a dip 200 times narrower than a piece,
+    /// on a level ground. A smallest value far above 0, and level ground alone, are soon left.
+    #[test]
+    fn a_dip_in_level_ground_is_found_and_the_ground_is_not_searched() {
+        let dip = |x: f64| 1.0 - 1.1 / (1.0 + ((x - 0.52) / 3e-4) * ((x - 0.52) / 3e-4));
+        let found = sign_changes([0.0, 1.03], 16, dip);
+        let off = 3e-4 * 0.1_f64.sqrt();
+        assert_eq!(found.len(), 2, "{found:?}");
+        // Rounding of the place.
+        assert!((found[0] - 0.52 + off).abs() < 1e-15 && (found[1] - 0.52 - off).abs() < 1e-15);
+        for (far, most) in [(1.0, 17 + 12), (0.0, 17)] {
+            let mut count = 0;
+            let none = sign_changes([0.0, 1.03], 16, |x| {
+                count += 1;
+                1.0 + far * (x - 0.52) * (x - 0.52)
+            });
+            assert!(none.is_empty() && count <= most, "{count}");
+        }
+    }
+
     #[test]
     fn what_is_not_a_number_is_not_above() {
         let found = sign_changes([0.0, 1.0], 10, |x| if x < 0.33 { f64::NAN } else { 1.0 });

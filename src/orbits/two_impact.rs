@@ -21,10 +21,10 @@
 //! `(2 Omega (1 + eps)(1 - r_1 r_2)/((1 + r_1)(1 + r_2)))^2`, so that no orbit hides there. In a symmetric cavity `l_0` and
 //! `l_1` vanish at `T/2`, where the symmetric orbits are ([`symmetric_orbits`]), and `F/cos(h)^2` has the asymmetric roots.
 //!
-//! Its roots are counted: on every piece the polynomial through the values at nine Chebyshev nodes, with what it misses
-//! at the ten places between them, says that there is no root, or that `F` is monotone; else the piece is halved. What
-//! is left undecided is returned: orbits that are about to collide. Exact, at any mass ratio; the orbits with both
-//! impacts on one wall are others.
+//! Its roots are counted: on every piece the polynomial through the values at Chebyshev nodes, with what it misses at the
+//! places between them, says that there is no root, or that `F` is monotone; else the piece is halved, of the same polynomial
+//! while what it misses is little, then of another. What is left undecided is returned: orbits that are about to collide.
+//! Exact, at any mass ratio; the orbits with both impacts on one wall are others.
 
 use nalgebra::{Matrix2, RowVector2, Vector2};
 use serde::Serialize;
