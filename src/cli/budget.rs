@@ -341,7 +341,7 @@ mod tests {
     /// By hand: 700 designs as written and 130 under each of 15 errors of the clearance, 190 systems each, 30 us a system.
     #[test]
     fn exact_orbits_are_counted_where_designs_are_chosen_by_them() {
-        let rest = "frequency_ratio = 0.99\nfriction = 0.01\n[uncertainty]\nclearance = 0.1\n";
+        let rest = "frequency_ratio = 0.99\nfriction_acceleration = 0.01\n[uncertainty]\nclearance = 0.1\n";
         let case = case(&format!("{REDUCED}{rest}"));
         let task = |objective| Task::of(&case, Some(objective)).expect("driven");
         let work = Work::designs(&task(Objective::StableShare));

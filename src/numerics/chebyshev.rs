@@ -6,6 +6,7 @@ use std::sync::LazyLock;
 
 /// Nodes of an interpolation.
 pub const NODES: usize = 32;
+const FEW: usize = 9;
 /// What an interpolation may miss, over the most that it misses at the places between its nodes.
 const MISSED: f64 = 2.0;
 /// What is missed is a polynomial of the next degree, all but; its slope over it by Markov's inequality.
@@ -82,6 +83,24 @@ impl Interpolant {
         Self { coefficients, count: NODES, missed: [missed, STEEPEST * missed] }
     }
 
+    /// The same through [`FEW`] nodes, for a short piece, where what is missed is rounding and more nodes tell no more.
+    pub fn of_few(f: impl Fn(f64) -> f64) -> Self {
+        let cosine = |k: usize| libm::cos(FRAC_PI_2 * (k % (4 * FEW)) as f64 / FEW as f64);
+        let values: [f64; FEW] = std::array::from_fn(|k| f(cosine(2 * k + 1)));
+        let mut coefficients = [0.0; NODES];
+        for (j, c) in coefficients[..FEW].iter_mut().enumerate() {
+            let terms = values.iter().enumerate().map(|(k, v)| v * cosine(j * (2 * k + 1)));
+            *c = terms.sum::<f64>() * if j == 0 { 1.0 } else { 2.0 } / FEW as f64;
+        }
+        let missed = (0..=FEW).map(|k| {
+            let terms = coefficients[..FEW].iter().enumerate();
+            let value: f64 = terms.map(|(j, c)| c * cosine(2 * j * k)).sum();
+            (f(cosine(2 * k)) - value).abs()
+        });
+        let missed = MISSED * missed.fold(0.0, f64::max);
+        Self { coefficients, count: FEW, missed: [missed, (FEW * FEW) as f64 * missed] }
+    }
+
     /// On the lower and the upper half of the part.
     pub fn halves(&self) -> [Self; 2] {
         let missed = [self.missed[0], 0.5 * self.missed[1]];
@@ -107,7 +126,7 @@ impl Interpolant {
 
     /// Whether what is missed is too much to tell more on halves.
     pub fn is_exhausted(&self) -> bool {
-        self.variation() <= self.missed[1]
+        self.variation() <= self.missed[1].max((FEW * FEW) as f64 * self.missed[0])
     }
 
     /// Whether the function has no root on the part.

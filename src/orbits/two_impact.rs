@@ -288,7 +288,11 @@ impl Pair {
                 let middle = 0.5 * (ends[0] + ends[1]);
                 let halves = [[ends[0], middle], [middle, ends[1]]];
                 if near.is_exhausted() {
-                    pieces.extend(halves.map(|half| (half, None)));
+                    let anew = |[low, high]: [f64; 2]| {
+                        let place = |z: f64| 0.5 * ((1.0 - z) * low + (1.0 + z) * high);
+                        ([low, high], Some(Interpolant::of_few(|z| f(place(z)))))
+                    };
+                    pieces.extend(halves.map(anew));
                 } else {
                     pieces.extend(halves.into_iter().zip(near.halves().map(Some)));
                 }
