@@ -16,7 +16,7 @@ use nalgebra::Complex;
 use serde::Serialize;
 
 use super::Band;
-use crate::numerics::scan::largest;
+use crate::numerics::scan::{largest_of, places};
 use crate::simulation::{Simulation, Stop};
 use crate::system::{Cavity, LinearResponse, State, System};
 
@@ -30,6 +30,8 @@ const PIECES: u32 = 512;
 /// Time constants after which what is left of a transient is `e^-12`, 6e-6, and the fewest and most periods.
 const TRANSIENT: f64 = 12.0;
 const PERIODS: [f64; 2] = [50.0, 5000.0];
+/// First harmonic of dry friction over its size (Den Hartog, 1931).
+const DRY: f64 = 4.0 / std::f64::consts::PI;
 /// Resting places of an absorber that slides.
 const PLACES: u32 = 8;
 /// Impacts after which an absorber counts as awake, and periods without one after which it does not.
@@ -67,49 +69,44 @@ pub enum Rest {
 impl Inactive {
     /// That of a system; `None` where every start from rest wakes the absorber, but for a negligible share.
     pub fn of(system: &System) -> Option<Self> {
+        let (rest, amplitude) = Self::candidate(system)?;
+        match rest {
+            Rest::Floating => Self::floating(system),
+            Rest::Held => {
+                let held = InTow::of(system).filter(|held| held.stays(system))?;
+                Some(Self { amplitude, share: 1.0, rest, start: held.start(system) })
+            }
+            Rest::Sliding => {
+                let stay: Vec<State> = resting(system, amplitude).collect();
+                let start = *stay.first()?;
+                Some(Self { amplitude, share: stay.len() as f64 / f64::from(PLACES), rest, start })
+            }
+        }
+    }
+
+    /// How the absorber would rest in closed form, and the amplitude then.
+    fn candidate(system: &System) -> Option<(Rest, f64)> {
         if !system.cavity().moves_absorber() {
-            return Self::floating(system);
+            return Some((Rest::Floating, Self::floating(system)?.amplitude));
         }
         let Cavity { gravity_along: a, friction_acceleration: f, .. } = system.cavity();
         let held = InTow::of(system)?;
         let [steady, largest] = held.accelerations;
         // A transient may throw it off the wall that it rests on, where it comes to rest again.
-        let settles = || {
-            let after = from_rest(system, -a.signum(), MOST_IMPACTS, f64::INFINITY);
-            steady <= a.abs() + f && after.is_some_and(|(impacts, _)| impacts[1] == 0)
-        };
-        if largest <= a.abs() + f || a != 0.0 && settles() {
-            let (amplitude, start) = (held.steady.amplitude(), held.start(system));
-            return Some(Self { amplitude, share: 1.0, rest: Rest::Held, start });
+        let needed = if a == 0.0 { largest } else { steady };
+        if needed <= a.abs() + f {
+            return Some((Rest::Held, held.steady.amplitude()));
         }
-        if a == 0.0 { Self::sliding(system, f) } else { None }
+        if a == 0.0 { Some((Rest::Sliding, sliding_amplitude(system, f)?)) } else { None }
     }
 
-    /// That of an absorber that slides in a level cavity. On its way from rest it drifts by some amplitudes of the structure
-    /// however small the friction is: which places stay is found by simulation.
-    fn sliding(system: &System, friction: f64) -> Option<Self> {
-        let omega = system.frequency_ratio();
-        let dry = 4.0 / std::f64::consts::PI * friction;
-        let (sine, cosine) = system.excitation_amplitudes();
-        let force = libm::hypot(sine, cosine);
-        let stiffness = (1.0 - omega) * (1.0 + omega);
-        let loss = system.mass_ratio() * system.damping() * omega;
-        let scale = stiffness * stiffness + loss * loss;
-        let (drag, sway) = (system.mass_ratio() * dry, stiffness * system.mass_ratio() * dry);
-        let root = (force * force * scale - sway * sway).max(0.0).sqrt();
-        let amplitude = (root - loss * drag) / scale;
-        if !(amplitude > 0.0 && libm::hypot(amplitude, dry / (omega * omega)) < 1.0) {
-            return None;
-        }
-        let places = (0..PLACES).map(|k| (2.0 * f64::from(k) + 1.0) / f64::from(PLACES) - 1.0);
-        // A drift `u` meets the mean friction `2 f u/(pi Omega X)`.
-        let drift = 0.5 * dry / (omega * amplitude);
-        let stay = places.filter_map(|place| from_rest(system, place, 1, drift));
-        let stay: Vec<State> =
-            stay.filter(|(impacts, _)| *impacts == [0, 0]).map(|(_, state)| state).collect();
-        let start = *stay.first()?;
-        let share = stay.len() as f64 / f64::from(PLACES);
-        Some(Self { amplitude, share, rest: Rest::Sliding, start })
+    /// Whether there is that of a candidate, by simulation where closed form does not say.
+    fn is_one(system: &System) -> bool {
+        Self::candidate(system).is_some_and(|(rest, amplitude)| match rest {
+            Rest::Floating => true,
+            Rest::Held => InTow::of(system).is_some_and(|held| held.stays(system)),
+            Rest::Sliding => resting(system, amplitude).next().is_some(),
+        })
     }
 
     /// That of an absorber that nothing moves but the walls.
@@ -135,6 +132,33 @@ impl Inactive {
         let of = Self { amplitude, share, rest: Rest::Floating, start };
         (share > NEGLIGIBLE).then_some(of)
     }
+}
+
+/// Amplitude with an absorber that slides in a level cavity.
+fn sliding_amplitude(system: &System, friction: f64) -> Option<f64> {
+    let omega = system.frequency_ratio();
+    let dry = DRY * friction;
+    let (sine, cosine) = system.excitation_amplitudes();
+    let force = libm::hypot(sine, cosine);
+    let stiffness = (1.0 - omega) * (1.0 + omega);
+    let loss = system.mass_ratio() * system.damping() * omega;
+    let scale = stiffness * stiffness + loss * loss;
+    let (drag, sway) = (system.mass_ratio() * dry, stiffness * system.mass_ratio() * dry);
+    let root = (force * force * scale - sway * sway).max(0.0).sqrt();
+    let amplitude = (root - loss * drag) / scale;
+    let fits = amplitude > 0.0 && libm::hypot(amplitude, dry / (omega * omega)) < 1.0;
+    fits.then_some(amplitude)
+}
+
+/// Motions of an absorber that slides, one from each place where it stays. On its way from rest it drifts by some amplitudes of
+/// the structure however small the friction is: which places stay is found by simulation.
+fn resting(system: &System, amplitude: f64) -> impl Iterator<Item = State> {
+    let places = (0..PLACES).map(|k| (2.0 * f64::from(k) + 1.0) / f64::from(PLACES) - 1.0);
+    // A drift `u` meets the mean friction `2 f u/(pi Omega X)`.
+    let dry = DRY * system.cavity().friction_acceleration;
+    let drift = 0.5 * dry / (system.frequency_ratio() * amplitude);
+    let stay = places.filter_map(move |place| from_rest(system, place, 1, drift));
+    stay.filter(|(impacts, _)| *impacts == [0, 0]).map(|(_, state)| state)
 }
 
 /// Impacts of a simulation from rest, the absorber at a place `x - y`, until the transient is over, in which a drift of the
@@ -184,6 +208,17 @@ impl InTow {
         Some(Self { steady, accelerations: [forced, largest] })
     }
 
+    /// Whether friction and gravity hold the absorber, or a wall does after a transient.
+    fn stays(&self, system: &System) -> bool {
+        let Cavity { gravity_along: a, friction_acceleration: f, .. } = system.cavity();
+        let settles = || {
+            let after = from_rest(system, -a.signum(), MOST_IMPACTS, f64::INFINITY);
+            after.is_some_and(|(impacts, _)| impacts[1] == 0)
+        };
+        let [steady, largest] = self.accelerations;
+        largest <= a.abs() + f || a != 0.0 && steady <= a.abs() + f && settles()
+    }
+
     /// The steady motion at phase 0, the absorber on the wall that gravity pulls it to, or in the middle.
     fn start(&self, system: &System) -> State {
         let a = system.cavity().gravity_along;
@@ -210,14 +245,21 @@ fn largest_from_rest(forced: f64, free: f64, zeta: f64, beat: f64) -> f64 {
 /// Where along a band the structure with an inactive absorber vibrates most, and that motion; `None`
 /// where the absorber always wakes.
 pub fn worst(band: &Band) -> Option<(f64, Inactive)> {
-    let there = |at: f64| Inactive::of(&band.system(at).ok()?);
-    let (at, _) = largest_by(band, |at| there(at).map(|one| one.amplitude))?;
-    Some((at, there(at)?))
+    let (at, _) = largest_by(band, Some)?;
+    Some((at, Inactive::of(&band.system(at).ok()?)?))
 }
 
-/// Where along a band something of the inactive absorber's motion is largest, and that value.
-pub fn largest_by(band: &Band, value: impl FnMut(f64) -> Option<f64>) -> Option<(f64, f64)> {
-    largest(band.range, if band.is_point() { 1 } else { PIECES }, value)
+/// Where along a band something of the inactive absorber's motion, given its amplitude, is largest, and that value.
+pub fn largest_by(band: &Band, value: impl Fn(f64) -> Option<f64>) -> Option<(f64, f64)> {
+    let pieces = if band.is_point() { 1 } else { PIECES };
+    let closed_form = |at: f64| value(Inactive::candidate(&band.system(at).ok()?)?.1);
+    let is_one = |at: f64| band.system(at).is_ok_and(|system| Inactive::is_one(&system));
+    // Simulated are only those that may be the largest.
+    let tried = places(band.range, pieces).filter_map(|at| Some((at, closed_form(at)?)));
+    let mut tried: Vec<(f64, f64)> = tried.collect();
+    tried.sort_by(|a, b| b.1.total_cmp(&a.1).then(b.0.total_cmp(&a.0)));
+    let best = tried.into_iter().find(|(at, _)| is_one(*at));
+    largest_of(best, band.range, pieces, |at| closed_form(at).filter(|_| is_one(at)))
 }
 
 #[cfg(test)]

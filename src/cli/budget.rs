@@ -7,7 +7,8 @@ use clap::Args;
 use miette::{Result, miette};
 use vinesink::band::Band;
 use vinesink::band::simulated::Sampling;
-use vinesink::case::Case;
+use vinesink::case::{Case, Objective};
+use vinesink::optimize::Task;
 use vinesink::regimes::Transient;
 use vinesink::study::StudyEffort;
 use vinesink::study::deviations::{self, Deviation};
@@ -31,6 +32,16 @@ const SIDE_BY_SIDE: f64 = 0.9e-6;
 const PLACES: u32 = 80;
 /// Designs that `optimize` holds against the whole band, about.
 const DESIGNS: u64 = 50;
+/// What trajectories are counted by.
+const PERIODS: &str = "periods";
+
+/// Seconds for the exact 1:1 orbits of a system, of an ideal cavity and of one that is not: measured on one core of an x86
+/// server with `optimize` of `cases/li2016-band.toml` for the stable share, as it is and with tilt and friction.
+const SOLVED: [f64; 2] = [5e-6, 30e-6];
+/// Places of a band at which orbits are solved to find where one attracts, about.
+const SOLVED_PLACES: f64 = 190.0;
+/// Designs whose bands are looked at thus, about: as written, and for each combination of deviations.
+const LOOKED_AT: [u64; 2] = [700, 130];
 /// Windows that a motion is watched for which never repeats: twenty for a chaotic transient that may end, one
 /// measured, and longer ones while its averages drift, 2 + 4 + 8 + 16.
 const NEVER_REPEATS: u64 = 51;
@@ -86,7 +97,9 @@ pub fn seconds(work: &[Work]) -> f64 {
 pub struct Work {
     /// How many, as factors with their names.
     trajectories: Vec<(u64, &'static str)>,
+    /// Excitation periods of each, or what is done of another kind.
     periods: f64,
+    of: &'static str,
     /// Oscillations of the structure in a period, or 1.
     oscillations: f64,
     /// Seconds for each of them.
@@ -141,8 +154,23 @@ impl Work {
     }
 
     /// The search for the best design.
-    pub fn designs(case: &Case) -> Self {
-        Self::band(case, vec![(DESIGNS, "designs")])
+    pub fn designs(task: &Task) -> Vec<Self> {
+        let mut work = vec![Self::band(&task.case, vec![(DESIGNS, "designs")])];
+        if matches!(task.objective, Objective::StableShare | Objective::Margin) {
+            let deviations = match task.case.uncertainty.is_any() {
+                true => task.deviations().len() as u64,
+                false => 0,
+            };
+            let count = LOOKED_AT[0] + LOOKED_AT[1] * deviations;
+            work.push(Self {
+                trajectories: vec![(count, "designs")],
+                periods: SOLVED_PLACES,
+                of: "exact solutions",
+                oscillations: 1.0,
+                each: SOLVED[usize::from(!task.case.design.has_ideal_cavity())],
+            });
+        }
+        work
     }
 
     /// The same motions in rigs that deviate.
@@ -170,7 +198,8 @@ impl Work {
         if let Some(seconds) = seconds {
             // What takes longer than a flight, or is done but once, is told as flights.
             let periods = seconds / (count * u64::from(starts)) as f64 / ALONE;
-            return Self { trajectories: counts, periods, oscillations: 1.0, each: ALONE };
+            let of = PERIODS;
+            return Self { trajectories: counts, periods, of, oscillations: 1.0, each: ALONE };
         }
         let systems: Vec<System> = points.iter().filter_map(|point| point.system).collect();
         Self::side_by_side(&systems, counts, plan.settings.periods)
@@ -178,7 +207,7 @@ impl Work {
 
     fn alone(case: &Case, trajectories: Vec<(u64, &'static str)>, periods: u64) -> Self {
         let oscillations = oscillations(&case.system());
-        Self { trajectories, periods: periods as f64, oscillations, each: ALONE }
+        Self { trajectories, periods: periods as f64, of: PERIODS, oscillations, each: ALONE }
     }
 
     fn band(case: &Case, mut trajectories: Vec<(u64, &'static str)>) -> Self {
@@ -207,7 +236,8 @@ impl Work {
         let mean = |f: &dyn Fn(&System) -> f64| systems.iter().map(f).sum::<f64>() / count;
         let total = mean(&|system| periods(system) * oscillations(system));
         let periods = mean(&periods).max(1.0);
-        Self { trajectories, periods, oscillations: total / periods, each: SIDE_BY_SIDE }
+        let oscillations = total / periods;
+        Self { trajectories, periods, of: PERIODS, oscillations, each: SIDE_BY_SIDE }
     }
 
     /// About how many seconds it takes.
@@ -240,7 +270,7 @@ fn two_digits(value: f64) -> f64 {
 impl fmt::Display for Work {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let counts = self.trajectories.iter().map(|(count, of)| format!("{count} {of} x "));
-        write!(f, "{}{:.0} periods", counts.collect::<String>(), self.periods)?;
+        write!(f, "{}{:.0} {}", counts.collect::<String>(), self.periods, self.of)?;
         match self.oscillations {
             few if few < 1.5 => Ok(()),
             many => write!(f, " of about {} oscillations each", two_digits(many)),
@@ -260,7 +290,8 @@ mod tests {
     fn all(case: &Case) -> [f64; 4] {
         let motions = seconds(&Work::motions(case, &StudyEffort::of(&case.simulation)));
         let report = motions + seconds(&[Work::criteria(case), Work::figures(case)]);
-        let designs = Work::designs(case).seconds().max(seconds(&Work::clearances(case)));
+        let task = Task::of(case, None).map_or_else(|_| Vec::new(), |task| Work::designs(&task));
+        let designs = seconds(&task).max(seconds(&Work::clearances(case)));
         let tradeoff = motions + Work::trajectory(case, BEST_ANSWER).seconds();
         let sweep = Plan::of(case).map_or(0.0, |plan| Work::points(&plan).seconds());
         [report, tradeoff, designs, sweep]
@@ -305,5 +336,17 @@ mod tests {
         assert!(
             (Work::trajectory(&fast, ANALYSIS).seconds() / (800.0 * ALONE) - 1.0).abs() < 1e-12
         );
+    }
+
+    /// By hand: 700 designs as written and 130 under each of 15 errors of the clearance, 190 systems each, 30 us a system.
+    #[test]
+    fn exact_orbits_are_counted_where_designs_are_chosen_by_them() {
+        let rest = "frequency_ratio = 0.99\nfriction_acceleration = 0.01\n[uncertainty]\nclearance = 0.1\n";
+        let case = case(&format!("{REDUCED}{rest}"));
+        let task = |objective| Task::of(&case, Some(objective)).expect("driven");
+        let work = Work::designs(&task(Objective::StableShare));
+        assert!((work[1].seconds() / (2650.0 * 190.0 * 30e-6) - 1.0).abs() < 1e-12);
+        assert_eq!(work[1].to_string(), "2650 designs x 190 exact solutions");
+        assert_eq!(Work::designs(&task(Objective::WorstAmplitude)).len(), 1);
     }
 }

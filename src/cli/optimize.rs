@@ -98,7 +98,7 @@ pub fn run(arguments: Arguments) -> Result<bool> {
     let task = Task::of(&case, arguments.objective).map_err(|error| {
         miette!(help = "give the excitation an amplitude above 0", "{}: {error}", path.display())
     })?;
-    long.allows(path, &case, &[Work::designs(&case)])?;
+    long.allows(path, &case, &Work::designs(&task))?;
     let found = Optimization::of(&task, &text, &Parallel).into_diagnostic()?;
     if let Some(out) = &arguments.out {
         index::add_to_report(out, path, &page::files(&case, &found).into_diagnostic()?)?;

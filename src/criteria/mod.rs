@@ -11,7 +11,7 @@ mod transient;
 
 use crate::band::rivals::reduction_db;
 use crate::band::simulated::Sampling;
-use crate::band::{Band, Inactive, Rivals, Survey, SurveySettings};
+use crate::band::{Band, Rivals, Survey, SurveySettings};
 use crate::case::{Case, Criterion, Relation, Scales, Subject};
 use crate::method::Method;
 use crate::regimes::Motion;
@@ -75,10 +75,10 @@ impl Seen {
         }
     }
 
-    fn inactive(inactive: &Inactive) -> Self {
-        let rms = inactive.amplitude / std::f64::consts::SQRT_2;
+    fn inactive(amplitude: f64) -> Self {
+        let rms = amplitude / std::f64::consts::SQRT_2;
         Self {
-            peak: [inactive.amplitude, 0.0],
+            peak: [amplitude, 0.0],
             rms: [rms, 0.0],
             impact_speed: [0.0; 2],
             impacts_per_period: [0.0; 2],

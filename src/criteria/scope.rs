@@ -127,21 +127,19 @@ impl Scope<'_> {
         let Motions { band, inactive, count_inactive: true, .. } = &self.survey.motions else {
             return None;
         };
-        let value = |at: f64| {
-            let inactive = Inactive::of(&band.system(at).ok()?)?;
-            let [found, error] = self.of_motion(criterion, &Seen::inactive(&inactive))?;
-            Some(Judged {
-                at: self.place(at),
-                inactive: Some(inactive.share),
-                ..criterion.judged(Some(found), error, Method::ClosedForm)
-            })
+        let value = |amplitude: f64| {
+            let [found, error] = self.of_motion(criterion, &Seen::inactive(amplitude))?;
+            Some(criterion.judged(Some(found), error, Method::ClosedForm))
         };
         let at = if criterion.is_against_displacement() {
             inactive.as_ref()?.0
         } else {
-            inactive::largest_by(band, |at| value(at)?.margin.map(|room| -room))?.0
+            let loss = |amplitude: f64| value(amplitude)?.margin.map(|room| -room);
+            inactive::largest_by(band, loss)?.0
         };
-        value(at)
+        let there = Inactive::of(&band.system(at).ok()?)?;
+        let judged = value(there.amplitude)?;
+        Some(Judged { at: self.place(at), inactive: Some(there.share), ..judged })
     }
 
     /// The motions that starts led to; where one is the exact orbit, the orbit knows it better.

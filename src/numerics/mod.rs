@@ -2,6 +2,7 @@
 //! residual, the number of evaluations.
 
 pub mod bracket;
+pub mod chebyshev;
 pub mod crossing;
 pub mod cyclic_word;
 pub mod gauss;

@@ -1,12 +1,16 @@
 //! Functions of one variable, looked at everywhere: where they change their sign, where they are
 //! largest.
 
-use super::bracket::bisected;
+use super::bracket::narrowed;
 
 /// Golden section, and steps of it: down to 1e-8 of two pieces, where a smooth extremum is flat.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 /// See [`GOLDEN`].
 const NARROWINGS: u32 = 40;
+/// A golden section does not come to 0 where this many values in a row are the same to this part of the smallest: next to a
+/// root, of whatever order, they differ by parts of themselves.
+const LEVEL: usize = 4;
+const LEVEL_WITHIN: f64 = 1e-3;
 
 /// Ends of `pieces` even pieces.
 pub fn places([from, to]: [f64; 2], pieces: u32) -> impl Iterator<Item = f64> {
@@ -24,7 +28,7 @@ pub fn sign_changes(range: [f64; 2], pieces: u32, mut f: impl FnMut(f64) -> f64)
     points.extend(dips);
     points.sort_by(|a, b| a.0.total_cmp(&b.0));
     let pairs = points.windows(2).filter(|pair| (pair[0].1 > 0.0) != (pair[1].1 > 0.0));
-    pairs.filter_map(|pair| bisected([pair[0].0, pair[1].0], &mut f)).collect()
+    pairs.filter_map(|pair| narrowed([pair[0].0, pair[1].0], &mut f)).collect()
 }
 
 /// A place between three neighbours on one side at which the function is on the other, if its size
@@ -34,7 +38,9 @@ fn dip(three: &[(f64, f64)], f: &mut impl FnMut(f64) -> f64) -> Option<(f64, f64
     let size = |value: f64| if above { value } else { -value };
     let [left, middle, right] = [0, 1, 2].map(|k| size(three[k].1));
     let one_side = three.iter().all(|(_, value)| (*value > 0.0) == above);
-    if !(one_side && middle <= left && middle <= right) {
+    // What is the same at all three has no smallest value that could be narrowed down.
+    let lowest = middle <= left && middle <= right && (middle < left || middle < right);
+    if !(one_side && lowest) {
         return None;
     }
     let (at, height) = below(three[0].0, three[2].0, |at| size(f(at)))?;
@@ -46,12 +52,17 @@ fn dip(three: &[(f64, f64)], f: &mut impl FnMut(f64) -> f64) -> Option<(f64, f64
 pub fn below(low: f64, high: f64, mut height: impl FnMut(f64) -> f64) -> Option<(f64, f64)> {
     let not_above = |value: f64| value.is_nan() || value <= 0.0;
     let mut found = None;
+    let mut last = [f64::INFINITY; LEVEL];
     narrow([low, high], |at| {
         let value = height(at);
         if not_above(value) {
             found = Some((at, value));
         }
-        found.is_none().then_some(-value)
+        last.rotate_left(1);
+        last[LEVEL - 1] = value;
+        let [least, most] = [f64::min, f64::max].map(|of| last.into_iter().fold(value, of));
+        let ends = found.is_some() || most - least < LEVEL_WITHIN * least;
+        (!ends).then_some(-value)
     });
     found
 }
@@ -122,6 +133,26 @@ mod tests {
         assert_eq!(found.len(), 2, "{found:?}");
         assert!((found[0] - 0.49999).abs() < 1e-14 && (found[1] - 0.50001).abs() < 1e-14);
         assert_eq!(sign_changes([0.0, 1.03], 16, |x| -f(x)), found);
+    }
+
+    /// By hand: `1 - 1.1/(1 + u^2)` vanishes at `u^2 = 0.1`; in units of 3e-4 it is a dip 200 times narrower than a piece,
+    /// on a level ground. A smallest value far above 0, and level ground alone, are soon left.
+    #[test]
+    fn a_dip_in_level_ground_is_found_and_the_ground_is_not_searched() {
+        let dip = |x: f64| 1.0 - 1.1 / (1.0 + ((x - 0.52) / 3e-4) * ((x - 0.52) / 3e-4));
+        let found = sign_changes([0.0, 1.03], 16, dip);
+        let off = 3e-4 * 0.1_f64.sqrt();
+        assert_eq!(found.len(), 2, "{found:?}");
+        // Rounding of the place.
+        assert!((found[0] - 0.52 + off).abs() < 1e-15 && (found[1] - 0.52 - off).abs() < 1e-15);
+        for (far, most) in [(1.0, 17 + 12), (0.0, 17)] {
+            let mut count = 0;
+            let none = sign_changes([0.0, 1.03], 16, |x| {
+                count += 1;
+                1.0 + far * (x - 0.52) * (x - 0.52)
+            });
+            assert!(none.is_empty() && count <= most, "{count}");
+        }
     }
 
     #[test]

@@ -21,10 +21,10 @@
 //! `(2 Omega (1 + eps)(1 - r_1 r_2)/((1 + r_1)(1 + r_2)))^2`, so that no orbit hides there. In a symmetric cavity `l_0` and
 //! `l_1` vanish at `T/2`, where the symmetric orbits are ([`symmetric_orbits`]), and `F/cos(h)^2` has the asymmetric roots.
 //!
-//! Its roots are counted: on every piece the polynomial through the values at nine Chebyshev nodes, with what it misses
-//! at the ten places between them, says that there is no root, or that `F` is monotone; else the piece is halved. What
-//! is left undecided is returned: orbits that are about to collide. Exact, at any mass ratio; the orbits with both
-//! impacts on one wall are others.
+//! Its roots are counted: on every piece the polynomial through the values at Chebyshev nodes, with what it misses at the
+//! places between them, says that there is no root, or that `F` is monotone; else the piece is halved, of the same polynomial
+//! while what it misses is little, then of another. What is left undecided is returned: orbits that are about to collide.
+//! Exact, at any mass ratio; the orbits with both impacts on one wall are others.
 
 use nalgebra::{Matrix2, RowVector2, Vector2};
 use serde::Serialize;
@@ -35,17 +35,14 @@ use super::measures::Peaks;
 use super::newton::converge;
 use super::orbit::{Closure, Cycle, Orbit, Origin};
 use super::symmetric::{SymmetricOrbit, attracting_orbit, symmetric_orbits};
-use crate::numerics::bracket::bisected;
-use crate::numerics::polynomial::through;
+use crate::numerics::bracket::narrowed;
+use crate::numerics::chebyshev::Interpolant;
 use crate::numerics::scan::places;
 use crate::system::System;
 
-/// Most pieces of a period that the search begins with: one per radian of the fastest motion.
+/// Radians of the fastest motion in the pieces of a period that the search begins with, and most pieces.
+const RADIANS: f64 = 8.0;
 const PIECES: f64 = 1e4;
-/// Nodes of an interpolation.
-const NODES: u32 = 9;
-/// What an interpolation may miss, over the most that it misses at the places between its nodes.
-const MISSED: f64 = 2.0;
 /// Width over the period below which a piece stays undecided: rounding of `F` at neighbouring roots.
 const NARROWEST: f64 = 1e-12;
 /// Most pieces that are looked at beyond those the search begins with: forty halvings around each of some hundred roots.
@@ -148,7 +145,8 @@ pub fn steady_orbit(system: &System) -> Option<SteadyOrbit> {
     if system.cavity().is_ideal() {
         return attracting_orbit(system).map(SteadyOrbit::from);
     }
-    steady_orbits(system).ok()?.into_iter().find(|one| one.orbit.attracts())
+    let orbit = two_impact_orbits(system).ok()?.orbits.into_iter().find(Orbit::attracts)?;
+    Some(SteadyOrbit::of(&ImpactMap::of(system).ok()?, orbit))
 }
 
 /// All of them, motions or not: the symmetric ones of an ideal cavity, else those of [`two_impact_orbits`].
@@ -270,21 +268,36 @@ impl Pair {
         let half = (0.5 - SHORTEST) * self.period;
         let from = if symmetric { ASYMMETRIC * self.period } else { -half };
         let fastest = self.map.flight.frequency().max(1.0);
-        let count = (fastest * (half - from)).ceil().min(PIECES);
+        let count = (fastest * (half - from) / RADIANS).ceil().min(PIECES);
         let edges: Vec<f64> = places([from, half], count as u32).collect();
-        let mut pieces: Vec<[f64; 2]> = edges.windows(2).map(|ends| [ends[0], ends[1]]).collect();
+        let mut pieces: Vec<([f64; 2], Option<Interpolant>)> =
+            edges.windows(2).map(|ends| ([ends[0], ends[1]], None)).collect();
         let (mut roots, mut undecided) = (Vec::new(), Vec::new());
         let mut left = pieces.len() + MOST;
         let f = |s: f64| self.defect(s, symmetric);
-        while let Some([low, high]) = pieces.pop() {
+        while let Some((ends, known)) = pieces.pop() {
             left -= 1;
-            match roots_on([low, high], f) {
-                Some(found) => roots.extend(found),
-                None if high - low > NARROWEST * self.period && left > pieces.len() + 1 => {
-                    let middle = 0.5 * (low + high);
-                    pieces.extend([[low, middle], [middle, high]]);
+            let place = |z: f64| 0.5 * ((1.0 - z) * ends[0] + (1.0 + z) * ends[1]);
+            let near = known.unwrap_or_else(|| Interpolant::of(|z| f(place(z))));
+            if near.has_no_root() {
+                continue;
+            }
+            if near.is_monotone() {
+                roots.extend(narrowed(ends, f));
+            } else if ends[1] - ends[0] > NARROWEST * self.period && left > pieces.len() + 1 {
+                let middle = 0.5 * (ends[0] + ends[1]);
+                let halves = [[ends[0], middle], [middle, ends[1]]];
+                if near.is_exhausted() {
+                    let anew = |[low, high]: [f64; 2]| {
+                        let place = |z: f64| 0.5 * ((1.0 - z) * low + (1.0 + z) * high);
+                        ([low, high], Some(Interpolant::of_few(|z| f(place(z)))))
+                    };
+                    pieces.extend(halves.map(anew));
+                } else {
+                    pieces.extend(halves.into_iter().zip(near.halves().map(Some)));
                 }
-                None => undecided.push([low, high]),
+            } else {
+                undecided.push(ends);
             }
         }
         (roots, undecided)
@@ -317,24 +330,4 @@ impl Pair {
         let moved = found.cycle.durations[0] - at.durations[0];
         (moved.abs() <= SAME * self.period).then(|| found.orbit(Origin::ClosedForm).ok())?
     }
-}
-
-/// The roots of `f` on a piece: none, or one where it is monotone; `None` where it is neither for sure.
-fn roots_on([low, high]: [f64; 2], f: impl Fn(f64) -> f64) -> Option<Option<f64>> {
-    let place = |z: f64| 0.5 * ((1.0 - z) * low + (1.0 + z) * high);
-    let angle = |k: f64| libm::cos(std::f64::consts::PI * k / f64::from(NODES));
-    let nodes = (0..NODES).map(|k| angle(f64::from(k) + 0.5));
-    let polynomial = through(&nodes.map(|z| (z, f(place(z)))).collect::<Vec<_>>());
-    let value = |z: f64| polynomial.iter().rev().fold(0.0, |sum, c| sum * z + c);
-    let between = (0..=NODES).map(|k| angle(f64::from(k)));
-    let missed = MISSED * between.map(|z| (f(place(z)) - value(z)).abs()).fold(0.0, f64::max);
-    let [constant, slope, rest @ ..] = &polynomial[..] else { return None };
-    let others: f64 = rest.iter().map(|c| c.abs()).sum();
-    let bends: f64 = rest.iter().zip(2..).map(|(c, power)| f64::from(power) * c.abs()).sum();
-    if constant.abs() > slope.abs() + others + missed {
-        return Some(None);
-    }
-    // What is missed is a polynomial of the next degree, all but; Markov's bound of its slope.
-    let monotone = slope.abs() > bends + f64::from(NODES * NODES) * missed;
-    monotone.then(|| bisected([low, high], &f))
 }
