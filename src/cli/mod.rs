@@ -9,6 +9,7 @@ mod completions;
 mod diff;
 mod extremes;
 mod index;
+mod manual;
 mod new;
 mod optimize;
 mod output;
@@ -72,6 +73,7 @@ enum Command {
     Sweep(sweep::Arguments),
     Schema(schema::Arguments),
     Completions(completions::Arguments),
+    Manual(manual::Arguments),
 }
 
 impl Cli {
@@ -92,6 +94,7 @@ impl Cli {
             Command::Sweep(arguments) => sweep::run(arguments),
             Command::Schema(arguments) => schema::run(arguments),
             Command::Completions(arguments) => completions::run(arguments),
+            Command::Manual(arguments) => manual::run(arguments),
         }
     }
 }

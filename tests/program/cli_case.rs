@@ -126,6 +126,30 @@ fn completions_print_a_script_for_each_shell() {
     ends_with_code(&run(&["completions", "tcl"]), 2);
 }
 
+/// One page for the program and one for each command that its help lists.
+#[test]
+fn every_command_has_a_manual_page() {
+    let folder = folder();
+    let output = run_in(folder.path(), &["manual", "share/man1"]);
+    ends_with_code(&output, 0);
+    let help = text(&run(&["--help"]).stdout);
+    let listed = help.lines().skip_while(|line| *line != "Commands:");
+    let listed = listed.skip(1).take_while(|line| !line.is_empty());
+    let mut names: Vec<String> = listed
+        .filter_map(|line| line.strip_prefix("  ")?.split_once(' '))
+        .filter(|(name, _)| !name.is_empty() && *name != "help")
+        .map(|(name, _)| format!("vinesink-{name}.1"))
+        .chain(["vinesink.1".to_owned()])
+        .collect();
+    names.sort();
+    let pages = folder.path().join("share/man1");
+    assert_eq!(names_in(&pages), names);
+    let page = fs::read_to_string(pages.join("vinesink-report.1")).expect("written");
+    for mark in [".TH vinesink-report 1", ".SH OPTIONS", "Examples:", "reports"] {
+        assert!(page.contains(mark), "{mark}");
+    }
+}
+
 #[test]
 fn usage_errors_are_2_and_help_is_0() {
     for arguments in [&[][..], &["nonsense"], &["new"], &["schema", "extra"]] {

@@ -26,6 +26,7 @@ mod figure;
 mod figures;
 mod index;
 mod layers;
+mod metadata;
 mod optimize;
 mod paper;
 mod readers;

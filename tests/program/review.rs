@@ -421,29 +421,20 @@ fn the_script_refuses_stale_reports_and_reviews_what_they_should_be() {
     assert_eq!(repository.git(&["status", "--porcelain"]), "?? review.md");
 }
 
-fn workflow() -> String {
-    let workflow = fs::read_to_string(root().join("examples/github/review-reports.yml"));
-    workflow.expect("the workflow")
-}
-
-/// The commands of a step of the workflow.
+/// The commands of a step of the action.
 fn step(name: &str) -> String {
-    let workflow = workflow();
-    let from = workflow.find(&format!("- name: {name}\n")).unwrap_or_else(|| panic!("{name}"));
-    let step = &workflow[from..];
+    let action = fs::read_to_string(root().join("action.yml")).expect("the action");
+    let from = action.find(&format!("- name: {name}\n")).unwrap_or_else(|| panic!("{name}"));
+    let step = &action[from..];
     let commands = &step[step.find("run: |\n").expect("commands") + 7..];
-    let lines =
-        commands.lines().take_while(|line| line.is_empty() || line.starts_with("          "));
-    lines.map(|line| format!("{}\n", line.trim_start_matches("          "))).collect()
+    let lines = commands.lines().take_while(|line| line.is_empty() || line.starts_with("        "));
+    lines.map(|line| format!("{}\n", line.trim_start_matches("        "))).collect()
 }
 
-/// The workflow's commands, one step after the other, with a `gh` that notes what it is asked.
+/// The action's commands, one step after the other, with a `gh` that notes what it is asked.
 #[test]
-fn the_workflow_comments_once_and_fails_where_a_criterion_does() {
+fn the_action_comments_once_and_fails_where_a_criterion_does() {
     let repository = Repository::new();
-    repository.write(".github/review-reports.sh", "");
-    let script = repository.path().join(".github/review-reports.sh");
-    fs::copy(root().join("examples/ci/review-reports.sh"), &script).expect("copied");
     executable(
         &repository.bin.path().join("gh"),
         "#!/bin/sh\necho \"$*\" >>gh.log\ncase \"$*\" in *--jq*) printf '%s' \"$EARLIER\";; esac\n",
@@ -453,24 +444,40 @@ fn the_workflow_comments_once_and_fails_where_a_criterion_does() {
         let arguments = ["-e", "-o", "pipefail", "-c", &step(name)];
         repository.run("bash", &arguments, variables)
     };
-    let install = |repository: &str, commit: &str| {
-        run("Install", &[("VINESINK_GIT", repository), ("VINESINK_REV", commit)])
+    let action = root();
+    let action = ("GITHUB_ACTION_PATH", action.to_str().expect("UTF-8"));
+    assert!(run("Install", &[action]).status.success(), "it is there already");
+    // One program has one sum, which a change of a template changes.
+    let sum = |of: &str| {
+        let output = repository.path().join("sum");
+        let place =
+            [("GITHUB_ACTION_PATH", of), ("GITHUB_OUTPUT", output.to_str().expect("UTF-8"))];
+        let told = run("Version", &place);
+        assert!(told.status.success(), "{}", text(&told.stderr));
+        let read = fs::read_to_string(&output).expect("written");
+        read.lines().last().expect("a line").to_owned()
     };
-    // As it was copied, without an address.
-    let workflow = workflow();
-    let copied = |name: &str| {
-        let value = workflow.split_once(&format!("  {name}: ")).expect(name).1;
-        value.lines().next().expect("a value").to_owned()
-    };
-    let (git, rev) = ("https://forge.example/me/it", "1a2b");
-    for refused in [install(&copied("VINESINK_GIT"), rev), install(git, &copied("VINESINK_REV"))] {
-        assert_eq!(refused.status.code(), Some(1));
-        assert!(text(&refused.stdout).starts_with("::error::fill in VINESINK_GIT"));
+    let copy = TempDir::new().expect("a folder");
+    for file in ["Cargo.toml", "Cargo.lock", "build.rs", "src/lib.rs", "templates/report.md.tera"] {
+        let to = copy.path().join(file);
+        fs::create_dir_all(to.parent().expect("a folder")).expect("made");
+        fs::copy(root().join(file), to).expect("copied");
     }
-    assert!(install(git, rev).status.success(), "it is there already");
+    let place = copy.path().to_str().expect("UTF-8");
+    let first = sum(place);
+    assert!(first == sum(place) && first.len() == "sum=".len() + 64, "{first}");
+    fs::write(copy.path().join("templates/report.md.tera"), "other").expect("written");
+    assert_ne!(sum(place), first);
     let files = [("GITHUB_OUTPUT", "output"), ("GITHUB_STEP_SUMMARY", "summary")];
     let review = |check: &str| {
-        let more = [("BASE", "main"), ("CHECK", check), ("CHECK_FORMAT", "github")];
+        let more = [
+            ("BASE", "main"),
+            ("CASES", "cases/*.toml"),
+            ("REPORTS", "reports"),
+            ("CHECK", check),
+            ("CHECK_FORMAT", "github"),
+            action,
+        ];
         let output = run("Review", &[files.as_slice(), &more].concat());
         assert!(output.status.success(), "{}", text(&output.stderr));
         let read = |file: &str| fs::read_to_string(repository.path().join(file)).expect(file);
