@@ -90,7 +90,8 @@ const ONE: [(Varied, &[f64]); 7] = [
     (Varied::Frequency, &[1e-3, 0.1, 1.0, 10.0, 1e3]),
     // From a degree of Table 1 to more than its walls can throw the absorber against.
     (Varied::GravityAlong, &[1e-9, 0.01, 0.5, 10.0]),
-    (Varied::Friction, &[1e-9, 0.01, 0.3, 10.0]),
+    // Friction beyond that holds the absorber for good: nothing is left to compare.
+    (Varied::Friction, &[1e-9, 0.01, 0.3]),
 ];
 /// Excitation periods of long runs.
 const LONG: [u64; 2] = [10_000, 1_000_000];
