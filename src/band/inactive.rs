@@ -43,6 +43,9 @@ const LAST: u64 = 20;
 pub struct Inactive {
     /// Amplitude of the structure.
     pub amplitude: f64,
+    /// Its largest displacement: the weight of an absorber that rests on a wall shifts what it moves about.
+    #[serde(skip)]
+    pub peak: f64,
     /// Share of the absorber's resting places from which a start from rest stays in this motion: `1 - X/b`; all where
     /// friction or a wall hold it.
     pub share: f64,
@@ -74,14 +77,22 @@ impl Inactive {
             Rest::Floating => Self::floating(system),
             Rest::Held => {
                 let held = InTow::of(system).filter(|held| held.stays(system))?;
-                Some(Self { amplitude, share: 1.0, rest, start: held.start(system) })
+                let peak = amplitude + Self::sag(system);
+                Some(Self { amplitude, peak, share: 1.0, rest, start: held.start(system) })
             }
             Rest::Sliding => {
                 let stay: Vec<State> = resting(system, amplitude).collect();
                 let start = *stay.first()?;
-                Some(Self { amplitude, share: stay.len() as f64 / f64::from(PLACES), rest, start })
+                let share = stay.len() as f64 / f64::from(PLACES);
+                Some(Self { amplitude, peak: amplitude, share, rest, start })
             }
         }
+    }
+
+    /// How far the weight of the absorber along a tilted cavity shifts the structure, over the clearance: where it is measured
+    /// from is the place without absorber.
+    pub fn sag(system: &System) -> f64 {
+        system.mass_ratio() * system.cavity().gravity_along.abs()
     }
 
     /// How the absorber would rest in closed form, and the amplitude then.
@@ -129,7 +140,7 @@ impl Inactive {
         // Without damping the free part stays.
         let amplitude = if zeta == 0.0 { largest } else { forced.norm() };
         let share = 1.0 - largest;
-        let of = Self { amplitude, share, rest: Rest::Floating, start };
+        let of = Self { amplitude, peak: amplitude, share, rest: Rest::Floating, start };
         (share > NEGLIGIBLE).then_some(of)
     }
 }

@@ -186,7 +186,7 @@ impl Motions {
     /// That of an inactive absorber, where it counts.
     pub fn worst_inactive(&self) -> Option<Worst> {
         let (at, inactive) = self.inactive.filter(|_| self.count_inactive)?;
-        Some(Worst { at, peak: inactive.amplitude, error: 0.0, of: Source::Inactive(inactive) })
+        Some(Worst { at, peak: inactive.peak, error: 0.0, of: Source::Inactive(inactive) })
     }
 
     /// Share with an attracting symmetric 1:1 orbit.

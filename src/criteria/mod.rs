@@ -75,10 +75,11 @@ impl Seen {
         }
     }
 
-    fn inactive(amplitude: f64) -> Self {
-        let rms = amplitude / std::f64::consts::SQRT_2;
+    /// Of a sine about a place that the absorber's weight shifts.
+    fn inactive(amplitude: f64, sag: f64) -> Self {
+        let rms = libm::hypot(amplitude / std::f64::consts::SQRT_2, sag);
         Self {
-            peak: [amplitude, 0.0],
+            peak: [amplitude + sag, 0.0],
             rms: [rms, 0.0],
             impact_speed: [0.0; 2],
             impacts_per_period: [0.0; 2],

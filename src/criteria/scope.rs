@@ -127,8 +127,9 @@ impl Scope<'_> {
         let Motions { band, inactive, count_inactive: true, .. } = &self.survey.motions else {
             return None;
         };
+        let sag = Inactive::sag(&band.base);
         let value = |amplitude: f64| {
-            let [found, error] = self.of_motion(criterion, &Seen::inactive(amplitude))?;
+            let [found, error] = self.of_motion(criterion, &Seen::inactive(amplitude, sag))?;
             Some(criterion.judged(Some(found), error, Method::ClosedForm))
         };
         let at = if criterion.is_against_displacement() {

@@ -10,7 +10,7 @@
 use serde::Serialize;
 
 use crate::numerics::scatter::twice_standard_error;
-use crate::simulation::{Impact, Observer, Segment, Tangent};
+use crate::simulation::{Impact, Observer, Reversal, Segment, Tangent};
 use crate::system::{State, System};
 
 /// Periods in which a change turns into the direction that grows fastest; they are not counted.
@@ -156,6 +156,10 @@ impl Observer for Lyapunov {
 
     fn sticks(&mut self, loss: f64) {
         self.tangent.sticks(loss);
+    }
+
+    fn reversal(&mut self, reversal: &Reversal) {
+        self.tangent.reversal(reversal);
     }
 
     fn period(&mut self, _state: &State) {

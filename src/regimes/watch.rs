@@ -3,7 +3,8 @@
 use super::periodicity::{self, Periodicity};
 use super::{Evidence, Motion};
 use crate::simulation::{
-    Detail, Impact, ImpactLog, Measurement, Observer, Segment, Simulation, Statistics, Stop,
+    Detail, Impact, ImpactLog, Measurement, Observer, Reversal, Segment, Simulation, Statistics,
+    Stop,
 };
 use crate::system::State;
 
@@ -29,6 +30,9 @@ impl Observer for Watch {
     }
     fn sticks(&mut self, loss: f64) {
         self.measurement.sticks(loss);
+    }
+    fn reversal(&mut self, reversal: &Reversal) {
+        self.measurement.reversal(reversal);
     }
     fn period(&mut self, state: &State) {
         self.measurement.period(state);

@@ -141,20 +141,18 @@ pub fn inactive(
     let omega = system.frequency_ratio();
     // The absorber's amplitude over the structure's.
     let slides = 2.0 * FRAC_2_PI * cavity.friction_acceleration / (omega * omega * known.amplitude);
-    let (offset, tolerance, reason) = match known.rest {
-        Rest::Held | Rest::Floating => {
-            (system.mass_ratio() * cavity.gravity_along, ROUNDING, Reason::Rounding)
-        }
+    let (tolerance, reason) = match known.rest {
+        Rest::Held | Rest::Floating => (ROUNDING, Reason::Rounding),
         Rest::Sliding => {
             let tolerance = slides * slides;
-            (0.0, tolerance, Reason::DryFriction { says_nothing: tolerance > SAYS_NOTHING })
+            (tolerance, Reason::DryFriction { says_nothing: tolerance > SAYS_NOTHING })
         }
     };
     // What slides was simulated from rest: of the transient the square is left, 4e-11.
     let discard = window.discard.max(Transient::of(system).periods);
     let window = Window { discard, ..*window };
     let reached = Attractor::reach(system, known.start, &window)?;
-    let peaks = [known.amplitude + offset.abs(), reached.peak];
+    let peaks = [known.peak, reached.peak];
     let statement = Statement::Inactive { absorber: known.rest };
     let claim = Claim::of_number(statement, peaks, tolerance, reason);
     let rests = reached.classification.regime == Regime::AtRest;

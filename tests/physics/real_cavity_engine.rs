@@ -6,6 +6,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use crate::common;
 use crate::fuzz::{Dice, fuzz};
 use vinesink::evidence::reference::{Event, Reference, real::Real};
+use vinesink::regimes::{Effort, motions};
 use vinesink::simulation::{Impact, Observer, Reversal, Segment, Simulation};
 use vinesink::system::{Cavity, Excitation, Parameters, State, System};
 
@@ -333,4 +334,57 @@ fn friction_holds_what_it_can_where_sliding_ends() {
         (0..2).for_each(|k| seen[k] += holds.seen[k]);
     }
     assert!(seen.iter().all(|count| *count > 300), "{seen:?}");
+}
+
+/// Whatever watches a trajectory measures it alike where friction turns the absorber in flight: a foot of a machine at 12 Hz,
+/// the track inclined by 30 degrees, the absorber chattering on its lower wall.
+#[test]
+fn a_motion_that_friction_turns_is_measured_alike() {
+    let (clearance, natural, mass_ratio) = (1.731e-3, TAU * 12.0, 0.01);
+    let gravity = 9.806_65 / (clearance * natural * natural);
+    let tilt = 30.0_f64.to_radians();
+    let system = System::new(Parameters {
+        mass_ratio,
+        damping: 2.0,
+        restitution: 0.55,
+        frequency_ratio: 11.82 / 12.0,
+        forcing_per_clearance: 60.0 / (400.0 * natural * natural * mass_ratio * clearance),
+        excitation: Excitation::Force,
+        cavity: Cavity {
+            gravity_along: gravity * libm::sin(tilt),
+            friction_acceleration: 0.02 * gravity * libm::cos(tilt),
+            restitution_difference: 0.1,
+        },
+    })
+    .expect("valid");
+    let start = State { x: 0.0, x_velocity: 0.1, y: 0.0, y_velocity: 0.0 };
+    let found = &motions(&[(system, vec![start])], &Effort::over(200)).expect("inside")[0][0];
+    assert_eq!(found.repeats_after, Some(1));
+    let mut simulation = Simulation::new(&system, start, 0.0).expect("inside");
+    simulation.run(3000, u64::MAX, &mut ());
+    // By the midpoint rule in steps of 1e-3 within flights: off by some 1e-7.
+    let mut sampled = Squares::default();
+    simulation.run(10, u64::MAX, &mut sampled);
+    let rms = (sampled.sum / sampled.time).sqrt();
+    // A motion is measured once its periods agree to 1e-6, while its transient fades by some per cent in each.
+    assert!((found.rms / rms - 1.0).abs() < 1e-4, "{} {rms}", found.rms);
+}
+
+/// The integral of the oscillator's squared displacement.
+#[derive(Default)]
+struct Squares {
+    sum: f64,
+    time: f64,
+}
+
+impl Observer for Squares {
+    fn segment(&mut self, segment: &Segment) {
+        const STEP: f64 = 1e-3;
+        let steps = (segment.duration / STEP).ceil();
+        for k in 0..steps as u32 {
+            let x = segment.at(segment.duration * (f64::from(k) + 0.5) / steps).x;
+            self.sum += x * x * segment.duration / steps;
+        }
+        self.time += segment.duration;
+    }
 }

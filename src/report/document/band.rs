@@ -20,7 +20,7 @@ const CURVE_DIGITS: usize = 7;
 /// A motion in which the absorber stays at rest; `within` is half the width in which it rests.
 pub fn inactive(scale: &Scale, of: &Inactive, at: Option<Quantity>, counted: bool) -> Value {
     let mut told = json!({
-        "peak": scale.length(&of::INACTIVE_PEAK, of.amplitude, ClosedForm),
+        "peak": scale.length(&of::INACTIVE_PEAK, of.peak, ClosedForm),
         "at": at,
         "share": Quantity::new(&of::INACTIVE_SHARE, of.share, ClosedForm),
         "within": scale.length(&of::CLEARANCE, of.share, ClosedForm),

@@ -72,7 +72,7 @@ fn beside_orbits(scene: &Scene, survey: &Survey) -> Vec<([f64; 2], String)> {
         if let Some(inactive) = place.inactive.filter(|_| survey.motions.count_inactive) {
             let share = scene.text(&of::INACTIVE_SHARE, inactive.share);
             let what = format!("inactive absorber, from {share} of its resting places");
-            found.push(([place.at, inactive.amplitude], what));
+            found.push(([place.at, inactive.peak], what));
         }
     }
     found

@@ -275,7 +275,7 @@ fn places(over: BandOver, found: &Optimization) -> Vec<Value> {
             "orbit": one.orbit.map(peak),
             "motions": one.motions.len(),
             "largest": largest,
-            "inactive": one.inactive.map(|one| peak(one.amplitude)),
+            "inactive": one.inactive.map(|one| peak(one.peak)),
             "inactive_share": one.inactive.map(|one| one.share),
         })
     });
