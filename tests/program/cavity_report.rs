@@ -164,7 +164,7 @@ fn what_is_not_so_is_refuted() {
     let base = system("restitution = 0.6\nfriction = \"20 %\"\n").parameters();
     let quiet = System::new(Parameters { forcing_per_clearance: 0.4, ..base }).expect("valid");
     let known = Inactive::of(&quiet).expect("held");
-    let wrong = Inactive { amplitude: 1.001 * known.amplitude, ..known };
+    let wrong = Inactive { peak: 1.001 * known.peak, ..known };
     let (analysis, exact) = (Analysis::of(&quiet).expect("theory"), FullSystem::of(&quiet));
     let found = confront_simulation(&analysis, &exact, Some(&wrong), &[], &WINDOW).expect("runs");
     assert_eq!(ids_of(&found, Verdict::Refuted), ["inactive"]);
