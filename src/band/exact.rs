@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::{Band, Stretch};
 use crate::numerics::quadrature::nodes;
 use crate::numerics::scan::{largest, sign_changes};
-use crate::orbits::{Orbit, SteadyOrbit, steady_orbit, symmetric_orbits, two_impact_orbits};
+use crate::orbits::{SteadyOrbit, one_to_one_orbits, steady_orbit};
 
 /// Pieces of a band in which beginnings and ends of stability are looked for. What decides it,
 /// multipliers and room between impacts, is smooth along an orbit; pairs of changes within a piece
@@ -34,12 +34,7 @@ pub fn stability(band: &Band) -> Vec<Stretch<bool>> {
 /// change their stability, touch a wall or meet one another.
 fn strength(band: &Band, at: f64) -> f64 {
     let Ok(system) = band.system(at) else { return f64::NAN };
-    let orbits = if system.cavity().is_ideal() {
-        symmetric_orbits(&system).map(|found| found.into_iter().map(|one| one.orbit).collect())
-    } else {
-        two_impact_orbits(&system).map(|found| found.orbits)
-    };
-    let Ok(orbits): Result<Vec<Orbit>, _> = orbits else { return f64::NAN };
+    let Ok(orbits) = one_to_one_orbits(&system) else { return f64::NAN };
     let each = orbits.iter().map(|orbit| {
         let inside = 1.0 - orbit.multipliers.spectral_radius();
         let room = orbit.admissibility.min_wall_distance;

@@ -48,6 +48,22 @@ impl Scales {
         length / self.clearance
     }
 
+    /// The inclination in rad of a cavity along which gravity accelerates by so much over `b omega0^2`; none where that is
+    /// more than gravity.
+    pub fn inclination(&self, along: f64) -> Option<f64> {
+        let sine = self.acceleration(along) / STANDARD_GRAVITY.size;
+        (sine.abs() <= 1.0).then(|| libm::asin(sine))
+    }
+
+    /// The coefficient of friction in a cavity by the accelerations of gravity along it and of friction, over
+    /// `b omega0^2`; none where gravity does not press on it.
+    pub fn friction(&self, accelerations: [f64; 2]) -> Option<f64> {
+        let [sine, friction] =
+            accelerations.map(|one| self.acceleration(one) / STANDARD_GRAVITY.size);
+        let coefficient = friction / ((1.0 - sine) * (1.0 + sine)).sqrt();
+        coefficient.is_finite().then_some(coefficient)
+    }
+
     /// The frequency of a frequency ratio `Omega`: in Hz, or the ratio itself for a reduced design.
     pub fn frequency(&self, ratio: f64) -> f64 {
         ratio * self.natural_frequency / self.turn()

@@ -21,7 +21,6 @@ const FREQUENCIES: [f64; 2] = [0.5, 2.0];
 /// Clearances, and forcings, over the system's own between which the attracting orbit of a cavity that is not ideal is
 /// followed.
 const CLEARANCES: [f64; 2] = [0.05, 20.0];
-
 /// Gravity along the cavity and friction, over `b omega0^2`, up to which limits are looked for: accelerations of the
 /// oscillator are about 1.
 const LARGEST_ACCELERATION: f64 = 20.0;

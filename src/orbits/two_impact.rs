@@ -153,6 +153,17 @@ pub fn steady_orbit(system: &System) -> Option<SteadyOrbit> {
 ///
 /// # Errors
 /// As [`two_impact_orbits`].
+pub fn one_to_one_orbits(system: &System) -> Result<Vec<Orbit>, OrbitError> {
+    if system.cavity().is_ideal() {
+        return Ok(symmetric_orbits(system)?.into_iter().map(|one| one.orbit).collect());
+    }
+    Ok(two_impact_orbits(system)?.orbits)
+}
+
+/// The same, measured.
+///
+/// # Errors
+/// As [`two_impact_orbits`].
 pub fn steady_orbits(system: &System) -> Result<Vec<SteadyOrbit>, OrbitError> {
     if system.cavity().is_ideal() {
         return Ok(symmetric_orbits(system)?.into_iter().map(SteadyOrbit::from).collect());

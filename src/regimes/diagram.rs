@@ -114,10 +114,10 @@ impl DiagramPoint {
         let mut simulation = Simulation::new(system, motion.state, 0.0)?;
         let mut watch = Watch::begin(&simulation);
         let periods = MOST_POINTS as u64;
-        let stop = simulation.run(periods, MOST_IMPACTS, &mut watch);
+        let stop = simulation.run(periods, MOST_IMPACTS, &mut watch.observers);
         let records = watch.statistics().records();
         let period_peaks: Vec<f64> = records.iter().map(|one| unit * one.peak).collect();
-        let impacts = &watch.log.impacts;
+        let impacts = watch.impacts();
         let impacts = &impacts[impacts.len().saturating_sub(MOST_POINTS + 1)..];
         let interval = |two: &[Impact]| (two[1].tau - two[0].tau) / system.period();
         Ok(Self {

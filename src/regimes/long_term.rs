@@ -175,7 +175,8 @@ impl Group {
 
     /// Goes on with its watches.
     fn watched(mut self, extents: &[Extent], mut watches: Vec<Watch>) -> Vec<(Ended, Watch)> {
-        let stops = self.run(extents, &mut watches);
+        let mut told: Vec<_> = watches.iter_mut().map(|one| &mut one.observers).collect();
+        let stops = self.run(extents, &mut told);
         let simulations = self.indices.into_iter().zip(self.simulations).zip(stops);
         let ended = |((index, simulation), stop)| Ended { index, simulation, stop };
         simulations.map(ended).zip(watches).collect()

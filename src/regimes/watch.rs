@@ -2,41 +2,15 @@
 
 use super::periodicity::{self, Periodicity};
 use super::{Evidence, Motion};
-use crate::simulation::{
-    Detail, Impact, ImpactLog, Measurement, Observer, Reversal, Segment, Simulation, Statistics,
-    Stop,
-};
-use crate::system::State;
+use crate::simulation::{Impact, ImpactLog, Measurement, Simulation, Statistics, Stop};
 
 /// Impacts that are kept to tell a regime by: their intervals are averaged.
 const KEPT_IMPACTS: usize = 1000;
 
 /// Measures one trajectory and keeps its last impacts.
 pub(super) struct Watch {
-    measurement: Measurement,
-    pub log: ImpactLog,
-}
-
-impl Observer for Watch {
-    fn detail(&self) -> Detail {
-        self.measurement.detail()
-    }
-    fn segment(&mut self, segment: &Segment) {
-        self.measurement.segment(segment);
-    }
-    fn impact(&mut self, impact: &Impact) {
-        self.log.impact(impact);
-        self.measurement.impact(impact);
-    }
-    fn sticks(&mut self, loss: f64) {
-        self.measurement.sticks(loss);
-    }
-    fn reversal(&mut self, reversal: &Reversal) {
-        self.measurement.reversal(reversal);
-    }
-    fn period(&mut self, state: &State) {
-        self.measurement.period(state);
-    }
+    /// What is told of the trajectory.
+    pub(super) observers: (Measurement, ImpactLog),
 }
 
 impl Watch {
@@ -52,10 +26,8 @@ impl Watch {
 
     fn after(periods: u64, simulation: &Simulation) -> Self {
         let (system, state) = (simulation.system(), simulation.state());
-        Self {
-            measurement: Measurement::after(periods, system, state),
-            log: ImpactLog::of_the_last(KEPT_IMPACTS),
-        }
+        let measurement = Measurement::after(periods, system, state);
+        Self { observers: (measurement, ImpactLog::of_the_last(KEPT_IMPACTS)) }
     }
 
     /// How what has been seen so far repeats.
@@ -65,7 +37,12 @@ impl Watch {
 
     /// What has been measured so far.
     pub fn statistics(&mut self) -> &Statistics {
-        self.measurement.statistics()
+        self.observers.0.statistics()
+    }
+
+    /// The impacts that are kept.
+    pub fn impacts(&self) -> &[Impact] {
+        &self.observers.1.impacts
     }
 
     /// The motion measured; none where the trajectory came to a bad end.
@@ -73,9 +50,10 @@ impl Watch {
         if !matches!(stop, Stop::EndTime | Stop::ImpactLimit) {
             return None;
         }
-        let statistics = self.measurement.statistics();
+        let (measurement, log) = &mut self.observers;
+        let statistics = measurement.statistics();
         let period = simulation.system().period();
-        let evidence = Evidence::of_impacts(statistics, &self.log.impacts, period);
+        let evidence = Evidence::of_impacts(statistics, &log.impacts, period);
         Some(Motion::of(statistics, &evidence, simulation, stop))
     }
 }

@@ -229,7 +229,30 @@ impl Observer for () {
     }
 }
 
-impl<A: Observer, B: Observer> Observer for (&mut A, &mut B) {
+/// What is lent to be told.
+impl<O: Observer + ?Sized> Observer for &mut O {
+    fn detail(&self) -> Detail {
+        (**self).detail()
+    }
+    fn segment(&mut self, segment: &Segment) {
+        (**self).segment(segment);
+    }
+    fn impact(&mut self, impact: &Impact) {
+        (**self).impact(impact);
+    }
+    fn sticks(&mut self, loss: f64) {
+        (**self).sticks(loss);
+    }
+    fn reversal(&mut self, reversal: &Reversal) {
+        (**self).reversal(reversal);
+    }
+    fn period(&mut self, state: &State) {
+        (**self).period(state);
+    }
+}
+
+/// Both are told. Whoever keeps two observers keeps such a pair: one that passes events on by itself may forget one.
+impl<A: Observer, B: Observer> Observer for (A, B) {
     fn detail(&self) -> Detail {
         self.0.detail().max(self.1.detail())
     }

@@ -60,6 +60,6 @@ pub fn confront_simulation(
     }
     claims.extend(orbits::limits(exact)?);
     claims.extend(motions::rest(analysis, window)?);
-    claims.extend(motions::area(analysis, attractors));
+    claims.push(motions::area(analysis, attractors));
     Ok(claims)
 }

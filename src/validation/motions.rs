@@ -119,7 +119,7 @@ pub fn rest(analysis: &Analysis, window: &Window) -> Result<Option<Claim>, Start
 /// What area and strip say of the attractors found. Beside a motion that repeats a chaotic one may be a
 /// transient, and whether a start's is over by the end of the time that it is watched is chance, which
 /// the rounding of the last digit decides: what follows from such starts alone is undecided.
-pub fn area(analysis: &Analysis, attractors: &[FoundAttractor]) -> Option<Claim> {
+pub fn area(analysis: &Analysis, attractors: &[FoundAttractor]) -> Claim {
     let moving = attractors.iter().filter(|found| found.regime() != Regime::AtRest);
     let (steady, others): (Vec<_>, Vec<_>) =
         moving.partition(|found| found.regime() == Regime::TwoSymmetric);
@@ -146,19 +146,20 @@ pub fn area(analysis: &Analysis, attractors: &[FoundAttractor]) -> Option<Claim>
         }
         (Area::Z3, Some(Strip::A2)) => (Finding::StronglyModulated, modulated && !steady, false),
         // Two asymmetric impacts that have doubled their period are unstable.
-        (Area::Z2, _) if beyond_doubling => (Finding::NotSteady, !steady && beside, false),
-        (Area::Z4, _) => (Finding::NotSteady, !steady && beside, false),
-        (Area::Z2, _) => (Finding::TwoAsymmetric, among(Regime::TwoAsymmetric), false),
+        (Area::Z2, _) if !beyond_doubling => {
+            (Finding::TwoAsymmetric, among(Regime::TwoAsymmetric), false)
+        }
+        (Area::Z2 | Area::Z4, _) => (Finding::NotSteady, !steady && beside, false),
         (Area::Z1, _) => (Finding::AboveTwo, among(Regime::AboveTwo), false),
     };
     let shares = attractors.iter().map(|found| (found.regime(), found.share)).collect();
     let open = by_chance || !steady && !beside;
-    Some(Claim::of_outcome(
+    Claim::of_outcome(
         Statement::Area { area, strip },
         [predicted, Finding::Regimes { shares }],
         Reason::Starts { near: near_boundary(analysis), by_chance },
         if open { Verdict::Undecided } else { Verdict::of(holds) },
-    ))
+    )
 }
 
 /// The nearest boundary, where it is within the theory's error: an area is only as certain as that.

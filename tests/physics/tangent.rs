@@ -8,7 +8,7 @@ use crate::common;
 use vinesink::regimes::diagram::carried_over;
 use vinesink::regimes::lyapunov::{Exponent, Lyapunov};
 use vinesink::regimes::starts::StartBox;
-use vinesink::simulation::{Measurement, Observer, Simulation, Tangent};
+use vinesink::simulation::{Measurement, Observer, Reversal, Simulation, Tangent};
 use vinesink::system::{Cavity, Excitation, Parameters, State, System};
 
 const UNIT: [[f64; 4]; 4] =
@@ -237,6 +237,37 @@ fn a_stable_motion_has_the_exponent_of_its_multipliers() {
         assert!(found.converged && found.interval[1] < 0.0, "{found:?}");
         assert!(found.interval[0] <= expected + 1e-4 && expected - 1e-4 <= found.interval[1]);
     }
+}
+
+/// Where friction turns the absorber in flight the exponent is still that of the tangent, which finite differences judge: as
+/// one tangent that is never made smaller grows on the same trajectory.
+#[test]
+fn the_exponent_knows_of_slip_reversals() {
+    #[derive(Default)]
+    struct Reversals(u32);
+    impl Observer for Reversals {
+        fn reversal(&mut self, _: &Reversal) {
+            self.0 += 1;
+        }
+    }
+    let ideal = common::table_1(8.0, 2.5);
+    let cavity = Cavity { friction_acceleration: 0.1, ..Cavity::IDEAL };
+    let system = System::new(Parameters { cavity, ..ideal.parameters() }).expect("valid");
+    let mut simulation = Simulation::new(&system, START, 0.0).expect("inside the cavity");
+    simulation.run(500, u64::MAX, &mut ());
+    let mut tangent = Tangent::begin(&system, state([0.5, -0.3, 0.2, 0.7]));
+    let (mut lyapunov, mut reversals) = (Lyapunov::begin(&system), Reversals::default());
+    let mut logarithm = |periods| {
+        let all = &mut ((&mut tangent, &mut lyapunov), &mut reversals);
+        simulation.run(periods, u64::MAX, all);
+        libm::log(tangent.size())
+    };
+    // The exponent leaves out twenty periods in which changes align, and counts by powers of two.
+    let before = logarithm(20);
+    let rate = (logarithm(256) - before) / 256.0;
+    let found = lyapunov.exponent().expect("long enough").per_period;
+    assert!(reversals.0 > 256, "{}", reversals.0);
+    assert!((found - rate).abs() < 1e-9, "{found} {rate}");
 }
 
 /// Two neighbours on a chaotic motion part at the rate of the exponent: the mean logarithm of how far

@@ -3,7 +3,6 @@
 use crate::case::{BandOver, Case, Scales};
 use crate::method::Method;
 use crate::quantity::catalogue as of;
-use crate::quantity::units::STANDARD_GRAVITY;
 use crate::quantity::{Kind, Quantity, Units};
 use crate::system::Parameter;
 
@@ -106,27 +105,27 @@ impl Scale {
         Quantity::new(self.excitation.0, over_own * self.excitation.1, method)
     }
 
-    /// The tilt of a cavity by gravity's acceleration along it over `b omega0^2`; none where that is more than gravity's
-    /// own.
+    /// The tilt of a cavity, or gravity along it for a reduced case; none where that is more than gravity.
     pub fn tilt(&self, acceleration: f64, method: Method) -> Option<Quantity> {
-        if !self.scales.physical {
-            return Some(Quantity::new(&of::GRAVITY_ALONG, acceleration, method));
+        match self.scales.physical {
+            false => Some(Quantity::new(&of::GRAVITY_ALONG, acceleration, method)),
+            true => {
+                let tilt = self.scales.inclination(acceleration)?;
+                Some(Quantity::new(&of::INCLINATION, tilt, method))
+            }
         }
-        let sine = self.scales.acceleration(acceleration) / STANDARD_GRAVITY.size;
-        let tilt = || Quantity::new(&of::INCLINATION, libm::asin(sine), method);
-        (sine.abs() <= 1.0).then(tilt)
     }
 
-    /// Friction of a cavity on which gravity's acceleration is `along`, by its own, both over `b omega0^2`: the coefficient,
-    /// or the acceleration for a reduced case.
-    pub fn friction(&self, [along, acceleration]: [f64; 2], method: Method) -> Option<Quantity> {
-        if !self.scales.physical {
-            return Some(Quantity::new(&of::FRICTION_ACCELERATION, acceleration, method));
+    /// The coefficient of friction of a cavity with such accelerations by gravity and friction, or the latter for a reduced
+    /// case.
+    pub fn friction(&self, accelerations: [f64; 2], method: Method) -> Option<Quantity> {
+        match self.scales.physical {
+            false => Some(Quantity::new(&of::FRICTION_ACCELERATION, accelerations[1], method)),
+            true => {
+                let coefficient = self.scales.friction(accelerations)?;
+                Some(Quantity::new(&of::FRICTION, coefficient, method))
+            }
         }
-        let [along, by_friction] =
-            [along, acceleration].map(|one| self.scales.acceleration(one) / STANDARD_GRAVITY.size);
-        let coefficient = by_friction / ((1.0 - along) * (1.0 + along)).sqrt();
-        coefficient.is_finite().then(|| Quantity::new(&of::FRICTION, coefficient, method))
     }
 
     /// A place of a band.
