@@ -37,11 +37,15 @@ fn system(keys: &str) -> System {
 }
 
 fn printed(text: &str, arguments: &[&str]) -> String {
+    told("analyze", text, arguments)
+}
+
+fn told(command: &str, text: &str, arguments: &[&str]) -> String {
     let folder = tempfile::tempdir().expect("a folder");
     fs::write(folder.path().join("case.toml"), text).expect("written");
-    let mut command = Command::new(env!("CARGO_BIN_EXE_vinesink"));
-    let command = command.current_dir(folder.path()).args(["analyze", "case.toml"]);
-    let output = command.args(arguments).output().expect("it runs");
+    let mut program = Command::new(env!("CARGO_BIN_EXE_vinesink"));
+    let program = program.current_dir(folder.path()).args([command, "case.toml"]);
+    let output = program.args(arguments).output().expect("it runs");
     assert_eq!(output.status.code(), Some(0), "{output:?}");
     String::from_utf8(output.stdout).expect("UTF-8")
 }
@@ -199,5 +203,28 @@ fn limits_of_the_forcing_are_those_of_the_orbit() {
         let reciprocals = margins.clearance.map(|end| 1.0 / end.expect("an end").factor);
         let off = (low / reciprocals[1] - 1.0).abs().max((high / reciprocals[0] - 1.0).abs());
         assert!(off > 0.01, "{keys} {off}");
+    }
+}
+
+/// The weight of an absorber on the lower wall shifts the structure: `check`, by closed form, has the peak and the root mean
+/// square of `simulate`.
+#[test]
+fn the_absorbers_weight_counts_in_criteria() {
+    let steep = with("restitution = 0.6\ninclination = \"30 deg\"\n")
+        .replace("amplitude = \"0.25 mm\"", "amplitude = \"0.02 mm\"");
+    let text = format!(
+        "{steep}\n[criteria]\npeak_displacement = \"<= 1 m\"\nrms_displacement = \"<= 1 m\"\n"
+    );
+    let read = |command| -> Value {
+        serde_json::from_str(&told(command, &text, &["--format", "json"])).expect("JSON")
+    };
+    let (checked, simulated) = (read("check"), read("simulate"));
+    let criteria = &checked["cases"][0]["criteria"];
+    let motion = &simulated["displacement"];
+    for (k, key) in ["peak", "rms"].into_iter().enumerate() {
+        assert_eq!(criteria[k]["decided_by"], "closed-form");
+        let [found, seen] =
+            [&criteria[k]["found"], &motion[key]].map(|one| one.as_f64().expect(key));
+        assert!((found / seen - 1.0).abs() < 1e-9, "{key}: {found} {seen}");
     }
 }
