@@ -5,17 +5,11 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use miette::{IntoDiagnostic, Result, miette};
-use vinesink::band::{Survey, SurveySettings};
-use vinesink::case::{Case, ExtraFigure};
-use vinesink::criteria;
 use vinesink::method::Method;
-use vinesink::report::document::{self, Source};
-use vinesink::report::figure::Figure;
 use vinesink::report::render::{self, Files};
-use vinesink::report::{equations, figures, template};
+use vinesink::report::written::Report;
 use vinesink::store;
 use vinesink::study::fidelity::Plan;
-use vinesink::study::plots::Plot;
 use vinesink::study::{CaseStudy, StudyEffort};
 
 use super::budget::{Long, Work};
@@ -159,65 +153,16 @@ fn rendered(path: &Path, name: &str, arguments: &Arguments) -> Result<(Files, bo
     }
     arguments.long.allows(path, &case, &work)?;
     let progress = Progress::new(name, CaseStudy::steps(&effort) + FURTHER_STEPS);
-    let study = match simulates {
-        true => CaseStudy::of(&case.system(), effort, &mut |done| progress.advance(done)),
-        false => CaseStudy::without_simulation(&case.system(), effort),
-    };
-    let mut study = study.into_diagnostic()?;
-    if simulates && case.report.figures.contains(&ExtraFigure::Dissipation) {
-        study = study.with_averages().into_diagnostic()?;
-    }
-    if deviates {
-        study = study.with_deviations(&case).into_diagnostic()?;
-    }
-    if case.band.is_some() {
-        // Simulated if the study is, and also with the structure detuned.
-        let mut settings = criteria::settings(&case);
-        settings.sampling = simulates.then(|| criteria::sampling(&case));
-        let survey = survey(&case, &settings)?;
-        study = study.along(survey.with_detuned(&settings, &Parallel).into_diagnostic()?);
-    }
-    let answers = plan.map(|plan| plan.answers(study.simulated_motions())).transpose();
-    let answers = answers.into_diagnostic()?;
-    let judged = match &study.band {
-        _ if case.criteria.is_empty() => Vec::new(),
-        Some(survey) if simulates || !criteria::needs_simulation(&case.criteria) => {
-            criteria::judge(&case, survey)
-        }
-        _ => criteria::judge(&case, &survey(&case, &criteria::settings(&case))?),
-    };
-    let drawn = drawn(&case, &study)?;
+    let mut advance = |done| progress.advance(done);
+    let report =
+        Report::of(name, &case, plan.as_ref(), &Parallel, &mut advance).into_diagnostic()?;
     progress.advance(FURTHER_STEPS / 2);
-    let document = document::document(&Source {
-        name,
-        case: &case,
-        study: &study,
-        judged: &judged,
-        answers: answers.as_ref(),
-        figures: &drawn,
-    });
     // As `simulate`: what is not to be trusted is written down, and does not pass for an answer.
-    let trusted = study.simulated_motions().is_none_or(|motions| {
-        motions.attractors.iter().all(|found| found.attractor.doubts().is_empty())
-    });
+    let trusted = report.trusted();
     if !trusted {
         output::complain(&format!(
             "{name}: a simulation is not to be trusted; its report says why"
         ));
     }
-    let equations = equations::groups(&case, &study);
-    let files = render::files(&document, &equations, &document::units(&case), &drawn);
-    let enough = answers.is_none_or(|answers| answers.enough());
-    Ok((files.into_diagnostic()?, trusted && enough))
-}
-
-/// The same survey as that of `check`.
-fn survey(case: &Case, settings: &SurveySettings) -> Result<Survey> {
-    Survey::of(&criteria::range(case), settings, &Parallel).into_diagnostic()
-}
-
-/// All figures of a report, with their words.
-pub fn drawn(case: &Case, study: &CaseStudy) -> Result<Vec<Figure>> {
-    let plots = Plot::all(case, study).into_diagnostic()?;
-    template::worded(figures::all(case, study, &plots), &document::units(case)).into_diagnostic()
+    Ok((report.files(&case).into_diagnostic()?, trusted && report.exact_enough()))
 }

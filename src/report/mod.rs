@@ -16,5 +16,6 @@ pub mod stored;
 pub mod sweep;
 pub mod template;
 pub mod transient;
+pub mod written;
 
 pub mod equations;
