@@ -4,13 +4,15 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use miette::{IntoDiagnostic, Result, miette};
+use miette::{Context as _, IntoDiagnostic, Result, miette};
 use vinesink::method::Method;
+use vinesink::report::live;
 use vinesink::report::render::{self, Files};
 use vinesink::report::written::Report;
 use vinesink::store;
 use vinesink::study::fidelity::Plan;
 use vinesink::study::{CaseStudy, StudyEffort};
+use vinesink::transient::Scene;
 
 use super::budget::{Long, Work};
 use super::parallel::Parallel;
@@ -39,6 +41,16 @@ pub struct Arguments {
     /// report.html is not looked at: it is the same report once more
     #[arg(long)]
     check: bool,
+    /// Add the live page to report.html, which stays one file: PAGE, or `vinesink-live.html` beside the program
+    #[arg(
+        long,
+        value_name = "PAGE",
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = "",
+        conflicts_with = "check"
+    )]
+    live: Option<PathBuf>,
     #[command(flatten)]
     long: Long,
 }
@@ -48,6 +60,7 @@ Examples:
   vinesink report cases/li2016-8p5hz-fig4c.toml
   vinesink report cases/*.toml --out /somewhere/else
   vinesink report damper.toml --fidelity orbit     without any simulation
+  vinesink report damper.toml --live               with sliders in report.html
   vinesink report --check cases/*.toml             are the reports in reports/ up to date?";
 
 /// Steps of the progress bar beyond the study: figures, files.
@@ -99,10 +112,36 @@ fn names(cases: &[PathBuf]) -> Result<Vec<String>> {
 /// Writes one report; what was asked of accuracy does not hold where a layer that was insisted on, or
 /// the longest simulation, is not exact enough.
 fn write(path: &Path, name: &str, folder: &Path, arguments: &Arguments) -> Result<bool> {
-    let (files, holds) = rendered(path, name, arguments)?;
+    let (mut files, holds) = rendered(path, name, arguments)?;
+    if let Some(page) = &arguments.live {
+        add_live_page(&mut files, page, path)?;
+    }
     store::replace_folder(folder, &files, render::is_of_report)?;
     output::print_path(&folder.join("report.md"))?;
     Ok(holds)
+}
+
+/// Adds the live page to `report.html` of a case under steady excitation.
+fn add_live_page(files: &mut Files, page: &Path, path: &Path) -> Result<()> {
+    let (case, text) = case_file::parsed(path)?;
+    if case.design.scene() != Scene::Steady {
+        return Err(miette!(
+            help = "leave out --live",
+            "the live page shows steady vibration, which {} is not",
+            path.display()
+        ));
+    }
+    let page = match page.as_os_str().is_empty() {
+        true => std::env::current_exe().into_diagnostic()?.with_file_name("vinesink-live.html"),
+        false => page.to_owned(),
+    };
+    let live = store::read_text(&page)
+        .wrap_err("--live needs the live page: `web/build` makes it, releases bring it along")?;
+    let file = files.entry("report.html".into()).or_default();
+    let report = String::from_utf8_lossy(file);
+    let whole = live::embed(&report, &live, &text).into_diagnostic();
+    *file = whole.wrap_err_with(|| page.display().to_string())?.into_bytes();
+    Ok(())
 }
 
 /// Says which files of a report are not as [`write()`] would leave them.

@@ -8,6 +8,7 @@ pub mod figure;
 pub mod figures;
 pub mod html;
 pub mod index;
+pub mod live;
 pub mod mathml;
 pub mod optimize;
 pub mod render;
