@@ -7,6 +7,7 @@ import csv
 import json
 import subprocess
 import sys
+import tempfile
 from math import cos, pi, sin
 
 import numpy as np
@@ -49,8 +50,10 @@ def flight(tau, s, end):
 
 # 1. Impact times of one start, from phase 0.
 periods = int(sys.argv[2])
-vinesink("simulate", case, "--initial", "0,0,0,1", "--discard", "0", "--periods", str(periods), "--impacts", "impacts.csv")
-expected = np.array([float(row["tau"]) for row in csv.DictReader(open("impacts.csv"))])
+with tempfile.NamedTemporaryFile("r", suffix=".csv") as impacts:
+    run = ("--initial", "0,0,0,1", "--discard", "0", "--periods", str(periods), "--impacts", impacts.name)
+    vinesink("simulate", case, *run)
+    expected = np.array([float(row["tau"]) for row in csv.DictReader(open(impacts.name))])
 state, times = (0.0, np.array([0.0, 0.0, 0.0, 1.0])), []
 while (state := flight(*state, periods * 2 * pi / omega)) is not None:
     times.append(state[0])
