@@ -12,7 +12,6 @@
 //! tilted cavity hits that wall again and again. In a level one it slides: the structure moves as under dry friction
 //! (Den Hartog, 1931, at first order in it), the absorber by `4 f/(pi Omega^2)` a quarter of a period later.
 
-use nalgebra::Complex;
 use serde::Serialize;
 
 use super::Band;
@@ -126,19 +125,19 @@ impl Inactive {
         let [zeta, omega] =
             [0.5 * system.mass_ratio() * system.damping(), system.frequency_ratio()];
         let start = steady.state(system);
-        let forced = Complex::new(start.x, -start.x_velocity / omega);
-        if forced.norm() >= 1.0 {
+        let forced = libm::hypot(start.x, start.x_velocity / omega);
+        if forced >= 1.0 {
             return None;
         }
         // An overdamped structure has no free oscillation; its free motion is never larger than this.
         let natural = (1.0 - zeta * zeta).max(0.0).sqrt();
         let free = match natural {
-            0.0 => forced.norm(),
+            0.0 => forced,
             _ => libm::hypot(start.x, (zeta * start.x - start.x_velocity) / natural),
         };
-        let largest = largest_from_rest(forced.norm(), free, zeta, (natural - omega).abs());
+        let largest = largest_from_rest(forced, free, zeta, (natural - omega).abs());
         // Without damping the free part stays.
-        let amplitude = if zeta == 0.0 { largest } else { forced.norm() };
+        let amplitude = if zeta == 0.0 { largest } else { forced };
         let share = 1.0 - largest;
         let of = Self { amplitude, peak: amplitude, share, rest: Rest::Floating, start };
         (share > NEGLIGIBLE).then_some(of)

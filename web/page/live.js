@@ -83,6 +83,10 @@ function make(tag, attributes = {}, ...children) {
 
 function Live(place) {
   // The case as text, its sliders, and what was before and after it.
+  // A page that has this one in a frame may ask for some figures and sliders alone: #show=sim&sliders=restitution.
+  const asks = new URLSearchParams(location.hash.slice(1)), list = (key) => asks.get(key)?.split(",");
+  const shown = list("show"), chosen = list("sliders");
+  const wanted = (name) => !shown || shown.includes(name);
   let text = "", controls = [], past = [], future = [], asked = 0, waiting = null;
   const values = new Map(), sliders = new Map(), figures = new Map();
   let here, desks;
@@ -114,9 +118,10 @@ function Live(place) {
       return;
     }
     const presets = here.ask({ ask: "presets" });
+    document.body.classList.toggle("live-small", Boolean(shown));
+    const parts = [["verdict", verdict], ["running", running.figure]].filter(([name]) => wanted(name)).map(([, part]) => part);
     place.replaceChildren(bar(presets), problem, make("div", { class: "live-columns" },
-      make("div", { class: "live-left" }, panel),
-      make("div", {}, verdict, running.figure, board)), status);
+      make("div", { class: "live-left" }, panel), make("div", {}, ...parts, board)), status);
     const own = document.getElementById("live-case")?.textContent;
     open(await linked() ?? own ?? presets[2][1]);
     settled().then(warm);
@@ -156,7 +161,7 @@ function Live(place) {
     return `${location.href.split("#")[0]}#case=${code}`;
   }
   async function linked() {
-    const code = location.hash.match(/^#case=([\w-]+)$/)?.[1];
+    const code = asks.get("case");
     if (!code) return null;
     try {
       const bytes = Uint8Array.from(atob(code.replaceAll("-", "+").replaceAll("_", "/")), (c) => c.charCodeAt(0));
@@ -189,6 +194,7 @@ function Live(place) {
     place.dataset.title = answer.title;
     sliders.clear();
     panel.replaceChildren(make("h3", {}, answer.title), ...controls.map(slider));
+    panel.querySelectorAll(".live-slider").forEach((one, k) => { one.hidden = chosen && !chosen.includes(controls[k].key); });
     if (answer.judged) panel.append(make("p", { class: "live-note" }, "The case has criteria; `vinesink check` judges them over their band."));
     running.change(text, "push");
     change(new Map());
@@ -257,13 +263,15 @@ function Live(place) {
   /** What workers make. The areas do not depend on the case's own frequency and clearance. */
   async function follow(keepMap = false) {
     const version = ++asked;
-    old(verdict);
+    if (!shown) old(verdict);
     for (const [name, one] of figures) if (name !== "sim" && !(name === "map" && keepMap)) old(one);
     const [map, study] = desks;
     const done = (act) => (answer) => { if (version === asked) act(answer); };
+    const needsMap = wanted("map") && !(keepMap && figures.has("map") && moving);
+    const needsStudy = !shown || shown.some((name) => !["map", "sim", "running"].includes(name));
     await Promise.all([
-      keepMap && figures.has("map") && moving ? null : map.ask({ ask: "map", text }).then(done(showMap)),
-      study.ask({ ask: "study", text }).then(done(showStudy)),
+      needsMap && map.ask({ ask: "map", text }).then(done(showMap)),
+      needsStudy && study.ask({ ask: "study", text }).then(done(showStudy)),
     ]);
   }
 
@@ -284,6 +292,7 @@ function Live(place) {
       board.append(...[...figures].sort(([a], [b]) => rank(a) - rank(b)).map(([, figure]) => figure));
     }
     const figure = figures.get(name);
+    figure.hidden = !wanted(name);
     figure.firstChild.innerHTML = svg;
     figure.firstChild.setAttribute("aria-label", title);
     figure.lastChild.textContent = caption.replace(/\$|\\|\*/g, "");

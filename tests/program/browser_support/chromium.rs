@@ -171,14 +171,37 @@ impl Page<'_> {
 
     /// Loads a file and waits until all of it is there.
     pub fn open(&mut self, file: &Path) {
-        let went = self.call("Page.navigate", json!({"url": format!("file://{}", file.display())}));
-        assert!(went["errorText"].is_null(), "{}: {}", file.display(), went["errorText"]);
+        self.open_address(&format!("file://{}", file.display()));
+    }
+
+    /// The same of an address.
+    pub fn open_address(&mut self, address: &str) {
+        let went = self.call("Page.navigate", json!({"url": address}));
+        assert!(went["errorText"].is_null(), "{address}: {}", went["errorText"]);
+        self.wait_for("Page.loadEventFired");
+    }
+
+    /// Waits until an event has come.
+    fn wait_for(&mut self, method: &str) {
         let deadline = Instant::now() + PATIENCE;
-        let loaded = |event: &Value| event["method"] == "Page.loadEventFired";
-        while !self.browser.events.iter().any(loaded) {
-            let event = self.browser.receive(deadline, "Page.loadEventFired");
+        while !self.browser.events.iter().any(|event| event["method"] == method) {
+            let event = self.browser.receive(deadline, method);
             self.browser.events.push_back(event);
         }
+    }
+
+    /// The value of an expression, and the browser's own trace of its frames meanwhile.
+    #[allow(dead_code, reason = "benches measure with it")]
+    pub fn traced(&mut self, expression: &str) -> (Value, Vec<Value>) {
+        let wanted = ["devtools.timeline", "disabled-by-default-devtools.timeline.frame"];
+        self.call("Tracing.start", json!({"traceConfig": {"includedCategories": wanted}}));
+        let value = self.evaluate(expression);
+        self.call("Tracing.end", json!({}));
+        self.wait_for("Tracing.tracingComplete");
+        let collected =
+            self.browser.events.iter().filter(|event| event["method"] == "Tracing.dataCollected");
+        let events = collected.filter_map(|event| event["params"]["value"].as_array()).flatten();
+        (value, events.cloned().collect())
     }
 
     /// The value of an expression; a promise is awaited.
