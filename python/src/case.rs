@@ -26,6 +26,9 @@ use crate::{branch, report};
 
 create_exception!(vinesink, CaseError, PyValueError, "A case that cannot be read.");
 
+/// Width of messages, as the program writes them where no terminal tells another.
+const WIDTH: usize = 80;
+
 /// Columns of a table, by name.
 pub type Columns<'py> = Bound<'py, PyDict>;
 
@@ -123,7 +126,7 @@ impl Case {
 
     /// All exact orbits with two impacts per period: the document of each, and its sequence of walls.
     fn orbits(&self, py: Python<'_>) -> PyResult<String> {
-        self.needs_steady("exact orbits are those of a structure that is driven steadily")?;
+        self.needs_steady("a list of orbits is")?;
         work::done(py, None, |_| json(&branch::orbits(&self.inner)))
     }
 
@@ -160,7 +163,7 @@ impl Case {
         initial: [f64; 4],
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Columns<'py>> {
-        self.needs_steady("impacts are those of a structure that is driven steadily")?;
+        self.needs_steady("a list of impacts is")?;
         let wanted = self.wanted(periods, discard, Some(initial));
         work::done(py, progress, |work| simulate::flown(&self.inner, &wanted, work))?.columns(py)
     }
@@ -172,7 +175,7 @@ impl Case {
         initial: [f64; 4],
         times: Vec<f64>,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        self.needs_steady("a trajectory is that of a structure that is driven steadily")?;
+        self.needs_steady("a trajectory is")?;
         let start = simulate::state(initial);
         let found =
             work::done(py, None, |work| simulate::sampled(&self.inner, start, times, work))?;
@@ -200,7 +203,7 @@ impl Case {
         orbit: Option<usize>,
         most_points: usize,
     ) -> PyResult<(Columns<'py>, String)> {
-        self.needs_steady("branches are of a structure that is driven steadily")?;
+        self.needs_steady("a branch is")?;
         let followed = || branch::followed(&self.inner, parameter, range, orbit, most_points);
         let found = work::done(py, None, |_| followed())?;
         Ok((found.columns(py)?, json(&found.told)?))
@@ -211,9 +214,10 @@ impl Case {
     pub fn needs_steady(&self, what: &str) -> PyResult<()> {
         match self.inner.design.scene() {
             Scene::Steady => Ok(()),
-            other => {
-                Err(PyValueError::new_err(format!("{what}, and this one is {}", other.words())))
-            }
+            other => Err(refused(format!(
+                "its structure is {}, and {what} about one that is driven steadily",
+                other.words()
+            ))),
         }
     }
 
@@ -240,7 +244,7 @@ impl Case {
         if let Some(study) = DecayStudy::by_theory(case) {
             return Ok(page::document(&self.stem, case, &Study::Release(Box::new(study)), &[]));
         }
-        self.needs_steady("an analysis is about a structure that is driven steadily")?;
+        self.needs_steady("an analysis is")?;
         let analysis = Analysis::of(&case.system()).map_err(refused)?;
         let exact = FullSystem::of(&case.system());
         let found = match plan(case)? {
@@ -276,6 +280,7 @@ pub fn states(initial: &[[f64; 4]]) -> Vec<State> {
 fn shown(problem: &dyn Diagnostic) -> String {
     let mut text = String::new();
     let handler = GraphicalReportHandler::new_themed(GraphicalTheme::unicode_nocolor());
+    let handler = handler.with_width(WIDTH);
     // Writing into a text does not fail.
     let _ = handler.render_report(&mut text, problem);
     text

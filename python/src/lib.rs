@@ -1,5 +1,5 @@
 //! What the Python package `vinesink` needs of the library: cases, their documents as JSON, arrays of numbers.
-//! What users see of it is in `vinesink/`; its types are in `vinesink/_vinesink.pyi`.
+//! What users see of it is in `package/vinesink/`; its types are in `_vinesink.pyi` there.
 
 mod branch;
 mod case;

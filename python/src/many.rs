@@ -3,8 +3,7 @@
 use numpy::{IntoPyArray, PyArrayMethods as _, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
-use rayon::slice::ParallelSlice as _;
+use rayon::iter::{IntoParallelIterator as _, IntoParallelRefIterator as _, ParallelIterator as _};
 use vinesink::case::{self, Scales};
 use vinesink::regimes::{Effort, Motion, Regime, long_term, starts};
 use vinesink::simulation::Stop;
@@ -38,7 +37,7 @@ pub fn simulate_many<'py>(
     discard: Option<u64>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Columns<'py>> {
-    case.needs_steady("long-term motions are those of a structure that is driven steadily")?;
+    case.needs_steady("simulate_many is")?;
     let case = &case.inner;
     let mut parameters = Vec::new();
     for (row, name) in names.iter().enumerate() {
@@ -70,9 +69,15 @@ pub fn simulate_many<'py>(
             place(case, values, starts.as_ref().map(|starts| starts[k]))
                 .map_err(|why| refused(format!("element {k}{why}")))
         };
-        let places: Vec<PyResult<Place>> = (0..count).into_par_iter().map(place).collect();
+        let some = |chunk: usize| {
+            work.goes_on();
+            let begin = TOGETHER * chunk;
+            (begin..count.min(begin + TOGETHER)).map(place).collect()
+        };
+        let chunks: Vec<PyResult<Vec<Place>>> =
+            (0..count.div_ceil(TOGETHER)).into_par_iter().map(some).collect();
         // The first of several that are wrong, whichever was seen first.
-        let places: Vec<Place> = places.into_iter().collect::<PyResult<_>>()?;
+        let places: Vec<Vec<Place>> = chunks.into_iter().collect::<PyResult<_>>()?;
         motions(&places, &effort, work)
     })?;
     columns(py, &found)
@@ -105,9 +110,10 @@ fn place(
 /// A motion with what turns its numbers into units; none where it could not be followed.
 type Found = (Option<Motion>, Scales);
 
-fn motions(places: &[Place], effort: &Effort, work: &Work) -> PyResult<Vec<Found>> {
-    work.expect(places.len() as u64);
-    let each = |some: &[Place]| {
+fn motions(places: &[Vec<Place>], effort: &Effort, work: &Work) -> PyResult<Vec<Found>> {
+    work.expect(places.iter().map(|some| some.len() as u64).sum());
+    let each = |some: &Vec<Place>| {
+        work.goes_on();
         let starts: Vec<(System, State)> =
             some.iter().map(|(system, start, _)| (*system, *start)).collect();
         let found = long_term(&starts, effort).map_err(refused)?;
@@ -115,7 +121,7 @@ fn motions(places: &[Place], effort: &Effort, work: &Work) -> PyResult<Vec<Found
         let scales = some.iter().map(|(_, _, scales)| *scales);
         Ok(found.into_iter().zip(scales).collect::<Vec<Found>>())
     };
-    let chunks: PyResult<Vec<Vec<Found>>> = places.par_chunks(TOGETHER).map(each).collect();
+    let chunks: PyResult<Vec<Vec<Found>>> = places.par_iter().map(each).collect();
     Ok(chunks?.concat())
 }
 

@@ -74,7 +74,7 @@ pub fn rendered(case: &Case, name: &str, work: &Work) -> PyResult<Report> {
         }
         _ => criteria::judge(case, &survey(&criteria::settings(case))?),
     };
-    work.advance(0);
+    work.goes_on();
     let units = document::units(case);
     let plots = Plot::all(case, &study).map_err(refused)?;
     let drawn = template::worded(figures::all(case, &study, &plots), &units).map_err(refused)?;

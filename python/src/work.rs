@@ -35,9 +35,15 @@ impl Work {
         self.steps.fetch_add(steps, Ordering::Relaxed);
     }
 
-    /// Some steps more are done. It does not return from work that is to stop.
+    /// Some steps more are done; see [`Work::goes_on`].
     pub fn advance(&self, steps: u64) {
         self.done.fetch_add(steps, Ordering::Relaxed);
+        self.goes_on();
+    }
+
+    /// Does not return from work that is to stop. Each piece of many begins with it: what one of them unwinds does not
+    /// keep the others from being begun.
+    pub fn goes_on(&self) {
         if self.stopped.load(Ordering::Relaxed) {
             resume_unwind(Box::new(Stopped));
         }
@@ -60,8 +66,8 @@ impl Work {
 impl Executor for Work {
     fn each(&self, _: &str, count: usize, f: &(dyn Fn(usize) + Sync)) {
         (0..count).into_par_iter().with_max_len(1).for_each(|k| {
+            self.goes_on();
             f(k);
-            self.advance(0);
         });
     }
 }

@@ -235,18 +235,19 @@ class Case:
             raise ValueError(f"initial has {len(start)} numbers, expected four: x, xdot, y, ydot")
         if not self._core.steady:
             if any(given is not None for given in (periods, discard, initial, times)) or not measure:
-                raise ValueError("the case itself says what becomes of a structure that is not driven steadily; call simulate()")
-            document, _, _ = self._core.simulate(None, None, None, progress)
-            return Simulation(json.loads(document), Table({}), None)
+                raise ValueError("the structure is not driven steadily: the case itself says what becomes of it; call simulate()")
+            text, _, _ = self._core.simulate(None, None, None, progress)
+            return Simulation(json.loads(text), Table({}), None)
+        document: dict[str, Any] = {}
         if measure:
             text, impacts, start = self._core.simulate(periods, discard, start, progress)
             document = json.loads(text)
         elif start is None:
             raise ValueError("measure=False follows one start: give initial=(x, xdot, y, ydot)")
         else:
-            document, impacts = {}, self._core.fly(periods, discard, start, progress)
+            impacts = self._core.fly(periods, discard, start, progress)
         if not document.get("trusted", True):
-            words = "; ".join(f"{one}" for one in document["doubts"])
+            words = "; ".join(f"{one['words']}; {one['advice']}" for one in document["doubts"])
             warnings.warn(f"not to be trusted: {words}", SimulationWarning, stacklevel=2)
         trajectory = None
         if times is not None:

@@ -33,8 +33,9 @@ def _text(value: Any) -> str:
 
 
 def _html_table(head: Sequence[str], rows: Sequence[Sequence[Any]], caption: str) -> str:
-    cell = lambda tag, value: f"<{tag}>{html.escape(_text(value))}</{tag}>"  # noqa: E731
-    line = lambda tag, row: "<tr>" + "".join(cell(tag, one) for one in row) + "</tr>"  # noqa: E731
+    def line(tag: str, row: Sequence[Any]) -> str:
+        return "<tr>" + "".join(f"<{tag}>{html.escape(_text(one))}</{tag}>" for one in row) + "</tr>"
+
     body = "".join(line("td", row) for row in rows)
     return (
         f"<table><caption>{html.escape(caption)}</caption>"
@@ -250,7 +251,7 @@ class Simulation(Record):
                 "impact_speed": one["impact_speed"],
                 "settled": one["settled"],
                 "trusted": one["trusted"],
-                "share": (one["motion"].get("share") or {}).get("value", np.nan),
+                "share": one["motion"]["starts"]["share"]["value"] if one["motion"]["starts"] else np.nan,
             }
             for one in each
             if "regime" in one
