@@ -92,10 +92,11 @@ def test_data_frames_are_no_dependencies():
     subprocess.run([sys.executable, "-c", code], check=True, timeout=60)
 
 
-def test_versions():
+def test_versions(program):
     from importlib.metadata import requires, version
 
     assert vinesink.__version__ == version("vinesink")
+    assert program("--version").stdout == f"vinesink {vinesink.__version__}\n"
     assert requires("vinesink") == ["numpy>=1.24"]
 
 
