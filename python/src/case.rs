@@ -86,7 +86,7 @@ impl Case {
 
     /// The stem of its file; empty for a case from a text.
     #[getter]
-    fn name(&self) -> &str {
+    fn stem(&self) -> &str {
         &self.stem
     }
 
@@ -139,7 +139,7 @@ impl Case {
         initial: Option<[f64; 4]>,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<(String, Columns<'py>, [f64; 4])> {
-        if !self.inner_is_steady() {
+        if !self.steady() {
             let text = work::done(py, progress, |work| {
                 let study = Study::of_case(&self.inner, work).transpose().map_err(refused)?;
                 json(&study.map(|study| page::document(&self.stem, &self.inner, &study, &[])))
@@ -219,10 +219,6 @@ impl Case {
                 other.words()
             ))),
         }
-    }
-
-    fn inner_is_steady(&self) -> bool {
-        self.inner.design.scene() == Scene::Steady
     }
 
     fn wanted(

@@ -27,6 +27,7 @@ type Place = (System, State, Scales);
 
 /// The long-term motion of each element: `values` has a row for each of the names, `initial` one for each element.
 #[pyfunction]
+#[expect(clippy::too_many_arguments, reason = "Python's own function has names for them")]
 pub fn simulate_many<'py>(
     py: Python<'py>,
     case: &Case,

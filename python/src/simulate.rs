@@ -173,7 +173,8 @@ fn run(
 pub fn sampled(case: &Case, start: State, times: Vec<f64>, work: &Work) -> PyResult<Vec<f64>> {
     let ascend = times.windows(2).all(|pair| pair[0] <= pair[1]);
     let last = times.last().copied().unwrap_or_default();
-    if !ascend || !last.is_finite() || times.first().is_some_and(|first| !(*first >= 0.0)) {
+    let begins = times.first().is_none_or(|first| *first >= 0.0);
+    if !(ascend && begins && last.is_finite()) {
         let message =
             "times must be finite numbers of excitation periods, 0 or more, in ascending order";
         return Err(PyValueError::new_err(message));

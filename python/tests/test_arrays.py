@@ -174,6 +174,10 @@ def test_branch(case):
     assert found.value[nearest] == pytest.approx(7.5e-3, rel=1e-12)
     assert found.peak[nearest] == pytest.approx(stable.item(), rel=1e-9)
     assert [end.why for end in found.ends] == ["range", "grazing"]
+    # Elsewhere it is the orbit of the case that has the value there: solved in closed form, not followed.
+    for k in np.flatnonzero(found.stable)[::15]:
+        there = vinesink.Case(**{**TABLE_1, "clearance": f"{found.value[k]:.17g} m"}).orbits()
+        assert found.peak[k] == pytest.approx(there.peak_displacement[there.stable].item(), rel=1e-9)
     assert set(found.to_dict()) > {"parameter", "value", "bifurcations", "ends"}
 
 
@@ -188,6 +192,10 @@ def test_a_branch_in_the_units_of_its_parameter(case):
     exact = case.analyze().exact.boundaries.symmetric.limits
     node = next(one.clearance for one in exact if one.kind == "saddle-node")
     assert not breaks and meets == [pytest.approx(0.25e-3 / node, rel=1e-9)]
+    for found, key, unit in ((by_frequency, "frequency", "Hz"), (driven, "amplitude", "m")):
+        k = np.flatnonzero(found.stable)[2]
+        there = vinesink.Case(**{**TABLE_1, key: f"{found.value[k]:.17g} {unit}"}).orbits()
+        assert found.peak[k] == pytest.approx(there.peak_displacement[there.stable].item(), rel=1e-9)
 
 
 def test_branches_that_are_none(case):

@@ -8,6 +8,7 @@ import time
 import numpy as np
 import pytest
 import vinesink
+from conftest import TABLE_1
 
 # Seconds of work, with most of it in the batch engine.
 LONG = {"clearance": np.linspace(2e-3, 20e-3, 2_000_000)}
@@ -41,7 +42,7 @@ def test_other_threads_run(case):
     thread = threading.Thread(target=tick)
     thread.start()
     begin = time.perf_counter()
-    vinesink.simulate_many(case, clearance=np.linspace(2e-3, 20e-3, 40_000))
+    vinesink.simulate_many(case, clearance=np.linspace(2e-3, 20e-3, 100_000))
     end = time.perf_counter()
     stop.set()
     thread.join()
@@ -55,8 +56,8 @@ def work(name, case):
         return vinesink.simulate_many(case, **LONG)
     if name == "impacts":
         return case.simulate(initial=(0, 0, 0, 1), discard=50_000_000, periods=1, measure=False)
-    return vinesink.Case.from_toml(case.text.replace("restitution = 0.6", "restitution = 0.6\n")
-                                   + "\n[simulation]\nstarts = 10000\nperiods = 100000\n").simulate()  # fmt: skip
+    # Sixteen starts at a time, a tenth of a second for each sixteen.
+    return vinesink.Case(**TABLE_1, simulation={"starts": 10_000, "discard": 20_000}).simulate()
 
 
 @pytest.mark.parametrize("name", ["many", "impacts", "starts"])
@@ -71,10 +72,10 @@ def test_ctrl_c_ends_it(name, case, raised_after):
 
 def test_progress(case):
     calls = []
-    vinesink.simulate_many(case, clearance=np.linspace(2e-3, 20e-3, 60_000), progress=lambda *call: calls.append(call))
+    vinesink.simulate_many(case, clearance=np.linspace(2e-3, 20e-3, 100_000), progress=lambda *call: calls.append(call))
     assert len(calls) > 2
-    assert calls == sorted(calls) and calls[-1] == (60_000, 60_000)
-    assert {steps for _, steps in calls} == {60_000}
+    assert calls == sorted(calls) and calls[-1] == (100_000, 100_000)
+    assert {steps for _, steps in calls} == {100_000}
     calls.clear()
     case.simulate(progress=lambda *call: calls.append(call))
     assert calls[-1] == (32, 32)

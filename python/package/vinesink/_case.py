@@ -124,10 +124,12 @@ class Case:
     Further tables of a case file are dicts: `simulation`, `report`, `accuracy`, `band`, `criteria`, `optimize`,
     `uncertainty`, `sweep`.
 
+    `text` is the case file that the keywords make; messages name its lines.
+
     Raises
     ------
     CaseError
-        With the program's message: what is wrong where, and what to do. `case.text` is the case file that keywords make.
+        With the program's message: what is wrong where, and what to do.
     TypeError
         A keyword that no case has.
     """
@@ -267,7 +269,7 @@ class Case:
         folder. Returns whether its simulations are to be trusted and what the case asks of accuracy holds. Raises
         `OSError` where the folder cannot be written.
         """
-        name = name or (self._core.name if self._core.name else Path(folder).resolve().name)
+        name = name or self._core.stem or Path(folder).resolve().name
         return self._core.report(os.fspath(folder), name, progress)
 
 
