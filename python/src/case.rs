@@ -190,8 +190,10 @@ impl Case {
         name: &str,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<bool> {
-        let written = work::done(py, progress, |work| report::rendered(&self.inner, name, work))?;
-        written.into(&folder)
+        let render = |work: &Work| report::rendered(&self.inner, name, work);
+        let (files, holds) = work::done(py, progress, render)?;
+        report::write(&folder, &files)?;
+        Ok(holds)
     }
 
     /// A branch of exact orbits: its points as columns, bifurcations and ends as JSON.

@@ -104,7 +104,7 @@ impl Design {
     }
 
     /// Restitution at the wall `x - y = +b` less that at `x - y = -b`.
-    pub(super) fn restitution_difference(&self) -> f64 {
+    pub fn restitution_difference(&self) -> f64 {
         match self {
             Self::Physical(physical) => physical.restitution_difference,
             Self::Reduced(reduced) => reduced.cavity.restitution_difference,

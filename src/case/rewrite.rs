@@ -122,11 +122,17 @@ impl Case {
 }
 
 impl Input {
-    /// What it says of the absorber.
+    /// What it says of the design.
     fn parameter(&self) -> Option<Parameter> {
         match (self.table.as_str(), self.name) {
             ("absorber", "mass") => Some(Parameter::AbsorberMass),
-            ("absorber" | "reduced", name) => Parameter::of_name(name),
+            ("reduced", "forcing") => Some(Parameter::Amplitude),
+            ("reduced", "frequency_ratio") => Some(Parameter::Frequency),
+            // The natural frequency follows from mass and stiffness.
+            ("oscillator", "frequency") => None,
+            ("oscillator" | "absorber" | "excitation" | "reduced", name) => {
+                Parameter::of_name(name)
+            }
             _ => None,
         }
     }

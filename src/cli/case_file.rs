@@ -55,6 +55,18 @@ pub fn read(path: &Path) -> Result<Case> {
 
 /// Reads a case file; its text beside the case. What is probably a slip in it is said on standard error.
 pub fn read_with_text(path: &Path) -> Result<(Case, String)> {
+    let (case, text) = parsed(path)?;
+    let visible = text.strip_prefix('\u{feff}').unwrap_or(&text);
+    for warning in case.warnings() {
+        let source = NamedSource::new(path.display().to_string(), visible.to_owned());
+        let shown = Report::new(warning.clone()).with_source_code(source);
+        output::complain(&format!("{shown:?}"));
+    }
+    Ok((case, text))
+}
+
+/// The same without a word of slips.
+pub fn parsed(path: &Path) -> Result<(Case, String)> {
     let text = store::read_text(path)?;
     let name = path.display().to_string();
     let mut case = Case::parse(&name, &text)?;
@@ -64,12 +76,6 @@ pub fn read_with_text(path: &Path) -> Result<(Case, String)> {
             format!("{}: the record of its excitation cannot be read", path.display())
         })?;
         case = case.with_record(&record.display().to_string(), &text)?;
-    }
-    let visible = text.strip_prefix('\u{feff}').unwrap_or(&text);
-    for warning in case.warnings() {
-        let source = NamedSource::new(&name, visible.to_owned());
-        let shown = Report::new(warning.clone()).with_source_code(source);
-        output::complain(&format!("{shown:?}"));
     }
     Ok((case, text))
 }

@@ -6,12 +6,13 @@ use clap::Args;
 use miette::{IntoDiagnostic, Result};
 use vinesink::case::Case;
 use vinesink::evidence::paper::{CASES, CaseReport, SETS, TRANSFER, page};
+use vinesink::report::written;
 use vinesink::store;
 use vinesink::study::{CaseStudy, StudyEffort};
 
 use super::parallel::Parallel;
 use super::progress::Progress;
-use super::{case_file, index, output, report};
+use super::{case_file, index, output};
 
 /// Compare every figure of the paper with what the program finds
 ///
@@ -44,7 +45,7 @@ pub fn run(arguments: Arguments) -> Result<bool> {
         let effort = StudyEffort::of(&case.simulation);
         let mut advance = |done| progress.advance(done);
         let study = CaseStudy::of(&case.system(), effort, &mut advance).into_diagnostic()?;
-        let figures = report::drawn(&case, &study)?;
+        let figures = written::drawn(&case, &study).into_diagnostic()?;
         members.push(CaseReport { name, case, study, figures });
     }
     drop(progress);

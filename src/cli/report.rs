@@ -4,19 +4,15 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use miette::{IntoDiagnostic, Result, miette};
-use vinesink::band::{Survey, SurveySettings};
-use vinesink::case::{Case, ExtraFigure};
-use vinesink::criteria;
+use miette::{Context as _, IntoDiagnostic, Result, miette};
 use vinesink::method::Method;
-use vinesink::report::document::{self, Source};
-use vinesink::report::figure::Figure;
+use vinesink::report::live;
 use vinesink::report::render::{self, Files};
-use vinesink::report::{equations, figures, template};
+use vinesink::report::written::Report;
 use vinesink::store;
 use vinesink::study::fidelity::Plan;
-use vinesink::study::plots::Plot;
 use vinesink::study::{CaseStudy, StudyEffort};
+use vinesink::transient::Scene;
 
 use super::budget::{Long, Work};
 use super::parallel::Parallel;
@@ -45,6 +41,16 @@ pub struct Arguments {
     /// report.html is not looked at: it is the same report once more
     #[arg(long)]
     check: bool,
+    /// Add the live page to report.html, which stays one file: PAGE, or `vinesink-live.html` beside the program
+    #[arg(
+        long,
+        value_name = "PAGE",
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = "",
+        conflicts_with = "check"
+    )]
+    live: Option<PathBuf>,
     #[command(flatten)]
     long: Long,
 }
@@ -54,6 +60,7 @@ Examples:
   vinesink report cases/li2016-8p5hz-fig4c.toml
   vinesink report cases/*.toml --out /somewhere/else
   vinesink report damper.toml --fidelity orbit     without any simulation
+  vinesink report damper.toml --live               with sliders in report.html
   vinesink report --check cases/*.toml             are the reports in reports/ up to date?";
 
 /// Steps of the progress bar beyond the study: figures, files.
@@ -105,10 +112,36 @@ fn names(cases: &[PathBuf]) -> Result<Vec<String>> {
 /// Writes one report; what was asked of accuracy does not hold where a layer that was insisted on, or
 /// the longest simulation, is not exact enough.
 fn write(path: &Path, name: &str, folder: &Path, arguments: &Arguments) -> Result<bool> {
-    let (files, holds) = rendered(path, name, arguments)?;
+    let (mut files, holds) = rendered(path, name, arguments)?;
+    if let Some(page) = &arguments.live {
+        add_live_page(&mut files, page, path)?;
+    }
     store::replace_folder(folder, &files, render::is_of_report)?;
     output::print_path(&folder.join("report.md"))?;
     Ok(holds)
+}
+
+/// Adds the live page to `report.html` of a case under steady excitation.
+fn add_live_page(files: &mut Files, page: &Path, path: &Path) -> Result<()> {
+    let (case, text) = case_file::parsed(path)?;
+    if case.design.scene() != Scene::Steady {
+        return Err(miette!(
+            help = "leave out --live",
+            "the live page shows steady vibration, which {} is not",
+            path.display()
+        ));
+    }
+    let page = match page.as_os_str().is_empty() {
+        true => std::env::current_exe().into_diagnostic()?.with_file_name("vinesink-live.html"),
+        false => page.to_owned(),
+    };
+    let live = store::read_text(&page)
+        .wrap_err("--live needs the live page: `web/build` makes it, releases bring it along")?;
+    let file = files.entry("report.html".into()).or_default();
+    let report = String::from_utf8_lossy(file);
+    let whole = live::embed(&report, &live, &text).into_diagnostic();
+    *file = whole.wrap_err_with(|| page.display().to_string())?.into_bytes();
+    Ok(())
 }
 
 /// Says which files of a report are not as [`write()`] would leave them.
@@ -159,65 +192,16 @@ fn rendered(path: &Path, name: &str, arguments: &Arguments) -> Result<(Files, bo
     }
     arguments.long.allows(path, &case, &work)?;
     let progress = Progress::new(name, CaseStudy::steps(&effort) + FURTHER_STEPS);
-    let study = match simulates {
-        true => CaseStudy::of(&case.system(), effort, &mut |done| progress.advance(done)),
-        false => CaseStudy::without_simulation(&case.system(), effort),
-    };
-    let mut study = study.into_diagnostic()?;
-    if simulates && case.report.figures.contains(&ExtraFigure::Dissipation) {
-        study = study.with_averages().into_diagnostic()?;
-    }
-    if deviates {
-        study = study.with_deviations(&case).into_diagnostic()?;
-    }
-    if case.band.is_some() {
-        // Simulated if the study is, and also with the structure detuned.
-        let mut settings = criteria::settings(&case);
-        settings.sampling = simulates.then(|| criteria::sampling(&case));
-        let survey = survey(&case, &settings)?;
-        study = study.along(survey.with_detuned(&settings, &Parallel).into_diagnostic()?);
-    }
-    let answers = plan.map(|plan| plan.answers(study.simulated_motions())).transpose();
-    let answers = answers.into_diagnostic()?;
-    let judged = match &study.band {
-        _ if case.criteria.is_empty() => Vec::new(),
-        Some(survey) if simulates || !criteria::needs_simulation(&case.criteria) => {
-            criteria::judge(&case, survey)
-        }
-        _ => criteria::judge(&case, &survey(&case, &criteria::settings(&case))?),
-    };
-    let drawn = drawn(&case, &study)?;
+    let mut advance = |done| progress.advance(done);
+    let report =
+        Report::of(name, &case, plan.as_ref(), &Parallel, &mut advance).into_diagnostic()?;
     progress.advance(FURTHER_STEPS / 2);
-    let document = document::document(&Source {
-        name,
-        case: &case,
-        study: &study,
-        judged: &judged,
-        answers: answers.as_ref(),
-        figures: &drawn,
-    });
     // As `simulate`: what is not to be trusted is written down, and does not pass for an answer.
-    let trusted = study.simulated_motions().is_none_or(|motions| {
-        motions.attractors.iter().all(|found| found.attractor.doubts().is_empty())
-    });
+    let trusted = report.trusted();
     if !trusted {
         output::complain(&format!(
             "{name}: a simulation is not to be trusted; its report says why"
         ));
     }
-    let equations = equations::groups(&case, &study);
-    let files = render::files(&document, &equations, &document::units(&case), &drawn);
-    let enough = answers.is_none_or(|answers| answers.enough());
-    Ok((files.into_diagnostic()?, trusted && enough))
-}
-
-/// The same survey as that of `check`.
-fn survey(case: &Case, settings: &SurveySettings) -> Result<Survey> {
-    Survey::of(&criteria::range(case), settings, &Parallel).into_diagnostic()
-}
-
-/// All figures of a report, with their words.
-pub fn drawn(case: &Case, study: &CaseStudy) -> Result<Vec<Figure>> {
-    let plots = Plot::all(case, study).into_diagnostic()?;
-    template::worded(figures::all(case, study, &plots), &document::units(case)).into_diagnostic()
+    Ok((report.files(&case).into_diagnostic()?, trusted && report.exact_enough()))
 }

@@ -8,6 +8,7 @@ pub mod figure;
 pub mod figures;
 pub mod html;
 pub mod index;
+pub mod live;
 pub mod mathml;
 pub mod optimize;
 pub mod render;
@@ -16,5 +17,6 @@ pub mod stored;
 pub mod sweep;
 pub mod template;
 pub mod transient;
+pub mod written;
 
 pub mod equations;

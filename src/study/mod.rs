@@ -166,6 +166,32 @@ impl CaseStudy {
         })
     }
 
+    /// The theory and the exact orbits at the case itself alone, which take no longer than a frame of a moving
+    /// picture: no claims, no exact limits.
+    ///
+    /// # Errors
+    /// [`StudyError`] where the theory cannot be carried out.
+    pub fn sketch(system: &System) -> Result<Self, StudyError> {
+        let analysis = Analysis::of(system)?;
+        let clearance = validation::boundaries::clearances(&analysis);
+        Ok(Self {
+            motions: LongTermMotions::default(),
+            claims: Vec::new(),
+            asymptotic_errors: Vec::new(),
+            margins: Margins { clearance, exact: None, best_clearance: None },
+            confirmations: Confirmations::default(),
+            effort: StudyEffort::default(),
+            band: None,
+            averages: None,
+            simulated: false,
+            rivals: Rivals::along(&Band::point(system)),
+            inactive: None,
+            deviations: None,
+            exact: FullSystem::of(system),
+            analysis,
+        })
+    }
+
     /// The same with what is known along a band.
     #[must_use]
     pub fn along(self, survey: Survey) -> Self {

@@ -40,7 +40,7 @@ static REPORTS: LazyLock<PathBuf> = LazyLock::new(|| {
 });
 
 /// Chromium, or nothing where these tests are to be skipped.
-fn browser() -> Option<Browser> {
+pub fn browser() -> Option<Browser> {
     let found = chromium::program();
     if found.is_none() {
         skipped(
@@ -50,7 +50,7 @@ fn browser() -> Option<Browser> {
     found.map(|program| Browser::start(&program))
 }
 
-fn skipped(why: &str) {
+pub fn skipped(why: &str) {
     let required = env::var("VINESINK_BROWSER").is_ok_and(|value| value == "required");
     assert!(!required, "{why}");
     // Not captured by the test runner, unlike `eprintln!`.

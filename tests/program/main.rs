@@ -26,6 +26,7 @@ mod figure;
 mod figures;
 mod index;
 mod layers;
+mod live;
 mod metadata;
 mod optimize;
 mod paper;

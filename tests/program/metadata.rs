@@ -106,21 +106,30 @@ fn the_workflow_names_the_manifests_repository() {
     is_written(path, &used.replace(&text, format!("uses: {name}@")));
 }
 
-/// An image that a page of the registry shows is in the package, and is named relative to the repository.
+/// The registry shows an image of this page, and follows its links, in the repository, under `raw/HEAD` and
+/// `blob/HEAD`: they have to be named from its root. <https://doc.rust-lang.org/cargo/reference/manifest.html>
 #[test]
-fn images_of_the_first_page_are_packaged() {
+fn what_the_first_page_refers_to_is_in_the_repository() {
     let text = fs::read_to_string(root().join("README.md")).expect("the page");
+    let link = Regex::new(r"\]\(([^)#]+)").expect("a pattern");
+    let links = link.captures_iter(&text).map(|found| found.get(1).expect("an address").as_str());
+    let links: Vec<&str> = links.filter(|link| !link.starts_with("https://")).collect();
+    assert!(links.contains(&"docs/report.png"), "{links:?}");
+    for link in links {
+        assert!(!link.starts_with(['.', '/']) && root().join(link).exists(), "{link}");
+    }
+}
+
+/// What the registry refuses only when a version is published.
+#[test]
+fn keywords_are_those_that_the_registry_takes() {
     let manifest = Manifest::read();
-    let left_out = manifest.0["package"]["exclude"].as_array().expect("a list");
-    let image = Regex::new(r"!\[[^\]]*\]\(([^)]+)\)").expect("a pattern");
-    let images: Vec<&str> = image
-        .captures_iter(&text)
-        .map(|found| found.get(1).expect("an address").as_str())
-        .collect();
-    assert!(!images.is_empty());
-    for image in images {
-        assert!(root().join(image).is_file(), "{image}");
-        let excluded = left_out.iter().filter_map(toml::Value::as_str);
-        assert!(!excluded.into_iter().any(|folder| image.starts_with(folder)), "{image}");
+    let keywords = manifest.keywords();
+    assert!(keywords.len() <= 5, "{keywords:?}");
+    for keyword in keywords {
+        let fits =
+            keyword.len() <= 20 && keyword.starts_with(|first: char| first.is_ascii_alphanumeric());
+        let rest = |one: char| one.is_ascii_alphanumeric() || "_-+".contains(one);
+        assert!(fits && keyword.chars().all(rest), "{keyword}");
     }
 }

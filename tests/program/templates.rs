@@ -131,8 +131,13 @@ fn no_part_is_needed_by_another() {
             facts["main"] = json!(null);
             facts["simulated"] = json!(false);
         }
-        page("report.md", &facts);
-        page("validation.md", &facts);
+        let text = page("report.md", &facts) + &page("validation.md", &facts);
+        // A report without claims says so, and has no table of none.
+        assert_eq!(part == "claims", text.contains("claim anything about this case"), "{part}");
+        assert!(
+            !text.contains("0 of 0 claims")
+                && (part != "claims" || !text.contains("| Verdict | Claim"))
+        );
     }
     let mut facts = shipped("li2016-8hz-b7p5mm");
     for part in ["fixed_points", "orbits", "boundaries", "stretches"] {
@@ -142,6 +147,18 @@ fn no_part_is_needed_by_another() {
         facts["theory"][part] = json!(null);
     }
     page("report.md", &facts);
+}
+
+/// Numbers of the cavity that a reduced case has in units of bω₀² say so.
+#[test]
+fn inputs_have_their_units() {
+    let input = |name: &str| json!({"table": "reduced", "name": name, "symbol": "a", "as_written": "0.004"});
+    let facts = json!({ "inputs": [input("gravity_along"), input("friction_acceleration"), input("forcing")] });
+    let text = page("inputs.md", &facts);
+    for row in ["gravity along, over bω₀² |", "friction acceleration, over bω₀² |", "forcing |"]
+    {
+        assert!(text.contains(&format!("| reduced {row}")), "{text}");
+    }
 }
 
 #[test]

@@ -93,6 +93,16 @@ impl Figure {
         self.panels.push(panel);
         self
     }
+
+    /// Takes the mark of the case out of the first panel, for whoever draws it themselves: where it was.
+    pub fn take_case(&mut self) -> Option<[f64; 2]> {
+        let layers = &mut self.panels.first_mut()?.layers;
+        let index = layers.iter().position(|layer| layer.marks_case())?;
+        match layers.remove(index) {
+            Layer::Points { points, .. } => points.first().map(|point| [point.x, point.y]),
+            _ => None,
+        }
+    }
 }
 
 /// Where the panels go. Panels one above the other whose x axes have the same label and scale share

@@ -110,6 +110,11 @@ impl Layer {
         self
     }
 
+    /// Whether it is [`Layer::this_case`].
+    pub(super) fn marks_case(&self) -> bool {
+        matches!(self, Self::Points { marker, .. } if *marker == Marker::THIS_CASE)
+    }
+
     /// What it is called.
     pub(super) const fn label(&self) -> Option<&Label> {
         match self {

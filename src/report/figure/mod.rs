@@ -38,5 +38,5 @@ pub use image::{Cells, Image, edges};
 pub use layers::{Fill, Hatch, Label, Layer, MarkedPoint, Rule};
 pub use limits::inliers;
 pub use palette::{Color, Dash, Marker, Role, Shape, Style};
-pub use render::{Drawing, FigureError, LIMIT, PlacedText, draw, render};
+pub use render::{Drawing, FigureError, LIMIT, PlacedPanel, PlacedText, draw, render};
 pub use text::escape;

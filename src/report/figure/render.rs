@@ -1,12 +1,13 @@
 //! From a figure to its file.
 
-use super::data::Figure;
+use super::data::{Figure, Scale};
 use super::frame;
 use super::geometry::Rect;
 use super::image;
 use super::labels::{Labels, place};
 use super::layers::Layer;
 use super::layout::{Frame, GAP, KEY, KEYS_FROM, key_places, lay_out};
+use super::limits::Span;
 use super::paint;
 use super::shapes::shapes;
 use super::text::{self, Anchor, FAMILY, SMALL, Words, escape};
@@ -43,6 +44,17 @@ pub struct Drawing {
     pub svg: String,
     /// Every piece of text with the room it takes, in pixels of [`Figure::size`], cautiously estimated.
     pub texts: Vec<PlacedText>,
+    /// The panels in their order.
+    pub panels: Vec<PlacedPanel>,
+}
+
+/// Where the data of a panel are.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlacedPanel {
+    /// The rectangle between the axes, pixels.
+    pub room: Rect,
+    /// First and last value of each axis, across and up, and whether it is logarithmic.
+    pub axes: [(f64, f64, bool); 2],
 }
 
 /// Words and the room they take.
@@ -133,7 +145,12 @@ fn compose(figure: &Figure, frames: &[Frame], labels: &[Labels], coarseness: f64
     text::write(&mut svg, &words);
     svg.push_str("</svg>\n");
     let placed = |w: Words| PlacedText { room: w.bounds(), text: w.text };
-    Drawing { svg, texts: words.into_iter().map(placed).collect() }
+    let axis = |span: Span| (span.first, span.last, span.scale == Scale::Log);
+    let panels = frames.iter().map(|frame| {
+        let axes = [frame.spans.x, frame.spans.y].map(axis);
+        PlacedPanel { room: frame.plot, axes }
+    });
+    Drawing { svg, panels: panels.collect(), texts: words.into_iter().map(placed).collect() }
 }
 
 fn head(figure: &Figure) -> String {

@@ -133,6 +133,12 @@ fn absorber(case: &Case, task: &Task, design: &Design) -> Value {
     for (key, value) in built(&design.choice).as_object().into_iter().flatten() {
         row[key] = value.clone();
     }
+    // Those of both walls, where they differ.
+    let apart = design.choice.restitution_difference();
+    let mean = design.choice.value(Parameter::Restitution);
+    if let Some(mean) = mean.filter(|_| apart != 0.0) {
+        row["restitutions"] = json!([mean + 0.5 * apart, mean - 0.5 * apart]);
+    }
     row["feasible"] = json!(design.is_feasible());
     row["criteria"] = json!(design.criteria.len());
     row["missed"] = missed.map(|one| criterion(case, one)).collect();

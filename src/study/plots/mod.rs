@@ -109,6 +109,21 @@ impl Plot {
     /// # Errors
     /// [`StudyError`] where theory or simulation cannot be carried out.
     pub fn all(case: &Case, study: &CaseStudy) -> Result<Vec<Self>, StudyError> {
+        let mut plots = Self::usual(study)?;
+        let forced = study.analysis.system.forcing_per_clearance() != 0.0;
+        let shown = |wanted: &&ExtraFigure| forced || !NEED_FORCING.contains(*wanted);
+        let wanted: &[ExtraFigure] = if study.simulated { &case.report.figures } else { &[] };
+        for wanted in wanted.iter().filter(shown) {
+            plots.extend(Self::extra(case, study, *wanted)?);
+        }
+        Ok(plots)
+    }
+
+    /// What every report shows.
+    ///
+    /// # Errors
+    /// As [`Plot::all`].
+    pub fn usual(study: &CaseStudy) -> Result<Vec<Self>, StudyError> {
         // Without forcing every boundary is at no clearance at all, and everything comes to rest.
         let forced = study.analysis.system.forcing_per_clearance() != 0.0;
         let mut plots = Vec::new();
@@ -129,10 +144,6 @@ impl Plot {
         }
         for index in 0..study.motions.attractors.len().min(MOTIONS) {
             plots.extend(Motion::of(study, index)?.map(Self::Motion));
-        }
-        let shown = |wanted: &&ExtraFigure| forced || !NEED_FORCING.contains(*wanted);
-        for wanted in case.report.figures.iter().filter(shown) {
-            plots.extend(Self::extra(case, study, *wanted)?);
         }
         Ok(plots)
     }
@@ -219,7 +230,8 @@ impl Map {
     /// Frequencies, less one, at which the exact boundaries are marked.
     const EXACT: u32 = 40;
 
-    fn of(study: &CaseStudy) -> Self {
+    /// Over the frequencies of [`window`].
+    pub fn of(study: &CaseStudy) -> Self {
         let (system, manifold) = (&study.analysis.system, &study.analysis.manifold);
         let window = window(system);
         let detunings = window.map(|ratio| (ratio - 1.0) / system.mass_ratio());

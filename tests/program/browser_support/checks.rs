@@ -59,7 +59,7 @@ pub fn layout(page: &mut Page) -> Vec<String> {
 /// Errors on the console, and whatever was asked of the network or of files outside of `folder`.
 pub fn noise(page: &mut Page, folder: &Path) -> Vec<String> {
     let start = format!("file://{}/", folder.display()).replace(' ', "%20");
-    let allowed = [start, "data:".to_owned()];
+    let allowed = [start, "data:".to_owned(), "blob:".to_owned()];
     let found = page.events().into_iter().filter_map(|event| {
         let told = &event["params"];
         let level = |value: &Value| value == "error" || value == "warning" || value == "assert";

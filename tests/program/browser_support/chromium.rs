@@ -202,6 +202,20 @@ impl Page<'_> {
         }
     }
 
+    /// Moves the mouse with its button down from one point of the window to another, in steps.
+    pub fn drag(&mut self, from: [f64; 2], to: [f64; 2], steps: u32) {
+        let mut mouse = |kind: &str, [x, y]: [f64; 2]| {
+            let event = json!({"type": kind, "x": x, "y": y, "button": "left", "buttons": 1, "clickCount": 1});
+            self.call("Input.dispatchMouseEvent", event);
+        };
+        mouse("mousePressed", from);
+        for step in 1..=steps {
+            let part = f64::from(step) / f64::from(steps);
+            mouse("mouseMoved", [0, 1].map(|k| from[k] + part * (to[k] - from[k])));
+        }
+        mouse("mouseReleased", to);
+    }
+
     /// The page as it would be printed on A4 paper.
     pub fn print(&mut self) -> Vec<u8> {
         let wanted = json!({"preferCSSPageSize": true, "printBackground": true});

@@ -1,0 +1,368 @@
+//! The live page in Chromium: `web/build` makes it, into `target/web/live.html` (or a file named in `VINESINK_LIVE`).
+//! Where page or browser are missing the tests say so and pass, unless `VINESINK_BROWSER=required`.
+
+use std::env;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use assert_cmd::Command;
+use serde_json::{Value, json};
+use vinesink::case::Case;
+use vinesink::simulation::{Simulation, Trace};
+use vinesink::system::State;
+
+use crate::browser::{browser, skipped};
+use crate::browser_support::checks::{self, DESKTOP, PHONE};
+use crate::browser_support::chromium::{Browser, Page, View};
+
+/// The shipped cases that the page begins with.
+const PRESETS: [&str; 5] = [
+    "li2016-8p5hz-fig4a",
+    "li2016-8p5hz-fig4b",
+    "li2016-8p5hz-fig4c",
+    "li2016-8p5hz-fig4d",
+    "li2016-8p5hz-fig4e",
+];
+
+const LIVE: &str = "document.querySelector('[data-live]').live";
+
+/// The page's file, or nothing where these tests are to be skipped.
+fn file() -> Option<PathBuf> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let given = env::var_os("VINESINK_LIVE").map(PathBuf::from);
+    let file = given.unwrap_or_else(|| root.join("target/web/live.html"));
+    if !file.is_file() {
+        skipped("there is no live page: run web/build");
+        return None;
+    }
+    Some(file)
+}
+
+/// The page in a browser, with everything on it computed.
+fn opened<'a>(browser: &'a mut Browser, file: &Path, view: View) -> Page<'a> {
+    let mut page = browser.page(view);
+    page.open(file);
+    settle(&mut page);
+    page
+}
+
+fn settle(page: &mut Page) {
+    let ready = format!(
+        "(async () => {{
+            while (!{LIVE} || !document.querySelector('[data-live] figure svg'))
+                await new Promise((done) => setTimeout(done, 5));
+            await {LIVE}.settled();
+        }})()"
+    );
+    page.evaluate(&ready);
+}
+
+/// Sets a slider as a person would leave it, with events.
+fn slide(page: &mut Page, key: &str, position: u32) {
+    page.evaluate(&format!(
+        "(() => {{
+            const slider = document.querySelector('#live-{key}');
+            slider.value = {position};
+            slider.dispatchEvent(new Event('input'));
+            slider.dispatchEvent(new Event('change'));
+        }})()"
+    ));
+}
+
+fn text(page: &mut Page) -> String {
+    page.evaluate(&format!("{LIVE}.text")).as_str().expect("a text").to_owned()
+}
+
+fn study(page: &mut Page, text: &str) -> Value {
+    let request = json!({ "ask": "study", "text": text });
+    page.evaluate(&format!("{LIVE}.ask({request})"))
+}
+
+fn shipped(name: &str) -> String {
+    let file = format!("{}/cases/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+    fs::read_to_string(file).expect("a case")
+}
+
+/// Where two documents differ; a number by its bits, whether it is written as 1 or 1.0.
+fn differences(page: &Value, native: &Value, at: &str, found: &mut Vec<String>) {
+    match (page, native) {
+        (Value::Object(a), Value::Object(b)) => {
+            let keys = a.keys().chain(b.keys().filter(|key| !a.contains_key(*key)));
+            for key in keys {
+                let one = |of: &serde_json::Map<String, Value>| {
+                    of.get(key).cloned().unwrap_or("missing".into())
+                };
+                differences(&one(a), &one(b), &format!("{at}/{key}"), found);
+            }
+        }
+        (Value::Array(a), Value::Array(b)) if a.len() == b.len() => {
+            for (k, (one, other)) in a.iter().zip(b).enumerate() {
+                differences(one, other, &format!("{at}/{k}"), found);
+            }
+        }
+        (Value::Number(a), Value::Number(b)) if a.as_f64() == b.as_f64() => {}
+        (a, b) if a == b => {}
+        (a, b) => found.push(format!("{at}: {a} in the page, {b} in the program")),
+    }
+}
+
+/// The document of the page against `report.json`; the page has a name of its own, no criteria, and leaves out what
+/// would spoil the design.
+fn confront(page: &Value, native: &Value, what: &str) {
+    let (mut page, mut native) = (page.clone(), native.clone());
+    for document in [&mut page, &mut native] {
+        for key in ["name", "deviations"] {
+            document.as_object_mut().expect("a document").remove(key);
+        }
+    }
+    let mut found = Vec::new();
+    differences(&page, &native, what, &mut found);
+    assert!(found.is_empty(), "{found:#?}");
+}
+
+/// Every number, sentence and drawing of the page is that of the program, to the last bit: the libraries of
+/// mathematical functions are the same on both.
+#[test]
+fn the_page_says_what_the_program_says() {
+    let (Some(file), Some(mut browser)) = (file(), browser()) else { return };
+    let mut page = opened(&mut browser, &file, DESKTOP);
+    for name in PRESETS {
+        let reports = Path::new(env!("CARGO_MANIFEST_DIR")).join("reports").join(name);
+        let read = |file: &str| fs::read_to_string(reports.join(file)).expect("a report");
+        let answer = study(&mut page, &shipped(name));
+        let native: Value = serde_json::from_str(&read("report.json")).expect("JSON");
+        confront(&answer["document"], &native, name);
+        let figures = answer["figures"].as_array().expect("figures");
+        assert!(figures.len() >= 5, "{name}: {} figures", figures.len());
+        for figure in figures {
+            let file = format!("figures/{}.svg", figure["name"].as_str().expect("a name"));
+            assert!(figure["svg"] == read(&file), "{name}: {file} is another drawing");
+        }
+    }
+}
+
+/// After some sliders were moved the case is another one, and the program says the same of it.
+#[test]
+fn sliders_move_everything() {
+    let (Some(file), Some(mut browser)) = (file(), browser()) else { return };
+    let mut page = opened(&mut browser, &file, DESKTOP);
+    let before = text(&mut page);
+    let drawing = |page: &mut Page, name: &str| {
+        page.evaluate(&format!("document.querySelector('[data-name={name}] svg').outerHTML"))
+    };
+    let drawn = ["map", "sim", "ranges"].map(|name| drawing(&mut page, name));
+    for (key, position) in [("clearance", 430), ("restitution", 550), ("mass_ratio", 610)] {
+        slide(&mut page, key, position);
+    }
+    for (key, position) in [("damping_ratio", 450), ("frequency", 520), ("amplitude", 530)] {
+        slide(&mut page, key, position);
+    }
+    // The manifold follows in the same frame; what takes longer looks old until it comes.
+    let busy = "new Promise((done) => requestAnimationFrame(() => setTimeout(() => done(
+        [...document.querySelectorAll('[aria-busy=true]')].map((one) => one.dataset.name ?? one.className)))))";
+    let busy = page.evaluate(busy).to_string();
+    assert!(busy.contains("live-verdict") && busy.contains("ranges"), "{busy}");
+    assert!(!busy.contains("\"sim\""), "{busy}");
+    assert_ne!(drawing(&mut page, "sim"), drawn[1]);
+    settle(&mut page);
+    let after = text(&mut page);
+    let changed = before.lines().zip(after.lines()).filter(|(a, b)| a != b).count();
+    assert_eq!(changed, 6, "{after}");
+    assert_eq!(
+        Case::parse("live.toml", &after).expect("valid").title,
+        "Li 2016, 8.5 Hz, regime of Fig. 4c, b = 20 mm"
+    );
+    for (name, before) in ["map", "sim", "ranges"].iter().zip(drawn) {
+        assert_ne!(drawing(&mut page, name), before, "{name}");
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let case = folder.path().join("live.toml");
+    fs::write(&case, &after).expect("writable");
+    let mut report = Command::cargo_bin("vinesink").expect("built");
+    report.arg("report").arg(&case).arg("--out").arg(folder.path()).assert().success();
+    let native = fs::read_to_string(folder.path().join("live/report.json")).expect("a report");
+    let native: Value = serde_json::from_str(&native).expect("JSON");
+    confront(&study(&mut page, &after)["document"], &native, "moved");
+    // What stands on the page is that study.
+    let verdict = page.evaluate("document.querySelector('[data-live] .verdict').textContent");
+    let peak = native["motions"][0]["peak"]["value"].as_f64().expect("a peak") * 1e3;
+    assert!(
+        verdict.as_str().expect("words").contains(&format!("{peak:.2}")),
+        "{peak} mm: {verdict}"
+    );
+}
+
+#[test]
+fn the_mark_is_dragged_over_the_map_and_taken_back() {
+    let (Some(file), Some(mut browser)) = (file(), browser()) else { return };
+    let mut page = opened(&mut browser, &file, DESKTOP);
+    let begin = text(&mut page);
+    let place = |page: &mut Page| -> [f64; 2] {
+        let at = page.evaluate(
+            "(() => { const at = document.querySelector('.live-mark').getBoundingClientRect();
+                return [at.left + at.width / 2, at.top + at.height / 2]; })()",
+        );
+        [0, 1].map(|k| at[k].as_f64().expect("a place"))
+    };
+    page.evaluate("document.querySelector('.live-mark').scrollIntoView({ block: 'center', behavior: 'instant' })");
+    let from = place(&mut page);
+    let to = [from[0] - 60.0, from[1] + 40.0];
+    page.drag(from, to, 12);
+    settle(&mut page);
+    let dragged = text(&mut page);
+    let case = |text: &str| Case::parse("live.toml", text).expect("valid");
+    let [first, last] = [case(&begin), case(&dragged)];
+    let frequency = |case: &Case| case.system().frequency_ratio();
+    assert!(
+        frequency(&last) < frequency(&first) && last.scales().clearance < first.scales().clearance,
+        "{dragged}"
+    );
+    // The mark is where the pointer left it, as near as four digits of the case file tell.
+    let there = place(&mut page);
+    assert!((0..2).all(|k| (there[k] - to[k]).abs() < 2.0), "{there:?} {to:?}");
+    // The arrow keys do the same.
+    page.evaluate("document.querySelector('.live-mark').focus()");
+    page.press("ArrowUp", 38, "");
+    settle(&mut page);
+    let pushed = text(&mut page);
+    assert!(case(&pushed).scales().clearance > last.scales().clearance);
+    // One step back for a movement, however many events it had.
+    let press = |page: &mut Page, words: &str| {
+        page.evaluate(&format!("[...document.querySelectorAll('button')].find((one) => one.textContent === '{words}').click()"));
+        settle(page);
+        text(page)
+    };
+    assert_eq!(press(&mut page, "Undo"), dragged);
+    assert_eq!(press(&mut page, "Undo"), begin);
+    assert_eq!(press(&mut page, "Redo"), dragged);
+}
+
+#[test]
+fn a_link_holds_the_case_and_a_case_file_is_pasted() {
+    let (Some(file), Some(mut browser)) = (file(), browser()) else { return };
+    let mut page = opened(&mut browser, &file, DESKTOP);
+    let paste = |page: &mut Page, text: &str| {
+        page.evaluate(&format!(
+            "(() => {{
+                document.querySelector('.live-file').open = true;
+                document.querySelector('.live-file textarea').value = {};
+                document.querySelector('.live-file button').click();
+            }})()",
+            json!(text)
+        ));
+    };
+    let other = shipped("force-on-mass");
+    paste(&mut page, &other);
+    settle(&mut page);
+    assert_eq!(text(&mut page), other);
+    let title = page.evaluate("document.querySelector('.live-sliders h3').textContent");
+    assert_eq!(title, Case::parse("other.toml", &other).expect("valid").title);
+    // What is wrong is said with its line, and the case on the page stays.
+    paste(&mut page, &other.replacen("restitution = ", "restitution = 1", 1));
+    let problem = page.evaluate("document.querySelector('.live-problem').textContent");
+    let line = 1 + other.lines().position(|line| line.starts_with("restitution")).expect("a line");
+    let problem = problem.as_str().expect("words").to_owned();
+    assert!(
+        problem.starts_with(&format!("Line {line}: ")) && problem.contains("expected"),
+        "{problem}"
+    );
+    assert_eq!(text(&mut page), other);
+    paste(&mut page, &shipped("sweep-fast"));
+    let problem = page.evaluate("document.querySelector('.live-problem').textContent");
+    assert!(problem.as_str().expect("words").contains("steady vibration"), "{problem}");
+    let link = page.evaluate(&format!("{LIVE}.link()"));
+    let code = link.as_str().and_then(|link| link.split_once('#')).expect("a link").1.to_owned();
+    drop(page);
+    let linked = PathBuf::from(format!("{}#{code}", file.display()));
+    let mut page = opened(&mut browser, &linked, PHONE);
+    assert_eq!(text(&mut page), other);
+}
+
+/// The impacts of the running simulation are those of the library, bit by bit.
+#[test]
+fn the_running_simulation_is_the_programs() {
+    let (Some(file), Some(mut browser)) = (file(), browser()) else { return };
+    let mut page = opened(&mut browser, &file, DESKTOP);
+    let shipped = shipped("li2016-8p5hz-fig4d");
+    let ran = page.evaluate(&format!(
+        "(() => {{
+            const engine = {LIVE}.engine();
+            engine.ask({{ ask: 'run', text: {}, from: 'push' }});
+            const {{ points, impacts }} = engine.goOn(300, 4);
+            return [[...points], [...impacts]];
+        }})()",
+        json!(shipped)
+    ));
+    let system = Case::parse("case.toml", &shipped).expect("valid").system();
+    let start = State { y: 0.5, y_velocity: 1.0, ..State::AT_REST };
+    let mut simulation = Simulation::new(&system, start, 0.0).expect("inside");
+    let mut trace = Trace::new(4.0);
+    simulation.run(300, 100_000, &mut trace);
+    let points =
+        trace.points.iter().flat_map(|at| [at.periods, at.state.x, at.state.x - at.state.y]);
+    let impacts = trace.impacts.iter().flat_map(|(at, impact)| [*at, impact.side.sign()]);
+    assert!(trace.impacts.len() > 300, "{} impacts", trace.impacts.len());
+    for (k, native) in [points.collect::<Vec<f64>>(), impacts.collect()].into_iter().enumerate() {
+        let page: Vec<f64> = serde_json::from_value(ran[k].clone()).expect("numbers");
+        assert!(page == native, "{k}: {} and {} numbers, or other ones", page.len(), native.len());
+    }
+}
+
+#[test]
+fn the_page_is_quiet_accessible_and_fits() {
+    let (Some(file), Some(mut browser)) = (file(), browser()) else { return };
+    let folder = file.parent().expect("a folder").canonicalize().expect("a path");
+    let script = checks::axe().map(|script| fs::read_to_string(script).expect("readable"));
+    for view in [DESKTOP, PHONE] {
+        for dark in [false, true] {
+            let mut page = opened(&mut browser, &file, View { dark, ..view });
+            slide(&mut page, "clearance", 300);
+            settle(&mut page);
+            let noise = checks::noise(&mut page, &folder);
+            assert!(noise.is_empty(), "{noise:#?}");
+            let layout = checks::layout(&mut page);
+            assert!(layout.is_empty(), "{} px, dark {dark}: {layout:#?}", view.width);
+            if let Some(script) = &script {
+                let found = checks::accessibility(&mut page, script);
+                assert!(found.is_empty(), "{} px, dark {dark}: {found:#?}", view.width);
+            }
+        }
+    }
+    assert!(script.is_some() || env::var("VINESINK_BROWSER").is_err(), "there is no axe-core");
+    let size = fs::metadata(&file).expect("a file").len();
+    assert!(size <= 1_500_000, "{size} bytes");
+}
+
+/// A report with the live page is still one file, begins with its own case, and needs no network.
+#[test]
+fn a_report_holds_the_live_page() {
+    let (Some(file), Some(mut browser)) = (file(), browser()) else { return };
+    let folder = tempfile::tempdir().expect("a folder");
+    let folder = folder.path().canonicalize().expect("a path");
+    let case = folder.join("foot.toml");
+    let own = shipped("li2016-8hz-b7p5mm");
+    fs::write(&case, format!("# </pre></script> & <b>\n{own}")).expect("writable");
+    let run = |live: &Path| {
+        let mut report = Command::cargo_bin("vinesink").expect("built");
+        report.arg("report").arg(&case).arg("--out").arg(&folder);
+        report.arg(format!("--live={}", live.display())).assert()
+    };
+    run(&file).success();
+    let written = folder.join("foot/report.html");
+    let mut page = browser.page(DESKTOP);
+    page.open(&written);
+    page.evaluate("document.querySelector('#live').scrollIntoView({ behavior: 'instant' })");
+    settle(&mut page);
+    assert_eq!(text(&mut page), fs::read_to_string(&case).expect("a case"));
+    let noise = checks::noise(&mut page, &folder);
+    assert!(noise.is_empty(), "{noise:#?}");
+    let layout = checks::layout(&mut page);
+    assert!(layout.is_empty(), "{layout:#?}");
+    drop(page);
+    // Something else is no live page, and the report stays as it was.
+    let before = fs::read(&written).expect("a report");
+    let refused = run(&case).failure();
+    let said = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
+    assert!(said.contains("this is not the live page"), "{said}");
+    assert_eq!(fs::read(&written).expect("a report"), before);
+}

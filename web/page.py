@@ -1,0 +1,50 @@
+"""The live page as one file: page.py FOLDER makes FOLDER/live.html from FOLDER/vinesink.wasm."""
+
+import base64
+import pathlib
+import subprocess
+import sys
+
+
+def number(data, at):
+    """An unsigned number of variable length, and where it ends."""
+    value = shift = 0
+    while True:
+        byte = data[at]
+        at += 1
+        value |= (byte & 127) << shift
+        shift += 7
+        if byte < 128:
+            return value, at
+
+
+def bare(module):
+    """The module without custom sections, which say nothing to a browser."""
+    kept, at = bytearray(module[:8]), 8
+    while at < len(module):
+        length, begin = number(module, at + 1)
+        if module[at] != 0:
+            kept += module[at : begin + length]
+        at = begin + length
+    return bytes(kept)
+
+
+folder = pathlib.Path(sys.argv[1])
+module, out = folder / "bare.wasm", folder / "live.html"
+module.write_bytes(bare((folder / "vinesink.wasm").read_bytes()))
+packed = subprocess.run(["zopfli", "--i5", "-c", module], check=True, capture_output=True).stdout
+here = pathlib.Path(__file__).parent
+parts = {
+    "REPORT_CSS": (here / "../templates/report.css").read_text(),
+    "LIVE_CSS": (here / "page/live.css").read_text(),
+    "LIVE_MODULE": base64.b64encode(packed).decode(),
+    "LIVE_JS": (here / "page/live.js").read_text(),
+}
+page = (here / "page/live.html").read_text()
+for name, text in parts.items():
+    page = page.replace(name, text, 1)
+out.write_text(page)
+size = len(page.encode())
+print(f"{out.name}: {size / 1e6:.3f} MB")
+if size > 1_500_000:
+    sys.exit("the page may have 1.5 MB")

@@ -1,0 +1,496 @@
+// The live page: sliders over a case file. The same text runs in the page and in its workers.
+// What a frame has time for is computed in the page; map and study follow from workers, and look old until then.
+"use strict";
+
+/** The module with its memory. */
+class Engine {
+  constructor(module) {
+    // Nothing of the browser is used; what a library would ask for (the time) is never called.
+    const imports = {};
+    for (const { module: from, name } of WebAssembly.Module.imports(module)) {
+      (imports[from] ??= {})[name] = () => 0;
+    }
+    this.exports = new WebAssembly.Instance(module, imports).exports;
+  }
+
+  /** The answer to a request, both as JSON. */
+  ask(request) {
+    const { memory, room, ask, answer_at, answer_length } = this.exports;
+    const text = new TextEncoder().encode(JSON.stringify(request));
+    const at = room(text.length);
+    new Uint8Array(memory.buffer, at, text.length).set(text);
+    ask();
+    return JSON.parse(new TextDecoder().decode(new Uint8Array(memory.buffer, answer_at(), answer_length())));
+  }
+
+  /** What the running simulation does in the next periods: points [t, x, w] and impacts [t, side]. */
+  goOn(periods, samples) {
+    const { memory, go_on, numbers_at } = this.exports;
+    const length = go_on(periods, samples);
+    const numbers = new Float64Array(memory.buffer, numbers_at(), length);
+    const points = numbers.slice(1, 1 + 3 * numbers[0]);
+    return { points, impacts: numbers.slice(1 + 3 * numbers[0]) };
+  }
+}
+
+if (typeof document === "undefined") {
+  let engine;
+  self.onmessage = ({ data }) => {
+    if (data.module) engine = new Engine(data.module);
+    else self.postMessage({ id: data.id, answer: engine.ask(data.request) });
+  };
+} else {
+  document.querySelectorAll("[data-live]").forEach((place) => {
+    const live = new Live(place);
+    // In a report it may never come into sight.
+    new IntersectionObserver(([one], eye) => {
+      if (!one.isIntersecting) return;
+      eye.disconnect();
+      live.begin();
+    }, { rootMargin: "300px" }).observe(place);
+  });
+}
+
+/** A worker that always has the newest request next, and never more than one. */
+function Desk(module, source) {
+  const worker = new Worker(URL.createObjectURL(new Blob([source], { type: "text/javascript" })));
+  let busy = null, next = null, count = 0;
+  const send = (one) => { busy = one; worker.postMessage({ id: (one.id = ++count), request: one.request }); };
+  worker.onmessage = ({ data }) => {
+    const { done } = busy;
+    busy = null;
+    if (next) send(next);
+    next = null;
+    done(data.answer);
+  };
+  worker.postMessage({ module });
+  this.ask = (request) => new Promise((done) => {
+    const one = { request, done };
+    if (busy) next = one; else send(one);
+  });
+}
+
+/** A tag with attributes and children. */
+function make(tag, attributes = {}, ...children) {
+  const element = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) {
+    if (name.startsWith("on")) element.addEventListener(name.slice(2), value);
+    else if (value !== false) element.setAttribute(name, value === true ? "" : value);
+  }
+  element.append(...children);
+  return element;
+}
+
+function Live(place) {
+  // The case as text, its sliders, and what was before and after it.
+  let text = "", controls = [], past = [], future = [], asked = 0, waiting = null;
+  const values = new Map(), sliders = new Map(), figures = new Map();
+  let here, desks;
+  const status = make("p", { class: "live-status", role: "status" });
+  const problem = make("p", { class: "live-problem", role: "alert", hidden: true });
+  const verdict = make("div", { class: "live-verdict", "aria-live": "polite" });
+  const panel = make("form", { class: "live-sliders", "aria-label": "Sliders", onsubmit: (e) => e.preventDefault() });
+  const board = make("div", { class: "live-figures" });
+  const file = make("textarea", { rows: 16, spellcheck: "false", "aria-label": "Case file" });
+  const button = (words, act, more = {}) => make("button", { type: "button", onclick: act, ...more }, words);
+  const undo = button("Undo", () => step(past, future), { disabled: true });
+  const redo = button("Redo", () => step(future, past), { disabled: true });
+  const running = new Running(() => here, say);
+  const frames = [];
+
+  // For tests and for whoever looks into the console.
+  place.live = { ask: (request) => desks[1].ask(request), frames, settled, link, engine: () => here, get text() { return text; } };
+
+  this.begin = async () => {
+    try {
+      const packed = Uint8Array.from(atob(document.getElementById("live-module").textContent.trim()), (c) => c.charCodeAt(0));
+      const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
+      const module = await WebAssembly.compile(await new Response(stream).arrayBuffer());
+      here = new Engine(module);
+      const source = document.getElementById("live-script").textContent;
+      desks = [new Desk(module, source), new Desk(module, source)];
+    } catch (error) {
+      place.replaceChildren(make("p", { class: "live-problem" }, `This page needs a browser with WebAssembly (${error.message}).`));
+      return;
+    }
+    const presets = here.ask({ ask: "presets" });
+    place.replaceChildren(bar(presets), problem, make("div", { class: "live-columns" },
+      make("div", { class: "live-left" }, panel),
+      make("div", {}, verdict, running.figure, board)), status);
+    const own = document.getElementById("live-case")?.textContent;
+    open(await linked() ?? own ?? presets[2][1]);
+    settled().then(warm);
+    addEventListener("keydown", (event) => {
+      if (!(event.ctrlKey || event.metaKey) || event.key.toLowerCase() !== "z" || event.target.matches("input[type=number], textarea")) return;
+      event.preventDefault();
+      event.shiftKey ? step(future, past) : step(past, future);
+    });
+  };
+
+  function bar(presets) {
+    const choose = make("select", { onchange: () => choose.value !== "" && (remember(), open(presets[choose.value][1])) },
+      make("option", { value: "" }, "regimes of the paper"), ...presets.map(([name], k) => make("option", { value: k }, name)));
+    const use = button("Use this case file", () => { remember(); open(file.value); });
+    const paste = make("details", { class: "live-file", ontoggle: () => { file.value = text; } },
+      make("summary", {}, "Case file"), file, use);
+    return make("div", { class: "live-bar" }, make("label", {}, "Begin with ", choose), undo, redo,
+      button("Copy as case file", () => copy(text, "The case file is in the clipboard.")),
+      button("Copy link", async () => copy(await link(), "The link is in the clipboard; it holds the whole case.")),
+      paste);
+  }
+
+  function say(words) { status.textContent = words; }
+
+  async function copy(words, done) {
+    try { await navigator.clipboard.writeText(words); say(done); }
+    catch { say("The browser does not let this page copy. Open “Case file” and copy from there."); }
+  }
+
+  // The state as a part of the address: the text of the case, deflated.
+  async function through(stream, bytes) {
+    return new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(stream)).arrayBuffer());
+  }
+  async function link() {
+    const packed = await through(new CompressionStream("deflate-raw"), new TextEncoder().encode(text));
+    const code = btoa(String.fromCharCode(...packed)).replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "");
+    return `${location.href.split("#")[0]}#case=${code}`;
+  }
+  async function linked() {
+    const code = location.hash.match(/^#case=([\w-]+)$/)?.[1];
+    if (!code) return null;
+    try {
+      const bytes = Uint8Array.from(atob(code.replaceAll("-", "+").replaceAll("_", "/")), (c) => c.charCodeAt(0));
+      return new TextDecoder().decode(await through(new DecompressionStream("deflate-raw"), bytes));
+    } catch { say("The link is not complete, so the page begins with a case of its own."); return null; }
+  }
+
+  function remember() { if (text && past.at(-1) !== text) past.push(text); future.length = 0; buttons(); }
+  function buttons() { undo.disabled = !past.length; redo.disabled = !future.length; }
+  function step(from, to) {
+    if (!from.length) return;
+    to.push(text);
+    open(from.pop());
+    buttons();
+  }
+
+  function complain(problems) {
+    problem.hidden = !problems;
+    problem.textContent = (problems ?? []).map((one) =>
+      [one.line && `Line ${one.line}: `, one.message, one.expected && `; expected ${one.expected}`, one.help && ` (${one.help})`]
+        .filter(Boolean).join("")).join(" ");
+  }
+
+  /** Shows another case: its sliders, then everything else. */
+  function open(wanted) {
+    const answer = here.ask({ ask: "open", text: wanted });
+    complain(answer.problems);
+    if (answer.problems) return;
+    ({ text, controls } = answer);
+    place.dataset.title = answer.title;
+    sliders.clear();
+    panel.replaceChildren(make("h3", {}, answer.title), ...controls.map(slider));
+    if (answer.judged) panel.append(make("p", { class: "live-note" }, "The case has criteria; `vinesink check` judges them over their band."));
+    running.change(text, "push");
+    change(new Map());
+  }
+
+  function slider(of) {
+    const id = `live-${of.key}`;
+    const range = make("input", { id, type: "range", min: 0, max: 1000, step: 1, oninput: () => move(of, at(of, range.value / 1000)), onchange: settle });
+    const field = make("input", { type: "number", step: "any", "aria-label": `${of.name} in ${of.unit.symbol || "1"}`,
+      onchange: () => { settle(); move(of, field.value * of.unit.size); } });
+    sliders.set(of.key, { range, field });
+    return make("div", { class: "live-slider" }, make("label", { for: id }, `${of.name} ${of.symbol}`),
+      make("span", { class: "live-field" }, field, make("span", {}, of.unit.symbol)), range);
+  }
+  function at({ range: [low, high], log }, part) { return log ? low * (high / low) ** part : low + part * (high - low); }
+  function part({ range: [low, high], log }, value) {
+    return log ? Math.log(value / low) / Math.log(high / low) : (value - low) / (high - low);
+  }
+
+  // The first value of a movement is one step of undo, however far it goes.
+  let moving = false;
+  function move(of, value) {
+    if (!Number.isFinite(value)) return;
+    if (!moving) { remember(); moving = true; }
+    values.set(of.key, value);
+    if (waiting === null) waiting = requestAnimationFrame(() => { waiting = null; const some = new Map(values); values.clear(); change(some); });
+  }
+  function settle() { moving = false; }
+
+  /** The case with other values: at once what is cheap, the rest when it comes. */
+  function change(some) {
+    const begin = performance.now();
+    const answer = here.ask({ ask: "change", text, values: Object.fromEntries(some) });
+    complain(answer.problems);
+    if (answer.problems) return show(controls);
+    const other = answer.text !== text;
+    text = answer.text;
+    show(answer.controls);
+    for (const one of answer.figures) draw(one);
+    if (other) running.change(text, "here");
+    const onlyCase = [...some.keys()].every((key) => key === "frequency" || key === "clearance");
+    follow(some.size > 0 && onlyCase);
+    frames.push(performance.now() - begin);
+  }
+
+  /** A browser makes often used code fast; the first movement of a slider finds it so. */
+  function warm(left = 80) {
+    if (left === 0 || past.length) return;
+    (self.requestIdleCallback ?? setTimeout)(() => {
+      here.ask({ ask: "change", text, values: {} });
+      warm(left - 1);
+    });
+  }
+
+  function show(now) {
+    for (const one of now) {
+      const of = controls.find(({ key }) => key === one.key), { range, field } = sliders.get(one.key);
+      of.value = one.value;
+      range.value = 1000 * part(of, one.value);
+      range.setAttribute("aria-valuetext", one.words);
+      if (document.activeElement !== field) field.value = Number((one.value / of.unit.size).toPrecision(4));
+    }
+    mark();
+  }
+
+  /** What workers make. The areas do not depend on the case's own frequency and clearance. */
+  async function follow(keepMap = false) {
+    const version = ++asked;
+    old(verdict);
+    for (const [name, one] of figures) if (name !== "sim" && !(name === "map" && keepMap)) old(one);
+    const [map, study] = desks;
+    const done = (act) => (answer) => { if (version === asked) act(answer); };
+    await Promise.all([
+      keepMap && figures.has("map") && moving ? null : map.ask({ ask: "map", text }).then(done(showMap)),
+      study.ask({ ask: "study", text }).then(done(showStudy)),
+    ]);
+  }
+
+  /** Until everything on the page belongs to the sliders. */
+  async function settled() {
+    while (waiting !== null || place.querySelector("[aria-busy=true]")) await new Promise((done) => setTimeout(done, 5));
+  }
+
+  function old(element) { element.setAttribute("aria-busy", "true"); }
+  function fresh(element) { element.removeAttribute("aria-busy"); }
+
+  function draw({ name, svg, title, caption }) {
+    if (!figures.has(name)) {
+      const one = make("figure", { "data-name": name }, make("div", { class: "drawing", tabindex: 0, role: "region" }), make("figcaption"));
+      figures.set(name, one);
+      const order = ["map", "sim", "ranges", "amplitude", "response", "motion-1", "return-map-1", "plane"];
+      const rank = (name) => (order.indexOf(name) + 99) % 99;
+      board.append(...[...figures].sort(([a], [b]) => rank(a) - rank(b)).map(([, figure]) => figure));
+    }
+    const figure = figures.get(name);
+    figure.firstChild.innerHTML = svg;
+    figure.firstChild.setAttribute("aria-label", title);
+    figure.lastChild.textContent = caption.replace(/\$|\\|\*/g, "");
+    fresh(figure);
+    return figure;
+  }
+
+  function showStudy(answer) {
+    complain(answer.problems);
+    if (answer.problems) return;
+    verdict.replaceChildren(...firstScreen(answer));
+    fresh(verdict);
+    const names = new Set(answer.figures.map(({ name }) => name)).add("map").add("sim");
+    for (const [name, figure] of figures) if (!names.has(name)) { figure.remove(); figures.delete(name); }
+    answer.figures.forEach(draw);
+  }
+
+  /** The verdict and the first numbers, from the Markdown of the report. */
+  function firstScreen({ first_screen, document: { verdict: { tone } } }) {
+    const lines = first_screen.split("\n"), plain = (line) => line.replace(/\[(.+?)\]\(.*?\)/g, "$1").replace(/\\(.)/g, "$1");
+    const sentence = (line) => make("p", {}, ...plain(line).split("**").map((part, k) => k % 2 ? make("strong", {}, part) : part));
+    const some = (begin) => lines.filter((line) => line.startsWith(begin)).map((line) => sentence(line.slice(2)));
+    const [names = [], , numbers = [], layers = []] = lines.filter((line) => line.startsWith("|")).map((line) => line.split("|").slice(1, -1).map((cell) => plain(cell.trim())));
+    return [make("section", { class: `verdict ${tone ?? ""}` }, ...some("> ")), ...some("- "),
+      make("dl", { class: "live-numbers" }, ...names.map((name, k) => make("div", {}, make("dt", {}, name), make("dd", {}, numbers[k], make("small", {}, layers[k])))))];
+  }
+
+  // The map's mark: an axis value is `at`, and one in SI `values`.
+  let chart = null;
+  const star = button("★", () => {}, { class: "live-mark", "aria-label": "This case on the map; arrow keys change frequency and clearance" });
+  function showMap(answer) {
+    if (answer.problems) { figures.get("map")?.remove(); figures.delete("map"); return; }
+    const drawing = draw(answer).firstChild;
+    chart = answer.panel && { ...answer.panel, factor: answer.panel.values.map((value, k) => value / answer.panel.at[k]) };
+    if (!chart) return;
+    const sheet = make("div", { class: "live-sheet" });
+    sheet.append(drawing.firstElementChild, star);
+    drawing.replaceChildren(sheet);
+    sheet.onpointerdown = (event) => {
+      sheet.setPointerCapture(event.pointerId);
+      drag(event);
+      sheet.onpointermove = drag;
+      event.preventDefault();
+      star.focus({ preventScroll: true });
+    };
+    sheet.onpointerup = sheet.onpointercancel = () => { sheet.onpointermove = null; settle(); follow(); };
+    star.onkeydown = (event) => {
+      const way = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
+      if (!way) return;
+      event.preventDefault();
+      const shares = places().map((share, k) => share + 0.01 * way[k]);
+      put(shares);
+      settle();
+    };
+    mark();
+  }
+  const now = () => ["frequency", "clearance"].map((key) => controls.find((one) => one.key === key));
+  /** Where the case is: shares of the axes. */
+  function places() {
+    return now().map((of, k) => { const [first, last, log] = chart.axes[k]; return part({ range: [first, last], log }, of.value / chart.factor[k]); });
+  }
+  function put(shares) {
+    now().forEach((of, k) => {
+      const [first, last, log] = chart.axes[k];
+      move(of, at({ range: [first, last], log }, Math.min(1, Math.max(0.002, shares[k]))) * chart.factor[k]);
+    });
+  }
+  function drag(event) {
+    const box = event.currentTarget.querySelector("svg").getBoundingClientRect(), [left, top, right, bottom] = chart.room;
+    put([((event.clientX - box.left) / box.width - left) / (right - left), (bottom - (event.clientY - box.top) / box.height) / (bottom - top)]);
+  }
+  function mark() {
+    if (!chart || !now().every(Boolean)) return;
+    const [left, top, right, bottom] = chart.room, [x, y] = places().map((share) => Math.min(1, Math.max(0, share)));
+    star.style.left = `${100 * (left + x * (right - left))}%`;
+    star.style.top = `${100 * (bottom - y * (bottom - top))}%`;
+  }
+}
+
+/** The simulation that runs: displacement, the absorber in its cavity with impacts, and the return map. */
+function Running(engine, say) {
+  const WINDOW = 10, IMPACTS = 2000, SAMPLES = 48;
+  let clock = 0, simulated = 0, begin = 0, points = [], impacts = [], last = null, shown = true;
+  let paused = matchMedia("(prefers-reduced-motion: reduce)").matches;
+  const canvas = (label) => make("canvas", { role: "img", "aria-label": label });
+  const motion = canvas("Displacement of the oscillator and position of the absorber between its walls over the last ten periods");
+  const map = canvas("Return map: each time between impacts over the one before");
+  const pause = make("button", { type: "button", onclick: () => { paused = !paused; label(); } });
+  const label = () => { pause.textContent = paused ? "Run" : "Pause"; };
+  const speed = make("select", {}, ...[[1, "1 period a second"], [10, "10 periods a second"], [200, "200 periods a second"]].map(([value, words]) =>
+    make("option", { value, selected: value === 10 }, words)));
+  label();
+  this.figure = make("figure", { class: "live-running", "data-name": "running" },
+    make("div", { class: "live-bar" }, make("strong", {}, "Running simulation"), pause, make("label", {}, "Speed ", speed),
+      make("button", { type: "button", onclick: () => this.change(this.text, "push") }, "With a push"),
+      make("button", { type: "button", onclick: () => this.change(this.text, "rest") }, "From rest")),
+    make("div", { class: "live-canvases" }, motion, map),
+    make("figcaption", {}, "The full system, impact by impact; a slider changes it while it runs. Above: displacement x over the clearance. Below: the absorber between its walls, each dot an impact. Right: the time between impacts over the one before, in periods; two evenly spaced impacts per period are the point (0.5, 0.5), on the line of all motions with two impacts per period. From rest the absorber may stay inactive, which a push prevents."));
+  new IntersectionObserver(([one]) => { shown = one.isIntersecting; }).observe(this.figure);
+  const still = () => { drawn(); };
+
+  /** Runs a case on from where the simulation is, or anew: at rest, or with an absorber that was pushed. */
+  this.change = (text, from) => {
+    this.text = text;
+    const answer = engine().ask({ ask: "run", text, from });
+    if (answer.problems) return say(answer.problems[0].message);
+    if (from !== "here") { points = []; clock = simulated = 0; }
+    begin = simulated;
+    impacts = [];
+    if (paused) { clock += WINDOW; still(); }
+    if (last === null) last = requestAnimationFrame(frame);
+  };
+  this.state = () => ({ clock, impacts: impacts.length / 2, points: points.length / 3 });
+
+  function ahead() {
+    const periods = Math.min(40, Math.ceil(clock - simulated));
+    if (periods <= 0) return;
+    const news = engine().goOn(periods, SAMPLES);
+    for (let k = 0; k < news.points.length; k += 3) points.push(begin + news.points[k], news.points[k + 1], news.points[k + 2]);
+    for (let k = 0; k < news.impacts.length; k += 2) impacts.push(begin + news.impacts[k], news.impacts[k + 1]);
+    simulated += periods;
+    clock = Math.min(clock, simulated);
+    let first = 0;
+    while (first < points.length && points[first] < clock - WINDOW) first += 3;
+    points.splice(0, first);
+    impacts.splice(0, Math.max(0, impacts.length - 2 * IMPACTS));
+  }
+
+  function frame(time) {
+    const before = typeof last === "number" && frame.time ? time - frame.time : 0;
+    frame.time = time;
+    if (!paused && shown) { clock += Math.min(before, 100) / 1000 * speed.value; drawn(); }
+    requestAnimationFrame(frame);
+  }
+
+  /** A canvas as large as on the screen, empty, and its size in pixels of the page. */
+  function sheet(canvas, height) {
+    const dots = devicePixelRatio || 1, width = canvas.clientWidth;
+    if (canvas.width !== Math.round(width * dots)) {
+      canvas.style.height = `${height}px`;
+      [canvas.width, canvas.height] = [width, height].map((side) => Math.round(side * dots));
+    }
+    const g = canvas.getContext("2d");
+    g.setTransform(dots, 0, 0, dots, 0, 0);
+    g.clearRect(0, 0, width, height);
+    g.font = "13px system-ui, sans-serif";
+    return { g, width, height };
+  }
+  const HEIGHT = 270;
+
+  function drawn() {
+    ahead();
+    const style = getComputedStyle(motion);
+    const [ink, soft, line, blue, red] = ["--ink", "--soft", "--line", "--link", "--bad"].map((name) => style.getPropertyValue(name));
+    strip(sheet(motion, HEIGHT), { ink, soft, line, blue, red });
+    square(sheet(map, HEIGHT), { soft, line, blue });
+  }
+
+  function strip({ g, width, height }, { ink, soft, line, blue, red }) {
+    const left = 58, right = width - 6, from = clock - WINDOW, middles = [62, 180];
+    const across = (t) => left + (t - from) / WINDOW * (right - left);
+    let most = 0.01;
+    for (let k = 1; k < points.length; k += 3) most = Math.max(most, Math.abs(points[k]));
+    const rule = (x1, y1, x2, y2) => { g.beginPath(); g.moveTo(x1, y1); g.lineTo(x2, y2); g.stroke(); };
+    g.strokeStyle = line;
+    for (let t = Math.ceil(from); t <= clock; t += 1) rule(across(t), 6, across(t), height - 24);
+    g.fillStyle = soft;
+    [["x/b", `±${most.toPrecision(2)}`], ["w/b", "±1"]].forEach((words, k) => words.forEach((word, row) => g.fillText(word, 4, middles[k] + 16 * row)));
+    g.textAlign = "right";
+    g.fillText("time in periods", right, height - 6);
+    g.textAlign = "left";
+    const curve = (index, middle, half) => {
+      g.strokeStyle = blue; g.lineWidth = 1.6; g.beginPath();
+      for (let k = 0, pen = false; k < points.length && points[k] <= clock; k += 3) {
+        if (points[k] < from) continue;
+        const x = across(points[k]), y = middle - points[k + index] * half;
+        pen ? g.lineTo(x, y) : g.moveTo(x, y);
+        pen = true;
+      }
+      g.stroke();
+    };
+    curve(1, middles[0], 50 / most);
+    curve(2, middles[1], 58);
+    g.strokeStyle = ink; g.lineWidth = 2;
+    for (const side of [-58, 58]) rule(left, middles[1] + side, right, middles[1] + side);
+    g.fillStyle = red;
+    for (let k = 0; k < impacts.length; k += 2) {
+      if (impacts[k] < from || impacts[k] > clock) continue;
+      g.beginPath(); g.arc(across(impacts[k]), middles[1] - 58 * impacts[k + 1], 3.5, 0, 7); g.fill();
+    }
+  }
+
+  function square({ g, width, height }, { soft, line, blue }) {
+    const side = Math.min(height - 48, width - 60), left = (width - side) / 2 + 10, top = 8, bottom = top + side;
+    const pairs = [];
+    for (let k = 4; k < impacts.length; k += 2) pairs.push([impacts[k - 2] - impacts[k - 4], impacts[k] - impacts[k - 2]]);
+    const most = pairs.reduce((most, [a, b]) => Math.max(most, a, b), 1) * 1.05;
+    const x = (t) => left + t / most * side, y = (t) => bottom - t / most * side;
+    g.strokeStyle = line; g.lineWidth = 1.5;
+    g.strokeRect(left, top, side, side);
+    g.beginPath(); g.moveTo(x(0), y(1)); g.lineTo(x(1), y(0)); g.moveTo(x(0), y(0)); g.lineTo(x(most), y(most)); g.stroke();
+    g.fillStyle = soft; g.textAlign = "center";
+    g.fillText("time between impacts (periods)", left + side / 2, height - 6);
+    g.fillText("0", left - 8, bottom + 4); g.fillText("1", x(1), bottom + 14); g.fillText("1", left - 8, y(1) + 4);
+    g.save(); g.translate(left - 20, top + side / 2); g.rotate(-Math.PI / 2); g.fillText("the next one", 0, 0); g.restore();
+    g.textAlign = "left";
+    g.fillStyle = blue;
+    for (const [a, b] of pairs) g.fillRect(x(a) - 1.5, y(b) - 1.5, 3, 3);
+  }
+}

@@ -1,0 +1,175 @@
+//! The requests of the page.
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+use serde_json::{Value, json};
+use vinesink::case::{Case, Rounding};
+use vinesink::report::document::{self, Source};
+use vinesink::report::figure::{self, Figure, PlacedPanel};
+use vinesink::report::{figures, template};
+use vinesink::study::plots::{Map, Plot};
+use vinesink::study::{CaseStudy, StudyEffort};
+use vinesink::system::Parameter;
+use vinesink::transient::Scene;
+
+use crate::controls;
+use crate::running::{self, From};
+
+/// A request. Every one but [`Request::Presets`] is about the case that `text` describes.
+#[derive(Deserialize)]
+#[serde(tag = "ask", rename_all = "snake_case")]
+enum Request {
+    /// The cases to begin with.
+    Presets,
+    /// The sliders of a case.
+    Open { text: String },
+    /// The case with other values, in SI; then what a frame of a moving picture has time for.
+    Change { text: String, values: BTreeMap<String, f64> },
+    /// The map of the areas, without the mark of the case.
+    Map { text: String },
+    /// The report as data, its first screen, and its figures.
+    Study { text: String },
+    /// The running simulation is of this case now.
+    Run { text: String, from: From },
+}
+
+/// The paper's five regimes (Fig. 4), from the shipped cases.
+const PRESETS: [(&str, &str); 5] = [
+    ("more than two impacts per period", include_str!("../../cases/li2016-8p5hz-fig4a.toml")),
+    ("two asymmetric impacts", include_str!("../../cases/li2016-8p5hz-fig4b.toml")),
+    ("two symmetric impacts", include_str!("../../cases/li2016-8p5hz-fig4c.toml")),
+    ("strongly modulated response", include_str!("../../cases/li2016-8p5hz-fig4d.toml")),
+    ("few impacts", include_str!("../../cases/li2016-8p5hz-fig4e.toml")),
+];
+
+/// The answer to a request; `{"problems": [...]}` where there is none.
+pub fn to(request: &[u8]) -> Vec<u8> {
+    let answer = serde_json::from_slice(request).map_err(words).and_then(answer);
+    let answer = answer.unwrap_or_else(|problems| json!({ "problems": problems }));
+    answer.to_string().into_bytes()
+}
+
+/// What is wrong in other words than a case file's.
+fn words(error: impl std::fmt::Display) -> Value {
+    json!([{ "message": error.to_string() }])
+}
+
+fn answer(request: Request) -> Result<Value, Value> {
+    match request {
+        Request::Presets => Ok(PRESETS.iter().map(|(name, text)| json!([name, text])).collect()),
+        Request::Open { text } => opened(&read(&text)?, &text),
+        Request::Change { text, values } => change(&text, &values),
+        Request::Map { text } => map(&read(&text)?),
+        Request::Study { text } => study(&read(&text)?),
+        Request::Run { text, from } => {
+            let case = read(&text)?;
+            running::change(&case.system(), case.scales().clearance, from).map_err(words)?;
+            Ok(json!({}))
+        }
+    }
+}
+
+/// The case at its own excitation: what it asks for along a band takes longer than a page can wait.
+fn read(text: &str) -> Result<Case, Value> {
+    let mut case = Case::parse("case.toml", text).map_err(|error| {
+        let problems = error.problems().map(|problem| {
+            json!({
+                "message": problem.message, "expected": problem.expected, "help": problem.help,
+                "line": problem.line, "column": problem.column,
+            })
+        });
+        Value::from_iter(problems)
+    })?;
+    if case.design.scene() != Scene::Steady {
+        return Err(words("this page shows steady vibration; the case is a shock, a sweep or a record"));
+    }
+    (case.band, case.criteria, case.accuracy) = (None, Vec::new(), None);
+    Ok(case)
+}
+
+fn opened(case: &Case, text: &str) -> Result<Value, Value> {
+    let whole = Case::parse("case.toml", text).map_err(words)?;
+    Ok(json!({
+        "text": text,
+        "title": case.title,
+        "controls": controls::controls(case),
+        // Left to the program.
+        "judged": !whole.criteria.is_empty(),
+    }))
+}
+
+fn change(text: &str, values: &BTreeMap<String, f64>) -> Result<Value, Value> {
+    let case = Case::parse("case.toml", text).map_err(words)?;
+    let mut design = case.design;
+    for (key, value) in values {
+        let parameter = Parameter::of_name(key).ok_or_else(|| words(format!("no slider {key}")))?;
+        design = design.with(parameter, *value);
+    }
+    let changed = case.rewritten("case.toml", text, &design, Rounding::Nearest).map_err(words)?;
+    let case = read(&changed.text)?;
+    let sketch = CaseStudy::sketch(&case.system()).map_err(words)?;
+    let manifold = drawn(&case, &sketch, &[Plot::Manifold])?;
+    let mut answer = opened(&case, &changed.text)?;
+    answer["figures"] = manifold.into_iter().map(|figure| Ok(shown(figure)?.0)).collect::<Result<_, Value>>()?;
+    Ok(answer)
+}
+
+fn drawn(case: &Case, study: &CaseStudy, plots: &[Plot]) -> Result<Vec<Figure>, Value> {
+    template::worded(figures::all(case, study, plots), &document::units(case)).map_err(words)
+}
+
+/// A figure for the page, and where its panels are.
+fn shown(figure: Figure) -> Result<(Value, Vec<PlacedPanel>), Value> {
+    let drawing = figure::draw(&figure).map_err(words)?;
+    let mut row = document::figure_row(&figure);
+    row["svg"] = drawing.svg.into();
+    Ok((row, drawing.panels))
+}
+
+/// The map, the rectangle of its data in shares of the drawing, its axes, and where the case is on them: the
+/// page draws the mark, which a reader may drag.
+fn map(case: &Case) -> Result<Value, Value> {
+    let sketch = CaseStudy::sketch(&case.system()).map_err(words)?;
+    if case.system().forcing_per_clearance() == 0.0 {
+        return Err(words("nothing drives this case: there is no map"));
+    }
+    let plot = Plot::Map(Map::of(&sketch));
+    let mut figure = drawn(case, &sketch, &[plot])?.pop().ok_or_else(|| words("there is no map"))?;
+    let at = figure.take_case();
+    let (width, height) = figure.size;
+    let (mut answer, panels) = shown(figure)?;
+    if let (Some(panel), Some(at)) = (panels.first(), at) {
+        let [left, right] = [panel.room.left, panel.room.right].map(|x| x / f64::from(width));
+        let [top, bottom] = [panel.room.top, panel.room.bottom].map(|y| y / f64::from(height));
+        let [frequency, clearance] = [Parameter::Frequency, Parameter::Clearance];
+        let value = |parameter| case.design.value(parameter);
+        answer["panel"] = json!({
+            "room": [left, top, right, bottom], "axes": panel.axes, "at": at,
+            "values": [value(frequency), value(clearance)],
+        });
+    }
+    Ok(answer)
+}
+
+/// A study at the case's own excitation, without what would spoil it: its document, the first screen of the report,
+/// and the figures.
+fn study(case: &Case) -> Result<Value, Value> {
+    let effort = StudyEffort::of(&case.simulation);
+    let study = CaseStudy::of(&case.system(), effort, &mut |_| {}).map_err(words)?;
+    let figures = drawn(case, &study, &Plot::usual(&study).map_err(words)?)?;
+    let document = document::document(&Source {
+        name: "live",
+        case,
+        study: &study,
+        judged: &[],
+        answers: None,
+        figures: &figures,
+    });
+    let report = template::render("report.md", &document::units(case), &document).map_err(words)?;
+    let first_screen = report.split("<img ").next().unwrap_or_default();
+    // The map is the page's own.
+    let others = figures.into_iter().filter(|figure| figure.name != "map");
+    let figures: Result<Vec<Value>, Value> = others.map(|figure| Ok(shown(figure)?.0)).collect();
+    Ok(json!({ "document": document, "first_screen": first_screen, "figures": figures? }))
+}
