@@ -1,0 +1,305 @@
+//! A case: read, and what the program's commands say of it.
+
+use std::path::PathBuf;
+
+use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, NamedSource, Report};
+use numpy::{IntoPyArray, PyArray1};
+use pyo3::create_exception;
+use pyo3::exceptions::{PyOSError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use serde::Serialize;
+use vinesink::analysis::Analysis;
+use vinesink::case::{self, Recording};
+use vinesink::orbits::FullSystem;
+use vinesink::report::console::Analysed;
+use vinesink::report::transient as page;
+use vinesink::store;
+use vinesink::study::StudyEffort;
+use vinesink::study::fidelity::{AccuracyTarget, Plan};
+use vinesink::system::State;
+use vinesink::transient::{DecayStudy, Scene, Study};
+
+use crate::simulate::{self, Impacts, Wanted};
+use crate::work::{self, Work, refused};
+use crate::{branch, report};
+
+create_exception!(vinesink, CaseError, PyValueError, "A case that cannot be read.");
+
+/// Width of messages, as the program writes them where no terminal tells another.
+const WIDTH: usize = 80;
+
+/// Columns of a table, by name.
+pub type Columns<'py> = Bound<'py, PyDict>;
+
+/// A case as it was read.
+#[pyclass(frozen, module = "vinesink._vinesink")]
+pub struct Case {
+    pub inner: case::Case,
+    text: String,
+    /// As messages say it, and the stem of its file.
+    name: String,
+    stem: String,
+}
+
+#[pymethods]
+impl Case {
+    /// From its text; a record that it names is beside `folder`.
+    #[staticmethod]
+    fn parse(py: Python<'_>, name: &str, text: &str, folder: PathBuf) -> PyResult<Self> {
+        let wrong = |error| case_error(py, &error);
+        let mut inner = case::Case::parse(name, text).map_err(wrong)?;
+        if let Some(file) = inner.recording.as_ref().and_then(Recording::file) {
+            let record = folder.join(file);
+            let text =
+                store::read_text(&record).map_err(|error| PyOSError::new_err(error.to_string()))?;
+            inner = inner.with_record(&record.display().to_string(), &text).map_err(wrong)?;
+        }
+        Ok(Self { inner, text: text.to_owned(), name: name.to_owned(), stem: String::new() })
+    }
+
+    /// From its file.
+    #[staticmethod]
+    fn read(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
+        let text =
+            store::read_text(&path).map_err(|error| PyOSError::new_err(error.to_string()))?;
+        let folder = path.parent().map(PathBuf::from).unwrap_or_default();
+        let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+        let case = Self::parse(py, &path.display().to_string(), &text, folder)?;
+        Ok(Self { stem: stem.unwrap_or_default(), ..case })
+    }
+
+    #[getter]
+    fn title(&self) -> &str {
+        &self.inner.title
+    }
+
+    #[getter]
+    fn source(&self) -> &str {
+        &self.inner.source
+    }
+
+    #[getter]
+    fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// The stem of its file; empty for a case from a text.
+    #[getter]
+    fn stem(&self) -> &str {
+        &self.stem
+    }
+
+    /// Whether it is driven steadily.
+    #[getter]
+    fn steady(&self) -> bool {
+        self.inner.design.scene() == Scene::Steady
+    }
+
+    /// What is probably a slip in it, as the program says it of the text.
+    fn warnings(&self) -> Vec<String> {
+        let visible = self.text.strip_prefix('\u{feff}').unwrap_or(&self.text);
+        let source = || NamedSource::new(&self.name, visible.to_owned());
+        let shown =
+            |one: &case::Problem| shown(&*Report::new(one.clone()).with_source_code(source()));
+        self.inner.warnings().iter().map(shown).collect()
+    }
+
+    /// Clearance, natural frequency and mass, which turn dimensionless numbers into the case's units.
+    fn scales<'py>(&self, py: Python<'py>) -> PyResult<Columns<'py>> {
+        let scales = self.inner.scales();
+        let dict = PyDict::new(py);
+        dict.set_item("physical", scales.physical)?;
+        dict.set_item("length", scales.length(1.0))?;
+        dict.set_item("time", scales.time(1.0))?;
+        dict.set_item("velocity", scales.velocity(1.0))?;
+        dict.set_item("energy", scales.energy(1.0))?;
+        dict.set_item("frequency", scales.frequency(1.0))?;
+        dict.set_item("period", scales.time(self.inner.system().period()))?;
+        Ok(dict)
+    }
+
+    /// As `vinesink analyze --format json`.
+    fn analyze(&self, py: Python<'_>, progress: Option<Py<PyAny>>) -> PyResult<String> {
+        work::done(py, progress, |work| json(&self.analysed(work)?))
+    }
+
+    /// All exact orbits with two impacts per period: the document of each, and its sequence of walls.
+    fn orbits(&self, py: Python<'_>) -> PyResult<String> {
+        self.needs_steady("a list of orbits is")?;
+        work::done(py, None, |_| json(&branch::orbits(&self.inner)))
+    }
+
+    /// As `vinesink simulate --format json`; the impacts of the measured window and its start.
+    fn simulate<'py>(
+        &self,
+        py: Python<'py>,
+        periods: Option<u64>,
+        discard: Option<u64>,
+        initial: Option<[f64; 4]>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<(String, Columns<'py>, [f64; 4])> {
+        if !self.steady() {
+            let text = work::done(py, progress, |work| {
+                let study = Study::of_case(&self.inner, work).transpose().map_err(refused)?;
+                json(&study.map(|study| page::document(&self.stem, &self.inner, &study, &[])))
+            })?;
+            return Ok((text, PyDict::new(py), [f64::NAN; 4]));
+        }
+        let wanted = self.wanted(periods, discard, initial);
+        let (text, impacts, start) = work::done(py, progress, |work| {
+            let (document, impacts, start) = simulate::measured(&self.inner, &wanted, work)?;
+            Ok((json(&document)?, Impacts::of(&impacts), start))
+        })?;
+        Ok((text, impacts.columns(py)?, simulate::numbers(start)))
+    }
+
+    /// The impacts of one trajectory, without measuring it.
+    fn fly<'py>(
+        &self,
+        py: Python<'py>,
+        periods: Option<u64>,
+        discard: Option<u64>,
+        initial: [f64; 4],
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Columns<'py>> {
+        self.needs_steady("a list of impacts is")?;
+        let wanted = self.wanted(periods, discard, Some(initial));
+        work::done(py, progress, |work| simulate::flown(&self.inner, &wanted, work))?.columns(py)
+    }
+
+    /// The states of a trajectory at times in excitation periods, ascending from 0: a row of four each.
+    fn trajectory<'py>(
+        &self,
+        py: Python<'py>,
+        initial: [f64; 4],
+        times: Vec<f64>,
+    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        self.needs_steady("a trajectory is")?;
+        let start = simulate::state(initial);
+        let found =
+            work::done(py, None, |work| simulate::sampled(&self.inner, start, times, work))?;
+        Ok(found.into_pyarray(py))
+    }
+
+    /// Writes the files of `vinesink report` into a folder; whether what was asked for holds.
+    fn report(
+        &self,
+        py: Python<'_>,
+        folder: PathBuf,
+        name: &str,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<bool> {
+        let render = |work: &Work| report::rendered(&self.inner, name, work);
+        let (files, holds) = work::done(py, progress, render)?;
+        report::write(&folder, &files)?;
+        Ok(holds)
+    }
+
+    /// A branch of exact orbits: its points as columns, bifurcations and ends as JSON.
+    fn branch<'py>(
+        &self,
+        py: Python<'py>,
+        parameter: &str,
+        range: [f64; 2],
+        orbit: Option<usize>,
+        most_points: usize,
+    ) -> PyResult<(Columns<'py>, String)> {
+        self.needs_steady("a branch is")?;
+        let followed = || branch::followed(&self.inner, parameter, range, orbit, most_points);
+        let found = work::done(py, None, |_| followed())?;
+        Ok((found.columns(py)?, json(&found.told)?))
+    }
+}
+
+impl Case {
+    pub fn needs_steady(&self, what: &str) -> PyResult<()> {
+        match self.inner.design.scene() {
+            Scene::Steady => Ok(()),
+            other => Err(refused(format!(
+                "its structure is {}, and {what} about one that is driven steadily",
+                other.words()
+            ))),
+        }
+    }
+
+    fn wanted(
+        &self,
+        periods: Option<u64>,
+        discard: Option<u64>,
+        initial: Option<[f64; 4]>,
+    ) -> Wanted {
+        let asked = StudyEffort::of(&self.inner.simulation);
+        let (periods, discard) = (periods.unwrap_or(asked.periods), discard.or(asked.discard));
+        Wanted {
+            effort: StudyEffort { periods, discard, ..asked },
+            start: initial.map(simulate::state),
+        }
+    }
+
+    fn analysed(&self, work: &Work) -> PyResult<serde_json::Value> {
+        let case = &self.inner;
+        if let Some(study) = DecayStudy::by_theory(case) {
+            return Ok(page::document(&self.stem, case, &Study::Release(Box::new(study)), &[]));
+        }
+        self.needs_steady("an analysis is")?;
+        let analysis = Analysis::of(&case.system()).map_err(refused)?;
+        let exact = FullSystem::of(&case.system());
+        let found = match plan(case)? {
+            None => None,
+            Some(plan) if plan.needs_simulation() => {
+                let found = simulate::search(&analysis, &StudyEffort::of(&case.simulation), work)?;
+                Some(plan.answers(Some(&found)).map_err(refused)?)
+            }
+            Some(plan) => Some(plan.answers(None).map_err(refused)?),
+        };
+        Ok(Analysed { case, analysis: &analysis, exact: &exact, answers: found.as_ref() }
+            .document())
+    }
+}
+
+/// Which layer answers what, if the case asks for accuracy.
+pub fn plan(case: &case::Case) -> PyResult<Option<Plan>> {
+    let plan = |settings| Plan::of(&case.system(), AccuracyTarget::of(settings), None);
+    case.accuracy.as_ref().map(plan).transpose().map_err(refused)
+}
+
+/// A document as the program prints it.
+pub fn json(document: &impl Serialize) -> PyResult<String> {
+    serde_json::to_string(document).map_err(refused)
+}
+
+/// A state that is given as four numbers.
+pub fn states(initial: &[[f64; 4]]) -> Vec<State> {
+    initial.iter().copied().map(simulate::state).collect()
+}
+
+/// A problem as the program shows it, with the text underlined.
+fn shown(problem: &dyn Diagnostic) -> String {
+    let mut text = String::new();
+    let handler = GraphicalReportHandler::new_themed(GraphicalTheme::unicode_nocolor());
+    let handler = handler.with_width(WIDTH);
+    // Writing into a text does not fail.
+    let _ = handler.render_report(&mut text, problem);
+    text
+}
+
+/// With the program's message, and each problem as a dict in `problems`.
+fn case_error(py: Python<'_>, error: &case::CaseError) -> PyErr {
+    let raised = CaseError::new_err(shown(error));
+    let each = error.problems().map(|problem| {
+        let dict = PyDict::new(py);
+        dict.set_item("line", problem.line)?;
+        dict.set_item("column", problem.column)?;
+        dict.set_item("underlined", &problem.underlined)?;
+        dict.set_item("message", &problem.message)?;
+        dict.set_item("expected", &problem.expected)?;
+        dict.set_item("help", &problem.help)?;
+        Ok(dict)
+    });
+    let all: PyResult<Vec<_>> = each.collect();
+    match all.and_then(|all| raised.value(py).setattr("problems", all)) {
+        Ok(()) => raised,
+        Err(other) => other,
+    }
+}

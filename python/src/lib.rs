@@ -1,0 +1,23 @@
+//! What the Python package `vinesink` needs of the library: cases, their documents as JSON, arrays of numbers.
+//! What users see of it is in `package/vinesink/`; its types are in `_vinesink.pyi` there.
+
+mod branch;
+mod case;
+mod many;
+mod report;
+mod simulate;
+mod work;
+
+use pyo3::prelude::*;
+
+/// The compiled part of the package.
+#[pymodule]
+fn _vinesink(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add("CaseError", module.py().get_type::<case::CaseError>())?;
+    module.add("InternalError", module.py().get_type::<work::InternalError>())?;
+    module.add_class::<case::Case>()?;
+    module.add_function(wrap_pyfunction!(many::simulate_many, module)?)?;
+    module.add_function(wrap_pyfunction!(many::regimes, module)?)?;
+    module.add_function(wrap_pyfunction!(work::fail, module)?)
+}

@@ -1,0 +1,36 @@
+//! The files of a report.
+
+use std::path::Path;
+
+use pyo3::exceptions::PyOSError;
+use pyo3::prelude::*;
+use vinesink::case::Case;
+use vinesink::criteria;
+use vinesink::report::render::{self, Files};
+use vinesink::report::transient as page;
+use vinesink::report::written::Report;
+use vinesink::store;
+use vinesink::study::{CaseStudy, StudyEffort};
+use vinesink::transient::Study;
+
+use crate::case::plan;
+use crate::work::{Work, refused};
+
+/// The files, and whether simulations are to be trusted and what was asked of accuracy holds.
+pub fn rendered(case: &Case, name: &str, work: &Work) -> PyResult<(Files, bool)> {
+    if let Some(study) = Study::of_case(case, work).transpose().map_err(refused)? {
+        let judged = criteria::judge_transient(case, &study);
+        return Ok((page::files(name, case, &study, &judged).map_err(refused)?, true));
+    }
+    work.expect(CaseStudy::steps(&StudyEffort::of(&case.simulation)));
+    let mut advance = |done| work.advance(done);
+    let report = Report::of(name, case, plan(case)?.as_ref(), work, &mut advance);
+    let report = report.map_err(refused)?;
+    Ok((report.files(case).map_err(refused)?, report.trusted() && report.exact_enough()))
+}
+
+/// Writes them, in place of those of an older report.
+pub fn write(folder: &Path, files: &Files) -> PyResult<()> {
+    let written = store::replace_folder(folder, files, render::is_of_report);
+    written.map_err(|error| PyOSError::new_err(error.to_string()))
+}

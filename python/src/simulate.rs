@@ -1,0 +1,214 @@
+//! One trajectory, or the search for all motions: as the program's `simulate`.
+
+use numpy::IntoPyArray;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use serde_json::Value;
+use vinesink::analysis::Analysis;
+use vinesink::case::Case;
+use vinesink::regimes::{Attractor, Window};
+use vinesink::report::console::Simulated;
+use vinesink::simulation::{Detail, Impact, ImpactLog, Observer, Segment, Simulation, Stop};
+use vinesink::study::{self, LongTermMotions, Proof, StudyEffort};
+use vinesink::system::State;
+
+use crate::case::Columns;
+use crate::work::{Work, refused};
+
+/// Impacts after which a run is ended, as by the program.
+const IMPACT_LIMIT: u64 = 200_000_000;
+/// Excitation periods between two looks at whether to go on: a millisecond or so.
+const STRETCH: u64 = 1000;
+
+/// What is to be followed.
+pub struct Wanted {
+    pub effort: StudyEffort,
+    pub start: Option<State>,
+}
+
+pub fn state([x, x_velocity, y, y_velocity]: [f64; 4]) -> State {
+    State { x, x_velocity, y, y_velocity }
+}
+
+pub fn numbers(State { x, x_velocity, y, y_velocity }: State) -> [f64; 4] {
+    [x, x_velocity, y, y_velocity]
+}
+
+/// Impacts as columns, named as in the file that `--impacts` writes.
+#[derive(Default)]
+pub struct Impacts {
+    side: Vec<i8>,
+    numbers: [Vec<f64>; 6],
+}
+
+const NAMES: [&str; 6] = ["tau", "x", "xdot_before", "xdot_after", "ydot_before", "ydot_after"];
+
+impl Impacts {
+    pub fn of(all: &[Impact]) -> Self {
+        let mut columns = Self::default();
+        columns.side.reserve_exact(all.len());
+        columns.numbers.iter_mut().for_each(|one| one.reserve_exact(all.len()));
+        all.iter().for_each(|one| columns.impact(one));
+        columns
+    }
+
+    pub fn columns(self, py: Python<'_>) -> PyResult<Columns<'_>> {
+        let dict = PyDict::new(py);
+        let [tau, rest @ ..] = self.numbers;
+        dict.set_item("tau", tau.into_pyarray(py))?;
+        dict.set_item("side", self.side.into_pyarray(py))?;
+        for (name, column) in NAMES[1..].iter().zip(rest) {
+            dict.set_item(name, column.into_pyarray(py))?;
+        }
+        Ok(dict)
+    }
+}
+
+impl Observer for Impacts {
+    fn detail(&self) -> Detail {
+        Detail::Events
+    }
+    fn impact(&mut self, one: &Impact) {
+        self.side.push(one.side.sign() as i8);
+        let values = [
+            one.tau,
+            one.x,
+            one.x_velocity_before,
+            one.x_velocity_after,
+            one.y_velocity_before,
+            one.y_velocity_after,
+        ];
+        self.numbers.iter_mut().zip(values).for_each(|(column, value)| column.push(value));
+    }
+}
+
+/// The document of `vinesink simulate`, the impacts of the measured window, and where the measured trajectory starts.
+pub fn measured(
+    case: &Case,
+    wanted: &Wanted,
+    work: &Work,
+) -> PyResult<(Value, Vec<Impact>, State)> {
+    let system = case.system();
+    let follow = |start: State, effort: &StudyEffort| {
+        let window = Window {
+            discard: effort.left_out(&system),
+            periods: effort.periods,
+            impact_limit: IMPACT_LIMIT,
+        };
+        let mut log = ImpactLog::default();
+        let mut simulation = Simulation::new(&system, start, 0.0).map_err(refused)?;
+        let motion = Attractor::measure_with(&mut simulation, &window, &mut log);
+        Ok::<_, PyErr>((motion, log.impacts))
+    };
+    let (motion, impacts, start, found) = match wanted.start {
+        Some(start) => {
+            let (motion, impacts) = follow(start, &wanted.effort)?;
+            (motion, impacts, start, None)
+        }
+        None => {
+            let analysis = Analysis::of(&system).map_err(refused)?;
+            let mut found = search(&analysis, &wanted.effort, work)?;
+            let index = found.main_index();
+            let main = found.attractors.get_mut(index);
+            let main =
+                main.ok_or_else(|| refused("no start led anywhere; ask for more than 0 starts"))?;
+            let start = main.attractor.state;
+            let continued = StudyEffort { discard: Some(0), ..wanted.effort };
+            let (mut motion, impacts) = follow(start, &continued)?;
+            main.attractor.take_extremes(&motion);
+            motion.take_extremes(&main.attractor);
+            (motion, impacts, start, Some(found))
+        }
+    };
+    let proof = Proof::of(&system, &motion);
+    let told = Simulated { case, motion: &motion, proof: proof.as_ref(), found: found.as_ref() };
+    Ok((told.document(), impacts, start))
+}
+
+/// All long-term motions.
+pub fn search(analysis: &Analysis, effort: &StudyEffort, work: &Work) -> PyResult<LongTermMotions> {
+    work.expect(u64::from(effort.starts));
+    study::long_term_motions(analysis, effort, &mut |done| work.advance(done)).map_err(refused)
+}
+
+/// The impacts of a trajectory, nothing measured.
+pub fn flown(case: &Case, wanted: &Wanted, work: &Work) -> PyResult<Impacts> {
+    let system = case.system();
+    let start = wanted.start.unwrap_or(State::AT_REST);
+    let mut simulation = Simulation::new(&system, start, 0.0).map_err(refused)?;
+    let [before, measured] = [wanted.effort.left_out(&system), wanted.effort.periods];
+    work.expect(before + measured);
+    run(&mut simulation, before, &mut (), work)?;
+    let mut impacts = Impacts::default();
+    run(&mut simulation, measured, &mut impacts, work)?;
+    Ok(impacts)
+}
+
+/// Goes on by so many periods, in stretches, which do not change a bit of it.
+fn run(
+    simulation: &mut Simulation,
+    periods: u64,
+    observer: &mut dyn Observer,
+    work: &Work,
+) -> PyResult<()> {
+    let mut left = periods;
+    while left > 0 {
+        let some = left.min(STRETCH);
+        let stop = simulation.run(some, IMPACT_LIMIT, observer);
+        if stop != Stop::EndTime {
+            let after = simulation.periods();
+            return Err(refused(format!(
+                "the run ended by {} after {after} periods",
+                stop.words()
+            )));
+        }
+        left -= some;
+        work.advance(some);
+    }
+    Ok(())
+}
+
+/// The states at some times, one after the other.
+pub fn sampled(case: &Case, start: State, times: Vec<f64>, work: &Work) -> PyResult<Vec<f64>> {
+    let ascend = times.windows(2).all(|pair| pair[0] <= pair[1]);
+    let last = times.last().copied().unwrap_or_default();
+    let begins = times.first().is_none_or(|first| *first >= 0.0);
+    if !(ascend && begins && last.is_finite()) {
+        let message =
+            "times must be finite numbers of excitation periods, 0 or more, in ascending order";
+        return Err(PyValueError::new_err(message));
+    }
+    let mut simulation = Simulation::new(&case.system(), start, 0.0).map_err(refused)?;
+    let (begun, states) = (simulation.state(), Vec::with_capacity(4 * times.len()));
+    let mut samples = Samples { times, states };
+    // What is at the very beginning needs no flight.
+    let zeros = samples.times.iter().take_while(|time| **time == 0.0).count();
+    samples.states.extend(numbers(begun).repeat(zeros));
+    run(&mut simulation, last.ceil() as u64, &mut samples, work)?;
+    // The last stretch may end a rounding too early.
+    let missing = samples.times.len() - samples.states.len() / 4;
+    samples.states.extend(numbers(simulation.state()).repeat(missing));
+    Ok(samples.states)
+}
+
+/// Keeps the states at some times in excitation periods; at the moment of an impact that before it.
+struct Samples {
+    times: Vec<f64>,
+    states: Vec<f64>,
+}
+
+impl Observer for Samples {
+    fn segment(&mut self, segment: &Segment) {
+        let frequency = segment.motion.oscillator().frequency;
+        while let Some(time) = self.times.get(self.states.len() / 4) {
+            // Whole periods first: what is left is as exact after a million periods as in the first.
+            let phase = (time - segment.turns as f64) * std::f64::consts::TAU;
+            let after = (phase - segment.phase) / frequency;
+            if after > segment.duration {
+                return;
+            }
+            self.states.extend(numbers(segment.at(after)));
+        }
+    }
+}
