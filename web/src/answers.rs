@@ -82,7 +82,9 @@ fn read(text: &str) -> Result<Case, Value> {
         Value::from_iter(problems)
     })?;
     if case.design.scene() != Scene::Steady {
-        return Err(words("this page shows steady vibration; the case is a shock, a sweep or a record"));
+        return Err(words(
+            "this page shows steady vibration; the case is a shock, a sweep or a record",
+        ));
     }
     (case.band, case.criteria, case.accuracy) = (None, Vec::new(), None);
     Ok(case)
@@ -111,7 +113,8 @@ fn change(text: &str, values: &BTreeMap<String, f64>) -> Result<Value, Value> {
     let sketch = CaseStudy::sketch(&case.system()).map_err(words)?;
     let manifold = drawn(&case, &sketch, &[Plot::Manifold])?;
     let mut answer = opened(&case, &changed.text)?;
-    answer["figures"] = manifold.into_iter().map(|figure| Ok(shown(figure)?.0)).collect::<Result<_, Value>>()?;
+    answer["figures"] =
+        manifold.into_iter().map(|figure| Ok(shown(figure)?.0)).collect::<Result<_, Value>>()?;
     Ok(answer)
 }
 
@@ -135,7 +138,8 @@ fn map(case: &Case) -> Result<Value, Value> {
         return Err(words("nothing drives this case: there is no map"));
     }
     let plot = Plot::Map(Map::of(&sketch));
-    let mut figure = drawn(case, &sketch, &[plot])?.pop().ok_or_else(|| words("there is no map"))?;
+    let mut figure =
+        drawn(case, &sketch, &[plot])?.pop().ok_or_else(|| words("there is no map"))?;
     let at = figure.take_case();
     let (width, height) = figure.size;
     let (mut answer, panels) = shown(figure)?;

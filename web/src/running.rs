@@ -43,7 +43,8 @@ pub fn change(system: &System, clearance: f64, from: From) -> Result<(), String>
             }
             _ => (start, 0.0),
         };
-        let simulation = Simulation::new(system, start, phase).map_err(|error| error.to_string())?;
+        let simulation =
+            Simulation::new(system, start, phase).map_err(|error| error.to_string())?;
         *running = Some(Running { simulation, clearance });
         Ok(())
     })
