@@ -274,6 +274,8 @@ pub fn largest_by(band: &Band, value: impl Fn(f64) -> Option<f64>) -> Option<(f6
 
 #[cfg(test)]
 mod tests {
+    use nalgebra::Complex;
+
     use super::*;
     use crate::simulation::{Absorber, Measurement, Observer, Segment};
     use crate::system::{Excitation, Parameters};
