@@ -83,8 +83,8 @@ function make(tag, attributes = {}, ...children) {
 
 function Live(place) {
   // The case as text, its sliders, and what was before and after it.
-  // A page that has this one in a frame may ask for some figures and sliders alone: #show=sim&sliders=restitution.
-  const asks = new URLSearchParams(location.hash.slice(1)), list = (key) => asks.get(key)?.split(",");
+  // A page that has this one in a frame may ask for some figures and sliders alone: ?show=sim&sliders=restitution.
+  const asks = new URLSearchParams(location.search), list = (key) => asks.get(key)?.split(",");
   const shown = list("show"), chosen = list("sliders");
   const wanted = (name) => !shown || shown.includes(name);
   let text = "", controls = [], past = [], future = [], asked = 0, waiting = null;
@@ -161,7 +161,7 @@ function Live(place) {
     return `${location.href.split("#")[0]}#case=${code}`;
   }
   async function linked() {
-    const code = asks.get("case");
+    const code = new URLSearchParams(location.hash.slice(1)).get("case");
     if (!code) return null;
     try {
       const bytes = Uint8Array.from(atob(code.replaceAll("-", "+").replaceAll("_", "/")), (c) => c.charCodeAt(0));
