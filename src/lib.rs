@@ -88,6 +88,8 @@ pub mod band;
 pub mod bifurcation;
 #[cfg(feature = "case")]
 pub mod case;
+#[cfg(feature = "report")]
+pub mod case_report;
 pub mod cavity;
 #[cfg(feature = "case")]
 pub mod criteria;

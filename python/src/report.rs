@@ -8,7 +8,7 @@ use vinesink::case::Case;
 use vinesink::criteria;
 use vinesink::report::render::{self, Files};
 use vinesink::report::transient as page;
-use vinesink::report::written::Report;
+use vinesink::case_report::Report;
 use vinesink::store;
 use vinesink::study::{CaseStudy, StudyEffort};
 use vinesink::transient::Study;

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use clap::Args;
 use miette::{IntoDiagnostic, Result};
 use vinesink::case::Case;
+use vinesink::case_report;
 use vinesink::evidence::paper::{CASES, CaseReport, SETS, TRANSFER, page};
-use vinesink::report::written;
 use vinesink::store;
 use vinesink::study::{CaseStudy, StudyEffort};
 
@@ -45,7 +45,7 @@ pub fn run(arguments: Arguments) -> Result<bool> {
         let effort = StudyEffort::of(&case.simulation);
         let mut advance = |done| progress.advance(done);
         let study = CaseStudy::of(&case.system(), effort, &mut advance).into_diagnostic()?;
-        let figures = written::drawn(&case, &study).into_diagnostic()?;
+        let figures = case_report::drawn(&case, &study).into_diagnostic()?;
         members.push(CaseReport { name, case, study, figures });
     }
     drop(progress);

@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use miette::{Context as _, IntoDiagnostic, Result, miette};
+use vinesink::case_report::Report;
 use vinesink::method::Method;
 use vinesink::report::live;
 use vinesink::report::render::{self, Files};
-use vinesink::report::written::Report;
 use vinesink::store;
 use vinesink::study::fidelity::Plan;
 use vinesink::study::{CaseStudy, StudyEffort};

@@ -17,6 +17,5 @@ pub mod stored;
 pub mod sweep;
 pub mod template;
 pub mod transient;
-pub mod written;
 
 pub mod equations;

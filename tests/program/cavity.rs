@@ -199,8 +199,8 @@ fn reports_say_what_the_cavity_is() {
         "| absorber inclination | $\\alpha$ | 0.5 deg | case file |",
         "| absorber friction | $\\mu$ | 0.3 % | case file |",
         // GRAVITY times sin(0.5 deg) = 0.0087265, and times 0.003.
-        "| gravity along | $a$ | 0.004146 | derived |",
-        "| friction acceleration | $f$ | 0.001425 | derived |",
+        "| gravity along, over bω₀² | $a$ | 0.004146 | derived |",
+        "| friction acceleration, over bω₀² | $f$ | 0.001425 | derived |",
         // What `cavity_report` proves; the reciprocals of the clearances would be 0.1140 mm and 0.4083 mm.
         "in forcing: 0.1150 mm (saddle-node) and 0.4082 mm (slip reversal)",
         "Amplitude of the base, here 0.25 mm: exact orbit from 0.115 mm to 0.408 mm,",

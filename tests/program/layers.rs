@@ -65,6 +65,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "validation",
         ],
     ),
+    ("case_report", &["band", "case", "criteria", "executor", "report", "study"]),
     ("regimes", &["numerics", "orbits", "simulation", "system", "operation_count"]),
     (
         "dissipation",

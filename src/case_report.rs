@@ -1,15 +1,17 @@
 //! The report of a case under steady excitation, from its study to its files.
+//!
+//! For the program itself: this module may change at any time.
 
 use serde_json::Value;
 
-use super::document::{self, Source};
-use super::figure::Figure;
-use super::render::{self, Files, RenderError};
-use super::{equations, figures, template};
 use crate::band::{Survey, SurveySettings};
 use crate::case::{Case, ExtraFigure};
 use crate::criteria::{self, Judged};
 use crate::executor::Executor;
+use crate::report::document::{self, Source};
+use crate::report::figure::Figure;
+use crate::report::render::{self, Files, RenderError};
+use crate::report::{equations, figures, template};
 use crate::study::fidelity::{Answers, Plan};
 use crate::study::plots::Plot;
 use crate::study::{CaseStudy, StudyEffort, StudyError};
