@@ -243,12 +243,18 @@ fn the_mark_is_dragged_over_the_map_and_taken_back() {
     settle(&mut page);
     let pushed = text(&mut page);
     assert!(case(&pushed).scales().clearance > last.scales().clearance);
+    // The map was drawn anew and the mark still has the focus; presses in quick succession would be one step back.
+    page.evaluate("new Promise((done) => setTimeout(done, 800))");
+    page.press("ArrowUp", 38, "");
+    settle(&mut page);
+    assert!(case(&text(&mut page)).scales().clearance > case(&pushed).scales().clearance);
     // One step back for a movement, however many events it had.
     let press = |page: &mut Page, words: &str| {
         page.evaluate(&format!("[...document.querySelectorAll('button')].find((one) => one.textContent === '{words}').click()"));
         settle(page);
         text(page)
     };
+    assert_eq!(press(&mut page, "Undo"), pushed);
     assert_eq!(press(&mut page, "Undo"), dragged);
     assert_eq!(press(&mut page, "Undo"), begin);
     assert_eq!(press(&mut page, "Redo"), dragged);
@@ -287,12 +293,36 @@ fn a_link_holds_the_case_and_a_case_file_is_pasted() {
     paste(&mut page, &shipped("sweep-fast"));
     let problem = page.evaluate("document.querySelector('.live-problem').textContent");
     assert!(problem.as_str().expect("words").contains("steady vibration"), "{problem}");
+    // A field that makes no sense changes nothing.
+    for nonsense in ["", "-1", "1e9"] {
+        page.evaluate(&format!(
+            "(() => {{
+                const field = document.querySelector('.live-field input');
+                field.value = '{nonsense}';
+                field.dispatchEvent(new Event('change'));
+            }})()"
+        ));
+        let problem = page.evaluate("document.querySelector('.live-problem').textContent");
+        assert!(problem.as_str().expect("words").contains("goes from"), "{nonsense}: {problem}");
+        let field = page.evaluate("document.querySelector('.live-field input').value");
+        assert_ne!(field, nonsense);
+    }
+    settle(&mut page);
+    assert_eq!(text(&mut page), other);
     let link = page.evaluate(&format!("{LIVE}.link()"));
+    // A reload finds the same.
+    page.evaluate("new Promise((done) => setTimeout(done, 100))");
+    assert_eq!(page.evaluate("location.href"), link);
     let code = link.as_str().and_then(|link| link.split_once('#')).expect("a link").1.to_owned();
     drop(page);
     let linked = PathBuf::from(format!("{}#{code}", file.display()));
     let mut page = opened(&mut browser, &linked, PHONE);
     assert_eq!(text(&mut page), other);
+    drop(page);
+    let mut page =
+        opened(&mut browser, &PathBuf::from(format!("{}#case=!!", file.display())), PHONE);
+    let problem = page.evaluate("document.querySelector('.live-problem').textContent");
+    assert!(problem.as_str().expect("words").contains("damaged"), "{problem}");
 }
 
 /// The impacts of the running simulation are those of the library, bit by bit.

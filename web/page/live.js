@@ -48,6 +48,7 @@ if (typeof document === "undefined") {
       eye.disconnect();
       live.begin();
     }, { rootMargin: "300px" }).observe(place);
+    if (location.hash.startsWith("#case=")) place.scrollIntoView();
   });
 }
 
@@ -87,9 +88,9 @@ function Live(place) {
   const asks = new URLSearchParams(location.search), list = (key) => asks.get(key)?.split(",");
   const shown = list("show"), chosen = list("sliders");
   const wanted = (name) => !shown || shown.includes(name);
-  let text = "", controls = [], past = [], future = [], asked = 0, waiting = null;
+  let text = "", controls = [], notes = [], past = [], future = [], asked = 0, waiting = null;
   const values = new Map(), sliders = new Map(), figures = new Map();
-  let here, desks;
+  let here, desks, keeps = false;
   const status = make("p", { class: "live-status", role: "status" });
   const problem = make("p", { class: "live-problem", role: "alert", hidden: true });
   const verdict = make("div", { class: "live-verdict", "aria-live": "polite" });
@@ -120,10 +121,14 @@ function Live(place) {
     const presets = here.ask({ ask: "presets" });
     document.body.classList.toggle("live-small", Boolean(shown));
     const parts = [["verdict", verdict], ["running", running.figure]].filter(([name]) => wanted(name)).map(([, part]) => part);
-    place.replaceChildren(bar(presets), problem, make("div", { class: "live-columns" },
-      make("div", { class: "live-left" }, panel), make("div", {}, ...parts, board)), status);
+    place.replaceChildren(bar(presets), status, make("div", { class: "live-columns" },
+      make("div", { class: "live-left" }, problem, panel), make("div", {}, ...parts, board)));
     const own = document.getElementById("live-case")?.textContent;
-    open(await linked() ?? own ?? presets[2][1]);
+    const link = await linked();
+    open(link || (own ?? presets[2][1]));
+    if (link === "") complain([{ message: "The link is damaged; this is another case." }]);
+    // A page of its own keeps its state in its address, so that a reload finds it again.
+    keeps = own === undefined && !shown;
     settled().then(warm);
     addEventListener("keydown", (event) => {
       if (!(event.ctrlKey || event.metaKey) || event.key.toLowerCase() !== "z" || event.target.matches("input[type=number], textarea")) return;
@@ -162,17 +167,18 @@ function Live(place) {
   }
   async function linked() {
     const code = new URLSearchParams(location.hash.slice(1)).get("case");
-    if (!code) return null;
+    if (code === null) return null;
     try {
       const bytes = Uint8Array.from(atob(code.replaceAll("-", "+").replaceAll("_", "/")), (c) => c.charCodeAt(0));
       return new TextDecoder().decode(await through(new DecompressionStream("deflate-raw"), bytes));
-    } catch { say("The link is not complete, so the page begins with a case of its own."); return null; }
+    } catch { return ""; }
   }
 
   function remember() { if (text && past.at(-1) !== text) past.push(text); future.length = 0; buttons(); }
   function buttons() { undo.disabled = !past.length; redo.disabled = !future.length; }
   function step(from, to) {
     if (!from.length) return;
+    settle();
     to.push(text);
     open(from.pop());
     buttons();
@@ -181,7 +187,7 @@ function Live(place) {
   function complain(problems) {
     problem.hidden = !problems;
     problem.textContent = (problems ?? []).map((one) =>
-      [one.line && `Line ${one.line}: `, one.message, one.expected && `; expected ${one.expected}`, one.help && ` (${one.help})`]
+      [one.line && `Line ${one.line}: `, one.message, one.expected && `; ${one.expected}`, one.help && ` (${one.help})`]
         .filter(Boolean).join("")).join(" ");
   }
 
@@ -195,16 +201,16 @@ function Live(place) {
     sliders.clear();
     panel.replaceChildren(make("h3", {}, answer.title), ...controls.map(slider));
     panel.querySelectorAll(".live-slider").forEach((one, k) => { one.hidden = chosen && !chosen.includes(controls[k].key); });
-    if (answer.judged) panel.append(make("p", { class: "live-note" }, "The case has criteria; `vinesink check` judges them over their band."));
+    notes = answer.notes;
     running.change(text, "push");
     change(new Map());
   }
 
   function slider(of) {
     const id = `live-${of.key}`;
-    const range = make("input", { id, type: "range", min: 0, max: 1000, step: 1, oninput: () => move(of, at(of, range.value / 1000)), onchange: settle });
+    const range = make("input", { id, type: "range", min: 0, max: 1000, step: 1, oninput: () => move(of, at(of, range.value / 1000)), onchange: pause });
     const field = make("input", { type: "number", step: "any", "aria-label": `${of.name} in ${of.unit.symbol || "1"}`,
-      onchange: () => { settle(); move(of, field.value * of.unit.size); } });
+      onchange: () => { settle(); typed(of, field.value.trim() === "" ? NaN : field.value * of.unit.size); } });
     sliders.set(of.key, { range, field });
     return make("div", { class: "live-slider" }, make("label", { for: id }, `${of.name} ${of.symbol}`),
       make("span", { class: "live-field" }, field, make("span", {}, of.unit.symbol)), range);
@@ -214,22 +220,32 @@ function Live(place) {
     return log ? Math.log(value / low) / Math.log(high / low) : (value - low) / (high - low);
   }
 
-  // The first value of a movement is one step of undo, however far it goes.
-  let moving = false;
+  /** A value from a field: a page cannot wait for what is far from any structure. */
+  function typed(of, value) {
+    const [low, high] = of.log ? [of.range[0] / 10, of.range[1] * 10] : of.key === "frequency" ? [0.2 * of.range[0], 5 * of.range[1]] : of.range;
+    if (value >= low && value <= high) return move(of, value);
+    const words = [low, high].map((end) => `${Number((end / of.unit.size).toPrecision(4))} ${of.unit.symbol}`.trim());
+    show(controls, true);
+    complain([{ message: `The ${of.name} goes from ${words.join(" to ")} here; for other values edit the case file.` }]);
+  }
+
+  // The first value of a movement is one step of undo, however far it goes; key presses in quick succession are one.
+  let moving = false, pausing;
   function move(of, value) {
     if (!Number.isFinite(value)) return;
     if (!moving) { remember(); moving = true; }
     values.set(of.key, value);
     if (waiting === null) waiting = requestAnimationFrame(() => { waiting = null; const some = new Map(values); values.clear(); change(some); });
   }
-  function settle() { moving = false; }
+  function settle() { clearTimeout(pausing); moving = false; }
+  function pause() { clearTimeout(pausing); pausing = setTimeout(settle, 700); }
 
   /** The case with other values: at once what is cheap, the rest when it comes. */
   function change(some) {
     const begin = performance.now();
     const answer = here.ask({ ask: "change", text, values: Object.fromEntries(some) });
     complain(answer.problems);
-    if (answer.problems) return show(controls);
+    if (answer.problems) return show(controls, true);
     const other = answer.text !== text;
     text = answer.text;
     show(answer.controls);
@@ -249,15 +265,16 @@ function Live(place) {
     });
   }
 
-  function show(now) {
+  function show(now, all = false) {
     for (const one of now) {
       const of = controls.find(({ key }) => key === one.key), { range, field } = sliders.get(one.key);
-      of.value = one.value;
+      [of.value, of.words] = [one.value, one.words];
       range.value = 1000 * part(of, one.value);
       range.setAttribute("aria-valuetext", one.words);
-      if (document.activeElement !== field) field.value = Number((one.value / of.unit.size).toPrecision(4));
+      if (all || document.activeElement !== field) field.value = Number((one.value / of.unit.size).toPrecision(4));
     }
     mark();
+    if (document.activeElement !== file) file.value = text;
   }
 
   /** What workers make. The areas do not depend on the case's own frequency and clearance. */
@@ -303,7 +320,8 @@ function Live(place) {
   function showStudy(answer) {
     complain(answer.problems);
     if (answer.problems) return;
-    verdict.replaceChildren(...firstScreen(answer));
+    verdict.replaceChildren(...notes.map((note) => make("p", { class: "live-note" }, note)), ...firstScreen(answer));
+    if (keeps) link().then((address) => history.replaceState(null, "", address));
     fresh(verdict);
     const names = new Set(answer.figures.map(({ name }) => name)).add("map").add("sim");
     for (const [name, figure] of figures) if (!names.has(name)) { figure.remove(); figures.delete(name); }
@@ -325,12 +343,13 @@ function Live(place) {
   const star = button("★", () => {}, { class: "live-mark", "aria-label": "This case on the map; arrow keys change frequency and clearance" });
   function showMap(answer) {
     if (answer.problems) { figures.get("map")?.remove(); figures.delete("map"); return; }
-    const drawing = draw(answer).firstChild;
+    const focused = document.activeElement === star, drawing = draw(answer).firstChild;
     chart = answer.panel && { ...answer.panel, factor: answer.panel.values.map((value, k) => value / answer.panel.at[k]) };
     if (!chart) return;
     const sheet = make("div", { class: "live-sheet" });
     sheet.append(drawing.firstElementChild, star);
     drawing.replaceChildren(sheet);
+    if (focused) star.focus({ preventScroll: true });
     sheet.onpointerdown = (event) => {
       sheet.setPointerCapture(event.pointerId);
       drag(event);
@@ -345,7 +364,7 @@ function Live(place) {
       event.preventDefault();
       const shares = places().map((share, k) => share + 0.01 * way[k]);
       put(shares);
-      settle();
+      pause();
     };
     mark();
   }

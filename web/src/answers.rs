@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::Deserialize;
 use serde_json::{Value, json};
-use vinesink::case::{Case, Rounding};
+use vinesink::case::{Case, CaseError, Problem, RewriteError, Rounding};
 use vinesink::report::document::{self, Source};
 use vinesink::report::figure::{self, Figure, PlacedPanel};
 use vinesink::report::{figures, template};
@@ -70,20 +70,23 @@ fn answer(request: Request) -> Result<Value, Value> {
     }
 }
 
+/// What is wrong with a case file, and where.
+fn problems(error: &CaseError) -> Value {
+    let one = |problem: &Problem| {
+        json!({
+            "message": problem.message, "expected": problem.expected, "help": problem.help,
+            "line": problem.line, "column": problem.column,
+        })
+    };
+    error.problems().map(one).collect()
+}
+
 /// The case at its own excitation: what it asks for along a band takes longer than a page can wait.
 fn read(text: &str) -> Result<Case, Value> {
-    let mut case = Case::parse("case.toml", text).map_err(|error| {
-        let problems = error.problems().map(|problem| {
-            json!({
-                "message": problem.message, "expected": problem.expected, "help": problem.help,
-                "line": problem.line, "column": problem.column,
-            })
-        });
-        Value::from_iter(problems)
-    })?;
+    let mut case = Case::parse("case.toml", text).map_err(|error| problems(&error))?;
     if case.design.scene() != Scene::Steady {
         return Err(words(
-            "this page shows steady vibration; the case is a shock, a sweep or a record",
+            "this page shows steady vibration; the case is a shock, a sweep or a record, which `vinesink report` shows",
         ));
     }
     (case.band, case.criteria, case.accuracy) = (None, Vec::new(), None);
@@ -91,24 +94,36 @@ fn read(text: &str) -> Result<Case, Value> {
 }
 
 fn opened(case: &Case, text: &str) -> Result<Value, Value> {
-    let whole = Case::parse("case.toml", text).map_err(words)?;
-    Ok(json!({
-        "text": text,
-        "title": case.title,
-        "controls": controls::controls(case),
-        // Left to the program.
-        "judged": !whole.criteria.is_empty(),
-    }))
+    let whole = Case::parse("case.toml", text).map_err(|error| problems(&error))?;
+    let mut notes = Vec::new();
+    if whole.band.is_some() || !whole.criteria.is_empty() {
+        notes.push(
+            "What stands here is at the excitation of the sliders alone. The case also has a band or criteria, \
+             which `vinesink check` and `report` judge: they may say otherwise.",
+        );
+    }
+    if !case.system().cavity().is_ideal() {
+        notes.push(
+            "The case has a tilt, friction or walls that differ; they stay as they are. The restitution is the mean \
+             of both walls.",
+        );
+    }
+    let controls = controls::controls(case);
+    Ok(json!({ "text": text, "title": case.title, "controls": controls, "notes": notes }))
 }
 
 fn change(text: &str, values: &BTreeMap<String, f64>) -> Result<Value, Value> {
-    let case = Case::parse("case.toml", text).map_err(words)?;
+    let case = Case::parse("case.toml", text).map_err(|error| problems(&error))?;
     let mut design = case.design;
     for (key, value) in values {
         let parameter = Parameter::of_name(key).ok_or_else(|| words(format!("no slider {key}")))?;
         design = design.with(parameter, *value);
     }
-    let changed = case.rewritten("case.toml", text, &design, Rounding::Nearest).map_err(words)?;
+    let changed = case.rewritten("case.toml", text, &design, Rounding::Nearest);
+    let changed = changed.map_err(|error| match error {
+        RewriteError::Invalid(error) => problems(&error),
+        other => words(other),
+    })?;
     let case = read(&changed.text)?;
     let sketch = CaseStudy::sketch(&case.system()).map_err(words)?;
     let manifold = drawn(&case, &sketch, &[Plot::Manifold])?;
