@@ -318,8 +318,7 @@ function Live(place) {
   }
 
   function showStudy(answer) {
-    complain(answer.problems);
-    if (answer.problems) return;
+    if (answer.problems) return complain(answer.problems);
     verdict.replaceChildren(...notes.map((note) => make("p", { class: "live-note" }, note)), ...firstScreen(answer));
     if (keeps) link().then((address) => history.replaceState(null, "", address));
     fresh(verdict);
