@@ -16,7 +16,7 @@ use vinesink::report::console::Analysed;
 use vinesink::report::transient as page;
 use vinesink::store;
 use vinesink::study::StudyEffort;
-use vinesink::study::fidelity::{AccuracyTarget, Plan};
+use vinesink::study::fidelity::Plan;
 use vinesink::system::State;
 use vinesink::transient::{DecayStudy, Scene, Study};
 
@@ -245,7 +245,7 @@ impl Case {
         self.needs_steady("an analysis is")?;
         let analysis = Analysis::of(&case.system()).map_err(refused)?;
         let exact = FullSystem::of(&case.system());
-        let found = match plan(case)? {
+        let found = match Plan::of_case(case, None).map_err(refused)? {
             None => None,
             Some(plan) if plan.needs_simulation() => {
                 let found = simulate::search(&analysis, &StudyEffort::of(&case.simulation), work)?;
@@ -256,12 +256,6 @@ impl Case {
         Ok(Analysed { case, analysis: &analysis, exact: &exact, answers: found.as_ref() }
             .document())
     }
-}
-
-/// Which layer answers what, if the case asks for accuracy.
-pub fn plan(case: &case::Case) -> PyResult<Option<Plan>> {
-    let plan = |settings| Plan::of(&case.system(), AccuracyTarget::of(settings), None);
-    case.accuracy.as_ref().map(plan).transpose().map_err(refused)
 }
 
 /// A document as the program prints it.

@@ -10,10 +10,10 @@ use vinesink::criteria;
 use vinesink::report::render::{self, Files};
 use vinesink::report::transient as page;
 use vinesink::store;
+use vinesink::study::fidelity::Plan;
 use vinesink::study::{CaseStudy, StudyEffort};
 use vinesink::transient::Study;
 
-use crate::case::plan;
 use crate::work::{Work, refused};
 
 /// The files, and whether simulations are to be trusted and what was asked of accuracy holds.
@@ -24,7 +24,8 @@ pub fn rendered(case: &Case, name: &str, work: &Work) -> PyResult<(Files, bool)>
     }
     work.expect(CaseStudy::steps(&StudyEffort::of(&case.simulation)));
     let mut advance = |done| work.advance(done);
-    let report = Report::of(name, case, plan(case)?.as_ref(), work, &mut advance);
+    let plan = Plan::of_case(case, None).map_err(refused)?;
+    let report = Report::of(name, case, plan.as_ref(), work, &mut advance);
     let report = report.map_err(refused)?;
     Ok((report.files(case).map_err(refused)?, report.trusted() && report.exact_enough()))
 }

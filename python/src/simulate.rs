@@ -7,7 +7,7 @@ use pyo3::types::PyDict;
 use serde_json::Value;
 use vinesink::analysis::Analysis;
 use vinesink::case::Case;
-use vinesink::regimes::{Attractor, Window};
+use vinesink::regimes::Attractor;
 use vinesink::report::console::Simulated;
 use vinesink::simulation::{Detail, Impact, ImpactLog, Observer, Segment, Simulation, Stop};
 use vinesink::study::{self, LongTermMotions, Proof, StudyEffort};
@@ -91,11 +91,7 @@ pub fn measured(
 ) -> PyResult<(Value, Vec<Impact>, State)> {
     let system = case.system();
     let follow = |start: State, effort: &StudyEffort| {
-        let window = Window {
-            discard: effort.left_out(&system),
-            periods: effort.periods,
-            impact_limit: IMPACT_LIMIT,
-        };
+        let window = effort.full_window(&system);
         let mut log = ImpactLog::default();
         let mut simulation = Simulation::new(&system, start, 0.0).map_err(refused)?;
         let motion = Attractor::measure_with(&mut simulation, &window, &mut log);
@@ -109,15 +105,15 @@ pub fn measured(
         None => {
             let analysis = Analysis::of(&system).map_err(refused)?;
             let mut found = search(&analysis, &wanted.effort, work)?;
-            let index = found.main_index();
-            let main = found.attractors.get_mut(index);
-            let main =
-                main.ok_or_else(|| refused("no start led anywhere; ask for more than 0 starts"))?;
-            let start = main.attractor.state;
             let continued = StudyEffort { discard: Some(0), ..wanted.effort };
-            let (mut motion, impacts) = follow(start, &continued)?;
-            main.attractor.take_extremes(&motion);
-            motion.take_extremes(&main.attractor);
+            let mut kept = None;
+            let motion = found.followed(|start| {
+                let (motion, impacts) = follow(start, &continued)?;
+                kept = Some((impacts, start));
+                Ok::<_, PyErr>(motion)
+            })?;
+            let none = || refused("no start led anywhere; ask for more than 0 starts");
+            let (motion, (impacts, start)) = motion.zip(kept).ok_or_else(none)?;
             (motion, impacts, start, Some(found))
         }
     };

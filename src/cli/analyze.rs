@@ -44,7 +44,7 @@ pub fn run(arguments: Arguments) -> Result<bool> {
         return Ok(done);
     }
     transient::steady(&case, path, "an analysis")?;
-    let plan = case_file::plan(&case, arguments.fidelity)?;
+    let plan = Plan::of_case(&case, arguments.fidelity).into_diagnostic()?;
     let theory = Work::trajectory(&case, ANALYSIS);
     let progress = Progress::estimated("analysis", theory.seconds());
     let mut work = vec![theory];

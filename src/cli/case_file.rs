@@ -10,7 +10,6 @@ use serde::Serialize;
 use vinesink::case::{Case, Recording};
 use vinesink::method::Method;
 use vinesink::store;
-use vinesink::study::fidelity::{AccuracyTarget, Plan};
 
 use super::budget::Long;
 use super::output;
@@ -55,18 +54,6 @@ pub fn read(path: &Path) -> Result<Case> {
 
 /// Reads a case file; its text beside the case. What is probably a slip in it is said on standard error.
 pub fn read_with_text(path: &Path) -> Result<(Case, String)> {
-    let (case, text) = parsed(path)?;
-    let visible = text.strip_prefix('\u{feff}').unwrap_or(&text);
-    for warning in case.warnings() {
-        let source = NamedSource::new(path.display().to_string(), visible.to_owned());
-        let shown = Report::new(warning.clone()).with_source_code(source);
-        output::complain(&format!("{shown:?}"));
-    }
-    Ok((case, text))
-}
-
-/// The same without a word of slips.
-pub fn parsed(path: &Path) -> Result<(Case, String)> {
     let text = store::read_text(path)?;
     let name = path.display().to_string();
     let mut case = Case::parse(&name, &text)?;
@@ -76,6 +63,12 @@ pub fn parsed(path: &Path) -> Result<(Case, String)> {
             format!("{}: the record of its excitation cannot be read", path.display())
         })?;
         case = case.with_record(&record.display().to_string(), &text)?;
+    }
+    let visible = text.strip_prefix('\u{feff}').unwrap_or(&text);
+    for warning in case.warnings() {
+        let source = NamedSource::new(&name, visible.to_owned());
+        let shown = Report::new(warning.clone()).with_source_code(source);
+        output::complain(&format!("{shown:?}"));
     }
     Ok((case, text))
 }
@@ -108,13 +101,4 @@ pub fn one_of<T: Copy + Send + Sync + 'static, const N: usize>(
         let known = all.iter().find(|(known, ..)| *known == name);
         known.map(|(_, value, _)| *value).ok_or("not one of the names")
     })
-}
-
-/// Which layer answers what, if the case asks for accuracy or a layer is insisted on.
-pub fn plan(case: &Case, forced: Option<Method>) -> Result<Option<Plan>> {
-    if case.accuracy.is_none() && forced.is_none() {
-        return Ok(None);
-    }
-    let demand = case.accuracy.as_ref().map_or_else(AccuracyTarget::default, AccuracyTarget::of);
-    Plan::of(&case.system(), demand, forced).map(Some).into_diagnostic()
 }

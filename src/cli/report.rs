@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use miette::{Context as _, IntoDiagnostic, Result, miette};
+use vinesink::case::Case;
 use vinesink::case_report::Report;
 use vinesink::method::Method;
 use vinesink::report::live;
@@ -42,15 +43,8 @@ pub struct Arguments {
     #[arg(long)]
     check: bool,
     /// Add the live page to report.html, which stays one file: PAGE, or `vinesink-live.html` beside the program
-    #[arg(
-        long,
-        value_name = "PAGE",
-        num_args = 0..=1,
-        require_equals = true,
-        default_missing_value = "",
-        conflicts_with = "check"
-    )]
-    live: Option<PathBuf>,
+    #[arg(long, value_name = "PAGE", require_equals = true, conflicts_with = "check")]
+    live: Option<Option<PathBuf>>,
     #[command(flatten)]
     long: Long,
 }
@@ -112,18 +106,22 @@ fn names(cases: &[PathBuf]) -> Result<Vec<String>> {
 /// Writes one report; what was asked of accuracy does not hold where a layer that was insisted on, or
 /// the longest simulation, is not exact enough.
 fn write(path: &Path, name: &str, folder: &Path, arguments: &Arguments) -> Result<bool> {
-    let (mut files, holds) = rendered(path, name, arguments)?;
-    if let Some(page) = &arguments.live {
-        add_live_page(&mut files, page, path)?;
+    let (case, text) = case_file::read_with_text(path)?;
+    let live =
+        arguments.live.as_ref().map(|page| live_page(page.as_deref(), path, &case)).transpose()?;
+    let (mut files, holds) = rendered(path, name, &case, arguments)?;
+    if let Some((page, live)) = live {
+        let file = files.entry("report.html".into()).or_default();
+        let whole = live::embed(&String::from_utf8_lossy(file), &live, &text).into_diagnostic();
+        *file = whole.wrap_err(page)?.into_bytes();
     }
     store::replace_folder(folder, &files, render::is_of_report)?;
     output::print_path(&folder.join("report.md"))?;
     Ok(holds)
 }
 
-/// Adds the live page to `report.html` of a case under steady excitation.
-fn add_live_page(files: &mut Files, page: &Path, path: &Path) -> Result<()> {
-    let (case, text) = case_file::parsed(path)?;
+/// The live page for the report of a case, with its name.
+fn live_page(page: Option<&Path>, path: &Path, case: &Case) -> Result<(String, String)> {
     if case.design.scene() != Scene::Steady {
         return Err(miette!(
             help = "leave out --live",
@@ -131,23 +129,20 @@ fn add_live_page(files: &mut Files, page: &Path, path: &Path) -> Result<()> {
             path.display()
         ));
     }
-    let page = match page.as_os_str().is_empty() {
-        true => std::env::current_exe().into_diagnostic()?.with_file_name("vinesink-live.html"),
-        false => page.to_owned(),
+    let page = match page {
+        None => std::env::current_exe().into_diagnostic()?.with_file_name("vinesink-live.html"),
+        Some(page) => page.to_owned(),
     };
     let live = store::read_text(&page)
         .wrap_err("--live needs the live page: `web/build` makes it, releases bring it along")?;
-    let file = files.entry("report.html".into()).or_default();
-    let report = String::from_utf8_lossy(file);
-    let whole = live::embed(&report, &live, &text).into_diagnostic();
-    *file = whole.wrap_err_with(|| page.display().to_string())?.into_bytes();
-    Ok(())
+    Ok((page.display().to_string(), live))
 }
 
 /// Says which files of a report are not as [`write()`] would leave them.
 fn check(path: &Path, name: &str, folder: &Path, arguments: &Arguments) -> Result<bool> {
     let is_checked = |file: &Path| render::is_of_report(file) && file != Path::new("report.html");
-    let (mut files, _) = rendered(path, name, arguments)?;
+    let case = case_file::read(path)?;
+    let (mut files, _) = rendered(path, name, &case, arguments)?;
     files.retain(|file, _| is_checked(file));
     let there = store::read_folder(folder, is_checked)?;
     if there.is_empty() {
@@ -170,31 +165,30 @@ fn check(path: &Path, name: &str, folder: &Path, arguments: &Arguments) -> Resul
 }
 
 /// The files of a report, and whether it is exact enough and to be trusted.
-fn rendered(path: &Path, name: &str, arguments: &Arguments) -> Result<(Files, bool)> {
-    let case = case_file::read(path)?;
-    if let Some(files) = transient::report(&case, path, name, arguments.long)? {
+fn rendered(path: &Path, name: &str, case: &Case, arguments: &Arguments) -> Result<(Files, bool)> {
+    if let Some(files) = transient::report(case, path, name, arguments.long)? {
         return Ok((files, true));
     }
     let effort = StudyEffort::of(&case.simulation);
-    let plan = case_file::plan(&case, arguments.fidelity)?;
+    let plan = Plan::of_case(case, arguments.fidelity).into_diagnostic()?;
     let simulates = plan.as_ref().is_none_or(Plan::needs_simulation);
     let mut work = Vec::new();
     if simulates {
-        work.extend(Work::motions(&case, &effort));
-        work.push(Work::figures(&case));
+        work.extend(Work::motions(case, &effort));
+        work.push(Work::figures(case));
     }
     let deviates = simulates && case.report.deviations;
     if deviates {
-        work.push(Work::deviations(&case));
+        work.push(Work::deviations(case));
     }
     if !case.criteria.is_empty() || (simulates && case.band.is_some()) {
-        work.push(Work::criteria(&case));
+        work.push(Work::criteria(case));
     }
-    arguments.long.allows(path, &case, &work)?;
+    arguments.long.allows(path, case, &work)?;
     let progress = Progress::new(name, CaseStudy::steps(&effort) + FURTHER_STEPS);
     let mut advance = |done| progress.advance(done);
     let report =
-        Report::of(name, &case, plan.as_ref(), &Parallel, &mut advance).into_diagnostic()?;
+        Report::of(name, case, plan.as_ref(), &Parallel, &mut advance).into_diagnostic()?;
     progress.advance(FURTHER_STEPS / 2);
     // As `simulate`: what is not to be trusted is written down, and does not pass for an answer.
     let trusted = report.trusted();
@@ -203,5 +197,5 @@ fn rendered(path: &Path, name: &str, arguments: &Arguments) -> Result<(Files, bo
             "{name}: a simulation is not to be trusted; its report says why"
         ));
     }
-    Ok((report.files(&case).into_diagnostic()?, trusted && report.exact_enough()))
+    Ok((report.files(case).into_diagnostic()?, trusted && report.exact_enough()))
 }

@@ -7,7 +7,7 @@ use clap::Args;
 use miette::{IntoDiagnostic, Result, miette};
 use vinesink::analysis::Analysis;
 use vinesink::case::Case;
-use vinesink::regimes::{Attractor, Window};
+use vinesink::regimes::Attractor;
 use vinesink::report::console::Simulated;
 use vinesink::simulation::{Impact, ImpactLog, Simulation};
 use vinesink::store;
@@ -55,9 +55,6 @@ Examples:
 The CSV file has one line an impact: tau,side,x,xdot_before,xdot_after,ydot_before,ydot_after;
 lengths over the clearance, tau counted from the start of the run, side +1 where x - y = +b.";
 
-/// Impacts after which a run is ended; at a million impacts a second this is some minutes.
-const IMPACT_LIMIT: u64 = 200_000_000;
-
 pub fn run(arguments: Arguments) -> Result<bool> {
     let OneCase { path, long, .. } = &arguments.one;
     let case = case_file::read(path)?;
@@ -83,16 +80,10 @@ pub fn run(arguments: Arguments) -> Result<bool> {
         None => {
             let analysis = Analysis::of(&case.system()).into_diagnostic()?;
             let mut found = search(&analysis, &effort)?;
-            let main = found.main_index();
-            let main = found
-                .attractors
-                .get_mut(main)
-                .ok_or_else(|| miette!("no start led anywhere; ask for more than 0 starts"))?;
             let continued = StudyEffort { discard: Some(0), ..effort };
-            let mut motion = follow(&case, main.attractor.state, &continued, &arguments)?;
-            // One motion has one peak, wherever it is printed.
-            main.attractor.take_extremes(&motion);
-            motion.take_extremes(&main.attractor);
+            let motion = found.followed(|start| follow(&case, start, &continued, &arguments))?;
+            let none = || miette!("no start led anywhere; ask for more than 0 starts");
+            let motion = motion.ok_or_else(none)?;
             (motion, Some(found))
         }
     };
@@ -132,11 +123,7 @@ fn follow(
 ) -> Result<Attractor> {
     let mut simulation = Simulation::new(&case.system(), start, 0.0).into_diagnostic()?;
     let _progress = Progress::estimated("measuring", trajectory(case, effort).seconds());
-    let window = Window {
-        discard: effort.left_out(&case.system()),
-        periods: effort.periods,
-        impact_limit: IMPACT_LIMIT,
-    };
+    let window = effort.full_window(&case.system());
     let Some(path) = &arguments.impacts else {
         return Ok(Attractor::measure(&mut simulation, &window));
     };

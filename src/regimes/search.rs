@@ -93,6 +93,14 @@ impl SearchEffort {
         Effort { discard: self.discard, ..Effort::over(RECOGNITION.min(self.periods)) }
     }
 
+    /// In which one motion is measured in full.
+    pub fn full_window(&self, system: &System) -> Window {
+        // At a million impacts a second some minutes.
+        const IMPACT_LIMIT: u64 = 200_000_000;
+        let discard = self.left_out(system);
+        Window { discard, periods: self.periods, impact_limit: IMPACT_LIMIT }
+    }
+
     /// In which a motion is recognised.
     pub fn window(&self, system: &System) -> Window {
         let each = self.each();

@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use super::answer::{self, Answer, ORBIT_ROUNDING, measured};
 use super::{LongTermMotions, StudyError};
-use crate::case::AccuracySettings;
+use crate::case::{AccuracySettings, Case};
 use crate::method::Method;
 use crate::operation_count;
 use crate::regimes::{FoundAttractor, Regime};
@@ -151,6 +151,16 @@ impl Answers {
 }
 
 impl Plan {
+    /// The plan of a case that asks for accuracy, or where a layer is insisted on.
+    ///
+    /// # Errors
+    /// As [`Plan::of`].
+    pub fn of_case(case: &Case, forced: Option<Method>) -> Result<Option<Self>, StudyError> {
+        let demand = case.accuracy.as_ref().map(AccuracyTarget::of);
+        let demand = demand.or(forced.map(|_| AccuracyTarget::default()));
+        demand.map(|demand| Self::of(&case.system(), demand, forced)).transpose()
+    }
+
     /// Decides from the closed form and the symmetric orbit.
     ///
     /// # Errors

@@ -146,23 +146,15 @@ impl CaseStudy {
     /// # Errors
     /// [`StudyError`] where the theory cannot be carried out.
     pub fn without_simulation(system: &System, effort: StudyEffort) -> Result<Self, StudyError> {
-        let analysis = Analysis::of(system)?;
-        let exact = FullSystem::of(system);
+        let sketch = Self::sketch(system)?;
+        let (analysis, exact) = (&sketch.analysis, &sketch.exact);
         Ok(Self {
-            motions: LongTermMotions::default(),
-            claims: validation::confront_theory(&analysis, &exact),
-            asymptotic_errors: asymptotic_errors(&analysis, &exact),
-            margins: Margins::of(&analysis, &exact),
-            confirmations: Confirmations::default(),
+            claims: validation::confront_theory(analysis, exact),
+            asymptotic_errors: asymptotic_errors(analysis, exact),
+            margins: Margins::of(analysis, exact),
             effort,
-            band: None,
-            averages: None,
-            simulated: false,
-            rivals: Rivals::along(&Band::point(system)),
             inactive: Inactive::of(system),
-            deviations: None,
-            exact,
-            analysis,
+            ..sketch
         })
     }
 

@@ -9,7 +9,7 @@ use crate::orbits::newton::solve;
 use crate::orbits::{AfterImpact, Closure, Cycle, Measures, Orbit, Origin, Wall};
 use crate::regimes::{Attractor, DynamicsKind, FoundAttractor, Regime};
 use crate::simulation::{Impact, Side};
-use crate::system::System;
+use crate::system::{State, System};
 
 /// Distance in state, over the clearance and radians, below which the halves of a simulated cycle
 /// count as mirror images: far above the closure of a simulated repetition.
@@ -101,6 +101,23 @@ impl LongTermMotions {
     pub fn main_index(&self) -> usize {
         let moves = |found: &FoundAttractor| found.regime() != Regime::AtRest;
         self.attractors.iter().position(moves).unwrap_or(0)
+    }
+
+    /// That motion, followed and measured once more from its state by `follow`; none where no start led anywhere.
+    ///
+    /// # Errors
+    /// Those of `follow`.
+    pub fn followed<E>(
+        &mut self,
+        follow: impl FnOnce(State) -> Result<Attractor, E>,
+    ) -> Result<Option<Attractor>, E> {
+        let index = self.main_index();
+        let Some(main) = self.attractors.get_mut(index) else { return Ok(None) };
+        let mut motion = follow(main.attractor.state)?;
+        // One motion has one peak, wherever it is printed.
+        main.attractor.take_extremes(&motion);
+        motion.take_extremes(&main.attractor);
+        Ok(Some(motion))
     }
 
     /// That motion with its proof.

@@ -413,3 +413,29 @@ fn a_report_holds_the_live_page() {
     assert!(said.contains("this is not the live page"), "{said}");
     assert_eq!(fs::read(&written).expect("a report"), before);
 }
+
+/// Without a name the page is the one beside the program; a case that it cannot show is refused.
+#[test]
+fn the_page_beside_the_program_is_taken() {
+    let Some(file) = file() else { return };
+    let folder = tempfile::tempdir().expect("a folder");
+    let program = folder.path().join("vinesink");
+    fs::copy(assert_cmd::cargo::cargo_bin("vinesink"), &program).expect("a program");
+    let run = |case: &str| {
+        let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases").join(case);
+        let mut report = Command::new(&program);
+        report.arg("report").arg(case).args(["--live", "--out"]).arg(folder.path());
+        let ran = report.output().expect("it runs");
+        (ran.status.success(), String::from_utf8_lossy(&ran.stderr).into_owned())
+    };
+    let (done, said) = run("li2016-8hz-b7p5mm.toml");
+    assert!(!done && said.contains("--live needs the live page"), "{said}");
+    assert!(!folder.path().join("li2016-8hz-b7p5mm").exists(), "nothing is half written");
+    fs::copy(file, folder.path().join("vinesink-live.html")).expect("a page");
+    let (done, said) = run("li2016-8hz-b7p5mm.toml");
+    assert!(done, "{said}");
+    let report = folder.path().join("li2016-8hz-b7p5mm/report.html");
+    assert!(fs::read_to_string(report).expect("a report").contains("data-live"));
+    let (done, said) = run("footbridge-jump.toml");
+    assert!(!done && said.contains("shows steady vibration"), "{said}");
+}

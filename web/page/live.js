@@ -254,6 +254,7 @@ function Live(place) {
     const onlyCase = [...some.keys()].every((key) => key === "frequency" || key === "clearance");
     follow(some.size > 0 && onlyCase);
     frames.push(performance.now() - begin);
+    if (frames.length > 1000) frames.shift();
   }
 
   /** A browser makes often used code fast; the first movement of a slider finds it so. */

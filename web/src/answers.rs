@@ -58,7 +58,7 @@ fn words(error: impl std::fmt::Display) -> Value {
 fn answer(request: Request) -> Result<Value, Value> {
     match request {
         Request::Presets => Ok(PRESETS.iter().map(|(name, text)| json!([name, text])).collect()),
-        Request::Open { text } => opened(&read(&text)?, &text),
+        Request::Open { text } => Ok(opened(&parsed(&text)?, &text)),
         Request::Change { text, values } => change(&text, &values),
         Request::Map { text } => map(&read(&text)?),
         Request::Study { text } => study(&read(&text)?),
@@ -81,22 +81,30 @@ fn problems(error: &CaseError) -> Value {
     error.problems().map(one).collect()
 }
 
-/// The case at its own excitation: what it asks for along a band takes longer than a page can wait.
-fn read(text: &str) -> Result<Case, Value> {
-    let mut case = Case::parse("case.toml", text).map_err(|error| problems(&error))?;
+/// A case that the page can show.
+fn parsed(text: &str) -> Result<Case, Value> {
+    let case = Case::parse("case.toml", text).map_err(|error| problems(&error))?;
     if case.design.scene() != Scene::Steady {
         return Err(words(
             "this page shows steady vibration; the case is a shock, a sweep or a record, which `vinesink report` shows",
         ));
     }
-    (case.band, case.criteria, case.accuracy) = (None, Vec::new(), None);
     Ok(case)
 }
 
-fn opened(case: &Case, text: &str) -> Result<Value, Value> {
-    let whole = Case::parse("case.toml", text).map_err(|error| problems(&error))?;
+/// The case at its own excitation: what it asks for along a band takes longer than a page can wait.
+fn alone(mut case: Case) -> Case {
+    (case.band, case.criteria, case.accuracy) = (None, Vec::new(), None);
+    case
+}
+
+fn read(text: &str) -> Result<Case, Value> {
+    parsed(text).map(alone)
+}
+
+fn opened(case: &Case, text: &str) -> Value {
     let mut notes = Vec::new();
-    if whole.band.is_some() || !whole.criteria.is_empty() {
+    if case.band.is_some() || !case.criteria.is_empty() {
         notes.push(
             "What stands here is at the excitation of the sliders alone. The case also has a band or criteria, \
              which `vinesink check` and `report` judge: they may say otherwise.",
@@ -109,11 +117,11 @@ fn opened(case: &Case, text: &str) -> Result<Value, Value> {
         );
     }
     let controls = controls::controls(case);
-    Ok(json!({ "text": text, "title": case.title, "controls": controls, "notes": notes }))
+    json!({ "text": text, "title": case.title, "controls": controls, "notes": notes })
 }
 
 fn change(text: &str, values: &BTreeMap<String, f64>) -> Result<Value, Value> {
-    let case = Case::parse("case.toml", text).map_err(|error| problems(&error))?;
+    let case = parsed(text)?;
     let mut design = case.design;
     for (key, value) in values {
         let parameter = Parameter::of_name(key).ok_or_else(|| words(format!("no slider {key}")))?;
@@ -124,10 +132,10 @@ fn change(text: &str, values: &BTreeMap<String, f64>) -> Result<Value, Value> {
         RewriteError::Invalid(error) => problems(&error),
         other => words(other),
     })?;
-    let case = read(&changed.text)?;
+    let mut answer = opened(&changed.case, &changed.text);
+    let case = alone(changed.case);
     let sketch = CaseStudy::sketch(&case.system()).map_err(words)?;
     let manifold = drawn(&case, &sketch, &[Plot::Manifold])?;
-    let mut answer = opened(&case, &changed.text)?;
     answer["figures"] =
         manifold.into_iter().map(|figure| Ok(shown(figure)?.0)).collect::<Result<_, Value>>()?;
     Ok(answer)

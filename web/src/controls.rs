@@ -21,7 +21,7 @@ fn parameters(design: &Design) -> [Parameter; 6] {
 const RANGE: f64 = 8.0;
 /// Up to where a slider goes whose value begins at 0.
 const FROM_ZERO: f64 = 0.05;
-/// The least restitution and mass ratio of a slider, and the largest mass ratio.
+/// The least and the largest mass ratio of a slider.
 const MASS_RATIOS: [f64; 2] = [1e-4, 0.3];
 
 /// The range of a slider and whether equal ratios get equal room.

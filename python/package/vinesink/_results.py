@@ -167,7 +167,25 @@ def _of_records(records: Sequence[Mapping[str, Any]], names: Sequence[str]) -> d
     return {name: np.array([one[name] for one in records]) for name in names}
 
 
-class Analysis(Record):
+class _WithRows(Record):
+    """A document with a list that is a table: of an analysis the fixed points, of a simulation the motions found."""
+
+    def _rows(self) -> Table:
+        raise NotImplementedError
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """Its list, one entry a row."""
+        return self._rows().to_pandas()
+
+    def to_polars(self) -> polars.DataFrame:
+        """Its list, one entry a row."""
+        return self._rows().to_polars()
+
+    def _repr_html_(self) -> str:
+        return super()._repr_html_() + self._rows()._repr_html_()
+
+
+class Analysis(_WithRows):
     """What theory and exact orbits say of a case: the document of `vinesink analyze --format json`.
 
     `area` and `strip` of the theory; `manifold`, with `fold` and `symmetry_breaking`; `fixed_points`, a list with `B`,
@@ -175,20 +193,9 @@ class Analysis(Record):
     dimensionless numbers. Of a structure that is released it is what theory says of its decay.
     """
 
-    def _fixed_points(self) -> Table:
+    def _rows(self) -> Table:
         names = ("B", "C", "eta", "branch", "kind", "stable", "trace", "determinant", "residual")
         return Table(_of_records(self._document.get("fixed_points", []), names))
-
-    def to_pandas(self) -> pandas.DataFrame:
-        """The fixed points, one a row."""
-        return self._fixed_points().to_pandas()
-
-    def to_polars(self) -> polars.DataFrame:
-        """The fixed points, one a row."""
-        return self._fixed_points().to_polars()
-
-    def _repr_html_(self) -> str:
-        return super()._repr_html_() + self._fixed_points()._repr_html_()
 
 
 class Orbits(Table):
@@ -215,7 +222,7 @@ class Orbits(Table):
         return (Record(one) for one in self._records)
 
 
-class Simulation(Record):
+class Simulation(_WithRows):
     """A simulated motion: the document of `vinesink simulate --format json`, with arrays beside it.
 
     `regime`, `impacts` (their number), `impacts_per_period`, `displacement.peak` and `.rms` (m), `impact_speed` (m/s), `energy`, `settled`,
@@ -240,7 +247,7 @@ class Simulation(Record):
         fast time. None without `times`."""
         return self._trajectory
 
-    def _attractors(self) -> Table:
+    def _rows(self) -> Table:
         each = self._document.get("attractors") or [self._document] if self._document else []
         rows = [
             {
@@ -258,17 +265,6 @@ class Simulation(Record):
         ]
         names = ("regime", "impacts_per_period", "peak", "rms", "impact_speed", "settled", "trusted", "share")
         return Table(_of_records(rows, names))
-
-    def to_pandas(self) -> pandas.DataFrame:
-        """The motions found, one a row, with the share of starts that led to each."""
-        return self._attractors().to_pandas()
-
-    def to_polars(self) -> polars.DataFrame:
-        """The motions found, one a row, with the share of starts that led to each."""
-        return self._attractors().to_polars()
-
-    def _repr_html_(self) -> str:
-        return super()._repr_html_() + self._attractors()._repr_html_()
 
 
 class Branch(Table):
