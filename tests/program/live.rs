@@ -223,6 +223,22 @@ fn the_mark_is_dragged_over_the_map_and_taken_back() {
     };
     page.evaluate("document.querySelector('.live-mark').scrollIntoView({ block: 'center', behavior: 'instant' })");
     let from = place(&mut page);
+    // Where the map has the case, on linear axes.
+    let request = json!({ "ask": "map", "text": begin });
+    let map = page.evaluate(&format!("{LIVE}.engine().ask({request})"))["panel"].clone();
+    let sheet = page.evaluate(
+        "(() => { const at = document.querySelector('.live-sheet svg').getBoundingClientRect();
+            return [at.left, at.top, at.width, at.height]; })()",
+    );
+    let number = |value: &Value| value.as_f64().expect("a number");
+    let expected = [0, 1].map(|k| {
+        let [first, last] = [0, 1].map(|end| number(&map["axes"][k][end]));
+        let share = (number(&map["at"][k]) - first) / (last - first);
+        // Rooms are left, top, right, bottom; the second axis goes up.
+        let [low, high] = [[0, 2], [3, 1]][k].map(|side| number(&map["room"][side]));
+        number(&sheet[k]) + (low + share * (high - low)) * number(&sheet[k + 2])
+    });
+    assert!((0..2).all(|k| (from[k] - expected[k]).abs() < 1.0), "{from:?} {expected:?}");
     let to = [from[0] - 60.0, from[1] + 40.0];
     page.drag(from, to, 12);
     settle(&mut page);
@@ -243,6 +259,9 @@ fn the_mark_is_dragged_over_the_map_and_taken_back() {
     settle(&mut page);
     let pushed = text(&mut page);
     assert!(case(&pushed).scales().clearance > last.scales().clearance);
+    let caption = "document.querySelector('[data-name=map] figcaption').textContent";
+    let written = format!("{:.1} mm", 1e3 * case(&pushed).scales().clearance);
+    assert!(page.evaluate(caption).as_str().expect("words").contains(&written), "{written}");
     // The map was drawn anew and the mark still has the focus; presses in quick succession would be one step back.
     page.evaluate("new Promise((done) => setTimeout(done, 800))");
     page.press("ArrowUp", 38, "");

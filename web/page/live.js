@@ -230,14 +230,18 @@ function Live(place) {
   }
 
   // The first value of a movement is one step of undo, however far it goes; key presses in quick succession are one.
-  let moving = false, pausing;
+  let moving = false, pausing, skipped = false;
   function move(of, value) {
     if (!Number.isFinite(value)) return;
     if (!moving) { remember(); moving = true; }
     values.set(of.key, value);
     if (waiting === null) waiting = requestAnimationFrame(() => { waiting = null; const some = new Map(values); values.clear(); change(some); });
   }
-  function settle() { clearTimeout(pausing); moving = false; }
+  function settle() {
+    clearTimeout(pausing);
+    moving = false;
+    if (skipped) drawMap();
+  }
   function pause() { clearTimeout(pausing); pausing = setTimeout(settle, 700); }
 
   /** The case with other values: at once what is cheap, the rest when it comes. */
@@ -283,14 +287,20 @@ function Live(place) {
     const version = ++asked;
     if (!shown) old(verdict);
     for (const [name, one] of figures) if (name !== "sim" && !(name === "map" && keepMap)) old(one);
-    const [map, study] = desks;
     const done = (act) => (answer) => { if (version === asked) act(answer); };
-    const needsMap = wanted("map") && !(keepMap && figures.has("map") && moving);
+    // While the case moves over it the map itself stays true; what its caption says of the case does not.
+    skipped = wanted("map") && keepMap && figures.has("map") && moving;
+    if (skipped) old(figures.get("map").lastChild);
     const needsStudy = !shown || shown.some((name) => !["map", "sim", "running"].includes(name));
     await Promise.all([
-      needsMap && map.ask({ ask: "map", text }).then(done(showMap)),
-      needsStudy && study.ask({ ask: "study", text }).then(done(showStudy)),
+      wanted("map") && !skipped && drawMap(),
+      needsStudy && desks[1].ask({ ask: "study", text }).then(done(showStudy)),
     ]);
+  }
+  async function drawMap() {
+    skipped = false;
+    const version = asked, answer = await desks[0].ask({ ask: "map", text });
+    if (version === asked) showMap(answer);
   }
 
   /** Until everything on the page belongs to the sliders. */
@@ -314,6 +324,7 @@ function Live(place) {
     figure.firstChild.innerHTML = svg;
     figure.firstChild.setAttribute("aria-label", title);
     figure.lastChild.textContent = caption.replace(/\$|\\|\*/g, "");
+    fresh(figure.lastChild);
     fresh(figure);
     return figure;
   }
@@ -357,7 +368,7 @@ function Live(place) {
       event.preventDefault();
       star.focus({ preventScroll: true });
     };
-    sheet.onpointerup = sheet.onpointercancel = () => { sheet.onpointermove = null; settle(); follow(); };
+    sheet.onpointerup = sheet.onpointercancel = () => { sheet.onpointermove = null; settle(); };
     star.onkeydown = (event) => {
       const way = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
       if (!way) return;
