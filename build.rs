@@ -25,11 +25,19 @@ fn sources() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
+/// Pages that a browser does not make, as they are of folders, files and long work: beginnings of their names.
+const NOT_IN_A_BROWSER: [&str; 8] =
+    ["diff", "evidence", "extremes", "index", "jobs", "optimize", "paper", "tradeoff"];
+
 /// Writes a list of every file of `templates/`: its path there without `.tera`, and its text.
 fn templates() -> Result<(), Box<dyn Error>> {
+    let browser = std::env::var("CARGO_CFG_TARGET_ARCH")? == "wasm32";
     let mut list = String::from("&[\n");
     for file in files(&["templates"])? {
         let name = file.strip_prefix("templates")?.display().to_string();
+        if browser && NOT_IN_A_BROWSER.iter().any(|begin| name.starts_with(begin)) {
+            continue;
+        }
         let path = std::path::absolute(&file)?;
         list += &format!("({:?}, include_str!({path:?})),\n", name.trim_end_matches(".tera"));
     }

@@ -3,7 +3,9 @@
 //! `cargo run --release --example regime_map`
 
 use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
-use vinesink::regimes::{Effort, Regime, motions, starts};
+use vinesink::executor::Serial;
+use vinesink::motions::{Effort, Motion, Place, motions};
+use vinesink::regimes::Regime;
 use vinesink::system::{Cavity, Excitation, Parameters, System};
 
 /// The regime that most of eight starts lead to, at a frequency in Hz and a clearance in mm.
@@ -19,9 +21,8 @@ fn regime(frequency: f64, clearance: f64) -> Option<Regime> {
         cavity: Cavity::IDEAL,
     })
     .ok()?;
-    let places = [(system, starts::of(&system, 8).collect())];
-    let found = motions(&places, &Effort::over(100)).ok()?;
-    found[0].iter().max_by_key(|motion| motion.starts).map(|motion| motion.regime)
+    let found = motions(&[Place::new(&system, 8)], &Effort::over(100), &Serial).ok()?;
+    found[0].main().map(Motion::regime)
 }
 
 fn main() {

@@ -8,6 +8,15 @@ pub trait Executor: Sync {
     /// Calls `f` once with each number below `count`, in any order. `what` names the work to a user, who
     /// is told nothing where it is empty.
     fn each(&self, what: &str, count: usize, f: &(dyn Fn(usize) + Sync));
+
+    /// Called now and then within a long evaluation. It does not return where the work is to stop.
+    fn goes_on(&self) {}
+
+    /// A single evaluation has so many steps, which [`Executor::advance`] counts.
+    fn expect(&self, _steps: u64) {}
+
+    /// Some steps more of it are done.
+    fn advance(&self, _steps: u64) {}
 }
 
 /// What `f` returns for each number below `count`, in their order.

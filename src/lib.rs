@@ -49,7 +49,8 @@
 //! | [`analysis`] | what the theory of first order in `ε` says, in closed form | [`Analysis::of`](analysis::Analysis::of) |
 //! | [`orbits`] | exact periodic orbits at any `ε`, their bifurcations and branches | [`symmetric_orbits`](orbits::symmetric_orbits), [`branch::follow`](orbits::branch::follow) |
 //! | [`simulation`] | one trajectory, or many side by side, from event to event | [`Simulation::new`](simulation::Simulation::new) |
-//! | [`regimes`] | what trajectories become in the long run, and what to call it | [`motions`](regimes::motions) |
+//! | [`regimes`] | what a trajectory does, and what to call it | [`classify`](regimes::classify) |
+//! | [`motions`] | every long-term motion of a system, found and identified once | [`motions`](motions::motions) |
 //! | [`cavity`] | the theory where the cavity is tilted, rubs, or has unequal ends | [`CavityTheory::new`](cavity::CavityTheory::new) |
 //! | [`dissipation`] | what the absorber takes in every regime, and the slow flow with it | [`DissipationCurve::of`](dissipation::DissipationCurve::of) |
 //!
@@ -84,6 +85,8 @@
 
 pub mod analysis;
 #[cfg(feature = "case")]
+pub mod answer;
+#[cfg(feature = "case")]
 pub mod band;
 pub mod bifurcation;
 #[cfg(feature = "case")]
@@ -101,10 +104,10 @@ pub mod dissipation;
 pub mod equations;
 #[cfg(feature = "report")]
 pub mod evidence;
-#[cfg(feature = "case")]
 pub mod executor;
 #[cfg(feature = "case")]
 pub mod method;
+pub mod motions;
 mod names;
 #[cfg_attr(
     not(feature = "case"),

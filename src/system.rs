@@ -5,10 +5,12 @@
 //! frequency ratio `Omega`, the forcing per clearance `gamma = G / b` and the restitution `r`, the
 //! equation of motion is equation (1) of Li, Seguy, Berlioz (2016) divided by the clearance.
 
+mod band;
 mod parameter;
 
 use serde::{Deserialize, Serialize};
 
+pub use band::{Band, BandOver, Stretch};
 pub use parameter::Parameter;
 
 /// How the linear oscillator is driven.
@@ -264,7 +266,7 @@ impl System {
     }
 
     /// The same with the absorber in tow, without what gravity displaces; the mass is then `1 + eps`.
-    pub fn response_in_tow(&self) -> Option<LinearResponse> {
+    pub fn response_carried(&self) -> Option<LinearResponse> {
         self.response_of(1.0 + self.parameters.mass_ratio)
     }
 

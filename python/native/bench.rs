@@ -6,9 +6,10 @@ use std::time::Instant;
 use rayon::iter::ParallelIterator as _;
 use rayon::slice::ParallelSlice as _;
 use vinesink::case::Case;
-use vinesink::regimes::{Attractor, Effort, Window, long_term, starts};
+use vinesink::executor::Serial;
+use vinesink::motions::{Effort, Measured, Place, Window, motions, starts};
 use vinesink::simulation::{ImpactLog, Simulation};
-use vinesink::system::{Parameter, State, System};
+use vinesink::system::{Parameter, State};
 
 /// Starts on their way to two impacts per period.
 const START: State = State { y_velocity: 1.0, ..State::AT_REST };
@@ -43,18 +44,18 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let window = Window { discard: 0, periods, impact_limit: u64::MAX };
     let measured = best(runs, || {
         let mut log = ImpactLog::default();
-        (Attractor::measure_with(&mut begin(), &window, &mut log), log)
+        (Measured::of(&mut begin(), &window, &mut log), log)
     });
     // As `simulate_many` with clearances evenly spread over 2 to 20 mm.
     let place = |k: u32| {
         let clearance = 2e-3 + f64::from(k) * ((20e-3 - 2e-3) / f64::from(systems - 1));
         let system = case.design.with(Parameter::Clearance, clearance).system().expect("valid");
-        (system, starts::FROM_REST)
+        Place::with(&system, vec![starts::FROM_REST])
     };
     let effort = Effort::over(250);
     let many = best(runs, || {
-        let places: Vec<(System, State)> = (0..systems).map(place).collect();
-        let each = |some: &[(System, State)]| long_term(some, &effort).expect("valid");
+        let places: Vec<Place> = (0..systems).map(place).collect();
+        let each = |some: &[Place]| motions(some, &effort, &Serial).expect("valid");
         places.par_chunks(256).flat_map_iter(each).collect::<Vec<_>>()
     });
     println!("{impacts} {alone} {measured} {many}");

@@ -4,9 +4,10 @@ use numpy::{Complex64, IntoPyArray, PyArray2, PyArrayMethods as _};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use serde_json::{Value, json};
+use vinesink::answer::branch::{
+    Branch, BranchEnd, Direction, FullSystem, ImpactMap, Orbit, Peaks, Settings, follow,
+};
 use vinesink::case::Case;
-use vinesink::orbits::branch::{Direction, Settings, follow};
-use vinesink::orbits::{Branch, BranchEnd, FullSystem, ImpactMap, Orbit, Peaks};
 use vinesink::system::Parameter;
 
 use crate::case::Columns;

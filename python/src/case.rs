@@ -9,13 +9,12 @@ use pyo3::exceptions::{PyOSError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use serde::Serialize;
-use vinesink::analysis::Analysis;
+use vinesink::answer::{Answer, Asked};
 use vinesink::case::{self, Recording};
-use vinesink::orbits::FullSystem;
+use vinesink::motions::Effort;
 use vinesink::report::console::Analysed;
 use vinesink::report::transient as page;
 use vinesink::store;
-use vinesink::study::StudyEffort;
 use vinesink::study::fidelity::Plan;
 use vinesink::system::State;
 use vinesink::transient::{DecayStudy, Scene, Study};
@@ -229,12 +228,9 @@ impl Case {
         discard: Option<u64>,
         initial: Option<[f64; 4]>,
     ) -> Wanted {
-        let asked = StudyEffort::of(&self.inner.simulation);
+        let asked = self.inner.effort();
         let (periods, discard) = (periods.unwrap_or(asked.periods), discard.or(asked.discard));
-        Wanted {
-            effort: StudyEffort { periods, discard, ..asked },
-            start: initial.map(simulate::state),
-        }
+        Wanted { effort: Effort { periods, discard, ..asked }, start: initial.map(simulate::state) }
     }
 
     fn analysed(&self, work: &Work) -> PyResult<serde_json::Value> {
@@ -243,18 +239,10 @@ impl Case {
             return Ok(page::document(&self.stem, case, &Study::Release(Box::new(study)), &[]));
         }
         self.needs_steady("an analysis is")?;
-        let analysis = Analysis::of(&case.system()).map_err(refused)?;
-        let exact = FullSystem::of(&case.system());
-        let found = match Plan::of_case(case, None).map_err(refused)? {
-            None => None,
-            Some(plan) if plan.needs_simulation() => {
-                let found = simulate::search(&analysis, &StudyEffort::of(&case.simulation), work)?;
-                Some(plan.answers(Some(&found)).map_err(refused)?)
-            }
-            Some(plan) => Some(plan.answers(None).map_err(refused)?),
-        };
-        Ok(Analysed { case, analysis: &analysis, exact: &exact, answers: found.as_ref() }
-            .document())
+        let plan = Plan::of_case(case, None).map_err(refused)?;
+        let answer = Answer::of(case, Asked::Analysis, plan.as_ref(), work).map_err(refused)?;
+        let none = || refused("the case was not analysed");
+        Ok(Analysed::of(case, &answer).ok_or_else(none)?.document())
     }
 }
 

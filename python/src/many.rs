@@ -4,9 +4,10 @@ use numpy::{IntoPyArray, PyArrayMethods as _, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rayon::iter::{IntoParallelIterator as _, IntoParallelRefIterator as _, ParallelIterator as _};
+use vinesink::answer::trajectory::{Simulation, Stop};
 use vinesink::case::{self, Scales};
-use vinesink::regimes::{Effort, Motion, Regime, long_term, starts};
-use vinesink::simulation::Stop;
+use vinesink::motions::{Effort, Motion, follow, starts};
+use vinesink::regimes::Regime;
 use vinesink::system::{Parameter, State, System};
 
 use crate::case::{Case, Columns, states};
@@ -104,7 +105,7 @@ fn place(
         .fold(case.design, |design, (parameter, value)| design.with(parameter, value));
     let system = design.system().map_err(|error| of(&error))?;
     let start = start.unwrap_or(starts::FROM_REST);
-    vinesink::simulation::Simulation::new(&system, start, 0.0).map_err(|error| of(&error))?;
+    Simulation::new(&system, start, 0.0).map_err(|error| of(&error))?;
     Ok((system, start, design.scales()))
 }
 
@@ -117,7 +118,7 @@ fn motions(places: &[Vec<Place>], effort: &Effort, work: &Work) -> PyResult<Vec<
         work.goes_on();
         let starts: Vec<(System, State)> =
             some.iter().map(|(system, start, _)| (*system, *start)).collect();
-        let found = long_term(&starts, effort).map_err(refused)?;
+        let found = follow(&starts, effort).map_err(refused)?;
         work.advance(some.len() as u64);
         let scales = some.iter().map(|(_, _, scales)| *scales);
         Ok(found.into_iter().zip(scales).collect::<Vec<Found>>())
@@ -134,27 +135,33 @@ fn columns<'py>(py: Python<'py>, found: &[Found]) -> PyResult<Columns<'py>> {
             .map(|(motion, scales)| motion.as_ref().map_or(f64::NAN, |one| of(one, scales)));
         each.collect::<Vec<_>>().into_pyarray(py)
     };
-    dict.set_item("peak", numbers_of(|one, scales| scales.length(one.peak)))?;
-    dict.set_item("peak_error", numbers_of(|one, scales| scales.length(one.peak_error)))?;
-    dict.set_item("rms", numbers_of(|one, scales| scales.length(one.rms)))?;
-    dict.set_item("rms_error", numbers_of(|one, scales| scales.length(one.rms_error)))?;
-    dict.set_item("impacts_per_period", numbers_of(|one, _| one.impacts_per_period))?;
-    dict.set_item("impact_speed", numbers_of(|one, scales| scales.velocity(one.impact_speed)))?;
-    dict.set_item("efficiency", numbers_of(|one, _| one.efficiency.unwrap_or(f64::NAN)))?;
+    dict.set_item("peak", numbers_of(|one, scales| scales.length(one.facts().peak.value)))?;
+    dict.set_item("peak_error", numbers_of(|one, scales| scales.length(one.facts().peak.error)))?;
+    dict.set_item("rms", numbers_of(|one, scales| scales.length(one.facts().rms.value)))?;
+    dict.set_item("rms_error", numbers_of(|one, scales| scales.length(one.facts().rms.error)))?;
+    dict.set_item("impacts_per_period", numbers_of(|one, _| one.facts().impacts_per_period.value))?;
+    dict.set_item(
+        "impact_speed",
+        numbers_of(|one, scales| scales.velocity(one.facts().impact_speed.value)),
+    )?;
+    dict.set_item(
+        "efficiency",
+        numbers_of(|one, _| one.facts().efficiency.map_or(f64::NAN, |one| one.value)),
+    )?;
     let whole = |of: fn(&Motion) -> i32, none| {
         let each = found.iter().map(|(motion, _)| motion.as_ref().map_or(none, of));
         each.collect::<Vec<_>>().into_pyarray(py)
     };
-    dict.set_item("regime", whole(|one| one.regime.index() as i32, -1))?;
-    dict.set_item("repeats_after", whole(|one| one.repeats_after.unwrap_or(0) as i32, 0))?;
+    dict.set_item("regime", whole(|one| one.regime().index() as i32, -1))?;
+    dict.set_item("repeats_after", whole(|one| one.repeats_after().unwrap_or(0) as i32, 0))?;
     let flag = |of: fn(&Motion) -> bool| {
         let each = found.iter().map(|(motion, _)| motion.as_ref().is_some_and(of));
         each.collect::<Vec<_>>().into_pyarray(py)
     };
-    dict.set_item("settled", flag(|one| one.settled))?;
-    dict.set_item("whole", flag(|one| one.stop == Stop::EndTime))?;
+    dict.set_item("settled", flag(Motion::settled))?;
+    dict.set_item("whole", flag(|one| one.stop() == Stop::EndTime))?;
     let state =
-        |(motion, _): &Found| motion.as_ref().map_or([f64::NAN; 4], |one| numbers(one.state));
+        |(motion, _): &Found| motion.as_ref().map_or([f64::NAN; 4], |one| numbers(one.state()));
     let states: Vec<f64> = found.iter().flat_map(state).collect();
     dict.set_item("state", states.into_pyarray(py).reshape([found.len(), 4])?)?;
     Ok(dict)

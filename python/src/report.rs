@@ -11,7 +11,6 @@ use vinesink::report::render::{self, Files};
 use vinesink::report::transient as page;
 use vinesink::store;
 use vinesink::study::fidelity::Plan;
-use vinesink::study::{CaseStudy, StudyEffort};
 use vinesink::transient::Study;
 
 use crate::work::{Work, refused};
@@ -22,12 +21,10 @@ pub fn rendered(case: &Case, name: &str, work: &Work) -> PyResult<(Files, bool)>
         let judged = criteria::judge_transient(case, &study);
         return Ok((page::files(name, case, &study, &judged).map_err(refused)?, true));
     }
-    work.expect(CaseStudy::steps(&StudyEffort::of(&case.simulation)));
-    let mut advance = |done| work.advance(done);
     let plan = Plan::of_case(case, None).map_err(refused)?;
-    let report = Report::of(name, case, plan.as_ref(), work, &mut advance);
-    let report = report.map_err(refused)?;
-    Ok((report.files(case).map_err(refused)?, report.trusted() && report.exact_enough()))
+    let report = Report::of(name, case, plan.as_ref(), work).map_err(refused)?;
+    let holds = report.answer.trusted() && report.answer.exact_enough();
+    Ok((report.files(case).map_err(refused)?, holds))
 }
 
 /// Writes them, in place of those of an older report.

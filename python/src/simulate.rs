@@ -5,12 +5,13 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use serde_json::Value;
-use vinesink::analysis::Analysis;
+use vinesink::answer::trajectory::{
+    Detail, Impact, ImpactLog, Observer, Segment, Simulation, Stop, followed,
+};
+use vinesink::answer::{Answer, Asked};
 use vinesink::case::Case;
-use vinesink::regimes::Attractor;
+use vinesink::motions::{Effort, Motion, Motions};
 use vinesink::report::console::Simulated;
-use vinesink::simulation::{Detail, Impact, ImpactLog, Observer, Segment, Simulation, Stop};
-use vinesink::study::{self, LongTermMotions, Proof, StudyEffort};
 use vinesink::system::State;
 
 use crate::case::Columns;
@@ -23,7 +24,7 @@ const STRETCH: u64 = 1000;
 
 /// What is to be followed.
 pub struct Wanted {
-    pub effort: StudyEffort,
+    pub effort: Effort,
     pub start: Option<State>,
 }
 
@@ -89,43 +90,21 @@ pub fn measured(
     wanted: &Wanted,
     work: &Work,
 ) -> PyResult<(Value, Vec<Impact>, State)> {
-    let system = case.system();
-    let follow = |start: State, effort: &StudyEffort| {
-        let window = effort.full_window(&system);
-        let mut log = ImpactLog::default();
-        let mut simulation = Simulation::new(&system, start, 0.0).map_err(refused)?;
-        let motion = Attractor::measure_with(&mut simulation, &window, &mut log);
-        Ok::<_, PyErr>((motion, log.impacts))
-    };
-    let (motion, impacts, start, found) = match wanted.start {
-        Some(start) => {
-            let (motion, impacts) = follow(start, &wanted.effort)?;
-            (motion, impacts, start, None)
-        }
+    let (system, effort) = (case.system(), wanted.effort);
+    let mut log = ImpactLog::default();
+    let (measured, start, found) = match wanted.start {
+        Some(start) => (followed(&system, start, &effort, &mut log).map_err(refused)?, start, None),
         None => {
-            let analysis = Analysis::of(&system).map_err(refused)?;
-            let mut found = search(&analysis, &wanted.effort, work)?;
-            let continued = StudyEffort { discard: Some(0), ..wanted.effort };
-            let mut kept = None;
-            let motion = found.followed(|start| {
-                let (motion, impacts) = follow(start, &continued)?;
-                kept = Some((impacts, start));
-                Ok::<_, PyErr>(motion)
-            })?;
+            let answer = Answer::with(case, Asked::Motions, None, effort, work).map_err(refused)?;
+            let measured = answer.main(case, &mut log).map_err(refused)?;
+            let main = answer.motions.as_ref().and_then(Motions::main).map(Motion::state);
             let none = || refused("no start led anywhere; ask for more than 0 starts");
-            let (motion, (impacts, start)) = motion.zip(kept).ok_or_else(none)?;
-            (motion, impacts, start, Some(found))
+            let (measured, start) = measured.zip(main).ok_or_else(none)?;
+            (measured, start, answer.motions)
         }
     };
-    let proof = Proof::of(&system, &motion);
-    let told = Simulated { case, motion: &motion, proof: proof.as_ref(), found: found.as_ref() };
-    Ok((told.document(), impacts, start))
-}
-
-/// All long-term motions.
-pub fn search(analysis: &Analysis, effort: &StudyEffort, work: &Work) -> PyResult<LongTermMotions> {
-    work.expect(u64::from(effort.starts));
-    study::long_term_motions(analysis, effort, &mut |done| work.advance(done)).map_err(refused)
+    let told = Simulated { case, measured: &measured, found: found.as_ref() };
+    Ok((told.document(), log.impacts, start))
 }
 
 /// The impacts of a trajectory, nothing measured.

@@ -64,11 +64,30 @@ impl Work {
 
 /// On all processors.
 impl Executor for Work {
-    fn each(&self, _: &str, count: usize, f: &(dyn Fn(usize) + Sync)) {
+    fn each(&self, what: &str, count: usize, f: &(dyn Fn(usize) + Sync)) {
+        let named = !what.is_empty();
+        if named {
+            self.expect(count as u64);
+        }
         (0..count).into_par_iter().with_max_len(1).for_each(|k| {
-            self.goes_on();
+            Work::goes_on(self);
             f(k);
+            if named {
+                self.advance(1);
+            }
         });
+    }
+
+    fn goes_on(&self) {
+        Work::goes_on(self);
+    }
+
+    fn expect(&self, steps: u64) {
+        Work::expect(self, steps);
+    }
+
+    fn advance(&self, steps: u64) {
+        Work::advance(self, steps);
     }
 }
 

@@ -11,9 +11,9 @@ use super::curve::FixedPointCurve;
 use super::frequency_response::detunings;
 use super::manifold::{Branch, Manifold};
 use crate::bifurcation::Bifurcation;
-use crate::cavity::AsymmetricLimits;
+use crate::cavity::{AsymmetricLimits, Motion};
 use crate::equations::fixed_points as formulas;
-use crate::numerics::polynomial::real_roots;
+use crate::numerics::polynomial::{real_roots, through};
 use crate::system::System;
 
 /// A collision of two fixed points at the system's detuning.
@@ -85,6 +85,13 @@ impl Boundaries {
         }
     }
 
+    /// `gamma` at which steady 1:1 resonance ends as the forcing falls: two fixed points collide on the stable branch, or one
+    /// reaches the fold.
+    pub fn end_of_steady(&self) -> f64 {
+        let node = self.saddle_node.filter(|node| node.branch == Branch::Stable);
+        node.map_or(self.hopf, |node| node.forcing_over_clearance)
+    }
+
     /// Ends of the two asymmetric impacts as `(kind, gamma)`.
     pub fn of_asymmetric(&self) -> impl Iterator<Item = (Bifurcation, f64)> {
         let both = [
@@ -122,6 +129,22 @@ pub fn crossings(kind: Bifurcation, system: &System, manifold: &Manifold) -> Vec
         }
         _ => Vec::new(),
     }
+}
+
+/// The same where a fixed point of the left branch reaches `B = 0`.
+pub fn vanishing(system: &System, manifold: &Manifold) -> Vec<f64> {
+    detunings(system, manifold, -1.0)
+}
+
+/// The same of a motion of an ideal cavity: detunings at which it is a fixed point.
+pub fn crossings_of(motion: &Motion, system: &System, manifold: &Manifold) -> Vec<f64> {
+    // The square of the forcing is a quadratic in the detuning.
+    let excess = |detuning: f64| {
+        let curve = FixedPointCurve::at_detuning(system, manifold, detuning);
+        let (gamma, own) = (system.forcing_per_clearance(), curve.forcing_of(motion));
+        (own - gamma) * (own + gamma)
+    };
+    real_roots(&through(&[-1.0, 0.0, 1.0].map(|detuning| (detuning, excess(detuning)))))
 }
 
 /// Coefficients, by ascending powers of `sigma`, of the condition that two fixed points meet.

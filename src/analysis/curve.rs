@@ -85,6 +85,11 @@ impl FixedPointCurve {
         self.symmetry_breaking
     }
 
+    /// `gamma` at which a fixed point of the left branch reaches `B = 0` and is lost.
+    pub fn vanishing(&self) -> f64 {
+        self.coefficients[0].sqrt()
+    }
+
     /// `gamma` at which a motion of an ideal cavity is a fixed point.
     pub fn forcing_of(&self, motion: &Motion) -> f64 {
         let Motion { resistance, reactance, oscillator_amplitude, .. } = *motion;
@@ -121,6 +126,11 @@ impl FixedPointCurve {
 
     /// Area and strip at a forcing. Z2 ends where the asymmetric motion grazes a wall.
     pub fn zone(&self, gamma: f64) -> Zone {
+        self.zone_within(gamma, || AsymmetricLimits::of(self.manifold.restitution).grazing)
+    }
+
+    /// The same where it is known, or does not matter, which asymmetric motion grazes.
+    pub fn zone_within(&self, gamma: f64, grazing: impl FnOnce() -> Option<Motion>) -> Zone {
         let below_hopf = gamma < self.hopf();
         let on = |branch| {
             self.fixed_points(gamma).any(|at| self.manifold.branch(at.ratio - 1.0) == branch)
@@ -128,8 +138,7 @@ impl FixedPointCurve {
         let (area, strip) = if on(Branch::Stable) {
             (Area::Z3, below_hopf.then_some(Strip::A1))
         } else if on(Branch::Right) {
-            let grazing = AsymmetricLimits::of(self.manifold.restitution).grazing;
-            let within = grazing.is_some_and(|end| gamma <= self.forcing_of(&end));
+            let within = grazing().is_some_and(|end| gamma <= self.forcing_of(&end));
             (if within { Area::Z2 } else { Area::Z1 }, None)
         } else if on(Branch::Left) && below_hopf {
             (Area::Z3, Some(Strip::A2))

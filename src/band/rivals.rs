@@ -6,9 +6,8 @@ use nalgebra::Complex;
 use serde::Serialize;
 
 use super::Band;
-use crate::case::BandOver;
 use crate::numerics::scan::{largest_of, places};
-use crate::system::System;
+use crate::system::{BandOver, System};
 
 /// A tuned mass damper: a mass on a spring and a viscous damper.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -150,6 +149,11 @@ pub struct Damped {
     pub at: f64,
     /// Displacement of the damper's mass against the structure.
     pub stroke: f64,
+}
+
+/// Where the structure alone moves farthest along a band, and how far.
+pub fn bare_along(band: &Band) -> (f64, f64) {
+    Along::of(band).largest(bare_amplitude)
 }
 
 impl Rivals {

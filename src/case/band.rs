@@ -7,18 +7,8 @@ use serde_json::{Value, json};
 use super::inputs::Input;
 use super::reader::{Reader, Table};
 use super::schema::in_design;
-use crate::names::names;
-use crate::system::Parameter;
-
-names! { name:
-    /// What is varied along a band.
-    pub enum BandOver {
-        /// The excitation's frequency.
-        Frequency = "frequency",
-        /// Its amplitude, at the case's frequency.
-        Amplitude = "amplitude",
-    }
-}
+pub use crate::system::BandOver;
+use crate::system::{Band, Parameter, System};
 
 /// What the case says about its band; dimensionless.
 #[derive(Debug, Clone, PartialEq)]
@@ -30,6 +20,14 @@ pub struct BandSettings {
     /// Corners of the amplitude over the frequency: `Omega`, and amplitude over the case's own; empty
     /// where it is the case's everywhere.
     pub spectrum: Vec<[f64; 2]>,
+}
+
+impl BandSettings {
+    /// The band around a system, whose frequency and amplitude the ratios are over.
+    pub fn around(&self, system: &System) -> Band {
+        let Self { over, range, spectrum } = self;
+        Band { base: *system, over: *over, range: *range, spectrum: spectrum.clone() }
+    }
 }
 
 /// The range of excitations that a design must serve. The table may be left out.

@@ -55,7 +55,8 @@ pub use sweep::{Recorded, SweepAxis, SweepSettings};
 pub use uncertainty::{Distribution, Uncertainty};
 
 use crate::digest::sha256;
-use crate::system::System;
+use crate::motions::{BandEffort, Effort};
+use crate::system::{Band, System};
 use crate::transient::Scene;
 use reader::{Reader, Table};
 
@@ -246,6 +247,28 @@ impl Case {
         }
     }
 
+    /// How thoroughly its motions are searched: the same for every command.
+    pub fn effort(&self) -> Effort {
+        let SimulationSettings { periods, discard, starts } = self.simulation;
+        let usual = Effort::default();
+        let tolerance = self.accuracy.and_then(|asked| asked.amplitude);
+        let tolerance = tolerance.unwrap_or(usual.band.tolerance);
+        Effort {
+            starts: starts.and_then(|starts| u32::try_from(starts).ok()).unwrap_or(usual.starts),
+            discard,
+            periods: periods.unwrap_or(usual.periods),
+            accuracy: self.accuracy.map(|asked| [asked.amplitude(), asked.impacts_per_period()]),
+            band: BandEffort { tolerance, ..usual.band },
+            ..usual
+        }
+    }
+
+    /// The range that it is asked about: its band, or its own excitation alone.
+    pub fn range(&self) -> Band {
+        let system = self.system();
+        self.band.as_ref().map_or_else(|| Band::point(&system), |band| band.around(&system))
+    }
+
     /// What is valid and almost surely a slip, such as kHz for Hz: each where it stands in the text after
     /// a byte order mark, with what was probably meant as its help; in the order of lines.
     pub fn warnings(&self) -> &[Problem] {
@@ -255,6 +278,12 @@ impl Case {
     /// The dimensionless system.
     pub fn system(&self) -> System {
         self.system
+    }
+
+    /// The same with another design, of which nothing is written; none where it leaves no system.
+    pub(crate) fn with_design(&self, design: Design) -> Option<Self> {
+        let system = design.system().ok()?;
+        Some(Self { design, system, ..self.clone() })
     }
 
     /// What turns the system's results back into the case's units.

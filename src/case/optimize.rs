@@ -36,8 +36,8 @@ pub struct OptimizeSettings {
     /// driven steadily: released or struck it shall come to rest first, swept or driven by a record it shall have the
     /// smallest largest displacement.
     pub objective: Option<Objective>,
-    /// Bounds of the clearance; a fifth to five times the case's own unless given. Plain numbers
-    /// beside [reduced].
+    /// Bounds of the clearance; 0.025 to 1.5 times the largest at which 1:1 resonance ends by theory along the band unless
+    /// given, or a fifth to five times the case's own where the theory has none. Plain numbers beside [reduced].
     #[schemars(with = "Option<[Value; 2]>", extend("x-plain" = [[0.5, 2.0]], "x-ascending" = true))]
     #[schemars(extend("items" = in_design("clearance")), example = vec!["5 mm", "40 mm"])]
     pub clearance: Option<[f64; 2]>,

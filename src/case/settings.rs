@@ -101,3 +101,15 @@ pub struct AccuracySettings {
     #[schemars(example = true)]
     pub coexistence: bool,
 }
+
+impl AccuracySettings {
+    /// A per cent of the amplitude unless given, which is what clearances and restitution are known to.
+    pub fn amplitude(&self) -> f64 {
+        self.amplitude.unwrap_or(0.01)
+    }
+
+    /// Unless given as exactly as regimes are told apart.
+    pub fn impacts_per_period(&self) -> f64 {
+        self.impacts_per_period.unwrap_or(0.01)
+    }
+}

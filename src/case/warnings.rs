@@ -180,7 +180,7 @@ impl Read<'_> {
         let steady = self.case.design.scene() == Scene::Steady && band.is_none();
         let at = self.input(1, &["inclination", "gravity_along"]).filter(|_| steady)?;
         let omega = system.frequency_ratio();
-        let acceleration = omega * omega * system.response_in_tow()?.amplitude();
+        let acceleration = omega * omega * system.response_carried()?.amplitude();
         let gravity = system.cavity().gravity_along.abs();
         if acceleration == 0.0 || gravity <= acceleration {
             return None;

@@ -1,25 +1,24 @@
 //! `vinesink analyze CASE`
 
 use clap::Args;
-use miette::{IntoDiagnostic, Result, WrapErr};
-use vinesink::analysis::Analysis;
+use miette::{IntoDiagnostic, Result, WrapErr, miette};
+use vinesink::answer::{Answer, Asked};
 use vinesink::method::Method;
-use vinesink::orbits::FullSystem;
 use vinesink::report::console::Analysed;
-use vinesink::study::StudyEffort;
 use vinesink::study::fidelity::Plan;
 
-use super::budget::{ANALYSIS, Work};
+use super::budget::{self, ANALYSIS, Work};
 use super::case_file::{self, OneCase};
+use super::parallel::Parallel;
 use super::progress::Progress;
-use super::{simulate, transient};
+use super::transient;
 
 /// Print what the theory and the exact orbits say of a case
 ///
 /// Slow invariant manifold, fixed points with their stability, boundaries and area, in closed form;
-/// beside them the exact symmetric orbits of the full system and its own boundaries. Nothing is
-/// simulated, except where neither can tell area Z1 from Z2, and where the case's table [accuracy]
-/// asks for what only simulation knows.
+/// beside them the exact symmetric orbits of the full system and its own boundaries, and every long-term
+/// motion. With --fidelity, or a table [accuracy] in the case, nothing is simulated that another layer
+/// answers well enough.
 #[derive(Debug, Args)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Arguments {
@@ -45,28 +44,20 @@ pub fn run(arguments: Arguments) -> Result<bool> {
     }
     transient::steady(&case, path, "an analysis")?;
     let plan = Plan::of_case(&case, arguments.fidelity).into_diagnostic()?;
-    let theory = Work::trajectory(&case, ANALYSIS);
-    let progress = Progress::estimated("analysis", theory.seconds());
-    let mut work = vec![theory];
-    if plan.as_ref().is_some_and(Plan::needs_simulation) {
-        work.extend(Work::motions(&case, &StudyEffort::of(&case.simulation)));
+    let simulates = plan.as_ref().is_none_or(Plan::needs_simulation);
+    let effort = case.effort();
+    let mut work = vec![Work::trajectory(&case, ANALYSIS)];
+    if simulates {
+        work.extend(Work::motions(&case, &effort));
     }
     long.allows(path, &case, &work)?;
-    let analysis = Analysis::of(&case.system())
+    let progress = Progress::estimated("analysis", budget::seconds(&work));
+    let answer = Answer::of(&case, Asked::Analysis, plan.as_ref(), &Parallel)
         .into_diagnostic()
         .wrap_err_with(|| format!("{} cannot be analysed", path.display()))?;
-    let exact = FullSystem::of(&case.system());
     drop(progress);
-    let answers = match plan {
-        Some(plan) if plan.needs_simulation() => {
-            let found = simulate::search(&analysis, &StudyEffort::of(&case.simulation))?;
-            Some(plan.answers(Some(&found)).into_diagnostic()?)
-        }
-        Some(plan) => Some(plan.answers(None).into_diagnostic()?),
-        None => None,
-    };
-    let found =
-        Analysed { case: &case, analysis: &analysis, exact: &exact, answers: answers.as_ref() };
+    let none = || miette!("{} was not analysed", path.display());
+    let found = Analysed::of(&case, &answer).ok_or_else(none)?;
     arguments.one.print(|| found.text(), || found.document())?;
-    Ok(answers.is_none_or(|answers| answers.enough()))
+    Ok(answer.exact_enough())
 }

@@ -5,12 +5,9 @@ use std::path::Path;
 
 use clap::Args;
 use miette::{Result, miette};
-use vinesink::band::Band;
-use vinesink::band::simulated::Sampling;
 use vinesink::case::{Case, Objective};
+use vinesink::motions::{Effort, SettlingTime};
 use vinesink::optimize::Task;
-use vinesink::regimes::Transient;
-use vinesink::study::StudyEffort;
 use vinesink::study::deviations::{self, Deviation};
 use vinesink::sweep::{Plan, Point};
 use vinesink::system::System;
@@ -30,8 +27,8 @@ const SIDE_BY_SIDE: f64 = 0.9e-6;
 
 /// Places of a band that are simulated, about: even ones, and closer ones around the worst.
 const PLACES: u32 = 80;
-/// Designs that `optimize` holds against the whole band, about.
-const DESIGNS: u64 = 50;
+/// Designs that `optimize` holds against the whole band, about: at most 24, and screening takes as long as some more.
+const DESIGNS: u64 = 40;
 /// What trajectories are counted by.
 const PERIODS: &str = "periods";
 
@@ -42,9 +39,11 @@ const SOLVED: [f64; 2] = [5e-6, 30e-6];
 const SOLVED_PLACES: f64 = 190.0;
 /// Designs whose bands are looked at thus, about: as written, and for each combination of deviations.
 const LOOKED_AT: [u64; 2] = [700, 130];
-/// Windows that a motion is watched for which never repeats: twenty for a chaotic transient that may end, one
-/// measured, and longer ones while its averages drift, 2 + 4 + 8 + 16.
-const NEVER_REPEATS: u64 = 51;
+/// Windows in which starts that never repeat are measured together, and their motion in full, each doubled four times
+/// while it is open what they are.
+const MEASURED: u64 = 62;
+/// Windows that they fly before, by the number of starts, at least: a chaotic transient may end.
+const PATIENCE: [u64; 2] = [20, 32];
 /// Periods in which a regime is recognised, at least once for each start.
 const RECOGNITION: u64 = 200;
 /// Periods of an analysis: 350 tell area Z1 from Z2 where closed form cannot, and the exact orbits with their
@@ -108,9 +107,11 @@ pub struct Work {
 
 impl Work {
     /// Looking for all long-term motions of a case.
-    pub fn motions(case: &Case, effort: &StudyEffort) -> [Self; 2] {
+    pub fn motions(case: &Case, effort: &Effort) -> [Self; 2] {
         let each_start = effort.left_out(&case.system()) + effort.periods.min(RECOGNITION);
-        let longest = effort.periods.saturating_mul(NEVER_REPEATS);
+        let (starts, [least, most]) = (u64::from(effort.starts), PATIENCE);
+        let windows = (starts * starts.min(most) / 10).max(least) + MEASURED;
+        let longest = effort.periods.saturating_mul(windows);
         [
             Self::alone(case, vec![(effort.starts.into(), "starts")], each_start),
             Self::alone(case, vec![(1, "motion that may not repeat")], longest),
@@ -177,7 +178,7 @@ impl Work {
     pub fn deviations(case: &Case) -> Self {
         let rigs = (Deviation::ALL.len() as u64, "rigs that deviate");
         let starts = (u64::from(deviations::STARTS) + 1, "starts");
-        Self::side_by_side(&[case.system()], vec![rigs, starts], deviations::PERIODS)
+        Self::side_by_side(&[case.system()], vec![rigs, starts], case.effort().periods)
     }
 
     /// The figures that a case asks for.
@@ -211,17 +212,13 @@ impl Work {
     }
 
     fn band(case: &Case, mut trajectories: Vec<(u64, &'static str)>) -> Self {
-        let sampling = Sampling::FULL;
-        let systems: Vec<System> = match &case.band {
-            Some(settings) => {
-                let band = Band::of(&case.system(), settings);
-                band.places(PLACES).filter_map(|at| band.system(at).ok()).collect()
-            }
-            None => vec![case.system()],
-        };
+        let (band, effort) = (case.range(), case.effort());
+        let places = if band.is_point() { 1 } else { PLACES };
+        let systems = band.places(places).filter_map(|at| band.system(at).ok());
+        let systems: Vec<System> = systems.take(places as usize).collect();
         trajectories.push((systems.len() as u64, "places"));
-        trajectories.push((sampling.starts.into(), "starts"));
-        Self::side_by_side(&systems, trajectories, sampling.periods)
+        trajectories.push((effort.band.starts.into(), "starts"));
+        Self::side_by_side(&systems, trajectories, effort.periods.min(2 * RECOGNITION))
     }
 
     /// Trajectories of which as many are of each system; periods and oscillations are averages.
@@ -231,7 +228,7 @@ impl Work {
         measured: u64,
     ) -> Self {
         let periods =
-            |system: &System| Transient::of(system).periods.saturating_add(measured) as f64;
+            |system: &System| SettlingTime::of(system).periods.saturating_add(measured) as f64;
         let count = systems.len().max(1) as f64;
         let mean = |f: &dyn Fn(&System) -> f64| systems.iter().map(f).sum::<f64>() / count;
         let total = mean(&|system| periods(system) * oscillations(system));
@@ -288,7 +285,7 @@ mod tests {
     }
 
     fn all(case: &Case) -> [f64; 4] {
-        let motions = seconds(&Work::motions(case, &StudyEffort::of(&case.simulation)));
+        let motions = seconds(&Work::motions(case, &case.effort()));
         let report = motions + seconds(&[Work::criteria(case), Work::figures(case)]);
         let task = Task::of(case, None).map_or_else(|_| Vec::new(), |task| Work::designs(&task));
         let designs = seconds(&task).max(seconds(&Work::clearances(case)));
@@ -318,18 +315,18 @@ mod tests {
     const REDUCED: &str = "title = \"t\"\nsource = \"s\"\n[reduced]\nmass_ratio = 0.015\n\
         damping = 0.5\nrestitution = 0.6\nclearance = 1.0\nforcing = 4.0\n";
 
-    /// By hand: 8 starts of 3 periods, which are 3000 oscillations, and 200, and a motion of 51 windows of 1000;
+    /// By hand: 8 starts of 3 periods, which are 3000 oscillations, and 200, and a motion of 20 and 62 windows of 1000;
     /// 1000 oscillations each.
     #[test]
     fn work_is_counted() {
         let settings = "frequency_ratio = 0.001\n[simulation]\nstarts = 8\n";
         let case = case(&format!("{REDUCED}{settings}"));
-        let work = Work::motions(&case, &StudyEffort::of(&case.simulation));
-        let oscillations = (8.0 * 203.0 + 51_000.0) * 1000.0;
+        let work = Work::motions(&case, &case.effort());
+        let oscillations = (8.0 * 203.0 + 82_000.0) * 1000.0;
         assert!((seconds(&work) / (oscillations * ALONE) - 1.0).abs() < 1e-12);
         assert_eq!(
             work[1].to_string(),
-            "1 motion that may not repeat x 51000 periods of about 1000 oscillations each"
+            "1 motion that may not repeat x 82000 periods of about 1000 oscillations each"
         );
         // Above resonance it is the excitation that has to be followed.
         let fast = self::case(&format!("{REDUCED}frequency_ratio = 1000.0\n"));

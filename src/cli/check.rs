@@ -5,15 +5,15 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 use miette::{IntoDiagnostic, Report, Result};
 use serde_json::json;
-use vinesink::band::Survey;
+use vinesink::answer::{Answer, Asked};
 use vinesink::case::{Case, CaseError};
-use vinesink::criteria::{self, Judged};
 use vinesink::report::criteria::{Checked, junit};
 use vinesink::report::document::place::Place;
 use vinesink::report::render::RenderError;
 
-use super::budget::{Long, Work};
+use super::budget::{self, Long, Work};
 use super::parallel::Parallel;
+use super::progress::Progress;
 use super::{case_file, output, transient};
 
 /// Hold each case against its criteria
@@ -77,7 +77,7 @@ pub fn run(arguments: Arguments) -> Result<bool> {
         Format::Junit => output::print(junit(&cases).into_diagnostic()?)?,
         Format::Json => {
             let cases: Vec<_> = cases.iter().map(|one| &one.document).collect();
-            let document = json!({ "format": "vinesink/check@1", "holds": holds, "cases": cases });
+            let document = json!({ "format": "vinesink/check@2", "holds": holds, "cases": cases });
             output::print_json(&document)?;
         }
     }
@@ -90,7 +90,7 @@ fn checked(path: &Path, long: Long, failures: &mut Vec<Report>) -> Checked {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let place = path.display().to_string();
     match judged(path, long) {
-        Ok((case, judged)) => Checked::judged(&place, &stem, &case, &judged),
+        Ok((case, answer)) => Checked::judged(&place, &stem, &case, &answer),
         Err(error) => {
             let problems =
                 error.downcast_ref::<CaseError>().into_iter().flat_map(CaseError::problems);
@@ -102,18 +102,21 @@ fn checked(path: &Path, long: Long, failures: &mut Vec<Report>) -> Checked {
     }
 }
 
-fn judged(path: &Path, long: Long) -> Result<(Case, Vec<Judged>)> {
+fn judged(path: &Path, long: Long) -> Result<(Case, Answer)> {
     let case = case_file::read(path)?;
     if let Some(judged) = transient::judged(&case, path, long)? {
-        return Ok((case, judged));
+        let answer = Answer::judged(&case, judged);
+        return Ok((case, answer));
     }
+    let mut work = Vec::from(Work::motions(&case, &case.effort()));
     if !case.criteria.is_empty() {
-        long.allows(path, &case, &[Work::criteria(&case)])?;
+        work.push(Work::criteria(&case));
     }
-    let survey = Survey::of(&criteria::range(&case), &criteria::settings(&case), &Parallel);
-    let judged = criteria::judge(&case, &survey.into_diagnostic()?);
+    long.allows(path, &case, &work)?;
+    let _progress = Progress::estimated("check", budget::seconds(&work));
+    let answer = Answer::of(&case, Asked::Criteria, None, &Parallel).into_diagnostic()?;
     if case.criteria.is_empty() {
         output::complain(&format!("{}: there is no table [criteria]", path.display()));
     }
-    Ok((case, judged))
+    Ok((case, answer))
 }

@@ -17,8 +17,8 @@ use super::{index, output, transient};
 
 /// Choose the clearance, and on request restitution and mass, that serve a case best
 ///
-/// Looks everywhere between the bounds of the case's table [optimize], or from a fifth to five times
-/// its clearance, over its [band] if it has one. With a table [uncertainty] the best in expectation
+/// Looks everywhere between the bounds of the case's table [optimize], or around the largest clearance at
+/// which 1:1 resonance ends by theory, over its [band] if it has one. With a table [uncertainty] the best in expectation
 /// stands beside the best as written. Every absorber that is shown was judged as `check` does, over the
 /// whole band; the best of those that meet all criteria wins. Ends with exit code 1 if none meets them, or
 /// none is better than the case's own.
@@ -116,12 +116,12 @@ pub fn run(arguments: Arguments) -> Result<bool> {
     Ok(found.succeeds())
 }
 
-/// Writes the absorber that was asked for, if it is better than the case's own, and says what became of the
-/// file.
+/// Writes the absorber that was asked for, if it meets all criteria and is better than the case's own, and says what
+/// became of the file.
 fn written(new: &Path, case: &Case, found: &Optimization, robust: bool) -> Result<String> {
     let robust = found.robust.as_ref().filter(|_| robust);
     let design = robust.map_or(&found.best, |robust| &robust.design);
-    let better = found.improves() && design.choice != found.own.choice;
+    let better = found.improves() && design.is_feasible() && design.choice != found.own.choice;
     if better {
         store::write_new(new, design.written.text.as_bytes())?;
     }

@@ -4,11 +4,11 @@ use std::path::PathBuf;
 
 use clap::Args;
 use miette::{IntoDiagnostic, Result};
+use vinesink::answer::{Answer, Asked};
 use vinesink::case::Case;
 use vinesink::case_report;
 use vinesink::evidence::paper::{CASES, CaseReport, SETS, TRANSFER, page};
 use vinesink::store;
-use vinesink::study::{CaseStudy, StudyEffort};
 
 use super::parallel::Parallel;
 use super::progress::Progress;
@@ -38,15 +38,14 @@ pub fn run(arguments: Arguments) -> Result<bool> {
     let names: Vec<&'static str> = CASES.into_iter().chain([TRANSFER]).chain(SETS).collect();
     let read = |name: &str| case_file::read(&arguments.cases.join(format!("{name}.toml")));
     let cases: Vec<Case> = names.iter().map(|name| read(name)).collect::<Result<_>>()?;
-    let steps = cases.iter().map(|case| CaseStudy::steps(&StudyEffort::of(&case.simulation)));
-    let progress = Progress::new("paper", steps.sum());
+    let progress = Progress::new("paper", cases.len() as u64);
     let mut members = Vec::new();
     for (name, case) in names.into_iter().zip(cases) {
-        let effort = StudyEffort::of(&case.simulation);
-        let mut advance = |done| progress.advance(done);
-        let study = CaseStudy::of(&case.system(), effort, &mut advance).into_diagnostic()?;
+        let answer = Answer::of(&case, Asked::Study, None, &Parallel).into_diagnostic()?;
+        let study = answer.studied().into_diagnostic()?.clone();
         let figures = case_report::drawn(&case, &study).into_diagnostic()?;
         members.push(CaseReport { name, case, study, figures });
+        progress.advance(1);
     }
     drop(progress);
     let files = page(&members, &Parallel).into_diagnostic()?;

@@ -10,7 +10,9 @@ pub struct Parallel;
 
 impl Executor for Parallel {
     fn each(&self, what: &str, count: usize, f: &(dyn Fn(usize) + Sync)) {
-        let progress = (!what.is_empty()).then(|| Progress::new(what, count as u64));
+        // Of a single piece nobody can say how far it is.
+        let told = !what.is_empty() && count > 1;
+        let progress = told.then(|| Progress::new(what, count as u64));
         (0..count).into_par_iter().with_max_len(1).for_each(|k| {
             f(k);
             if let Some(progress) = &progress {

@@ -70,6 +70,9 @@ impl Progress {
             (None, pace) => pace.map_or(Duration::MAX, |pace| pace.interval),
         };
         let shown = Arc::new(Shown { work, done: AtomicU64::new(0), begin: Instant::now(), bar });
+        if wait.is_zero() {
+            shown.look();
+        }
         let ticking = (!wait.is_zero()).then(|| {
             let (stop, stopped) = channel();
             let shown = Arc::clone(&shown);

@@ -12,10 +12,9 @@ use vinesink::report::live;
 use vinesink::report::render::{self, Files};
 use vinesink::store;
 use vinesink::study::fidelity::Plan;
-use vinesink::study::{CaseStudy, StudyEffort};
 use vinesink::transient::Scene;
 
-use super::budget::{Long, Work};
+use super::budget::{self, Long, Work};
 use super::parallel::Parallel;
 use super::progress::Progress;
 use super::{case_file, index, output, transient};
@@ -57,8 +56,8 @@ Examples:
   vinesink report damper.toml --live               with sliders in report.html
   vinesink report --check cases/*.toml             are the reports in reports/ up to date?";
 
-/// Steps of the progress bar beyond the study: figures, files.
-const FURTHER_STEPS: u64 = 8;
+/// Seconds of theory, limits and figures, about.
+const ORDINARY: f64 = 2.0;
 
 pub fn run(arguments: Arguments) -> Result<bool> {
     let names = names(&arguments.cases)?;
@@ -169,12 +168,11 @@ fn rendered(path: &Path, name: &str, case: &Case, arguments: &Arguments) -> Resu
     if let Some(files) = transient::report(case, path, name, arguments.long)? {
         return Ok((files, true));
     }
-    let effort = StudyEffort::of(&case.simulation);
     let plan = Plan::of_case(case, arguments.fidelity).into_diagnostic()?;
     let simulates = plan.as_ref().is_none_or(Plan::needs_simulation);
     let mut work = Vec::new();
     if simulates {
-        work.extend(Work::motions(case, &effort));
+        work.extend(Work::motions(case, &case.effort()));
         work.push(Work::figures(case));
     }
     let deviates = simulates && case.report.deviations;
@@ -185,17 +183,14 @@ fn rendered(path: &Path, name: &str, case: &Case, arguments: &Arguments) -> Resu
         work.push(Work::criteria(case));
     }
     arguments.long.allows(path, case, &work)?;
-    let progress = Progress::new(name, CaseStudy::steps(&effort) + FURTHER_STEPS);
-    let mut advance = |done| progress.advance(done);
-    let report =
-        Report::of(name, case, plan.as_ref(), &Parallel, &mut advance).into_diagnostic()?;
-    progress.advance(FURTHER_STEPS / 2);
+    let _progress = Progress::estimated(name, ORDINARY + budget::seconds(&work));
+    let report = Report::of(name, case, plan.as_ref(), &Parallel).into_diagnostic()?;
     // As `simulate`: what is not to be trusted is written down, and does not pass for an answer.
-    let trusted = report.trusted();
+    let trusted = report.answer.trusted();
     if !trusted {
         output::complain(&format!(
             "{name}: a simulation is not to be trusted; its report says why"
         ));
     }
-    Ok((report.files(case).into_diagnostic()?, trusted && report.exact_enough()))
+    Ok((report.files(case).into_diagnostic()?, trusted && report.answer.exact_enough()))
 }

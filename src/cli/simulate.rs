@@ -5,26 +5,25 @@ use std::path::PathBuf;
 
 use clap::Args;
 use miette::{IntoDiagnostic, Result, miette};
-use vinesink::analysis::Analysis;
+use vinesink::answer::trajectory::{Impact, ImpactLog, followed};
+use vinesink::answer::{Answer, Asked};
 use vinesink::case::Case;
-use vinesink::regimes::Attractor;
+use vinesink::motions::{Effort, Measured};
 use vinesink::report::console::Simulated;
-use vinesink::simulation::{Impact, ImpactLog, Simulation};
 use vinesink::store;
-use vinesink::study::{self, LongTermMotions, Proof, StudyEffort};
 use vinesink::system::State;
 
 use super::budget::Work;
 use super::case_file::{self, OneCase};
-use super::output;
+use super::parallel::Parallel;
 use super::progress::Progress;
-use super::transient;
+use super::{budget, output, transient};
 
 /// Simulate a case directly, impact by impact
 ///
-/// Without --initial the case is simulated from many starts, because answers coexist: every
-/// long-term motion is listed with the share of starts that led to it, and the numbers are those of
-/// the moving one that most starts lead to. With --initial one trajectory is followed. A measurement
+/// Without --initial every long-term motion is looked for, because several may coexist: those that can be
+/// solved for, and those that many starts lead to. Each is listed with its share of the starts; the numbers
+/// are those of the moving one that most starts lead to. With --initial one trajectory is followed. A measurement
 /// that is not to be trusted says why and what to do, and ends with exit code 1.
 #[derive(Debug, Args)]
 #[command(after_long_help = EXAMPLES)]
@@ -70,28 +69,39 @@ pub fn run(arguments: Arguments) -> Result<bool> {
         return Ok(done);
     }
     let effort = arguments.effort(&case);
-    let mut work = vec![trajectory(&case, &effort)];
-    if arguments.initial.is_none() {
-        work.extend(Work::motions(&case, &effort));
-    }
+    let work = match arguments.initial {
+        Some(_) => {
+            let left_out = effort.left_out(&case.system());
+            vec![Work::trajectory(&case, left_out.saturating_add(effort.periods))]
+        }
+        None => Vec::from(Work::motions(&case, &effort)),
+    };
     long.allows(path, &case, &work)?;
-    let (motion, found) = match arguments.initial {
-        Some(start) => (follow(&case, start, &effort, &arguments)?, None),
+    let progress = Progress::estimated("simulating", budget::seconds(&work));
+    let mut log = match arguments.impacts {
+        Some(_) => ImpactLog::default(),
+        None => Measured::log(),
+    };
+    let (measured, answer) = match arguments.initial {
+        Some(start) => {
+            (followed(&case.system(), start, &effort, &mut log).into_diagnostic()?, None)
+        }
         None => {
-            let analysis = Analysis::of(&case.system()).into_diagnostic()?;
-            let mut found = search(&analysis, &effort)?;
-            let continued = StudyEffort { discard: Some(0), ..effort };
-            let motion = found.followed(|start| follow(&case, start, &continued, &arguments))?;
+            let answer = Answer::with(&case, Asked::Motions, None, effort, &Parallel);
+            let answer = answer.into_diagnostic()?;
+            let main = answer.main(&case, &mut log).into_diagnostic()?;
             let none = || miette!("no start led anywhere; ask for more than 0 starts");
-            let motion = motion.ok_or_else(none)?;
-            (motion, Some(found))
+            (main.ok_or_else(none)?, Some(answer))
         }
     };
-    let proof = Proof::of(&case.system(), &motion);
-    let (found, proof) = (found.as_ref(), proof.as_ref());
-    let simulated = Simulated { case: &case, motion: &motion, proof, found };
+    drop(progress);
+    if let Some(file) = &arguments.impacts {
+        store::write_file(file, csv(&log.impacts).as_bytes())?;
+    }
+    let found = answer.as_ref().and_then(|answer| answer.motions.as_ref());
+    let simulated = Simulated { case: &case, measured: &measured, found };
     arguments.one.print(|| simulated.text(), || simulated.document())?;
-    let doubts = motion.doubts();
+    let doubts = measured.doubts();
     for doubt in &doubts {
         output::complain(&format!("not to be trusted: {}; {}", doubt.words(), doubt.advice()));
     }
@@ -99,45 +109,14 @@ pub fn run(arguments: Arguments) -> Result<bool> {
 }
 
 impl Arguments {
-    fn effort(&self, case: &Case) -> StudyEffort {
-        let asked = StudyEffort::of(&case.simulation);
-        StudyEffort {
+    fn effort(&self, case: &Case) -> Effort {
+        let asked = case.effort();
+        Effort {
             periods: self.periods.unwrap_or(asked.periods),
             discard: self.discard.or(asked.discard),
             ..asked
         }
     }
-}
-
-fn trajectory(case: &Case, effort: &StudyEffort) -> Work {
-    let left_out = effort.left_out(&case.system());
-    Work::trajectory(case, left_out.saturating_add(effort.periods))
-}
-
-/// Follows one trajectory and writes its impacts if asked to.
-fn follow(
-    case: &Case,
-    start: State,
-    effort: &StudyEffort,
-    arguments: &Arguments,
-) -> Result<Attractor> {
-    let mut simulation = Simulation::new(&case.system(), start, 0.0).into_diagnostic()?;
-    let _progress = Progress::estimated("measuring", trajectory(case, effort).seconds());
-    let window = effort.full_window(&case.system());
-    let Some(path) = &arguments.impacts else {
-        return Ok(Attractor::measure(&mut simulation, &window));
-    };
-    let mut log = ImpactLog::default();
-    let motion = Attractor::measure_with(&mut simulation, &window, &mut log);
-    store::write_file(path, csv(&log.impacts).as_bytes())?;
-    Ok(motion)
-}
-
-/// Looks for all long-term motions of a case.
-pub fn search(analysis: &Analysis, effort: &StudyEffort) -> Result<LongTermMotions> {
-    let progress = Progress::new("simulating", u64::from(effort.starts));
-    let mut advance = |done| progress.advance(done);
-    study::long_term_motions(analysis, effort, &mut advance).into_diagnostic()
 }
 
 fn csv(impacts: &[Impact]) -> String {

@@ -8,12 +8,13 @@ use clap::Args;
 use miette::{IntoDiagnostic, Result};
 use vinesink::evidence::tradeoff::page::{Page, USUAL};
 use vinesink::evidence::tradeoff::{Tradeoff, TradeoffEffort, Trial};
-use vinesink::study::{StudyEffort, StudyError};
+use vinesink::study::StudyError;
 use vinesink::system::{State, System};
 
 use super::budget::{BEST_ANSWER, Work};
 use super::case_file::{self, Format, OneCase};
 use super::index;
+use super::parallel::Parallel;
 use super::progress::Progress;
 use super::transient;
 
@@ -52,16 +53,15 @@ pub fn run(arguments: Arguments) -> Result<bool> {
     let case = case_file::read(path)?;
     transient::steady(&case, path, "a trade-off")?;
     let system = case.system();
-    let effort =
-        TradeoffEffort { study: StudyEffort::of(&case.simulation), ..TradeoffEffort::default() };
-    let [starts, motion] = Work::motions(&case, &effort.study);
+    let effort = TradeoffEffort { search: case.effort(), ..TradeoffEffort::default() };
+    let [starts, motion] = Work::motions(&case, &effort.search);
     long.allows(path, &case, &[starts, motion, Work::trajectory(&case, BEST_ANSWER)])?;
     let timed = *format == Format::Text || arguments.seconds;
     let steps = Tradeoff::steps(&effort);
     // Each method once more on the clock; the starts are not.
-    let again = if timed { steps - u64::from(effort.study.starts) } else { 0 };
+    let again = if timed { steps - u64::from(effort.search.starts) } else { 0 };
     let progress = Progress::new("layers", steps + again);
-    let found = Tradeoff::of(&system, &effort, &mut |done| progress.advance(done));
+    let found = Tradeoff::of(&system, &effort, &Parallel, &mut |done| progress.advance(done));
     let found = found.into_diagnostic()?;
     let asked = case.accuracy.and_then(|accuracy| accuracy.amplitude);
     let allowed = asked.unwrap_or(USUAL);

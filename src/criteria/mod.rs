@@ -2,19 +2,18 @@
 //! can decide it.
 //!
 //! Shares are roots ([`crate::band`]). An amplitude, a count of impacts or their speed must hold for every
-//! motion that can happen: the exact symmetric orbit where one attracts, what starts lead to along the band,
-//! and that of an absorber which never wakes. What is found is the worst of all with its error, whatever the
-//! limit is: two designs, or two limits, can be compared.
+//! motion that can happen ([`crate::motions`]) and counts. What is found is the worst of all with its error, whatever the
+//! limit is: two designs, or two limits, can be compared. One that only a motion decides which is still settling is not
+//! decided.
 
 mod scope;
 mod transient;
 
 use crate::band::rivals::reduction_db;
-use crate::band::simulated::Sampling;
-use crate::band::{Band, Rivals, Survey, SurveySettings};
+use crate::band::{Survey, SurveySettings};
 use crate::case::{Case, Criterion, Relation, Scales, Subject};
 use crate::method::Method;
-use crate::regimes::Motion;
+use crate::motions::{Extreme, Fact, Kind, Motion, RestKind, Value};
 
 use scope::Scope;
 pub use transient::{judge_release, judge_sweep, judge_transient, of_records};
@@ -42,73 +41,60 @@ pub struct Judged {
     pub near_limit: bool,
     /// Place in the band where it is worst: `Omega`, or amplitude over the case's own.
     pub at: Option<f64>,
-    /// Share of the absorber's resting places from which a start from rest stays in the motion that
-    /// decides, where that is the motion of an absorber that never wakes.
+    /// The place of the motion that decides, in the list there.
+    pub motion: Option<usize>,
+    /// Share of the absorber's resting places from which a start from rest stays in that motion, where it is that of an
+    /// absorber at rest.
     pub inactive: Option<f64>,
-    /// Whether the motion that decides has settled: false where it drifts for longer than a run can wait.
-    pub settled: bool,
+    /// Excitation periods after which a motion that could decide otherwise was still settling: it is not decided then, and
+    /// does not hold.
+    pub undecided: Option<u64>,
     /// The layer that `found` is from.
     pub decided_by: Method,
 }
 
-/// A motion of the oscillator, whichever layer it is from. Lengths over the clearance, fast time; each
-/// value with its absolute error.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Seen {
-    peak: [f64; 2],
-    rms: [f64; 2],
-    impact_speed: [f64; 2],
-    impacts_per_period: [f64; 2],
+/// The layer that a motion is known by.
+pub fn method(motion: &Motion) -> Method {
+    match motion.kind() {
+        Kind::Rest(rest) if rest.rest == RestKind::Sliding => Method::Simulation,
+        Kind::Rest(_) => Method::ClosedForm,
+        Kind::Orbit(_) => Method::ExactOrbit,
+        Kind::Repeats(_) | Kind::Wanders => Method::Simulation,
+    }
 }
 
-/// Relative error of an orbit: rounding.
+/// Error of what is a root: its rounding.
 const ROUNDING: f64 = 1e-9;
-
-impl Seen {
-    /// A motion of a survey, in which the largest peak may be larger by `unresolved` than at its places.
-    fn simulated(motion: &Motion, unresolved: f64) -> Self {
-        Self {
-            peak: [motion.peak, motion.peak_error.max(unresolved)],
-            rms: [motion.rms, motion.rms_error],
-            impact_speed: [motion.impact_speed, motion.impact_speed_error],
-            impacts_per_period: [motion.impacts_per_period, motion.impacts_error],
-        }
-    }
-
-    /// Of a sine about a place that the absorber's weight shifts.
-    fn inactive(amplitude: f64, sag: f64) -> Self {
-        let rms = libm::hypot(amplitude / std::f64::consts::SQRT_2, sag);
-        Self {
-            peak: [amplitude + sag, 0.0],
-            rms: [rms, 0.0],
-            impact_speed: [0.0; 2],
-            impacts_per_period: [0.0; 2],
-        }
-    }
-}
 
 /// Whether criteria can only be judged with simulation.
 pub fn needs_simulation(criteria: &[Criterion]) -> bool {
     criteria.iter().any(|one| one.subject.is_of_motions())
 }
 
-/// The range in which a case's criteria are asked about: its band, or its own excitation alone.
-pub fn range(case: &Case) -> Band {
-    let system = case.system();
-    case.band.as_ref().map_or_else(|| Band::point(&system), |band| Band::of(&system, band))
-}
-
 /// What a survey has to look at to judge a case: nothing is simulated that no criterion needs. The worst
 /// value is known to the error that `[accuracy]` asks for.
 pub fn settings(case: &Case) -> SurveySettings {
-    let needed = needs_simulation(&case.criteria);
-    SurveySettings { sampling: needed.then(|| sampling(case)), count_inactive: case.count_inactive }
-}
-
-/// How thoroughly a case's range is simulated, where it is.
-pub fn sampling(case: &Case) -> Sampling {
-    let asked = case.accuracy.and_then(|asked| asked.amplitude);
-    Sampling { tolerance: asked.unwrap_or(Sampling::FULL.tolerance), ..Sampling::FULL }
+    let fact = |subject| match subject {
+        Subject::PeakDisplacement | Subject::ReductionDb | Subject::ReductionDbTmd => {
+            Some(Fact::Peak)
+        }
+        Subject::RmsDisplacement => Some(Fact::Rms),
+        Subject::ImpactVelocity => Some(Fact::ImpactSpeed),
+        _ => None,
+    };
+    let sides = case.criteria.iter().filter_map(|one| Some((fact(one.subject)?, one)));
+    let extremes = sides.flat_map(|(of, one)| {
+        let larger_is_worse = (one.relation == Relation::AtMost) != one.subject.is_reduction();
+        let both = one.relation == Relation::Equal;
+        let wanted =
+            |least: bool| (both || least != larger_is_worse).then_some(Extreme { of, least });
+        [false, true].into_iter().filter_map(wanted).collect::<Vec<_>>()
+    });
+    SurveySettings {
+        effort: needs_simulation(&case.criteria).then(|| case.effort()),
+        extremes: extremes.collect(),
+        count_rest: case.count_inactive,
+    }
 }
 
 /// Judges every criterion of a case by a survey of its range, as [`settings`] asks for it.
@@ -136,15 +122,6 @@ impl Criterion {
         within && (room >= 0.0 || !(worst && self.relation == against))
     }
 
-    /// Whether it is the harder to meet, the further the oscillator moves.
-    fn is_against_displacement(&self) -> bool {
-        match self.relation {
-            Relation::AtMost => self.subject == Subject::PeakDisplacement,
-            Relation::AtLeast => self.subject.is_reduction(),
-            Relation::Equal => false,
-        }
-    }
-
     /// A value that is known of the whole range, or of a motion that has settled.
     fn judged(&self, found: Option<f64>, error: f64, decided_by: Method) -> Judged {
         // What is about motions holds if it does so with its error.
@@ -159,8 +136,9 @@ impl Criterion {
             holds: margin.map(|room| room >= if counts { error } else { 0.0 }),
             near_limit: margin.is_some_and(|room| self.is_open(room, error, 0)),
             at: None,
+            motion: None,
             inactive: None,
-            settled: true,
+            undecided: None,
             decided_by,
         }
     }
@@ -177,9 +155,10 @@ impl Judged {
 /// Judges the criterion on the peak, if a case has one, by one motion at the case's own excitation.
 pub fn judge_peak(case: &Case, motion: &Motion) -> Option<Judged> {
     let asked = |one: &&Criterion| one.subject == Subject::PeakDisplacement;
-    let [peak, error] = [motion.peak, motion.peak_error].map(|one| case.scales().length(one));
+    let Value { value, error } = motion.facts().peak;
+    let [peak, error] = [value, error].map(|one| case.scales().length(one));
     let asked = case.criteria.iter().find(asked)?;
-    Some(asked.judged(Some(peak), error, Method::Simulation))
+    Some(asked.judged(Some(peak), error, method(motion)))
 }
 
 /// Whether every criterion holds; what could not be measured does not.
@@ -187,25 +166,33 @@ pub fn all_hold(judged: &[Judged]) -> bool {
     judged.iter().all(|one| one.holds == Some(true))
 }
 
-/// What a motion has of a subject, in the unit of the criterion, and its error. Reductions are against
-/// the largest amplitudes of bare oscillator and tuned mass damper along the range.
-fn of_motion(subject: Subject, seen: &Seen, rivals: &Rivals, scales: &Scales) -> Option<[f64; 2]> {
+/// What a motion has of a subject, in the unit of the criterion, and its error, where its peak may be larger by `unresolved`.
+/// A reduction is `against` an amplitude.
+fn of_motion(
+    subject: Subject,
+    motion: &Motion,
+    unresolved: f64,
+    against: f64,
+    scales: &Scales,
+) -> Option<[f64; 2]> {
+    let facts = motion.facts();
+    let pair = |of: Value| [of.value, of.error];
+    let peak = [facts.peak.value, facts.peak.error.max(unresolved)];
     let length = |value: [f64; 2]| value.map(|one| scales.length(one));
-    let decibels = |against: f64| {
+    let decibels = || {
         if against.is_infinite() {
             // Anything is less than what has no limit: that says nothing.
             return None;
         }
-        let [peak, error] = seen.peak;
+        let [peak, error] = peak;
         Some([reduction_db(peak, against), 20.0 * libm::log10(1.0 + error / peak)])
     };
     Some(match subject {
-        Subject::PeakDisplacement => length(seen.peak),
-        Subject::RmsDisplacement => length(seen.rms),
-        Subject::ReductionDb => decibels(rivals.bare.1)?,
-        Subject::ReductionDbTmd => decibels(rivals.damped.amplitude)?,
-        Subject::ImpactVelocity => seen.impact_speed.map(|speed| scales.velocity(speed)),
-        Subject::ImpactsPerPeriod => seen.impacts_per_period,
+        Subject::PeakDisplacement => length(peak),
+        Subject::RmsDisplacement => length(pair(facts.rms)),
+        Subject::ReductionDb | Subject::ReductionDbTmd => decibels()?,
+        Subject::ImpactVelocity => pair(facts.impact_speed).map(|speed| scales.velocity(speed)),
+        Subject::ImpactsPerPeriod => pair(facts.impacts_per_period),
         Subject::Z3Share
         | Subject::StableShare
         | Subject::MarginClearance

@@ -1,18 +1,14 @@
 //! What a survey says of each criterion.
 
-use super::{Judged, ROUNDING, Seen, of_motion};
-use crate::band::exact::{self, attracting};
-use crate::band::{Inactive, Motions, Survey, inactive, theory};
+use super::{Judged, ROUNDING, method, of_motion};
+use crate::band::{Survey, theory};
 use crate::case::{Criterion, Scales, Subject};
 use crate::method::Method;
-use crate::orbits::{Measures, SteadyOrbit};
-use crate::system::System;
+use crate::motions::Motion;
 use crate::validation::tolerance::asymptotic_error;
 
 /// Places of a band at which the theory's own error is asked for.
 const PLACES: u32 = 25;
-/// Error of a share whose ends are roots: their rounding.
-const SHARE_ROUNDING: f64 = 1e-9;
 
 /// A survey and the units of its case.
 pub(super) struct Scope<'a> {
@@ -23,24 +19,25 @@ pub(super) struct Scope<'a> {
 impl Scope<'_> {
     /// Judges one criterion.
     pub(super) fn judge(&self, criterion: &Criterion) -> Judged {
+        let motions = &self.survey.motions;
         match criterion.subject {
             Subject::Z3Share => self.z3_share(criterion),
             Subject::StableShare => {
                 // All and nothing have no end that could be off.
-                let ends = self.survey.motions.stability.len() > 1;
-                let error = if ends { SHARE_ROUNDING } else { 0.0 };
-                let share = self.survey.motions.stable_share();
-                criterion.judged(Some(share), error, Method::ExactOrbit)
+                let ends = motions.stability().len() > 1;
+                let error = if ends { ROUNDING } else { 0.0 };
+                let share = motions.stable_share();
+                let exact = motions.stability_is_exact();
+                let by = if exact { Method::ExactOrbit } else { Method::Simulation };
+                criterion.judged(Some(share), error, by)
             }
             Subject::MarginClearance => {
-                let (at, found) = self.survey.smallest_gap;
+                let (at, found) = self.survey.smallest_gap();
                 let judged = criterion.judged(Some(found), ROUNDING, Method::ExactOrbit);
                 Judged { at: self.place(at), ..judged }
             }
             // Where nothing was simulated, nothing is known of motions.
-            _ if self.survey.motions.places.is_empty() => {
-                criterion.judged(None, 0.0, Method::Simulation)
-            }
+            _ if !motions.simulated() => criterion.judged(None, 0.0, Method::Simulation),
             Subject::NoCoexistence => self.one_motion(criterion),
             _ => self.worst(criterion),
         }
@@ -57,7 +54,7 @@ impl Scope<'_> {
         let share = |factor: f64| {
             let base = band.base.with_clearance_scaled(factor).unwrap_or(band.base);
             let band = band.with_base(base);
-            band.share(&theory::zones(&band), |zone| zone.is_z3())
+            theory::z3_share(&band)
         };
         let found = self.survey.z3_share();
         let error = band
@@ -66,112 +63,85 @@ impl Scope<'_> {
             .map(|system| asymptotic_error(&system))
             .fold(0.0, f64::max);
         let shifted = [1.0 - error.min(0.9), 1.0 + error].map(share);
-        let off =
-            shifted.map(|other| (other - found).abs()).into_iter().fold(SHARE_ROUNDING, f64::max);
+        let off = shifted.map(|other| (other - found).abs()).into_iter().fold(ROUNDING, f64::max);
         criterion.judged(Some(found), off, Method::Theory)
+    }
+
+    /// Each motion that counts, with its place and its number there.
+    fn motions(&self) -> impl Iterator<Item = (f64, usize, &Motion)> {
+        let count_rest = self.survey.count_rest;
+        self.survey.motions.places().iter().flat_map(move |(at, here)| {
+            here.counting(count_rest).map(move |(index, motion)| (*at, index, motion))
+        })
     }
 
     /// 1 where every place has one motion, 0 where one has several.
     fn one_motion(&self, criterion: &Criterion) -> Judged {
-        let motions = &self.survey.motions;
-        let several = motions.places.iter().find(|place| place.count(motions.count_inactive) > 1);
-        let inactive = several.filter(|_| motions.count_inactive);
-        let found = Some(f64::from(u8::from(several.is_none())));
-        Judged {
-            at: several.and_then(|place| self.place(place.at)),
-            inactive: inactive.and_then(|place| Some(place.inactive?.share)),
-            ..criterion.judged(found, 0.0, Method::Simulation)
-        }
+        let count_rest = self.survey.count_rest;
+        let places = self.survey.motions.places();
+        let several = |settled: bool| {
+            places.iter().find(|(_, here)| {
+                let counting = here.counting(count_rest);
+                counting.filter(|(_, one)| one.settled() || !settled).count() > 1
+            })
+        };
+        let (certain, any) = (several(true), several(false));
+        let Some((at, here)) = certain.or(any) else {
+            return criterion.judged(Some(1.0), 0.0, Method::Simulation);
+        };
+        let open = here.iter().filter(|one| !one.settled()).map(|one| one.reached().followed).max();
+        let rest = here.counting(count_rest).find_map(|(_, one)| Some(one.rest()?.share));
+        let judged = criterion.judged(Some(0.0), 0.0, Method::Simulation);
+        let undecided = open.filter(|_| certain.is_none());
+        Judged { at: self.place(*at), inactive: rest, ..judged }.or_undecided(undecided)
     }
 
     /// The worst value of a criterion about motions; its error covers all others with theirs.
     fn worst(&self, criterion: &Criterion) -> Judged {
-        let all = self.worst_orbit(criterion).into_iter().chain(self.worst_inactive(criterion));
-        let all: Vec<Judged> = all.chain(self.simulated(criterion)).collect();
+        let all: Vec<(Judged, &Motion)> =
+            self.motions().filter_map(|one| self.of(criterion, one)).collect();
         let room = |one: &Judged| one.margin.unwrap_or(f64::INFINITY);
-        let Some(worst) = all.iter().min_by(|a, b| room(a).total_cmp(&room(b))) else {
+        let nearest = |settled: bool| {
+            let of = all.iter().filter(|(_, motion)| motion.settled() || !settled);
+            of.min_by(|a, b| room(&a.0).total_cmp(&room(&b.0)))
+        };
+        let Some((worst, _)) = nearest(false) else {
             return criterion.judged(None, 0.0, Method::Simulation);
         };
-        let least = all.iter().map(|one| room(one) - one.error).fold(f64::INFINITY, f64::min);
-        let Judged { at, inactive, settled, .. } = *worst;
+        let least = all.iter().map(|(one, _)| room(one) - one.error).fold(f64::INFINITY, f64::min);
+        let Judged { at, motion, inactive, .. } = *worst;
         let judged = criterion.judged(worst.found, room(worst) - least, worst.decided_by);
-        Judged { at, inactive, settled, ..judged }
+        // What has settled may fail it, whatever else there is.
+        let fails = nearest(true).is_some_and(|(one, _)| room(one) < 0.0);
+        let open = all.iter().filter(|(_, motion)| !motion.settled());
+        let undecided = open.map(|(_, motion)| motion.reached().followed).max().filter(|_| !fails);
+        Judged { at, motion, inactive, ..judged }.or_undecided(undecided)
     }
 
-    fn of_motion(&self, criterion: &Criterion, seen: &Seen) -> Option<[f64; 2]> {
-        of_motion(criterion.subject, seen, &self.survey.rivals, &self.scales)
-    }
-
-    /// The worst of the attracting orbit, wherever there is one.
-    fn worst_orbit(&self, criterion: &Criterion) -> Option<Judged> {
-        let Motions { band, stability, orbit, .. } = &self.survey.motions;
-        let value = |at: f64, orbit: &SteadyOrbit| {
-            let system = band.system(at).ok()?;
-            self.of_motion(criterion, &seen(&system, orbit, criterion.subject)?)
+    fn of<'m>(
+        &self,
+        criterion: &Criterion,
+        (at, index, motion): (f64, usize, &'m Motion),
+    ) -> Option<(Judged, &'m Motion)> {
+        // Between places the extremes of what is solved for are places themselves.
+        let unresolved = if motion.is_solved() { 0.0 } else { self.survey.motions.unresolved() };
+        let against = match criterion.subject {
+            Subject::ReductionDb => self.survey.bare().1,
+            Subject::ReductionDbTmd => self.survey.rivals().damped.amplitude,
+            _ => f64::NAN,
         };
-        let at = if criterion.is_against_displacement() {
-            orbit.as_ref()?.at
-        } else {
-            let loss = |at: f64, orbit: &SteadyOrbit| {
-                value(at, orbit).map_or(f64::NEG_INFINITY, |[found, _]| -criterion.room(found))
-            };
-            exact::largest_value(band, stability, loss)?.0
-        };
-        let [found, error] = value(at, &attracting(band, at)?)?;
-        let judged = criterion.judged(Some(found), error, Method::ExactOrbit);
-        Some(Judged { at: self.place(at), ..judged })
-    }
-
-    /// The worst of an absorber that never wakes, in closed form, wherever it can rest.
-    fn worst_inactive(&self, criterion: &Criterion) -> Option<Judged> {
-        let Motions { band, inactive, count_inactive: true, .. } = &self.survey.motions else {
-            return None;
-        };
-        let sag = Inactive::sag(&band.base);
-        let value = |amplitude: f64| {
-            let [found, error] = self.of_motion(criterion, &Seen::inactive(amplitude, sag))?;
-            Some(criterion.judged(Some(found), error, Method::ClosedForm))
-        };
-        let at = if criterion.is_against_displacement() {
-            inactive.as_ref()?.0
-        } else {
-            let loss = |amplitude: f64| value(amplitude)?.margin.map(|room| -room);
-            inactive::largest_by(band, loss)?.0
-        };
-        let there = Inactive::of(&band.system(at).ok()?)?;
-        let judged = value(there.amplitude)?;
-        Some(Judged { at: self.place(at), inactive: Some(there.share), ..judged })
-    }
-
-    /// The motions that starts led to; where one is the exact orbit, the orbit knows it better.
-    fn simulated(&self, criterion: &Criterion) -> impl Iterator<Item = Judged> {
-        let motions = &self.survey.motions;
-        motions.places.iter().flat_map(move |place| {
-            place.beside_orbit().filter_map(move |motion| {
-                let seen = Seen::simulated(motion, motions.unresolved);
-                let [found, error] = self.of_motion(criterion, &seen)?;
-                Some(Judged {
-                    at: self.place(place.at),
-                    settled: motion.settled,
-                    ..criterion.judged(Some(found), error, Method::Simulation)
-                })
-            })
-        })
+        let subject = criterion.subject;
+        let [found, error] = of_motion(subject, motion, unresolved, against, &self.scales)?;
+        let judged = criterion.judged(Some(found), error, method(motion));
+        let inactive = motion.rest().map(|rest| rest.share);
+        Some((Judged { at: self.place(at), motion: Some(index), inactive, ..judged }, motion))
     }
 }
 
-/// What a criterion needs of an orbit; the average only where it is asked for, as it takes as long as
-/// the orbit itself.
-fn seen(system: &System, orbit: &SteadyOrbit, subject: Subject) -> Option<Seen> {
-    let rms = match subject {
-        Subject::RmsDisplacement => Measures::of(system, &orbit.orbit.cycle).ok()?.rms,
-        _ => f64::NAN,
-    };
-    let rounded = |value: f64| [value, ROUNDING * value];
-    Some(Seen {
-        peak: rounded(orbit.peaks.displacement),
-        rms: rounded(rms),
-        impact_speed: rounded(orbit.impact_speed),
-        impacts_per_period: [2.0, 0.0],
-    })
+impl Judged {
+    /// The same where a motion still settles after so many periods that could decide otherwise.
+    fn or_undecided(self, undecided: Option<u64>) -> Self {
+        let holds = if undecided.is_some() { Some(false) } else { self.holds };
+        Self { undecided, holds, near_limit: self.near_limit && undecided.is_none(), ..self }
+    }
 }

@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use super::moved::{Moved, is_quantity, kind, moved};
 use super::reader::{label, sorted, without_elements};
 use super::{Change, Document, Folded, ReportDifference, criteria};
-use crate::regimes::share::wilson;
+use crate::motions::wilson;
 
 /// What is compared value by value; inputs, criteria, verdict and figures have their own ways.
 const COMPARED: [&str; 12] = [
@@ -286,8 +286,11 @@ fn is_given(value: &Value) -> bool {
 /// Whether a motion that is on one side only could have been missed on the other: no start of as many is
 /// within the 95 % interval of its share. One that no start found is reached from the theory, not by chance.
 fn is_by_chance(motion: &Value, starts: u32) -> bool {
-    let found = motion["starts"]["count"].as_u64().unwrap_or(0);
-    let low = motion["starts"]["interval"][0]["value"].as_f64();
+    // Before there was one list of motions, `starts` held all of it.
+    let before = &motion["starts"];
+    let found = before.as_u64().or_else(|| before["count"].as_u64()).unwrap_or(0);
+    let either = [&motion["reached"], before];
+    let low = either.iter().find_map(|one| one["interval"][0]["value"].as_f64());
     found > 0 && low.is_some_and(|low| low <= wilson(0, starts)[1])
 }
 
@@ -300,7 +303,11 @@ mod tests {
     fn one_start_of_many_may_be_chance() {
         let by_chance = |starts: u32| {
             let low = json!({"value": wilson(starts, 32)[0]});
-            is_by_chance(&json!({"starts": {"count": starts, "interval": [low]}}), 32)
+            let now = json!({"starts": starts, "reached": {"interval": [low]}});
+            let before = json!({"starts": {"count": starts, "interval": [low]}});
+            let [now, before] = [now, before].map(|motion| is_by_chance(&motion, 32));
+            assert_eq!(now, before);
+            now
         };
         assert!(by_chance(1) && !by_chance(16) && !by_chance(0));
     }

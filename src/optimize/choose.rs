@@ -1,18 +1,31 @@
 //! What is judged, and which of it is best.
 
+use std::sync::Mutex;
+
 use super::OptimizeError;
-use super::design::{Design, Judge};
+use super::design::{Design, Judge, missed_by};
 use super::search::{self, Effort, Found, Seen, distance, shortlist};
 use super::task::Task;
-use crate::band::simulated::Sampling;
+use crate::band::{Survey, SurveySettings};
 use crate::case::Objective;
+use crate::criteria;
 use crate::executor::{Executor, Serial, map};
+use crate::motions::{BandEffort, Effort as Thoroughness};
 
 /// How thoroughly an exact objective is looked for.
 const EXACT: Effort = Effort { pieces: 400, particles: 40, steps: 30, width: 1e-7, smooth: true };
 /// How thoroughly a coarse survey is: a place costs a thousand times as much.
 const SCREENED: Effort =
     Effort { pieces: 96, particles: 16, steps: 12, width: 1e-2, smooth: false };
+/// Starts, and periods, of a coarse survey at a single excitation, and along a band.
+const AT_ONE: (u32, u64) = (8, 120);
+const ALONG: (u32, u64) = (3, 60);
+
+/// Impacts per period there: an absorber that chatters hardly limits an amplitude.
+const MOST_IMPACTS: u64 = 4;
+
+/// Weight of missed criteria in the order of candidates: one that misses a limit by a third counts as twice as large.
+const MISSED: f64 = 3.0;
 
 /// What the cheap layers propose.
 pub struct Proposed {
@@ -31,35 +44,75 @@ pub struct Proposed {
 /// # Errors
 /// [`OptimizeError::Nowhere`] where the objective has no value.
 pub fn propose(task: &Task, executor: &dyn Executor) -> Result<Proposed, OptimizeError> {
-    let exact = task.objective != Objective::WorstAmplitude;
-    let effort = if exact { EXACT } else { SCREENED };
-    // A coarse survey, which only ranks.
-    let cheap = Task { sampling: Sampling::SCREENING, ..task.clone() };
-    let score = |parts: &[f64]| {
-        let found = cheap.score(&task.choice(parts), &Serial);
-        found.unwrap_or(f64::NEG_INFINITY)
+    let dimensions = task.bounds.len();
+    let found = |effort, score: search::Score| {
+        search::everywhere("looking between the bounds", dimensions, &effort, executor, score)
     };
-    let own = task.parts(&task.case.design);
-    let what = "looking between the bounds";
-    let Found { line, seen, best } = search::everywhere(what, &own, &effort, executor, &score);
-    if best.is_none() && (exact || task.bounds.len() > 1) {
+    if task.objective != Objective::WorstAmplitude {
+        let score =
+            |parts: &[f64]| task.score(&task.choice(parts), &Serial).unwrap_or(f64::NEG_INFINITY);
+        let Found { line, seen, best } = found(EXACT, &score);
+        let best = best.ok_or(OptimizeError::Nowhere)?;
+        let place = |(at, score): &(f64, f64)| (task.bounds[0].at(*at), task.value(*score));
+        return Ok(Proposed {
+            plateau: best.plateau.map(|part| task.bounds[0].at(part)),
+            landscape: line.iter().map(place).collect(),
+            best: Some(best.parts),
+            seen,
+        });
+    }
+    let amplitudes: Mutex<Vec<Seen>> = Mutex::default();
+    let score = |parts: &[f64]| {
+        let Some([amplitude, missed]) = screened(task, parts) else { return f64::NEG_INFINITY };
+        if let Ok(mut all) = amplitudes.lock() {
+            all.push((parts.to_vec(), amplitude));
+        }
+        -amplitude * (1.0 + MISSED * missed)
+    };
+    let Found { line, seen, best } = found(SCREENED, &score);
+    if best.is_none() && dimensions > 1 {
         return Err(OptimizeError::Nowhere);
     }
-    let clearance = |part: f64| task.bounds[0].at(part);
-    Ok(Proposed {
-        plateau: best.as_ref().map_or([0.0, 1.0], |best| best.plateau).map(clearance),
-        landscape: line.iter().map(|(at, score)| (clearance(*at), task.value(*score))).collect(),
-        best: best.filter(|_| exact).map(|best| best.parts),
-        seen,
-    })
+    let amplitudes = amplitudes.into_inner().unwrap_or_default();
+    let amplitude = |parts: &[f64]| amplitudes.iter().find(|(there, _)| there == parts);
+    let of_line = seen[seen.len() - line.len()..].iter();
+    let landscape = of_line.map(|(parts, _)| {
+        let value = amplitude(parts).map_or(f64::INFINITY, |(_, amplitude)| *amplitude);
+        (task.bounds[0].at(parts[0]), value)
+    });
+    let plateau = [0.0, 1.0].map(|part| task.bounds[0].at(part));
+    Ok(Proposed { plateau, landscape: landscape.collect(), best: None, seen })
+}
+
+/// The worst amplitude of an absorber by a coarse survey, which only ranks, and by how much criteria are missed: what has not
+/// settled soon is taken as it is.
+fn screened(task: &Task, parts: &[f64]) -> Option<[f64; 2]> {
+    let case = task.case.with_design(task.choice(parts))?;
+    let (starts, periods) = if case.band.is_some() { ALONG } else { AT_ONE };
+    let band = BandEffort::SCREENING;
+    let effort = Thoroughness {
+        starts,
+        periods,
+        patience: 0.0,
+        most_impacts: MOST_IMPACTS,
+        band,
+        ..task.effort
+    };
+    let settings = SurveySettings { effort: Some(effort), ..criteria::settings(&case) };
+    let survey = Survey::of(&case.range(), &settings, None, &Serial).ok()?;
+    let peak = survey.worst()?.peak;
+    let missed = missed_by(&criteria::judge(&case, &survey));
+    Some([case.design.clearance() * (peak.value + peak.error), missed])
 }
 
 /// Distance of candidates all over the bounds, over the way between them, and how many there are.
 const APART: f64 = 0.03;
-const EVERYWHERE: usize = 16;
+const EVERYWHERE: usize = 10;
+/// How many times as bad as the best a coarse survey may find a candidate that is judged all the same.
+const HOPELESS: f64 = 1.5;
 /// Distance of those that the cheap layer likes best, and how many.
 const CLOSE: f64 = 0.008;
-const LIKED: usize = 20;
+const LIKED: usize = 14;
 /// Rounds in which the neighbours of the best are judged, how many best there are, and the distance below
 /// which no further neighbour is: of a factor of 60 between the bounds, 0.8 % of the clearance.
 const ROUNDS: usize = 8;
@@ -88,9 +141,12 @@ pub fn judged(
         chosen.extend(shortlist(&proposed.seen, CLOSE, LIKED).into_iter().map(|seen| seen.0));
     }
     if !judge.task.case.criteria.is_empty() {
-        for (parts, _) in shortlist(&proposed.seen, APART, usize::MAX) {
+        let ranked = proposed.best.is_none();
+        let best = proposed.seen.iter().map(|seen| seen.1).fold(f64::NEG_INFINITY, f64::max);
+        for (parts, score) in shortlist(&proposed.seen, APART, usize::MAX) {
             let apart = chosen.iter().all(|one| distance(one, &parts) >= APART);
-            if apart && chosen.len() < LIKED + EVERYWHERE {
+            let hopeless = ranked && score < HOPELESS * best;
+            if apart && !hopeless && chosen.len() < LIKED + EVERYWHERE {
                 chosen.push(parts);
             }
         }

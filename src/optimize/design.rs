@@ -3,8 +3,7 @@
 
 use super::OptimizeError;
 use super::task::Task;
-use crate::band::rivals::Rivals;
-use crate::band::{Motions, Source, Survey, Worst};
+use crate::band::{Survey, Worst};
 use crate::case::{self, Objective, Relation, Rewritten, Rounding, Subject};
 use crate::criteria::{self, Judged};
 use crate::executor::Executor;
@@ -24,10 +23,8 @@ pub struct Design {
     pub worst: Option<Worst>,
     /// The criteria.
     pub criteria: Vec<Judged>,
-    /// Bare oscillator and tuned mass damper, over the clearance.
-    pub rivals: Rivals,
-    /// The motions that can happen along the band.
-    pub motions: Motions,
+    /// What is known along the band; lengths over the clearance.
+    pub survey: Survey,
 }
 
 impl Design {
@@ -46,7 +43,7 @@ impl Design {
 
     /// By how much the criterion that is missed most is missed, over its limit; 0 where all hold.
     pub fn violation(&self) -> f64 {
-        self.criteria.iter().map(violation).fold(0.0, f64::max)
+        missed_by(&self.criteria)
     }
 
     /// Whether another is preferred: one whose criteria hold, then the higher score.
@@ -58,15 +55,32 @@ impl Design {
         }
     }
 
+    /// Whether another is better by more than nobody builds or measures: only then a case's own absorber is replaced.
+    pub fn is_clearly_worse_than(&self, other: &Self, objective: Objective) -> bool {
+        let [own, better] = [self, other].map(|one| one.score(objective));
+        let clearly = match objective {
+            Objective::WorstAmplitude => better > own + CLEARLY[0] * own.abs(),
+            _ => better > own + CLEARLY[1],
+        };
+        let feasible = self.is_feasible() == other.is_feasible();
+        self.is_worse_than(other, objective) && (clearly || !feasible)
+    }
+
     /// Whether the worst motion is one that scatters.
     pub fn scatters(&self) -> bool {
-        let of = self.worst.map(|worst| worst.of);
-        matches!(of, Some(Source::Simulated(motion)) if motion.repeats_after.is_none())
+        self.worst.as_ref().is_some_and(|worst| worst.motion.repeats_after().is_none())
     }
 }
 
+/// Relative improvement of an amplitude, and of a share or margin by itself, that is none.
+const CLEARLY: [f64; 2] = [0.01, 1e-3];
 /// Decibels that count as much as missing a limit by all of it: a factor of 2.
 const DOUBLE_DB: f64 = 6.0;
+
+/// By how much the criterion that is missed most is missed, over its limit; 0 where all hold.
+pub fn missed_by(criteria: &[Judged]) -> f64 {
+    criteria.iter().map(violation).fold(0.0, f64::max)
+}
 
 /// By how much a criterion is missed, over its limit; what could not be measured by all of it.
 fn violation(judged: &Judged) -> f64 {
@@ -123,13 +137,13 @@ impl Judge<'_> {
         let amplitude = self.task.objective == Objective::WorstAmplitude;
         let mut settings = criteria::settings(case);
         if amplitude {
-            settings.sampling = Some(criteria::sampling(case));
+            settings.effort = Some(case.effort());
         }
-        let survey = Survey::of(&criteria::range(case), &settings, executor)?;
+        let survey = Survey::of(&case.range(), &settings, None, executor)?;
         let (choice, clearance) = (case.design, case.design.clearance());
-        let worst = survey.motions.worst().filter(|_| settings.sampling.is_some());
-        let (value, error) = match (amplitude, worst) {
-            (true, Some(worst)) => (worst.peak * clearance, worst.error * clearance),
+        let worst = survey.worst().filter(|_| settings.effort.is_some());
+        let (value, error) = match (amplitude, &worst) {
+            (true, Some(worst)) => (worst.peak.value * clearance, worst.peak.error * clearance),
             (true, None) => (f64::INFINITY, 0.0),
             _ => (self.task.exact_score(survey.band()).unwrap_or(f64::NAN), 0.0),
         };
@@ -139,8 +153,7 @@ impl Judge<'_> {
             error,
             worst,
             criteria: criteria::judge(case, &survey),
-            rivals: survey.rivals,
-            motions: survey.motions,
+            survey,
             written,
         })
     }
@@ -159,7 +172,7 @@ impl Judge<'_> {
             if !(if last { best.is_none() } else { kept }) {
                 continue;
             }
-            let exact = self.task.exact_score(&criteria::range(&written.case));
+            let exact = self.task.exact_score(&written.case.range());
             let score = exact.unwrap_or(0.0);
             if best.as_ref().is_none_or(|(known, _)| *known < score) {
                 best = Some((score, written));

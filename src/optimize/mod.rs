@@ -104,8 +104,9 @@ impl Optimization {
         let mut designs = choose::judged(&judge, &proposed, executor)?;
         let robust = robust::best(&judge, &proposed, &designs, &own, executor)?;
         let best = choose::best(&designs, task.objective).ok_or(OptimizeError::Nowhere)?.clone();
-        // The case's own absorber is one of the bounds' as well as any.
-        let best = if best.is_worse_than(&own, task.objective) { own.clone() } else { best };
+        // The case's own absorber wins ties.
+        let best =
+            if own.is_clearly_worse_than(&best, task.objective) { best } else { own.clone() };
         let text = best.written.text.clone();
         let again = Case::parse("the optimised case", &text).map_err(Box::new);
         let again = Rewritten { case: again.map_err(RewriteError::from)?, text };

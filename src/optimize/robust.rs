@@ -8,6 +8,7 @@ use super::search::{self, Effort};
 use super::task::Task;
 use crate::case::{self, Distribution, Objective, Uncertainty};
 use crate::executor::{Executor, Serial, map};
+use crate::motions::Effort as Thoroughness;
 use crate::numerics::gauss;
 use crate::system::Parameter;
 
@@ -33,16 +34,22 @@ pub struct UnderDeviations {
 pub type Deviation = (Vec<(Parameter, f64)>, f64);
 
 /// How thoroughly the expectation of an exact objective is looked for.
-const ROBUST: Effort = Effort { pieces: 80, particles: 16, steps: 12, width: 1e-4, smooth: true };
+const ROBUST: Effort = Effort { pieces: 48, particles: 16, steps: 12, width: 1e-3, smooth: true };
 /// Nodes of each uncertain parameter where that many are uncertain, from none to six, for an
 /// objective in closed form: at most 625 together. Shares have kinks, which many nodes even out.
 const CLOSED_FORM: [usize; 7] = [1, 21, 15, 7, 5, 3, 2];
 /// The same for one that needs orbits, which cost ten times as much: at most 125.
 const ORBITS: [usize; 7] = [1, 15, 7, 5, 3, 2, 2];
+/// The same while the best in expectation is looked for.
+const ORBITS_LOOKED_AT: [usize; 7] = [1, 7, 4, 3, 2, 2, 2];
 /// The same for one that needs simulation: at most 27, or two of each.
 const SIMULATED: [usize; 7] = [1, 5, 3, 3, 2, 2, 2];
 /// Corner of a normally distributed deviation, over its standard deviation.
 const SIGMAS: f64 = 2.0;
+/// Periods of a window, and part of the usual patience, where an amplitude is averaged over deviations: single ones decide
+/// nothing.
+const PERIODS: u64 = 300;
+const PATIENCE: f64 = 0.25;
 /// Judged absorbers that are looked at under deviations.
 const CANDIDATES: usize = 5;
 
@@ -64,12 +71,14 @@ pub fn best(
         return Ok(None);
     }
     let deviations = task.deviations();
-    let under = |choice: &case::Design| task.under(choice, &deviations, executor);
+    let effort = Thoroughness { periods: PERIODS, patience: PATIENCE, ..task.effort };
+    let averaged = Task { effort, ..task.clone() };
+    let under = |choice: &case::Design| averaged.under(choice, &deviations, executor);
     let of_nominal = under(&nominal.choice);
     let mut candidates: Vec<Design> = match task.objective {
         Objective::WorstAmplitude => smoothed(task, proposed, designs),
         _ => {
-            let parts = expected_best(task, &deviations, &nominal.choice, executor)?;
+            let parts = expected_best(task, &deviations, executor)?;
             let mut best: Vec<Design> = designs.to_vec();
             best.sort_by(|a, b| b.value.total_cmp(&a.value));
             best.insert(0, judge.design(&parts, executor)?);
@@ -96,19 +105,20 @@ pub fn best(
     Ok(Some(Robust { design, under: [of_best, of_nominal] }))
 }
 
-/// Parts of the way at which the expectation of an exact objective is best, beside the best as written.
+/// Parts of the way at which the expectation of an exact objective is best.
 fn expected_best(
     task: &Task,
     deviations: &[Deviation],
-    nominal: &case::Design,
     executor: &dyn Executor,
 ) -> Result<Vec<f64>, OptimizeError> {
+    let fewer = combinations(&task.case.uncertainty, task.nodes_looked_at());
+    let deviations = if fewer.len() < deviations.len() { fewer.as_slice() } else { deviations };
     let score = |parts: &[f64]| {
         let found = task.expected(&task.choice(parts), deviations, &Serial);
         found.unwrap_or(f64::NEG_INFINITY)
     };
-    let from = task.parts(nominal);
-    let found = search::everywhere("expected objective", &from, &ROBUST, executor, &score);
+    let dimensions = task.bounds.len();
+    let found = search::everywhere("expected objective", dimensions, &ROBUST, executor, &score);
     found.best.map(|best| best.parts).ok_or(OptimizeError::Nowhere)
 }
 
@@ -186,6 +196,16 @@ impl Task {
             Objective::StableShare | Objective::Margin => ORBITS,
         };
         counts[self.case.uncertainty.parameters().count()]
+    }
+
+    /// The same while the best is looked for, which is then averaged over more.
+    fn nodes_looked_at(&self) -> usize {
+        match self.objective {
+            Objective::StableShare | Objective::Margin => {
+                ORBITS_LOOKED_AT[self.case.uncertainty.parameters().count()]
+            }
+            _ => self.nodes(),
+        }
     }
 
     /// The combinations of deviations over which is averaged.

@@ -172,29 +172,40 @@ pub struct Found {
     pub best: Option<Best>,
 }
 
-/// The best place between all bounds: along the first coordinate from a place, then in all dimensions.
+/// The best place between all bounds: in all dimensions, then along the first coordinate from there. Where a search begins has
+/// no part in it, so that one from its own result finds the same.
 pub fn everywhere(
     what: &str,
-    from: &[f64],
+    dimensions: usize,
     effort: &Effort,
     executor: &dyn Evaluations,
     score: Score,
 ) -> Found {
+    let mut seen: Vec<Seen> = Vec::new();
+    let mut found = match (dimensions, effort.smooth) {
+        (1, _) => None,
+        (_, true) => in_box(dimensions, effort, score),
+        (_, false) => spread_out(what, dimensions, effort, executor, score),
+    };
+    seen.extend(found.iter_mut().flat_map(|best| std::mem::take(&mut best.seen)));
+    let from = found.as_ref().map_or_else(|| vec![0.5; dimensions], |best| best.parts.clone());
     let at = |part: f64| -> Vec<f64> {
         std::iter::once(part).chain(from[1..].iter().copied()).collect()
     };
     let along = |part: f64| score(&at(part));
     let line = scan(what, effort.pieces, executor, &along);
-    let mut seen: Vec<Seen> = line.iter().map(|(part, score)| (at(*part), *score)).collect();
-    let narrowed = if effort.smooth { on_line(&line, effort.width, &along) } else { None };
-    let mut best = narrowed.map(|best| Best { parts: at(best.parts[0]), ..best });
-    if from.len() > 1 {
-        let top = seen.iter().max_by(|a, b| a.1.total_cmp(&b.1)).map(|(parts, _)| parts.clone());
-        let known = best.into_iter().map(|best| best.parts).chain(top).chain([from.to_vec()]);
-        best = in_box(&known.collect::<Vec<_>>(), effort, score);
-        seen.extend(best.iter_mut().flat_map(|best| std::mem::take(&mut best.seen)));
+    seen.extend(line.iter().map(|(part, score)| (at(*part), *score)));
+    if effort.smooth {
+        let narrowed = on_line(&line, effort.width, &along);
+        let narrowed = narrowed.map(|best| Best { parts: at(best.parts[0]), ..best });
+        let better =
+            |known: &Best, one: &Best| one.score > known.score || same(one.score, known.score);
+        found = match (found, narrowed) {
+            (Some(known), Some(one)) if !better(&known, &one) => Some(known),
+            (known, one) => one.or(known),
+        };
     }
-    Found { line, seen, best }
+    Found { line, seen, best: found }
 }
 
 /// Golden section between two places, until it moves by less than `width`; what it finds is remembered by the
@@ -210,13 +221,10 @@ fn narrowed(problem: &Problem, from: f64, to: f64, width: f64) {
 }
 
 /// The best place in several dimensions: a swarm with a fixed beginning, then for a smooth score a simplex
-/// from the best of it and of `known` places; `None` where nothing has a score.
-fn in_box(known: &[Vec<f64>], effort: &Effort, score: Score) -> Option<Best> {
-    let dimensions = known.first()?.len();
+/// from the best of it; `None` where nothing has a score.
+fn in_box(dimensions: usize, effort: &Effort, score: Score) -> Option<Best> {
     let problem = Problem::new(score);
-    for parts in known {
-        problem.asked(parts);
-    }
+    problem.asked(&vec![0.5; dimensions]);
     let bounds = (vec![0.0; dimensions], vec![1.0; dimensions]);
     let swarm = ParticleSwarm::new(bounds, effort.particles)
         .with_rng_generator(Xoshiro256PlusPlus::seed_from_u64(SEED));
@@ -243,6 +251,45 @@ fn in_box(known: &[Vec<f64>], effort: &Effort, score: Score) -> Option<Best> {
             .run();
     }
     Some(centred(problem.best()?, effort.width, score))
+}
+
+/// Multiples of the roots of these, modulo 1, are evenly spread in as many dimensions (Richtmyer, 1951).
+const PRIMES: [f64; 3] = [2.0, 3.0, 5.0];
+/// Places around which is looked closer, how many there, and how far away in each dimension, in turn.
+const AROUND: usize = 6;
+const CLOSER: usize = 8;
+const REACH: [f64; 2] = [0.08, 0.03];
+
+/// The best of evenly spread places for a score that scatters, and of some around those that are best, side by side.
+fn spread_out(
+    what: &str,
+    dimensions: usize,
+    effort: &Effort,
+    executor: &dyn Evaluations,
+    score: Score,
+) -> Option<Best> {
+    let even = |k: usize| -> Vec<f64> {
+        let part = |prime: &f64| (0.5 + prime.sqrt() * (k + 1) as f64).fract();
+        PRIMES.iter().cycle().take(dimensions).map(part).collect()
+    };
+    let of = |places: &[Vec<f64>]| -> Vec<Seen> {
+        let scores = map(executor, what, places.len(), |k| score(&places[k]));
+        places.iter().cloned().zip(scores).collect()
+    };
+    let count = effort.particles * effort.steps as usize;
+    let mut seen = of(&(0..count).map(even).collect::<Vec<_>>());
+    for reach in REACH {
+        let places = shortlist(&seen, reach, AROUND).into_iter().flat_map(|(best, _)| {
+            (0..CLOSER).map(move |k| -> Vec<f64> {
+                let beside =
+                    |(at, part): (&f64, f64)| (at + reach * (2.0 * part - 1.0)).clamp(0.0, 1.0);
+                best.iter().zip(even(k)).map(beside).collect()
+            })
+        });
+        seen.extend(of(&places.collect::<Vec<_>>()));
+    }
+    let (parts, score) = shortlist(&seen, 0.0, 1).pop()?;
+    Some(Best { plateau: [parts[0]; 2], parts, score, seen })
 }
 
 /// How far two places are apart, in the coordinate in which they are farthest.

@@ -1,16 +1,23 @@
 //! What is optimised: an objective as a function of the design, as it is written or as it is built.
 
 use super::OptimizeError;
-use crate::band::exact::stability;
-use crate::band::simulated::Sampling;
-use crate::band::{Band, Motions, SurveySettings, margin, theory};
+use crate::analysis::{Boundaries, Manifold};
+use crate::band::{Band, Worst, margin, theory};
 use crate::case::{BandOver, Case, Design, Objective};
-use crate::criteria;
 use crate::executor::Executor;
+use crate::motions::{Effort, along, stability};
+use crate::quantity::numbers::rounded_to;
 use crate::system::Parameter;
 
-/// Clearances looked at where the case gives no bounds, over its own.
-const CLEARANCES: [f64; 2] = [0.2, 5.0];
+/// Clearances looked at where the case gives no bounds, over the largest at which 1:1 resonance ends by theory along the
+/// range: far below, an absorber with many impacts per period is hardly one, and above, none is captured for long.
+const CLEARANCES: [f64; 2] = [0.025, 1.5];
+/// The same over the case's own where the theory has no such clearance.
+const BESIDE_OWN: [f64; 2] = [0.2, 5.0];
+/// Places of the range at which the theory is asked.
+const PLACES: u32 = 25;
+/// Digits of bounds that nobody has written.
+const DIGITS: usize = 3;
 
 /// A parameter that is chosen and the bounds it stays in, in the units of its design.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,8 +57,45 @@ pub struct Task {
     pub objective: Objective,
     /// What is chosen, the clearance first.
     pub bounds: Vec<Bounds>,
-    /// How thoroughly a band is simulated where that decides.
-    pub sampling: Sampling,
+    /// How thoroughly motions are looked for where they decide.
+    pub effort: Effort,
+}
+
+/// Bounds of the clearance that no case says, which do not depend on what is chosen: a search from its own result looks
+/// between the same.
+fn usual_clearances(case: &Case) -> [f64; 2] {
+    let settings = &case.optimize;
+    let ends = |parameter, bounds: Option<[f64; 2]>| {
+        bounds.map_or_else(Vec::new, |bounds| bounds.map(|end| (parameter, end)).into())
+    };
+    let mut designs = vec![case.design];
+    for chosen in [
+        ends(Parameter::Restitution, settings.restitution),
+        ends(Parameter::AbsorberMass, settings.mass),
+    ] {
+        if !chosen.is_empty() {
+            let with = |design: &Design| -> Vec<Design> {
+                chosen.iter().map(|(parameter, end)| design.with(*parameter, *end)).collect()
+            };
+            designs = designs.iter().flat_map(with).collect();
+        }
+    }
+    let of_design = |design: &Design| {
+        let base = design.system().ok()?;
+        let band = case.band.as_ref().map_or_else(|| Band::point(&base), |band| band.around(&base));
+        let manifold = Manifold::of(base.restitution());
+        let systems = band.places(PLACES).filter_map(|at| band.system(at).ok());
+        let ends = systems.map(|system| {
+            system.forcing_per_clearance() / Boundaries::of(&system, &manifold).end_of_steady()
+        });
+        let largest = ends.filter(|end| end.is_finite()).fold(0.0, f64::max);
+        (largest > 0.0).then(|| design.clearance() * largest)
+    };
+    let largest = designs.iter().filter_map(of_design).fold(0.0, f64::max);
+    match largest > 0.0 {
+        true => CLEARANCES.map(|factor| rounded_to(factor * largest, DIGITS)),
+        false => BESIDE_OWN.map(|factor| factor * case.design.clearance()),
+    }
 }
 
 impl Task {
@@ -71,21 +115,16 @@ impl Task {
         if !ideal && objective == Objective::Z3Share {
             return Err(OptimizeError::RealCavity);
         }
-        let usual = CLEARANCES.map(|factor| factor * case.design.clearance());
+        let usual = || usual_clearances(case);
         let given = [
-            (Parameter::Clearance, Some(settings.clearance.unwrap_or(usual))),
+            (Parameter::Clearance, Some(settings.clearance.unwrap_or_else(usual))),
             (Parameter::Restitution, settings.restitution),
             (Parameter::AbsorberMass, settings.mass),
         ];
         let bounds = given.into_iter().filter_map(|(parameter, bounds)| {
             bounds.map(|[from, to]| Bounds { parameter, from, to })
         });
-        Ok(Self {
-            case: case.clone(),
-            objective,
-            bounds: bounds.collect(),
-            sampling: criteria::sampling(case),
-        })
+        Ok(Self { case: case.clone(), objective, bounds: bounds.collect(), effort: case.effort() })
     }
 
     /// The design at parts of the way between the bounds; what has none is the case's.
@@ -115,7 +154,7 @@ impl Task {
     pub fn band_of(&self, design: &Design) -> Option<Band> {
         let base = design.system().ok()?;
         let Some(settings) = &self.case.band else { return Some(Band::point(&base)) };
-        let mut band = Band::of(&base, settings);
+        let mut band = settings.around(&base);
         if band.over == BandOver::Frequency {
             let shift = base.frequency_ratio() - self.case.design.system().ok()?.frequency_ratio();
             band.range = band.range.map(|end| end + shift);
@@ -128,7 +167,7 @@ impl Task {
     /// amplitude.
     pub fn exact_score(&self, band: &Band) -> Option<f64> {
         match self.objective {
-            Objective::Z3Share => Some(band.share(&theory::zones(band), |zone| zone.is_z3())),
+            Objective::Z3Share => Some(theory::z3_share(band)),
             Objective::StableShare => Some(band.share(&stability(band), |stable| *stable)),
             Objective::Margin => Some(margin::smallest(band).1),
             Objective::WorstAmplitude => None,
@@ -142,12 +181,9 @@ impl Task {
         if self.objective != Objective::WorstAmplitude {
             return self.exact_score(&band);
         }
-        let settings = SurveySettings {
-            sampling: Some(self.sampling),
-            count_inactive: self.case.count_inactive,
-        };
-        let worst = Motions::of(&band, &settings, executor).ok()?.worst()?;
-        Some(-design.clearance() * (worst.peak + worst.error))
+        let found = along(&band, &[], None, Some(&self.effort), executor).ok()?;
+        let worst = Worst::of(&found, self.case.count_inactive)?;
+        Some(-design.clearance() * (worst.peak.value + worst.peak.error))
     }
 
     /// The value of the objective as it is spoken of: an amplitude is not negative.

@@ -41,7 +41,8 @@ pub use newton::Convergence;
 pub use orbit::{Closure, Cycle, Orbit, Origin};
 pub use symmetric::{SymmetricCurve, SymmetricOrbit, attracting_orbit, symmetric_orbits};
 pub use two_impact::{
-    SteadyOrbit, TwoImpactOrbits, one_to_one_orbits, steady_orbit, steady_orbits, two_impact_orbits,
+    ONE_ORBIT, SteadyOrbit, TwoImpactOrbits, attracting_orbits, steady_orbit, steady_orbits,
+    two_impact_orbits,
 };
 
 /// Why an orbit is not returned.

@@ -126,9 +126,13 @@ pub struct SteadyOrbit {
 impl SteadyOrbit {
     /// An orbit, measured.
     pub fn of(map: &ImpactMap, orbit: Orbit) -> Self {
-        let steps = orbit.cycle.steps(map);
-        let impact_speed = steps.iter().map(|step| step.approach.abs()).fold(0.0, f64::max);
+        let impact_speed = Self::impact_speed_of(map, &orbit.cycle);
         Self { peaks: Peaks::of(map, &orbit.cycle), impact_speed, orbit }
+    }
+
+    /// Largest relative speed at which a cycle meets a wall.
+    pub fn impact_speed_of(map: &ImpactMap, cycle: &Cycle) -> f64 {
+        cycle.steps(map).iter().map(|step| step.approach.abs()).fold(0.0, f64::max)
     }
 }
 
@@ -139,25 +143,32 @@ impl From<SymmetricOrbit> for SteadyOrbit {
     }
 }
 
-/// The orbit with two impacts per period that attracts: in an ideal cavity the symmetric one, else the first of
-/// [`two_impact_orbits`].
-pub fn steady_orbit(system: &System) -> Option<SteadyOrbit> {
-    if system.cavity().is_ideal() {
-        return attracting_orbit(system).map(SteadyOrbit::from);
-    }
-    let orbit = two_impact_orbits(system).ok()?.orbits.into_iter().find(Orbit::attracts)?;
-    Some(SteadyOrbit::of(&ImpactMap::of(system).ok()?, orbit))
-}
+/// Relative distance between the impacts of two orbits below which one is the other, or its mirror image: solved to 1e-10,
+/// with room for the multipliers of a nearly singular one.
+pub const ONE_ORBIT: f64 = 1e-6;
 
-/// All of them, motions or not: the symmetric ones of an ideal cavity, else those of [`two_impact_orbits`].
+/// Every orbit with one impact on each wall per period that attracts, in a cavity of any kind; of two mirror images one.
 ///
 /// # Errors
 /// As [`two_impact_orbits`].
-pub fn one_to_one_orbits(system: &System) -> Result<Vec<Orbit>, OrbitError> {
-    if system.cavity().is_ideal() {
-        return Ok(symmetric_orbits(system)?.into_iter().map(|one| one.orbit).collect());
+pub fn attracting_orbits(system: &System) -> Result<Vec<Orbit>, OrbitError> {
+    let mut found: Vec<Orbit> = Vec::new();
+    for orbit in two_impact_orbits(system)?.orbits.into_iter().filter(Orbit::attracts) {
+        if !found.iter().any(|known| known.cycle.is_one_with(&orbit.cycle, ONE_ORBIT)) {
+            found.push(orbit);
+        }
     }
-    Ok(two_impact_orbits(system)?.orbits)
+    Ok(found)
+}
+
+/// The first of them that is symmetric, or else the first, measured.
+pub fn steady_orbit(system: &System) -> Option<SteadyOrbit> {
+    let symmetric = || attracting_orbit(system).map(SteadyOrbit::from);
+    if let Some(found) = system.cavity().is_ideal().then(symmetric).flatten() {
+        return Some(found);
+    }
+    let orbit = attracting_orbits(system).ok()?.into_iter().next()?;
+    Some(SteadyOrbit::of(&ImpactMap::of(system).ok()?, orbit))
 }
 
 /// The same, measured.

@@ -1,4 +1,4 @@
-//! Where the energy goes, and what the absorber is worth.
+//! Where the energy goes.
 
 use serde::Serialize;
 
@@ -6,8 +6,7 @@ use crate::numerics::is_zero;
 use crate::simulation::Statistics;
 use crate::system::System;
 
-/// The energy balance of a measured window as rates, and the vibration against that of the oscillator
-/// alone. Energies are per unit of the oscillator's mass and over the squared clearance, rates per
+/// The energy balance of a measured window as rates. Energies are per unit of the oscillator's mass and over the squared clearance, rates per
 /// unit of fast time.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Energetics {
@@ -24,17 +23,6 @@ pub struct Energetics {
     pub loss_per_impact: Option<f64>,
     /// Mean loss in impacts per excitation period.
     pub loss_per_period: f64,
-    /// Share of the excitation's work that impacts dissipate: the efficiency of targeted energy
-    /// transfer. `None` where the excitation does no work over the window (nothing drives the
-    /// system, or it gives energy back), so that there is nothing to take a share of. Above 1 while
-    /// stored energy runs down.
-    pub transfer_efficiency: Option<f64>,
-    /// Peak displacement against that of the oscillator alone in steady motion, `20 log10` of the
-    /// ratio: below zero where the absorber reduces it. `None` if alone it has no steady motion, or
-    /// none but rest.
-    pub peak_change_db: Option<f64>,
-    /// The same for the root mean square displacement.
-    pub rms_change_db: Option<f64>,
 }
 
 impl Energetics {
@@ -44,11 +32,6 @@ impl Energetics {
         let periods = statistics.periods().max(1) as f64;
         let duration = periods * system.period();
         let impacts = statistics.impacts();
-        let bare = system.linear_response().map(|response| response.amplitude());
-        let change = |value: f64, shape: f64| {
-            let alone = bare.filter(|amplitude| *amplitude > 0.0)? * shape;
-            (value > 0.0).then(|| 20.0 * libm::log10(value / alone))
-        };
         Self {
             input_power: energy.input / duration,
             damper_power: energy.damper / duration,
@@ -56,9 +39,6 @@ impl Energetics {
             friction_power: energy.friction / duration,
             loss_per_impact: (impacts > 0).then(|| energy.impact / impacts as f64),
             loss_per_period: energy.impact / periods,
-            transfer_efficiency: (energy.input > 0.0).then(|| energy.impact / energy.input),
-            peak_change_db: change(statistics.peak(), 1.0),
-            rms_change_db: change(statistics.rms(), std::f64::consts::FRAC_1_SQRT_2),
         }
     }
 }

@@ -3,38 +3,23 @@
 //! `z` is the number of impacts per excitation period (section 3.1 of Li, Seguy, Berlioz 2016).
 //! Every name comes with the numbers that decided it.
 
-mod attractor;
-pub mod basins;
-pub mod diagram;
 mod dynamics_kind;
 mod energetics;
-pub mod long_term;
 pub mod lyapunov;
 pub(crate) mod modulation;
-pub(crate) mod motion;
-mod periodicity;
+pub(crate) mod periodicity;
 pub mod return_map;
-pub mod search;
 mod sequence;
-pub mod share;
-pub mod starts;
-pub mod transient;
-mod watch;
 
 use serde::Serialize;
 
 use crate::simulation::{Impact, Statistics};
-pub use attractor::{Attractor, Window};
 pub use dynamics_kind::DynamicsKind;
 pub use energetics::Energetics;
-pub use long_term::{Effort, long_term, motions};
 pub use lyapunov::{Exponent, Lyapunov};
 pub use modulation::{AbsorberAmplitude, Amplitudes, Captures};
-pub use motion::Motion;
 pub use periodicity::Periodicity;
-pub use search::FoundAttractor;
 pub use sequence::ImpactSequence;
-pub use transient::Transient;
 
 /// The regimes of section 3.1, and rest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
@@ -203,7 +188,7 @@ pub fn classify(
 impl Evidence {
     /// What a regime is decided by, from a window in which only impacts and peaks were measured; the rest is
     /// left open.
-    fn of_impacts(statistics: &Statistics, impacts: &[Impact], period: f64) -> Self {
+    pub(crate) fn of_impacts(statistics: &Statistics, impacts: &[Impact], period: f64) -> Self {
         let records = statistics.records();
         let periodicity = periodicity::find(records);
         let (per_period, last) = match periodicity {
@@ -236,7 +221,28 @@ impl Evidence {
 }
 
 impl Regime {
-    fn of(evidence: &Evidence) -> Self {
+    /// That of what several windows of one motion show together.
+    pub(crate) fn of_several(windows: &[Evidence]) -> Self {
+        let Some(first) = windows.first() else { return Self::AtRest };
+        let count = windows.len() as f64;
+        let mean = |of: fn(&Evidence) -> f64| windows.iter().map(of).sum::<f64>() / count;
+        let captures = Captures {
+            count: windows.iter().map(|one| one.captures.count).sum(),
+            share: mean(|one| one.captures.share),
+            ..first.captures
+        };
+        Self::of(&Evidence {
+            impacts_per_period: mean(|one| one.impacts_per_period),
+            visits_per_period: mean(|one| one.visits_per_period),
+            asymmetry: mean(|one| one.asymmetry),
+            modulation_depth: windows.iter().map(|one| one.modulation_depth).fold(0.0, f64::max),
+            captures,
+            periodicity: None,
+            ..*first
+        })
+    }
+
+    pub(crate) fn of(evidence: &Evidence) -> Self {
         if evidence.impacts_per_period == 0.0 {
             return Self::AtRest;
         }

@@ -195,7 +195,7 @@ mod tests {
             visits: impacts,
             mean_square: 0.0,
             impact_speed: 1.0,
-            lost: [0.0; 2],
+            lost: [0.0; 3],
             peak: oscillator,
             end: State::AT_REST,
             absorber_harmonic: [0.6 * absorber, -0.8 * absorber],

@@ -33,6 +33,11 @@ impl Periodicity {
         self.closure <= SETTLED
     }
 
+    /// Excitation periods that show a repetition after so many.
+    pub fn shown_in(periods: u32) -> u64 {
+        (REPETITIONS as u64 + 1) * u64::from(periods)
+    }
+
     /// The records of the last repetition.
     pub fn last(self, records: &[PeriodRecord]) -> &[PeriodRecord] {
         &records[records.len().saturating_sub(self.periods as usize)..]

@@ -14,32 +14,47 @@ use super::document::place::Place;
 use super::document::{Scale, motions, theory, theory_limits};
 use super::render::RenderError;
 use super::template;
-use crate::analysis::{Analysis, ManifoldPoint};
+use crate::analysis::ManifoldPoint;
+use crate::answer::{self, Answer};
 use crate::case::Case;
 use crate::cavity::{CavityTheory, Forcing};
 use crate::method::Method::{ExactOrbit, Simulation, Theory};
-use crate::orbits::{FullSystem, SymmetricOrbit};
+use crate::motions::{Measured, Motion, Motions};
+use crate::orbits::SymmetricOrbit;
 use crate::quantity::catalogue as of;
-use crate::regimes::Attractor;
 use crate::study::fidelity::Answers;
-use crate::study::{LongTermMotions, Proof};
 
 /// Theory and exact orbits of a case.
 #[derive(Debug, Clone, Copy)]
 pub struct Analysed<'a> {
     /// The case.
     pub case: &'a Case,
-    /// Its theory.
-    pub analysis: &'a Analysis,
-    /// Its exact orbits.
-    pub exact: &'a FullSystem,
+    /// Its theory and exact orbits.
+    pub theory: &'a answer::Theory,
+    /// Its long-term motions; none where nothing was simulated.
+    pub motions: Option<&'a Motions>,
     /// Answers to what the case asks for, if anything was.
     pub answers: Option<&'a Answers>,
 }
 
+impl<'a> Analysed<'a> {
+    /// That of an answer; none where no analysis was asked for.
+    pub fn of(case: &'a Case, answer: &'a Answer) -> Option<Self> {
+        let Answer { theory, motions, answers, .. } = answer;
+        let (motions, answers) = (motions.as_ref(), answers.as_ref());
+        Some(Self { case, theory: theory.as_ref()?, motions, answers })
+    }
+}
+
 impl Analysed<'_> {
     fn theory(&self) -> Value {
-        theory::theory(&Scale::of(self.case), self.analysis, self.exact)
+        theory::theory(&Scale::of(self.case), &self.theory.analysis, &self.theory.exact)
+    }
+
+    fn motions(&self) -> Option<Vec<Value>> {
+        let listed =
+            |found| motions::listed(&Scale::of(self.case), found, self.case.count_inactive);
+        self.motions.map(listed)
     }
 
     /// For a person.
@@ -47,7 +62,7 @@ impl Analysed<'_> {
     /// # Errors
     /// [`RenderError::Template`] if the template does not fit.
     pub fn text(&self) -> Result<String, RenderError> {
-        let Self { case, analysis, answers, .. } = self;
+        let Self { case, theory: answer::Theory { analysis, .. }, answers, .. } = self;
         let scale = Scale::of(case);
         let point = |point: &ManifoldPoint| {
             [
@@ -69,6 +84,7 @@ impl Analysed<'_> {
                 "forcing": p1.forcing_over_clearance,
                 "frequency": scale.frequency(frequency_ratio, Theory),
             },
+            "motions": self.motions(),
             "answers": answers,
         });
         template::render("analyze.txt", &scale.units(), &page)
@@ -77,7 +93,7 @@ impl Analysed<'_> {
     /// For programs: `vinesink/analysis@2`. `theory` is that of `report.json`; `exact` is all that the exact
     /// layer found, over the clearance and with its evidence.
     pub fn document(&self) -> Value {
-        let Self { case, analysis, exact, .. } = self;
+        let Self { case, theory: answer::Theory { analysis, exact }, .. } = self;
         let (scale, system) = (Scale::of(case), &analysis.system);
         let forcing = case.scales().forcing;
         let boundaries = &analysis.boundaries;
@@ -113,6 +129,7 @@ impl Analysed<'_> {
             "area": analysis.zone.area,
             "strip": analysis.zone.strip,
             "orbits": exact.orbits.iter().map(|one| orbit(&scale, one)).collect::<Vec<_>>(),
+            "motions": self.motions(),
             "theory": self.theory(),
             "exact": exact,
         });
@@ -157,22 +174,27 @@ pub struct Simulated<'a> {
     /// The case.
     pub case: &'a Case,
     /// The motion.
-    pub motion: &'a Attractor,
-    /// The exact orbit that it is, where Newton's method finds one.
-    pub proof: Option<&'a Proof>,
-    /// Every long-term motion found.
-    pub found: Option<&'a LongTermMotions>,
+    pub measured: &'a Measured,
+    /// Every long-term motion, of which it is the main one.
+    pub found: Option<&'a Motions>,
 }
 
 impl Simulated<'_> {
-    /// The motion and those that were found, as in `report.json`.
-    fn told(&self) -> (Value, Option<Vec<Value>>) {
+    /// The motion as in `report.json`.
+    fn motion(&self) -> Value {
         let (scale, system) = (Scale::of(self.case), self.case.system());
-        let all = self.found.map(|found| {
-            let each = found.attractors.iter().zip(&found.proofs);
-            each.map(|(one, proof)| motions::found(&scale, &system, one, proof.as_ref())).collect()
+        let (measured, counts) = (self.measured, self.case.count_inactive);
+        let main = self.found.and_then(|found| Some((found, found.main_index()?)));
+        let told = main.and_then(|(found, index)| {
+            motions::in_full(&scale, &system, found, (index, measured), counts)
         });
-        (motions::measured(&scale, &system, self.motion, self.proof), all)
+        told.unwrap_or_else(|| motions::measured(&scale, &system, measured))
+    }
+
+    fn motions(&self) -> Option<Vec<Value>> {
+        let listed =
+            |found| motions::listed(&Scale::of(self.case), found, self.case.count_inactive);
+        self.found.map(listed)
     }
 
     /// For a person.
@@ -180,58 +202,48 @@ impl Simulated<'_> {
     /// # Errors
     /// [`RenderError::Template`] if the template does not fit.
     pub fn text(&self) -> Result<String, RenderError> {
-        let (motion, motions) = self.told();
+        let (motion, motions) = (self.motion(), self.motions());
         let page = json!({ "title": self.case.title, "motion": motion, "motions": motions });
         template::render("simulate.txt", &Scale::of(self.case).units(), &page)
     }
 
-    /// For programs: `vinesink/simulation@2`. `motion` is that of `report.json`; `classification`, `energetics` and
-    /// `proof` are the evidence: per m1, lengths over the clearance, fast time.
+    /// For programs: `vinesink/simulation@2`. `motion` is that of `report.json`, and `motions` the list of all;
+    /// `classification`, `energetics` and `orbit` are the evidence: per m1, lengths over the clearance, fast time.
     pub fn document(&self) -> Value {
         let scale = Scale::of(self.case);
-        let (motion, motions) = self.told();
-        let mut document = measured(&scale, self.motion, motion);
-        document["format"] = json!("vinesink/simulation@2");
-        if let Some((found, motions)) = self.found.zip(motions) {
-            let each = found.attractors.iter().zip(motions).zip(&found.proofs);
-            let each = each.map(|((one, told), proof)| {
-                let mut attractor = measured(&scale, &one.attractor, told);
-                attractor["proof"] = json!(proof);
-                attractor
-            });
-            document["attractors"] = each.collect();
+        let energy = |value: f64| scale.energy(&of::WORK, value, Simulation).value;
+        let (measured, told) = (self.measured, self.motion());
+        let balance = &measured.energy;
+        let mut document = json!({
+            "format": "vinesink/simulation@2",
+            "periods": measured.periods,
+            "impacts": measured.impact_count,
+            "impacts_per_period": told["impacts_per_period"]["value"],
+            "regime": measured.classification.regime,
+            "displacement": { "peak": told["peak"]["value"], "rms": told["rms"]["value"] },
+            "impact_speed": told["impact_speed"]["value"],
+            "settled": measured.settled,
+            "energy": {
+                "input": energy(balance.input),
+                "damper": energy(balance.damper),
+                "impact": energy(balance.impact),
+                "stored": energy(balance.stored),
+                "relative_residual": balance.relative_residual,
+            },
+            "sustained_contact": measured.sustained_contact,
+            "stop": measured.stop,
+            "trusted": measured.doubts().is_empty(),
+            "doubts": told["doubts"],
+            "classification": measured.classification,
+            "energetics": measured.energetics,
+            "motion": told,
+            "motions": self.motions(),
+        });
+        if let Some(orbit) = self.found.and_then(Motions::main).and_then(Motion::orbit) {
+            document["orbit"] = json!(orbit);
         }
         warned(document, self.case)
     }
-}
-
-/// A measured motion.
-fn measured(scale: &Scale, motion: &Attractor, told: Value) -> Value {
-    let energy = |value: f64| scale.energy(&of::WORK, value, Simulation).value;
-    let balance = &motion.energy;
-    json!({
-        "periods": motion.periods,
-        "impacts": motion.impact_count,
-        "impacts_per_period": told["impacts_per_period"]["value"],
-        "regime": motion.classification.regime,
-        "displacement": { "peak": told["peak"]["value"], "rms": told["rms"]["value"] },
-        "impact_speed": told["impact_speed"]["value"],
-        "settled": motion.settled,
-        "energy": {
-            "input": energy(balance.input),
-            "damper": energy(balance.damper),
-            "impact": energy(balance.impact),
-            "stored": energy(balance.stored),
-            "relative_residual": balance.relative_residual,
-        },
-        "sustained_contact": motion.sustained_contact,
-        "stop": motion.stop,
-        "trusted": motion.doubts().is_empty(),
-        "doubts": told["doubts"],
-        "classification": motion.classification,
-        "energetics": motion.energetics,
-        "motion": told,
-    })
 }
 
 /// A document with what is probably a slip in the case; left out where nothing is.

@@ -3,17 +3,19 @@
 use serde_json::{Value, json};
 
 use super::document::criteria::{criteria, place};
-use super::document::{self, place::Place};
+use super::document::{self, Scale, motions, place::Place};
 use super::render::RenderError;
 use super::template::render;
+use crate::answer::Answer;
 use crate::case::Case;
-use crate::criteria::Judged;
+use crate::criteria::{Judged, all_hold};
+use crate::motions::Motions;
 use crate::quantity::Units;
 
 /// What became of one case of several.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Checked {
-    /// As `vinesink/check@1` has it: judged with `criteria`, or not checked with `error` and `problems`.
+    /// As `vinesink/check@2` has it: judged with `criteria`, or not checked with `error` and `problems`.
     pub document: Value,
     /// The facts of the templates.
     page: Value,
@@ -22,21 +24,32 @@ pub struct Checked {
 
 impl Checked {
     /// A case, by its file's path and stem, whose criteria were judged.
-    pub fn judged(path: &str, name: &str, case: &Case, judged: &[Judged]) -> Self {
-        let units = document::units(case);
+    pub fn judged(path: &str, name: &str, case: &Case, answer: &Answer) -> Self {
+        let (scale, units) = (Scale::of(case), document::units(case));
+        let judged = answer.judged.as_slice();
+        let (counts, survey) = (case.count_inactive, answer.survey.as_ref());
+        let survey = survey.filter(|survey| !survey.band().is_point());
+        let outside = survey.filter(|survey| !survey.band().holds_own());
+        let outside = outside.map(|survey| document::outside(&scale, survey.band()));
         let warnings: Vec<Place> = case.warnings().iter().map(Place::from).collect();
         let mut document = json!({
             "case": name,
             "title": case.title,
-            "holds": judged.iter().all(|one| one.holds == Some(true)),
+            "holds": all_hold(judged),
             "count_inactive": case.count_inactive,
             "criteria": judged.iter().map(|one| row(case, &units, one)).collect::<Vec<_>>(),
+            // At the case's own excitation, and at the places of its band that were looked at.
+            "motions": answer.motions.as_ref().map(|found| motions::listed(&scale, found, counts)),
+            "places": survey.map(|survey| motions::places(&scale, &survey.motions, counts)),
+            // Whether the case's own excitation is one of its band, which criteria are about.
+            "own_in_band": survey.map(|_| outside.is_none()),
         });
         if !warnings.is_empty() {
             document["warnings"] = json!(warnings);
         }
         let page = json!({
             "path": path, "case": name, "warnings": warnings, "criteria": criteria(case, judged),
+            "outside": outside,
         });
         Self { document, page, units }
     }
@@ -117,10 +130,11 @@ pub fn junit(cases: &[Checked]) -> Result<String, RenderError> {
 }
 
 /// A criterion in SI, or in the units of a reduced case: 1 and 0 for true and false, null where nothing could be
-/// measured; where in the band it is worst with its unit, empty where that says nothing.
+/// measured; where in the band it is worst as a text, empty where that says nothing, and as a number.
 fn row(case: &Case, units: &Units, judged: &Judged) -> Value {
     let kind = judged.criterion.subject.kind();
-    let at = place(case, judged).map(|at| units.text(at.kind, at.value));
+    let at = place(case, judged);
+    let unit = at.map(|at| at.kind.dimension.symbol(units.physical));
     let mut row = json!({
         "name": judged.criterion.subject.key(),
         "asked": judged.criterion.as_written,
@@ -132,8 +146,13 @@ fn row(case: &Case, units: &Units, judged: &Judged) -> Value {
         // Whether the error could turn that.
         "near_limit": judged.near_limit,
         "decided_by": judged.decided_by,
-        "at": at.unwrap_or_default(),
-        "settled": judged.settled,
+        "at": at.map(|at| units.text(at.kind, at.value)).unwrap_or_default(),
+        "at_value": at.map(|at| at.value),
+        "at_unit": unit,
+        // The motion that decides, in the list of its place; none where none does.
+        "motion": judged.motion.map(Motions::id),
+        // False while a motion that could decide otherwise still settles.
+        "decided": judged.undecided.is_none(),
     });
     // Share of the absorber's resting places from which a start from rest never wakes it.
     if let Some(share) = judged.inactive {

@@ -193,9 +193,10 @@ fn without_zeros(text: &str) -> String {
 fn quantity_text(units: &Units, value: &Value, options: &Kwargs) -> TeraResult<String> {
     let of = options.get::<&str>("of")?.and_then(catalogue::kind);
     let plain = of.zip(value.as_f64());
+    // What is listed has a value and an error, and no name.
     let (kind, map) = match (plain, value.as_map()) {
         (Some((kind, _)), _) => (kind, None),
-        (None, Some(map)) => (kind_of(value)?, Some(map)),
+        (None, Some(map)) => (of.map_or_else(|| kind_of(value), Ok)?, Some(map)),
         (None, None) => return Ok("\u{2013}".into()),
     };
     let number = |key| field(map?, key).and_then(Value::as_f64);

@@ -9,6 +9,8 @@
 mod events;
 mod queue;
 
+use std::borrow::BorrowMut;
+
 use fearless_simd::{Level, Simd, dispatch};
 
 use self::queue::{Queue, Task};
@@ -66,8 +68,8 @@ pub struct Extent {
 ///
 /// # Panics
 /// If there are not as many observers as trajectories.
-pub fn run<O: Observer>(
-    simulations: &mut [Simulation],
+pub fn run<S: BorrowMut<Simulation>, O: Observer>(
+    simulations: &mut [S],
     periods: u64,
     impact_limit: u64,
     observers: &mut [O],
@@ -80,8 +82,8 @@ pub fn run<O: Observer>(
 ///
 /// # Panics
 /// If there are not as many extents and observers as trajectories.
-pub fn run_each<O: Observer>(
-    simulations: &mut [Simulation],
+pub fn run_each<S: BorrowMut<Simulation>, O: Observer>(
+    simulations: &mut [S],
     extents: &[Extent],
     observers: &mut [O],
 ) -> Vec<Stop> {
@@ -90,14 +92,15 @@ pub fn run_each<O: Observer>(
     run_at(Level::new(), simulations, extents, observers)
 }
 
-fn run_at<O: Observer>(
+fn run_at<S: BorrowMut<Simulation>, O: Observer>(
     level: Level,
-    simulations: &mut [Simulation],
+    simulations: &mut [S],
     extents: &[Extent],
     observers: &mut [O],
 ) -> Vec<Stop> {
     let tasks = simulations
         .iter_mut()
+        .map(BorrowMut::borrow_mut)
         .zip(observers)
         .zip(extents)
         .map(|((simulation, observer), Extent { periods, impacts })| Task {

@@ -31,6 +31,7 @@ pub use contact::ContactTolerance;
 pub use events::{Absorber, Detail, Impact, Observer, Reversal, Segment, Side, StartError};
 pub use history::{ImpactLog, Trace, TracePoint};
 pub use run::{Simulation, Stop};
+pub(crate) use statistics::lost_in;
 pub use statistics::{Energy, Measurement, PeriodRecord, Statistics, SustainedContact};
 pub use tangent::Tangent;
 pub use trust::{Doubt, doubts};

@@ -57,8 +57,8 @@ pub struct PeriodRecord {
     pub impact_speed: f64,
     /// Mean square displacement of the oscillator.
     pub mean_square: f64,
-    /// Energy lost in the damper and in impacts up to the end of the period.
-    pub lost: [f64; 2],
+    /// Energy lost in the damper, in impacts and by friction up to the end of the period.
+    pub lost: [f64; 3],
     /// State at the end of the period, phase 0.
     pub end: State,
     /// First harmonic of the absorber: coefficients of `sin` and `cos` of the excitation's phase.
@@ -159,7 +159,7 @@ impl Statistics {
     }
 
     /// What successive blocks of the kept periods have, about so many of them.
-    fn of_blocks(&self, blocks: usize, of: impl Fn(&[PeriodRecord]) -> f64) -> Vec<f64> {
+    fn of_blocks(&self, blocks: usize, of: impl FnMut(&[PeriodRecord]) -> f64) -> Vec<f64> {
         self.records.chunks_exact((self.records.len() / blocks).max(1)).map(of).collect()
     }
 
@@ -230,12 +230,19 @@ impl Statistics {
         }
     }
 
-    /// Share of the excitation's work that impacts dissipate; none where it does no work. The work is
-    /// what becomes of it.
-    pub fn efficiency(&self) -> Option<f64> {
-        let energy = self.energy();
-        let work = energy.stored + energy.damper + energy.impact + energy.friction;
-        (work > 0.0).then(|| energy.impact / work)
+    /// Share of what the kept periods dissipate that impacts take, with two standard errors between ten blocks of them; none
+    /// where nothing is dissipated. In the long run that is the share of the excitation's work.
+    pub fn efficiency(&self) -> Option<[f64; 2]> {
+        let [whole, impact] = lost_in(None, &self.records);
+        let share = impact / whole;
+        let mut before = None;
+        let blocks = self.of_blocks(BLOCKS, |block| {
+            let [dissipated, impact] = lost_in(before, block);
+            before = block.last().copied();
+            (impact - share * dissipated) / block.len() as f64
+        });
+        let mean = whole / self.records.len().max(1) as f64;
+        (whole > 0.0).then(|| [share, twice_standard_error(&blocks) / mean])
     }
 
     /// Mean first harmonics of oscillator and absorber over the kept periods: coefficients of `sin` and `cos`.
@@ -341,11 +348,19 @@ impl Statistics {
             self.records.drain(..KEPT);
         }
         self.records.push(PeriodRecord {
-            lost: [self.damper, self.impact_loss],
+            lost: [self.damper, self.impact_loss, self.friction_loss],
             end: *state,
             ..current
         });
     }
+}
+
+/// What some successive periods dissipate, and what impacts take of it; `before` is the period before them.
+pub(crate) fn lost_in(before: Option<PeriodRecord>, periods: &[PeriodRecord]) -> [f64; 2] {
+    let begin = before.map_or([0.0; 3], |record| record.lost);
+    let end = periods.last().map_or(begin, |record| record.lost);
+    let [damper, impact, friction] = [0, 1, 2].map(|k| end[k] - begin[k]);
+    [damper + impact + friction, impact]
 }
 
 /// Kinetic and potential energy per unit of the oscillator's mass, that of the absorber along a tilted cavity included.

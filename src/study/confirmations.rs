@@ -4,18 +4,18 @@
 use serde::Serialize;
 
 use super::margins::Margins;
+use crate::executor::Serial;
+use crate::motions::{Effort, Motion, Motions, Place, motions};
 use crate::orbits::FullSystem;
-use crate::regimes::search::RECOGNITION;
-use crate::regimes::starts::StartBox;
-use crate::regimes::{Effort, Motion, Regime, long_term};
+use crate::regimes::Regime;
 use crate::simulation::StartError;
 use crate::system::System;
 
 /// Evenly spread starts per clearance: a motion that half of all starts lead to is missed by all of
 /// them once in 256 times.
 const STARTS: u32 = 8;
-/// Each of them, as those of a study.
-const EACH: Effort = Effort::over(RECOGNITION);
+/// Excitation periods of a window of theirs.
+const PERIODS: u64 = 200;
 /// Relative width to which a limit is bracketed.
 const WIDTH: f64 = 0.01;
 
@@ -43,25 +43,23 @@ impl Probe {
     /// [`StartError`] never, for starts inside the cavity.
     pub fn at(system: &System, factor: f64) -> Result<Option<Self>, StartError> {
         let Ok(there) = system.with_clearance_scaled(factor) else { return Ok(None) };
-        let sample = StartBox::around(&there);
-        let starts: Vec<_> = (0..STARTS).map(|index| (there, sample.start(index))).collect();
-        let reached = long_term(&starts, &EACH)?.into_iter().flatten();
-        let (steady, others): (Vec<_>, Vec<_>) =
-            reached.partition(|motion| motion.regime == Regime::TwoSymmetric);
-        let highest = |motions: &[Motion]| {
-            motions
-                .iter()
-                .max_by(|a, b| a.peak.total_cmp(&b.peak))
-                .map(|one| (one.regime, one.peak))
+        let found = motions(&[Place::new(&there, STARTS)], &Effort::over(PERIODS), &Serial)?;
+        let starts = |motion: &&Motion| motion.reached().starts > 0;
+        let (steady, others): (Vec<&Motion>, Vec<&Motion>) =
+            found.iter().flatten().filter(starts).partition(|motion| motion.is_one_to_one());
+        let peak = |motion: &&Motion| motion.facts().peak.value;
+        let highest = |motions: &[&Motion]| {
+            motions.iter().copied().max_by(|a, b| peak(a).total_cmp(&peak(b))).cloned()
         };
-        let peak = |motions| highest(motions).map_or(0.0, |(_, peak)| factor * peak);
+        let scaled = |motion: Option<&Motion>| motion.map_or(0.0, |one| factor * peak(&one));
+        let other = highest(&others);
         Ok(Some(Self {
             factor,
             starts: STARTS,
-            steady: steady.len() as u32,
-            steady_peak: peak(&steady),
-            other: highest(&others).map(|(regime, _)| regime),
-            other_peak: peak(&others),
+            steady: steady.iter().map(|motion| motion.reached().starts).sum(),
+            steady_peak: scaled(highest(&steady).as_ref()),
+            other: other.as_ref().map(Motion::regime),
+            other_peak: scaled(other.as_ref()),
         }))
     }
 
@@ -95,21 +93,26 @@ impl Confirmations {
     ///
     /// # Errors
     /// [`StartError`] never, for starts inside the cavity.
-    pub fn of(exact: &FullSystem, margins: &Margins) -> Result<Self, StartError> {
+    pub fn of(exact: &FullSystem, margins: &Margins, own: &Motions) -> Result<Self, StartError> {
         let best = margins.best_clearance.map(|best| Probe::at(&exact.system, best.factor));
         let best = best.transpose()?.flatten();
-        Ok(Self { upper_limit: upper_limit(&exact.system, margins)?, best })
+        Ok(Self { upper_limit: upper_limit(&exact.system, margins, own)?, best })
     }
 }
 
 /// Relative distance past the end of the orbit at which it must be gone.
 const PAST: f64 = 0.01;
 
-fn upper_limit(system: &System, margins: &Margins) -> Result<Option<SimulatedLimit>, StartError> {
+fn upper_limit(
+    system: &System,
+    margins: &Margins,
+    own: &Motions,
+) -> Result<Option<SimulatedLimit>, StartError> {
     let Some(end) = margins.exact.and_then(|exact| exact.clearance[1]) else {
         return Ok(None);
     };
-    if !Probe::at(system, 1.0)?.is_some_and(|here| here.all_steady()) {
+    let steady = own.iter().filter(|motion| motion.is_one_to_one());
+    if steady.map(|motion| motion.reached().starts).sum::<u32>() < own.of_starts().max(1) {
         return Ok(None);
     }
     let mut kept = 1.0;

@@ -6,11 +6,11 @@ use serde::Serialize;
 
 use crate::band::Band;
 use crate::case::{Case, Design};
-use crate::regimes::starts::StartBox;
-use crate::regimes::{Effort, Motion, Regime, long_term, motions};
-use crate::simulation::{StartError, Stop};
+use crate::executor::Executor;
+use crate::motions::{Effort, Motion, Motions, Place, motions};
+use crate::simulation::StartError;
 use crate::study::CaseStudy;
-use crate::system::{Parameter, State, System};
+use crate::system::{Parameter, System};
 
 /// A tilt of the cavity in rad: 0.2 degrees, what is left after levelling with a workshop spirit level.
 pub const TILT: f64 = 0.2 * PI / 180.0;
@@ -28,12 +28,6 @@ pub const FREQUENCY: f64 = 0.01;
 pub const STARTS: u32 = 4;
 /// The largest motions of the case that are followed into each rig.
 const FOLLOWED: usize = 3;
-/// Excitation periods over which a motion that does not repeat is measured, as in a band.
-pub const PERIODS: u64 = 250;
-/// Periods after which a motion that does not repeat, beside one that does, is no transient: as many as the search
-/// for the motions of a report waits by default, twenty times its thousand measured ones.
-const PATIENCE: u64 = 20_000;
-
 /// How a rig differs from its case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
@@ -91,7 +85,7 @@ impl Deviation {
 }
 
 /// A rig and its largest motion. Lengths over the clearance, which no deviation changes.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct Rig {
     /// How it differs.
     pub deviation: Deviation,
@@ -115,70 +109,53 @@ impl Deviations {
     ///
     /// # Errors
     /// [`StartError`] where a motion of the case is none that a rig can start from.
-    pub fn of(case: &Case, study: &CaseStudy) -> Result<Option<Self>, StartError> {
-        let mut found: Vec<Motion> =
-            study.motions.attractors.iter().map(|one| one.attractor.motion).collect();
-        found.sort_by(|a, b| b.peak.total_cmp(&a.peak));
-        let free = study.motions.attractors.iter().any(|one| one.attractor.keeps_its_start());
-        let Some(own) = largest(&found).filter(|own| own.peak > 0.0 && !free) else {
-            return Ok(None);
-        };
+    pub fn of(
+        case: &Case,
+        study: &CaseStudy,
+        on: &dyn Executor,
+    ) -> Result<Option<Self>, StartError> {
+        let free = study.measured.iter().any(|one| one.keeps_its_start());
+        let own = largest(&study.motions).filter(|own| own.facts().peak.value > 0.0 && !free);
+        let Some(own) = own else { return Ok(None) };
+        let mut found: Vec<&Motion> = study.motions.iter().collect();
+        found.sort_by(|a, b| peak(b).total_cmp(&peak(a)));
         let of = |deviation: Deviation| Some((deviation, deviation.system(&case.design)?));
         let rigs: Vec<(Deviation, System)> = Deviation::ALL.into_iter().filter_map(of).collect();
-        let count = STARTS.min(study.effort.starts);
-        let starts = |(_, system): &(Deviation, System)| -> (System, Vec<State>) {
-            let sample = StartBox::around(system);
-            let followed = found.iter().take(FOLLOWED).map(|motion| motion.state);
-            (*system, followed.chain((0..count).map(|k| sample.start(k))).collect())
+        let effort = Effort { starts: STARTS.min(study.effort.starts), ..case.effort() };
+        let further: Vec<_> = found.iter().take(FOLLOWED).map(|motion| motion.state()).collect();
+        let place = |(_, system): &(Deviation, System)| Place {
+            further: further.clone(),
+            ..Place::new(system, effort.starts)
         };
-        let places: Vec<(System, Vec<State>)> = rigs.iter().map(starts).collect();
-        let periods = PERIODS.min(study.effort.periods);
-        let effort = Effort { discard: case.simulation.discard, ..Effort::over(periods) };
-        let each = motions(&places, &effort)?;
-        let mut all = Vec::with_capacity(rigs.len());
-        for ((deviation, system), found) in rigs.into_iter().zip(each) {
-            let Some(motion) = lasting(&system, found, &effort)? else { continue };
-            all.push(Rig { deviation, motion, change: change(&own, &motion) });
-        }
-        all.sort_by(|a, b| b.change.unwrap_or(0.0).total_cmp(&a.change.unwrap_or(0.0)));
-        Ok(Some(Self { own, rigs: all }))
+        let places: Vec<Place> = rigs.iter().map(place).collect();
+        let each = motions(&places, &effort, on)?;
+        let rigs = rigs.into_iter().zip(each).filter_map(|((deviation, _), found)| {
+            let motion = largest(&found)?.clone();
+            Some(Rig { deviation, change: change(own, &motion), motion })
+        });
+        let mut rigs: Vec<Rig> = rigs.collect();
+        rigs.sort_by(|a, b| b.change.unwrap_or(0.0).total_cmp(&a.change.unwrap_or(0.0)));
+        Ok(Some(Self { own: own.clone(), rigs }))
     }
+}
+
+fn peak(motion: &Motion) -> f64 {
+    motion.facts().peak.value
 }
 
 /// The motion with the largest peak, that of an absorber at rest only where there is no other.
-fn largest(found: &[Motion]) -> Option<Motion> {
-    let order = |motion: &Motion| (motion.regime != Regime::AtRest, motion.peak);
-    let larger = |a: &&Motion, b: &&Motion| {
+fn largest(found: &Motions) -> Option<&Motion> {
+    let order = |motion: &Motion| (motion.rest().is_none(), peak(motion));
+    found.iter().max_by(|a, b| {
         let (a, b) = (order(a), order(b));
         a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
-    };
-    found.iter().max_by(larger).copied()
-}
-
-/// The largest motion, unless it is a chaotic transient that ends in one that repeats.
-fn lasting(
-    system: &System,
-    mut found: Vec<Motion>,
-    effort: &Effort,
-) -> Result<Option<Motion>, StartError> {
-    let open = |motion: &Motion| !motion.repeats() && motion.stop == Stop::EndTime;
-    while let Some(one) = largest(&found) {
-        if !open(&one) || !found.iter().any(Motion::repeats) {
-            return Ok(Some(one));
-        }
-        let patient = Effort { discard: Some(PATIENCE), ..*effort };
-        let later = long_term(&[(*system, one.state)], &patient)?[0];
-        if let Some(later) = later.filter(open) {
-            return Ok(Some(Motion { peak: later.peak.max(one.peak), ..later }));
-        }
-        found.retain(|other| other.state != one.state);
-        found.extend(later);
-    }
-    Ok(None)
+    })
 }
 
 /// The relative change of a peak; none where a run ten times as long may find either motion as large as the other.
 fn change(own: &Motion, other: &Motion) -> Option<f64> {
-    let apart = own.peak > other.peak + other.peak_error || other.peak > own.peak + own.peak_error;
-    apart.then_some(other.peak / own.peak - 1.0)
+    let [own, other] = [own, other].map(|motion| motion.facts().peak);
+    let beyond = |one: f64, of: crate::motions::Value| one > of.value + of.error;
+    let apart = beyond(own.value, other) || beyond(other.value, own);
+    apart.then_some(other.value / own.value - 1.0)
 }

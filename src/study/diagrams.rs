@@ -3,13 +3,13 @@
 
 use serde::Serialize;
 
+use crate::motions::{DiagramPoint, Effort, Motion, SweepDirection, sweep};
 use crate::orbits::measures::Peaks;
 use crate::orbits::newton::solve;
 use crate::orbits::{
     Bifurcation, Closure, FullSystem, ImpactMap, Origin, StableStretch, symmetric_orbits,
 };
-use crate::regimes::diagram::{DiagramPoint, SweepDirection, sweep};
-use crate::regimes::{Effort, Regime};
+use crate::regimes::Regime;
 use crate::system::{Parameter, State, System};
 
 use super::StudyError;
@@ -19,7 +19,8 @@ use super::exact_branches::ExactBranches;
 pub const STEPS: u32 = 120;
 /// Each value: a modulation returns several times in 100 periods. More than ten impacts per period are given
 /// up: that regime is recognised, and its cost has to end somewhere.
-pub const EFFORT: Effort = Effort { discard: None, periods: 100, most_impacts: 10 };
+pub const PERIODS: u64 = 100;
+const MOST_IMPACTS: u64 = 10;
 /// An absorber that crosses its cavity: where the first value begins; all others begin where the last one
 /// ended.
 pub(super) const START: State = State { y_velocity: 1.0, ..State::AT_REST };
@@ -107,7 +108,8 @@ impl Diagram {
         let values: Vec<f64> = (0..STEPS)
             .map(|k| parameter.between(range, f64::from(k) / f64::from(STEPS - 1)))
             .collect();
-        let points = sweep(base, parameter, &values, START, &EFFORT, &mut |_| {})?;
+        let effort = Effort { most_impacts: MOST_IMPACTS, ..Effort::over(PERIODS) };
+        let points = sweep(base, parameter, &values, START, &effort, &mut |_| {})?;
         let agreement = agreement(base, parameter, &points, &exact);
         let mut diagram =
             Self { parameter, range, points, exact, agreement, hysteresis: Vec::new() };
@@ -133,7 +135,7 @@ impl Diagram {
             let middle = run[run.len() / 2];
             Hysteresis {
                 values: [run[0][0].value, run[run.len() - 1][0].value],
-                regimes: middle.map(|point| point.motion.regime),
+                regimes: middle.map(|point| point.motion.regime()),
                 peaks: middle.map(|point| point.peak),
             }
         });
@@ -210,7 +212,7 @@ fn agreement(
     let mut found = Agreement { compared: 0, without_orbit: 0, largest: 0.0, at: f64::NAN };
     for point in points {
         let motion = &point.motion;
-        if motion.repeats_after != Some(1) || motion.is_inactive() {
+        if motion.repeats_after() != Some(1) || motion.rest().is_some() {
             continue;
         }
         let Ok(there) = parameter.applied(base, point.value) else { continue };
@@ -220,7 +222,7 @@ fn agreement(
         let Some(simulated) = point.period_peaks.last() else { continue };
         let of_kind = exact.attracting(point.value).map(|near| &near.cycle).filter(|cycle| {
             let (Closure::Mirrors { periods } | Closure::Repeats { periods }) = cycle.closure;
-            periods == 1 && cycle.impact_count() as f64 == motion.impacts_per_period
+            periods == 1 && cycle.impact_count() as f64 == motion.facts().impacts_per_period.value
         });
         let solved = of_kind.filter_map(|cycle| solve(&there, cycle, Origin::Continuation).ok());
         let peaks = solved.filter(|orbit| orbit.attracts()).map(|orbit| {
@@ -242,8 +244,9 @@ fn agreement(
 
 /// Whether two motions at one value are not the same.
 fn differ([up, down]: [&DiagramPoint; 2]) -> bool {
+    let repeats = |motion: &Motion| motion.repeats_after().is_some();
     let limit =
-        if up.motion.repeats() || down.motion.repeats() { SAME_PERIODIC } else { SAME_MODULATED };
+        if repeats(&up.motion) || repeats(&down.motion) { SAME_PERIODIC } else { SAME_MODULATED };
     let [a, b] = [up, down].map(|point| {
         let peaks = &point.period_peaks;
         let mean = peaks.iter().sum::<f64>() / peaks.len().max(1) as f64;
@@ -251,7 +254,8 @@ fn differ([up, down]: [&DiagramPoint; 2]) -> bool {
         [mean, wide]
     });
     let larger = a[0].max(b[0]);
-    let impacts = (up.motion.impacts_per_period - down.motion.impacts_per_period).abs();
+    let impacts = [up, down].map(|point| point.motion.facts().impacts_per_period.value);
+    let impacts = (impacts[0] - impacts[1]).abs();
     (a[0] - b[0]).abs() > limit * larger
         // A repeating motion is no modulated one of the same mean ...
         || (a[1] - b[1]).abs() > 2.0 * limit * larger

@@ -8,13 +8,14 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use super::answer::{self, Answer, ORBIT_ROUNDING, measured};
-use super::{LongTermMotions, StudyError};
+use super::StudyError;
+use super::estimate::{self, Estimate, ORBIT_ROUNDING};
 use crate::case::{AccuracySettings, Case};
 use crate::method::Method;
+use crate::motions::{Kind, Motions};
 use crate::operation_count;
-use crate::regimes::{FoundAttractor, Regime};
-use crate::simulation::{Doubt, Simulation};
+use crate::regimes::Regime;
+use crate::simulation::Doubt;
 use crate::system::System;
 use crate::validation::tolerance::{asymptotic_error, averages_error};
 
@@ -29,21 +30,26 @@ pub struct AccuracyTarget {
     pub coexistence: bool,
 }
 
-impl Default for AccuracyTarget {
-    /// A per cent of the amplitude, which is what clearances and restitution are known to; and impacts
-    /// as exactly as regimes are told apart.
-    fn default() -> Self {
-        Self { amplitude: 0.01, impacts_per_period: 0.01, coexistence: false }
-    }
-}
-
 impl AccuracyTarget {
+    /// What a layer is held to that is insisted on, where the case asks for nothing. Motions are measured as the case says,
+    /// whatever a command asks for.
+    fn of_layer(layer: Method) -> Self {
+        let asked = AccuracySettings::default();
+        match layer {
+            Method::Simulation => Self {
+                amplitude: f64::INFINITY,
+                impacts_per_period: f64::INFINITY,
+                coexistence: false,
+            },
+            _ => Self::of(&asked),
+        }
+    }
+
     /// What a case asks for.
     pub fn of(settings: &AccuracySettings) -> Self {
-        let usual = Self::default();
         Self {
-            amplitude: settings.amplitude.unwrap_or(usual.amplitude),
-            impacts_per_period: settings.impacts_per_period.unwrap_or(usual.impacts_per_period),
+            amplitude: settings.amplitude(),
+            impacts_per_period: settings.impacts_per_period(),
             coexistence: settings.coexistence,
         }
     }
@@ -116,11 +122,11 @@ pub struct Plan {
     /// The layer that answers amplitude, impacts and regime.
     pub layer: Method,
     /// What the closed form says, and what that cost in operations.
-    pub closed_form: (Answer, u64),
+    pub closed_form: (Estimate, u64),
     /// The same for the symmetric orbit.
-    pub orbit: (Answer, u64),
+    pub orbit: (Estimate, u64),
     /// The same for the averaged flow where it was insisted on: it is never the cheapest that is exact enough.
-    pub averaged_flow: Option<(Answer, u64)>,
+    pub averaged_flow: Option<(Estimate, u64)>,
 }
 
 /// Everything that was asked, answered.
@@ -157,7 +163,7 @@ impl Plan {
     /// As [`Plan::of`].
     pub fn of_case(case: &Case, forced: Option<Method>) -> Result<Option<Self>, StudyError> {
         let demand = case.accuracy.as_ref().map(AccuracyTarget::of);
-        let demand = demand.or(forced.map(|_| AccuracyTarget::default()));
+        let demand = demand.or(forced.map(AccuracyTarget::of_layer));
         demand.map(|demand| Self::of(&case.system(), demand, forced)).transpose()
     }
 
@@ -171,11 +177,11 @@ impl Plan {
         demand: AccuracyTarget,
         forced: Option<Method>,
     ) -> Result<Self, StudyError> {
-        let (closed_form, cost) = operation_count::counted(|| answer::closed_form(system));
+        let (closed_form, cost) = operation_count::counted(|| estimate::closed_form(system));
         let closed_form = (closed_form?, cost);
-        let orbit = operation_count::counted(|| answer::symmetric_orbit(system));
+        let orbit = operation_count::counted(|| estimate::symmetric_orbit(system));
         let averaged_flow = (forced == Some(Method::AveragedFlow)).then(|| {
-            let (answer, cost) = operation_count::counted(|| answer::averaged_flow(system));
+            let (answer, cost) = operation_count::counted(|| estimate::averaged_flow(system));
             answer.map(|answer| (answer, cost))
         });
         let averaged_flow = averaged_flow.transpose()?;
@@ -232,24 +238,25 @@ impl Plan {
         self.layer == Method::Simulation || (self.demand.coexistence && self.forced.is_none())
     }
 
-    /// The answers; `simulated` are the long-term motions, where [`Plan::needs_simulation`].
+    /// The answers; `simulated` are the long-term motions, where [`Plan::needs_simulation`], and why the main one of them
+    /// is not to be trusted.
     ///
     /// # Errors
-    /// [`StudyError`] where a motion cannot be measured further.
-    pub fn answers(&self, simulated: Option<&LongTermMotions>) -> Result<Answers, StudyError> {
-        let mut cost = simulated.map(|simulated| simulated.operations);
-        let mut answers = match (self.layer, simulated) {
-            (Method::Simulation, Some(simulated)) => {
-                let (answers, further) = operation_count::counted(|| self.by_simulation(simulated));
-                cost = cost.map(|cost| cost + further);
-                answers?
-            }
+    /// [`StudyError`] where there is no motion.
+    pub fn answers(
+        &self,
+        simulated: Option<(&Motions, Vec<Doubt>)>,
+    ) -> Result<Answers, StudyError> {
+        let (motions, doubts) =
+            simulated.map_or((None, Vec::new()), |(motions, doubts)| (Some(motions), doubts));
+        let mut answers = match (self.layer, motions) {
+            (Method::Simulation, Some(motions)) => self.by_simulation(motions)?,
             (Method::Simulation, None) => return Err(StudyError::NoMotion),
             (Method::AveragedFlow, _) => self.by_averaged_flow()?,
             (layer, _) => self.by_closed_form_or_orbit(layer),
         };
         if self.demand.coexistence {
-            let others = simulated.map(|found| found.attractors.len().saturating_sub(1));
+            let others = motions.map(|found| found.len().saturating_sub(1));
             let layer = if others.is_some() { Method::Simulation } else { self.layer };
             answers.push(Answered {
                 others,
@@ -258,15 +265,14 @@ impl Plan {
             });
         }
         let compared = self.layer != Method::Simulation;
-        let main = simulated.and_then(LongTermMotions::main).filter(|_| !compared);
-        let doubts = main.map(|(main, _)| main.attractor.doubts()).unwrap_or_default();
+        let doubts = if compared { Vec::new() } else { doubts };
         if !doubts.is_empty() {
             answers.iter_mut().for_each(|answer| answer.enough = false);
         }
         let mut operations = BTreeMap::from([
             (Method::Theory, compared.then_some(self.closed_form.1)),
             (Method::ExactOrbit, compared.then_some(self.orbit.1)),
-            (Method::Simulation, cost),
+            (Method::Simulation, motions.map(Motions::operations)),
         ]);
         let averaged_flow = self.averaged_flow.iter();
         operations.extend(averaged_flow.map(|(_, cost)| (Method::AveragedFlow, Some(*cost))));
@@ -277,7 +283,7 @@ impl Plan {
             answers,
             error_of_closed_form: self.error_of_closed_form(),
             operations,
-            coexistence_looked_for: simulated.is_some(),
+            coexistence_looked_for: motions.is_some(),
         })
     }
 
@@ -308,13 +314,13 @@ impl Plan {
         Ok(self.told(Method::AveragedFlow, KnownBy::Averages, answer, [error, f64::INFINITY]))
     }
 
-    fn by_simulation(&self, simulated: &LongTermMotions) -> Result<Vec<Answered>, StudyError> {
-        let (found, proof) = simulated.main().ok_or(StudyError::NoMotion)?;
-        let (answer, known_by) = match proof {
-            Some(proof) => (Answer::of_proof(proof), KnownBy::Closure),
-            None => (self.long_enough(found)?, KnownBy::Scatter),
+    fn by_simulation(&self, motions: &Motions) -> Result<Vec<Answered>, StudyError> {
+        let main = motions.main().ok_or(StudyError::NoMotion)?;
+        let known_by = match main.kind() {
+            Kind::Wanders => KnownBy::Scatter,
+            Kind::Orbit(_) | Kind::Rest(_) | Kind::Repeats(_) => KnownBy::Closure,
         };
-        let answer = Answer { regime: Some(found.regime()), ..answer };
+        let answer = Estimate::of_motion(main);
         let errors = [answer.scatter, answer.impacts_scatter];
         let errors = errors.map(|scatter| scatter.unwrap_or(f64::INFINITY));
         Ok(self.told(Method::Simulation, known_by, &answer, errors))
@@ -325,7 +331,7 @@ impl Plan {
         &self,
         layer: Method,
         known_by: KnownBy,
-        answer: &Answer,
+        answer: &Estimate,
         errors: [f64; 2],
     ) -> Vec<Answered> {
         let number = |question, value: Option<f64>, error: f64, allowed: f64| Answered {
@@ -349,29 +355,7 @@ impl Plan {
             },
         ]
     }
-
-    /// Measures the motion over windows that double until their scatter is small enough.
-    fn long_enough(&self, main: &FoundAttractor) -> Result<Answer, StudyError> {
-        let mut simulation = Simulation::new(&self.system, main.attractor.state, 0.0)?;
-        let mut periods = SHORTEST;
-        loop {
-            let before = simulation.operations();
-            let answer = measured(&mut simulation, periods).ok_or(StudyError::NoMotion)?;
-            operation_count::note(simulation.operations() - before);
-            let within = |scatter: Option<f64>, allowed: f64| scatter.is_some_and(|s| s <= allowed);
-            let enough = within(answer.scatter, self.demand.amplitude)
-                && within(answer.impacts_scatter, self.demand.impacts_per_period);
-            if enough || periods >= LONGEST {
-                return Ok(answer);
-            }
-            periods *= 2;
-        }
-    }
 }
-
-/// Window that is measured first, and the longest one tried: a minute of a fast machine.
-const SHORTEST: u64 = 2000;
-const LONGEST: u64 = 512_000;
 
 impl Answered {
     fn new(question: Question, layer: Method, known_by: KnownBy) -> Self {

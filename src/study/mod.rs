@@ -1,39 +1,33 @@
 //! Puts the layers together for one case: what is analysed, simulated and confronted, and how far
 //! the nearest boundaries are.
 
-pub mod answer;
 pub mod averages;
 pub mod confirmations;
 pub mod deviations;
 pub mod diagrams;
+pub mod estimate;
 pub mod exact_branches;
 pub mod fidelity;
 pub mod margins;
 pub mod plots;
-pub mod proofs;
 pub mod scenes;
 pub mod stretches;
 
-use crate::analysis::motion::state_of;
 use crate::analysis::{Analysis, AnalysisError};
-use crate::band::{Band, Inactive, Rivals, Survey};
-use crate::case::{Case, SimulationSettings};
-use crate::operation_count;
+use crate::band::{Band, Rivals, Survey};
+use crate::case::Case;
+use crate::executor::Executor;
+use crate::motions::{DiagramError, Effort, Measured, Motion, Motions, at_rest, measured};
 use crate::orbits::FullSystem;
-use crate::regimes::FoundAttractor;
-use crate::regimes::diagram::DiagramError;
-use crate::regimes::search;
 use crate::simulation::StartError;
-use crate::system::{State, System};
+use crate::system::System;
 use crate::validation::asymptotic_error::asymptotic_errors;
 use crate::validation::{self, AsymptoticError, Claim};
 
-pub use crate::regimes::search::SearchEffort as StudyEffort;
 pub use averages::Averages;
 pub use confirmations::Confirmations;
 pub use deviations::Deviations;
 pub use margins::Margins;
-pub use proofs::{LongTermMotions, Proof};
 
 /// Why a case cannot be studied.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -50,6 +44,9 @@ pub enum StudyError {
         "no start led to a motion that could be measured; ask for more than 0 starts in [simulation]"
     )]
     NoMotion,
+    /// A study was read where nobody had asked for one.
+    #[error("the case was not studied; ask for a study of it")]
+    NotStudied,
     /// The layer that was insisted on has no answer.
     #[error("the {layer} was asked for, but it has no answer here: {why}; {instead}")]
     NoAnswer {
@@ -65,26 +62,15 @@ pub enum StudyError {
     Diagram(#[from] DiagramError),
 }
 
-impl StudyEffort {
-    /// The effort that a case asks for; the default where it leaves the choice.
-    pub fn of(settings: &SimulationSettings) -> Self {
-        let default = Self::default();
-        let starts = settings.starts.and_then(|starts| u32::try_from(starts).ok());
-        Self {
-            starts: starts.unwrap_or(default.starts),
-            discard: settings.discard.or(default.discard),
-            periods: settings.periods.unwrap_or(default.periods),
-        }
-    }
-}
-
 /// Everything that is known about a case.
 #[derive(Debug, Clone)]
 pub struct CaseStudy {
     /// The theory.
     pub analysis: Analysis,
-    /// Every long-term motion that was found, with its proof; none where nothing was simulated.
-    pub motions: LongTermMotions,
+    /// Every long-term motion at the case's own excitation; none where nothing was simulated.
+    pub motions: Motions,
+    /// Each of them measured in full.
+    pub measured: Vec<Measured>,
     /// Theory against simulation.
     pub claims: Vec<Claim>,
     /// The exact layer: symmetric orbits and the boundaries around them.
@@ -96,7 +82,7 @@ pub struct CaseStudy {
     /// What simulation says of them.
     pub confirmations: Confirmations,
     /// How thoroughly.
-    pub effort: StudyEffort,
+    pub effort: Effort,
     /// What is known along the case's band; none without one.
     pub band: Option<Survey>,
     /// The averaged flow; none where nobody asked for it.
@@ -105,47 +91,46 @@ pub struct CaseStudy {
     pub simulated: bool,
     /// The bare oscillator and a tuned mass damper at the case's own excitation.
     pub rivals: Rivals,
-    /// What an absorber that starts from rest leaves where it stays inactive.
-    pub inactive: Option<Inactive>,
+    /// The motion with an absorber that stays at rest, where it does from some resting places.
+    pub rest: Option<Motion>,
     /// What deviations of a rig make of it; none where nobody asked for it.
     pub deviations: Option<Deviations>,
 }
 
 impl CaseStudy {
-    /// Studies a system; `progress` is told how much of [`CaseStudy::steps`] was done.
+    /// Studies a system whose long-term motions were found with an effort.
     ///
     /// # Errors
     /// [`StudyError`] where theory or simulation cannot be carried out.
-    pub fn of(
-        system: &System,
-        effort: StudyEffort,
-        progress: &mut dyn FnMut(u64),
-    ) -> Result<Self, StudyError> {
+    pub fn of(system: &System, motions: &Motions, effort: Effort) -> Result<Self, StudyError> {
         let study = Self::without_simulation(system, effort)?;
-        let motions = long_term_motions(&study.analysis, &effort, progress)?;
+        let each = motions.iter();
+        let each = each.map(|one| measured(system, one, &effort, &mut Measured::log()));
+        let measured: Vec<Measured> = each.collect::<Result<_, StartError>>()?;
         let (analysis, exact) = (&study.analysis, &study.exact);
         let window = effort.window(system);
-        let (inactive, found) = (study.inactive.as_ref(), &motions.attractors);
-        let further = validation::confront_simulation(analysis, exact, inactive, found, &window)?;
-        let confirmations = Confirmations::of(exact, &study.margins)?;
+        let further =
+            validation::confront_simulation(analysis, exact, motions, &measured, &window)?;
+        let confirmations = Confirmations::of(exact, &study.margins, motions)?;
         let mut claims = study.claims;
         claims.extend(further);
         Ok(Self {
-            motions,
+            motions: motions.clone(),
+            measured,
             claims,
             confirmations,
-            effort: StudyEffort { discard: Some(window.discard), ..effort },
+            effort: Effort { discard: Some(window.discard), ..effort },
             simulated: true,
             ..study
         })
     }
 
-    /// The same from theory and exact orbits alone: attractors, and whatever simulation would confirm,
+    /// The same from theory and exact orbits alone: motions, and whatever simulation would confirm,
     /// stay empty.
     ///
     /// # Errors
     /// [`StudyError`] where the theory cannot be carried out.
-    pub fn without_simulation(system: &System, effort: StudyEffort) -> Result<Self, StudyError> {
+    pub fn without_simulation(system: &System, effort: Effort) -> Result<Self, StudyError> {
         let sketch = Self::sketch(system)?;
         let (analysis, exact) = (&sketch.analysis, &sketch.exact);
         Ok(Self {
@@ -153,7 +138,7 @@ impl CaseStudy {
             asymptotic_errors: asymptotic_errors(analysis, exact),
             margins: Margins::of(analysis, exact),
             effort,
-            inactive: Inactive::of(system),
+            rest: at_rest(system),
             ..sketch
         })
     }
@@ -167,17 +152,18 @@ impl CaseStudy {
         let analysis = Analysis::of(system)?;
         let clearance = validation::boundaries::clearances(&analysis);
         Ok(Self {
-            motions: LongTermMotions::default(),
+            motions: Motions::default(),
+            measured: Vec::new(),
             claims: Vec::new(),
             asymptotic_errors: Vec::new(),
             margins: Margins { clearance, exact: None, best_clearance: None },
             confirmations: Confirmations::default(),
-            effort: StudyEffort::default(),
+            effort: Effort::default(),
             band: None,
             averages: None,
             simulated: false,
             rivals: Rivals::along(&Band::point(system)),
-            inactive: None,
+            rest: None,
             deviations: None,
             exact: FullSystem::of(system),
             analysis,
@@ -202,7 +188,7 @@ impl CaseStudy {
             return Ok(self);
         }
         let averages = Averages::of(system)?.with_cycle(system);
-        let found = &self.motions.attractors;
+        let found = &self.motions;
         if !averages.curve.depends_on_start {
             let Averages { states, cycle, range, .. } = &averages;
             let claims =
@@ -216,45 +202,22 @@ impl CaseStudy {
     ///
     /// # Errors
     /// [`StudyError`] where a motion cannot be simulated.
-    pub fn with_deviations(self, case: &Case) -> Result<Self, StudyError> {
-        Ok(Self { deviations: Deviations::of(case, &self)?, ..self })
+    pub fn with_deviations(self, case: &Case, on: &dyn Executor) -> Result<Self, StudyError> {
+        Ok(Self { deviations: Deviations::of(case, &self, on)?, ..self })
     }
 
     /// What was simulated, if anything was.
-    pub fn simulated_motions(&self) -> Option<&LongTermMotions> {
+    pub fn simulated_motions(&self) -> Option<&Motions> {
         self.simulated.then_some(&self.motions)
     }
 
-    /// Number of progress steps that a study takes, about.
-    pub fn steps(effort: &StudyEffort) -> u64 {
-        u64::from(effort.starts) + 2
+    /// Each motion with what was measured of it.
+    pub fn each(&self) -> impl Iterator<Item = (&Motion, &Measured)> {
+        self.motions.iter().zip(&self.measured)
     }
 
-    /// The moving attractor that most starts lead to, or rest if there is no other.
-    pub fn main_attractor(&self) -> Option<&FoundAttractor> {
-        self.motions.main().map(|(main, _)| main)
+    /// The main motion: the moving one that most starts lead to, or rest if there is no other.
+    pub fn main(&self) -> Option<(&Motion, &Measured)> {
+        self.each().nth(self.motions.main_index()?)
     }
-}
-
-/// Every long-term motion that evenly spread starts and the theory's predictions lead to.
-///
-/// # Errors
-/// [`StartError`] if a predicted motion cannot be simulated.
-pub fn long_term_motions(
-    analysis: &Analysis,
-    effort: &StudyEffort,
-    progress: &mut dyn FnMut(u64),
-) -> Result<LongTermMotions, StartError> {
-    let system = &analysis.system;
-    let find = || search::find(system, &predicted_starts(analysis), effort, progress);
-    let (found, operations) = operation_count::counted(find);
-    Ok(LongTermMotions { operations, ..LongTermMotions::proven(system, found?, effort.starts) })
-}
-
-/// Starts on every motion that theory predicts, rest included.
-fn predicted_starts(analysis: &Analysis) -> Vec<State> {
-    let system = &analysis.system;
-    let rest = system.linear_response().map(|linear| linear.state(system));
-    let rest = rest.filter(|state| state.relative_displacement().abs() < 1.0);
-    analysis.fixed_points.iter().map(|point| state_of(point, system)).chain(rest).collect()
 }

@@ -7,7 +7,8 @@ use serde::Serialize;
 
 use crate::analysis::Analysis;
 use crate::analysis::motion::{read_off, state_of};
-use crate::regimes::{Attractor, Effort, Exponent, Lyapunov, Motion, Regime, Window, long_term};
+use crate::motions::{Effort, Measured, Motion, Window, follow};
+use crate::regimes::{Exponent, Lyapunov, Regime};
 use crate::simulation::{Impact, Simulation, StartError, Stop, Trace};
 use crate::system::{InvalidParameter, State, System};
 
@@ -16,7 +17,8 @@ use super::diagrams::START;
 
 /// Effort of one point of a map: enough to recognise a regime. More than ten thousand impacts in a
 /// few hundred periods are recognised as more than two per period without going on.
-const POINT: Effort = Effort { discard: None, periods: 100, most_impacts: 25 };
+const POINT: u64 = 100;
+const MOST_IMPACTS_OF_POINT: u64 = 25;
 /// Impacts after which an exponent is given up: some hundred per period, far above any settled motion
 /// that a design would want.
 const MOST_IMPACTS: u64 = 200_000;
@@ -108,9 +110,9 @@ pub fn walk(system: &System, clearances: &[f64]) -> Result<Vec<WalkPoint>, Study
     let point = |(clearance, there, motion): (f64, System, Motion)| {
         Ok(WalkPoint {
             clearance,
-            peak: clearance * motion.peak,
-            regime: motion.regime,
-            amplitudes: amplitudes(&there, &Attractor::reach(&there, motion.state, &MEASURED)?),
+            peak: clearance * motion.facts().peak.value,
+            regime: motion.regime(),
+            amplitudes: amplitudes(&there, &Measured::reach(&there, motion.state(), &MEASURED)?),
         })
     };
     found.into_iter().map(point).collect()
@@ -130,13 +132,14 @@ pub fn visited(
     let start = |(_, there): &(f64, System)| Ok((*there, moving_start(&Analysis::of(there)?)));
     let starts: Vec<(System, State)> =
         there.iter().map(start).collect::<Result<_, StudyError>>()?;
-    let ended = there.into_iter().zip(long_term(&starts, &POINT)?);
+    let effort = Effort { most_impacts: MOST_IMPACTS_OF_POINT, ..Effort::over(POINT) };
+    let ended = there.into_iter().zip(follow(&starts, &effort)?);
     let followed = ended.filter_map(|((value, there), motion)| Some((value, there, motion?)));
-    Ok(followed.filter(|(_, _, motion)| motion.stop == Stop::EndTime).collect())
+    Ok(followed.filter(|(_, _, motion)| motion.stop() == Stop::EndTime).collect())
 }
 
-fn amplitudes(system: &System, reached: &Attractor) -> [f64; 2] {
-    let wanders = matches!(reached.regime, Regime::StronglyModulated | Regime::BelowTwo);
+fn amplitudes(system: &System, reached: &Measured) -> [f64; 2] {
+    let wanders = matches!(reached.regime(), Regime::StronglyModulated | Regime::BelowTwo);
     if !wanders || reached.impacts.is_empty() {
         let seen = read_off(system, reached.oscillator_harmonic, reached.absorber_harmonic);
         return [seen.absorber_amplitude, seen.oscillator_amplitude];

@@ -4,6 +4,7 @@ use super::facts::{Facts, Found};
 use super::{Plan, Point};
 use crate::analysis::{Area, Strip};
 use crate::case::{Design, Recorded};
+use crate::motions::Motion;
 use crate::quantity::catalogue as of;
 use crate::quantity::{Dimension, Kind};
 use crate::regimes::Regime;
@@ -194,12 +195,11 @@ pub(super) fn cells(plan: &Plan, facts: &Facts) -> Vec<Option<Cell>> {
                 cells.push(zone.and_then(|zone| zone.strip).map(Strip::key).map(Cell::Text));
             }
             Recorded::Regime => {
-                cells.push(found.main().map(|motion| Cell::Text(motion.regime.key())));
+                cells.push(found.motions.main().map(|motion| Cell::Text(motion.regime().key())));
             }
-            Recorded::Section => cells.extend(
-                (0..SECTION)
-                    .map(|k| found.section.get(k).map(|x| Cell::Number(point.scales.length(*x)))),
-            ),
+            Recorded::Section => cells.extend((0..SECTION).map(|k| {
+                found.section.displacements.get(k).map(|x| Cell::Number(point.scales.length(*x)))
+            })),
             other => cells.push(number(other, facts, found).map(Cell::Number)),
         }
     }
@@ -210,34 +210,39 @@ pub(super) fn cells(plan: &Plan, facts: &Facts) -> Vec<Option<Cell>> {
 fn number(recorded: Recorded, facts: &Facts, found: &Found) -> Option<f64> {
     let scales = &facts.point.scales;
     let length = |over_clearance: f64| scales.length(over_clearance);
-    let main = || found.main();
     let motions = &found.motions;
+    let main = || motions.main();
+    let facts_of = || motions.main().map(Motion::facts);
+    // A point has no criteria of its own: what the case leaves out is not for it to say.
+    let counting = || motions.counting(true).map(|(_, motion)| motion);
     match recorded {
         Recorded::TheoryPeak => facts.theory_peak().map(length),
         Recorded::BoundaryDistance => facts.boundary_distance(),
         Recorded::BareAmplitude => facts.bare().map(length),
-        Recorded::OrbitPeak => Some(length(facts.orbit()?.peaks.displacement)),
-        Recorded::OrbitMultiplier => Some(facts.orbit()?.orbit.radius_per_period()),
+        Recorded::OrbitPeak => Some(length(facts.orbit()?.facts().peak.value)),
+        Recorded::OrbitMultiplier => facts.orbit()?.largest_multiplier(),
         Recorded::OrbitReached => {
-            let peak = facts.orbit()?.peaks.displacement;
-            Some(f64::from(motions.iter().any(|motion| motion.is_orbit_with_peak(peak))))
+            facts.orbit()?;
+            let reached = |motion: &Motion| motion.is_one_to_one() && motion.reached().starts > 0;
+            Some(f64::from(motions.iter().any(reached)))
         }
-        Recorded::ImpactsPerPeriod => Some(main()?.impacts_per_period),
-        Recorded::Peak => Some(length(main()?.peak)),
-        Recorded::Rms => Some(length(main()?.rms)),
-        Recorded::ReductionDb => Some(20.0 * libm::log10(facts.bare()? / main()?.peak)),
-        Recorded::Efficiency => main()?.efficiency,
-        Recorded::ImpactSpeed => Some(scales.velocity(main()?.impact_speed)),
-        Recorded::RepeatsAfter => main()?.repeats_after.map(f64::from),
-        Recorded::Lyapunov => found.lyapunov,
+        Recorded::ImpactsPerPeriod => Some(facts_of()?.impacts_per_period.value),
+        Recorded::Peak => Some(length(facts_of()?.peak.value)),
+        Recorded::Rms => Some(length(facts_of()?.rms.value)),
+        Recorded::ReductionDb => Some(20.0 * libm::log10(facts.bare()? / facts_of()?.peak.value)),
+        Recorded::Efficiency => facts_of()?.efficiency.map(|share| share.value),
+        Recorded::ImpactSpeed => Some(scales.velocity(facts_of()?.impact_speed.value)),
+        Recorded::RepeatsAfter => main()?.repeats_after().map(f64::from),
+        Recorded::Lyapunov => found.section.exponent,
         Recorded::ShareOfStarts => {
-            let all: u32 = motions.iter().map(|motion| motion.starts).sum();
-            Some(f64::from(main()?.starts) / f64::from(all))
+            let all = f64::from(motions.of_starts().max(1));
+            Some(f64::from(main()?.reached().starts) / all)
         }
         Recorded::LargestPeak => {
-            motions.iter().map(|motion| motion.peak).max_by(f64::total_cmp).map(length)
+            let peaks = counting().map(|motion| motion.facts().peak.value);
+            peaks.max_by(f64::total_cmp).map(length)
         }
-        Recorded::Motions => Some(motions.len() as f64).filter(|count| *count > 0.0),
+        Recorded::Motions => Some(counting().count() as f64).filter(|_| !motions.is_empty()),
         _ => None,
     }
 }

@@ -5,8 +5,7 @@ use std::cell::OnceCell;
 
 use super::Point;
 use crate::analysis::{AsymmetricLimits, FixedPointCurve, Manifold, Zone, fixed_points};
-use crate::orbits::{SteadyOrbit, steady_orbit};
-use crate::regimes::Motion;
+use crate::motions::{Motion, Motions, Section, steady};
 use crate::system::System;
 
 /// A point and what was found there.
@@ -14,25 +13,16 @@ pub(super) struct Facts<'a> {
     pub point: &'a Point,
     /// What simulation finds: from several starts; or followed upwards and downwards.
     pub found: Vec<Found>,
-    orbit: OnceCell<Option<SteadyOrbit>>,
+    orbit: OnceCell<Option<Motion>>,
 }
 
 /// What simulation finds, from several starts or in one direction.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Found {
-    /// Distinct motions, in the order in which starts led to them.
-    pub motions: Vec<Motion>,
-    /// Lyapunov exponent of the main one, per excitation period.
-    pub lyapunov: Option<f64>,
-    /// Displacements of the main one at the end of successive excitation periods.
-    pub section: Vec<f64>,
-}
-
-impl Found {
-    /// The motion that most starts lead to, the first of several.
-    pub fn main(&self) -> Option<&Motion> {
-        self.motions.iter().rev().max_by_key(|motion| motion.starts)
-    }
+    /// The long-term motions.
+    pub motions: Motions,
+    /// A second look at the main one.
+    pub section: Section,
 }
 
 /// Relative distance from a boundary to where it is looked whether the area there is another.
@@ -86,9 +76,10 @@ impl<'a> Facts<'a> {
         self.point.system.as_ref().and_then(System::linear_response).map(|found| found.amplitude())
     }
 
-    /// The exact 1:1 orbit that attracts.
-    pub fn orbit(&self) -> Option<&SteadyOrbit> {
-        let solved = || self.point.system.as_ref().and_then(steady_orbit);
-        self.orbit.get_or_init(solved).as_ref()
+    /// The 1:1 motion that attracts: of the list where there is one.
+    pub fn orbit(&self) -> Option<&Motion> {
+        let listed = self.found.iter().find_map(|found| found.motions.steady());
+        let solved = || self.point.system.as_ref().and_then(steady);
+        listed.or_else(|| self.orbit.get_or_init(solved).as_ref())
     }
 }

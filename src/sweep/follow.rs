@@ -4,9 +4,8 @@
 use super::facts::Found;
 use super::{Plan, Point};
 use crate::case::Scales;
-use crate::regimes::diagram::carried_over;
-use crate::regimes::starts::FROM_REST;
-use crate::regimes::{Effort, long_term};
+use crate::motions::starts::FROM_REST;
+use crate::motions::{Effort, Motions, carried_over, follow};
 use crate::simulation::StartError;
 use crate::system::{Parameter, State};
 
@@ -50,11 +49,11 @@ pub(super) fn along(plan: &Plan, points: &[Point]) -> Result<Vec<Vec<Found>>, St
             let carried = |(state, from)| carried(state, from, &point.scales);
             Some((point.system?, stand.map_or(FROM_REST, carried)))
         });
-        let mut motions = long_term(&starts.collect::<Vec<_>>(), &effort)?.into_iter();
+        let mut motions = follow(&starts.collect::<Vec<_>>(), &effort)?.into_iter();
         for (line, point) in here().enumerate() {
             let motion = point.system.and_then(|_| motions.next().flatten());
-            stands[line] = motion.map(|motion| (motion.state, &point.scales));
-            let motions = motion.into_iter().collect();
+            stands[line] = motion.as_ref().map(|motion| (motion.state(), &point.scales));
+            let motions = motion.map(Motions::of_one).unwrap_or_default();
             found[line * length + k].push(Found { motions, ..Found::default() });
         }
     }

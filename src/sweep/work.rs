@@ -6,17 +6,15 @@ use super::columns::{self, Column, SECTION};
 use super::facts::{Facts, Found};
 use super::follow;
 use super::{Plan, Point};
-use crate::case::Recorded;
-use crate::regimes::long_term::motions;
-use crate::regimes::{Effort, Lyapunov, starts};
-use crate::simulation::{Detail, Observer, Simulation, StartError, batch};
-use crate::system::{State, System};
+use crate::case::{Recorded, SweepSettings};
+use crate::executor::Serial;
+use crate::motions::{Effort, Motion, Place, Section, motions, sections};
+use crate::simulation::StartError;
+use crate::system::System;
 
 /// Trajectories side by side: many times the lanes of a batch, so that they are filled, and few enough
 /// for their records to stay in a processor's cache and out of the way.
 const TRAJECTORIES: u64 = 256;
-/// Impacts per period at which an extra measurement of a motion is given up, as motions are.
-const MOST_IMPACTS: u64 = 1000;
 
 /// The results of some points, in their order. Where a motion is followed, these are whole lines.
 ///
@@ -64,9 +62,9 @@ fn simulated(plan: &Plan, points: &[Point]) -> Result<Vec<Vec<Found>>, StartErro
 }
 
 fn from_starts(plan: &Plan, points: &[Point]) -> Result<Vec<Vec<Found>>, StartError> {
-    let places: Vec<Option<_>> = points.iter().map(|point| startable(plan, point)).collect();
-    let there: Vec<(System, Vec<State>)> = places.iter().flatten().cloned().collect();
-    let mut all = motions(&there, &Effort::over(plan.settings.periods))?.into_iter();
+    let places: Vec<Option<Place>> = points.iter().map(|point| place(plan, point)).collect();
+    let there: Vec<Place> = places.iter().flatten().cloned().collect();
+    let mut all = motions(&there, &effort(plan), &Serial)?.into_iter();
     let found = places.iter().map(|place| {
         let motions = place.as_ref().and_then(|_| all.next()).unwrap_or_default();
         vec![Found { motions, ..Found::default() }]
@@ -74,58 +72,36 @@ fn from_starts(plan: &Plan, points: &[Point]) -> Result<Vec<Vec<Found>>, StartEr
     Ok(found.collect())
 }
 
+/// How thoroughly motions of a point are searched: as of a case, with as many starts and periods as the sweep asks for.
+fn effort(plan: &Plan) -> Effort {
+    let SweepSettings { starts, periods, .. } = plan.settings;
+    Effort { starts, periods, ..Effort::default() }
+}
+
 /// The system of a point and its starts: the one that axes say, if it is possible, or the usual ones.
-fn startable(plan: &Plan, point: &Point) -> Option<(System, Vec<State>)> {
+fn place(plan: &Plan, point: &Point) -> Option<Place> {
     let system = point.system?;
-    let starts = match point.start {
+    Some(match point.start {
         Some(start) if start.relative_displacement().abs() > 1.0 => return None,
-        Some(start) => vec![start],
-        None => starts::of(&system, plan.settings.starts).collect(),
-    };
-    Some((system, starts))
+        Some(start) => Place::with(&system, vec![start]),
+        None => Place::new(&system, plan.settings.starts),
+    })
 }
 
 /// Adds what only a second look at the main motions tells: exponents and sections.
 fn look_closer(plan: &Plan, points: &[Point], found: &mut [Vec<Found>]) -> Result<(), StartError> {
-    let mut all: Vec<(&mut Found, Simulation)> = Vec::new();
-    for (point, ways) in points.iter().zip(found) {
-        for one in ways {
-            let state = one.main().map(|motion| motion.state);
-            if let Some((system, state)) = point.system.zip(state) {
-                all.push((one, Simulation::new(&system, state, 0.0)?));
-            }
-        }
-    }
-    let (mut found, mut simulations): (Vec<&mut Found>, Vec<Simulation>) = all.into_iter().unzip();
-    let mut sections: Vec<Section> = simulations.iter().map(|_| Section::default()).collect();
-    let periods = SECTION as u64;
-    batch::run(&mut simulations, periods, periods * MOST_IMPACTS, &mut sections);
-    for (one, section) in found.iter_mut().zip(sections) {
-        one.section = section.displacements;
-    }
-    if plan.settings.record.contains(&Recorded::Lyapunov) {
-        let periods = plan.settings.periods;
-        let mut exponents: Vec<Lyapunov> =
-            simulations.iter().map(|one| Lyapunov::begin(one.system())).collect();
-        batch::run(&mut simulations, periods, periods * MOST_IMPACTS, &mut exponents);
-        for (one, exponent) in found.iter_mut().zip(exponents) {
-            one.lyapunov = exponent.exponent().map(|found| found.per_period);
-        }
+    let ways = points.iter().zip(&*found).flat_map(|(point, ways)| {
+        ways.iter().map(|one| Some((point.system?, one.motions.main()?)))
+    });
+    let main: Vec<Option<(System, &Motion)>> = ways.collect();
+    let there: Vec<(System, &Motion)> = main.iter().flatten().copied().collect();
+    let exponent = plan.settings.record.contains(&Recorded::Lyapunov);
+    let periods = exponent.then_some(plan.settings.periods);
+    let mut sections = sections(&there, SECTION as u64, periods)?.into_iter();
+    let seen: Vec<Option<Section>> =
+        main.iter().map(|one| one.and_then(|_| sections.next())).collect();
+    for (one, section) in found.iter_mut().flatten().zip(seen) {
+        one.section = section.unwrap_or_default();
     }
     Ok(())
-}
-
-/// Keeps the oscillator's displacement at the end of each period.
-#[derive(Default)]
-struct Section {
-    displacements: Vec<f64>,
-}
-
-impl Observer for Section {
-    fn detail(&self) -> Detail {
-        Detail::Events
-    }
-    fn period(&mut self, state: &State) {
-        self.displacements.push(state.x);
-    }
 }

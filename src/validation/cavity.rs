@@ -7,10 +7,10 @@ use super::motions::ROUNDING;
 use super::tolerance::{SAYS_NOTHING, asymptotic_error};
 use super::{Claim, Finding, Reason, Statement, Verdict};
 use crate::analysis::motion::{read_off, wrapped};
-use crate::band::{Inactive, inactive::Rest};
 use crate::cavity::{CavityTheory, FixedPoint, Forcing};
+use crate::motions::{Measured, Motion, RestKind, SettlingTime, Window};
 use crate::orbits::{FullSystem, Measures, Orbit};
-use crate::regimes::{Attractor, Regime, Transient, Window};
+use crate::regimes::Regime;
 use crate::simulation::StartError;
 use crate::system::System;
 
@@ -130,31 +130,37 @@ fn numbers_claims(point: usize, [theory, orbit]: [&Numbers; 2], errors: [f64; 2]
     })
 }
 
-/// The absorber that rests, where it may: the structure's peak, gravity included, against simulation.
-pub fn inactive(
+/// The absorber that rests, where it may: the structure's peak in closed form, gravity included, against simulation.
+pub fn at_rest(
     system: &System,
-    known: Option<&Inactive>,
+    known: Option<&Motion>,
     window: &Window,
 ) -> Result<Option<Claim>, StartError> {
-    let Some(known) = known.filter(|known| known.amplitude > 0.0) else { return Ok(None) };
+    let resting = known.and_then(|motion| Some((motion, motion.rest()?)));
+    let Some((motion, rest)) = resting.filter(|(_, rest)| rest.amplitude > 0.0) else {
+        return Ok(None);
+    };
     let cavity = system.cavity();
     let omega = system.frequency_ratio();
     // The absorber's amplitude over the structure's.
-    let slides = 2.0 * FRAC_2_PI * cavity.friction_acceleration / (omega * omega * known.amplitude);
-    let (tolerance, reason) = match known.rest {
-        Rest::Held | Rest::Floating => (ROUNDING, Reason::Rounding),
-        Rest::Sliding => {
+    let slides = 2.0 * FRAC_2_PI * cavity.friction_acceleration / (omega * omega * rest.amplitude);
+    let (peak, tolerance, reason) = match rest.rest {
+        RestKind::Held | RestKind::Floating => {
+            (motion.facts().peak.value, ROUNDING, Reason::Rounding)
+        }
+        RestKind::Sliding => {
             let tolerance = slides * slides;
-            (tolerance, Reason::DryFriction { says_nothing: tolerance > SAYS_NOTHING })
+            let reason = Reason::DryFriction { says_nothing: tolerance > SAYS_NOTHING };
+            (rest.amplitude, tolerance, reason)
         }
     };
     // What slides was simulated from rest: of the transient the square is left, 4e-11.
-    let discard = window.discard.max(Transient::of(system).periods);
+    let discard = window.discard.max(SettlingTime::of(system).periods);
     let window = Window { discard, ..*window };
-    let reached = Attractor::reach(system, known.start, &window)?;
-    let peaks = [known.peak, reached.peak];
-    let statement = Statement::Inactive { absorber: known.rest };
+    let reached = Measured::reach(system, motion.state(), &window)?;
+    let peaks = [peak, reached.facts.peak.value];
+    let statement = Statement::Inactive { absorber: rest.rest };
     let claim = Claim::of_number(statement, peaks, tolerance, reason);
-    let rests = reached.classification.regime == Regime::AtRest;
+    let rests = reached.regime() == Regime::AtRest;
     Ok(Some(if rests { claim } else { Claim { verdict: Verdict::Refuted, ..claim } }))
 }

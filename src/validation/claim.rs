@@ -5,8 +5,8 @@ use serde::Serialize;
 use super::tolerance::SAYS_NOTHING;
 use crate::analysis::motion::wrapped;
 use crate::analysis::{Area, Strip};
-use crate::band::inactive::Rest;
 use crate::method::Method;
+use crate::motions::RestKind;
 use crate::orbits::Bifurcation;
 use crate::regimes::Regime;
 
@@ -45,7 +45,7 @@ pub enum Statement {
     /// The absorber rests, and the oscillator vibrates as if alone.
     Rest,
     /// The absorber of a cavity that is not ideal rests, and the oscillator vibrates accordingly.
-    Inactive { absorber: Rest },
+    Inactive { absorber: RestKind },
     /// Where the case lies.
     Area { area: Area, strip: Option<Strip> },
     /// An exact orbit repeats after one period.

@@ -21,10 +21,8 @@ pub use asymptotic_error::AsymptoticError;
 pub use claim::{Claim, Finding, NearBoundary, Reached, Reason, Statement, Verdict};
 
 use crate::analysis::Analysis;
-use crate::band::Inactive;
-use crate::band::inactive::Rest;
+use crate::motions::{Measured, Motion, Motions, RestKind, Window};
 use crate::orbits::FullSystem;
-use crate::regimes::{FoundAttractor, Window};
 use crate::simulation::StartError;
 
 /// Confronts the theory with the exact orbits, and nothing with simulation: the theory of the case's own cavity.
@@ -37,29 +35,30 @@ pub fn confront_theory(analysis: &Analysis, exact: &FullSystem) -> Vec<Claim> {
     claims
 }
 
-/// Confronts the exact orbits with simulation, and them and the theory with the attractors that were found. Areas are
-/// those of an ideal cavity, and claim nothing of another one.
+/// Confronts the exact orbits with simulation, and them and the theory with the motions that were found, each of which was
+/// measured. Areas are those of an ideal cavity, and claim nothing of another one.
 ///
 /// # Errors
 /// [`StartError`] if a predicted motion lies outside the cavity.
 pub fn confront_simulation(
     analysis: &Analysis,
     exact: &FullSystem,
-    inactive: Option<&Inactive>,
-    attractors: &[FoundAttractor],
+    found: &Motions,
+    measured: &[Measured],
     window: &Window,
 ) -> Result<Vec<Claim>, StartError> {
     let mut claims = orbits::simulated(exact)?;
     if !exact.system.cavity().is_ideal() {
-        claims.extend(match inactive.map(|known| known.rest) {
+        let rest = found.rest().filter(|rest| rest.is_solved());
+        claims.extend(match rest.and_then(Motion::rest).map(|known| known.rest) {
             // Ends that differ leave an absorber at rest alone.
-            Some(Rest::Floating) => motions::rest(analysis, window)?,
-            _ => cavity::inactive(&exact.system, inactive, window)?,
+            Some(RestKind::Floating) => motions::rest(analysis, window)?,
+            _ => cavity::at_rest(&exact.system, rest, window)?,
         });
         return Ok(claims);
     }
     claims.extend(orbits::limits(exact)?);
     claims.extend(motions::rest(analysis, window)?);
-    claims.push(motions::area(analysis, attractors));
+    claims.push(motions::area(analysis, found, measured));
     Ok(claims)
 }

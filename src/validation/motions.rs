@@ -9,8 +9,9 @@ use super::{Claim, Finding, Reason, Statement, Verdict};
 use crate::analysis::motion::read_off;
 use crate::analysis::{Analysis, Area, FixedPoint, Strip};
 use crate::dissipation::{ModulatedCycle, SteadyState};
+use crate::motions::{Kind, Measured, Motion, Motions, Window};
 use crate::orbits::{FullSystem, Measures, SymmetricOrbit};
-use crate::regimes::{Attractor, DynamicsKind, FoundAttractor, Regime, Window};
+use crate::regimes::{DynamicsKind, Regime};
 use crate::simulation::StartError;
 use crate::system::System;
 
@@ -104,11 +105,11 @@ pub fn rest(analysis: &Analysis, window: &Window) -> Result<Option<Claim>, Start
     if linear.amplitude() >= 1.0 || linear.amplitude() == 0.0 {
         return Ok(None);
     }
-    let reached = Attractor::reach(system, linear.state(system), window)?;
-    let rests = reached.classification.regime == Regime::AtRest;
+    let reached = Measured::reach(system, linear.state(system), window)?;
+    let rests = reached.regime() == Regime::AtRest;
     let claim = Claim::of_number(
         Statement::Rest,
-        [linear.amplitude(), reached.peak],
+        [linear.amplitude(), reached.facts.peak.value],
         ROUNDING,
         Reason::Rounding,
     );
@@ -116,22 +117,24 @@ pub fn rest(analysis: &Analysis, window: &Window) -> Result<Option<Claim>, Start
     Ok(Some(Claim { verdict, ..claim }))
 }
 
-/// What area and strip say of the attractors found. Beside a motion that repeats a chaotic one may be a
+/// What area and strip say of the motions found. Beside a motion that repeats a chaotic one may be a
 /// transient, and whether a start's is over by the end of the time that it is watched is chance, which
 /// the rounding of the last digit decides: what follows from such starts alone is undecided.
-pub fn area(analysis: &Analysis, attractors: &[FoundAttractor]) -> Claim {
-    let moving = attractors.iter().filter(|found| found.regime() != Regime::AtRest);
-    let (steady, others): (Vec<_>, Vec<_>) =
-        moving.partition(|found| found.regime() == Regime::TwoSymmetric);
-    let among = |regime| others.iter().any(|found| found.regime() == regime);
+pub fn area(analysis: &Analysis, found: &Motions, measured: &[Measured]) -> Claim {
+    type Seen<'a> = (&'a Motion, &'a Measured);
+    let all: Vec<Seen> = found.iter().zip(measured).collect();
+    let moving = all.iter().filter(|one| one.0.rest().is_none());
+    let (steady, others): (Vec<&Seen>, Vec<&Seen>) =
+        moving.partition(|one| one.0.regime() == Regime::TwoSymmetric);
+    let among = |regime| others.iter().any(|one| one.0.regime() == regime);
     let modulated = among(Regime::StronglyModulated);
-    let stays = |found: &&FoundAttractor| {
-        let dynamics = found.attractor.classification.dynamics;
-        matches!(dynamics, DynamicsKind::Periodic { .. } | DynamicsKind::QuasiPeriodic)
+    let stays = |(motion, measured): &Seen| {
+        let dynamics = measured.classification.dynamics;
+        !matches!(motion.kind(), Kind::Wanders) || dynamics == DynamicsKind::QuasiPeriodic
     };
     let beside = !others.is_empty();
-    let may_end = beside && !others.iter().any(stays);
-    let ended = steady.iter().any(|found| found.late_starts > 0);
+    let may_end = beside && !others.iter().any(|one| stays(one));
+    let ended = steady.iter().any(|one| one.0.reached().late > 0);
     let steady = !steady.is_empty();
     // What holds, and whether chance could have it otherwise.
     let (area, strip) = (analysis.zone.area, analysis.zone.strip);
@@ -152,7 +155,9 @@ pub fn area(analysis: &Analysis, attractors: &[FoundAttractor]) -> Claim {
         (Area::Z2 | Area::Z4, _) => (Finding::NotSteady, !steady && beside, false),
         (Area::Z1, _) => (Finding::AboveTwo, among(Regime::AboveTwo), false),
     };
-    let shares = attractors.iter().map(|found| (found.regime(), found.share)).collect();
+    let led = |one: &Motion| f64::from(one.reached().starts) / f64::from(found.of_starts().max(1));
+    let shares = found.iter().map(|one| (one.regime(), led(one)));
+    let shares = shares.filter(|(_, share)| *share > 0.0).collect();
     let open = by_chance || !steady && !beside;
     Claim::of_outcome(
         Statement::Area { area, strip },
@@ -184,12 +189,12 @@ pub fn averaged(
     states: &[SteadyState],
     cycle: Option<&ModulatedCycle>,
     [least, most]: [f64; 2],
-    attractors: &[FoundAttractor],
+    found: &Motions,
 ) -> Vec<Claim> {
     let has_amplitude =
         [Regime::AboveTwo, Regime::TwoAsymmetric, Regime::BelowTwo, Regime::StronglyModulated];
-    let observed = |found: &FoundAttractor| SQRT_2 * found.attractor.rms;
-    let known = attractors.iter().enumerate().filter(|(_, found)| {
+    let observed = |found: &Motion| SQRT_2 * found.facts().rms.value;
+    let known = found.iter().enumerate().filter(|(_, found)| {
         // A cycle has its own range.
         let modulated = cycle.is_some() && found.regime() == Regime::StronglyModulated;
         let within = modulated || (least..=most).contains(&observed(found));

@@ -5,8 +5,9 @@
 //! its disturbance shrink.
 
 use super::{Claim, Finding, Reached, Reason, Statement, Verdict};
+use crate::motions::{Measured, Window};
 use crate::orbits::{AfterImpact, Bifurcation, FullSystem, ImpactMap, Limit, Orbit, Peaks};
-use crate::regimes::{AbsorberAmplitude, Attractor, Window};
+use crate::regimes::AbsorberAmplitude;
 use crate::simulation::{Simulation, StartError};
 use crate::system::System;
 
@@ -134,14 +135,15 @@ pub fn limits(exact: &FullSystem) -> Result<Vec<Claim>, StartError> {
 
 fn stays(system: &System, after: &AfterImpact) -> Result<Reached, StartError> {
     let simulation = begun(system, after)?;
-    let found = Attractor::reach(system, simulation.state(), &WINDOW)?;
+    let found = Measured::reach(system, simulation.state(), &WINDOW)?;
     let AbsorberAmplitude { smallest, largest, .. } =
         found.classification.evidence.absorber_amplitude;
     // A modulation no deeper than the disturbance is left of it, where the motion is slow to settle.
     let steady = largest - smallest <= SMALL * (largest + smallest);
+    let repeats = found.classification.evidence.periodicity.map(|repetition| repetition.periods);
     Ok(Reached {
-        regime: found.regime,
-        repeats_after: found.repeats_after.or(steady.then_some(1)),
+        regime: found.regime(),
+        repeats_after: repeats.or(steady.then_some(1)),
         rests: found.sustained_contact.duration_tau > 0.0,
     })
 }

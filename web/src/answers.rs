@@ -4,12 +4,14 @@ use std::collections::BTreeMap;
 
 use serde::Deserialize;
 use serde_json::{Value, json};
+use vinesink::answer::{Answer, Asked};
 use vinesink::case::{Case, CaseError, Problem, RewriteError, Rounding};
+use vinesink::executor::Serial;
 use vinesink::report::document::{self, Source};
 use vinesink::report::figure::{self, Figure, PlacedPanel};
 use vinesink::report::{figures, template};
+use vinesink::study::CaseStudy;
 use vinesink::study::plots::{Map, Plot};
-use vinesink::study::{CaseStudy, StudyEffort};
 use vinesink::system::Parameter;
 use vinesink::transient::Scene;
 
@@ -92,9 +94,11 @@ fn parsed(text: &str) -> Result<Case, Value> {
     Ok(case)
 }
 
-/// The case at its own excitation: what it asks for along a band takes longer than a page can wait.
+/// The case at its own excitation: what it asks for along a band, and beside the usual figures, takes longer than a page can
+/// wait.
 fn alone(mut case: Case) -> Case {
     (case.band, case.criteria, case.accuracy) = (None, Vec::new(), None);
+    (case.report.figures, case.report.deviations) = (Vec::new(), false);
     case
 }
 
@@ -182,13 +186,13 @@ fn map(case: &Case) -> Result<Value, Value> {
 /// A study at the case's own excitation, without what would spoil it: its document, the first screen of the report,
 /// and the figures.
 fn study(case: &Case) -> Result<Value, Value> {
-    let effort = StudyEffort::of(&case.simulation);
-    let study = CaseStudy::of(&case.system(), effort, &mut |_| {}).map_err(words)?;
-    let figures = drawn(case, &study, &Plot::usual(&study).map_err(words)?)?;
+    let answer = Answer::of(case, Asked::Study, None, &Serial).map_err(words)?;
+    let study = answer.studied().map_err(words)?;
+    let figures = drawn(case, study, &Plot::usual(study).map_err(words)?)?;
     let document = document::document(&Source {
         name: "live",
         case,
-        study: &study,
+        study,
         judged: &[],
         answers: None,
         figures: &figures,

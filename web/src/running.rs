@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 
 use serde::Deserialize;
-use vinesink::simulation::{Simulation, Trace};
+use vinesink::answer::trajectory::{Simulation, Trace};
 use vinesink::system::{State, System};
 
 thread_local! {

@@ -209,7 +209,7 @@ class Case:
     ) -> Simulation:
         """Simulates impact by impact, as `vinesink simulate`.
 
-        Without `initial` from many starts: `attractors` has every motion found, and the numbers are those of the
+        Without `initial` every long-term motion is looked for: `motions` has them all, and the numbers are those of the
         moving one that most starts lead to.
 
         Parameters

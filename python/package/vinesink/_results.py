@@ -226,7 +226,7 @@ class Simulation(_WithRows):
     """A simulated motion: the document of `vinesink simulate --format json`, with arrays beside it.
 
     `regime`, `impacts` (their number), `impacts_per_period`, `displacement.peak` and `.rms` (m), `impact_speed` (m/s), `energy`, `settled`,
-    `trusted`; `attractors`, every motion that starts led to, where no start was given. It has none of these where
+    `trusted`; `motions`, every long-term motion, where no start was given. It has none of these where
     nothing was measured (`measure=False`).
     """
 
@@ -248,23 +248,45 @@ class Simulation(_WithRows):
         return self._trajectory
 
     def _rows(self) -> Table:
-        each = self._document.get("attractors") or [self._document] if self._document else []
-        rows = [
-            {
-                "regime": one["regime"],
-                "impacts_per_period": one["impacts_per_period"],
-                "peak": one["displacement"]["peak"],
-                "rms": one["displacement"]["rms"],
-                "impact_speed": one["impact_speed"],
-                "settled": one["settled"],
-                "trusted": one["trusted"],
-                "share": one["motion"]["starts"]["share"]["value"] if one["motion"]["starts"] else np.nan,
-            }
-            for one in each
-            if "regime" in one
-        ]
-        names = ("regime", "impacts_per_period", "peak", "rms", "impact_speed", "settled", "trusted", "share")
-        return Table(_of_records(rows, names))
+        rows = [_motion_row(one) for one in self._document.get("motions") or []]
+        if not rows and "regime" in self._document:
+            rows = [_motion_row(self._document["motion"])]
+        return Table(_of_records(rows, _MOTION))
+
+
+_MOTION = (
+    "id",
+    "kind",
+    "regime",
+    "settled",
+    "counts",
+    "peak",
+    "peak_error",
+    "rms",
+    "rms_error",
+    "impacts_per_period",
+    "impact_speed",
+    "efficiency",
+    "starts",
+    "share",
+    "repeats_after",
+    "largest_multiplier",
+)
+
+
+def _motion_row(one: dict[str, Any]) -> dict[str, Any]:
+    """A motion of a list in one row: numbers in SI, NaN where one is not defined."""
+
+    def number(key: str, part: str = "value") -> float:
+        found = one.get(key)
+        return np.nan if found is None else found[part]
+
+    plain = {key: one.get(key, "") for key in ("id", "kind", "regime")}
+    plain |= {"settled": one["settled"], "counts": one.get("counts", True)}
+    rest = {key: np.nan if one.get(key) is None else one[key] for key in _MOTION[-4:]}
+    errors = {"peak_error": number("peak", "error"), "rms_error": number("rms", "error")}
+    values = {key: number(key) for key in ("peak", "rms", "impacts_per_period", "impact_speed", "efficiency")}
+    return {**plain, **values, **errors, **rest}
 
 
 class Branch(Table):

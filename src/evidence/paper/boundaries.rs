@@ -5,8 +5,9 @@ use serde_json::{Value, json};
 
 use super::{CaseReport, CaseSet, HYSTERESIS, PaperError, STEADY, Section, TRANSFER};
 use crate::analysis::{Branch, motion};
+use crate::motions::Motion;
 use crate::orbits::Bifurcation;
-use crate::regimes::{FoundAttractor, Regime};
+use crate::regimes::Regime;
 use crate::study::plots::responses::shares;
 use crate::study::scenes::{WalkPoint, walk};
 use crate::validation::tolerance::asymptotic_error;
@@ -20,8 +21,8 @@ pub(super) fn figure_3(cases: &CaseSet) -> Result<Section, PaperError> {
     let analysis = &member.study.analysis;
     let (fold, breaking) = (analysis.manifold.fold, analysis.manifold.symmetry_breaking);
     let predicted = member.needs(analysis.stable_points().last(), "stable fixed point")?;
-    let attractor = &member.main()?.attractor;
-    let (oscillator, absorber) = (attractor.oscillator_harmonic, attractor.absorber_harmonic);
+    let (_, measured) = member.main()?;
+    let (oscillator, absorber) = (measured.oscillator_harmonic, measured.absorber_harmonic);
     let seen = motion::read_off(&analysis.system, oscillator, absorber);
     let on = analysis.manifold.point(seen.absorber_amplitude - 1.0).oscillator_amplitude;
     let away = (seen.oscillator_amplitude - on).abs() / on;
@@ -47,7 +48,7 @@ pub(super) fn steady(cases: &CaseSet, name: &'static str) -> Result<Value, Paper
     let member = cases.case(name)?;
     let bare = member.study.analysis.system.linear_response();
     let bare = member.needs(bare, "linear response")?.amplitude();
-    let peak = member.main()?.attractor.peak;
+    let peak = member.main()?.0.facts().peak.value;
     let simulated = member.study.confirmations.upper_limit;
     let exact = member.study.exact.stretch();
     Ok(json!({
@@ -75,8 +76,7 @@ pub(super) fn figure_5(cases: &CaseSet) -> Result<Section, PaperError> {
     };
     let ([hopf, collision], [slow_hopf, slow_collision]) =
         (ways_out(beats)?, ways_out(hysteresis)?);
-    let attractors = hysteresis.study.motions.attractors.iter();
-    let regimes: Vec<Regime> = attractors.map(FoundAttractor::regime).collect();
+    let regimes: Vec<Regime> = hysteresis.study.motions.iter().map(Motion::regime).collect();
     let unsteady = |at: &Regime| matches!(at, Regime::StronglyModulated | Regime::BelowTwo);
     Ok(Section::new(
         [

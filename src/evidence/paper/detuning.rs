@@ -6,12 +6,13 @@ use serde_json::{Value, json};
 use super::map::{self, Map};
 use super::regimes::FIGURE_11;
 use super::{CaseReport, CaseSet, HYSTERESIS, PaperError, Section, dynamics};
-use crate::analysis::{Analysis, Branch};
+use crate::analysis::Analysis;
 use crate::case::Case;
-use crate::executor::{self, Executor};
+use crate::executor::{self, Executor, Serial};
+use crate::motions::{Measured, Motions, Place, measured, motions};
 use crate::regimes::Regime;
 use crate::report::figure::Figure;
-use crate::study::{LongTermMotions, StudyEffort, StudyError, long_term_motions};
+use crate::study::StudyError;
 use crate::system::{Parameters, System};
 
 /// The cases with sets A and B, at the clearance of Fig. 12: a natural frequency and an `F` that give the regimes of
@@ -69,8 +70,7 @@ impl Set {
         let system = self.system(case, clearance)?;
         let analysis = Analysis::of(&system).map_err(StudyError::from)?;
         let (found, forcing) = (&analysis.boundaries, system.forcing_per_clearance());
-        let node = found.saddle_node.filter(|node| node.branch == Branch::Stable);
-        let end = node.map_or(found.hopf, |node| node.forcing_over_clearance);
+        let end = found.end_of_steady();
         let bare = system.linear_response().map_or(f64::INFINITY, |linear| linear.amplitude());
         let fold = analysis.manifold.fold.oscillator_amplitude;
         Ok([forcing / found.symmetry_breaking, forcing / end, bare / fold].map(|at| at * clearance))
@@ -96,13 +96,13 @@ pub(super) fn section(
     let published: Vec<_> = members.iter().map(|member| &member.study.motions).collect();
     let case = &cases.case(HYSTERESIS)?.case;
     let table_1 = Set::of(case);
-    let mut sets = vec![told(case, &published, &dynamics::figure_12(cases)?)?];
+    let mut sets = vec![told(case, &clearances, &published, &dynamics::figure_12(cases)?)?];
     let mut tried = Vec::new();
     for name in SETS {
         let member = cases.case(name)?;
-        let motions = motions(&member.case, &clearances, executor)?;
+        let motions = at_clearances(&member.case, &clearances, executor)?;
         let transfer = dynamics::transfer(member, member)?;
-        sets.push(told(&member.case, &motions.iter().collect::<Vec<_>>(), &transfer)?);
+        sets.push(told(&member.case, &clearances, &motions.iter().collect::<Vec<_>>(), &transfer)?);
         tried.push(Set::of(&member.case));
     }
     let others = [0.5, 0.7].map(|restitution| Set { restitution, ..table_1 });
@@ -122,16 +122,16 @@ pub(super) fn section(
 }
 
 /// The long-term motions of a case at each clearance, from as many starts as a report's.
-fn motions(
+fn at_clearances(
     case: &Case,
     clearances: &[f64],
     executor: &dyn Executor,
-) -> Result<Vec<LongTermMotions>, PaperError> {
-    let effort = StudyEffort::of(&case.simulation);
+) -> Result<Vec<Motions>, PaperError> {
+    let effort = case.effort();
     let found = executor::map(executor, "", clearances.len(), |k| {
-        let system = Set::of(case).system(case, clearances[k])?;
-        let analysis = Analysis::of(&system).map_err(StudyError::from)?;
-        Ok(long_term_motions(&analysis, &effort, &mut |_| {}).map_err(StudyError::from)?)
+        let place = Place::new(&Set::of(case).system(case, clearances[k])?, effort.starts);
+        let found = motions(&[place], &effort, &Serial).map_err(StudyError::from)?;
+        Ok(found.into_iter().next().unwrap_or_default())
     });
     found.into_iter().collect()
 }
@@ -139,28 +139,34 @@ fn motions(
 /// A set: what it gives in each of [`panels`], and Fig. 12.
 fn told(
     case: &Case,
-    motions: &[&LongTermMotions],
+    clearances: &[f64],
+    motions: &[&Motions],
     transfer: &Section,
 ) -> Result<Value, PaperError> {
     let (mut checks, mut cells) = (Vec::new(), Vec::new());
-    for ((letter, _, expected), motions) in panels().zip(motions) {
-        let main = &motions.main().ok_or(StudyError::NoMotion)?.0.attractor;
-        let evidence = &main.classification.evidence;
-        let moving = || motions.attractors.iter().filter(|one| one.regime() != Regime::AtRest);
-        let all: u32 = moving().map(|one| one.starts).sum();
+    let effort = case.effort();
+    for (((letter, _, expected), motions), clearance) in panels().zip(motions).zip(clearances) {
+        let main = motions.main().ok_or(StudyError::NoMotion)?;
+        let system = Set::of(case).system(case, *clearance)?;
+        let seen =
+            measured(&system, main, &effort, &mut Measured::log()).map_err(StudyError::from)?;
+        let evidence = &seen.classification.evidence;
+        let moving = || motions.iter().filter(|one| one.rest().is_none());
+        let all: u32 = moving().map(|one| one.reached().starts).sum();
         let agreeing = moving().filter(|one| one.regime() == expected);
-        let agreeing: u32 = agreeing.map(|one| one.starts).sum();
+        let agreeing: u32 = agreeing.map(|one| one.reached().starts).sum();
+        let per_period = main.facts().impacts_per_period.value;
         checks.push((letter, agreeing == all));
         match letter {
-            "a" => checks.push(("irregular", !main.repeats())),
-            "b" => checks.push(("three", (evidence.impacts_per_period - 3.0).abs() < 0.05)),
+            "a" => checks.push(("irregular", main.repeats_after().is_none())),
+            "b" => checks.push(("three", (per_period - 3.0).abs() < 0.05)),
             _ => {}
         }
         cells.push(json!({
-            "found": main.regime.key(),
-            "impacts_per_period": evidence.impacts_per_period,
+            "found": main.regime().key(),
+            "impacts_per_period": per_period,
             "captured": evidence.captures.share,
-            "peak": main.peak,
+            "peak": main.facts().peak.value,
             "starts": [agreeing, all],
         }));
     }

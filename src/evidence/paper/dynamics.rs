@@ -60,8 +60,8 @@ pub(super) fn transfer(member: &CaseReport, measured: &CaseReport) -> Result<Sec
     let scales = member.case.scales();
     let millinewton_seconds =
         |impulse: f64| 1e3 * scales.oscillator_mass * scales.velocity(impulse);
-    let main = member.main()?;
-    let evidence = &main.attractor.classification.evidence;
+    let (_, main) = member.main()?;
+    let evidence = &main.classification.evidence;
     let correlation = evidence.absorber_amplitude.correlation_with_growth.unwrap_or(0.0);
     let told = |at: Option<Part>| -> Option<Value> {
         let at = at?;

@@ -7,8 +7,8 @@ use super::PaperError;
 use super::detuning::{Set, panels};
 use crate::case::Case;
 use crate::executor::{self, Executor};
-use crate::regimes::starts::StartBox;
-use crate::regimes::{Effort, Regime, long_term};
+use crate::motions::{Effort, follow, starts};
+use crate::regimes::Regime;
 use crate::report::figure::{
     Axis, Cells, Color, Dash, Figure, Image, Key, Layer, Layout, MarkedPoint, Marker, Panel, Scale,
     Shape, Style, Tint, edges,
@@ -123,11 +123,10 @@ fn held(case: &Case, set: &Set, clearances: &[f64]) -> Result<u8, PaperError> {
 
 /// Whether each start that moves the absorber leads to the regime, and one does.
 fn every_start(system: &System, regime: Regime) -> Result<bool, PaperError> {
-    let sample = StartBox::around(system);
-    let starts: Vec<_> = (0..STARTS).map(|index| (*system, sample.start(index))).collect();
-    let found = long_term(&starts, &Effort::default()).map_err(StudyError::from)?;
-    let mut moving = found.iter().flatten().filter(|one| !one.is_inactive()).peekable();
-    Ok(moving.peek().is_some() && moving.all(|one| one.regime == regime))
+    let starts: Vec<_> = starts::spread(system, STARTS).map(|start| (*system, start)).collect();
+    let found = follow(&starts, &Effort::default()).map_err(StudyError::from)?;
+    let mut moving = found.iter().flatten().filter(|one| one.rest().is_none()).peekable();
+    Ok(moving.peek().is_some() && moving.all(|one| one.regime() == regime))
 }
 
 /// The maps side by side, with the boundaries as lines.

@@ -19,9 +19,10 @@ use serde_json::{Value, json};
 use crate::analysis::Branch;
 use crate::case::Case;
 use crate::executor::Executor;
+use crate::motions::{Measured, Motion};
 use crate::orbits::Bifurcation;
 use crate::quantity::Units;
-use crate::regimes::{FoundAttractor, Regime};
+use crate::regimes::Regime;
 use crate::report::figure::Figure;
 use crate::report::render::{Files, RenderError, page_files};
 use crate::report::template::worded;
@@ -137,9 +138,9 @@ impl CaseReport {
             .ok_or_else(|| PaperError::Missing(format!("the case `{}` gives no {what}", self.name)))
     }
 
-    /// The moving attractor that most starts lead to.
-    fn main(&self) -> Result<&FoundAttractor, PaperError> {
-        self.needs(self.study.main_attractor(), "motion")
+    /// The main motion, and what was measured of it.
+    fn main(&self) -> Result<(&Motion, &Measured), PaperError> {
+        self.needs(self.study.main(), "motion")
     }
 
     /// A figure of its report.
@@ -162,11 +163,11 @@ impl CaseReport {
     }
 
     fn regime(&self) -> Option<Regime> {
-        self.study.main_attractor().map(FoundAttractor::regime)
+        self.study.motions.main().map(Motion::regime)
     }
 
     fn impacts_per_period(&self) -> Result<f64, PaperError> {
-        Ok(self.main()?.attractor.classification.evidence.impacts_per_period)
+        Ok(self.main()?.0.facts().impacts_per_period.value)
     }
 }
 

@@ -6,11 +6,12 @@ use super::by_hand::{ByHand, Locate};
 use crate::analysis::Manifold;
 use crate::analysis::motion::root_mean_square;
 use crate::analysis::slow_motion::{SlowEnd, SlowFlow};
+use crate::motions::{Measured, Window, orbit_of};
 use crate::operation_count;
-use crate::regimes::{Attractor, Window};
+use crate::orbits::Measures;
 use crate::simulation::{ContactTolerance, Simulation, Stop};
-use crate::study::answer::{self, Answer, BLOCKS, IMPACT_LIMIT, WhyNot, measured};
-use crate::study::{Proof, StudyError};
+use crate::study::StudyError;
+use crate::study::estimate::{self, BLOCKS, Estimate, IMPACT_LIMIT, WhyNot, measured};
 use crate::system::{State, System};
 
 /// Which search for impacts a simulation uses.
@@ -120,17 +121,17 @@ impl Method {
     ///
     /// # Errors
     /// [`StudyError`] where it cannot be carried out.
-    pub fn run(self, system: &System, start: State) -> Result<(Answer, u64), StudyError> {
+    pub fn run(self, system: &System, start: State) -> Result<(Estimate, u64), StudyError> {
         let (answer, operations) = operation_count::counted(|| self.answer(system, start));
         Ok((answer?, operations))
     }
 
-    fn answer(self, system: &System, start: State) -> Result<Answer, StudyError> {
+    fn answer(self, system: &System, start: State) -> Result<Estimate, StudyError> {
         match self {
-            Self::FixedPoints => answer::closed_form(system),
+            Self::FixedPoints => estimate::closed_form(system),
             Self::SlowFlow { periods } => slow_flow(system, periods),
-            Self::AveragedFlow => answer::averaged_flow(system),
-            Self::SymmetricOrbit => Ok(answer::symmetric_orbit(system)),
+            Self::AveragedFlow => estimate::averaged_flow(system),
+            Self::SymmetricOrbit => Ok(estimate::symmetric_orbit(system)),
             Self::OrbitFromSimulation { periods } => orbit_near(system, start, periods),
             Self::Simulation { periods, search, excursion } => {
                 simulated(system, start, periods, search, excursion)
@@ -143,44 +144,45 @@ impl Method {
 }
 
 /// The flow begins in the middle of the stable branch, in phase with the excitation.
-fn slow_flow(system: &System, periods: u64) -> Result<Answer, StudyError> {
+fn slow_flow(system: &System, periods: u64) -> Result<Estimate, StudyError> {
     let manifold = Manifold::of(system.restitution());
     let flow = SlowFlow::of(system, &manifold);
     let middle = 0.5
         * (manifold.fold.oscillator_amplitude + manifold.symmetry_breaking.oscillator_amplitude);
     let Some(start) = flow.point(middle, 0.0) else {
-        return Ok(Answer::none(WhyNot::NoMiddle));
+        return Ok(Estimate::none(WhyNot::NoMiddle));
     };
     Ok(match flow.follow(start, periods) {
         SlowEnd::Settles(at) | SlowEnd::Moving(at)
             if at.absorber_amplitude > manifold.symmetry_breaking.absorber_amplitude =>
         {
-            Answer::none(WhyNot::BeyondSymmetryBreaking)
+            Estimate::none(WhyNot::BeyondSymmetryBreaking)
         }
-        SlowEnd::Settles(at) | SlowEnd::Moving(at) => Answer::steady(root_mean_square(
+        SlowEnd::Settles(at) | SlowEnd::Moving(at) => Estimate::steady(root_mean_square(
             system,
             at.oscillator_amplitude,
             at.absorber_amplitude,
             at.absorber_phase,
         )),
-        SlowEnd::LeavesAtFold { .. } => Answer::none(WhyNot::LeavesAtFold),
+        SlowEnd::LeavesAtFold { .. } => Estimate::none(WhyNot::LeavesAtFold),
     })
 }
 
-fn orbit_near(system: &System, start: State, periods: u64) -> Result<Answer, StudyError> {
+fn orbit_near(system: &System, start: State, periods: u64) -> Result<Estimate, StudyError> {
     let mut simulation = Simulation::new(system, start, 0.0)?;
     let discard = periods / 2;
     let window = Window { discard, periods: periods - discard, impact_limit: IMPACT_LIMIT };
-    let found = Attractor::measure(&mut simulation, &window);
-    Ok(match Proof::of(system, &found) {
+    let found = Measured::of(&mut simulation, &window, &mut Measured::log());
+    let measures = orbit_of(system, &found).and_then(|one| Measures::of(system, &one.cycle).ok());
+    Ok(match measures {
         // Errors are differences from the best answer, which is this orbit.
-        Some(proof) => Answer {
-            scatter: None,
-            impacts_scatter: None,
-            regime: Some(found.classification.regime),
-            ..Answer::of_proof(&proof)
+        Some(measures) => Estimate {
+            rms: Some(measures.rms),
+            impacts_per_period: Some(found.facts.impacts_per_period.value),
+            regime: Some(found.regime()),
+            ..Estimate::default()
         },
-        None => Answer::none(WhyNot::NotRepeating),
+        None => Estimate::none(WhyNot::NotRepeating),
     })
 }
 
@@ -190,7 +192,7 @@ fn simulated(
     periods: u64,
     search: Search,
     excursion: Option<f64>,
-) -> Result<Answer, StudyError> {
+) -> Result<Estimate, StudyError> {
     let usual = ContactTolerance::default();
     let tolerance = ContactTolerance { excursion: excursion.unwrap_or(usual.excursion), ..usual };
     let mut simulation = Simulation::new(system, start, 0.0)?.with_tolerance(tolerance);
@@ -201,15 +203,15 @@ fn simulated(
     let stop = simulation.run(discard, IMPACT_LIMIT, &mut ());
     let answer = match stop {
         Stop::EndTime => measured(&mut simulation, periods - discard),
-        Stop::NotFinite => Some(Answer::none(WhyNot::Overflow)),
-        Stop::WallsUnresolved => Some(Answer::none(WhyNot::WallsUnresolved)),
+        Stop::NotFinite => Some(Estimate::none(WhyNot::Overflow)),
+        Stop::WallsUnresolved => Some(Estimate::none(WhyNot::WallsUnresolved)),
         Stop::ImpactLimit => None,
     };
     // The slow search notes every evaluation itself.
     if search == Search::Panels {
         operation_count::note(simulation.operations());
     }
-    Ok(answer.unwrap_or_else(|| Answer::none(WhyNot::ImpactLimit)))
+    Ok(answer.unwrap_or_else(|| Estimate::none(WhyNot::ImpactLimit)))
 }
 
 /// Impacts per period, over all periods so far and ten more, above which a fixed step is given up: it
@@ -217,7 +219,7 @@ fn simulated(
 const MOST_IMPACTS: u64 = 400;
 
 /// The first half of the periods is left out, the second measured in blocks.
-fn fixed_step(hand: &ByHand, start: State, periods: u64) -> Answer {
+fn fixed_step(hand: &ByHand, start: State, periods: u64) -> Estimate {
     let discard = periods / 2;
     let measured = periods - discard;
     let blocks = BLOCKS.min(measured).max(1);
@@ -233,7 +235,7 @@ fn fixed_step(hand: &ByHand, start: State, periods: u64) -> Answer {
             operation_count::note(12 * impacts + 2 * hand.steps_per_period());
             all_impacts += impacts;
             if all_impacts > MOST_IMPACTS * (done + 10) {
-                return Answer::none(WhyNot::ImpactsInEveryStep);
+                return Estimate::none(WhyNot::ImpactsInEveryStep);
             }
             sums[0] += run.squares / hand.steps_per_period() as f64;
             sums[1] += impacts as f64;
@@ -245,8 +247,8 @@ fn fixed_step(hand: &ByHand, start: State, periods: u64) -> Answer {
         }
     }
     if !state.x.is_finite() {
-        return Answer::none(WhyNot::Overflow);
+        return Estimate::none(WhyNot::Overflow);
     }
     let [square, impacts] = total.map(|sum| sum / measured as f64);
-    Answer { settles: false, ..Answer::averaged(square.sqrt(), impacts, &means) }
+    Estimate { settles: false, ..Estimate::averaged(square.sqrt(), impacts, &means) }
 }

@@ -16,12 +16,12 @@ pub mod page;
 
 use serde::Serialize;
 
-use crate::analysis::Analysis;
-use crate::regimes::starts::StartBox;
-use crate::regimes::{FoundAttractor, Regime};
+use crate::executor::Executor;
+use crate::motions::{Effort, Measured, Motion, Place, measured, motions};
+use crate::regimes::Regime;
 use crate::simulation::Simulation;
-use crate::study::answer::{self, Answer, ORBIT_ROUNDING};
-use crate::study::{Proof, StudyEffort, StudyError, long_term_motions};
+use crate::study::StudyError;
+use crate::study::estimate::{self, Estimate, ORBIT_ROUNDING};
 use crate::system::{State, System};
 use by_hand::{ByHand, Flights, Locate};
 
@@ -29,10 +29,10 @@ pub use figure::figure;
 pub use method::{Layer, Method, Search};
 
 /// What is tried.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct TradeoffEffort {
     /// Where the long-term motion is looked for.
-    pub study: StudyEffort,
+    pub search: Effort,
     /// Lengths of simulations, in excitation periods, transient included.
     pub lengths: Vec<u64>,
     /// Steps per period of the baseline.
@@ -48,7 +48,7 @@ pub struct TradeoffEffort {
 impl Default for TradeoffEffort {
     fn default() -> Self {
         Self {
-            study: StudyEffort::default(),
+            search: Effort::default(),
             // From what shows a regime to what a modulated motion's average takes.
             lengths: vec![50, 100, 200, 500, 1000, 5000],
             steps: vec![50, 200, 1000, 5000],
@@ -120,7 +120,7 @@ pub struct Trial {
     pub method: Method,
     /// What it answers.
     #[serde(flatten)]
-    pub answer: Answer,
+    pub answer: Estimate,
     /// What it cost.
     pub operations: u64,
     /// Relative error of the root mean square displacement.
@@ -166,18 +166,23 @@ impl Tradeoff {
     pub fn of(
         system: &System,
         effort: &TradeoffEffort,
+        on: &dyn Executor,
         progress: &mut dyn FnMut(u64),
     ) -> Result<Self, StudyError> {
-        let analysis = Analysis::of(system)?;
-        let motions = long_term_motions(&analysis, &effort.study, progress)?;
-        let (main, proof) = motions.main().ok_or(StudyError::NoMotion)?;
-        let best = best(system, main, proof.filter(|proof| proof.orbit.attracts()), effort)?;
+        let place = Place::new(system, effort.search.starts);
+        let starts = place.starts.clone();
+        let found = motions(&[place], &effort.search, on)?.pop().ok_or(StudyError::NoMotion)?;
+        let (index, main) = found.main_index().zip(found.main()).ok_or(StudyError::NoMotion)?;
+        progress(u64::from(effort.search.starts));
+        let best = best(system, main, effort)?;
         progress(1);
         // The first start that leads there, so that transients are those of the case.
-        let start_number = main.first_start;
-        let start = start_number
-            .map_or(main.attractor.state, |number| StartBox::around(system).start(number));
-        let rests = main.attractor.sustained_contact.intervals > 0;
+        let first = found.led().iter().position(|led| *led == Some(index));
+        let first = first.and_then(|first| Some((u32::try_from(first).ok()?, *starts.get(first)?)));
+        let (start_number, start) = (first.map(|one| one.0), first.map(|one| one.1));
+        let start = start.unwrap_or(main.state());
+        let seen = measured(system, main, &effort.search, &mut Measured::log())?;
+        let rests = seen.sustained_contact.intervals > 0;
         let mut trials = Vec::new();
         for method in methods(&best, rests, effort) {
             trials.push(trial(system, start, method, &best, effort)?);
@@ -187,8 +192,8 @@ impl Tradeoff {
             system: *system,
             start,
             start_number,
-            share: main.share,
-            others: motions.attractors.len() - 1,
+            share: found.share(main),
+            others: found.len() - 1,
             rests,
             best,
             trials,
@@ -197,7 +202,7 @@ impl Tradeoff {
 
     /// Number of progress steps, about.
     pub fn steps(effort: &TradeoffEffort) -> u64 {
-        u64::from(effort.study.starts)
+        u64::from(effort.search.starts)
             + 5
             + (2 * effort.lengths.len() + 2 * effort.steps.len()) as u64
     }
@@ -237,23 +242,17 @@ impl Tradeoff {
     }
 }
 
-fn best(
-    system: &System,
-    main: &FoundAttractor,
-    proof: Option<&Proof>,
-    effort: &TradeoffEffort,
-) -> Result<Best, StudyError> {
-    let (layer, periods, orbit, decay_rate, answer) = match proof {
-        Some(proof) => {
-            let cycle = &proof.orbit.cycle;
-            let orbit = Some((cycle.impact_count(), cycle.periods()));
-            let rate = -libm::log(proof.orbit.radius_per_period());
-            (Layer::ExactOrbit, None, orbit, rate, Answer::of_proof(proof))
+fn best(system: &System, main: &Motion, effort: &TradeoffEffort) -> Result<Best, StudyError> {
+    let (layer, periods, orbit, decay_rate, answer) = match main.orbit() {
+        Some(proven) => {
+            let orbit = Some((proven.cycle.impact_count(), proven.cycle.periods()));
+            let rate = -libm::log(proven.radius_per_period());
+            (Layer::ExactOrbit, None, orbit, rate, Estimate::of_motion(main))
         }
         None => {
-            let mut simulation = Simulation::new(system, main.attractor.state, 0.0)?;
+            let mut simulation = Simulation::new(system, main.state(), 0.0)?;
             let answer =
-                answer::measured(&mut simulation, effort.longest).ok_or(StudyError::NoMotion)?;
+                estimate::measured(&mut simulation, effort.longest).ok_or(StudyError::NoMotion)?;
             let rate = 0.5 * system.mass_ratio() * system.damping() * system.period();
             (Layer::Simulation, Some(effort.longest), None, rate, answer)
         }

@@ -183,21 +183,22 @@ fn flights(found: &Tradeoff) -> Option<Value> {
 mod tests {
     use super::*;
     use crate::evidence::tradeoff::TradeoffEffort;
-    use crate::study::StudyEffort;
+    use crate::executor::Serial;
+    use crate::motions::Effort;
 
     #[test]
     fn page_and_terminal_say_what_is_enough() {
         let text = include_str!("../../../cases/li2016-8hz-b7p5mm.toml");
         let case = Case::parse("case.toml", text).expect("a case");
         let effort = TradeoffEffort {
-            study: StudyEffort { starts: 2, discard: Some(100), periods: 50 },
+            search: Effort { starts: 2, discard: Some(100), ..Effort::over(50) },
             lengths: vec![50, 100],
             steps: vec![50],
             usual_length: 20,
             longest: 400,
             flights: 5,
         };
-        let found = Tradeoff::of(&case.system(), &effort, &mut |_| ()).expect("tried");
+        let found = Tradeoff::of(&case.system(), &effort, &Serial, &mut |_| ()).expect("tried");
         let seconds = vec![0.5; found.trials.len()];
         let page = Page { case: &case, found: &found, allowed: 0.01, seconds: None };
         let timed = Page { seconds: Some(&seconds), ..page };

@@ -5,39 +5,45 @@ use serde_json::{Value, json};
 use super::scale::{Scale, level_error};
 use super::theory::ROOT_OF_ROUNDING;
 use crate::analysis::Strip;
-use crate::band::inactive::Rest;
 use crate::band::rivals::DETUNED;
-use crate::band::simulated::Place;
-use crate::band::{Inactive, Rivals, Source, Survey, Worst};
+use crate::band::{Band, Rivals, Survey, Worst};
 use crate::case::BandOver;
-use crate::method::Method::{self, ClosedForm, ExactOrbit, Simulation, Theory};
+use crate::criteria::method;
+use crate::method::Method::{self, ClosedForm, ExactOrbit, Theory};
+use crate::motions::{Motion, Motions, RestKind};
+use crate::quantity::Quantity;
 use crate::quantity::catalogue as of;
-use crate::quantity::{Quantity, numbers};
 
-/// Digits of the data of a curve, as many as a drawing of any size can show.
-const CURVE_DIGITS: usize = 7;
-
-/// A motion in which the absorber stays at rest; `within` is half the width in which it rests.
-pub fn inactive(scale: &Scale, of: &Inactive, at: Option<Quantity>, counted: bool) -> Value {
+/// A motion in which the absorber stays at rest; `within` is half the width in which it rests. None where only other starts
+/// than those from rest lead to it.
+pub fn inactive(
+    scale: &Scale,
+    motion: &Motion,
+    at: Option<Quantity>,
+    counts: bool,
+) -> Option<Value> {
+    let rest = motion.rest().filter(|rest| rest.share > 0.0)?;
+    let peak = motion.facts().peak;
+    let of = method(motion);
     let mut told = json!({
-        "peak": scale.length(&of::INACTIVE_PEAK, of.peak, ClosedForm),
+        "peak": scale.length_with(&of::INACTIVE_PEAK, [peak.value, peak.error], of),
         "at": at,
-        "share": Quantity::new(&of::INACTIVE_SHARE, of.share, ClosedForm),
-        "within": scale.length(&of::CLEARANCE, of.share, ClosedForm),
-        "counted": counted,
+        "share": Quantity::new(&of::INACTIVE_SHARE, rest.share, of),
+        "within": scale.length(&of::CLEARANCE, rest.share, of),
+        "why_not": motion.why_not(counts),
     });
     // Held or sliding; else it floats in the middle of its cavity.
-    if of.rest != Rest::Floating {
-        told["rest"] = json!(of.rest);
+    if rest.rest != RestKind::Floating {
+        told["rest"] = json!(rest.rest);
     }
-    told
+    Some(told)
 }
 
 /// What a tuned mass damper is held against along a band.
 pub(in crate::report) struct Absorber<'a> {
     pub over: BandOver,
     /// The absorber's worst motion, where anything was simulated.
-    pub worst: Option<Worst>,
+    pub worst: Option<&'a Worst>,
     /// The same with the structure's frequency off.
     pub detuned: &'a [Option<Worst>],
 }
@@ -47,15 +53,15 @@ pub(in crate::report) struct Absorber<'a> {
 pub(in crate::report) fn damper(scale: &Scale, rivals: &Rivals, along: Option<&Absorber>) -> Value {
     let length = |kind, value| scale.length(kind, value, ClosedForm);
     let Rivals { damper, damped, detuned, .. } = rivals;
-    let absorber = |k: usize| along.and_then(|one| one.detuned.get(k).copied().flatten());
-    let reach = |worst: Worst| worst.peak + worst.error;
+    let absorber = |k: usize| along.and_then(|one| one.detuned.get(k)?.as_ref());
+    let reach = |worst: &Worst| worst.peak.value + worst.peak.error;
     let off = [0, 1].into_iter().filter_map(absorber).map(reach).reduce(f64::max);
     let damper_off = detuned.iter().map(|one| one.amplitude).fold(0.0, f64::max);
     let worst = along.and_then(|one| one.worst);
     let off_tune = |k: usize| {
         json!({
             "change": Quantity::new(&of::MARGIN, DETUNED[k] - 1.0, ClosedForm),
-            "absorber": absorber(k).map(|worst| peak(scale, &worst)),
+            "absorber": absorber(k).map(|worst| peak(scale, worst)),
             "peak": length(&of::DAMPER_PEAK, detuned[k].amplitude),
             "stroke": length(&of::DAMPER_STROKE, detuned[k].stroke),
         })
@@ -81,99 +87,99 @@ pub(in crate::report) fn damper(scale: &Scale, rivals: &Rivals, along: Option<&A
     })
 }
 
+/// The case's own excitation where it is none of its band, and whether only its amplitude is another than the band has there.
+pub fn outside(scale: &Scale, band: &Band) -> Value {
+    let own = band.own();
+    let in_range = (band.range[0]..=band.range[1]).contains(&own);
+    json!({ "at": scale.place(band.over, own), "in_range": in_range })
+}
+
 /// What a survey found along the band.
 pub fn band(scale: &Scale, survey: &Survey) -> Value {
     let (band, motions) = (survey.band(), &survey.motions);
+    let stable_by = if motions.stability_is_exact() { ExactOrbit } else { Method::Simulation };
     let place = |at: f64| scale.place(band.over, at);
-    let (bare_at, bare) = survey.rivals.bare;
+    let (bare_at, bare) = survey.bare();
     let change = |[peak, error]: [f64; 2], method: Method| {
         let value = 20.0 * libm::log10(peak / bare);
         let change = Quantity::new(&of::CHANGE_DB, value, method);
         value.is_finite().then(|| change.with_error(level_error(peak, error)))
     };
-    let own = match band.over {
-        BandOver::Frequency => band.base.frequency_ratio(),
-        BandOver::Amplitude => 1.0,
-    };
-    let worst = motions.worst().map(|worst| {
-        let change = change([worst.peak, worst.error], method(&worst));
-        json!({ "peak": peak(scale, &worst), "at": place(worst.at), "change": change })
-    });
-    let orbit = motions.orbit.map(|orbit| {
-        let peak = scale.length(&of::PEAK, orbit.largest, ExactOrbit);
+    let own = band.own();
+    let worst_motion = survey.worst();
+    let worst = worst_motion.as_ref().map(|worst| {
+        let change = change([worst.peak.value, worst.peak.error], method(&worst.motion));
         json!({
-            "peak": peak, "at": place(orbit.at), "change": change([orbit.largest, 0.0], ExactOrbit),
+            "peak": peak(scale, worst),
+            "at": place(worst.at),
+            "change": change,
+            "motion": Motions::id(worst.index),
         })
     });
-    let asleep = motions.inactive.as_ref();
-    let (worst_motion, detuned) = (motions.worst(), survey.detuned.as_slice());
+    let steady = motions.peak_at().and_then(|at| Some((at, motions.at(at)?)));
+    let steady = steady.and_then(|(at, here)| Some((at, largest(here, Motion::is_one_to_one)?)));
+    let orbit = steady.map(|(at, motion)| {
+        let (of, errors) = (motion.facts().peak, method(motion));
+        let peak = scale.length_with(&of::PEAK, [of.value, of.error], errors);
+        json!({ "peak": peak, "at": place(at), "change": change([of.value, of.error], errors) })
+    });
+    let resting = motions.rest_at().and_then(|at| Some((at, motions.at(at)?.rest()?)));
+    let resting =
+        resting.and_then(|(at, one)| inactive(scale, one, Some(place(at)), survey.count_rest));
+    let (worst_motion, detuned) = (worst_motion.as_ref(), survey.detuned.as_slice());
     let absorber = Absorber { over: band.over, worst: worst_motion, detuned };
     let bare_peak = scale.length(&of::BARE_PEAK, bare, ClosedForm);
-    let (gap_at, gap) = survey.smallest_gap;
+    let (gap_at, gap) = survey.smallest_gap();
     let gap = Quantity::new(&of::GAP, gap, ExactOrbit).with_error(ROOT_OF_ROUNDING * gap);
-    let areas = survey.zones.iter().map(|zone| {
+    let areas = survey.zones().iter().map(|zone| {
         let (from, to) = (place(zone.from), place(zone.to));
         json!({ "from": from, "to": to, "area": zone.of.area, "strip": zone.of.strip })
     });
-    let stable = motions.stability.iter().filter(|stretch| stretch.of);
+    let stable = motions.stability().iter().filter(|stretch| stretch.of);
     let stable = stable.map(|stretch| [place(stretch.from), place(stretch.to)]);
     json!({
         "from": place(band.range[0]),
         "to": place(band.range[1]),
         "own": place(own),
+        // Criteria are about the band; what the page says of the case's own excitation may lie outside of it.
+        "outside": (!band.holds_own()).then(|| outside(scale, band)),
         "worst": worst,
         "orbit": orbit,
-        "inactive": asleep.map(|(at, one)| inactive(scale, one, Some(place(*at)), motions.count_inactive)),
+        "inactive": resting,
         "bare": { "peak": bare_peak, "at": place(bare_at), "change": null },
-        "damper": damper(scale, &survey.rivals, Some(&absorber)),
-        "stable_share": Quantity::new(&of::STABLE_SHARE, motions.stable_share(), ExactOrbit),
+        "damper": damper(scale, survey.rivals(), Some(&absorber)),
+        "stable_share": Quantity::new(&of::STABLE_SHARE, motions.stable_share(), stable_by),
         "z3_share": Quantity::new(&of::Z3_SHARE, survey.z3_share(), Theory),
         "a1_share": Quantity::new(&of::A1_SHARE, survey.strip_share(Strip::A1), Theory),
         "a2_share": Quantity::new(&of::A2_SHARE, survey.strip_share(Strip::A2), Theory),
         "gap": gap,
         "gap_at": place(gap_at),
         "areas": areas.collect::<Vec<_>>(),
-        // Ends of the stretches in which a symmetric 1:1 orbit attracts.
+        // Ends of the stretches in which a 1:1 motion attracts.
         "stable": stable.collect::<Vec<_>>(),
-        "places": motions.places.iter().map(|one| place_data(scale, one)).collect::<Vec<_>>(),
         "several": several(scale, survey),
     })
 }
 
-/// The layer that a worst motion is from.
-fn method(worst: &Worst) -> Method {
-    match worst.of {
-        Source::Orbit => ExactOrbit,
-        Source::Simulated(_) => Simulation,
-        Source::Inactive(_) => ClosedForm,
-    }
+/// The motion of a kind with the largest peak.
+fn largest(motions: &Motions, is_one: impl Fn(&Motion) -> bool) -> Option<&Motion> {
+    let of_kind = motions.iter().filter(|motion| is_one(motion));
+    of_kind.max_by(|a, b| a.facts().peak.value.total_cmp(&b.facts().peak.value))
 }
 
 fn peak(scale: &Scale, worst: &Worst) -> Quantity {
-    scale.length_with(&of::PEAK, [worst.peak, worst.error], method(worst))
-}
-
-/// A place that was simulated, as data of a curve: `Omega` or the amplitude over the case's own, and lengths
-/// in m or the case's own unit.
-fn place_data(scale: &Scale, place: &Place) -> Value {
-    let peaks = place.motions.iter().map(|motion| motion.peak);
-    let short = |value: f64| numbers::rounded_to(value, CURVE_DIGITS);
-    let length = |peak: f64| short(scale.length(&of::PEAK, peak, Simulation).value);
-    json!({
-        "at": short(place.at),
-        "motions": place.motions.len(),
-        "inactive_share": place.inactive.map_or(0.0, |one| short(one.share)),
-        "largest_peak": place.largest().map(|one| length(one.peak)),
-        "smallest_peak": peaks.min_by(f64::total_cmp).map(length),
-    })
+    let peak = worst.peak;
+    scale.length_with(&of::PEAK, [peak.value, peak.error], method(&worst.motion))
 }
 
 /// Places at which several motions with impacts coexist; none where nothing was simulated.
 fn several(scale: &Scale, survey: &Survey) -> Option<Value> {
-    let places = &survey.motions.places;
-    let held: Vec<&Place> = places.iter().filter(|place| place.motions.len() > 1).collect();
-    let at = |place: Option<&&Place>| place.map(|one| scale.place(survey.band().over, one.at));
-    (!places.is_empty()).then(|| {
+    let moving = |motions: &Motions| motions.iter().filter(|one| one.rest().is_none()).count();
+    let places = survey.motions.places();
+    let held: Vec<f64> =
+        places.iter().filter(|(_, here)| moving(here) > 1).map(|(at, _)| *at).collect();
+    let at = |place: Option<&f64>| place.map(|at| scale.place(survey.band().over, *at));
+    survey.motions.simulated().then(|| {
         json!({
             "count": held.len(), "of": places.len(), "first": at(held.first()), "last": at(held.last()),
         })

@@ -7,6 +7,7 @@ use super::verdict::Word;
 use crate::case::{Case, Criterion, Relation, Subject};
 use crate::criteria::Judged;
 use crate::method::Method;
+use crate::motions::Motions;
 use crate::quantity::Quantity;
 use crate::quantity::catalogue as of;
 
@@ -16,6 +17,7 @@ pub fn badge(judged: &[Judged]) -> Option<Word> {
     match judged {
         [] => None,
         _ if any(&["fails", "not-measured"]) => Some(Word::Fails),
+        _ if any(&["not-decided"]) => Some(Word::NotDecided),
         _ if any(&["too-close-to-call"]) => Some(Word::TooCloseToCall),
         _ => Some(Word::Holds),
     }
@@ -25,6 +27,7 @@ pub fn badge(judged: &[Judged]) -> Option<Word> {
 fn outcome(judged: &Judged) -> &'static str {
     match (judged.holds, judged.near_limit) {
         (None, _) => "not-measured",
+        _ if judged.undecided.is_some() => "not-decided",
         (_, true) => "too-close-to-call",
         (Some(true), _) => "holds",
         (Some(false), _) => "fails",
@@ -84,8 +87,10 @@ pub fn criterion(case: &Case, judged: &Judged) -> Value {
         "at": place(case, judged),
         // Share of the resting places from which the absorber stays inactive, where that motion decides.
         "inactive_share": judged.inactive.map(share),
-        // Whether the motion that decides has settled.
-        "settled": judged.settled,
+        // The motion that decides, in the list of its place.
+        "motion": judged.motion.map(Motions::id),
+        // Excitation periods after which a motion that could decide otherwise was still settling.
+        "undecided_after": judged.undecided,
         "decided_by": judged.decided_by,
     })
 }

@@ -6,11 +6,11 @@ use serde_json::{Value, json};
 use super::criteria::badge;
 use super::scale::Scale;
 use crate::case::Case;
-use crate::criteria;
+use crate::criteria::{self, method};
 use crate::method::Method::{Given, Simulation};
+use crate::motions::Motion;
 use crate::quantity::Quantity;
 use crate::quantity::catalogue as of;
-use crate::regimes::Motion;
 use crate::study::Deviations;
 use crate::study::deviations::{APART, Deviation, FREQUENCY, FRICTION, RESTITUTION, Rig, TILT};
 
@@ -57,7 +57,8 @@ pub fn deviations(scale: &Scale, case: &Case, found: &Deviations) -> Value {
 }
 
 fn peak(scale: &Scale, motion: &Motion) -> Quantity {
-    scale.length_with(&of::PEAK, [motion.peak, motion.peak_error], Simulation)
+    let peak = motion.facts().peak;
+    scale.length_with(&of::PEAK, [peak.value, peak.error], method(motion))
 }
 
 fn row(scale: &Scale, case: &Case, rig: &Rig) -> Value {
@@ -80,8 +81,8 @@ fn row(scale: &Scale, case: &Case, rig: &Rig) -> Value {
         "peak": peak(scale, &rig.motion),
         // None within the scatter.
         "change": rig.change.map(|one| change(one).with_error(f64::NAN)),
-        "regime": rig.motion.regime,
-        "settled": rig.motion.settled,
+        "regime": rig.motion.regime(),
+        "settled": rig.motion.settled(),
         // Whether the criterion on the peak holds at the case's own excitation; none where there is none.
         "criterion": badge(judged.as_slice()),
     })

@@ -19,15 +19,14 @@ use serde_json::{Value, json};
 
 use super::figure::Figure;
 use crate::case::{Case, Design};
-use crate::criteria::Judged;
+use crate::criteria::{Judged, method};
 use crate::method::Method;
 use crate::quantity::catalogue as of;
 use crate::quantity::{Quantity, Units};
-use crate::regimes::FoundAttractor;
 use crate::study::CaseStudy;
 use crate::study::fidelity::Answers;
 
-pub(super) use band::{Absorber, damper};
+pub(super) use band::{Absorber, damper, outside};
 pub use notes::theory_limits;
 pub use scale::{Scale, cavity};
 pub use verdict::{Tone, Word};
@@ -72,16 +71,7 @@ pub fn figure_row(figure: &Figure) -> Value {
 pub fn document(source: &Source) -> Value {
     let Source { case, study, judged, .. } = source;
     let scale = Scale::of(case);
-    let system = &study.analysis.system;
-    let motions = study.motions.attractors.iter().zip(&study.motions.proofs);
-    let motions =
-        motions.map(|(found, proof)| motions::found(&scale, system, found, proof.as_ref()));
-    let main = study.main_attractor();
-    let is_main = |main: &FoundAttractor| {
-        study.motions.attractors.iter().position(|found| std::ptr::eq(found, main))
-    };
-    let counted = case.criteria.is_empty() || case.count_inactive;
-    let inactive = study.inactive.as_ref();
+    let resting = study.motions.rest().or(study.rest.as_ref());
     let wanted = case.report.figures.iter().map(|wanted| wanted.name());
     let drawn = |name: &str| source.figures.iter().any(|figure| figure.name == name);
     json!({
@@ -95,15 +85,19 @@ pub fn document(source: &Source) -> Value {
         "quantities": quantities(&scale, case, study),
         "criteria": criteria::criteria(case, judged),
         "notes": notes::notes(case, study),
-        // Long-term motions by share of starts, and the index of the moving one that most starts lead to.
-        "motions": motions.collect::<Vec<_>>(),
-        "main": main.and_then(is_main),
+        // Long-term motions by share, and the index of the main one.
+        "motions": motions::found(&scale, study, case.count_inactive),
+        "main": study.motions.main_index(),
         "simulated": study.simulated,
-        "inactive": inactive.map(|one| band::inactive(&scale, one, None, counted)),
+        "inactive": resting.and_then(|one| band::inactive(&scale, one, None, case.count_inactive)),
         // A tuned mass damper of the same mass at the case's own excitation.
         "damper": band::damper(&scale, &study.rivals, None),
         "theory": theory::with_margins(&scale, study),
         "band": study.band.as_ref().map(|survey| band::band(&scale, survey)),
+        // The motions at the places of the band that were looked at.
+        "places": study.band.as_ref().map(|survey| {
+            motions::places(&scale, &survey.motions, survey.count_rest)
+        }),
         // The case in rigs that differ from it by a little, the worst first.
         "deviations": study.deviations.as_ref().map(|one| deviations::deviations(&scale, case, one)),
         // Which layer answered what.
@@ -146,8 +140,9 @@ fn quantities(scale: &Scale, case: &Case, study: &CaseStudy) -> BTreeMap<&'stati
         all.push(given(&of::ABSORBER_MASS, physical.absorber_mass_kg));
     }
     all.extend(scale::cavity(case));
-    if let Some(main) = study.main_attractor() {
-        all.extend(motions::headline(scale, &main.attractor).into_iter().map(|(_, one)| one));
+    if let Some(main) = study.motions.main() {
+        let headline = motions::headline(scale, system, main.facts(), method(main));
+        all.extend(headline.into_iter().map(|(_, one)| one));
     } else if let Some(peak) = study.exact.attracting_peak() {
         let bare = study.rivals.bare.1;
         let change = 20.0 * libm::log10(peak / bare);

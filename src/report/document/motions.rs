@@ -1,14 +1,18 @@
-//! The long-term motions: what they are, what proves it, where their energy goes.
+//! The long-term motions: what they are, how surely they are known, where their energy goes.
 
 use serde_json::{Value, json};
 
 use super::scale::{Scale, level_error};
 use super::theory::ROOT_OF_ROUNDING;
-use crate::method::Method::{ExactOrbit, Simulation};
+use crate::criteria::method;
+use crate::method::Method::{self, ExactOrbit, Simulation};
+use crate::motions::Along;
+use crate::motions::{self, Facts, Measured, Motions, wilson};
+use crate::orbits::Orbit;
 use crate::quantity::catalogue as of;
 use crate::quantity::{Kind, Quantity};
-use crate::regimes::{Attractor, FoundAttractor};
-use crate::study::Proof;
+use crate::regimes::Regime;
+use crate::study::CaseStudy;
 use crate::system::System;
 
 /// Energy flows and captures ride on impacts and amplitude and scatter as they do, captures most: between
@@ -20,35 +24,121 @@ const WEAK_MODULATION: f64 = 0.01;
 /// Fewer captures than this say nothing of how long they are.
 const FEW_CAPTURES: usize = 10;
 
-/// One of the motions that many starts lead to, with those starts.
-pub fn found(
-    scale: &Scale,
-    system: &System,
-    found: &FoundAttractor,
-    proof: Option<&Proof>,
-) -> Value {
-    let share = |value: f64| Quantity::new(&of::START_SHARE, value, Simulation);
-    let reach = found.share_interval.map(|end| (end - found.share).abs());
-    let mut motion = measured(scale, system, &found.attractor, proof);
-    motion["starts"] = json!({
-        "count": found.starts,
-        "share": share(found.share).with_error(reach[0].max(reach[1])),
-        // 95 % interval of the share.
-        "interval": found.share_interval.map(share),
-        // Those that did so only after a long transient.
-        "late": found.late_starts,
-        "longest_transient": found.longest_transient,
-        "from_theory": found.reached_from_theory,
-    });
-    motion
+/// The list of motions of a place, the same in every document: fields and meaning are those of the page on formats.
+/// `count_rest` says whether absorbers at rest count for criteria.
+pub fn listed(scale: &Scale, motions: &Motions, count_rest: bool) -> Vec<Value> {
+    (0..motions.len()).filter_map(|index| one(scale, motions, index, count_rest)).collect()
 }
 
-/// A motion that was measured, from whatever start.
-pub fn measured(
+/// The places of a band with their lists.
+pub fn places(scale: &Scale, along: &Along, count_rest: bool) -> Vec<Value> {
+    let place = |(at, motions): &(f64, Motions)| {
+        let at = scale.place(along.band().over, *at);
+        json!({
+            "at": at.value,
+            "unit": scale.unit(&at),
+            "motions": listed(scale, motions, count_rest),
+        })
+    };
+    along.places().iter().map(place).collect()
+}
+
+/// One of the motions of a place.
+fn one(scale: &Scale, motions: &Motions, index: usize, count_rest: bool) -> Option<Value> {
+    let motion = motions.get(index)?;
+    let why_not = motion.why_not(count_rest);
+    let pair = |of: Quantity| json!({ "value": of.value, "error": of.error });
+    let mut told = json!({
+        "id": Motions::id(index),
+        "kind": motion.kind_name(),
+        "regime": motion.regime(),
+        "settled": motion.settled(),
+        "counts": why_not.is_none(),
+        "why_not": why_not,
+        "impact_speed": null,
+        "efficiency": motion.facts().efficiency,
+        // How an absorber at rest rests.
+        "rest": motion.rest().map(|rest| rest.rest),
+        "starts": motion.reached().starts,
+        "of_starts": motions.of_starts(),
+        "share": motions.share(motion),
+        "repeats_after": motion.repeats_after(),
+        "largest_multiplier": motion.largest_multiplier(),
+        // A chattering sequence that ends in contact is one visit to a wall, and many impacts.
+        "visits_per_period": motion.facts().visits_per_period,
+        // Excitation periods until the last start had come to it; of one that still settles those that it was followed.
+        "followed": motion.reached().followed,
+    });
+    let moves = motion.rest().is_none();
+    for (key, quantity) in numbers(scale, motion.facts(), method(motion)) {
+        if moves || key != "impact_speed" {
+            told[key] = pair(quantity);
+        }
+    }
+    Some(told)
+}
+
+/// The motions of a case with all that was measured of them.
+pub fn found(scale: &Scale, study: &CaseStudy, count_rest: bool) -> Vec<Value> {
+    let (system, motions) = (&study.analysis.system, &study.motions);
+    let each = study.measured.iter().enumerate();
+    each.filter_map(|(index, one)| in_full(scale, system, motions, (index, one), count_rest))
+        .collect()
+}
+
+/// One of them.
+pub fn in_full(
     scale: &Scale,
     system: &System,
-    motion: &Attractor,
-    proof: Option<&Proof>,
+    motions: &Motions,
+    (index, measured): (usize, &Measured),
+    count_rest: bool,
+) -> Option<Value> {
+    let motion = motions.get(index)?;
+    let mut all = one(scale, motions, index, count_rest)?;
+    merge(&mut all, told(scale, system, measured, motion.orbit(), method(motion)));
+    let mut told = all;
+    let reached = motion.reached();
+    let share = motions.share(motion);
+    let interval = wilson(reached.starts, motions.of_starts());
+    let quantity = |value: f64| match motion.rest() {
+        Some(_) => Quantity::new(&of::INACTIVE_SHARE, value, method(motion)),
+        None => Quantity::new(&of::START_SHARE, value, Simulation),
+    };
+    let reach = interval.map(|end| (end - share).abs());
+    told["reached"] = json!({
+        "share": match motion.rest() {
+            Some(_) => quantity(share),
+            None => quantity(share).with_error(reach[0].max(reach[1])),
+        },
+        // 95 % interval of the share of starts.
+        "interval": interval.map(|end| Quantity::new(&of::START_SHARE, end, Simulation)),
+        // Those that did so only after a long transient.
+        "late": reached.late,
+        // Found by solving for it, before any start was followed.
+        "solved": reached.solved,
+    });
+    Some(told)
+}
+
+/// A trajectory that was measured, from whatever start, and the orbit that it is on.
+pub fn measured(scale: &Scale, system: &System, motion: &Measured) -> Value {
+    let orbit = motions::orbit_of(system, motion);
+    told(scale, system, motion, orbit.as_ref(), Simulation)
+}
+
+fn merge(into: &mut Value, from: Value) {
+    if let (Value::Object(into), Value::Object(from)) = (into, from) {
+        into.extend(from);
+    }
+}
+
+fn told(
+    scale: &Scale,
+    system: &System,
+    motion: &Measured,
+    orbit: Option<&Orbit>,
+    method: Method,
 ) -> Value {
     let evidence = &motion.classification.evidence;
     let captures = &evidence.captures;
@@ -71,6 +161,7 @@ pub fn measured(
     let mut told = json!({
         "regime": motion.classification.regime,
         "dynamics": motion.classification.dynamics,
+        "visits_per_period": motion.facts.visits_per_period,
         "modulation": extreme(&of::MODULATION, evidence.modulation_depth),
         "capture_share": capture_share,
         "contact_share": extreme(&of::CONTACT_SHARE, contacts.duration_tau / window),
@@ -82,22 +173,24 @@ pub fn measured(
         "energy": energy(scale, motion, system),
         // Undamped and without impacts: its peak is that of its start.
         "keeps_its_start": motion.keeps_its_start(),
+        "efficiency": efficiency(&motion.facts, method),
         "settled": motion.settled,
-        // Whether two halves of the window agree.
-        "stationary": evidence.settled,
         "numerics": numerics(motion),
         "doubts": doubts(motion),
-        "proof": proof.map(proven),
-        "starts": null,
+        "proof": orbit.map(proven),
+        "reached": null,
     });
-    for (key, quantity) in headline(scale, motion) {
+    for (key, quantity) in headline(scale, system, &motion.facts, method) {
         told[key] = json!(quantity);
+    }
+    if motion.regime() == Regime::AtRest {
+        told["impact_speed"] = Value::Null;
     }
     told
 }
 
 /// Quality of the simulation.
-fn numerics(motion: &Attractor) -> Value {
+fn numerics(motion: &Measured) -> Value {
     json!({
         "periods": motion.periods,
         "impacts": motion.impact_count,
@@ -112,7 +205,7 @@ fn numerics(motion: &Attractor) -> Value {
 }
 
 /// Reasons not to trust a motion, in words with what to do.
-fn doubts(motion: &Attractor) -> Vec<Value> {
+fn doubts(motion: &Measured) -> Vec<Value> {
     let doubts = motion.doubts().into_iter().map(|doubt| {
         let mut told = json!(doubt);
         told["words"] = json!(doubt.words());
@@ -122,43 +215,62 @@ fn doubts(motion: &Attractor) -> Vec<Value> {
     doubts.collect()
 }
 
-/// The numbers that stand for a case, by their key in a motion.
-pub fn headline(scale: &Scale, motion: &Attractor) -> Vec<(&'static str, Quantity)> {
-    let [rms_error, impacts_error] = motion.errors().unwrap_or_default();
-    let speed = [motion.impact_speed, motion.impact_speed_error];
-    let impacts = motion.classification.evidence.impacts_per_period;
-    let number =
-        |kind, value: f64, error: f64| Quantity::new(kind, value, Simulation).with_error(error);
-    let length = |kind, value| scale.length_with(kind, value, Simulation);
-    let level = |key, kind: &'static Kind, change: Option<f64>, of: [f64; 2]| {
-        change.map(|value| (key, number(kind, value, level_error(of[0], of[1]))))
-    };
-    let (peak, rms) = ([motion.peak, motion.peak_error], [motion.rms, rms_error]);
-    let energetics = &motion.energetics;
-    let known = [
+/// The numbers of a motion that have a unit of the case, by their key.
+fn numbers(scale: &Scale, facts: &Facts, method: Method) -> [(&'static str, Quantity); 4] {
+    let length = |kind, of: motions::Value| scale.length_with(kind, [of.value, of.error], method);
+    let Facts { peak, rms, impacts_per_period: impacts, impact_speed: speed, .. } = *facts;
+    let impacts =
+        Quantity::new(&of::IMPACTS_PER_PERIOD, impacts.value, method).with_error(impacts.error);
+    [
         ("peak", length(&of::PEAK, peak)),
         ("rms", length(&of::RMS, rms)),
-        ("impacts_per_period", number(&of::IMPACTS_PER_PERIOD, impacts, impacts_error)),
-        ("impact_speed", scale.velocity(&of::IMPACT_SPEED, speed, Simulation)),
-    ];
+        ("impacts_per_period", impacts),
+        ("impact_speed", scale.velocity(&of::IMPACT_SPEED, [speed.value, speed.error], method)),
+    ]
+}
+
+fn efficiency(facts: &Facts, method: Method) -> Option<Quantity> {
+    let share = facts.efficiency?;
+    Some(Quantity::new(&of::EFFICIENCY, share.value, method).with_error(share.error))
+}
+
+/// The numbers that stand for a case, by their key in a motion.
+pub fn headline(
+    scale: &Scale,
+    system: &System,
+    facts: &Facts,
+    method: Method,
+) -> Vec<(&'static str, Quantity)> {
+    // In decibels against the steady motion of the structure alone, where it has one.
+    let alone = system.linear_response().map(|response| response.amplitude());
+    let alone = alone.filter(|amplitude| *amplitude > 0.0);
+    let level = |key, kind: &'static Kind, of: motions::Value, shape: f64| {
+        let ratio = of.value / (alone? * shape);
+        let change = Quantity::new(kind, 20.0 * libm::log10(ratio), method);
+        let error = level_error(of.value, of.error);
+        (ratio > 0.0).then(|| (key, change.with_error(error)))
+    };
     let changes = [
-        level("change", &of::CHANGE_DB, energetics.peak_change_db, peak),
-        level("rms_change", &of::RMS_CHANGE_DB, energetics.rms_change_db, rms),
+        level("change", &of::CHANGE_DB, facts.peak, 1.0),
+        level("rms_change", &of::RMS_CHANGE_DB, facts.rms, std::f64::consts::FRAC_1_SQRT_2),
     ];
-    known.into_iter().chain(changes.into_iter().flatten()).collect()
+    numbers(scale, facts, method).into_iter().chain(changes.into_iter().flatten()).collect()
 }
 
 /// The relative error of an average that has none of its own; NaN where nothing is known of it.
-fn error_of_averages(motion: &Attractor) -> f64 {
-    let Some([rms, impacts]) = motion.errors() else { return 0.0 };
+fn error_of_averages(motion: &Measured) -> f64 {
+    if motion.repeats() {
+        return 0.0;
+    }
     let evidence = &motion.classification.evidence;
-    let scatter = RIDES * (rms / motion.rms + impacts / evidence.impacts_per_period);
-    let known = motion.rms > 0.0 && evidence.impacts_per_period > 0.0;
+    let Facts { rms, impacts_per_period: impacts, .. } = motion.facts;
+    let scatter = RIDES * (rms.error / rms.value + impacts.error / impacts.value);
+    let known = rms.value > 0.0 && impacts.value > 0.0;
     if known { scatter.max(evidence.modulation_depth.min(WEAK_MODULATION)) } else { f64::NAN }
 }
 
 /// Energies of a period of the excitation.
-fn energy(scale: &Scale, motion: &Attractor, system: &System) -> Value {
+fn energy(scale: &Scale, motion: &Measured, system: &System) -> Value {
     let period = system.period();
     let energetics = &motion.energetics;
     let error = error_of_averages(motion);
@@ -166,15 +278,11 @@ fn energy(scale: &Scale, motion: &Attractor, system: &System) -> Value {
         let energy = scale.energy(kind, value, Simulation);
         energy.with_error(error * energy.value.abs())
     };
-    let efficiency = energetics
-        .transfer_efficiency
-        .map(|share| Quantity::new(&of::EFFICIENCY, share, Simulation).with_error(error * share));
     let mut told = json!({
         "work": energy(&of::WORK, energetics.input_power * period),
         "damper": energy(&of::DAMPER_LOSS, energetics.damper_power * period),
         "impacts": energy(&of::IMPACT_LOSS, energetics.loss_per_period),
         "per_impact": energetics.loss_per_impact.map(|one| energy(&of::LOSS_PER_IMPACT, one)),
-        "efficiency": efficiency,
     });
     if system.cavity().friction_acceleration > 0.0 {
         told["friction"] = json!(energy(&of::FRICTION_LOSS, energetics.friction_power * period));
@@ -183,8 +291,7 @@ fn energy(scale: &Scale, motion: &Attractor, system: &System) -> Value {
 }
 
 /// The exact orbit that a motion is: walls in the order of the impacts, largest multiplier per period.
-fn proven(proof: &Proof) -> Value {
-    let orbit = &proof.orbit;
+fn proven(orbit: &Orbit) -> Value {
     let multiplier = Quantity::new(&of::SPECTRAL_RADIUS, orbit.radius_per_period(), ExactOrbit);
     json!({
         "sequence": orbit.cycle.sequence(),
@@ -193,6 +300,5 @@ fn proven(proof: &Proof) -> Value {
         "multiplier": multiplier.with_error(ROOT_OF_ROUNDING * multiplier.value),
         "residual": orbit.convergence.residual,
         "origin": orbit.origin,
-        "distance_from_simulation": proof.distance,
     })
 }

@@ -43,20 +43,19 @@ pub fn notes(case: &Case, study: &CaseStudy) -> Vec<Value> {
     let refuted = claims
         .filter(|(_, claim)| claim.verdict == Verdict::Refuted)
         .map(|(claim, _)| noted("refuted", json!({ "claim": claim })));
-    let runs = study.motions.attractors.iter().enumerate().flat_map(|(motion, found)| {
-        let attractor = &found.attractor;
-        let early = attractor.stop != Stop::EndTime;
+    let runs = study.each().enumerate().flat_map(|(index, (motion, measured))| {
+        let early = measured.stop != Stop::EndTime;
         // That a run was ended early is said once.
         let doubtful =
-            attractor.doubts().iter().any(|doubt| !matches!(doubt, Doubt::Unfinished { .. }));
+            measured.doubts().iter().any(|doubt| !matches!(doubt, Doubt::Unfinished { .. }));
         let all = [
             ("stopped", early),
-            // Two halves of the run differ.
-            ("not-stationary", !early && !attractor.classification.evidence.settled),
+            // It may be a transient.
+            ("not-settled", !early && !motion.settled()),
             ("doubtful", doubtful),
         ];
         let notes = all.into_iter().filter(|(_, holds)| *holds);
-        notes.map(move |(kind, _)| noted(kind, json!({ "motion": motion })))
+        notes.map(move |(kind, _)| noted(kind, json!({ "motion": index })))
     });
     let limits = theory_limits(&study.analysis.system).into_iter();
     let limits = limits.map(|limit| noted("limit", limit));

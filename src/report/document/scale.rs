@@ -57,6 +57,11 @@ impl Scale {
         }
     }
 
+    /// The unit of a quantity: of SI, or empty for a pure number and in a reduced case.
+    pub fn unit(&self, of: &Quantity) -> &'static str {
+        of.kind.dimension.symbol(self.scales.physical)
+    }
+
     /// A length over the clearance.
     pub fn length(&self, kind: &'static Kind, over_clearance: f64, method: Method) -> Quantity {
         Quantity::new(kind, self.scales.length(over_clearance), method)

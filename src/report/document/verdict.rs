@@ -8,7 +8,8 @@ use super::criteria::badge;
 use crate::analysis::Analysis;
 use crate::cavity::{CavityTheory, Forcing};
 use crate::criteria::Judged;
-use crate::regimes::{FoundAttractor, Regime};
+use crate::motions::{Motion, RestKind};
+use crate::regimes::Regime;
 use crate::study::CaseStudy;
 use crate::validation::Verdict;
 
@@ -34,7 +35,7 @@ pub enum Headline {
     NothingDrives,
     /// Without the absorber nothing limits the vibration.
     UnlimitedWithout,
-    /// The absorber does not move.
+    /// Nothing moves the absorber, and the structure vibrates as if alone.
     AtRest,
     /// Higher peaks, less on average.
     HigherPeaks,
@@ -58,6 +59,8 @@ pub enum Word {
     Works,
     /// No criterion fails by more than its error.
     TooCloseToCall,
+    /// No criterion fails by what has settled, and what has not may fail one.
+    NotDecided,
     /// Something between.
     Mixed,
     /// Hardly any change.
@@ -77,7 +80,7 @@ pub fn verdict(study: &CaseStudy, judged: &[Judged]) -> Value {
     let band = along_band(study);
     let without = || band.map_or_else(|| word(study, headline), Headline::word);
     let word = badge(judged).unwrap_or_else(without);
-    let worse = study.main_attractor().filter(|_| headline == Headline::Worse);
+    let worse = study.motions.main().filter(|_| headline == Headline::Worse);
     let confirmed = study.claims.iter().filter(|claim| claim.verdict == Verdict::Confirmed);
     json!({
         "tone": word.tone(),
@@ -95,7 +98,7 @@ impl Word {
     pub fn tone(self) -> Tone {
         match self {
             Self::Holds | Self::Works => Tone::Good,
-            Self::TooCloseToCall | Self::Mixed => Tone::Mixed,
+            Self::TooCloseToCall | Self::NotDecided | Self::Mixed => Tone::Mixed,
             _ => Tone::Bad,
         }
     }
@@ -115,11 +118,7 @@ impl Headline {
 
 /// A smaller vibration is only good news where it is steady 1:1 resonance that starts were seen to end in.
 fn word(study: &CaseStudy, headline: Headline) -> Word {
-    // Two impacts per period are asymmetric where the cavity is.
-    let symmetric = study.analysis.system.cavity().is_symmetric();
-    let steady =
-        |regime| regime == Regime::TwoSymmetric || !symmetric && regime == Regime::TwoAsymmetric;
-    let steady = study.main_attractor().is_some_and(|main| steady(main.regime()));
+    let steady = study.motions.main().is_some_and(Motion::is_one_to_one);
     match headline {
         Headline::UnlimitedWithout if steady => Word::Works,
         Headline::Less if !steady => Word::Mixed,
@@ -134,7 +133,7 @@ fn headline(study: &CaseStudy) -> Headline {
     let bare = study.rivals.bare.1;
     let without_simulation =
         || study.exact.attracting_peak().or_else(|| stable_amplitude(&study.analysis));
-    let Some(main) = study.main_attractor() else {
+    let Some(main) = study.motions.main() else {
         return match without_simulation().filter(|_| !study.simulated) {
             Some(peak) if bare.is_finite() => compared(peak / bare),
             Some(_) => Headline::UnlimitedWithout,
@@ -144,11 +143,11 @@ fn headline(study: &CaseStudy) -> Headline {
     if !bare.is_finite() {
         return Headline::UnlimitedWithout;
     }
-    if main.regime() == Regime::AtRest {
+    if main.rest().is_some_and(|rest| rest.rest == RestKind::Floating) {
         return Headline::AtRest;
     }
-    let peak = main.attractor.peak / bare;
-    let rms = main.attractor.rms / (bare * std::f64::consts::FRAC_1_SQRT_2);
+    let peak = main.facts().peak.value / bare;
+    let rms = main.facts().rms.value / (bare * std::f64::consts::FRAC_1_SQRT_2);
     match (compared(peak), compared(rms)) {
         (Headline::Worse, Headline::Less) => Headline::HigherPeaks,
         (Headline::Little, Headline::Less) => Headline::LessOnAverage,
@@ -169,12 +168,12 @@ fn stable_amplitude(analysis: &Analysis) -> Option<f64> {
 /// Along the band, by the worst motion with its error.
 fn along_band(study: &CaseStudy) -> Option<Headline> {
     let survey = study.band.as_ref()?;
-    let Some(worst) = survey.motions.worst() else { return Some(Headline::NoMotion) };
-    let bare = survey.rivals.bare.1;
+    let Some(worst) = survey.worst() else { return Some(Headline::NoMotion) };
+    let bare = survey.bare().1;
     if !bare.is_finite() {
         return Some(Headline::UnlimitedWithout);
     }
-    Some(compared((worst.peak + worst.error) / bare))
+    Some(compared((worst.peak.value + worst.peak.error) / bare))
 }
 
 fn compared(ratio: f64) -> Headline {
@@ -188,16 +187,18 @@ fn compared(ratio: f64) -> Headline {
 }
 
 /// Why an absorber that moves makes things worse.
-fn reason(study: &CaseStudy, main: &FoundAttractor) -> Option<&'static str> {
+fn reason(study: &CaseStudy, main: &Motion) -> Option<&'static str> {
     let below = study.analysis.system.frequency_ratio() < 1.0;
     match main.regime() {
         // Below resonance the moving mass lowers the resonance towards the excitation.
-        Regime::TwoSymmetric | Regime::TwoAsymmetric | Regime::AboveTwo if below => {
+        Regime::AtRest | Regime::TwoSymmetric | Regime::TwoAsymmetric | Regime::AboveTwo
+            if below =>
+        {
             Some("lowers-resonance")
         }
         // Between captures the oscillator grows past its own steady vibration.
         Regime::StronglyModulated => Some("grows-between-captures"),
-        Regime::BelowTwo => None,
+        Regime::AtRest | Regime::BelowTwo => None,
         // The oscillator alone vibrates little there.
         _ => Some("little-alone"),
     }

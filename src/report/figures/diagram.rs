@@ -2,14 +2,14 @@
 
 use serde_json::{Value, json};
 
+use crate::motions::{DiagramPoint, SweepDirection};
 use crate::orbits::Bifurcation;
 use crate::quantity::catalogue as of;
-use crate::regimes::diagram::{DiagramPoint, SweepDirection};
 use crate::report::figure::{
     Color, Dash, Figure, Label, Layer, Layout, MarkedPoint, Marker, Panel, Role, Scale, Shape,
     Style,
 };
-use crate::study::diagrams::{Diagram, EFFORT, Hysteresis, STEPS};
+use crate::study::diagrams::{Diagram, Hysteresis, PERIODS, STEPS};
 use crate::study::exact_branches::ExactPoint;
 use crate::study::plots::first_drawn;
 use crate::system::Parameter;
@@ -78,8 +78,8 @@ pub(super) fn figure(scene: &Scene, diagram: &Diagram, bare: &[[f64; 2]]) -> Fig
     let bare = upper.chart.curve(Role::BareOscillator, bare);
     first = first.with(bare.labelled("without absorber"));
     upper.draw(scene, &mut first, true);
-    if let Some(found) = first_drawn(scene.study) {
-        first = first.with(scene.star(&upper.chart, [own, found.attractor.peak]));
+    if let Some((found, _)) = first_drawn(scene.study) {
+        first = first.with(scene.star(&upper.chart, [own, found.facts().peak.value]));
     }
     let all = diagram.points.iter().flat_map(|point| &point.intervals);
     let longest = all.copied().fold(0.5, f64::max).min(LONGEST);
@@ -239,7 +239,7 @@ fn facts(scene: &Scene, diagram: &Diagram) -> Value {
         "digits": if diagram.parameter == Parameter::Frequency { 4 } else { 3 },
         "range": diagram.range,
         "steps": STEPS,
-        "periods": EFFORT.periods,
+        "periods": PERIODS,
         "hysteresis": diagram.hysteresis,
         "attracting": diagram.exact.attracting_stretches(),
         "agreement": diagram.agreement.map(|found| found.largest),

@@ -5,8 +5,9 @@ use std::f64::consts::SQRT_2;
 use serde_json::{Value, json};
 
 use crate::dissipation::SteadyState;
+use crate::motions::Motion;
 use crate::quantity::catalogue as of;
-use crate::regimes::{FoundAttractor, Regime};
+use crate::regimes::Regime;
 use crate::report::figure::{
     Color, Dash, Figure, Layer, Layout, Marker, Panel, Role, Shape, Style,
 };
@@ -47,7 +48,7 @@ pub(super) fn figure(scene: &Scene, data: &Dissipation) -> Figure {
 /// Amplitudes over the frequency, with those of this case and of its simulated motions.
 fn response(scene: &Scene, data: &Dissipation) -> Panel {
     let [_, most] = data.averages.range;
-    let seen = scene.study.motions.attractors.iter().map(|found| (found, amplitude(found)));
+    let seen = scene.study.motions.iter().map(|found| (found, amplitude(found)));
     let seen: Vec<_> = seen.filter(|(_, amplitude)| *amplitude < most).collect();
     let held = data.response.values().flatten().map(|at| at[1]);
     let highest = held.chain(seen.iter().map(|(_, at)| *at)).filter(|value| value.is_finite());
@@ -75,8 +76,8 @@ fn response(scene: &Scene, data: &Dissipation) -> Panel {
 }
 
 /// That of a sine with the same root mean square.
-fn amplitude(found: &FoundAttractor) -> f64 {
-    SQRT_2 * found.attractor.rms
+fn amplitude(found: &Motion) -> f64 {
+    SQRT_2 * found.facts().rms.value
 }
 
 /// From below all values to above them, zero included.

@@ -89,8 +89,7 @@ impl<'a> Scene<'a> {
             last: bounds.saddle_node.map(|node| over_own(node.forcing_over_clearance)),
             branch: bounds.saddle_node.map(|node| node.branch),
         };
-        let proven = study.motions.attractors.iter().zip(&study.motions.proofs);
-        let motions = proven.map(|(one, proof)| found(&scale, system, one, proof.as_ref()));
+        let motions = found(&scale, study, case.count_inactive);
         let known = json!({
             "frequency": Quantity::new(&of::EXCITATION_FREQUENCY, frequency, Method::Given),
             "clearance": scale.length(&of::CLEARANCE, 1.0, Method::Given),
@@ -99,7 +98,7 @@ impl<'a> Scene<'a> {
             "f0": scales.frequency(1.0),
             "theory": theory::with_margins(&scale, study),
             "ends": ends,
-            "motions": motions.collect::<Vec<_>>(),
+            "motions": motions,
         });
         Self {
             study,

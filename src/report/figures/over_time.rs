@@ -122,7 +122,7 @@ fn projection(scene: &Scene, data: &Motion) -> Panel {
 
 /// What the motion's own facts do not say.
 fn motion_facts(scene: &Scene, data: &Motion) -> Value {
-    let evidence = &scene.study.motions.attractors[data.index].attractor.classification.evidence;
+    let evidence = &scene.study.measured[data.index].classification.evidence;
     json!({
         "index": data.index,
         "periods": data.periods,
@@ -136,8 +136,8 @@ const CAPTURES: usize = 150;
 
 /// The amplitudes `C` and `E` of equation (17) period by period (section 4.2 of Li, Seguy, Berlioz 2016).
 pub(super) fn captures(scene: &Scene) -> Option<Figure> {
-    let found = first_drawn(scene.study)?;
-    let all = &found.attractor.amplitudes;
+    let (_, found) = first_drawn(scene.study)?;
+    let all = &found.amplitudes;
     let shown = &all[all.len().saturating_sub(CAPTURES)..];
     if shown.iter().all(|one| one.captured) || shown.iter().all(|one| !one.captured) {
         return None;
@@ -146,7 +146,7 @@ pub(super) fn captures(scene: &Scene) -> Option<Figure> {
         capture_panel(scene, shown, &of::HARMONIC_AMPLITUDE, |one| one.absorber_amplitude);
     let oscillator =
         capture_panel(scene, shown, &of::OSCILLATOR_AMPLITUDE, |one| one.oscillator_amplitude);
-    let evidence = &found.attractor.classification.evidence;
+    let evidence = &found.classification.evidence;
     let (captures, amplitude) = (&evidence.captures, &evidence.absorber_amplitude);
     let facts = json!({
         "captures": captures,

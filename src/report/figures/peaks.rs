@@ -47,7 +47,7 @@ pub(super) fn band(scene: &Scene, data: &BandCurves) -> Option<Figure> {
         let style = Style::new(Color::Vermillion, 1.4, Dash::Dotted);
         panel = panel.with(chart.horizontal(limit, style).labelled("limit"));
     }
-    let zones = survey.zones.iter().map(|zone| {
+    let zones = survey.zones().iter().map(|zone| {
         let ends = [zone.from, zone.to].map(|at| scene.si(kind, at));
         json!({ "ends": ends, "of": zone.of })
     });
@@ -56,7 +56,7 @@ pub(super) fn band(scene: &Scene, data: &BandCurves) -> Option<Figure> {
         "stable": survey.motions.stable_share(),
         "over": kind.id,
         "zones": zones.collect::<Vec<_>>(),
-        "inactive": survey.motions.count_inactive && survey.motions.inactive.is_some(),
+        "inactive": survey.count_rest && survey.motions.rest_at().is_some(),
     });
     Some(scene.figure("band", "captions/band", facts).with_panel(panel))
 }
@@ -64,15 +64,20 @@ pub(super) fn band(scene: &Scene, data: &BandCurves) -> Option<Figure> {
 /// Simulated peaks along the band where they are not the exact orbit's.
 fn beside_orbits(scene: &Scene, survey: &Survey) -> Vec<([f64; 2], String)> {
     let mut found = Vec::new();
-    for place in &survey.motions.places {
-        for motion in place.beside_orbit() {
-            let impacts = scene.text(&of::IMPACTS_PER_PERIOD, motion.impacts_per_period);
-            found.push(([place.at, motion.peak], format!("simulated, z = {impacts}")));
-        }
-        if let Some(inactive) = place.inactive.filter(|_| survey.motions.count_inactive) {
-            let share = scene.text(&of::INACTIVE_SHARE, inactive.share);
-            let what = format!("inactive absorber, from {share} of its resting places");
-            found.push(([place.at, inactive.peak], what));
+    for (at, here) in survey.motions.places() {
+        for (_, motion) in here.counting(survey.count_rest) {
+            let what = match motion.rest() {
+                Some(rest) => {
+                    let share = scene.text(&of::INACTIVE_SHARE, rest.share);
+                    format!("inactive absorber, from {share} of its resting places")
+                }
+                None if motion.is_solved() => continue,
+                None => {
+                    let impacts = motion.facts().impacts_per_period.value;
+                    format!("simulated, z = {}", scene.text(&of::IMPACTS_PER_PERIOD, impacts))
+                }
+            };
+            found.push(([*at, motion.facts().peak.value], what));
         }
     }
     found
@@ -100,8 +105,8 @@ pub(super) fn amplitude(scene: &Scene, data: &Amplitude) -> Figure {
         panel = panel.with(layer.labelled(name));
     }
     let found = data.simulated.iter().map(|(ratio, _, one)| {
-        let what = format!("simulated, {}", one.regime.words());
-        (one.regime, scene.mark(&chart, [*ratio, one.peak], &what))
+        let what = format!("simulated, {}", one.regime().words());
+        (one.regime(), scene.mark(&chart, [*ratio, one.facts().peak.value], &what))
     });
     panel.layers.extend(parts::by_regime(&found.collect::<Vec<_>>(), true));
     let star = data.here.map(|peak| scene.star(&chart, [scene.system().frequency_ratio(), peak]));

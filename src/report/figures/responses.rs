@@ -22,9 +22,9 @@ const FAR: f64 = 40.0;
 pub(super) fn manifold(scene: &Scene) -> Figure {
     let analysis = &scene.study.analysis;
     let manifold = &analysis.manifold;
-    let seen: Vec<([f64; 2], Regime)> = (0..scene.study.motions.attractors.len())
+    let seen: Vec<([f64; 2], Regime)> = (0..scene.study.motions.len())
         .filter_map(|index| drawn(scene.study, index))
-        .filter_map(|found| Some((observed(scene.study, found)?, found.regime())))
+        .filter_map(|(motion, found)| Some((observed(scene.study, found)?, motion.regime())))
         .collect();
     let reached = analysis.fixed_points.iter().map(|point| point.absorber_amplitude);
     let farthest = reached.chain(seen.iter().map(|(at, _)| at[0])).fold(0.0, f64::max);

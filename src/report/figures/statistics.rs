@@ -3,8 +3,8 @@
 use serde_json::{Value, json};
 
 use crate::method::Method;
+use crate::motions::Motion;
 use crate::quantity::{Quantity, catalogue as of};
-use crate::regimes::basins::Cell;
 use crate::regimes::return_map::pairs;
 use crate::regimes::{Exponent, Regime};
 use crate::report::figure::{
@@ -28,9 +28,9 @@ const ENDS: [f64; 2] = [1.25, 4.0];
 
 /// Each time between impacts against the next one; none where there are too few impacts.
 pub(super) fn return_map(scene: &Scene, index: usize) -> Option<Figure> {
-    let attractor = &drawn(scene.study, index)?.attractor;
-    let first = attractor.impacts.len().saturating_sub(POINTS + 2);
-    let all = pairs(&attractor.impacts[first..], scene.system().period());
+    let impacts = &drawn(scene.study, index)?.1.impacts;
+    let first = impacts.len().saturating_sub(POINTS + 2);
+    let all = pairs(&impacts[first..], scene.system().period());
     let points = distinct(&all);
     let largest = points.iter().flatten().copied().reduce(f64::max)?;
     let end = (1.08 * largest).clamp(ENDS[0], ENDS[1]);
@@ -99,36 +99,36 @@ const TINTS: [Tint; 5] = [
 
 /// Which starts lead to which long-term motion.
 pub(super) fn basins(scene: &Scene, data: &StartPlane) -> Figure {
-    let cells = &data.basins.cells;
+    let cells = data.motions.led();
     let kinds = [&of::DISPLACEMENT, &of::VELOCITY];
     let chart = Chart::new(scene, kinds, [[-data.reach, data.reach]; 2]);
     let edges: Vec<[f64; 2]> = data.edges().map(|edge| chart.at([edge; 2])).collect();
-    let kind = |cell: &Cell| match cell {
-        Cell::Leads(index) => Some((*index).min(TINTS.len() - 1) as u8),
-        Cell::NotSettled => None,
-    };
+    // What still settles leads nowhere that is known.
+    let settled = |index: &usize| data.motions.get(*index).is_some_and(Motion::settled);
+    let leads = |cell: &Option<usize>| cell.filter(settled);
+    let kind = |cell: &Option<usize>| leads(cell).map(|index| index.min(TINTS.len() - 1) as u8);
     let image = Image {
         x_edges: edges.iter().map(|edge| edge[0]).collect(),
         y_edges: edges.iter().map(|edge| edge[1]).collect(),
         cells: Cells::Kinds(TINTS.to_vec(), cells.iter().map(kind).collect()),
     };
-    let share = |wanted: Cell| {
-        let count = cells.iter().filter(|cell| **cell == wanted).count();
+    let share = |wanted: Option<usize>| {
+        let count = cells.iter().filter(|cell| leads(cell) == wanted).count();
         (count > 0).then_some(count as f64 / cells.len() as f64)
     };
     // Without impacts and damping a free vibration never fades.
     let undamped = scene.system().damping() == 0.0;
     let (mut keys, mut motions) = (Vec::new(), Vec::new());
-    for (index, motion) in data.basins.motions.iter().enumerate() {
-        let Some(share) = share(Cell::Leads(index)) else { continue };
-        let (regime, free) = (motion.regime, motion.regime == Regime::AtRest && undamped);
-        let peak = (!free).then_some(motion.peak);
+    for (index, motion) in data.motions.iter().enumerate() {
+        let Some(share) = share(Some(index)) else { continue };
+        let (regime, free) = (motion.regime(), motion.rest().is_some() && undamped);
+        let peak = (!free).then_some(motion.facts().peak.value);
         let words = peak.map_or("depends on the start".to_owned(), |x| scene.text(&of::PEAK, x));
         let label = format!("{}, peak {words}", regime.words());
         keys.push(Key { tint: TINTS[index.min(TINTS.len() - 1)], label });
         motions.push(json!({ "share": share, "regime": regime, "peak": peak }));
     }
-    let open = share(Cell::NotSettled);
+    let open = share(None);
     keys.extend(open.map(|_| Key::from((Tint::UNKNOWN, "not settled"))));
     let facts = json!({
         "starts": cells.len(),
@@ -154,8 +154,8 @@ pub(super) fn exponents(scene: &Scene, data: &[MotionExponents]) -> Option<Figur
         };
         let fill = Fill { color, opacity: 0.15, hatch: Hatch::None };
         let interval = [line(|at| at.interval[0]), line(|at| at.interval[1])];
-        let found = &scene.study.motions.attractors[one.index];
-        let dynamics = found.attractor.classification.dynamics.words();
+        let found = &scene.study.measured[one.index];
+        let dynamics = found.classification.dynamics.words();
         let style = Style::new(color, 1.8, Dash::Solid);
         let exponent = Layer::curve(style, line(|at| at.per_period));
         let name = format!("{}, {dynamics}", found.regime().words());

@@ -1,7 +1,7 @@
 //! The objective over the clearance, and the best clearance of one excitation over its frequency and
 //! amplitude.
 
-use super::{kind, objective};
+use super::kind;
 use crate::case::{Case, Objective};
 use crate::optimize::Optimization;
 use crate::optimize::chart::Suited;
@@ -91,8 +91,7 @@ impl Drawing<'_> {
         let (found, kind) = (self.found, kind(self.found.task.objective));
         let amplitude = found.task.objective == Objective::WorstAmplitude;
         let mark = |[at, value, error]: [f64; 3], name: &str| {
-            let told = objective(&found.task, value, error);
-            let told = self.units.with_error(kind, told.value, told.error, kind.digits);
+            let told = self.units.with_error(kind, value, error, kind.digits);
             let clearance = self.units.text(&catalogue::CLEARANCE, at);
             MarkedPoint::new(self.length(at), value / unit)
                 .with_tooltip(format!("{name}{clearance}: {told}"))

@@ -3,15 +3,16 @@
 
 mod figure;
 
-use serde_json::{Value, json};
+use serde_json::json;
 
 use super::document::criteria::criterion;
 use super::document::{Absorber, Scale, damper};
 use super::render::{Files, RenderError, page_files};
 use super::template::{render, worded};
-use crate::band::{Motions, Source};
 use crate::case::{self, BandOver, Case, Objective};
+use crate::criteria::method;
 use crate::method::Method;
+use crate::motions::{Motion, Value};
 use crate::optimize::sensitivity::Sensitivity;
 use crate::optimize::{Bounds, Design, Optimization, Task};
 use crate::quantity::{Kind, Quantity, catalogue};
@@ -27,7 +28,7 @@ const STRIPS: f64 = 0.01;
 const SHOWN: usize = 9;
 
 /// What an optimisation found: `vinesink/optimization@3`. Lengths in metres or the case's own unit.
-pub fn document(case: &Case, found: &Optimization) -> Value {
+pub fn document(case: &Case, found: &Optimization) -> serde_json::Value {
     let (best, task) = (&found.best, &found.task);
     let row = |design: &Design| absorber(case, task, design);
     let robust = found.robust.as_ref().map(|one| {
@@ -40,7 +41,7 @@ pub fn document(case: &Case, found: &Optimization) -> Value {
         robust["optimum_worst_corner"] = json!(of_best.worst_corner);
         robust
     });
-    let along = Absorber { over: over(task), worst: best.worst, detuned: &[] };
+    let along = Absorber { over: over(task), worst: best.worst.as_ref(), detuned: &[] };
     let mut page = json!({
         "format": "vinesink/optimization@3",
         "title": case.title,
@@ -64,8 +65,8 @@ pub fn document(case: &Case, found: &Optimization) -> Value {
         // Rounded as it is written; none where nothing is reached.
         "optimum": found.reached().then(|| built(&best.choice)),
         // The objective at the optimum as it is shown, and as a check of the written case gives it.
-        "claimed": objective(task, best.value, best.error),
-        "checked": objective(task, found.checked.0, found.checked.1),
+        "claimed": objective(task, best, [best.value, best.error]),
+        "checked": objective(task, best, found.checked.into()),
         "best": row(best),
         "own": row(&found.own),
         // Where nothing meets all criteria, the absorber that misses them least.
@@ -73,9 +74,9 @@ pub fn document(case: &Case, found: &Optimization) -> Value {
         "robust": robust,
         // Clearances that are as good as the optimum's.
         "plateau": found.plateau,
-        "bare": best.rivals.bare.1 * best.choice.clearance(),
+        "bare": best.survey.bare().1 * best.choice.clearance(),
         // The one of the absorber's mass that is best along the band.
-        "tuned_mass_damper": damper(&Scale::of(&best.written.case), &best.rivals, Some(&along)),
+        "tuned_mass_damper": damper(&Scale::of(&best.written.case), best.survey.rivals(), Some(&along)),
         // Pairs of clearance and objective by the cheap layer.
         "landscape": found.landscape,
         // Every absorber that was judged.
@@ -98,12 +99,20 @@ fn name(parameter: Parameter) -> &'static str {
 }
 
 /// The absorber of a design.
-fn built(design: &case::Design) -> Value {
+fn built(design: &case::Design) -> serde_json::Value {
     let chosen = [Parameter::Clearance, Parameter::Restitution, Parameter::AbsorberMass];
-    chosen.into_iter().map(|one| (name(one).to_owned(), json!(design.value(one)))).collect()
+    let each = chosen.into_iter().map(|one| (name(one).to_owned(), json!(design.value(one))));
+    let mut built: serde_json::Value = each.collect();
+    // Those of both walls, where they differ.
+    let apart = design.restitution_difference();
+    let mean = design.value(Parameter::Restitution);
+    if let Some(mean) = mean.filter(|_| apart != 0.0) {
+        built["restitutions"] = json!([mean + 0.5 * apart, mean - 0.5 * apart]);
+    }
+    built
 }
 
-fn judged(found: &Optimization) -> Vec<Value> {
+fn judged(found: &Optimization) -> Vec<serde_json::Value> {
     let rows = found.judged.iter().map(|one| {
         let (clearance, feasible) = (one.choice.clearance(), one.is_feasible());
         json!({ "clearance": clearance, "value": one.value, "error": one.error, "feasible": feasible })
@@ -111,7 +120,7 @@ fn judged(found: &Optimization) -> Vec<Value> {
     rows.collect()
 }
 
-fn sensitivities(found: &Optimization) -> Vec<Value> {
+fn sensitivities(found: &Optimization) -> Vec<serde_json::Value> {
     let rows = found.sensitivities.iter().map(|one| {
         let Sensitivity { of, change, smaller, larger } = one;
         json!({ "of": name(*of), "change": change, "smaller": smaller, "larger": larger })
@@ -119,7 +128,7 @@ fn sensitivities(found: &Optimization) -> Vec<Value> {
     rows.collect()
 }
 
-fn bounds(task: &Task) -> Vec<Value> {
+fn bounds(task: &Task) -> Vec<serde_json::Value> {
     let bounds = task.bounds.iter().map(|Bounds { parameter, from, to }| {
         json!({ "variable": name(*parameter), "from": from, "to": to })
     });
@@ -127,17 +136,11 @@ fn bounds(task: &Task) -> Vec<Value> {
 }
 
 /// An absorber with its objective, as a quantity is written, and the criteria that it misses of all.
-fn absorber(case: &Case, task: &Task, design: &Design) -> Value {
+fn absorber(case: &Case, task: &Task, design: &Design) -> serde_json::Value {
     let missed = design.criteria.iter().filter(|one| one.holds != Some(true));
-    let mut row = json!(objective(task, design.value, design.error));
+    let mut row = json!(objective(task, design, [design.value, design.error]));
     for (key, value) in built(&design.choice).as_object().into_iter().flatten() {
         row[key] = value.clone();
-    }
-    // Those of both walls, where they differ.
-    let apart = design.choice.restitution_difference();
-    let mean = design.choice.value(Parameter::Restitution);
-    if let Some(mean) = mean.filter(|_| apart != 0.0) {
-        row["restitutions"] = json!([mean + 0.5 * apart, mean - 0.5 * apart]);
     }
     row["feasible"] = json!(design.is_feasible());
     row["criteria"] = json!(design.criteria.len());
@@ -155,11 +158,12 @@ fn kind(objective: Objective) -> &'static Kind {
     }
 }
 
-fn objective(task: &Task, value: f64, error: f64) -> Quantity {
+fn objective(task: &Task, design: &Design, [value, error]: [f64; 2]) -> Quantity {
+    let worst = design.worst.as_ref().map_or(Method::Simulation, |worst| method(&worst.motion));
     let method = match task.objective {
         Objective::Z3Share => Method::Theory,
         Objective::StableShare | Objective::Margin => Method::ExactOrbit,
-        Objective::WorstAmplitude => Method::Simulation,
+        Objective::WorstAmplitude => worst,
     };
     Quantity::new(kind(task.objective), value, method).with_error(error)
 }
@@ -207,10 +211,10 @@ pub fn written(
 }
 
 /// What the templates read.
-fn context(case: &Case, found: &Optimization) -> Value {
+fn context(case: &Case, found: &Optimization) -> serde_json::Value {
     let (best, scale) = (&found.best, Scale::of(case));
     let over = over(&found.task);
-    let worst = best.worst.filter(|_| found.task.objective == Objective::WorstAmplitude);
+    let worst = best.worst.as_ref().filter(|_| found.task.objective == Objective::WorstAmplitude);
     let given = case.inputs().iter().filter(|input| input.table == "uncertainty");
     let uncertain = given.filter(|input| input.value > 0.0).map(|input| {
         json!({
@@ -223,13 +227,13 @@ fn context(case: &Case, found: &Optimization) -> Value {
         "uncertain": uncertain.collect::<Vec<_>>(),
         "worst": worst.map(|worst| json!({
             "at": scale.place(over, worst.at),
-            "of": match worst.of {
-                Source::Orbit => json!({ "is": "orbit" }),
-                Source::Inactive(one) => json!({ "is": "inactive", "share": one.share }),
-                Source::Simulated(motion) => json!({
-                    "is": "simulated",
-                    "repeats": motion.repeats_after.is_some(),
-                    "impacts_per_period": motion.impacts_per_period,
+            "of": match worst.motion.rest() {
+                Some(rest) => json!({ "is": "inactive", "share": rest.share }),
+                None if worst.motion.is_one_to_one() => json!({ "is": "orbit" }),
+                None => json!({
+                    "is": "other",
+                    "repeats": worst.motion.repeats_after().is_some(),
+                    "impacts_per_period": worst.motion.facts().impacts_per_period.value,
                 }),
             },
         })),
@@ -248,7 +252,7 @@ fn over(task: &Task) -> BandOver {
 }
 
 /// The bounds on which the best lies, but for those that no restitution can pass.
-fn on_bounds(found: &Optimization) -> Vec<Value> {
+fn on_bounds(found: &Optimization) -> Vec<serde_json::Value> {
     let ends = found.task.bounds.iter().filter_map(|bounds| {
         let Bounds { parameter, from, to } = *bounds;
         let value = bounds.value(&found.best.choice);
@@ -262,27 +266,34 @@ fn on_bounds(found: &Optimization) -> Vec<Value> {
 }
 
 /// What the survey finds with the best absorber at some of its places.
-fn places(over: BandOver, found: &Optimization) -> Vec<Value> {
-    let Design { motions: Motions { places, .. }, written, worst, .. } = &found.best;
+fn places(over: BandOver, found: &Optimization) -> Vec<serde_json::Value> {
+    let Design { survey, written, worst, .. } = &found.best;
+    let motions = &survey.motions;
+    let places = if motions.simulated() { motions.places() } else { &[] };
     let scale = Scale::of(&written.case);
     let every = places.len().div_ceil(SHOWN).max(1);
     let amplitude = found.task.objective == Objective::WorstAmplitude;
-    let shown = places.iter().enumerate().filter(|(k, place)| {
-        k.is_multiple_of(every) || worst.is_some_and(|worst| worst.at == place.at)
+    let shown = places.iter().enumerate().filter(|(k, (at, _))| {
+        k.is_multiple_of(every) || worst.as_ref().is_some_and(|worst| worst.at == *at)
     });
-    let rows = shown.map(|(_, one)| {
-        let peak = |peak: f64| scale.length(&catalogue::PEAK, peak, Method::Simulation);
-        let largest = one.largest().map(|motion| {
-            let error = if amplitude { motion.peak_error } else { 0.0 };
-            scale.length_with(&catalogue::PEAK, [motion.peak, error], Method::Simulation)
-        });
+    let rows = shown.map(|(_, (at, here))| {
+        let peak = |motion: &Motion| {
+            let Value { value, error } = motion.facts().peak;
+            let error = if amplitude { error } else { 0.0 };
+            scale.length_with(&catalogue::PEAK, [value, error], method(motion))
+        };
+        let largest = |is_one: &dyn Fn(&Motion) -> bool| {
+            let alike = here.iter().filter(|motion| is_one(motion));
+            alike.max_by(|a, b| a.facts().peak.value.total_cmp(&b.facts().peak.value))
+        };
+        let moving = |motion: &Motion| motion.rest().is_none();
         json!({
-            "at": scale.place(over, one.at),
-            "orbit": one.orbit.map(peak),
-            "motions": one.motions.len(),
-            "largest": largest,
-            "inactive": one.inactive.map(|one| peak(one.peak)),
-            "inactive_share": one.inactive.map(|one| one.share),
+            "at": scale.place(over, *at),
+            "orbit": largest(&Motion::is_one_to_one).map(peak),
+            "motions": here.iter().filter(|one| moving(one)).count(),
+            "largest": largest(&moving).map(peak),
+            "inactive": here.rest().map(peak),
+            "inactive_share": here.rest().and_then(Motion::rest).map(|rest| rest.share),
         })
     });
     rows.collect()

@@ -5,8 +5,8 @@ use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, PI};
 use crate::analysis::Manifold;
 use crate::analysis::frequency_response::ResponsePoint;
 use crate::band::rivals::bare_amplitude;
+use crate::motions::Motion;
 use crate::orbits::SteadyOrbit;
-use crate::regimes::Motion;
 use crate::simulation::Stop;
 use crate::study::scenes::visited;
 use crate::study::{CaseStudy, StudyError};
@@ -58,11 +58,11 @@ impl Amplitude {
         let half = 0.5 * (window[1] - window[0]) / f64::from(SWEEP);
         let middles: Vec<f64> = even(window[0] + half, window[1] - half, SWEEP - 1).collect();
         let simulated = visited(&middles, |ratio| system.with_frequency_ratio(ratio))?;
-        let attractor = study.main_attractor().map(|found| &found.attractor);
-        let known = attractor.filter(|one| one.stop == Stop::EndTime && one.periods > 0);
-        let here = known.map(|one| one.peak).filter(|peak| peak.is_finite());
-        let top =
-            top(&bare, simulated.iter().map(|(.., at)| at.peak).chain(here), study.rivals.bare.1);
+        let known = study.main().filter(|(_, one)| one.stop == Stop::EndTime && one.periods > 0);
+        let here = known.map(|(motion, _)| motion.facts().peak.value);
+        let here = here.filter(|peak| peak.is_finite());
+        let peaks = simulated.iter().map(|(.., at)| at.facts().peak.value).chain(here);
+        let top = top(&bare, peaks, study.rivals.bare.1);
         let place = |point: &ResponsePoint| {
             let ratio = 1.0 + system.mass_ratio() * point.detuning;
             [ratio, peak(system.mass_ratio(), manifold, point)]

@@ -2,6 +2,8 @@
 
 use crate::band::Band;
 use crate::band::rivals::bare_amplitude;
+use crate::motions::one_to_one;
+use crate::regimes::Regime;
 use crate::study::CaseStudy;
 use crate::system::System;
 
@@ -14,7 +16,8 @@ pub struct BandCurves {
     pub bare: Line,
     /// With the best tuned mass damper of the same mass.
     pub damper: Line,
-    /// Of the admissible symmetric orbits: those that attract, and those that do not.
+    /// Of the admissible symmetric orbits: those that attract, and those that do not; and where no symmetric one attracts the
+    /// asymmetric one that does, among the first.
     pub orbits: [Line; 2],
 }
 
@@ -24,7 +27,7 @@ impl BandCurves {
 
     pub(super) fn of(study: &CaseStudy) -> Option<Self> {
         let survey = study.band.as_ref()?;
-        let (band, damper) = (survey.band(), survey.rivals.damper);
+        let (band, damper) = (survey.band(), survey.rivals().damper);
         let curve = |amplitude: &dyn Fn(&System) -> f64| -> Line {
             let value = |at: f64| band.system(at).map_or(f64::NAN, |system| amplitude(&system));
             band.places(Self::PLACES).map(|at| [at, value(at)]).collect()
@@ -51,6 +54,14 @@ impl BandCurves {
                 }
             }
             lines.iter_mut().for_each(|line| line.push([f64::NAN; 2]));
+        }
+        if band.base.cavity().is_ideal() {
+            lines[0].extend(band.places(Self::PLACES).map(|at| {
+                let found = band.system(at).map(|system| one_to_one(&system)).unwrap_or_default();
+                let symmetric = found.iter().any(|one| one.regime() == Regime::TwoSymmetric);
+                let peaks = found.iter().filter(|_| !symmetric).map(|one| one.facts().peak.value);
+                peaks.max_by(f64::total_cmp).map_or([f64::NAN; 2], |peak| [at, peak])
+            }));
         }
         lines
     }

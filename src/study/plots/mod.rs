@@ -15,9 +15,9 @@ pub mod traces;
 
 use crate::analysis::Branch;
 use crate::case::{Case, ExtraFigure};
+use crate::motions::{Measured, Motion as LongTermMotion};
 use crate::orbits::boundaries::over_frequency;
 use crate::orbits::{Boundaries, SteadyOrbit, steady_orbits};
-use crate::regimes::{FoundAttractor, Regime};
 use crate::simulation::Stop;
 use crate::system::{Parameter, System};
 use crate::validation::AsymptoticError;
@@ -142,7 +142,7 @@ impl Plot {
         if forced {
             plots.push(Self::Amplitude(Amplitude::of(study)?));
         }
-        for index in 0..study.motions.attractors.len().min(MOTIONS) {
+        for index in 0..study.motions.len().min(MOTIONS) {
             plots.extend(Motion::of(study, index)?.map(Self::Motion));
         }
         Ok(plots)
@@ -176,22 +176,16 @@ impl Plot {
     }
 }
 
-/// The motion with an index if it can be drawn: it moves and was followed to the end. One that was measured
-/// while it turned into another (its average is not that of the repetition it ends with) cannot.
-pub fn drawn(study: &CaseStudy, index: usize) -> Option<&FoundAttractor> {
-    let found = study.motions.attractors.get(index)?;
-    let evidence = &found.attractor.classification.evidence;
-    let lasts = evidence.periodicity.is_none_or(|repetition| {
-        let repeated = f64::from(repetition.impacts) / f64::from(repetition.periods);
-        (evidence.impacts_per_period - repeated).abs() < 0.05 * repeated.max(1.0)
-    });
-    let followed = found.attractor.stop == Stop::EndTime;
-    (found.regime() != Regime::AtRest && followed && lasts).then_some(found)
+/// The motion with an index if it can be drawn: it moves, was reached and followed to the end.
+pub fn drawn(study: &CaseStudy, index: usize) -> Option<(&LongTermMotion, &Measured)> {
+    let (motion, measured) = study.each().nth(index)?;
+    let followed = measured.stop == Stop::EndTime;
+    (motion.rest().is_none() && followed).then_some((motion, measured))
 }
 
 /// The first motion that can be drawn: the one that most starts lead to.
-pub fn first_drawn(study: &CaseStudy) -> Option<&FoundAttractor> {
-    (0..study.motions.attractors.len()).find_map(|index| drawn(study, index))
+pub fn first_drawn(study: &CaseStudy) -> Option<(&LongTermMotion, &Measured)> {
+    (0..study.motions.len()).find_map(|index| drawn(study, index))
 }
 
 /// `count` + 1 numbers from `first` to `last`.

@@ -6,7 +6,7 @@ use crate::analysis::motion::read_off;
 use serde::Serialize;
 
 use crate::analysis::{Branch, Manifold};
-use crate::regimes::FoundAttractor;
+use crate::motions::Measured;
 use crate::study::CaseStudy;
 use crate::system::{Parameters, System};
 
@@ -61,7 +61,7 @@ impl Restitutions {
     /// Of a case's own amplitude; none where nothing is steady at it.
     pub fn of(study: &CaseStudy) -> Option<Self> {
         let stable = study.analysis.stable_points().last().map(|point| point.oscillator_amplitude);
-        let seen = || Some(observed(study, first_drawn(study)?)?[1]);
+        let seen = || Some(observed(study, first_drawn(study)?.1)?[1]);
         let level = stable.or_else(seen)?;
         let taken: Vec<Taken> =
             even(0.0, 1.0, STEPS).filter_map(|restitution| taken(restitution, level)).collect();
@@ -77,10 +77,9 @@ impl Restitutions {
 }
 
 /// What was observed of a motion: `[B/b, C/b]` by its first harmonics.
-pub fn observed(study: &CaseStudy, found: &FoundAttractor) -> Option<[f64; 2]> {
-    let attractor = &found.attractor;
+pub fn observed(study: &CaseStudy, found: &Measured) -> Option<[f64; 2]> {
     let system = &study.analysis.system;
-    let seen = read_off(system, attractor.oscillator_harmonic, attractor.absorber_harmonic);
+    let seen = read_off(system, found.oscillator_harmonic, found.absorber_harmonic);
     let place = [seen.absorber_amplitude, seen.oscillator_amplitude];
     place.iter().all(|value| value.is_finite()).then_some(place)
 }

@@ -1,8 +1,9 @@
 //! Lyapunov exponents, and which starts lead to which motion.
 
-use crate::regimes::basins::Basins;
-use crate::regimes::starts::StartBox;
-use crate::regimes::{Effort, Exponent, Transient};
+use crate::executor::Serial;
+use crate::motions::starts::StartBox;
+use crate::motions::{Effort, Motions, Place, SettlingTime, motions};
+use crate::regimes::Exponent;
 use crate::study::scenes::exponents;
 use crate::study::{CaseStudy, StudyError};
 use crate::system::State;
@@ -28,11 +29,10 @@ impl MotionExponents {
     pub(super) fn of(study: &CaseStudy) -> Result<Vec<Self>, StudyError> {
         let periods: Vec<u64> = Self::WINDOWS.map(|power| 1 << power).collect();
         let mut all = Vec::new();
-        for index in 0..study.motions.attractors.len().min(MOTIONS) {
-            let Some(found) = drawn(study, index) else { continue };
-            let exponents = exponents(&study.analysis.system, found.attractor.state, &periods)?;
-            let proof = study.motions.proofs[index].as_ref();
-            let exact = proof.map(|proof| libm::log(proof.orbit.radius_per_period()));
+        for index in 0..study.motions.len().min(MOTIONS) {
+            let Some((motion, _)) = drawn(study, index) else { continue };
+            let exponents = exponents(&study.analysis.system, motion.state(), &periods)?;
+            let exact = motion.largest_multiplier().map(libm::log);
             if !exponents.is_empty() {
                 all.push(Self { index, exponents, exact });
             }
@@ -42,16 +42,17 @@ impl MotionExponents {
 }
 
 /// Enough to recognise the motion; in a shorter window a strongly modulated one may show no capture.
-/// Ten impacts per period are recognised as that without going on.
-const BASIN_EFFORT: Effort = Effort { discard: None, periods: 200, most_impacts: 10 };
+const PERIODS: u64 = 200;
+/// Impacts per period that are recognised as many without going on.
+const MOST_IMPACTS: u64 = 10;
 
 /// Starts of the oscillator at excitation phase 0, the absorber at rest in the middle of its cavity.
 #[derive(Debug, Clone)]
 pub struct StartPlane {
     /// Largest displacement and velocity.
     pub reach: f64,
-    /// Where they lead, row by row from the smallest velocity.
-    pub basins: Basins,
+    /// Where they lead, row by row from the smallest velocity; those of the study among the motions.
+    pub motions: Motions,
     /// Excitation periods left out at least.
     pub transient: u64,
 }
@@ -75,8 +76,10 @@ impl StartPlane {
             State { x, x_velocity, y: x, y_velocity: 0.0 }
         };
         let states: Vec<State> = (0..Self::CELLS * Self::CELLS).map(state).collect();
-        let known = study.motions.attractors.iter().map(|found| found.attractor.motion).collect();
-        let basins = Basins::of(system, &states, known, &BASIN_EFFORT, &mut |_| {})?;
-        Ok(Self { reach, basins, transient: Transient::of(system).periods })
+        let known = study.motions.iter().cloned().collect();
+        let place = Place { known, ..Place::with(system, states) };
+        let effort = Effort { most_impacts: MOST_IMPACTS, ..Effort::over(PERIODS) };
+        let motions = motions(&[place], &effort, &Serial)?.pop().unwrap_or_default();
+        Ok(Self { reach, motions, transient: SettlingTime::of(system).periods })
     }
 }

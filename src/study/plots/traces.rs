@@ -4,7 +4,8 @@ use serde::Serialize;
 
 use crate::analysis::Branch;
 use crate::case::Case;
-use crate::regimes::{Attractor, Regime};
+use crate::motions::Measured;
+use crate::regimes::Regime;
 use crate::simulation::Trace;
 use crate::study::scenes::{projected, projected_after, trace};
 use crate::study::stretches::{Periods, SHORTEST_CAPTURE, Stretch, impulse};
@@ -67,23 +68,23 @@ pub struct Motion {
 
 impl Motion {
     pub(super) fn of(study: &CaseStudy, index: usize) -> Result<Option<Self>, StudyError> {
-        let Some(found) = drawn(study, index) else { return Ok(None) };
+        let Some((motion, measured)) = drawn(study, index) else { return Ok(None) };
         let system = &study.analysis.system;
-        let periods = shown_periods(&found.attractor);
+        let periods = shown_periods(measured);
         let density = if periods > RARE { 24.0 } else { 60.0 };
-        let trace = trace(system, found.attractor.state, periods, density)?;
+        let trace = trace(system, motion.state(), periods, density)?;
         let projection = Projection::of(system, &trace);
         Ok(Some(Self { index, periods, trace, projection }))
     }
 }
 
 /// So many that the pattern is seen, and no more impacts than can be told apart.
-fn shown_periods(attractor: &Attractor) -> u64 {
-    let evidence = &attractor.classification.evidence;
+fn shown_periods(measured: &Measured) -> u64 {
+    let evidence = &measured.classification.evidence;
     let wanted = match evidence.periodicity {
         Some(repetition) => FEW.max(2 * u64::from(repetition.periods)).min(MANY),
         None if evidence.modulation_depth > MODULATED => MANY,
-        None if attractor.classification.regime == Regime::BelowTwo => RARE,
+        None if measured.regime() == Regime::BelowTwo => RARE,
         None => SOME,
     };
     let most = (IMPACTS / evidence.impacts_per_period.max(0.1)).max(1.0);
@@ -115,10 +116,10 @@ impl Modulation {
     /// # Errors
     /// As the simulation.
     pub fn of(study: &CaseStudy) -> Result<Option<Self>, StudyError> {
-        let Some(found) = first_drawn(study) else { return Ok(None) };
+        let Some((motion, _)) = first_drawn(study) else { return Ok(None) };
         let system = &study.analysis.system;
         // Between impacts only C changes, and slowly.
-        let trace = trace(system, found.attractor.state, Self::PERIODS, 4.0)?;
+        let trace = trace(system, motion.state(), Self::PERIODS, 4.0)?;
         let captures = Periods::of(&trace).captures();
         let before = Self::TRANSITION;
         let arrival = |capture: &&Stretch| capture.first >= before;
@@ -199,9 +200,9 @@ impl Transfer {
     /// # Errors
     /// As the simulation.
     pub fn of(case: &Case, study: &CaseStudy) -> Result<Option<Self>, StudyError> {
-        let Some(found) = first_drawn(study) else { return Ok(None) };
+        let Some((motion, _)) = first_drawn(study) else { return Ok(None) };
         let system = &study.analysis.system;
-        let trace = trace(system, found.attractor.state, Self::PERIODS, 24.0)?;
+        let trace = trace(system, motion.state(), Self::PERIODS, 24.0)?;
         if trace.impacts.len() as u64 > 8 * Self::PERIODS {
             return Ok(None);
         }

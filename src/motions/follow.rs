@@ -1,14 +1,99 @@
-//! Bifurcation diagrams by simulation: one parameter is moved in steps, up and then down, and the
-//! trajectory goes on from where the last step left it, so that each branch is followed until it is
-//! lost. Where both ways differ there is hysteresis.
+//! Trajectories that are followed one by one, where nobody asks what else there is; and bifurcation diagrams by simulation:
+//! one parameter is moved in steps, up and then down, and the trajectory goes on from where the last step left it, so that
+//! each branch is followed until it is lost. Where both ways differ there is hysteresis.
 
 use serde::Serialize;
 
-use super::Motion;
-use super::long_term::{Effort, long_term};
-use super::watch::Watch;
+use super::flight::{End, Flight, flown};
+use super::identity::Repetition;
+use super::rest::{Rest, RestKind};
+use super::watch::{Sample, Watch};
+use super::{Effort, Facts, Kind, Motion, Reached, SettlingTime};
+use crate::operation_count;
 use crate::simulation::{Impact, Simulation, StartError, Stop};
 use crate::system::{InvalidParameter, Parameter, State, System};
+
+/// How often a transient is left out, the first time included, of a motion that is still settling; each
+/// time the window after it is longer.
+const ROUNDS: u64 = 3;
+
+/// What each start leads to, all of them side by side, each as if it were alone: seen, not proven, and of a transient that
+/// lasts nobody knows. None where a start could not be followed.
+///
+/// # Errors
+/// [`StartError`] where a start is outside the cavity or not finite.
+pub fn follow(
+    starts: &[(System, State)],
+    effort: &Effort,
+) -> Result<Vec<Option<Motion>>, StartError> {
+    let mut motions: Vec<Option<Motion>> = vec![None; starts.len()];
+    let mut flights: Vec<Flight> = Vec::with_capacity(starts.len());
+    for (index, (system, start)) in starts.iter().enumerate() {
+        let simulation = Simulation::new(system, *start, 0.0)?;
+        // Starts of one system follow each other.
+        let before = index.checked_sub(1).filter(|before| starts[*before].0 == *system);
+        let left_out = match (effort.discard, before) {
+            (Some(discard), _) => discard,
+            (None, Some(before)) => flights[before].left_out,
+            (None, None) => SettlingTime::of(system).periods,
+        };
+        let window = effort.periods;
+        flights.push(Flight { index, simulation, before: 0, left_out, window });
+    }
+    for round in 1..=ROUNDS {
+        flights.iter_mut().for_each(|one| one.window = effort.periods * round);
+        for (flight, end) in flown(std::mem::take(&mut flights), effort.most_impacts, &|_| &[]) {
+            let settling = match &end {
+                End::Seen(sample) => {
+                    let repeats = sample.evidence.periodicity.is_some();
+                    let open = sample.drifts || sample.of_repeating_kind();
+                    sample.stop == Stop::EndTime && !repeats && open
+                }
+                _ => false,
+            };
+            let index = flight.index;
+            motions[index] = Motion::seen(&flight, end);
+            if settling && round < ROUNDS {
+                flights.push(flight);
+            } else {
+                operation_count::note(flight.simulation.operations());
+            }
+        }
+        flights.sort_by_key(|flight| flight.index);
+    }
+    Ok(motions)
+}
+
+impl Motion {
+    /// What a start led to.
+    fn seen(flight: &Flight, end: End) -> Option<Self> {
+        let system = flight.simulation.system();
+        let reached =
+            Reached { starts: 1, followed: flight.simulation.periods(), ..Reached::default() };
+        let rest = |kind, amplitude| Rest { rest: kind, share: 0.0, amplitude };
+        let motion = match end {
+            End::Lost | End::On(_) | End::Open => return None,
+            End::Rests(state) => {
+                let amplitude = system.linear_response()?.amplitude();
+                let facts = Facts::of_sine(amplitude, 0.0);
+                Self::resting(rest(RestKind::Floating, amplitude), facts, state)
+            }
+            End::Seen(sample) => {
+                let Sample { facts, evidence, end: state, stop, .. } = *sample;
+                let kind = match evidence.periodicity {
+                    Some(found) if found.impacts == 0 => {
+                        Kind::Rest(rest(RestKind::Sliding, facts.peak.value))
+                    }
+                    Some(found) => Kind::Repeats(Repetition::seen(&sample, found)),
+                    None => Kind::Wanders,
+                };
+                let settled = evidence.periodicity.is_some() || !sample.drifts;
+                Self { facts, kind, regime: sample.regime(), state, reached, settled, stop }
+            }
+        };
+        Some(Self { reached, ..motion })
+    }
+}
 
 /// Most points of each kind at one value, and periods from which they are taken: a chaotic band is a band
 /// with this many.
@@ -79,9 +164,9 @@ pub fn sweep(
         let system = parameter.applied(base, value)?;
         let unit = parameter.unit(value);
         let begin = last.map_or(start, |(before, state)| carried_over(state, before / unit, 1.0));
-        if let Some(motion) = long_term(&[(system, begin)], effort)?[0] {
-            points.push(DiagramPoint::of(motion, &system, value, way, unit)?);
+        if let Some(motion) = follow(&[(system, begin)], effort)?.pop().flatten() {
             last = Some((unit, motion.state));
+            points.push(DiagramPoint::of(motion, &system, value, way, unit)?);
         }
         progress(1);
     }
@@ -123,7 +208,7 @@ impl DiagramPoint {
         Ok(Self {
             value,
             way,
-            peak: period_peaks.iter().copied().fold(unit * motion.peak, f64::max),
+            peak: period_peaks.iter().copied().fold(unit * motion.facts.peak.value, f64::max),
             period_peaks,
             intervals: impacts.windows(2).map(interval).collect(),
             motion: Motion {

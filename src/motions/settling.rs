@@ -8,7 +8,7 @@
 
 use serde::Serialize;
 
-use crate::orbits::steady_orbit;
+use crate::orbits::{Orbit, attracting_orbits};
 use crate::system::{State, System};
 
 /// E-folds that are left out: of a free vibration as large as the motion that remains, 6e-6 is then left.
@@ -38,18 +38,24 @@ pub fn window(system: &System, periods: u64) -> u64 {
 
 /// What is left out of a trajectory before it is measured.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Transient {
+pub struct SettlingTime {
     /// Excitation periods.
     pub periods: u64,
     /// Whether what a start leaves has faded by then; else that would take longer than a run can wait.
     pub fades: bool,
 }
 
-impl Transient {
+impl SettlingTime {
     /// That of any start of a system.
     pub fn of(system: &System) -> Self {
+        Self::beside(system, &attracting_orbits(system).unwrap_or_default())
+    }
+
+    /// The same where the attracting 1:1 orbits are known.
+    pub(super) fn beside(system: &System, orbits: &[Orbit]) -> Self {
         let decay = decay_rate(system) * system.period();
-        let orbit = steady_orbit(system).map(|found| -libm::log(found.orbit.radius_per_period()));
+        let rate = |orbit: &Orbit| -libm::log(orbit.radius_per_period());
+        let orbit = orbits.iter().map(rate).min_by(f64::total_cmp);
         let steady = system.linear_response().map_or(1.0, |response| response.amplitude().min(1.0));
         let beside = FADED_BESIDE_STEADY - libm::log(steady.max(f64::MIN_POSITIVE));
         // Without excitation there is nothing beside which a free vibration is large.
@@ -75,7 +81,7 @@ fn decay_rate(system: &System) -> f64 {
 /// The long-term motion of an absorber at rest that no wall reaches any more, at excitation phase 0: the
 /// oscillator on its steady motion. None where the absorber moves, gravity or friction move it, a wall may still
 /// reach it, or the free vibration stays.
-pub fn inactive(system: &System, state: &State) -> Option<State> {
+pub(super) fn at_rest(system: &System, state: &State) -> Option<State> {
     if system.cavity().moves_absorber() {
         return None;
     }
@@ -86,4 +92,51 @@ pub fn inactive(system: &System, state: &State) -> Option<State> {
     let apart = state.y.abs() + linear.amplitude() + free;
     let stays = state.y_velocity == 0.0 && apart < 1.0 && system.damping() > 0.0;
     stays.then_some(State { y: state.y, ..steady })
+}
+
+/// Whether whatever moves comes to rest: nothing excites it, and the structure is damped. It may take for ever, at a rate that
+/// falls with the energy, as an absorber that loses speed at each wall meets the next one later.
+pub(super) fn comes_to_rest(system: &System) -> bool {
+    system.forcing_per_clearance() == 0.0 && system.damping() > 0.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::system::{Cavity, Excitation, Parameters};
+
+    /// A footbridge, 2.1 Hz with 0.4 % of damping under a force, and 1.5 % of its mass in a wide cavity.
+    fn bridge(frequency_ratio: f64, damping: f64) -> System {
+        System::new(Parameters {
+            mass_ratio: 0.015,
+            damping,
+            restitution: 0.6,
+            frequency_ratio,
+            forcing_per_clearance: 0.4,
+            excitation: Excitation::Force,
+            cavity: Cavity::IDEAL,
+        })
+        .expect("valid")
+    }
+
+    /// Each period of a slow excitation holds 1000 of the structure.
+    #[test]
+    fn a_window_is_what_a_run_can_wait_for() {
+        assert_eq!(window(&bridge(1.0, 0.5), 250), 250);
+        assert_eq!(window(&bridge(0.001, 0.5), 250), 8);
+    }
+
+    /// A start so near a wall that the transient may reach it is followed.
+    #[test]
+    fn only_an_absorber_that_no_wall_reaches_is_at_rest() {
+        let system = bridge(1.0, 0.533);
+        let steady = system.linear_response().expect("damped");
+        assert!(steady.amplitude() < 1.0);
+        let on_it = State { y: 0.0, ..steady.state(&system) };
+        assert_eq!(at_rest(&system, &on_it), Some(on_it));
+        for (x, y, y_velocity) in [(0.0, 0.3, 0.0), (0.0, 0.0, 1e-9), (0.5, 0.0, 0.0)] {
+            let start = State { x, y, y_velocity, ..State::AT_REST };
+            assert_eq!(at_rest(&system, &start), None, "{start:?}");
+        }
+    }
 }

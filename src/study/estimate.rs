@@ -5,11 +5,12 @@ use std::f64::consts::FRAC_1_SQRT_2;
 
 use serde::Serialize;
 
-use super::{Averages, Proof, StudyError};
+use super::{Averages, StudyError};
 use crate::analysis::motion::root_mean_square;
 use crate::analysis::{FixedPoint, Manifold, fixed_points};
 use crate::cavity::{CavityTheory, Forcing};
 use crate::dissipation::SteadyState;
+use crate::motions::{Facts, Motion};
 use crate::numerics::scatter::twice_standard_error;
 use crate::orbits::{Closure, Measures, steady_orbit};
 use crate::regimes::{Regime, classify};
@@ -18,7 +19,7 @@ use crate::system::System;
 
 /// What a layer answers; lengths over the clearance. `None` where it gives no such answer.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
-pub struct Answer {
+pub struct Estimate {
     /// Root mean square displacement of the oscillator.
     #[serde(skip)]
     pub rms: Option<f64>,
@@ -69,7 +70,7 @@ pub enum WhyNot {
     ImpactsInEveryStep,
 }
 
-impl Answer {
+impl Estimate {
     /// None, and why.
     pub fn none(why: WhyNot) -> Self {
         Self { why_not: Some(why), ..Self::default() }
@@ -85,14 +86,15 @@ impl Answer {
         }
     }
 
-    /// A proven orbit.
-    pub fn of_proof(proof: &Proof) -> Self {
-        let cycle = &proof.orbit.cycle;
+    /// What is known of a motion that was found.
+    pub fn of_motion(motion: &Motion) -> Self {
+        let Facts { rms, impacts_per_period, .. } = motion.facts();
         Self {
-            rms: Some(proof.measures.rms),
-            scatter: Some(ORBIT_ROUNDING),
-            impacts_per_period: Some(cycle.impact_count() as f64 / f64::from(cycle.periods())),
-            impacts_scatter: Some(0.0),
+            rms: Some(rms.value),
+            scatter: Some(rms.error / rms.value.max(f64::MIN_POSITIVE)),
+            impacts_per_period: Some(impacts_per_period.value),
+            impacts_scatter: Some(impacts_per_period.error),
+            regime: Some(motion.regime()),
             ..Self::default()
         }
     }
@@ -128,7 +130,7 @@ pub const IMPACT_LIMIT: u64 = 10_000_000;
 ///
 /// # Errors
 /// [`StudyError::Analysis`] where the theory cannot be evaluated.
-pub fn closed_form(system: &System) -> Result<Answer, StudyError> {
+pub fn closed_form(system: &System) -> Result<Estimate, StudyError> {
     if !system.cavity().is_ideal() {
         return Ok(closed_form_of_cavity(system));
     }
@@ -139,16 +141,18 @@ pub fn closed_form(system: &System) -> Result<Answer, StudyError> {
         let [c, b] = [point.oscillator_amplitude, point.absorber_amplitude];
         root_mean_square(system, c, b, point.absorber_phase)
     };
-    Ok(stable
-        .map_or_else(|| Answer::none(WhyNot::NoStablePoint), |point| Answer::steady(rms(point))))
+    Ok(stable.map_or_else(
+        || Estimate::none(WhyNot::NoStablePoint),
+        |point| Estimate::steady(rms(point)),
+    ))
 }
 
 /// The same by the theory of a cavity that is not ideal: the first harmonic of `v - eps y`.
-fn closed_form_of_cavity(system: &System) -> Answer {
+fn closed_form_of_cavity(system: &System) -> Estimate {
     let theory = CavityTheory::of(system);
     let points = theory.fixed_points(&Forcing::of(system));
     let Some(point) = points.iter().rfind(|point| point.stable) else {
-        return Answer::none(WhyNot::NoStablePoint);
+        return Estimate::none(WhyNot::NoStablePoint);
     };
     let (eps, motion) = (system.mass_ratio(), &point.motion);
     let sine = motion.oscillator_amplitude + eps * motion.reactance;
@@ -157,7 +161,7 @@ fn closed_form_of_cavity(system: &System) -> Answer {
         false => Regime::TwoAsymmetric,
     };
     let rms = libm::hypot(sine, eps * motion.resistance) * FRAC_1_SQRT_2;
-    Answer { regime: Some(regime), ..Answer::steady(rms) }
+    Estimate { regime: Some(regime), ..Estimate::steady(rms) }
 }
 
 /// That of the averaged flow's largest stable amplitude with impacts, in any regime: the first harmonic of `v - eps y`; or
@@ -165,10 +169,10 @@ fn closed_form_of_cavity(system: &System) -> Answer {
 ///
 /// # Errors
 /// [`StudyError::Analysis`] where the theory cannot be evaluated.
-pub fn averaged_flow(system: &System) -> Result<Answer, StudyError> {
+pub fn averaged_flow(system: &System) -> Result<Estimate, StudyError> {
     // The curve is that of an ideal cavity.
     if !system.cavity().is_ideal() {
-        return Ok(Answer::none(WhyNot::RealCavity));
+        return Ok(Estimate::none(WhyNot::RealCavity));
     }
     let averages = Averages::of(system)?;
     let Averages { curve, states, .. } = &averages;
@@ -177,11 +181,11 @@ pub fn averaged_flow(system: &System) -> Result<Answer, StudyError> {
         let ([resistance, reactance], _) = curve.branches[state.branch].forces(state.amplitude)?;
         let eps = system.mass_ratio();
         let [sine, cosine] = [state.amplitude + eps * reactance, eps * resistance];
-        Some(Answer {
+        Some(Estimate {
             rms: Some(libm::hypot(sine, cosine) * FRAC_1_SQRT_2),
             impacts_per_period: Some(state.impacts_per_period),
             regime: Some(state.regime),
-            ..Answer::default()
+            ..Estimate::default()
         })
     });
     if let Some(answer) = answer {
@@ -190,31 +194,31 @@ pub fn averaged_flow(system: &System) -> Result<Answer, StudyError> {
     // A capture that lasts ends the modulation.
     let cycle =
         averages.with_cycle(system).cycle.filter(|cycle| cycle.lasting_share == 0.0).map(|cycle| {
-            Answer {
+            Estimate {
                 rms: Some(cycle.rms),
                 scatter: Some(cycle.rms_error / cycle.rms),
                 impacts_per_period: Some(cycle.impacts_per_period),
                 regime: Some(Regime::StronglyModulated),
-                ..Answer::default()
+                ..Estimate::default()
             }
         });
-    Ok(cycle.unwrap_or_else(|| Answer::none(WhyNot::NoStableAmplitude)))
+    Ok(cycle.unwrap_or_else(|| Estimate::none(WhyNot::NoStableAmplitude)))
 }
 
 /// That of the exact orbit with two impacts per period that attracts, to [`ORBIT_ROUNDING`].
-pub fn symmetric_orbit(system: &System) -> Answer {
+pub fn symmetric_orbit(system: &System) -> Estimate {
     let answer = || {
         let cycle = steady_orbit(system)?.orbit.cycle;
-        let answer = Answer::steady(Measures::of(system, &cycle).ok()?.rms);
+        let answer = Estimate::steady(Measures::of(system, &cycle).ok()?.rms);
         let symmetric = matches!(cycle.closure, Closure::Mirrors { .. });
         let regime = if symmetric { Regime::TwoSymmetric } else { Regime::TwoAsymmetric };
-        Some(Answer { regime: Some(regime), ..answer })
+        Some(Estimate { regime: Some(regime), ..answer })
     };
-    answer().unwrap_or_else(|| Answer::none(WhyNot::NoStableOrbit))
+    answer().unwrap_or_else(|| Estimate::none(WhyNot::NoStableOrbit))
 }
 
 /// The averages of so many periods from here, with their scatter between blocks.
-pub fn measured(simulation: &mut Simulation, periods: u64) -> Option<Answer> {
+pub fn measured(simulation: &mut Simulation, periods: u64) -> Option<Estimate> {
     let system = *simulation.system();
     let mut measurement = Measurement::begin(&system, simulation.state());
     let mut log = ImpactLog::of_the_last(LAST_IMPACTS);
@@ -234,8 +238,8 @@ pub fn measured(simulation: &mut Simulation, periods: u64) -> Option<Answer> {
     }
     let statistics = measurement.statistics();
     let regime = classify(statistics, &log.impacts, None, system.period()).regime;
-    let averages = Answer::averaged(statistics.rms(), statistics.impacts_per_period(), &means);
-    Some(Answer { regime: Some(regime), ..averages })
+    let averages = Estimate::averaged(statistics.rms(), statistics.impacts_per_period(), &means);
+    Some(Estimate { regime: Some(regime), ..averages })
 }
 
 /// Impacts that are kept of a run: enough to name its regime.

@@ -14,24 +14,14 @@ const PRIMES: [f64; 4] = [2.0, 3.0, 5.0, 7.0];
 /// says nothing about where motions begin.
 const LARGEST: f64 = 10.0;
 
-/// The start from rest: the absorber lies halfway between the middle of its cavity and a wall, as it does
+/// A start from rest: the absorber lies halfway between the middle of its cavity and a wall, as it does
 /// on average if it may lie anywhere. Exactly in the middle the slightest push would wake it.
 pub const FROM_REST: State = State { y: 0.5, ..State::AT_REST };
 
-/// So many starts of a system: the one from rest; the oscillator on its steady motion, the absorber at rest
-/// in the middle, or over the oscillator where the motion is too large for that; then others evenly spread;
-/// at least one.
-///
-/// Where the steady motion is smaller than the clearance the second start leads to the motion without
-/// impacts, often the largest there is, which of 64 evenly spread starts none leads to.
-pub fn of(system: &System, count: u32) -> impl Iterator<Item = State> + use<> {
+/// So many starts of a system, evenly spread. An absorber at rest needs none: that motion is solved for.
+pub fn spread(system: &System, count: u32) -> impl Iterator<Item = State> + use<> {
     let sample = StartBox::around(system);
-    let steady = system.linear_response().map(|linear| {
-        let state = linear.state(system);
-        if linear.amplitude() < 1.0 { state } else { State { y: state.x, ..state } }
-    });
-    let spread = (0..).map(move |index| sample.start(index));
-    [FROM_REST].into_iter().chain(steady).chain(spread).take(count.max(1) as usize)
+    (0..count).map(move |index| sample.start(index))
 }
 
 /// The box that starts are drawn from, over the clearance.
@@ -67,7 +57,6 @@ impl StartBox {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::system::{Cavity, Excitation, Parameters};
 
     #[test]
     fn starts_are_inside_the_cavity_and_spread_evenly() {
@@ -80,27 +69,5 @@ mod tests {
             let upper = starts.iter().filter(|start| axis(start) > 0.0).count();
             assert!(upper.abs_diff(32) <= 4, "{upper}");
         }
-    }
-
-    #[test]
-    fn the_first_start_is_from_rest_halfway_to_a_wall() {
-        let parameters = Parameters {
-            mass_ratio: 0.01,
-            damping: 2.0,
-            restitution: 0.6,
-            frequency_ratio: 1.0,
-            forcing_per_clearance: 3.0,
-            excitation: Excitation::BaseDisplacement,
-            cavity: Cavity::IDEAL,
-        };
-        let system = System::new(parameters).expect("valid");
-        let starts: Vec<State> = of(&system, 5).collect();
-        assert_eq!(starts[0], State { x: 0.0, x_velocity: 0.0, y: 0.5, y_velocity: 0.0 });
-        let sample = StartBox::around(&system);
-        let steady = system.linear_response().expect("damped");
-        assert!(steady.amplitude() > 1.0 && starts[1].relative_displacement() == 0.0);
-        assert_eq!(starts[1].x, steady.state(&system).x);
-        assert_eq!(starts[2..], [0, 1, 2].map(|k| sample.start(k)));
-        assert_eq!(of(&system, 0).count(), 1);
     }
 }

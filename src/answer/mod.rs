@@ -1,0 +1,189 @@
+//! What every command knows of a case under steady excitation, put together in one place: the long-term motions, what is
+//! known along its range, its criteria, its study. `simulate`, `analyze`, `check`, `report`, `optimize`, the Python package
+//! and the live page read it from here, so that no two of them can differ.
+//!
+//! For the program itself: this module may change at any time.
+
+pub mod branch;
+pub mod trajectory;
+
+use crate::analysis::Analysis;
+use crate::band::Survey;
+use crate::case::{Case, ExtraFigure};
+use crate::criteria::{self, Judged};
+use crate::executor::Executor;
+use crate::motions::{Effort, Measured, Motions, Place, measured, motions};
+use crate::orbits::FullSystem;
+use crate::simulation::ImpactLog;
+use crate::study::fidelity::{Answers, Plan};
+use crate::study::{CaseStudy, StudyError};
+use crate::system::System;
+
+/// What is asked of a case.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Asked {
+    /// What can happen at its own excitation.
+    Motions,
+    /// The same, with theory and exact orbits beside it.
+    Analysis,
+    /// Whether its criteria hold.
+    Criteria,
+    /// Everything at its own excitation alone, but for what only some cases ask for.
+    Study,
+    /// Everything.
+    Report,
+}
+
+/// Theory and exact orbits of a case.
+#[derive(Debug, Clone)]
+pub struct Theory {
+    /// The theory.
+    pub analysis: Analysis,
+    /// The exact orbits, and their boundaries.
+    pub exact: FullSystem,
+}
+
+/// What is known of a case.
+#[derive(Debug, Clone)]
+pub struct Answer {
+    /// How thoroughly motions were searched.
+    pub effort: Effort,
+    /// The long-term motions at the case's own excitation; none where nothing was simulated.
+    pub motions: Option<Motions>,
+    /// What is known along the range that criteria are about; none where nothing asks for it.
+    pub survey: Option<Survey>,
+    /// The criteria; empty where the case has none, or where they were not asked for.
+    pub judged: Vec<Judged>,
+    /// Theory and exact orbits alone, where that was asked for.
+    pub theory: Option<Theory>,
+    /// Theory, orbits, and all motions measured in full; none where it was not asked for.
+    pub study: Option<CaseStudy>,
+    /// Which layer answers, where accuracy was asked for.
+    pub answers: Option<Answers>,
+}
+
+impl Theory {
+    fn of(system: &System) -> Result<Self, StudyError> {
+        Ok(Self { analysis: Analysis::of(system)?, exact: FullSystem::of(system) })
+    }
+}
+
+impl Answer {
+    /// What is known of a case, by the layers that `plan` needs, or all of them.
+    ///
+    /// # Errors
+    /// [`StudyError`] where theory or simulation cannot be carried out.
+    pub fn of(
+        case: &Case,
+        asked: Asked,
+        plan: Option<&Plan>,
+        on: &dyn Executor,
+    ) -> Result<Self, StudyError> {
+        Self::with(case, asked, plan, case.effort(), on)
+    }
+
+    /// The same with another effort than the case asks for.
+    ///
+    /// # Errors
+    /// As [`Answer::of`].
+    pub fn with(
+        case: &Case,
+        asked: Asked,
+        plan: Option<&Plan>,
+        effort: Effort,
+        on: &dyn Executor,
+    ) -> Result<Self, StudyError> {
+        let system = case.system();
+        let studies = matches!(asked, Asked::Study | Asked::Report);
+        let judges = matches!(asked, Asked::Criteria | Asked::Report) && !case.criteria.is_empty();
+        let layers = plan.is_none_or(Plan::needs_simulation);
+        let simulates = layers || judges && criteria::needs_simulation(&case.criteria);
+        let found = match simulates {
+            true => motions(&[Place::new(&system, effort.starts)], &effort, on)?.pop(),
+            false => None,
+        };
+        let study = match &found {
+            _ if !studies => None,
+            _ if !layers => Some(CaseStudy::without_simulation(&system, effort)?),
+            Some(found) => {
+                let study = CaseStudy::of(&system, found, effort)?;
+                Some(if asked == Asked::Report { further(study, case, on)? } else { study })
+            }
+            None => None,
+        };
+        let along = asked == Asked::Report && case.band.is_some();
+        let survey = (judges || along).then(|| {
+            let mut settings = criteria::settings(case);
+            let along = along && layers;
+            settings.effort = (along || settings.effort.is_some()).then_some(effort);
+            let survey = Survey::of(&case.range(), &settings, found.as_ref(), on)?;
+            if along { survey.with_detuned(&settings, on) } else { Ok(survey) }
+        });
+        let survey = survey.transpose()?;
+        let judged = survey.as_ref().filter(|_| judges);
+        let judged = judged.map(|survey| criteria::judge(case, survey)).unwrap_or_default();
+        let study = study.map(|study| match survey.as_ref().filter(|_| along) {
+            Some(survey) => study.along(survey.clone()),
+            None => study,
+        });
+        let theory = (asked == Asked::Analysis).then(|| Theory::of(&system)).transpose()?;
+        let motions = found;
+        let mut answer = Self { effort, motions, survey, judged, theory, study, answers: None };
+        if let Some(plan) = plan {
+            let found = answer.motions.as_ref().filter(|_| plan.needs_simulation());
+            let doubts = match answer.main(case, &mut Measured::log())? {
+                Some(main) if found.is_some() => main.doubts(),
+                _ => Vec::new(),
+            };
+            answer.answers = Some(plan.answers(found.map(|found| (found, doubts)))?);
+        }
+        Ok(answer)
+    }
+
+    /// That of a case which is not driven steadily: its criteria alone.
+    pub fn judged(case: &Case, judged: Vec<Judged>) -> Self {
+        let effort = case.effort();
+        let (motions, survey, theory, study, answers) = (None, None, None, None, None);
+        Self { effort, motions, survey, judged, theory, study, answers }
+    }
+
+    /// The main motion measured in full, its impacts kept in `log`; none where nothing was simulated.
+    ///
+    /// # Errors
+    /// [`StudyError`] where its state is not finite.
+    pub fn main(&self, case: &Case, log: &mut ImpactLog) -> Result<Option<Measured>, StudyError> {
+        let main = self.motions.as_ref().and_then(Motions::main);
+        let measured = main.map(|main| measured(&case.system(), main, &self.effort, log));
+        Ok(measured.transpose()?)
+    }
+
+    /// The study.
+    ///
+    /// # Errors
+    /// [`StudyError::NotStudied`] where it was not asked for.
+    pub fn studied(&self) -> Result<&CaseStudy, StudyError> {
+        self.study.as_ref().ok_or(StudyError::NotStudied)
+    }
+
+    /// Whether every simulation in the study is to be trusted.
+    pub fn trusted(&self) -> bool {
+        let measured = self.study.iter().flat_map(|study| &study.measured);
+        measured.into_iter().all(|one| one.doubts().is_empty())
+    }
+
+    /// Whether it is as exact as was asked for.
+    pub fn exact_enough(&self) -> bool {
+        self.answers.as_ref().is_none_or(Answers::enough)
+    }
+}
+
+/// What only some cases ask for.
+fn further(mut study: CaseStudy, case: &Case, on: &dyn Executor) -> Result<CaseStudy, StudyError> {
+    if case.report.figures.contains(&ExtraFigure::Dissipation) {
+        study = study.with_averages()?;
+    }
+    if case.report.deviations {
+        study = study.with_deviations(case, on)?;
+    }
+    Ok(study)
+}

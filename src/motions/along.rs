@@ -1,0 +1,493 @@
+//! A band as places of motions. Places are added where the largest motion may still be larger between two of them, and
+//! motions are followed from a place to its neighbours, until the largest is known to a tolerance. Where an attracting 1:1
+//! orbit begins and ends, and where its numbers are largest, are roots, not samples.
+
+use serde::Serialize;
+
+use super::{Effort, Motion, Motions, Place, Value, motions, one_to_one, rest, steady};
+use crate::executor::{Executor, Serial};
+use crate::numerics::scan::{largest, sign_changes};
+use crate::orbits::{Orbit, symmetric_orbits, two_impact_orbits};
+use crate::simulation::StartError;
+use crate::system::{Band, BandOver, State, Stretch};
+
+/// How thoroughly a band is looked at beside what one place asks for.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct BandEffort {
+    /// Even places at the beginning, the band's ends among them.
+    pub even: u32,
+    /// Starts at each of the first places; the case's own excitation has as many as a case without a band.
+    pub starts: u32,
+    /// Starts at each place between them, beside the motions of its neighbours.
+    pub starts_between: u32,
+    /// Places at most.
+    pub most: usize,
+    /// Relative error to which the largest displacement is to be known.
+    pub tolerance: f64,
+}
+
+impl BandEffort {
+    /// What decides: a criterion, an optimum, a verdict.
+    pub const FULL: Self =
+        Self { even: 25, starts: 8, starts_between: 3, most: 160, tolerance: 0.02 };
+    /// Enough to rank designs before the best are looked at in full.
+    pub const SCREENING: Self =
+        Self { even: 13, starts: 3, starts_between: 2, most: 40, tolerance: 0.1 };
+}
+
+/// Which of the numbers of a motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Fact {
+    /// The peak displacement.
+    Peak,
+    /// The root mean square displacement.
+    Rms,
+    /// The impact speed.
+    ImpactSpeed,
+}
+
+impl Fact {
+    /// Its value in a motion.
+    pub fn of(self, motion: &Motion) -> Value {
+        let facts = motion.facts();
+        match self {
+            Self::Peak => facts.peak,
+            Self::Rms => facts.rms,
+            Self::ImpactSpeed => facts.impact_speed,
+        }
+    }
+}
+
+/// Where along a band a number of the attracting 1:1 motions is largest, or smallest.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Extreme {
+    /// The number.
+    pub of: Fact,
+    /// Whether the smallest is meant.
+    pub least: bool,
+}
+
+/// The motions that can happen along a band.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Along {
+    band: Band,
+    stability: Vec<Stretch<bool>>,
+    places: Vec<(f64, Motions)>,
+    simulated: bool,
+    unresolved: f64,
+    peak_at: Option<f64>,
+    rest_at: Option<f64>,
+}
+
+impl Along {
+    /// The band.
+    pub fn band(&self) -> &Band {
+        &self.band
+    }
+
+    /// Where a 1:1 motion attracts.
+    pub fn stability(&self) -> &[Stretch<bool>] {
+        &self.stability
+    }
+
+    /// The share of the band where one does.
+    pub fn stable_share(&self) -> f64 {
+        self.band.share(&self.stability, |stable| *stable)
+    }
+
+    /// Whether orbits alone say where a 1:1 motion attracts; else somewhere one only was seen to repeat, as its slip reverses.
+    pub fn stability_is_exact(&self) -> bool {
+        let stable = self.stability.iter().filter(|stretch| stretch.of);
+        let mut middles = stable.map(|stretch| 0.5 * (stretch.from + stretch.to));
+        middles.all(|at| {
+            let system = self.band.system(at).ok();
+            system.and_then(|system| steady(&system)).is_none_or(|one| one.orbit().is_some())
+        })
+    }
+
+    /// Whether starts were flown; else there is nothing but what can be solved for, at the places where it is extreme.
+    pub fn simulated(&self) -> bool {
+        self.simulated
+    }
+
+    /// Places that were looked at, in order, each with its motions.
+    pub fn places(&self) -> &[(f64, Motions)] {
+        &self.places
+    }
+
+    /// The motions at one of them.
+    pub fn at(&self, at: f64) -> Option<&Motions> {
+        self.places.iter().find(|place| place.0 == at).map(|place| &place.1)
+    }
+
+    /// By how much the largest peak between places may exceed that at them, over the clearance: 0 where every gap between
+    /// places is resolved.
+    pub fn unresolved(&self) -> f64 {
+        self.unresolved
+    }
+
+    /// Where the attracting 1:1 motion has its largest peak; none where none attracts.
+    pub fn peak_at(&self) -> Option<f64> {
+        self.peak_at
+    }
+
+    /// Where the structure with an absorber at rest moves farthest; none where every start wakes it.
+    pub fn rest_at(&self) -> Option<f64> {
+        self.rest_at
+    }
+}
+
+/// Pieces of a band in which beginnings and ends of stability are looked for. What decides it,
+/// multipliers and room between impacts, is smooth along an orbit; pairs of changes within a piece
+/// are found by the dip between them.
+const PIECES: u32 = 96;
+/// Pieces in which a largest value is looked for before it is narrowed down.
+const VALUES: u32 = 48;
+/// Distance of places that is never halved, over the width of the resonance and of the slow flow: what
+/// scatters on a finer scale is chaos, whose peaks have an error of their own.
+const FINEST: f64 = 0.1;
+/// The same over a band of amplitudes.
+const FINEST_AMPLITUDE: f64 = 1.0 / 256.0;
+/// Smallest finest distance, over the band.
+const NARROWEST: f64 = 1.0 / 4096.0;
+/// Places that are added before the next gaps are chosen.
+const TOGETHER: usize = 16;
+/// Relative amount by which a neighbour's motion must be larger to be followed to a place.
+const FOLLOWED: f64 = 0.02;
+/// Most motions that are followed from each neighbour.
+const MOST_FOLLOWED: usize = 3;
+/// Distance from the end of a stable stretch, over the band, at which its other side is simulated.
+const BESIDE: f64 = 1e-3;
+
+/// Width, over the band, of what lies between two orbits where one takes over the other's stability: there both have a
+/// multiplier of 1, to rounding.
+const EXCHANGE: f64 = 1e-6;
+
+/// The band, cut where an attracting 1:1 motion begins or ends.
+pub fn stability(band: &Band) -> Vec<Stretch<bool>> {
+    let mut places: Vec<f64> = band.corners().collect();
+    if !band.is_point() {
+        places.extend(sign_changes(band.range, PIECES, |at| strength(band, at)));
+    }
+    let mut found: Vec<Stretch<bool>> = Vec::new();
+    for stretch in band.cut(places, |at| strength(band, at) > 0.0) {
+        let narrow = stretch.to - stretch.from < EXCHANGE * band.width();
+        match found.last_mut() {
+            // Nothing is lost where one orbit hands its stability over to another.
+            Some(last) if last.of == stretch.of || narrow && last.of => last.to = stretch.to,
+            _ => found.push(stretch),
+        }
+    }
+    found
+}
+
+/// By how much the most attracting 1:1 motion attracts: above 0 where one does, continuous where orbits
+/// change their stability, touch a wall or meet one another.
+fn strength(band: &Band, at: f64) -> f64 {
+    let Ok(system) = band.system(at) else { return f64::NAN };
+    let of = |orbit: &Orbit| {
+        let inside = 1.0 - orbit.multipliers.spectral_radius();
+        let room = orbit.admissibility.min_wall_distance;
+        let slip = orbit.admissibility.slowest_slip.unwrap_or(f64::INFINITY);
+        let least = inside.min(room).min(slip);
+        // The sign is that of the proof, whatever rounding says of the numbers.
+        if orbit.attracts() { least.max(f64::MIN_POSITIVE) } else { least.min(-f64::MIN_POSITIVE) }
+    };
+    let most = |orbits: &[Orbit]| orbits.iter().map(of).max_by(f64::total_cmp);
+    if system.cavity().is_ideal() {
+        // Where a symmetric one attracts nobody asks for the others.
+        let symmetric = symmetric_orbits(&system).unwrap_or_default();
+        let symmetric: Vec<Orbit> = symmetric.into_iter().map(|one| one.orbit).collect();
+        if let Some(inside) = most(&symmetric).filter(|strength| *strength > 0.0) {
+            return inside;
+        }
+    }
+    let Ok(all) = two_impact_orbits(&system) else { return f64::NAN };
+    let reverses = |orbit: &Orbit| orbit.admissibility.reverses();
+    // Where orbits meet and vanish a multiplier has come to 1.
+    let exact = most(&all.orbits).unwrap_or(-f64::MIN_POSITIVE);
+    if exact > 0.0 || !all.orbits.iter().any(reverses) {
+        return exact;
+    }
+    let inside = |motion: &Motion| 1.0 - motion.largest_multiplier().unwrap_or_default();
+    one_to_one(&system).iter().map(inside).max_by(f64::total_cmp).unwrap_or(exact)
+}
+
+/// Where along a band a number of the attracting 1:1 motions is extreme; none where none attracts.
+fn extreme_at(band: &Band, stability: &[Stretch<bool>], wanted: Extreme) -> Option<f64> {
+    let of = |at: f64| {
+        let motions = one_to_one(&band.system(at).ok()?);
+        let sign = if wanted.least { -1.0 } else { 1.0 };
+        motions.iter().map(|one| sign * wanted.of.of(one).value).max_by(f64::total_cmp)
+    };
+    let stretches = stability.iter().filter(|stretch| stretch.of);
+    let each = stretches.filter_map(|stretch| {
+        let share = (stretch.to - stretch.from) / band.width();
+        let pieces = (share * f64::from(VALUES)).ceil().max(4.0) as u32;
+        // At the very ends rounding decides whether there is an orbit.
+        largest([stretch.from, stretch.to], if band.is_point() { 1 } else { pieces }, of)
+    });
+    each.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(at, _)| at)
+}
+
+/// Looks along a band. `own` are the motions at the case's own excitation, where they are known; they stand in the band as
+/// they are. Places at which the wanted extremes are lie among the others. Without an effort nothing is flown.
+///
+/// # Errors
+/// [`StartError`] where a start is not finite.
+pub fn along(
+    band: &Band,
+    wanted: &[Extreme],
+    own: Option<&Motions>,
+    effort: Option<&Effort>,
+    on: &dyn Executor,
+) -> Result<Along, StartError> {
+    let stability = stability(band);
+    let peak_at = extreme_at(band, &stability, Extreme { of: Fact::Peak, least: false });
+    let rest_at = rest::largest_along(band);
+    let mut extremes: Vec<f64> =
+        wanted.iter().filter_map(|one| extreme_at(band, &stability, *one)).collect();
+    extremes.extend(peak_at.into_iter().chain(rest_at));
+    // At an end of stability no start would ever settle; both sides of it are flown.
+    let is_end = |at: &f64| {
+        let mut ends = stability.windows(2).map(|pair| pair[0].to);
+        ends.any(|end| (at - end).abs() < BESIDE * band.width())
+    };
+    let (ends, extremes): (Vec<f64>, Vec<f64>) = extremes.into_iter().partition(is_end);
+    let (mut places, unresolved) = match effort {
+        Some(effort) => {
+            let sampler = Sampler { band, effort, on, finest: finest(band) };
+            let first = first_places(band, &stability, &effort.band);
+            sampler.sampled(first.into_iter().chain(extremes).collect(), own)?
+        }
+        None => (solved(band, extremes)?, 0.0),
+    };
+    let missing = |at: &f64| places.iter().all(|place| place.0 != *at);
+    let ends = ends.into_iter().filter(missing).collect();
+    places.extend(solved(band, ends)?);
+    places.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let (band, simulated) = (band.clone(), effort.is_some());
+    Ok(Along { band, stability, places, simulated, unresolved, peak_at, rest_at })
+}
+
+/// What can be solved for at some places.
+fn solved(band: &Band, mut at: Vec<f64>) -> Result<Vec<(f64, Motions)>, StartError> {
+    at.sort_by(f64::total_cmp);
+    at.dedup();
+    let system = |at: f64| Some((at, Place::with(&band.system(at).ok()?, Vec::new())));
+    let (at, places): (Vec<f64>, Vec<Place>) = at.into_iter().filter_map(system).unzip();
+    let found = motions(&places, &Effort::default(), &Serial)?;
+    Ok(at.into_iter().zip(found).collect())
+}
+
+/// Smallest distance of places.
+fn finest(band: &Band) -> f64 {
+    let eps = band.base.mass_ratio();
+    let fine = match band.over {
+        BandOver::Frequency => FINEST * eps.min(0.5 * eps * band.base.damping()),
+        BandOver::Amplitude => FINEST_AMPLITUDE * band.width(),
+    };
+    fine.max(NARROWEST * band.width())
+}
+
+/// Even places, both sides of each end of a stable stretch, the middles of the others, and the flanks of the resonances,
+/// which may lie between two even places.
+fn first_places(band: &Band, stability: &[Stretch<bool>], sampling: &BandEffort) -> Vec<f64> {
+    let [from, to] = band.range;
+    let mut places: Vec<f64> = band.places(sampling.even).collect();
+    let unstable = stability.iter().filter(|one| !one.of);
+    places.extend(unstable.map(|one| 0.5 * (one.from + one.to)));
+    let beside = BESIDE * band.width();
+    places.extend(stability.windows(2).flat_map(|pair| [pair[0].to - beside, pair[0].to + beside]));
+    if band.over == BandOver::Frequency {
+        let eps = band.base.mass_ratio();
+        let width = 0.5 * eps * band.base.damping();
+        for resonance in [1.0, 1.0 / (1.0 + eps).sqrt()] {
+            places.extend([-2.0, -1.0, 0.0, 1.0, 2.0].map(|k| resonance + k * width));
+        }
+    }
+    places.retain(|at| from <= *at && *at <= to);
+    places
+}
+
+/// A place on the way.
+struct Spot {
+    at: f64,
+    motions: Motions,
+    /// The largest peak of a neighbour that was followed here.
+    followed: f64,
+}
+
+impl Spot {
+    fn place(self) -> (f64, Motions) {
+        (self.at, self.motions)
+    }
+
+    /// Motions with impacts.
+    fn moving(&self) -> impl Iterator<Item = &Motion> {
+        self.motions.iter().filter(|motion| motion.rest().is_none())
+    }
+
+    /// Largest peak of one; 0 without one.
+    fn peak(&self) -> f64 {
+        self.moving().map(|motion| motion.facts().peak.value).fold(0.0, f64::max)
+    }
+
+    /// Whether all that was found is solved for, whose largest peak is known without places.
+    fn is_exact(&self) -> bool {
+        let exact = |motion: &Motion| motion.is_solved();
+        self.moving().next().is_some() && self.moving().all(exact)
+    }
+
+    /// States on the largest motions whose peaks exceed `least`, the largest first.
+    fn states(&self, least: f64) -> Vec<State> {
+        let mut larger: Vec<&Motion> =
+            self.moving().filter(|one| one.facts().peak.value > least).collect();
+        larger.sort_by(|a, b| b.facts().peak.value.total_cmp(&a.facts().peak.value));
+        larger.into_iter().take(MOST_FOLLOWED).map(Motion::state).collect()
+    }
+}
+
+fn largest_of(spots: &[Spot]) -> f64 {
+    spots.iter().map(Spot::peak).fold(0.0, f64::max)
+}
+
+struct Sampler<'a> {
+    band: &'a Band,
+    effort: &'a Effort,
+    on: &'a dyn Executor,
+    finest: f64,
+}
+
+impl Sampler<'_> {
+    /// The places of a band with their motions, and by how much the largest peak between them may exceed that at them.
+    fn sampled(
+        &self,
+        mut first: Vec<f64>,
+        own: Option<&Motions>,
+    ) -> Result<(Vec<(f64, Motions)>, f64), StartError> {
+        let at = self.band.own();
+        let mut spots = Vec::new();
+        if self.band.holds_own() {
+            let motions = match own {
+                Some(own) => own.clone(),
+                None => {
+                    let place = Place::new(&self.band.base, self.effort.starts);
+                    motions(&[place], self.effort, self.on)?.remove(0)
+                }
+            };
+            // Nobody adds to what every command has there.
+            spots.push(Spot { at, motions, followed: f64::INFINITY });
+        }
+        if self.band.is_point() {
+            return Ok((spots.into_iter().map(Spot::place).collect(), 0.0));
+        }
+        first.retain(|place| *place != at || spots.is_empty());
+        spots.extend(self.at(first, &[])?);
+        spots.sort_by(|a, b| a.at.total_cmp(&b.at));
+        loop {
+            let room = self.effort.band.most.saturating_sub(spots.len());
+            let mut between = self.gaps(&spots);
+            between.truncate(room.min(TOGETHER));
+            let followed = self.follow(&mut spots)?;
+            if between.is_empty() && !followed {
+                break;
+            }
+            let new = self.at(between.into_iter().map(|gap| gap.0).collect(), &spots)?;
+            spots.extend(new);
+            spots.sort_by(|a, b| a.at.total_cmp(&b.at));
+        }
+        let largest = largest_of(&spots);
+        let highest = self.gaps(&spots).first().map_or(largest, |gap| gap.1);
+        Ok((spots.into_iter().map(Spot::place).collect(), highest - largest))
+    }
+
+    /// The effort at places other than the case's own.
+    fn between(&self) -> Effort {
+        Effort { accuracy: None, ..*self.effort }
+    }
+
+    /// The motions at new places, from the usual starts and from what `known` places beside them have.
+    fn at(&self, mut places: Vec<f64>, known: &[Spot]) -> Result<Vec<Spot>, StartError> {
+        places.sort_by(f64::total_cmp);
+        places.dedup();
+        // Between known places the motions beside are the starts that matter.
+        let BandEffort { starts, starts_between, .. } = self.effort.band;
+        let starts = if known.is_empty() { starts } else { starts_between };
+        let place = |at: f64| {
+            let system = self.band.system(at).ok()?;
+            let right = known.partition_point(|place| place.at < at);
+            let beside = known[right.saturating_sub(1)..known.len().min(right + 1)].iter();
+            let further = beside.flat_map(|place| place.states(0.0)).collect();
+            Some((at, Place { further, ..Place::new(&system, starts) }))
+        };
+        let (at, places): (Vec<f64>, Vec<Place>) = places.into_iter().filter_map(place).unzip();
+        let found = motions(&places, &self.between(), self.on)?;
+        let spot = |(at, motions)| Spot { at, motions, followed: 0.0 };
+        Ok(at.into_iter().zip(found).map(spot).collect())
+    }
+
+    /// Follows larger motions to the places beside them; whether there were any.
+    fn follow(&self, spots: &mut [Spot]) -> Result<bool, StartError> {
+        let mut chosen = Vec::new();
+        let mut places = Vec::new();
+        for k in 0..spots.len() {
+            let known = (1.0 + FOLLOWED) * spots[k].peak().max(spots[k].followed);
+            let beside = [k.checked_sub(1), Some(k + 1)];
+            let beside = beside.into_iter().flatten().filter_map(|beside| spots.get(beside));
+            let further: Vec<State> = beside.clone().flat_map(|spot| spot.states(known)).collect();
+            if let (false, Ok(system)) = (further.is_empty(), self.band.system(spots[k].at)) {
+                chosen.push((k, beside.map(Spot::peak).fold(0.0, f64::max)));
+                let known = spots[k].motions.iter().cloned().collect();
+                places.push(Place { further, known, ..Place::with(&system, Vec::new()) });
+            }
+        }
+        let found = motions(&places, &self.between(), self.on)?;
+        for ((k, peak), found) in chosen.iter().zip(found) {
+            spots[*k].followed = *peak;
+            spots[*k].motions.join(&found);
+        }
+        Ok(!places.is_empty())
+    }
+
+    /// The middles of gaps in which the largest peak may exceed the largest that is known by more than the
+    /// tolerance, with what it may be; the highest first.
+    fn gaps(&self, spots: &[Spot]) -> Vec<(f64, f64)> {
+        let limit = (1.0 + self.effort.band.tolerance) * largest_of(spots);
+        let mut gaps: Vec<(f64, f64)> = (1..spots.len())
+            .filter(|right| spots[*right].at - spots[right - 1].at > self.finest)
+            .filter(|right| !(spots[right - 1].is_exact() && spots[*right].is_exact()))
+            .map(|right| {
+                let [left, at] = [spots[right - 1].at, spots[right].at];
+                (0.5 * (left + at), possible(spots, right))
+            })
+            .filter(|gap| gap.1 > limit)
+            .collect();
+        gaps.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.total_cmp(&b.0)));
+        gaps
+    }
+}
+
+impl Motions {
+    /// Takes over what another search of the same place has found beyond these, which it was given.
+    fn join(&mut self, other: &Self) {
+        let is_known = |one: &Motion| {
+            let same = |known: &Motion| known.kind.is_same(&one.kind) || known.facts == one.facts;
+            self.iter().any(same)
+        };
+        let new: Vec<Motion> = other.iter().filter(|one| !is_known(one)).cloned().collect();
+        let all = std::mem::take(&mut self.all).into_iter().chain(new).collect();
+        *self =
+            Self { operations: self.operations, ..Self::ordered(all, self.of_starts, Vec::new()) };
+    }
+}
+
+/// The largest peak that may lie between two neighbouring places: the larger of theirs and half of the
+/// range of the four places around. Around a smooth top, whose neighbours are lower by as much as it is
+/// from its own, that is enough; steep flanks and scatter make it wide.
+fn possible(spots: &[Spot], right: usize) -> f64 {
+    let around = &spots[right.saturating_sub(2)..spots.len().min(right + 2)];
+    let peaks = || around.iter().map(Spot::peak);
+    let range = peaks().fold(0.0, f64::max) - peaks().fold(f64::INFINITY, f64::min);
+    spots[right - 1].peak().max(spots[right].peak()) + 0.5 * range
+}
