@@ -7,14 +7,11 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use vinesink::analysis::Analysis;
-use vinesink::band::simulated::Sampling;
-use vinesink::band::{Band, Survey, SurveySettings, exact, theory};
+use vinesink::band::{Band, Survey, SurveySettings, theory};
 use vinesink::case::BandOver;
 use vinesink::executor::Serial;
-use vinesink::orbits::attracting_orbit;
-use vinesink::regimes::long_term::motions;
-use vinesink::regimes::{Effort, starts};
-use vinesink::system::{State, System};
+use vinesink::motions::{Effort, Place, motions, one_to_one, stability};
+use vinesink::system::System;
 use vinesink_benches as common;
 
 /// Places of a scan whose share is good to a thousandth.
@@ -61,30 +58,29 @@ fn main() {
     );
     compared(
         "where an exact orbit attracts, ends to 1e-9",
-        timed(5, || exact::stability(black_box(&band))),
+        timed(5, || stability(black_box(&band))),
         "a scan, ends to 1e-3,",
-        timed(1, || share(&|one| attracting_orbit(one).is_some())),
+        timed(1, || share(&|one| !one_to_one(one).is_empty())),
     );
-    let place = |system: System| (system, starts::of(&system, 8).collect::<Vec<State>>());
-    let places: Vec<_> = systems(SIMULATED).into_iter().map(place).collect();
+    let places: Vec<Place> =
+        systems(SIMULATED).iter().map(|system| Place::new(system, 8)).collect();
     let effort = Effort::default();
-    let alone = |place: &(System, Vec<State>)| {
-        motions(std::slice::from_ref(place), &effort).expect("finite")
-    };
+    let alone =
+        |place: &Place| motions(std::slice::from_ref(place), &effort, &Serial).expect("finite");
     compared(
         "motions at 33 places from 8 starts, side by side",
-        timed(1, || motions(&places, &effort).expect("finite")),
+        timed(1, || motions(&places, &effort, &Serial).expect("finite")),
         "place by place",
         timed(1, || places.iter().map(alone).collect::<Vec<_>>()),
     );
-    let survey = |sampling| {
-        let settings = SurveySettings { sampling, count_inactive: true };
-        timed(1, || Survey::of(&band, &settings, &Serial).expect("finite"))
+    let survey = |effort| {
+        let settings = SurveySettings { effort, extremes: Vec::new(), count_rest: true };
+        timed(1, || Survey::of(&band, &settings, None, &Serial).expect("finite"))
     };
     compared(
         "a survey of the band without simulation",
         survey(None),
         "with simulation it",
-        survey(Some(Sampling::FULL)),
+        survey(Some(Effort::default())),
     );
 }

@@ -51,7 +51,10 @@ fn main() {
             return first;
         }})()"
     ));
-    println!("first figure {:.0} ms after the address was opened", first.as_f64().unwrap_or(f64::NAN));
+    println!(
+        "first figure {:.0} ms after the address was opened",
+        first.as_f64().unwrap_or(f64::NAN)
+    );
     frames(&mut tab);
     simulation(&mut tab);
 }
@@ -64,7 +67,10 @@ fn serve(page: Vec<u8>) -> String {
         for stream in listener.incoming() {
             let Ok(mut stream) = stream else { continue };
             let _ = stream.read(&mut [0; 4096]);
-            let head = format!("HTTP/1.1 200 OK\r\nContent-Type: text/html; charset=utf-8\r\nContent-Length: {}\r\nConnection: close\r\n\r\n", page.len());
+            let head = format!(
+                "HTTP/1.1 200 OK\r\nContent-Type: text/html; charset=utf-8\r\nContent-Length: {}\r\nConnection: close\r\n\r\n",
+                page.len()
+            );
             let _ = stream.write_all(head.as_bytes()).and_then(|()| stream.write_all(&page));
         }
     });
@@ -105,7 +111,10 @@ fn frames(tab: &mut Page) {
     let here = median((0..FRAMES).map(frame).collect());
     let page = median(times.clone());
     let worst = times.iter().copied().fold(0.0, f64::max);
-    println!("a frame: {page:.2} ms in the page (slowest {worst:.1}), {here:.2} ms here: ratio {:.2}", page / here);
+    println!(
+        "a frame: {page:.2} ms in the page (slowest {worst:.1}), {here:.2} ms here: ratio {:.2}",
+        page / here
+    );
     println!("{:.0} frames a second are drawn while the slider moves", drawn as f64 / seconds);
 }
 
@@ -153,5 +162,8 @@ fn simulation(tab: &mut Page) {
     }
     let here = best.as_secs_f64() * 1e9 / impacts as f64;
     let page = of(0) * 1e6 / of(1);
-    println!("an impact of the running simulation: {page:.0} ns in the page, {here:.0} ns here: speed {:.2}", here / page);
+    println!(
+        "an impact of the running simulation: {page:.0} ns in the page, {here:.0} ns here: speed {:.2}",
+        here / page
+    );
 }

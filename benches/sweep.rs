@@ -1,6 +1,6 @@
 //! What a sweep takes beside the batch engine that flies its trajectories, in the same run and for the same
-//! stretches of points: the engine alone, with nobody watching; the same trajectories measured; and the whole
-//! work on chunks, from points to sealed bytes.
+//! stretches of points: the engine alone, with nobody watching; the same trajectories measured one by one, none proven;
+//! and the whole work on chunks, from points to sealed bytes.
 //!
 //! The lines printed are the ratios. Nothing here asserts a time.
 
@@ -10,8 +10,7 @@ use std::time::{Duration, Instant};
 
 use vinesink::case::Case;
 use vinesink::digest;
-use vinesink::regimes::Transient;
-use vinesink::regimes::{Effort, Motion, long_term, starts};
+use vinesink::motions::{Effort, Motion, SettlingTime, follow, starts};
 use vinesink::simulation::Simulation;
 use vinesink::simulation::batch::{self, Extent};
 use vinesink::sweep::{Plan, parquet, work};
@@ -50,14 +49,15 @@ struct Stretch {
 impl Stretch {
     fn of(plan: &Plan, points: Range<u64>) -> Self {
         let systems = points.clone().filter_map(|number| plan.point(number).system);
-        let of =
-            |system| starts::of(&system, plan.settings.starts).map(move |start| (system, start));
+        let of = |system| {
+            starts::spread(&system, plan.settings.starts).map(move |start| (system, start))
+        };
         let starts: Vec<(System, State)> = systems.flat_map(of).collect();
         let periods = plan.settings.periods;
-        let motions = long_term(&starts, &Effort::over(periods)).expect("finite");
+        let motions = follow(&starts, &Effort::over(periods)).expect("finite");
         let extent = |(motion, (system, _)): (&Option<Motion>, &(System, State))| {
-            let once = motion.and_then(|motion| motion.repeats_after).map(u64::from);
-            let all = Transient::of(system).periods + once.unwrap_or(periods);
+            let once = motion.as_ref().and_then(Motion::repeats_after).map(u64::from);
+            let all = SettlingTime::of(system).periods + once.unwrap_or(periods);
             Extent { periods: all, impacts: 1000 * all }
         };
         let extents = motions.iter().zip(&starts).map(extent).collect();
@@ -87,8 +87,7 @@ fn main() {
         &mut || {
             for stretch in &stretches {
                 black_box(
-                    long_term(&stretch.starts, &Effort::over(plan.settings.periods))
-                        .expect("finite"),
+                    follow(&stretch.starts, &Effort::over(plan.settings.periods)).expect("finite"),
                 );
             }
         },
@@ -105,6 +104,9 @@ fn main() {
     println!("the engine with nobody watching: {:.1?} a trajectory", each(engine));
     println!("measured: {:.1?} a trajectory", each(measured));
     println!("  the engine takes {:.2} of that", ratio(engine, measured));
-    println!("a sweep of them, sealed bytes at the end: {:.1?} a trajectory", each(swept));
+    println!(
+        "a sweep, its motions found and proven, sealed bytes: {:.1?} a trajectory",
+        each(swept)
+    );
     println!("  that is {:.3} times as long as they take to be measured", ratio(swept, measured));
 }

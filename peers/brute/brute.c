@@ -13,8 +13,10 @@
    usage: brute run  key=value...      one motion: peak, impacts, energy balance
           brute scan key=value...      every clearance x frequency: the largest peaks from several starts
           brute bare key=value...      every frequency: bare amplitude, largest displacement of the transient from rest
+          brute ends key=value...      every start: peak and impacts of a window after so many periods
    keys:  m1 k1 c1 m2 r kind=force|base F ; steps (per period), efolds, minperiods, window, windows, contact
-   run:   f b x v y u            scan: from to n starts seed carry stop b=B1,B2,...            bare: from to n   */
+   run:   f b x v y u            scan: from to n starts seed carry stop b=B1,B2,...            bare: from to n
+   ends:  f b starts seed after=N1,N2,...   */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -371,6 +373,27 @@ static void run(int n, char **a, Problem *p, Plan *plan) {
     printf("end %.15g %.15g %.15g %.15g\nbare_transient %.9g\n", z.x, z.v, z.y, z.u, bare_transient(p, plan));
 }
 
+/* What each start is like after so many periods, in a window that begins there: a row for each. `after` ascends. */
+static void ends(int n, char **a, Problem *p, Plan *plan) {
+    problem_set(p, number(n, a, "f", NULL), number(n, a, "b", NULL));
+    int starts = (int)number(n, a, "starts", "24");
+    unsigned long seed = (unsigned long)number(n, a, "seed", "1");
+    printf("start,after,peak,impacts_per_period\n");
+    for (int i = 0; i < starts; i++) {
+        State z = start(p, i, seed);
+        long flown = 0;
+        for (const char *after = text(n, a, "after", NULL); after; after = strchr(after, ',') ? strchr(after, ',') + 1 : NULL) {
+            Tally t = {0};
+            t.peak = INFINITY;
+            for (; flown < atol(after); flown++) one_period(p, &z, &t);
+            t.peak = 0;
+            t.impacts = 0;
+            for (int k = 0; k < plan->window; k++, flown++) one_period(p, &z, &t);
+            printf("%d,%ld,%.9g,%.6g\n", i, atol(after), t.peak, (double)t.impacts / plan->window);
+        }
+    }
+}
+
 /* One row per frequency, of motions with impacts: the largest peak, the mean over the windows of that motion's peaks,
    and the smallest peak of a window. */
 typedef struct { double f, bare, worst, typical, least, rate; int start, moving; } Row;
@@ -460,9 +483,9 @@ static void bare(int n, char **a, Problem *p, Plan *plan) {
 int main(int n, char **a) {
     static Problem p;
     void (*verb)(int, char **, Problem *, Plan *) = NULL;
-    if (n > 1) verb = !strcmp(a[1], "run") ? run : !strcmp(a[1], "scan") ? scan : !strcmp(a[1], "bare") ? bare : NULL;
+    if (n > 1) verb = !strcmp(a[1], "run") ? run : !strcmp(a[1], "scan") ? scan : !strcmp(a[1], "bare") ? bare : !strcmp(a[1], "ends") ? ends : NULL;
     if (!verb) {
-        fprintf(stderr, "usage: brute run|scan|bare key=value...\n");
+        fprintf(stderr, "usage: brute run|scan|bare|ends key=value...\n");
         return 2;
     }
     p.m1 = number(n, a, "m1", NULL);

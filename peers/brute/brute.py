@@ -4,6 +4,7 @@
 brute.py scan CASE [--clearance METRES]   the largest long-term motion at one clearance, over the case's band
 brute.py curve CASE [--clearances N]      the same at N clearances between the bounds of [optimize], as CSV
 brute.py table CASE...                    best clearance of each case and five clearances densely scanned, as CSV
+brute.py ends CASE... [--after N,N,...]   what starts at the case's own excitation are like after N periods, as Markdown
 """
 import argparse, csv, functools, io, math, os, re, subprocess, sys, tempfile, tomllib
 
@@ -40,7 +41,9 @@ class Design:
         base = e["kind"] == "base-displacement"
         self.keys = {"m1": m1, "k1": k1, "c1": c1, "m2": m2, "r": a["restitution"], "kind": "base" if base else "force",
                      "F": number(e["amplitude"], "m" if base else "N"),
-                     "from": number(case["band"]["from"], "Hz"), "to": number(case["band"]["to"], "Hz")}
+                     **{end: number(case["band"][end], "Hz") for end in ("from", "to") if "band" in case}}
+        self.frequency = number(e["frequency"], "Hz")
+        self.ideal = set(a) <= {"mass", "mass_ratio", "clearance", "restitution"}
         self.clearance = number(a["clearance"], "m")
         self.bounds = [number(v, "m") for v in case["optimize"]["clearance"]] if "optimize" in case else None
         self.transients = None
@@ -155,19 +158,42 @@ def table(design, out, count):
 
 
 def scan(design, b, args):
-    v, f, typical, _, first = dense(design, b, args.frequencies, args.starts)
+    v, f, typical, _, first = dense(design, b, args.frequencies, args.starts or 6)
     rest = [max(v, design.inactive(b)[c][0]) for c in CONVENTIONS[1:]]
     return [f"{b:.5g}", f"{v:.5g}", f"{f:.7g}", *(f"{x:.5g}" for x in (typical, first, *rest))]
 
 
+# Windows that repeat and agree this closely are of one motion; it is far below what tells motions apart.
+ALIKE = 1e-3
+
+
+def ends(design, starts, after):
+    """Lines of a table: the motions that at least two starts agree on to `ALIKE`, and the rest together."""
+    if not design.ideal:
+        raise SystemExit(f"{design.name}: brute force knows the ideal cavity alone")
+    rows = design.ask("ends", f=design.frequency, b=design.clearance, starts=starts, after=after)
+    for periods in map(int, after.split(",")):
+        groups = []
+        for row in sorted((row for row in rows if row["after"] == periods), key=lambda row: row["peak"]):
+            if groups and row["peak"] <= (1 + ALIKE) * groups[-1][0]["peak"]:
+                groups[-1].append(row)
+            else:
+                groups.append([row])
+        settled = [group for group in groups if len(group) > 1 and len({round(row["impacts_per_period"], 1) for row in group}) == 1]
+        told = [f"{len(group)}: {1e3 * group[0]['peak']:.4g} mm, {group[0]['impacts_per_period']:.2f} impacts" for group in settled]
+        told.append(f"{starts - sum(map(len, settled))} others")
+        yield f"| {design.name} | {periods} | {'; '.join(told)} |"
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("verb", choices=["scan", "curve", "table"])
+    parser.add_argument("verb", choices=["scan", "curve", "table", "ends"])
     parser.add_argument("case", nargs="+")
     parser.add_argument("--clearance", type=float)
     parser.add_argument("--clearances", type=int, default=200)
     parser.add_argument("--frequencies", type=int, default=400)
-    parser.add_argument("--starts", type=int, default=6)
+    parser.add_argument("--starts", type=int, help="6, or 24 for ends")
+    parser.add_argument("--after", default="300,3000,30000")
     args = parser.parse_args()
     global BINARY
     with tempfile.TemporaryDirectory() as folder:
@@ -176,6 +202,11 @@ def main():
         subprocess.run([*compiler, "-o", BINARY, f"{HERE}/brute.c", "-lm"], check=True)
         out = csv.writer(sys.stdout, lineterminator="\n")
         columns = "clearance_m impacts_m frequency_hz typical_m one_scan_m inactive_m inactive_from_rest_m"
+        if args.verb == "ends":
+            print("| design | after periods | starts: peak, impacts per period |\n|---|---:|---|")
+            for path in args.case:
+                print("\n".join(ends(Design(path), args.starts or 24, args.after)), flush=True)
+            return
         if args.verb == "table":
             columns = "design convention what clearance_m worst_m frequency_hz impacts_per_period typical_m one_scan_m"
         out.writerow(columns.split())

@@ -10,8 +10,9 @@ use std::collections::BTreeMap;
 
 use vinesink::analysis::Analysis;
 use vinesink::analysis::motion::{read_off, state_of, wrapped};
+use vinesink::motions::{Measured, Window};
 use vinesink::orbits::{Bifurcation, Boundaries, Measures, symmetric_orbits};
-use vinesink::regimes::{Attractor, Regime, Window};
+use vinesink::regimes::Regime;
 use vinesink::system::{Parameters, System};
 use vinesink::validation::tolerance::asymptotic_error;
 
@@ -38,7 +39,7 @@ fn errors(system: &System, scale: f64) -> [f64; 3] {
     let discard = (2000.0 / scale) as u64;
     let effort = Window { discard, periods: 20, impact_limit: 1_000_000 };
     let start = state_of(point, system);
-    let reached = Attractor::reach(system, start, &effort).expect("inside the cavity");
+    let reached = Measured::reach(system, start, &effort).expect("inside the cavity");
     assert_eq!(reached.classification.regime, Regime::TwoSymmetric, "eps scaled by {scale}");
     let seen = read_off(system, reached.oscillator_harmonic, reached.absorber_harmonic);
     [

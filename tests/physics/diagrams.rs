@@ -9,9 +9,9 @@ use std::fs;
 
 use crate::common::table_1;
 use vinesink::case::Case;
+use vinesink::motions::SweepDirection;
 use vinesink::orbits::{Bifurcation, FullSystem};
 use vinesink::regimes::Regime;
-use vinesink::regimes::diagram::SweepDirection;
 use vinesink::study::diagrams::{Diagram, STEPS};
 use vinesink::study::exact_branches::ExactBranches;
 use vinesink::system::{Parameter, Parameters, System};
@@ -87,7 +87,7 @@ fn hysteresis_is_found_where_two_exact_orbits_attract() {
         let alone = points.iter().filter(|point| (0.4..0.9).contains(&point.value));
         assert!(alone.clone().count() > 20);
         for point in alone {
-            assert_eq!(point.motion.regime, Regime::TwoSymmetric, "{}", 15.0 * point.value);
+            assert_eq!(point.motion.regime(), Regime::TwoSymmetric, "{}", 15.0 * point.value);
         }
     }
 }

@@ -9,8 +9,10 @@ use vinesink::dissipation::{
     AveragedFlow, Branch, DissipationCurve, ModulatedCycle, Point, Recapture, SteadyState,
 };
 use vinesink::equations::dissipation as formulas;
-use vinesink::regimes::{Attractor, Effort, Regime, Window, motions, starts};
-use vinesink::study::{CaseStudy, StudyEffort};
+use vinesink::executor::Serial;
+use vinesink::motions::{Effort, Measured, Motion, Motions, Place, Window};
+use vinesink::regimes::Regime;
+use vinesink::study::CaseStudy;
 use vinesink::system::{Cavity, Excitation, Parameters, State, System};
 use vinesink::validation::{Claim, Finding, Verdict, motions as motions_claims};
 
@@ -21,6 +23,12 @@ const DAMPING: f64 = 1.799;
 
 /// That of Table 1, which several tests ask.
 static CURVE: LazyLock<DissipationCurve> = LazyLock::new(|| DissipationCurve::of(0.6, [0.1, 3.2]));
+
+/// The long-term motions from so many starts.
+fn motions(system: &System, starts: u32, effort: &Effort) -> Motions {
+    let place = Place::new(system, starts);
+    vinesink::motions::motions(&[place], effort, &Serial).expect("inside").remove(0)
+}
 
 fn system(mass_ratio: f64, damping: f64, restitution: f64, sigma: f64, gamma: f64) -> System {
     System::new(Parameters {
@@ -360,8 +368,8 @@ fn the_response_holds_the_steady_amplitudes_of_every_detuning() {
 #[test]
 fn a_claim_of_the_averaged_flow_is_confirmed_by_simulation_and_refuted_where_it_is_wrong() {
     let system = table_1(8.35, 11.5);
-    let effort = StudyEffort { starts: 4, discard: Some(300), periods: 200 };
-    let study = CaseStudy::of(&system, effort, &mut |_| ()).expect("studied");
+    let effort = Effort { starts: 4, discard: Some(300), ..Effort::over(200) };
+    let study = CaseStudy::of(&system, &motions(&system, 4, &effort), effort).expect("studied");
     assert!(study.averages.is_none());
     let study = study.with_averages().expect("analysable");
     let judged = |claims: &[Claim]| {
@@ -377,7 +385,7 @@ fn a_claim_of_the_averaged_flow_is_confirmed_by_simulation_and_refuted_where_it_
     assert!((claim.tolerance - 0.088).abs() < 1e-3, "{claim:?}");
     let averages = study.averages.expect("asked for");
     let of = |states: &[SteadyState], range| {
-        motions_claims::averaged(&system, states, None, range, &study.motions.attractors)
+        motions_claims::averaged(&system, states, None, range, &study.motions)
     };
     let mut wrong = averages.states.clone();
     wrong.iter_mut().for_each(|state| state.amplitude *= 1.1);
@@ -416,10 +424,10 @@ fn free_decay_from_three_clearances_passes_all_regimes() {
 fn the_forced_amplitude_of_three_impacts_is_the_simulated_one() {
     let system = table_1(8.35, 11.5);
     let states = AveragedFlow::of(&system, &CURVE).steady_states().expect("analysable");
-    let places = [(system, starts::of(&system, 8).collect())];
-    let found = &motions(&places, &Effort::over(200)).expect("inside")[0];
-    let simulated = found.iter().find(|one| one.impacts_per_period == 3.0).expect("three impacts");
-    let amplitude = std::f64::consts::SQRT_2 * simulated.rms;
+    let found = motions(&system, 8, &Effort::over(200));
+    let three = |one: &&Motion| one.facts().impacts_per_period.value == 3.0;
+    let simulated = found.iter().find(three).expect("three impacts");
+    let amplitude = std::f64::consts::SQRT_2 * simulated.facts().rms.value;
     let theory =
         states.iter().find(|state| state.stable && state.impacts_per_period == 3.0).expect("one");
     assert!((theory.amplitude / amplitude - 1.0).abs() < 0.01, "{theory:?} {amplitude}");
@@ -443,10 +451,10 @@ fn forced_amplitudes_are_of_first_order_in_the_mass_ratio() {
         assert!(stable && point.repeats_after.is_some(), "{both:?} {point:?}");
         let error = |part: f64| {
             let system = forced(MASS_RATIO / part, sigma);
-            let places = [(system, starts::of(&system, 8).collect())];
-            let found = &motions(&places, &Effort::over(200)).expect("inside")[0];
-            let one = found.iter().find(|one| one.regime == regime).expect("simulated");
-            let error = point.amplitude / (std::f64::consts::SQRT_2 * one.rms) - 1.0;
+            let found = motions(&system, 8, &Effort::over(200));
+            let one = found.iter().find(|one| one.regime() == regime).expect("simulated");
+            let rms = one.facts().rms.value;
+            let error = point.amplitude / (std::f64::consts::SQRT_2 * rms) - 1.0;
             assert!(error.abs() < MASS_RATIO / part * (2.0 + sigma.abs() + DAMPING), "{error}");
             error
         };
@@ -487,11 +495,11 @@ fn forced_amplitudes_of_twenty_systems_are_the_simulated_ones() {
         // What the theory of first order neglects, three times.
         let tolerance = 3.0 * mass_ratio * (2.0 + sigma.abs() + damping);
         let states = AveragedFlow::of(&system, curve).steady_states().expect("analysable");
-        let places = [(system, starts::of(&system, 4).collect())];
-        let found = &motions(&places, &Effort::over(300)).expect("inside")[0];
-        assert!(found.iter().any(|motion| !motion.is_inactive()), "{system:?}");
-        for motion in found.iter().filter(|motion| !motion.is_inactive()) {
-            let amplitude = std::f64::consts::SQRT_2 * motion.rms;
+        let found = motions(&system, 4, &Effort::over(300));
+        let led_to = |motion: &&Motion| motion.rest().is_none() && motion.reached().starts > 0;
+        assert!(found.iter().any(|motion| led_to(&motion)), "{system:?}");
+        for motion in found.iter().filter(led_to) {
+            let amplitude = std::f64::consts::SQRT_2 * motion.facts().rms.value;
             let stable =
                 states.iter().filter(|state| state.stable && state.regime != Regime::AtRest);
             let error = stable
@@ -507,11 +515,11 @@ fn forced_amplitudes_of_twenty_systems_are_the_simulated_ones() {
 }
 
 /// What a start leads to, measured over some hundred modulations.
-fn simulated(system: &System) -> Attractor {
+fn simulated(system: &System) -> Measured {
     let slow = (3.0 / system.mass_ratio()) as u64;
     let window = Window { discard: slow, periods: 8 * slow, impact_limit: u64::MAX };
     let start = State { x: 0.1, x_velocity: 0.0, y: -0.3, y_velocity: 0.1 };
-    Attractor::reach(system, start, &window).expect("inside")
+    Measured::reach(system, start, &window).expect("inside")
 }
 
 /// Twenty systems whose simulated motion is strongly modulated, as a fixed sequence has them: the flow has a cycle for each,
@@ -539,7 +547,7 @@ fn modulated_cycles_are_the_simulated_ones() {
         // First order in the mass ratio, three times; and a twentieth for captures whose rate depends on how the
         // absorber left, of which the flow knows the average.
         let tolerance = 0.05 + 3.0 * mass_ratio * (2.0 + sigma.abs() + damping);
-        let error = cycle.rms / found.rms - 1.0;
+        let error = cycle.rms / found.facts.rms.value - 1.0;
         assert!(error.abs() < tolerance, "{error} {tolerance} {system:?} {cycle:?}");
         let captures = found.classification.evidence.captures;
         let apart = cycle.captured_share - captures.share;
@@ -562,7 +570,7 @@ fn a_modulated_cycle_is_the_limit_of_small_mass_ratios() {
             let system = system(MASS_RATIO / part, DAMPING, 0.6, 2.36, 1.16);
             let (cycle, found) =
                 (ModulatedCycle::of(&system, &recapture).expect("a cycle"), simulated(&system));
-            let error = cycle.rms / found.rms - 1.0;
+            let error = cycle.rms / found.facts.rms.value - 1.0;
             assert!(error.abs() < 0.05, "{error} {cycle:?}");
             found.classification.evidence.captures.share - cycle.captured_share
         })

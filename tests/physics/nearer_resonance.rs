@@ -5,8 +5,8 @@ use std::f64::consts::{PI, TAU};
 
 use crate::common;
 use vinesink::analysis::{Analysis, Branch};
-use vinesink::regimes::starts::StartBox;
-use vinesink::regimes::{Effort, Motion, Regime, long_term};
+use vinesink::motions::{Effort, Motion, follow, starts};
+use vinesink::regimes::Regime;
 use vinesink::system::{Cavity, Excitation, Parameters, State, System};
 
 /// Natural frequency over that of Table 1, restitution, `F` in mm: inferred from the regimes.
@@ -44,12 +44,11 @@ fn system((natural, restitution, amplitude): Set, clearance: f64) -> System {
 /// The motions that evenly spread starts lead to, without those that leave the absorber at rest.
 fn moving(set: Set, clearance: f64, starts: u32) -> Vec<Motion> {
     let system = system(set, clearance);
-    let sample = StartBox::around(&system);
     let starts: Vec<(System, State)> =
-        (0..starts).map(|index| (system, sample.start(index))).collect();
+        starts::spread(&system, starts).map(|start| (system, start)).collect();
     // As long as a report measures: the share of time in captures scatters less than its distance from the threshold.
-    let found = long_term(&starts, &Effort::over(1000)).expect("inside the cavity");
-    found.into_iter().flatten().filter(|motion| !motion.is_inactive()).collect()
+    let found = follow(&starts, &Effort::over(1000)).expect("inside the cavity");
+    found.into_iter().flatten().filter(|motion| motion.rest().is_none()).collect()
 }
 
 #[test]
@@ -59,7 +58,7 @@ fn all_panels_hold_from_every_start() {
             let found = moving(set, clearance, 16);
             assert!(found.len() >= 14, "{set:?}, {clearance} mm: {} starts move", found.len());
             for motion in found {
-                assert_eq!(motion.regime, regime, "{set:?}, {clearance} mm: {motion:?}");
+                assert_eq!(motion.regime(), regime, "{set:?}, {clearance} mm: {motion:?}");
             }
         }
     }
@@ -71,13 +70,15 @@ fn all_panels_hold_from_every_start() {
 fn a_larger_restitution_gives_the_regularity_of_panels_a_and_b() {
     let repeat = |set, clearance| {
         let found = moving(set, clearance, 16);
-        let repeating = found.iter().filter(|motion| motion.repeats()).count();
+        let repeating = found.iter().filter(|motion| motion.repeats_after().is_some()).count();
         (repeating, found)
     };
     assert_eq!(repeat(B, 0.3).0, 0);
     let (repeating, found) = repeat(B, 2.5);
     assert_eq!(repeating, 16);
-    assert!(found.iter().all(|motion| (motion.impacts_per_period - 3.0).abs() < 1e-9));
+    assert!(
+        found.iter().all(|motion| (motion.facts().impacts_per_period.value - 3.0).abs() < 1e-9)
+    );
     assert_eq!(repeat(A, 0.3).0, 16);
     assert!(repeat(A, 2.5).0 < 8);
 }
@@ -140,7 +141,7 @@ fn no_forcing_amplitude_gives_panels_c_and_e_with_table_1() {
     let mut held = [0, 0];
     for step in 0..12 {
         let set = (1.0, 0.6, 0.1 + 0.02 * f64::from(step));
-        let at = |clearance| moving(set, clearance, 4).into_iter().map(|motion| motion.regime);
+        let at = |clearance| moving(set, clearance, 4).into_iter().map(|motion| motion.regime());
         let asymmetric = at(4.0).all(|regime| regime == Regime::TwoAsymmetric);
         let unsteady = at(11.5).all(|regime| regime != Regime::TwoSymmetric);
         assert!(!(asymmetric && unsteady), "{set:?}");

@@ -3,7 +3,8 @@
 
 use crate::common;
 use vinesink::analysis::{Analysis, Area, Branch, Strip, Zone};
-use vinesink::regimes::{Attractor, Window};
+use vinesink::executor::Serial;
+use vinesink::motions::{Effort, Measured, Place, Window, motions};
 use vinesink::system::State;
 
 /// `value` rounded to `decimals` equals `printed`.
@@ -93,8 +94,8 @@ fn peaks_of_the_symmetric_orbits() {
         let system = common::table_1(frequency, clearance);
         let start = State { x: 0.2, x_velocity: 0.2, y: 0.0, y_velocity: 0.8 };
         let effort = Window { discard: 1500, periods: 50, impact_limit: 100_000 };
-        let found = Attractor::reach(&system, start, &effort).expect("inside the cavity");
-        prints_as(found.peak * clearance, 3, peak);
+        let found = Measured::reach(&system, start, &effort).expect("inside the cavity");
+        prints_as(found.facts.peak.value * clearance, 3, peak);
     }
 }
 
@@ -106,7 +107,7 @@ fn order_of_regimes_at_8_hz() {
         let system = common::table_1(8.0, clearance);
         let start = State { x: 0.3, x_velocity: 0.2, y: 0.1, y_velocity: 0.8 };
         let effort = Window { discard: 800, periods: 200, impact_limit: 100_000 };
-        let found = Attractor::reach(&system, start, &effort).expect("inside the cavity");
+        let found = Measured::reach(&system, start, &effort).expect("inside the cavity");
         assert_eq!(found.classification.regime, regime, "b = {clearance} mm");
     }
 }
@@ -120,7 +121,9 @@ fn all_starts_keep_resonance_only_below_the_exact_stability_limit() {
     let analysis = Analysis::of(&common::table_1(8.5, 20.0)).expect("analysable");
     let exact = vinesink::orbits::FullSystem::of(&analysis.system);
     let margins = Margins::of(&analysis, &exact);
-    let confirmations = Confirmations::of(&exact, &margins).expect("inside the cavity");
+    let place = Place::new(&analysis.system, 32);
+    let found = motions(&[place], &Effort::default(), &Serial).expect("finite").remove(0);
+    let confirmations = Confirmations::of(&exact, &margins, &found).expect("inside the cavity");
     let limit = confirmations.upper_limit.expect("1:1 resonance is lost somewhere");
     assert!(limit.kept >= 1.0 && limit.kept < limit.lost.factor, "{limit:?}");
     assert!(limit.lost.factor * 20.0 < 25.219, "{limit:?}");

@@ -6,7 +6,8 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use crate::common;
 use crate::fuzz::{Dice, fuzz};
 use vinesink::evidence::reference::{Event, Reference, real::Real};
-use vinesink::regimes::{Effort, motions};
+use vinesink::executor::Serial;
+use vinesink::motions::{Effort, Place, motions};
 use vinesink::simulation::{Impact, Observer, Reversal, Segment, Simulation};
 use vinesink::system::{Cavity, Excitation, Parameters, State, System};
 
@@ -358,16 +359,18 @@ fn a_motion_that_friction_turns_is_measured_alike() {
     })
     .expect("valid");
     let start = State { x: 0.0, x_velocity: 0.1, y: 0.0, y_velocity: 0.0 };
-    let found = &motions(&[(system, vec![start])], &Effort::over(200)).expect("inside")[0][0];
-    assert_eq!(found.repeats_after, Some(1));
+    let place = Place::with(&system, vec![start]);
+    let all = motions(&[place], &Effort::over(200), &Serial).expect("inside").remove(0);
+    let found = all.main().expect("one");
+    assert_eq!((found.repeats_after(), found.reached().starts), (Some(1), 1));
     let mut simulation = Simulation::new(&system, start, 0.0).expect("inside");
     simulation.run(3000, u64::MAX, &mut ());
     // By the midpoint rule in steps of 1e-3 within flights: off by some 1e-7.
     let mut sampled = Squares::default();
     simulation.run(10, u64::MAX, &mut sampled);
     let rms = (sampled.sum / sampled.time).sqrt();
-    // A motion is measured once its periods agree to 1e-6, while its transient fades by some per cent in each.
-    assert!((found.rms / rms - 1.0).abs() < 1e-4, "{} {rms}", found.rms);
+    let found = found.facts().rms.value;
+    assert!((found / rms - 1.0).abs() < 1e-6, "{found} {rms}");
 }
 
 /// The integral of the oscillator's squared displacement.

@@ -5,9 +5,9 @@
 //! the simulated flow.
 
 use crate::common;
-use vinesink::regimes::diagram::carried_over;
+use vinesink::motions::carried_over;
+use vinesink::motions::starts::StartBox;
 use vinesink::regimes::lyapunov::{Exponent, Lyapunov};
-use vinesink::regimes::starts::StartBox;
 use vinesink::simulation::{Measurement, Observer, Reversal, Simulation, Tangent};
 use vinesink::system::{Cavity, Excitation, Parameters, State, System};
 

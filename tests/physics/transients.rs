@@ -6,12 +6,12 @@
 use crate::common;
 use std::f64::consts::{FRAC_1_SQRT_2, TAU};
 
-use vinesink::orbits::attracting_orbit;
-use vinesink::regimes::long_term::motions;
-use vinesink::regimes::{
-    Attractor, DynamicsKind, Effort, Motion, Regime, Transient, Window, long_term, starts,
-    transient,
+use vinesink::executor::Serial;
+use vinesink::motions::{
+    Effort, Measured, Motion, Motions, Place, SettlingTime, Window, follow, motions, starts,
 };
+use vinesink::orbits::attracting_orbit;
+use vinesink::regimes::{DynamicsKind, Regime};
 use vinesink::simulation::Simulation;
 use vinesink::system::{Cavity, Excitation, Parameters, State, System};
 
@@ -30,10 +30,8 @@ fn bridge(clearance: f64, hertz: f64) -> System {
     .expect("valid")
 }
 
-fn from_starts(system: &System) -> Vec<Motion> {
-    motions(&[(*system, starts::of(system, 8).collect())], &Effort::default())
-        .expect("finite")
-        .remove(0)
+fn from_starts(system: &System) -> Motions {
+    motions(&[Place::new(system, 8)], &Effort::default(), &Serial).expect("finite").remove(0)
 }
 
 /// The bare amplitude, over the clearance.
@@ -45,8 +43,8 @@ fn bare(system: &System) -> f64 {
 /// steady motion of 3.3 um under starts of 50 mm takes 10 + ln(50/0.0033) = 19.6 of them.
 #[test]
 fn what_is_left_out_is_a_time_of_the_structure() {
-    let at = |hertz| Transient::of(&bridge(0.05, hertz));
-    assert_eq!(at(2.2), Transient { periods: 500, fades: true });
+    let at = |hertz| SettlingTime::of(&bridge(0.05, hertz));
+    assert_eq!(at(2.2), SettlingTime { periods: 500, fades: true });
     let far = at(40.0);
     let wanted = 19.624 / (TAU * 0.004) * 40.0 / 2.1;
     assert!(far.fades && (far.periods as f64 / wanted - 1.0).abs() < 1e-3, "{far:?} {wanted}");
@@ -55,7 +53,7 @@ fn what_is_left_out_is_a_time_of_the_structure() {
     let orbit = attracting_orbit(&slow).expect("an orbit").orbit;
     let by_orbit = -12.0 / libm::log(orbit.radius_per_period());
     assert!(by_orbit > 600.0, "{by_orbit}");
-    assert_eq!(Transient::of(&slow), Transient { periods: by_orbit as u64, fades: true });
+    assert_eq!(SettlingTime::of(&slow), SettlingTime { periods: by_orbit as u64, fades: true });
 }
 
 /// Neither without damping nor far from the natural frequency does a run last for ever.
@@ -65,14 +63,14 @@ fn what_would_take_too_long_is_bounded_and_says_so() {
         let parameters = bridge(0.05, 2.1).parameters();
         let parameters = Parameters { damping, frequency_ratio, ..parameters };
         let system = System::new(parameters).expect("valid");
-        (Transient::of(&system), transient::window(&system, 250))
+        SettlingTime::of(&system)
     };
     // Waiting for an undamped structure gains nothing; one of 0.05 % fades within a few times as long.
-    assert_eq!(of(0.0, 1.0), (Transient { periods: 600, fades: false }, 250));
-    assert_eq!(of(2.0 * 0.0005 / 0.015, 1.0), (Transient { periods: 3000, fades: false }, 250));
-    assert_eq!(of(0.5, 1000.0), (Transient { periods: 50_000, fades: false }, 250));
+    assert_eq!(of(0.0, 1.0), SettlingTime { periods: 600, fades: false });
+    assert_eq!(of(2.0 * 0.0005 / 0.015, 1.0), SettlingTime { periods: 3000, fades: false });
+    assert_eq!(of(0.5, 1000.0), SettlingTime { periods: 50_000, fades: false });
     // Each excitation period holds 1000 of the structure.
-    assert_eq!(of(0.5, 0.001), (Transient { periods: 3, fades: true }, 8));
+    assert_eq!(of(0.5, 0.001), SettlingTime { periods: 3, fades: true });
 }
 
 /// 40 Hz on 2.1 Hz: 464 um came of a transient that 400 excitation periods did not leave out. The bare
@@ -82,15 +80,16 @@ fn an_excitation_far_above_the_structure_is_waited_for() {
     let system = bridge(0.05, 40.0);
     let steady = bare(&system);
     let found = from_starts(&system);
-    assert!(found.iter().any(|motion| motion.is_inactive() && motion.peak == steady));
+    let peak = |motion: &Motion| motion.facts().peak.value;
+    assert!(found.rest().is_some_and(|motion| peak(motion) == steady));
     for motion in &found {
-        assert!((1.0..3.0).contains(&(motion.peak / steady)), "{motion:?}, bare {steady}");
+        assert!((1.0..3.0).contains(&(peak(motion) / steady)), "{motion:?}, bare {steady}");
     }
     let effort =
-        Window { discard: Transient::of(&system).periods, periods: 1000, impact_limit: 100_000 };
+        Window { discard: SettlingTime::of(&system).periods, periods: 1000, impact_limit: 100_000 };
     let moving = State { x: 0.5, x_velocity: 0.1, y: 0.2, y_velocity: 0.3 };
-    let reached = Attractor::reach(&system, moving, &effort).expect("inside");
-    assert!(reached.peak < 3.0 * steady, "{} {steady}", reached.peak);
+    let reached = Measured::reach(&system, moving, &effort).expect("inside").facts.peak.value;
+    assert!(reached < 3.0 * steady, "{reached} {steady}");
 }
 
 /// What is asked for wins, and what has not settled by then is said.
@@ -100,10 +99,11 @@ fn what_drifts_has_not_settled() {
     let followed = |discard, periods| {
         let effort = Window { discard, periods, impact_limit: 1000 };
         let displaced = State { x: 0.5, ..State::AT_REST };
-        Attractor::measure(&mut Simulation::new(&system, displaced, 0.0).expect("inside"), &effort)
+        Measured::reach(&system, displaced, &effort).expect("inside")
     };
     let early = followed(400, 1000);
-    assert!(!early.settled && early.peak > 100.0 * bare(&system), "{}", early.peak);
+    let peak = early.facts.peak.value;
+    assert!(!early.settled && peak > 100.0 * bare(&system), "{peak}");
     assert_eq!(early.classification.dynamics, DynamicsKind::TransientNotOver);
     // Within 100 periods it fades by a seventh: a slope tells, halves of the window do not.
     let short = followed(400, 100);
@@ -118,22 +118,21 @@ fn what_drifts_has_not_settled() {
 fn an_absorber_that_is_never_reached_is_in_closed_form() {
     let system = bridge(0.2, 2.1);
     let steady = bare(&system);
-    let on_it = starts::of(&system, 2).nth(1).expect("two");
-    assert!(steady < 1.0 && transient::inactive(&system, &on_it).is_some());
-    let found =
-        long_term(&[(system, on_it)], &Effort::default()).expect("finite")[0].expect("measured");
-    assert_eq!((found.peak, found.rms), (steady, steady * FRAC_1_SQRT_2));
-    assert!(found.is_inactive() && found.settled && found.regime == Regime::AtRest);
+    assert!(steady < 1.0);
+    let on_it = State { y: 0.0, ..system.linear_response().expect("damped").state(&system) };
+    let found = follow(&[(system, on_it)], &Effort::default()).expect("finite").remove(0);
+    let found = found.expect("measured");
+    let (peak, rms) = (found.facts().peak.value, found.facts().rms.value);
+    assert_eq!(peak, steady);
+    // Another order of the same product.
+    assert!((rms / (steady * FRAC_1_SQRT_2) - 1.0).abs() < 1e-15);
+    assert!(found.rest().is_some() && found.settled() && found.regime() == Regime::AtRest);
     // By simulation, which the closed form replaces.
     let mut followed = Simulation::new(&system, on_it, 0.0).expect("inside");
     let effort = Window { discard: 0, periods: 50, impact_limit: 100 };
-    let measured = Attractor::measure(&mut followed, &effort);
-    assert!((measured.peak / steady - 1.0).abs() < 1e-9 && measured.impact_count == 0);
-    assert!((measured.rms / found.rms - 1.0).abs() < 1e-9);
-    for (x, y, y_velocity) in [(0.0, 0.3, 0.0), (0.0, 0.0, 1e-9), (0.5, 0.0, 0.0)] {
-        let start = State { x, y, y_velocity, ..State::AT_REST };
-        assert_eq!(transient::inactive(&system, &start), None, "{start:?}");
-    }
+    let measured = Measured::of(&mut followed, &effort, &mut Measured::log());
+    assert!((measured.facts.peak.value / steady - 1.0).abs() < 1e-9 && measured.impact_count == 0);
+    assert!((measured.facts.rms.value / rms - 1.0).abs() < 1e-9);
 }
 
 /// Where the steady motion is smaller than the clearance, it is among the motions found, though none of 64
@@ -143,8 +142,8 @@ fn eight_starts_find_the_motion_without_impacts() {
     for hertz in [2.1, 2.14, 2.2] {
         let system = bridge(0.2, hertz);
         let found = from_starts(&system);
-        assert_eq!(found.iter().filter(|motion| motion.is_inactive()).count(), 1, "{hertz}");
-        let largest = found.iter().map(|motion| motion.peak).fold(0.0, f64::max);
+        assert_eq!(found.iter().filter(|motion| motion.rest().is_some()).count(), 1, "{hertz}");
+        let largest = found.iter().map(|motion| motion.facts().peak.value).fold(0.0, f64::max);
         assert!(largest >= bare(&system), "{hertz}");
     }
 }
@@ -161,29 +160,31 @@ fn chaotic() -> Vec<System> {
 fn a_run_ten_times_as_long_stays_within_the_error_of_a_peak() {
     let (mut count, mut within, mut fast, mut silly, mut mean) = (0, 0, 0, 0, 0.0);
     for system in chaotic() {
-        let other = starts::of(&system, 10).nth(9).expect("ten");
-        let long = long_term(&[(system, other)], &Effort::over(2500)).expect("finite")[0]
-            .expect("measured");
+        let other = starts::spread(&system, 10).nth(9).expect("ten");
+        let long = follow(&[(system, other)], &Effort::over(2500)).expect("finite").remove(0);
+        let long = long.expect("measured");
         let same = |motion: &&Motion| {
-            let near = (motion.rms / long.rms - 1.0).abs() < 0.25;
-            near && motion.repeats_after.is_none() && motion.impacts_per_period > 0.0
+            let near = (motion.facts().rms.value / long.facts().rms.value - 1.0).abs() < 0.25;
+            near && motion.repeats_after().is_none() && motion.rest().is_none()
         };
         let found = from_starts(&system);
-        let Some(motion) = found.iter().find(same).filter(|_| long.repeats_after.is_none()) else {
+        let Some(motion) = found.iter().find(same).filter(|_| long.repeats_after().is_none())
+        else {
             continue;
         };
         count += 1;
-        within += u32::from(long.peak <= motion.peak + motion.peak_error);
-        let fastest = motion.impact_speed + motion.impact_speed_error;
-        fast += u32::from(long.impact_speed <= fastest);
-        assert!(motion.peak_error > 0.0, "{motion:?}");
-        silly += u32::from(motion.peak_error > 0.25 * motion.peak);
-        mean += motion.peak_error / motion.peak;
+        let (long, facts) = (long.facts(), motion.facts());
+        within += u32::from(long.peak.value <= facts.peak.value + facts.peak.error);
+        let fastest = facts.impact_speed.value + facts.impact_speed.error;
+        fast += u32::from(long.impact_speed.value <= fastest);
+        assert!(facts.peak.error > 0.0, "{motion:?}");
+        silly += u32::from(facts.peak.error > 0.25 * facts.peak.value);
+        mean += facts.peak.error / facts.peak.value;
     }
     mean /= f64::from(count);
     println!("{count} motions: {within} peaks, {fast} speeds within; {silly} wide, mean {mean}");
     assert!(count >= 30, "{count}");
-    // At odds of 19 to 1; and an error that says nothing would be no feat.
+    // With 95 % confidence; and an error that says nothing would be no feat.
     assert!(20 * within >= 19 * count && 20 * fast >= 19 * count, "{within}, {fast} of {count}");
     assert!(mean < 0.2 && 5 * silly <= count, "{mean} {silly}");
 }

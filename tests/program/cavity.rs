@@ -202,7 +202,7 @@ fn reports_say_what_the_cavity_is() {
         "| gravity along, over bω₀² | $a$ | 0.004146 | derived |",
         "| friction acceleration, over bω₀² | $f$ | 0.001425 | derived |",
         // What `cavity_report` proves; the reciprocals of the clearances would be 0.1140 mm and 0.4083 mm.
-        "in forcing: 0.1150 mm (saddle-node) and 0.4082 mm (slip reversal)",
+        "in forcing: 0.1150 mm (saddle-node) and 0.4082 mm (slip reversal, where exact orbits stop)",
         "Amplitude of the base, here 0.25 mm: exact orbit from 0.115 mm to 0.408 mm,",
         "The cavity is inclined by 0.5 deg, with a coefficient of friction of 0.003; restitution is 0.65 at x − y = +b and 0.55 at x − y = −b.",
     ] {
@@ -217,7 +217,7 @@ fn reports_say_what_the_cavity_is() {
     for line in [
         "those of an ideal cavity with the mean restitution; in it the case would lie in area Z3.",
         "Fixed points of the slow flow by the theory of this cavity",
-        "stable for clearances from 4.592 mm (slip reversal) to 16.44 mm (saddle-node)",
+        "stable for clearances from 4.592 mm (slip reversal, where exact orbits stop) to 16.44 mm (saddle-node)",
         "14 of 14 claims",
         "would, with an ideal cavity, lie in Z3",
     ] {

@@ -5,11 +5,12 @@ use std::path::PathBuf;
 use assert_cmd::Command;
 use tempfile::TempDir;
 
-use vinesink::band::{Band, Survey, exact, theory};
+use vinesink::band::{Survey, theory};
 use vinesink::case::Case;
 use vinesink::criteria::{self, Judged};
 use vinesink::executor::Serial;
 use vinesink::method::Method;
+use vinesink::motions::stability;
 use vinesink::orbits::attracting_orbit;
 
 const DESIGN: &str = "\
@@ -38,7 +39,7 @@ fn case(band: &str, criteria: &str) -> Case {
 
 /// As `check` judges it.
 fn judge(case: &Case) -> Vec<Judged> {
-    let survey = Survey::of(&criteria::range(case), &criteria::settings(case), &Serial);
+    let survey = Survey::of(&case.range(), &criteria::settings(case), None, &Serial);
     criteria::judge(case, &survey.expect("starts are finite"))
 }
 
@@ -55,9 +56,9 @@ fn alone(frequency: &str, clearance: &str, criteria: &str) -> Case {
 fn shares_are_those_of_the_band() {
     let case = case(BAND, "z3_share = \">= 80 %\"\nstable_share = \"<= 0.5\"");
     let judged = judge(&case);
-    let band = Band::of(&case.system(), case.band.as_ref().expect("a band"));
+    let band = case.range();
     let z3 = band.share(&theory::zones(&band), |zone| zone.is_z3());
-    let stable = band.share(&exact::stability(&band), |stable| *stable);
+    let stable = band.share(&stability(&band), |stable| *stable);
     assert_eq!(judged[0].found, Some(z3));
     assert_eq!(judged[0].holds, Some(z3 >= 0.8));
     assert_eq!(judged[0].decided_by, Method::Theory);
@@ -141,9 +142,9 @@ fn a_narrow_resonance_is_found_and_none_without_limit_is_compared() {
 fn a_survey_of_more_than_is_asked_changes_nothing() {
     let case = case(BAND, "stable_share = \">= 0.5\"\nz3_share = \">= 0.5\"");
     let mut settings = criteria::settings(&case);
-    assert_eq!(settings.sampling, None);
-    settings.sampling = Some(criteria::sampling(&case));
-    let survey = Survey::of(&criteria::range(&case), &settings, &Serial).expect("finite");
+    assert_eq!(settings.effort, None);
+    settings.effort = Some(case.effort());
+    let survey = Survey::of(&case.range(), &settings, None, &Serial).expect("finite");
     assert_eq!(criteria::judge(&case, &survey), judge(&case));
 }
 
@@ -189,7 +190,7 @@ fn every_format_says_what_fails_and_the_exit_code_too() {
     assert!(text.contains("1 of 2 criteria fail") && text.contains("≥ 90 %"), "{text}");
     let (code, json) = check(&fails, "json");
     let document: serde_json::Value = serde_json::from_str(&json).expect("JSON");
-    assert_eq!((code, &document["format"]), (Some(1), &"vinesink/check@1".into()));
+    assert_eq!((code, &document["format"]), (Some(1), &"vinesink/check@2".into()));
     assert_eq!(document["cases"][0]["criteria"][1]["holds"], false);
     let (_, markdown) = check(&fails, "markdown");
     assert!(markdown.contains("| ≥ 90 % |") && markdown.lines().count() == 6, "{markdown}");

@@ -5,12 +5,13 @@ use std::path::Path;
 use std::process::{Command, Output};
 
 use serde_json::{Value, json};
+use vinesink::answer::{Answer, Asked};
 use vinesink::case::Case;
+use vinesink::executor::Serial;
+use vinesink::motions::{Measured, Motion, Window, starts};
 use vinesink::orbits::FullSystem;
-use vinesink::regimes::starts::StartBox;
-use vinesink::regimes::{Attractor, Motion, Window};
 use vinesink::study::deviations::{Deviation, STARTS};
-use vinesink::study::{CaseStudy, Deviations, StudyEffort};
+use vinesink::study::{CaseStudy, Deviations};
 
 /// Table 1 with a small clearance: one steady motion of two impacts per period, which every start leads to.
 const STEADY: &str = "title = \"t\"\nsource = \"s\"\n[oscillator]\nmass = \"4.168 kg\"\nstiffness = \"11.47 kN/m\"\n\
@@ -24,25 +25,28 @@ fn parsed(text: &str) -> Case {
 }
 
 fn found(case: &Case) -> (CaseStudy, Deviations) {
-    let effort = StudyEffort::of(&case.simulation);
-    let study = CaseStudy::of(&case.system(), effort, &mut |_| ()).expect("a study");
-    let deviations = Deviations::of(case, &study).expect("simulated").expect("it moves");
+    let answer = Answer::of(case, Asked::Study, None, &Serial).expect("a study");
+    let study = answer.studied().expect("it was asked for").clone();
+    let deviations = Deviations::of(case, &study, &Serial).expect("simulated").expect("it moves");
     (study, deviations)
 }
 
-fn rig(of: &Deviations, deviation: Deviation) -> Motion {
-    of.rigs.iter().find(|rig| rig.deviation == deviation).expect("a row").motion
+fn rig(of: &Deviations, deviation: Deviation) -> &Motion {
+    &of.rigs.iter().find(|rig| rig.deviation == deviation).expect("a row").motion
+}
+
+fn peak(of: &Motion) -> f64 {
+    of.facts().peak.value
 }
 
 /// The largest peak of another design, each start alone, with the whole window measured.
 fn largest(study: &CaseStudy, text: &str) -> f64 {
     let system = parsed(text).system();
-    let sample = StartBox::around(&system);
-    let own = study.motions.attractors.iter().map(|one| one.attractor.state);
+    let own = study.motions.iter().filter(|one| one.rest().is_none()).map(Motion::state);
     let window = Window { discard: 800, periods: 50, impact_limit: u64::MAX };
-    let starts = own.chain((0..STARTS).map(|k| sample.start(k)));
-    let peak = |start| Attractor::reach(&system, start, &window).expect("a start").peak;
-    starts.map(peak).fold(0.0, f64::max)
+    let starts = own.chain(starts::spread(&system, STARTS));
+    let reach = |start| Measured::reach(&system, start, &window).expect("a start");
+    starts.map(|start| reach(start).facts.peak.value).fold(0.0, f64::max)
 }
 
 /// A repetition closes to 1e-6, and shrinks by a multiplier of 0.95 in each period: 2e-5 are left to go.
@@ -68,12 +72,12 @@ fn each_row_is_the_design_with_one_number_changed() {
         let changed = STEADY.replacen(from, &to, 1);
         assert_ne!(changed, STEADY);
         let expected = largest(&study, &changed);
-        close(rig(&found, deviation).peak, expected, &format!("{deviation:?}"));
+        close(peak(rig(&found, deviation)), expected, &format!("{deviation:?}"));
     }
     let own = largest(&study, STEADY);
-    close(found.own.peak, own, "the case");
+    close(peak(&found.own), own, "the case");
     for rig in &found.rigs {
-        assert_eq!(rig.change, Some(rig.motion.peak / found.own.peak - 1.0));
+        assert_eq!(rig.change, Some(peak(&rig.motion) / peak(&found.own) - 1.0));
     }
     assert!(found.rigs.windows(2).all(|pair| pair[0].change >= pair[1].change));
 }
@@ -110,7 +114,7 @@ fn a_reduced_design_has_no_gravity() {
         .replacen("damping = 1.8", &format!("damping = {:?}", 1.8 / 1.01), 1)
         .replacen("forcing = 4.34", &format!("forcing = {:?}", 4.34 / (1.01 * 1.01)), 1)
         .replacen("ratio = 0.958", &format!("ratio = {:?}", 0.958 / 1.01), 1);
-    let peak = rig(&found, Deviation::FrequencyHigher).peak;
+    let peak = peak(rig(&found, Deviation::FrequencyHigher));
     close(peak, largest(&study, &changed), "a stiffer structure");
     // No wall gives back more than it gets.
     let elastic = parsed(&REDUCED.replacen("restitution = 0.6", "restitution = 0.99", 1));
@@ -124,11 +128,15 @@ fn what_scatters_is_not_ranked() {
     let text = fs::read_to_string("cases/li2016-8p5hz-fig4d.toml").expect("a case");
     let text = format!("{text}\n[simulation]\nstarts = 2\nperiods = 200\n");
     let (_, found) = found(&parsed(&text));
-    let own = [found.own.peak, found.own.peak + found.own.peak_error];
+    let range = |motion: &Motion| {
+        let peak = motion.facts().peak;
+        [peak.value, peak.value + peak.error]
+    };
+    let own = range(&found.own);
     assert!(own[1] > own[0]);
     let mut within = 0;
     for rig in &found.rigs {
-        let other = [rig.motion.peak, rig.motion.peak + rig.motion.peak_error];
+        let other = range(&rig.motion);
         let overlap = own[0].max(other[0]) <= own[1].min(other[1]);
         assert_eq!(rig.change.is_none(), overlap, "{rig:?} {own:?}");
         within += u32::from(overlap);

@@ -30,30 +30,39 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("orbits", &["bifurcation", "numerics", "symbolic", "system", "operation_count"]),
     ("simulation", &["numerics", "system", "operation_count"]),
     ("evidence/reference", &["system"]),
+    // One search, one rule of identity: every command reads what this room has found.
     (
-        "criteria",
+        "motions",
+        &["executor", "numerics", "operation_count", "orbits", "regimes", "simulation", "system"],
+    ),
+    // What all commands know of a case: the only way from them to a trajectory or a branch of orbits of their own.
+    (
+        "answer",
         &[
+            "analysis",
             "band",
             "case",
-            "method",
+            "criteria",
+            "executor",
+            "motions",
             "orbits",
-            "regimes",
             "simulation",
             "study",
             "system",
-            "transient",
-            "validation",
         ],
     ),
+    ("criteria", &["band", "case", "method", "motions", "system", "transient", "validation"]),
     (
         "evidence",
         &[
             "analysis",
+            "answer",
             "bifurcation",
             "case",
             "evidence/reference",
             "executor",
             "method",
+            "motions",
             "operation_count",
             "orbits",
             "quantity",
@@ -65,7 +74,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "validation",
         ],
     ),
-    ("case_report", &["band", "case", "criteria", "executor", "report", "study"]),
+    ("case_report", &["answer", "case", "executor", "report", "study"]),
     ("regimes", &["numerics", "orbits", "simulation", "system", "operation_count"]),
     (
         "dissipation",
@@ -89,6 +98,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "dissipation",
             "equations",
             "method",
+            "motions",
             "numerics",
             "orbits",
             "regimes",
@@ -106,29 +116,32 @@ const ROOMS: &[(&str, &[&str])] = &[
             "cavity",
             "dissipation",
             "equations",
+            "executor",
             "method",
+            "motions",
             "numerics",
+            "operation_count",
             "orbits",
             "regimes",
             "simulation",
             "system",
-            "operation_count",
             "validation",
         ],
     ),
-    ("case", &["digest", "names", "numerics", "quantity", "system", "transient"]),
+    ("case", &["digest", "motions", "names", "numerics", "quantity", "system", "transient"]),
     (
         "transient",
         &[
             "analysis",
             "band",
-            "orbits",
             "case",
             "dissipation",
             "executor",
             "method",
+            "motions",
             "names",
             "numerics",
+            "orbits",
             "simulation",
             "system",
         ],
@@ -141,20 +154,35 @@ const ROOMS: &[(&str, &[&str])] = &[
             "case",
             "criteria",
             "executor",
+            "motions",
             "numerics",
             "orbits",
+            "quantity",
             "simulation",
             "system",
         ],
     ),
     (
         "band",
-        &["analysis", "case", "executor", "numerics", "orbits", "regimes", "simulation", "system"],
+        &[
+            "analysis",
+            "bifurcation",
+            "case",
+            "cavity",
+            "executor",
+            "motions",
+            "numerics",
+            "orbits",
+            "regimes",
+            "simulation",
+            "system",
+        ],
     ),
     (
         "report",
         &[
             "analysis",
+            "answer",
             "band",
             "bifurcation",
             "case",
@@ -162,7 +190,9 @@ const ROOMS: &[(&str, &[&str])] = &[
             "criteria",
             "dissipation",
             "equations",
+            "executor",
             "method",
+            "motions",
             "numerics",
             "optimize",
             "orbits",
@@ -177,7 +207,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "validation",
         ],
     ),
-    ("diff", &["quantity", "regimes", "report"]),
+    ("diff", &["motions", "quantity", "regimes", "report"]),
     ("store", &["digest"]),
     (
         "sweep",
@@ -187,6 +217,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "case",
             "digest",
             "executor",
+            "motions",
             "orbits",
             "quantity",
             "regimes",
@@ -200,8 +231,9 @@ const ROOMS: &[(&str, &[&str])] = &[
 
 /// Rooms in which there is physics and nothing else: no files, no clock, no printing, no threads, no
 /// randomness.
-const PURE: [&str; 23] = [
+const PURE: [&str; 25] = [
     "analysis",
+    "answer",
     "band",
     "bifurcation",
     "criteria",
@@ -212,6 +244,7 @@ const PURE: [&str; 23] = [
     "evidence",
     "evidence/reference",
     "method",
+    "motions",
     "numerics",
     "optimize",
     "orbits",
@@ -381,6 +414,27 @@ fn every_source_keeps_to_its_room() {
         })
         .collect();
     assert_eq!(found, [""; 0]);
+}
+
+/// Rooms that fly nothing: they read what was found, or ask `answer`.
+const READERS: [&str; 8] =
+    ["band", "case_report.rs", "cli", "criteria", "diff", "optimize", "report", "sweep"];
+
+/// A second way to fly a start would be a second answer.
+#[test]
+fn nobody_else_flies() {
+    let flies = Regex::new(r"\b(?:Simulation::new|batch::run|Measured::of)").expect("a pattern");
+    let mut rooms: Vec<String> = Vec::new();
+    for (path, source) in sources() {
+        let room = path.split('/').next().expect("a room");
+        if READERS.contains(&room) {
+            assert!(!flies.is_match(&code(&source)), "{path} flies by itself: ask `answer`");
+            rooms.push(room.to_owned());
+        }
+    }
+    rooms.dedup();
+    assert_eq!(rooms.len(), READERS.len(), "{rooms:?}");
+    assert!(flies.is_match("let mut flight = Simulation::new(&system, start, 0.0)?;"));
 }
 
 /// The judge sees the program's real imports: a pattern that matches nothing would forbid nothing.

@@ -87,7 +87,7 @@ fn the_winner_is_what_check_says_of_it() {
     let found = optimized(&text, Some(Objective::WorstAmplitude));
     let best = &found.best;
     let written = case(&best.written.text);
-    let survey = Survey::of(&criteria::range(&written), &criteria::settings(&written), &Serial);
+    let survey = Survey::of(&written.range(), &criteria::settings(&written), None, &Serial);
     let judged = criteria::judge(&written, &survey.expect("finite"));
     let peak = judged.iter().find(|one| one.criterion.subject == Subject::PeakDisplacement);
     let peak = peak.expect("it is asked");
@@ -99,11 +99,12 @@ fn the_winner_is_what_check_says_of_it() {
             > (best.is_feasible(), -(best.value + best.error))
     };
     assert!(!found.judged.iter().any(preferred), "{:?}", found.judged);
-    // Judged are places all over the bounds, and close around the best.
+    // Looked at are places all over the bounds, and judged those close around the best.
+    let [from, to] = [0, found.landscape.len() - 1].map(|k| found.landscape[k].0);
+    assert!(from < 0.0101 && to > 0.0299, "{from} {to}");
     let clearances: Vec<f64> = found.judged.iter().map(|one| one.choice.clearance()).collect();
-    assert!(clearances[0] < 0.0125 && clearances[clearances.len() - 1] > 0.027, "{clearances:?}");
     let close = clearances.iter().filter(|one| (*one / best.choice.clearance() - 1.0).abs() < 0.01);
-    assert!(close.count() >= 2, "{clearances:?}");
+    assert!(close.count() >= 2, "{:?} {clearances:?}", best.choice);
 }
 
 /// Criteria exclude what the objective alone would choose, and where none can be met that is said.
@@ -200,7 +201,10 @@ fn monte_carlo(task: &Task, choice: &Design, samples: u32) -> (f64, f64) {
 #[test]
 fn the_expectation_and_its_optimum_are_those_of_monte_carlo() {
     for [four, two] in UNCERTAIN {
-        let task = Task::of(&case(&band_text(four)), None).expect("a task");
+        // All deviate to absorbers that there are.
+        let bounds = "[optimize]\nclearance = [\"2.3 mm\", \"57.5 mm\"]\n";
+        let [four, two] = [four, two].map(|one| format!("{one}{bounds}"));
+        let task = Task::of(&case(&band_text(&four)), None).expect("a task");
         for part in [0.45, 0.6, 0.68] {
             let choice = task.choice(&[part]);
             let expected = task.expected(&choice, &task.deviations(), &Serial).expect("a score");
@@ -209,7 +213,7 @@ fn the_expectation_and_its_optimum_are_those_of_monte_carlo() {
             // Four standard errors are exceeded by chance once in 16,000 times.
             assert!((expected - mean).abs() < 4.0 * error, "{expected}, {mean}, {error}");
         }
-        let found = optimized(&band_text(two), None);
+        let found = optimized(&band_text(&two), None);
         let robust = found.robust.as_ref().expect("something is uncertain");
         let (reached, error) = monte_carlo(&found.task, &robust.design.choice, 2000);
         let places = (0..25).map(|k| found.task.choice(&[0.4 + 0.02 * f64::from(k)]));
@@ -509,7 +513,7 @@ fn the_landscape_draws_points_where_it_scatters() {
     }
 }
 
-/// 12 kg at 8 Hz with 3 % of mass: at 20 mm 79 % of the band lie in Z3, all of it in strip A2.
+/// 12 kg at 8 Hz with 3 % of mass: at 20 mm 74 % of the band lie in Z3, all of it in strip A2.
 #[test]
 fn shares_in_strips_and_winners_on_bounds_are_told() {
     let frame = |bounds: &str| {
@@ -524,11 +528,12 @@ fn shares_in_strips_and_winners_on_bounds_are_told() {
         sentences.iter().any(|sentence| sentence.contains(words))
     };
     let told = sentences(&frame("clearance = [\"19.9 mm\", \"20 mm\"]\n"), None);
-    assert!(has(
-        &told,
-        "Of the band, the optimum has 79.4 % in strip A2 (beats: no steady 1:1 motion)."
-    ));
-    assert!(!has(&told, "bound"), "{told:?}");
+    let sentence = "Of the band, the optimum has 74.1 % in strip A2 (beats: no steady 1:1 motion).";
+    assert!(has(&told, sentence), "{told:?}");
+    // The share grows with the clearance.
+    let sentence =
+        "The optimum lies on a bound: clearance 20.00 mm; wider bounds may hold a better one.";
+    assert!(has(&told, sentence), "{told:?}");
     let told = sentences(&band_text("[optimize]\nclearance = [\"5 mm\", \"40 mm\"]\n"), None);
     assert!(!has(&told, "bound"), "{told:?}");
     let strips = strips_of("[optimize]\nclearance = [\"5 mm\", \"40 mm\"]\n");

@@ -170,7 +170,7 @@ fn every_note_is_a_sentence() {
         {"kind": "warning", "line": 7, "column": 3, "message": "did you mean 0.40 %?"},
         {"kind": "refuted", "claim": 1},
         {"kind": "stopped", "motion": 0},
-        {"kind": "not-stationary", "motion": 0},
+        {"kind": "not-settled", "motion": 0},
         {"kind": "doubtful", "motion": 0},
         {"kind": "limit", "limit": "elastic"},
         {"kind": "limit", "limit": "mass-ratio", "value": share(0.2)},

@@ -12,14 +12,16 @@ use vinesink::case::Case;
 use vinesink::equations::{self, slow_flow};
 use vinesink::evidence::tradeoff::by_hand::{ByHand, Flights, Locate};
 use vinesink::evidence::tradeoff::{Layer, Method, Search, Tradeoff, TradeoffEffort, Trial};
+use vinesink::executor::Serial;
 use vinesink::method::Method as Known;
+use vinesink::motions::{Effort, Motions, Place, motions};
 use vinesink::operation_count::{self, ELEMENTARY};
 use vinesink::orbits::{Measures, symmetric_orbits};
 use vinesink::regimes::Regime;
 use vinesink::simulation::{Measurement, Simulation};
-use vinesink::study::answer::{WhyNot, measured};
+use vinesink::study::estimate::{WhyNot, measured};
 use vinesink::study::fidelity::{AccuracyTarget, Answers, KnownBy, Plan, Question};
-use vinesink::study::{CaseStudy, StudyEffort, StudyError};
+use vinesink::study::{CaseStudy, StudyError};
 use vinesink::symbolic::Symbol;
 use vinesink::system::{Parameters, State, System};
 
@@ -30,9 +32,17 @@ fn stable_point(system: &System) -> FixedPoint {
     analysis.stable_points().last().copied().expect("a stable point")
 }
 
+const DEMAND: AccuracyTarget =
+    AccuracyTarget { amplitude: 0.01, impacts_per_period: 0.01, coexistence: false };
+
+fn found(system: &System, effort: &Effort) -> Motions {
+    let place = Place::new(system, effort.starts);
+    motions(&[place], effort, &Serial).expect("finite").remove(0)
+}
+
 fn small() -> TradeoffEffort {
     TradeoffEffort {
-        study: StudyEffort { starts: 4, discard: Some(400), periods: 400 },
+        search: Effort { starts: 4, discard: Some(400), ..Effort::over(400) },
         lengths: vec![50, 100, 200, 1000],
         steps: vec![50, 200],
         usual_length: 400,
@@ -199,7 +209,7 @@ fn the_closed_form_is_the_cheapest_row() {
         ("chaotic", common::table_1(8.0, 0.3)),
         ("force", force),
     ] {
-        let found = Tradeoff::of(&system, &effort, &mut |_| ()).expect("tried");
+        let found = Tradeoff::of(&system, &effort, &Serial, &mut |_| ()).expect("tried");
         let closed = found.trials.iter().find(|trial| trial.method == Method::FixedPoints);
         let closed = closed.expect("tried").operations;
         // Each point has two angles of its own.
@@ -239,7 +249,7 @@ fn the_averaged_flow_answers_beyond_symmetry_breaking() {
 #[test]
 fn a_steady_case_is_answered_by_its_orbit_and_every_error_is_what_it_should_be() {
     let system = common::table_1(8.0, 7.5);
-    let found = Tradeoff::of(&system, &small(), &mut |_| ()).expect("tried");
+    let found = Tradeoff::of(&system, &small(), &Serial, &mut |_| ()).expect("tried");
     let orbits = symmetric_orbits(&system).expect("orbits");
     let orbit = orbits.iter().find(|orbit| orbit.orbit.attracts()).expect("one attracts");
     let rms = Measures::of(&system, &orbit.orbit.cycle).expect("measured").rms;
@@ -300,7 +310,7 @@ fn a_steady_case_is_answered_by_its_orbit_and_every_error_is_what_it_should_be()
 #[test]
 fn a_modulated_case_is_known_no_better_than_it_scatters() {
     let system = common::table_1(8.5, 28.0);
-    let found = Tradeoff::of(&system, &small(), &mut |_| ()).expect("tried");
+    let found = Tradeoff::of(&system, &small(), &Serial, &mut |_| ()).expect("tried");
     assert_eq!((found.best.layer, found.best.periods), (Layer::Simulation, Some(8000)));
     assert_eq!(found.best.regime, Regime::StronglyModulated);
     assert!((1e-4..0.05).contains(&found.best.rms_error), "{:?}", found.best);
@@ -364,7 +374,7 @@ fn a_transient_that_lasts_is_no_scatter() {
         System::new(parameters).expect("valid")
     };
     let effort = TradeoffEffort { lengths: vec![1000], ..small() };
-    let found = Tradeoff::of(&system(5e-5), &effort, &mut |_| ()).expect("tried");
+    let found = Tradeoff::of(&system(5e-5), &effort, &Serial, &mut |_| ()).expect("tried");
     let decay = found.best.decay_periods.expect("damped");
     assert!((decay * std::f64::consts::TAU * 5e-5 / 1.02 - 1.0).abs() < 1e-12, "{decay}");
     let simulated = |found: &Tradeoff| {
@@ -375,12 +385,13 @@ fn a_transient_that_lasts_is_no_scatter() {
     let left = simulated(&found).expect("a transient");
     assert_eq!(left, 500);
     // With the damping of Table 1 nothing of it is left.
-    let modulated = Tradeoff::of(&common::table_1(8.5, 28.0), &effort, &mut |_| ()).expect("tried");
+    let modulated =
+        Tradeoff::of(&common::table_1(8.5, 28.0), &effort, &Serial, &mut |_| ()).expect("tried");
     assert_eq!(simulated(&modulated), None);
 }
 
 fn plan(system: &System, amplitude: f64, forced: Option<Known>) -> Result<Plan, StudyError> {
-    Plan::of(system, AccuracyTarget { amplitude, ..AccuracyTarget::default() }, forced)
+    Plan::of(system, AccuracyTarget { amplitude, ..DEMAND }, forced)
 }
 
 /// The theory's error at 8 Hz and 7.5 mm is 2.6 %, at 8.5 Hz and 15 mm 0.6 %.
@@ -411,17 +422,15 @@ fn the_cheapest_layer_that_is_known_to_be_exact_enough_answers() {
 #[test]
 fn coexistence_is_only_known_to_simulation() {
     let system = common::table_1(8.0, 7.5);
-    let demand = AccuracyTarget { coexistence: true, ..AccuracyTarget::default() };
+    let demand = AccuracyTarget { coexistence: true, ..DEMAND };
     let asked = Plan::of(&system, demand, None).expect("planned");
     assert_eq!(asked.layer, Known::ExactOrbit);
     assert!(asked.needs_simulation());
-    let effort = StudyEffort { starts: 4, ..StudyEffort::default() };
-    let study = CaseStudy::of(&system, effort, &mut |_| ()).expect("studied");
-    let motions = study.simulated_motions();
-    let answers: Answers = asked.answers(motions).expect("answered");
+    let motions = found(&system, &Effort { starts: 4, ..Effort::default() });
+    let answers: Answers = asked.answers(Some((&motions, Vec::new()))).expect("answered");
     let last = answers.answers.last().expect("four answers");
     assert_eq!((last.question, last.layer), (Question::Coexistence, Known::Simulation));
-    assert_eq!(last.others, Some(study.motions.attractors.len() - 1));
+    assert_eq!(last.others, Some(motions.len() - 1));
     assert!(answers.enough());
     assert_eq!(answers.answers[0].layer, Known::ExactOrbit);
     // Insisting on the orbit leaves the question open, and says so.
@@ -450,17 +459,17 @@ fn a_layer_may_be_insisted_on_where_it_has_an_answer() {
 #[test]
 fn simulation_measures_as_long_as_the_accuracy_takes() {
     let system = common::table_1(8.5, 28.0);
-    let effort = StudyEffort { starts: 2, discard: Some(200), periods: 400 };
-    let study = CaseStudy::of(&system, effort, &mut |_| ()).expect("studied");
-    let motions = study.simulated_motions();
     let cost = |amplitude: f64| {
+        let accuracy = Some([amplitude, 1.0]);
+        let effort = Effort { starts: 2, discard: Some(200), accuracy, ..Effort::over(400) };
+        let motions = found(&system, &effort);
         let demand = AccuracyTarget { amplitude, impacts_per_period: 1.0, coexistence: false };
         let plan = Plan::of(&system, demand, None).expect("planned");
-        let answers = plan.answers(motions).expect("answered");
+        let answers = plan.answers(Some((&motions, Vec::new()))).expect("answered");
         let first = &answers.answers[0];
         assert!(first.enough && first.error.expect("known") <= amplitude, "{first:?}");
         assert_eq!(first.known_by, KnownBy::Scatter);
-        answers.operations[&Known::Simulation].expect("simulated") - study.motions.operations
+        answers.operations[&Known::Simulation].expect("simulated")
     };
     let (loose, tight) = (cost(0.2), cost(0.004));
     assert!(tight > 3 * loose, "{loose} {tight}");
@@ -470,17 +479,17 @@ fn simulation_measures_as_long_as_the_accuracy_takes() {
 #[test]
 fn what_an_orbit_answers_is_not_simulated() {
     let system = common::table_1(8.5, 15.0);
-    let effort = StudyEffort { starts: 4, ..StudyEffort::default() };
+    let effort = Effort { starts: 4, ..Effort::default() };
     let (cheap, little) =
         operation_count::counted(|| CaseStudy::without_simulation(&system, effort));
-    let (full, much) = operation_count::counted(|| CaseStudy::of(&system, effort, &mut |_| ()));
+    let (full, much) =
+        operation_count::counted(|| CaseStudy::of(&system, &found(&system, &effort), effort));
     let (cheap, full) = (cheap.expect("studied"), full.expect("studied"));
-    assert!(
-        !cheap.simulated && cheap.motions.attractors.is_empty() && cheap.motions.operations == 0
-    );
-    assert!(full.simulated && full.motions.operations > 1_000_000, "{}", full.motions.operations);
-    // Four starts of 400 periods and their confirmations against formulas and roots.
-    assert!(much > little + full.motions.operations, "{little} {much} {}", full.motions.operations);
+    let (nothing, operations) = (cheap.motions.operations(), full.motions.operations());
+    assert!(!cheap.simulated && cheap.motions.is_empty() && nothing == 0);
+    assert!(full.simulated && operations > 30_000, "{operations}");
+    // Four starts, each until it is on the orbit, and their confirmations against formulas and roots.
+    assert!(much > little + operations, "{little} {much} {operations}");
     // What both know is the same to the bit.
     let claims = cheap.claims.iter().map(|claim| &claim.id);
     let known: Vec<_> = full.claims.iter().map(|claim| &claim.id).collect();
