@@ -139,21 +139,11 @@ impl Survey {
 impl Worst {
     /// That of the motions along a band which count; `None` where none is known.
     pub fn of(motions: &Along, count_rest: bool) -> Option<Self> {
-        let places = motions.places().iter();
-        let all: Vec<Self> = places
-            .flat_map(|(at, here)| {
-                here.counting(count_rest).map(|(index, motion)| {
-                    let Value { value, error } = motion.facts().peak;
-                    // Where places are close enough for a resolved peak is known of what wanders.
-                    let error =
-                        error.max(if motion.is_solved() { 0.0 } else { motions.unresolved() });
-                    Self { at: *at, motion: motion.clone(), index, peak: Value { value, error } }
-                })
-            })
-            .collect();
-        let worst = all.iter().max_by(|a, b| a.peak.value.total_cmp(&b.peak.value))?;
-        let reach = all.iter().map(|one| one.peak.value + one.peak.error).fold(0.0, f64::max);
-        let peak = Value { error: reach - worst.peak.value, ..worst.peak };
-        Some(Self { peak, ..worst.clone() })
+        let all = || motions.counting(count_rest).map(|one| (one, motions.peak_of(one.2)));
+        let ((at, index, motion), Value { value, .. }) =
+            all().max_by(|a, b| a.1.value.total_cmp(&b.1.value))?;
+        let reach = all().map(|(_, peak)| peak.value + peak.error).fold(0.0, f64::max);
+        let peak = Value { value, error: reach - value };
+        Some(Self { at, index, motion: motion.clone(), peak })
     }
 }

@@ -13,7 +13,7 @@ use crate::band::rivals::reduction_db;
 use crate::band::{Survey, SurveySettings};
 use crate::case::{Case, Criterion, Relation, Scales, Subject};
 use crate::method::Method;
-use crate::motions::{Extreme, Fact, Kind, Motion, RestKind, Value};
+use crate::motions::{Along, Extreme, Fact, Kind, Motion, RestKind, Value};
 
 use scope::Scope;
 pub use transient::{judge_release, judge_sweep, judge_transient, of_records};
@@ -61,6 +61,11 @@ pub fn method(motion: &Motion) -> Method {
         Kind::Orbit(_) => Method::ExactOrbit,
         Kind::Repeats(_) | Kind::Wanders => Method::Simulation,
     }
+}
+
+/// The layer that the stability of 1:1 motions along a band is known by.
+pub fn of_stability(motions: &Along) -> Method {
+    if motions.stability_is_exact() { Method::ExactOrbit } else { Method::Simulation }
 }
 
 /// Error of what is a root: its rounding.
@@ -166,18 +171,18 @@ pub fn all_hold(judged: &[Judged]) -> bool {
     judged.iter().all(|one| one.holds == Some(true))
 }
 
-/// What a motion has of a subject, in the unit of the criterion, and its error, where its peak may be larger by `unresolved`.
-/// A reduction is `against` an amplitude.
+/// What a motion has of a subject, in the unit of the criterion, and its error; `peak` is its peak with the error that it has
+/// along a band. A reduction is `against` an amplitude.
 fn of_motion(
     subject: Subject,
     motion: &Motion,
-    unresolved: f64,
+    peak: Value,
     against: f64,
     scales: &Scales,
 ) -> Option<[f64; 2]> {
     let facts = motion.facts();
     let pair = |of: Value| [of.value, of.error];
-    let peak = [facts.peak.value, facts.peak.error.max(unresolved)];
+    let peak = pair(peak);
     let length = |value: [f64; 2]| value.map(|one| scales.length(one));
     let decibels = || {
         if against.is_infinite() {

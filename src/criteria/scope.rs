@@ -1,6 +1,6 @@
 //! What a survey says of each criterion.
 
-use super::{Judged, ROUNDING, method, of_motion};
+use super::{Judged, ROUNDING, method, of_motion, of_stability};
 use crate::band::{Survey, theory};
 use crate::case::{Criterion, Scales, Subject};
 use crate::method::Method;
@@ -27,9 +27,7 @@ impl Scope<'_> {
                 let ends = motions.stability().len() > 1;
                 let error = if ends { ROUNDING } else { 0.0 };
                 let share = motions.stable_share();
-                let exact = motions.stability_is_exact();
-                let by = if exact { Method::ExactOrbit } else { Method::Simulation };
-                criterion.judged(Some(share), error, by)
+                criterion.judged(Some(share), error, of_stability(motions))
             }
             Subject::MarginClearance => {
                 let (at, found) = self.survey.smallest_gap();
@@ -67,14 +65,6 @@ impl Scope<'_> {
         criterion.judged(Some(found), off, Method::Theory)
     }
 
-    /// Each motion that counts, with its place and its number there.
-    fn motions(&self) -> impl Iterator<Item = (f64, usize, &Motion)> {
-        let count_rest = self.survey.count_rest;
-        self.survey.motions.places().iter().flat_map(move |(at, here)| {
-            here.counting(count_rest).map(move |(index, motion)| (*at, index, motion))
-        })
-    }
-
     /// 1 where every place has one motion, 0 where one has several.
     fn one_motion(&self, criterion: &Criterion) -> Judged {
         let count_rest = self.survey.count_rest;
@@ -98,8 +88,9 @@ impl Scope<'_> {
 
     /// The worst value of a criterion about motions; its error covers all others with theirs.
     fn worst(&self, criterion: &Criterion) -> Judged {
+        let counting = self.survey.motions.counting(self.survey.count_rest);
         let all: Vec<(Judged, &Motion)> =
-            self.motions().filter_map(|one| self.of(criterion, one)).collect();
+            counting.filter_map(|one| self.of(criterion, one)).collect();
         let room = |one: &Judged| one.margin.unwrap_or(f64::INFINITY);
         let nearest = |settled: bool| {
             let of = all.iter().filter(|(_, motion)| motion.settled() || !settled);
@@ -123,15 +114,14 @@ impl Scope<'_> {
         criterion: &Criterion,
         (at, index, motion): (f64, usize, &'m Motion),
     ) -> Option<(Judged, &'m Motion)> {
-        // Between places the extremes of what is solved for are places themselves.
-        let unresolved = if motion.is_solved() { 0.0 } else { self.survey.motions.unresolved() };
+        let peak = self.survey.motions.peak_of(motion);
         let against = match criterion.subject {
             Subject::ReductionDb => self.survey.bare().1,
             Subject::ReductionDbTmd => self.survey.rivals().damped.amplitude,
             _ => f64::NAN,
         };
         let subject = criterion.subject;
-        let [found, error] = of_motion(subject, motion, unresolved, against, &self.scales)?;
+        let [found, error] = of_motion(subject, motion, peak, against, &self.scales)?;
         let judged = criterion.judged(Some(found), error, method(motion));
         let inactive = motion.rest().map(|rest| rest.share);
         Some((Judged { at: self.place(at), motion: Some(index), inactive, ..judged }, motion))

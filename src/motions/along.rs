@@ -4,10 +4,9 @@
 
 use serde::Serialize;
 
-use super::{Effort, Motion, Motions, Place, Value, motions, one_to_one, rest, steady};
+use super::stability::{Extreme, Fact, extreme_at, stability};
+use super::{Effort, Motion, Motions, Place, Value, motions, rest, steady};
 use crate::executor::{Executor, Serial};
-use crate::numerics::scan::{largest, sign_changes};
-use crate::orbits::{Orbit, symmetric_orbits, two_impact_orbits};
 use crate::simulation::StartError;
 use crate::system::{Band, BandOver, State, Stretch};
 
@@ -33,38 +32,6 @@ impl BandEffort {
     /// Enough to rank designs before the best are looked at in full.
     pub const SCREENING: Self =
         Self { even: 13, starts: 3, starts_between: 2, most: 40, tolerance: 0.1 };
-}
-
-/// Which of the numbers of a motion.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Fact {
-    /// The peak displacement.
-    Peak,
-    /// The root mean square displacement.
-    Rms,
-    /// The impact speed.
-    ImpactSpeed,
-}
-
-impl Fact {
-    /// Its value in a motion.
-    pub fn of(self, motion: &Motion) -> Value {
-        let facts = motion.facts();
-        match self {
-            Self::Peak => facts.peak,
-            Self::Rms => facts.rms,
-            Self::ImpactSpeed => facts.impact_speed,
-        }
-    }
-}
-
-/// Where along a band a number of the attracting 1:1 motions is largest, or smallest.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Extreme {
-    /// The number.
-    pub of: Fact,
-    /// Whether the smallest is meant.
-    pub least: bool,
 }
 
 /// The motions that can happen along a band.
@@ -120,10 +87,18 @@ impl Along {
         self.places.iter().find(|place| place.0 == at).map(|place| &place.1)
     }
 
-    /// By how much the largest peak between places may exceed that at them, over the clearance: 0 where every gap between
-    /// places is resolved.
-    pub fn unresolved(&self) -> f64 {
-        self.unresolved
+    /// Every motion that counts, with its place and its number in the list there.
+    pub fn counting(&self, count_rest: bool) -> impl Iterator<Item = (f64, usize, &Motion)> {
+        self.places.iter().flat_map(move |(at, here)| {
+            here.counting(count_rest).map(move |(index, motion)| (*at, index, motion))
+        })
+    }
+
+    /// The peak of one of them, and by how much it may be larger between places: extremes of what is solved for are places.
+    pub fn peak_of(&self, motion: &Motion) -> Value {
+        let Value { value, error } = motion.facts().peak;
+        let unresolved = if motion.is_solved() { 0.0 } else { self.unresolved };
+        Value { value, error: error.max(unresolved) }
     }
 
     /// Where the attracting 1:1 motion has its largest peak; none where none attracts.
@@ -137,12 +112,6 @@ impl Along {
     }
 }
 
-/// Pieces of a band in which beginnings and ends of stability are looked for. What decides it,
-/// multipliers and room between impacts, is smooth along an orbit; pairs of changes within a piece
-/// are found by the dip between them.
-const PIECES: u32 = 96;
-/// Pieces in which a largest value is looked for before it is narrowed down.
-const VALUES: u32 = 48;
 /// Distance of places that is never halved, over the width of the resonance and of the slow flow: what
 /// scatters on a finer scale is chaos, whose peaks have an error of their own.
 const FINEST: f64 = 0.1;
@@ -158,77 +127,6 @@ const FOLLOWED: f64 = 0.02;
 const MOST_FOLLOWED: usize = 3;
 /// Distance from the end of a stable stretch, over the band, at which its other side is simulated.
 const BESIDE: f64 = 1e-3;
-
-/// Width, over the band, of what lies between two orbits where one takes over the other's stability: there both have a
-/// multiplier of 1, to rounding.
-const EXCHANGE: f64 = 1e-6;
-
-/// The band, cut where an attracting 1:1 motion begins or ends.
-pub fn stability(band: &Band) -> Vec<Stretch<bool>> {
-    let mut places: Vec<f64> = band.corners().collect();
-    if !band.is_point() {
-        places.extend(sign_changes(band.range, PIECES, |at| strength(band, at)));
-    }
-    let mut found: Vec<Stretch<bool>> = Vec::new();
-    for stretch in band.cut(places, |at| strength(band, at) > 0.0) {
-        let narrow = stretch.to - stretch.from < EXCHANGE * band.width();
-        match found.last_mut() {
-            // Nothing is lost where one orbit hands its stability over to another.
-            Some(last) if last.of == stretch.of || narrow && last.of => last.to = stretch.to,
-            _ => found.push(stretch),
-        }
-    }
-    found
-}
-
-/// By how much the most attracting 1:1 motion attracts: above 0 where one does, continuous where orbits
-/// change their stability, touch a wall or meet one another.
-fn strength(band: &Band, at: f64) -> f64 {
-    let Ok(system) = band.system(at) else { return f64::NAN };
-    let of = |orbit: &Orbit| {
-        let inside = 1.0 - orbit.multipliers.spectral_radius();
-        let room = orbit.admissibility.min_wall_distance;
-        let slip = orbit.admissibility.slowest_slip.unwrap_or(f64::INFINITY);
-        let least = inside.min(room).min(slip);
-        // The sign is that of the proof, whatever rounding says of the numbers.
-        if orbit.attracts() { least.max(f64::MIN_POSITIVE) } else { least.min(-f64::MIN_POSITIVE) }
-    };
-    let most = |orbits: &[Orbit]| orbits.iter().map(of).max_by(f64::total_cmp);
-    if system.cavity().is_ideal() {
-        // Where a symmetric one attracts nobody asks for the others.
-        let symmetric = symmetric_orbits(&system).unwrap_or_default();
-        let symmetric: Vec<Orbit> = symmetric.into_iter().map(|one| one.orbit).collect();
-        if let Some(inside) = most(&symmetric).filter(|strength| *strength > 0.0) {
-            return inside;
-        }
-    }
-    let Ok(all) = two_impact_orbits(&system) else { return f64::NAN };
-    let reverses = |orbit: &Orbit| orbit.admissibility.reverses();
-    // Where orbits meet and vanish a multiplier has come to 1.
-    let exact = most(&all.orbits).unwrap_or(-f64::MIN_POSITIVE);
-    if exact > 0.0 || !all.orbits.iter().any(reverses) {
-        return exact;
-    }
-    let inside = |motion: &Motion| 1.0 - motion.largest_multiplier().unwrap_or_default();
-    one_to_one(&system).iter().map(inside).max_by(f64::total_cmp).unwrap_or(exact)
-}
-
-/// Where along a band a number of the attracting 1:1 motions is extreme; none where none attracts.
-fn extreme_at(band: &Band, stability: &[Stretch<bool>], wanted: Extreme) -> Option<f64> {
-    let of = |at: f64| {
-        let motions = one_to_one(&band.system(at).ok()?);
-        let sign = if wanted.least { -1.0 } else { 1.0 };
-        motions.iter().map(|one| sign * wanted.of.of(one).value).max_by(f64::total_cmp)
-    };
-    let stretches = stability.iter().filter(|stretch| stretch.of);
-    let each = stretches.filter_map(|stretch| {
-        let share = (stretch.to - stretch.from) / band.width();
-        let pieces = (share * f64::from(VALUES)).ceil().max(4.0) as u32;
-        // At the very ends rounding decides whether there is an orbit.
-        largest([stretch.from, stretch.to], if band.is_point() { 1 } else { pieces }, of)
-    });
-    each.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(at, _)| at)
-}
 
 /// Looks along a band. `own` are the motions at the case's own excitation, where they are known; they stand in the band as
 /// they are. Places at which the wanted extremes are lie among the others. Without an effort nothing is flown.
@@ -387,7 +285,9 @@ impl Sampler<'_> {
         spots.sort_by(|a, b| a.at.total_cmp(&b.at));
         loop {
             let room = self.effort.band.most.saturating_sub(spots.len());
+            let limit = (1.0 + self.effort.band.tolerance) * largest_of(&spots);
             let mut between = self.gaps(&spots);
+            between.retain(|gap| gap.1 > limit);
             between.truncate(room.min(TOGETHER));
             let followed = self.follow(&mut spots)?;
             if between.is_empty() && !followed {
@@ -398,7 +298,8 @@ impl Sampler<'_> {
             spots.sort_by(|a, b| a.at.total_cmp(&b.at));
         }
         let largest = largest_of(&spots);
-        let highest = self.gaps(&spots).first().map_or(largest, |gap| gap.1);
+        // What is within the tolerance is an error as well.
+        let highest = self.gaps(&spots).first().map_or(largest, |gap| gap.1.max(largest));
         Ok((spots.into_iter().map(Spot::place).collect(), highest - largest))
     }
 
@@ -450,10 +351,8 @@ impl Sampler<'_> {
         Ok(!places.is_empty())
     }
 
-    /// The middles of gaps in which the largest peak may exceed the largest that is known by more than the
-    /// tolerance, with what it may be; the highest first.
+    /// The middles of gaps that may be halved, with what the largest peak in them may be; the highest first.
     fn gaps(&self, spots: &[Spot]) -> Vec<(f64, f64)> {
-        let limit = (1.0 + self.effort.band.tolerance) * largest_of(spots);
         let mut gaps: Vec<(f64, f64)> = (1..spots.len())
             .filter(|right| spots[*right].at - spots[right - 1].at > self.finest)
             .filter(|right| !(spots[right - 1].is_exact() && spots[*right].is_exact()))
@@ -461,7 +360,6 @@ impl Sampler<'_> {
                 let [left, at] = [spots[right - 1].at, spots[right].at];
                 (0.5 * (left + at), possible(spots, right))
             })
-            .filter(|gap| gap.1 > limit)
             .collect();
         gaps.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.total_cmp(&b.0)));
         gaps

@@ -5,8 +5,8 @@
 use serde::Serialize;
 
 use super::flight::{End, Flight, flown};
-use super::identity::Repetition;
-use super::rest::{Rest, RestKind};
+use super::repetition::Repetition;
+use super::rest::Rest;
 use super::watch::{Sample, Watch};
 use super::{Effort, Facts, Kind, Motion, Reached, SettlingTime};
 use crate::operation_count;
@@ -70,19 +70,18 @@ impl Motion {
         let system = flight.simulation.system();
         let reached =
             Reached { starts: 1, followed: flight.simulation.periods(), ..Reached::default() };
-        let rest = |kind, amplitude| Rest { rest: kind, share: 0.0, amplitude };
         let motion = match end {
             End::Lost | End::On(_) | End::Open => return None,
             End::Rests(state) => {
                 let amplitude = system.linear_response()?.amplitude();
                 let facts = Facts::of_sine(amplitude, 0.0);
-                Self::resting(rest(RestKind::Floating, amplitude), facts, state)
+                Self::resting(Rest::seen(system, amplitude), facts, state)
             }
             End::Seen(sample) => {
                 let Sample { facts, evidence, end: state, stop, .. } = *sample;
                 let kind = match evidence.periodicity {
                     Some(found) if found.impacts == 0 => {
-                        Kind::Rest(rest(RestKind::Sliding, facts.peak.value))
+                        Kind::Rest(Rest::seen(system, facts.peak.value))
                     }
                     Some(found) => Kind::Repeats(Repetition::seen(&sample, found)),
                     None => Kind::Wanders,

@@ -10,40 +10,45 @@
 //! | --- | --- |
 //! | at rest | always: a damped structure has one steady motion without impacts |
 //! | orbits | the same cycle to 1e-6, mirror images included |
-//! | repetitions that Newton's method refuses | impacts, periods and walls are equal; `C`, `E` and peak to 1e-3 |
+//! | repetitions that no solver of orbits covers | impacts, periods and walls are equal; `C`, `E` and peak to 1e-3 |
 //! | wandering | root mean square and impacts per period within twice both errors |
 //! | different kinds | never: what may settle is flown on, not compared |
 //!
 //! Lengths are over the clearance, in fast time.
 
 mod along;
+mod cluster;
 mod facts;
 mod flight;
 mod follow;
 mod identity;
 mod measured;
+mod repetition;
 mod rest;
 mod search;
 mod section;
 mod settling;
 mod share;
 mod solved;
+mod stability;
 pub mod starts;
 mod watch;
 
 use serde::Serialize;
 
-pub use along::{Along, BandEffort, Extreme, Fact, along, stability};
+pub use along::{Along, BandEffort, along};
 pub use facts::{Facts, Value};
 pub use follow::{DiagramError, DiagramPoint, SweepDirection, carried_over, follow, sweep};
-pub use identity::{Repetition, orbit_of};
+pub use identity::orbit_of;
 pub use measured::{Measured, Window, measured};
+pub use repetition::Repetition;
 pub use rest::{Rest, RestKind};
 pub use search::motions;
 pub use section::{Section, sections};
 pub use settling::SettlingTime;
 pub use share::wilson;
 pub use solved::{at_rest, one_to_one, steady};
+pub use stability::{Extreme, Fact, stability};
 
 use crate::orbits::Orbit;
 use crate::regimes::Regime;
@@ -131,7 +136,7 @@ pub enum Kind {
     Rest(Rest),
     /// A proven periodic orbit that attracts.
     Orbit(Box<Orbit>),
-    /// It was seen to repeat, and Newton's method does not cover it: the absorber rests on a wall, its slip reverses, or
+    /// It was seen to repeat, and no solver of orbits covers it: the absorber rests on a wall, its slip reverses, or
     /// it has more than 64 impacts.
     Repeats(Repetition),
     /// It never repeats: it is known by averages.

@@ -60,6 +60,19 @@ pub enum RestKind {
     Sliding,
 }
 
+impl Rest {
+    /// That of a trajectory which was seen to hit no wall any more, of an amplitude: no resting place need lead to it.
+    pub(super) fn seen(system: &System, amplitude: f64) -> Self {
+        let cavity = system.cavity();
+        let rest = match cavity.gravity_along {
+            _ if !cavity.moves_absorber() => RestKind::Floating,
+            0.0 => RestKind::Sliding,
+            _ => RestKind::Held,
+        };
+        Self { rest, share: 0.0, amplitude }
+    }
+}
+
 /// The motion with an absorber at rest, solved for.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct AtRest {

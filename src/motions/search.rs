@@ -5,9 +5,10 @@
 //! wanders is flown on as well, for longer each time, while starts of its place still settle: until they have flown so many
 //! windows together without one of them settling that a transient would have ended. What wanders still is measured.
 
+use super::cluster::Cluster;
 use super::flight::{End, Flight, flown};
-use super::identity::{Cluster, Known, Proof};
-use super::rest::{Rest, RestKind};
+use super::identity::{Known, Proof};
+use super::rest::Rest;
 use super::settling::SettlingTime;
 use super::watch::Sample;
 use super::{Effort, Facts, Kind, Motion, Motions, Place, Reached, settling, solved};
@@ -286,25 +287,14 @@ impl Ground {
         if known.is_some() {
             return known;
         }
-        let rest = |rest, amplitude| Rest { rest, share: 0.0, amplitude };
-        let motion = match seen {
-            Some(sample) => {
-                let cavity = self.system.cavity();
-                let kind = match cavity.gravity_along {
-                    _ if !cavity.moves_absorber() => RestKind::Floating,
-                    0.0 => RestKind::Sliding,
-                    _ => RestKind::Held,
-                };
-                let rest = rest(kind, sample.facts.peak.value);
-                Motion::resting(rest, sample.facts, sample.end)
-            }
+        let (facts, state) = match seen {
+            Some(sample) => (sample.facts, sample.end),
             None => {
                 let steady = self.system.linear_response()?;
-                let facts = Facts::of_sine(steady.amplitude(), 0.0);
-                let rest = rest(RestKind::Floating, steady.amplitude());
-                Motion::resting(rest, facts, steady.state(&self.system))
+                (Facts::of_sine(steady.amplitude(), 0.0), steady.state(&self.system))
             }
         };
+        let motion = Motion::resting(Rest::seen(&self.system, facts.peak.value), facts, state);
         self.known.push(Known::new(&self.system, motion));
         Some(self.known.len() - 1)
     }

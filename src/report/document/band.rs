@@ -8,7 +8,7 @@ use crate::analysis::Strip;
 use crate::band::rivals::DETUNED;
 use crate::band::{Band, Rivals, Survey, Worst};
 use crate::case::BandOver;
-use crate::criteria::method;
+use crate::criteria::{method, of_stability};
 use crate::method::Method::{self, ClosedForm, ExactOrbit, Theory};
 use crate::motions::{Motion, Motions, RestKind};
 use crate::quantity::Quantity;
@@ -97,7 +97,6 @@ pub fn outside(scale: &Scale, band: &Band) -> Value {
 /// What a survey found along the band.
 pub fn band(scale: &Scale, survey: &Survey) -> Value {
     let (band, motions) = (survey.band(), &survey.motions);
-    let stable_by = if motions.stability_is_exact() { ExactOrbit } else { Method::Simulation };
     let place = |at: f64| scale.place(band.over, at);
     let (bare_at, bare) = survey.bare();
     let change = |[peak, error]: [f64; 2], method: Method| {
@@ -148,7 +147,7 @@ pub fn band(scale: &Scale, survey: &Survey) -> Value {
         "inactive": resting,
         "bare": { "peak": bare_peak, "at": place(bare_at), "change": null },
         "damper": damper(scale, survey.rivals(), Some(&absorber)),
-        "stable_share": Quantity::new(&of::STABLE_SHARE, motions.stable_share(), stable_by),
+        "stable_share": Quantity::new(&of::STABLE_SHARE, motions.stable_share(), of_stability(motions)),
         "z3_share": Quantity::new(&of::Z3_SHARE, survey.z3_share(), Theory),
         "a1_share": Quantity::new(&of::A1_SHARE, survey.strip_share(Strip::A1), Theory),
         "a2_share": Quantity::new(&of::A2_SHARE, survey.strip_share(Strip::A2), Theory),

@@ -1,0 +1,120 @@
+//! What wanders is known by averages: which windows are of one motion, whether it still settles, and its numbers.
+
+use super::watch::Sample;
+use super::{Facts, Kind, Motion, Reached, Value};
+use crate::numerics::scatter::twice_standard_error;
+use crate::regimes::Regime;
+use crate::simulation::Stop;
+
+/// What two averages that scatter may differ by, over the sum of their errors.
+const ERRORS: f64 = 2.0;
+/// Windows from which on their scatter says more than each of them.
+const MANY: usize = 4;
+/// A change from the first half of all windows to the second, over twice its standard error, that is no chance.
+const DRIFT: f64 = 1.5;
+/// Modulation in the second half of a window over that in the first which is that of a motion that stays: of a few windows,
+/// in which it is sampled to a few per cent, and of many in which it comes and goes.
+const STAYS: std::ops::Range<f64> = 0.9..1.1;
+const MANY_STAY: std::ops::Range<f64> = 0.5..2.0;
+/// Relative difference below which averages are the same whatever their errors: what nobody measures.
+const NO_DIFFERENCE: f64 = 1e-3;
+
+/// Starts that wander together: windows of one motion, as far as averages tell.
+pub(super) struct Cluster {
+    /// Which flights they are.
+    pub members: Vec<usize>,
+    samples: Vec<Sample>,
+}
+
+impl Cluster {
+    /// Puts together what wanders, in the order of the starts.
+    pub fn all(samples: impl Iterator<Item = (usize, Sample)>) -> Vec<Self> {
+        let mut clusters: Vec<Self> = Vec::new();
+        for (member, sample) in samples {
+            match clusters.iter_mut().find(|one| one.holds(&sample)) {
+                Some(one) => {
+                    one.members.push(member);
+                    one.samples.push(sample);
+                }
+                None => clusters.push(Self { members: vec![member], samples: vec![sample] }),
+            }
+        }
+        clusters
+    }
+
+    /// Whether another window is one of the same motion: its averages are within twice both errors, where what several
+    /// windows differ by is an error as well.
+    fn holds(&self, sample: &Sample) -> bool {
+        let ended = |one: &Sample| one.stop == Stop::EndTime;
+        ended(&self.samples[0]) == ended(sample) && self.is_like(&sample.facts)
+    }
+
+    /// Whether what is known of a motion that wanders may be of these windows.
+    pub fn is_like(&self, facts: &Facts) -> bool {
+        let windows: Vec<Facts> = self.samples.iter().map(|one| one.facts).collect();
+        near(&windows, facts)
+    }
+
+    /// Whether relative error of the root mean square and error of the impacts per period are within limits.
+    pub fn is_within(&self, [amplitude, impacts]: [f64; 2]) -> bool {
+        let windows: Vec<Facts> = self.samples.iter().map(|one| one.facts).collect();
+        let Facts { rms, impacts_per_period, .. } = Facts::pooled(&windows);
+        rms.error <= amplitude * rms.value && impacts_per_period.error <= impacts
+    }
+
+    /// Whether its averages still go up or down: of a few windows where most do, of many where all do together.
+    pub fn drifts(&self) -> bool {
+        let count = self.samples.len();
+        if count < MANY {
+            return 2 * self.samples.iter().filter(|one| one.drifts).count() > count;
+        }
+        let change = |one: &Sample| one.mean_squares[1] - one.mean_squares[0];
+        let changes: Vec<f64> = self.samples.iter().map(change).collect();
+        let mean = changes.iter().sum::<f64>() / count as f64;
+        let size = self.samples.iter().map(|one| one.mean_squares[0]).sum::<f64>() / count as f64;
+        mean.abs() > (DRIFT * twice_standard_error(&changes)).max(NO_DIFFERENCE * size)
+    }
+
+    /// Whether it may be on its way to a motion that repeats, or to other averages; `young` is one that was not measured
+    /// often enough to tell.
+    pub fn settles(&self, young: bool) -> bool {
+        let repeats = |one: &Sample| one.evidence.periodicity.is_some();
+        let depth = |half: usize| self.samples.iter().map(|one| one.depths[half]).sum::<f64>();
+        let stays = if self.samples.len() < MANY { STAYS } else { MANY_STAY };
+        let fades = depth(0) > 0.0 && !stays.contains(&(depth(1) / depth(0)));
+        let repeating = 2 * self.samples.iter().filter(|one| one.of_repeating_kind()).count();
+        self.drifts()
+            || repeating > self.samples.len()
+                && (young || fades || self.samples.iter().any(repeats))
+    }
+
+    /// The motion. It has the regime of what all its windows show together.
+    pub fn motion(&self, reached: Reached, settled: bool) -> Motion {
+        let facts: Vec<Facts> = self.samples.iter().map(|one| one.facts).collect();
+        let evidence: Vec<_> = self.samples.iter().map(|one| one.evidence).collect();
+        Motion {
+            facts: Facts::pooled(&facts),
+            kind: Kind::Wanders,
+            regime: Regime::of_several(&evidence),
+            state: self.samples[0].begin,
+            reached,
+            settled: settled && !self.drifts(),
+            stop: self.samples[0].stop,
+        }
+    }
+}
+
+/// Whether averages are within twice both errors of those of some windows.
+fn near(windows: &[Facts], other: &Facts) -> bool {
+    let count = windows.len() as f64;
+    let near = |of: fn(&Facts) -> Value| {
+        let values = || windows.iter().map(of);
+        let mean = values().map(|one| one.value).sum::<f64>() / count;
+        let apart = |one: Value| (one.value - mean) * (one.value - mean);
+        let scatter = (values().map(apart).sum::<f64>() / count).sqrt();
+        let own = (values().map(|one| one.error * one.error).sum::<f64>() / count).sqrt();
+        let (other, errors) = (of(other).value, own.max(2.0 * scatter) + of(other).error);
+        (mean - other).abs() <= (ERRORS * errors).max(NO_DIFFERENCE * mean.max(other))
+    };
+    near(|facts| facts.rms) && near(|facts| facts.impacts_per_period)
+}
