@@ -136,6 +136,8 @@ pub struct System {
     parameters: Parameters,
     // Held beside the frequency ratio, because 1 + eps sigma forgets sigma when eps is tiny.
     detuning: f64,
+    // By how much the excitation's phase is ahead: of stretches of a sweep, which need not begin with a period.
+    lead: f64,
 }
 
 impl From<System> for Parameters {
@@ -169,7 +171,7 @@ impl System {
         not_negative("forcing_per_clearance", p.forcing_per_clearance)?;
         let detuning = (p.frequency_ratio - 1.0) / p.mass_ratio;
         check("detuning", detuning, true, "a finite number")?;
-        Ok(Self { parameters, detuning })
+        Ok(Self { parameters, detuning, lead: 0.0 })
     }
 
     /// `eps`, the mass ratio.
@@ -258,6 +260,11 @@ impl System {
         Ok(Self { detuning, ..self.with_frequency_ratio(frequency_ratio)? })
     }
 
+    /// The same system whose excitation is ahead by a phase in radians: `sin(Omega tau + lead)`.
+    pub(crate) fn with_lead(&self, lead: f64) -> Self {
+        Self { lead, ..*self }
+    }
+
     /// Complex amplitude, over the clearance, of the steady motion without absorber impacts, so
     /// that `x = re sin(Omega tau) + im cos(Omega tau)`. `None` for an undamped system driven
     /// exactly at its natural frequency, which has no steady motion.
@@ -292,10 +299,15 @@ impl System {
     pub fn excitation_amplitudes(&self) -> (f64, f64) {
         let Parameters { mass_ratio: eps, damping, frequency_ratio, .. } = self.parameters;
         let sine = eps * self.parameters.forcing_per_clearance;
-        match self.parameters.excitation {
+        let (sine, cosine) = match self.parameters.excitation {
             Excitation::BaseDisplacement => (sine, eps * damping * frequency_ratio * sine),
             Excitation::Force => (sine, 0.0),
+        };
+        if self.lead == 0.0 {
+            return (sine, cosine);
         }
+        let (s, c) = libm::sincos(self.lead);
+        (sine * c - cosine * s, sine * s + cosine * c)
     }
 }
 

@@ -11,7 +11,7 @@ use vinesink::optimize::Task;
 use vinesink::study::deviations::{self, Deviation};
 use vinesink::sweep::{Plan, Point};
 use vinesink::system::System;
-use vinesink::transient::{RecordStudy, SweepStudy, looked_at};
+use vinesink::transient::{RecordStudy, SweepStudy, looked_at, with_closer};
 
 use super::progress::duration;
 
@@ -123,20 +123,26 @@ impl Work {
         Self::alone(case, vec![(1, "trajectory")], periods)
     }
 
-    /// What a case needs that is swept or that records drive; none for another. A sweep is flown both ways, and at a
-    /// quarter to four times the rate, nine times as long as one; some records for other structures as well.
+    /// What a case needs that is swept or that records drive; none for another. A sweep is flown the other way as well, and
+    /// at a quarter to four times the rate, eight times as long as one; some records for other structures.
     pub fn transient(case: &Case) -> Option<Self> {
         let (records, periods) = flown(case)?;
         let given = case.simulation.starts;
-        let factors = match records {
-            0 => vec![(9, "sweeps"), (given.unwrap_or(SweepStudy::STARTS.into()), "starts")],
+        let flights = match records {
+            0 => {
+                let even = given.unwrap_or(SweepStudy::STARTS.into());
+                with_closer(even) + 8 * even.min(SweepStudy::STARTS_BESIDE.into())
+            }
+            1 => {
+                let even = given.unwrap_or(RecordStudy::usual_places(1).into());
+                with_closer(even) + RecordStudy::FLIGHTS_OF_SPECTRUM
+            }
             _ => {
-                let usual = RecordStudy::usual_places(records).into();
-                let spectrum = RecordStudy::FLIGHTS_OF_SPECTRUM / records as u64;
-                vec![(given.unwrap_or(usual) + spectrum, "flights")]
+                let even = given.unwrap_or(RecordStudy::usual_places(records).into());
+                even + RecordStudy::FLIGHTS_OF_SPECTRUM / records as u64
             }
         };
-        Some(Self::alone(case, factors, periods))
+        Some(Self::alone(case, vec![(flights, "flights")], periods))
     }
 
     /// The search for the best clearance of such a case, and the study of the one that is found.

@@ -7,9 +7,7 @@ use super::Judged;
 use crate::band::rivals::reduction_db;
 use crate::case::{Case, Criterion, Scales, Subject};
 use crate::method::Method;
-use crate::transient::{
-    Decay, DecayStudy, Measured, RecordStudy, Study, SweepStart, SweepStudy, awake, worst_of_places,
-};
+use crate::transient::{DecayStudy, Measured, RecordStudy, Study, SweepStudy};
 
 /// Judges every criterion of a case that is not driven steadily.
 pub fn judge_transient(case: &Case, study: &Study) -> Vec<Judged> {
@@ -23,22 +21,28 @@ pub fn judge_transient(case: &Case, study: &Study) -> Vec<Judged> {
 /// Those of one that is released.
 pub fn judge_release(case: &Case, study: &DecayStudy) -> Vec<Judged> {
     let scales = case.scales();
-    let of_start = |subject: Subject, start: &Decay| match subject {
-        Subject::DecayTime => scales.time(TAU * start.oscillations),
-        Subject::PeakDisplacement => scales.length(start.peak),
-        _ => scales.velocity(start.impact_speed),
-    };
     let judge = |criterion: &Criterion| {
-        let values: Vec<f64> =
-            awake(&study.starts).map(|start| of_start(criterion.subject, start)).collect();
-        let [worst, error] = worst_of_places(&values);
-        let alone = scales.time(TAU * study.bare);
-        let inactive = study.decides_inactive() || values.is_empty();
-        if criterion.subject == Subject::DecayTime && inactive && alone > worst {
-            let judged = criterion.judged(Some(alone), 0.0, Method::ClosedForm);
-            return Judged { inactive: Some(study.inactive), ..judged };
+        let scaled = |[value, error]: Measured, scale: &dyn Fn(f64) -> f64| {
+            criterion.judged(Some(scale(value)), scale(error), Method::Simulation)
+        };
+        match criterion.subject {
+            Subject::DecayTime => {
+                let found = study.decay();
+                let judged = scaled(found.oscillations, &|one| scales.time(TAU * one));
+                match found.inactive {
+                    true => Judged {
+                        inactive: Some(study.inactive.share),
+                        decided_by: Method::ClosedForm,
+                        ..judged
+                    },
+                    false => judged,
+                }
+            }
+            Subject::PeakDisplacement => {
+                scaled(study.largest(|start| start.peak), &|one| scales.length(one))
+            }
+            _ => scaled(study.largest(|start| start.impact_speed), &|one| scales.velocity(one)),
         }
-        criterion.judged(Some(worst), error, Method::Simulation)
     };
     case.criteria.iter().map(judge).collect()
 }
@@ -46,10 +50,7 @@ pub fn judge_release(case: &Case, study: &DecayStudy) -> Vec<Judged> {
 /// Those of one that is swept through resonance.
 pub fn judge_sweep(case: &Case, study: &SweepStudy) -> Vec<Judged> {
     let scales = case.scales();
-    let of_starts = |of: &dyn Fn(&SweepStart) -> f64| -> [f64; 2] {
-        worst_of_places(&study.starts.iter().map(of).collect::<Vec<f64>>())
-    };
-    let peak = || of_starts(&|(_, found)| scales.length(found.peak()[1]));
+    let peak = || study.largest(|found| scales.length(found.peak()[1]));
     let judge = |criterion: &Criterion| {
         let rival = match criterion.subject {
             Subject::ReductionDb => &study.alone,
@@ -62,7 +63,7 @@ pub fn judge_sweep(case: &Case, study: &SweepStudy) -> Vec<Judged> {
                 let found = reduction_db(peak, rival);
                 [found, found - reduction_db(peak + error, rival)]
             }
-            _ => of_starts(&|(_, found)| scales.velocity(found.impact_speed)),
+            _ => study.largest(|found| scales.velocity(found.impact_speed)),
         };
         criterion.judged(Some(found), error, Method::Simulation)
     };

@@ -5,6 +5,7 @@ pub mod bracket;
 pub mod chebyshev;
 pub mod crossing;
 pub mod cyclic_word;
+pub mod extremes;
 pub mod gauss;
 pub mod lanes;
 pub mod polynomial;

@@ -85,10 +85,25 @@ impl Summary {
         let clearance = one(of(&["clearance"]));
         let band = &self.band;
         if band.is_null() {
-            let frequency = of(&["excitation_frequency", "frequency_ratio"]);
-            let rest = ["bare_peak", "peak_displacement", "change_db", "damper_peak"];
-            let [bare, peak, change, damper] = rest.map(|id| one(of(&[id])));
-            return [clearance, one(frequency), bare, peak, change, damper];
+            let frequency = of(&["excitation_frequency", "frequency_ratio", "initial_amplitude"]);
+            let excitation = match of(&["sweep_from"]) {
+                Some(from) => json!({ "from": from, "to": of(&["sweep_to"]) }),
+                None => one(frequency),
+            };
+            // Of a released structure the time to come to rest, which has no level.
+            if self.quantities.contains_key("bare_decay_time") {
+                let rest = ["bare_decay_time", "decay_time", "damper_decay_time"];
+                let [bare, time, damper] = rest.map(|id| one(of(&[id])));
+                return [clearance, excitation, bare, time, one(None), damper];
+            }
+            let rest = ["bare_peak", "peak_displacement", "damper_peak"];
+            let [bare, peak, damper] = rest.map(|id| one(of(&[id])));
+            let reduced = of(&["reduction_db"]).map(|reduction| {
+                let change = reduction["value"].as_f64().map(|level| -level);
+                json!({ "id": "change_db", "value": change, "error": reduction["error"] })
+            });
+            let change = one(of(&["change_db"]).or(reduced));
+            return [clearance, excitation, bare, peak, change, damper];
         }
         let along = |pointer: &str| one(band.pointer(pointer).cloned());
         let rest = ["/bare/peak", "/worst/peak", "/worst/change", "/damper/peak"];

@@ -13,13 +13,12 @@ use fearless_simd::Simd;
 use nalgebra::Complex;
 
 use super::events::Segment;
-use super::flow::Oscillator;
+use super::flow::{Kinematics, Oscillator};
 use super::phasor::Rates;
 use super::sliding::Sliding;
 use super::small::{angles, exponential_minus_one};
-use crate::numerics::bracket::brent;
 use crate::numerics::lanes::{LANES, Real};
-use crate::numerics::quadrature;
+use crate::numerics::{extremes, quadrature};
 use crate::operation_count;
 use crate::system::{State, System};
 
@@ -358,25 +357,12 @@ impl Quadrature {
         }
     }
 
-    /// The largest absolute displacement of the oscillator in a stretch: at an end, or where the velocity
-    /// changes sign between two points a panel apart.
+    /// The largest absolute displacement of the oscillator in a stretch.
     pub(super) fn peak(&self, segment: &Segment) -> f64 {
-        let panels = (segment.duration / self.panel).ceil().max(1.0);
-        let step = segment.duration / panels;
-        let mut before = segment.motion.at(0.0);
-        let mut peak = before.x.abs();
-        for k in 0..panels as u64 {
-            let from = k as f64 * step;
-            let after = segment.motion.at(from + step);
-            peak = peak.max(after.x.abs());
-            if (before.v > 0.0) != (after.v > 0.0)
-                && let Some(root) = brent(from, from + step, 1e-12, |s| segment.motion.at(s).v)
-            {
-                peak = peak.max(segment.motion.at(root.at).x.abs());
-            }
-            before = after;
-        }
-        peak
+        extremes::largest(segment.duration, self.panel, |s| {
+            let Kinematics { x, v } = segment.motion.at(s);
+            [x, v]
+        })
     }
 
     /// The integrals over a stretch.

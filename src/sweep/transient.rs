@@ -11,8 +11,8 @@ use crate::case::{Case, RecordSource, Recorded, Recording, Scales};
 use crate::executor::Serial;
 use crate::transient::linear::swept;
 use crate::transient::{
-    DecayStudy, Predicted, Record, RecordStudy, SweepStart, SweepStudy, Transient, bare, longest,
-    worst,
+    DecayStudy, Places, Predicted, Record, RecordStudy, SweepStart, SweepStudy, Transient, bare,
+    longest, with_closer, worst,
 };
 
 /// Seconds for an oscillation on the way to rest, a period of a sweep and a piece of a record from one place of the
@@ -78,7 +78,7 @@ impl Subject {
 
     fn study(&self, plan: &Plan, point: &Point) -> Option<Found> {
         let (system, scales, inactive) = (point.system?, &point.scales, self.count_inactive);
-        let places = places(plan);
+        let places = Places { even: places(plan).into(), closer: true, executor: &Serial };
         Some(match point.design.transient()? {
             Transient::Release(release) => {
                 let share = self.decay_level;
@@ -92,7 +92,7 @@ impl Subject {
                 Found::Sweep { starts, peaks: [None, Some(&damper)].map(peak) }
             }
             Transient::Record(_) => {
-                let (records, places) = (self.records(), places.into());
+                let (records, places) = (self.records(), places.even);
                 let study =
                     RecordStudy::without_spectrum(&system, scales, records, places, &Serial);
                 Found::Record(RecordStudy { count_inactive: inactive, ..study.ok()? })
@@ -105,7 +105,7 @@ impl Subject {
         let (Some(system), Some(of)) = (&point.system, point.design.transient()) else {
             return 0.0;
         };
-        let (places, scales) = (f64::from(places(plan)), &point.scales);
+        let (places, scales) = (with_closer(places(plan).into()) as f64, &point.scales);
         match of {
             Transient::Release(release) => {
                 let alone = bare(system, self.decay_level);
@@ -138,31 +138,33 @@ fn number(of: Recorded, found: &Found, scales: &Scales) -> Option<f64> {
     let speed = |over_clearance: f64| scales.velocity(over_clearance);
     Some(match found {
         Found::Release(study) => match of {
-            Recorded::DecayTime => time(study.slowest()),
+            Recorded::DecayTime => time(study.decay().oscillations[0]),
             Recorded::BareDecayTime => time(study.bare),
-            Recorded::DamperDecayTime => time(study.damped.2),
+            Recorded::DamperDecayTime => time(study.damped.1.settles),
             Recorded::TheoryDecayTime => {
                 time(Predicted::of(&study.system, study.from, study.level).oscillations?)
             }
-            Recorded::InactiveShare => study.inactive,
-            Recorded::Peak => length(study.largest(|start| start.peak)),
-            Recorded::ImpactSpeed => speed(study.largest(|start| start.impact_speed)),
+            Recorded::InactiveShare => study.inactive.share,
+            Recorded::Peak => length(study.largest(|start| start.peak)[0]),
+            Recorded::ImpactSpeed => speed(study.largest(|start| start.impact_speed)[0]),
             Recorded::Impacts => study.worst()?.impacts as f64,
             _ => return None,
         },
-        Found::Sweep { starts, peaks } => match (of, worst(starts).map(|(_, worst)| worst)) {
-            (Recorded::BarePeak, _) => length(peaks[0]),
-            (Recorded::DamperPeak, _) => length(peaks[1]),
-            (Recorded::Peak, Some(worst)) => length(worst.peak()[1]),
-            (Recorded::PeakFrequency, Some(worst)) => scales.frequency(worst.peak()[0]),
-            (Recorded::ReductionDb, Some(worst)) => reduction_db(worst.peak()[1], peaks[0]),
-            (Recorded::ReductionDbTmd, Some(worst)) => reduction_db(worst.peak()[1], peaks[1]),
-            (Recorded::ImpactSpeed, _) => {
-                speed(starts.iter().map(|(_, one)| one.impact_speed).reduce(f64::max)?)
+        Found::Sweep { starts, peaks } => {
+            match (of, worst(starts.iter()).map(|(_, worst)| worst)) {
+                (Recorded::BarePeak, _) => length(peaks[0]),
+                (Recorded::DamperPeak, _) => length(peaks[1]),
+                (Recorded::Peak, Some(worst)) => length(worst.peak()[1]),
+                (Recorded::PeakFrequency, Some(worst)) => scales.frequency(worst.peak()[0]),
+                (Recorded::ReductionDb, Some(worst)) => reduction_db(worst.peak()[1], peaks[0]),
+                (Recorded::ReductionDbTmd, Some(worst)) => reduction_db(worst.peak()[1], peaks[1]),
+                (Recorded::ImpactSpeed, _) => {
+                    speed(starts.iter().map(|(_, one)| one.impact_speed).reduce(f64::max)?)
+                }
+                (Recorded::Impacts, Some(worst)) => worst.impacts as f64,
+                _ => return None,
             }
-            (Recorded::Impacts, Some(worst)) => worst.impacts as f64,
-            _ => return None,
-        },
+        }
         Found::Record(study) => match of {
             Recorded::BarePeak => length(study.mean(|one| one.bare.peak)[0]),
             Recorded::BareRms => length(study.mean(|one| one.bare.rms)[0]),

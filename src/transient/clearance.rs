@@ -4,25 +4,28 @@
 
 use std::f64::consts::TAU;
 
-use super::record_study::over_records;
-use super::study::{bare, slowest_of};
+use super::places::{Places, with_closer, worst_of_places};
+use super::record_study::{flown, over_records};
+use super::study::bare;
 use super::{
-    DecayStudy, Measured, Record, RecordStudy, Release, Response, SineSweep, SweepStudy, Transient,
-    counted, follow, places, worst_of_places,
+    DecayStudy, DecayTime, Measured, Record, RecordStudy, Release, SineSweep, SweepStudy,
+    Transient, counted,
 };
 use crate::case::{Case, Design, Recording};
-use crate::executor::{Executor, map};
+use crate::executor::{Executor, Serial, map};
 use crate::system::Parameter;
 
 /// Clearances of a round, rounds, and the releases looked at where there is a range of them.
 const PLACES: u32 = 32;
 const ROUNDS: u32 = 2;
 const RELEASES: u32 = 5;
-/// Clearances that are looked at again: where an absorber is about to be lost, it is lost from few places at first, and
-/// just there a displacement is least. At 0.7 % from one to the next they reach back by 8 %.
-const CANDIDATES: u32 = 12;
-/// Places of the absorber by which a choice is checked.
-const CHECKED_STARTS: u32 = 50;
+/// Places of the absorber by which all clearances are looked at. They are none of those by which a study looks at one:
+/// multiplied by the counts, which have different powers of two, places are odd.
+const SCREENED: u32 = 32;
+const SCREENED_OF_MANY: u32 = 4;
+/// Clearances that are judged by a study, about: where an absorber is about to be lost, it is lost from few places at
+/// first, and just there a displacement is least.
+const JUDGED: u32 = 12;
 /// Bounds where the case has none, over its own clearance.
 const CLEARANCES: [f64; 2] = [0.2, 5.0];
 
@@ -31,70 +34,101 @@ const CLEARANCES: [f64; 2] = [0.2, 5.0];
 /// where a structure does not come to rest, or cannot be followed.
 #[derive(Debug, Clone)]
 pub struct Best {
-    /// The design with it.
+    /// The design with it: the case's own where none is better.
     pub design: Design,
-    /// From the places of the absorber by which it was chosen.
+    /// From the places of the absorber by which all clearances were looked at.
     pub claimed: Measured,
-    /// From other places.
+    /// From those of a study, as every command says it of the design.
     pub checked: Measured,
     /// The same of the case's own clearance.
     pub own: Measured,
-    /// Clearances, in the units of the design, and the values that made candidates of the best.
+    /// The bound beside which it lies, if any: beyond it may be better ones.
+    pub bound: Option<f64>,
+    /// Clearances, in the units of the design, and the values by which they were looked at.
     pub landscape: Vec<[f64; 2]>,
 }
 
-/// Clearances that are looked at and places of the absorber for each, under each of so many records: all, the best of
-/// them again, and the chosen beside the case's own. No place is in two of the sets: multiplied by the counts, which
-/// have different powers of two, they are odd.
-pub fn looked_at(records: usize) -> [[u32; 2]; 3] {
-    let starts = RecordStudy::usual_places(records);
-    [[ROUNDS * PLACES, starts], [CANDIDATES, 2 * starts], [2, CHECKED_STARTS]]
+/// Clearances and places of the absorber for each, under each of so many records: all that are looked at, and about as
+/// many as are judged by a study, the case's own among them.
+pub fn looked_at(records: usize) -> [[u32; 2]; 2] {
+    let closer = |starts: u32| if records > 1 { starts } else { with_closer(starts.into()) as u32 };
+    let judged = closer(RecordStudy::usual_places(records));
+    [[ROUNDS * PLACES, screened(records)], [JUDGED, judged]]
+}
+
+fn screened(records: usize) -> u32 {
+    if records > 1 { SCREENED_OF_MANY } else { SCREENED }
 }
 
 /// Looks for it within the bounds of `[optimize]`. None for a case that is driven steadily.
+///
+/// All clearances are looked at from even places. The best of them is judged by a study, as the next best is until none is
+/// left that promises more than the best that was judged.
 pub fn best_clearance(case: &Case, executor: &dyn Executor) -> Option<Best> {
     let transient = case.design.transient()?;
     let records = case.recording.as_ref().map_or_else(Vec::new, Recording::records);
-    let [[_, starts], [_, more_starts], [_, other_starts]] = looked_at(records.len());
     let own = case.design.clearance();
     let bounds = case.optimize.clearance.unwrap_or(CLEARANCES.map(|factor| factor * own));
-    let value = |clearance: f64, starts: u32| {
+    let usual = u64::from(transient.places(case.recording.as_ref()));
+    let judged_by = case.simulation.starts.unwrap_or(usual);
+    let value = |clearance: f64, places: Places<'_>| {
         let design = case.design.with(Parameter::Clearance, clearance);
         let found = match &transient {
-            Transient::Release(release) => slowest(case, release, &design, starts),
-            Transient::Sweep(sweep) => swept(case, sweep, &design, starts),
-            Transient::Record(_) => shaken(case, &records, &design, starts),
+            Transient::Release(release) => slowest(case, release, &design, places),
+            Transient::Sweep(sweep) => swept(case, sweep, &design, places),
+            Transient::Record(_) => shaken(case, &records, &design, places),
         };
         found.unwrap_or([f64::INFINITY, 0.0])
     };
+    let looked = |clearance: f64| {
+        let even = screened(records.len()).into();
+        value(clearance, Places { even, closer: false, executor: &Serial })
+    };
     let mut all: Vec<(f64, Measured)> = Vec::new();
     let mut within = bounds;
-    for _ in 0..ROUNDS {
+    let mut beside = [f64::NEG_INFINITY, f64::INFINITY];
+    for round in 0..ROUNDS {
         let place = |k: usize| {
             let part = k as f64 / f64::from(PLACES - 1);
             within[0] * libm::pow(within[1] / within[0], part)
         };
-        let one = |k: usize| (place(k), value(place(k), starts));
+        let one = |k: usize| (place(k), looked(place(k)));
         all.extend(map(executor, "clearances", PLACES as usize, one));
         all.sort_by(|a, b| a.0.total_cmp(&b.0));
+        if round == 0 {
+            beside = [all[1].0, all[all.len() - 2].0];
+        }
         let best = least(&all);
         within = [best.saturating_sub(1), (best + 1).min(all.len() - 1)].map(|k| all[k].0);
     }
     let landscape = all.iter().map(|(clearance, [value, _])| [*clearance, *value]).collect();
     all.sort_by(|a, b| a.1[0].total_cmp(&b.1[0]));
-    let again = |k: usize| {
-        let (clearance, [first, _]) = all[k];
-        let [again, error] = value(clearance, more_starts);
-        (clearance, [first.max(again), error])
+    let judge = |clearance: f64| {
+        value(clearance, Places { even: judged_by, closer: records.len() < 2, executor })
     };
-    let candidates = map(executor, "", CANDIDATES as usize, again);
-    let (clearance, claimed) = candidates[least(&candidates)];
-    let both = map(executor, "", 2, |k| value([clearance, own][k], other_starts));
+    let of_own = judge(own);
+    let (mut clearance, mut claimed, mut checked) = (own, looked(own), of_own);
+    for (other, promised) in all {
+        if promised[0] >= checked[0] {
+            break;
+        }
+        let found = judge(other);
+        if found[0] < checked[0] {
+            (clearance, claimed, checked) = (other, promised, found);
+        }
+    }
+    let bound = match clearance {
+        _ if clearance == own => None,
+        _ if clearance < beside[0] => Some(bounds[0]),
+        _ if clearance > beside[1] => Some(bounds[1]),
+        _ => None,
+    };
     Some(Best {
         design: case.design.with(Parameter::Clearance, clearance),
         claimed,
-        checked: both[0],
-        own: both[1],
+        checked,
+        own: of_own,
+        bound,
         landscape,
     })
 }
@@ -105,7 +139,12 @@ fn least(all: &[(f64, Measured)]) -> usize {
 }
 
 /// Time to come to rest of the slowest release from the worst start; none where that is not seen.
-fn slowest(case: &Case, release: &Release, design: &Design, starts: u32) -> Option<Measured> {
+fn slowest(
+    case: &Case,
+    release: &Release,
+    design: &Design,
+    places: Places<'_>,
+) -> Option<Measured> {
     let (system, scales) = (design.system().ok()?, design.scales());
     let factors = match case.optimize.releases {
         None => vec![1.0],
@@ -117,12 +156,13 @@ fn slowest(case: &Case, release: &Release, design: &Design, starts: u32) -> Opti
     let alone = bare(&system, case.decay_level);
     let time = |factor: &f64| {
         let release = release.scaled(*factor);
-        let inactive = case.count_inactive && release.may_not_wake(&system, &scales);
-        if inactive && alone.is_infinite() {
+        let inactive = release.inactive(&system, &scales);
+        if case.count_inactive && inactive.share > 0.0 && alone.is_infinite() {
             return Some([alone, 0.0]);
         }
-        let found = DecayStudy::starts(&system, &scales, &release, case.decay_level, starts);
-        Some(slowest_of(&found.ok()?, alone, inactive))
+        let found = DecayStudy::starts(&system, &scales, &release, case.decay_level, places);
+        let time = DecayTime::of(&found.ok()?, alone, case.count_inactive, &inactive);
+        Some(time.oscillations)
     };
     let times = factors.iter().map(time).collect::<Option<Vec<Measured>>>()?;
     let slowest = times.into_iter().max_by(|a, b| a[0].total_cmp(&b[0]))?;
@@ -130,22 +170,25 @@ fn slowest(case: &Case, release: &Release, design: &Design, starts: u32) -> Opti
 }
 
 /// Largest displacement of the passage from the worst start.
-fn swept(case: &Case, sweep: &SineSweep, design: &Design, starts: u32) -> Option<Measured> {
+fn swept(case: &Case, sweep: &SineSweep, design: &Design, places: Places<'_>) -> Option<Measured> {
     let (system, scales) = (design.system().ok()?, design.scales());
-    let counted = SweepStudy::starts(&system, &scales, sweep, starts, case.count_inactive).ok()?;
-    let peaks: Vec<f64> = counted.iter().map(|(_, found)| found.peak()[1]).collect();
+    let starts = SweepStudy::starts(&system, &scales, sweep, places, case.count_inactive).ok()?;
+    let peaks: Vec<f64> = starts.iter().map(|(_, found)| found.peak()[1]).collect();
     Some(worst_of_places(&peaks).map(|peak| scales.length(peak)))
 }
 
 /// Largest displacement from the worst place of the absorber, mean over records.
-fn shaken(case: &Case, records: &[Record], design: &Design, starts: u32) -> Option<Measured> {
+fn shaken(
+    case: &Case,
+    records: &[Record],
+    design: &Design,
+    places: Places<'_>,
+) -> Option<Measured> {
     let (system, scales) = (design.system().ok()?, design.scales());
     let of_record = |record: &Record| {
-        let pieces = record.pieces(&scales, Record::LONGEST);
-        let place = |w| follow(&system, &pieces, w).ok();
-        let found = places(starts.into()).map(place).collect::<Option<Vec<Response>>>()?;
-        let counted = counted(&found, case.count_inactive, |found| found.impacts);
-        let peaks: Vec<f64> = counted.iter().map(|found| found.peak).collect();
+        let found = flown(&system, &record.pieces(&scales, Record::LONGEST), places).ok()?;
+        let counted = counted(&found, case.count_inactive, |(_, found)| found.impacts);
+        let peaks: Vec<f64> = counted.iter().map(|(_, found)| found.peak).collect();
         Some(worst_of_places(&peaks))
     };
     let each = records.iter().map(of_record).collect::<Option<Vec<Measured>>>()?;

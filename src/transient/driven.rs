@@ -11,6 +11,7 @@
 
 use super::record::Piece;
 use super::unforced;
+use crate::numerics::extremes::Cubic;
 use crate::simulation::{Detail, Impact, Observer, Simulation, StartError, Stop};
 use crate::system::{InvalidParameter, State, System};
 
@@ -119,60 +120,6 @@ impl Meter {
     pub(super) fn finished(mut self) -> Response {
         self.found.rms = if self.time > 0.0 { (self.square / self.time).sqrt() } else { 0.0 };
         self.found
-    }
-}
-
-/// The cubic with the values and slopes of a motion at two times.
-struct Cubic {
-    duration: f64,
-    ends: [[f64; 2]; 2],
-}
-
-impl Cubic {
-    fn of(duration: f64, ends: [[f64; 2]; 2]) -> Self {
-        Self { duration, ends }
-    }
-
-    /// Largest absolute value.
-    fn largest(&self) -> f64 {
-        let h = self.duration;
-        let [[x0, v0], [x1, v1]] = self.ends;
-        let at_ends = x0.abs().max(x1.abs());
-        if v0 * v1 >= 0.0 {
-            return at_ends;
-        }
-        // x = x0 + h v0 p + c p^2 + d p^3; its slope is 0 once between ends of opposite slope.
-        let d = h * (v0 + v1) - 2.0 * (x1 - x0);
-        let c = 3.0 * (x1 - x0) - h * (2.0 * v0 + v1);
-        let root = (c * c - 3.0 * d * h * v0).max(0.0).sqrt();
-        let p = -h * v0 / (c + root.copysign(-v0));
-        let p = if p.is_finite() { p.clamp(0.0, 1.0) } else { 0.0 };
-        at_ends.max((x0 + p * (h * v0 + p * (c + p * d))).abs())
-    }
-
-    fn integral(&self) -> f64 {
-        let h = self.duration;
-        let [[x0, v0], [x1, v1]] = self.ends;
-        0.5 * h * (x0 + x1) + h * h / 12.0 * (v0 - v1)
-    }
-
-    /// Integral of its square: the mass matrix of a beam.
-    fn square(&self) -> f64 {
-        let h = self.duration;
-        let [[x0, v0], [x1, v1]] = self.ends;
-        let [v0, v1] = [h * v0, h * v1];
-        let own = 156.0 * (x0 * x0 + x1 * x1) + 4.0 * (v0 * v0 + v1 * v1);
-        let mixed = 44.0 * (x0 * v0 - x1 * v1) + 26.0 * (x1 * v0 - x0 * v1);
-        h / 420.0 * (own + mixed + 108.0 * x0 * x1 - 6.0 * v0 * v1)
-    }
-
-    /// Integral of the square of its slope: the matrix of a beam under tension.
-    fn square_of_slope(&self) -> f64 {
-        let h = self.duration;
-        let [[x0, v0], [x1, v1]] = self.ends;
-        let (rise, [v0, v1]) = (x1 - x0, [h * v0, h * v1]);
-        let of_rise = 36.0 * rise * rise - 6.0 * rise * (v0 + v1);
-        (of_rise + 4.0 * (v0 * v0 + v1 * v1) - 2.0 * v0 * v1) / (30.0 * h)
     }
 }
 

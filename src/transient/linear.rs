@@ -8,9 +8,10 @@ use nalgebra::{SMatrix, SVector};
 
 use super::driven::{Meter, Response};
 use super::record::Piece;
-use super::{Passage, STEPS, SineSweep, amplitude};
+use super::{Passage, STEPS, Settling, SineSweep, amplitude};
 use crate::band::rivals::TunedMassDamper;
 use crate::case::Scales;
+use crate::numerics::extremes::Cubic;
 use crate::system::{State, System};
 
 /// A linear structure on its way to rest, per step as [`super::Ringdown`].
@@ -22,6 +23,8 @@ pub struct Linear {
     pub peak: f64,
     /// Largest displacement of the damper's mass against the structure.
     pub stroke: f64,
+    /// Oscillations after which the amplitude stays at the level or below it; infinite where that was not seen.
+    pub settles: f64,
 }
 
 impl TunedMassDamper {
@@ -42,25 +45,30 @@ pub fn released(
     level: f64,
     oscillations: u64,
 ) -> Linear {
-    let step = exponential(matrix(system, damper) * (TAU / f64::from(STEPS)));
+    let duration = TAU / f64::from(STEPS_OF_PERIOD);
+    let step = exponential(matrix(system, damper) * duration);
     let mut state: Motion = [start.x, start.x_velocity, start.x, start.y_velocity, 0.0, 0.0].into();
-    let mut found = Linear { amplitudes: Vec::new(), peak: 0.0, stroke: 0.0 };
-    let mut below = 0;
-    let note = |found: &mut Linear, state: &Motion| {
+    let (amplitudes, settles) = (vec![amplitude(&start)], f64::INFINITY);
+    let mut found = Linear { amplitudes, peak: 0.0, stroke: 0.0, settles };
+    let mut settling = Settling::to(level);
+    settling.see(0.0, amplitude(&start));
+    let last = oscillations.saturating_mul(STEPS_OF_PERIOD.into());
+    for k in 1..=last {
+        let after = step * state;
+        let [x, stroke] = largest(duration, [&state, &after]);
+        (found.peak, found.stroke) = (found.peak.max(x), found.stroke.max(stroke));
+        state = after;
+        let time = k as f64 / f64::from(STEPS_OF_PERIOD);
         let now = amplitude(&State { x: state[0], x_velocity: state[1], ..start });
-        found.amplitudes.push(now);
-        found.peak = found.peak.max(state[0].abs());
-        found.stroke = found.stroke.max((state[0] - state[2]).abs());
-        now
-    };
-    note(&mut found, &state);
-    for _ in 0..oscillations.saturating_mul(STEPS.into()) {
-        state = step * state;
-        below = if note(&mut found, &state) <= level { below + 1 } else { 0 };
-        if below > BEAT * STEPS {
+        settling.see(time, now);
+        if k % u64::from(STEPS_OF_PERIOD / STEPS) == 0 {
+            found.amplitudes.push(now);
+        }
+        if time > settling.time + f64::from(BEAT) {
             break;
         }
     }
+    found.settles = settling.time;
     found
 }
 
@@ -98,8 +106,8 @@ pub fn driven(system: &System, damper: Option<&TunedMassDamper>, pieces: &[Piece
 /// Relative difference of steps that are one: even times of a record are rounded.
 const SAME: f64 = 1e-12;
 
-/// Steps in a period of a sweep: between two of them a displacement is at most 3e-4 of itself larger.
-const SWEPT_STEPS: u32 = 128;
+/// Steps in a period: cubics between two of them are off by `h^4/384`, 1.5e-8 of the motion.
+const STEPS_OF_PERIOD: u32 = 128;
 
 /// The structure with a damper, or alone, from rest through a sweep.
 pub fn swept(
@@ -110,19 +118,31 @@ pub fn swept(
 ) -> Passage {
     let mut found = Passage::new(sweep.count(), 0.0);
     let mut state = Motion::zeros();
-    for ratio in sweep.frequencies(scales) {
-        let Ok(piece) = system.with_frequency_ratio(ratio) else { break };
-        let step = exponential(matrix(&piece, damper) * (piece.period() / f64::from(SWEPT_STEPS)));
-        (state[4], state[5]) = (0.0, 1.0);
-        let mut peak = state[0].abs();
-        for _ in 0..SWEPT_STEPS {
-            state = step * state;
-            peak = peak.max(state[0].abs());
-            found.stroke = found.stroke.max((state[0] - state[2]).abs());
+    for stretch in sweep.stretches(scales) {
+        let Ok(piece) = stretch.system(system) else { break };
+        let left = TAU - stretch.begins;
+        let steps = libm::ceil(left / TAU * f64::from(STEPS_OF_PERIOD)) as u32;
+        let duration = left / piece.frequency_ratio() / f64::from(steps);
+        let step = exponential(matrix(&piece, damper) * duration);
+        let (sine, cosine) = libm::sincos(stretch.begins);
+        (state[4], state[5]) = (sine, cosine);
+        let mut peak = 0.0_f64;
+        for _ in 0..steps {
+            let after = step * state;
+            let [x, stroke] = largest(duration, [&state, &after]);
+            (peak, found.stroke) = (peak.max(x), found.stroke.max(stroke));
+            state = after;
         }
-        found.envelope.push([ratio, peak]);
+        found.passed(&stretch, peak);
     }
     found
+}
+
+/// The largest displacement of the structure, and of the damper's mass against it, in a step.
+fn largest(duration: f64, ends: [&Motion; 2]) -> [f64; 2] {
+    let x = ends.map(|at| [at[0], at[1]]);
+    let stroke = ends.map(|at| [at[0] - at[2], at[1] - at[3]]);
+    [x, stroke].map(|ends| Cubic::of(duration, ends).largest())
 }
 
 /// Oscillations that a structure stays below a level before it counts as calm: a damper may give energy back.

@@ -11,6 +11,7 @@ mod clearance;
 mod driven;
 pub mod linear;
 mod passage;
+mod places;
 mod record;
 mod record_study;
 mod ringdown;
@@ -23,11 +24,12 @@ pub use driven::{DrivenError, Response, follow};
 #[cfg(feature = "sweep")]
 pub(crate) use passage::worst;
 pub use passage::{ByRate, Jump, SweepStart, SweepStudy};
+pub(crate) use places::Places;
+pub use places::{share_above, with_closer, worst_of_places};
 pub use record::{Piece, Record, RecordQuantity, Spectrum};
 pub use record_study::{Measured, Realisation, RecordStudy, SpectrumPoint};
 pub use ringdown::{Ringdown, STEPS};
-pub(crate) use study::awake;
-pub use study::{Decay, DecayStudy};
+pub use study::{Decay, DecayStudy, DecayTime, Inactive};
 #[cfg(feature = "sweep")]
 pub(crate) use study::{bare, longest};
 pub use sweep::{Passage, SineSweep, SweepRate};
@@ -35,7 +37,6 @@ pub use theory::Predicted;
 
 use crate::case::{Case, Recording, Scales};
 use crate::executor::Executor;
-use crate::numerics::scatter::error_of_largest;
 use crate::simulation::StartError;
 use crate::system::{InvalidParameter, Parameter, Parameters, State, System};
 
@@ -127,7 +128,7 @@ impl Study {
     pub fn of_case(case: &Case, executor: &dyn Executor) -> Option<Result<Self, DrivenError>> {
         let boxed = |done: Result<Self, StartError>| done.map_err(DrivenError::from);
         match case.design.transient()? {
-            Transient::Release(_) => DecayStudy::of_case(case)
+            Transient::Release(_) => DecayStudy::of_case(case, executor)
                 .map(|done| boxed(done.map(|study| Self::Release(Box::new(study))))),
             Transient::Sweep(_) => SweepStudy::of_case(case, executor)
                 .map(|done| boxed(done.map(|study| Self::Sweep(Box::new(study))))),
@@ -169,9 +170,9 @@ impl Release {
         amplitude(&self.state(scales, 0.0))
     }
 
-    /// Whether an absorber at rest may be where no wall ever reaches it.
-    fn may_not_wake(&self, system: &System, scales: &Scales) -> bool {
-        study::inactive(system, &self.state(scales, 0.0)) > 0.0
+    /// Where no wall ever reaches an absorber at rest.
+    fn inactive(&self, system: &System, scales: &Scales) -> Inactive {
+        study::inactive(system, &self.state(scales, 0.0))
     }
 
     /// The state in which an absorber at a relative displacement `w` begins.
@@ -184,28 +185,10 @@ impl Release {
     }
 }
 
-/// So many even places of the absorber, as relative displacements; an even number has not the middle, which theory
-/// looks after.
-fn places(count: u64) -> impl ExactSizeIterator<Item = f64> + Clone {
-    (0..count as usize).map(move |k| (2 * k + 1) as f64 / count as f64 - 1.0)
-}
-
 /// Starts that count: where `inactive` is false those alone in which the absorber hits a wall, unless it never does.
 fn counted<T>(starts: &[T], inactive: bool, impacts: impl Fn(&T) -> u64) -> Vec<&T> {
     let awake: Vec<&T> = starts.iter().filter(|start| inactive || impacts(start) > 0).collect();
     if awake.is_empty() { starts.iter().collect() } else { awake }
-}
-
-/// Neighbouring starts whose worst is one value of those that tell how much worse others may be.
-const TOGETHER: usize = 4;
-
-/// The largest of the values that belong to even places of the absorber, and by how much those of other places may
-/// exceed it.
-pub fn worst_of_places(values: &[f64]) -> [f64; 2] {
-    let largest = |some: &[f64]| some.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let worst = largest(values);
-    let blocks: Vec<f64> = values.chunks_exact(TOGETHER).map(largest).collect();
-    [worst, if worst.is_finite() { error_of_largest(&blocks) } else { 0.0 }]
 }
 
 /// The amplitude of a structure in a state.
@@ -222,25 +205,50 @@ fn unforced(system: &System, step: f64) -> Result<System, InvalidParameter> {
     })
 }
 
-/// The time, in steps, after which values given at equal steps stay at a level or below it: on an exponential
-/// between two of them. None where the last is above.
-fn settles(values: &[f64], level: f64) -> Option<f64> {
-    let Some(last) = values.iter().rposition(|value| *value > level) else { return Some(0.0) };
-    let (before, after) = (values[last], *values.get(last + 1)?);
-    let part = libm::log(before / level) / libm::log(before / after);
-    Some(last as f64 + if part.is_finite() { part } else { 1.0 })
+/// The time after which an amplitude stays at a level or below it: where it jumps below, or on an exponential between two
+/// times at which it is seen.
+#[derive(Debug, Clone, Copy)]
+struct Settling {
+    level: f64,
+    last: [f64; 2],
+    /// Infinite while it is above.
+    time: f64,
+}
+
+impl Settling {
+    fn to(level: f64) -> Self {
+        Self { level, last: [0.0, 0.0], time: 0.0 }
+    }
+
+    fn see(&mut self, time: f64, amplitude: f64) {
+        if amplitude > self.level {
+            self.time = f64::INFINITY;
+        } else if self.time.is_infinite() {
+            let [before, above] = self.last;
+            let part = libm::log(above / self.level) / libm::log(above / amplitude);
+            self.time = before + (time - before) * if part.is_finite() { part } else { 1.0 };
+        }
+        self.last = [time, amplitude];
+    }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::settles;
+    use super::Settling;
 
     #[test]
     fn the_last_crossing_counts() {
-        let values: Vec<f64> = [0.0, 1.0, 2.0, 1.0, 3.0, 4.0].map(|power| libm::exp(-power)).into();
-        let time = settles(&values, libm::exp(-2.5)).expect("below in the end");
-        assert!((time - 3.75).abs() < 1e-12, "{time}");
-        assert_eq!(settles(&values, 2.0), Some(0.0));
-        assert_eq!(settles(&values, 1e-3), None);
+        let time = |level: f64| {
+            let mut settling = Settling::to(level);
+            for (time, power) in [0.0, 1.0, 2.0, 1.0, 3.0, 4.0].into_iter().enumerate() {
+                settling.see(time as f64, libm::exp(-power));
+            }
+            // A jump, as an impact makes it.
+            settling.see(5.0, libm::exp(-4.5));
+            settling.see(5.0, libm::exp(-6.0));
+            settling.time
+        };
+        assert!((time(libm::exp(-2.5)) - 3.75).abs() < 1e-12, "{}", time(libm::exp(-2.5)));
+        assert_eq!([time(2.0), time(libm::exp(-5.0)), time(1e-3)], [0.0, 5.0, f64::INFINITY]);
     }
 }

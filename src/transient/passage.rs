@@ -4,8 +4,9 @@
 use std::f64::consts::TAU;
 
 use super::linear::swept;
+use super::places::{Places, even, survey, worst_of_places};
 use super::sweep::{Passage, SineSweep};
-use super::{counted, places};
+use super::{Measured, counted};
 use crate::band::rivals::{TunedMassDamper, bare_amplitude};
 use crate::case::{Case, Scales};
 use crate::executor::{Executor, map};
@@ -47,8 +48,10 @@ pub struct SweepStudy {
     pub system: System,
     /// The sweep.
     pub sweep: SineSweep,
-    /// Every start.
+    /// Every start, in the order in which they were flown, and how many of the first are at even places.
     pub starts: Vec<SweepStart>,
+    /// See [`Self::starts`].
+    pub even: u64,
     /// The worst of the starts in the other direction.
     pub back: Passage,
     /// The structure alone.
@@ -68,7 +71,9 @@ pub struct SweepStudy {
 
 impl SweepStudy {
     /// Places of the absorber unless the case says how many.
-    pub const STARTS: u32 = 16;
+    pub const STARTS: u32 = 64;
+    /// At most so many for each other rate, and for the other direction.
+    pub const STARTS_BESIDE: u32 = 16;
 
     /// Studies a case that is swept; none for another.
     ///
@@ -91,60 +96,76 @@ impl SweepStudy {
         Passage::follow(system, scales, sweep, start).map(|found| (w, found))
     }
 
-    /// From every place of the absorber, without those that do not count.
+    /// From even places of the absorber and closer ones, without those that do not count.
     pub(crate) fn starts(
         system: &System,
         scales: &Scales,
         sweep: &SineSweep,
-        count: u32,
+        places: Places<'_>,
         inactive: bool,
     ) -> Result<Vec<SweepStart>, StartError> {
-        let flown = places(count.into()).map(|w| Self::start(system, scales, sweep, w));
-        let flown = flown.collect::<Result<Vec<SweepStart>, StartError>>()?;
+        let counts = |of: fn(&Passage) -> f64| {
+            move |found: &Passage| match inactive || found.impacts > 0 {
+                true => of(found),
+                false => f64::NAN,
+            }
+        };
+        let (peaks, speeds) = (counts(|found| found.peak()[1]), counts(|found| found.impact_speed));
+        let flown = survey(places, &[&peaks, &speeds], |w| {
+            Self::start(system, scales, sweep, w).map(|(_, found)| found)
+        })?;
         Ok(counted(&flown, inactive, |(_, found)| found.impacts).into_iter().cloned().collect())
     }
 
     fn of(
         case: &Case,
         sweep: &SineSweep,
-        starts: u32,
+        even_places: u32,
         executor: &dyn Executor,
     ) -> Result<Self, StartError> {
         let (system, scales) = (case.system(), case.scales());
+        let inactive = case.count_inactive;
+        let places = Places { even: even_places.into(), closer: true, executor };
+        let starts = Self::starts(&system, &scales, sweep, places, inactive)?;
         let rates: Vec<SineSweep> = RATES
             .into_iter()
             .map(|factor| sweep.faster(factor))
             .filter(|other| other.fastest_change() <= SineSweep::LARGEST_CHANGE)
             .filter(|other| other.count() >= SineSweep::FEWEST)
             .collect();
-        let all: Vec<SineSweep> = [sweep.reversed()].into_iter().chain(rates.clone()).collect();
-        let at: Vec<f64> = places(starts.into()).collect();
+        let others = rates.iter().copied().filter(|other| other != sweep);
+        let all: Vec<SineSweep> = [sweep.reversed()].into_iter().chain(others).collect();
+        let at: Vec<f64> = even(even_places.min(Self::STARTS_BESIDE).into()).collect();
         let passage =
             |k: usize| Self::start(&system, &scales, &all[k / at.len()], at[k % at.len()]);
-        let flown = map(executor, "passages", all.len() * starts as usize, passage);
+        let flown = map(executor, "passages", all.len() * at.len(), passage);
         let flown = flown.into_iter().collect::<Result<Vec<SweepStart>, StartError>>()?;
-        let of = |n: usize| {
-            let all = &flown[n * starts as usize..(n + 1) * starts as usize];
-            let counted = counted(all, case.count_inactive, |(_, found)| found.impacts);
-            counted.into_iter().cloned().collect::<Vec<SweepStart>>()
+        let worst_of = |sweep: &SineSweep| -> Option<Passage> {
+            let n = all.iter().position(|other| other == sweep)?;
+            let of = &flown[n * at.len()..(n + 1) * at.len()];
+            let counted = counted(of, inactive, |(_, found)| found.impacts);
+            worst(counted.into_iter()).map(|(_, found)| found.clone())
         };
+        let there = worst(starts.iter()).map(|(_, found)| found.clone());
         let damper = TunedMassDamper::den_hartog(system.mass_ratio());
         let linear = |damper: Option<&TunedMassDamper>, sweep: &SineSweep| {
             swept(&system, damper, &scales, sweep)
         };
-        let by_rate = rates.iter().enumerate().map(|(n, sweep)| ByRate {
-            sweep: *sweep,
-            peaks: [
-                worst(&of(n + 1)).map_or([f64::NAN; 2], |(_, found)| found.peak()),
-                linear(None, sweep).peak(),
-                linear(Some(&damper), sweep).peak(),
-            ],
+        let by_rate = rates.iter().map(|other| {
+            let found = if other == sweep { there.clone() } else { worst_of(other) };
+            ByRate {
+                sweep: *other,
+                peaks: [
+                    found.map_or([f64::NAN; 2], |found| found.peak()),
+                    linear(None, other).peak(),
+                    linear(Some(&damper), other).peak(),
+                ],
+            }
         });
-        let own = rates.iter().position(|other| other == sweep).map_or(0, |n| n + 1);
-        let (starts, back) = (of(own), of(0));
-        let [there, back] = [&starts, &back].map(|some| worst(some).map(|(_, one)| one.clone()));
+        let by_rate = by_rate.collect();
         let none = || Passage::new(0, 0.0);
-        let (there, back) = (there.unwrap_or_else(none), back.unwrap_or_else(none));
+        let back = worst_of(&sweep.reversed()).unwrap_or_else(none);
+        let there = there.unwrap_or_else(none);
         let window = window(&system);
         Ok(Self {
             system,
@@ -154,7 +175,8 @@ impl SweepStudy {
             steady: steady(&system, &scales, sweep),
             jumps: [&there, &back].map(|passage| jumps(&passage.envelope, window)),
             differ: differ(&there.envelope, &back.envelope, window),
-            by_rate: by_rate.collect(),
+            by_rate,
+            even: places.even,
             starts,
             back,
         })
@@ -162,7 +184,12 @@ impl SweepStudy {
 
     /// The start with the largest displacement.
     pub fn worst(&self) -> Option<&SweepStart> {
-        worst(&self.starts)
+        worst(self.starts.iter())
+    }
+
+    /// The largest of a value of all starts, and its error.
+    pub fn largest(&self, value: impl Fn(&Passage) -> f64) -> Measured {
+        worst_of_places(&self.starts.iter().map(|(_, found)| value(found)).collect::<Vec<f64>>())
     }
 
     /// The smallest of the starts' largest displacements.
@@ -171,8 +198,8 @@ impl SweepStudy {
     }
 }
 
-pub(crate) fn worst(starts: &[SweepStart]) -> Option<&SweepStart> {
-    starts.iter().max_by(|a, b| a.1.peak()[1].total_cmp(&b.1.peak()[1]))
+pub(crate) fn worst<'a>(starts: impl Iterator<Item = &'a SweepStart>) -> Option<&'a SweepStart> {
+    starts.max_by(|a, b| a.1.peak()[1].total_cmp(&b.1.peak()[1]))
 }
 
 /// Amplitudes of steady motion along the range.

@@ -2,8 +2,9 @@
 //! beside its alternatives, and for other natural frequencies.
 
 use super::linear::driven;
+use super::places::{Measure, Places, even, survey, worst_of_places};
 use super::record::{Piece, Record};
-use super::{DrivenError, Response, counted, follow, worst_of_places};
+use super::{DrivenError, Response, counted, follow};
 use crate::band::rivals::{TunedMassDamper, reduction_db};
 use crate::case::{Case, Scales};
 use crate::executor::{Executor, map};
@@ -21,8 +22,8 @@ pub struct Realisation {
     pub bare: Response,
     /// With the tuned mass damper of Den Hartog.
     pub damped: Response,
-    /// Every place of the absorber, over the clearance, and what it did from there. The trace is kept of the first
-    /// record alone.
+    /// Every place of the absorber, over the clearance, and what it did from there, in the order in which they were
+    /// flown. The trace is kept of the first record alone.
     pub places: Vec<(f64, Response)>,
 }
 
@@ -53,6 +54,8 @@ pub struct RecordStudy {
     pub length: (f64, usize),
     /// One for each record.
     pub realisations: Vec<Realisation>,
+    /// Even places of the absorber under each record; under a single one there are closer places as well.
+    pub even: u64,
     /// Response spectrum, ascending.
     pub spectrum: Vec<SpectrumPoint>,
     /// Whether places count from which the absorber never touches a wall.
@@ -60,7 +63,7 @@ pub struct RecordStudy {
 }
 
 /// Places of the absorber under one record, and under each of several.
-const PLACES: u32 = 32;
+const PLACES: u32 = 64;
 const PLACES_OF_MANY: u32 = 8;
 /// The response spectrum: frequencies, the furthest over the structure's own, places times records, and the most
 /// records.
@@ -128,6 +131,7 @@ impl RecordStudy {
             input_peaks: records.iter().map(Record::peak).collect(),
             length: (to - from, first.samples.len()),
             realisations: realisations(system, scales, records, places, executor)?,
+            even: places,
             spectrum: Vec::new(),
             count_inactive: true,
         })
@@ -185,25 +189,31 @@ fn realisations(
     let damper = TunedMassDamper::den_hartog(system.mass_ratio());
     let pieces: Vec<Vec<Piece>> =
         records.iter().map(|record| record.pieces(scales, Record::LONGEST)).collect();
-    let at: Vec<f64> = super::places(places).collect();
-    let each = at.len();
-    let kept = |k: usize, response: Response| match k {
-        0 => response,
-        _ => Response { trace: Vec::new(), ..response },
-    };
-    let flown = map(executor, "places", records.len() * each, |k| {
-        let w = at[k % each];
-        follow(system, &pieces[k / each], w).map(|found| (w, kept(k / each, found)))
-    });
-    let mut flown = flown.into_iter();
+    let places = Places { even: places, closer: records.len() == 1, executor };
     let one = |(k, pieces): (usize, &Vec<Piece>)| {
+        let found = flown(system, pieces, places)?.into_iter();
+        let kept = |response: Response| match k {
+            0 => response,
+            _ => Response { trace: Vec::new(), ..response },
+        };
         Ok(Realisation {
-            bare: kept(k, driven(system, None, pieces)),
-            damped: kept(k, driven(system, Some(&damper), pieces)),
-            places: flown.by_ref().take(each).collect::<Result<_, _>>()?,
+            bare: kept(driven(system, None, pieces)),
+            damped: kept(driven(system, Some(&damper), pieces)),
+            places: found.map(|(w, response)| (w, kept(response))).collect(),
         })
     };
     pieces.iter().enumerate().map(one).collect()
+}
+
+/// What the structure does from each place of the absorber.
+pub(super) fn flown(
+    system: &System,
+    pieces: &[Piece],
+    places: Places<'_>,
+) -> Result<Vec<(f64, Response)>, DrivenError> {
+    let measures: [Measure<'_, Response>; 3] =
+        [&|found| found.peak, &|found| found.rms, &|found| found.impact_speed];
+    survey(places, &measures, |w| follow(system, pieces, w))
 }
 
 fn spectrum_point(
@@ -220,7 +230,7 @@ fn spectrum_point(
     for record in records {
         let pieces = record.pieces(&scales, Record::LONGEST);
         let mut worst = 0.0_f64;
-        for w in super::places(places) {
+        for w in even(places) {
             worst = worst.max(follow(system, &pieces, w)?.peak);
         }
         let linear = |damper| driven(system, damper, &pieces).peak;

@@ -2,8 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use super::{amplitude, unforced};
-use crate::simulation::{Detail, Impact, Observer, Simulation, StartError, Stop};
+use super::{Settling, amplitude, unforced};
+use crate::numerics::extremes::largest;
+use crate::simulation::{Detail, Impact, Observer, Segment, Simulation, StartError, Stop};
 use crate::system::{State, System};
 
 /// Steps in an oscillation of the structure: between two of them its amplitude moves by impacts alone.
@@ -22,12 +23,15 @@ pub struct Ringdown {
     pub impacts: Vec<u64>,
     /// Largest relative speed of an impact so far, over the clearance in fast time.
     pub impact_speeds: Vec<f64>,
-    /// Largest displacement of the structure at a step.
+    /// Largest displacement of the structure.
     pub peak: f64,
+    /// Oscillations after which the amplitude stays at the level or below it; infinite where that was not seen.
+    pub settles: f64,
 }
 
 struct Log {
     found: Ringdown,
+    settling: Settling,
     energy: f64,
     lost: f64,
     impacts: u64,
@@ -42,8 +46,10 @@ impl Observer for Log {
     fn impact(&mut self, impact: &Impact) {
         self.lost += impact.loss;
         self.impacts += 1;
+        for velocity in [impact.x_velocity_before, impact.x_velocity_after] {
+            self.settling.see(impact.tau, libm::hypot(impact.x, velocity));
+        }
         self.speed = self.speed.max((impact.x_velocity_before - impact.y_velocity_before).abs());
-        self.found.peak = self.found.peak.max(impact.x.abs());
     }
 
     fn sticks(&mut self, loss: f64) {
@@ -52,11 +58,37 @@ impl Observer for Log {
 
     fn period(&mut self, state: &State) {
         let found = &mut self.found;
+        let time = TAU / f64::from(STEPS) * found.amplitudes.len() as f64;
+        self.settling.see(time, amplitude(state));
         found.amplitudes.push(amplitude(state));
         found.taken.push(self.lost / self.energy);
         found.impacts.push(self.impacts);
         found.impact_speeds.push(self.speed);
-        found.peak = found.peak.max(state.x.abs());
+    }
+}
+
+/// Hears of flights too, which may hold the largest displacement.
+struct Watching<'a>(&'a mut Log);
+
+impl Observer for Watching<'_> {
+    fn segment(&mut self, segment: &Segment) {
+        let peak = largest(segment.duration, TAU / f64::from(STEPS), |s| {
+            let at = segment.motion.at(s);
+            [at.x, at.v]
+        });
+        self.0.found.peak = self.0.found.peak.max(peak);
+    }
+
+    fn impact(&mut self, impact: &Impact) {
+        self.0.impact(impact);
+    }
+
+    fn sticks(&mut self, loss: f64) {
+        self.0.sticks(loss);
+    }
+
+    fn period(&mut self, state: &State) {
+        self.0.period(state);
     }
 }
 
@@ -81,12 +113,22 @@ impl Ringdown {
             impacts: Vec::new(),
             impact_speeds: Vec::new(),
             peak: 0.0,
+            settles: f64::INFINITY,
         };
         let energy = start.energy(system.mass_ratio());
-        let mut log = Log { found, energy, lost: 0.0, impacts: 0, speed: 0.0 };
+        let settling = Settling::to(level);
+        let mut log = Log { found, settling, energy, lost: 0.0, impacts: 0, speed: 0.0 };
         log.period(&start);
         for _ in 0..oscillations {
-            match simulation.run(STEPS.into(), MOST_IMPACTS, &mut log) {
+            // The energy of all is the structure's at most.
+            let energy = simulation.state().energy(system.mass_ratio());
+            let done =
+                2.0 * energy < log.found.peak * log.found.peak && !system.cavity().moves_absorber();
+            let run = match done {
+                true => simulation.run(STEPS.into(), MOST_IMPACTS, &mut log),
+                false => simulation.run(STEPS.into(), MOST_IMPACTS, &mut Watching(&mut log)),
+            };
+            match run {
                 Stop::EndTime => {}
                 Stop::ImpactLimit => break,
                 _ => return Err(StartError::NotFinite { state: start }),
@@ -97,7 +139,7 @@ impl Ringdown {
                 break;
             }
         }
-        Ok(log.found)
+        Ok(Self { settles: log.settling.time / TAU, ..log.found })
     }
 }
 

@@ -4,12 +4,11 @@
 use std::f64::consts::{PI, TAU};
 
 use super::linear::{Linear, released};
-use super::{
-    Measured, Predicted, Release, Ringdown, STEPS, amplitude, places, settles, unforced,
-    worst_of_places,
-};
+use super::places::{Places, even, survey, worst_of_places};
+use super::{Measured, Predicted, Release, Ringdown, STEPS, amplitude, unforced};
 use crate::band::rivals::TunedMassDamper;
 use crate::case::{Case, Scales};
+use crate::executor::{Executor, Serial};
 use crate::simulation::{Simulation, StartError, Stop};
 use crate::system::{State, System};
 
@@ -41,19 +40,20 @@ pub struct DecayStudy {
     pub from: f64,
     /// See [`Self::from`].
     pub level: f64,
-    /// Every start.
+    /// Every start, in the order in which they were flown, and how many of the first are at even places.
     pub starts: Vec<Decay>,
+    /// See [`Self::starts`].
+    pub even: u64,
     /// What happened from the slowest of them.
     pub slowest_start: Option<Ringdown>,
     /// The structure alone: decay in closed form.
     pub bare: f64,
-    /// Share of the absorber's resting places at which no wall ever reaches it, so that the structure is as good
-    /// as alone; 0 for an absorber that does not rest.
-    pub inactive: f64,
+    /// The absorber's resting places at which no wall ever reaches it, so that the structure is as good as alone.
+    pub inactive: Inactive,
     /// Whether such a start counts.
     pub count_inactive: bool,
-    /// The structure with the tuned mass damper, and its oscillations to the level.
-    pub damped: (TunedMassDamper, Linear, f64),
+    /// The structure with the tuned mass damper.
+    pub damped: (TunedMassDamper, Linear),
     /// Theory.
     pub predicted: Predicted,
 }
@@ -63,7 +63,7 @@ const LONGEST: f64 = 20_000.0;
 
 impl DecayStudy {
     /// Places of the absorber unless the case says how many.
-    pub const STARTS: u32 = 32;
+    pub const STARTS: u32 = 64;
 
     /// Studies a release down to a share of its amplitude, the absorber at so many even places of its cavity.
     ///
@@ -75,8 +75,10 @@ impl DecayStudy {
         release: &Release,
         share: f64,
         starts: u32,
+        executor: &dyn Executor,
     ) -> Result<Self, StartError> {
-        let study = Self::without_theory(system, scales, release, share, starts)?;
+        let places = Places { even: starts.into(), closer: true, executor };
+        let study = Self::without_theory(system, scales, release, share, places)?;
         Ok(Self { predicted: Predicted::of(system, study.from, study.level), ..study })
     }
 
@@ -86,7 +88,7 @@ impl DecayStudy {
         scales: &Scales,
         release: &Release,
         share: f64,
-        starts: u32,
+        places: Places<'_>,
     ) -> Result<Self, StartError> {
         let middle = release.state(scales, 0.0);
         let from = amplitude(&middle);
@@ -95,8 +97,7 @@ impl DecayStudy {
         let damper = TunedMassDamper::for_free_decay(system.mass_ratio());
         let linear = released(system, Some(&damper), middle, level, longest(bare));
         let inactive = inactive(system, &middle);
-        let steps = settles(&linear.amplitudes, level).unwrap_or(f64::INFINITY);
-        let starts = Self::starts(system, scales, release, share, starts)?;
+        let starts = Self::starts(system, scales, release, share, places)?;
         let follow = |worst: &Decay| {
             Ringdown::follow(system, release.state(scales, worst.place), level, longest(bare))
         };
@@ -106,10 +107,11 @@ impl DecayStudy {
             level,
             slowest_start: worst(&starts).map(follow).transpose()?,
             starts,
+            even: places.even,
             bare,
             inactive,
             count_inactive: true,
-            damped: (damper, linear, steps / f64::from(STEPS)),
+            damped: (damper, linear),
             predicted: Predicted::none(system),
         })
     }
@@ -118,19 +120,24 @@ impl DecayStudy {
     ///
     /// # Errors
     /// As [`Self::of`].
-    pub fn of_case(case: &Case) -> Option<Result<Self, StartError>> {
+    pub fn of_case(case: &Case, executor: &dyn Executor) -> Option<Result<Self, StartError>> {
         let starts = case.simulation.starts.and_then(|starts| u32::try_from(starts).ok());
-        Self::of_case_from(case, starts.unwrap_or(Self::STARTS))
+        Self::of_case_from(case, starts.unwrap_or(Self::STARTS), executor)
     }
 
     /// The same by theory alone: nothing is simulated.
     pub fn by_theory(case: &Case) -> Option<Self> {
-        Self::of_case_from(case, 0)?.ok()
+        Self::of_case_from(case, 0, &Serial)?.ok()
     }
 
-    fn of_case_from(case: &Case, starts: u32) -> Option<Result<Self, StartError>> {
+    fn of_case_from(
+        case: &Case,
+        starts: u32,
+        executor: &dyn Executor,
+    ) -> Option<Result<Self, StartError>> {
         let release = case.design.release()?;
-        let study = Self::of(&case.system(), &case.scales(), &release, case.decay_level, starts);
+        let (system, scales) = (case.system(), case.scales());
+        let study = Self::of(&system, &scales, &release, case.decay_level, starts, executor);
         Some(study.map(|study| Self { count_inactive: case.count_inactive, ..study }))
     }
 
@@ -140,15 +147,20 @@ impl DecayStudy {
         scales: &Scales,
         release: &Release,
         share: f64,
-        count: u32,
+        places: Places<'_>,
     ) -> Result<Vec<Decay>, StartError> {
         let level = share * amplitude(&release.state(scales, 0.0));
         let longest = longest(bare(system, share));
-        let each = places(count.into()).map(|w| {
+        let awake = |of: fn(&Decay) -> f64| {
+            move |start: &Decay| if start.wakes { of(start) } else { f64::NAN }
+        };
+        let times = awake(|start| start.oscillations);
+        let speeds = awake(|start| start.impact_speed);
+        let found = survey(places, &[&times, &speeds], |w| {
             let found = Ringdown::follow(system, release.state(scales, w), level, longest)?;
-            Ok(Decay::of(w, &found, level))
+            Ok(Decay::of(w, &found))
         });
-        each.collect()
+        Ok(found?.into_iter().map(|(_, start)| start).collect())
     }
 
     /// The start that takes longest among those that wake the absorber, any where none does; none where nothing was
@@ -157,19 +169,18 @@ impl DecayStudy {
         worst(&self.starts)
     }
 
-    /// Oscillations of the slowest start, that of an absorber which never wakes included where it counts.
-    pub fn slowest(&self) -> f64 {
-        slowest_of(&self.starts, self.bare, self.decides_inactive())[0]
+    /// The time to come to rest that counts, in oscillations, and what it is of.
+    pub fn decay(&self) -> DecayTime {
+        DecayTime::of(&self.starts, self.bare, self.count_inactive, &self.inactive)
     }
 
-    /// Whether an absorber that never wakes is among the starts that count.
-    pub fn decides_inactive(&self) -> bool {
-        self.count_inactive && self.inactive > 0.0
-    }
-
-    /// The largest of a value of all starts that wake the absorber; 0 where none does.
-    pub fn largest(&self, value: impl Fn(&Decay) -> f64) -> f64 {
-        awake(&self.starts).map(value).fold(0.0, f64::max)
+    /// The largest of a value of all starts that wake the absorber, and its error; of any start where none does.
+    pub fn largest(&self, value: impl Fn(&Decay) -> f64) -> Measured {
+        let values: Vec<f64> = awake(&self.starts).map(&value).collect();
+        match values.is_empty() {
+            true => worst_of_places(&self.starts.iter().map(value).collect::<Vec<f64>>()),
+            false => worst_of_places(&values),
+        }
     }
 
     /// Oscillations of the start that comes to rest first.
@@ -183,13 +194,41 @@ pub(crate) fn awake(starts: &[Decay]) -> impl Iterator<Item = &Decay> {
     starts.iter().filter(|start| start.wakes)
 }
 
-/// Oscillations of the slowest start and by how much those of others may exceed them; those of the structure alone where
-/// it is slower and an absorber that never wakes counts, or none wakes.
-pub(crate) fn slowest_of(starts: &[Decay], alone: f64, inactive: bool) -> Measured {
-    let times: Vec<f64> = awake(starts).map(|start| start.oscillations).collect();
-    let [slowest, error] = worst_of_places(&times);
-    let alone_counts = inactive || times.is_empty();
-    if alone_counts && alone > slowest { [alone, 0.0] } else { [slowest, error] }
+/// The time to come to rest that counts, in oscillations: of the slowest start, or that of the structure alone where it is
+/// slower and an absorber that no wall reaches counts, or none is reached.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DecayTime {
+    /// Oscillations, and by how much those of other places may exceed them.
+    pub oscillations: Measured,
+    /// Whether it is that of an absorber that no wall reaches, and so of the structure alone.
+    pub inactive: bool,
+}
+
+impl DecayTime {
+    pub(super) fn of(
+        starts: &[Decay],
+        alone: f64,
+        count_inactive: bool,
+        inactive: &Inactive,
+    ) -> Self {
+        let times: Vec<f64> = awake(starts).map(|start| start.oscillations).collect();
+        let [slowest, error] = worst_of_places(&times);
+        let alone_counts = count_inactive && inactive.share > 0.0 || times.is_empty();
+        match alone_counts && alone > slowest {
+            true => Self { oscillations: [alone, 0.0], inactive: true },
+            false => Self { oscillations: [slowest, error], inactive: false },
+        }
+    }
+}
+
+/// Places of a resting absorber that no wall reaches.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Inactive {
+    /// Their share of all; 0 for an absorber that does not rest.
+    pub share: f64,
+    /// The lowest and the highest of them, relative displacements over the clearance; none where gravity or friction moves
+    /// the absorber, so that they need not lie together.
+    pub places: Option<[f64; 2]>,
 }
 
 fn worst(starts: &[Decay]) -> Option<&Decay> {
@@ -198,13 +237,13 @@ fn worst(starts: &[Decay]) -> Option<&Decay> {
 }
 
 impl Decay {
-    fn of(place: f64, found: &Ringdown, level: f64) -> Self {
-        let time = settles(&found.amplitudes, level);
+    fn of(place: f64, found: &Ringdown) -> Self {
         let last = found.impacts.len() - 1;
-        let at = time.map_or(last, |steps| (libm::ceil(steps) as usize).min(last));
+        // As usize an infinite time is past the end.
+        let at = (libm::ceil(found.settles * f64::from(STEPS)) as usize).min(last);
         Self {
             place,
-            oscillations: time.map_or(f64::INFINITY, |steps| steps / f64::from(STEPS)),
+            oscillations: found.settles,
             impacts: found.impacts[at],
             impact_speed: found.impact_speeds[at],
             impact_share: found.taken[at],
@@ -219,13 +258,14 @@ const SWINGS: f64 = 0.9999;
 /// Swings in which an absorber that gravity or friction moves hits a wall, if it ever does: gravity of 1e-5 of the
 /// structure's acceleration over a clearance takes it across.
 const SWINGS_WATCHED: u64 = 100;
+/// Places from which that is watched.
+const PLACES_WATCHED: u64 = 32;
 
-/// Share of the places of a resting absorber, even over its cavity, that no wall reaches while the structure swings
-/// alone: what its first swing to either side leaves. 0 for an absorber that does not rest. Where gravity or friction
-/// moves it, a share of [`DecayStudy::STARTS`] places, by simulation.
-pub(super) fn inactive(system: &System, start: &State) -> f64 {
+/// Places of a resting absorber that no wall reaches while the structure swings alone: what its first swing to either side
+/// leaves. Where gravity or friction moves it, a share of [`PLACES_WATCHED`] places, by simulation.
+pub(super) fn inactive(system: &System, start: &State) -> Inactive {
     if start.y_velocity != 0.0 {
-        return 0.0;
+        return Inactive::default();
     }
     if system.cavity().moves_absorber() {
         let stays = |w: &f64| {
@@ -234,8 +274,9 @@ pub(super) fn inactive(system: &System, start: &State) -> f64 {
             let simulation = alone.and_then(|alone| Simulation::new(&alone, from, 0.0).ok());
             simulation.is_some_and(|mut at| at.run(SWINGS_WATCHED, 1, &mut ()) == Stop::EndTime)
         };
-        let places = places(DecayStudy::STARTS.into());
-        return places.clone().filter(stays).count() as f64 / places.len() as f64;
+        let places = even(PLACES_WATCHED);
+        let share = places.clone().filter(stays).count() as f64 / places.len() as f64;
+        return Inactive { share, places: None };
     }
     // x = exp(-zeta tau) (x0 cos(nu tau) + (v0 + zeta x0)/nu sin(nu tau)) has its extremes half an oscillation apart.
     let (x, v) = (start.x, start.x_velocity);
@@ -248,7 +289,12 @@ pub(super) fn inactive(system: &System, start: &State) -> f64 {
     let first = libm::atan2(v * frequency, x + zeta * v).rem_euclid(PI) / frequency;
     let seen = [x, at(first), at(first + PI / frequency)];
     let [most, least] = [seen.into_iter().fold(x, f64::max), seen.into_iter().fold(x, f64::min)];
-    (1.0 - 0.5 * (most - least)).max(0.0)
+    // The structure moves by most - x to one side against an absorber that stays, by x - least to the other.
+    let (lowest, highest) = (x - least - 1.0, 1.0 - (most - x));
+    match highest > lowest {
+        true => Inactive { share: 0.5 * (highest - lowest), places: Some([lowest, highest]) },
+        false => Inactive::default(),
+    }
 }
 
 /// Oscillations in which the structure alone comes to a share of its amplitude; infinite without damping.
@@ -264,7 +310,7 @@ pub(crate) fn longest(bare: f64) -> u64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{Decay, slowest_of};
+    use super::{Decay, DecayTime, Inactive};
 
     fn start(oscillations: f64, wakes: bool) -> Decay {
         let (place, impacts, impact_speed, impact_share, peak) = (0.0, 1, 1.0, 0.5, 1.0);
@@ -275,9 +321,17 @@ mod tests {
     #[test]
     fn the_structure_alone_counts_where_it_is_slower() {
         let starts = [start(8.0, true), start(12.0, true), start(99.0, false)];
-        assert_eq!(slowest_of(&starts, 10.0, true)[0], 12.0);
-        assert_eq!(slowest_of(&starts, 20.0, true), [20.0, 0.0]);
-        assert_eq!(slowest_of(&starts, 20.0, false)[0], 12.0);
-        assert_eq!(slowest_of(&starts[2..], 20.0, false), [20.0, 0.0]);
+        let some = Inactive { share: 0.1, places: None };
+        let of = |starts: &[Decay], alone, counts| DecayTime::of(starts, alone, counts, &some);
+        assert_eq!(
+            (of(&starts, 10.0, true).oscillations[0], of(&starts, 10.0, true).inactive),
+            (12.0, false)
+        );
+        assert_eq!(
+            of(&starts, 20.0, true),
+            DecayTime { oscillations: [20.0, 0.0], inactive: true }
+        );
+        assert_eq!(of(&starts, 20.0, false).oscillations[0], 12.0);
+        assert!(of(&starts[2..], 20.0, false).inactive);
     }
 }

@@ -1,18 +1,21 @@
 //! A structure whose excitation goes through a range of frequencies, flight by flight.
 //!
 //! An excitation `sin(phi(t))` with `phi' = 2 pi f(t)`: `f = f1 + k t` (hertz in a second) or `f = f1 2^(k t)`
-//! (octaves in a time). It is cut into its periods, `phi` from `2 pi n` to `2 pi (n + 1)`, and each flown exactly at the
-//! constant frequency that it has on average, so that phase and state are continuous and the phase is exact at every
-//! cut. Between two cuts it is off by `2 pi d/8` at the most, with `d` the relative change of the frequency in a
-//! period, always to the same side: the amplitude of its first harmonic by the square of that, below 1e-3 at
-//! `d` = 5 %. The velocity of a base displacement, which acts through the structure's damper only, jumps by `d` at
-//! a cut.
+//! (octaves in a time). It is cut into stretches, a period of `phi` each or a whole fraction of it, and each flown
+//! exactly at the constant frequency that it has on average, so that phase and state are continuous and the phase is exact
+//! at every cut. Between two cuts it is off by `2 pi d/(8 m^2)` at the most, always to the same side, with `d` the relative
+//! change of the frequency in a period and `m` the stretches of the period: there are as many as keep that below
+//! [`SineSweep::PHASE_ERROR`]. What it leaves of the force is a constant and a second harmonic, each at most that large
+//! against the force. The velocity of a base displacement, which acts through the structure's damper only, jumps by `d/m`
+//! at a cut.
+
+use std::f64::consts::TAU;
 
 use libm::{exp, log1p};
 
 use crate::case::Scales;
 use crate::simulation::{Measurement, Simulation, StartError, Stop};
-use crate::system::{State, System};
+use crate::system::{InvalidParameter, State, System};
 
 /// A range of frequencies and how fast it is gone through.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,8 +40,10 @@ pub enum SweepRate {
 }
 
 impl SineSweep {
-    /// Largest relative change of the frequency in a period: see the head of this file.
+    /// Largest relative change of the frequency in a period: in a faster sweep no period is like another.
     pub const LARGEST_CHANGE: f64 = 0.05;
+    /// Largest error of the phase within a stretch, in radians.
+    pub const PHASE_ERROR: f64 = 2e-4;
     /// Periods that a sweep has at least.
     pub const FEWEST: u64 = 10;
 
@@ -103,20 +108,64 @@ impl SineSweep {
 
     /// Largest relative change of the frequency in a period: where it is lowest.
     pub fn fastest_change(&self) -> f64 {
-        let lowest = self.from.min(self.to);
+        self.change(self.from.min(self.to))
+    }
+
+    /// Relative change of a frequency in a period.
+    fn change(&self, frequency: f64) -> f64 {
         match self.signed() {
-            SweepRate::Linear(k) => self.turn * k.abs() / (lowest * lowest),
-            SweepRate::Octaves(a) => self.turn * a.abs() / lowest,
+            SweepRate::Linear(k) => self.turn * k.abs() / (frequency * frequency),
+            SweepRate::Octaves(a) => self.turn * a.abs() / frequency,
         }
     }
 
-    /// The frequency ratio of each period: that which it has on average.
-    pub fn frequencies(&self, scales: &Scales) -> impl Iterator<Item = f64> + use<> {
+    /// The stretches in which it is flown, in order.
+    pub fn stretches(&self, scales: &Scales) -> impl Iterator<Item = Stretch> + use<> {
         let (sweep, scales) = (*self, *scales);
-        (0..self.count()).map(move |n| {
-            let [begin, end] = [n as f64, (n + 1) as f64].map(|periods| sweep.time(periods));
-            scales.frequency_ratio(sweep.turn / (end - begin))
+        let frequency = move |begin: f64, end: f64| {
+            let [from, to] = [begin, end].map(|periods| sweep.time(periods));
+            sweep.turn * (end - begin) / (to - from)
+        };
+        (0..self.count()).flat_map(move |n| {
+            let n = n as f64;
+            let of_period = frequency(n, n + 1.0);
+            let error = TAU * sweep.change(of_period) / 8.0;
+            let parts = libm::ceil((error / Self::PHASE_ERROR).sqrt()).max(1.0);
+            (0..parts as u32).map(move |k| {
+                let [begin, end] = [k, k + 1].map(|k| f64::from(k) / parts);
+                Stretch {
+                    ratio: scales.frequency_ratio(frequency(n + begin, n + end)),
+                    of_period: scales.frequency_ratio(of_period),
+                    first: k == 0,
+                    begins: TAU * (1.0 - 1.0 / parts),
+                    lead: TAU * (end - 1.0),
+                }
+            })
         })
+    }
+}
+
+/// A stretch of a sweep, at one frequency.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stretch {
+    /// Its frequency ratio: that which it has on average.
+    pub ratio: f64,
+    /// That of the period that it belongs to.
+    pub of_period: f64,
+    /// Whether its period begins with it.
+    pub first: bool,
+    /// Phase of the system of [`Self::system`] at its beginning; at its end it is `2 pi`.
+    pub begins: f64,
+    lead: f64,
+}
+
+impl Stretch {
+    /// The system that is flown in it.
+    ///
+    /// # Errors
+    /// As [`System::new`].
+    pub fn system(&self, system: &System) -> Result<System, InvalidParameter> {
+        Ok(system.with_frequency_ratio(self.ratio)?.with_lead(self.lead))
     }
 }
 
@@ -160,21 +209,29 @@ impl Passage {
     ) -> Result<Self, StartError> {
         let mut found = Self::new(sweep.count(), 1.0);
         let mut state = start;
-        for ratio in sweep.frequencies(scales) {
+        for stretch in sweep.stretches(scales) {
             let refused = StartError::NotFinite { state };
-            let piece = system.with_frequency_ratio(ratio).map_err(|_| refused)?;
-            let mut simulation = Simulation::new(&piece, state, 0.0)?;
-            let mut measured = Measurement::begin(&piece, state);
+            let system = stretch.system(system).map_err(|_| refused)?;
+            let mut simulation = Simulation::new(&system, state, stretch.begins)?;
+            let mut measured = Measurement::begin_within(&system, state, stretch.begins);
             if simulation.run(1, u64::MAX, &mut measured) != Stop::EndTime {
                 return Err(refused);
             }
             state = simulation.state();
             let period = measured.statistics();
-            found.envelope.push([ratio, period.peak()]);
+            found.passed(&stretch, period.peak());
             found.impacts += period.impacts();
             found.impact_speed = found.impact_speed.max(period.impact_speed());
             found.residual = found.residual.max(period.energy().relative_residual);
         }
         Ok(found)
+    }
+
+    /// The largest displacement of a stretch.
+    pub(super) fn passed(&mut self, stretch: &Stretch, peak: f64) {
+        match self.envelope.last_mut() {
+            Some(last) if !stretch.first => last[1] = last[1].max(peak),
+            _ => self.envelope.push([stretch.of_period, peak]),
+        }
     }
 }

@@ -384,15 +384,22 @@ fn the_worst_place_counts() {
     let study = RecordStudy::of(&of, &UNITS, std::slice::from_ref(&record), 8, &Serial);
     let study = study.expect("studied");
     let pieces = record.pieces(&UNITS, Record::LONGEST);
-    let places: Vec<f64> = (0..8)
-        .map(|k| follow(&of, &pieces, f64::from(2 * k + 1) / 8.0 - 1.0).expect("followed").peak)
-        .collect();
-    let worst = worst_of_places(&places);
+    let from = |w: f64| follow(&of, &pieces, w).expect("followed").peak;
+    let flown: Vec<(f64, f64)> =
+        study.realisations[0].places.iter().map(|(w, found)| (*w, found.peak)).collect();
+    // Even places, then closer ones; none is a number of another place.
+    assert_eq!((study.even, flown.len()), (8, 12));
+    for (k, (w, peak)) in flown.iter().enumerate() {
+        assert_eq!(*peak, from(*w));
+        assert!(k >= 8 || *w == (2 * k + 1) as f64 / 8.0 - 1.0, "{w}");
+    }
+    let worst = worst_of_places(&flown.iter().map(|one| one.1).collect::<Vec<f64>>());
     assert_eq!(study.worst(|_, place| place.peak), worst);
-    assert!(worst[0] == places.iter().copied().fold(0.0, f64::max) && worst[1] > 0.0);
+    assert_eq!(worst[0], flown.iter().map(|one| one.1).fold(0.0, f64::max));
+    let even = flown[..8].iter().map(|one| one.1).fold(0.0, f64::max);
     let bare = driven(&of, None, &pieces).peak;
     let own = study.spectrum.iter().find(|point| point.ratio == 1.0).expect("its own frequency");
-    assert_eq!((own.bare, own.absorber), (bare, worst[0]));
+    assert_eq!((own.bare, own.absorber), (bare, even));
     let reduction = study.reduction_db(|one| one.bare.peak)[0];
     assert!((reduction - 20.0 * libm::log10(bare / worst[0])).abs() < 1e-12);
     // Twice as stiff a structure in the same units of SI: time runs sqrt(2) times as fast.

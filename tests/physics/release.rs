@@ -58,7 +58,7 @@ fn footbridge(clearance: &str) -> Case {
 #[test]
 fn an_impulse_is_a_velocity() {
     let case = footbridge("3 mm");
-    let study = DecayStudy::of_case(&case).expect("released").expect("studied");
+    let study = DecayStudy::of_case(&case, &Serial).expect("released").expect("studied");
     let omega = std::f64::consts::TAU * 2.0;
     let amplitude = case.scales().length(study.from);
     assert!((amplitude - 150.0 / 4000.0 / omega).abs() < 1e-12, "{amplitude}");
@@ -71,10 +71,10 @@ fn an_impulse_is_a_velocity() {
         of_time.expect("asked")
     };
     let found = judged(&case, &study);
-    assert_eq!((found.found, found.inactive), (Some(alone), Some(study.inactive)));
+    assert_eq!((found.found, found.inactive), (Some(alone), Some(study.inactive.share)));
     let case = footbridge("2.9 mm");
-    let study = DecayStudy::of_case(&case).expect("released").expect("studied");
-    assert_eq!(study.inactive, 0.0);
+    let study = DecayStudy::of_case(&case, &Serial).expect("released").expect("studied");
+    assert_eq!(study.inactive.share, 0.0);
     let worst = study.worst().expect("simulated").oscillations;
     assert!((judged(&case, &study).found.expect("a time") - 0.5 * worst).abs() < 1e-9);
     assert!(study.fastest() < worst && worst < 0.5 * study.bare);
@@ -100,9 +100,13 @@ fn an_absorber_that_no_wall_reaches_never_wakes() {
             absorber_velocity: 0.0,
             impulse: 0.0,
         };
-        let study = DecayStudy::of(&system, &scales, &release, 0.5, 1).expect("studied");
+        let study = DecayStudy::of(&system, &scales, &release, 0.5, 1, &Serial).expect("studied");
         let share = quiet as f64 / places.len() as f64;
-        assert!((study.inactive - share).abs() < 5e-4, "{x} {v}: {} {share}", study.inactive);
+        assert!(
+            (study.inactive.share - share).abs() < 5e-4,
+            "{x} {v}: {} {share}",
+            study.inactive.share
+        );
     }
 }
 
@@ -114,7 +118,7 @@ fn a_base_that_comes_to_move_takes_the_absorber_along() {
     let release = base.design.release().expect("released");
     assert_eq!(release.absorber_velocity, release.velocity);
     let [of_base, of_force] = [&base, &footbridge("3 mm")].map(|case| {
-        let study = DecayStudy::of_case(case).expect("released").expect("studied");
+        let study = DecayStudy::of_case(case, &Serial).expect("released").expect("studied");
         assert!((case.scales().length(study.from) - 2.984e-3).abs() < 1e-6);
         study.worst().expect("simulated").oscillations
     });
@@ -193,8 +197,9 @@ fn no_other_clearance_is_better() {
         let slowest = [0.5, 0.9, 1.3, 2.0].map(|factor: f64| {
             let other = footbridge(clearance);
             let release = other.design.release().expect("released").scaled(factor);
-            let study = DecayStudy::of(&other.system(), &other.scales(), &release, 0.1, 20);
-            study.expect("studied").slowest()
+            let study =
+                DecayStudy::of(&other.system(), &other.scales(), &release, 0.1, 20, &Serial);
+            study.expect("studied").decay().oscillations[0]
         });
         let slowest = slowest.into_iter().fold(0.0, f64::max);
         let slowest = case.scales().time(std::f64::consts::TAU * slowest);
@@ -210,7 +215,7 @@ fn starts_that_never_wake_count_by_their_share_alone() {
         let case =
             Case::parse("f.toml", &text.replace("[criteria]", &format!("[criteria]\n{extra}")));
         let case = case.expect("a case");
-        let study = DecayStudy::of_case(&case).expect("released").expect("studied");
+        let study = DecayStudy::of_case(&case, &Serial).expect("released").expect("studied");
         let judged = judge_release(&case, &study);
         let time = judged.iter().find(|one| one.criterion.subject == Subject::DecayTime);
         (study, time.expect("asked").clone())
@@ -218,10 +223,13 @@ fn starts_that_never_wake_count_by_their_share_alone() {
     let (counted, of_all) = study("");
     let (left_out, of_awake) = study("count_inactive = false");
     // The first swing goes to 2.961 mm and back to -2.914 mm, exp(-0.005 pi/2) and exp(-0.005 3 pi/2) of 2.984 mm.
-    assert!((counted.inactive - 0.5104).abs() < 1e-4, "{}", counted.inactive);
-    assert_eq!((counted.slowest(), of_all.inactive), (counted.bare, Some(counted.inactive)));
+    assert!((counted.inactive.share - 0.5104).abs() < 1e-4, "{}", counted.inactive.share);
+    assert_eq!(
+        (counted.decay().oscillations[0], of_all.inactive),
+        (counted.bare, Some(counted.inactive.share))
+    );
     let slowest = left_out.worst().expect("simulated");
     assert!(slowest.wakes && slowest.oscillations < left_out.bare);
-    assert_eq!((left_out.slowest(), of_awake.inactive), (slowest.oscillations, None));
+    assert_eq!((left_out.decay().oscillations[0], of_awake.inactive), (slowest.oscillations, None));
     assert!(of_awake.found < of_all.found);
 }

@@ -3,7 +3,7 @@
 
 #![allow(clippy::disallowed_methods, reason = "a test may use the platform's functions")]
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 use vinesink::case::{Case, Subject};
 use vinesink::criteria::judge_sweep;
@@ -29,9 +29,10 @@ fn start(w: f64) -> State {
     State { y: -w, ..State::AT_REST }
 }
 
-/// Amplitudes of a linear structure at the end of each period of the true sweep, whose frequency and whose base's
-/// velocity change all the time, by Runge and Kutta's method in steps of a five-hundredth of a period.
-fn integrated(system: &System, omega0: f64, sweep: &SineSweep) -> Vec<[f64; 2]> {
+/// The largest displacement of a linear structure in each period of the true sweep, whose frequency and whose base's
+/// velocity change all the time, by Runge and Kutta's method in steps of a five-hundredth of a period; between two of them
+/// the displacement is 2e-5 of itself larger at the most.
+fn integrated(system: &System, omega0: f64, sweep: &SineSweep) -> Vec<f64> {
     let (eps, loss) = (system.mass_ratio(), system.mass_ratio() * system.damping());
     let forcing = eps * system.forcing_per_clearance();
     let excited = |tau: f64| {
@@ -45,10 +46,11 @@ fn integrated(system: &System, omega0: f64, sweep: &SineSweep) -> Vec<[f64; 2]> 
         }
     };
     let slope = |tau: f64, [x, v]: [f64; 2]| [v, excited(tau) - x - loss * v];
-    let mut state = [0.0; 2];
+    let mut state = [0.0_f64; 2];
     let period = |n: u64| {
         let [begin, end] = [n, n + 1].map(|n| omega0 * sweep.time(n as f64));
         let h = (end - begin) / 500.0;
+        let mut peak = state[0].abs();
         for k in 0..500 {
             let tau = begin + f64::from(k) * h;
             let along = |by: f64, s: [f64; 2]| [state[0] + by * s[0], state[1] + by * s[1]];
@@ -59,25 +61,30 @@ fn integrated(system: &System, omega0: f64, sweep: &SineSweep) -> Vec<[f64; 2]> 
             for i in 0..2 {
                 state[i] += h / 6.0 * (a[i] + 2.0 * b[i] + 2.0 * c[i] + d[i]);
             }
+            peak = peak.max(state[0].abs());
         }
-        state
+        peak
     };
     (0..sweep.count()).map(period).collect()
 }
 
-/// The phase is off by `2 pi d/8` within a period at the most, always to one side: amplitudes by the square of that, and
-/// at a rate a quarter as fast by a sixteenth. Both kinds of sweep and of excitation, up and down.
+/// The phase is off by 2e-4 at the most, at any rate: the largest displacement of every period is that of the true sweep.
+/// Both kinds of sweep and of excitation, up and down, up to the fastest that is allowed.
 #[test]
-fn a_sweep_in_periods_is_the_true_sweep_but_for_the_square_of_its_phase_error() {
+fn a_sweep_in_stretches_is_the_true_sweep() {
     for (changes, rates) in [
-        (vec![], ["\"0.4 Hz/s\"", "\"0.1 Hz/s\""]),
+        (vec![("\"9 Hz\"", "\"16 Hz\"")], ["\"2.75 Hz/s\"", "\"0.1 Hz/s\""]),
         (
-            vec![("\"7.5 Hz\"", "\"9.3 Hz\""), ("\"9 Hz\"", "\"7.6 Hz\"")],
-            ["\"4 oct/min\"", "\"1 oct/min\""],
+            vec![("\"7.5 Hz\"", "\"16 Hz\""), ("\"9 Hz\"", "\"7.6 Hz\"")],
+            ["\"30 oct/min\"", "\"1 oct/min\""],
         ),
         (
-            vec![("\"base-displacement\"", "\"force\""), ("\"0.25 mm\"", "\"2.9 N\"")],
-            ["\"0.4 Hz/s\"", "\"6 Hz/min\""],
+            vec![
+                ("\"9 Hz\"", "\"16 Hz\""),
+                ("\"base-displacement\"", "\"force\""),
+                ("\"0.25 mm\"", "\"2.9 N\""),
+            ],
+            ["\"2.5 Hz/s\"", "\"6 Hz/min\""],
         ),
     ] {
         for rate in rates {
@@ -91,75 +98,33 @@ fn a_sweep_in_periods_is_the_true_sweep_but_for_the_square_of_its_phase_error() 
             assert_eq!(flown.impacts, 0);
             let alone = swept(&system, None, &scales, &sweep);
             let exact = integrated(&system, scales.natural_frequency, &sweep);
-            let largest = exact.iter().map(|[x, v]| x.hypot(*v)).fold(0.0, f64::max);
-            let phase = TAU * sweep.fastest_change() / 8.0;
-            let (mut worst, mut apart) = (0.0_f64, 0.0_f64);
-            for (n, [_, peak]) in flown.envelope.iter().enumerate() {
-                // Within the period the structure swings twice: the envelope lies between its ends, about.
-                let [a, b] = [n.max(1) - 1, n].map(|n| exact[n][0].hypot(exact[n][1]));
-                let outside = (a.min(b) - peak).max(peak - a.max(b)).max(0.0);
-                worst = worst.max(outside / largest);
-                apart = apart.max((alone.envelope[n][1] - peak).abs() / largest);
-            }
-            // The damped motion's own ripple within a period, 0.5 zeta, and 12 % of frequency between x and v.
-            assert!(worst < 0.02 + phase * phase, "{rate}: {worst}");
-            // 128 samples a period miss at most 3e-4 of a peak.
-            assert!(apart < 4e-4, "{rate}: {apart}");
+            assert_eq!((flown.envelope.len(), alone.envelope.len()), (exact.len(), exact.len()));
+            let largest = exact.iter().copied().fold(0.0, f64::max);
+            let worst = |found: &Passage| {
+                let off = |(one, exact): (&[f64; 2], &f64)| (one[1] - exact).abs() / largest;
+                found.envelope.iter().zip(&exact).map(off).fold(0.0, f64::max)
+            };
+            // The constant and the harmonic that are left of the force, and the largest sample of the integration.
+            let (with, without) = (worst(&flown), worst(&alone));
+            assert!(with < 1e-4 && without < 1e-4, "{rate}: {with:e} {without:e}");
         }
     }
 }
 
-/// The state at the end of every period of the engine, against the integration: first order in the rate in the phase,
-/// second order in the amplitude. Pieces of half a period, flown by the mirrored system, are four times as near.
+/// Stretches follow one another without a gap, in whole periods, and the excitation goes on where it was.
 #[test]
-fn pieces_of_half_a_period_change_nothing_but_the_square_of_the_phase_error() {
-    let case = case(&[]);
+fn stretches_make_up_the_sweep() {
+    let case = case(&[("\"9 Hz\"", "\"16 Hz\""), ("\"0.1 Hz/s\"", "\"2.7 Hz/s\"")]);
     let (scales, sweep) = (case.scales(), case.design.sine_sweep().expect("swept"));
-    let system = case.system().with_clearance_scaled(1e3).expect("valid");
-    let exact = integrated(&system, scales.natural_frequency, &sweep);
-    let largest = exact.iter().map(|[x, v]| x.hypot(*v)).fold(0.0, f64::max);
-    let whole = states(&system, &scales.natural_frequency, &sweep, 1);
-    let half = states(&system, &scales.natural_frequency, &sweep, 2);
-    let error = |found: &[State]| {
-        let off = |(one, exact): (&State, &[f64; 2])| {
-            (one.x.hypot(one.x_velocity) - exact[0].hypot(exact[1])).abs() / largest
-        };
-        found.iter().zip(&exact).map(off).fold(0.0, f64::max)
-    };
-    let phase = TAU * sweep.fastest_change() / 8.0;
-    assert!(
-        error(&whole) < phase && error(&half) < 0.3 * phase,
-        "{} {} {phase}",
-        error(&whole),
-        error(&half)
-    );
-}
-
-/// States at the ends of periods, in whole or half pieces; the mirrored motion is that under the opposite force.
-fn states(system: &System, omega0: &f64, sweep: &SineSweep, parts: u32) -> Vec<State> {
-    let mut state = start(0.0);
-    let mut found = Vec::new();
-    for k in 0..sweep.count() * u64::from(parts) {
-        let [begin, end] = [k, k + 1].map(|k| sweep.time(k as f64 / f64::from(parts)));
-        let ratio = TAU / f64::from(parts) / (end - begin) / omega0;
-        let piece = system.with_frequency_ratio(ratio).expect("valid");
-        let mirrored = |s: State| State {
-            x: -s.x,
-            x_velocity: -s.x_velocity,
-            y: -s.y,
-            y_velocity: -s.y_velocity,
-        };
-        let first = parts == 2 && k % 2 == 0;
-        let begin = if first { mirrored(state) } else { state };
-        let phase = if parts == 2 { PI } else { 0.0 };
-        let mut simulation = Simulation::new(&piece, begin, phase).expect("a start");
-        simulation.run(1, u64::MAX, &mut ());
-        state = if first { mirrored(simulation.state()) } else { simulation.state() };
-        if !first {
-            found.push(state);
-        }
-    }
-    found
+    let all: Vec<_> = sweep.stretches(&scales).collect();
+    assert_eq!(all.iter().filter(|one| one.first).count() as u64, sweep.count());
+    assert!(all.len() as u64 > 5 * sweep.count());
+    let time: f64 = all.iter().map(|one| (TAU - one.begins) / one.ratio).sum();
+    let wanted = scales.natural_frequency * sweep.time(sweep.count() as f64);
+    assert!((time / wanted - 1.0).abs() < 1e-12, "{time} {wanted}");
+    // Slow enough, a period is one stretch.
+    let slow = sweep.faster(1e-3);
+    assert_eq!(slow.stretches(&scales).count() as u64, slow.count());
 }
 
 /// With impacts: energy of every period, and the exact orbit that a slow sweep follows where it attracts.
@@ -220,13 +185,15 @@ fn the_worst_place_of_the_absorber_counts() {
         ),
     ]);
     let study = SweepStudy::of_case(&case, &Serial).expect("swept").expect("studied");
-    assert_eq!(study.starts.len(), 8);
+    assert_eq!((study.even, study.starts.len()), (8, 12));
     let (system, scales) = (case.system(), case.scales());
     let peaks = [-0.875, -0.625, -0.375, -0.125, 0.125, 0.375, 0.625, 0.875].map(|w| {
         let found = Passage::follow(&system, &scales, &study.sweep, start(w)).expect("flown");
         found.peak()[1]
     });
-    let worst = peaks.into_iter().fold(0.0, f64::max);
+    // Even places, and closer ones.
+    assert!(study.starts.iter().zip(peaks).all(|((_, found), peak)| found.peak()[1] == peak));
+    let worst = study.starts.iter().map(|(_, found)| found.peak()[1]).fold(0.0, f64::max);
     assert_eq!(study.worst().expect("flown").1.peak()[1], worst);
     let judged = judge_sweep(&case, &study);
     let of = |subject| {

@@ -81,7 +81,7 @@ fn a_written_clearance_is_not_above_the_best() {
     let [path, better] = [&path, &better].map(|path| path.to_str().expect("UTF-8"));
     let inactive = |text: &str| {
         let case = Case::parse("case.toml", text).expect("a case");
-        (case.design.clearance(), DecayStudy::by_theory(&case).expect("released").inactive)
+        (case.design.clearance(), DecayStudy::by_theory(&case).expect("released").inactive.share)
     };
     assert!(inactive(&text.replace("\"3 mm\"\nrest", "\"2.977 mm\"\nrest")).1 > 0.0);
     let found = json(&["optimize", path, "--write", better, "--format", "json"], 0);

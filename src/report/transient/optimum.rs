@@ -9,7 +9,7 @@ use crate::quantity::catalogue as of;
 use crate::report::document::{NOTICEABLE, units};
 use crate::report::render::RenderError;
 use crate::report::template::render;
-use crate::transient::{Best, Measured, Scene, looked_at};
+use crate::transient::{Best, Measured, Scene};
 
 /// What was found: `vinesink/optimization@3`, in SI. `written` is the document of the case with the best clearance.
 pub fn optimum(case: &Case, best: &Best, written: &Value) -> Value {
@@ -29,7 +29,7 @@ pub fn optimum(case: &Case, best: &Best, written: &Value) -> Value {
     let answer = match checked {
         _ if !checked.is_finite() => "not-reached",
         _ if checked.min(own) >= limit => "no-help",
-        _ if checked >= own => "own-is-best",
+        _ if best.design.clearance() == case.design.clearance() => "own-is-best",
         _ => "found",
     };
     json!({
@@ -39,9 +39,10 @@ pub fn optimum(case: &Case, best: &Best, written: &Value) -> Value {
         "answer": answer,
         "optimum": { "clearance": best.design.clearance() },
         "claimed": simulated(best.claimed),
-        // From so many other places of the absorber.
+        // From the places of a study, as every command says it.
         "checked": simulated(best.checked),
-        "places": looked_at(1)[2][1],
+        "sample": written["sample"],
+        "bound": best.bound.map(clearance),
         "records": records,
         "feasible": written["criteria"].is_null() || written["criteria"]["failing"] == 0,
         "clearance": clearance(best.design.clearance()),

@@ -4,14 +4,14 @@ mod figure;
 
 use serde_json::{Value, json};
 
-use super::word_of;
+use super::{sample, word_of};
 use crate::case::{Case, RecordSource, Subject};
 use crate::criteria::of_records;
 use crate::method::Method;
 use crate::quantity::catalogue as of;
 use crate::quantity::{Kind, Quantity};
 use crate::report::document::{Scale, Word};
-use crate::transient::{Measured, RecordQuantity, RecordStudy, Response};
+use crate::transient::{Measured, RecordQuantity, RecordStudy, Response, SpectrumPoint};
 
 pub(super) use figure::figures;
 
@@ -33,7 +33,23 @@ pub(super) fn add(case: &Case, study: &RecordStudy, facts: &mut Value) {
     }
     facts["records"] = study.realisations.len().into();
     // Under the first record.
-    facts["places"] = places.iter().map(place).collect();
+    let mut places: Vec<&(f64, Response)> = places.iter().collect();
+    places.sort_by(|a, b| a.0.total_cmp(&b.0));
+    facts["sample"] = sample(study.even, places.len());
+    facts["places"] = places.into_iter().map(place).collect();
+    let exact = |kind, peak| scale.length(kind, peak, Method::ClosedForm);
+    let natural = |ratio: f64| {
+        Quantity::new(&of::STRUCTURE_FREQUENCY, case.scales().frequency(ratio), Method::Given)
+    };
+    let point = |one: &SpectrumPoint| {
+        json!({
+            "frequency": natural(one.ratio),
+            "bare": exact(&of::BARE_PEAK, one.bare),
+            "absorber": scale.length(&of::PEAK, one.absorber, Method::Simulation).with_error(f64::NAN),
+            "damper": exact(&of::DAMPER_PEAK, one.damped),
+        })
+    };
+    facts["spectrum"] = study.spectrum.iter().map(point).collect();
     facts["input"] = input(case, study);
 }
 

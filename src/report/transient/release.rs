@@ -6,13 +6,13 @@ use std::f64::consts::TAU;
 
 use serde_json::{Value, json};
 
-use super::word_of;
+use super::{sample, word_of};
 use crate::case::Case;
 use crate::method::Method;
 use crate::quantity::catalogue as of;
 use crate::quantity::{Kind, Quantity};
 use crate::report::document::{Scale, Word};
-use crate::transient::{Decay, DecayStudy};
+use crate::transient::{Decay, DecayStudy, Measured};
 
 pub(super) use figure::figures;
 
@@ -21,7 +21,13 @@ pub(super) fn add(case: &Case, study: &DecayStudy, document: &mut Value) {
     let scale = Scale::of(case);
     document["notes"].as_array_mut().into_iter().for_each(|all| all.extend(notes(study)));
     // One for each place of the absorber.
-    document["starts"] = study.starts.iter().map(|start| row(&scale, start)).collect();
+    let mut starts: Vec<&Decay> = study.starts.iter().collect();
+    starts.sort_by(|a, b| a.place.total_cmp(&b.place));
+    document["starts"] = starts.iter().map(|start| row(&scale, start)).collect();
+    document["sample"] = sample(study.even, study.starts.len());
+    // The lowest and the highest place of an absorber that no wall reaches.
+    let place = |w| scale.length(&of::RELATIVE_DISPLACEMENT, w, Method::ClosedForm);
+    document["inactive"] = json!(study.inactive.places.map(|ends| ends.map(place)));
     // Share of the first amplitude that counts as rest.
     document["share"] = case.decay_level.into();
 }
@@ -41,34 +47,44 @@ fn time(scale: &Scale, kind: &'static Kind, oscillations: f64, method: Method) -
     Quantity::new(kind, scale.time(TAU * oscillations), method)
 }
 
+fn time_with(scale: &Scale, kind: &'static Kind, time: Measured, method: Method) -> Quantity {
+    let [value, error] = time.map(|oscillations| scale.time(TAU * oscillations));
+    Quantity::new(kind, value, method).with_error(error)
+}
+
 pub(super) fn quantities(case: &Case, study: &DecayStudy) -> Vec<Quantity> {
     let scale = Scale::of(case);
     let theory = &study.predicted;
-    let (_, damped, damper_time) = &study.damped;
+    let (_, damped) = &study.damped;
     let simulated = Method::Simulation;
     let mut all = vec![
         scale.length(&of::INITIAL_AMPLITUDE, study.from, Method::Given),
         scale.length(&of::DECAY_LEVEL, study.level, Method::Given),
         time(&scale, &of::BARE_DECAY_TIME, study.bare, Method::ClosedForm),
-        time(&scale, &of::DAMPER_DECAY_TIME, *damper_time, Method::ClosedForm),
+        time(&scale, &of::DAMPER_DECAY_TIME, damped.settles, Method::ClosedForm),
         scale.length(&of::DAMPER_STROKE, damped.stroke, Method::ClosedForm),
         scale.length(&of::RESIDUAL_AMPLITUDE, theory.residual, Method::ClosedForm),
     ];
     if let Some(oscillations) = theory.oscillations {
-        all.push(time(&scale, &of::THEORY_DECAY_TIME, oscillations, theory.method));
+        // Of first order in the mass ratio, and more below the end of capture: nobody knows how much.
+        let predicted = time(&scale, &of::THEORY_DECAY_TIME, oscillations, theory.method);
+        all.push(predicted.with_error(f64::NAN));
     }
-    let decided = if study.decides_inactive() { Method::ClosedForm } else { simulated };
-    if study.inactive > 0.0 {
-        all.push(Quantity::new(&of::INACTIVE_SHARE, study.inactive, Method::ClosedForm));
+    if study.inactive.share > 0.0 {
+        all.push(Quantity::new(&of::INACTIVE_SHARE, study.inactive.share, Method::ClosedForm));
     }
     if let Some(worst) = study.worst() {
-        let fastest = study.largest(|start| start.impact_speed);
+        let decay = study.decay();
+        let decided = if decay.inactive { Method::ClosedForm } else { simulated };
+        let slowest = study.largest(|start| start.oscillations);
+        let (peak, speed) =
+            (study.largest(|start| start.peak), study.largest(|start| start.impact_speed));
         all.extend([
-            scale.length(&of::PEAK, study.largest(|start| start.peak), simulated),
-            time(&scale, &of::DECAY_TIME, study.slowest(), decided),
-            time(&scale, &of::ACTIVE_DECAY_TIME, worst.oscillations, simulated),
+            scale.length_with(&of::PEAK, peak, simulated),
+            time_with(&scale, &of::DECAY_TIME, decay.oscillations, decided),
+            time_with(&scale, &of::ACTIVE_DECAY_TIME, slowest, simulated),
             time(&scale, &of::FASTEST_DECAY_TIME, study.fastest(), simulated),
-            scale.velocity(&of::IMPACT_SPEED, [fastest, 0.0], simulated),
+            scale.velocity(&of::IMPACT_SPEED, speed, simulated),
             Quantity::new(&of::IMPACT_COUNT, worst.impacts as f64, simulated),
             Quantity::new(&of::IMPACT_ENERGY_SHARE, worst.impact_share, simulated),
         ]);
@@ -77,7 +93,7 @@ pub(super) fn quantities(case: &Case, study: &DecayStudy) -> Vec<Quantity> {
 }
 
 pub(super) fn word(study: &DecayStudy) -> Word {
-    word_of(study.slowest() / study.bare, study.fastest() / study.bare)
+    word_of(study.decay().oscillations[0] / study.bare, study.fastest() / study.bare)
 }
 
 fn notes(study: &DecayStudy) -> Vec<Value> {

@@ -4,7 +4,7 @@ mod figure;
 
 use serde_json::{Value, json};
 
-use super::word_of;
+use super::{sample, word_of};
 use crate::band::rivals::reduction_db;
 use crate::case::Case;
 use crate::method::Method;
@@ -44,7 +44,11 @@ pub(super) fn add(case: &Case, study: &SweepStudy, document: &mut Value) {
         })
     };
     // One for each place of the absorber.
-    document["starts"] = study.starts.iter().map(start).collect();
+    let mut starts: Vec<&SweepStart> = study.starts.iter().collect();
+    starts.sort_by(|a, b| a.0.total_cmp(&b.0));
+    document["starts"] = starts.into_iter().map(start).collect();
+    document["sample"] = sample(study.even, study.starts.len());
+    document["places_beside"] = study.even.min(SweepStudy::STARTS_BESIDE.into()).into();
     document["down"] = (study.sweep.from > study.sweep.to).into();
     // In the case's direction, and in the other.
     document["jumps"] =
@@ -87,17 +91,18 @@ pub(super) fn quantities(case: &Case, study: &SweepStudy) -> Vec<Quantity> {
         scale.length(&of::LEAST_PEAK, study.least(), simulated),
     ];
     if let Some((_, worst)) = study.worst() {
-        let largest =
-            |of: &dyn Fn(&SweepStart) -> f64| study.starts.iter().map(of).fold(0.0, f64::max);
-        let speed = largest(&|(_, found)| found.impact_speed);
+        let (largest, speed) =
+            (study.largest(|found| found.peak()[1]), study.largest(|found| found.impact_speed));
         let change = |kind, rival: &Passage| {
-            let level = reduction_db(worst.peak()[1], rival.peak()[1]);
-            Quantity::new(kind, level, simulated)
+            let level = |peak: f64| reduction_db(peak, rival.peak()[1]);
+            let [peak, error] = largest;
+            Quantity::new(kind, level(peak), simulated)
+                .with_error(level(peak) - level(peak + error))
         };
         all.extend([
-            peak(&of::PEAK, worst, simulated),
+            scale.length_with(&of::PEAK, largest, simulated),
             at(&of::PEAK_FREQUENCY, worst, simulated),
-            scale.velocity(&of::IMPACT_SPEED, [speed, 0.0], simulated),
+            scale.velocity(&of::IMPACT_SPEED, speed, simulated),
             Quantity::new(&of::IMPACT_COUNT, worst.impacts as f64, simulated),
             change(&of::REDUCTION_DB, &study.alone),
             change(&of::REDUCTION_DB_TMD, damped),

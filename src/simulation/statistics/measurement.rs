@@ -64,6 +64,11 @@ pub struct Measurement {
 impl Measurement {
     /// Begins to measure at `start`, at the beginning of an excitation period.
     pub fn begin(system: &System, start: State) -> Self {
+        Self::begin_within(system, start, 0.0)
+    }
+
+    /// The same at a phase within a period, whose rest is measured as if it were all of it.
+    pub(crate) fn begin_within(system: &System, start: State, phase: f64) -> Self {
         let mut begun = Self {
             statistics: Statistics::begin(system, start),
             ringing: Ringing::of(system),
@@ -75,7 +80,7 @@ impl Measurement {
             periods: [0; LANES],
             open: 0,
         };
-        begun.depart(0.0, &start);
+        begun.depart(phase, &start);
         begun
     }
 
