@@ -30,18 +30,20 @@ use super::{budget, output, transient};
 pub struct Arguments {
     #[command(flatten)]
     one: OneCase,
-    /// Excitation periods to measure [default: the case's, or 1000]
+    /// Excitation periods to measure [default: the case's, or 1000]; of a released or shaken structure its own, of a
+    /// sweep the first ones
     #[arg(long, value_name = "N", value_parser = positive_number)]
     periods: Option<u64>,
     /// Excitation periods to leave out before measuring [default: the case's, or until the
     /// transient has faded]
     #[arg(long, value_name = "N", value_parser = whole_number)]
     discard: Option<u64>,
-    /// One start at excitation phase 0 instead of many: lengths over the clearance, velocities per
-    /// fast time tau = omega0 t
+    /// One start at excitation phase 0, or the beginning of a release, sweep or record, instead of many: lengths over
+    /// the clearance, velocities per fast time tau = omega0 t
     #[arg(long, value_name = "X,XDOT,Y,YDOT", value_parser = state, allow_hyphen_values = true)]
     initial: Option<State>,
-    /// Write every impact of the measured window to this file
+    /// Write every impact of the measured window to this file, of a release, sweep or record those from --initial or the
+    /// worst place
     #[arg(long, value_name = "FILE.csv")]
     impacts: Option<PathBuf>,
 }
@@ -50,6 +52,7 @@ const EXAMPLES: &str = "\
 Examples:
   vinesink simulate cases/li2016-8hz-b15mm.toml
   vinesink simulate damper.toml --initial 0,0,0,1 --discard 0 --periods 50 --impacts impacts.csv
+  vinesink simulate cases/footbridge-jump.toml --impacts impacts.csv
 
 The CSV file has one line an impact: tau,side,x,xdot_before,xdot_after,ydot_before,ydot_after;
 lengths over the clearance, tau counted from the start of the run, side +1 where x - y = +b.";
@@ -58,14 +61,17 @@ pub fn run(arguments: Arguments) -> Result<bool> {
     let OneCase { path, long, .. } = &arguments.one;
     let case = case_file::read(path)?;
     let Arguments { periods, discard, initial, impacts, .. } = &arguments;
-    let given = [
-        ("--periods", periods.is_some()),
-        ("--discard", discard.is_some()),
-        ("--initial", initial.is_some()),
-        ("--impacts", impacts.is_some()),
-    ];
-    transient::without(&case, path, &given)?;
-    if let Some(done) = transient::simulate(&arguments.one, &case)? {
+    transient::without(&case, path, &[("--discard", discard.is_some())])?;
+    if periods.is_some() || initial.is_some() || impacts.is_some() {
+        let mut log = ImpactLog::default();
+        let mut told = |impact: &Impact| log.impacts.push(*impact);
+        if transient::flight(&arguments.one, &case, *initial, *periods, &mut told)? {
+            if let Some(file) = impacts {
+                store::write_file(file, csv(&log.impacts).as_bytes())?;
+            }
+            return Ok(true);
+        }
+    } else if let Some(done) = transient::simulate(&arguments.one, &case)? {
         return Ok(done);
     }
     let effort = arguments.effort(&case);

@@ -7,8 +7,10 @@ use vinesink::case::{Case, Rounding};
 use vinesink::criteria::{self, Judged};
 use vinesink::report::render::Files;
 use vinesink::report::transient as page;
+use vinesink::simulation::Impact;
 use vinesink::store;
-use vinesink::transient::{DecayStudy, Scene, Study, best_clearance};
+use vinesink::system::State;
+use vinesink::transient::{DecayStudy, Flight, Scene, Study, best_clearance};
 
 use super::budget::{Long, Work};
 use super::case_file::{self, Format, OneCase};
@@ -75,6 +77,29 @@ pub fn report(case: &Case, path: &Path, name: &str, long: Long) -> Result<Option
     let Some(study) = studied(case, path, long)? else { return Ok(None) };
     let judged = criteria::judge_transient(case, &study);
     page::files(name, case, &study, &judged).into_diagnostic().map(Some)
+}
+
+/// One flight, from a chosen start or from that of the worst place, under the first record; `told` hears of its impacts.
+/// False for a case that is driven steadily.
+pub fn flight(
+    one: &OneCase,
+    case: &Case,
+    start: Option<State>,
+    periods: Option<u64>,
+    told: &mut dyn FnMut(&Impact),
+) -> Result<bool> {
+    let start = match start {
+        Some(start) => start,
+        None => {
+            let Some(study) = studied(case, &one.path, one.long)? else { return Ok(false) };
+            let start = Flight::worst_start(case, &study);
+            start.ok_or_else(|| miette!("no start was flown; ask for more than 0 starts"))?
+        }
+    };
+    let Some(flight) = Flight::of_case(case, start, periods, told) else { return Ok(false) };
+    let document = page::flight(case, &flight.into_diagnostic()?);
+    one.print(|| page::flight_text(case, &document), || &document)?;
+    Ok(true)
 }
 
 /// The clearance that serves it best, written into a new file where that is asked for.

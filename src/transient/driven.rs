@@ -177,6 +177,7 @@ struct Log<'a> {
     frame: Frame,
     /// Where the motion was measured last: time in the piece, and what was seen from the base.
     last: (f64, State),
+    told: &'a mut dyn FnMut(&Impact),
 }
 
 impl Log<'_> {
@@ -195,6 +196,17 @@ impl Observer for Log<'_> {
     fn impact(&mut self, impact: &Impact) {
         let before = impact.state_before();
         let mut after = self.seen(impact.tau, &before);
+        let [x_gained, y_gained] =
+            [after.x_velocity - before.x_velocity, after.y_velocity - before.y_velocity];
+        (self.told)(&Impact {
+            tau: self.meter.time + impact.tau,
+            x: after.x,
+            x_velocity_before: impact.x_velocity_before + x_gained,
+            x_velocity_after: impact.x_velocity_after + x_gained,
+            y_velocity_before: impact.y_velocity_before + y_gained,
+            y_velocity_after: impact.y_velocity_after + y_gained,
+            ..*impact
+        });
         after.x_velocity += impact.x_velocity_after - impact.x_velocity_before;
         after.y_velocity += impact.y_velocity_after - impact.y_velocity_before;
         self.last = (impact.tau, after);
@@ -220,15 +232,26 @@ impl Observer for Log<'_> {
 /// # Errors
 /// [`DrivenError`] where the engine cannot resolve the motion.
 pub fn follow(system: &System, pieces: &[Piece], w: f64) -> Result<Response, DrivenError> {
+    follow_from(system, pieces, State { y: -w, ..State::AT_REST }, &mut |_| {})
+}
+
+/// The same from a state; `told` hears of every impact as it is seen from the base, its time that since the start.
+pub(super) fn follow_from(
+    system: &System,
+    pieces: &[Piece],
+    start: State,
+    told: &mut dyn FnMut(&Impact),
+) -> Result<Response, DrivenError> {
     let damping = system.mass_ratio() * system.damping();
     let mut meter = Meter::new(system.mass_ratio(), damping);
-    let mut state = State { y: -w, ..State::AT_REST };
+    let mut state = start;
     for piece in pieces {
         meter.jump(piece, &mut state);
         let free = unforced(system, piece.duration)?;
         let frame = Frame::of(piece, damping);
         let mut simulation = Simulation::new(&free, frame.enter(&state), 0.0)?;
-        let mut log = Log { meter: &mut meter, piece: *piece, frame, last: (0.0, state) };
+        let last = (0.0, state);
+        let mut log = Log { meter: &mut meter, piece: *piece, frame, last, told: &mut *told };
         let stop = simulation.run(1, MOST_IMPACTS, &mut log);
         state = log.last.1;
         if stop != Stop::EndTime {

@@ -122,7 +122,7 @@ pub fn swept(
         let Ok(piece) = stretch.system(system) else { break };
         let left = TAU - stretch.begins;
         let steps = libm::ceil(left / TAU * f64::from(STEPS_OF_PERIOD)) as u32;
-        let duration = left / piece.frequency_ratio() / f64::from(steps);
+        let duration = stretch.duration() / f64::from(steps);
         let step = exponential(matrix(&piece, damper) * duration);
         let (sine, cosine) = libm::sincos(stretch.begins);
         (state[4], state[5]) = (sine, cosine);

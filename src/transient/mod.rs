@@ -9,6 +9,7 @@
 
 mod clearance;
 mod driven;
+mod flight;
 pub mod linear;
 mod passage;
 mod places;
@@ -21,6 +22,7 @@ mod theory;
 
 pub use clearance::{Best, best_clearance, looked_at};
 pub use driven::{DrivenError, Response, follow};
+pub use flight::Flight;
 #[cfg(feature = "sweep")]
 pub(crate) use passage::worst;
 pub use passage::{ByRate, Jump, SweepStart, SweepStudy};
@@ -165,7 +167,6 @@ impl Release {
     }
 
     /// The amplitude with which the structure begins, over the clearance.
-    #[cfg(feature = "sweep")]
     pub(crate) fn amplitude(&self, scales: &Scales) -> f64 {
         amplitude(&self.state(scales, 0.0))
     }

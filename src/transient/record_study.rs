@@ -165,8 +165,17 @@ impl RecordStudy {
     /// What happened under the first record from the place with the largest displacement.
     pub fn shown(&self) -> Option<(&Realisation, &Response)> {
         let first = self.realisations.first()?;
-        let places = self.counted(first).into_iter().map(|(_, place)| place);
-        Some((first, places.max_by(|a, b| a.peak.total_cmp(&b.peak))?))
+        Some((first, &self.worst_of(first)?.1))
+    }
+
+    /// That place of the absorber, over the clearance.
+    pub fn worst_place(&self) -> Option<f64> {
+        Some(self.worst_of(self.realisations.first()?)?.0)
+    }
+
+    fn worst_of<'a>(&self, one: &'a Realisation) -> Option<&'a (f64, Response)> {
+        let places = self.counted(one).into_iter();
+        places.max_by(|a, b| a.1.peak.total_cmp(&b.1.peak))
     }
 }
 

@@ -29,7 +29,8 @@ pub struct Ringdown {
     pub settles: f64,
 }
 
-struct Log {
+struct Log<'a> {
+    told: &'a mut dyn FnMut(&Impact),
     found: Ringdown,
     settling: Settling,
     energy: f64,
@@ -38,12 +39,13 @@ struct Log {
     speed: f64,
 }
 
-impl Observer for Log {
+impl Observer for Log<'_> {
     fn detail(&self) -> Detail {
         Detail::Events
     }
 
     fn impact(&mut self, impact: &Impact) {
+        (self.told)(impact);
         self.lost += impact.loss;
         self.impacts += 1;
         for velocity in [impact.x_velocity_before, impact.x_velocity_after] {
@@ -68,9 +70,9 @@ impl Observer for Log {
 }
 
 /// Hears of flights too, which may hold the largest displacement.
-struct Watching<'a>(&'a mut Log);
+struct Watching<'a, 'b>(&'a mut Log<'b>);
 
-impl Observer for Watching<'_> {
+impl Observer for Watching<'_, '_> {
     fn segment(&mut self, segment: &Segment) {
         let peak = largest(segment.duration, TAU / f64::from(STEPS), |s| {
             let at = segment.motion.at(s);
@@ -104,6 +106,17 @@ impl Ringdown {
         level: f64,
         oscillations: u64,
     ) -> Result<Self, StartError> {
+        Self::follow_telling(system, start, level, oscillations, &mut |_| {})
+    }
+
+    /// The same; `told` hears of every impact.
+    pub(super) fn follow_telling(
+        system: &System,
+        start: State,
+        level: f64,
+        oscillations: u64,
+        told: &mut dyn FnMut(&Impact),
+    ) -> Result<Self, StartError> {
         let step = TAU / f64::from(STEPS);
         let free = unforced(system, step).map_err(|_| StartError::NotFinite { state: start })?;
         let mut simulation = Simulation::new(&free, start, 0.0)?;
@@ -117,7 +130,7 @@ impl Ringdown {
         };
         let energy = start.energy(system.mass_ratio());
         let settling = Settling::to(level);
-        let mut log = Log { found, settling, energy, lost: 0.0, impacts: 0, speed: 0.0 };
+        let mut log = Log { told, found, settling, energy, lost: 0.0, impacts: 0, speed: 0.0 };
         log.period(&start);
         for _ in 0..oscillations {
             // The energy of all is the structure's at most.

@@ -1,6 +1,7 @@
 //! A structure that is not driven steadily: its report, and what `analyze`, `simulate` and `optimize` print of it. The
 //! sentences are in `templates/`, a page and a text for each kind.
 
+mod flight;
 mod optimum;
 mod record;
 mod release;
@@ -10,6 +11,7 @@ use std::collections::BTreeMap;
 
 use serde_json::{Value, json};
 
+pub use flight::{flight, flight_text};
 pub use optimum::{optimum, optimum_text};
 
 use super::document::criteria::{badge, criteria};
@@ -120,6 +122,16 @@ pub fn document(name: &str, case: &Case, study: &Study, judged: &[Judged]) -> Va
 /// worst of the even ones, at most, at odds of 19 to 1.
 fn sample(even: u64, all: usize) -> Value {
     json!({ "even": even, "all": all, "share_above": share_above(even) })
+}
+
+/// Starts that a page lists.
+const LISTED: usize = 10;
+
+/// The worst starts, as rows, from the worst on.
+fn worst_rows<T>(starts: &[T], badness: impl Fn(&T) -> f64, row: impl Fn(&T) -> Value) -> Value {
+    let mut starts: Vec<&T> = starts.iter().collect();
+    starts.sort_by(|a, b| badness(b).total_cmp(&badness(a)));
+    starts.into_iter().take(LISTED).map(row).collect()
 }
 
 /// What the case says of its absorber.

@@ -4,7 +4,7 @@ mod figure;
 
 use serde_json::{Value, json};
 
-use super::{sample, word_of};
+use super::{sample, word_of, worst_rows};
 use crate::case::{Case, RecordSource, Subject};
 use crate::criteria::of_records;
 use crate::method::Method;
@@ -33,6 +33,7 @@ pub(super) fn add(case: &Case, study: &RecordStudy, facts: &mut Value) {
     }
     facts["records"] = study.realisations.len().into();
     // Under the first record.
+    facts["worst"] = worst_rows(places, |(_, found)| found.peak, place);
     let mut places: Vec<&(f64, Response)> = places.iter().collect();
     places.sort_by(|a, b| a.0.total_cmp(&b.0));
     facts["sample"] = sample(study.even, places.len());

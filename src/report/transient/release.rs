@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 
 use serde_json::{Value, json};
 
-use super::{sample, word_of};
+use super::{sample, word_of, worst_rows};
 use crate::case::Case;
 use crate::method::Method;
 use crate::quantity::catalogue as of;
@@ -24,6 +24,8 @@ pub(super) fn add(case: &Case, study: &DecayStudy, document: &mut Value) {
     let mut starts: Vec<&Decay> = study.starts.iter().collect();
     starts.sort_by(|a, b| a.place.total_cmp(&b.place));
     document["starts"] = starts.iter().map(|start| row(&scale, start)).collect();
+    document["worst"] =
+        worst_rows(&study.starts, |start| start.oscillations, |start| row(&scale, start));
     document["sample"] = sample(study.even, study.starts.len());
     // The lowest and the highest place of an absorber that no wall reaches.
     let place = |w| scale.length(&of::RELATIVE_DISPLACEMENT, w, Method::ClosedForm);

@@ -4,7 +4,7 @@ mod figure;
 
 use serde_json::{Value, json};
 
-use super::{sample, word_of};
+use super::{sample, word_of, worst_rows};
 use crate::band::rivals::reduction_db;
 use crate::case::Case;
 use crate::method::Method;
@@ -47,6 +47,7 @@ pub(super) fn add(case: &Case, study: &SweepStudy, document: &mut Value) {
     let mut starts: Vec<&SweepStart> = study.starts.iter().collect();
     starts.sort_by(|a, b| a.0.total_cmp(&b.0));
     document["starts"] = starts.into_iter().map(start).collect();
+    document["worst"] = worst_rows(&study.starts, |(_, found)| found.peak()[1], start);
     document["sample"] = sample(study.even, study.starts.len());
     document["places_beside"] = study.even.min(SweepStudy::STARTS_BESIDE.into()).into();
     document["down"] = (study.sweep.from > study.sweep.to).into();

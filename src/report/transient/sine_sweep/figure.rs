@@ -15,6 +15,10 @@ const BACK: Style = Style::new(Color::SkyBlue, 1.1, Dash::Solid);
 
 /// All figures.
 pub fn figures(case: &Case, study: &SweepStudy, facts: &Value) -> Vec<Figure> {
+    // Nothing moves without an excitation.
+    if study.alone.peak()[1] == 0.0 {
+        return Vec::new();
+    }
     let figures = [("envelope", envelope(case, study)), ("rates", rates(case, study))];
     let figure = |(name, panel): (&str, Panel)| {
         let template =

@@ -1,0 +1,42 @@
+//! What `simulate` says of one flight of a structure that is not driven steadily.
+
+use serde_json::{Value, json};
+
+use crate::case::Case;
+use crate::method::Method;
+use crate::quantity::Quantity;
+use crate::quantity::catalogue as of;
+use crate::report::document::{Scale, units};
+use crate::report::render::RenderError;
+use crate::report::template::render;
+use crate::transient::Flight;
+
+/// What was found: `vinesink/flight@1`.
+pub fn flight(case: &Case, flight: &Flight) -> Value {
+    let scale = Scale::of(case);
+    let simulated = Method::Simulation;
+    let start = &flight.start;
+    let place = start.relative_displacement();
+    json!({
+        "format": "vinesink/flight@1",
+        "title": case.title,
+        "start": [start.x, start.x_velocity, start.y, start.y_velocity],
+        "absorber": scale.length(&of::RELATIVE_DISPLACEMENT, place, Method::Given),
+        "duration": Quantity::new(&of::TIME, scale.time(flight.duration), simulated),
+        "peak": scale.length(&of::PEAK, flight.peak, simulated),
+        "impacts": Quantity::new(&of::IMPACT_COUNT, flight.impacts as f64, simulated),
+        "impact_speed": scale.velocity(&of::IMPACT_SPEED, [flight.impact_speed, 0.0], simulated),
+        "decay_time": flight.settles.map(|time| {
+            Quantity::new(&of::DECAY_TIME, scale.time(time), simulated)
+        }),
+        "share": case.decay_level,
+    })
+}
+
+/// Its sentences.
+///
+/// # Errors
+/// [`RenderError::Template`] if the template does not fit.
+pub fn flight_text(case: &Case, document: &Value) -> Result<String, RenderError> {
+    render("flight.txt", &units(case), document)
+}
