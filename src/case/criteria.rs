@@ -29,7 +29,7 @@ names! { key:
         /// Largest amplitude along the band against the bare oscillator's largest, in decibels; positive
         /// where it is smaller.
         ReductionDb = "reduction_db",
-        /// The same against the best tuned mass damper of the same mass.
+        /// The same against a tuned mass damper of the same mass, the best for steady vibration.
         ReductionDbTmd = "reduction_db_tmd",
         /// Share by which the clearance may be off before the stable 1:1 motion is lost.
         MarginClearance = "margin_clearance",

@@ -44,8 +44,8 @@ impl Rounding {
     /// All of them.
     pub const ALL: [Self; 4] = [Self::Nearest, Self::Down, Self::Up, Self::Exact];
 
-    /// A value above 0 with [`DIGITS`] significant digits, rounded or moved on by one in the last of them.
-    fn of(self, value: f64) -> f64 {
+    /// A value above 0 with [`DIGITS`] significant digits; one that has no more, but for rounding, stays what it is.
+    pub(crate) fn of(self, value: f64) -> f64 {
         let round = match self {
             Self::Nearest => libm::rint,
             Self::Down => libm::floor,
@@ -56,12 +56,16 @@ impl Rounding {
             return value;
         }
         let place = libm::floor(libm::log10(value)) as i32 - (DIGITS - 1);
-        let units = round(value / libm::pow(10.0, f64::from(place)));
+        let units = value / libm::pow(10.0, f64::from(place));
+        let nearest = libm::rint(units);
+        let units = if (units - nearest).abs() < SAME * nearest { nearest } else { round(units) };
         // Read back from decimal digits, so that it is the double that a person would write.
         format!("{units}e{place}").parse().unwrap_or(value)
     }
 }
 
+/// Relative difference of values that are one in different units.
+const SAME: f64 = 1e-12;
 /// Significant digits of a written value.
 const DIGITS: i32 = 4;
 

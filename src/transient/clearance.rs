@@ -11,13 +11,13 @@ use super::{
     DecayStudy, DecayTime, Measured, Record, RecordStudy, Release, SineSweep, SweepStudy,
     Transient, counted,
 };
-use crate::case::{Case, Design, Recording};
+use crate::case::{Case, Design, Recording, Rounding};
 use crate::executor::{Executor, Serial, map};
 use crate::system::Parameter;
 
-/// Clearances of a round, rounds, and the releases looked at where there is a range of them.
-const PLACES: u32 = 32;
-const ROUNDS: u32 = 2;
+/// Clearances that are looked at between the bounds, and then beside the best, and the releases where there is a range of
+/// them.
+const CLEARANCES_OF_ROUND: [u32; 2] = [64, 32];
 const RELEASES: u32 = 5;
 /// Places of the absorber by which all clearances are looked at. They are none of those by which a study looks at one:
 /// multiplied by the counts, which have different powers of two, places are odd.
@@ -53,7 +53,8 @@ pub struct Best {
 pub fn looked_at(records: usize) -> [[u32; 2]; 2] {
     let closer = |starts: u32| if records > 1 { starts } else { with_closer(starts.into()) as u32 };
     let judged = closer(RecordStudy::usual_places(records));
-    [[ROUNDS * PLACES, screened(records)], [JUDGED, judged]]
+    let [between, beside] = CLEARANCES_OF_ROUND;
+    [[between + beside, screened(records)], [JUDGED, judged]]
 }
 
 fn screened(records: usize) -> u32 {
@@ -87,13 +88,16 @@ pub fn best_clearance(case: &Case, executor: &dyn Executor) -> Option<Best> {
     let mut all: Vec<(f64, Measured)> = Vec::new();
     let mut within = bounds;
     let mut beside = [f64::NEG_INFINITY, f64::INFINITY];
-    for round in 0..ROUNDS {
+    for (round, count) in CLEARANCES_OF_ROUND.into_iter().enumerate() {
         let place = |k: usize| {
-            let part = k as f64 / f64::from(PLACES - 1);
-            within[0] * libm::pow(within[1] / within[0], part)
+            let part = k as f64 / f64::from(count - 1);
+            let place = within[0] * libm::pow(within[1] / within[0], part);
+            // As it will be written, within the bounds.
+            let written = Rounding::Down.of(place);
+            if (bounds[0]..=bounds[1]).contains(&written) { written } else { place }
         };
         let one = |k: usize| (place(k), looked(place(k)));
-        all.extend(map(executor, "clearances", PLACES as usize, one));
+        all.extend(map(executor, "clearances", count as usize, one));
         all.sort_by(|a, b| a.0.total_cmp(&b.0));
         if round == 0 {
             beside = [all[1].0, all[all.len() - 2].0];

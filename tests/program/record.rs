@@ -143,9 +143,11 @@ fn one_number_has_one_error() {
             .map(|line| line.split("  ").map(str::trim).filter(|cell| !cell.is_empty()).collect())
             .collect();
         assert_eq!(rows.len(), 5, "{checked}");
+        assert!(rows.iter().any(|row| row[3].contains(mark)), "{checked}");
         for row in rows {
             let found = row[3];
-            assert!(found.contains(mark), "{found} {checked}");
+            // Of one record, only where the last places have added something.
+            assert!(mark == "(" || found.contains(mark), "{found} {checked}");
             let reduction = row[0].starts_with("reduction");
             assert!(reduction || simulated.contains(found), "{found} {simulated}");
             assert!(page.matches(found).count() >= 2, "{found} {page}");

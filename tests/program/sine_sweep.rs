@@ -64,13 +64,14 @@ fn the_best_clearance_is_checked_and_written() {
     };
     let found = json(&["optimize", case, "--write", better, "--format", "json"]);
     let number = |of: &Value| of["value"].as_f64().expect("a number");
-    let (checked, error) = (number(&found["checked"]), found["checked"]["error"].as_f64());
+    let checked = number(&found["checked"]);
     assert!(checked < number(&found["own"]["value"]) && checked < number(&found["alone"]));
     assert!(number(&found["damper"]) < number(&found["alone"]));
     let places = found["landscape"].as_array().expect("clearances");
     let ends = [places.first(), places.last()].map(|one| one.and_then(|one| one[0].as_f64()));
     for (end, bound) in ends.iter().zip([0.003, 0.03]) {
-        assert!((end.expect("a number") / bound - 1.0).abs() < 1e-12, "{found}");
+        // As they would be written.
+        assert!((end.expect("a number") / bound - 1.0).abs() < 1e-3, "{found}");
     }
     let written = std::fs::read_to_string(better).expect("written");
     let written = vinesink::case::Case::parse(better, &written).expect("a case").design.clearance();
@@ -80,8 +81,7 @@ fn the_best_clearance_is_checked_and_written() {
     for (k, one) in found["criteria"]["all"].as_array().expect("criteria").iter().enumerate() {
         assert_eq!(judged["cases"][0]["criteria"][k]["found"], one["found"]["value"]);
     }
-    let peak = judged["cases"][0]["criteria"][0]["found"].as_f64().expect("a number");
-    assert!(peak <= checked + error.expect("a number") && peak > 0.9 * checked, "{peak} {found}");
+    assert_eq!(judged["cases"][0]["criteria"][0]["found"], found["checked"]["value"]);
 }
 
 #[test]

@@ -23,6 +23,11 @@ pub fn optimum(case: &Case, best: &Best, written: &Value) -> Value {
     let simulated =
         |[value, error]: Measured| Quantity::new(kind, value, Method::Simulation).with_error(error);
     let alone = &written["quantities"][bare];
+    // Of one release, sweep or set of records what every command says of the written case.
+    let all = match case.optimize.releases {
+        None => json!(written["quantities"][kind.id]),
+        Some(_) => json!(simulated(best.checked)),
+    };
     let (checked, own) = (best.checked[0], best.own[0]);
     // Nothing limits what has no number.
     let limit = alone["value"].as_f64().unwrap_or(f64::INFINITY) * (1.0 - NOTICEABLE);
@@ -40,7 +45,7 @@ pub fn optimum(case: &Case, best: &Best, written: &Value) -> Value {
         "optimum": { "clearance": best.design.clearance() },
         "claimed": simulated(best.claimed),
         // From the places of a study, as every command says it.
-        "checked": simulated(best.checked),
+        "checked": all,
         "sample": written["sample"],
         "bound": best.bound.map(clearance),
         "records": records,
