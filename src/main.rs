@@ -4,10 +4,12 @@ mod cli;
 
 use std::process::ExitCode;
 
-use clap::Parser;
-
 fn main() -> ExitCode {
-    match cli::Cli::parse().run() {
+    let command = match cli::Cli::of_arguments() {
+        Ok(command) => command,
+        Err(code) => return code,
+    };
+    match command.run() {
         Ok(true) => ExitCode::SUCCESS,
         // Done, and a check or criterion does not hold.
         Ok(false) => ExitCode::from(1),

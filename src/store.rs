@@ -17,7 +17,7 @@ mod shards;
 use error::refused;
 
 pub use error::StoreError;
-pub use folder::{add_to_folder, read_folder, replace_folder};
+pub use folder::{Output, folder_below, read_folder, replace_folder};
 pub use git::{read_files_at, read_reports_at};
 pub use growing::Growing;
 pub use reports::{StoredReport, StoredReports, read_reports};
@@ -89,21 +89,6 @@ pub fn write_new(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
 /// [`StoreError`]; an earlier file is then unchanged.
 pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
     Growing::of(path, bytes)?.finish()
-}
-
-/// As [`write_file`], into a folder that is made where there is none.
-///
-/// # Errors
-/// [`StoreError`]; an earlier file is then unchanged.
-pub fn write_file_and_folder(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
-    make_folder_of(path)?;
-    write_file(path, bytes)
-}
-
-/// Makes the folder of a path where there is none.
-fn make_folder_of(path: &Path) -> Result<(), StoreError> {
-    let folder = folder_of(path)?;
-    std::fs::create_dir_all(folder).map_err(|cause| refused("create", folder, cause))
 }
 
 /// What a folder holds, by name; names that begin with a point are left out.
@@ -233,7 +218,7 @@ mod tests {
     fn a_folder_is_listed_by_name() {
         let folder = folder();
         let content = [("b/x", ""), ("a/x", ""), ("z.md", "1"), (".hidden/x", ""), ("c.md", "")];
-        add_to_folder(folder.path(), &files(&content)).expect("written");
+        Output::open(folder.path()).expect("a folder").add("", &files(&content)).expect("written");
         let listing = list(folder.path()).expect("a folder");
         assert_eq!(listing.folders, ["a", "b"]);
         assert_eq!(listing.files, ["c.md", "z.md"]);

@@ -52,13 +52,13 @@ shown="$(git rev-parse --show-prefix)$reports"
 failed=0
 new="$reports"
 new_url="${raw_url:+$raw_url/$(git rev-parse HEAD)/$shown}"
-if ! holds vinesink report --check "$@" --out "$reports" >"$work/stale"; then
+if ! holds vinesink report --check --out "$reports" -- "$@" >"$work/stale"; then
     failed=1
     # What the reports should be is reviewed; it is in no commit, so its figures have no address.
     new="$work/reports"
     new_url=""
     if [ -d "$reports" ]; then cp -R "$reports" "$new"; fi
-    holds vinesink report "$@" --out "$new" >/dev/null || true
+    holds vinesink report --out "$new" -- "$@" >/dev/null || true
 fi
 
 differences=(vinesink diff "$since" "$new" --path "$reports")
@@ -66,7 +66,7 @@ if [ -n "$raw_url" ]; then differences+=(--old-url "$raw_url/$since/$shown"); fi
 if [ -n "$new_url" ]; then differences+=(--new-url "$new_url"); fi
 holds "${differences[@]}" >"$work/diff" || true
 
-holds vinesink check "$@" --format "$check_format" >"$work/check" && criteria=hold || criteria=fail
+holds vinesink check --format "$check_format" -- "$@" >"$work/check" && criteria=hold || criteria=fail
 cat "$work/check"
 
 {
@@ -78,12 +78,15 @@ cat "$work/check"
     fi
     if [ -s "$work/stale" ]; then
         printf '**Reports are not up to date**; commit what `vinesink report` writes. Compared is what it would write.\n\n'
-        printf '<details>\n<summary>Which</summary>\n\n```\n'
+        printf '<details>\n<summary>Which</summary>\n\n'
         # A comment may have 65,536 characters, and the differences up to 60,000.
-        head -n 15 "$work/stale"
+        # Indented lines stay code whatever is in them; a fence ends where a name of a file has one.
         lines="$(wc -l <"$work/stale")"
-        if [ "$lines" -gt 15 ]; then echo "and $((lines - 15)) more"; fi
-        printf '```\n\n</details>\n\n'
+        {
+            head -n 15 "$work/stale"
+            if [ "$lines" -gt 15 ]; then echo "and $((lines - 15)) more"; fi
+        } | sed 's/^/    /'
+        printf '\n</details>\n\n'
     fi
     cat "$work/diff"
 } >"$review"

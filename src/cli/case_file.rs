@@ -68,7 +68,7 @@ pub fn read_with_text(path: &Path) -> Result<(Case, String)> {
     for warning in case.warnings() {
         let source = NamedSource::new(&name, visible.to_owned());
         let shown = Report::new(warning.clone()).with_source_code(source);
-        output::complain(&format!("{shown:?}"));
+        output::complain_of(&shown);
     }
     Ok((case, text))
 }

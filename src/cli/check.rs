@@ -73,7 +73,7 @@ pub fn run(arguments: Arguments) -> Result<bool> {
     match arguments.format {
         Format::Text => output::print(each(Checked::text, "\n")?)?,
         Format::Markdown => output::print(each(Checked::markdown, "\n")?)?,
-        Format::Github => output::print(each(Checked::annotations, "")?)?,
+        Format::Github => output::print_commands(&each(Checked::annotations, "")?)?,
         Format::Junit => output::print(junit(&cases).into_diagnostic()?)?,
         Format::Json => {
             let cases: Vec<_> = cases.iter().map(|one| &one.document).collect();

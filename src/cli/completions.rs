@@ -23,6 +23,6 @@ Examples:
 pub fn run(arguments: Arguments) -> Result<bool> {
     let mut script = Vec::new();
     clap_complete::generate(arguments.shell, &mut Cli::command(), "vinesink", &mut script);
-    output::print(script)?;
+    output::print(String::from_utf8_lossy(&script))?;
     Ok(true)
 }

@@ -1,7 +1,7 @@
 //! `vinesink diff OLD NEW`
 
 use clap::{Args, ValueEnum};
-use miette::{IntoDiagnostic as _, Result, miette};
+use miette::{IntoDiagnostic as _, Result, WrapErr as _, miette};
 use vinesink::diff::Difference;
 use vinesink::diff::markdown::markdown;
 
@@ -102,7 +102,8 @@ pub fn run(arguments: Arguments) -> Result<bool> {
             let old = arguments.old_url.or(old.address);
             let new = arguments.new_url.or(new.address);
             let addresses = [old.as_deref(), new.as_deref()];
-            output::print(markdown(&difference, addresses).into_diagnostic()?)?;
+            let text = markdown(&difference, addresses).into_diagnostic();
+            output::print(text.wrap_err("a report is damaged, or not one of this version")?)?;
         }
     }
     Ok(!difference.is_significant())

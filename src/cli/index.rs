@@ -6,7 +6,7 @@ use clap::Args;
 use miette::{IntoDiagnostic, Result, WrapErr, miette};
 use vinesink::report::index::{self, CaseReport, OtherPage, Summary};
 use vinesink::report::render::Files;
-use vinesink::store::{self, Listing};
+use vinesink::store::{self, Listing, Output};
 
 use super::{case_file, output};
 
@@ -57,15 +57,15 @@ pub fn refresh(folder: &Path) -> Result<()> {
 
 /// Adds files to the folder of a case's report in a folder of reports.
 pub fn add_to_report(reports: &Path, case: &Path, files: &Files) -> Result<()> {
-    store::add_to_folder(&reports.join(case_file::name(case)?), files)?;
+    Output::open(reports)?.add(case_file::name(case)?, files)?;
     refresh(reports)
 }
 
 /// Writes a page beside the reports of a folder, which is made where there is none.
 pub fn write_page(reports: &Path, name: &str, text: &str) -> Result<()> {
-    let path = reports.join(name);
-    store::write_file_and_folder(&path, text.as_bytes())?;
-    output::print_path(&path)?;
+    let files = Files::from([(name.into(), text.as_bytes().to_vec())]);
+    Output::open(reports)?.add("", &files)?;
+    output::print_path(&reports.join(name))?;
     refresh(reports)
 }
 
@@ -76,6 +76,10 @@ fn existing(folder: &Path, name: &str) -> Result<Option<bool>> {
 }
 
 fn write(folder: &Path) -> Result<()> {
+    // A folder that is not there has no index.
+    store::list(folder)?;
+    // Nobody writes a report between the reading of all and the writing of their index.
+    let output = Output::open(folder)?;
     let Listing { files, folders } = store::list(folder)?;
     let members = members(folder, folders)?;
     if members.is_empty() {
@@ -92,8 +96,9 @@ fn write(folder: &Path) -> Result<()> {
             Ok(OtherPage::new(name, &text))
         })
         .collect();
-    let files = index::files(members, others?).into_diagnostic()?;
-    Ok(store::add_to_folder(folder, &files)?)
+    let files = index::files(members, others?).into_diagnostic();
+    let files = files.wrap_err("a report is damaged, or not one of this version")?;
+    Ok(output.add("", &files)?)
 }
 
 /// The reports among some folders; a folder without one is something else.

@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use clap::{Args, Command, CommandFactory};
 use clap_mangen::Man;
 use miette::{IntoDiagnostic, Result};
-use vinesink::store::write_file_and_folder;
+use vinesink::report::render::Files;
+use vinesink::store::Output;
 
 use super::{Cli, output};
 
@@ -26,11 +27,11 @@ pub fn run(arguments: Arguments) -> Result<bool> {
     let mut program = Cli::command();
     program.build();
     let commands = program.get_subcommands().filter(|one| one.get_name() != "help");
+    let folder = Output::open(&arguments.folder)?;
     for command in std::iter::once(&program).chain(commands) {
         let (name, page) = page(command.clone())?;
-        let path = arguments.folder.join(name);
-        write_file_and_folder(&path, &page).into_diagnostic()?;
-        output::print_path(&path)?;
+        folder.add("", &Files::from([(name.clone().into(), page)]))?;
+        output::print_path(&arguments.folder.join(name))?;
     }
     Ok(true)
 }

@@ -77,6 +77,17 @@ enum Command {
 }
 
 impl Cli {
+    /// The command that the arguments name; where they name none, the exit code after what was said of that.
+    pub fn of_arguments() -> Result<Self, ExitCode> {
+        Self::try_parse().map_err(|error| {
+            if !error.use_stderr() {
+                error.exit();
+            }
+            output::complain(error.to_string().trim_end());
+            ExitCode::from(2)
+        })
+    }
+
     /// Carries out the command; whether every check asked for holds.
     pub fn run(self) -> Result<bool, miette::Report> {
         match self.command {
@@ -101,6 +112,6 @@ impl Cli {
 
 /// Says on standard error why a command could not be carried out.
 pub fn could_not(error: &miette::Report) -> ExitCode {
-    output::complain(&format!("{error:?}"));
+    output::complain_of(error);
     ExitCode::from(2)
 }

@@ -8,7 +8,7 @@ use vinesink::answer::{Answer, Asked};
 use vinesink::case::Case;
 use vinesink::case_report;
 use vinesink::evidence::paper::{CASES, CaseReport, SETS, TRANSFER, page};
-use vinesink::store;
+use vinesink::store::Output;
 
 use super::parallel::Parallel;
 use super::progress::Progress;
@@ -49,7 +49,7 @@ pub fn run(arguments: Arguments) -> Result<bool> {
     }
     drop(progress);
     let files = page(&members, &Parallel).into_diagnostic()?;
-    store::add_to_folder(&arguments.out, &files)?;
+    Output::open(&arguments.out)?.add("", &files)?;
     output::print_path(&arguments.out.join("paper.md"))?;
     index::refresh(&arguments.out)?;
     Ok(true)

@@ -120,7 +120,7 @@ impl Shown {
                 if bar.is_hidden() {
                     bar.set_draw_target(ProgressDrawTarget::stderr());
                 }
-                bar.set_message(self.work.line(done, elapsed));
+                bar.set_message(output::harmless(&self.work.line(done, elapsed)));
                 bar.set_position(self.work.part(done, elapsed));
             }
             return FRAME;

@@ -10,7 +10,7 @@ use vinesink::case_report::Report;
 use vinesink::method::Method;
 use vinesink::report::live;
 use vinesink::report::render::{self, Files};
-use vinesink::store;
+use vinesink::store::{self, Output};
 use vinesink::study::fidelity::Plan;
 use vinesink::transient::Scene;
 
@@ -114,7 +114,7 @@ fn write(path: &Path, name: &str, folder: &Path, arguments: &Arguments) -> Resul
         let whole = live::embed(&String::from_utf8_lossy(file), &live, &text).into_diagnostic();
         *file = whole.wrap_err(page)?.into_bytes();
     }
-    store::replace_folder(folder, &files, render::is_of_report)?;
+    Output::open(&arguments.out)?.replace(name, &files, render::is_of_report)?;
     output::print_path(&folder.join("report.md"))?;
     Ok(holds)
 }
@@ -145,7 +145,7 @@ fn check(path: &Path, name: &str, folder: &Path, arguments: &Arguments) -> Resul
     files.retain(|file, _| is_checked(file));
     let there = store::read_folder(folder, is_checked)?;
     if there.is_empty() {
-        output::print(format!("{}: there is no report\n", folder.display()))?;
+        output::print(format!("{}: there is no report\n", output::place(folder)))?;
         return Ok(false);
     }
     let all: BTreeSet<&PathBuf> = files.keys().chain(there.keys()).collect();
@@ -157,7 +157,7 @@ fn check(path: &Path, name: &str, folder: &Path, arguments: &Arguments) -> Resul
             (Some(_), None) => "is missing",
             (None, _) => "is no longer part of the report",
         };
-        output::print(format!("{}: {why}\n", folder.join(file).display()))?;
+        output::print(format!("{}: {why}\n", output::place(&folder.join(file))))?;
         holds = false;
     }
     Ok(holds)

@@ -140,6 +140,9 @@ struct Sweep {
     plan: Plan,
     case: Case,
     case_text: String,
+    /// The folder of all sweeps, the name of this one and its own folder there.
+    out: PathBuf,
+    name: String,
     folder: PathBuf,
 }
 
@@ -154,7 +157,14 @@ impl Sweep {
                 at.case.display()
             )
         })?;
-        Ok(Self { plan, case, case_text: text, folder: at.out.join(name) })
+        Ok(Self {
+            plan,
+            case,
+            case_text: text,
+            out: at.out.clone(),
+            folder: at.out.join(&name),
+            name,
+        })
     }
 
     /// Whether each point takes as long as is ordinary, or more is asked for.
@@ -166,7 +176,8 @@ impl Sweep {
     }
 
     fn shards(&self) -> Result<Shards> {
-        Ok(Shards::open(&self.folder.join("chunks"), &self.plan.identity_of_chunks())?)
+        let chunks = Path::new(&self.name).join("chunks");
+        Ok(Shards::open(&self.out, &chunks, &self.plan.identity_of_chunks())?)
     }
 
     /// Works out those of some chunks that are not there, on all processors.

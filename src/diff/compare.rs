@@ -4,26 +4,14 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde_json::{Value, json};
 
-use super::moved::{Moved, is_quantity, kind, moved};
+use super::moved::{Moved, ROUNDING, is_quantity, kind, moved};
 use super::reader::{label, sorted, without_elements};
 use super::{Change, Document, Folded, ReportDifference, criteria};
 use crate::motions::wilson;
 
-/// What is compared value by value; inputs, criteria, verdict and figures have their own ways.
-const COMPARED: [&str; 12] = [
-    "units",
-    "simulated",
-    "quantities",
-    "motions",
-    "inactive",
-    "damper",
-    "theory",
-    "band",
-    "deviations",
-    "answers",
-    "claims",
-    "notes",
-];
+/// What has a way of its own; all else is compared value by value. Of these it is compared which fields there are.
+const APART: [&str; 9] =
+    ["criteria", "format", "inputs", "main", "name", "provenance", "source", "title", "verdict"];
 
 /// Keys of counts that say how a result was found, follow from where a run happened to end, or are an index.
 const NOT_JUDGED: [&str; 8] =
@@ -35,11 +23,12 @@ fn explains(path: &str, key: &str) -> bool {
 }
 
 /// What names an element of a list, by the list's key; elements of others are numbered.
-const NATURAL_KEYS: [(&str, &[&str]); 7] = [
+const NATURAL_KEYS: [(&str, &[&str]); 8] = [
     ("answers", &["question"]),
     ("boundaries", &["kind", "branch"]),
     ("claims", &["id"]),
     ("doubts", &["kind"]),
+    ("figures", &["name"]),
     ("motions", &["regime"]),
     ("notes", &["kind", "limit", "message"]),
     ("rows", &["deviation"]),
@@ -66,15 +55,10 @@ pub(super) fn reports(old: &Document, new: &Document, folder: &str) -> ReportDif
         folded: Folded { same: agreeing, ..Folded::default() },
         ..ReportDifference::default()
     };
-    let mut comparison = Comparison { old, new, found };
-    for key in COMPARED {
-        match (old.report.get(key), new.report.get(key)) {
-            (Some(before), Some(after)) => comparison.values(key, &new.report, before, after),
-            // Of another version.
-            _ => comparison.found.folded.unknown += 1,
-        }
-    }
-    sorted(comparison.found)
+    let [given, renumbered] = [Vec::new(), Vec::new()];
+    let mut comparison = Comparison { old, new, found, given, renumbered };
+    comparison.fields("", &old.report, &new.report);
+    sorted(comparison.ended())
 }
 
 fn change(path: &str, old: &Value, new: &Value) -> Change {
@@ -142,9 +126,71 @@ struct Comparison<'a> {
     old: &'a Document,
     new: &'a Document,
     found: ReportDifference,
+    /// What is said to be given, and is something else.
+    given: Vec<Change>,
+    /// Texts in which nothing but numbers changed.
+    renumbered: Vec<Change>,
 }
 
 impl Comparison<'_> {
+    /// Of what has a way of its own, the fields that are on one side only; all else value by value.
+    fn fields(&mut self, path: &str, old: &Value, new: &Value) {
+        match (old, new) {
+            (Value::Object(before), Value::Object(after)) => {
+                let keys: BTreeSet<&String> = before.keys().chain(after.keys()).collect();
+                for key in keys {
+                    let at = if path.is_empty() { key.clone() } else { format!("{path}/{key}") };
+                    match (before.get(key), after.get(key)) {
+                        (Some(a), Some(b)) if !path.is_empty() || APART.contains(&key.as_str()) => {
+                            self.fields(&at, a, b);
+                        }
+                        (Some(a), Some(b)) => self.values(&at, new, a, b),
+                        (a, b) => self.on_one_side(&at, a, b),
+                    }
+                }
+            }
+            (Value::Array(before), Value::Array(after)) => {
+                let pairs = before.iter().zip(after).enumerate();
+                pairs.for_each(|(k, (a, b))| self.fields(&format!("{path}[{}]", k + 1), a, b));
+            }
+            // What an input says beside its text.
+            _ if path.starts_with("inputs[") && old != new => {
+                self.given.push(change(path, old, new));
+            }
+            _ => {}
+        }
+    }
+
+    /// A field on one side only: two versions of the program may differ in it, one does not.
+    fn on_one_side(&mut self, path: &str, old: Option<&Value>, new: Option<&Value>) {
+        let version =
+            |of: &Document| of.report["provenance"]["version"].as_str().map(str::to_owned);
+        if version(self.old).zip(version(self.new)).is_some_and(|(old, new)| old != new) {
+            self.found.folded.unknown += 1;
+        } else {
+            let told = |one: Option<&Value>| one.map_or(Value::Null, |_| json!("there"));
+            self.found.states.push(change(path, &told(old), &told(new)));
+        }
+    }
+
+    /// What was found, once all is known that explains it: a number that is given changes with an input, and a text
+    /// with its numbers.
+    fn ended(mut self) -> ReportDifference {
+        let ReportDifference { inputs, numbers, states, folded, .. } = &mut self.found;
+        if inputs.is_empty() {
+            let (of_case, other): (Vec<_>, Vec<_>) =
+                self.given.into_iter().partition(|one| is_quantity(&one.new));
+            numbers.extend(of_case);
+            states.extend(other);
+        }
+        let moved = folded.within + folded.unjudged + folded.wording + inputs.len() + numbers.len();
+        if moved == 0 {
+            states.append(&mut self.renumbered);
+        }
+        folded.wording += self.renumbered.len();
+        self.found
+    }
+
     /// Everything below a path; `within` is the new object that holds it.
     fn values(&mut self, path: &str, within: &Value, old: &Value, new: &Value) {
         match (old, new) {
@@ -153,12 +199,12 @@ impl Comparison<'_> {
                 let keys: BTreeSet<&String> = before.keys().chain(after.keys()).collect();
                 for key in keys {
                     match (before.get(key), after.get(key)) {
-                        (Some(a), Some(b)) if explains(path, key) => {
+                        (Some(a), Some(b)) if explains(path, key) && alike(a, b) => {
                             let folded = &mut self.found.folded;
                             *(if a == b { &mut folded.same } else { &mut folded.wording }) += 1;
                         }
                         (Some(a), Some(b)) => self.values(&format!("{path}/{key}"), new, a, b),
-                        _ => self.found.folded.unknown += 1,
+                        (a, b) => self.on_one_side(&format!("{path}/{key}"), a, b),
                     }
                 }
             }
@@ -178,15 +224,21 @@ impl Comparison<'_> {
         }
         let key = path.rsplit('/').next().unwrap_or(path);
         let (old, new) = (named(key, old), named(key, new));
+        // A figure whose drawing came or went is told as that.
+        let [drawn, redrawn] = [self.old, self.new].map(|of| &of.figures);
+        let is_told =
+            |name: &str| key == "figures" && drawn.contains_key(name) != redrawn.contains_key(name);
         for (name, before) in &old {
             let path = format!("{path}[{name}]");
             match new.get(name) {
+                None if is_told(name) => {}
                 None => self.element(&path, before, &Value::Null),
                 Some(_) if key == "notes" => self.found.folded.same += 1,
                 Some(after) => self.values(&path, after, before, after),
             }
         }
-        for (name, after) in new.iter().filter(|(name, _)| !old.contains_key(*name)) {
+        let added = new.iter().filter(|(name, _)| !old.contains_key(*name) && !is_told(name));
+        for (name, after) in added {
             self.element(&format!("{path}[{name}]"), &Value::Null, after);
         }
     }
@@ -215,12 +267,26 @@ impl Comparison<'_> {
         }
     }
 
-    /// What is given is an input, which is told as such, or a place along the band.
+    /// What is given is an input, which is told as such, or a place along the band. A number that is known by another
+    /// layer is told although it did not move.
     fn quantity(&mut self, path: &str, old: &Value, new: &Value) {
+        let has = |one: &Value, key: &str| one.get(key).is_some();
+        let keys = [old, new].map(|one| one.as_object().into_iter().flat_map(|all| all.keys()));
+        for key in keys.into_iter().flatten().filter(|key| has(old, key) != has(new, key)) {
+            self.on_one_side(&format!("{path}/{key}"), old.get(key), new.get(key));
+        }
         let folded = &mut self.found.folded;
+        let is_place = path.starts_with("band/") && old["id"] == new["id"];
         match moved(old, new) {
             _ if old == new => folded.same += 1,
+            Moved::Beyond(by, allowed) if is_given(old) && is_given(new) && !is_place => {
+                self.given.push(Change { change: by, allowed, ..change(path, old, new) });
+            }
             _ if is_given(old) && is_given(new) => {}
+            Moved::Within | Moved::Unjudged if old["method"] != new["method"] => {
+                let path = format!("{path}/method");
+                self.found.states.push(change(&path, &old["method"], &new["method"]));
+            }
             Moved::Within => folded.within += 1,
             Moved::Unjudged => folded.unjudged += 1,
             Moved::Beyond(by, allowed) => {
@@ -241,13 +307,21 @@ impl Comparison<'_> {
             other => other.clone(),
         };
         let found = change(path, &told(old), &told(new));
-        if either(&unknown) || either(&Value::is_number) && !judged {
+        let texts = old.as_str().zip(new.as_str());
+        let numbers = old.as_f64().zip(new.as_f64());
+        if let Some((old, new)) = numbers.filter(|_| path.starts_with("derived")) {
+            if (old - new).abs() <= ROUNDING * old.abs().max(new.abs()) {
+                self.found.folded.within += 1;
+            } else {
+                self.found.states.push(found);
+            }
+        } else if either(&unknown) || either(&Value::is_number) && !judged {
             self.found.folded.unjudged += 1;
         } else if without_elements(path) == "claims/verdict" {
             let statement = Some(within["statement"].clone());
             self.found.claims.push(Change { statement, ..found });
-        } else if either(&sentence) {
-            self.found.folded.wording += 1;
+        } else if either(&sentence) && texts.is_some_and(|(old, new)| words(old).eq(words(new))) {
+            self.renumbered.push(found);
         } else {
             self.found.states.push(found);
         }
@@ -270,6 +344,23 @@ fn named<'v>(list: &str, items: &'v [Value]) -> BTreeMap<String, &'v Value> {
         named.insert(name, item);
     }
     named
+}
+
+/// The words of a text that have no number in them.
+fn words(text: &str) -> impl Iterator<Item = &str> {
+    text.split_whitespace().filter(|word| !word.contains(|c: char| c.is_ascii_digit()))
+}
+
+/// Whether two values differ in numbers alone, and in lists, which grow and shrink by chance.
+pub(super) fn alike(old: &Value, new: &Value) -> bool {
+    match (old, new) {
+        (Value::Object(old), Value::Object(new)) => {
+            old.len() == new.len()
+                && old.iter().all(|(key, a)| new.get(key).is_some_and(|b| alike(a, b)))
+        }
+        (Value::Number(_), Value::Number(_)) | (Value::Array(_), Value::Array(_)) => true,
+        _ => old == new,
+    }
 }
 
 /// A sentence by its letters: with another number it is the same. Anything else as it is.

@@ -68,6 +68,7 @@ impl Document {
             }
             other => other?,
         };
+        stored::quantities_are_known(place, &report["criteria"])?;
         Ok(Self { place: place.to_owned(), report, figures, case: None, remedy: Remedy::default() })
     }
 

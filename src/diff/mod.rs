@@ -78,7 +78,7 @@ pub struct ReportDifference {
 pub struct Folded {
     /// Quantities that moved within their errors.
     pub within: usize,
-    /// Sentences about the above, and motions that come and go by chance.
+    /// Sentences in which the numbers of the above stand, and motions that come and go by chance.
     pub wording: usize,
     /// Numbers that say how a result was found, and those that chance moves without a known error.
     pub unjudged: usize,

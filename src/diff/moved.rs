@@ -6,9 +6,11 @@ use crate::quantity::catalogue::{self, Dimension, Kind};
 
 /// Relative error of what is exact but for rounding: roots are found to some 1e-12, and six digits more
 /// than a report prints are left.
-const ROUNDING: f64 = 1e-9;
+pub(super) const ROUNDING: f64 = 1e-9;
 /// The same for a simulated motion: it counts as repeating when it closes to this over its size.
 const REPETITION: f64 = 1e-6;
+/// An error that grows by more than this factor is a change itself: behind it any number may hide.
+const LOOSER: f64 = 10.0;
 /// A relative change below this reads better as a number of its own.
 const SMALL: f64 = 1e-4;
 
@@ -51,8 +53,9 @@ pub(super) fn moved(old: &Value, new: &Value) -> Moved {
     let size = a.abs().max(b.abs());
     let scale = if is_pure(dimension) { size.max(1.0) } else { size };
     let allowed = errors.0 + errors.1 + tolerance * scale;
+    let looser = errors.1 > LOOSER * errors.0 && errors.1 > tolerance * scale;
     if change.abs() <= allowed {
-        return Moved::Within;
+        return if looser { Moved::Beyond(None, Some(allowed)) } else { Moved::Within };
     }
     let relative = change / a.abs();
     let change = if is_difference(dimension) || a.abs() < allowed || relative.abs() < SMALL {

@@ -5,10 +5,10 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use pulldown_cmark::{CowStr, Event, HeadingLevel, Options, Parser, Tag, TagEnd};
+use pulldown_cmark::{Alignment, CowStr, Event, HeadingLevel, Options, Parser, Tag, TagEnd};
 use serde_json::json;
-use tera::escape_html;
 
+use super::escape;
 use super::mathml::to_mathml;
 use super::render::RenderError;
 use super::template;
@@ -64,6 +64,10 @@ struct Writer<'a> {
     quoted: bool,
     in_verdict: bool,
     tables: usize,
+    /// How the columns of the table that is being read are aligned, the name of its cells, and the next one's column.
+    alignments: Vec<Alignment>,
+    cell: &'static str,
+    column: usize,
     in_formulas: bool,
 }
 
@@ -115,7 +119,7 @@ impl<'a> Writer<'a> {
                 (self.quoted, self.in_verdict) = (true, false);
                 out.push(html("</section>\n"));
             }
-            Event::Start(Tag::Table(_)) => {
+            Event::Start(Tag::Table(alignments)) => {
                 let name = self.region();
                 // The first numbers of a page stand out.
                 let class = if self.tables == 0 { "table tiles" } else { "table" };
@@ -123,8 +127,28 @@ impl<'a> Writer<'a> {
                 out.push(html(format!(
                     "<div class=\"{class}\" role=\"region\" aria-label=\"{name}\" tabindex=\"0\">"
                 )));
+                out.push(Event::Start(Tag::Table(Vec::new())));
+                self.alignments = alignments;
+            }
+            Event::Start(Tag::TableHead) => {
+                (self.cell, self.column) = ("th", 0);
                 out.push(event);
             }
+            Event::Start(Tag::TableRow) => {
+                (self.cell, self.column) = ("td", 0);
+                out.push(event);
+            }
+            // The writer of Markdown would align cells by styles of their own, which the page's policy forbids.
+            Event::Start(Tag::TableCell) => {
+                let class = match self.alignments.get(self.column) {
+                    Some(Alignment::Right) => " class=\"right\"",
+                    Some(Alignment::Center) => " class=\"center\"",
+                    _ => "",
+                };
+                self.column += 1;
+                out.push(html(format!("<{}{class}>", self.cell)));
+            }
+            Event::End(TagEnd::TableCell) => out.push(html(format!("</{}>", self.cell))),
             Event::End(TagEnd::Table) => out.extend([event, html("</div>\n")]),
             Event::SoftBreak if self.in_verdict => out.push(html("<br>\n")),
             Event::Text(text) => out.push(Event::Text(unbroken(&text).into())),
@@ -139,7 +163,7 @@ impl<'a> Writer<'a> {
 
     fn end_heading(&mut self, out: &mut Vec<Event<'a>>) {
         let Some((level, text)) = self.heading.take() else { return };
-        let (id, name) = (slug(&text), escaped(&text));
+        let (id, name) = (slug(&text), escape::html(&text));
         if level == HeadingLevel::H2 {
             self.contents.push([id.clone(), text.clone()]);
         }
@@ -153,8 +177,8 @@ impl<'a> Writer<'a> {
         let count = self.regions.entry(self.section.clone()).or_default();
         *count += 1;
         match *count {
-            1 => escaped(&self.section),
-            more => format!("{} ({more})", escaped(&self.section)),
+            1 => escape::html(&self.section),
+            more => format!("{} ({more})", escape::html(&self.section)),
         }
     }
 
@@ -169,10 +193,7 @@ impl<'a> Writer<'a> {
         let Some(drawing) = self.drawings.and_then(|all| all.get(name)) else {
             return out.push(html(image.to_owned()));
         };
-        let width = part("width").unwrap_or("720");
-        out.push(html(format!(
-            "<figure><div class=\"drawing\" style=\"--drawn: {width}px\" tabindex=\"0\">{drawing}</div>"
-        )));
+        out.push(html(format!("<figure><div class=\"drawing\" tabindex=\"0\">{drawing}</div>")));
         self.figure = Caption::Expected;
     }
 
@@ -241,13 +262,6 @@ fn unbroken(text: &str) -> String {
         before = letter;
     }
     result
-}
-
-fn escaped(text: &str) -> String {
-    let mut bytes = Vec::new();
-    // Writing to memory does not fail.
-    let _ = escape_html(text, &mut bytes);
-    String::from_utf8_lossy(&bytes).into_owned()
 }
 
 #[cfg(test)]

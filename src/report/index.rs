@@ -74,7 +74,15 @@ impl Summary {
     pub fn read(place: &str, text: &str) -> Result<Self, ReadError> {
         stored::read(place, text)?;
         // Out of the text once more, which knows the line where something is missing.
-        serde_json::from_str(text).map_err(|cause| stored::incomplete(place, &cause))
+        let summary: Self =
+            serde_json::from_str(text).map_err(|cause| stored::incomplete(place, &cause))?;
+        let known = |part: &Value| stored::quantities_are_known(place, part);
+        summary
+            .quantities
+            .values()
+            .chain([&summary.band, &summary.criteria])
+            .try_for_each(known)?;
+        Ok(summary)
     }
 
     /// Numbers of the table, each from one end of a range to the other or one: clearance, excitation, vibration

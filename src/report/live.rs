@@ -35,12 +35,21 @@ pub fn embed(report: &str, live: &str, text: &str) -> Result<String, EmbedError>
         let length = live[at..].find(end).ok_or(EmbedError::Another(begin))? + end.len();
         Ok::<_, EmbedError>(&live[at..at + length])
     };
+    let hash = |part: &str, [begin, end]: [&str; 2]| {
+        template::policy_hash(&part[begin.len()..part.len() - end.len()])
+    };
     let [style, module, script] = PARTS.map(part);
+    let (style, module, script) = (style?, module?, script?);
+    let styles = format!("style-src '{}' ", hash(style, PARTS[0]));
+    let scripts =
+        format!("script-src '{}' 'wasm-unsafe-eval'; worker-src blob:", hash(script, PARTS[2]));
     let panel = template::render("live.html", &Units::reduced(), &json!({ "text": text }))?;
     let entry = "<li><a href=\"#live\">Live</a></li>\n</ol>\n</nav>";
     let page = report
-        .replacen("</head>", &format!("{}\n</head>", style?), 1)
+        .replacen("style-src ", &styles, 1)
+        .replacen("script-src 'none'", &scripts, 1)
+        .replacen("</head>", &format!("{style}\n</head>"), 1)
         .replacen("</ol>\n</nav>", entry, 1)
         .replacen("</main>", &format!("{panel}</main>"), 1);
-    Ok(page.replacen("</body>", &format!("{}\n{}\n</body>", module?, script?), 1))
+    Ok(page.replacen("</body>", &format!("{module}\n{script}\n</body>"), 1))
 }

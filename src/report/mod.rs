@@ -4,6 +4,7 @@
 pub mod console;
 pub mod criteria;
 pub mod document;
+pub mod escape;
 pub mod figure;
 pub mod figures;
 pub mod html;

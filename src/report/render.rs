@@ -44,8 +44,13 @@ pub fn is_of_report(file: &Path) -> bool {
 #[non_exhaustive]
 pub enum RenderError {
     /// A template does not fit the report.
-    #[error("a template cannot be filled in: {0}")]
-    Template(#[from] tera::Error),
+    #[error("the page {name} cannot be made: {reason}")]
+    Template {
+        /// The template.
+        name: String,
+        /// What it lacks, without the text around it, which says nothing to a reader.
+        reason: String,
+    },
     /// A figure cannot be drawn.
     #[error(transparent)]
     Figure(#[from] FigureError),
@@ -166,46 +171,6 @@ fn drawings(figures: &[Figure]) -> Result<BTreeMap<String, String>, RenderError>
 fn figure_files(drawings: BTreeMap<String, String>) -> Files {
     let path = |name: String| format!("figures/{name}.svg");
     texts(drawings.into_iter().map(|(name, drawing)| (path(name), drawing))).collect()
-}
-
-/// Text whose characters mean nothing to Markdown; a line of its own stays one line.
-pub(super) fn markdown_text(text: &str) -> String {
-    let mut safe = String::with_capacity(text.len());
-    for letter in text.chars() {
-        match letter {
-            '\n' | '\r' => safe.push(' '),
-            '\\' | '`' | '*' | '_' | '<' | '>' | '[' | ']' | '#' | '$' => {
-                safe.push('\\');
-                safe.push(letter);
-            }
-            _ => safe.push(letter),
-        }
-    }
-    safe
-}
-
-/// The same inside a table.
-pub fn markdown_cell(text: &str) -> String {
-    markdown_text(text).replace('|', "\\|")
-}
-
-/// A path as a link writes it: everything that could mean something else is encoded.
-pub(super) fn url_path(path: &str) -> String {
-    path.bytes().fold(String::with_capacity(path.len()), |mut link, byte| {
-        if byte.is_ascii_alphanumeric() || b"-._~/".contains(&byte) {
-            link.push(char::from(byte));
-        } else {
-            link.push_str(&format!("%{byte:02X}"));
-        }
-        link
-    })
-}
-
-pub(super) fn attribute(text: &str) -> String {
-    text.replace('&', "&amp;")
-        .replace('"', "&quot;")
-        .replace('<', "&lt;")
-        .replace(['\n', '\r'], " ")
 }
 
 pub(super) fn without_repeated_blank_lines(text: &str) -> String {

@@ -5,6 +5,7 @@
 use serde_json::Value;
 
 use super::document::FORMAT;
+use crate::quantity::catalogue;
 
 /// Why a file is not a report that can be read.
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]
@@ -33,6 +34,26 @@ fn error(message: String, help: &'static str) -> ReadError {
 /// Something else than a report needs stands in a place.
 pub(super) fn incomplete(place: &str, cause: &serde_json::Error) -> ReadError {
     error(format!("{place} is not a whole report: {cause}"), HALF)
+}
+
+/// Whether every quantity in a part of a report is one that this version knows.
+///
+/// # Errors
+/// [`ReadError`] names the first that is not.
+pub(crate) fn quantities_are_known(place: &str, part: &Value) -> Result<(), ReadError> {
+    let is_quantity = part.get("error").is_some() && part.get("value").is_some();
+    let id = part["id"].as_str().unwrap_or_default();
+    if is_quantity && catalogue::kind(id).is_none() {
+        let message = format!("{place} is damaged: it has a quantity `{id}`, which is not known");
+        return Err(error(message, HALF));
+    }
+    match part {
+        Value::Object(fields) => {
+            fields.values().try_for_each(|one| quantities_are_known(place, one))
+        }
+        Value::Array(items) => items.iter().try_for_each(|one| quantities_are_known(place, one)),
+        _ => Ok(()),
+    }
 }
 
 /// The document in the text of a `report.json`; `place` says where it came from.

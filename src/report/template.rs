@@ -9,28 +9,39 @@
 //! | `label` | a quantity or its id | "clearance b" |
 //! | `name`, `symbol` | the same | its parts |
 //! | `num(digits=3)` | a number | significant digits |
-//! | `tex` | a number; `digits=4` | the same inside a formula; without digits all that it has |
 //! | `pct` | a number | a share in per cent |
 //! | `asked` | a number | a share as people ask for it: "1 %" |
 //! | `relative_error` | a number; `below=true` | a relative error in per cent or powers of ten |
 //! | `operations` | a count | two digits, in powers of ten from a thousand on |
 //! | `many(one="start", more="starts")` | a count | "1 start", "3 starts" |
 //! | `cap` | text | with a capital letter first |
-//! | `annotation`, `property` | text | safe in a message of a GitHub workflow, in a property of one |
-//! | `md`, `cell`, `attr`, `path` | text of a user | safe in Markdown, in a table's cell, in an attribute, in a link |
+//! | `sha256` | text | its hash as a content security policy writes it |
+//!
+//! All that a template prints is escaped for its page ([`super::escape`]), but for what the following make of it, and
+//! for the program's own text marked as `safe`:
+//!
+//! | filter | of | gives |
+//! |---|---|---|
+//! | `code` | text | text in the code marks of Markdown |
+//! | `image` | a figure; `folder="a"`, `width=400` | the element that shows it |
+//! | `path` | a path | a part of a link |
+//! | `property` | text | a property of a message of a GitHub workflow |
+//! | `tex` | a number; `digits=4` | the number inside a formula; without digits all that it has |
 
 use std::collections::BTreeMap;
 use std::ffi::OsStr;
 use std::path::Path;
 use std::sync::LazyLock;
 
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
 use serde::Serialize;
-use tera::{Context, Kwargs, Map, State, Tera, TeraResult, Value};
+use tera::{Context, ErrorKind, Kwargs, Map, State, StringInput, Tera, TeraResult, Value};
 
+use super::escape;
 use super::figure::Figure;
-use super::render::{
-    RenderError, attribute, markdown_cell, markdown_text, url_path, without_repeated_blank_lines,
-};
+use super::render::{RenderError, without_repeated_blank_lines};
+use crate::digest::sha256_bytes;
 use crate::quantity::catalogue::{self, Digits, Kind};
 use crate::quantity::{Units, numbers};
 
@@ -65,8 +76,24 @@ fn word(text: &str) -> &str {
 /// # Errors
 /// [`RenderError::Template`] if template and context do not fit.
 pub fn render(name: &str, units: &Units, context: &impl Serialize) -> Result<String, RenderError> {
+    filled_in(name, units, context).map_err(|error| {
+        let reason = match error.kind() {
+            ErrorKind::SyntaxError(report) | ErrorKind::RenderingError(report) => {
+                report.message().to_owned()
+            }
+            other => other.to_string(),
+        };
+        RenderError::Template { name: name.to_owned(), reason }
+    })
+}
+
+fn filled_in(name: &str, units: &Units, context: &impl Serialize) -> TeraResult<String> {
     let mut tera = Tera::new();
     register(&mut tera, *units);
+    tera.autoescape_on(escape::suffixes());
+    if let Some(escape) = escape::of_page(name) {
+        tera.set_escape_fn(escape);
+    }
     tera.add_raw_templates(needed(name)?)?;
     let text = tera.render(name, &Context::from_serialize(context)?)?;
     Ok(match Path::new(name).extension().and_then(OsStr::to_str) {
@@ -139,7 +166,8 @@ fn register(tera: &mut Tera, units: Units) {
         Ok::<_, tera::Error>(numbers::significant(value, usize::from(digits)))
     });
     tera.register_filter("tex", |value: f64, options: Kwargs, _: &State| {
-        Ok::<_, tera::Error>(numbers::tex(value, options.get::<u8>("digits")?))
+        let text = numbers::tex(value, options.get::<u8>("digits")?);
+        Ok::<_, tera::Error>(Value::safe_string(&text))
     });
     tera.register_filter("asked", |share: f64, _: Kwargs, _: &State| numbers::asked(share));
     tera.register_filter("relative_error", |value: f64, options: Kwargs, _: &State| {
@@ -154,15 +182,36 @@ fn register(tera: &mut Tera, units: Units) {
         let word: &str = options.must_get(if count == 1 { "one" } else { "more" })?;
         Ok::<_, tera::Error>(format!("{count} {word}"))
     });
-    tera.register_filter("cap", |text: &str, _: Kwargs, _: &State| numbers::capitalised(text));
-    tera.register_filter("md", |text: &str, _: Kwargs, _: &State| markdown_text(text));
-    tera.register_filter("cell", |text: &str, _: Kwargs, _: &State| markdown_cell(text));
-    tera.register_filter("path", |text: &str, _: Kwargs, _: &State| url_path(text));
-    tera.register_filter("attr", |text: &str, _: Kwargs, _: &State| attribute(text));
-    tera.register_filter("annotation", |text: &str, _: Kwargs, _: &State| annotation(text));
-    tera.register_filter("property", |text: &str, _: Kwargs, _: &State| {
-        annotation(text).replace(':', "%3A").replace(',', "%2C")
+    tera.register_filter("sha256", |text: &str, _: Kwargs, _: &State| {
+        Value::safe_string(&policy_hash(text))
     });
+    tera.register_filter("cap", |text: StringInput, _: Kwargs, _: &State| {
+        text.inherit_safety(numbers::capitalised(text.as_str()))
+    });
+    let safe = |text: String| Value::safe_string(&text);
+    tera.register_filter("code", move |text: &str, _: Kwargs, _: &State| safe(escape::code(text)));
+    tera.register_filter("path", move |text: &str, _: Kwargs, _: &State| {
+        safe(escape::url_path(text))
+    });
+    tera.register_filter("property", move |text: &str, _: Kwargs, _: &State| {
+        safe(escape::property(text))
+    });
+    tera.register_filter("image", move |figure: &Map, options: Kwargs, _: &State| {
+        let text = |key| field(figure, key).and_then(Value::as_str).unwrap_or_default();
+        let folder = options.get::<&str>("folder")?.map(|folder| format!("{folder}/"));
+        let source =
+            format!("{}figures/{}.svg", folder.unwrap_or_default(), escape::url_path(text("name")));
+        let width = field(figure, "width").and_then(Value::as_u64);
+        let width = options.get::<u64>("width")?.or(width).unwrap_or_default();
+        let [source, alt] = [&source, text("alt")].map(escape::attribute);
+        let image = format!("<img src=\"{source}\" width=\"{width}\" alt=\"{alt}\">");
+        Ok::<_, tera::Error>(safe(image))
+    });
+}
+
+/// The hash by which a content security policy allows a style or a script.
+pub(super) fn policy_hash(text: &str) -> String {
+    format!("sha256-{}", STANDARD.encode(sha256_bytes(text.as_bytes())))
 }
 
 /// The kind of a quantity, or of an id.
@@ -174,11 +223,6 @@ fn kind_of(value: &Value) -> TeraResult<&'static Kind> {
 
 fn field<'a>(map: &'a Map, key: &'static str) -> Option<&'a Value> {
     map.get(&tera::value::Key::Str(key))
-}
-
-/// The escapes of a GitHub workflow for what would end a message.
-fn annotation(text: &str) -> String {
-    text.replace('%', "%25").replace('\r', "%0D").replace('\n', "%0A")
 }
 
 /// A number as its author would write it: 8 Hz, not 8.000 Hz.

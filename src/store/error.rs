@@ -20,6 +20,12 @@ impl StoreError {
     }
 }
 
+/// A link where a folder of a result would be.
+pub(super) fn linked(path: &Path) -> StoreError {
+    let message = format!("{} is a link, through which nothing is written", path.display());
+    StoreError::new(message, Some("remove it, or name the folder that it leads to"))
+}
+
 /// What the operating system refused, such as to "read", with advice where the disk is at fault.
 pub(super) fn refused(action: &'static str, path: &Path, cause: io::Error) -> StoreError {
     let advice = match cause.kind() {

@@ -1,48 +1,144 @@
-//! Folders that appear whole or not at all, and what is in them.
+//! Folders that are written into: what appears in them appears whole or not at all, through no link, and while nobody
+//! else writes.
 
 use std::collections::BTreeMap;
+use std::fs::File;
 use std::io::ErrorKind;
 use std::path::{Component, Path, PathBuf};
 
 use tempfile::TempDir;
 
-use super::error::{StoreError, refused};
-use super::{folder_of, make_folder_of, ordinary, unusable, write_file_and_folder};
+use super::error::{StoreError, linked, refused};
+use super::{folder_of, ordinary, unusable, write_file};
 
-/// Replaces what is `ours` in a folder, which may be missing, by `files` (paths relative to it, as those
-/// that `ours` is asked about). The new folder is written beside the old one, the files of others are
-/// taken along, and it takes the old one's place when it is complete: on any failure the old one stays
-/// as it was, and no file of ours outlives the ones it belonged to.
+/// A folder that somebody named to be written into. Others who would write into it through this type wait until this
+/// value is gone, with its process at the latest; where a file system knows no locks, nobody waits.
+///
+/// The folder itself may be a link. Nothing below it is written through one: whoever filled it, as a repository that was
+/// checked out, does not say what else is written to.
+pub struct Output {
+    root: PathBuf,
+    _lock: Option<File>,
+}
+
+impl Output {
+    /// Opens a folder, which is made where there is none, once nobody else writes into it.
+    ///
+    /// # Errors
+    /// [`StoreError`] where it cannot be made.
+    pub fn open(root: &Path) -> Result<Self, StoreError> {
+        let root = if root == Path::new("") { Path::new(".") } else { root };
+        std::fs::create_dir_all(root).map_err(|cause| refused("create", root, cause))?;
+        // A folder can be locked like a file, but for Windows.
+        let file = match cfg!(unix) {
+            true => File::open(root),
+            false => File::create(root.join(".vinesink-lock")),
+        };
+        let lock = file.ok().filter(|file| file.lock().is_ok());
+        Ok(Self { root: root.to_owned(), _lock: lock })
+    }
+
+    /// Adds `files` to the folder `inside` of it, which may be missing (paths relative to that), each whole or not at
+    /// all; files of the same name are replaced, all others stay.
+    ///
+    /// # Errors
+    /// [`StoreError`] for a path that leads out of the folder or through a link, or when something cannot be written.
+    pub fn add(
+        &self,
+        inside: impl AsRef<Path>,
+        files: &BTreeMap<PathBuf, Vec<u8>>,
+    ) -> Result<(), StoreError> {
+        stay_inside(files)?;
+        for (file, bytes) in files {
+            let file = inside.as_ref().join(file);
+            let folder = folder_below(&self.root, file.parent().unwrap_or(Path::new("")))?;
+            write_file(&folder.join(file.file_name().unwrap_or_default()), bytes)?;
+        }
+        Ok(())
+    }
+
+    /// Replaces what is `ours` in the folder `name` of it, which may be missing, by `files` (paths relative to that, as
+    /// those that `ours` is asked about). The new folder is written beside the old one, the files of others are taken
+    /// along, and it takes the old one's place when it is complete: on any failure the old one stays as it was, and no
+    /// file of ours outlives the ones it belonged to.
+    ///
+    /// # Errors
+    /// [`StoreError`] for a path that leads out of the folder or through a link, or when something cannot be written,
+    /// moved or removed.
+    pub fn replace(
+        &self,
+        name: impl AsRef<Path>,
+        files: &BTreeMap<PathBuf, Vec<u8>>,
+        ours: fn(&Path) -> bool,
+    ) -> Result<(), StoreError> {
+        stay_inside(files)?;
+        let path = self.root.join(name);
+        if path.is_symlink() {
+            return Err(linked(&path));
+        }
+        if path.exists() && !path.is_dir() {
+            return Err(refused("replace", &path, ErrorKind::NotADirectory.into()));
+        }
+        let new = temporary_folder(&path)?;
+        for (file, bytes) in files {
+            let file = new.path().join(file);
+            make_folder_of(&file)?;
+            std::fs::write(&file, bytes).map_err(|cause| refused("write", &file, cause))?;
+        }
+        for file in files_below(&path)?.into_iter().filter(|file| !ours(file)) {
+            take_along(&path.join(&file), &new.path().join(file))?;
+        }
+        swap(&path, new)
+    }
+}
+
+/// As [`Output::replace`], of a folder that was named itself.
 ///
 /// # Errors
-/// [`StoreError`] for a path that leads out of the folder, or when something cannot be written, moved or
-/// removed.
+/// As there.
 pub fn replace_folder(
     path: &Path,
     files: &BTreeMap<PathBuf, Vec<u8>>,
     ours: fn(&Path) -> bool,
 ) -> Result<(), StoreError> {
-    stay_inside(files)?;
-    if path.exists() && !path.is_dir() {
-        return Err(refused("replace", path, ErrorKind::NotADirectory.into()));
+    let led_to = path.is_symlink().then(|| path.canonicalize().ok()).flatten();
+    let path = led_to.as_deref().unwrap_or(path);
+    Output::open(folder_of(path)?)?.replace(path.file_name().unwrap_or_default(), files, ours)
+}
+
+/// The folder `inside` of another one, both made where they are missing; the other one may be a link, nothing below it.
+///
+/// # Errors
+/// [`StoreError`] where a link is in the way, or a folder cannot be made.
+pub fn folder_below(root: &Path, inside: &Path) -> Result<PathBuf, StoreError> {
+    let make = |folder: &Path| {
+        std::fs::create_dir_all(folder).map_err(|cause| refused("create", folder, cause))
+    };
+    let mut folder = root.to_owned();
+    make(root)?;
+    for part in inside {
+        folder.push(part);
+        if folder.is_symlink() {
+            return Err(linked(&folder));
+        }
+        make(&folder)?;
     }
-    make_folder_of(path)?;
-    let new = temporary_folder(path)?;
-    for (file, bytes) in files {
-        let file = new.path().join(file);
-        make_folder_of(&file)?;
-        std::fs::write(&file, bytes).map_err(|cause| refused("write", &file, cause))?;
-    }
-    for file in files_below(path)?.into_iter().filter(|file| !ours(file)) {
-        take_along(&path.join(&file), &new.path().join(file))?;
-    }
-    swap(path, new)
+    Ok(folder)
+}
+
+/// Makes the folder of a path in a folder that nobody else knows.
+fn make_folder_of(path: &Path) -> Result<(), StoreError> {
+    let folder = folder_of(path)?;
+    std::fs::create_dir_all(folder).map_err(|cause| refused("create", folder, cause))
 }
 
 /// Puts a file also where another one is to be, unless there is one.
 fn take_along(from: &Path, to: &Path) -> Result<(), StoreError> {
     if to.is_file() {
         return Ok(());
+    }
+    if from.is_symlink() && to.is_dir() {
+        return Err(linked(from));
     }
     make_folder_of(to)?;
     // The same file under a second name, until the first one is removed; not every file system can.
@@ -83,19 +179,6 @@ pub fn read_folder(
         Ok((file.clone(), bytes.map_err(|cause| refused("read", &path.join(file), cause))?))
     };
     files.map(read).collect()
-}
-
-/// Adds `files` (paths relative to it) to a folder, which may be missing, each whole or not at all;
-/// files of the same name are replaced, all others stay.
-///
-/// # Errors
-/// [`StoreError`] for a path that leads out of the folder, or when something cannot be written.
-pub fn add_to_folder(path: &Path, files: &BTreeMap<PathBuf, Vec<u8>>) -> Result<(), StoreError> {
-    stay_inside(files)?;
-    for (file, bytes) in files {
-        write_file_and_folder(&path.join(file), bytes)?;
-    }
-    Ok(())
 }
 
 /// Moves the old folder aside, the new one in, and the old one back should that fail.
@@ -152,7 +235,9 @@ mod tests {
         assert_eq!(names(&target), ["a.txt", "figures", "gone"]);
         assert_eq!(read_text(&target.join("figures/b.txt")).expect("text"), "2");
         let others = [("d.md", "4"), ("figures/e.svg", "5"), (".keep", ""), ("f/g/h", "6")];
-        add_to_folder(&target, &files(&others)).expect("added");
+        let reports = Output::open(&folder.path().join("reports")).expect("a folder");
+        reports.add("case", &files(&others)).expect("added");
+        drop(reports);
         #[cfg(unix)]
         std::os::unix::fs::symlink("nowhere", target.join("link")).expect("a link");
         replace_folder(&target, &files(&[("a.txt", "7")]), is_txt).expect("written again");

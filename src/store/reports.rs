@@ -145,7 +145,8 @@ mod tests {
             names.iter().map(|name| ((*name).to_owned(), name.as_bytes().to_vec())).collect();
         let folder = tempfile::tempdir().expect("a folder");
         let written = files.iter().map(|(name, bytes)| (PathBuf::from(name), bytes.clone()));
-        super::super::add_to_folder(folder.path(), &written.collect()).expect("written");
+        let output = super::super::Output::open(folder.path()).expect("a folder");
+        output.add("", &written.collect()).expect("written");
         #[cfg(unix)]
         std::os::unix::fs::symlink("..", folder.path().join("b/up")).expect("a link");
         let read = read_reports(folder.path()).expect("readable");

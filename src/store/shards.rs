@@ -4,7 +4,7 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::{Growing, StoreError, TEMPORARY, refused};
+use super::{Growing, StoreError, TEMPORARY, folder_below, refused};
 use crate::digest::sha256;
 
 /// The folder of a sweep's chunks.
@@ -16,13 +16,12 @@ pub struct Shards {
 }
 
 impl Shards {
-    /// Those of a sweep in a folder, which is made where there is none.
+    /// Those of a sweep in the folder `inside` of another one, both made where there are none.
     ///
     /// # Errors
     /// [`StoreError`] where it cannot be made.
-    pub fn open(folder: &Path, identity: &str) -> Result<Self, StoreError> {
-        std::fs::create_dir_all(folder).map_err(|cause| refused("create", folder, cause))?;
-        Ok(Self { folder: folder.to_owned(), identity: identity.to_owned() })
+    pub fn open(root: &Path, inside: &Path, identity: &str) -> Result<Self, StoreError> {
+        Ok(Self { folder: folder_below(root, inside)?, identity: identity.to_owned() })
     }
 
     /// The file of a chunk.

@@ -203,6 +203,8 @@ fn a_comparison_names_the_deviation() {
     };
     let mut before = facts.clone();
     before.as_object_mut().expect("an object").remove("deviations");
+    assert!(compared(&before, &facts).contains("| deviation | – | there |"));
+    before["provenance"]["version"] = json!("0.0.7");
     assert!(!compared(&before, &facts).contains("deviation"));
     let mut moved = facts.clone();
     let rows = moved["deviations"]["rows"].as_array_mut().expect("rows");

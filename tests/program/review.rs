@@ -337,7 +337,7 @@ fn the_script_reviews_a_branch() {
         let image = format!("<img src=\"{url}/{commit}/reports/damper/figures/map.svg\"");
         assert!(review.contains(&image), "{image}\n{review}");
     }
-    assert_eq!(text(&output.stdout), "checked check cases/damper.toml --format text\n");
+    assert_eq!(text(&output.stdout), "checked check --format text -- cases/damper.toml\n");
     assert_eq!(repository.git(&["status", "--porcelain"]), "?? review.md");
 
     let (review, _) = repository.review("main", &[("CHECK", "1")], 1);

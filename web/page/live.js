@@ -341,7 +341,7 @@ function Live(place) {
 
   /** The verdict and the first numbers, from the Markdown of the report. */
   function firstScreen({ first_screen, document: { verdict: { tone } } }) {
-    const lines = first_screen.split("\n"), plain = (line) => line.replace(/\[(.+?)\]\(.*?\)/g, "$1").replace(/\\(.)/g, "$1");
+    const lines = first_screen.split("\n"), plain = (line) => line.replace(/\[(.+?)\]\(.*?\)/g, "$1").replace(/&#(\d+);/g, (_, code) => String.fromCharCode(code));
     const sentence = (line) => make("p", {}, ...plain(line).split("**").map((part, k) => k % 2 ? make("strong", {}, part) : part));
     const some = (begin) => lines.filter((line) => line.startsWith(begin)).map((line) => sentence(line.slice(2)));
     const [names = [], , numbers = [], layers = []] = lines.filter((line) => line.startsWith("|")).map((line) => line.split("|").slice(1, -1).map((cell) => plain(cell.trim())));

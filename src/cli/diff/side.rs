@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use super::super::output::word;
 use miette::Result;
 use vinesink::diff::{CaseFile, Document, Remedy, Reports};
 use vinesink::digest::sha256;
@@ -137,6 +138,7 @@ const CASES: &str = "cases";
 
 fn remedy(case: &Path, report: &Path, revision: &Option<(String, String)>) -> Remedy {
     let out = report.parent().filter(|out| *out != Path::new("")).unwrap_or(Path::new("."));
-    let command = format!("vinesink report {} --out {}", case.display(), out.display());
+    let [case, out] = [case, out].map(|path| word(&path.display().to_string()));
+    let command = format!("vinesink report {case} --out {out}");
     Remedy { command, revision: revision.as_ref().map(|(commit, _)| commit.clone()) }
 }

@@ -7,7 +7,7 @@ use clap::Args;
 use miette::{IntoDiagnostic, Result, WrapErr as _, miette};
 use vinesink::digest::sha256;
 use vinesink::report::sweep::{AxisShown, MOST_POINTS, Swept};
-use vinesink::store::{self, Growing};
+use vinesink::store::{self, Growing, Output};
 use vinesink::sweep::columns::{self, Column};
 use vinesink::sweep::csv;
 use vinesink::sweep::limits::{StabilityLimit, stability_limits};
@@ -113,11 +113,10 @@ impl Sweep {
             results_sha256: sha256(&bytes),
         };
         let files = swept.files()?;
-        let name = self.folder.file_name().unwrap_or_default();
-        let folder = reports.map_or_else(|| self.folder.clone(), |reports| reports.join(name));
-        store::add_to_folder(&folder, &files)?;
+        let out = reports.unwrap_or(&self.out);
+        Output::open(out)?.add(&self.name, &files)?;
         reports.map_or(Ok(()), index::refresh)?;
-        output::print_path(&folder.join("sweep.html"))
+        output::print_path(&out.join(&self.name).join("sweep.html"))
     }
 
     /// Of the exact orbit, which a map over frequency and clearance shows.

@@ -5,15 +5,16 @@
 
 mod job;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use miette::Result;
 use vinesink::case::{Case, Recording};
-use vinesink::store;
+use vinesink::store::{self, Output};
 
 use super::{Long, Sweep, Where, output, shown};
-use job::{Job, word};
+use job::Job;
+use output::word;
 
 /// Submit all chunks to the engine of a cluster, and the merge after them
 ///
@@ -109,11 +110,13 @@ pub fn run(arguments: &Arguments) -> Result<bool> {
         ))?;
         return Ok(true);
     }
-    store::write_file_and_folder(&job.case, sweep.case_text.as_bytes())?;
-    copy_record(&sweep.case, &at.case, &job.case)?;
-    for (file, text) in &job.files {
-        store::write_file(file, text.as_bytes())?;
-    }
+    let inside = |path: &Path| path.strip_prefix(&job.out).unwrap_or(path).to_owned();
+    let scripts = job.files.iter().map(|(file, text)| (inside(file), text.clone().into_bytes()));
+    let case = (inside(&job.case), sweep.case_text.clone().into_bytes());
+    let record = record(&sweep.case, &at.case)?;
+    let record = record.map(|(file, bytes)| (inside(&job.folder.join(file)), bytes));
+    let files = scripts.chain([case]).chain(record).collect();
+    Output::open(&job.out)?.add("", &files)?;
     let [watch, cancel] = job.submit()?;
     output::print(format!(
         "submitted: {} chunks in {} tasks, and the merge after them\n  \
@@ -130,12 +133,12 @@ pub fn run(arguments: &Arguments) -> Result<bool> {
     Ok(true)
 }
 
-/// Copies the record that drives a case to where its copy looks for it.
-fn copy_record(case: &Case, from: &Path, to: &Path) -> Result<()> {
+/// The record that drives a case, where the case's copy looks for it.
+fn record(case: &Case, path: &Path) -> Result<Option<(PathBuf, Vec<u8>)>> {
     let file = case.recording.as_ref().and_then(Recording::file);
-    let Some(file) = file.filter(|file| Path::new(file).is_relative()) else { return Ok(()) };
-    let text = store::read_text(&from.with_file_name(file))?;
-    Ok(store::write_file_and_folder(&to.with_file_name(file), text.as_bytes())?)
+    let Some(file) = file.filter(|file| Path::new(file).is_relative()) else { return Ok(None) };
+    let text = store::read_text(&path.with_file_name(file))?;
+    Ok(Some((file.into(), text.into_bytes())))
 }
 
 #[cfg(test)]

@@ -80,7 +80,7 @@ fn the_template_fits_what_the_figures_tell() {
         "- holds: (a) more than two impacts per period in the paper; found at b = 0.300 mm:",
         "- **does not hold**: The vibration is smallest",
         "8.3036 Hz, $\\sigma = -0.7096$, $\\gamma = 1.119$",
-        "[t\\_t](c/report.md): what\n\nChecked:\n\n- holds: One stable branch",
+        "[t_t](c/report.md): what\n\nChecked:\n\n- holds: One stable branch",
         "| 2.50 mm | (b) 3 in every period | **modulated, captured 30 %**, $z = 1.50$ (31 of 32) |",
         "43 with set A",
         "(Hopf, 26.5 mm), then two unstable points meet on the left branch and vanish (34.9 mm).",

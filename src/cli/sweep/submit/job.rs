@@ -12,6 +12,7 @@ use vinesink::report::template::render;
 
 use super::super::{Sweep, shown};
 use super::{Arguments, Engine};
+use crate::cli::output::word;
 
 /// Tasks unless said otherwise: one less than the number that Slurm allows in an array, 1001, unless it
 /// is told to allow more.
@@ -22,6 +23,8 @@ pub(super) struct Job {
     engine: Engine,
     options: Vec<String>,
     pub(super) tasks: u64,
+    /// The folder of all sweeps.
+    pub(super) out: PathBuf,
     /// Receives the files.
     pub(super) folder: PathBuf,
     /// The script of the tasks; then Slurm's merge, or HyperQueue's job, which has it.
@@ -36,7 +39,6 @@ impl Job {
         let program = std::env::current_exe().into_diagnostic();
         let program = program.wrap_err("cannot tell where this program is")?;
         let out = std::path::absolute(&arguments.sweep.out).into_diagnostic()?;
-        let results = std::path::absolute(&sweep.folder).into_diagnostic()?;
         let tasks = arguments.tasks.unwrap_or(MOST_TASKS).min(sweep.plan.chunks());
         // Jobs that differ get folders of their own: what is running keeps the files it began with.
         let told = format!(
@@ -44,8 +46,8 @@ impl Job {
             sweep.plan.identity,
             program.display()
         );
-        let folder = results.join("submit").join(&sha256(told.as_bytes())[..12]);
-        let name = results.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let folder = out.join(&sweep.name).join("submit").join(&sha256(told.as_bytes())[..12]);
+        let name = &sweep.name;
         let case = folder.join(format!("{name}.toml"));
         for path in [&program, &folder] {
             is_writable_in_scripts(path)?;
@@ -68,7 +70,15 @@ impl Job {
             text.map(|text| (folder.join(name), text)).into_diagnostic()
         };
         let files = [file("tasks.sh")?, file(second)?];
-        Ok(Self { engine: *engine, options: arguments.options.clone(), tasks, folder, files, case })
+        Ok(Self {
+            engine: *engine,
+            options: arguments.options.clone(),
+            tasks,
+            out,
+            folder,
+            files,
+            case,
+        })
     }
 
     /// The command that submits the tasks; and what submits the merge after Slurm's, HyperQueue having it from the job
@@ -179,15 +189,6 @@ fn told(command: &[String]) -> Result<String> {
 /// A command as a person would write it.
 fn line(command: &[String]) -> String {
     command.iter().map(|one| word(one)).collect::<Vec<_>>().join(" ")
-}
-
-/// A word as a shell takes it, quoted where it must be.
-pub(super) fn word(text: &str) -> String {
-    let harmless = |byte: u8| byte.is_ascii_alphanumeric() || b"-_=./:,+@%".contains(&byte);
-    match !text.is_empty() && text.bytes().all(harmless) {
-        true => text.to_owned(),
-        false => format!("'{}'", text.replace('\'', r"'\''")),
-    }
 }
 
 #[cfg(test)]
