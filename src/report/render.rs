@@ -44,7 +44,7 @@ pub fn is_of_report(file: &Path) -> bool {
 #[non_exhaustive]
 pub enum RenderError {
     /// A template does not fit the report.
-    #[error("a template cannot be filled in: {0}")]
+    #[error("a page cannot be written: {}; check the units of the case, and report it if they are right", reason(.0))]
     Template(#[from] tera::Error),
     /// A figure cannot be drawn.
     #[error(transparent)]
@@ -55,6 +55,13 @@ pub enum RenderError {
     /// The numbers cannot be written down.
     #[error("the report cannot be written as JSON: {0}")]
     Json(#[from] serde_json::Error),
+}
+
+/// What is wrong, without the place in the source of the template, which says nothing to who uses the program.
+fn reason(error: &tera::Error) -> String {
+    let mut text = error.to_string();
+    text.truncate(text.find("\n").unwrap_or(text.len()));
+    text
 }
 
 /// The files of a report's folder, by their path in it.
