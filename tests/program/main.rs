@@ -46,3 +46,5 @@ mod sweep_submit;
 mod sweep_transient;
 mod templates;
 mod tradeoff;
+#[cfg(unix)]
+mod untrusted;

@@ -5,7 +5,7 @@
 
 mod job;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use miette::Result;
@@ -110,7 +110,7 @@ pub fn run(arguments: &Arguments) -> Result<bool> {
         return Ok(true);
     }
     store::write_file_and_folder(&job.case, sweep.case_text.as_bytes())?;
-    copy_record(&sweep.case, &at.case, &job.case)?;
+    copy_record(&sweep.case, at, &job.case)?;
     for (file, text) in &job.files {
         store::write_file(file, text.as_bytes())?;
     }
@@ -131,11 +131,13 @@ pub fn run(arguments: &Arguments) -> Result<bool> {
 }
 
 /// Copies the record that drives a case to where its copy looks for it.
-fn copy_record(case: &Case, from: &Path, to: &Path) -> Result<()> {
+fn copy_record(case: &Case, from: &Where, to: &Path) -> Result<()> {
     let file = case.recording.as_ref().and_then(Recording::file);
     let Some(file) = file.filter(|file| Path::new(file).is_relative()) else { return Ok(()) };
-    let text = store::read_text(&from.with_file_name(file))?;
-    Ok(store::write_file_and_folder(&to.with_file_name(file), text.as_bytes())?)
+    let [from_folder, to_folder] =
+        [from.case.as_path(), to].map(|case| case.parent().unwrap_or(Path::new("")));
+    let (_, text) = store::read_record(from_folder, file, from.reading().reach())?;
+    Ok(store::add_to_folder(to_folder, &[(PathBuf::from(file), text.into_bytes())].into())?)
 }
 
 #[cfg(test)]
