@@ -44,8 +44,10 @@ pub fn is_of_report(file: &Path) -> bool {
 #[non_exhaustive]
 pub enum RenderError {
     /// A template does not fit the report.
-    #[error("a page cannot be written: {}; check the units of the case, and report it if they are right", reason(.0))]
-    Template(#[from] tera::Error),
+    #[error(
+        "a page cannot be written: {0}; check the units of the case, and report it if they are right"
+    )]
+    Template(String),
     /// A figure cannot be drawn.
     #[error(transparent)]
     Figure(#[from] FigureError),
@@ -57,11 +59,15 @@ pub enum RenderError {
     Json(#[from] serde_json::Error),
 }
 
-/// What is wrong, without the place in the source of the template, which says nothing to who uses the program.
-fn reason(error: &tera::Error) -> String {
-    let mut text = error.to_string();
-    text.truncate(text.find("\n").unwrap_or(text.len()));
-    text
+/// What is wrong, and in which line of which template; its source says nothing to who uses the program.
+impl From<tera::Error> for RenderError {
+    fn from(error: tera::Error) -> Self {
+        let text = error.to_string();
+        let mut lines = text.lines().map(str::trim);
+        let what = lines.next().unwrap_or_default().trim_start_matches("error: ");
+        let place = lines.find_map(|line| line.strip_prefix("--> "));
+        Self::Template(format!("{what} ({})", place.unwrap_or("of a template")))
+    }
 }
 
 /// The files of a report's folder, by their path in it.

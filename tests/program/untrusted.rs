@@ -389,6 +389,7 @@ fn extreme_numbers_are_told_with_what_to_do() {
         );
     }
     let reduced = include_str!("../../cases/reduced-unit-clearance.toml");
+    let sweep = include_str!("../../cases/sweep-fast.toml");
     let key = |name: &str, value: &str| {
         let line = |line: &str| match line.starts_with(name) {
             true => format!("{name} = {value}\n"),
@@ -400,6 +401,8 @@ fn extreme_numbers_are_told_with_what_to_do() {
         key("mass_ratio", "1e308"),
         key("mass_ratio", "1e307"),
         key("damping", "1e307"),
+        key("damping", "1e-307"),
+        sweep.replace("from = \"7.5 Hz\"", "from = \"1e-307 Hz\""),
         case.replace("\"11.47 kN/m\"", "\"1e-307 kN/m\""),
     ] {
         fs::write(at("case.toml"), text).expect("written");
