@@ -92,6 +92,8 @@ pub mod bifurcation;
 #[cfg(feature = "case")]
 pub mod case;
 #[cfg(feature = "report")]
+pub mod case_input;
+#[cfg(feature = "report")]
 pub mod case_report;
 pub mod cavity;
 #[cfg(feature = "case")]

@@ -11,6 +11,7 @@ mod error;
 mod folder;
 mod git;
 mod growing;
+mod reading;
 mod reports;
 mod shards;
 
@@ -20,24 +21,9 @@ pub use error::StoreError;
 pub use folder::{Output, folder_below, read_folder, replace_folder};
 pub use git::{read_files_at, read_reports_at};
 pub use growing::Growing;
+pub use reading::{CaseText, Reach, open, read_case, read_record, read_text};
 pub use reports::{StoredReport, StoredReports, read_reports};
 pub use shards::Shards;
-
-/// Reads a UTF-8 text file whole.
-///
-/// # Errors
-/// [`StoreError`] when it cannot be read or is not text.
-pub fn read_text(path: &Path) -> Result<String, StoreError> {
-    text_of(path, std::fs::read(path).map_err(|cause| refused("read", path, cause))?)
-}
-
-/// Opens a file for reading.
-///
-/// # Errors
-/// [`StoreError`] when it cannot be read.
-pub fn open(path: &Path) -> Result<std::fs::File, StoreError> {
-    std::fs::File::open(path).map_err(|cause| refused("read", path, cause))
-}
 
 /// The bytes of a file as text.
 fn text_of(path: &Path, bytes: Vec<u8>) -> Result<String, StoreError> {
@@ -134,6 +120,23 @@ pub fn read_text_if_there(path: &Path) -> Result<Option<String>, StoreError> {
     match read_text(path) {
         Err(error) if missing.contains(&error.refusal) => Ok(None),
         read => read.map(Some),
+    }
+}
+
+/// The same for a file that must be below a folder once links are followed.
+///
+/// # Errors
+/// As [`read_text_if_there`], and where a link leads out of the folder.
+pub fn read_text_below(
+    folder: &Path,
+    name: &Path,
+    reach: Reach,
+) -> Result<Option<String>, StoreError> {
+    let path = folder.join(name);
+    if path.exists() {
+        read_text(&reading::within(folder, &path, reach)?).map(Some)
+    } else {
+        Ok(None)
     }
 }
 

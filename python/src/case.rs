@@ -10,11 +10,12 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use serde::Serialize;
 use vinesink::answer::{Answer, Asked};
-use vinesink::case::{self, Recording};
+use vinesink::case;
+use vinesink::case_input::{self, CaseInputError};
 use vinesink::motions::Effort;
 use vinesink::report::console::Analysed;
 use vinesink::report::transient as page;
-use vinesink::store;
+use vinesink::store::Reach;
 use vinesink::study::fidelity::Plan;
 use vinesink::system::State;
 use vinesink::transient::{DecayStudy, Scene, Study};
@@ -43,29 +44,27 @@ pub struct Case {
 
 #[pymethods]
 impl Case {
-    /// From its text; a record that it names is beside `folder`.
+    /// From its text; a record that it names is below `folder`, unless it may be anywhere.
     #[staticmethod]
-    fn parse(py: Python<'_>, name: &str, text: &str, folder: PathBuf) -> PyResult<Self> {
-        let wrong = |error| case_error(py, &error);
-        let mut inner = case::Case::parse(name, text).map_err(wrong)?;
-        if let Some(file) = inner.recording.as_ref().and_then(Recording::file) {
-            let record = folder.join(file);
-            let text =
-                store::read_text(&record).map_err(|error| PyOSError::new_err(error.to_string()))?;
-            inner = inner.with_record(&record.display().to_string(), &text).map_err(wrong)?;
-        }
+    fn parse(
+        py: Python<'_>,
+        name: &str,
+        text: &str,
+        folder: PathBuf,
+        allow_outside: bool,
+    ) -> PyResult<Self> {
+        let inner = case_input::parse(name, text, &folder, reach(allow_outside));
+        let inner = inner.map_err(|error| not_read(py, &error))?;
         Ok(Self { inner, text: text.to_owned(), name: name.to_owned(), stem: String::new() })
     }
 
     /// From its file.
     #[staticmethod]
-    fn read(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        let text =
-            store::read_text(&path).map_err(|error| PyOSError::new_err(error.to_string()))?;
-        let folder = path.parent().map(PathBuf::from).unwrap_or_default();
-        let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
-        let case = Self::parse(py, &path.display().to_string(), &text, folder)?;
-        Ok(Self { stem: stem.unwrap_or_default(), ..case })
+    fn read(py: Python<'_>, path: PathBuf, allow_outside: bool) -> PyResult<Self> {
+        let read = case_input::read(&path, reach(allow_outside));
+        let (inner, text) = read.map_err(|error| not_read(py, &error))?;
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        Ok(Self { inner, text, name: path.display().to_string(), stem })
     }
 
     #[getter]
@@ -267,6 +266,18 @@ fn shown(problem: &dyn Diagnostic) -> String {
 }
 
 /// With the program's message, and each problem as a dict in `problems`.
+fn reach(allow_outside: bool) -> Reach {
+    if allow_outside { Reach::Anywhere } else { Reach::Folder }
+}
+
+fn not_read(py: Python<'_>, error: &CaseInputError) -> PyErr {
+    match error {
+        CaseInputError::Case(error) => case_error(py, error),
+        CaseInputError::Record { source, .. } => PyOSError::new_err(source.to_string()),
+        other => PyOSError::new_err(other.to_string()),
+    }
+}
+
 fn case_error(py: Python<'_>, error: &case::CaseError) -> PyErr {
     let raised = CaseError::new_err(shown(error));
     let each = error.problems().map(|problem| {

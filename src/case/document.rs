@@ -6,16 +6,29 @@ use toml::de::DeTable;
 use super::error::Problem;
 use crate::quantity::Dimension;
 
-/// Parses TOML; on a syntax error, what is wrong with the text, one problem a line.
+/// Parses TOML; on syntax errors, the first one, and those further down for which there is a remedy: what else the parser
+/// finds behind an error is often the same one again.
 pub(super) fn parse(text: &str) -> Result<DeTable<'_>, Vec<Problem>> {
-    let (document, errors) = DeTable::parse_recoverable(text);
+    let (document, mut errors) = DeTable::parse_recoverable(text);
     if errors.is_empty() {
         return Ok(Spanned::into_inner(document));
     }
+    errors.sort_by_key(start);
+    errors.truncate(MOST_ERRORS);
     let mut problems: Vec<Problem> = errors.iter().map(|error| problem(text, error)).collect();
-    problems.sort_by_key(|problem| problem.span.start);
     problems.dedup_by_key(|problem| problem.line);
+    let mut first = true;
+    problems.retain(|problem| std::mem::take(&mut first) || problem.help.as_deref() != Some(LINES));
     Err(problems)
+}
+
+/// Errors that are looked at.
+const MOST_ERRORS: usize = 100;
+/// What a file is made of.
+const LINES: &str = "a line is `key = value`, a [table] or a # comment; text stands in \"quotes\"";
+
+fn start(error: &toml::de::Error) -> usize {
+    error.span().map_or(0, |span| span.start)
 }
 
 fn problem(text: &str, error: &toml::de::Error) -> Problem {
@@ -36,7 +49,7 @@ fn problem(text: &str, error: &toml::de::Error) -> Problem {
         let expected = "expected a value with a unit to be in quotes".to_owned();
         return Problem { expected, ..problem }.help(format!("write {quoted}"));
     }
-    problem.help("a line is `key = value`, a [table] or a # comment; text stands in \"quotes\"")
+    problem.help(LINES)
 }
 
 fn line_around(text: &str, at: usize) -> &str {

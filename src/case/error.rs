@@ -3,7 +3,10 @@
 use std::fmt;
 use std::ops::Range;
 
-use miette::{Diagnostic, LabeledSpan, NamedSource, Severity, SourceCode};
+use miette::{
+    Diagnostic, LabeledSpan, MietteError, MietteSpanContents, NamedSource, Severity, SourceCode,
+    SourceSpan, SpanContents,
+};
 
 /// One thing wrong with a case file, or suspicious in it.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -39,8 +42,8 @@ impl Problem {
         let before = &text[..span.start];
         let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
         Self {
-            message: message.into(),
-            expected: expected.into(),
+            message: cut(message.into()),
+            expected: cut(expected.into()),
             help: None,
             severity: Severity::Error,
             line: 1 + before.matches('\n').count(),
@@ -51,7 +54,7 @@ impl Problem {
     }
 
     pub(super) fn help(self, help: impl Into<String>) -> Self {
-        Self { help: Some(help.into()), ..self }
+        Self { help: Some(cut(help.into())), ..self }
     }
 
     /// The same as a warning.
@@ -60,9 +63,25 @@ impl Problem {
     }
 }
 
+/// Characters of a line that are shown before and behind where something is wrong, and of the text that is underlined.
+const SHOWN: usize = 200;
+/// Characters of a sentence that is shown whole; those of the program are shorter, with every key named that a table may have.
+const WHOLE: usize = 1000;
+
+/// A sentence without the middle of what it quotes, where that is very long.
+fn cut(sentence: String) -> String {
+    if sentence.chars().nth(WHOLE).is_none() {
+        return sentence;
+    }
+    let begin = sentence.floor_char_boundary(SHOWN);
+    let end = sentence.ceil_char_boundary(sentence.len() - SHOWN);
+    format!("{} … {}", &sentence[..begin], &sentence[end..])
+}
+
 fn within_line(text: &str, span: Range<usize>) -> Range<usize> {
     let start = text.floor_char_boundary(span.start.min(text.len()));
-    let end = text.ceil_char_boundary(span.end.clamp(start, text.len()));
+    let end = text
+        .ceil_char_boundary(span.end.clamp(start, (start + SHOWN).min(text.len())).min(text.len()));
     let line_end = text[start..end].find(['\r', '\n']).map_or(end, |at| start + at);
     start..line_end
 }
@@ -87,12 +106,16 @@ impl Diagnostic for Problem {
 /// As a `miette` diagnostic it shows each place in the file's text.
 #[derive(Debug)]
 pub struct CaseError {
-    source: Box<NamedSource<String>>,
+    source: Box<Excerpts>,
     problems: Vec<Problem>,
+    /// How many there are besides.
+    more: usize,
+    /// Whether the text is not shown.
+    hidden: bool,
 }
 
 impl CaseError {
-    pub(super) fn new(name: &str, text: &str, mut problems: Vec<Problem>) -> Self {
+    pub(super) fn new(name: &str, text: &str, mut problems: Vec<Problem>, more: usize) -> Self {
         if problems.is_empty() {
             problems.push(Problem::new(
                 text,
@@ -102,12 +125,30 @@ impl CaseError {
             ));
         }
         problems.sort_by_key(|problem| problem.span.start);
-        Self { source: Box::new(NamedSource::new(name, text.to_owned())), problems }
+        let source = Box::new(Excerpts(NamedSource::new(name, text.to_owned())));
+        Self { source, problems, more, hidden: false }
+    }
+
+    /// The same without a word of the text, which may hold what must not be shown: only that it is not `what` it should
+    /// be, and in which line that is seen.
+    #[must_use]
+    pub fn without_text(self, what: &str, help: &str) -> Self {
+        let line = self.problems.first().map_or(1, |first| first.line);
+        let name = self.name();
+        let message = match self.problems.len() + self.more {
+            1 => format!("{name} is not {what}: there is an error in line {line}"),
+            errors => {
+                format!("{name} is not {what}: it has {errors} errors, the first in line {line}")
+            }
+        };
+        let hidden = Problem { line, ..Problem::new("", 0..0, message, "").help(help) };
+        let source = Box::new(Excerpts(NamedSource::new(self.name(), String::new())));
+        Self { source, problems: vec![hidden], more: 0, hidden: true }
     }
 
     /// The name under which the text was parsed, usually the file's path.
     pub fn name(&self) -> &str {
-        self.source.name()
+        self.source.0.name()
     }
 
     /// The problems, in the order of the file's lines.
@@ -117,7 +158,7 @@ impl CaseError {
 
     /// The problem, if it is only one: it is then shown without a line about them all.
     fn only(&self) -> Option<&Problem> {
-        if let [only] = self.problems.as_slice() { Some(only) } else { None }
+        if let ([only], 0) = (self.problems.as_slice(), self.more) { Some(only) } else { None }
     }
 }
 
@@ -127,7 +168,18 @@ impl fmt::Display for CaseError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.only() {
             Some(only) => only.fmt(f),
-            None => write!(f, "{} has {} errors", self.name(), self.problems.len()),
+            None if self.more == 0 => {
+                write!(f, "{} has {} errors", self.name(), self.problems.len())
+            }
+            None => {
+                let shown = self.problems.len();
+                write!(
+                    f,
+                    "{} has {} errors, of which {shown} are shown",
+                    self.name(),
+                    shown + self.more
+                )
+            }
         }
     }
 }
@@ -138,7 +190,7 @@ impl Diagnostic for CaseError {
     }
 
     fn source_code(&self) -> Option<&dyn SourceCode> {
-        Some(self.source.as_ref())
+        (!self.hidden).then_some(self.source.as_ref())
     }
 
     fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
@@ -148,5 +200,38 @@ impl Diagnostic for CaseError {
     fn related<'a>(&'a self) -> Option<Box<dyn Iterator<Item = &'a dyn Diagnostic> + 'a>> {
         let related = self.problems.iter().map(|problem| problem as &dyn Diagnostic);
         self.only().is_none().then_some(Box::new(related))
+    }
+}
+
+/// A text of which messages show lines; of a very long one what is around the place.
+#[derive(Debug)]
+struct Excerpts(NamedSource<String>);
+
+impl SourceCode for Excerpts {
+    fn read_span<'a>(
+        &'a self,
+        span: &SourceSpan,
+        before: usize,
+        after: usize,
+    ) -> Result<Box<dyn SpanContents<'a> + 'a>, MietteError> {
+        let contents = self.0.read_span(span, before, after)?;
+        let long = contents.data().split(|byte| *byte == b'\n').any(|line| line.len() > 4 * SHOWN);
+        if !long {
+            return Ok(contents);
+        }
+        let text = self.0.inner();
+        let line = text[..span.offset()].rfind('\n').map_or(0, |newline| newline + 1);
+        let end = span.offset() + span.len();
+        let line_end = text[end..].find('\n').map_or(text.len(), |newline| end + newline);
+        let start = text.floor_char_boundary(span.offset().saturating_sub(SHOWN)).max(line);
+        let end = text.ceil_char_boundary((end + SHOWN).min(text.len())).min(line_end);
+        Ok(Box::new(MietteSpanContents::new_named(
+            self.0.name().to_owned(),
+            &text.as_bytes()[start..end],
+            (start..end).into(),
+            text[..line].matches('\n').count(),
+            text[line..start].chars().count(),
+            1,
+        )))
     }
 }

@@ -229,11 +229,12 @@ impl Case {
     pub fn parse(name: &str, text: &str) -> Result<Self, CaseError> {
         // A byte order mark is no part of the text that errors count columns in.
         let visible = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let refused = |problems| CaseError::new(name, visible, problems);
-        let document = document::parse(visible).map_err(refused)?;
+        let refused = |problems, more| CaseError::new(name, visible, problems, more);
+        let document = document::parse(visible).map_err(|problems| refused(problems, 0))?;
         let mut reader = Reader {
             text: visible,
             problems: Vec::new(),
+            more: 0,
             inputs: Vec::new(),
             design: None,
             recording: None,
@@ -243,7 +244,7 @@ impl Case {
                 case.warnings = warnings::of(visible, &case);
                 Ok(case)
             }
-            _ => Err(refused(reader.problems)),
+            _ => Err(refused(reader.problems, reader.more)),
         }
     }
 
@@ -404,16 +405,18 @@ fn read_design(reader: &mut Reader, root: &Table) -> Option<Design> {
 
 /// The system of values each valid by itself, whose combination may still overflow.
 fn system_of(reader: &mut Reader, root: &Table, design: &Design) -> Option<System> {
-    let error = match design.system() {
-        Ok(system) => return Some(system),
-        Err(error) => error,
+    let moves = |system: &System| system.linear_response().map_or(0.0, |one| one.amplitude());
+    let (what, expected) = match design.system() {
+        Ok(system) if moves(&system).is_finite() => return Some(system),
+        Ok(_) => ("response that is not finite".to_owned(), "values that fit one another"),
+        Err(error) => (format!("{} of {}", error.name, error.value), error.expected),
     };
     let table = match design {
         Design::Physical(_) => physical::TABLES[0],
         Design::Reduced(_) => reduced::TABLE,
     };
-    let message = format!("the values together give a {} of {}", error.name, error.value);
+    let message = format!("the values together give a {what}");
     let help = "check the units: one value is many orders of magnitude away from the others";
-    reader.report(root.span_of(table), message, format!("expected {}", error.expected), help);
+    reader.report(root.span_of(table), message, format!("expected {expected}"), help);
     None
 }

@@ -176,8 +176,13 @@ impl Reader<'_> {
                     let message = format!("{} {}", place.subject, error.message);
                     let (name, example) = dimension.words();
                     let expected = format!("expected {name} such as \"{example}\"");
-                    let problem = Problem::new(self.text, span, message, expected);
-                    self.problems.push(Problem { help: error.help, ..problem });
+                    self.keep(|text| {
+                        let problem = Problem::new(text, span, message, expected);
+                        match error.help {
+                            Some(help) => problem.help(help),
+                            None => problem,
+                        }
+                    });
                 }
             },
             (_, None) if *sign > 0 => {
@@ -200,6 +205,9 @@ impl Reader<'_> {
         let problem = match form.dimension {
             None if form.whole => format!("is {written}"),
             None => format!("is {kind}, but it is a plain number"),
+            Some(_) if plain_number(place.value.get_ref()).is_some_and(|one| !one.is_finite()) => {
+                format!("is {written}, which is not a finite number")
+            }
             Some(dimension) if kind == "a number" => {
                 let unit = dimension.words().1.split_once(' ').map_or("", |(_, unit)| unit);
                 let key = if place.alone { format!("{} = ", place.key) } else { String::new() };

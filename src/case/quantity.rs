@@ -96,8 +96,9 @@ impl Dimension {
             Err(QuantityError { message, help, range: sign + range.start..sign + range.end })
         };
         let everything = 0..text.len();
+        let example = || Some(format!("write for example \"{}\"", self.words().1));
         let Some(number) = leading_number(text) else {
-            return error(no_number(text), None, everything);
+            return error(no_number(text), example(), everything);
         };
         let unit = text[number.end..].trim();
         if unit.is_empty() {
@@ -111,9 +112,8 @@ impl Dimension {
         }
         let start = text.len() - text[number.end..].trim_start().len();
         match self.unit_of(unit) {
-            Some(found) => {
-                scaled(&text[number.clone()], found).or_else(|message| error(message, None, number))
-            }
+            Some(found) => scaled(&text[number.clone()], found)
+                .or_else(|message| error(message, example(), number)),
             None => {
                 let (message, help) = self.unsuitable(unit);
                 error(message, Some(help), start..start + unit.len())

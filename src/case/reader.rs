@@ -16,10 +16,15 @@ use super::schema::{SCHEMA, of_table};
 use super::value::nearest;
 use super::{Design, Recording};
 
+/// Problems that are told one by one: more than a case has keys.
+const MOST_PROBLEMS: usize = 100;
+
 /// The text being read, with what was found wrong and what was read so far.
 pub(super) struct Reader<'t> {
     pub text: &'t str,
     pub problems: Vec<Problem>,
+    /// How many were found after [`MOST_PROBLEMS`].
+    pub more: usize,
     pub inputs: Vec<Input>,
     /// The design, once it is read: it decides the units of the optional tables.
     pub design: Option<Design>,
@@ -41,7 +46,16 @@ impl<'t> Reader<'t> {
         expected: impl Into<String>,
         help: impl Into<String>,
     ) {
-        self.problems.push(Problem::new(self.text, span, message, expected).help(help));
+        self.keep(|text| Problem::new(text, span, message, expected).help(help));
+    }
+
+    /// Keeps a problem, or counts it where there are enough: to say where each of thousands is would take seconds.
+    pub fn keep(&mut self, problem: impl FnOnce(&str) -> Problem) {
+        if self.problems.len() < MOST_PROBLEMS {
+            self.problems.push(problem(self.text));
+        } else {
+            self.more += 1;
+        }
     }
 
     /// The bytes of a value as its author wrote it, without the quotes.

@@ -76,9 +76,23 @@ impl Case {
         if let Some(Recording { quantity, source: RecordSource::File { read, .. } }) =
             &mut self.recording
         {
-            let samples = samples(visible, *quantity, self.design.scales().physical)
-                .map_err(|problems| CaseError::new(name, visible, problems))?;
-            let record = Record { quantity: *quantity, samples };
+            let scales = self.design.scales();
+            let physical = scales.physical;
+            let mut record = Record { quantity: *quantity, samples: Vec::new() };
+            let most = LARGEST / record.reduced(&scales, 1.0).abs();
+            record.samples = samples(visible, *quantity, physical, most).map_err(|problems| {
+                let error = CaseError::new(name, visible, problems, 0);
+                match is_record(visible, *quantity, physical) {
+                    true => error,
+                    false => error.without_text(
+                        "a record",
+                        &format!(
+                            "begin it with the line {}; its own is not shown, for it may be another file",
+                            quantity.head(physical)
+                        ),
+                    ),
+                }
+            })?;
             *read = Some((sha256(text.as_bytes()), record));
         }
         Ok(self)
@@ -105,6 +119,26 @@ impl RecordQuantity {
     }
 }
 
+/// The lines that are no comments, without what surrounds them.
+fn lines(text: &str) -> impl Iterator<Item = &str> {
+    text.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'))
+}
+
+/// Whether a text is surely meant to be a record, and may be quoted: its head has a unit that fits, or the names that
+/// stand there without units.
+fn is_record(text: &str, quantity: RecordQuantity, physical: bool) -> bool {
+    let Some(head) = lines(text).next() else { return false };
+    let has_unit = |(of, cell): (Dimension, &str)| unit_in_brackets(of, cell).is_ok();
+    match (cells(head), physical) {
+        (Some((time, value)), true) => {
+            [(Dimension::Time, time), (quantity.dimension(), value)].into_iter().any(has_unit)
+        }
+        _ => head.replace(' ', "") == quantity.head(false),
+    }
+}
+
+/// Largest value, dimensionless: beyond it rounding hides the walls whatever the structure.
+const LARGEST: f64 = 1e15;
 /// Problems after which a file is not read further: who took the wrong file has one in every line.
 const MOST_PROBLEMS: usize = 5;
 
@@ -123,9 +157,9 @@ fn samples(
     text: &str,
     quantity: RecordQuantity,
     physical: bool,
+    most: f64,
 ) -> Result<Vec<[f64; 2]>, Vec<Problem>> {
-    let mut lines =
-        text.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
+    let mut lines = lines(text);
     // An empty text has no line: its beginning.
     let head = lines.next().unwrap_or(&text[..0]);
     let help = format!("begin the file with {}", quantity.head(physical));
@@ -154,7 +188,7 @@ fn samples(
         };
     let (mut samples, mut problems): (Vec<[f64; 2]>, Vec<Problem>) = (Vec::new(), Vec::new());
     for line in lines {
-        match sample(text, line, units, samples.last()) {
+        match sample(text, line, units, most, samples.last()) {
             Ok(sample) => samples.push(sample),
             Err(found) => problems.push(*found),
         }
@@ -174,6 +208,7 @@ fn sample(
     text: &str,
     line: &str,
     units: [&Unit; 2],
+    most: f64,
     last: Option<&[f64; 2]>,
 ) -> Result<[f64; 2], Box<Problem>> {
     let Some((time, value)) = cells(line) else {
@@ -194,6 +229,11 @@ fn sample(
             let message = "the times of the record do not ascend".to_owned();
             let help = "sort the lines, and keep one of each time";
             Err(problem(text, time, message, "expected a later time than above", help))
+        }
+        _ if found[1].abs() > most => {
+            let message = "a value of the record is too large for the case".to_owned();
+            let help = "check its unit, and those of the case: one is many orders of magnitude away from the others";
+            Err(problem(text, value, message, "expected values as a structure meets them", help))
         }
         _ => Ok(found),
     }

@@ -20,6 +20,8 @@ const HEAVY_DAMPING: f64 = 0.2;
 const ROUNDING: f64 = 1e-12;
 /// Mass ratios between which an absorber is a small mass, and a mass at all.
 const MASS_RATIOS: [f64; 2] = [1e-6, 0.5];
+/// Per cent that are told.
+const LARGEST: f64 = 1e12;
 /// Coefficient above which nothing slides.
 const MOST_FRICTION: f64 = 1.0;
 
@@ -231,7 +233,10 @@ fn hertz(frequency: f64) -> String {
 }
 
 fn percent(share: f64) -> String {
-    format!("{} %", short(100.0 * share))
+    match 100.0 * share {
+        told if told < LARGEST => format!("{} %", short(told)),
+        _ => format!("more than {} %", short(LARGEST)),
+    }
 }
 
 /// Three digits.

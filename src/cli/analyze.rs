@@ -37,8 +37,8 @@ Examples:
   vinesink analyze damper.toml --format json | jq .boundaries";
 
 pub fn run(arguments: Arguments) -> Result<bool> {
-    let OneCase { path, long, .. } = &arguments.one;
-    let case = case_file::read(path)?;
+    let OneCase { path, long, reading, .. } = &arguments.one;
+    let case = case_file::read(path, *reading)?;
     if let Some(done) = transient::analyze(&arguments.one, &case)? {
         return Ok(done);
     }

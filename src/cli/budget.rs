@@ -6,7 +6,7 @@ use std::path::Path;
 use clap::Args;
 use miette::{Result, miette};
 use vinesink::case::{Case, Objective};
-use vinesink::motions::{Effort, SettlingTime};
+use vinesink::motions::{Effort, SettlingTime, longest_window};
 use vinesink::optimize::Task;
 use vinesink::study::deviations::{self, Deviation};
 use vinesink::sweep::{Plan, Point};
@@ -17,6 +17,11 @@ use super::progress::duration;
 
 /// Seconds that are ordinary: every shipped case takes a few.
 const ORDINARY: f64 = 60.0;
+/// Seconds of which it does not matter how many more they are.
+const HOPELESS: f64 = 1e6;
+/// Seconds of a whole sweep that are ordinary, on all processors of this machine: the largest that is shipped takes a
+/// minute and a half on two.
+const ORDINARY_SWEEP: f64 = 3600.0;
 /// Seconds for one excitation period, or for one oscillation of the structure where the period has several, of
 /// a trajectory alone: 1.3 us at frequency ratios of 0.001 to 0.1 and 1.6 us at 1 with four impacts a period,
 /// measured with `simulate --initial --periods` in the release profile on one core of an ARM server.
@@ -72,16 +77,28 @@ impl Long {
         if self.long || seconds <= ORDINARY {
             return Ok(());
         }
+        let longest = work.iter().max_by(|a, b| a.seconds().total_cmp(&b.seconds()));
+        self.refused(path, case, seconds, &longest.map(Work::to_string).unwrap_or_default())
+    }
+
+    /// The same of a whole sweep, so many seconds on all processors, which was measured or is `what`.
+    pub fn allows_sweep(self, path: &Path, case: &Case, seconds: f64, what: &str) -> Result<()> {
+        if self.long || seconds <= ORDINARY_SWEEP {
+            return Ok(());
+        }
+        self.refused(path, case, seconds, what)
+    }
+
+    fn refused(self, path: &Path, case: &Case, seconds: f64, what: &str) -> Result<()> {
         let slips = case.warnings().iter().filter_map(|warning| {
             Some(format!("line {}: {}; ", warning.line, warning.help.as_ref()?))
         });
-        let longest = work.iter().max_by(|a, b| a.seconds().total_cmp(&b.seconds()));
         Err(miette!(
             help = format!("{}to do it all the same, add --long", slips.collect::<String>()),
             "{} would take about {}: {}",
             path.display(),
             duration(seconds),
-            longest.map(Work::to_string).unwrap_or_default()
+            what
         ))
     }
 }
@@ -156,8 +173,24 @@ impl Work {
     }
 
     /// A case's criteria, over its band if it has one.
-    pub fn criteria(case: &Case) -> Self {
-        Self::band(case, Vec::new())
+    pub fn criteria(case: &Case) -> [Self; 2] {
+        [Self::band(case, Vec::new()), Self::slowest(case)]
+    }
+
+    /// The motions that may not repeat where the excitation of the band is slowest.
+    fn slowest(case: &Case) -> Self {
+        let (band, effort) = (case.range(), case.effort());
+        let system = band.places(2).find_map(|at| band.system(at).ok()).unwrap_or(case.system());
+        let periods = longest_window(&system, effort.periods);
+        let factors = vec![(PATIENCE[0] + MEASURED, "windows"), (1, "place")];
+        let oscillations = oscillations(&system);
+        Self {
+            trajectories: factors,
+            periods: periods as f64,
+            of: PERIODS,
+            oscillations,
+            each: ALONE,
+        }
     }
 
     /// The search for the best design.
@@ -233,14 +266,28 @@ impl Work {
         trajectories: Vec<(u64, &'static str)>,
         measured: u64,
     ) -> Self {
-        let periods =
-            |system: &System| SettlingTime::of(system).periods.saturating_add(measured) as f64;
         let count = systems.len().max(1) as f64;
-        let mean = |f: &dyn Fn(&System) -> f64| systems.iter().map(f).sum::<f64>() / count;
-        let total = mean(&|system| periods(system) * oscillations(system));
-        let periods = mean(&periods).max(1.0);
-        let oscillations = total / periods;
-        Self { trajectories, periods, of: PERIODS, oscillations, each: SIDE_BY_SIDE }
+        let mean = |all: &mut dyn Iterator<Item = f64>| all.sum::<f64>() / count;
+        let with = |periods: f64, oscillations: f64| {
+            let trajectories = trajectories.clone();
+            Self { trajectories, periods, of: PERIODS, oscillations, each: SIDE_BY_SIDE }
+        };
+        // To tell when transients fade takes long itself where the excitation is very slow.
+        let least = with(measured.max(1) as f64, mean(&mut systems.iter().map(oscillations)));
+        if least.seconds() > HOPELESS {
+            return least;
+        }
+        let periods = |system: &System| SettlingTime::of(system).periods.saturating_add(measured);
+        let all: Vec<f64> = systems.iter().map(|system| periods(system) as f64).collect();
+        let total = mean(&mut all.iter().zip(systems).map(|(all, one)| all * oscillations(one)));
+        let periods = mean(&mut all.into_iter()).max(1.0);
+        with(periods, total / periods)
+    }
+
+    /// The same for one of the first of its trajectories' factors, such as a point of a sweep.
+    pub fn seconds_of_each(&self) -> f64 {
+        let count = self.trajectories.first().map_or(1, |(count, _)| *count);
+        self.seconds() / count.max(1) as f64
     }
 
     /// About how many seconds it takes.
@@ -292,7 +339,7 @@ mod tests {
 
     fn all(case: &Case) -> [f64; 4] {
         let motions = seconds(&Work::motions(case, &case.effort()));
-        let report = motions + seconds(&[Work::criteria(case), Work::figures(case)]);
+        let report = motions + seconds(&Work::criteria(case)) + Work::figures(case).seconds();
         let task = Task::of(case, None).map_or_else(|_| Vec::new(), |task| Work::designs(&task));
         let designs = seconds(&task).max(seconds(&Work::clearances(case)));
         let tradeoff = motions + Work::trajectory(case, BEST_ANSWER).seconds();

@@ -1,15 +1,16 @@
 //! Reading the case that a command is given.
 
 use std::error::Error;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
-use miette::{IntoDiagnostic, NamedSource, Report, Result, WrapErr, miette};
+use miette::{IntoDiagnostic, NamedSource, Report, Result, miette};
 use serde::Serialize;
-use vinesink::case::{Case, Recording};
+use vinesink::case::Case;
+use vinesink::case_input::{self, CaseInputError};
 use vinesink::method::Method;
-use vinesink::store;
+use vinesink::store::Reach;
 
 use super::budget::Long;
 use super::output;
@@ -25,6 +26,23 @@ pub struct OneCase {
     pub format: Format,
     #[command(flatten)]
     pub long: Long,
+    #[command(flatten)]
+    pub reading: Reading,
+}
+
+/// What may be read.
+#[derive(Debug, Clone, Copy, Args)]
+pub struct Reading {
+    /// Also read files outside of the folder of the case, or of the reports, where a case or a link leads to them
+    #[arg(long)]
+    pub allow_outside: bool,
+}
+
+impl Reading {
+    /// How far paths and links may lead.
+    pub fn reach(self) -> Reach {
+        if self.allow_outside { Reach::Anywhere } else { Reach::Folder }
+    }
 }
 
 impl OneCase {
@@ -44,26 +62,32 @@ impl OneCase {
 /// The name of a case: that of its file, without what stands behind the last point.
 pub fn name(path: &Path) -> Result<String> {
     let stem = path.file_stem().ok_or_else(|| miette!("{} is no file", path.display()))?;
-    Ok(stem.to_string_lossy().into_owned())
+    let name = stem.to_string_lossy().into_owned();
+    match Path::new(&name).components().next() {
+        // What receives its report must be a folder of its own.
+        Some(Component::Normal(_)) => Ok(name),
+        _ => Err(miette!(
+            help = "rename it, for example to damper.toml",
+            "{} has no name before its ending",
+            path.display()
+        )),
+    }
 }
 
 /// Reads a case file.
-pub fn read(path: &Path) -> Result<Case> {
-    read_with_text(path).map(|(case, _)| case)
+pub fn read(path: &Path, reading: Reading) -> Result<Case> {
+    read_with_text(path, reading).map(|(case, _)| case)
 }
 
 /// Reads a case file; its text beside the case. What is probably a slip in it is said on standard error.
-pub fn read_with_text(path: &Path) -> Result<(Case, String)> {
-    let text = store::read_text(path)?;
+pub fn read_with_text(path: &Path, reading: Reading) -> Result<(Case, String)> {
+    let (case, text) = case_input::read(path, reading.reach()).map_err(|error| match error {
+        CaseInputError::Case(error) => Report::new(error),
+        CaseInputError::Record { source, .. } => Report::new(source)
+            .wrap_err(format!("{}: the record of its excitation cannot be read", path.display())),
+        CaseInputError::File(error) => Report::new(error),
+    })?;
     let name = path.display().to_string();
-    let mut case = Case::parse(&name, &text)?;
-    if let Some(file) = case.recording.as_ref().and_then(Recording::file) {
-        let record = path.with_file_name(file);
-        let text = store::read_text(&record).wrap_err_with(|| {
-            format!("{}: the record of its excitation cannot be read", path.display())
-        })?;
-        case = case.with_record(&record.display().to_string(), &text)?;
-    }
     let visible = text.strip_prefix('\u{feff}').unwrap_or(&text);
     for warning in case.warnings() {
         let source = NamedSource::new(&name, visible.to_owned());

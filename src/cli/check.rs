@@ -12,9 +12,10 @@ use vinesink::report::document::place::Place;
 use vinesink::report::render::RenderError;
 
 use super::budget::{self, Long, Work};
+use super::case_file::{self, Reading};
 use super::parallel::Parallel;
 use super::progress::Progress;
-use super::{case_file, output, transient};
+use super::{output, transient};
 
 /// Hold each case against its criteria
 ///
@@ -32,6 +33,8 @@ pub struct Arguments {
     format: Format,
     #[command(flatten)]
     long: Long,
+    #[command(flatten)]
+    reading: Reading,
 }
 
 const EXAMPLES: &str = "\
@@ -64,7 +67,7 @@ enum Format {
 pub fn run(arguments: Arguments) -> Result<bool> {
     let mut failures = Vec::new();
     let cases: Vec<Checked> =
-        arguments.cases.iter().map(|path| checked(path, arguments.long, &mut failures)).collect();
+        arguments.cases.iter().map(|path| checked(path, &arguments, &mut failures)).collect();
     let holds = cases.iter().all(Checked::holds);
     let each = |format: fn(&Checked) -> Result<String, RenderError>, between: &str| {
         let texts: Result<Vec<String>, _> = cases.iter().map(format).collect();
@@ -86,10 +89,10 @@ pub fn run(arguments: Arguments) -> Result<bool> {
     Ok(holds)
 }
 
-fn checked(path: &Path, long: Long, failures: &mut Vec<Report>) -> Checked {
+fn checked(path: &Path, arguments: &Arguments, failures: &mut Vec<Report>) -> Checked {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let place = path.display().to_string();
-    match judged(path, long) {
+    match judged(path, arguments) {
         Ok((case, answer)) => Checked::judged(&place, &stem, &case, &answer),
         Err(error) => {
             let problems =
@@ -102,15 +105,16 @@ fn checked(path: &Path, long: Long, failures: &mut Vec<Report>) -> Checked {
     }
 }
 
-fn judged(path: &Path, long: Long) -> Result<(Case, Answer)> {
-    let case = case_file::read(path)?;
+fn judged(path: &Path, arguments: &Arguments) -> Result<(Case, Answer)> {
+    let Arguments { long, reading, .. } = *arguments;
+    let case = case_file::read(path, reading)?;
     if let Some(judged) = transient::judged(&case, path, long)? {
         let answer = Answer::judged(&case, judged);
         return Ok((case, answer));
     }
     let mut work = Vec::from(Work::motions(&case, &case.effort()));
     if !case.criteria.is_empty() {
-        work.push(Work::criteria(&case));
+        work.extend(Work::criteria(&case));
     }
     long.allows(path, &case, &work)?;
     let _progress = Progress::estimated("check", budget::seconds(&work));

@@ -5,6 +5,7 @@ use miette::{IntoDiagnostic as _, Result, WrapErr as _, miette};
 use vinesink::diff::Difference;
 use vinesink::diff::markdown::markdown;
 
+use super::case_file::Reading;
 use super::output;
 use side::Side;
 
@@ -43,6 +44,8 @@ pub struct Arguments {
     /// Address of NEW's folder
     #[arg(long, value_name = "URL")]
     new_url: Option<String>,
+    #[command(flatten)]
+    reading: Reading,
 }
 
 const EXAMPLES: &str = "\
@@ -62,9 +65,9 @@ enum Format {
 }
 
 pub fn run(arguments: Arguments) -> Result<bool> {
-    let Arguments { path, format, cases, .. } = &arguments;
-    let mut old = Side::read(&arguments.old, path)?;
-    let mut new = Side::read(&arguments.new, path)?;
+    let Arguments { path, format, cases, reading, .. } = &arguments;
+    let mut old = Side::read(&arguments.old, path, reading.reach())?;
+    let mut new = Side::read(&arguments.new, path, reading.reach())?;
     new.find_cases(cases.as_deref())?;
     old.find_cases(cases.as_deref())?;
     old.forget_cases_of(&new);

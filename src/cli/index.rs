@@ -6,9 +6,10 @@ use clap::Args;
 use miette::{IntoDiagnostic, Result, WrapErr, miette};
 use vinesink::report::index::{self, CaseReport, OtherPage, Summary};
 use vinesink::report::render::Files;
-use vinesink::store::{self, Listing, Output};
+use vinesink::store::{self, Listing, Output, Reach};
 
-use super::{case_file, output};
+use super::case_file::{self, Reading};
+use super::output;
 
 /// List the reports of a folder, with verdicts and key numbers, to sort and to compare
 ///
@@ -20,6 +21,8 @@ pub struct Arguments {
     /// The folder with a folder per case, as `vinesink report` writes it
     #[arg(value_name = "FOLDER", default_value = "reports")]
     folder: PathBuf,
+    #[command(flatten)]
+    reading: Reading,
 }
 
 const EXAMPLES: &str = "\
@@ -38,7 +41,7 @@ pub fn run(arguments: Arguments) -> Result<bool> {
             ));
         }
     }
-    write(folder)?;
+    write(folder, arguments.reading.reach())?;
     for name in [index::HTML, index::MARKDOWN] {
         output::print_path(&folder.join(name))?;
     }
@@ -52,7 +55,7 @@ pub fn refresh(folder: &Path) -> Result<()> {
     if there.is_none() || !ours(index::HTML)? || !ours(index::MARKDOWN)? {
         return Ok(());
     }
-    write(folder).wrap_err("the index beside the reports is not up to date")
+    write(folder, Reach::Folder).wrap_err("the index beside the reports is not up to date")
 }
 
 /// Adds files to the folder of a case's report in a folder of reports.
@@ -75,13 +78,13 @@ fn existing(folder: &Path, name: &str) -> Result<Option<bool>> {
     Ok(text.map(|text| index::is_index(&text)))
 }
 
-fn write(folder: &Path) -> Result<()> {
+fn write(folder: &Path, reach: Reach) -> Result<()> {
     // A folder that is not there has no index.
     store::list(folder)?;
     // Nobody writes a report between the reading of all and the writing of their index.
     let output = Output::open(folder)?;
     let Listing { files, folders } = store::list(folder)?;
-    let members = members(folder, folders)?;
+    let members = members(folder, folders, reach)?;
     if members.is_empty() {
         return Err(miette!(
             help = format!("write one with `vinesink report CASE --out {}`", folder.display()),
@@ -92,8 +95,8 @@ fn write(folder: &Path) -> Result<()> {
     let pages = files.into_iter().filter(|name| name.ends_with(".md") && name != index::MARKDOWN);
     let others: Result<Vec<OtherPage>> = pages
         .map(|name| {
-            let text = store::read_text(&folder.join(&name))?;
-            Ok(OtherPage::new(name, &text))
+            let text = store::read_text_below(folder, name.as_ref(), reach)?;
+            Ok(OtherPage::new(name, &text.unwrap_or_default()))
         })
         .collect();
     let files = index::files(members, others?).into_diagnostic();
@@ -102,12 +105,12 @@ fn write(folder: &Path) -> Result<()> {
 }
 
 /// The reports among some folders; a folder without one is something else.
-fn members(folder: &Path, names: Vec<String>) -> Result<Vec<CaseReport>> {
+fn members(folder: &Path, names: Vec<String>, reach: Reach) -> Result<Vec<CaseReport>> {
     let mut members = Vec::new();
     for name in names {
-        let path = folder.join(&name).join("report.json");
-        let Some(text) = store::read_text_if_there(&path)? else { continue };
-        let summary = Summary::read(&path.display().to_string(), &text)?;
+        let path = Path::new(&name).join("report.json");
+        let Some(text) = store::read_text_below(folder, &path, reach)? else { continue };
+        let summary = Summary::read(&folder.join(path).display().to_string(), &text)?;
         let files = store::list(&folder.join(&name))?.files;
         members.push(CaseReport { name, summary, files });
     }

@@ -75,8 +75,8 @@ fn objectives() -> impl TypedValueParser<Value = Objective> {
 }
 
 pub fn run(arguments: Arguments) -> Result<bool> {
-    let OneCase { path, format, long } = &arguments.one;
-    let (case, text) = case_file::read_with_text(path)?;
+    let OneCase { path, format, long, reading } = &arguments.one;
+    let (case, text) = case_file::read_with_text(path, *reading)?;
     if let Some(new) = &arguments.write {
         store::must_be_new(new)?;
     }

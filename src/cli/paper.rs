@@ -10,9 +10,10 @@ use vinesink::case_report;
 use vinesink::evidence::paper::{CASES, CaseReport, SETS, TRANSFER, page};
 use vinesink::store::Output;
 
+use super::case_file::{self, Reading};
 use super::parallel::Parallel;
 use super::progress::Progress;
-use super::{case_file, index, output};
+use super::{index, output};
 
 /// Compare every figure of the paper with what the program finds
 ///
@@ -27,6 +28,8 @@ pub struct Arguments {
     /// The folder that receives the page, beside the reports
     #[arg(long, value_name = "OUT", default_value = "reports")]
     out: PathBuf,
+    #[command(flatten)]
+    reading: Reading,
 }
 
 const EXAMPLES: &str = "\
@@ -36,7 +39,9 @@ Examples:
 
 pub fn run(arguments: Arguments) -> Result<bool> {
     let names: Vec<&'static str> = CASES.into_iter().chain([TRANSFER]).chain(SETS).collect();
-    let read = |name: &str| case_file::read(&arguments.cases.join(format!("{name}.toml")));
+    let read = |name: &str| {
+        case_file::read(&arguments.cases.join(format!("{name}.toml")), arguments.reading)
+    };
     let cases: Vec<Case> = names.iter().map(|name| read(name)).collect::<Result<_>>()?;
     let progress = Progress::new("paper", cases.len() as u64);
     let mut members = Vec::new();

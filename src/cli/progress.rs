@@ -208,13 +208,17 @@ impl Work {
     }
 }
 
+/// Seconds from which on nobody counts days: a thousand years.
+const LONGEST: f64 = 3.2e10;
+
 /// A time as a person says it.
 pub fn duration(seconds: f64) -> String {
     match seconds {
         short if short < 120.0 => format!("{short:.0} s"),
         some if some < 7200.0 => format!("{:.0} min", some / 60.0),
         long if long < 172_800.0 => format!("{:.1} h", long / 3600.0),
-        days => format!("{:.0} days", days / 86_400.0),
+        days if days < LONGEST => format!("{:.0} days", days / 86_400.0),
+        _ => "thousands of years".to_owned(),
     }
 }
 

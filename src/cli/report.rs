@@ -15,9 +15,10 @@ use vinesink::study::fidelity::Plan;
 use vinesink::transient::Scene;
 
 use super::budget::{self, Long, Work};
+use super::case_file::{self, Reading};
 use super::parallel::Parallel;
 use super::progress::Progress;
-use super::{case_file, index, output, transient};
+use super::{index, output, transient};
 
 /// Write the design report of each case
 ///
@@ -46,6 +47,8 @@ pub struct Arguments {
     live: Option<Option<PathBuf>>,
     #[command(flatten)]
     long: Long,
+    #[command(flatten)]
+    reading: Reading,
 }
 
 const EXAMPLES: &str = "\
@@ -105,7 +108,7 @@ fn names(cases: &[PathBuf]) -> Result<Vec<String>> {
 /// Writes one report; what was asked of accuracy does not hold where a layer that was insisted on, or
 /// the longest simulation, is not exact enough.
 fn write(path: &Path, name: &str, folder: &Path, arguments: &Arguments) -> Result<bool> {
-    let (case, text) = case_file::read_with_text(path)?;
+    let (case, text) = case_file::read_with_text(path, arguments.reading)?;
     let live =
         arguments.live.as_ref().map(|page| live_page(page.as_deref(), path, &case)).transpose()?;
     let (mut files, holds) = rendered(path, name, &case, arguments)?;
@@ -140,7 +143,7 @@ fn live_page(page: Option<&Path>, path: &Path, case: &Case) -> Result<(String, S
 /// Says which files of a report are not as [`write()`] would leave them.
 fn check(path: &Path, name: &str, folder: &Path, arguments: &Arguments) -> Result<bool> {
     let is_checked = |file: &Path| render::is_of_report(file) && file != Path::new("report.html");
-    let case = case_file::read(path)?;
+    let case = case_file::read(path, arguments.reading)?;
     let (mut files, _) = rendered(path, name, &case, arguments)?;
     files.retain(|file, _| is_checked(file));
     let there = store::read_folder(folder, is_checked)?;
@@ -180,7 +183,7 @@ fn rendered(path: &Path, name: &str, case: &Case, arguments: &Arguments) -> Resu
         work.push(Work::deviations(case));
     }
     if !case.criteria.is_empty() || (simulates && case.band.is_some()) {
-        work.push(Work::criteria(case));
+        work.extend(Work::criteria(case));
     }
     arguments.long.allows(path, case, &work)?;
     let _progress = Progress::estimated(name, ORDINARY + budget::seconds(&work));

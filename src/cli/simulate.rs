@@ -58,8 +58,8 @@ The CSV file has one line an impact: tau,side,x,xdot_before,xdot_after,ydot_befo
 lengths over the clearance, tau counted from the start of the run, side +1 where x - y = +b.";
 
 pub fn run(arguments: Arguments) -> Result<bool> {
-    let OneCase { path, long, .. } = &arguments.one;
-    let case = case_file::read(path)?;
+    let OneCase { path, long, reading, .. } = &arguments.one;
+    let case = case_file::read(path, *reading)?;
     let Arguments { periods, discard, initial, impacts, .. } = &arguments;
     transient::without(&case, path, &[("--discard", discard.is_some())])?;
     if periods.is_some() || initial.is_some() || impacts.is_some() {

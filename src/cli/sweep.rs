@@ -16,8 +16,9 @@ use vinesink::sweep::{Plan, parquet, work};
 use vinesink::transient::Scene;
 
 use super::budget::{Long, Work};
+use super::case_file::{self, Reading};
+use super::output;
 use super::progress::{Progress, duration};
-use super::{case_file, output};
 
 /// Work out every point of a case's table [sweep]
 ///
@@ -50,6 +51,16 @@ struct Where {
     /// The folder that receives a folder per case
     #[arg(long, value_name = "OUT", default_value = "sweeps")]
     out: PathBuf,
+    // Not flattened in: a group that may be missing must not hold another one.
+    /// As that of other commands: also read files outside of the folder of the case
+    #[arg(long)]
+    allow_outside: bool,
+}
+
+impl Where {
+    fn reading(&self) -> Reading {
+        Reading { allow_outside: self.allow_outside }
+    }
 }
 
 #[derive(Debug, Subcommand)]
@@ -72,6 +83,8 @@ enum Verb {
         /// without either all]
         #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
         threads: Option<u16>,
+        #[command(flatten)]
+        long: Long,
     },
     Submit(submit::Arguments),
     /// Say which chunks are there; ends with exit code 1 while some are not
@@ -105,13 +118,18 @@ A case says what it varies in
 const STRETCHES: u64 = 8;
 /// so many points long.
 const SAMPLE: u64 = 64;
+/// Seconds that a stretch may take at most, about; where it would be more they are not measured.
+const LONGEST_SAMPLE: f64 = 120.0;
+/// Points from which on it costs little to work out some more before the sweep begins.
+const MANY: u64 = 100 * STRETCHES * SAMPLE;
 
 pub fn run(arguments: Arguments) -> Result<bool> {
     match (arguments.verb, arguments.sweep) {
         (Some(Verb::Plan(at)), _) => plan(&Sweep::open(&at)?),
-        (Some(Verb::Run { sweep, chunk, every, threads }), _) => {
+        (Some(Verb::Run { sweep: at, chunk, every, threads, long }), _) => {
             task::keep_to_processors(threads)?;
-            let sweep = Sweep::open(&sweep)?;
+            let sweep = Sweep::open(&at)?;
+            sweep.is_ordinary(&at.case, long)?;
             let wanted = task::chunks(chunk, every, sweep.plan.chunks())?;
             sweep.work(&wanted)?;
             Ok(true)
@@ -125,6 +143,7 @@ pub fn run(arguments: Arguments) -> Result<bool> {
             if arguments.dry_run {
                 return estimate(&sweep);
             }
+            sweep.is_ordinary_in_all(&at.case, arguments.long)?;
             sweep.work(&(0..sweep.plan.chunks()).collect::<Vec<_>>())?;
             sweep.merge(&arguments.wanted)
         }
@@ -148,7 +167,7 @@ struct Sweep {
 
 impl Sweep {
     fn open(at: &Where) -> Result<Self> {
-        let (case, text) = case_file::read_with_text(&at.case)?;
+        let (case, text) = case_file::read_with_text(&at.case, at.reading())?;
         let name = case_file::name(&at.case)?;
         let plan = Plan::of(&case).ok_or_else(|| {
             miette!(
@@ -169,10 +188,62 @@ impl Sweep {
 
     /// Whether each point takes as long as is ordinary, or more is asked for.
     fn is_ordinary(&self, path: &Path, long: Long) -> Result<()> {
-        match self.plan.needs_simulation() || self.case.design.scene() != Scene::Steady {
+        match self.flies() {
             true => long.allows(path, &self.case, &[Work::points(&self.plan)]),
             false => Ok(()),
         }
+    }
+
+    /// Whether points are more than closed forms.
+    fn flies(&self) -> bool {
+        self.plan.needs_simulation() || self.case.design.scene() != Scene::Steady
+    }
+
+    /// Whether all points together take as long as is ordinary, or more is asked for. Some are worked out to tell where
+    /// there are many, or where they are not surely few enough.
+    fn is_ordinary_in_all(&self, path: &Path, long: Long) -> Result<()> {
+        let points = self.plan.points();
+        let known = self.seconds(self.roughly());
+        if points <= MANY && long.allows_sweep(path, &self.case, known, "").is_ok() {
+            return Ok(());
+        }
+        let seconds = self.seconds(self.seconds_of_a_point()?);
+        long.allows_sweep(path, &self.case, seconds, &format!("{points} points"))
+    }
+
+    /// Seconds of all points on all processors, from those of one.
+    fn seconds(&self, each: f64) -> f64 {
+        let at_once = rayon::current_num_threads().min(self.plan.chunks() as usize).max(1);
+        each * self.plan.points() as f64 / at_once as f64
+    }
+
+    /// Seconds that a point takes at most, about, as far as that is known before; 0 for closed forms.
+    fn roughly(&self) -> f64 {
+        if self.flies() { Work::points(&self.plan).seconds_of_each() } else { 0.0 }
+    }
+
+    /// Seconds that a point takes, measured on some spread over the sweep.
+    fn seconds_of_a_point(&self) -> Result<f64> {
+        let plan = &self.plan;
+        let points = plan.points();
+        // Whole chunks where a motion is followed, else a part of them.
+        let chunk = plan.points_per_chunk();
+        let stretch = if plan.settings.follow { chunk } else { SAMPLE.min(chunk) };
+        let stretches = if plan.settings.follow { 1 } else { STRETCHES };
+        if self.roughly() * stretch as f64 > LONGEST_SAMPLE {
+            return Ok(self.roughly());
+        }
+        let begin = Instant::now();
+        let progress = Progress::new("sample", stretches);
+        let mut worked = 0;
+        for k in 0..stretches {
+            let from = (points - stretch.min(points)) * k / (STRETCHES - 1);
+            let range = from..from + stretch.min(points);
+            worked += range.end - range.start;
+            work::points(plan, range).into_diagnostic()?;
+            progress.advance(1);
+        }
+        Ok(begin.elapsed().as_secs_f64() / worked.max(1) as f64)
     }
 
     fn shards(&self) -> Result<Shards> {
@@ -255,29 +326,11 @@ fn status(sweep: &Sweep) -> Result<bool> {
 /// Works out some points spread over the sweep, and says how long all would take.
 fn estimate(sweep: &Sweep) -> Result<bool> {
     plan(sweep)?;
-    let plan = &sweep.plan;
-    let points = plan.points();
-    // Whole chunks where a motion is followed, else a part of them.
-    let chunk = plan.points_per_chunk();
-    let stretch = if plan.settings.follow { chunk } else { SAMPLE.min(chunk) };
-    let stretches = if plan.settings.follow { 1 } else { STRETCHES };
-    let begin = Instant::now();
-    let progress = Progress::new("sample", stretches);
-    let mut worked = 0;
-    for k in 0..stretches {
-        let from = (points - stretch.min(points)) * k / (STRETCHES - 1);
-        let range = from..from + stretch.min(points);
-        worked += range.end - range.start;
-        work::points(plan, range).into_diagnostic()?;
-        progress.advance(1);
-    }
-    drop(progress);
-    let each = begin.elapsed().as_secs_f64() / worked.max(1) as f64;
-    let threads = rayon::current_num_threads();
-    let seconds = each * points as f64 / threads.min(plan.chunks() as usize).max(1) as f64;
+    let each = sweep.seconds_of_a_point()?;
     output::print(format!(
-        "about {} on {threads} processors ({:.3} ms a point)\n",
-        duration(seconds),
+        "about {} on {} processors ({:.3} ms a point)\n",
+        duration(sweep.seconds(each)),
+        rayon::current_num_threads(),
         1e3 * each
     ))?;
     Ok(true)

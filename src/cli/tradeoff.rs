@@ -49,8 +49,8 @@ const RUNS: u32 = 5;
 const LONG_ENOUGH: f64 = 0.2;
 
 pub fn run(arguments: Arguments) -> Result<bool> {
-    let OneCase { path, format, long } = &arguments.one;
-    let case = case_file::read(path)?;
+    let OneCase { path, format, long, reading } = &arguments.one;
+    let case = case_file::read(path, *reading)?;
     transient::steady(&case, path, "a trade-off")?;
     let system = case.system();
     let effort = TradeoffEffort { search: case.effort(), ..TradeoffEffort::default() };

@@ -209,7 +209,7 @@ fn run<O: Observer>(
 fn extent(system: &System, periods: u64, most_impacts: u64) -> Extent {
     // A slow excitation has many natural periods in each of its own.
     let natural = (1.0 / system.frequency_ratio()).max(1.0);
-    Extent { periods, impacts: (periods as f64 * natural) as u64 * most_impacts }
+    Extent { periods, impacts: ((periods as f64 * natural) as u64).saturating_mul(most_impacts) }
 }
 
 /// Excitation periods of [`FLIGHTS`] flights of an absorber from wall to wall.

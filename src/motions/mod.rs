@@ -45,7 +45,7 @@ pub use repetition::Repetition;
 pub use rest::{Rest, RestKind};
 pub use search::motions;
 pub use section::{Section, sections};
-pub use settling::SettlingTime;
+pub use settling::{SettlingTime, window as longest_window};
 pub use share::wilson;
 pub use solved::{at_rest, one_to_one, steady};
 pub use stability::{Extreme, Fact, stability};

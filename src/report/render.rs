@@ -44,7 +44,9 @@ pub fn is_of_report(file: &Path) -> bool {
 #[non_exhaustive]
 pub enum RenderError {
     /// A template does not fit the report.
-    #[error("the page {name} cannot be made: {reason}")]
+    #[error(
+        "the page {name} cannot be made: {reason}; check the units of the case, and report it if they are right"
+    )]
     Template {
         /// The template.
         name: String,

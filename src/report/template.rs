@@ -8,7 +8,7 @@
 //! | `apart(from=other)` | a quantity | the number with as many digits as tell it from another one |
 //! | `label` | a quantity or its id | "clearance b" |
 //! | `name`, `symbol` | the same | its parts |
-//! | `num(digits=3)` | a number | significant digits |
+//! | `num(digits=3)` | a number | significant digits; `–` for none |
 //! | `pct` | a number | a share in per cent |
 //! | `asked` | a number | a share as people ask for it: "1 %" |
 //! | `relative_error` | a number; `below=true` | a relative error in per cent or powers of ten |
@@ -161,9 +161,14 @@ fn register(tera: &mut Tera, units: Units) {
     tera.register_filter("symbol", |value: &Value, _: Kwargs, _: &State| {
         kind_of(value).map(|kind| kind.symbol)
     });
-    tera.register_filter("num", |value: f64, options: Kwargs, _: &State| {
+    tera.register_filter("num", |value: &Value, options: Kwargs, _: &State| {
         let digits = options.get::<u8>("digits")?.unwrap_or(3);
-        Ok::<_, tera::Error>(numbers::significant(value, usize::from(digits)))
+        match value.as_f64() {
+            Some(number) => Ok(numbers::significant(number, usize::from(digits))),
+            // A number that is not finite is none in a document.
+            None if value.is_none() => Ok("–".to_owned()),
+            None => Err(tera::Error::message(format!("{value} is no number"))),
+        }
     });
     tera.register_filter("tex", |value: f64, options: Kwargs, _: &State| {
         let text = numbers::tex(value, options.get::<u8>("digits")?);

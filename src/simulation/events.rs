@@ -20,7 +20,10 @@ pub enum StartError {
         gap: f64,
     },
     /// A number is infinite or not a number.
-    #[error("the start {state:?} is not finite; give four ordinary numbers X,XDOT,Y,YDOT")]
+    #[error(
+        "the start of the motion is not finite; give four ordinary numbers X,XDOT,Y,YDOT, and check the units of the \
+         case: one value is many orders of magnitude away from the others"
+    )]
     NotFinite {
         /// The state asked for.
         state: State,

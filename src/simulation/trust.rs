@@ -52,6 +52,9 @@ impl Doubt {
     pub fn words(&self) -> String {
         match self {
             Self::Unfinished { stop } => format!("the run was ended by {}", stop.words()),
+            Self::Energy { value, .. } if !value.is_finite() => {
+                "the energies are too small or too large for a balance".to_owned()
+            }
             Self::Energy { value, limit } => {
                 format!("the energy balance closes only to {value:.1e}, not to {limit:.0e}")
             }

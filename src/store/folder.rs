@@ -9,6 +9,7 @@ use std::path::{Component, Path, PathBuf};
 use tempfile::TempDir;
 
 use super::error::{StoreError, linked, refused};
+use super::reading::{self, Kind};
 use super::{folder_of, ordinary, unusable, write_file};
 
 /// A folder that somebody named to be written into. Others who would write into it through this type wait until this
@@ -174,10 +175,7 @@ pub fn read_folder(
     ours: fn(&Path) -> bool,
 ) -> Result<BTreeMap<PathBuf, Vec<u8>>, StoreError> {
     let files = files_below(path)?.into_iter().filter(|file| ours(file));
-    let read = |file: PathBuf| {
-        let bytes = std::fs::read(path.join(&file));
-        Ok((file.clone(), bytes.map_err(|cause| refused("read", &path.join(file), cause))?))
-    };
+    let read = |file: PathBuf| Ok((file.clone(), reading::read(&path.join(file), Kind::Other)?));
     files.map(read).collect()
 }
 

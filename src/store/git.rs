@@ -5,6 +5,7 @@ use std::io::{self, Seek as _, Write as _};
 use std::process::{Command, Output, Stdio};
 
 use super::error::StoreError;
+use super::reading::Kind;
 use super::reports::{DRAWING, REPORT, StoredReports, group};
 
 /// The reports below `path`, relative to the working folder, at a revision; none where the folder is
@@ -63,6 +64,9 @@ fn resolve(name: &str) -> Result<Option<String>, String> {
     Ok((output.status.success() && !found.is_empty()).then_some(found))
 }
 
+/// How the entry of a symbolic link begins.
+const LINK: &str = "120000 ";
+
 /// The files of reports in a tree, by path: every `report.json` and every drawing; none where there is no such
 /// tree.
 fn files(tree: &str) -> Result<BTreeMap<String, Vec<u8>>, String> {
@@ -72,12 +76,19 @@ fn files(tree: &str) -> Result<BTreeMap<String, Vec<u8>>, String> {
         None => None,
     };
     let Some(tree) = tree else { return Ok(BTreeMap::new()) };
-    let list = stdout(&["ls-tree", "-r", "-z", "--name-only", "--full-tree", &tree], None)?;
-    let paths =
-        list.split(|byte| *byte == 0).map(|path| String::from_utf8_lossy(path).into_owned());
+    let list = stdout(&["ls-tree", "-r", "-z", "--long", "--full-tree", &tree], None)?;
     let is_report = |path: &str| path.rsplit('/').next() == Some(REPORT);
-    let wanted: Vec<String> =
-        paths.filter(|path| path.ends_with(DRAWING) || is_report(path)).collect();
+    let mut wanted = Vec::new();
+    for entry in list.split(|byte| *byte == 0).map(String::from_utf8_lossy) {
+        let Some((facts, path)) = entry.split_once('\t') else { continue };
+        // A link is its path, and leads nowhere in a revision.
+        if facts.starts_with(LINK) || !(path.ends_with(DRAWING) || is_report(path)) {
+            continue;
+        }
+        let size = facts.rsplit(' ').next().and_then(|size| size.parse().ok());
+        Kind::Other.allows(size.unwrap_or(0)).map_err(|why| format!("`{path}` {why}"))?;
+        wanted.push(path.to_owned());
+    }
     let names: Vec<String> = wanted.iter().map(|path| format!("{tree}:{path}")).collect();
     let file = |(path, content): (String, Option<Vec<u8>>)| {
         let content = content.ok_or_else(|| format!("it does not return `{path}`"))?;

@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use super::{StoreError, refused, text_of};
+use super::reading::{self, Kind, Reach, within};
+use super::{StoreError, text_of};
 
 /// The file that makes a folder a report.
 pub(super) const REPORT: &str = "report.json";
@@ -31,11 +32,12 @@ pub type StoredReports = BTreeMap<String, StoredReport>;
 /// whose name begins with a point are passed over.
 ///
 /// # Errors
-/// [`StoreError`] when something cannot be read, or a `report.json` is not text.
-pub fn read_reports(path: &Path) -> Result<StoredReports, StoreError> {
+/// [`StoreError`] when something cannot be read or a link leads out of the folder, or a `report.json` is not text.
+pub fn read_reports(path: &Path, reach: Reach) -> Result<StoredReports, StoreError> {
     if path.is_file() {
-        let folder = path.parent().unwrap_or(Path::new("."));
-        return Ok(BTreeMap::from([(String::new(), read_report(path, folder)?)]));
+        let folder = super::folder_of(path)?;
+        let report = read_report(path, folder, folder, reach)?;
+        return Ok(BTreeMap::from([(String::new(), report)]));
     }
     let mut files = Vec::new();
     find(path, &mut files)?;
@@ -45,7 +47,7 @@ pub fn read_reports(path: &Path) -> Result<StoredReports, StoreError> {
             let folder = file.parent().unwrap_or(path);
             let inside = folder.strip_prefix(path).unwrap_or(folder);
             let names: Vec<_> = inside.iter().map(|name| name.to_string_lossy()).collect();
-            Ok((names.join("/"), read_report(&file, folder)?))
+            Ok((names.join("/"), read_report(&file, folder, path, reach)?))
         })
         .collect()
 }
@@ -66,12 +68,18 @@ fn find(folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), StoreError> {
     Ok(())
 }
 
-fn read_report(file: &Path, folder: &Path) -> Result<StoredReport, StoreError> {
-    let json = super::read_text(file)?;
+/// The report of a folder below `root`.
+fn read_report(
+    file: &Path,
+    folder: &Path,
+    root: &Path,
+    reach: Reach,
+) -> Result<StoredReport, StoreError> {
+    let read = |path: &Path| reading::read(&within(root, path, reach)?, Kind::Other);
+    let json = text_of(file, read(file)?)?;
     let mut figures = BTreeMap::new();
     for name in drawings(folder)? {
-        let path = folder.join(FIGURES).join(&name);
-        let bytes = std::fs::read(&path).map_err(|cause| refused("read", &path, cause))?;
+        let bytes = read(&folder.join(FIGURES).join(&name))?;
         figures.insert(name.strip_suffix(DRAWING).unwrap_or(&name).to_owned(), bytes);
     }
     Ok(StoredReport { place: file.display().to_string(), json, figures })
@@ -149,7 +157,7 @@ mod tests {
         output.add("", &written.collect()).expect("written");
         #[cfg(unix)]
         std::os::unix::fs::symlink("..", folder.path().join("b/up")).expect("a link");
-        let read = read_reports(folder.path()).expect("readable");
+        let read = read_reports(folder.path(), Reach::Folder).expect("readable");
         assert_eq!(read.keys().collect::<Vec<_>>(), ["a", "b/c"]);
         assert_eq!(read["a"].figures.keys().collect::<Vec<_>>(), ["map"]);
         assert_eq!(read["a"].figures["map"], b"a/figures/map.svg");

@@ -4,6 +4,7 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
+use super::reading::{self, Kind};
 use super::{Growing, StoreError, TEMPORARY, folder_below, refused};
 use crate::digest::sha256;
 
@@ -52,10 +53,9 @@ impl Shards {
     /// # Errors
     /// [`StoreError`] where a file is there and cannot be read.
     pub fn holds(&self, chunk: u64) -> Result<bool, StoreError> {
-        let read = |path: &Path| match std::fs::read(path) {
-            Ok(bytes) => Ok(Some(bytes)),
-            Err(cause) if cause.kind() == io::ErrorKind::NotFound => Ok(None),
-            Err(cause) => Err(refused("read", path, cause)),
+        let read = |path: &Path| match reading::read(path, Kind::Results) {
+            Err(error) if error.refusal == Some(io::ErrorKind::NotFound) => Ok(None),
+            read => read.map(Some),
         };
         let (Some(seal), Some(bytes)) = (read(&self.seal_path(chunk))?, read(&self.path(chunk))?)
         else {

@@ -122,16 +122,20 @@ fn put<T: DataType>(
     Ok(())
 }
 
-/// Adds what is in a file with one row group to columns, which are those of its sweep.
+/// Adds what is in a file with one row group to columns, which are those of its sweep; it has at most so many rows.
 ///
 /// # Errors
 /// [`ParquetError`] of the library, if it is no such file or has other columns.
-pub fn read<R: ChunkReader + 'static>(file: R, columns: &mut [Column]) -> Result<(), ParquetError> {
+pub fn read<R: ChunkReader + 'static>(
+    file: R,
+    columns: &mut [Column],
+    most: usize,
+) -> Result<(), ParquetError> {
     let file = SerializedFileReader::new(file)?;
     let group = file.get_row_group(0)?;
     let rows = usize::try_from(group.metadata().num_rows()).unwrap_or(0);
-    if group.num_columns() != columns.len() {
-        return Err(ParquetError::General("the file has other columns".into()));
+    if group.num_columns() != columns.len() || rows > most {
+        return Err(ParquetError::General("the file has other columns or too many rows".into()));
     }
     for (index, column) in columns.iter_mut().enumerate() {
         let cells = cells(group.get_column_reader(index)?, column.storage, rows);

@@ -87,7 +87,7 @@ impl Record {
     }
 
     /// A value, dimensionless: displacement of the base, else `f` of [`Piece`].
-    fn reduced(&self, scales: &Scales, value: f64) -> f64 {
+    pub(crate) fn reduced(&self, scales: &Scales, value: f64) -> f64 {
         let acceleration = scales.acceleration(1.0);
         match self.quantity {
             RecordQuantity::BaseAcceleration => -value / acceleration,

@@ -74,6 +74,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "validation",
         ],
     ),
+    ("case_input", &["case", "store"]),
     ("case_report", &["answer", "case", "executor", "report", "study"]),
     ("regimes", &["numerics", "orbits", "simulation", "system", "operation_count"]),
     (

@@ -48,3 +48,4 @@ mod templates;
 mod tradeoff;
 #[cfg(unix)]
 mod untrusted;
+mod untrusted_input;

@@ -196,7 +196,7 @@ fn a_record_that_is_wrong_is_shown_where_it_is() {
         ("(m/s²)", "", 1, "has no unit"),
         ("(m/s²)", "(m/ss)", 1, "unknown unit `m/ss`"),
         ("time (s)", "time (Hz)", 1, "`Hz` is the unit of a frequency"),
-        ("time (s),", "", 1, "does not name two columns"),
+        ("time (s),", "", 1, "is not a record: there is an error in line 1"),
     ] {
         assert!(good.contains(from), "{from}");
         let error = refused(&good.replacen(from, to, 1));

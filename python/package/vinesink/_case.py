@@ -136,7 +136,7 @@ class Case:
 
     def __init__(self, *, title: str = "From Python", source: str = "keywords of vinesink.Case", **keys: Any) -> None:
         given = {name: value for name, value in keys.items() if value is not None}
-        self._read(_vinesink.Case.parse("Case(...)", _text_of(title, source, given), os.getcwd()))
+        self._read(_vinesink.Case.parse("Case(...)", _text_of(title, source, given), os.getcwd(), True))
 
     def _read(self, core: _vinesink.Case) -> None:
         self._core = core
@@ -144,14 +144,19 @@ class Case:
             warnings.warn(warning, CaseWarning, stacklevel=3)
 
     @classmethod
-    def from_toml(cls, source: str | os.PathLike[str]) -> Case:
+    def from_toml(cls, source: str | os.PathLike[str], *, allow_outside: bool = False) -> Case:
         """A case from the path of its file, or from its text: what has an `=` and a line's end is a text.
+
+        A record that it names is below the folder of its file, or the working folder, unless `allow_outside`.
 
         Raises `CaseError` with everything that is wrong with it, `OSError` for a file that cannot be read.
         """
         case = cls.__new__(cls)
         text = isinstance(source, str) and "\n" in source and "=" in source
-        core = _vinesink.Case.parse("text", str(source), os.getcwd()) if text else _vinesink.Case.read(source)
+        if text:
+            core = _vinesink.Case.parse("text", str(source), os.getcwd(), allow_outside)
+        else:
+            core = _vinesink.Case.read(source, allow_outside)
         case._read(core)
         return case
 

@@ -6,7 +6,7 @@ use super::super::output::word;
 use miette::Result;
 use vinesink::diff::{CaseFile, Document, Remedy, Reports};
 use vinesink::digest::sha256;
-use vinesink::store::{self, StoredReport};
+use vinesink::store::{self, Reach, StoredReport};
 
 /// Folders above a report in which its case is looked for: its own, that of all reports, the project's, and
 /// one more.
@@ -27,13 +27,13 @@ pub struct Side {
 
 impl Side {
     /// Reads the reports of a folder or file, or of `folder` at a revision.
-    pub fn read(argument: &str, folder: &str) -> Result<Self> {
+    pub fn read(argument: &str, folder: &str, reach: Reach) -> Result<Self> {
         let path = Path::new(argument);
         let (stored, place, address, revision) = if path.exists() {
             let folder = if path.is_file() { path.parent() } else { None };
             let address = folder.unwrap_or(path).display().to_string();
             let address = if address.is_empty() { ".".to_owned() } else { address };
-            (store::read_reports(path)?, format!("`{argument}`"), Some(address), None)
+            (store::read_reports(path, reach)?, format!("`{argument}`"), Some(address), None)
         } else {
             let place = format!("`{folder}` at `{argument}`");
             let commit = argument.split_once(':').map_or(argument, |(commit, _)| commit);

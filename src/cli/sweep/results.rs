@@ -64,7 +64,8 @@ impl Sweep {
         for chunk in 0..self.plan.chunks() {
             let path = shards.path(chunk);
             let mut columns = columns::empty(&self.plan);
-            let read = parquet::read(store::open(&path)?, &mut columns);
+            let rows = usize::try_from(self.plan.points_per_chunk()).unwrap_or(usize::MAX);
+            let read = parquet::read(store::open(&path)?, &mut columns, rows);
             read.into_diagnostic().wrap_err_with(|| shown(&path))?;
             of(columns)?;
             progress.advance(1);

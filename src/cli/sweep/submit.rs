@@ -113,7 +113,7 @@ pub fn run(arguments: &Arguments) -> Result<bool> {
     let inside = |path: &Path| path.strip_prefix(&job.out).unwrap_or(path).to_owned();
     let scripts = job.files.iter().map(|(file, text)| (inside(file), text.clone().into_bytes()));
     let case = (inside(&job.case), sweep.case_text.clone().into_bytes());
-    let record = record(&sweep.case, &at.case)?;
+    let record = record(&sweep.case, at)?;
     let record = record.map(|(file, bytes)| (inside(&job.folder.join(file)), bytes));
     let files = scripts.chain([case]).chain(record).collect();
     Output::open(&job.out)?.add("", &files)?;
@@ -134,10 +134,11 @@ pub fn run(arguments: &Arguments) -> Result<bool> {
 }
 
 /// The record that drives a case, where the case's copy looks for it.
-fn record(case: &Case, path: &Path) -> Result<Option<(PathBuf, Vec<u8>)>> {
+fn record(case: &Case, from: &Where) -> Result<Option<(PathBuf, Vec<u8>)>> {
     let file = case.recording.as_ref().and_then(Recording::file);
     let Some(file) = file.filter(|file| Path::new(file).is_relative()) else { return Ok(None) };
-    let text = store::read_text(&path.with_file_name(file))?;
+    let folder = from.case.parent().unwrap_or(Path::new(""));
+    let (_, text) = store::read_record(folder, file, from.reading().reach())?;
     Ok(Some((file.into(), text.into_bytes())))
 }
 

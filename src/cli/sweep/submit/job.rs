@@ -59,6 +59,7 @@ impl Job {
             "seconds": time, "time": time.map(clock),
             "program": shown(&program), "program_word": word(&shown(&program)),
             "case": shown(&case), "case_word": word(&shown(&case)),
+            "outside": arguments.sweep.allow_outside,
             "out": shown(&out), "out_word": word(&shown(&out)),
         });
         let second = match engine {

@@ -1,0 +1,58 @@
+//! A case from its file, with the record that it names: the one way in for the program and for Python.
+//!
+//! For the program itself: this module may change at any time.
+
+use std::path::Path;
+
+use crate::case::{Case, CaseError, Recording};
+use crate::store::{self, CaseText, Reach, StoreError};
+
+/// Why a case could not be read from its file.
+#[derive(Debug, thiserror::Error)]
+pub enum CaseInputError {
+    /// Its file cannot be read.
+    #[error(transparent)]
+    File(#[from] StoreError),
+    /// The file of its record cannot be read.
+    #[error("{case}: the record of its excitation cannot be read")]
+    Record {
+        /// The case.
+        case: String,
+        /// Why.
+        source: StoreError,
+    },
+    /// It is no case, or its record no record.
+    #[error(transparent)]
+    Case(#[from] CaseError),
+}
+
+/// Reads a case file and the record that it names; its text beside the case.
+///
+/// # Errors
+/// [`CaseInputError`].
+pub fn read(path: &Path, reach: Reach) -> Result<(Case, String), CaseInputError> {
+    let CaseText { text, quotable } = store::read_case(path, reach)?;
+    let name = path.display().to_string();
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let case = parse(&name, &text, folder, reach).map_err(|error| match error {
+        CaseInputError::Case(error) if !quotable && error.name() == name => {
+            let advice =
+                "a link leads to it, so its lines are not shown; --allow-outside shows them";
+            error.without_text("a case", advice).into()
+        }
+        other => other,
+    })?;
+    Ok((case, text))
+}
+
+/// Reads a case from its text, and the record that it names below a folder.
+///
+/// # Errors
+/// [`CaseInputError`].
+pub fn parse(name: &str, text: &str, folder: &Path, reach: Reach) -> Result<Case, CaseInputError> {
+    let case = Case::parse(name, text)?;
+    let Some(file) = case.recording.as_ref().and_then(Recording::file) else { return Ok(case) };
+    let (path, samples) = store::read_record(folder, file, reach)
+        .map_err(|source| CaseInputError::Record { case: name.to_owned(), source })?;
+    Ok(case.with_record(&path.display().to_string(), &samples)?)
+}
