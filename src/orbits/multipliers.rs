@@ -2,6 +2,7 @@
 //! evidence, and what they say of stability.
 
 use nalgebra::linalg::Schur;
+use nalgebra::linalg::balancing::balance_parlett_reinsch;
 use nalgebra::{Complex, Matrix4, SMatrix};
 use serde::Serialize;
 
@@ -89,7 +90,9 @@ pub enum Leading {
 }
 
 fn eigenvalues(jacobian: &Matrix4<f64>, shift: f64) -> Option<[Complex<f64>; 4]> {
-    let shifted = jacobian + Matrix4::identity() * shift;
+    let mut shifted = jacobian + Matrix4::identity() * shift;
+    // A phase beside displacements of many clearances: without this the small entries are lost in the rounding of the large.
+    balance_parlett_reinsch(&mut shifted);
     let schur = Schur::try_new(shifted, f64::EPSILON, LARGEST_SWEEPS)?;
     let found = schur.complex_eigenvalues();
     let values = [0, 1, 2, 3].map(|k| found[k] - shift);
