@@ -15,6 +15,9 @@ pub(super) const LARGEST_SWEEPS: usize = 300;
 /// makes unsymmetric.
 const SHIFTS: [f64; 3] = [0.0, 0.37, -0.61];
 
+/// Largest entry of a matrix up to which nothing is lost.
+const UNBALANCED: f64 = 16.0;
+
 /// Operations of a Schur decomposition, `25 n^3` (Golub and Van Loan, Matrix Computations, 7.5.6).
 const SCHUR: u64 = 25 * 4 * 4 * 4;
 
@@ -92,7 +95,9 @@ pub enum Leading {
 fn eigenvalues(jacobian: &Matrix4<f64>, shift: f64) -> Option<[Complex<f64>; 4]> {
     let mut shifted = jacobian + Matrix4::identity() * shift;
     // A phase beside displacements of many clearances: without this the small entries are lost in the rounding of the large.
-    balance_parlett_reinsch(&mut shifted);
+    if jacobian.amax() > UNBALANCED {
+        balance_parlett_reinsch(&mut shifted);
+    }
     let schur = Schur::try_new(shifted, f64::EPSILON, LARGEST_SWEEPS)?;
     let found = schur.complex_eigenvalues();
     let values = [0, 1, 2, 3].map(|k| found[k] - shift);
