@@ -162,10 +162,10 @@ impl Row {
             let size = value.abs().max(f64::MIN_POSITIVE);
             let error = (own - value).abs() / size;
             let rounding = rounding / size + f64::EPSILON;
-            if !(error <= ROUNDINGS * rounding) {
+            if error.is_nan() || error > ROUNDINGS * rounding {
                 outcome.wrong.push(format!("{name} is {own:e}, not {value:e}"));
             }
-            if outcome.of.is_empty() || !(error <= outcome.error) {
+            if outcome.of.is_empty() || error.is_nan() || error > outcome.error {
                 (outcome.error, outcome.of, outcome.rounding) = (error, name.clone(), rounding);
             }
         }
